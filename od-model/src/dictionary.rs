@@ -5,7 +5,7 @@ mod text;
 use core::ops::Range as Span;
 
 use crate::address::Address;
-use crate::entry::{Entry, Missing, Object, Slot};
+use crate::entry::{Entry, Missing, Object};
 use crate::index;
 use crate::real::Reals;
 use crate::row::Row;
@@ -297,13 +297,6 @@ impl<'a> Dictionary<'a> {
     #[inline]
     pub fn entry(&self, index: u16, sub: u8) -> Option<Entry> {
         self.find(Address::new(index, sub)).ok()
-    }
-
-    /// The slot of the value at an address, if a master may read it and its type gives the length.
-    #[inline]
-    pub fn plain(&self, address: Address) -> Option<Slot> {
-        let (_, row) = self.locate(address).ok()?;
-        Some(row.plain()).filter(|slot| slot.len > 0)
     }
 }
 

@@ -30,6 +30,8 @@ pub struct Row(pub [u32; 4]);
 
 /// First kind of which a literal has two words.
 const WIDE: u32 = 4;
+/// Index of the pre-defined error field.
+const LOG: u16 = 0x1003;
 /// Kind of a string.
 const RANGE: u32 = 7;
 
@@ -150,6 +152,7 @@ impl Row {
         }
         let is_stored = entry.slot.len > 0;
         let plain = match entry.data_type.size() {
+            _ if entry.address.index == LOG => 0,
             Some(size) if is_stored && entry.access.readable() => size as u32,
             _ => 0,
         };
@@ -331,8 +334,8 @@ impl Row {
         }
     }
 
-    /// Slot of a value that a master may read and whose type gives its length; length 0 for any
-    /// other value.
+    /// Slot of a value that a master may read at any time and whose type gives its length; length 0 for
+    /// any other value, and for the log of errors, which has no more than there were.
     #[inline(always)]
     pub const fn plain(self) -> Slot {
         Slot {

@@ -15,16 +15,16 @@ pub(crate) fn little_endian(bytes: &[u8]) -> u64 {
     }
 }
 
-/// The value of a [plain](Row::plain) row that one frame carries, and its length, 1 to 4. Without bytes
-/// enough behind it for one load it has to be read byte by byte: `None`.
+/// The value of a [plain](Row::plain) row that one frame carries, and how many bytes it is shorter than
+/// four. Without bytes enough behind it for one load it has to be read byte by byte: `None`.
 #[inline(always)]
-pub(crate) fn word(values: &[u8], row: &Row) -> Option<(u32, u8)> {
+pub(crate) fn word(values: &[u8], row: &Row) -> Option<(u32, u32)> {
     let Slot { offset, len } = row.plain();
     let at = offset as usize;
     let bytes = *values.get(at..at + 4)?.first_chunk()?;
     let unused = u32::from(len).wrapping_neg() & 3;
     let word = u32::from_le_bytes(bytes);
-    Some((word << (8 * unused) >> (8 * unused), len as u8))
+    Some((word << (8 * unused) >> (8 * unused), unused))
 }
 
 /// As [`little_endian`], where a call is better than its code.

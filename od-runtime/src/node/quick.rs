@@ -1,8 +1,9 @@
 //! What comes all day, by the shortest way: an upload of a number, a SYNC, the TPDO behind it. Whatever
 //! does not fit in here takes the way of all other frames.
 
+use od_model::Slot;
 use od_model::row::Row;
-use od_wire::sdo::{Response, expedited_upload, upload_command};
+use od_wire::sdo::{Response, upload_command};
 use od_wire::{Frame, Instant};
 
 use super::ear::{self, Ear};
@@ -13,7 +14,6 @@ use crate::device::{Device, ROOMY};
 use crate::extras::Extras;
 use crate::lent::Lent;
 use crate::number::{little_endian, word};
-use crate::objects::Objects;
 use crate::pdo;
 use crate::rooms::Room;
 use crate::store::Store;
@@ -42,66 +42,65 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
         // Index and sub-index, as `Address::key` has them.
         let key = head & 0xFF_FF00 | head >> 24;
         let row = device.dictionary.plain_row(key)?;
-        if Objects::<D>::HAS_LOG && key >> 8 == 0x1003 {
-            return None;
-        }
         if self.outbox.is_marked(key) && (ROOMY || key >= 0x20_0000) {
-            return self.upload_live(device, row);
+            return self.upload_live(device, row, head);
         }
-        let (value, len) = word(device.values, row)?;
+        let (value, unused) = word(device.values, row)?;
         node.sdo.reset();
-        node.answer = [head & !0xFF | upload_command(len), value];
-        node.pending |= pending::ANSWER;
+        node.respond(head, value, unused);
         Some(())
     }
 
-    /// As [`upload`](Self::upload), of a value that the application may have to bring up to date.
+    /// As [`upload`](Self::upload), of a value that the application may have to bring up to date. `head` is
+    /// the beginning of the request.
     #[inline(never)]
-    fn upload_live(&mut self, device: &mut Lent<'_>, row: &Row) -> Option<()> {
+    fn upload_live(&mut self, device: &mut Lent<'_>, row: &Row, head: u32) -> Option<()> {
         if !ROOMY {
             return None;
         }
         let node = &mut self.machines;
         let outbox = Room::outbox(&mut self.outbox);
-        let mut store = Store::new(&device.dictionary, device.values, node.node_id).ok()?;
-        let mut context = Context {
-            store: &mut store,
-            now: node.now,
-            signals: &mut outbox.signals,
-        };
         let address = row.address();
-        node.sdo.reset();
-        let refreshed = match address.index {
-            0x2000.. => device.application.refresh(&mut context, address),
-            _ => Ok(()),
-        };
-        let answer = match refreshed {
-            Ok(()) => {
-                let slot = row.plain();
-                let value = little_endian(store.slot(slot)) as u32;
-                expedited_upload(address, slot.len as u8, value)
-            }
-            Err(code) => {
+        if address.index >= 0x2000 {
+            let mut store = Store::new(&device.dictionary, device.values, node.node_id).ok()?;
+            let mut context = Context {
+                store: &mut store,
+                now: node.now,
+                signals: &mut outbox.signals,
+            };
+            if let Err(code) = device.application.refresh(&mut context, address) {
                 let code = code.code();
-                Response::Abort { address, code }.emit()
+                node.answer = words(Response::Abort { address, code }.emit());
+                node.pending |= pending::ANSWER;
+                node.sdo.reset();
+                return self.end_upload(device);
+            }
+        }
+        let (value, unused) = match word(device.values, row) {
+            Some(word) => word,
+            None => {
+                let Slot { offset, len } = row.plain();
+                let bytes = device.values.get(offset as usize..)?;
+                let bytes = bytes.get(..len.into())?;
+                (little_endian(bytes) as u32, 4u32.wrapping_sub(len.into()))
             }
         };
-        node.answer = words(answer);
-        node.pending |= pending::ANSWER;
-        if !outbox.is_empty() || D::CHANGES && node.watches_changes {
-            self.end_upload(device);
+        node.sdo.reset();
+        node.respond(head, value, unused);
+        match !outbox.is_empty() || D::CHANGES && node.watches_changes {
+            true => self.end_upload(device),
+            false => Some(()),
         }
-        Some(())
     }
 
     /// The application had more to say of a value, or a PDO is sent for it.
     #[cold]
-    fn end_upload(&mut self, device: &mut Lent<'_>) {
+    fn end_upload(&mut self, device: &mut Lent<'_>) -> Option<()> {
         let now = self.machines.now;
-        if let Some((node, mut objects)) = self.open(device, now) {
-            node.finish(&mut objects);
-            node.reset_if_due(&mut objects);
-        }
+        let (node, mut objects) = self.open(device, now)?;
+        node.finish(&mut objects);
+        node.reset_if_due(&mut objects);
+        Some(())
     }
 
     /// SYNC.
@@ -123,7 +122,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
     pub(super) fn poll_waiting(&mut self, device: &mut Lent<'_>, now: Instant) -> Option<Frame> {
         let node = &mut self.machines;
         let marks = node.pending;
-        let at = marks
+        let at = u32::from(marks)
             .trailing_zeros()
             .wrapping_sub(pending::FIRST_MARK.trailing_zeros());
         if marks & !pending::MARKS == 0
@@ -145,6 +144,13 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
 }
 
 impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<D, PDO, SDO, X> {
+    /// The response to an upload waits, by the beginning of the request.
+    #[inline(always)]
+    fn respond(&mut self, head: u32, value: u32, unused: u32) {
+        self.answer = [head & !0xFF | upload_command(unused), value];
+        self.pending |= pending::ANSWER;
+    }
+
     /// SYNC, where nothing has to be done for it now.
     #[cfg_attr(not(target_os = "none"), inline(never))]
     fn count_sync(&mut self) {

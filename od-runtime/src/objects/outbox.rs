@@ -54,10 +54,10 @@ pub(crate) const fn is_live(live: u32, address: Address) -> bool {
     address.index >= 0x2000 && live != 0 && names(live, address)
 }
 
-/// An address as one of 32 bits.
+/// An address as one of 32 bits: neighbours have different ones.
 #[inline(always)]
 pub(super) const fn live_bit(address: Address) -> u32 {
-    1 << (address.key().wrapping_mul(0x9E37_79B1) >> 27)
+    1 << (address.index & 31)
 }
 
 impl<Q> Outbox<Q> {
@@ -96,7 +96,7 @@ impl<Q: ?Sized> Outbox<Q> {
     /// services' own, too.
     #[inline(always)]
     pub(crate) const fn is_marked(&self, key: u32) -> bool {
-        self.live >> (key.wrapping_mul(0x9E37_79B1) >> 27) & 1 != 0
+        self.live >> (key >> 8 & 31) & 1 != 0
     }
 
     /// Whether the application may have to bring the value at an address up to date.

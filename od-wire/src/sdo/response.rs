@@ -127,13 +127,13 @@ impl Response {
 /// [`Response::InitiateUpload`] emits, for the one answer that masters ask for all day.
 #[inline]
 pub const fn expedited_upload(address: Address, len: u8, value: u32) -> [u8; 8] {
-    let command = upload_command(len) as u64;
+    let command = upload_command(4u32.wrapping_sub(len as u32) & 3) as u64;
     (command | (address.index as u64) << 8 | (address.sub as u64) << 24 | (value as u64) << 32)
         .to_le_bytes()
 }
 
-/// First byte of that frame.
+/// First byte of that frame, by the number of its `unused` bytes, 0–3.
 #[inline]
-pub const fn upload_command(len: u8) -> u32 {
-    0x43 | (4u32.wrapping_sub(len as u32) & 3) << 2
+pub const fn upload_command(unused: u32) -> u32 {
+    0x43 | unused << 2
 }

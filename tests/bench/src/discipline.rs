@@ -13,6 +13,10 @@ pub enum Discipline {
     Upload(usize),
     /// One SYNC in, one TPDO out.
     Pdo,
+    /// One SDO upload of a position that is computed for it.
+    Live,
+    /// One SYNC in, one TPDO with such a position out.
+    LivePdo,
     /// One second of virtual time of a device with a 1 ms PDO.
     Simulation(Simulated),
 }
@@ -46,6 +50,8 @@ impl fmt::Display for Discipline {
         match self {
             Self::Upload(size) => write!(f, "{size}"),
             Self::Pdo => f.write_str("pdo"),
+            Self::Live => f.write_str("live"),
+            Self::LivePdo => f.write_str("live-pdo"),
             Self::Simulation(Simulated { device, is_moving }) => {
                 let what = if *is_moving { "-moving" } else { "" };
                 write!(f, "{device}{what}")
@@ -67,5 +73,6 @@ impl FromStr for Discipline {
 pub fn disciplines() -> impl Iterator<Item = Discipline> {
     let uploads = SIZES.into_iter().map(Discipline::Upload);
     let simulations = SIMULATED.into_iter().map(Discipline::Simulation);
-    uploads.chain([Discipline::Pdo]).chain(simulations)
+    let others = [Discipline::Pdo, Discipline::Live, Discipline::LivePdo];
+    uploads.chain(others).chain(simulations)
 }

@@ -8,6 +8,7 @@
 pub mod callgrind;
 pub mod contender;
 pub mod discipline;
+pub mod live;
 pub mod objects;
 pub mod odkit;
 pub mod peers;

@@ -40,6 +40,23 @@ impl Odkit {
 }
 
 impl Odkit {
+    /// A gxmm that has turned at 60 revolutions per minute for 250 ms, in the state operational, with its
+    /// position in a TPDO on each SYNC. Time stands still from now on.
+    pub fn turning() -> Self {
+        let device = od_devices::find("gxmm").expect("one of the devices");
+        let mut encoder = od_bench::shaft::encoder(device);
+        encoder.shaft.set_milli_rpm(Instant::ZERO, 60_000);
+        let mut odkit = Self::start(device.dictionary, encoder, device.profile);
+        let node = objects::NODE_ID;
+        odkit.write(0x1800, 1, &[0x80 + node, 0x02, 0x00, 0x80]);
+        odkit.write(0x1801, 1, &[0x80 + node, 0x01, 0x00, 0x80]);
+        odkit.write(0x1801, 2, &[1]);
+        odkit.write(0x1801, 1, &[0x80 + node, 0x01, 0x00, 0x00]);
+        odkit.tell(0x000, &[0x01, node]);
+        odkit.now = Instant::from_millis(250);
+        odkit
+    }
+
     fn start(
         dictionary: Dictionary<'static>,
         application: impl Application + 'static,
@@ -86,7 +103,7 @@ impl Odkit {
 
     /// A frame in, what the host reads of the node's answer out, and no frame after it;
     /// no time passes.
-    #[inline]
+    #[inline(always)]
     fn exchange<R>(&mut self, frame: &Frame, read: impl FnOnce(&Frame) -> R) -> R {
         let Self { node, device, now } = self;
         node.handle_frame(device, *now, frame);

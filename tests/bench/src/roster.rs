@@ -2,6 +2,7 @@
 
 use crate::contender::{Cycles, Nothing, Subject, Uploads};
 use crate::discipline::{Discipline, Simulated};
+use crate::live::{Cycle, Reading};
 use crate::objects::{PDO_SIZE, values};
 use crate::odkit::{Odkit, Seconds};
 use crate::peers::canopen_rs::{CanopenRs, room};
@@ -37,6 +38,9 @@ pub fn subject(name: &str, discipline: Discipline) -> Option<Box<dyn Subject>> {
     let mut subject = match discipline {
         Discipline::Upload(size) => upload(name, size)?,
         Discipline::Pdo => pdo(name)?,
+        Discipline::Live if name == ODKIT => Box::new(Reading(Odkit::turning())),
+        Discipline::LivePdo if name == ODKIT => Box::new(Cycle(Odkit::turning())),
+        Discipline::Live | Discipline::LivePdo => return None,
         Discipline::Simulation(simulated) => simulation(name, simulated)?,
     };
     subject.verify();

@@ -25,13 +25,15 @@ fn measured(results: &Results) -> String {
     let disciplines: Vec<Discipline> = SIZES
         .map(Discipline::Upload)
         .into_iter()
-        .chain([Discipline::Pdo])
+        .chain([Discipline::Pdo, Discipline::Live, Discipline::LivePdo])
         .collect();
     let mut text = String::from("| |");
     for discipline in &disciplines {
         match discipline {
             Discipline::Upload(size) => cell(&mut text, &format!("upload, {size} objects")),
             Discipline::Pdo => cell(&mut text, "SYNC → TPDO"),
+            Discipline::Live => cell(&mut text, "upload of a turning position"),
+            Discipline::LivePdo => cell(&mut text, "SYNC → TPDO of it"),
             Discipline::Simulation(_) => {}
         }
     }
