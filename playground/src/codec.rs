@@ -9,7 +9,8 @@ use od_model::{Address, DataType};
 use od_runtime::NodeId;
 use wasm_bindgen::prelude::*;
 
-use crate::record::{Record, bytes, integer};
+use crate::crossing::{Absent, Bytes, Crosses, choice, record, words};
+use crate::record::{bytes, integer};
 use crate::{packed, values};
 
 #[wasm_bindgen]
@@ -20,6 +21,52 @@ extern "C" {
 
     #[wasm_bindgen(method, structural, js_name = typeOf)]
     fn type_of(this: &Objects, index: u16, sub: u8) -> Option<String>;
+}
+
+choice! {
+    /// A frame that was typed, or what is wrong with it.
+    LineResult {
+        TypedFrame,
+        TypingError,
+    }
+}
+
+record! {
+    TypedFrame {
+        id: u32,
+        extended: bool,
+        remote: bool,
+        /// Of a remote frame as many zeros as it asks for.
+        data: Bytes,
+        error: Absent,
+    }
+
+    TypingError {
+        error: String,
+        /// Where in the text it is, from 0.
+        at: usize,
+    }
+
+    /// A segmented or block transfer.
+    Transfer {
+        /// Numbers of its frames.
+        frames: Vec<u32>,
+        node: u8,
+        index: u16,
+        sub: u8,
+        "isWrite" is_write: bool,
+        /// What was transferred so far.
+        bytes: Bytes,
+        state: TransferState,
+    }
+}
+
+words! {
+    TransferState {
+        UnderWay = "under way",
+        Done = "done",
+        Aborted = "aborted",
+    }
 }
 
 /// Short names of the services, such as `PDO1`, in the order of `tags`.
@@ -54,7 +101,7 @@ pub fn read_line(text: &str, node_id: u8, objects: &Objects) -> JsValue {
         type_of: &|at| named(&objects.type_of(at.index, at.sub)?),
         real: &real,
     };
-    match frame_of(text, &known) {
+    let result = match frame_of(text, &known) {
         Ok(frame) => {
             let mut data = [0; 8];
             let len = usize::from(frame.dlc());
@@ -66,18 +113,20 @@ pub fn read_line(text: &str, node_id: u8, objects: &Objects) -> JsValue {
             for (to, from) in data.iter_mut().zip(sent) {
                 *to = *from;
             }
-            Record::new()
-                .with("id", frame.id().raw())
-                .with("extended", frame.id().is_extended())
-                .with("remote", frame.is_remote())
-                .with("data", bytes(data.get(..len).unwrap_or_default()))
-                .done()
+            LineResult::TypedFrame(TypedFrame {
+                id: frame.id().raw(),
+                extended: frame.id().is_extended(),
+                remote: frame.is_remote(),
+                data: data.get(..len).unwrap_or_default().into(),
+                error: Absent,
+            })
         }
-        Err(problem) => Record::new()
-            .with("error", problem.message)
-            .with("at", problem.column.saturating_sub(1) as f64)
-            .done(),
-    }
+        Err(problem) => LineResult::TypingError(TypingError {
+            error: problem.message,
+            at: problem.column.saturating_sub(1),
+        }),
+    };
+    result.value()
 }
 
 /// The bytes of a value that somebody typed for an object of this type, such as `UNSIGNED32`.
@@ -143,24 +192,20 @@ impl Transfers {
     /// The transfer that starts with this frame; `null` if it has this one only.
     #[wasm_bindgen(unchecked_return_type = "Transfer | null")]
     pub fn transfer(&self, first: u32) -> JsValue {
-        let Some(fold) = self.0.fold(first) else {
-            return JsValue::NULL;
-        };
-        let frames = fold.frames.iter().map(|number| JsValue::from(*number));
-        let state = match fold.state {
-            State::UnderWay => "under way",
-            State::Done => "done",
-            State::Aborted => "aborted",
-        };
-        Record::new()
-            .with("frames", crate::record::list(frames))
-            .with("node", fold.node)
-            .with("index", fold.object.index)
-            .with("sub", fold.object.sub)
-            .with("isWrite", fold.is_write)
-            .with("bytes", bytes(&fold.bytes))
-            .with("state", state)
-            .done()
+        let transfer = self.0.fold(first).map(|fold| Transfer {
+            frames: fold.frames.to_vec(),
+            node: fold.node,
+            index: fold.object.index,
+            sub: fold.object.sub,
+            is_write: fold.is_write,
+            bytes: fold.bytes.as_slice().into(),
+            state: match fold.state {
+                State::UnderWay => TransferState::UnderWay,
+                State::Done => TransferState::Done,
+                State::Aborted => TransferState::Aborted,
+            },
+        });
+        transfer.value()
     }
 
     /// Forgets transfers that start before this frame.
@@ -175,11 +220,19 @@ impl Transfers {
     }
 }
 
+/// What [`frame_bits`] says of a bit.
+pub(crate) const RECESSIVE: u8 = 0x80;
+pub(crate) const STUFFED: u8 = 0x40;
+/// Numbers of two of its fields.
+pub(crate) const CRC: u8 = 8;
+pub(crate) const DATA: u8 = 16;
+
 /// The bits of a packed frame on the wire, a byte each: 128 if it is recessive, 64 if it was stuffed, and the number of
 /// its field: 0 start of frame, 1 identifier, 2 SRR, 3 IDE, 4 identifier extension, 5 RTR, 6 reserved, 7 DLC, 8 CRC,
 /// 9 CRC delimiter, 10 acknowledge slot, 11 acknowledge delimiter, 12 end of frame, 16 and more a data byte.
 #[wasm_bindgen(js_name = frameBits)]
 pub fn frame_bits(frame: &[u8]) -> Vec<u8> {
+    let flag = |on, flag| if on { flag } else { 0 };
     let part = |part| match part {
         Part::Start => 0,
         Part::Identifier => 1,
@@ -189,14 +242,14 @@ pub fn frame_bits(frame: &[u8]) -> Vec<u8> {
         Part::Remote => 5,
         Part::Reserved => 6,
         Part::Length => 7,
-        Part::Crc => 8,
+        Part::Crc => CRC,
         Part::CrcDelimiter => 9,
         Part::Acknowledge => 10,
         Part::AcknowledgeDelimiter => 11,
         Part::End => 12,
-        Part::Data(number) => 16 + number,
+        Part::Data(number) => DATA + number,
     };
     let code =
-        |bit: &Bit| u8::from(bit.recessive) << 7 | u8::from(bit.stuffed) << 6 | part(bit.part);
+        |bit: &Bit| flag(bit.recessive, RECESSIVE) | flag(bit.stuffed, STUFFED) | part(bit.part);
     packed::frame(frame).map_or(Vec::new(), |frame| bits(&frame).iter().map(code).collect())
 }

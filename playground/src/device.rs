@@ -4,7 +4,15 @@ use od_runtime::{DeviceKind, NodeId};
 use wasm_bindgen::prelude::*;
 
 use crate::bus::Bus;
-use crate::record::Record;
+use crate::crossing::{Crosses, record};
+
+record! {
+    /// A built-in device.
+    Builtin {
+        name: &'static str,
+        title: &'static str,
+    }
+}
 
 #[wasm_bindgen]
 impl Bus {
@@ -18,13 +26,12 @@ impl Bus {
 /// The devices that `Bus.addDevice` knows.
 #[wasm_bindgen(js_name = builtinDevices, unchecked_return_type = "Builtin[]")]
 pub fn builtin_devices() -> Vec<JsValue> {
-    let record = |kind: &DeviceKind| {
-        Record::new()
-            .with("name", kind.name)
-            .with("title", kind.title)
-            .done()
+    let builtin = |kind: &DeviceKind| Builtin {
+        name: kind.name,
+        title: kind.title,
     };
-    od_devices::DEVICES.iter().map(record).collect()
+    let all = od_devices::DEVICES.iter().map(builtin);
+    all.map(Crosses::value).collect()
 }
 
 pub(crate) fn valid(node_id: u8) -> Result<NodeId, JsError> {

@@ -2,68 +2,86 @@
 
 use od_bench::script::Problem;
 #[cfg(feature = "eds")]
-use od_eds::{Eds, Finding, Severity, say};
-use wasm_bindgen::JsValue;
+use od_eds::{Eds, Finding, say};
 
+use crate::crossing::{record, words};
+use crate::fixes::Fix;
 #[cfg(feature = "eds")]
-use crate::fixes::Places;
-use crate::record::Record;
-#[cfg(feature = "eds")]
-use crate::record::list;
+use crate::places::Places;
+
+words! {
+    Severity {
+        Error = "error",
+        Warning = "warning",
+        Info = "info",
+    }
+}
+
+record! {
+    /// Something to say about an EDS text.
+    Diagnostic {
+        /// Stable, such as `E0412`.
+        code: &'static str,
+        severity: Severity,
+        message: String,
+        /// How to fix it; empty if the message says so.
+        help: String,
+        /// Counted from 1; 0 where something is missing altogether.
+        line: u32,
+        column: u32,
+        /// The object it is about, such as `6004h`, or empty.
+        object: String,
+        /// The automatic fix, if there is one.
+        fix: Option<Fix>,
+    }
+}
 
 /// A sentence.
-pub(crate) fn message(text: &str) -> JsValue {
+pub(crate) fn message(text: &str) -> Diagnostic {
     plain(text, "", 0, 0)
 }
 
 /// A problem in the text of a lesson.
-pub(crate) fn problem(one: &Problem) -> JsValue {
+pub(crate) fn problem(one: &Problem) -> Diagnostic {
     plain(&one.message, &one.help, one.line, one.column)
 }
 
-fn plain(message: &str, help: &str, line: u32, column: usize) -> JsValue {
-    Record::new()
-        .with("code", "")
-        .with("severity", "error")
-        .with("message", message)
-        .with("help", help)
-        .with("line", line)
-        .with("column", column as u32)
-        .with("object", "")
-        .with("fix", JsValue::NULL)
-        .done()
+fn plain(message: &str, help: &str, line: u32, column: usize) -> Diagnostic {
+    Diagnostic {
+        code: "",
+        severity: Severity::Error,
+        message: message.into(),
+        help: help.into(),
+        line,
+        column: column as u32,
+        object: String::new(),
+        fix: None,
+    }
 }
 
 #[cfg(feature = "eds")]
-pub(crate) fn findings(found: &[Finding], text: &str) -> JsValue {
+pub(crate) fn findings(found: &[Finding], text: &str) -> Vec<Diagnostic> {
     let places = Places::of(text);
-    list(found.iter().map(|one| finding(one, &places)))
+    found.iter().map(|one| finding(one, &places)).collect()
 }
 
 #[cfg(feature = "eds")]
-pub(crate) fn finding(one: &Finding, places: &Places<'_>) -> JsValue {
+pub(crate) fn finding(one: &Finding, places: &Places<'_>) -> Diagnostic {
     let one = say(one, &Eds);
     let span = one.span.unwrap_or_default();
-    Record::new()
-        .with("code", one.code)
-        .with(
-            "severity",
-            match one.severity {
-                Severity::Error => "error",
-                Severity::Warning => "warning",
-                Severity::Info => "info",
-            },
-        )
-        .with("message", one.message.as_str())
-        .with("help", one.help.as_str())
-        .with("line", span.line)
-        .with("column", span.column)
-        .with(
-            "object",
-            one.address
-                .map(|address| address.to_string())
-                .unwrap_or_default(),
-        )
-        .with("fix", places.fix(one.fix.as_ref()))
-        .done()
+    let object = one.address.map(|address| address.to_string());
+    Diagnostic {
+        code: one.code,
+        severity: match one.severity {
+            od_eds::Severity::Error => Severity::Error,
+            od_eds::Severity::Warning => Severity::Warning,
+            od_eds::Severity::Info => Severity::Info,
+        },
+        message: one.message,
+        help: one.help,
+        line: span.line,
+        column: span.column,
+        object: object.unwrap_or_default(),
+        fix: one.fix.as_ref().and_then(|fix| places.fix(fix)),
+    }
 }

@@ -7,12 +7,22 @@ use od_bench::words;
 use wasm_bindgen::prelude::*;
 
 use crate::bus::Bus;
+#[cfg(feature = "eds")]
+use crate::crossing::{Crosses, record};
 use crate::device::valid;
 #[cfg(feature = "eds")]
-use crate::diagnostics::findings;
-#[cfg(feature = "eds")]
-use crate::record::Record;
+use crate::diagnostics::{Diagnostic, findings};
 use crate::{packed, values};
+
+#[cfg(feature = "eds")]
+record! {
+    /// What came of an EDS text.
+    EdsResult {
+        /// The number of the device, or null where it cannot run.
+        device: Option<usize>,
+        diagnostics: Vec<Diagnostic>,
+    }
+}
 
 #[wasm_bindgen]
 impl Bus {
@@ -55,13 +65,13 @@ impl Bus {
             lenient: lenient.unwrap_or_default(),
         };
         let (device, found) = VirtualDevice::read_eds(text, options);
-        let device = device.map_or(JsValue::NULL, |device| {
-            JsValue::from_f64(self.journal.rig.put(device, place) as f64)
-        });
-        Ok(Record::new()
-            .with("device", device)
-            .with("diagnostics", findings(&found, text))
-            .done())
+        let device = device.map(|device| self.journal.rig.put(device, place));
+        let diagnostics = findings(&found, text);
+        Ok(EdsResult {
+            device,
+            diagnostics,
+        }
+        .value())
     }
 
     /// Takes a device off the bus; the numbers of those behind it go down by one.

@@ -9,21 +9,21 @@ use od_eds::{Document, Edit, Finding, Tables, check};
 use od_lsp::{Host, Server};
 use wasm_bindgen::prelude::*;
 
+use crate::crossing::{Crosses, record};
 use crate::record::Record;
 
-#[wasm_bindgen(typescript_custom_section)]
-const TYPES: &str = r#"
-/** What a master notices of a device in the place of another. */
-export interface Difference {
-  /** `6001h`, or `1018h:02`. */
-  place: string;
-  name: string;
-  /** `default 0 -> 5`. */
-  change: string;
-  /** A master that was set up for the first device may fail. */
-  breaking: boolean;
+record! {
+    /// What a master notices of a device in the place of another.
+    Difference {
+        /// `6001h`, or `1018h:02`.
+        place: String,
+        name: String,
+        /// `default 0 -> 5`.
+        change: String,
+        /// A master that was set up for the first device may fail.
+        breaking: bool,
+    }
 }
-"#;
 
 /// Files that the page has; no project settings.
 #[derive(Clone, Default)]
@@ -99,15 +99,14 @@ pub fn device_eds(name: &str) -> Option<String> {
 pub fn compare_eds(before: &str, after: &str) -> Vec<JsValue> {
     let tables = |text| Tables::new(&od_eds::load(text).description);
     let found = compare(tables(before).dictionary(), tables(after).dictionary());
-    let record = |one: &od_eds::diff::Difference| {
-        Record::new()
-            .with("place", one.place())
-            .with("name", one.name.as_str())
-            .with("change", one.change())
-            .with("breaking", one.impact == Impact::Breaking)
-            .done()
+    let difference = |one: od_eds::diff::Difference| Difference {
+        place: one.place().to_string(),
+        change: one.change().to_string(),
+        breaking: one.impact == Impact::Breaking,
+        name: one.name,
     };
-    found.iter().map(record).collect()
+    let found = found.into_iter().map(difference);
+    found.map(Crosses::value).collect()
 }
 
 /// Returns the bytes of a file with another text, in the encoding of the file.
@@ -128,7 +127,9 @@ pub fn encode_eds(file: &[u8], text: &str) -> Vec<u8> {
 /// Returns the titles of all rules by their codes.
 #[wasm_bindgen(js_name = ruleTitles, unchecked_return_type = "Record<string, string>")]
 pub fn rule_titles() -> JsValue {
-    check::all()
-        .fold(Record::new(), |all, rule| all.with(rule.code, rule.title))
-        .done()
+    let titles = Record::new();
+    for rule in check::all() {
+        titles.set(rule.code, rule.title.into());
+    }
+    titles.done()
 }

@@ -2,8 +2,9 @@
 
 use wasm_bindgen::prelude::*;
 
+use crate::crossing::Crosses;
 use crate::diagnostics::finding;
-use crate::fixes::Places;
+use crate::places::Places;
 
 /// Returns the findings of an EDS or DCF text.
 #[wasm_bindgen(js_name = checkEds, unchecked_return_type = "Diagnostic[]")]
@@ -12,7 +13,7 @@ pub fn check_eds(text: &str) -> Vec<JsValue> {
     od_eds::load(text)
         .findings
         .iter()
-        .map(|one| finding(one, &places))
+        .map(|one| finding(one, &places).value())
         .collect()
 }
 

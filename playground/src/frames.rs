@@ -6,8 +6,22 @@ use od_model::Address;
 use wasm_bindgen::prelude::*;
 
 use crate::bus::Bus;
+use crate::crossing::{Crosses, record};
 use crate::packed;
-use crate::record::Record;
+
+record! {
+    /// A part of a frame.
+    Field {
+        /// The first byte.
+        from: u8,
+        /// The byte after the last.
+        to: u8,
+        name: String,
+        value: String,
+        /// The object that it is about, as `index * 256 + sub`.
+        object: Option<u32>,
+    }
+}
 
 #[wasm_bindgen]
 impl Bus {
@@ -23,20 +37,16 @@ impl Bus {
     pub fn fields(&self, frame: &[u8]) -> Vec<JsValue> {
         let known = packed::frame(frame).filter(|_| !packed::is_disturbed(frame));
         let fields = known.map(|frame| words::fields(self.journal.rig.bus.devices(), &frame));
-        let record = |field: words::Field| {
-            let key = |at: Address| u32::from(at.index) << 8 | u32::from(at.sub);
-            Record::new()
-                .with("from", field.from)
-                .with("to", field.to)
-                .with("name", field.name)
-                .with("value", field.value)
-                .with(
-                    "object",
-                    field.object.map_or(JsValue::NULL, |at| key(at).into()),
-                )
-                .done()
+        let key = |at: Address| u32::from(at.index) << 8 | u32::from(at.sub);
+        let field = |one: words::Field| Field {
+            from: one.from,
+            to: one.to,
+            name: one.name,
+            value: one.value,
+            object: one.object.map(key),
         };
-        fields.unwrap_or_default().into_iter().map(record).collect()
+        let fields = fields.unwrap_or_default().into_iter();
+        fields.map(|one| field(one).value()).collect()
     }
 }
 

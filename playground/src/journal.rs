@@ -2,14 +2,72 @@
 
 use od_bench::VirtualDevice;
 use od_bench::journal::{
-    Added, Entry, Excess, Fault, Fields, Input, Placed, Source, Trouble, Value, check,
+    self, Excess, Fault, Fields, Input, Placed, Source, Trouble, Value, check,
 };
 use od_runtime::Instant;
 use wasm_bindgen::prelude::*;
 
 use crate::bus::Bus;
+use crate::crossing::{Crosses, Made, declaration, record};
+use crate::diagnostics::Diagnostic;
 use crate::record::{Object, Record, list};
+use crate::values::ObjectRecord;
 use crate::{diagnostics, values};
+
+declaration!(Input::DECLARATION);
+declaration!(Source::DECLARATION);
+
+impl Crosses for Input {
+    const TYPE: &'static str = "Input";
+
+    fn value(self) -> JsValue {
+        let mut record = Record::new();
+        self.write(&mut record);
+        record.done()
+    }
+}
+
+impl Crosses for Source {
+    const TYPE: &'static str = "Source";
+
+    fn value(self) -> JsValue {
+        let mut record = Record::new();
+        self.write(&mut record);
+        record.done()
+    }
+}
+
+record! {
+    DeviceInfo {
+        /// Short name: `gxmm`, or the file's product name.
+        name: String,
+        /// One line for people.
+        title: String,
+        /// The node ID that it was put on the bus with.
+        "nodeId" node_id: u8,
+        source: Source,
+        objects: Made<Vec<ObjectRecord>>,
+    }
+
+    /// An input and its virtual moment in microseconds.
+    Entry {
+        at: f64,
+        input: Input,
+    }
+
+    /// What came of an input that puts a device on the bus, begins a lesson, or plays a script.
+    Added {
+        /// Its number, or null where it cannot run.
+        node: Option<usize>,
+        diagnostics: Vec<Diagnostic>,
+    }
+
+    /// Entries that are new, and how many are before them.
+    JournalNews {
+        from: usize,
+        entries: Made<Vec<Entry>>,
+    }
+}
 
 #[wasm_bindgen]
 impl Bus {
@@ -26,7 +84,7 @@ impl Bus {
         let input = read(input).map_err(error)?;
         let text = text_of(&input);
         let added = self.journal.act(input);
-        Ok(outcome(added, &text))
+        Ok(outcome(added, &text).value())
     }
 
     /// Makes an empty bench on a real bus line, and a run that is made again as time passes. A
@@ -59,13 +117,11 @@ impl Bus {
     /// Returns the new entries of the journal since the last call; `null` if there are none.
     #[wasm_bindgen(unchecked_return_type = "JournalNews | null")]
     pub fn news(&mut self) -> JsValue {
-        let Some((from, entries)) = self.journal.news() else {
-            return JsValue::NULL;
-        };
-        Record::new()
-            .with("from", from as u32)
-            .with("entries", list(entries.iter().map(record)))
-            .done()
+        let news = self.journal.news().map(|(from, entries)| JournalNews {
+            from,
+            entries: Made::list(entries.iter().map(crossing)),
+        });
+        news.value()
     }
 
     /// Returns the number of entries still to come of a run that is made again.
@@ -90,17 +146,16 @@ impl Bus {
             .iter()
             .zip(self.journal.rig.bus.devices());
         let info = |(placed, device): (&Placed, &VirtualDevice)| {
-            let node_id = placed.node_id.raw();
             let objects = values::dictionary(device.dictionary(), device.node_id().raw());
-            Record::new()
-                .with("name", placed.name.as_str())
-                .with("title", device.title())
-                .with("nodeId", node_id)
-                .with("source", source(&placed.source))
-                .with("objects", list(objects.into_iter()))
-                .done()
+            DeviceInfo {
+                name: placed.name.clone(),
+                title: device.title().into(),
+                node_id: placed.node_id.raw(),
+                source: placed.source.clone(),
+                objects: Made::of(list(objects.into_iter())),
+            }
         };
-        all.map(info).collect()
+        all.map(|one| info(one).value()).collect()
     }
 }
 
@@ -113,7 +168,7 @@ impl Bus {
 pub fn read_input(
     #[wasm_bindgen(unchecked_param_type = "unknown")] input: &JsValue,
 ) -> Result<JsValue, JsError> {
-    read(input).map(write).map_err(error)
+    read(input).map(Crosses::value).map_err(error)
 }
 
 /// Checks a run that is to be made again to the moment `until`, in microseconds, before any of it
@@ -138,23 +193,18 @@ pub fn check_run(
 }
 
 /// The result of an input, and of the text of its device.
-pub(crate) fn outcome(Added { node, trouble }: Added, text: &str) -> JsValue {
-    let diagnostics = match trouble {
-        Trouble::None => list(std::iter::empty()),
-        Trouble::Message(message) => list([diagnostics::message(&message)].into_iter()),
+pub(crate) fn outcome(added: journal::Added, text: &str) -> Added {
+    let diagnostics = match added.trouble {
+        Trouble::None => Vec::new(),
+        Trouble::Message(message) => vec![diagnostics::message(&message)],
         #[cfg(feature = "eds")]
         Trouble::Findings(found) => diagnostics::findings(&found, text),
-        Trouble::Problems(all) => list(all.iter().map(diagnostics::problem)),
+        Trouble::Problems(all) => all.iter().map(diagnostics::problem).collect(),
     };
     #[cfg(not(feature = "eds"))]
     let _ = text;
-    Record::new()
-        .with(
-            "node",
-            node.map_or(JsValue::NULL, |node| (node as u32).into()),
-        )
-        .with("diagnostics", diagnostics)
-        .done()
+    let node = added.node;
+    Added { node, diagnostics }
 }
 
 /// The text of the device that an input adds.
@@ -183,27 +233,25 @@ pub(crate) fn read(input: &JsValue) -> Result<Input, Fault> {
     Input::read(&op, &fields)
 }
 
-fn entry(one: &JsValue) -> Result<Entry, Fault> {
+fn entry(one: &JsValue) -> Result<journal::Entry, Fault> {
     let fields = Object::of(one).ok_or(Fault::Cut)?;
     let Value::Number(at) = fields.get("at") else {
         return Err(Fault::Cut);
     };
     let at = Instant::from_micros(at.max(0.0) as u64);
     let input = read(&fields.field("input"))?;
-    Ok(Entry { at, input })
+    Ok(journal::Entry { at, input })
 }
 
-fn record(entry: &Entry) -> JsValue {
-    Record::new()
-        .with("at", entry.at.as_micros() as f64)
-        .with("input", write(entry.input.clone()))
-        .done()
+fn crossing(entry: &journal::Entry) -> Entry {
+    Entry {
+        at: entry.at.as_micros() as f64,
+        input: entry.input.clone(),
+    }
 }
 
-fn write(input: Input) -> JsValue {
-    let mut record = Record::new();
-    input.write(&mut record);
-    record.done()
+fn record(entry: &journal::Entry) -> JsValue {
+    crossing(entry).value()
 }
 
 impl Fields for Object {
@@ -216,24 +264,5 @@ impl Fields for Object {
             None => self.field(key),
         };
         crate::record::value(&found)
-    }
-}
-
-fn source(source: &Source) -> JsValue {
-    match source {
-        Source::Builtin { name } => Record::new()
-            .with("kind", "builtin")
-            .with("name", name.as_str())
-            .done(),
-        Source::Eds {
-            name,
-            text,
-            lenient,
-        } => Record::new()
-            .with("kind", "eds")
-            .with("name", name.as_str())
-            .with("text", text.as_str())
-            .with("lenient", *lenient)
-            .done(),
     }
 }

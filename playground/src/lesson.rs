@@ -1,12 +1,90 @@
 //! Lessons on a bus: what there is to do, and how far somebody is.
 
-use od_bench::lesson::{Lesson, Problem, Quiz};
+use od_bench::lesson::{self, Problem};
 use od_bench::script::{Bare, Pattern};
 use od_runtime::Instant;
 use wasm_bindgen::prelude::*;
 
 use crate::bus::Bus;
-use crate::record::{Record, list};
+use crate::crossing::{Crosses, Maybe, record};
+
+record! {
+    /// A problem in the text of a lesson.
+    LessonProblem {
+        /// Counted from 1.
+        line: u32,
+        column: usize,
+        message: String,
+        /// What to do.
+        help: String,
+    }
+
+    /// A lesson as it was written; texts are Markdown.
+    Lesson {
+        title: String,
+        /// What it is about, in a sentence; may be empty.
+        summary: String,
+        /// `en`, `de` …
+        language: String,
+        /// 1 for beginners, 2, 3.
+        level: u8,
+        minutes: u16,
+        intro: String,
+        steps: Vec<LessonStep>,
+    }
+
+    LessonStep {
+        title: String,
+        text: String,
+        /// Each tells a bit more than the one before.
+        hints: Vec<String>,
+        /// What just happened: to be shown once the checkpoint is reached.
+        happened: String,
+        quiz: Option<LessonQuiz>,
+        /// Lines for `Bus.runScript`.
+        solution: String,
+    }
+
+    /// Predict a frame, then see it.
+    LessonQuiz {
+        question: String,
+        /// For `judgeAnswer`, and to be shown; `..` and `*` are bytes that do not matter.
+        answer: String,
+        reveal: String,
+    }
+
+    LessonResult {
+        lesson: Option<Lesson>,
+        problems: Vec<LessonProblem>,
+    }
+
+    /// One thing that the present step asks for.
+    LessonRequirement {
+        holds: bool,
+        /// What it is, and what is missing of it.
+        text: String,
+        /// It held since the step began, and no longer does.
+        lost: Maybe<bool>,
+    }
+
+    LessonState {
+        /// The present step, counted from 0; the number of steps when all is done.
+        step: usize,
+        done: bool,
+        /// Virtual microseconds at which each checkpoint was reached.
+        reached: Vec<f64>,
+        requirements: Vec<LessonRequirement>,
+    }
+
+    /// What is right about an answer.
+    Judgement {
+        right: bool,
+        "wrongIdentifier" wrong_identifier: bool,
+        "wrongLength" wrong_length: bool,
+        /// Counted from 0.
+        "wrongBytes" wrong_bytes: Vec<usize>,
+    }
+}
 
 #[wasm_bindgen]
 impl Bus {
@@ -27,7 +105,7 @@ impl Bus {
     /// The lesson of the journal; `null` where none is taken.
     #[wasm_bindgen(js_name = takenLesson, unchecked_return_type = "Lesson | null")]
     pub fn taken_lesson(&self) -> JsValue {
-        self.journal.lesson().map_or(JsValue::NULL, record)
+        self.journal.lesson().map(content).value()
     }
 
     /// Returns the progress of the lesson; `null` if none runs.
@@ -37,23 +115,20 @@ impl Bus {
             return JsValue::NULL;
         };
         let requirements = progress.requirements(bus);
-        let requirement = |one: &od_bench::lesson::Requirement| {
-            let record = Record::new()
-                .with("holds", one.holds)
-                .with("text", one.text.as_str());
-            match one.lost {
-                true => record.with("lost", true).done(),
-                false => record.done(),
-            }
+        let requirement = |one: lesson::Requirement| LessonRequirement {
+            holds: one.holds,
+            text: one.text,
+            lost: Maybe(one.lost.then_some(true)),
         };
         let reached = progress.reached().iter();
-        let micros = |at: &Instant| JsValue::from_f64(at.as_micros() as f64);
-        Record::new()
-            .with("step", progress.step())
-            .with("done", progress.is_done())
-            .with("reached", list(reached.map(micros)))
-            .with("requirements", list(requirements.iter().map(requirement)))
-            .done()
+        let micros = |at: &Instant| at.as_micros() as f64;
+        let state = LessonState {
+            step: progress.step(),
+            done: progress.is_done(),
+            reached: reached.map(micros).collect(),
+            requirements: requirements.into_iter().map(requirement).collect(),
+        };
+        state.value()
     }
 
     /// The steps whose checkpoints were reached since the last call, counted from 0.
@@ -97,14 +172,18 @@ impl Bus {
 /// Reads a lesson: what it says, or everything that is wrong with it.
 #[wasm_bindgen(js_name = parseLesson, unchecked_return_type = "LessonResult")]
 pub fn parse_lesson(text: &str) -> JsValue {
-    let (lesson, problems) = match Lesson::parse(text) {
-        Ok(lesson) => (record(&lesson), Vec::new()),
-        Err(problems) => (JsValue::NULL, problems),
+    let (lesson, problems) = match lesson::Lesson::parse(text) {
+        Ok(lesson) => (Some(content(&lesson)), Vec::new()),
+        Err(problems) => (None, problems),
     };
-    Record::new()
-        .with("lesson", lesson)
-        .with("problems", list(problems.iter().map(problem)))
-        .done()
+    let problem = |one: Problem| LessonProblem {
+        line: one.line,
+        column: one.column,
+        message: one.message,
+        help: one.help,
+    };
+    let problems = problems.into_iter().map(problem).collect();
+    LessonResult { lesson, problems }.value()
 }
 
 /// Looks at an answer to a question: a frame such as `585#43 00 10 00`, or its bytes alone.
@@ -116,55 +195,38 @@ pub fn parse_lesson(text: &str) -> JsValue {
 pub fn judge_answer(answer: &str, given: &str) -> Result<JsValue, JsError> {
     let answer = Pattern::parse(answer).map_err(|found| JsError::new(&found.to_string()))?;
     let judgement = od_bench::lesson::judge(&answer, given).map_err(|found| error(Some(&found)))?;
-    let wrong = judgement.wrong_bytes.iter();
-    Ok(Record::new()
-        .with("right", judgement.right)
-        .with("wrongIdentifier", judgement.wrong_identifier)
-        .with("wrongLength", judgement.wrong_length)
-        .with(
-            "wrongBytes",
-            list(wrong.map(|at| JsValue::from_f64(*at as f64))),
-        )
-        .done())
-}
-
-fn record(lesson: &Lesson) -> JsValue {
-    let texts = |texts: &[String]| list(texts.iter().map(|text| JsValue::from_str(text)));
-    let quiz = |quiz: &Quiz| {
-        Record::new()
-            .with("question", quiz.question.as_str())
-            .with("answer", quiz.answer.to_string())
-            .with("reveal", quiz.reveal.as_str())
-            .done()
+    let judgement = Judgement {
+        right: judgement.right,
+        wrong_identifier: judgement.wrong_identifier,
+        wrong_length: judgement.wrong_length,
+        wrong_bytes: judgement.wrong_bytes,
     };
-    let steps = lesson.steps.iter().map(|step| {
-        Record::new()
-            .with("title", step.title.as_str())
-            .with("text", step.text.as_str())
-            .with("hints", texts(&step.hints))
-            .with("happened", step.happened.as_str())
-            .with("quiz", step.quiz.as_ref().map_or(JsValue::NULL, quiz))
-            .with("solution", step.solution.text.as_str())
-            .done()
-    });
-    Record::new()
-        .with("title", lesson.title.as_str())
-        .with("summary", lesson.summary.as_str())
-        .with("language", lesson.language.as_str())
-        .with("level", lesson.level)
-        .with("minutes", lesson.minutes)
-        .with("intro", lesson.intro.as_str())
-        .with("steps", list(steps))
-        .done()
+    Ok(judgement.value())
 }
 
-fn problem(problem: &Problem) -> JsValue {
-    Record::new()
-        .with("line", problem.line)
-        .with("column", problem.column as f64)
-        .with("message", problem.message.as_str())
-        .with("help", problem.help.as_str())
-        .done()
+fn content(lesson: &lesson::Lesson) -> Lesson {
+    let quiz = |quiz: &lesson::Quiz| LessonQuiz {
+        question: quiz.question.clone(),
+        answer: quiz.answer.to_string(),
+        reveal: quiz.reveal.clone(),
+    };
+    let step = |step: &lesson::Step| LessonStep {
+        title: step.title.clone(),
+        text: step.text.clone(),
+        hints: step.hints.clone(),
+        happened: step.happened.clone(),
+        quiz: step.quiz.as_ref().map(quiz),
+        solution: step.solution.text.clone(),
+    };
+    Lesson {
+        title: lesson.title.clone(),
+        summary: lesson.summary.clone(),
+        language: lesson.language.clone(),
+        level: lesson.level,
+        minutes: lesson.minutes,
+        intro: lesson.intro.clone(),
+        steps: lesson.steps.iter().map(step).collect(),
+    }
 }
 
 fn error(problem: Option<&Problem>) -> JsError {

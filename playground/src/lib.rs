@@ -23,6 +23,7 @@ mod bus;
 mod codec;
 #[cfg(feature = "eds")]
 mod configured;
+mod crossing;
 mod device;
 mod diagnostics;
 #[cfg(feature = "direct")]
@@ -31,16 +32,19 @@ mod direct;
 mod editor;
 #[cfg(feature = "eds")]
 mod eds;
-#[cfg(feature = "eds")]
 mod fixes;
 mod frames;
 mod journal;
+#[cfg(test)]
+mod layout;
 #[cfg(feature = "lessons")]
 mod lesson;
 #[cfg(feature = "logs")]
 mod logs;
 mod objects;
 mod packed;
+#[cfg(feature = "eds")]
+mod places;
 #[cfg(feature = "real")]
 mod real;
 mod record;
@@ -49,7 +53,6 @@ mod signals;
 mod statistics;
 mod status;
 mod templates;
-mod types;
 mod values;
 
 pub use bus::Bus;

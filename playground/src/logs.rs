@@ -1,11 +1,26 @@
 //! Logs of other tools, read and written.
 
-use od_bench::logs::{Format, Record as Line, What, read};
+use od_bench::logs::{Format, Record, What, read};
 use od_runtime::Instant;
 use wasm_bindgen::prelude::*;
 
+use crate::crossing::{Bytes, Crosses, record};
 use crate::packed;
-use crate::record::{Record, bytes};
+
+record! {
+    /// A log that was read.
+    Log {
+        /// Packed.
+        frames: Bytes,
+        count: usize,
+        /// Number of lines that could not be read.
+        skipped: usize,
+        /// The first of them; 0 if there is none.
+        line: u32,
+        /// Why it could not be read.
+        why: String,
+    }
+}
 
 /// Reads a log: candump, ASC, TRC, pcap or pcapng.
 ///
@@ -18,14 +33,18 @@ pub fn read_log(file: &[u8]) -> Result<JsValue, JsError> {
     for line in &log.records {
         packed::push_line(&mut batch, line);
     }
-    let first = log.skipped.first();
-    Ok(Record::new()
-        .with("frames", bytes(&batch))
-        .with("count", log.records.len() as f64)
-        .with("skipped", log.skipped.len() as f64)
-        .with("line", first.map_or(0, |first| first.line))
-        .with("why", first.map_or("", |first| first.why.as_str()))
-        .done())
+    let (count, skipped) = (log.records.len(), log.skipped.len());
+    let first = log.skipped.into_iter().next();
+    let (line, why) = first.map_or((0, String::new()), |first| (first.line, first.why));
+    let frames = Bytes(batch);
+    let log = Log {
+        frames,
+        count,
+        skipped,
+        line,
+        why,
+    };
+    Ok(log.value())
 }
 
 /// Writes packed frames as a log; `ending` is `log`, `asc`, `trc` or `pcapng`.
@@ -36,16 +55,16 @@ pub fn read_log(file: &[u8]) -> Result<JsValue, JsError> {
 pub fn write_log(ending: &str, frames: &[u8]) -> Result<Vec<u8>, JsError> {
     let format = Format::of_ending(ending)
         .ok_or_else(|| JsError::new(&format!("`{ending}` is not a format of logs")))?;
-    let lines: Vec<Line> = frames.chunks_exact(packed::LEN).filter_map(line).collect();
+    let lines: Vec<Record> = frames.chunks_exact(packed::LEN).filter_map(line).collect();
     Ok(format.write(&lines))
 }
 
-fn line(bytes: &[u8]) -> Option<Line> {
+fn line(bytes: &[u8]) -> Option<Record> {
     let what = match packed::is_disturbed(bytes) {
         true => What::Error,
         false => What::Frame(packed::frame(bytes)?),
     };
-    Some(Line {
+    Some(Record {
         at: Instant::from_micros(packed::micros(bytes)? as u64),
         sent: packed::is_own(bytes),
         what,

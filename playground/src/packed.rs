@@ -22,10 +22,20 @@ use od_runtime::{Frame, Instant};
 /// Bytes of a packed frame.
 pub(crate) const LEN: usize = 24;
 
-const EXTENDED: u8 = 1;
-const REMOTE: u8 = 2;
-const OWN: u8 = 4;
-const DISTURBED: u8 = 8;
+pub(crate) const EXTENDED: u8 = 1;
+pub(crate) const REMOTE: u8 = 2;
+pub(crate) const OWN: u8 = 4;
+pub(crate) const DISTURBED: u8 = 8;
+
+/// Offsets.
+pub(crate) mod at {
+    pub(crate) const TIME: usize = 0;
+    pub(crate) const ID: usize = TIME + 8;
+    pub(crate) const FLAGS: usize = ID + 4;
+    pub(crate) const DLC: usize = FLAGS + 1;
+    pub(crate) const DEVICE: usize = DLC + 1;
+    pub(crate) const DATA: usize = DEVICE + 2;
+}
 
 /// Adds a frame; `device` is `None` for one that was sent from outside.
 pub(crate) fn push(batch: &mut Vec<u8>, at: Instant, device: Option<usize>, frame: &Frame) {
@@ -52,10 +62,14 @@ pub(crate) fn push(batch: &mut Vec<u8>, at: Instant, device: Option<usize>, fram
 pub(crate) fn push_seen(batch: &mut Vec<u8>, seen: &Seen) {
     let (one, counter) = match seen {
         Seen::Frame { at, device, frame } => return push(batch, *at, *device, frame),
-        Seen::Heard { at, device, frame } => {
+        Seen::Heard {
+            at: when,
+            device,
+            frame,
+        } => {
             let start = batch.len();
-            push(batch, *at, *device, frame);
-            if let Some(flags) = batch.get_mut(start + 12) {
+            push(batch, *when, *device, frame);
+            if let Some(flags) = batch.get_mut(start + at::FLAGS) {
                 *flags &= !OWN;
             }
             return;
@@ -73,7 +87,7 @@ pub(crate) fn push_seen(batch: &mut Vec<u8>, seen: &Seen) {
     let data = [why, attempts, delivered, bus_off, low, high];
     let start = batch.len();
     push(batch, one.at, one.device, &Frame::of(one.frame.id(), &data));
-    if let Some(flags) = batch.get_mut(start + 12) {
+    if let Some(flags) = batch.get_mut(start + at::FLAGS) {
         *flags |= DISTURBED;
     }
 }
@@ -89,20 +103,24 @@ pub(crate) fn push_line(batch: &mut Vec<u8>, line: &od_bench::logs::Record) {
         What::Error => (&nothing, DISTURBED),
     };
     push(batch, line.at, None, frame);
-    if let Some(flags) = batch.get_mut(start + 12) {
+    if let Some(flags) = batch.get_mut(start + at::FLAGS) {
         *flags = *flags & !OWN | disturbed | if line.sent { OWN } else { 0 };
     }
 }
 
+fn flags(packed: &[u8]) -> u8 {
+    packed.get(at::FLAGS).copied().unwrap_or_default()
+}
+
 /// Was this frame disturbed on the line?
 pub(crate) fn is_disturbed(packed: &[u8]) -> bool {
-    packed.get(12).is_some_and(|flags| flags & DISTURBED != 0)
+    flags(packed) & DISTURBED != 0
 }
 
 /// Was it sent from outside?
 #[cfg(feature = "logs")]
 pub(crate) fn is_own(packed: &[u8]) -> bool {
-    packed.get(12).is_some_and(|flags| flags & OWN != 0)
+    flags(packed) & OWN != 0
 }
 
 /// Its virtual microseconds.
@@ -113,11 +131,11 @@ pub(crate) fn micros(packed: &[u8]) -> Option<f64> {
 /// The frame in these bytes; `None` where there are too few.
 pub(crate) fn frame(packed: &[u8]) -> Option<Frame> {
     let packed: &[u8; LEN] = packed.get(..LEN)?.try_into().ok()?;
-    let raw = u32::from_le_bytes([packed[8], packed[9], packed[10], packed[11]]);
-    let (flags, dlc) = (packed[12], packed[13].min(8));
+    let raw = u32::from_le_bytes(packed[at::ID..at::FLAGS].try_into().ok()?);
+    let (flags, dlc) = (packed[at::FLAGS], packed[at::DLC].min(8));
     journal::frame(
         raw,
-        &packed[16..16 + usize::from(dlc)],
+        &packed[at::DATA..at::DATA + usize::from(dlc)],
         flags & EXTENDED != 0,
         flags & REMOTE != 0,
     )
@@ -138,6 +156,7 @@ mod tests {
             let mut batch = Vec::new();
             push(&mut batch, Instant::from_millis(7), Some(2), &sent);
             assert_eq!(batch.len(), LEN);
+            assert_eq!(batch[at::DEVICE], 3);
             assert_eq!(frame(&batch), Some(sent));
             assert_eq!(frame(&batch[1..]), None);
         }

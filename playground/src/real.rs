@@ -9,6 +9,7 @@ use od_runtime::DeviceKind;
 use wasm_bindgen::prelude::*;
 
 use crate::bus::Bus;
+use crate::crossing::Crosses;
 use crate::journal::{error, outcome, read, text_of};
 
 #[wasm_bindgen]
@@ -37,7 +38,7 @@ impl Bus {
     ) -> Result<JsValue, JsError> {
         let input = read(input).map_err(error)?;
         let added = self.journal.describe(&input);
-        Ok(outcome(added, &text_of(&input)))
+        Ok(outcome(added, &text_of(&input)).value())
     }
 
     /// Keeps a value that a node has said: the description shows it from now on.

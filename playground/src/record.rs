@@ -63,9 +63,10 @@ impl Record {
     }
 
     /// Adds a field.
-    pub(crate) fn with(self, key: &str, value: impl Into<JsValue>) -> Self {
-        self.0.set(key, &value.into());
-        self
+    // Called for every field of every record: what is in line here is a kilobyte of the module.
+    #[inline(never)]
+    pub(crate) fn set(&self, key: &str, value: JsValue) {
+        self.0.set(key, &value);
     }
 
     pub(crate) fn done(self) -> JsValue {

@@ -1,6 +1,6 @@
 //! Objects read and written over the bus, and PDO mappings.
 
-use od_bench::rig::Outcome;
+use od_bench::rig;
 use od_bench::{pdos, words};
 use od_client::sdo::{Channel, SdoError};
 use od_model::Address;
@@ -10,9 +10,82 @@ use od_wire::{CobId, Frame};
 use wasm_bindgen::prelude::*;
 
 use crate::bus::Bus;
+use crate::crossing::{Bytes, Crosses, Made, record, words};
 use crate::device::valid;
 use crate::frames::sentence;
-use crate::record::{Record, bytes, list};
+
+words! {
+    OutcomeKind {
+        Done = "done",
+        Aborted = "aborted",
+        Silent = "silent",
+        Failed = "failed",
+    }
+
+    MappingPart {
+        DisablePdo = "disable PDO",
+        DisableMapping = "disable mapping",
+        Entry = "entry",
+        EnableMapping = "enable mapping",
+        EnablePdo = "enable PDO",
+    }
+}
+
+record! {
+    /// A transfer of `Bus.transfer` that is over.
+    Outcome {
+        job: u32,
+        kind: OutcomeKind,
+        /// The value that was read; empty after a write, null where there is none.
+        bytes: Option<Bytes>,
+        /// Why it failed; empty if nobody answered.
+        words: String,
+        /// The abort may come from a mapping that changes while its PDO is valid.
+        "wantsPdoOff" wants_pdo_off: bool,
+    }
+
+    Mapped {
+        index: u16,
+        sub: u8,
+        bits: u8,
+    }
+
+    /// Value of a COB-ID object of a PDO, and what it says.
+    PdoCobId {
+        raw: u32,
+        id: u32,
+        valid: bool,
+    }
+
+    /// A PDO as it is now.
+    Pdo {
+        /// Index of its mapping parameter.
+        mapping: u16,
+        /// Index of its communication parameter.
+        parameter: u16,
+        transmits: bool,
+        /// Counted from 1.
+        number: u16,
+        /// Value of its COB-ID object; null without power.
+        "cobId" cob_id: Option<PdoCobId>,
+        /// Mapping entries that fit.
+        room: u8,
+        /// The mapping cannot be written.
+        "isFixed" is_fixed: bool,
+        entries: Made<Vec<Mapped>>,
+    }
+
+    /// An SDO download, and its frame.
+    MappingStep {
+        part: MappingPart,
+        index: u16,
+        sub: u8,
+        bytes: Bytes,
+        id: u32,
+        data: Bytes,
+        words: String,
+    }
+}
 
 #[wasm_bindgen]
 impl Bus {
@@ -44,7 +117,7 @@ impl Bus {
     pub fn outcomes(&mut self) -> Vec<JsValue> {
         let mut all = Vec::new();
         while let Some(one) = self.journal.rig.outcome() {
-            all.push(self.outcome(one));
+            all.push(self.outcome(one).value());
         }
         all
     }
@@ -54,7 +127,7 @@ impl Bus {
     pub fn pdos(&self, device: usize) -> Vec<JsValue> {
         let device = self.device(device);
         let all = device.map(pdos::pdos).unwrap_or_default();
-        all.iter().map(pdo).collect()
+        all.iter().map(|one| pdo(one).value()).collect()
     }
 
     /// The SDO downloads that change a mapping to `entries`, as in 1A00h:01. With a COB-ID the
@@ -75,80 +148,76 @@ impl Bus {
         let steps = pdos::steps(mapping, &entries, cob_id.map(CobId::new));
         let record = |step: &pdos::Step| {
             let frame = step.frame(device.node_id());
-            Record::new()
-                .with("part", part(step.part))
-                .with("index", step.address.index)
-                .with("sub", step.address.sub)
-                .with("bytes", bytes(&step.bytes()))
-                .with("id", frame.id().raw())
-                .with("data", bytes(frame.data()))
-                .with("words", sentence(words::explain(devices, &frame)))
-                .done()
+            MappingStep {
+                part: part(step.part),
+                index: step.address.index,
+                sub: step.address.sub,
+                bytes: Bytes(step.bytes().to_vec()),
+                id: frame.id().raw(),
+                data: frame.data().into(),
+                words: sentence(words::explain(devices, &frame)),
+            }
         };
-        steps.iter().map(record).collect()
+        steps.iter().map(|step| record(step).value()).collect()
     }
 
-    fn outcome(&self, one: Outcome) -> JsValue {
-        let (kind, value, text, code) = match one.result {
-            Ok(value) => ("done", bytes(&value), String::new(), 0),
-            Err(SdoError::Silent) => ("silent", JsValue::NULL, String::new(), 0),
+    fn outcome(&self, one: rig::Outcome) -> Outcome {
+        let (kind, bytes, words, code) = match one.result {
+            Ok(value) => (OutcomeKind::Done, Some(Bytes(value)), String::new(), 0),
+            Err(SdoError::Silent) => (OutcomeKind::Silent, None, String::new(), 0),
             Err(SdoError::Abort(code)) => {
                 let address = one.address;
                 let abort = Response::Abort { address, code }.emit();
                 let frame = Frame::full(Channel::of(one.node).response, abort);
                 let text = sentence(words::explain(self.journal.rig.bus.devices(), &frame));
-                ("aborted", JsValue::NULL, text, code)
+                (OutcomeKind::Aborted, None, text, code)
             }
             // A `Response` in words would be a lot of code for what no node does.
             Err(SdoError::OutOfTurn { expected, .. }) => {
                 let text = format!("{expected} was expected");
-                ("failed", JsValue::NULL, text, 0)
+                (OutcomeKind::Failed, None, text, 0)
             }
-            Err(_) => ("failed", JsValue::NULL, "the transfer failed".into(), 0),
+            Err(_) => (OutcomeKind::Failed, None, "the transfer failed".into(), 0),
         };
-        Record::new()
-            .with("job", one.job)
-            .with("kind", kind)
-            .with("bytes", value)
-            .with("words", text)
-            .with("wantsPdoOff", pdos::wants_pdo_disabled(code))
-            .done()
+        Outcome {
+            job: one.job,
+            kind,
+            bytes,
+            words,
+            wants_pdo_off: pdos::wants_pdo_disabled(code),
+        }
     }
 }
 
-fn pdo(one: &pdos::Pdo) -> JsValue {
-    let cob_id = |id: CobId| {
-        Record::new()
-            .with("raw", id.raw())
-            .with("id", id.can_id().raw())
-            .with("valid", id.is_valid())
-            .done()
+fn pdo(one: &pdos::Pdo) -> Pdo {
+    let cob_id = |id: CobId| PdoCobId {
+        raw: id.raw(),
+        id: id.can_id().raw(),
+        valid: id.is_valid(),
     };
-    let entries = one.entries.iter().map(|entry| {
-        Record::new()
-            .with("index", entry.address.index)
-            .with("sub", entry.address.sub)
-            .with("bits", entry.bits)
-            .done()
-    });
-    Record::new()
-        .with("mapping", one.mapping)
-        .with("parameter", one.parameter)
-        .with("transmits", one.transmits)
-        .with("number", one.number)
-        .with("cobId", one.cob_id.map_or(JsValue::NULL, cob_id))
-        .with("room", one.room)
-        .with("isFixed", one.is_fixed)
-        .with("entries", list(entries))
-        .done()
+    let mapped = |entry: &MapEntry| Mapped {
+        index: entry.address.index,
+        sub: entry.address.sub,
+        bits: entry.bits,
+    };
+    Pdo {
+        mapping: one.mapping,
+        parameter: one.parameter,
+        transmits: one.transmits,
+        number: one.number,
+        cob_id: one.cob_id.map(cob_id),
+        room: one.room,
+        is_fixed: one.is_fixed,
+        entries: Made::list(one.entries.iter().map(mapped)),
+    }
 }
 
-const fn part(part: pdos::Part) -> &'static str {
+const fn part(part: pdos::Part) -> MappingPart {
     match part {
-        pdos::Part::DisablePdo => "disable PDO",
-        pdos::Part::DisableMapping => "disable mapping",
-        pdos::Part::Entry => "entry",
-        pdos::Part::EnableMapping => "enable mapping",
-        pdos::Part::EnablePdo => "enable PDO",
+        pdos::Part::DisablePdo => MappingPart::DisablePdo,
+        pdos::Part::DisableMapping => MappingPart::DisableMapping,
+        pdos::Part::Entry => MappingPart::Entry,
+        pdos::Part::EnableMapping => MappingPart::EnableMapping,
+        pdos::Part::EnablePdo => MappingPart::EnablePdo,
     }
 }

@@ -2,8 +2,9 @@
 
 use std::iter;
 
-use od_bench::VirtualDevice;
 use od_bench::notice::of_storage;
+use od_bench::wire::Condition;
+use od_bench::{Led, VirtualDevice};
 use od_model::Address;
 use od_model::typed::Scalar;
 use od_runtime::encoder;
@@ -11,38 +12,142 @@ use od_wire::nmt::State;
 use wasm_bindgen::prelude::*;
 
 use crate::bus::Bus;
+use crate::crossing::{Crosses, Made, names, record, words};
 use crate::objects::is_described;
-use crate::record::{Record, integer, list};
+use crate::record::integer;
+
+words! {
+    Nmt {
+        Off = "off",
+        Unknown = "unknown",
+        Initialising = "initialising",
+        PreOperational = "pre-operational",
+        Operational = "operational",
+        Stopped = "stopped",
+    }
+}
+
+names! {
+    Lamp: Led { Off, Flashing, On, }
+    /// Error state of a CAN controller.
+    Controller: Condition { ErrorActive, ErrorPassive, BusOff, }
+}
+
+record! {
+    Leds {
+        green: Led,
+        red: Led,
+    }
+
+    Shaft {
+        /// Revolutions from the sensor's zero point, with the fraction.
+        turns: f64,
+        rpm: f64,
+        /// What the sensor delivers, before scaling.
+        raw: f64,
+    }
+
+    /// From the raw position to the position value; null where it cannot be read.
+    Chain {
+        reversed: Option<bool>,
+        /// Measuring units per revolution; null without scaling.
+        "perTurn" per_turn: Made<Option<f64>>,
+        position: Made<Option<f64>>,
+    }
+
+    /// What can be seen of a device from outside.
+    Status {
+        "nodeId" node_id: u8,
+        powered: bool,
+        nmt: Nmt,
+        leds: Leds,
+        shaft: Option<Shaft>,
+        /// Rotary switches, 0 to 99.
+        "nodeSwitch" node_switch: u8,
+        /// DIP switches, 0 to 7.
+        "rateSwitch" rate_switch: u8,
+        /// Bit rate in kbit/s since the last start; null where it adapts itself.
+        rate: Option<u16>,
+        /// Names of what can break.
+        "canBreak" can_break: Made<Vec<&'static str>>,
+        /// Names of what is broken.
+        faults: Made<Vec<&'static str>>,
+        "transmitErrors" transmit_errors: u16,
+        "receiveErrors" receive_errors: u16,
+        controller: Condition,
+        /// Is it connected to the line?
+        plugged: bool,
+        /// The shaft follows a profile.
+        moves: bool,
+        /// Describes a node of a real bus.
+        real: bool,
+    }
+
+    /// The wire, and the controller of the outside.
+    LineStatus {
+        real: bool,
+        /// Frames take the time of their bits.
+        timed: bool,
+        /// Microseconds that they took so far.
+        busy: f64,
+        terminators: u8,
+        "fixedRate" fixed_rate: Option<u16>,
+        rate: Option<u16>,
+        "transmitErrors" transmit_errors: u16,
+        "receiveErrors" receive_errors: u16,
+        controller: Condition,
+        plugged: bool,
+    }
+}
+
+impl Bus {
+    fn nmt_of(&self, device: usize) -> Nmt {
+        let Some(device) = self.device(device).filter(|device| device.is_powered()) else {
+            return Nmt::Off;
+        };
+        #[cfg(feature = "real")]
+        if device.is_described() && device.seen_state().is_none() {
+            return Nmt::Unknown;
+        }
+        match device.state() {
+            State::Initialising => Nmt::Initialising,
+            State::PreOperational => Nmt::PreOperational,
+            State::Operational => Nmt::Operational,
+            State::Stopped => Nmt::Stopped,
+        }
+    }
+
+    fn leds_of(&self, device: usize) -> Leds {
+        let off = (Led::Off, Led::Off);
+        let (green, red) = self.device(device).map_or(off, VirtualDevice::leds);
+        Leds { green, red }
+    }
+
+    fn shaft_of(&mut self, device: usize) -> Option<Shaft> {
+        let rig = &mut self.journal.rig;
+        let shaft = rig
+            .with(device, |device, now| device.shaft(now))
+            .flatten()?;
+        Some(Shaft {
+            turns: shaft.turns,
+            rpm: shaft.rpm,
+            raw: shaft.raw as f64,
+        })
+    }
+}
 
 #[wasm_bindgen]
 impl Bus {
     /// The NMT state, or `off`.
     #[wasm_bindgen(unchecked_return_type = "Nmt")]
     pub fn nmt(&self, device: usize) -> String {
-        let Some(device) = self.device(device).filter(|device| device.is_powered()) else {
-            return "off".into();
-        };
-        #[cfg(feature = "real")]
-        if device.is_described() && device.seen_state().is_none() {
-            return "unknown".into();
-        }
-        match device.state() {
-            State::Initialising => "initialising",
-            State::PreOperational => "pre-operational",
-            State::Operational => "operational",
-            State::Stopped => "stopped",
-        }
-        .into()
+        self.nmt_of(device).text().into()
     }
 
     /// Returns the state of the two LEDs.
     #[wasm_bindgen(unchecked_return_type = "Leds")]
     pub fn leds(&self, device: usize) -> JsValue {
-        let (green, red) = self.device(device).map_or(("off", "off"), |device| {
-            let (green, red) = device.leds();
-            (green.name(), red.name())
-        });
-        Record::new().with("green", green).with("red", red).done()
+        self.leds_of(device).value()
     }
 
     /// Is there power?
@@ -53,18 +158,7 @@ impl Bus {
     /// Returns the position of the shaft; `null` without one.
     #[wasm_bindgen(unchecked_return_type = "Shaft | null")]
     pub fn shaft(&mut self, device: usize) -> JsValue {
-        let shaft = self
-            .journal
-            .rig
-            .with(device, |device, now| device.shaft(now))
-            .flatten();
-        shaft.map_or(JsValue::NULL, |shaft| {
-            Record::new()
-                .with("turns", shaft.turns)
-                .with("rpm", shaft.rpm)
-                .with("raw", shaft.raw as f64)
-                .done()
-        })
+        self.shaft_of(device).value()
     }
 
     /// Returns the steps from the raw position: direction, scaling, position value (6004h); `null`
@@ -86,49 +180,47 @@ impl Bus {
         };
         let bit = |bit: u64| operating.map(|operating| operating & bit != 0);
         let scaled = per_turn.filter(|_| bit(encoder::SCALING) == Some(true));
-        let number = |value: Option<u64>| value.map_or(JsValue::NULL, |one| integer(one.into()));
-        Record::new()
-            .with(
-                "reversed",
-                bit(encoder::REVERSED).map_or(JsValue::NULL, JsValue::from),
-            )
-            .with("perTurn", number(scaled))
-            .with("position", number(position))
-            .done()
+        let number =
+            |value: Option<u64>| Made::of(value.map_or(JsValue::NULL, |one| integer(one.into())));
+        let chain = Chain {
+            reversed: bit(encoder::REVERSED),
+            per_turn: number(scaled),
+            position: number(position),
+        };
+        chain.value()
     }
 
     /// Everything that can be seen of a device from outside.
     #[wasm_bindgen(unchecked_return_type = "Status")]
     pub fn status(&mut self, device: usize) -> JsValue {
-        let (shaft, leds, nmt) = (self.shaft(device), self.leds(device), self.nmt(device));
+        let shaft = self.shaft_of(device);
+        let (leds, nmt) = (self.leds_of(device), self.nmt_of(device));
         let controller = self.journal.rig.bus.line.controller(device + 1);
         let Some(one) = self.device(device) else {
             return JsValue::NULL;
         };
-        let (node, rate) = one.switches();
+        let (node_switch, rate_switch) = one.switches();
         let known = one.faults();
         let broken = known.iter().filter(|name| one.is_broken(name));
-        Record::new()
-            .with("nodeId", one.node_id().raw())
-            .with("powered", one.is_powered())
-            .with("nmt", nmt)
-            .with("leds", leds)
-            .with("shaft", shaft)
-            .with("nodeSwitch", node)
-            .with("rateSwitch", rate)
-            .with("rate", one.bit_rate().map_or(JsValue::NULL, JsValue::from))
-            .with(
-                "canBreak",
-                list(known.iter().map(|name| JsValue::from_str(name))),
-            )
-            .with("faults", list(broken.map(|name| JsValue::from_str(name))))
-            .with("transmitErrors", controller.transmit)
-            .with("receiveErrors", controller.receive)
-            .with("controller", controller.condition().name())
-            .with("plugged", self.journal.rig.bus.line.is_plugged(device + 1))
-            .with("moves", self.journal.rig.moves(device))
-            .with("real", is_described(one))
-            .done()
+        let status = Status {
+            node_id: one.node_id().raw(),
+            powered: one.is_powered(),
+            nmt,
+            leds,
+            shaft,
+            node_switch,
+            rate_switch,
+            rate: one.bit_rate(),
+            can_break: Made::list(known.iter().copied()),
+            faults: Made::list(broken.copied()),
+            transmit_errors: controller.transmit,
+            receive_errors: controller.receive,
+            controller: controller.condition(),
+            plugged: self.journal.rig.bus.line.is_plugged(device + 1),
+            moves: self.journal.rig.moves(device),
+            real: is_described(one),
+        };
+        status.value()
     }
 
     /// The bytes of a device's EEPROM.
@@ -171,21 +263,19 @@ impl Bus {
         let rate = line
             .bit_rate
             .or_else(|| self.journal.rig.bus.devices().iter().find_map(powered_rate));
-        Record::new()
-            .with("real", line.is_real)
-            .with("timed", line.is_timed())
-            .with("busy", line.busy() as f64)
-            .with("terminators", line.terminators)
-            .with(
-                "fixedRate",
-                line.bit_rate.map_or(JsValue::NULL, JsValue::from),
-            )
-            .with("rate", rate.map_or(JsValue::NULL, JsValue::from))
-            .with("transmitErrors", outside.transmit)
-            .with("receiveErrors", outside.receive)
-            .with("controller", outside.condition().name())
-            .with("plugged", line.is_plugged(0))
-            .done()
+        let status = LineStatus {
+            real: line.is_real,
+            timed: line.is_timed(),
+            busy: line.busy() as f64,
+            terminators: line.terminators,
+            fixed_rate: line.bit_rate,
+            rate,
+            transmit_errors: outside.transmit,
+            receive_errors: outside.receive,
+            controller: outside.condition(),
+            plugged: line.is_plugged(0),
+        };
+        status.value()
     }
 }
 

@@ -6,8 +6,16 @@ use od_wire::lss::{self, Part, Request};
 use od_wire::nmt::Command;
 use wasm_bindgen::prelude::*;
 
+use crate::crossing::{Bytes, Crosses, record};
 use crate::packed;
-use crate::record::{Record, bytes};
+
+record! {
+    FrameTemplate {
+        name: &'static str,
+        /// Packed.
+        frame: Bytes,
+    }
+}
 
 /// Frames to begin with, for a node.
 #[wasm_bindgen(js_name = frameTemplates, unchecked_return_type = "FrameTemplate[]")]
@@ -43,11 +51,11 @@ pub fn frame_templates(node_id: u8) -> Vec<JsValue> {
         ("LSS: inquire serial number", inquire(Part::Serial)),
         ("LSS: fastscan, does any node respond?", lss(anybody)),
     ];
-    let record = |(name, frame): (&str, Option<Frame>)| {
+    let template = |(name, frame): (&'static str, Option<Frame>)| {
         let mut batch = Vec::new();
         packed::push(&mut batch, Instant::ZERO, None, &frame?);
-        let frame = bytes(&batch);
-        Some(Record::new().with("name", name).with("frame", frame).done())
+        let frame = Bytes(batch);
+        Some(FrameTemplate { name, frame }.value())
     };
-    all.into_iter().filter_map(record).collect()
+    all.into_iter().filter_map(template).collect()
 }

@@ -5,7 +5,58 @@ use od_model::typed::Scalar;
 use od_model::{DataType, Dictionary, Entry, Kind, Literal};
 use wasm_bindgen::JsValue;
 
-use crate::record::{Record, bytes, integer};
+use crate::crossing::{Crosses, Made, declaration, names, record};
+use crate::record::{bytes, integer};
+
+/// A value of an object.
+pub(crate) struct Value(JsValue);
+
+impl Crosses for Value {
+    const TYPE: &'static str = "Value";
+
+    fn value(self) -> JsValue {
+        self.0
+    }
+}
+
+declaration!(
+    "/** A value: 64-bit integers that a number cannot hold come as bigint. */\n",
+    "export type Value = number | bigint | string | boolean | Uint8Array | null;\n",
+);
+
+names! {
+    Access: od_model::Access { Ro, Wo, Rw, Rwr, Rww, Const, }
+}
+
+record! {
+    /// One value of the object dictionary.
+    ObjectRecord {
+        index: u16,
+        sub: u8,
+        /// The name of the object, or of the member of a record or array.
+        name: Made<String>,
+        /// The name of the record or array, for its members.
+        parent: Made<Option<String>>,
+        /// `UNSIGNED32`, `VISIBLE_STRING`, as in CiA 301.
+        "type" data_type: &'static str,
+        /// Length in bits; 0 where it varies.
+        bits: u16,
+        access: od_model::Access,
+        /// May be mapped into a PDO.
+        mappable: bool,
+        /// May be mapped into a TPDO, as far as access and length go.
+        "fitsTpdo" fits_tpdo: bool,
+        /// May be mapped into an RPDO, as far as access and length go.
+        "fitsRpdo" fits_rpdo: bool,
+        /// Belongs to a PDO mapping parameter.
+        "isMapping" is_mapping: bool,
+        /// Is among what 1010h saves.
+        "isSaved" is_saved: bool,
+        default: Value,
+        low: Value,
+        high: Value,
+    }
+}
 
 /// A stored value by its type; anything of an unexpected length as bytes.
 pub(crate) fn value(data_type: DataType, raw: &[u8]) -> JsValue {
@@ -43,32 +94,33 @@ fn literal(dictionary: Dictionary<'_>, entry: &Entry, literal: Literal, node_id:
 pub(crate) fn dictionary(dictionary: Dictionary<'_>, node_id: u8) -> Vec<JsValue> {
     let mut rows = Vec::with_capacity(dictionary.entries().len());
     for object in dictionary.objects() {
-        let parent = if object.code.has_members() {
+        let parent = Made::of(if object.code.has_members() {
             JsValue::from_str(dictionary.text(object.name))
         } else {
             JsValue::NULL
-        };
-        let mapping = pdos::of_mapping(object.index).is_some();
+        });
+        let is_mapping = pdos::of_mapping(object.index).is_some();
         for entry in dictionary.members(&object) {
-            let (tpdo, rpdo) = pdos::fits(&entry);
-            let number = |value| literal(dictionary, &entry, value, node_id);
-            let row = Record::new()
-                .with("index", entry.address.index)
-                .with("sub", entry.address.sub)
-                .with("name", dictionary.text(entry.name))
-                .with("parent", parent.clone())
-                .with("type", entry.data_type.name())
-                .with("bits", entry.data_type.bits().unwrap_or(0))
-                .with("access", entry.access.name())
-                .with("mappable", entry.mappable)
-                .with("fitsTpdo", tpdo)
-                .with("fitsRpdo", rpdo)
-                .with("isMapping", mapping)
-                .with("isSaved", od_bench::is_saved(&entry))
-                .with("default", number(entry.default))
-                .with("low", number(entry.low))
-                .with("high", number(entry.high));
-            rows.push(row.done());
+            let (fits_tpdo, fits_rpdo) = pdos::fits(&entry);
+            let number = |value| Value(literal(dictionary, &entry, value, node_id));
+            let row = ObjectRecord {
+                index: entry.address.index,
+                sub: entry.address.sub,
+                name: Made::of(JsValue::from_str(dictionary.text(entry.name))),
+                parent: parent.clone(),
+                data_type: entry.data_type.name(),
+                bits: entry.data_type.bits().unwrap_or(0).into(),
+                access: entry.access,
+                mappable: entry.mappable,
+                fits_tpdo,
+                fits_rpdo,
+                is_mapping,
+                is_saved: od_bench::is_saved(&entry),
+                default: number(entry.default),
+                low: number(entry.low),
+                high: number(entry.high),
+            };
+            rows.push(row.value());
         }
     }
     rows

@@ -4,8 +4,6 @@
 use std::format;
 use std::prelude::v1::*;
 
-use super::parts::{Dip, Rate, Source};
-
 /// Most bytes of an input, and most steps of a profile.
 const MOST_BYTES: usize = 150_000;
 const MOST_STEPS: usize = 2000;
@@ -54,6 +52,38 @@ pub trait Sink {
     fn put(&mut self, key: &str, value: Value);
 }
 
+/// Type of a field as TypeScript declares it.
+pub(super) trait Declared {
+    /// `?` behind the name of a field that may be missing.
+    const MARK: &'static str = "";
+    /// The type.
+    const TYPE: &'static str;
+}
+
+/// A field that has fields.
+pub(super) trait Part {
+    /// Reads it.
+    fn read(&mut self, from: &dyn Fields, key: &str) -> Result<(), Fault>;
+
+    /// Writes it.
+    fn write(&mut self, to: &mut dyn Sink, key: &str);
+}
+
+/// Fields of a field: each is named `source.name` outside.
+pub(super) struct Within<'a, T: ?Sized>(pub(super) &'a mut T, pub(super) &'a str);
+
+impl Fields for Within<'_, &dyn Fields> {
+    fn get(&self, key: &str) -> Value {
+        self.0.get(&format!("{}.{key}", self.1))
+    }
+}
+
+impl Sink for Within<'_, dyn Sink + '_> {
+    fn put(&mut self, key: &str, value: Value) {
+        self.0.put(&format!("{}.{key}", self.1), value);
+    }
+}
+
 /// A field of an input, to be read or written.
 pub(super) enum Field<'a> {
     Place(&'a mut u8),
@@ -64,65 +94,48 @@ pub(super) enum Field<'a> {
     Text(&'a mut String),
     Bytes(&'a mut Vec<u8>),
     Steps(&'a mut Vec<f64>),
-    Source(&'a mut Source),
-    Dip(&'a mut Option<Dip>),
-    Rate(&'a mut Rate),
+    Part(&'a mut dyn Part),
 }
 
 macro_rules! fields {
-    ($($kind:ty => $name:ident,)*) => {
+    ($($kind:ty => $name:ident, $mark:literal $type:literal;)*) => {
         $(impl<'a> From<&'a mut $kind> for Field<'a> {
             fn from(field: &'a mut $kind) -> Self {
                 Self::$name(field)
             }
+        }
+
+        impl Declared for $kind {
+            const MARK: &'static str = $mark;
+            const TYPE: &'static str = $type;
         })*
     };
 }
 
 fields! {
-    u8 => Place,
-    Option<u8> => MaybePlace,
-    u32 => Count,
-    f64 => Number,
-    bool => Flag,
-    String => Text,
-    Vec<u8> => Bytes,
-    Vec<f64> => Steps,
-    Source => Source,
-    Option<Dip> => Dip,
-    Rate => Rate,
+    u8 => Place, "" "number";
+    Option<u8> => MaybePlace, "?" "number";
+    u32 => Count, "" "number";
+    f64 => Number, "" "number";
+    bool => Flag, "" "boolean";
+    String => Text, "" "string";
+    Vec<u8> => Bytes, "" "Uint8Array";
+    Vec<f64> => Steps, "" "number[]";
+}
+
+impl<'a, T: Part> From<&'a mut T> for Field<'a> {
+    fn from(field: &'a mut T) -> Self {
+        Self::Part(field)
+    }
 }
 
 impl Field<'_> {
     /// Reads the field.
     pub(super) fn read(self, from: &dyn Fields, key: &str) -> Result<(), Fault> {
-        let part = |part| from.get(&format!("{key}.{part}"));
         match (self, from.get(key)) {
-            (Self::Dip(to), _) => {
-                *to = match part("bit") {
-                    Value::Missing => None,
-                    bit => Some(Dip {
-                        bit: whole(&bit, 7)? as u8,
-                        on: flag(&part("on"))?,
-                    }),
-                };
-            }
-            (Self::Source(to), _) => {
-                let (kind, name) = (text(part("kind"))?, text(part("name"))?);
-                *to = match kind.as_str() {
-                    "builtin" => Source::Builtin { name },
-                    "eds" => Source::Eds {
-                        name,
-                        text: text(part("text"))?,
-                        lenient: flag(&part("lenient"))?,
-                    },
-                    _ => return Err(Fault::Newer),
-                };
-            }
+            (Self::Part(to), _) => to.read(from, key)?,
             (Self::MaybePlace(to), Value::Missing) => *to = None,
             (Self::MaybePlace(to), value) => *to = Some(whole(&value, 255)? as u8),
-            (Self::Rate(to), Value::Null) => to.0 = None,
-            (Self::Rate(to), value) => to.0 = Some(whole(&value, u32::MAX)?),
             (Self::Place(to), value) => *to = whole(&value, 255)? as u8,
             (Self::Count(to), value) => *to = whole(&value, u32::MAX)?,
             (Self::Number(to), Value::Number(value)) if is_number(&value) => *to = value,
@@ -139,43 +152,11 @@ impl Field<'_> {
         Ok(())
     }
 
-    /// The mark of a field that may be missing, and its type in TypeScript.
-    pub(super) fn declaration(&self) -> (&'static str, &'static str) {
-        match self {
-            Self::Place(_) | Self::Count(_) | Self::Number(_) => ("", "number"),
-            Self::MaybePlace(_) => ("?", "number"),
-            Self::Flag(_) => ("", "boolean"),
-            Self::Text(_) => ("", "string"),
-            Self::Bytes(_) => ("", "Uint8Array"),
-            Self::Steps(_) => ("", "number[]"),
-            Self::Source(_) => ("", "Source"),
-            Self::Dip(_) => ("?", "{ bit: number; on: boolean }"),
-            Self::Rate(_) => ("", "number | null"),
-        }
-    }
-
     /// Writes the field.
     pub(super) fn write(self, to: &mut dyn Sink, key: &str) {
-        let mut part = |part, value| to.put(&format!("{key}.{part}"), value);
         let value = match self {
-            Self::Dip(None) | Self::MaybePlace(None) => return,
-            Self::Dip(Some(Dip { bit, on })) => {
-                part("bit", number(*bit));
-                return part("on", Value::Flag(*on));
-            }
-            Self::Source(source) => {
-                let kind = match source {
-                    Source::Builtin { .. } => "builtin",
-                    Source::Eds { .. } => "eds",
-                };
-                part("kind", Value::Text(kind.into()));
-                part("name", Value::Text(source.name().into()));
-                if let Source::Eds { text, lenient, .. } = source {
-                    part("text", Value::Text(std::mem::take(text)));
-                    part("lenient", Value::Flag(*lenient));
-                }
-                return;
-            }
+            Self::MaybePlace(None) => return,
+            Self::Part(part) => return part.write(to, key),
             Self::Place(value) | Self::MaybePlace(Some(value)) => number(*value),
             Self::Count(value) => number(*value),
             Self::Number(value) => Value::Number(*value),
@@ -183,13 +164,12 @@ impl Field<'_> {
             Self::Text(value) => Value::Text(std::mem::take(value)),
             Self::Bytes(value) => Value::Bytes(std::mem::take(value)),
             Self::Steps(value) => Value::Numbers(std::mem::take(value)),
-            Self::Rate(Rate(rate)) => rate.map_or(Value::Null, number),
         };
         to.put(key, value);
     }
 }
 
-fn number(value: impl Into<f64>) -> Value {
+pub(super) fn number(value: impl Into<f64>) -> Value {
     Value::Number(value.into())
 }
 
@@ -197,7 +177,7 @@ fn is_number(value: &f64) -> bool {
     (-LARGEST..=LARGEST).contains(value)
 }
 
-fn whole(value: &Value, high: u32) -> Result<u32, Fault> {
+pub(super) fn whole(value: &Value, high: u32) -> Result<u32, Fault> {
     match *value {
         Value::Number(value) if value.fract() == 0.0 && (0.0..=high.into()).contains(&value) => {
             Ok(value as u32)
@@ -206,14 +186,14 @@ fn whole(value: &Value, high: u32) -> Result<u32, Fault> {
     }
 }
 
-fn flag(value: &Value) -> Result<bool, Fault> {
+pub(super) fn flag(value: &Value) -> Result<bool, Fault> {
     match *value {
         Value::Flag(value) => Ok(value),
         _ => Err(Fault::Cut),
     }
 }
 
-fn text(value: Value) -> Result<String, Fault> {
+pub(super) fn text(value: Value) -> Result<String, Fault> {
     match value {
         Value::Text(value) if value.len() <= LONGEST => Ok(value),
         _ => Err(Fault::Cut),

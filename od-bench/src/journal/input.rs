@@ -1,143 +1,76 @@
 //! Inputs of a bench: each act of its user.
 
-use std::format;
 use std::prelude::v1::*;
 
 use od_wire::{CanId, Frame, Instant};
 
-use super::field::{Fault, Field, Fields, Sink, Value};
+use super::choice::choice;
 use super::parts::{Dip, Rate, Source};
 
-/// Declares the inputs: the enum, and how their fields are read and written.
-macro_rules! inputs {
-    ($($(#[$doc:meta])* $op:literal $name:ident {
-        $($(#[$about:meta])* $key:literal $field:ident: $kind:ty,)*
-    })*) => {
-        /// One act of the user of a bench. Devices and stations count from 0; station 0 is the outside.
-        #[derive(Clone, PartialEq, Debug)]
-        #[allow(missing_docs)] // the fields are what the variant says
-        pub enum Input {
-            $($(#[$doc])* $name { $($(#[$about])* $field: $kind),* },)*
+choice! {
+    /// What changes a bench. A journal keeps every input with its virtual moment, so that a run can be made again: for a
+    /// step back, from a link, after a reload. Devices and stations count from 0; station 0 is the outside.
+    Input by "op" {
+        /// A device is put on the bus, in the place of another or in a new one.
+        "add" Add {
+            "source" source: Source,
+            "nodeId" node_id: u8,
+            "place" place: Option<u8>,
         }
-
-        impl Input {
-            /// Names of all inputs.
-            pub const OPS: &[&str] = &[$($op),*];
-
-            /// An input with this name, its fields empty.
-            fn named(op: &str) -> Option<Self> {
-                Some(match op {
-                    $($op => Self::$name { $($field: Default::default()),* },)*
-                    _ => return None,
-                })
-            }
-
-            fn op(&self) -> &'static str {
-                match self {
-                    $(Self::$name { .. } => $op,)*
-                }
-            }
-
-            fn fields(&mut self, visit: &mut dyn FnMut(&str, Field<'_>)) {
-                match self {
-                    $(Self::$name { $($field),* } => { $(visit($key, $field.into());)* })*
-                }
-            }
+        /// A device is taken off the bus.
+        "remove" Remove { "node" node: u8, }
+        /// A frame is sent from outside. Of a remote frame only the number of bytes counts.
+        "send" Send {
+            "id" id: u32,
+            "data" data: Vec<u8>,
+            "extended" extended: bool,
+            "remote" remote: bool,
         }
-    };
-}
-
-inputs! {
-    /// A device is put on the bus, in the place of another or in a new one.
-    "add" Add {
-        "source" source: Source,
-        "nodeId" node_id: u8,
-        "place" place: Option<u8>,
+        /// A frame is sent every so many microseconds; 0 ends it. `key` tells rhythms apart.
+        "repeat" Repeat {
+            "key" key: u32,
+            "id" id: u32,
+            "data" data: Vec<u8>,
+            "extended" extended: bool,
+            "remote" remote: bool,
+            "micros" micros: u32,
+        }
+        /// The power is switched.
+        "power" Power { "node" node: u8, "on" on: bool, }
+        /// The shaft is turned to a number of revolutions from the sensor's zero point.
+        "turn" Turn { "node" node: u8, "turns" turns: f64, }
+        /// The shaft gets a speed in revolutions per minute.
+        "rpm" Rpm { "node" node: u8, "rpm" rpm: f64, }
+        /// The shaft follows a profile: pairs of rpm and milliseconds.
+        "follow" Follow { "node" node: u8, "steps" steps: Vec<f64>, "repeats" repeats: bool, }
+        /// The rotary switches of the node ID are set, or a DIP switch of the bit rate.
+        "switches" Switches { "node" node: u8, "id" id: Option<u8>, "dip" dip: Option<Dip>, }
+        /// A fault appears or goes.
+        "fault" Fault { "node" node: u8, "name" name: String, "on" on: bool, }
+        /// The bus line is set up.
+        "line" Line { "real" real: bool, "terminators" terminators: u8, "rate" rate: Rate, }
+        /// The random disturbances of the bus line get a seed.
+        "seed" Seed { "seed" seed: u32, }
+        /// A station is plugged in or out.
+        "plug" Plug { "station" station: u8, "on" on: bool, }
+        /// The CAN controller of a station starts again after bus-off.
+        "restart" Restart { "station" station: u8, }
+        /// The power goes in the middle of the next save, after so many bytes.
+        "cut" Cut { "node" node: u8, "bytes" bytes: u32, }
+        /// The EEPROM gets these bytes.
+        "eeprom" Eeprom { "node" node: u8, "bytes" bytes: Vec<u8>, }
+        /// One device gets a frame that is not on the bus.
+        "deliver" Deliver { "node" node: u8, "id" id: u32, "data" data: Vec<u8>, }
+        /// A lesson starts: its bench takes the place of all that was there.
+        "lesson" Lesson { "text" text: String, }
+        /// The lesson ends; its bench stays.
+        "leave" Leave {}
+        /// Lines of a script run, such as the solution of a step.
+        "script" Script { "text" text: String, }
     }
-    /// A device is taken off the bus.
-    "remove" Remove { "node" node: u8, }
-    /// A frame is sent from outside. Of a remote frame only the number of bytes counts.
-    "send" Send {
-        "id" id: u32,
-        "data" data: Vec<u8>,
-        "extended" extended: bool,
-        "remote" remote: bool,
-    }
-    /// A frame is sent every so many microseconds; 0 ends it. `key` tells rhythms apart.
-    "repeat" Repeat {
-        "key" key: u32,
-        "id" id: u32,
-        "data" data: Vec<u8>,
-        "extended" extended: bool,
-        "remote" remote: bool,
-        "micros" micros: u32,
-    }
-    /// The power is switched.
-    "power" Power { "node" node: u8, "on" on: bool, }
-    /// The shaft is turned to a number of revolutions from the sensor's zero point.
-    "turn" Turn { "node" node: u8, "turns" turns: f64, }
-    /// The shaft gets a speed in revolutions per minute.
-    "rpm" Rpm { "node" node: u8, "rpm" rpm: f64, }
-    /// The shaft follows a profile: pairs of rpm and milliseconds.
-    "follow" Follow { "node" node: u8, "steps" steps: Vec<f64>, "repeats" repeats: bool, }
-    /// The rotary switches of the node ID are set, or a DIP switch of the bit rate.
-    "switches" Switches { "node" node: u8, "id" id: Option<u8>, "dip" dip: Option<Dip>, }
-    /// A fault appears or goes.
-    "fault" Fault { "node" node: u8, "name" name: String, "on" on: bool, }
-    /// The bus line is set up.
-    "line" Line { "real" real: bool, "terminators" terminators: u8, "rate" rate: Rate, }
-    /// The random disturbances of the bus line get a seed.
-    "seed" Seed { "seed" seed: u32, }
-    /// A station is plugged in or out.
-    "plug" Plug { "station" station: u8, "on" on: bool, }
-    /// The CAN controller of a station starts again after bus-off.
-    "restart" Restart { "station" station: u8, }
-    /// The power goes in the middle of the next save, after so many bytes.
-    "cut" Cut { "node" node: u8, "bytes" bytes: u32, }
-    /// The EEPROM gets these bytes.
-    "eeprom" Eeprom { "node" node: u8, "bytes" bytes: Vec<u8>, }
-    /// One device gets a frame that is not on the bus.
-    "deliver" Deliver { "node" node: u8, "id" id: u32, "data" data: Vec<u8>, }
-    /// A lesson starts: its bench takes the place of all that was there.
-    "lesson" Lesson { "text" text: String, }
-    /// The lesson ends; its bench stays.
-    "leave" Leave {}
-    /// Lines of a script run, such as the solution of a step.
-    "script" Script { "text" text: String, }
 }
 
 impl Input {
-    /// Reads an input. `op` names it.
-    ///
-    /// # Errors
-    /// Why it cannot be read.
-    pub fn read(op: &str, from: &dyn Fields) -> Result<Self, Fault> {
-        let mut input = Self::named(op).ok_or(Fault::Newer)?;
-        let mut result = Ok(());
-        input.fields(&mut |key, field| {
-            if result.is_ok() {
-                result = field.read(from, key);
-            }
-        });
-        result.map(|()| input)
-    }
-
-    /// Writes the input; the field `op` names it.
-    pub fn write(mut self, to: &mut dyn Sink) {
-        to.put("op", Value::Text(self.op().into()));
-        self.fields(&mut |key, field| field.write(to, key));
-    }
-
-    /// Returns an input as TypeScript declares it; `None` if there is no such input.
-    pub fn declaration(op: &str) -> Option<String> {
-        let mut text = format!("{{ op: '{op}'");
-        Self::named(op)?.fields(&mut |key, field| {
-            let (mark, kind) = field.declaration();
-            text += &format!("; {key}{mark}: {kind}");
-        });
-        Some(text + " }")
-    }
-
     /// Sends a frame from outside.
     pub fn send(frame: &Frame) -> Self {
         let data = match frame.is_remote() {

@@ -2,6 +2,7 @@
 //! can be made again up to any moment: for a step back, from a link, after a reload.
 
 mod apply;
+mod choice;
 mod field;
 mod input;
 mod limits;

@@ -2,7 +2,7 @@
 // never changes, so a view can hold its place while old frames fall out.
 
 import { ERROR, tagAt, tags, type Tag } from '../codec';
-import { DISTURBED, FRAME_BYTES, unpack, type Packed } from '../sim/packed';
+import { AT, DISTURBED, FRAME_BYTES, unpack, type Packed } from '../sim/packed';
 
 export const CAPACITY = 200_000;
 
@@ -99,7 +99,7 @@ export class Ring {
   /** Is it an SDO frame? Quicker than to ask the frame. */
   isSdo(number: number): boolean {
     const at = number % this.room;
-    return (this.bytes[at * FRAME_BYTES + 12]! & DISTURBED) === 0 && tagAt(this.marks[at * 2]! & 255).service === 'SDO';
+    return (this.bytes[at * FRAME_BYTES + AT.flags]! & DISTURBED) === 0 && tagAt(this.marks[at * 2]! & 255).service === 'SDO';
   }
 
   /** The packed bytes of one frame. */

@@ -2,7 +2,7 @@
 // their figures, and the load of the bus. All of them follow one store.
 
 import { Statistics, Transfers } from '../codec';
-import { EXTENDED, FRAME_BYTES, DISTURBED, REMOTE } from '../sim/packed';
+import { AT, EXTENDED, FRAME_BYTES, DISTURBED, REMOTE } from '../sim/packed';
 import type { Transfer } from '../sim/api';
 import type { Filter } from './filter';
 import { CAPACITY, type Frame, type Ring } from './ring';
@@ -118,13 +118,13 @@ export class Trace {
   private take(number: number): void {
     const bytes = this.ring.raw(number);
     const view = new DataView(bytes.buffer, bytes.byteOffset, FRAME_BYTES);
-    const flags = bytes[12]!;
-    const id = view.getUint32(8, true);
-    const time = view.getFloat64(0, true);
+    const flags = bytes[AT.flags]!;
+    const id = view.getUint32(AT.id, true);
+    const time = view.getFloat64(AT.time, true);
     this.previous[number % CAPACITY] = -1;
     if (flags & DISTURBED) this.errors += 1;
     else this.note(id, (flags & EXTENDED) !== 0, number);
-    this.load(time, bitsOf(flags, bytes[13]!));
+    this.load(time, bitsOf(flags, bytes[AT.dlc]!));
     this.place(number);
   }
 

@@ -4,6 +4,7 @@
 import { html, svg } from 'lit';
 import { frameBits } from '../codec';
 import { hexByte } from '../format';
+import { BIT } from '../sim/layout';
 import * as state from '../state';
 import { T } from '../texts';
 import { View } from './view';
@@ -14,12 +15,7 @@ const HIGH = 6;
 const LOW = 28;
 const FULL = 40;
 
-const RECESSIVE = 0x80;
-const STUFFED = 0x40;
-const PART = 0x3f;
-/** Number of the CRC, and of the first data byte (playground/src/codec.rs). */
-const CRC = 8;
-const DATA = 16;
+const { recessive: RECESSIVE, stuffed: STUFFED, part: PART, crc: CRC, data: DATA } = BIT;
 
 interface Part {
   part: number;

@@ -1,0 +1,59 @@
+//! The numbers by which bytes of this module are read, for TypeScript: `playground/web/src/sim/layout.ts`.
+
+use std::{env, fs};
+
+use crate::codec::{CRC, DATA, RECESSIVE, STUFFED};
+use crate::packed::{self, DISTURBED, EXTENDED, OWN, REMOTE, at};
+
+fn written() -> String {
+    let flags = [
+        ("EXTENDED", EXTENDED),
+        ("REMOTE", REMOTE),
+        ("FROM_PAGE", OWN),
+        ("DISTURBED", DISTURBED),
+    ];
+    let offsets = [
+        ("time", at::TIME),
+        ("id", at::ID),
+        ("flags", at::FLAGS),
+        ("dlc", at::DLC),
+        ("device", at::DEVICE),
+        ("data", at::DATA),
+    ];
+    let bits = [
+        ("recessive", RECESSIVE),
+        ("stuffed", STUFFED),
+        ("part", STUFFED - 1),
+        ("crc", CRC),
+        ("data", DATA),
+    ];
+    let flags = flags.map(|(name, bit)| format!("export const {name} = {bit};\n"));
+    let offsets = offsets.map(|(name, offset)| format!("  {name}: {offset},\n"));
+    let bits = bits.map(|(name, number)| format!("  {name}: {number},\n"));
+    format!(
+        "// Written by `ODKIT_ACCEPT=1 cargo test -p od-playground`, from playground/src/layout.rs.\n\n\
+         /** Bytes of a packed frame (playground/src/packed.rs). */\n\
+         export const FRAME_BYTES = {};\n\n\
+         /** Its flags. */\n{}\n\
+         /** Where its parts begin; numbers are little endian. */\n\
+         export const AT = {{\n{}}} as const;\n\n\
+         /** What `frameBits` says of a bit, and the numbers of two of its parts. */\n\
+         export const BIT = {{\n{}}} as const;\n",
+        packed::LEN,
+        flags.concat(),
+        offsets.concat(),
+        bits.concat(),
+    )
+}
+
+#[test]
+fn the_page_reads_bytes_by_the_numbers_of_this_module() -> std::io::Result<()> {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/web/src/sim/layout.ts");
+    let written = written();
+    if env::var_os("ODKIT_ACCEPT").is_some() {
+        fs::write(path, &written)?;
+    }
+    let there = fs::read_to_string(path)?;
+    assert_eq!(there, written, "ODKIT_ACCEPT=1 writes the file again");
+    Ok(())
+}

@@ -1,0 +1,58 @@
+//! Places of a text as JavaScript counts them, in UTF-16 units; the edits of a fix by them.
+
+use crate::fixes::{Fix, TextEdit};
+use od_eds::fix;
+
+/// Map from the bytes of a text to the string that JavaScript has.
+pub(crate) struct Places<'a> {
+    text: &'a str,
+    /// Units before each byte; empty where all is ASCII and the two are the same.
+    units: Vec<u32>,
+}
+
+impl<'a> Places<'a> {
+    pub(crate) fn of(text: &'a str) -> Self {
+        let mut units = Vec::new();
+        if !text.is_ascii() {
+            let mut before = 0;
+            for c in text.chars() {
+                units.extend(std::iter::repeat_n(before, c.len_utf8()));
+                before += if c.len_utf16() == 2 { 2 } else { 1 };
+            }
+            units.push(before);
+        }
+        Self { text, units }
+    }
+
+    fn unit(&self, byte: u32) -> u32 {
+        self.units.get(byte as usize).copied().unwrap_or(byte)
+    }
+
+    /// The edits that fix a finding.
+    pub(crate) fn fix(&self, fix: &fix::Fix) -> Option<Fix> {
+        let edits = fix.text_edits(self.text)?.into_iter().map(|edit| TextEdit {
+            start: self.unit(edit.start),
+            end: self.unit(edit.end),
+            text: edit.text,
+        });
+        Some(Fix {
+            safe: fix.applicability == fix::Applicability::Safe,
+            edits: edits.collect(),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Places;
+
+    #[test]
+    fn units_are_those_of_javascript() {
+        let places = Places::of("aµ😀b");
+        assert_eq!(
+            [0, 1, 3, 7, 8].map(|byte| places.unit(byte)),
+            [0, 1, 2, 4, 5]
+        );
+        assert_eq!(Places::of("plain").unit(3), 3);
+    }
+}
