@@ -308,7 +308,7 @@ pub trait Application {
 
     /// Returns the stream of a string or DOMAIN whose value the store does not hold; `None`: the store
     /// holds it. A node that knows its dictionary as a type asks only if `object_dictionary!` gave a
-    /// value `capacity = 0`, which is no place in the store; any other node asks for each value.
+    /// value `capacity = 0`, so the store has no room for it; any other node asks for each value.
     fn stream(&mut self, address: Address) -> Option<&mut dyn Stream> {
         let _ = address;
         None
@@ -338,7 +338,7 @@ pub trait Application {
     }
 
     /// Returns the time for a TIME message that was requested with [`Signals::send_time`]; `None`:
-    /// there is none, and nothing is sent.
+    /// the time is not known, and nothing is sent.
     fn time(&mut self, cx: &mut Context<'_, '_>) -> Option<TimeOfDay> {
         let _ = cx;
         None

@@ -51,7 +51,7 @@ pub(crate) struct Outcome {
     pub(crate) is_news: bool,
     /// Bits of 1001h that became set.
     pub(crate) set: u8,
-    /// It has no message: so many wait for the inhibit time already.
+    /// Its message is dropped: too many messages wait for the inhibit time already.
     pub(crate) is_dropped: bool,
 }
 

@@ -8,7 +8,7 @@ use crate::rooms::{FullRooms, Rooms};
 use crate::sdo::SdoServer;
 use crate::sync;
 
-/// What a node keeps for further SDO servers, SYNC producer and TIME, as the last parameter of
+/// State of a node's further SDO servers, SYNC producer and TIME: the last parameter of
 /// [`Node`](crate::Node): `()` for a node without them, or an [`Extra`].
 ///
 /// `object_dictionary!` chooses it for the type `Node` of its module. A host that has memory to

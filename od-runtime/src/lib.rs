@@ -7,7 +7,7 @@
 //!
 //! A [`Node`] keeps the state of the services. What belongs to the device (dictionary,
 //! values, behaviour, storage) is lent to each call as a [`Lent`]. After every input,
-//! [`poll_transmit`](Node::poll_transmit) until there is no frame left; then sleep until
+//! [`poll_transmit`](Node::poll_transmit) until it returns no frame; then sleep until
 //! the next frame or [`poll_timeout`](Node::poll_timeout), whichever is first:
 //!
 //! ```
@@ -30,7 +30,7 @@
 //!     profile: &Profile::CIA301,
 //! };
 //! let mut node: Node = Node::new(NodeId::ONE);
-//! let mut bus = Vec::new(); // stands for the CAN controller
+//! let mut bus = Vec::new(); // in place of the CAN controller
 //!
 //! // Power comes: the boot-up message goes out.
 //! let mut now = Instant::ZERO;

@@ -162,7 +162,7 @@ impl<M: ProgramMemory, const PAGE: usize> Loader<M, PAGE> {
         self.memory.ready(now).map_err(Halt::Until)
     }
 
-    /// The memory failed: there is no program, and 1F57h says why.
+    /// Handles the result of the memory: after a failure no program exists, and 1F57h gives the reason.
     fn done(&mut self, result: Result<(), MemoryFailed>) -> Result<(), Halt> {
         result.map_err(|MemoryFailed| {
             self.forget(WRITE_FAULT);

@@ -18,7 +18,7 @@ pub trait Blank: Clone + Debug + Send {
 pub trait Room<T>: Clone + Debug + Send {
     /// Nothing is in it.
     const BLANK: Self;
-    /// How many there is room for.
+    /// Number of items that fit.
     const LEN: usize;
     /// All places.
     fn all(&self) -> &[T];
@@ -64,8 +64,8 @@ impl<T: Blank, const N: usize> Room<T> for [T; N] {
 
 /// The rooms of a node: [`FullRooms`], or what [`rooms!`](crate::rooms) makes for a device.
 ///
-/// What a device does not have takes no RAM. `object_dictionary!` chooses the rooms of the type `Node` of
-/// its module.
+/// Arrays of a node, of length 0 for services that the device lacks. `object_dictionary!` chooses the
+/// rooms of the type `Node` of its module.
 pub trait Rooms: Clone + Debug {
     /// Errors that can be active at once.
     type Errors<T: Blank>: Room<T>;

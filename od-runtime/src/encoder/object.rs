@@ -94,7 +94,7 @@ pub struct Movement {
     /// Object that selects the source; values that `sources` has not are answered with
     /// 06090030h.
     pub selector: Option<Address>,
-    /// The sources by the selector's value; the first one is used if there is no selector.
+    /// The sources by the selector's value; without a selector the first one is used.
     pub sources: &'static [(u8, Source)],
     /// Object with the interval in milliseconds; 0 counts as 1.
     pub interval: Address,

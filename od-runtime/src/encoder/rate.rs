@@ -57,7 +57,7 @@ pub(super) struct Shown {
 }
 
 impl Shown {
-    /// Looks the object up; `None` where it is no integer.
+    /// Looks the object up; `None` if it is not an integer.
     pub(super) fn find(store: &Store<'_>, address: Address) -> Option<Self> {
         let row = store.dictionary().row_at(address)?;
         let is_integer = matches!(row.data_type().kind(), Kind::Unsigned | Kind::Signed);

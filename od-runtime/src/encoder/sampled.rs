@@ -47,8 +47,8 @@ impl PositionSource for Angle {
 
 /// Shaft whose angle is sampled.
 ///
-/// A sample is taken at least every `every`, for which the node asks in its `poll_timeout`, and
-/// whenever the position is read. A speed is the difference of two angles over the integration
+/// It samples the position at least every `every`, for which the node asks in its `poll_timeout`,
+/// and whenever the position is read. A speed is the difference of two angles over the integration
 /// time before the newest sample; an acceleration is the difference of the mean speeds in the
 /// two halves of it. `N`, 3 to 255, is how many samples are remembered, 12 bytes each. Where
 /// `N − 2` times `every` is less than the longest integration time, samples are left out, and

@@ -62,8 +62,8 @@ impl Blank for Slave {
 }
 
 impl Slave {
-    /// Back to waiting, as leaving Stopped does on devices that have LSS there alone. What
-    /// was configured and not stored stays pending until a reset.
+    /// Returns to the waiting state, as leaving Stopped does on devices with LSS only in Stopped.
+    /// A configuration that was not stored stays pending until a reset.
     pub(crate) fn leave(&mut self) {
         let (node_id, bit_rate) = (self.node_id, self.bit_rate);
         *self = Self {
@@ -195,8 +195,8 @@ impl Slave {
         Action::Answer(answer)
     }
 
-    /// Puts what is pending where 2101h and 2100h have it, and saves those two alone: the
-    /// next start takes them. A node ID of FFh is none, and nothing is stored for it.
+    /// Writes the pending configuration to 2101h and 2100h, and saves only these two: the next
+    /// start uses them. FFh is not a node ID, and nothing is stored for it.
     fn store<D: Device>(&mut self, objects: &mut Objects<'_, D>, profile: &LssProfile) -> u8 {
         let pending = [
             (

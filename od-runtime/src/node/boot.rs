@@ -104,7 +104,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
             Reset::Communication => nmt.reset_communication_us,
             Reset::Defaults => 0,
         };
-        // NMT reset node may begin the NMT state alone again.
+        // NMT reset node may restart the NMT state only.
         let light = nmt.reset_node_light.filter(|_| reset == Reset::Node);
         let light = light.is_some_and(|switch| objects.has_bits(switch));
         self.cut_transfers(objects);

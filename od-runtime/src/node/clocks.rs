@@ -1,4 +1,4 @@
-//! SYNC producer and TIME: what few nodes tell the others, and what they are told.
+//! SYNC producer, TIME producer and TIME consumer.
 
 use od_wire::nmt::State;
 use od_wire::time_of_day::TimeOfDay;

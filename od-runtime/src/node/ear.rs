@@ -1,4 +1,4 @@
-//! What a node listens for: most frames on a bus are for others.
+//! Filter of the CAN-IDs that a node listens for: most frames on a bus are for others.
 
 use od_wire::CanId;
 

@@ -40,7 +40,7 @@ pub enum Event {
         /// The node loaded the factory values; else the values that were saved before it.
         factory: bool,
     },
-    /// The CAN controller is bus-off; the node comes back by itself or not.
+    /// The CAN controller is bus-off; the profile decides whether the node restarts it.
     BusOff {
         /// The controller restarts as soon as the bus allows it.
         restarts: bool,

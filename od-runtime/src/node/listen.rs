@@ -1,4 +1,4 @@
-//! What the node listens for, by its state and its objects.
+//! Selection of the CAN-IDs that the node listens for, by its state and its objects.
 
 use od_wire::nmt::State;
 
@@ -9,7 +9,7 @@ use crate::extras::Extras;
 use crate::objects::Objects;
 
 impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<D, PDO, SDO, X> {
-    /// What the node listens for follows from its state and its objects, which have changed.
+    /// Selects the CAN-IDs again after a change of the state or of an object.
     #[inline(never)]
     pub(super) fn listen(&mut self, objects: &Objects<'_, D>) {
         self.ear = Ear::DEAF;

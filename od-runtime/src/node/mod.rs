@@ -75,7 +75,7 @@ struct Machines<D, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> {
     /// Kinds of frames that may wait to be sent, in the bits of [`pending`].
     pending: u8,
     node_id: NodeId,
-    /// The node ID is FFh (CiA 305), and there is LSS alone. Not `configured`: a node without power is
+    /// The node ID is FFh (CiA 305), and only LSS works. Not `configured`: a node without power is
     /// all zeros, so that a static one takes no flash.
     unconfigured: bool,
     /// The error behaviour requests a reset when the call is over.

@@ -167,7 +167,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
     pub fn poll_timeout(&self) -> Option<Instant> {
         let node = &self.machines;
         match node.pending {
-            // Nothing waits, so there are no deadlines but these.
+            // Nothing waits, so these are the only deadlines.
             0 if node.next != Instant::ZERO => {
                 let next = Deadline::at(node.next);
                 next.is_set().then(|| next.moment())

@@ -1,5 +1,5 @@
-//! What comes all day, by the shortest way: an upload of a number, a SYNC, the TPDO behind it. Whatever
-//! does not fit in here takes the way of all other frames.
+//! Short path of the most frequent frames: an upload of a number, a SYNC, the TPDO behind it. All
+//! other frames take the general path.
 
 use od_model::Slot;
 use od_model::row::Row;

@@ -124,7 +124,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         }
     }
 
-    /// What is due of transfers, or of streams that something outside the bus held up.
+    /// Continues transfers that are due, and streams that were held up outside the bus.
     pub(super) fn wake_servers(&mut self, objects: &mut Objects<'_, D>, is_change: bool) {
         if !D::SERVERS {
             return;
@@ -142,7 +142,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         }
     }
 
-    /// A save is complete (`done`), or failed: whoever asked for it gets an answer, and the
+    /// Ends a save that is complete (`done`) or failed: its client gets the response, and the
     /// request behind it is handled.
     pub(super) fn end_save_of_servers(&mut self, objects: &mut Objects<'_, D>, done: bool) {
         if !D::SERVERS {

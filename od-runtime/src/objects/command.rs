@@ -1,4 +1,4 @@
-//! What a download of 1010h or 1011h commands, and a save that goes on.
+//! Commands of downloads to 1010h and 1011h, and the save in progress.
 
 use crate::deadline::Deadline;
 use crate::rooms::Blank;
@@ -7,7 +7,7 @@ use crate::storage::image::Banks;
 /// No sub-index of 1010h that saves.
 pub(super) const RESTORE: u8 = u8::MAX;
 
-/// What a download commands, with the sub-index of 1010h or 1011h. Nothing is all zeros.
+/// Command of a download, with the sub-index of 1010h or 1011h. `Nothing` is all zeros.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 #[repr(u8)]
 pub(super) enum Command {
@@ -17,7 +17,7 @@ pub(super) enum Command {
     Restore(u8),
 }
 
-/// Command of the device itself: the operating records alone.
+/// Command of the device itself: saves the operating records only.
 pub(super) const KEEP: Command = Command::Save(0);
 
 /// A save, which outlasts the call if it takes its time. A node without power has none, which is all zeros.

@@ -228,7 +228,7 @@ impl<D: Device> Objects<'_, D> {
         saving.map_or(Deadline::NEVER, |saving| saving.due)
     }
 
-    /// The save that is not complete is no more.
+    /// Drops the save that is not complete.
     pub(crate) fn forget_save(&mut self) {
         if let Some(saving) = &mut self.saving {
             saving.due = Deadline::NEVER;

@@ -179,7 +179,7 @@ impl<R: Rooms> Mapping<R> {
     }
 }
 
-/// What an entry of a mapping object means.
+/// Decodes an entry of a mapping object.
 fn mapped(store: &Store<'_>, raw: u32) -> Mapped {
     let MapEntry { address, bits } = MapEntry::parse(raw);
     let row = match store.dictionary().locate(address) {
@@ -197,7 +197,7 @@ fn is_plain(store: &Store<'_>, mapped: Mapped) -> bool {
     row.is_some_and(|row| matches!(row.plain().len, 1..=4))
 }
 
-/// The bits that are mapped; only a BOOLEAN is no whole number of bytes.
+/// Cuts a value to its mapped bits; only a BOOLEAN does not fill whole bytes.
 #[inline(always)]
 const fn cut(value: u64, bits: u32) -> u64 {
     match bits {

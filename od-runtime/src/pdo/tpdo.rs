@@ -133,7 +133,7 @@ impl<R: Rooms> Tpdo<R> {
         None
     }
 
-    /// Whether a SYNC is no more than [counted](Self::count_sync).
+    /// Whether a SYNC is only [counted](Self::count_sync).
     #[inline(always)]
     pub(crate) fn only_counts<D: Device>(&self) -> bool {
         match self.config.kind {

@@ -71,7 +71,7 @@ impl<D, const N: usize, R: Rooms> Default for SdoServer<D, N, R> {
     }
 }
 
-/// What one of several servers tells the others.
+/// Notices from one of several servers to the others.
 impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
     /// As [`handle`](Self::handle), and what the frame commands is carried out.
     pub(crate) fn ask(

@@ -132,7 +132,7 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
         }
     }
 
-    /// Whether this is a request for an upload that nothing stands in the way of.
+    /// Whether this is a request for an upload that can be answered at once.
     #[inline(always)]
     pub(crate) fn is_quick(&self, data: &[u8; 8]) -> bool {
         data[0] >> 5 == 2 && !self.is_busy

@@ -165,7 +165,7 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
         data: &[u8; 8],
         dlc: u8,
     ) -> Answer {
-        // Bytes 4 to 7 are the value; so many of them do not count, if the command says so.
+        // Bytes 4 to 7 are the value; the command gives the number of unused ones.
         let [command, _, _, _, bytes @ ..] = data;
         let size = (command & 1 != 0).then_some(4 - (command >> 2 & 3));
         let had_begun = match self.transfer() {

@@ -88,7 +88,7 @@ pub const fn device(dictionary: &Dictionary<'_>) -> u32 {
     bank::device(dictionary)
 }
 
-/// Returns the [`device`] that wrote the newest set; `None` if there is no whole set.
+/// Returns the [`device`] that wrote the newest set; `None` if no set is complete.
 ///
 /// # Errors
 /// [`StorageError`] if the storage cannot be read.
@@ -98,7 +98,7 @@ pub fn writer(storage: &mut dyn Storage) -> Result<Option<u32>, StorageError> {
     Ok(banks.newest.map(|set| set.device))
 }
 
-/// Returns where the newest set with its header is in the storage; `None` if there is no whole set.
+/// Returns the range of the newest set with its header in the storage; `None` if no set is complete.
 /// A storage that holds this at its start, and is erased behind it, has the same saved values.
 ///
 /// # Errors
@@ -172,7 +172,7 @@ fn load_value(
     row: &Row,
     record: &Record,
 ) -> Result<bool, StorageError> {
-    // A string goes straight to its place: there is no room for it on a small stack.
+    // A string goes straight to its place: it does not fit on a small stack.
     if row.is_variable() && record.len <= MAX_VALUE {
         let Ok(room) = store.room(row, record.len) else {
             return Ok(false);
@@ -197,7 +197,7 @@ fn load_value(
 /// values stay as they are.
 ///
 /// A `$NODEID` default that was not changed is not saved: it follows the node ID.
-/// Sub-index 0, which no master can write, saves the life record alone
+/// Sub-index 0, which no master can write, saves only the operating records
 /// ([`is_life_record`]).
 ///
 /// # Errors

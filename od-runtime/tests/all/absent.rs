@@ -49,7 +49,7 @@ fn write<const SERVICES: u16>(bench: &mut Of<SERVICES>, request: &str) -> String
     bench.ask(&format!("601#{request}"))[4..6].to_owned()
 }
 
-/// The answers of a node with this service alone, and of one with none.
+/// The answers of a node with only this service, and of one without services.
 fn both<const SERVICE: u16>(request: &str) -> [String; 2] {
     [
         write(&mut bench::<SERVICE>(), request),

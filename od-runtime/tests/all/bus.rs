@@ -1,4 +1,4 @@
-//! What the CAN controller has to say: warning, passive, bus-off, overrun (CiA 301, table 26;
+//! Reports of the CAN controller: warning, passive, bus-off, overrun (CiA 301, table 26;
 //! manual 001, table 9.5; 2110h bit 3 of all three manuals).
 
 use crate::support::{Bench, rows, unsigned};
@@ -171,7 +171,7 @@ fn bus_off_is_a_communication_error_to_1029h() {
     assert_eq!(
         bench.bus(BusEvent::Off),
         ["701#00"],
-        "reset node begins the CAN controller anew"
+        "reset node restarts the CAN controller"
     );
 }
 

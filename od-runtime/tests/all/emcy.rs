@@ -167,7 +167,7 @@ fn errors_wait_for_the_inhibit_time_in_their_order() {
             dropped.extend((event == Event::EmcyDropped).then_some(code));
         }
     }
-    // 16 wait, and an event tells of each for which there is no room.
+    // 16 wait, and an event reports each one that is dropped.
     assert_eq!(dropped, [0x2012, 0x2013, 0x2014]);
     let later = (0x2002..=0x2011).map(|code| (u64::from(code - 0x2001) * 100, message(code)));
     assert_eq!(bench.wait(10_000), later.collect::<Vec<_>>());

@@ -11,7 +11,7 @@ use od_runtime::{
 
 const U32: DataType = DataType::Unsigned32;
 
-/// What `power_on` of a fresh node answers, and whether it sends its boot-up message then.
+/// The result of `power_on` of a fresh node, and whether it then sends its boot-up message.
 fn start<const PDO: usize, const SDO: usize>(
     dictionary: Dictionary<'_>,
     values: usize,
@@ -231,7 +231,7 @@ fn a_streamed_value_needs_a_segment() {
     );
 }
 
-/// What a node without one of the services says to a dictionary of this object alone.
+/// The result of `power_on` of a node without one of the services, with a dictionary of this object only.
 fn alone<D: Device, X: Extras<D, 64>>(index: u16) -> Result<(), Unfit> {
     let tables = tables(vec![(index, 1, U32, Access::Rw, false, unsigned(0))]);
     Node::<D, 2, 64, X>::fits(&tables.dictionary())

@@ -38,7 +38,7 @@ impl Nor {
         }
     }
 
-    /// Power goes while the step behind so many others is carried out; `seed` says what it leaves.
+    /// Cuts the power during the step after `steps` others; `seed` decides what it leaves.
     pub fn cut_after(&mut self, steps: usize, seed: u64) {
         self.left = Some(steps);
         self.random ^= (seed + 1).wrapping_mul(0x2545_F491_4F6C_DD1D);
@@ -117,7 +117,7 @@ impl Storage for Nor {
                 }
             }
             if goes {
-                // Whoever reads it cannot know that power went where nothing came of it.
+                // A reader cannot know of a cut that changed nothing.
                 self.written[number] = self.bytes[at..][..self.word].iter().any(|byte| *byte < 255);
                 return Err(StorageError::PowerCut);
             }

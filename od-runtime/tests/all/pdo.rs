@@ -76,9 +76,12 @@ fn every_nth_sync_counts_from_the_start() {
     assert!(bench.send("080#").is_empty());
     bench.send("000#0101");
     bench.send("080#");
-    assert!(bench.send("080#01").is_empty(), "the count begins anew");
+    assert!(bench.send("080#01").is_empty(), "the count starts again");
     assert_eq!(bench.send("080#02"), ["181#05000000"]);
-    assert!(bench.send("080#0102").is_empty(), "two bytes are no SYNC");
+    assert!(
+        bench.send("080#0102").is_empty(),
+        "two bytes are not a SYNC"
+    );
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! What comes all day takes a shorter way than other frames, and has to end where they do.
+//! Tests that the short path of frequent frames has the same results as the general path.
 
 use crate::support::{Bench, rows};
 use od_model::Address;
@@ -169,6 +169,6 @@ fn a_sync_with_more_than_a_counter_is_none() {
     assert_eq!(
         bench.send("601#R8"),
         [""; 0],
-        "a remote frame is no request"
+        "a remote frame is not a request"
     );
 }

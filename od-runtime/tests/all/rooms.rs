@@ -88,7 +88,7 @@ fn each_service_takes_its_own_room() {
     let streams = with(&[(8, 1), (9, 1)]);
     assert_eq!(rooms::<With<Few, { on::STREAMS }>>(), streams);
     assert_eq!(rooms::<With<Few, { on::CONSUMER }>>(), NONE, "nobody");
-    assert_eq!(rooms::<With<Few, { on::RPDOS }>>(), NONE, "there is none");
+    assert_eq!(rooms::<With<Few, { on::RPDOS }>>(), NONE, "it has none");
 }
 
 #[test]

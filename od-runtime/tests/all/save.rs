@@ -264,7 +264,7 @@ fn a_twin_that_is_not_saved_is_not_restored() {
     assert_eq!(values, [0, 8, 0, 0, 3]);
 }
 
-/// What an application hears of the storage.
+/// An application that records the events of the storage.
 #[derive(Default)]
 struct Hears {
     sound: Vec<bool>,

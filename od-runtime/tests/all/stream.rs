@@ -15,7 +15,7 @@ struct Pipe {
     /// Every read: where, and how much.
     reads: Vec<(u32, usize)>,
     ends: Vec<StreamEnd>,
-    /// There is no stream any more.
+    /// The stream no longer exists.
     is_gone: bool,
 }
 

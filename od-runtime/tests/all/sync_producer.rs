@@ -82,7 +82,7 @@ fn sync_comes_every_period_in_pre_operational_and_operational() {
 fn what_switches_it_on_starts_a_period() {
     let mut bench = bench(0x80, 0, 0);
     assert_eq!(bench.wait(100), []);
-    // Bit 30 without a period: there is no SYNC yet.
+    // Bit 30 without a period: the node does not send SYNC yet.
     assert_eq!(write(&mut bench, 0x1005, 4, 0x4000_0080), "");
     assert_eq!(bench.wait(100), []);
     assert_eq!(write(&mut bench, 0x1006, 4, 20_000), "");

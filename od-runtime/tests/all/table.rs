@@ -42,7 +42,7 @@ impl Table for Unknown {
     const ROWS: Option<&'static [Row]> = None;
 }
 
-/// A device with these values, and with these services alone.
+/// A device with these values, and with only these services.
 pub struct With<T, const SERVICES: u16>(PhantomData<T>);
 
 impl<T: Table, const SERVICES: u16> Device for With<T, SERVICES> {

@@ -4,7 +4,7 @@ use crate::support::{Bench, rows, unsigned};
 use od_model::{Access, DataType};
 use od_runtime::{Application, Context, Instant, TimeOfDay};
 
-/// A clock that stands still, and its button.
+/// A clock that does not run, and its button.
 #[derive(Default)]
 struct Clock {
     time: Option<TimeOfDay>,

@@ -1,4 +1,4 @@
-//! What a host is told, and what a node reads again after a write.
+//! Tests of the events for a host, and of objects that a node reads again after a write.
 
 use crate::support::{Bench, rows, unsigned};
 use od_model::{Access, DataType};
@@ -109,7 +109,7 @@ fn an_inhibit_time_changes_only_while_the_pdo_is_off() {
     let answer = bench.ask("601#2B00180364000000");
     assert_eq!(
         answer, "581#6000180300000000",
-        "without a COB-ID there is none"
+        "without a COB-ID it sends none"
     );
 }
 

@@ -28,7 +28,7 @@ fn limited(data_type: DataType, low: Value, high: Value) -> Bench {
     bench
 }
 
-/// What a write of these bytes is answered: nothing, or the abort code as it is on the bus.
+/// Writes these bytes and returns the answer: nothing, or the abort code as it is on the bus.
 fn write(bench: &mut Bench, bytes: &[u8]) -> String {
     let place = "102000";
     let hex = |bytes: &[u8]| bytes.iter().map(|byte| format!("{byte:02X}")).collect();

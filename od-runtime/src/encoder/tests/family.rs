@@ -1,4 +1,4 @@
-//! What a profile says of its encoder: roles, offsets, ranges.
+//! Tests of a profile's encoder: roles, offsets, ranges.
 
 use super::*;
 use crate::encoder::family::Parts;

@@ -206,7 +206,7 @@ fn a_silent_sensor_is_an_alarm_in_every_family() {
     assert_eq!(
         alarm(&TIMES, Fault::BatteryEmpty),
         [no_angle],
-        "at a start alone"
+        "only at a start"
     );
     assert_eq!(alarm(&TIMES, Fault::Internal), [no_angle], "injected only");
     assert_eq!(alarm(&TIMES, Fault::Position), [no_angle], "no report");

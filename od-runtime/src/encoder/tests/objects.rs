@@ -123,7 +123,7 @@ fn two_timers_are_one() {
         (bench.read(0x6200, 0), bench.read(0x1800, 5)),
         (0x203, 0x203)
     );
-    // And at a start what storage held: here 6200h alone was saved.
+    // And at a start the saved values: here only 6200h was saved.
     bench.with(|encoder, cx| {
         cx.store.reset(|_| true);
         cx.store.set_unsigned(Address::new(0x6200, 0), 11);

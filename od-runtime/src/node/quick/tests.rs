@@ -321,7 +321,7 @@ fn an_rpdo_that_waits_for_sync_makes_it_more_than_a_count() {
     drain(&mut bench);
     assert!(
         !bench.node.machines.quick.syncs,
-        "2000h is taken at the next"
+        "2000h is sampled at the next"
     );
     hear(&mut bench, 0x80, &[]);
     let frame = Frame::standard(0x181, &[9, 0]);

@@ -7,7 +7,7 @@ use crate::profile::SavedCobIds;
 use crate::store::Store;
 use od_wire::CobId;
 
-/// What a saved value is less; 0: it is saved as it is.
+/// Number that is subtracted from a saved value; 0: it is saved as it is.
 pub(super) fn base(store: &Store<'_>, row: &Row, rule: SavedCobIds) -> u64 {
     match is_difference(row, rule) {
         true => default(store, row),

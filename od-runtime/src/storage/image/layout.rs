@@ -66,7 +66,7 @@ impl Code {
         self >= Self::FIRST && self < Self::UNCLEAR
     }
 
-    /// The commit word of so many saves later, of that of a complete set.
+    /// Returns the commit word of a complete set `later` saves after this one.
     pub(super) fn plus(self, later: u8) -> Self {
         Self(Self::FIRST.0 + (self.0 - Self::FIRST.0 + later) % Self::PHASES)
     }
@@ -192,7 +192,7 @@ pub(super) const fn header(word: usize) -> usize {
     2 * word + whole_words(FIELDS, word)
 }
 
-/// The bytes of so many whole words as `len` bytes need; the length of a word is a power of two.
+/// Rounds `len` bytes up to whole words; the length of a word is a power of two.
 pub(super) const fn whole_words(len: usize, word: usize) -> usize {
     let rest = word.wrapping_sub(1);
     len.wrapping_add(rest) & !rest

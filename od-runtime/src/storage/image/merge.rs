@@ -28,7 +28,7 @@ enum Fate {
 /// Recipe of the next set.
 #[derive(Clone, Copy)]
 pub(crate) enum Plan<'p> {
-    /// The values that this sub-index of 1010h covers, and the operating records; 0: these alone.
+    /// The values that this sub-index of 1010h covers, and the operating records; 0: only these.
     Save(u8),
     /// Without the values that this sub-index of 1011h covers.
     Restore(u8),

@@ -1,4 +1,4 @@
-//! What a save leaves behind, whatever happens.
+//! Tests of the bytes that a save leaves behind, whatever happens.
 
 use std::format;
 use std::string::String;
@@ -274,7 +274,7 @@ fn a_group_is_saved_without_the_others() {
     store.set_unsigned(od_model::Address::new(0x2201, 0), 8);
     save(&mut memory, &store, STORE, 0).unwrap();
     bench.start(&mut memory);
-    assert_eq!(bench.store().unsigned(0x2201, 0), 8, "and alone");
+    assert_eq!(bench.store().unsigned(0x2201, 0), 8, "and only it");
     assert_eq!(bench.store().unsigned(0x6003, 0), 6);
 }
 

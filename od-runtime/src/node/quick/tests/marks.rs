@@ -1,4 +1,4 @@
-//! What SYNC marks, and what is watched for changes.
+//! Tests of the marks of SYNC, and of the values that are watched for changes.
 
 use super::*;
 

@@ -2,7 +2,7 @@
 
 use super::*;
 
-/// An EEPROM after so many saves; the values after each of them, the defaults first.
+/// Returns an EEPROM after `saves` saves, and the values after each of them, the defaults first.
 fn saved(saves: u8) -> (Bench, Memory<Vec<u8>>, Vec<Vec<String>>) {
     let (mut bench, mut memory) = (Bench::new(device()), storage());
     let mut sets = vec![bench.values()];
