@@ -68,22 +68,25 @@ fn time(tokens: &mut Tokens<'_>, origin: &mut Option<u64>) -> Result<When, Probl
         return Ok(When::Next);
     }
     let here = *tokens;
-    let stamp = tokens.next();
-    let inner = stamp
-        .strip_prefix('(')
-        .and_then(|rest| rest.strip_suffix(')'));
-    let micros = match inner {
-        Some(inner) if is_decimal(inner) => match candump::seconds(inner) {
-            Some(micros) => micros,
-            None => here.limited(None)?,
-        },
-        _ => {
-            let message = format!("`{stamp}` is not a time stamp");
-            return Err(here.problem(message, "write seconds in parentheses, such as (0.100000)"));
-        }
+    let micros = match tokens.stamp() {
+        Some(micros) => micros,
+        None => no_stamp(here)?,
     };
     let first = *origin.get_or_insert(if micros >= WALL_CLOCK { micros } else { 0 });
     here.limited(Some(micros.saturating_sub(first))).map(at)
+}
+
+/// What is in parentheses, but not a time stamp.
+fn no_stamp(here: Tokens<'_>) -> Result<u64, Problem> {
+    let word = here.peek();
+    let inner = word
+        .strip_prefix('(')
+        .and_then(|rest| rest.strip_suffix(')'));
+    if inner.is_some_and(is_decimal) {
+        return here.limited(None);
+    }
+    let message = format!("`{word}` is not a time stamp");
+    Err(here.problem(message, "write seconds in parentheses, such as (0.100000)"))
 }
 
 /// A line of a log, or a frame as `cansend` takes it, blanks between its bytes allowed.

@@ -6,7 +6,7 @@ use std::prelude::v1::*;
 use super::problem::Problem;
 use super::shown::{brief, either};
 use crate::cursor::Cursor;
-use crate::logs::candump;
+use crate::logs::{candump, stamp};
 
 /// Longest moment or duration: 100 years of 365 days, in microseconds.
 const LONGEST: u64 = 100 * 365 * 86_400 * 1_000_000;
@@ -57,6 +57,11 @@ impl<'t> Tokens<'t> {
     /// The next word; empty at the end of the line.
     pub(crate) fn next(&mut self) -> &'t str {
         self.rest.next()
+    }
+
+    /// Takes a time stamp of a log, if there is one: microseconds.
+    pub(crate) fn stamp(&mut self) -> Option<u64> {
+        stamp::take(&mut self.rest)
     }
 
     /// Takes the next word if it is this one.
@@ -219,7 +224,7 @@ impl<'t> Tokens<'t> {
             .find(|c: char| c.is_ascii_alphabetic())
             .unwrap_or(word.len());
         let (number, unit) = word.split_at(unit);
-        let micros = candump::seconds(number).and_then(|micros| match unit {
+        let micros = stamp::seconds(number).and_then(|micros| match unit {
             "us" => Some(micros / 1_000_000),
             "ms" => Some(micros / 1000),
             "s" => Some(micros),

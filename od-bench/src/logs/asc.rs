@@ -4,8 +4,8 @@ use std::prelude::v1::*;
 
 use od_wire::Instant;
 
-use super::candump;
 use super::record::{Reader, Record, frame, id};
+use super::stamp;
 
 /// Does a text with this line look like one?
 pub(super) fn is_one(line: &str) -> bool {
@@ -40,7 +40,7 @@ pub(super) fn reader<'t>(lines: &[&'t str]) -> Reader<'t> {
         if first.starts_with("//") || HEADS.contains(&first.to_ascii_lowercase().as_str()) {
             return Ok(None);
         }
-        let time = candump::seconds(first).filter(|_| first.contains('.'));
+        let time = stamp::seconds(first).filter(|_| first.contains('.'));
         let time = time.ok_or("the time stamp is missing")?;
         last = match is_relative {
             true => time.saturating_add(last),

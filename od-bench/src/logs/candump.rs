@@ -5,6 +5,7 @@
 //! | log (`candump -L`) | `(0.100000) can0 601#4004600000000000` |
 //! | `cansend` | `601#40.04.60.00`, `701#R`, `701#R4`, `1F334455#11` |
 //! | screen (`candump`) | `can0  601   [8]  40 04 60 00 00 00 00 00` |
+//! | screen (`candump -tA -x -a`) | `(2026-11-25 15:50:01.123456)  can0  RX - -  601   [2]  40 41   '@A'` |
 //!
 //! Everything that is not one of these is an [`Error`] that says where and why.
 
@@ -13,6 +14,8 @@ use std::{fmt, format};
 
 use od_runtime::{CanId, Frame, Instant};
 
+use super::record::{ERROR, What};
+use super::stamp;
 use crate::cursor::Cursor;
 
 /// A frame as a log has it.
@@ -65,32 +68,95 @@ impl core::error::Error for Error {}
 /// # Errors
 /// [`Error`] names the first character that does not fit.
 pub fn parse_line(line: &str) -> Result<Line, Error> {
+    let Logged {
+        at,
+        interface,
+        frame,
+        ..
+    } = logged(line)?;
+    let (column, word) = frame.column;
+    match frame.what {
+        What::Frame(frame) => Ok(Line {
+            at,
+            interface: interface.map(str::to_owned),
+            frame,
+        }),
+        What::Error => Err(Error::new(
+            column,
+            format!("`{word}` is an error frame"),
+            "remove the line; an error frame cannot be sent",
+        )),
+    }
+}
+
+/// What a line of a log says.
+pub(super) struct Logged<'t> {
+    pub(super) at: Option<Instant>,
+    interface: Option<&'t str>,
+    /// Sent by the computer that wrote the log.
+    pub(super) sent: bool,
+    pub(super) frame: Placed<'t>,
+}
+
+/// What there was on the bus, and the word that begins it.
+pub(super) struct Placed<'t> {
+    pub(super) what: What,
+    column: (usize, &'t str),
+}
+
+/// Reads a line in any of the three forms, error frames too.
+pub(super) fn logged(line: &str) -> Result<Logged<'_>, Error> {
     let mut rest = Cursor::new(line);
     let at = match rest.peek().starts_with('(') {
         true => Some(time_stamp(&mut rest)?),
         false => None,
     };
     let (column, word) = next_word(&mut rest, FRAME)?;
-    if word.contains('#') {
-        let frame = parse_frame(word).map_err(|error| error.shifted(column - 1))?;
-        return end(rest).map(|()| Line {
-            at,
-            interface: None,
-            frame,
-        });
-    }
-    let interface = Some(word.to_owned());
-    let (column, word) = next_word(&mut rest, FRAME)?;
-    let frame = if word.contains('#') {
-        parse_frame(word).map_err(|error| error.shifted(column - 1))?
-    } else {
-        screen(column, word, &mut rest)?
-    };
-    end(rest).map(|()| Line {
+    let mut logged = Logged {
         at,
-        interface,
-        frame,
-    })
+        interface: None,
+        sent: false,
+        frame: Placed {
+            what: What::Error,
+            column: (column, word),
+        },
+    };
+    if !word.contains('#') {
+        logged.interface = Some(word);
+        logged.sent = direction(&mut rest);
+        logged.frame.column = next_word(&mut rest, FRAME)?;
+    }
+    let (column, word) = logged.frame.column;
+    if is_error(word) {
+        return Ok(logged);
+    }
+    logged.frame.what = What::Frame(match word.contains('#') {
+        true => parse_frame(word).map_err(|error| error.shifted(column - 1))?,
+        false => screen(column, word, &mut rest)?,
+    });
+    logged.sent |= end(rest)?;
+    Ok(logged)
+}
+
+/// `TX - -`, as `candump -x` writes it before the CAN-ID: the direction, and flags of bit rate and error state.
+fn direction(rest: &mut Cursor<'_>) -> bool {
+    let sent = rest.peek() == "TX";
+    if sent || rest.peek() == "RX" {
+        rest.next();
+        for flag in ["B", "E"] {
+            if ["-", flag].contains(&rest.peek()) {
+                rest.next();
+            }
+        }
+    }
+    sent
+}
+
+/// An error frame of SocketCAN has a flag in its identifier.
+fn is_error(frame: &str) -> bool {
+    let id = frame.split('#').next().unwrap_or_default();
+    let raw = u32::from_str_radix(id, 16).ok().filter(|_| id.len() == 8);
+    raw.is_some_and(|raw| raw & ERROR != 0)
 }
 
 const FRAME: &str = "write a frame such as 601#4004600000000000 or 701#R";
@@ -217,41 +283,20 @@ fn screen(column: usize, id: &str, rest: &mut Cursor<'_>) -> Result<Frame, Error
 }
 
 fn time_stamp(rest: &mut Cursor<'_>) -> Result<Instant, Error> {
-    let (column, word) = next_word(rest, TIME)?;
-    let inner = word
-        .strip_prefix('(')
-        .and_then(|rest| rest.strip_suffix(')'));
-    match inner.and_then(seconds) {
-        Some(micros) => Ok(Instant::from_micros(micros)),
-        None => Err(Error::new(
-            column,
-            format!("`{word}` is not a time stamp"),
-            TIME,
-        )),
-    }
+    let (column, word) = (rest.column, rest.peek());
+    let not_one = || Error::new(column, format!("`{word}` is not a time stamp"), TIME);
+    stamp::take(rest)
+        .map(Instant::from_micros)
+        .ok_or_else(not_one)
 }
 
-/// Microseconds of a decimal number of seconds; digits past the sixth are cut.
-pub(crate) fn seconds(text: &str) -> Option<u64> {
-    let (whole, fraction) = text.split_once('.').unwrap_or((text, ""));
-    let digits = |text: &str| text.bytes().all(|byte| byte.is_ascii_digit());
-    if !digits(whole) || !digits(fraction) || whole.len() + fraction.len() == 0 {
-        return None;
-    }
-    let whole: u64 = if whole.is_empty() {
-        0
-    } else {
-        whole.parse().ok()?
-    };
-    let micros = fraction.bytes().chain([b'0'; 6]).take(6);
-    let micros = micros.fold(0, |micros, digit| micros * 10 + u64::from(digit - b'0'));
-    whole.checked_mul(1_000_000)?.checked_add(micros)
-}
-
-/// A log line may end with `R` or `T`: received or sent. Nothing else follows a frame.
-fn end(mut rest: Cursor<'_>) -> Result<(), Error> {
+/// A log line may end with `R` or `T`: received or sent; that of a screen with the bytes as characters (`candump -a`).
+/// Nothing else follows a frame.
+fn end(mut rest: Cursor<'_>) -> Result<bool, Error> {
     match next_word(&mut rest, "") {
-        Err(_) | Ok((_, "R" | "T")) => Ok(()),
+        Err(_) | Ok((_, "R" | "r")) => Ok(false),
+        Ok((_, "T" | "t")) => Ok(true),
+        Ok((_, word)) if word.starts_with('\'') => Ok(false),
         Ok((column, word)) => Err(Error::new(
             column,
             format!("unexpected `{word}` after the frame"),
@@ -275,79 +320,4 @@ fn next_word<'t>(rest: &mut Cursor<'t>, help: &'static str) -> Result<(usize, &'
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[track_caller]
-    fn check(line: &str, expected: &str) {
-        let shown = match parse_line(line) {
-            Ok(Line {
-                at: Some(at),
-                interface,
-                frame,
-            }) => format_line(at, interface.as_deref().unwrap_or("-"), &frame),
-            Ok(Line { frame, .. }) => frame.to_string(),
-            Err(error) => format!("{}: {}", error.column, error.message),
-        };
-        assert_eq!(shown, expected, "{line}");
-    }
-
-    #[test]
-    fn the_three_forms_read_the_same() {
-        check(
-            "(0.100000) can0 601#4004600000000000",
-            "(0.100000) can0 601#4004600000000000",
-        );
-        check(
-            "  (1600000000.5)  vcan1  701#R R",
-            "(1600000000.500000) vcan1 701#R",
-        );
-        check("601#40.04.60.00", "601#40046000");
-        check("1F334455#11", "1F334455#11");
-        check("701#R4", "701#R4");
-        check("080#", "080#");
-        check(
-            "can0  601   [8]  40 04 60 00 00 00 00 00",
-            "601#4004600000000000",
-        );
-        check(
-            " (003.1)  can0  701   [0]  remote request",
-            "(3.100000) can0 701#R",
-        );
-    }
-
-    #[test]
-    fn errors_say_where_and_what() {
-        check("601", "4: the line ends here");
-        check("(x) can0 601#40", "1: `(x)` is not a time stamp");
-        check("601#4", "5: half a byte");
-        check("601#4g", "6: `g` is not a hex digit");
-        check("601#112233445566778899", "22: more than 8 bytes");
-        check("800#11", "1: CAN-ID 800 is too large");
-        check("can0 6011#11", "6: `6011` has 4 digits");
-        check("60x#11", "3: `60x` is not a valid CAN-ID");
-        check("601#R9", "6: `9` is not a valid length");
-        check("601##011", "5: `##` begins a CAN FD frame");
-        check("can0 601 [9] 00", "10: the length is not valid");
-        check("can0 601 [2] 00", "16: the line ends here");
-        check("601#11 22", "8: unexpected `22` after the frame");
-        check("ä#11", "1: `ä` is not a valid CAN-ID");
-    }
-
-    #[test]
-    fn no_text_panics() {
-        let pieces = [
-            "(", ")", "can0", "#", "601", "R", "9", "[8]", " ", "ä", "\u{0}", "FFFFFFFF", ".",
-        ];
-        let mut state = 1u32;
-        for _ in 0..20_000 {
-            let mut line = String::new();
-            for _ in 0..state % 9 {
-                state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-                line.push_str(pieces[(state >> 16) as usize % pieces.len()]);
-            }
-            state = state.wrapping_add(1);
-            let _ = parse_line(&line);
-        }
-    }
-}
+mod tests;

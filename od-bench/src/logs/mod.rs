@@ -8,6 +8,7 @@ mod pcap;
 mod pcapng;
 mod read;
 mod record;
+pub(crate) mod stamp;
 mod trc;
 mod write;
 

@@ -5,8 +5,9 @@ use std::prelude::v1::*;
 
 use od_wire::Instant;
 
-use super::record::{ERROR, Reader, Record};
-use super::{asc, candump, pcap, pcapng, trc};
+use super::record::{Reader, Record};
+use super::{asc, candump, pcap, pcapng, stamp, trc};
+use crate::cursor::Cursor;
 
 /// A log that was read.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
@@ -105,54 +106,26 @@ fn choose<'t>(lines: &[&'t str]) -> Option<Reader<'t>> {
         return Some(asc::reader(lines));
     }
     let is_candump = |line: &str| {
-        let mut words = line.split_whitespace();
-        let stamp = words.next().and_then(stamp);
-        stamp.is_some() && words.count() > 1
+        let mut rest = Cursor::new(line);
+        stamp::take(&mut rest).is_some() && rest.text.contains(char::is_whitespace)
     };
     head().any(is_candump).then(|| Box::new(line) as Reader<'t>)
 }
 
-/// The moment in `(0.100000)`.
-fn stamp(word: &str) -> Option<Instant> {
-    let inner = word.strip_prefix('(')?.strip_suffix(')')?;
-    candump::seconds(inner).map(Instant::from_micros)
-}
-
-/// `(1.0) can0 601#4004…`, `(1.0) can0 701#R T`, and the screen: `(1.0) can0 601 [8] 40 04`.
+/// A line of candump: a log, or what it shows on a screen.
 fn line(text: &str) -> Result<Option<Record>, String> {
     if text.trim_start().starts_with(['#', ';']) {
         return Ok(None);
     }
-    let mut words = text.split_whitespace().peekable();
-    let at = words.next().and_then(stamp);
-    let at = at.ok_or("the time stamp in parentheses is missing")?;
-    words.next();
-    // `candump -x` writes the direction and flags before the CAN-ID.
-    while words
-        .next_if(|word| matches!(*word, "RX" | "TX") || word.bytes().all(|byte| byte == b'-'))
-        .is_some()
-    {}
-    let frame = words.next().unwrap_or_default();
-    if is_error(frame) {
-        return Ok(Some(Record::error(at)));
+    let missing = "the time stamp in parentheses is missing";
+    if !text.trim_start().starts_with('(') {
+        return Err(missing.into());
     }
-    if frame.contains('#') {
-        let frame = candump::parse_frame(frame).map_err(|error| error.message)?;
-        let sent = words
-            .next()
-            .is_some_and(|word| word.eq_ignore_ascii_case("T"));
-        return Ok(Some(Record::received(at, frame).sent(sent)));
-    }
-    // Characters may follow the bytes: `candump -a`.
-    let rest = words.take_while(|word| !word.starts_with('\''));
-    let screen = rest.fold(format!("can0 {frame}"), |text, word| text + " " + word);
-    let line = candump::parse_line(&screen).map_err(|error| error.message)?;
-    Ok(Some(Record::received(at, line.frame)))
-}
-
-/// An error frame of SocketCAN has a flag in its identifier.
-fn is_error(frame: &str) -> bool {
-    let id = frame.split('#').next().unwrap_or_default();
-    let raw = u32::from_str_radix(id, 16).ok().filter(|_| id.len() == 8);
-    raw.is_some_and(|raw| raw & ERROR != 0)
+    let logged = candump::logged(text).map_err(|error| error.message)?;
+    let at = logged.at.ok_or(missing)?;
+    Ok(Some(Record {
+        at,
+        sent: logged.sent,
+        what: logged.frame.what,
+    }))
 }

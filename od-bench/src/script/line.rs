@@ -67,7 +67,8 @@ fn typed_or_logged(text: &str, start: Tokens<'_>) -> Result<Frame, Problem> {
     typed::frame(text).or_else(|error| {
         // A line of a log has a time or an interface.
         let line = candump::parse_line(text).map(|line| line.frame);
-        line.map_err(|_| start.frame_problem(&error))
+        let is_logged = text.trim_start().starts_with('(') || text.contains('[');
+        line.map_err(|logged| start.frame_problem(if is_logged { &logged } else { &error }))
     })
 }
 
@@ -155,6 +156,55 @@ mod tests {
         ] {
             let problem = read(text).expect_err(text);
             assert!(problem.message.contains(why), "{text}: {problem}");
+        }
+    }
+
+    /// Whatever options candump was started with: here, and in scripts, lessons and `--link -`, which have one reader.
+    #[test]
+    fn a_line_of_candump_is_a_frame_everywhere() {
+        use crate::grammar::action::Action;
+        use crate::grammar::deed::Deed;
+        use crate::grammar::typed::Typed;
+        use crate::script::read::Reader;
+
+        for (line, frame) in [
+            ("can0  123   [4]  11 22 33 44", "123#11223344"),
+            ("  can0  123   [2]  11 23   '.#'", "123#1123"),
+            ("  can0  123   [3]  20 23 41   ' #A'", "123#202341"),
+            (" (000.001000)  can0  123   [1]  11", "123#11"),
+            (" (2026-11-25 15:50:01.123456)  can0  123   [0]", "123#"),
+            (" (1.5)  can0  RX - -  123   [1]  41   'A'", "123#41"),
+            ("  can0  TX B E  1F334455   [2]  11 22", "1F334455#1122"),
+            ("  can0  701   [0]  remote request", "701#R"),
+            ("  can0  701   [1]  remote request", "701#R1"),
+            ("(1732549801.123456) can0 601#40046000", "601#40046000"),
+            ("(1.5) can0 123#1122 R", "123#1122"),
+            ("(1.5) vcan1 1F334455#R4 T", "1F334455#R4"),
+        ] {
+            assert_eq!(read(line).as_deref(), Ok(frame), "{line}");
+            let statement = Reader::default().statement(line);
+            let Ok(Some(statement)) = statement else {
+                panic!("{line}: {statement:?}");
+            };
+            let Action::Deed(Deed::Send {
+                frame: Typed::Frame(sent),
+                ..
+            }) = statement.action
+            else {
+                panic!("{line}");
+            };
+            assert_eq!(sent.to_string(), frame, "{line}");
+        }
+        for line in [
+            "  can0  20000004   [8]  00 00 00 00 00 00 00 00   ERRORFRAME",
+            "(1.5) can0 20000004#0000000000000000",
+        ] {
+            for problem in [
+                read(line).expect_err(line),
+                Reader::default().statement(line).expect_err(line),
+            ] {
+                assert!(problem.message.ends_with("is an error frame"), "{problem}");
+            }
         }
     }
 }

@@ -1,0 +1,95 @@
+use super::*;
+
+#[track_caller]
+fn check(line: &str, expected: &str) {
+    let shown = match parse_line(line) {
+        Ok(Line {
+            at: Some(at),
+            interface,
+            frame,
+        }) => format_line(at, interface.as_deref().unwrap_or("-"), &frame),
+        Ok(Line { frame, .. }) => frame.to_string(),
+        Err(error) => format!("{}: {}", error.column, error.message),
+    };
+    assert_eq!(shown, expected, "{line}");
+}
+
+#[test]
+fn the_three_forms_read_the_same() {
+    check(
+        "(0.100000) can0 601#4004600000000000",
+        "(0.100000) can0 601#4004600000000000",
+    );
+    check(
+        "  (1600000000.5)  vcan1  701#R R",
+        "(1600000000.500000) vcan1 701#R",
+    );
+    check("601#40.04.60.00", "601#40046000");
+    check("1F334455#11", "1F334455#11");
+    check("701#R4", "701#R4");
+    check("080#", "080#");
+    check(
+        "can0  601   [8]  40 04 60 00 00 00 00 00",
+        "601#4004600000000000",
+    );
+    check(
+        " (003.1)  can0  701   [0]  remote request",
+        "(3.100000) can0 701#R",
+    );
+    // -x, -a and -tA.
+    check(
+        " (0.1)  can0  TX - -  181   [3]  41 27 20   'A' '",
+        "(0.100000) can0 181#412720",
+    );
+    check("can0  RX B E  181   [1]  41", "181#41");
+    check("can0  RX - -  701   [1]  remote request", "701#R1");
+    check(
+        "(1970-01-01 00:00:01.5) can0 181 [1] 41 'A'",
+        "(1.500000) can0 181#41",
+    );
+}
+
+#[test]
+fn errors_say_where_and_what() {
+    check("601", "4: the line ends here");
+    check("(x) can0 601#40", "1: `(x)` is not a time stamp");
+    check("601#4", "5: half a byte");
+    check("601#4g", "6: `g` is not a hex digit");
+    check("601#112233445566778899", "22: more than 8 bytes");
+    check("800#11", "1: CAN-ID 800 is too large");
+    check("can0 6011#11", "6: `6011` has 4 digits");
+    check("60x#11", "3: `60x` is not a valid CAN-ID");
+    check("601#R9", "6: `9` is not a valid length");
+    check("601##011", "5: `##` begins a CAN FD frame");
+    check("can0 601 [9] 00", "10: the length is not valid");
+    check("can0 601 [2] 00", "16: the line ends here");
+    check("601#11 22", "8: unexpected `22` after the frame");
+    check("ä#11", "1: `ä` is not a valid CAN-ID");
+    check(
+        "(1.5) can0 20000004#0000",
+        "12: `20000004#0000` is an error frame",
+    );
+    check(
+        "can0  20000004   [8]  00 00 00 00 00 00 00 00   ERRORFRAME",
+        "7: `20000004` is an error frame",
+    );
+    check("can0 RX", "8: the line ends here");
+    check("can0 RX X 601#11", "9: `X` is not a valid CAN-ID");
+}
+
+#[test]
+fn no_text_panics() {
+    let pieces = [
+        "(", ")", "can0", "#", "601", "R", "9", "[8]", " ", "ä", "\u{0}", "FFFFFFFF", ".",
+    ];
+    let mut state = 1u32;
+    for _ in 0..20_000 {
+        let mut line = String::new();
+        for _ in 0..state % 9 {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            line.push_str(pieces[(state >> 16) as usize % pieces.len()]);
+        }
+        state = state.wrapping_add(1);
+        let _ = parse_line(&line);
+    }
+}
