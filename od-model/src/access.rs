@@ -90,20 +90,18 @@ pub enum Group {
 impl Group {
     /// Returns the group of an object by its index.
     pub const fn of_index(index: u16) -> Self {
-        match index {
-            0x1000..=0x1FFF => Self::Communication,
-            0x2000..=0x5FFF => Self::Manufacturer,
-            0x6000..=0x9FFF => Self::Application,
+        match index >> 12 {
+            1 => Self::Communication,
+            2..=5 => Self::Manufacturer,
+            6..=9 => Self::Application,
             _ => Self::None,
         }
     }
 
     /// Returns whether sub-index `sub` of 1010h or 1011h covers this group.
     pub const fn covered_by(self, sub: u8) -> bool {
-        matches!(
-            (self, sub),
-            (Self::Communication, 1 | 2) | (Self::Application, 1 | 3) | (Self::Manufacturer, 1 | 4)
-        )
+        let own = self as u8 + 1;
+        own > 1 && (sub == 1 || sub == own)
     }
 }
 

@@ -221,12 +221,18 @@ impl<'a> Store<'a> {
     /// As [`bytes`](Self::bytes).
     #[inline(never)]
     pub(crate) fn value<'b>(&'b self, row: &Row, number: &'b mut [u8; 8]) -> &'b [u8] {
-        if row.is_variable() {
-            return variable(self.dictionary, self.values, row);
+        match self.stored(row) {
+            [] if !row.is_variable() => default_bytes(self.dictionary, row, self.node_id, number),
+            bytes => bytes,
         }
-        match slot(self.values, row.fixed_slot()) {
-            Some(bytes) if !bytes.is_empty() => bytes,
-            _ => default_bytes(self.dictionary, row, self.node_id, number),
+    }
+
+    /// The bytes that the store has of a value; of a string that it does not have the default.
+    #[inline]
+    pub(crate) fn stored(&self, row: &Row) -> &[u8] {
+        match row.is_variable() {
+            true => variable(self.dictionary, self.values, row),
+            false => self.slot(row.fixed_slot()),
         }
     }
 
@@ -306,12 +312,20 @@ impl<'a> Store<'a> {
         match row.size() {
             0 => number_in(variable(self.dictionary, self.values, row)),
             _ if row.is_stored() => number_in(self.slot(row.fixed_slot())),
-            size => {
-                let unused = 64u32.saturating_sub(8 * size as u32);
-                let default = default(self.dictionary, row, self.node_id);
-                default & u64::MAX.checked_shr(unused).unwrap_or(0)
-            }
+            _ => self.default_number(row),
         }
+    }
+
+    /// The default of a number, cut to its length.
+    #[inline(never)]
+    fn default_number(&self, row: &Row) -> u64 {
+        let default = default(self.dictionary, row, self.node_id).to_le_bytes();
+        number_in(default.get(..row.size()).unwrap_or_default())
+    }
+
+    /// Whether the value of a number is its default, which the node ID is part of.
+    pub(crate) fn follows_node_id(&self, row: &Row) -> bool {
+        row.follows_node_id() && self.number_of(row) == self.default_number(row)
     }
 
     /// The number that an entry holds, little-endian, eight bytes at most.

@@ -2,8 +2,6 @@
 
 mod identify;
 
-use od_model::row::Row;
-
 use crate::device::Device;
 use crate::objects::Objects;
 use crate::profile::LssProfile;
@@ -214,7 +212,7 @@ impl Slave {
                 return error::NOT_SUPPORTED;
             }
         }
-        let ours = |row: &Row| [profile.node_id, profile.bit_rate].contains(&row.address());
+        let ours = [profile.node_id, profile.bit_rate];
         save(objects, Plan::Only(&ours))
     }
 

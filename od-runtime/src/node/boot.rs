@@ -194,9 +194,11 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         let all = reset != Reset::Communication;
         // Reset communication takes 1000h–1FFFh back, and what the device starts on the
         // bus with, or all that can be saved or written; it leaves the errors that last.
-        let lss = objects.profile().lss.as_ref();
-        let scope = objects.profile().nmt.reset_communication;
+        let lent = objects.lent_profile;
         let which = |row: &Row| {
+            let profile = D::PROFILE.unwrap_or(lent);
+            let lss = profile.lss.as_ref();
+            let scope = profile.nmt.reset_communication;
             let address = row.address();
             let starts_with = |lss: &LssProfile| address == lss.node_id || address == lss.bit_rate;
             all || match address.index {

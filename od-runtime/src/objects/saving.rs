@@ -13,7 +13,7 @@ use crate::deadline::Deadline;
 use crate::device::Device;
 use crate::profile::{Restore, SaveAnswer};
 use crate::storage::StorageError;
-use crate::storage::image::{self, Banks, Loaded, Plan};
+use crate::storage::image::{self, Banks, Loaded, Medium, Plan};
 
 /// Time until a memory that is still writing is asked again, in microseconds.
 const ASK_AGAIN_US: u32 = 2_000;
@@ -40,9 +40,9 @@ impl<D: Device> Objects<'_, D> {
         let Some(saving) = &mut self.saving else {
             return Ok(Loaded::Blank);
         };
-        let (storage, banks) = (&mut *self.storage, &mut saving.banks);
-        banks.survey(storage, device)?;
-        image::take_over(storage, &mut self.store, profile, which, banks)
+        let mut medium = Medium::new(self.storage, &mut saving.banks);
+        medium.survey(device)?;
+        image::take_over(&mut medium, &mut self.store, profile, which)
     }
 
     /// 1010h and 1011h: the signature is the value, and nothing is kept of it.
@@ -86,14 +86,9 @@ impl<D: Device> Objects<'_, D> {
         !self.is_saving() && self.execute(KEEP) == Some(false)
     }
 
-    /// A command: the banks are surveyed, then written, each of which takes much of a small stack.
+    /// A command, in parts each of which takes much of a small stack.
     #[inline(never)]
     fn execute(&mut self, command: Command) -> Option<bool> {
-        let plan = match command {
-            Command::Save(sub) => Plan::Save(sub),
-            Command::Restore(sub) => Plan::Restore(sub),
-            Command::None => return None,
-        };
         if command != KEEP {
             // What a save writes in the background is there before anything follows.
             self.complete_save();
@@ -101,23 +96,36 @@ impl<D: Device> Objects<'_, D> {
         if let Command::Save(_) = command {
             self.prepare(command);
         }
-        let (device, profile) = (self.device(), &self.profile().store);
-        let saving = self.saving.as_mut()?;
-        let (storage, banks) = (&mut *self.storage, &mut saving.banks);
-        let mut begun = banks.survey(storage, device);
-        if begun.is_ok() {
-            begun = image::begin(storage, &self.store, profile, &plan, banks);
-        }
-        if begun.is_err() {
-            *banks = Banks::NONE;
-        }
-        let begun = begun.is_ok();
+        let begun = self.begin(command);
         match command {
             KEEP => Some(begun && self.commit()),
             Command::Save(sub) => self.saved(sub, begun),
             Command::Restore(sub) => self.restored(sub, begun),
             Command::None => None,
         }
+    }
+
+    /// The set that a command makes is written, but for its commit word. Returns whether that is done.
+    #[inline(never)]
+    fn begin(&mut self, command: Command) -> bool {
+        let (device, profile) = (self.device(), &self.profile().store);
+        let Some(saving) = &mut self.saving else {
+            return false;
+        };
+        let plan = match command {
+            Command::Restore(sub) => Plan::Restore(sub),
+            Command::Save(sub) => Plan::Save(sub),
+            Command::None => return false,
+        };
+        let mut medium = Medium::new(self.storage, &mut saving.banks);
+        let mut begun = medium.survey(device);
+        if begun.is_ok() {
+            begun = medium.begin(&self.store, profile, &plan);
+        }
+        if begun.is_err() {
+            saving.banks = Banks::NONE;
+        }
+        begun.is_ok()
     }
 
     /// The values of this moment are to be saved.
@@ -168,8 +176,11 @@ impl<D: Device> Objects<'_, D> {
 
     /// Writes the commit word, if a set waits for it. Returns whether that is done.
     fn commit(&mut self) -> bool {
-        let banks = self.saving.as_mut().map(|saving| &mut saving.banks);
-        banks.is_some_and(|banks| image::commit(self.storage, banks).is_ok())
+        let saving = self.saving.as_mut();
+        saving.is_some_and(|saving| {
+            let mut medium = Medium::new(self.storage, &mut saving.banks);
+            medium.commit().is_ok()
+        })
     }
 
     /// Ends a save that goes on, if there is one; `Some(false)` where it failed, `None` while the

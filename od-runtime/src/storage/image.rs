@@ -35,31 +35,35 @@
 
 use core::ops::Range;
 
-use od_model::Dictionary;
 use od_model::row::Row;
+use od_model::{Address, Dictionary};
 
 use super::{Storage, StorageError};
 use crate::limits;
 use crate::profile::StoreProfile;
 use crate::store::Store;
 
-mod bank;
+mod banks;
 mod cob_id;
 mod covered;
 mod layout;
 mod loaded;
+mod medium;
 mod merge;
+mod survey;
 
-use bank::Record;
+use banks::Set;
 use covered::is_saved;
 use layout::{OWN, RECORD};
+use survey::{END, Records};
 
-pub(crate) use bank::Banks;
+pub(crate) use banks::Banks;
 pub(crate) use covered::is_kept;
 pub use covered::{is_life_record, restores};
 pub use layout::MAX_VALUE;
 pub use loaded::Loaded;
-pub(crate) use merge::{Plan, begin, commit, write};
+pub(crate) use medium::Medium;
+pub(crate) use merge::{Plan, write};
 
 /// Bytes of an EEPROM that `dictionary` needs to save every value at its longest, twice.
 pub const fn capacity_needed(dictionary: &Dictionary<'_>) -> usize {
@@ -85,7 +89,7 @@ pub const fn capacity_on(dictionary: &Dictionary<'_>, page: usize, word: usize) 
 /// Number by which a saved set knows the device that wrote it: vendor-ID and product code (1018h).
 /// The revision may change, as that of a newer firmware does.
 pub const fn device(dictionary: &Dictionary<'_>) -> u32 {
-    bank::device(dictionary)
+    survey::device(dictionary)
 }
 
 /// Returns the [`device`] that wrote the newest set; `None` if no set is complete.
@@ -94,7 +98,7 @@ pub const fn device(dictionary: &Dictionary<'_>) -> u32 {
 /// [`StorageError`] if the storage cannot be read.
 pub fn writer(storage: &mut dyn Storage) -> Result<Option<u32>, StorageError> {
     let mut banks = Banks::NONE;
-    banks.survey(storage, 0)?;
+    Medium::new(storage, &mut banks).survey(0)?;
     Ok(banks.newest.map(|set| set.device))
 }
 
@@ -105,9 +109,8 @@ pub fn writer(storage: &mut dyn Storage) -> Result<Option<u32>, StorageError> {
 /// [`StorageError`] if the storage cannot be read.
 pub fn newest(storage: &mut dyn Storage) -> Result<Option<Range<usize>>, StorageError> {
     let mut banks = Banks::NONE;
-    banks.survey(storage, 0)?;
-    let header = banks.layout.header();
-    let place = |set: bank::Set| banks.stays..banks.stays + header + set.len;
+    Medium::new(storage, &mut banks).survey(0)?;
+    let place = |set: Set| banks.stays..banks.stays + set.len.get();
     Ok(banks.newest.map(place))
 }
 
@@ -129,36 +132,45 @@ pub fn load(
     which: &dyn Fn(&Row) -> bool,
 ) -> Result<Loaded, StorageError> {
     let mut banks = Banks::NONE;
-    banks.survey(storage, device(store.dictionary()))?;
-    take_over(storage, store, profile, which, &banks)
+    let mut medium = Medium::new(storage, &mut banks);
+    medium.survey(device(store.dictionary()))?;
+    take_over(&mut medium, store, profile, which)
 }
 
 /// The second part of [`load`], of surveyed banks.
 #[inline(never)]
 pub(crate) fn take_over(
-    storage: &mut dyn Storage,
+    medium: &mut Medium<'_>,
     store: &mut Store<'_>,
     profile: &StoreProfile,
     which: &dyn Fn(&Row) -> bool,
-    banks: &Banks,
 ) -> Result<Loaded, StorageError> {
-    let mut skipped = 0u16;
-    let mut records = banks.records();
-    while records.next(storage)? {
-        let record = &records.record;
-        if record.address.index == OWN {
+    let mut skipped = 0;
+    let mut records = medium.records();
+    loop {
+        records.next(medium);
+        let Records { key, at, len, .. } = records;
+        if key == END {
+            break;
+        }
+        if key >> 8 == OWN.into() {
             continue;
         }
-        let row = store.dictionary().row_at(record.address);
+        let row = store
+            .dictionary()
+            .row_at(Address::new((key >> 8) as u16, key as u8));
         let is_loaded = match row.filter(|row| is_saved(row)) {
-            Some(row) if !which(row) || banks.is_withdrawn && !is_life_record(row) => true,
-            Some(row) => load_value(storage, store, profile, row, record)?,
+            Some(row) if !which(row) || medium.banks.is_withdrawn && !is_life_record(row) => true,
+            Some(row) => load_value(medium, store, profile, row, at, len),
             None => false,
         };
-        skipped = skipped.saturating_add((!is_loaded).into());
+        skipped += u32::from(!is_loaded);
     }
-    Ok(match banks.state {
-        Loaded::Complete if skipped > 0 => Loaded::Partial { skipped },
+    medium.outcome?;
+    Ok(match medium.banks.state {
+        Loaded::Complete if skipped > 0 => Loaded::Partial {
+            skipped: skipped.min(u16::MAX.into()) as u16,
+        },
         state => state,
     })
 }
@@ -166,31 +178,33 @@ pub(crate) fn take_over(
 /// Puts a saved value over that of the store. Returns whether the object can have it.
 #[inline(never)]
 fn load_value(
-    storage: &mut dyn Storage,
+    medium: &mut Medium<'_>,
     store: &mut Store<'_>,
     profile: &StoreProfile,
     row: &Row,
-    record: &Record,
-) -> Result<bool, StorageError> {
+    at: usize,
+    len: usize,
+) -> bool {
     // A string goes straight to its place: it does not fit on a small stack.
-    if row.is_variable() && record.len <= MAX_VALUE {
-        let Ok(room) = store.room(row, record.len) else {
-            return Ok(false);
+    if row.is_variable() && len <= MAX_VALUE {
+        let Ok(room) = store.room(row, len) else {
+            return false;
         };
-        let read = storage.read(record.at, room);
-        if read.is_err() {
+        medium.read(at, room);
+        if medium.outcome.is_err() {
             store.reset_row(row);
         }
-        return read.map(|()| true);
+        return true;
     }
     let mut number = [0; 8];
-    let Some(value) = number.get_mut(..record.len) else {
-        return Ok(false);
+    let Some(value) = number.get_mut(..len) else {
+        return false;
     };
-    storage.read(record.at, value)?;
-    Ok(cob_id::restore(store, row, profile.cob_ids, value)
+    medium.read(at, value);
+    medium.outcome.is_ok()
+        && cob_id::restore(store, row, profile.cob_ids, value)
         && limits::check(store, row, value).is_ok()
-        && store.put_row(row, value).is_ok())
+        && store.put_row(row, value).is_ok()
 }
 
 /// Saves the values that sub-index `sub` of 1010h covers, 1–4; the other groups' saved
@@ -219,8 +233,8 @@ pub fn save(
     )
 }
 
-/// Saves the values that `which` names, whatever their group; all others stay as they
-/// are saved. LSS stores node ID and bit rate so.
+/// Saves the values at these addresses, whatever their group; all others stay as they are saved. LSS
+/// stores node ID and bit rate so.
 ///
 /// # Errors
 /// As [`save`].
@@ -228,14 +242,14 @@ pub fn save_only(
     storage: &mut dyn Storage,
     store: &Store<'_>,
     profile: &StoreProfile,
-    which: &dyn Fn(&Row) -> bool,
+    addresses: &[Address],
 ) -> Result<(), StorageError> {
     write(
         storage,
         device(store.dictionary()),
         store,
         profile,
-        Plan::Only(which),
+        Plan::Only(addresses),
     )
 }
 
@@ -245,22 +259,25 @@ pub fn save_only(
 /// [`StorageError`] where the storage cannot be read.
 pub(crate) fn own(storage: &mut dyn Storage, device: u32) -> Result<[Option<u8>; 2], StorageError> {
     let mut banks = Banks::NONE;
-    banks.survey(storage, device)?;
+    let mut medium = Medium::new(storage, &mut banks);
+    medium.survey(device)?;
     let mut own = [None; 2];
-    let mut records = banks.records();
-    while records.next(storage)? {
-        let record = &records.record;
-        let place = usize::from(record.address.sub).wrapping_sub(1);
-        if record.address.index == OWN
-            && record.len == 1
-            && let Some(place) = own.get_mut(place)
-        {
-            let mut value = [0];
-            storage.read(record.at, &mut value)?;
-            *place = Some(value[0]);
+    let mut records = medium.records();
+    loop {
+        records.next(&mut medium);
+        // Index 0: the key is the sub-index.
+        let place = (records.key as usize).wrapping_sub(1);
+        match own.get_mut(place) {
+            _ if records.key == END => break,
+            Some(own) if records.len == 1 => {
+                let mut value = [0];
+                medium.read(records.at, &mut value);
+                *own = Some(value[0]);
+            }
+            _ => {}
         }
     }
-    Ok(own)
+    medium.outcome.map(|()| own)
 }
 
 /// Takes the saved values away that sub-index `sub` of 1011h covers, so that the next

@@ -1,6 +1,6 @@
 //! Sizes and codes of a bank; [`image`](super) has the table.
 
-use crate::storage::{Geometry, Storage, StorageError};
+use crate::storage::{Geometry, Storage};
 
 /// The longest value that is saved, in bytes.
 pub const MAX_VALUE: usize = 1024;
@@ -31,8 +31,6 @@ pub(super) struct Code(u8);
 impl Code {
     /// Nothing was written.
     pub(super) const ERASED: Self = Self(0);
-    /// The same in a new EEPROM that is all 0.
-    const ZERO: Self = Self(1);
     /// Commit word of a save that failed with power on: the set before it counts.
     pub(super) const GIVEN_UP: Self = Self(2);
     /// Mark: a save that replaces this set began; until it is complete, this set counts.
@@ -47,17 +45,25 @@ impl Code {
     pub(super) const UNCLEAR: Self = Self(10);
 
     /// Reads a word; `false` if a bit is wrong. One may be.
-    fn read(word: &[u8]) -> (Self, bool) {
+    #[inline(always)]
+    pub(super) fn read(word: &[u8]) -> (Self, bool) {
         for (place, code) in (0..).zip(&CODES) {
-            let wrong: u32 = word.iter().map(|byte| (byte ^ code).count_ones()).sum();
+            let mut wrong = 0;
+            for byte in word {
+                let bits = byte ^ code;
+                // One bit counts once, more count twice.
+                wrong += u8::from(bits != 0) + u8::from(bits & bits.wrapping_sub(1) != 0);
+            }
             if wrong <= 1 {
+                // An EEPROM that is all 0 is as good as an erased one.
+                let place = if place == 1 { 0 } else { place };
                 return (Self(place), wrong == 0);
             }
         }
         (Self::UNCLEAR, false)
     }
 
-    fn byte(self) -> u8 {
+    pub(super) fn byte(self) -> u8 {
         CODES.get(usize::from(self.0)).map_or(ERASED, |code| *code)
     }
 
@@ -73,12 +79,15 @@ impl Code {
 
     /// Returns how many saves later than another a set was complete: 1, or 2 if the other did not
     /// count any more. 0: it was not later, or is not complete.
+    #[inline(never)]
     pub(super) fn later_than(self, other: Self) -> u8 {
         match () {
             () if !self.is_complete() => 0,
-            () if !other.is_complete() || self == other.plus(1) => 1,
-            () if self == other.plus(2) => 2,
-            () => 0,
+            () if !other.is_complete() => 1,
+            () => match (self.0 + Self::PHASES - other.0) % Self::PHASES {
+                later @ ..=2 => later,
+                _ => 0,
+            },
         }
     }
 }
@@ -88,6 +97,8 @@ impl Code {
 pub(super) struct Layout {
     pub(super) page: usize,
     pub(super) word: usize,
+    /// Bytes of a header: commit word, mark, fields.
+    pub(super) header: usize,
     /// Bytes of a bank; 0: the storage has no room for one.
     pub(super) size: usize,
 }
@@ -97,6 +108,7 @@ impl Layout {
     pub(super) const NONE: Self = Self {
         page: 0,
         word: 0,
+        header: 0,
         size: 0,
     };
 
@@ -106,90 +118,28 @@ impl Layout {
             page,
             word,
         } = storage.geometry();
-        let half = capacity / 2;
-        let fits = word.is_power_of_two() && word <= MAX_WORD && page & (word - 1) == 0;
         let mut layout = Self {
             page,
-            word: if fits { word } else { 1 },
-            size: half - half % page.max(word).max(1),
+            word,
+            header: header(word),
+            size: 0,
         };
-        if !fits || layout.size < layout.header() {
-            layout.size = 0;
-        }
-        layout
-    }
-
-    /// Bytes of a header: commit word, mark, fields.
-    pub(super) const fn header(&self) -> usize {
-        header(self.word)
-    }
-
-    /// Prepares a bank for a set of `len` bytes with its header.
-    #[inline(never)]
-    pub(super) fn clear(
-        &self,
-        storage: &mut dyn Storage,
-        bank: usize,
-        len: usize,
-    ) -> Result<(), StorageError> {
-        if self.page == 0 {
-            self.stamp(storage, bank, Code::ERASED)?;
-            return self.stamp(storage, bank + self.word, Code::ERASED);
-        }
-        for at in (0..self.size).step_by(self.page) {
-            // Pages behind the set are mostly erased already.
-            if at < len || !is_blank(storage, bank + at, self.page)? {
-                storage.erase(bank + at)?;
+        if word.is_power_of_two() && word <= MAX_WORD && page & (word - 1) == 0 {
+            let half = capacity / 2;
+            let size = half - half % page.max(word).max(1);
+            if size >= layout.header {
+                layout.size = size;
             }
         }
-        storage.flush()
-    }
-
-    /// Reads the code in the word at `at`; `false` if a bit is wrong.
-    #[inline(never)]
-    pub(super) fn code(
-        &self,
-        storage: &mut dyn Storage,
-        at: usize,
-    ) -> Result<(Code, bool), StorageError> {
-        let mut word = [0; MAX_WORD];
-        let word = word.get_mut(..self.word).unwrap_or_default();
-        storage.read(at, word)?;
-        Ok(match Code::read(word) {
-            // An EEPROM that is all 0 is as good as an erased one.
-            (Code::ZERO, is_exact) => (Code::ERASED, is_exact),
-            code => code,
-        })
-    }
-
-    /// Writes a code into the word at `at`, and reads it back.
-    pub(super) fn stamp(
-        &self,
-        storage: &mut dyn Storage,
-        at: usize,
-        code: Code,
-    ) -> Result<(), StorageError> {
-        let is_all = |word: &[u8], byte: u8| word.iter().all(|other| *other == byte);
-        let mut word = [0; MAX_WORD];
-        let word = word.get_mut(..self.word).unwrap_or_default();
-        storage.read(at, word)?;
-        // A word of flash is written once.
-        if !is_all(word, code.byte()) && (self.page == 0 || is_all(word, ERASED)) {
-            word.fill(code.byte());
-            storage.write(at, word)?;
-            storage.flush()?;
-            storage.read(at, word)?;
-        }
-        match is_all(word, code.byte()) {
-            true => Ok(()),
-            false => Err(StorageError::NotWritten),
-        }
+        layout
     }
 }
 
 /// Bytes of a header on a storage with words of this size.
 pub(super) const fn header(word: usize) -> usize {
-    2 * word + whole_words(FIELDS, word)
+    2usize
+        .wrapping_mul(word)
+        .wrapping_add(whole_words(FIELDS, word))
 }
 
 /// Rounds `len` bytes up to whole words; the length of a word is a power of two.
@@ -198,33 +148,10 @@ pub(super) const fn whole_words(len: usize, word: usize) -> usize {
     len.wrapping_add(rest) & !rest
 }
 
-/// Returns whether nothing was ever written there: all bytes are FFh, or all are 0.
-pub(super) fn is_blank(
-    storage: &mut dyn Storage,
-    start: usize,
-    len: usize,
-) -> Result<bool, StorageError> {
-    let (mut all, mut any) = (u64::MAX, 0);
-    let mut chunk = [0; 32];
-    for at in (0..len).step_by(32) {
-        let size = (len - at).min(32);
-        let (part, rest) = chunk.split_at_mut(size);
-        storage.read(start + at, part)?;
-        let first = part.first().copied().unwrap_or_default();
-        rest.iter_mut().for_each(|byte| *byte = first);
-        // Most of a bank is erased, so this is most of a start.
-        for word in chunk.as_chunks().0 {
-            all &= u64::from_ne_bytes(*word);
-            any |= u64::from_ne_bytes(*word);
-        }
-    }
-    Ok(all == u64::MAX || any == 0)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::storage::Memory;
+    use crate::storage::StorageError;
 
     /// A storage of which only the sizes matter.
     struct Sizes(Geometry);
@@ -277,8 +204,7 @@ mod tests {
             });
             let layout = Layout::of(&storage);
             assert_eq!((layout.page, layout.size), (page, size), "{word}");
-            let fits = word.is_power_of_two() && word <= 32 && page % word == 0;
-            assert_eq!(layout.word, if fits { word } else { 1 });
+            assert_eq!(layout.word, word);
         }
         assert_eq!([1, 2, 4, 8, 16, 32].map(header), [14, 16, 20, 32, 48, 96]);
     }
@@ -303,11 +229,6 @@ mod tests {
     #[test]
     fn a_word_may_have_one_wrong_bit() {
         let byte = Code::FIRST.byte();
-        let layout = Layout {
-            page: 0,
-            word: 2,
-            size: 16,
-        };
         for (word, seen) in [
             ([byte, byte], (Code::FIRST, true)),
             ([byte ^ 1, byte], (Code::FIRST, false)),
@@ -316,8 +237,7 @@ mod tests {
             ([0, 0], (Code::ERASED, true)),
             ([0xFF, 0xFF], (Code::ERASED, true)),
         ] {
-            let mut storage = Memory::new([0x33, 0x33, word[0], word[1]]);
-            assert_eq!(layout.code(&mut storage, 2), Ok(seen));
+            assert_eq!(Code::read(&word), seen);
         }
     }
 }

@@ -3,27 +3,18 @@
 use od_model::row::Row;
 use od_model::{Address, Group};
 
-use super::bank::{Banks, Record, content};
+use super::banks::Banks;
 use super::cob_id;
-use super::covered::{is_covered, is_life_record, is_saved, restores};
-use super::layout::{Code, ERASED, Layout, MAX_VALUE, OWN, RECORD, is_blank, whole_words};
+use super::covered::{is_covered, is_life_record, is_saved};
+use super::layout::{Code, ERASED, FIELDS, Layout, MAX_VALUE, MAX_WORD, OWN, RECORD, whole_words};
 use super::loaded::Loaded;
+use super::medium::Medium;
+use super::survey::END;
 use crate::number::{copy, number_in};
 use crate::profile::{CutSave, StoreProfile};
 use crate::storage::crc::Crc32;
 use crate::storage::{Storage, StorageError};
 use crate::store::Store;
-
-/// Part of an address in the next set.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-enum Fate {
-    /// The store's value goes in.
-    Store,
-    /// The record of the newest set stays, if there is one.
-    Keep,
-    /// Nothing goes in.
-    Drop,
-}
 
 /// Recipe of the next set.
 #[derive(Clone, Copy)]
@@ -32,8 +23,8 @@ pub(crate) enum Plan<'p> {
     Save(u8),
     /// Without the values that this sub-index of 1011h covers.
     Restore(u8),
-    /// The values that it names.
-    Only(&'p dyn Fn(&Row) -> bool),
+    /// The values at these addresses.
+    Only(&'p [Address]),
     /// Node ID and bit rate of LSS, in records of their own.
     Own([Option<u8>; 2]),
 }
@@ -47,335 +38,285 @@ pub(crate) fn write(
     plan: Plan<'_>,
 ) -> Result<(), StorageError> {
     let mut banks = Banks::NONE;
-    banks.survey(storage, device)?;
-    begin(storage, store, profile, &plan, &mut banks)?;
-    commit(storage, &mut banks)
+    let mut medium = Medium::new(storage, &mut banks);
+    medium.survey(device)?;
+    medium.begin(store, profile, &plan)?;
+    medium.commit()
 }
 
-/// Writes the next set into the older one of two [surveyed](Banks::survey) banks, all but the commit word.
-/// Without a next set they are [none](Banks::is_some).
-#[inline(never)]
-pub(crate) fn begin(
-    storage: &mut dyn Storage,
-    store: &Store<'_>,
-    profile: &StoreProfile,
-    plan: &Plan<'_>,
-    banks: &mut Banks,
-) -> Result<(), StorageError> {
-    match (plan, banks.state) {
-        // The device itself writes nothing over the set of another one.
-        (Plan::Save(0), Loaded::Foreign) => return Err(StorageError::Foreign),
-        (Plan::Restore(_), Loaded::Blank) => {
-            banks.layout = Layout::NONE;
-            return Ok(());
-        }
-        _ => {}
-    }
-    let layout = &banks.layout;
-    let room = layout.size.checked_sub(layout.header());
-    let room = room.ok_or(StorageError::Full)?;
-    // Records without an object stay as long as there is room.
-    let mut set = Set {
-        store,
-        profile,
-        plan,
-        banks,
-        has_orphans: true,
-    };
-    let mut writer = Writer::new(storage);
-    set.records(&mut writer)?;
-    if writer.at > room {
-        set.has_orphans = false;
-        writer.at = 0;
-        set.records(&mut writer)?;
-    }
-    if writer.at > room {
-        return Err(StorageError::Full);
-    }
-    // The device's own saves, and a restore, take nothing away when they are cut. Once the set does not
-    // count, only a complete one ends that.
-    let cut = match plan {
-        Plan::Save(0) | Plan::Restore(_) => CutSave::LastSet,
-        _ => profile.cut,
-    };
-    let mark = match cut {
-        CutSave::LastSet if !banks.is_withdrawn => Code::REPLACED,
-        _ => Code::WITHDRAWN,
-    };
-    match layout.stamp(writer.storage, banks.stays + layout.word, mark) {
-        // A mark that power or a save before this one left in flash stays as it is.
-        Err(StorageError::NotWritten) if layout.page > 0 => {}
-        result => result?,
-    }
-    let written = set.write(&mut writer);
-    written.map_err(|error| give_up(writer.storage, layout, banks.target, error))
-}
-
-/// The commit word, if there is a next set: from now on it is the newest.
-pub(crate) fn commit(storage: &mut dyn Storage, banks: &mut Banks) -> Result<(), StorageError> {
-    if !banks.is_some() {
-        return Ok(());
-    }
-    let layout = core::mem::replace(&mut banks.layout, Layout::NONE);
-    let written = layout.stamp(storage, banks.target, banks.next);
-    match layout.page {
-        0 => written.map_err(|error| give_up(storage, &layout, banks.target, error)),
-        // A word of flash is written once.
-        _ => written,
-    }
-}
-
-/// Power did not go, so the set before the next one counts, if the storage still works.
-fn give_up(
-    storage: &mut dyn Storage,
-    layout: &Layout,
-    target: usize,
-    error: StorageError,
-) -> StorageError {
-    let _ = layout.stamp(storage, target, Code::GIVEN_UP);
-    error
-}
-
-/// The next set.
-struct Set<'s> {
-    store: &'s Store<'s>,
-    profile: &'s StoreProfile,
-    plan: &'s Plan<'s>,
-    banks: &'s Banks,
-    /// With the records whose objects the dictionary does not have.
-    has_orphans: bool,
-}
-
-impl Set<'_> {
-    /// Writes records and fields, and reads them back. The writer has counted the bytes of the records.
-    fn write(&self, writer: &mut Writer<'_>) -> Result<(), StorageError> {
-        let (layout, target) = (&self.banks.layout, self.banks.target);
-        let len = writer.at;
-        layout.clear(writer.storage, target, layout.header() + len)?;
-        // The length is less than a bank, which a header can describe.
-        let mut fields = [self.banks.device, len as u32, 0].map(u32::to_le_bytes);
-        writer.begin(target + layout.header());
-        writer.crc.update(fields[..2].as_flattened());
-        self.records(writer)?;
-        writer.write_out(layout.word)?;
-        // Behind the records nothing stays of older sets; flash is erased there.
-        let end = target + layout.size;
-        writer.buffer = [ERASED; BUFFER];
-        while layout.page == 0 && writer.at < end {
-            let part = (end - writer.at).min(writer.buffer.len());
-            if !is_blank(writer.storage, writer.at, part)? {
-                let blank = writer.buffer.get(..part).unwrap_or_default();
-                writer.storage.write(writer.at, blank)?;
-            }
-            writer.at += part;
-        }
-        fields[2] = writer.crc.finish().to_le_bytes();
-        copy(&mut writer.buffer, fields.as_flattened());
-        let fields = layout.header() - 2 * layout.word;
-        let fields = writer.buffer.get(..fields).unwrap_or_default();
-        writer.storage.write(target + 2 * layout.word, fields)?;
-        writer.storage.flush()?;
-        let whole = content(writer.storage, layout, target)?;
-        match whole.is_some_and(|set| set.len == len) {
-            true => Ok(()),
-            false => Err(StorageError::NotWritten),
-        }
-    }
-
-    /// Goes through the newest set and the dictionary side by side, both by address.
+impl Medium<'_> {
+    /// Writes the next set into the older one of two [surveyed](Banks::survey) banks, all but the commit word.
+    /// Without a next set they are [none](Banks::is_some).
     #[inline(never)]
-    fn records(&self, writer: &mut Writer<'_>) -> Result<(), StorageError> {
-        if let Plan::Own(own) = self.plan {
-            writer.own(own)?;
-        }
-        let mut old = self.banks.records();
-        let rows = self.store.dictionary().rows().iter();
-        let mut rows = rows.filter(|row| is_saved(row));
-        let (mut has_old, mut next) = (old.next(writer.storage)?, rows.next());
-        loop {
-            let old_key = match has_old {
-                true => old.record.address.key(),
-                false => END,
-            };
-            let new_key = next.map_or(END, |row| row.key());
-            if old_key == END && new_key == END {
+    pub(crate) fn begin(
+        &mut self,
+        store: &Store<'_>,
+        profile: &StoreProfile,
+        plan: &Plan<'_>,
+    ) -> Result<(), StorageError> {
+        let Layout {
+            page,
+            word,
+            header,
+            size,
+        } = self.banks.layout;
+        match (plan, self.banks.state) {
+            // The device itself writes nothing over the set of another one.
+            (Plan::Save(0), Loaded::Foreign) => return Err(StorageError::Foreign),
+            (Plan::Restore(_), Loaded::Blank) => {
+                self.banks.next = Code::ERASED;
                 return Ok(());
             }
-            let (is_old, is_new) = (old_key <= new_key, new_key <= old_key);
-            let new = next.filter(|_| is_new);
-            let address = new.map_or(old.record.address, |row| row.address());
-            match (self.fate(address, new), new) {
-                (Fate::Store, Some(row)) => self.value(writer, row)?,
-                (Fate::Keep, _) if is_old => writer.copy(&old.record)?,
-                _ => {}
+            _ if size == 0 => return Err(StorageError::Full),
+            _ => {}
+        }
+        let mut set = Set {
+            medium: self,
+            store,
+            plan,
+            has_orphans: true,
+            only_counts: true,
+            at: 0,
+            filled: 0,
+            crc: Crc32::new(),
+        };
+        // Records without an object stay as long as there is room.
+        set.records(profile);
+        if set.at > size - header {
+            (set.has_orphans, set.at) = (false, 0);
+            set.records(profile);
+        }
+        if set.at > size - header {
+            set.medium.fail(StorageError::Full);
+        }
+        set.medium.outcome?;
+        // The device's own saves, and a restore, take nothing away when they are cut. Once the set does not
+        // count, only a complete one ends that.
+        let cut = match plan {
+            Plan::Save(0) | Plan::Restore(_) => CutSave::LastSet,
+            _ => profile.cut,
+        };
+        let mark = match cut {
+            CutSave::LastSet if !set.medium.banks.is_withdrawn => Code::REPLACED,
+            _ => Code::WITHDRAWN,
+        };
+        let stays = set.medium.banks.stays;
+        set.medium.stamp(stays + word, mark);
+        match set.medium.outcome {
+            // A mark that power or a save before this one left in flash stays as it is.
+            Err(StorageError::NotWritten) if page > 0 => set.medium.outcome = Ok(()),
+            outcome => outcome?,
+        }
+        let (target, len) = (set.medium.banks.target, set.at);
+        set.medium.clear(target, header + len);
+        // The length is less than a bank, which a header can describe.
+        let mut fields = [set.medium.banks.device, len as u32, 0].map(u32::to_le_bytes);
+        set.only_counts = false;
+        set.at = target + header;
+        set.crc.update(fields[..2].as_flattened());
+        set.records(profile);
+        set.write_out(word);
+        set.medium.wipe(set.at, target + size);
+        fields[2] = set.crc.finish().to_le_bytes();
+        set.at = target + 2 * word;
+        set.put(Source::Bytes(fields.as_flattened()), FIELDS);
+        set.write_out(word);
+        set.medium.flush();
+        let whole = set.medium.content(target);
+        if whole.is_none_or(|set| set.len.get() != header + len) {
+            set.medium.fail(StorageError::NotWritten);
+        }
+        if set.medium.outcome.is_err() {
+            set.medium.give_up(target);
+        }
+        set.medium.outcome
+    }
+
+    /// The commit word, if there is a next set: from now on it is the newest.
+    pub(crate) fn commit(&mut self) -> Result<(), StorageError> {
+        if self.banks.is_some() {
+            let Banks { target, next, .. } = *self.banks;
+            self.stamp(target, next);
+            self.banks.next = Code::ERASED;
+            // A word of flash is written once.
+            if self.outcome.is_err() && self.banks.layout.page == 0 {
+                self.give_up(target);
+            }
+        }
+        self.outcome
+    }
+}
+
+/// The next set, whose small writes are gathered and summed up.
+struct Set<'s, 'm> {
+    medium: &'s mut Medium<'m>,
+    store: &'s Store<'s>,
+    plan: &'s Plan<'s>,
+    /// With the records whose objects the dictionary does not have.
+    has_orphans: bool,
+    /// Nothing is written.
+    only_counts: bool,
+    /// Place of the next byte that is written.
+    at: usize,
+    filled: usize,
+    crc: Crc32,
+}
+
+/// Where bytes of a set come from.
+#[derive(Clone, Copy)]
+enum Source<'b> {
+    Bytes(&'b [u8]),
+    /// This place in the storage.
+    Storage(usize),
+}
+
+impl Set<'_, '_> {
+    /// Goes through the newest set and the dictionary side by side, both by address.
+    #[inline(never)]
+    fn records(&mut self, profile: &StoreProfile) {
+        if let Plan::Own(own) = self.plan {
+            self.own(own);
+        }
+        let mut old = self.medium.records();
+        old.next(self.medium);
+        let mut rows = self.store.dictionary().rows().iter();
+        loop {
+            let row = rows.find(|row| is_saved(row));
+            let key = row.map_or(END, |row| row.key());
+            while old.key < key {
+                if self.keeps(old.key) {
+                    self.put(Source::Storage(old.at - RECORD), RECORD + old.len);
+                }
+                old.next(self.medium);
+            }
+            let Some(row) = row else { return };
+            let (is_old, is_meant) = (old.key == key, self.is_meant(profile, row));
+            if is_meant && self.goes_in(row) {
+                self.value(profile, row);
             }
             if is_old {
-                has_old = old.next(writer.storage)?;
-            }
-            if is_new {
-                next = rows.next();
+                if !is_meant && (!self.medium.banks.is_withdrawn || is_life_record(row)) {
+                    self.put(Source::Storage(old.at - RECORD), RECORD + old.len);
+                }
+                old.next(self.medium);
             }
         }
     }
 
-    /// Decides about the value of an address; without a row where no object of the dictionary saves it.
-    #[inline(never)]
-    fn fate(&self, address: Address, new: Option<&Row>) -> Fate {
-        let (profile, is_own) = (self.profile, address.index == OWN);
-        let fate = match (*self.plan, new) {
-            (Plan::Save(sub), Some(row))
-                if is_covered(profile, row, sub) || is_life_record(row) =>
-            {
-                // One that was not changed follows the node ID.
-                let follows = row.follows_node_id() && self.store.has_default(row);
-                return if follows { Fate::Drop } else { Fate::Store };
-            }
-            (Plan::Restore(sub), Some(row)) if restores(profile, row, sub) => Fate::Drop,
-            (Plan::Restore(sub), None) if Group::of_index(address.index).covered_by(sub) => {
-                Fate::Drop
-            }
-            (Plan::Only(which), Some(row)) if which(row) => Fate::Store,
-            (Plan::Own(_), _) if is_own => Fate::Drop,
-            _ => Fate::Keep,
+    /// Whether a record without an object stays.
+    fn keeps(&self, key: u32) -> bool {
+        let index = (key >> 8) as u16;
+        let is_dropped = match *self.plan {
+            Plan::Restore(sub) => Group::of_index(index).covered_by(sub),
+            Plan::Own(_) => index == OWN,
+            _ => false,
         };
-        match fate {
-            // After a save that was cut the factory values hold, and they stay.
-            Fate::Keep if self.banks.is_withdrawn && !new.is_some_and(is_life_record) => Fate::Drop,
-            Fate::Keep if new.is_none() && !is_own && !self.has_orphans => Fate::Drop,
-            fate => fate,
+        // After a save that was cut the factory values hold, and they stay.
+        !is_dropped && !self.medium.banks.is_withdrawn && (index == OWN || self.has_orphans)
+    }
+
+    /// Whether the plan is about a value.
+    #[inline(never)]
+    fn is_meant(&self, profile: &StoreProfile, row: &Row) -> bool {
+        match *self.plan {
+            Plan::Save(_) if is_life_record(row) => true,
+            Plan::Restore(_) if is_life_record(row) => false,
+            Plan::Save(sub) | Plan::Restore(sub) => is_covered(profile, row, sub),
+            Plan::Only(addresses) => addresses.contains(&row.address()),
+            Plan::Own(_) => false,
+        }
+    }
+
+    /// Whether a value that the plan is about goes in.
+    fn goes_in(&self, row: &Row) -> bool {
+        match self.plan {
+            Plan::Restore(_) => false,
+            // One that was not changed follows the node ID.
+            Plan::Save(_) => !self.store.follows_node_id(row),
+            _ => true,
         }
     }
 
     /// The record of a value of the store.
     #[inline(never)]
-    fn value(&self, writer: &mut Writer<'_>, row: &Row) -> Result<(), StorageError> {
-        let mut number = [0; 8];
-        let mut bytes = self.store.value(row, &mut number);
-        let len = bytes.len();
-        if len > MAX_VALUE {
-            return Err(StorageError::Full);
+    fn value(&mut self, profile: &StoreProfile, row: &Row) {
+        let bytes = self.store.stored(row);
+        if bytes.len() > MAX_VALUE {
+            return self.medium.fail(StorageError::Full);
         }
-        writer.head(row.address(), len)?;
-        let base = cob_id::base(self.store, row, self.profile.cob_ids);
-        if base != 0 {
-            number = number_in(bytes).wrapping_sub(base).to_le_bytes();
-            bytes = number.get(..len).unwrap_or_default();
-        }
-        writer.put(bytes)
-    }
-}
-
-/// Past the last address.
-const END: u32 = u32::MAX;
-
-/// Bytes of a write: the longest word.
-const BUFFER: usize = 32;
-
-/// Gathers small writes and sums them up.
-struct Writer<'w> {
-    storage: &'w mut dyn Storage,
-    /// Place of the next byte that is written.
-    at: usize,
-    /// Nothing is written.
-    only_counts: bool,
-    buffer: [u8; BUFFER],
-    filled: usize,
-    crc: Crc32,
-}
-
-impl<'w> Writer<'w> {
-    /// One that only counts.
-    fn new(storage: &'w mut dyn Storage) -> Self {
-        Self {
-            storage,
-            at: 0,
-            only_counts: true,
-            buffer: [0; BUFFER],
-            filled: 0,
-            crc: Crc32::new(),
+        self.head(row.key(), bytes.len());
+        match cob_id::base(self.store, row, profile.cob_ids) {
+            0 => self.put(Source::Bytes(bytes), bytes.len()),
+            base => self.difference(bytes, base),
         }
     }
 
-    /// Writes from here on.
-    fn begin(&mut self, at: usize) {
-        (self.at, self.only_counts) = (at, false);
+    /// A value less its default.
+    #[inline(never)]
+    fn difference(&mut self, bytes: &[u8], base: u64) {
+        let less = number_in(bytes).wrapping_sub(base).to_le_bytes();
+        self.put(Source::Bytes(&less), bytes.len());
     }
 
     /// Begins a record.
     #[inline(never)]
-    fn head(&mut self, address: Address, len: usize) -> Result<(), StorageError> {
-        let [index_low, index_high] = address.index.to_le_bytes();
+    fn head(&mut self, key: u32, len: usize) {
+        let [sub, index_low, index_high, _] = key.to_le_bytes();
         // MAX_VALUE and the records' own length field keep it below 64 KiB.
         let [len_low, len_high] = (len as u16).to_le_bytes();
-        let head: [u8; RECORD] = [index_low, index_high, address.sub, len_low, len_high];
-        self.put(&head)
-    }
-
-    #[inline(never)]
-    fn put(&mut self, mut bytes: &[u8]) -> Result<(), StorageError> {
-        if self.only_counts {
-            self.at += bytes.len();
-            return Ok(());
-        }
-        self.crc.update(bytes);
-        while !bytes.is_empty() {
-            let room = self.buffer.get_mut(self.filled..).unwrap_or_default();
-            let part = bytes.len().min(room.len());
-            copy(room, bytes);
-            self.filled += part;
-            bytes = bytes.get(part..).unwrap_or_default();
-            if self.filled == self.buffer.len() {
-                self.write_out(1)?;
-            }
-        }
-        Ok(())
+        let head: [u8; RECORD] = [index_low, index_high, sub, len_low, len_high];
+        self.put(Source::Bytes(&head), RECORD);
     }
 
     /// Records of node ID and bit rate.
     #[inline(never)]
-    fn own(&mut self, own: &[Option<u8>; 2]) -> Result<(), StorageError> {
-        for (sub, value) in (1..).zip(own) {
+    fn own(&mut self, own: &[Option<u8>; 2]) {
+        for (key, value) in (1..).zip(own) {
             if let Some(value) = value {
-                self.head(Address::new(OWN, sub), 1)?;
-                self.put(&[*value])?;
+                self.head(key, 1);
+                self.put(Source::Bytes(&[*value]), 1);
             }
         }
-        Ok(())
     }
 
-    /// Puts a record that the storage has.
+    /// Puts so many bytes.
     #[inline(never)]
-    fn copy(&mut self, old: &Record) -> Result<(), StorageError> {
-        let (mut from, mut len) = (old.at, old.len);
-        self.head(old.address, len)?;
+    fn put(&mut self, source: Source<'_>, len: usize) {
         if self.only_counts {
             self.at += len;
-            return Ok(());
+            return;
         }
-        while len > 0 {
-            let room = self.buffer.get_mut(self.filled..).unwrap_or_default();
-            let part = len.min(room.len());
+        let mut done = 0;
+        while done < len {
+            let room = self.medium.buffer.get_mut(self.filled..);
+            let room = room.unwrap_or_default();
+            let part = room.len().min(len - done);
             let room = room.get_mut(..part).unwrap_or_default();
-            self.storage.read(from, room)?;
+            match source {
+                Source::Bytes(bytes) => copy(room, bytes.get(done..).unwrap_or_default()),
+                Source::Storage(at) => {
+                    if self.medium.outcome.is_ok() {
+                        self.medium.outcome = self.medium.storage.read(at + done, room)
+                    }
+                }
+            }
             self.crc.update(room);
+            done += part;
             self.filled += part;
-            (from, len) = (from + part, len - part);
-            if self.filled == self.buffer.len() {
-                self.write_out(1)?;
+            if self.filled == MAX_WORD {
+                self.write_out(1);
             }
         }
-        Ok(())
     }
 
     /// Writes the buffer, with the rest of its last word.
-    fn write_out(&mut self, word: usize) -> Result<(), StorageError> {
+    fn write_out(&mut self, word: usize) {
         let end = whole_words(self.filled, word);
-        let rest = self.buffer.get_mut(self.filled..end).unwrap_or_default();
+        let rest = self.medium.buffer.get_mut(self.filled..end);
+        let rest = rest.unwrap_or_default();
         rest.iter_mut().for_each(|byte| *byte = ERASED);
-        self.storage
-            .write(self.at, self.buffer.get(..end).unwrap_or_default())?;
-        self.at += end;
-        self.filled = 0;
-        Ok(())
+        let at = self.at;
+        (self.at, self.filled) = (at + end, 0);
+        self.medium.write(at, end);
     }
 }

@@ -29,8 +29,10 @@ fn begin_save(
     store: &Store<'_>,
     banks: &mut Banks,
 ) -> Result<(), StorageError> {
-    banks.survey(storage, super::super::device(store.dictionary()))?;
-    begin(storage, store, FACTORY, &Plan::Save(1), banks)
+    let device = super::super::device(store.dictionary());
+    let mut medium = Medium::new(storage, banks);
+    medium.survey(device)?;
+    medium.begin(store, FACTORY, &Plan::Save(1))
 }
 
 #[test]
@@ -134,7 +136,7 @@ fn a_save_counts_after_its_end_alone() {
     begin_save(&mut memory, &bench.store(), &mut banks).unwrap();
     assert_eq!(bench.start(&mut memory), Loaded::Cut { factory: true });
     assert_eq!(bench.store().unsigned(0x6003, 0), 0);
-    commit(&mut memory, &mut banks).unwrap();
+    Medium::new(&mut memory, &mut banks).commit().unwrap();
     assert_eq!(bench.start(&mut memory), Loaded::Complete);
     assert_eq!(bench.store().unsigned(0x6003, 0), 6);
 }

@@ -1,0 +1,111 @@
+//! What is known of the banks: which are whole, and which is the newest.
+
+use core::num::NonZeroUsize;
+
+use super::layout::{Code, Layout};
+use super::loaded::Loaded;
+
+/// A whole set.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) struct Set {
+    /// [`device`](super::device) that wrote it.
+    pub(super) device: u32,
+    /// Bytes of header and records.
+    pub(super) len: NonZeroUsize,
+}
+
+/// Content of a bank.
+pub(super) struct Bank {
+    /// Commit word.
+    pub(super) code: Code,
+    /// The word after it: a save that replaces the set began.
+    pub(super) mark: Code,
+    /// Its set, if it is whole.
+    pub(super) set: Option<Set>,
+    /// Every bit is as a save left it.
+    pub(super) is_clean: bool,
+    /// Version 1 of this layout.
+    pub(super) is_old: bool,
+}
+
+/// State of both banks.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) struct Banks {
+    pub(super) layout: Layout,
+    /// The bank that stays with the next save: that of the newest set, if there is one.
+    pub(super) stays: usize,
+    /// The bank of the next set.
+    pub(super) target: usize,
+    /// The device.
+    pub(super) device: u32,
+    /// The newest set, of whatever device.
+    pub(super) newest: Option<Set>,
+    /// The set that a start loads, whether or not its records fit.
+    pub(super) state: Loaded,
+    /// The commit word of the next set; [erased](Code::ERASED): there is none.
+    pub(super) next: Code,
+    /// The newest set does not count, because a later save was interrupted on a device that loads
+    /// the factory values then; the operating records in it do.
+    pub(super) is_withdrawn: bool,
+}
+
+impl Banks {
+    /// Banks that nobody has looked at: all zeros.
+    pub(crate) const NONE: Self = Self {
+        layout: Layout::NONE,
+        stays: 0,
+        target: 0,
+        device: 0,
+        newest: None,
+        state: Loaded::Blank,
+        next: Code::ERASED,
+        is_withdrawn: false,
+    };
+
+    /// Whether there is a next set, which is written but for its commit word.
+    pub(crate) fn is_some(&self) -> bool {
+        self.next != Code::ERASED
+    }
+
+    /// What two banks are together.
+    #[inline(never)]
+    pub(super) fn judge(&mut self, stays: &Bank, target: &Bank) {
+        let was_withdrawn = stays.mark == Code::WITHDRAWN;
+        // A save began that was not completed.
+        let is_interrupted =
+            (was_withdrawn || stays.mark == Code::REPLACED) && target.code != Code::GIVEN_UP;
+        // A set is damaged that is later than the newest.
+        let lost = match target.code {
+            // Flash may have any content where power went.
+            Code::UNCLEAR => (self.layout.page == 0 && stays.mark == Code::REPLACED).into(),
+            code => code.later_than(stays.code),
+        };
+        let is_withdrawn = was_withdrawn
+            && match lost {
+                0 => is_interrupted,
+                later => later == 2,
+            };
+        let is_clean = stays.is_clean && target.is_clean;
+        self.state = match stays.set {
+            Some(set) if set.device != self.device => Loaded::Foreign,
+            Some(_) if lost > 0 && is_withdrawn => Loaded::Damaged,
+            Some(_) if lost > 0 => Loaded::Older,
+            Some(_) if is_interrupted => Loaded::Cut {
+                factory: was_withdrawn,
+            },
+            Some(_) if is_clean => Loaded::Complete,
+            Some(_) => Loaded::Flawed,
+            None if stays.code.is_complete() => Loaded::Damaged,
+            None if stays.is_old || target.is_old => Loaded::Foreign,
+            None if is_interrupted => Loaded::Cut { factory: true },
+            None if is_clean => Loaded::Blank,
+            None => Loaded::Damaged,
+        };
+        self.next = match stays.code.is_complete() {
+            true => stays.code.plus(if is_withdrawn { 2 } else { 1 }),
+            false => Code::FIRST,
+        };
+        self.newest = stays.set;
+        self.is_withdrawn = is_withdrawn;
+    }
+}

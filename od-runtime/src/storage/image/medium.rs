@@ -1,0 +1,180 @@
+//! A storage while an image is read or written: what is known of its banks, and what has failed.
+
+use core::num::NonZeroUsize;
+
+use super::banks::{Banks, Set};
+use super::layout::{Code, ERASED, FIELDS, Layout, MAX_WORD};
+use crate::storage::crc::Crc32;
+use crate::storage::{Storage, StorageError};
+
+/// A storage, which does nothing any more behind the first failure.
+pub(crate) struct Medium<'m> {
+    pub(super) storage: &'m mut dyn Storage,
+    pub(super) banks: &'m mut Banks,
+    /// The first failure.
+    pub(super) outcome: Result<(), StorageError>,
+    /// Bytes on their way: the longest word.
+    pub(super) buffer: [u8; MAX_WORD],
+}
+
+impl<'m> Medium<'m> {
+    pub(crate) fn new(storage: &'m mut dyn Storage, banks: &'m mut Banks) -> Self {
+        Self {
+            storage,
+            banks,
+            outcome: Ok(()),
+            buffer: [0; MAX_WORD],
+        }
+    }
+
+    /// A failure that the storage did not see.
+    pub(super) fn fail(&mut self, error: StorageError) {
+        self.outcome = self.outcome.and(Err(error));
+    }
+
+    /// Fills `to`, which stays as it is behind a failure.
+    #[inline(never)]
+    pub(super) fn read(&mut self, at: usize, to: &mut [u8]) {
+        if self.outcome.is_ok() {
+            self.outcome = self.storage.read(at, to);
+        }
+    }
+
+    /// Reads into the buffer, up to its length.
+    #[inline(never)]
+    fn fetch(&mut self, at: usize, len: usize) -> &[u8] {
+        let part = self.buffer.get_mut(..len).unwrap_or_default();
+        if self.outcome.is_ok() {
+            self.outcome = self.storage.read(at, part);
+        }
+        part
+    }
+
+    /// Writes so many bytes of the buffer.
+    #[inline(never)]
+    pub(super) fn write(&mut self, at: usize, len: usize) {
+        if self.outcome.is_ok() {
+            let part = self.buffer.get(..len).unwrap_or_default();
+            self.outcome = self.storage.write(at, part);
+        }
+    }
+
+    /// Writes one byte up to 32 times.
+    fn fill(&mut self, at: usize, len: usize, byte: u8) {
+        self.buffer = [byte; MAX_WORD];
+        self.write(at, len);
+    }
+
+    pub(super) fn flush(&mut self) {
+        if self.outcome.is_ok() {
+            self.outcome = self.storage.flush();
+        }
+    }
+
+    /// Whether all bytes of a range are this one.
+    #[inline(never)]
+    fn holds(&mut self, mut at: usize, end: usize, byte: u8) -> bool {
+        let word = [byte; 4];
+        self.buffer = [byte; MAX_WORD];
+        while at < end {
+            self.fetch(at, (end - at).min(MAX_WORD));
+            // Most of a bank is erased, so this is most of a start.
+            if self.buffer.as_chunks().0.iter().any(|other| *other != word) {
+                return false;
+            }
+            at += MAX_WORD;
+        }
+        true
+    }
+
+    /// Whether nothing was ever written there: all bytes are FFh, or all are 0.
+    pub(super) fn is_blank(&mut self, at: usize, end: usize) -> bool {
+        self.holds(at, end, ERASED) || self.holds(at, end, 0)
+    }
+
+    /// Prepares a bank for a set of `len` bytes with its header.
+    #[inline(never)]
+    pub(super) fn clear(&mut self, bank: usize, len: usize) {
+        let Layout { page, word, .. } = self.banks.layout;
+        if page == 0 {
+            self.stamp(bank, Code::ERASED);
+            self.stamp(bank + word, Code::ERASED);
+            return;
+        }
+        let mut at = 0;
+        while at < self.banks.layout.size {
+            // Pages behind the set are mostly erased already.
+            let start = bank + at;
+            if (at < len || !self.is_blank(start, start + page)) && self.outcome.is_ok() {
+                self.outcome = self.storage.erase(start);
+            }
+            at += page;
+        }
+        self.flush();
+    }
+
+    /// Behind the records nothing stays of older sets; flash is erased there.
+    pub(super) fn wipe(&mut self, mut at: usize, end: usize) {
+        while self.banks.layout.page == 0 && at < end {
+            let part = (end - at).min(MAX_WORD);
+            if !self.is_blank(at, at + part) {
+                self.fill(at, part, ERASED);
+            }
+            at += part;
+        }
+    }
+
+    /// Reads the code in the word at `at`; `false` if a bit is wrong.
+    #[inline(never)]
+    pub(super) fn code(&mut self, at: usize) -> (Code, bool) {
+        Code::read(self.fetch(at, self.banks.layout.word))
+    }
+
+    /// Writes a code into the word at `at`, and reads it back.
+    #[inline(never)]
+    pub(super) fn stamp(&mut self, at: usize, code: Code) {
+        let (byte, end) = (code.byte(), at + self.banks.layout.word);
+        // A word of flash is written once.
+        if !self.holds(at, end, byte)
+            && (self.banks.layout.page == 0 || self.holds(at, end, ERASED))
+        {
+            self.fill(at, self.banks.layout.word, byte);
+            self.flush();
+        }
+        if !self.holds(at, end, byte) {
+            self.fail(StorageError::NotWritten);
+        }
+    }
+
+    /// The set in a bank did not become whole. Power did not go, so the set before it counts, if the
+    /// storage still works.
+    pub(super) fn give_up(&mut self, bank: usize) {
+        let outcome = core::mem::replace(&mut self.outcome, Ok(()));
+        self.stamp(bank, Code::GIVEN_UP);
+        self.outcome = outcome;
+    }
+
+    /// Returns the set of a bank, if fields and records are whole.
+    #[inline(never)]
+    pub(super) fn content(&mut self, bank: usize) -> Option<Set> {
+        let Layout {
+            word, header, size, ..
+        } = self.banks.layout;
+        let (mut fields, mut at) = ([[0; 4]; 3], bank + 2 * word);
+        self.read(at, fields.as_flattened_mut());
+        let [device, len, sum] = fields.map(u32::from_le_bytes);
+        let (records, len) = (bank + header, len as usize);
+        if len > size - header || !self.holds(at + FIELDS, records, ERASED) {
+            return None;
+        }
+        let mut crc = Crc32::new();
+        crc.update(fields[..2].as_flattened());
+        at = records;
+        while at < records + len {
+            crc.update(self.fetch(at, (records + len - at).min(MAX_WORD)));
+            at += MAX_WORD;
+        }
+        let len = NonZeroUsize::new(header + len)?;
+        (crc.finish() == sum).then_some(Set { device, len })
+    }
+}

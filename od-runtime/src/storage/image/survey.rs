@@ -1,0 +1,130 @@
+//! Reading: which banks are whole, which is the newest, and what is in it.
+
+use od_model::{Address, Dictionary};
+
+use super::banks::{Bank, Banks};
+use super::layout::{Code, Layout, MAGIC_1, RECORD, VERSION};
+use super::medium::Medium;
+use crate::storage::StorageError;
+use crate::storage::crc::Crc32;
+
+impl Medium<'_> {
+    /// Reads both banks to their end, for this device.
+    #[inline(never)]
+    pub(crate) fn survey(&mut self, device: u32) -> Result<(), StorageError> {
+        *self.banks = Banks {
+            layout: Layout::of(self.storage),
+            device,
+            ..Banks::NONE
+        };
+        let size = self.banks.layout.size;
+        if size > 0 {
+            let (first, second) = (self.look(0), self.look(size));
+            let first_stays = match (first.set, second.set) {
+                (Some(_), None) => true,
+                (None, Some(_)) => false,
+                _ => first.code.is_complete() && second.code.later_than(first.code) == 0,
+            };
+            match first_stays {
+                true => self.banks.judge(&first, &second),
+                false => self.banks.judge(&second, &first),
+            }
+            self.banks.stays = if first_stays { 0 } else { size };
+            self.banks.target = size - self.banks.stays;
+        }
+        self.outcome
+    }
+
+    /// What is in the bank from here on.
+    #[inline(never)]
+    fn look(&mut self, start: usize) -> Bank {
+        let Layout { word, size, .. } = self.banks.layout;
+        let ((code, is_exact), (mark, is_right)) = (self.code(start), self.code(start + word));
+        let mut magic = [0; MAGIC_1.len()];
+        self.read(start, &mut magic);
+        let set = match code.is_complete() {
+            true => self.content(start),
+            false => None,
+        };
+        let used = set.map_or(2 * word, |set| set.len.get());
+        let is_clean = code == Code::GIVEN_UP || self.is_blank(start + used, start + size);
+        Bank {
+            code,
+            mark,
+            set,
+            is_clean: is_exact && is_right && is_clean,
+            is_old: magic == MAGIC_1,
+        }
+    }
+
+    /// The records of the newest set; none if it is another device's.
+    #[inline(never)]
+    pub(super) fn records(&self) -> Records {
+        let banks = &self.banks;
+        let header = banks.layout.header;
+        let own = banks.newest.filter(|set| set.device == banks.device);
+        Records {
+            key: 0,
+            at: banks.stays + header,
+            len: 0,
+            end: banks.stays + own.map_or(header, |set| set.len.get()),
+        }
+    }
+}
+
+/// Returns the number by which a set knows its device: version of the layout, vendor-ID and product
+/// code (1018h).
+pub(super) const fn device(dictionary: &Dictionary<'_>) -> u32 {
+    let mut crc = Crc32::new().after(&[VERSION]);
+    let mut sub = 1;
+    while sub <= 2 {
+        let mut number = 0;
+        let mut rest = dictionary.rows();
+        while let [row, others @ ..] = rest {
+            if row.key() == Address::new(0x1018, sub).key() {
+                number = row.default(dictionary.pool(), 0);
+            }
+            rest = others;
+        }
+        crc = crc.after(&(number as u32).to_le_bytes());
+        sub += 1;
+    }
+    crc.finish()
+}
+
+/// The records of a bank, in order, of which one is at hand.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Records {
+    /// Its address as a number; [`END`] behind the last one.
+    pub(super) key: u32,
+    /// Offset of its value.
+    pub(super) at: usize,
+    pub(super) len: usize,
+    end: usize,
+}
+
+/// Past the last address.
+pub(super) const END: u32 = u32::MAX;
+
+impl Records {
+    /// Goes to the next record, or to the [`END`] if the rest is none.
+    #[inline(never)]
+    pub(super) fn next(&mut self, medium: &mut Medium<'_>) {
+        self.key = END;
+        let start = self.at + self.len;
+        if self.end - start < RECORD {
+            return;
+        }
+        let mut head = [0; RECORD];
+        medium.read(start, &mut head);
+        let [index_low, index_high, sub, len_low, len_high] = head;
+        let (at, len) = (
+            start + RECORD,
+            u16::from_le_bytes([len_low, len_high]).into(),
+        );
+        if self.end - at >= len {
+            self.key = u32::from_le_bytes([sub, index_low, index_high, 0]);
+            (self.at, self.len) = (at, len);
+        }
+    }
+}
