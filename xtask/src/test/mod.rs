@@ -91,7 +91,7 @@ pub(crate) fn run(repo: &Repo, options: &Options) -> Result<ExitCode> {
     let work = |stage: &Stage| one(repo, options, stage, &logs, &report);
     thread::scope(|scope| {
         let work = &work;
-        let mut lanes = [Lane::Page, Lane::Bus, Lane::Board, Lane::Cross].map(|lane| {
+        let mut lanes = Lane::BESIDE.map(|lane| {
             let (queue, waiting) = mpsc::channel::<&Stage>();
             let worker = scope.spawn(move || waiting.iter().try_for_each(work));
             (lane, queue, worker)
@@ -126,7 +126,7 @@ fn one(
     let log = File::create(&path).map_err(|e| Error::io("create", &path, &e))?;
     // Tests in a browser or on a bus look at the time; those that only compute wait for them.
     let limit = if options.long { LIMIT * 4 } else { LIMIT };
-    let console = Console::to_log(log, limit, [Lane::Cargo, Lane::Cross].contains(&stage.lane));
+    let console = Console::to_log(log, limit, !stage.lane.looks_at_the_time());
     let context = Context {
         repo,
         console: &console,

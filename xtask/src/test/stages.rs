@@ -1,6 +1,6 @@
-//! The stages, in the order they run: first what the tests in a browser and on a bus wait for, which
-//! take longest, and last what only compiles. One cargo at a time writes into `target/debug`, so
-//! everything that does is in one lane, or short.
+//! The stages, in the order they start: first what the tests in a browser and on a bus wait for, which
+//! take longest. One cargo at a time writes into `target/debug`: `build` compiles all tests, and those
+//! after it only run theirs, beside the lints.
 
 mod boards;
 mod c;
@@ -27,8 +27,12 @@ use Kind::{Check, Tests};
 /// Stages of one lane run one after another, the lanes beside each other.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Lane {
-    /// cargo, which uses all processors.
+    /// cargo, which uses all processors, and the tests inside the crates.
     Cargo,
+    /// The tests from outside.
+    Outside,
+    /// Lints and documentation, which cargo compiles while tests run.
+    Lint,
     /// The page, from its build to the tests in a browser.
     Page,
     /// A bus, whose tests mostly wait.
@@ -38,6 +42,23 @@ pub(super) enum Lane {
     /// Compiled for other computers, in a target directory of its own: one compiler waits for
     /// another that writes into the same.
     Cross,
+}
+
+impl Lane {
+    /// All but that of cargo itself.
+    pub(super) const BESIDE: [Lane; 6] = [
+        Lane::Outside,
+        Lane::Lint,
+        Lane::Page,
+        Lane::Bus,
+        Lane::Board,
+        Lane::Cross,
+    ];
+
+    /// Whether its tests look at the time, so that those of other lanes have to let them go first.
+    pub(super) fn looks_at_the_time(self) -> bool {
+        matches!(self, Lane::Page | Lane::Bus | Lane::Board)
+    }
 }
 
 /// One check with a name.
@@ -102,6 +123,7 @@ pub(super) const STAGES: &[Stage] = &[
     stage("size", Check, "no firmware is larger than README.md says, and a boot loader starts a program, on an emulated Cortex-M3", rust::size).beside(Lane::Board),
     stage("no_std", Check, "what runs in a node builds for a bare Cortex-M3 and M0", rust::no_std).beside(Lane::Cross),
     stage("hosts", Check, "the command line compiles for Windows and macOS", rust::hosts).beside(Lane::Cross),
+    stage("build", Check, "all tests compile", rust::build),
     stage("unit", Tests, "tests inside the crates", rust::unit).quick(),
     stage("firmware", Tests, "conformance scripts on an emulated Cortex-M3, to the byte", rust::firmware).beside(Lane::Board),
     stage("c", Tests, "a node in C answers as the bench does: here, and on an emulated Cortex-M3", c::c).beside(Lane::Board),
@@ -109,12 +131,12 @@ pub(super) const STAGES: &[Stage] = &[
     stage("wasm-pack", Tests, "wasm-pack makes the npm packages, and they work", page::wasm_pack).beside(Lane::Board),
     stage("ui", Tests, "what must not compile, and what the compiler says", |c| rust::outside(c, &["ui", "pass"])).quick().beside(Lane::Cross),
     stage("package", Check, "every crate is packed with its licences, and compiles from that with --long", release::package).beside(Lane::Bus),
-    stage("conformance", Tests, "frame scripts per CANopen service", |c| rust::outside(c, &["conformance"])).quick(),
-    stage("tests", Tests, "all other tests from outside", rust::other_outside),
-    stage("fuzz", Tests, "mutated input: SDO frames, node, EEPROM, EDS, scripts, adapters", rust::fuzz),
-    stage("clippy", Check, "no warning, with every feature on", rust::clippy).quick(),
-    stage("rustdoc", Check, "the documentation builds without a warning", rust::rustdoc),
-    stage("doc", Tests, "the examples in the documentation", rust::doc),
+    stage("conformance", Tests, "frame scripts per CANopen service", |c| rust::outside(c, &["conformance"])).quick().beside(Lane::Outside),
+    stage("tests", Tests, "all other tests from outside", rust::other_outside).beside(Lane::Outside),
+    stage("fuzz", Tests, "mutated input: SDO frames, node, EEPROM, EDS, scripts, adapters", rust::fuzz).beside(Lane::Outside),
+    stage("clippy", Check, "no warning, with every feature on", rust::clippy).quick().beside(Lane::Lint),
+    stage("rustdoc", Check, "the documentation builds without a warning", rust::rustdoc).beside(Lane::Lint),
+    stage("doc", Tests, "the examples in the documentation", rust::doc).beside(Lane::Lint),
     stage("editor", Check, "a session in Neovim, the extension, hooks and action", editor::editor).long(),
     stage("dist", Tests, "a release is made, and each part of it installed and used in an empty folder", dist::dist).long(),
     stage("bench", Check, "each benchmark compiles and runs once", rust::bench).long(),

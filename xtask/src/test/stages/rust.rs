@@ -75,6 +75,16 @@ pub(super) fn odkit(context: &Context<'_>) -> Result<PathBuf> {
     Ok(context.repo.target.join("debug"))
 }
 
+/// All test programs, in one call of cargo, which compiles side by side what several stages run.
+pub(super) fn build(context: &Context<'_>) -> Result<()> {
+    odkit(context)?;
+    run(
+        context,
+        "test programs",
+        &[&["test", "--no-run"], &ALL[..]].concat(),
+    )
+}
+
 /// The tests of all packages but those from outside. Without the packages of these, others would have
 /// fewer features, and be built once more for that.
 pub(super) fn unit(context: &Context<'_>) -> Result<()> {
