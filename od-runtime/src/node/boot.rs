@@ -83,7 +83,9 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
         let node = &mut self.machines;
         node.powered = false;
         node.save_at = Room::BLANK;
+        // With nothing that waits there is no deadline either.
         node.next = Instant::ZERO;
+        node.pending = 0;
         node.ear = Ear::DEAF;
         node.quick = Quick::NONE;
         node.discard_frames();

@@ -18,6 +18,19 @@ fn boots_up_into_pre_operational() {
 }
 
 #[test]
+fn without_power_nothing_is_sent_and_nothing_is_due() {
+    let mut bench = Bench::new();
+    bench.power_on();
+    bench.ask("601#2B17100064000000"); // a heartbeat every 100 ms
+    bench.hear("601#2300200009000000"); // its response is not out yet
+    bench.node.power_off();
+    assert!(!bench.node.may_transmit());
+    assert_eq!(bench.drain(), [""; 0]);
+    assert_eq!(bench.node.poll_timeout(), None);
+    assert_eq!(bench.wait(1000), []);
+}
+
+#[test]
 fn every_command_from_every_state_to_this_node_and_to_all() {
     let commands = [
         ("01", State::Operational),
