@@ -37,6 +37,7 @@ impl Edit {
 
 /// Why a document was left as it was.
 #[derive(Clone, PartialEq, Eq, Debug)]
+#[non_exhaustive]
 pub enum EditError {
     /// A range is outside the text, runs backwards, or cuts a character in two.
     NoPlace(Range<usize>),

@@ -1,5 +1,7 @@
 //! Interface between the node and the behaviour of the device.
 
+use core::fmt;
+
 use od_model::Address;
 
 use crate::change::Change;
@@ -167,6 +169,17 @@ pub enum Halt {
     /// moment or at [`Node::handle_change`](crate::Node::handle_change), whichever is first.
     Until(Instant),
 }
+
+impl fmt::Display for Halt {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Abort(code) => write!(f, "the stream aborts the transfer: {code}"),
+            Self::Until(at) => write!(f, "the stream is busy until {at:?}"),
+        }
+    }
+}
+
+impl core::error::Error for Halt {}
 
 impl From<AbortCode> for Halt {
     fn from(code: AbortCode) -> Self {
@@ -368,8 +381,8 @@ mod tests {
 
     #[test]
     fn each_request_is_carried_out_once() {
-        let requests: [(fn(&mut Signals), u8); 4] = [
-            (Signals::reconfigure, Signals::RECONFIGURE),
+        let requests = [
+            (Signals::reconfigure as fn(&mut _), Signals::RECONFIGURE),
             (Signals::wake, Signals::TICK),
             (Signals::keep, Signals::KEEP),
             (Signals::send_time, Signals::SEND_TIME),

@@ -3,6 +3,8 @@
 //! [`Loader`] is an [`Application`]. A device with behaviour of its own hands on what is about the
 //! four objects.
 
+use core::fmt;
+
 use od_model::Address;
 use od_wire::{AbortCode, Instant};
 
@@ -35,6 +37,14 @@ pub struct Program {
 /// The memory could not be erased or written.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub struct MemoryFailed;
+
+impl fmt::Display for MemoryFailed {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("the memory could not be erased or written")
+    }
+}
+
+impl core::error::Error for MemoryFailed {}
 
 /// Memory for a program, which is erased as a whole and written page by page.
 pub trait ProgramMemory {

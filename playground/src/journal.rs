@@ -1,9 +1,7 @@
 //! Inputs of a bench, kept so that the bench can be made again.
 
 use od_bench::VirtualDevice;
-use od_bench::journal::{
-    self, Excess, Fault, Fields, Input, Placed, Source, Trouble, Value, check,
-};
+use od_bench::journal::{self, Fault, Fields, Input, Placed, Source, Trouble, Value, check};
 use od_runtime::Instant;
 use wasm_bindgen::prelude::*;
 
@@ -183,13 +181,7 @@ pub fn check_run(
 ) -> Result<(), JsError> {
     let entries: Result<Vec<_>, _> = entries.iter().map(entry).collect();
     let until = Instant::from_micros(until.max(0.0) as u64);
-    check(&entries.map_err(error)?, until).map_err(|excess| {
-        JsError::new(match excess {
-            Excess::Devices => "devices",
-            Excess::Time => "time",
-            Excess::Frames => "frames",
-        })
-    })
+    check(&entries.map_err(error)?, until).map_err(|excess| JsError::new(excess.name()))
 }
 
 /// The result of an input, and of the text of its device.
@@ -219,10 +211,7 @@ pub(crate) fn text_of(input: &Input) -> String {
 }
 
 pub(crate) fn error(fault: Fault) -> JsError {
-    JsError::new(match fault {
-        Fault::Cut => "cut",
-        Fault::Newer => "newer",
-    })
+    JsError::new(fault.name())
 }
 
 pub(crate) fn read(input: &JsValue) -> Result<Input, Fault> {

@@ -1,8 +1,8 @@
 //! Fields of an input as a program outside hands them over, and the checks on them: they may come
 //! from a link that anybody wrote.
 
-use std::format;
 use std::prelude::v1::*;
+use std::{fmt, format};
 
 /// Most bytes of an input, and most steps of a profile.
 const MOST_BYTES: usize = 150_000;
@@ -33,12 +33,34 @@ pub enum Value {
 
 /// Why an input cannot be read.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[non_exhaustive]
 pub enum Fault {
     /// A field is missing, or has a value that is not allowed.
     Cut,
     /// A later version wrote it.
     Newer,
 }
+
+impl Fault {
+    /// A word for programs: `cut`, `newer`.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Cut => "cut",
+            Self::Newer => "newer",
+        }
+    }
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Cut => "a field of the input is missing, or has a value that is not allowed",
+            Self::Newer => "a later version wrote the input",
+        })
+    }
+}
+
+impl core::error::Error for Fault {}
 
 /// Source of the fields. A field of a field is named `source.name`.
 pub trait Fields {

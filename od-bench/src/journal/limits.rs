@@ -1,5 +1,6 @@
 //! Limits of a run that is made again: it may come from a link that anybody wrote.
 
+use std::fmt;
 use std::prelude::v1::*;
 
 use od_wire::Instant;
@@ -18,6 +19,7 @@ const MOST_FRAMES: u64 = 10_000_000;
 
 /// Limit that a run exceeds.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[non_exhaustive]
 pub enum Excess {
     /// Devices on the bus.
     Devices,
@@ -26,6 +28,29 @@ pub enum Excess {
     /// Frames that are sent cyclically.
     Frames,
 }
+
+impl Excess {
+    /// A word for programs: `devices`, `time`, `frames`.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Devices => "devices",
+            Self::Time => "time",
+            Self::Frames => "frames",
+        }
+    }
+}
+
+impl fmt::Display for Excess {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Devices => "the run has too many devices",
+            Self::Time => "the run takes too long",
+            Self::Frames => "the run sends too many frames",
+        })
+    }
+}
+
+impl core::error::Error for Excess {}
 
 /// Adds up what a run to the moment `until` asks for, before any of it happens. The lines of
 /// scripts and lessons are checked when they are read.

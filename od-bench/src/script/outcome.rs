@@ -49,14 +49,23 @@ impl fmt::Display for Stop {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let text = shown::line(&self.text);
         writeln!(f, "line {} at {:?} s: {text}", self.line, self.at)?;
-        match &self.reason {
-            Reason::Failed { expected, got } => {
-                let (expected, got) = (shown::brief(expected), shown::brief(got));
-                write!(f, "  expected  {expected}\n  but       {got}")
-            }
-            Reason::Impossible(why) => write!(f, "  {}", shown::brief(why)),
-        }
+        self.reason.fmt(f)
     }
 }
 
 impl core::error::Error for Stop {}
+
+/// As it is shown below the line.
+impl fmt::Display for Reason {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Failed { expected, got } => {
+                let (expected, got) = (shown::brief(expected), shown::brief(got));
+                write!(f, "  expected  {expected}\n  but       {got}")
+            }
+            Self::Impossible(why) => write!(f, "  {}", shown::brief(why)),
+        }
+    }
+}
+
+impl core::error::Error for Reason {}
