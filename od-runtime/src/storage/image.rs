@@ -153,7 +153,7 @@ pub(crate) fn take_over(
         if key == END {
             break;
         }
-        if key >> 8 == OWN.into() {
+        if key >> 8 == u32::from(OWN) {
             continue;
         }
         let row = store
