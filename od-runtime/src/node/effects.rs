@@ -14,7 +14,6 @@ use crate::extras::Extras;
 use crate::objects::Objects;
 use crate::objects::outbox::Effect;
 use crate::rooms::Room;
-use crate::sdo::Held;
 
 impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<D, PDO, SDO, X> {
     /// The end of a call: services read changed objects again, errors go out, and changed values
@@ -82,14 +81,12 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         }
     }
 
-    /// The answer that waited for the end of a command. Returns the request behind it.
+    /// The answer that waited for the end of a command.
     #[inline(never)]
-    fn answer_late(&mut self, objects: &mut Objects<'_, D>, done: bool) -> Option<Held> {
-        let (answer, held) = self.sdo.finish(objects, done);
-        if let Some(answer) = answer {
+    fn answer_late(&mut self, objects: &mut Objects<'_, D>, done: bool) {
+        if let Some(answer) = self.sdo.finish(objects, done) {
             self.answer(answer);
         }
-        held
     }
 
     /// A save that took its time is complete: its request is answered, and the one behind it.
@@ -103,7 +100,8 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         if D::SERVERS && !self.sdo.awaits_save() {
             return;
         }
-        if let Some((data, dlc)) = self.answer_late(objects, done) {
+        self.answer_late(objects, done);
+        if let Some((data, dlc)) = self.sdo.held() {
             self.ask(objects, &data, dlc);
         }
     }

@@ -155,8 +155,9 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
             if !one.server.awaits_save() {
                 continue;
             }
-            let (answer, held) = one.server.finish(objects, done);
+            let answer = one.server.finish(objects, done);
             let first = answer.and_then(|answer| one.frame(answer));
+            let held = one.server.held();
             let next = held.and_then(|(data, dlc)| one.server.ask(objects, &data, dlc));
             let next = next.and_then(|answer| one.frame(answer));
             self.send(first);

@@ -86,6 +86,7 @@ impl Outbox {
         self.effect(Effect::Written { index, sub });
     }
 
+    #[inline(never)]
     pub(super) fn effect(&mut self, effect: Effect) {
         self.overflow |= !self.effects().push(effect);
     }

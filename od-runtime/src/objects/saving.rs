@@ -133,24 +133,26 @@ impl<D: Device> Objects<'_, D> {
     fn prepare(&mut self, command: Command) {
         self.refresh_life_record();
         if command != KEEP {
-            self.application(|application, context| application.saving(context, true));
+            self.tell(true);
         }
     }
     /// 1010h: complete at once or in a while.
     #[inline(never)]
     fn saved(&mut self, sub: u8, begun: bool) -> Option<bool> {
-        self.application(|application, context| application.saving(context, false));
-        if !begun {
-            self.outbox.effect(Effect::NotSaved);
-            return Some(false);
-        }
+        self.tell(false);
         self.saving.as_mut()?.sub = sub;
         let profile = &self.profile().store;
-        if profile.duration_us > 0 {
+        if begun && profile.duration_us > 0 {
             self.await_end(profile.duration_us);
             return (profile.answer == SaveAnswer::AtOnce).then_some(true);
         }
-        self.end_save()
+        self.end_save(begun)
+    }
+
+    /// The application hears that its values are about to be saved, and that they have been read.
+    #[inline(never)]
+    fn tell(&mut self, begins: bool) {
+        self.application(|application, context| application.saving(context, begins));
     }
 
     /// 1011h: at once, or at the next reset.
@@ -187,16 +189,17 @@ impl<D: Device> Objects<'_, D> {
     /// memory is still writing.
     pub(crate) fn complete_save(&mut self) -> Option<bool> {
         match self.is_saving() {
-            true => self.end_save(),
+            true => self.end_save(true),
             false => Some(true),
         }
     }
 
-    fn end_save(&mut self) -> Option<bool> {
+    /// The end of a save of which all but the commit word is written; else it failed.
+    fn end_save(&mut self, begun: bool) -> Option<bool> {
         self.forget_save();
         let saving = self.saving.as_mut()?;
         let (sub, has_set) = (saving.sub, saving.banks.is_some());
-        let is_written = self.commit();
+        let is_written = begun && self.commit();
         if is_written && self.storage.is_writing() {
             self.await_memory(sub);
             return None;

@@ -82,7 +82,7 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
     ) -> Option<[u8; 8]> {
         let answer = self.handle(objects, data, dlc);
         match objects.carry_out() {
-            Some(done) => self.finish(objects, done).0,
+            Some(done) => self.finish(objects, done),
             None => answer,
         }
     }

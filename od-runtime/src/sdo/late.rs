@@ -50,6 +50,12 @@ impl Late {
         }
     }
 
+    /// Nothing is awaited any more. Returns the answer.
+    pub(super) fn end(&mut self) -> Option<[u8; 8]> {
+        self.awaited = Awaited::Nothing;
+        self.answer.take()
+    }
+
     pub(super) fn is_awaited(&self) -> bool {
         self.awaited != Awaited::Nothing
     }

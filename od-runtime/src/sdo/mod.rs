@@ -354,20 +354,21 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
         answer
     }
 
-    /// Everything is stored (`done`), or could not be: the answer that waited, and the request behind it.
-    pub(crate) fn finish(
-        &mut self,
-        objects: &mut Objects<'_, D>,
-        done: bool,
-    ) -> (Option<[u8; 8]>, Option<Held>) {
-        let Late { answer, held, .. } = *self.late();
-        self.set_late(Late::BLANK);
+    /// Everything is stored (`done`), or could not be: the answer that waited. The request behind it is
+    /// [held](Self::held).
+    pub(crate) fn finish(&mut self, objects: &mut Objects<'_, D>, done: bool) -> Option<[u8; 8]> {
+        let late = self.late.all_mut().first_mut();
+        let answer = late.and_then(Late::end);
         self.look();
-        let answer = match answer {
+        match answer {
             Some(_) if !done => Some(self.abort(objects, objects.profile().store.failed)),
             answer => answer,
-        };
-        (answer, held)
+        }
+    }
+
+    /// Takes the request that waited for the answer.
+    pub(crate) fn held(&mut self) -> Option<Held> {
+        self.late.all_mut().first_mut()?.held.take()
     }
 
     /// When a block transfer gives up, or a stream is asked again.
