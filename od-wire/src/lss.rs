@@ -40,7 +40,13 @@ impl Part {
     pub const ALL: [Self; 4] = [Self::Vendor, Self::Product, Self::Revision, Self::Serial];
 
     fn from_code(code: u8) -> Option<Self> {
-        Self::ALL.get(usize::from(code)).copied()
+        Some(match code {
+            0 => Self::Vendor,
+            1 => Self::Product,
+            2 => Self::Revision,
+            3 => Self::Serial,
+            _ => return None,
+        })
     }
 }
 

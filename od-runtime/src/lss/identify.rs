@@ -12,6 +12,7 @@ impl Sequence {
     }
 
     /// Answers whether this step, the `last` one, completes the sequence.
+    #[inline(never)]
     pub(super) fn step(&mut self, step: u8, last: u8, matches: bool) -> bool {
         // Step 0 restarts, whatever came before.
         let in_order = step == 0 || step == self.next;
@@ -24,20 +25,21 @@ impl Sequence {
     }
 }
 
-/// Steps 0–5 of identify remote slave: vendor, product, lowest and highest revision,
-/// lowest and highest serial number.
-pub(super) fn in_range(
-    step: u8,
-    value: u32,
-    [vendor, product, revision, serial]: [u32; 4],
-) -> bool {
+/// The number of the LSS address that a step of identify remote slave is about. Steps 0–5 are vendor,
+/// product, lowest and highest revision, lowest and highest serial number.
+pub(super) const fn part(step: u8) -> u8 {
     match step {
-        0 => vendor == value,
-        1 => product == value,
-        2 => revision >= value,
-        3 => revision <= value,
-        4 => serial >= value,
-        5 => serial <= value,
+        0 | 1 => step,
+        _ => step / 2 + 1,
+    }
+}
+
+/// Whether this slave's number is what a step of identify remote slave asks for.
+pub(super) const fn in_range(step: u8, value: u32, own: u32) -> bool {
+    match step {
+        0 | 1 => own == value,
+        2 | 4 => own >= value,
+        3 | 5 => own <= value,
         _ => false,
     }
 }
@@ -67,25 +69,15 @@ impl Fastscan {
         Self { part: 0 }
     }
 
-    /// One step (CiA 305, chapter 6.3.6): are bits 31 to `bit` of this number as asked?
+    /// One step (CiA 305, chapter 6.3.6): are bits 31 to `bit` of this number, which is `own`, as asked?
     ///
     /// The scan is complete only with the last number, all of its bits, after the
     /// other three.
-    pub(super) fn step(
-        &mut self,
-        number: u32,
-        bit: u8,
-        part: u8,
-        next: u8,
-        address: [u32; 4],
-    ) -> Seen {
+    pub(super) fn step(&mut self, number: u32, bit: u8, part: u8, next: u8, own: u32) -> Seen {
         if bit == Self::BEGIN {
             self.part = 0;
             return Seen::Match;
         }
-        let Some(own) = address.get(usize::from(part)) else {
-            return Seen::Other;
-        };
         if bit > 31 || next > 3 || part != self.part || (own ^ number) >> bit != 0 {
             return Seen::Other;
         }
@@ -116,17 +108,17 @@ mod tests {
 
     /// A master that scans, as CiA 305 draws it.
     fn scan(slave: &mut Fastscan, address: [u32; 4]) -> Option<[u32; 4]> {
-        assert_eq!(slave.step(0, 0x80, 0, 0, address), Seen::Match);
+        assert_eq!(slave.step(0, 0x80, 0, 0, 0), Seen::Match);
         let mut found = [0; 4];
         for part in 0..4u8 {
             for bit in (0..32).rev() {
                 let number = found[usize::from(part)];
-                if slave.step(number, bit, part, part, address) == Seen::Other {
+                if slave.step(number, bit, part, part, address[usize::from(part)]) == Seen::Other {
                     found[usize::from(part)] |= 1 << bit;
                 }
             }
-            let next = (part + 1) % 4;
-            let seen = slave.step(found[usize::from(part)], 0, part, next, address);
+            let (next, own) = ((part + 1) % 4, address[usize::from(part)]);
+            let seen = slave.step(found[usize::from(part)], 0, part, next, own);
             let wanted = if next == 0 {
                 Seen::Complete
             } else {
@@ -152,14 +144,14 @@ mod tests {
     #[test]
     fn no_scan_is_complete_before_its_end() {
         let mut slave = Fastscan::new();
-        slave.step(0, 0x80, 0, 0, ADDRESS);
+        slave.step(0, 0x80, 0, 0, 0);
         // A master that jumps over numbers, or back, finds nobody.
-        assert_eq!(slave.step(ADDRESS[3], 0, 3, 0, ADDRESS), Seen::Other);
-        assert_eq!(slave.step(ADDRESS[0], 0, 0, 3, ADDRESS), Seen::Other);
-        assert_eq!(slave.step(ADDRESS[0], 0, 0, 1, ADDRESS), Seen::Match);
-        assert_eq!(slave.step(ADDRESS[1], 0, 1, 0, ADDRESS), Seen::Other);
-        assert_eq!(slave.step(ADDRESS[1], 32, 1, 2, ADDRESS), Seen::Other);
-        assert_eq!(slave.step(0, 0, 200, 1, ADDRESS), Seen::Other);
+        assert_eq!(slave.step(ADDRESS[3], 0, 3, 0, ADDRESS[3]), Seen::Other);
+        assert_eq!(slave.step(ADDRESS[0], 0, 0, 3, ADDRESS[0]), Seen::Other);
+        assert_eq!(slave.step(ADDRESS[0], 0, 0, 1, ADDRESS[0]), Seen::Match);
+        assert_eq!(slave.step(ADDRESS[1], 0, 1, 0, ADDRESS[1]), Seen::Other);
+        assert_eq!(slave.step(ADDRESS[1], 32, 1, 2, ADDRESS[1]), Seen::Other);
+        assert_eq!(slave.step(0, 0, 200, 1, 0), Seen::Other);
     }
 
     #[test]

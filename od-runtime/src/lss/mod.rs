@@ -6,8 +6,9 @@ use crate::device::Device;
 use crate::objects::Objects;
 use crate::profile::LssProfile;
 use crate::rooms::Blank;
-use crate::storage::image::{self, Plan};
-use od_wire::lss::{Part, Request, Response};
+use crate::storage::StorageError;
+use crate::storage::image::{self, Banks, Medium, Plan};
+use od_wire::lss::{Request, Response};
 
 /// The node ID of a slave that is not configured (CiA 305, chapter 6.3.1).
 pub(crate) const UNCONFIGURED: u8 = 0xFF;
@@ -88,22 +89,21 @@ impl Slave {
         let Some(request) = Request::parse(data) else {
             return Action::Answer(None);
         };
-        let address = Part::ALL.map(|part| objects.store.unsigned(0x1018, part as u8 + 1) as u32);
         let answer = match request {
             Request::SwitchGlobal { configuration } => {
                 self.configuration = configuration;
                 None
             }
             Request::SwitchSelective { part, value } => {
-                let matches = address.get(part as usize) == Some(&value);
+                let matches = number(objects, part as u8) == value;
                 let complete = self.selective.step(part as u8, 3, matches);
                 self.configuration |= complete;
                 complete.then_some(Response::Selected { state: 1 })
             }
             Request::IdentifyRemote { step, value } if profile.identify_remote => {
-                let complete = self
-                    .remote
-                    .step(step, 5, identify::in_range(step, value, address));
+                let own = number(objects, identify::part(step));
+                let matches = identify::in_range(step, value, own);
+                let complete = self.remote.step(step, 5, matches);
                 complete.then_some(Response::Identified)
             }
             Request::IdentifyNonConfigured if profile.non_configured => {
@@ -114,7 +114,7 @@ impl Slave {
                 (node_id == Some(UNCONFIGURED)).then_some(Response::NonConfigured)
             }
             Request::Fastscan {
-                number,
+                number: value,
                 bit,
                 part,
                 next,
@@ -123,7 +123,8 @@ impl Slave {
                 if self.configuration {
                     return Action::Answer(None);
                 }
-                let seen = self.fastscan.step(number, bit, part, next, address);
+                let own = number(objects, part);
+                let seen = self.fastscan.step(value, bit, part, next, own);
                 self.configuration |= seen == identify::Seen::Complete;
                 (seen != identify::Seen::Other).then_some(Response::Identified)
             }
@@ -183,7 +184,7 @@ impl Slave {
             }
             Request::Inquire { part } => Some(Response::Number {
                 part,
-                value: address.get(part as usize).copied().unwrap_or_default(),
+                value: number(objects, part as u8),
             }),
             Request::InquireNodeId if profile.inquire_node_id => Some(Response::NodeId {
                 node_id: self.node_id.unwrap_or(active),
@@ -213,36 +214,56 @@ impl Slave {
             }
         }
         let ours = [profile.node_id, profile.bit_rate];
-        save(objects, Plan::Only(&ours))
+        let (device, profile) = (objects.device(), &objects.profile().store);
+        let plan = Plan::Only(&ours);
+        code(image::write(
+            objects.storage,
+            device,
+            &objects.store,
+            profile,
+            plan,
+        ))
     }
 
     /// Puts what is pending into the image, beside the objects: the next start takes it. A node
     /// ID of FFh is stored as it is.
     fn store_own<D: Device>(&mut self, objects: &mut Objects<'_, D>, active: u8) -> u8 {
         objects.complete_save();
-        let [node_id, bit_rate] = stored(objects);
-        let own = [
-            self.node_id.or(node_id).or(Some(active)),
-            self.bit_rate.or(bit_rate),
-        ];
-        save(objects, Plan::Own(own))
+        let (device, profile) = (objects.device(), &objects.profile().store);
+        let mut banks = Banks::NONE;
+        let mut medium = Medium::new(objects.storage, &mut banks);
+        let stored = medium.own(device).and_then(|[node_id, bit_rate]| {
+            let own = [
+                self.node_id.or(node_id).or(Some(active)),
+                self.bit_rate.or(bit_rate),
+            ];
+            medium.begin(&objects.store, profile, &Plan::Own(own))?;
+            medium.commit()
+        });
+        code(stored)
     }
 }
 
-/// Saves, and returns the error code of the answer.
-fn save<D: Device>(objects: &mut Objects<'_, D>, plan: Plan<'_>) -> u8 {
-    let (device, profile) = (objects.device(), &objects.profile().store);
-    match image::write(objects.storage, device, &objects.store, profile, plan) {
+/// Error code of the answer to a save.
+fn code(saved: Result<(), StorageError>) -> u8 {
+    match saved {
         Ok(()) => error::NONE,
         Err(_) => error::ACCESS,
     }
+}
+
+/// A number of the LSS address (1018h), from 0 on; 0 without such an object.
+fn number<D: Device>(objects: &Objects<'_, D>, part: u8) -> u32 {
+    objects.store.word(0x1018, part.wrapping_add(1), 0)
 }
 
 /// Returns the node ID and the bit rate that a device without objects for them stored. A storage
 /// that cannot be read holds none.
 pub(crate) fn stored<D: Device>(objects: &mut Objects<'_, D>) -> [Option<u8>; 2] {
     let device = objects.device();
-    image::own(objects.storage, device).unwrap_or_default()
+    let mut banks = Banks::NONE;
+    let mut medium = Medium::new(objects.storage, &mut banks);
+    medium.own(device).unwrap_or_default()
 }
 
 #[cfg(test)]

@@ -238,7 +238,7 @@ impl<D: Device> Objects<'_, D> {
 
     /// When the save that goes on is complete.
     pub(crate) fn save_due(&self) -> Deadline {
-        let saving = self.saving.as_ref();
+        let saving = self.saving.as_ref().filter(|_| D::STORAGE);
         saving.map_or(Deadline::NEVER, |saving| saving.due)
     }
 

@@ -253,33 +253,6 @@ pub fn save_only(
     )
 }
 
-/// Returns the node ID and the bit rate that this [`device`] saved by [`Plan::Own`].
-///
-/// # Errors
-/// [`StorageError`] where the storage cannot be read.
-pub(crate) fn own(storage: &mut dyn Storage, device: u32) -> Result<[Option<u8>; 2], StorageError> {
-    let mut banks = Banks::NONE;
-    let mut medium = Medium::new(storage, &mut banks);
-    medium.survey(device)?;
-    let mut own = [None; 2];
-    let mut records = medium.records();
-    loop {
-        records.next(&mut medium);
-        // Index 0: the key is the sub-index.
-        let place = (records.key as usize).wrapping_sub(1);
-        match own.get_mut(place) {
-            _ if records.key == END => break,
-            Some(own) if records.len == 1 => {
-                let mut value = [0];
-                medium.read(records.at, &mut value);
-                *own = Some(value[0]);
-            }
-            _ => {}
-        }
-    }
-    medium.outcome.map(|()| own)
-}
-
 /// Takes the saved values away that sub-index `sub` of 1011h covers, so that the next
 /// power-on finds the defaults; the other groups' saved values stay.
 ///

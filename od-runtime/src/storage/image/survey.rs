@@ -35,6 +35,28 @@ impl Medium<'_> {
         self.outcome
     }
 
+    /// Returns the node ID and the bit rate that this device saved by [`Plan::Own`](super::Plan::Own).
+    #[inline(never)]
+    pub(crate) fn own(&mut self, device: u32) -> Result<[Option<u8>; 2], StorageError> {
+        self.survey(device)?;
+        let (mut own, mut records) = ([None; 2], self.records());
+        loop {
+            records.next(self);
+            // Index 0: the key is the sub-index.
+            let place = (records.key as usize).wrapping_sub(1);
+            match own.get_mut(place) {
+                _ if records.key == END => break,
+                Some(own) if records.len == 1 => {
+                    let mut value = [0];
+                    self.read(records.at, &mut value);
+                    *own = Some(value[0]);
+                }
+                _ => {}
+            }
+        }
+        self.outcome.map(|()| own)
+    }
+
     /// What is in the bank from here on.
     #[inline(never)]
     fn look(&mut self, start: usize) -> Bank {
