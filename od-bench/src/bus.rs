@@ -1,6 +1,7 @@
 //! Several devices on one bus, in virtual time.
 
 mod copy;
+mod run;
 mod traffic;
 
 use std::collections::VecDeque;
@@ -283,17 +284,6 @@ impl Bus {
         while self.step(to) {}
     }
 
-    /// Time passes until the first moment not after `to` at which something is sent.
-    /// Answers whether something was; if not, it is `to` now.
-    pub fn advance_until_sent(&mut self, to: Instant) -> bool {
-        while self.sent.is_empty() {
-            if !self.step(to) {
-                return !self.sent.is_empty();
-            }
-        }
-        true
-    }
-
     /// The next frame that a device sent, oldest first.
     pub fn poll(&mut self) -> Option<Sent> {
         self.sent.pop_front()
@@ -325,7 +315,13 @@ impl Bus {
             return false;
         };
         self.now = self.now.max(at);
-        for _ in 0..STUCK {
+        self.meet(device, 0, to)
+    }
+
+    /// Meets the deadlines of a device at this moment, of which so many were met already. Answers whether it
+    /// is not after `to` now.
+    fn meet(&mut self, device: usize, met: u32, to: Instant) -> bool {
+        for _ in met..STUCK {
             self.devices[device].handle_timeout(self.now);
             self.settle(device);
             self.tell_controllers();

@@ -15,6 +15,7 @@ use od_wire::nmt::State;
 
 mod copy;
 mod power;
+mod run;
 
 use crate::behaviour::Behaviour;
 #[cfg(feature = "eds")]
@@ -269,22 +270,26 @@ impl VirtualDevice {
     /// the world outside the node has to know.
     pub(super) fn take_events(&mut self) {
         while let Some(event) = self.node.poll_event() {
-            if let Some(twin) = &mut self.twin {
-                twin.happened(&event);
-            }
-            match event {
-                Event::BitRate(code) => self.activated = self.bit_rate_of(code),
-                Event::Reset(Reset::PowerOn | Reset::Node, _) => {
-                    self.activated = None;
-                    self.raised.clear();
-                }
-                _ => {}
-            }
-            if self.events.len() == EVENTS {
-                self.events.pop_front();
-            }
-            self.events.push_back(event);
+            self.take_event(event);
         }
+    }
+
+    fn take_event(&mut self, event: Event) {
+        if let Some(twin) = &mut self.twin {
+            twin.happened(&event);
+        }
+        match event {
+            Event::BitRate(code) => self.activated = self.bit_rate_of(code),
+            Event::Reset(Reset::PowerOn | Reset::Node, _) => {
+                self.activated = None;
+                self.raised.clear();
+            }
+            _ => {}
+        }
+        if self.events.len() == EVENTS {
+            self.events.pop_front();
+        }
+        self.events.push_back(event);
     }
 
     /// The NMT state.

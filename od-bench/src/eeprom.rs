@@ -9,6 +9,8 @@ pub(super) struct Eeprom {
     storage: Keeper,
     /// Nothing can be written.
     pub(super) broken: bool,
+    /// Power will go while it is written.
+    pub(super) fails: bool,
 }
 
 /// Memory of the bytes.
@@ -33,6 +35,7 @@ impl Eeprom {
         Self {
             storage: Keeper::Own(Memory::new(bytes)),
             broken: false,
+            fails: false,
         }
     }
 
@@ -41,6 +44,7 @@ impl Eeprom {
         Self {
             storage: Keeper::Lent(storage),
             broken: false,
+            fails: false,
         }
     }
 
@@ -50,6 +54,7 @@ impl Eeprom {
             Keeper::Own(memory) => Some(Self {
                 storage: Keeper::Own(memory.clone()),
                 broken: self.broken,
+                fails: self.fails,
             }),
             Keeper::Lent(_) => None,
         }

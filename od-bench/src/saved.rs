@@ -55,6 +55,7 @@ impl VirtualDevice {
         let is_own = memory.is_some();
         if let Some(memory) = memory {
             memory.cut_after(bytes);
+            self.storage.fails = true;
         }
         is_own
     }

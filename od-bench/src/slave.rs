@@ -1,6 +1,8 @@
 //! A node whatever its type: the bench runs those of compiled devices with their own sizes.
 
 use core::any::Any;
+use core::iter;
+use std::prelude::v1::*;
 
 use od_model::Address;
 use od_runtime::{
@@ -25,6 +27,18 @@ pub enum Input<'f> {
     Boot,
 }
 
+/// A time in which nothing happens to a node but that its deadlines come.
+pub(crate) struct Stretch {
+    /// The present moment.
+    pub(crate) now: Instant,
+    /// Its end.
+    pub(crate) to: Instant,
+    /// It is over earlier when so many frames were sent.
+    pub(crate) frames: usize,
+    /// What happened at its end; it is over when something does.
+    pub(crate) events: Vec<Event>,
+}
+
 /// The functions of [`Node`] that a bench calls; see there.
 pub(crate) trait Slave: Any + Send {
     fn power_on(&mut self, device: &mut Lent<'_>, now: Instant) -> Result<(), StoreTooSmall>;
@@ -42,6 +56,14 @@ pub(crate) trait Slave: Any + Send {
     fn poll_transmit(&mut self, device: &mut Lent<'_>, now: Instant) -> Option<Frame>;
     fn poll_timeout(&self) -> Option<Instant>;
     fn poll_event(&mut self) -> Option<Event>;
+    /// Lets time pass, and hands over what is sent. Returns whether a deadline was met at the moment that it
+    /// is now, so that there may be more to do at it.
+    fn run(
+        &mut self,
+        device: &mut Lent<'_>,
+        stretch: &mut Stretch,
+        sent: &mut dyn FnMut(Instant, Frame),
+    ) -> bool;
     fn state(&self) -> State;
     fn node_id(&self) -> NodeId;
     fn set_node_id(&mut self, node_id: Option<NodeId>);
@@ -106,6 +128,32 @@ where
 
     fn poll_event(&mut self) -> Option<Event> {
         self.poll_event()
+    }
+
+    fn run(
+        &mut self,
+        device: &mut Lent<'_>,
+        stretch: &mut Stretch,
+        sent: &mut dyn FnMut(Instant, Frame),
+    ) -> bool {
+        while stretch.frames > 0
+            && let Some(at) = self.poll_timeout()
+            && at <= stretch.to
+        {
+            let now = at.max(stretch.now);
+            stretch.now = now;
+            self.handle_timeout(device, now);
+            while let Some(frame) = self.poll_transmit(device, now) {
+                stretch.frames = stretch.frames.saturating_sub(1);
+                sent(now, frame);
+            }
+            stretch.events.extend(iter::from_fn(|| self.poll_event()));
+            let again = self.poll_timeout().is_some_and(|again| again <= now);
+            if again || !stretch.events.is_empty() {
+                return true;
+            }
+        }
+        false
     }
 
     fn state(&self) -> State {

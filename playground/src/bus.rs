@@ -49,11 +49,9 @@ impl Bus {
 
     /// All frames since the last call, own and others', 24 bytes each.
     pub fn drain(&mut self) -> Vec<u8> {
-        let seen = self.journal.rig.drain();
-        let mut batch = Vec::with_capacity(seen.len() * packed::LEN);
-        for one in &seen {
-            packed::push_seen(&mut batch, one);
-        }
+        let rig = &mut self.journal.rig;
+        let mut batch = Vec::with_capacity(rig.pending() * packed::LEN);
+        rig.drain_to(|one| packed::push_seen(&mut batch, one));
         batch
     }
 }

@@ -48,14 +48,13 @@ pub(crate) fn push(batch: &mut Vec<u8>, at: Instant, device: Option<usize>, fram
         flags |= REMOTE;
     }
     let device = device.map_or(0, |device| u8::try_from(device + 1).unwrap_or(u8::MAX));
-    let mut data = [0; 8];
-    for (to, from) in data.iter_mut().zip(frame.data()) {
-        *to = *from;
-    }
-    batch.extend_from_slice(&(at.as_micros() as f64).to_le_bytes());
-    batch.extend_from_slice(&id.raw().to_le_bytes());
-    batch.extend_from_slice(&[flags, frame.dlc(), device, 0]);
-    batch.extend_from_slice(&data);
+    let mut packed = [0; LEN];
+    let time = (at.as_micros() as f64).to_le_bytes();
+    packed[at::TIME..at::ID].copy_from_slice(&time);
+    packed[at::ID..at::FLAGS].copy_from_slice(&id.raw().to_le_bytes());
+    packed[at::FLAGS..at::DATA].copy_from_slice(&[flags, frame.dlc(), device, 0]);
+    packed[at::DATA..].copy_from_slice(frame.bytes());
+    batch.extend_from_slice(&packed);
 }
 
 /// Adds what happened on the bus line.

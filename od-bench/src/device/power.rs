@@ -17,6 +17,7 @@ impl VirtualDevice {
         if let Some(memory) = self.storage.memory() {
             memory.restore_power();
         }
+        self.storage.fails = false;
         self.configure_node_id();
         self.forward(now, Call::PowerOn);
         // `build` made room for the values.

@@ -100,6 +100,11 @@ impl Asker {
         }
     }
 
+    /// Is it asked for something?
+    pub(super) fn is_busy(&self) -> bool {
+        !self.asked.is_empty() || self.has_request()
+    }
+
     /// Does a frame wait to be sent?
     pub(super) fn has_request(&self) -> bool {
         !self.requests.is_empty()

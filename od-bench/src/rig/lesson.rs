@@ -127,6 +127,11 @@ impl Rig {
         }
     }
 
+    /// Is a lesson taken?
+    pub(super) fn has_pupil(&self) -> bool {
+        self.taken.is_some()
+    }
+
     /// Number of checkpoints that were reached.
     pub(super) fn reached(&self) -> usize {
         let taken = self.taken.as_ref();

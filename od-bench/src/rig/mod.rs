@@ -179,7 +179,13 @@ impl Rig {
                 false => overdue.unwrap_or(to),
             };
             let due = self.clockwork.due().filter(|due| *due <= to);
-            let sent = self.bus.advance_until_sent(due.unwrap_or(to).max(now));
+            // Whoever looks on acts after each frame; a real line may have more to say between two.
+            let frames = match self.is_watched() || self.bus.line.is_real {
+                true => 1,
+                false => full - self.seen.len(),
+            };
+            let until = due.unwrap_or(to).max(now);
+            let sent = self.bus.advance_until_full(until, frames);
             self.settle();
             if sent {
                 continue;
@@ -215,9 +221,21 @@ impl Rig {
         std::mem::take(&mut self.seen)
     }
 
+    /// As [`drain`](Self::drain), without a list that somebody else has: shows all, and forgets it.
+    pub fn drain_to(&mut self, each: impl FnMut(&Seen)) {
+        self.seen.iter().for_each(each);
+        self.seen.clear();
+    }
+
     /// Takes what the devices sent, and shows it to all who look.
     pub fn settle(&mut self) {
         self.settle_line();
+        if !self.is_watched() {
+            let sent = self.bus.poll_all();
+            let seen = |Sent { at, device, frame }| Seen::Frame { at, device, frame };
+            self.seen.extend(sent.map(seen));
+            return;
+        }
         while let Some(Sent { at, device, frame }) = self.bus.poll() {
             if !self.passes(&frame) {
                 continue;
@@ -228,6 +246,11 @@ impl Rig {
             self.saw(Seen::Frame { at, device, frame });
         }
         self.look();
+    }
+
+    /// Is there somebody who acts on what is sent: the SDO client, a lesson, a link?
+    fn is_watched(&self) -> bool {
+        self.asker.is_busy() || self.has_pupil() || self.has_link()
     }
 
     fn settle_line(&mut self) {
@@ -253,6 +276,10 @@ impl Rig {
     }
 
     fn bound(&mut self) {}
+
+    fn has_link(&self) -> bool {
+        false
+    }
 }
 
 #[cfg(not(feature = "lessons"))]
@@ -265,6 +292,10 @@ impl Rig {
 
     fn reached(&self) -> usize {
         0
+    }
+
+    fn has_pupil(&self) -> bool {
+        false
     }
 }
 

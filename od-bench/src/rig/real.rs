@@ -71,6 +71,10 @@ impl Rig {
         port.sends
     }
 
+    pub(super) fn has_link(&self) -> bool {
+        self.has_port()
+    }
+
     /// Keeps the newest of what was seen.
     pub(super) fn bound(&mut self) {
         if let Some(port) = &mut self.port

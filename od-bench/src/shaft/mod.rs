@@ -203,6 +203,24 @@ impl Motion for Shaft {
         Ok(self.seen(now))
     }
 
+    #[inline]
+    fn glance(&self, now: Instant) -> Option<Angle> {
+        if self.ramp.micros != 0 {
+            return None;
+        }
+        let micros = now.micros_since(self.since);
+        let way = u64::from(self.milli_rpm.unsigned_abs()).checked_mul(micros)?;
+        let turned = fractions(way / PER_REVOLUTION, way % PER_REVOLUTION);
+        let turned = if self.milli_rpm < 0 {
+            turned.wrapping_neg()
+        } else {
+            turned
+        };
+        let angle = self.angle.fractions().wrapping_add(turned);
+        Some(Angle::from_fractions(angle).minus(self.unseen.angle()))
+    }
+
+    #[inline]
     fn speed(&self, now: Instant, interval: u32, gain: Gain) -> Option<i64> {
         let from = before(now, interval);
         if let Some(milli_rpm) = self.even_since(from) {
@@ -212,6 +230,7 @@ impl Motion for Shaft {
         Some(exact(way, 60_000 * i128::from(interval), gain))
     }
 
+    #[inline]
     fn acceleration(&self, now: Instant, interval: u32, gain: Gain) -> Option<i64> {
         let (from, middle) = (before(now, interval), before(now, interval / 2));
         if self.even_since(from).is_some() {
@@ -226,6 +245,11 @@ impl Motion for Shaft {
         };
         let change = speed(now) - speed(from) + turned;
         Some(exact(change * 50, 3 * FINE * interval, gain))
+    }
+
+    #[inline]
+    fn steady(&self, from: Instant) -> Option<i32> {
+        self.even_since(from)
     }
 
     fn look_back(&mut self, interval: u32) {

@@ -93,6 +93,81 @@ pub fn bits(frame: &Frame) -> Vec<Bit> {
     bits
 }
 
+/// Returns the number of bits of a frame that is acknowledged, as [`bits`] has them, without a list.
+pub(super) fn count(frame: &Frame) -> u64 {
+    let mut plain = Word::default();
+    let (raw, remote) = (frame.id().raw(), u32::from(frame.is_remote()));
+    if frame.id().is_extended() {
+        // Start, first part of the identifier, SRR, IDE, second part, RTR, reserved bits.
+        plain.put((raw >> 18) << 2 | 0b11, 14);
+        plain.put((raw & 0x3_FFFF) << 3 | remote << 2, 21);
+    } else {
+        // Start, identifier, RTR, IDE, reserved bit.
+        plain.put(raw << 3 | remote << 2, 15);
+    }
+    plain.put(frame.dlc().into(), 4);
+    for byte in frame.data() {
+        plain.put((*byte).into(), 8);
+    }
+    // Dominant bits before the first one leave the CRC as it is, so it can be that of whole bytes.
+    let crc = plain.bits.to_be_bytes().iter().fold(0u16, |crc, byte| {
+        let at = (crc >> 7) as u8 ^ byte;
+        (crc << 8 & 0x7FFF) ^ REMAINDERS[usize::from(at)]
+    });
+    plain.put(crc.into(), 15);
+    let Word { bits: word, len } = plain;
+    let mut rest = word << (u128::BITS - len);
+    let (mut last, mut run, mut stuffed) = (2, 0, 0);
+    for _ in 0..len {
+        let bit = (rest >> 127) as u8;
+        rest <<= 1;
+        run = if bit == last { run + 1 } else { 1 };
+        last = bit;
+        if run == 5 {
+            (last, run) = (1 - bit, 1);
+            stuffed += 1;
+        }
+    }
+    u64::from(len) + stuffed + END
+}
+
+/// Bits, the last one lowest.
+#[derive(Default)]
+struct Word {
+    bits: u128,
+    len: u32,
+}
+
+impl Word {
+    fn put(&mut self, value: u32, count: u32) {
+        self.bits = self.bits << count | u128::from(value);
+        self.len += count;
+    }
+}
+
+/// Bits behind the CRC sequence: delimiter, acknowledge slot, delimiter, end of frame.
+const END: u64 = 3 + 7;
+
+/// What each byte leaves of the CRC.
+static REMAINDERS: [u16; 256] = {
+    let mut all = [0; 256];
+    let mut byte = 0;
+    while byte < all.len() {
+        let (mut crc, mut bit) = ((byte as u16) << 7, 0);
+        while bit < 8 {
+            let next = crc & 0x4000 != 0;
+            crc = crc << 1 & 0x7FFF;
+            if next {
+                crc ^= POLYNOMIAL;
+            }
+            bit += 1;
+        }
+        all[byte] = crc;
+        byte += 1;
+    }
+    all
+};
+
 /// The order in which frames win: of two that start at once, the one with the lower number is
 /// sent first. Its bits are those that decide, the most significant first.
 pub fn arbitration(frame: &Frame) -> u32 {
@@ -180,6 +255,30 @@ mod tests {
             assert_eq!(plain(&extended), 64 + 8 * len);
             let remote = Frame::remote(CanId::standard(0x2AA), len as u8).expect("a frame");
             assert_eq!(plain(&remote), 44, "a remote frame has no data");
+        }
+    }
+
+    #[test]
+    fn bits_are_counted_without_a_list() {
+        let mut seed = 1u64;
+        for round in 0..5_000u32 {
+            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            let raw = (seed >> 32) as u32;
+            let id = match round % 2 {
+                0 => CanId::standard(raw as u16),
+                _ => CanId::extended(raw),
+            };
+            // Long runs of one level, too.
+            let data = match round % 3 {
+                0 => [0; 8],
+                1 => (seed & 0x00FF_FF00_F0F0_0000).to_be_bytes(),
+                _ => seed.to_le_bytes(),
+            };
+            let len = (round % 9) as u8;
+            let frames = [Frame::new(id, &data[..len.into()]), Frame::remote(id, len)];
+            for frame in frames.into_iter().flatten() {
+                assert_eq!(count(&frame), bits(&frame).len() as u64, "{frame}");
+            }
         }
     }
 

@@ -7,7 +7,7 @@ use std::prelude::v1::*;
 use od_runtime::{Frame, Instant};
 
 use super::Trouble;
-use super::bits::{BEHIND_ACKNOWLEDGE, INTERMISSION, arbitration, bits};
+use super::bits::{self, BEHIND_ACKNOWLEDGE, INTERMISSION, arbitration};
 
 /// Mailboxes of a CAN controller: the frame with the lowest identifier in them goes first.
 pub(crate) const MAILBOXES: usize = 3;
@@ -146,7 +146,7 @@ impl Medium {
 
     /// The frame is on the wire at this bit rate in kbit/s, and will end as `outcome` says.
     pub(crate) fn begin(&mut self, waiting: Waiting, kbit: u16, outcome: Option<Trouble>) {
-        let whole = bits(&waiting.frame).len() as u64;
+        let whole = bits::count(&waiting.frame);
         let count = match outcome {
             None => whole,
             Some(Trouble::NoAcknowledge) => whole - BEHIND_ACKNOWLEDGE + ERROR_FRAME,

@@ -139,6 +139,11 @@ impl Line {
             .min()
     }
 
+    /// Will something happen on the line by itself?
+    pub(super) fn has_plans(&self) -> bool {
+        self.medium.due().is_some() || self.next_recovery().is_some()
+    }
+
     /// Ends bus-off: the controller of the device restarts, or stays off until a power cycle.
     pub(super) fn recover(&mut self, device: usize, begins: bool) {
         if let Some(controller) = self.controllers.get_mut(device + 1) {

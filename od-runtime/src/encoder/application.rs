@@ -13,6 +13,7 @@ use super::profile::Options;
 use super::state::Encoder;
 use super::timer::{EVENT_TIMER, TIMER};
 use crate::application::{Application, Context, Reset};
+use crate::device::ROOMY;
 use crate::number::number_in;
 use crate::store::Store;
 use od_wire::{AbortCode, Instant, NodeId};
@@ -59,16 +60,12 @@ impl<M: Motion, F: Family> Application for Encoder<M, F> {
     #[inline]
     fn refresh(&mut self, cx: &mut Context<'_, '_>, address: Address) -> Result<(), AbortCode> {
         if address.index == POSITION {
-            if let Some(handle) = self.position {
-                let angle = self.sense(cx);
-                let count = self.count(angle);
-                cx.store.set(handle, self.scale.shown(count));
+            match self.glance(cx.now) {
+                Some((handle, position)) if ROOMY => cx.store.set(handle, position),
+                _ => self.show_position(cx),
             }
-        } else if !self.show_kept_movement(cx, address)
-            && let Some(role) = self.profile().role(address)
-            && role.is_live()
-        {
-            self.show(cx, address, role);
+        } else if !self.show_kept_movement(cx, address) {
+            self.refresh_other(cx, address);
         }
         Ok(())
     }
@@ -174,6 +171,41 @@ impl<M: Motion, F: Family> Application for Encoder<M, F> {
 }
 
 impl<M: Motion, F: Family> Encoder<M, F> {
+    /// Brings a value that is neither the position nor a movement that is kept up to date, if it is live.
+    #[cfg_attr(target_os = "none", inline(always))]
+    #[cfg_attr(not(target_os = "none"), inline(never))]
+    fn refresh_other(&mut self, cx: &mut Context<'_, '_>, address: Address) {
+        if let Some(role) = self.profile().role(address)
+            && role.is_live()
+        {
+            self.show(cx, address, role);
+        }
+    }
+
+    /// Brings the position up to date.
+    #[cfg_attr(target_os = "none", inline(always))]
+    #[cfg_attr(not(target_os = "none"), inline(never))]
+    fn show_position(&mut self, cx: &mut Context<'_, '_>) {
+        if let Some(handle) = self.position {
+            let angle = self.sense(cx);
+            let count = self.count(angle);
+            cx.store.set(handle, self.scale.shown(count));
+        }
+    }
+
+    /// The position, where a glance at the shaft tells it, and its scale needs no division.
+    #[inline(always)]
+    fn glance(&mut self, now: Instant) -> Option<(Var<u32, Ro>, u32)> {
+        let handle = self.position?;
+        let angle = self.shaft.glance(now)?;
+        let count = self.scale.quick_count(angle)?;
+        if self.faults.is_blind() {
+            return None;
+        }
+        self.angle = angle;
+        Some((handle, self.scale.shown(count)))
+    }
+
     /// Returns the angle now; while the sensor cannot tell, the last one.
     #[inline]
     fn sense(&mut self, cx: &mut Context<'_, '_>) -> Angle {

@@ -95,13 +95,22 @@ impl Faults {
         self.damaged = damaged;
     }
 
+    /// Whether the sensor could not tell the angle when it was asked last.
+    #[inline(always)]
+    pub(super) const fn is_blind(&self) -> bool {
+        self.sensed != 0
+    }
+
     /// Takes what the sensor said when it was asked for the angle. Answers whether that is
     /// news.
     #[inline]
     pub(super) fn sensed(&mut self, fault: Option<Fault>, reports: &[Report]) -> bool {
         let sensed = fault.map_or(0, |fault| seen(fault, reports));
-        let is_news = core::mem::replace(&mut self.sensed, sensed) != sensed;
-        self.changed |= is_news;
+        let is_news = self.sensed != sensed;
+        if is_news {
+            self.sensed = sensed;
+            self.changed = true;
+        }
         is_news
     }
 

@@ -19,6 +19,14 @@ pub trait Motion {
     /// an alarm (6503h, EMCY) and shows the last angle.
     fn angle(&mut self, now: Instant) -> Result<Angle, Fault>;
 
+    /// Returns the angle at `now`, where a glance tells it: nothing keeps the sensor from it, and nothing
+    /// else changes. `None`: [`angle`](Self::angle) is to be asked. It makes a simulation faster.
+    #[inline]
+    fn glance(&self, now: Instant) -> Option<Angle> {
+        let _ = now;
+        None
+    }
+
     /// Returns the mean speed over the `interval` in microseconds before `now`: revolutions per
     /// second, times `gain`, rounded towards zero. `None`: it is not known that far back.
     fn speed(&self, now: Instant, interval: u32, gain: Gain) -> Option<i64>;
@@ -26,6 +34,15 @@ pub trait Motion {
     /// Returns the mean acceleration, in revolutions per second squared; else as
     /// [`speed`](Self::speed).
     fn acceleration(&self, now: Instant, interval: u32, gain: Gain) -> Option<i64>;
+
+    /// Returns a number that stands for the speed, if it did not change since `from`, and a glance tells
+    /// that: what [`speed`](Self::speed) and [`acceleration`](Self::acceleration) returned for the same
+    /// number, interval and gain, they would return again. `None`: they are to be asked.
+    #[inline]
+    fn steady(&self, from: Instant) -> Option<i32> {
+        let _ = from;
+        None
+    }
 
     /// Tells the longest interval, in microseconds, that the encoder will ask for.
     fn look_back(&mut self, interval: u32) {

@@ -45,14 +45,19 @@ impl<M: Motion, F: Family> Encoder<M, F> {
     }
 
     /// Brings a movement whose rate is kept up to date, if there is one at this address.
-    #[inline]
-    pub(super) fn show_kept_movement(&self, cx: &mut Context<'_, '_>, address: Address) -> bool {
-        let mut kept = self.rates.iter().flatten();
+    #[cfg_attr(target_os = "none", inline)]
+    #[cfg_attr(not(target_os = "none"), inline(never))]
+    pub(super) fn show_kept_movement(
+        &mut self,
+        cx: &mut Context<'_, '_>,
+        address: Address,
+    ) -> bool {
+        let mut kept = self.rates.iter_mut().flatten();
         let Some(rate) = kept.find(|rate| rate.value.address() == address) else {
             return false;
         };
-        let value = rate.of(&self.shaft, cx.now);
-        rate.value.show(cx.store, value.unwrap_or(0));
+        let value = rate.kept(&self.shaft, cx.now);
+        rate.value.show(cx.store, value);
         true
     }
 
@@ -96,6 +101,7 @@ impl<M: Motion, F: Family> Encoder<M, F> {
                 && self.scale.is_reversed()
                 && !self.has_option(store, |options| options.ignore_sense),
             value: Shown::find(store, address)?,
+            last: None,
         })
     }
 

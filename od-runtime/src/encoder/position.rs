@@ -204,6 +204,28 @@ impl Scale {
         self.count(angle, true)
     }
 
+    /// As [`without_offset`](Self::without_offset), where powers of two need no division and no gear turns.
+    #[inline(always)]
+    pub(super) const fn quick_count(&self, angle: Angle) -> Option<u64> {
+        let (turns, fraction) = angle.split();
+        let step = self.sensor.step(fraction);
+        let step = match self.step {
+            Step::Same => step,
+            Step::Shift(bits) => (step * self.steps) >> bits,
+            Step::Divide => return None,
+        };
+        if self.mask == 0 {
+            return None;
+        }
+        let turns = if self.counts { turns } else { 0 };
+        let position = (turns * self.steps as i64 + step as i64) as u64 & self.mask;
+        Some(if self.reversed && position != 0 {
+            self.range - position
+        } else {
+            position
+        })
+    }
+
     /// As [`without_offset`](Self::without_offset), without code for a gear where there can be none.
     #[inline(always)]
     pub(super) const fn count(&self, angle: Angle, may_have_gear: bool) -> u64 {

@@ -28,9 +28,34 @@ pub(super) struct Rate {
     /// Counts the other way round.
     pub(super) is_turned: bool,
     pub(super) value: Shown,
+    /// What it was last, and the number of the [steady](Motion::steady) speed that it was of.
+    pub(super) last: Option<(i32, i64)>,
 }
 
 impl Rate {
+    /// As [`of`](Self::of), where it is not computed again while the speed is the same; 0 while it is not
+    /// known.
+    #[inline]
+    pub(super) fn kept(&mut self, shaft: &impl Motion, now: Instant) -> i64 {
+        let interval = self.interval.into();
+        let from = Instant::from_micros(now.as_micros().saturating_sub(interval));
+        let steady = match now.micros_since(self.since) < interval {
+            true => None,
+            false => shaft.steady(from),
+        };
+        match (steady, self.last) {
+            (Some(speed), Some((last, value))) if speed == last => value,
+            _ => self.computed(shaft, now, steady),
+        }
+    }
+
+    #[inline(never)]
+    fn computed(&mut self, shaft: &impl Motion, now: Instant, steady: Option<i32>) -> i64 {
+        let value = self.of(shaft, now).unwrap_or(0);
+        self.last = steady.map(|speed| (speed, value));
+        value
+    }
+
     /// Returns the movement in the units of its object; `None` while it is not known.
     #[inline]
     pub(super) fn of(&self, shaft: &impl Motion, now: Instant) -> Option<i64> {

@@ -2,6 +2,9 @@
 
 use od_wire::CanId;
 
+use crate::deadline::Deadline;
+use crate::device::ROOMY;
+
 /// The frames that a node has something to do for.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Ear {
@@ -54,6 +57,8 @@ pub(super) struct Quick {
     pub(super) syncs: bool,
     /// SYNC: the TPDOs that each one marks in `pending`, and no more. 0: it does something else.
     pub(super) marks: u8,
+    /// A tick of event timers.
+    pub(super) ticks: [Ticks; ROOMY as usize],
 }
 
 impl Quick {
@@ -62,5 +67,23 @@ impl Quick {
         requests: false,
         syncs: false,
         marks: 0,
+        ticks: [Ticks::NONE; ROOMY as usize],
+    };
+}
+
+/// A tick of event timers that needs no more than that their TPDOs are sent.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Ticks {
+    /// The TPDOs whose event timers run, in the bits of `pending`. 0: more is to be done.
+    pub(super) timed: u8,
+    /// The first of all other deadlines, while that of the node is known.
+    pub(super) others: Deadline,
+}
+
+impl Ticks {
+    /// More is to be done.
+    const NONE: Self = Self {
+        timed: 0,
+        others: Deadline::NEVER,
     };
 }

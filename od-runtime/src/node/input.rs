@@ -111,8 +111,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
         if node.now < node.next && !node.watches_live {
             return;
         }
-        let may_tick = D::DICTIONARY.is_none() && Room::outbox(&mut self.outbox).is_empty();
-        if !(may_tick && self.machines.tick_pdos()) {
+        if !(ROOMY && node.tick_pdos()) {
             self.handle_due(device, now);
         }
     }
@@ -155,7 +154,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
         }
         node.finish(objects);
         node.reset_if_due(objects);
-        node.next = node.timers().moment();
+        node.find_next();
     }
 
     /// Tells the application that the world outside the bus changed (shaft, faults, switches).

@@ -4,7 +4,7 @@ use od_wire::nmt::State;
 
 use super::Machines;
 use super::ear::{ERROR_CONTROL, Ear, LSS, NMT, NONE, Quick, code};
-use crate::device::Device;
+use crate::device::{Device, ROOMY};
 use crate::extras::Extras;
 use crate::objects::Objects;
 
@@ -55,5 +55,8 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         self.ear = ear;
         self.quick.requests = ear.sdo != NONE && ear.codes != Ear::EVERYTHING;
         self.expect_sync();
+        if ROOMY {
+            self.expect_ticks();
+        }
     }
 }

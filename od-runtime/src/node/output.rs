@@ -78,7 +78,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
             return self.poll_services(device, now);
         }
         if node.next == Instant::ZERO {
-            node.next = node.timers().moment();
+            node.find_next();
         }
         node.pending &= !pending::OTHER;
         None

@@ -10,3 +10,10 @@ pub(super) const OTHER: u8 = 4;
 pub(super) const FIRST_MARK: u8 = 8;
 /// All of them.
 pub(super) const MARKS: u8 = 0xF8;
+
+/// Position of the first TPDO that is marked.
+#[inline(always)]
+pub(super) const fn position(pending: u8) -> usize {
+    let bit = (pending as u32).trailing_zeros();
+    bit.wrapping_sub(FIRST_MARK.trailing_zeros()) as usize
+}

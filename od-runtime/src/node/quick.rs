@@ -4,103 +4,115 @@
 use od_model::Slot;
 use od_model::row::Row;
 use od_wire::sdo::{Response, upload_command};
-use od_wire::{Frame, Instant};
+use od_wire::{AbortCode, Frame, Instant};
 
-use super::ear::{self, Ear};
+use super::ear::{self, Ear, Quick};
 use super::output::words;
 use super::{Machines, Node, pending};
 use crate::application::Context;
 use crate::device::{Device, ROOMY};
 use crate::extras::Extras;
 use crate::lent::Lent;
-use crate::number::{little_endian, word};
+use crate::number::word;
 use crate::pdo;
 use crate::rooms::Room;
 use crate::store::Store;
+
+/// What comes of a request by the shortest way.
+enum Upload<'d> {
+    /// The response waits.
+    Done,
+    /// The application may have to bring the value up to date first; with the beginning of the request.
+    Live(&'d Row, u32),
+    /// The way of all other frames.
+    Other,
+}
 
 impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, PDO, SDO, X> {
     /// A request of an SDO client.
     #[cfg_attr(not(target_os = "none"), inline(never))]
     pub(super) fn handle_request(&mut self, device: &mut Lent<'_>, frame: &Frame) {
-        if self.upload(device, frame).is_none() {
-            self.handle_seldom(device, frame);
+        match self.upload(device, frame) {
+            Upload::Done => {}
+            Upload::Live(row, head) if ROOMY => self.upload_live(device, frame, row, head),
+            _ => self.handle_seldom(device, frame),
         }
     }
 
-    /// A request for a number that the store has, where all day nothing else is to be done. `None` if
-    /// something is.
+    /// A request for a number that the store has, where all day nothing else is to be done.
     #[inline(always)]
-    fn upload(&mut self, device: &mut Lent<'_>, frame: &Frame) -> Option<()> {
+    fn upload<'d>(&mut self, device: &mut Lent<'d>, frame: &Frame) -> Upload<'d> {
         let node = &mut self.machines;
-        let head = node.sdo.quick(frame)?;
+        let Some(head) = node.sdo.quick(frame) else {
+            return Upload::Other;
+        };
         // A frame that waits goes first.
         let is_quick =
             node.quick.requests && node.pending & (pending::ANSWER | pending::OTHER) == 0;
         if !is_quick || device.values.len() < device.dictionary.store_len() {
-            return None;
+            return Upload::Other;
         }
         // Index and sub-index, as `Address::key` has them.
         let key = head & 0xFF_FF00 | head >> 24;
-        let row = device.dictionary.plain_row(key)?;
+        let Some(row) = device.dictionary.plain_row(key) else {
+            return Upload::Other;
+        };
         if self.outbox.is_marked(key) && (ROOMY || key >= 0x20_0000) {
-            return self.upload_live(device, row, head);
+            return Upload::Live(row, head);
         }
-        let (value, unused) = word(device.values, row)?;
+        let Some((value, unused)) = word(device.values, row) else {
+            return Upload::Other;
+        };
         node.sdo.reset();
         node.respond(head, value, unused);
-        Some(())
+        Upload::Done
     }
 
     /// As [`upload`](Self::upload), of a value that the application may have to bring up to date. `head` is
     /// the beginning of the request.
     #[inline(never)]
-    fn upload_live(&mut self, device: &mut Lent<'_>, row: &Row, head: u32) -> Option<()> {
-        if !ROOMY {
-            return None;
-        }
+    fn upload_live(&mut self, device: &mut Lent<'_>, frame: &Frame, row: &Row, head: u32) {
         let node = &mut self.machines;
         let outbox = Room::outbox(&mut self.outbox);
+        let Slot { offset, .. } = row.plain();
+        let is_word = device.values.len() >= offset as usize + 4;
+        let store = Store::new(&device.dictionary, device.values, node.node_id);
+        let (true, Ok(mut store)) = (is_word, store) else {
+            return self.handle_seldom(device, frame);
+        };
+        let mut context = Context {
+            store: &mut store,
+            now: node.now,
+            signals: &mut outbox.signals,
+        };
         let address = row.address();
-        if address.index >= 0x2000 {
-            let mut store = Store::new(&device.dictionary, device.values, node.node_id).ok()?;
-            let mut context = Context {
-                store: &mut store,
-                now: node.now,
-                signals: &mut outbox.signals,
-            };
-            if let Err(code) = device.application.refresh(&mut context, address) {
-                let code = code.code();
-                node.answer = words(Response::Abort { address, code }.emit());
-                node.pending |= pending::ANSWER;
-                node.sdo.reset();
-                return self.end_upload(device);
-            }
-        }
-        let (value, unused) = match word(device.values, row) {
-            Some(word) => word,
-            None => {
-                let Slot { offset, len } = row.plain();
-                let bytes = device.values.get(offset as usize..)?;
-                let bytes = bytes.get(..len.into())?;
-                (little_endian(bytes) as u32, 4u32.wrapping_sub(len.into()))
-            }
+        let refreshed = match address.index {
+            // One of the services' own that looks like a live one.
+            ..0x2000 => Ok(()),
+            _ => device.application.refresh(&mut context, address),
         };
         node.sdo.reset();
-        node.respond(head, value, unused);
-        match !outbox.is_empty() || D::CHANGES && node.watches_changes {
-            true => self.end_upload(device),
-            false => Some(()),
+        match (refreshed, word(device.values, row)) {
+            (Ok(()), Some((value, unused))) => node.respond(head, value, unused),
+            (refreshed, _) => {
+                let code = refreshed.err().unwrap_or(AbortCode::General).code();
+                node.answer = words(Response::Abort { address, code }.emit());
+                node.pending |= pending::ANSWER;
+            }
+        }
+        if !outbox.is_empty() || D::CHANGES && node.watches_changes {
+            self.end_upload(device);
         }
     }
 
     /// The application had more to say of a value, or a PDO is sent for it.
     #[cold]
-    fn end_upload(&mut self, device: &mut Lent<'_>) -> Option<()> {
+    fn end_upload(&mut self, device: &mut Lent<'_>) {
         let now = self.machines.now;
-        let (node, mut objects) = self.open(device, now)?;
-        node.finish(&mut objects);
-        node.reset_if_due(&mut objects);
-        Some(())
+        if let Some((node, mut objects)) = self.open(device, now) {
+            node.finish(&mut objects);
+            node.reset_if_due(&mut objects);
+        }
     }
 
     /// SYNC.
@@ -122,24 +134,58 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
     pub(super) fn poll_waiting(&mut self, device: &mut Lent<'_>, now: Instant) -> Option<Frame> {
         let node = &mut self.machines;
         let marks = node.pending;
-        let at = u32::from(marks)
-            .trailing_zeros()
-            .wrapping_sub(pending::FIRST_MARK.trailing_zeros());
+        let at = pending::position(marks);
         if marks & !pending::MARKS == 0
             && device.values.len() >= device.dictionary.store_len()
-            && let Some(pdo) = node.tpdo.get_mut(at as usize)
+            && let Some(pdo) = node.tpdo.get_mut(at)
         {
-            if pdo.is_live() {
-                node.pending = marks & marks.wrapping_sub(1);
-                let now = now.max(node.now);
-                return self.send_pdo(device, now, at as usize);
-            }
-            if let Some(frame) = pdo.send_plain(&device.dictionary, device.values) {
-                node.pending = marks & marks.wrapping_sub(1);
+            node.pending = marks & marks.wrapping_sub(1);
+            let now = now.max(node.now);
+            if !pdo.is_live()
+                && let Some(frame) = pdo.send_plain::<D>(device.values, now)
+            {
                 return Some(frame);
             }
+            return match pdo.is_plain() {
+                true => self.send_live(device, now, at),
+                false => self.send_pdo(device, now, at),
+            };
         }
         self.poll_seldom(device, now)
+    }
+
+    /// As [`send_pdo`](Self::send_pdo), of a plain one.
+    #[inline(never)]
+    fn send_live(&mut self, device: &mut Lent<'_>, now: Instant, at: usize) -> Option<Frame> {
+        let node = &mut self.machines;
+        let pdo = node.tpdo.get_mut(at)?;
+        let outbox = Room::outbox(&mut self.outbox);
+        let mut store = Store::new(&device.dictionary, device.values, node.node_id).ok()?;
+        let mut context = Context {
+            store: &mut store,
+            now,
+            signals: &mut outbox.signals,
+        };
+        pdo.refresh_plain(device.application, &mut context);
+        if !outbox.is_empty() {
+            // As in `send_pdo`.
+            node.next = Instant::ZERO;
+            node.pending |= pending::OTHER;
+            node.ear.codes = Ear::EVERYTHING;
+            node.quick = Quick::NONE;
+        }
+        match pdo.send_plain::<D>(device.values, now) {
+            None => self.send_stored(device, now, at),
+            frame => frame,
+        }
+    }
+
+    /// As [`send_pdo`](Self::send_pdo), of one whose values are up to date.
+    #[cold]
+    fn send_stored(&mut self, device: &mut Lent<'_>, now: Instant, at: usize) -> Option<Frame> {
+        let node = &mut self.machines;
+        let pdo = node.tpdo.get_mut(at)?;
+        pdo.send::<D>(&device.dictionary, device.values, node.node_id, now)
     }
 }
 

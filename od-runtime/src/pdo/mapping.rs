@@ -1,6 +1,6 @@
 //! Mapping of a PDO: read from its object once, and kept.
 
-use od_model::Dictionary;
+use od_model::Address;
 use od_model::row::Row;
 use od_model::typed::MapEntry;
 
@@ -25,8 +25,54 @@ pub(super) struct Mapping<R: Rooms> {
     kept: R::Kept<Mapped>,
     /// The application brings one of the values up to date.
     is_live: bool,
-    /// All values are kept, and numbers of up to four bytes in the store, which a master may read.
-    is_plain: bool,
+    /// The same as the store has it. A microcontroller looks it up.
+    plain: [Plain; ROOMY as usize],
+}
+
+/// A mapping of eight values at most, all of them numbers of up to four bytes in the store, which a master
+/// may read.
+#[derive(Clone, Debug)]
+struct Plain {
+    /// Of each value its place in the store, and above the low 24 bits its length in bits.
+    places: [u32; PLAIN],
+    /// Addresses of the live values.
+    lives: [Address; PLAIN],
+    /// Number of the live values.
+    live: u8,
+    /// Whether the mapping is one.
+    is_one: bool,
+}
+
+/// Most values of a [`Plain`] mapping.
+const PLAIN: usize = 8;
+
+impl Plain {
+    /// The mapping is none.
+    const NONE: Self = Self {
+        places: [0; PLAIN],
+        lives: [Address::new(0, 0); PLAIN],
+        live: 0,
+        is_one: false,
+    };
+
+    /// Adds the value at a position of the mapping.
+    fn add(&mut self, store: &Store<'_>, at: usize, mapped: Mapped, live: Option<Address>) {
+        let row = store
+            .dictionary()
+            .row((mapped as usize & 0xFF_FFFF).wrapping_sub(1));
+        let slot = row.map(|row| row.plain());
+        let slot = slot.filter(|slot| matches!(slot.len, 1..=4) && slot.offset <= 0xFF_FFFF);
+        match (slot, self.places.get_mut(at)) {
+            (Some(slot), Some(place)) => *place = mapped & !0xFF_FFFF | slot.offset,
+            _ => self.is_one = false,
+        }
+        if let Some(address) = live
+            && let Some(to) = self.lives.get_mut(usize::from(self.live))
+        {
+            *to = address;
+            self.live += 1;
+        }
+    }
 }
 
 impl<R: Rooms> Mapping<R> {
@@ -37,7 +83,7 @@ impl<R: Rooms> Mapping<R> {
         len: 0,
         kept: Room::BLANK,
         is_live: false,
-        is_plain: false,
+        plain: [const { Plain::NONE }; ROOMY as usize],
     };
 
     /// Reads the mapping object at `object`. Answers whether it is another one than before. One
@@ -48,7 +94,9 @@ impl<R: Rooms> Mapping<R> {
         let count = store.word(object, 0, 0).min(64) as u8;
         let mut changed = self.object != object || self.count != count;
         (self.object, self.count, self.is_live) = (object, count, false);
-        self.is_plain = usize::from(count) <= self.kept.all().len();
+        for plain in &mut self.plain {
+            (plain.live, plain.is_one) = (0, true);
+        }
         let mut bits = 0u32;
         for sub in 1..=count {
             let raw = store.word(object, sub, 0);
@@ -56,11 +104,16 @@ impl<R: Rooms> Mapping<R> {
                 bits = u32::MAX;
                 break;
             }
-            self.is_live |= objects.is_live(MapEntry::parse(raw).address);
+            let address = MapEntry::parse(raw).address;
+            let is_live = objects.is_live(address);
+            self.is_live |= is_live;
+            for plain in &mut self.plain {
+                let at = usize::from(sub) - 1;
+                plain.add(store, at, mapped(store, raw), is_live.then_some(address));
+            }
             bits += raw & 0xFF;
             if let Some(kept) = self.kept.all_mut().get_mut(usize::from(sub) - 1) {
                 let mapped = mapped(store, raw);
-                self.is_plain &= ROOMY && is_plain(store, mapped);
                 changed |= *kept != mapped;
                 *kept = mapped;
             } else {
@@ -100,6 +153,26 @@ impl<R: Rooms> Mapping<R> {
         (store.dictionary().row(position), mapped >> 24)
     }
 
+    /// Whether all values are numbers of the store as [`gather`](Self::gather) takes them.
+    #[inline(always)]
+    pub(super) fn is_plain(&self) -> bool {
+        self.plain.first().is_some_and(|plain| plain.is_one)
+    }
+
+    /// As [`refresh`](Self::refresh), if it [is plain](Self::is_plain).
+    #[inline(always)]
+    pub(super) fn refresh_plain(
+        &self,
+        application: &mut dyn Application,
+        context: &mut Context<'_, '_>,
+    ) {
+        for plain in &self.plain {
+            for address in plain.lives.iter().take(plain.live.into()) {
+                let _ = application.refresh(context, *address);
+            }
+        }
+    }
+
     /// Has the application bring the live values up to date, by the set of them.
     #[cfg_attr(target_os = "none", inline(never))]
     pub(super) fn refresh(
@@ -121,16 +194,13 @@ impl<R: Rooms> Mapping<R> {
 
     /// Returns the frame's bytes with the values of the store, as a number.
     #[inline(always)]
-    pub(super) fn gather(&self, dictionary: &Dictionary<'_>, values: &[u8]) -> Option<u64> {
-        if !ROOMY || !self.is_plain {
-            return None;
-        }
+    pub(super) fn gather(&self, values: &[u8]) -> Option<u64> {
+        let plain = self.plain.first().filter(|plain| plain.is_one)?;
         let (mut data, mut first) = (0u64, 0);
-        for mapped in self.kept.all().get(..usize::from(self.count))? {
-            let row = dictionary.row((*mapped as usize & 0xFF_FFFF).wrapping_sub(1))?;
-            let at = row.plain().offset as usize;
+        for place in plain.places.iter().take(self.count.into()) {
+            let at = *place as usize & 0xFF_FFFF;
             let word = u32::from_le_bytes(*values.get(at..at + 4)?.first_chunk()?);
-            let bits = *mapped >> 24;
+            let bits = *place >> 24;
             let unused = bits.wrapping_neg() & 31;
             data |= u64::from(word << unused >> unused) << (first & 63);
             first += bits;
@@ -187,14 +257,6 @@ fn mapped(store: &Store<'_>, raw: u32) -> Mapped {
         Err(_) => 0,
     };
     u32::from(bits) << 24 | row & 0xFF_FFFF
-}
-
-/// Whether a mapped value is a number of up to four bytes in the store, which a master may read.
-fn is_plain(store: &Store<'_>, mapped: Mapped) -> bool {
-    let row = store
-        .dictionary()
-        .row((mapped as usize & 0xFF_FFFF).wrapping_sub(1));
-    row.is_some_and(|row| matches!(row.plain().len, 1..=4))
 }
 
 /// Cuts a value to its mapped bits; only a BOOLEAN does not fill whole bytes.

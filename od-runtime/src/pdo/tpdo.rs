@@ -234,14 +234,19 @@ impl<R: Rooms> Tpdo<R> {
         !(D::REPEATED && self.config.repeat != 0)
     }
 
-    /// As [`handle_timeout`](Self::handle_timeout), if [that is all](Self::only_ticks); returns the next tick.
+    /// Whether the tick of the event timer has come.
     #[inline(always)]
-    pub(crate) fn tick<D: Device>(&mut self, now: Instant) -> Deadline {
-        if D::TIMED && self.event_at.is_due(now) {
-            self.event_at = self.event_at.next_period(self.config.event, now);
-            self.pending = true;
-        }
-        self.deadline::<D>()
+    pub(crate) fn is_due(&self, now: Instant) -> bool {
+        self.event_at.is_due(now)
+    }
+
+    /// The event timer ticks, and [that is all](Self::only_ticks). Returns whether the PDO waits now; if not,
+    /// it can be sent at once, and is to be marked.
+    #[inline(always)]
+    pub(crate) fn tick(&mut self, now: Instant) -> bool {
+        self.event_at = self.event_at.next_of(self.config.event, now);
+        self.pending |= self.inhibited_until > now;
+        self.pending
     }
 
     /// Whether it is sent when a mapped value changes, in a family that sends changes.
@@ -295,19 +300,20 @@ impl<R: Rooms> Tpdo<R> {
         self.mapping.refresh(application, context, live);
     }
 
-    /// The frame of a cyclic one, if all its values are plain numbers of the store.
+    /// Whether all its values are plain numbers of the store, whether live or not.
     #[inline(always)]
-    pub(crate) fn send_plain(
-        &mut self,
-        dictionary: &Dictionary<'_>,
-        values: &[u8],
-    ) -> Option<Frame> {
-        if self.is_live() {
-            return None;
-        }
-        self.last = self.mapping.gather(dictionary, values)?.to_le_bytes();
-        self.sampled = true;
-        Some(self.frame(self.last))
+    pub(crate) fn is_plain(&self) -> bool {
+        self.mapping.is_plain()
+    }
+
+    /// As [`refresh`](Self::refresh), of one that [is plain](Self::is_plain).
+    #[inline(always)]
+    pub(crate) fn refresh_plain(
+        &self,
+        application: &mut dyn Application,
+        context: &mut Context<'_, '_>,
+    ) {
+        self.mapping.refresh_plain(application, context);
     }
 
     /// The frame, with the values of the store. It is to be [ready](Self::is_ready).
@@ -319,13 +325,27 @@ impl<R: Rooms> Tpdo<R> {
         node_id: NodeId,
         now: Instant,
     ) -> Option<Frame> {
-        let data = match self.mapping.gather(dictionary, values) {
+        let data = match self.mapping.gather(values) {
             Some(data) => data.to_le_bytes(),
             None => {
                 let store = Store::new(dictionary, values, node_id).ok()?;
                 self.mapping.read(&store)
             }
         };
+        Some(self.sent::<D>(data, now))
+    }
+
+    /// As [`send`](Self::send), of one that [is plain](Self::is_plain), if its values are not the last ones
+    /// of the store.
+    #[inline(always)]
+    pub(crate) fn send_plain<D: Device>(&mut self, values: &[u8], now: Instant) -> Option<Frame> {
+        let data = self.mapping.gather(values)?;
+        Some(self.sent::<D>(data.to_le_bytes(), now))
+    }
+
+    /// It is sent with these values.
+    #[inline(always)]
+    fn sent<D: Device>(&mut self, data: [u8; 8], now: Instant) -> Frame {
         self.pending = false;
         self.last = data;
         self.sampled = true;
@@ -335,7 +355,7 @@ impl<R: Rooms> Tpdo<R> {
                 false => now,
             };
         }
-        Some(self.frame(data))
+        self.frame(data)
     }
 
     /// Something waits to be sent, now or later.
@@ -352,5 +372,11 @@ impl<R: Rooms> Tpdo<R> {
 
     fn frame(&self, data: [u8; 8]) -> Frame {
         Frame::padded(self.config.id, data, self.mapping.len())
+    }
+
+    /// Holds it back until then.
+    #[cfg(test)]
+    pub(crate) fn inhibit(&mut self, until: Instant) {
+        self.inhibited_until = until;
     }
 }

@@ -1,0 +1,126 @@
+//! Time that passes while things are sent, one after another or many at once.
+
+use std::prelude::v1::*;
+
+use od_runtime::Instant;
+
+use super::{Bus, Sent};
+use crate::slave::Stretch;
+
+impl Bus {
+    /// Time passes until the first moment not after `to` at which something is sent.
+    /// Answers whether something was; if not, it is `to` now.
+    pub fn advance_until_sent(&mut self, to: Instant) -> bool {
+        self.advance_until_full(to, 1)
+    }
+
+    /// As [`advance_until_sent`](Self::advance_until_sent), until so many frames wait to be
+    /// [polled](Self::poll).
+    pub fn advance_until_full(&mut self, to: Instant, frames: usize) -> bool {
+        while self.sent.len() < frames {
+            let goes_on = match self.run(to, frames) {
+                Some(goes_on) => goes_on,
+                None => self.step(to),
+            };
+            if !goes_on {
+                return !self.sent.is_empty();
+            }
+        }
+        true
+    }
+
+    /// A device that is alone on an ideal line meets many deadlines at once. Answers as `step` does; `None`:
+    /// it is not alone, or somebody looks on.
+    fn run(&mut self, to: Instant, frames: usize) -> Option<bool> {
+        let Self {
+            devices,
+            wiring,
+            line,
+            sent,
+            ..
+        } = self;
+        let [device] = devices.as_mut_slice() else {
+            return None;
+        };
+        let reaches_outside = wiring.rate.is_none() && line.is_plugged(0) && line.is_plugged(1);
+        if line.is_real || !reaches_outside || line.has_plans() {
+            return None;
+        }
+        let mut stretch = Stretch {
+            now: self.now,
+            to,
+            frames: frames.saturating_sub(sent.len()),
+            events: Vec::new(),
+        };
+        let again = device.run(&mut stretch, &mut |at, frame| {
+            sent.push_back(Sent {
+                at,
+                device: Some(0),
+                frame,
+            });
+        })?;
+        self.now = stretch.now;
+        match self.deadline(0) {
+            Some(at) if at <= self.now && again => Some(self.meet(0, 1, to)),
+            Some(at) if at <= to => Some(true),
+            _ => {
+                self.now = self.now.max(to);
+                Some(false)
+            }
+        }
+    }
+
+    /// All frames that devices sent, oldest first.
+    pub(crate) fn poll_all(&mut self) -> impl Iterator<Item = Sent> + '_ {
+        self.sent.drain(..)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use od_runtime::{Frame, NodeId};
+
+    use super::*;
+    use crate::device::VirtualDevice;
+
+    /// A gxmm that turns, with a heartbeat and a PDO every 7 ms; somebody looks on, or nobody does.
+    fn bus(is_watched: bool) -> Option<Bus> {
+        let kind = od_devices::find("gxmm")?;
+        let mut bus = Bus::new();
+        let device = bus.add(VirtualDevice::new(kind, NodeId::ONE).delivered());
+        bus.start(device);
+        bus.with(device, |device, now| {
+            device.set_rpm(61.5, now);
+            // More bytes than it will ever write.
+            !is_watched || device.cut_power_after(1 << 30)
+        })?;
+        for (index, value) in [(0x1800u16, 7), (0x1017, 25)] {
+            let [low, high] = index.to_le_bytes();
+            let sub = if index == 0x1800 { 5 } else { 0 };
+            bus.receive(&Frame::standard(
+                0x601,
+                &[0x2B, low, high, sub, value, 0, 0, 0],
+            ));
+        }
+        bus.receive(&Frame::standard(0, &[1, 1]));
+        Some(bus)
+    }
+
+    #[test]
+    fn many_deadlines_at_once_are_the_same_as_one_by_one() {
+        let (mut one, mut other) = (bus(false).expect("a device"), bus(true).expect("a device"));
+        let end = Instant::from_millis(2_000);
+        let (mut at_once, mut step_by_step) = (Vec::new(), Vec::new());
+        while one.advance_until_full(end, 100) && one.now() < end {
+            assert!(one.sent.len() >= 100 || one.now() == end);
+            at_once.extend(one.poll_all());
+        }
+        at_once.extend(one.poll_all());
+        while other.advance_until_sent(end) {
+            step_by_step.extend(other.poll_all());
+        }
+        assert!(at_once.len() > 350, "{}", at_once.len());
+        assert_eq!(at_once, step_by_step);
+        assert_eq!((one.now(), other.now()), (end, end));
+    }
+}
