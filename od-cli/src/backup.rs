@@ -17,8 +17,8 @@ use crate::source::{self, Source};
 
 /// Write the configuration of a node into a DCF
 ///
-/// The values that can be read and written, but for commands, logs and DOMAINs. Names and types come
-/// from the file of --eds or the built-in device that fits 1018h.
+/// The DCF contains the values that can be read and written, except commands, logs and DOMAINs. Names
+/// and types come from the file of --eds or the built-in device that matches 1018h.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// Node ID
@@ -33,8 +33,8 @@ pub(crate) struct Args {
 
 /// Write the values of a DCF into a node: all, or none
 ///
-/// Values that differ are written, PDOs while they are not valid, and read back. If the node refuses
-/// one, those before it get their earlier values again. Nothing is saved without --save.
+/// Writes the values that differ, PDOs while they are not valid, and reads them back. If the node aborts
+/// a download, the values before it are restored. Nothing is saved without --save.
 ///
 /// Exit code 0: the node has all values; 1: it does not; 2: wrong usage, nothing was written.
 #[derive(clap::Args)]

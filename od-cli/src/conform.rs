@@ -22,9 +22,9 @@ use crate::source::{self, Source};
 
 /// Test whether a CANopen slave conforms to CiA 301, its EDS and its profile
 ///
-/// With `--eds`, the node is on a real bus or on that of `odkit sim`. With a DEVICE, that is
-/// simulated in virtual time and every case may run. Ctrl-C puts back what the case has changed and
-/// ends with a report. Exit code 1: a case failed, or the node or the link was lost.
+/// With `--eds`, the node is on a real bus or on that of `odkit sim`. With a DEVICE, odkit simulates
+/// this device in virtual time, and every case may run. Ctrl-C restores the values that the case has
+/// changed and ends with a report. Exit code 1: a case failed, or the node or the link was lost.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// Built-in device, or EDS or DCF file, to simulate
@@ -47,7 +47,7 @@ pub(crate) struct Args {
     /// Allow resets of the node
     #[arg(long)]
     allow_reset: bool,
-    /// Allow save and restore commands; what they change is put back
+    /// Allow save and restore commands; the cases restore the saved values
     #[arg(long)]
     allow_store: bool,
     /// Command that switches the power of the node; `on` or `off` is appended

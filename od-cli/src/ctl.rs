@@ -12,10 +12,10 @@ use crate::output::Output;
 ///
 /// The lines are those that `odkit sim --link -` accepts (SCRIPTS.md): `power cycle 2s`,
 /// `shaft rpm 60`, `fault battery-low on`, `set 6000h:01 = 5`, `emcy 4200h`, `use 2`, frames; and
-/// `stats`. Each one is answered when it is done.
+/// `stats`. Each line gets its answer when it is done.
 ///
-/// Exit code 0: every line is done; 1: nobody is there, or the bench cannot do a line; 2: a line
-/// cannot be read. The lines behind it are not sent.
+/// Exit code 0: every line is done; 1: no bench answers, or it cannot carry out a line; 2: a
+/// line cannot be read. The lines after it are not sent.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// Control socket: unix:PATH, tcp:HOST:PORT, or a path

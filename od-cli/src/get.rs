@@ -16,8 +16,8 @@ use crate::source;
 /// Read objects of a node
 ///
 /// An object is an index (6004h, 1018h:01), a name, or a glob ('60*', '1018:*', '*position*'). The
-/// index of an ARRAY or RECORD stands for all its values. Types come from the file of --eds or the
-/// built-in device that fits 1018h, else from the size of the value.
+/// index of an ARRAY or RECORD selects all its values. Types come from the file of --eds or the
+/// built-in device that matches 1018h, otherwise from the size of the value.
 ///
 /// Exit code 0: all values were read; 1: an SDO abort, or the node is silent.
 #[derive(clap::Args)]

@@ -16,8 +16,8 @@ use crate::{bus, conform, output};
 /// Make an EDS from a node on a bus
 ///
 /// Reads all objects from 1000h to 9FFFh, and tries which can be written without changing a value.
-/// Comments in the file say what could not be known: types of objects that no standard has,
-/// limits, which values are saved.
+/// Comments in the file list what odkit could not find out: types of objects that no standard
+/// defines, limits, which values are saved.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// Node ID
@@ -31,7 +31,7 @@ pub(crate) struct Args {
     /// Write to this file instead of standard output
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// Probe limits by writing values, and put the values back, also after Ctrl-C
+    /// Probe limits by writing values, and restore the values, also after Ctrl-C
     #[arg(long)]
     allow_writes: bool,
     /// Also record the behaviour for `odkit sim`: responses, refused reads, values that change,

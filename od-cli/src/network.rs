@@ -30,7 +30,7 @@ pub(crate) struct Args {
     /// Project (.yml, .yaml) or node list (.cpj)
     #[arg(value_name = "FILE")]
     file: String,
-    /// Folder of the files that are written [default: none are]
+    /// Folder for the output files [default: no files are written]
     #[arg(long, short, value_name = "DIR")]
     output: Option<PathBuf>,
 }

@@ -12,7 +12,7 @@ use crate::output;
 
 /// Send an NMT command to a node, or to all
 ///
-/// A node that produces heartbeats confirms the command; of a reset the boot-up message tells.
+/// The heartbeat of the node confirms the command; its boot-up message confirms a reset.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// Node ID, or `all`

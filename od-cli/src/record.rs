@@ -39,7 +39,7 @@ pub(crate) struct Replay {
     /// Log to send
     #[arg(value_name = "LOG")]
     file: PathBuf,
-    /// Times as fast; 0 sends without waiting
+    /// Factor of the speed; 0 sends without waiting
     #[arg(long, value_name = "FACTOR", default_value = "1", value_parser = speed)]
     speed: f64,
     #[command(flatten)]

@@ -16,7 +16,7 @@ use crate::report::plural;
 /// identity, device name, and which built-in device or file of --eds fits. Two nodes with one node
 /// ID are reported. Nothing changes on the bus.
 ///
-/// Exit code 0: nodes were found; 1: none was, or two have the same node ID.
+/// Exit code 0: nodes were found; 1: no node was found, or two have the same node ID.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     #[command(flatten)]
@@ -123,7 +123,7 @@ fn text(scan: &Scan, rate: Option<u16>, names: &Names) -> String {
         }
     }
     if scan.has_unconfigured {
-        lines.push("LSS slaves without a node ID are there; `odkit lss scan` finds them".into());
+        lines.push("the bus has LSS slaves without a node ID; `odkit lss scan` finds them".into());
     }
     lines.push(match scan.nodes.len() {
         0 => "no node answers; check power, bit rate and terminators".into(),

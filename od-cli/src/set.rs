@@ -17,8 +17,8 @@ use crate::source;
 /// Write objects of a node
 ///
 /// A value is a number (4096, 0x1000, -5, 1.5), true, "a text" or bytes ([01 02 03]). Type, access and
-/// limits come from the file of --eds or the built-in device that fits 1018h; all values are checked
-/// before the first is sent. Without either, the size of the object counts.
+/// limits come from the file of --eds or the built-in device that matches 1018h; all values are checked
+/// before the first is sent. Without either, odkit uses the size of the object.
 ///
 /// Exit code 0: all values were written; 1: an SDO abort, or the node is silent; 2: a value does not
 /// fit, and none was sent.

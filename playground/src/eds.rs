@@ -18,8 +18,8 @@ pub fn check_eds(text: &str) -> Vec<JsValue> {
 }
 
 /// The text after its safe fixes, or after the unsafe ones too.
-#[wasm_bindgen(js_name = mendEds)]
-pub fn mend_eds(text: &str, guess: bool) -> String {
+#[wasm_bindgen(js_name = fixEds)]
+pub fn fix_eds(text: &str, guess: bool) -> String {
     use od_eds::fix::{Applicability, fix};
     let level = match guess {
         true => Applicability::Unsafe,

@@ -56,7 +56,7 @@ def pytest_addoption(parser):
     group.addoption(
         "--odkit-allow-store",
         action="store_true",
-        help="allow save and restore commands; what they change is put back",
+        help="allow save and restore commands; the cases restore the saved values",
     )
 
 

@@ -120,7 +120,7 @@ check('the editor leaves Tab and Escape alone, keeps what was typed, and axe fin
   await becomes('a word about its line ends', () => note(page), /lines that end with CRLF and lines that end with LF[^]*saved with LF/);
   await page.keyboard.press('Escape');
   await edit(page);
-  await becomes('a word about the changes', () => note(page), /Your changes of this text are here again/);
+  await becomes('a word about the changes', () => note(page), /Your changes to this text were restored/);
   await until('what was typed', async () => (await page.locator('.cm-line').allTextContents()).includes('[FileInfo]'));
   await page.getByRole('button', { name: 'Findings' }).click();
   await becomes('the finding', () => findings(page).allTextContents().then(String), /E0412 2801h/);

@@ -80,7 +80,7 @@ async function simulation(browser, period, aim) {
     return run(3000);
   }, period);
   await own.close();
-  row(`One moving node, a PDO every ${period} ms: virtual seconds a second`, round(rate), '×', aim ? `at least ${round(aim)} ×` : '–', rate >= aim);
+  row(`One moving node, a PDO every ${period} ms: virtual seconds per second`, round(rate), '×', aim ? `at least ${round(aim)} ×` : '–', rate >= aim);
 }
 
 /** A PDO every 2 virtual milliseconds at ten times the speed: 5,000 frames a second. */
@@ -122,10 +122,10 @@ async function throughput(browser) {
   let dropped = 0;
   for (let i = 1; i < times.length; i++) dropped += Math.max(0, Math.round((times[i] - times[i - 1]) / 0.002) - 1);
   // Whole pictures are counted, so a second may have some frames less.
-  row('Frames a second through the console', round(seen.frames), '', 'at least 5,000', seen.frames >= 4950);
+  row('Frames per second through the console', round(seen.frames), '', 'at least 5,000', seen.frames >= 4950);
   row(`Frames dropped of ${round(times.length)}`, dropped, '', 'none', dropped === 0 && times.length > 20_000);
   row('Longest task meanwhile', seen.longest ? round(seen.longest) : 'under 50', 'ms', 'at most 100 ms', seen.longest <= 100);
-  row('Pictures a second meanwhile', round(seen.pictures), '', 'at least 50', seen.pictures >= 50);
+  row('Rendered frames per second during that', round(seen.pictures), '', 'at least 50', seen.pictures >= 50);
 }
 
 /** 5,000 frames a second of a real bus: another client of `odkit sim` sends them, the page shows them. */

@@ -180,9 +180,9 @@ fn docs(files: &[File]) -> String {
     let mut text = String::from(
         "# The corpus\n\n\
          What odkit makes of the device files that were collected from public repositories: EDS, DCF, XDD and\n\
-         project files of some thirty vendors and tools. The files are no part of odkit. This page is made by\n\
+         project files of some thirty vendors and tools. The files are not part of odkit. This page is made by\n\
          `cargo xtask corpus DIR --docs docs/CORPUS.md`; how odkit's reading differs from python-canopen's, and\n\
-         who is right, stands in [DIFFERENCES.md](DIFFERENCES.md).\n\n",
+         who is right, is in [DIFFERENCES.md](DIFFERENCES.md).\n\n",
     );
     let loading = files.iter().filter(|file| file.loads()).count();
     let clean = |file: &&File| {

@@ -5,9 +5,9 @@ KINDS = {
     "file: text that is not UTF-8": (
         "odkit", "python-canopen opens every file as UTF-8; the vendor wrote Windows-1252."),
     "file: a line, section or key that stops the INI reader": (
-        "odkit", "One odd line is no reason to read nothing; odkit names it and reads the rest."),
+        "odkit", "One invalid line should not stop the reader; odkit reports it and reads the rest."),
     "file: [DummyUsage] or [Comments] lacks a key": (
-        "odkit", "Missing dummies are not allowed ones, and comments are no device; odkit reads the objects."),
+        "odkit", "A missing dummy is not allowed, and comments do not describe the device; odkit reads the objects."),
     "file: a number is empty or followed by a comment": (
         "odkit", "An empty field says nothing, and `# VAR` is a comment; python-canopen gives up the file."),
     "file: DataType, AccessType or ParameterName is missing": (
@@ -17,7 +17,7 @@ KINDS = {
     "object: dummies": (
         "odkit", "python-canopen makes objects 0001h-0007h of [DummyUsage]; the file describes none."),
     "object: made from CompactPDO": (
-        "odkit", "CiA 306-1: CompactPDO stands for PDO objects without sections; python-canopen does not know it."),
+        "odkit", "CiA 306-1: CompactPDO replaces the sections of PDO objects; python-canopen does not know it."),
     "object: DEFTYPE, DEFSTRUCT or NULL": (
         "odkit", "CiA 301 has more object codes than VAR, DOMAIN, ARRAY and RECORD; python-canopen drops the object."),
     "object: VAR with members": (
@@ -77,7 +77,7 @@ KINDS = {
     "value: no value at all": (
         "both", "Neither makes a number of it; odkit says so."),
     "value: of an unknown type": (
-        "neither", "Without a type there is no value; python-canopen reads bytes or numbers as they come."),
+        "neither", "Without a type the value cannot be read; python-canopen reads bytes or numbers as they come."),
     "limit: of a real": (
         "odkit", "python-canopen reads limits as integers only and drops these silently."),
     "limit: of a text or bytes": (
@@ -85,10 +85,10 @@ KINDS = {
     "limit: of a 24-, 40-, 48- or 56-bit integer": (
         "odkit", "python-canopen knows the bits of four signed types and drops other limits silently."),
     "limit: beyond the type, in decimal": (
-        "odkit", "65535 is no INTEGER16. python-canopen makes it -1, which turns an upper limit into a lower one; "
+        "odkit", "65535 is not a valid INTEGER16. python-canopen makes it -1, which turns an upper limit into a lower one; "
         "odkit leaves it out and warns. In hexadecimal it is a bit pattern, and both agree."),
     "limit: high limit that is a bit pattern below the low one": (
-        "odkit", "Between 0 and 0xFF of an INTEGER8, 0xFF is no -1: the limit is no value of the type."),
+        "odkit", "Between 0 and 0xFF of an INTEGER8, 0xFF is not -1: the limit is not a valid value of the type."),
     "limit: $NODEID": (
         "odkit", "A limit may depend on the node ID as a default may; python-canopen drops it silently."),
     "limit: of an object with members": (

@@ -25,19 +25,19 @@ const FOLDERS: [(&str, &str); 11] = [
 fn page() -> String {
     let mut page = String::from(
         "# Rules for EDS files\n\n\
-         What `odkit check` finds. A code never changes; its letter is the severity that it began with. An error is what makes generated\n\
-         code unsound or a master fail; what a master survives is a warning; a remark is worth\n\
+         These are the rules of `odkit check`. A code never changes; its letter is its first severity. An error makes generated\n\
+         code unsound or a master fail; a master can cope with the fault of a warning; a remark is worth\n\
          knowing. `odkit explain CODE` shows an example before and after.\n\n\
-         **Fixes.** `--fix` makes the safe ones: they say to every reader what odkit read before.\n\
-         `--unsafe-fixes` makes likely guesses, too. `--diff` shows both and writes nothing. A fix\n\
-         touches no other line and keeps encoding and line ends; a second run has nothing to do.\n\n\
+         **Fixes.** `--fix` applies the safe fixes: with them every tool reads what odkit read before.\n\
+         `--unsafe-fixes` also applies likely corrections. `--diff` shows both and writes nothing. A fix\n\
+         changes no other line and keeps encoding and line ends; a second run changes nothing.\n\n\
          **Allowing.** `;odkit-allow=W0350 reason`, on a line of its own: before the first section and\n\
-         in [FileInfo] for the whole file, in a section for what is found there and for everything\n\
+         in [FileInfo] for the whole file, in a section for the findings there and for all findings\n\
          about its object. On the command line: `--allow W0350` or `--allow W0350:2000`.\n\n\
          **Two's complement.** In a signed type a hexadecimal number above the highest positive value\n\
          is a bit pattern, as wide as the type or sign extended to 32 or 64 bits: `0xFF` is -1 in an\n\
          INTEGER8, and so is `0xFFFFFFFF`. A HighLimit that would come out below a LowLimit of 0 or\n\
-         more is taken as it is written. Decimal numbers are what they say: 255 is no INTEGER8.\n\n\
+         more is read as it is written. A decimal number is its value: 255 is not a valid INTEGER8.\n\n\
          **Exit codes** of `odkit check`: 0 no errors, 1 errors are left, a file could not be read or\n\
          written, or `--diff` shows something, 2 wrong usage. `--strict` counts warnings as errors.\n\n\
          This page is generated from the catalogue in `od-eds/src/rules`:\n\

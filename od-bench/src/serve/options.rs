@@ -39,7 +39,7 @@ pub struct Options {
     pub max_clients: usize,
     /// Place of the control socket.
     pub control: Option<Place>,
-    /// Log file of the bus: pcapng by its name, else candump.
+    /// Log file of the bus: pcapng if its name ends in .pcapng, otherwise candump.
     pub log: Option<PathBuf>,
     /// File that is there while the bench can be reached; `-`: a line on standard output.
     pub ready_file: Option<PathBuf>,
@@ -197,7 +197,7 @@ pub const CHOICES: [Choice; 17] = [
     },
     Choice {
         name: "eeprom-reset",
-        help: "Erase these files at the start, whichever devices they were of",
+        help: "Erase these files at the start, whichever device they belong to",
         set: |options, _| {
             options.eeprom_reset = true;
             Ok(())
@@ -237,7 +237,7 @@ pub const CHOICES: [Choice; 17] = [
     Choice {
         name: "max-clients",
         value: "N",
-        help: "Most TCP clients at a time; further ones are refused",
+        help: "Maximum number of TCP clients; further ones are refused",
         default: Some("512"),
         set: |options, text| number(text).map(|value| options.max_clients = value),
         ..PLAIN
@@ -253,7 +253,7 @@ pub const CHOICES: [Choice; 17] = [
     Choice {
         name: "log",
         value: "FILE",
-        help: "Log file of all frames with their times of day: pcapng by its name, else candump",
+        help: "Log file of all frames with their times of day: pcapng if the name ends in .pcapng, otherwise candump",
         set: |options, text| {
             log::format(text.as_ref()).map(|_| options.log = Some(PathBuf::from(text)))
         },
@@ -273,7 +273,7 @@ pub const CHOICES: [Choice; 17] = [
     Choice {
         name: "quiet",
         value: "",
-        help: "Print problems only, no greeting and no news",
+        help: "Print problems only",
         set: |options, _| {
             options.quiet = true;
             Ok(())

@@ -145,7 +145,7 @@ impl<P: Port, S: Protocol> Stream<P, S> {
     fn write(&mut self, bytes: &[u8]) -> Result<(), Fault> {
         self.port.write(bytes).map_err(|error| match error.kind() {
             ErrorKind::WouldBlock | ErrorKind::TimedOut => {
-                self.lost("the other side takes no bytes any more")
+                self.lost("the other side no longer accepts bytes")
             }
             _ => self.lost(&error.to_string()),
         })

@@ -24,7 +24,7 @@ pub(crate) struct Args {
     /// [default: the running `odkit sim`]
     #[arg(long, value_name = "LINK", value_parser = link)]
     pub(crate) link: Option<String>,
-    /// Bit rate in kbit/s that an slcan adapter sets [default: the one that it has]
+    /// Bit rate in kbit/s that an slcan adapter sets [default: as set in the adapter]
     #[arg(long, value_name = "KBIT")]
     pub(crate) bit_rate: Option<u16>,
     /// Names and types: built-in device, or EDS or DCF file, of the node with this ID; may be

@@ -33,15 +33,15 @@ enum What {
     },
     /// Give a node ID to one slave, or to all that have none, one after the other
     ///
-    /// Without NODE a wizard asks for the node ID of each slave without one, and says by serial
-    /// number which encoder it is about.
+    /// Without NODE a wizard asks for the node ID of each slave without one, and names the serial
+    /// number of the encoder that it asks about.
     Set {
         /// Node ID for the slave [default: the wizard asks]
         #[arg(value_name = "NODE", value_parser = source::node_id)]
         node: Option<NodeId>,
         #[command(flatten)]
         slave: Slave,
-        /// Wizard: take the proposed node IDs without asking
+        /// Wizard: accept the proposed node IDs without asking
         #[arg(long, conflicts_with = "node")]
         yes: bool,
         /// Wizard: first node ID that is proposed
@@ -63,7 +63,7 @@ enum What {
         /// Do not store the bit rate; it is lost with the power
         #[arg(long)]
         no_store: bool,
-        /// All slaves on the bus change over at once, after this time in ms
+        /// Switch all slaves on the bus to the new bit rate, after this time in ms
         #[arg(long, value_name = "MS", num_args = 0..=1, default_missing_value = "1000")]
         activate: Option<u16>,
         #[command(flatten)]

@@ -140,7 +140,7 @@ impl Tree {
             }
             Event::Alias(anchor) => {
                 let value = self.anchors.get(&anchor).cloned();
-                (0, value.ok_or("an alias of nothing")?)
+                (0, value.ok_or("an alias without its anchor")?)
             }
             Event::SequenceStart(anchor, _) | Event::MappingStart(anchor, _) => {
                 let is_map = matches!(event, Event::MappingStart(..));

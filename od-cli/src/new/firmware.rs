@@ -18,7 +18,7 @@ pub(super) enum Board {
     /// RP2040 with an MCP2515 on SPI, on embassy
     #[value(name = "rp2040+mcp2515")]
     Rp2040,
-    /// Any board with a driver for embedded-can; it begins as one that QEMU emulates
+    /// Any board with a driver for embedded-can; the generated program runs in QEMU
     #[value(name = "generic")]
     Generic,
 }

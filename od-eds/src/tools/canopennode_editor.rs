@@ -37,7 +37,7 @@ static MISSING: Rule = Rule {
     code: "T0601",
     title: "a section that the tool needs is missing",
     source: SOURCE,
-    says: "{tool} rejects the file: there is no section `[{section}]`, which it compares letter by letter",
+    says: "{tool} rejects the file: section `[{section}]` is missing; the tool distinguishes upper and lower case",
     help: "add the section",
     example: "a file without [MandatoryObjects]",
     ..REJECTS
@@ -66,7 +66,7 @@ static LEFT_OUT: Rule = Rule {
         },
         Form {
             says: "{tool} leaves out `[{section}]`: its object is not in front of it",
-            help: "put the section of the object in front of its members",
+            help: "put the section of the object in front of its sub-objects",
         },
     ],
     example: "AccessType=r0",

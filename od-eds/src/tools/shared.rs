@@ -76,11 +76,11 @@ pub(crate) const LINE: Rule = Rule {
 };
 
 pub(crate) const TWICE: Rule = Rule {
-    title: "a section or a key that is there twice",
+    title: "duplicate section or key",
     says: "{tool} rejects the file: its section has `{name}` twice",
     help: "make the second one a comment{fix}",
     also: &[Form {
-        says: "{tool} rejects the file: section `[{name}]` is there twice",
+        says: "{tool} rejects the file: duplicate section `[{name}]`",
         help: "keep one of the two sections",
     }],
     fixability: Fixability::Safe,

@@ -191,7 +191,7 @@ pub(crate) const REJECTS: Rule = Rule {
 /// A rule about what a tool drops or reads otherwise.
 pub(crate) const OTHERWISE: Rule = Rule {
     severity: Severity::Warning,
-    why: "The tool reads the file, and something in it otherwise than the standard says.",
+    why: "The tool reads the file, but a part of it differently from the standard.",
     buildable: true,
     ..Rule::NEW
 };

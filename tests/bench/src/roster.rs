@@ -10,7 +10,7 @@ use crate::peers::canopen_sdo::CanopenSdo;
 use crate::peers::zencan::Zencan;
 
 /// The loop without a node.
-pub const NOTHING: &str = "(loop alone)";
+pub const NOTHING: &str = "(loop only)";
 /// The floor.
 pub const CANOPEN_SDO: &str = "canopen-sdo";
 /// A peer.

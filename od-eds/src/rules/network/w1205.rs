@@ -4,11 +4,11 @@ pub(crate) static RULE: Rule = Rule {
     code: "W1205",
     severity: Warning,
     title: "bus load is too high",
-    why: "The periodic frames alone, with all stuff bits, take more than 80 % of the time: frames of low priority come late, and from 100 % on some never come.",
+    why: "The periodic frames, with all stuff bits, take more than 80 % of the time: frames of low priority come late, and from 100 % on some never come.",
     source: "ISO 11898-1, frame format",
     example: "50 TPDOs of 8 bytes every 10 ms at 250 kbit/s",
     says: "periodic frames take up to {percent} % of {rate} kbit/s",
-    help: "send them less often, or take a higher bit rate",
+    help: "send them less often, or use a higher bit rate",
     check: Check::ByTarget,
     ..Rule::NEW
 };

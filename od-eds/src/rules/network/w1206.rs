@@ -8,7 +8,7 @@ pub(crate) static RULE: Rule = Rule {
     source: "CiA 301, PDO length and EMCY error code 8210h",
     example: "TPDO 1 with 2 bytes, received by an RPDO with 4",
     says: "{consumer} maps {mapped:byte|bytes}, but {producer} sends {sent:byte|bytes}",
-    help: "map as many bytes as come, or fill the gap of the producer",
+    help: "map as many bytes as the producer sends, or map more objects in the producer",
     check: Check::ByTarget,
     ..Rule::NEW
 };

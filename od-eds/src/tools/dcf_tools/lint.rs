@@ -228,7 +228,11 @@ impl<'a> Lint<'a> {
         let is_many = matches!(code, 8 | 9);
         match self.given(section, "AccessType") {
             Some(pair) if (is_many || code == 6) && compact == 0 => {
-                self.members(section, pair.span, "AccessType of an object with members");
+                self.members(
+                    section,
+                    pair.span,
+                    "AccessType of an object with sub-objects",
+                );
             }
             None if code != 2 && compact != 0 => self.missing(section, "AccessType"),
             _ => {}
@@ -247,7 +251,7 @@ impl<'a> Lint<'a> {
             self.members(
                 section,
                 own,
-                "members of an object that is no ARRAY or RECORD",
+                "sub-objects of an object that is not an ARRAY or RECORD",
             );
         }
         if count != 0 && compact == 0 {
@@ -262,14 +266,14 @@ impl<'a> Lint<'a> {
                     .given(member, "DataType")
                     .and_then(|pair| int(&pair.value, 0));
                 if sub == 0 && data_type != Some(5) {
-                    self.members(member, member.header, "a sub-index 0 that is no UNSIGNED8");
+                    self.members(member, member.header, "a sub-index 0 that is not UNSIGNED8");
                 }
             }
             if found != count {
                 self.members(
                     section,
                     own,
-                    format!("SubNumber {count} with {found} members"),
+                    format!("SubNumber {count} with {found} sub-objects"),
                 );
             }
         }

@@ -55,7 +55,7 @@ pub(super) static MISSING: Rule = Rule {
     says: "{tool} rejects the file: `[{section}]` has no `{name}`",
     help: "add `{name}`",
     also: &[Form {
-        says: "{tool} rejects the file: there is no section `[{section}]`",
+        says: "{tool} rejects the file: section `[{section}]` is missing",
         help: "add the section",
     }],
     example: "no [ManufacturerObjects]",
@@ -95,11 +95,11 @@ pub(super) static LIST: Rule = Rule {
 
 pub(super) static MEMBERS: Rule = Rule {
     code: "T0208",
-    title: "members of an object that the tool does not accept",
+    title: "sub-objects of an object that the tool does not accept",
     source: SOURCE,
     says: "{tool} rejects the file: {what} in `[{section}]`",
-    help: "correct the object and its members",
-    example: "SubNumber=3 with 2 members",
+    help: "correct the object and its sub-objects",
+    example: "SubNumber=3 with 2 sub-objects",
     ..REJECTS
 };
 
@@ -108,7 +108,7 @@ pub(super) static RANGE: Rule = Rule {
     title: "a value that is beyond its type or its limits as the tool reads them",
     source: SOURCE,
     says: "{tool} rejects the file: {name} `{value}` is beyond {what}",
-    help: "write a decimal number in between",
+    help: "write a decimal number inside the limits",
     example: "DefaultValue=0xFF of an INTEGER8",
     ..REJECTS
 };

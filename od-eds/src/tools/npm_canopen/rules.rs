@@ -42,12 +42,12 @@ pub(super) static CODE: Rule = Rule {
 
 pub(super) static PARENT: Rule = Rule {
     code: "T0304",
-    title: "a member whose object has no members",
+    title: "a sub-object whose object has no sub-objects",
     source: SOURCE,
     says: "{tool} rejects the file: object {object} of `[{section}]` is missing, or is not an ARRAY or RECORD",
     help: "give the object a section with ObjectType 0x8 or 0x9",
     also: &[Form {
-        says: "{tool} rejects the file: `[{section}]` has no valid sub-index for a member of object {object}",
+        says: "{tool} rejects the file: `[{section}]` has no valid sub-index for a sub-object of object {object}",
         help: "write a sub-index from 0 to FE",
     }],
     example: "[2000sub1] of a VAR",
@@ -56,9 +56,9 @@ pub(super) static PARENT: Rule = Rule {
 
 pub(super) static TWICE: Rule = Rule {
     code: "T0305",
-    title: "an object that is there twice, in another case",
+    title: "duplicate object, in another case",
     source: SOURCE,
-    says: "{tool} rejects the file: object {object} is there twice",
+    says: "{tool} rejects the file: duplicate object {object}",
     help: "keep one of the two sections",
     example: "[100A] and [100a]",
     ..REJECTS

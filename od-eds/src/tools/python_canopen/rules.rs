@@ -59,17 +59,17 @@ pub(super) static NUMBER: Rule = Rule {
 
 pub(super) static ORDER: Rule = Rule {
     code: "T0106",
-    title: "a member whose object is not in front of it",
+    title: "a sub-object whose object is not in front of it",
     source: SOURCE,
     says: "{tool} rejects the file: no section in front of `[{section}]` makes object {object}",
-    help: "put the section of the object in front of its members, with an ObjectType of VAR, DOMAIN, ARRAY or RECORD",
+    help: "put the section of the object in front of its sub-objects, with an ObjectType of VAR, DOMAIN, ARRAY or RECORD",
     example: "[2000sub1] above [2000]",
     ..REJECTS
 };
 
 pub(super) static NAMES: Rule = Rule {
     code: "T0107",
-    title: "names of members for an object without sub-index 1",
+    title: "names of sub-objects for an object without sub-index 1",
     source: SOURCE,
     says: "{tool} rejects the file: object {object} of `[{section}]` has no sub-index 1 in front of it",
     help: "give the object CompactSubObj, or remove the section",
@@ -79,12 +79,12 @@ pub(super) static NAMES: Rule = Rule {
 
 pub(super) static COMPACT: Rule = Rule {
     code: "T0115",
-    title: "members of CompactSubObj, which the tool makes on demand",
+    title: "sub-objects of CompactSubObj, which the tool makes on demand",
     source: SOURCE,
-    says: "{tool} makes the members of CompactSubObj on demand: sub-index 0 has no value, and names come out differently",
-    help: "write a section for each member",
+    says: "{tool} makes the sub-objects of CompactSubObj on demand: sub-index 0 has no value, and names come out differently",
+    help: "write a section for each sub-object",
     also: &[Form {
-        says: "{tool} does not read `[{section}]`: the members of CompactSubObj have no values of their own",
+        says: "{tool} does not read `[{section}]`: the sub-objects of CompactSubObj have no values of their own",
         ..Form::OWN
     }],
     example: "CompactSubObj=4",

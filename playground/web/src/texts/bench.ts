@@ -86,7 +86,7 @@ export const bench = {
     rateSwitch: 'Bit rate',
     rateSwitchHint: 'DIP switches',
     atReset: 'at the next start',
-    atZero: 'The rotary switches are at 0, so the saved node ID and the saved bit rate count, and the DIP switches do not act.',
+    atZero: 'The rotary switches are at 0, so the device uses the saved node ID and bit rate and ignores the DIP switches.',
     waits: 'The device reads its switches when it starts.',
     startNow: 'Reset node',
     waitsTitle: 'Switches that act at the next start',
@@ -146,7 +146,7 @@ export const bench = {
     dcf: 'Save as DCF',
     dcfShort: 'DCF',
     dcfTitle: 'The configured device as a DCF (CiA 306): node ID, bit rate and every changed value',
-    noDcf: 'The DCF could not be made.',
+    noDcf: 'The DCF could not be written.',
     mark: { ram: 'RAM', eeprom: 'EE' },
     markTitle: {
       '': '',

@@ -54,7 +54,7 @@ export const bus = {
     mark: 'Mark',
     close: 'Close the frame',
     formats: { log: 'candump log', asc: 'Vector ASC', trc: 'PEAK TRC', pcapng: 'pcapng (Wireshark)' } as Record<string, string>,
-    noFrames: 'There is no frame to save yet.',
+    noFrames: 'The capture has no frames yet.',
     unreadable: (name: string, why: string) => `${name} cannot be read: ${why}.`,
   },
   bits: {

@@ -48,7 +48,7 @@ export const E = {
     toBench: 'Show the bench',
     fixAll: 'Fix all',
     fixAllTitle: 'Apply all safe fixes, as odkit check --fix does',
-    draft: 'Your changes of this text are here again. Ctrl+Z takes them back.',
+    draft: 'Your changes to this text were restored. Ctrl+Z undoes them.',
     mixed: (ending: string) => `This file has lines that end with CRLF and lines that end with LF. Once you change it, it is saved with ${ending} in every line.`,
     fixed: 'All safe fixes are applied. Ctrl+Z undoes them.',
     nothingToFix: 'No finding has a safe fix.',

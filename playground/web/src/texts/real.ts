@@ -97,5 +97,5 @@ export const R = {
   never: 'No heartbeat so far: the NMT state is not known.',
   describes: 'A node of the real bus, described by this file',
   virtual: 'A virtual device that goes on the real bus',
-  kindOf: 'What comes on the bus',
+  kindOf: 'What to add to the bus',
 };
