@@ -1,5 +1,5 @@
-//! Embeds the sources of the crates that a device of `odkit new` needs, so that it builds with this
-//! program alone.
+//! Embeds the sources of the crates that a device of `odkit new` needs, so that this program builds
+//! it without other files.
 //!
 //! They are there in a checkout. A packaged `od-cli` lacks them, and needs none: it was built with
 //! the published crates, and so is a device. Then the list is empty.

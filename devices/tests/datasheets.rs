@@ -1,6 +1,6 @@
 //! The pages under docs/datasheets are what the devices say of themselves.
 //!
-//! `ODKIT_ACCEPT=1 cargo test -p od-devices --all-features --test datasheets` writes them anew.
+//! `ODKIT_ACCEPT=1 cargo test -p od-devices --all-features --test datasheets` writes them again.
 #![cfg(feature = "text")]
 
 use std::collections::BTreeSet;
@@ -27,7 +27,7 @@ fn every_page_is_current_and_there_is_no_other() {
         let written = fs::read_to_string(&path).unwrap_or_default();
         assert!(
             written == page,
-            "docs/datasheets/{}.md is not what the device says; ODKIT_ACCEPT=1 writes it anew",
+            "docs/datasheets/{}.md differs from the device; ODKIT_ACCEPT=1 writes it again",
             kind.name
         );
     }

@@ -1,7 +1,7 @@
 //! Any frame, any news of the CAN controller, power that goes at any moment: on every device no
-//! panic, no answer to what is not for it, no value outside its limits, no clock that stands.
+//! panic, no answer to frames for others, no value outside its limits, no clock that stops.
 //!
-//! `OD_RANDOM_FRAMES=10000000` plays so many frames in all.
+//! `OD_RANDOM_FRAMES=10000000` plays this number of frames in all.
 
 use od_bench::shaft::{self, Shaft};
 use od_devices::DEVICES;
@@ -81,7 +81,7 @@ impl Bench {
         self.drain();
     }
 
-    /// What goes out has to be allowed to.
+    /// Checks that each frame that is sent is allowed.
     fn drain(&mut self) {
         let node_id = u32::from(self.node.node_id().raw());
         while let Some(frame) = self.with(|node, device, now| node.poll_transmit(device, now)) {
@@ -114,11 +114,7 @@ impl Bench {
             self.drain();
             turns += 1;
             // Two PDOs, a heartbeat and the rest, each at most once a millisecond.
-            assert!(
-                turns <= 8 * (millis + 1),
-                "time stands still at {:?}",
-                self.now
-            );
+            assert!(turns <= 8 * (millis + 1), "time stops at {:?}", self.now);
         }
         self.now = end;
     }

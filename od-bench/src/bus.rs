@@ -58,7 +58,7 @@ impl Bus {
     }
 
     /// As [`add`](Self::add), on the shaft of a device that is there already: when one of
-    /// them turns, all do, whoever has power.
+    /// them turns, all do, with or without power.
     pub fn add_beside(&mut self, device: VirtualDevice, other: usize) -> usize {
         self.put(device, Some(other))
     }
@@ -190,7 +190,7 @@ impl Bus {
     }
 
     /// Does something with a device at the present moment (power, shaft, faults …) and takes
-    /// what it sends because of that. `None` where there is no such device.
+    /// the frames that it sends because of that. `None` if the device does not exist.
     pub fn with<R>(
         &mut self,
         device: usize,

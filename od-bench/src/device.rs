@@ -78,7 +78,7 @@ pub struct VirtualDevice {
     pub(super) recorded: Option<Box<Playing>>,
 }
 
-/// So many events are kept for whoever asks.
+/// Number of events that are kept until they are read.
 const EVENTS: usize = 256;
 
 impl VirtualDevice {
@@ -152,8 +152,8 @@ impl VirtualDevice {
         self
     }
 
-    /// Set up for this bit rate in kbit/s, as somebody did who put it on a line: it stands in
-    /// an EEPROM that is empty at the first start, where the device can keep it.
+    /// Sets the device up for this bit rate in kbit/s, as for a bus line: an EEPROM that is empty at
+    /// the first start contains it, if the device can save it.
     pub fn set_up_for(&mut self, rate: Option<u16>) {
         self.wanted_rate = rate;
     }

@@ -16,7 +16,7 @@ impl VirtualDevice {
         self
     }
 
-    /// Forwards a call to the twin; [`Call::End`] when there are no more.
+    /// Forwards a call to the twin; [`Call::End`] after the last.
     #[inline]
     pub fn forward(&mut self, now: Instant, call: Call<'_>) {
         if self.twin.is_some() {

@@ -81,7 +81,7 @@ impl VirtualDevice {
     /// addresses and types of the objects that it saves.
     pub fn identity(&self) -> String {
         let [vendor, product, ..] = self.lss_address();
-        // FNV-1a; lengths of strings are no part of it, they depend on options.
+        // FNV-1a; without lengths of strings, which depend on options.
         let mut layout = 0x811C_9DC5_u32;
         let entries = self.dictionary().entries().iter();
         for entry in entries.filter(|entry| entry.group != Group::None && entry.slot.len > 0) {
@@ -99,7 +99,7 @@ impl VirtualDevice {
         )
     }
 
-    /// Whether it has a node ID; without one there is LSS alone (CiA 305).
+    /// Whether it has a node ID; without one only LSS works (CiA 305).
     pub fn is_configured(&self) -> bool {
         self.node.is_configured()
     }

@@ -17,7 +17,7 @@ pub struct Saved {
 }
 
 impl Saved {
-    /// The value at an address; `None` where it is no object that is saved.
+    /// The value at an address; `None` if the object is not saved.
     pub fn bytes(&mut self, device: &VirtualDevice, address: Address) -> Option<Vec<u8>> {
         device.saved_slot(address)?;
         let dictionary = device.dictionary();
@@ -48,8 +48,8 @@ impl VirtualDevice {
         let _ = self.storage.write(0, &bytes[..len]);
     }
 
-    /// Lets power go when so many more bytes have been written to the EEPROM and one more is
-    /// to be. Only an EEPROM of its own can be cut; answers whether this is one.
+    /// Cuts the power when `bytes` more bytes have been written to the EEPROM and one more is
+    /// to be. Only an EEPROM of its own can be cut; returns whether this is one.
     pub fn cut_power_after(&mut self, bytes: usize) -> bool {
         let memory = self.storage.memory();
         let is_own = memory.is_some();
@@ -92,7 +92,7 @@ impl VirtualDevice {
     }
 
     /// The bytes that an object would have after a start: what was saved, else the default.
-    /// `None` where there is no such object, or none that is kept.
+    /// `None` if the object does not exist or is not saved.
     pub fn saved_bytes(&self, saved: &Saved, address: Address) -> Option<Vec<u8>> {
         let entry = self.dictionary().find(address).ok()?;
         let start = entry.slot.offset as usize;

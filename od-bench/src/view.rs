@@ -15,7 +15,7 @@ const COMMUNICATION: u64 = 1 << 4;
 
 impl VirtualDevice {
     /// The value at an address as an SDO would carry it now, without a frame on the bus;
-    /// empty where there is no such object. Also what a master may not read.
+    /// empty if the object does not exist. Also of objects that a master may not read.
     pub fn read(&mut self, address: Address, now: Instant) -> Vec<u8> {
         #[cfg(feature = "real")]
         if let Some(value) = self.seen_value(address) {
@@ -52,7 +52,7 @@ impl VirtualDevice {
         store.bytes(&entry, &mut [0; 8]).to_vec()
     }
 
-    /// The number that stands at an address, live values as they were last asked for.
+    /// The number at an address, live values as they were last read.
     pub fn stored(&self, index: u16, sub: u8) -> Option<u64> {
         let dictionary = self.dictionary();
         let entry = dictionary.entry(index, sub)?;
@@ -72,7 +72,7 @@ impl VirtualDevice {
         }
     }
 
-    /// Does it have the dual LED? A device of an EDS file is taken to have one.
+    /// Does it have the dual LED? A device of an EDS file always has one.
     pub fn has_leds(&self) -> bool {
         self.has_leds
     }

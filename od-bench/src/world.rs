@@ -76,13 +76,13 @@ impl VirtualDevice {
         })
     }
 
-    /// Turns the shaft by so many revolutions; its speed stays.
+    /// Turns the shaft by this number of revolutions; its speed stays.
     pub fn turn(&mut self, turns: f64, now: Instant) -> bool {
         let by = Angle::from_fractions((turns * REVOLUTION) as i64);
         self.change(now, |encoder| encoder.shaft.turn(now, by))
     }
 
-    /// Turns the shaft to so many revolutions from the sensor's zero point; its speed stays.
+    /// Turns the shaft to this number of revolutions from the sensor's zero point; its speed stays.
     pub fn turn_to(&mut self, turns: f64, now: Instant) -> bool {
         let to = Angle::from_fractions((turns * REVOLUTION) as i64);
         self.change(now, |encoder| {
@@ -93,13 +93,13 @@ impl VirtualDevice {
 
     /// Lets the shaft turn with this speed from now on; positive is clockwise.
     pub fn set_rpm(&mut self, rpm: f64, now: Instant) -> bool {
-        // `as` keeps what is too fast in the range, and makes 0 of what is no number.
+        // `as` limits a speed that is too high to the range, and makes 0 of NaN.
         self.change(now, |encoder| {
             encoder.shaft.set_milli_rpm(now, (rpm * 1000.0) as i32)
         })
     }
 
-    /// Lets the shaft speed up or slow down evenly, to this speed after so many microseconds,
+    /// Lets the shaft speed up or slow down evenly to this speed within `micros` microseconds,
     /// at most 4295 s.
     pub fn ramp_to_rpm(&mut self, rpm: f64, micros: u64, now: Instant) -> bool {
         let micros = u32::try_from(micros).unwrap_or(u32::MAX);
@@ -134,7 +134,7 @@ impl VirtualDevice {
         switches.map_or((0, 0), |of| (of.node_id, of.bit_rate))
     }
 
-    /// Breaks something or mends it, by a name of [`faults::NAMES`]. Answers whether this
+    /// Sets or clears a fault, by a name of [`faults::NAMES`]. Returns whether this
     /// device has such a fault.
     pub fn set_fault(&mut self, name: &str, broken: bool, now: Instant) -> bool {
         match faults::from_name(name).filter(|fault| self.has_fault(*fault)) {

@@ -99,8 +99,8 @@
 //! ```
 //!
 //! A block transfer is a frame at a time in the interrupt, and never more. While flash is erased or written
-//! nobody holds the board, so a SYNC is answered at once. What the node does in one call is the longest that
-//! a frame can wait: a save that is taken over, which `firmware/rtic` measures.
+//! nobody holds the board, so a SYNC is answered at once. The longest call of the node is the longest that
+//! a frame can wait: the call that starts a save, which `firmware/rtic` measures.
 #![cfg_attr(
     all(feature = "embassy", feature = "flash"),
     doc = r#"

@@ -6,7 +6,7 @@ use od_wire::CanId;
 
 use crate::owner::Owner;
 
-/// Frames that can wait for the controller. While all places are taken the node keeps its own.
+/// Frames that can wait for the controller. While all of them wait, the node keeps its own.
 const ROOM: usize = 4;
 
 /// Frames that wait for a mailbox of the CAN controller, the one that wins arbitration first; frames

@@ -22,7 +22,7 @@ pub trait Receive {
     /// dropped before it is ready; no frame may be lost with it.
     fn receive(&mut self) -> impl Future<Output = Result<Frame, BusEvent>>;
 
-    /// Sets the acceptance filters: at the start, and when they change. A controller that has not so many
+    /// Sets the acceptance filters: at the start, and when they change. A controller with fewer filters
     /// joins them, by `filters.iter().copied().collect::<Filters<4>>()`; one without filters does nothing.
     fn filter(&mut self, filters: &[Filter]) {
         let _ = filters;
@@ -36,7 +36,7 @@ pub trait Transmit {
     fn transmit(&mut self, frame: &Frame) -> impl Future<Output = Result<Option<Frame>, BusEvent>>;
 }
 
-/// Filters that a receiver is told, before it joins them.
+/// Number of filters that a receiver gets, before it joins them.
 const FILTERS: usize = 16;
 
 /// Time after which the node is asked again while the controller has no room.

@@ -52,7 +52,7 @@ impl<'d> Rig<'d> {
         act(&mut self.node, &mut lent)
     }
 
-    /// What can be seen of the node.
+    /// The visible state of the node.
     fn shows(&mut self, now: Instant) -> (Vec<Frame>, Option<Instant>, odkit::nmt::State, Vec<u8>) {
         let frames = self.call(|node, lent| {
             std::iter::from_fn(|| node.poll_transmit(lent, now)).collect::<Vec<_>>()

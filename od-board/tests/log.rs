@@ -1,4 +1,4 @@
-//! What goes out for `defmt`: no text, but the numbers that the host puts together.
+//! The output for `defmt`: no text, but the numbers that the host puts together.
 #![cfg(feature = "defmt")]
 #![allow(unsafe_code)] // a logger of defmt cannot be without
 

@@ -1,4 +1,4 @@
-//! The node as a task that sleeps, with a clock that stands still until it is moved.
+//! The node as a task that sleeps, with a clock that runs only when it is moved.
 #![cfg(feature = "embassy")]
 
 mod support;
@@ -34,7 +34,7 @@ struct Controller {
     came: VecDeque<Result<Frame, BusEvent>>,
     reader: Option<Waker>,
     sent: Vec<String>,
-    /// What the next frames throw out.
+    /// Frames that the next frames replace.
     thrown_out: VecDeque<Frame>,
     /// It has no room for a frame.
     is_full: bool,

@@ -9,8 +9,8 @@ use crate::fault::Fault;
 use crate::link::Link;
 use crate::master::Master;
 
-/// Reads every object that can be read. What a device has besides them cannot be told from
-/// what it has not without asking for all 65,536, so nothing is ever "added" here.
+/// Reads every object that can be read. Further objects of the device could only be found by
+/// asking for all 65,536 indices, so nothing is ever "added" here.
 ///
 /// With `values` current values that differ from the defaults are differences, too.
 ///

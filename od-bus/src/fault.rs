@@ -1,4 +1,4 @@
-//! What goes wrong between a program and a bus.
+//! Errors between a program and a bus.
 
 use std::fmt;
 
@@ -6,7 +6,7 @@ use std::fmt;
 #[derive(Clone, PartialEq, Eq, Debug)]
 #[non_exhaustive]
 pub enum Fault {
-    /// What was asked for cannot be: a link of unknown kind, a place that is none.
+    /// The request is not possible: an unknown kind of link, an invalid address.
     Usage(String),
     /// The link cannot be opened, or is lost.
     Link(String),

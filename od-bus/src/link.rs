@@ -14,7 +14,7 @@ pub struct Heard {
 }
 
 /// A link to a bus, with a clock of its own: real time on a real bus, virtual time on a bench.
-/// Whoever waits on a bench moves its time, so that nothing has to be slept through.
+/// A wait on a bench moves its time, so that no time is spent sleeping.
 pub trait Link {
     /// The present moment; [`Instant::ZERO`] is when the link was opened.
     fn now(&self) -> Instant;

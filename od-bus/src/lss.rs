@@ -56,7 +56,7 @@ impl<L: Link> Lss<L> {
 
     /// Finds the slaves that have no node ID, by fastscan; `found` gets each at once.
     ///
-    /// Where the response of a slave is late, the search begins again and waits longer for each; where
+    /// If the response of a slave is late, the search begins again and waits longer for each; if
     /// none responds any more, it asks once more with that patience.
     ///
     /// # Errors
@@ -247,7 +247,7 @@ impl<L: Link> Drop for Lss<L> {
     }
 }
 
-/// A master whose fastscan waits so many ms for an answer, and a fifth of it for others.
+/// A master whose fastscan waits `pace` ms for an answer, and a fifth of it for others.
 fn master(pace: u64) -> Client {
     let mut options = Options::DEFAULT;
     options.timeout = PATIENCE;

@@ -51,7 +51,7 @@ impl<L: Link> Master<L> {
         self.node
     }
 
-    /// Returns the link, for frames that are no jobs of the client.
+    /// Returns the link, for frames that the client does not handle.
     pub const fn link(&mut self) -> &mut L {
         &mut self.link
     }

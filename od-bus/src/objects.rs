@@ -15,12 +15,12 @@ pub struct Asked {
     pub address: Address,
     /// Its entry, if a dictionary has it.
     pub entry: Option<Entry>,
-    /// It is one of several that a glob or an index stands for.
+    /// It is one of several that a glob or an index selects.
     pub is_one_of_many: bool,
 }
 
 /// The values that `text` names: `6004h`, `1018h:01`, `60*`, `1018:*`, `Position value`, `*position*`.
-/// The index of an ARRAY or RECORD stands for all its values. Of a glob, values that cannot be
+/// The index of an ARRAY or RECORD selects all its values. Of a glob, values that cannot be
 /// read are left out.
 ///
 /// # Errors
@@ -258,7 +258,7 @@ fn has_sub(text: &str) -> bool {
     text.contains(':') || text.contains("sub")
 }
 
-/// Whether a text stands for all that it matches.
+/// Whether a text is a glob.
 pub fn is_glob(text: &str) -> bool {
     text.contains(['*', '?'])
 }
@@ -303,7 +303,7 @@ impl Pattern {
 fn matches(pattern: &str, text: &str) -> bool {
     let pattern: Vec<char> = pattern.to_lowercase().chars().collect();
     let text: Vec<char> = text.to_lowercase().chars().collect();
-    // The last `*`, and the first character that it does not stand for yet.
+    // The last `*`, and the first character that it does not match yet.
     let (mut at, mut place, mut star) = (0, 0, None);
     while at < text.len() {
         match pattern.get(place) {

@@ -16,7 +16,7 @@ use crate::master::Master;
 const AT_ONCE: usize = 16;
 /// So long a scan waits for nodes that answered before.
 const LATE: Duration = Duration::from_millis(800);
-/// So many frames are taken that came in time and were not looked at yet.
+/// Number of waiting frames that are read at once: they came in time and were not looked at yet.
 const WAITING: usize = 4096;
 const DEVICE_TYPE: Address = Address::new(0x1000, 0);
 const SERIAL: Address = Address::new(0x1018, 4);

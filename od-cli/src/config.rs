@@ -36,7 +36,7 @@ pub(crate) fn use_file(path: PathBuf) {
     let _ = GIVEN.set(path);
 }
 
-/// What a project thinks of the rules; nothing without a file.
+/// Settings of a project; empty without a file.
 #[derive(Default, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 pub(crate) struct Config {
@@ -53,7 +53,7 @@ pub(crate) struct Config {
     root: PathBuf,
 }
 
-/// What is different for some files.
+/// Settings for some of the files.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Files {
@@ -151,7 +151,7 @@ impl Config {
     }
 }
 
-/// Does a path match a pattern? `*` stands for anything but `/`, `**` for anything, `?` for a character; a
+/// Does a path match a pattern? `*` matches anything but `/`, `**` anything, `?` one character; a
 /// pattern without `/` is about the name of the file.
 fn matches(pattern: &str, path: &str) -> bool {
     let path = match pattern.contains('/') {

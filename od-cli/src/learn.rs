@@ -87,7 +87,7 @@ fn learned(args: &Args, mut link: Box<dyn Link>) -> Result<(), Failure> {
         text.push('\n');
         text.push_str(&seen.recorded.to_string());
         for lacking in seen.lacking {
-            output::note!("the stand-in does not have {lacking}");
+            output::note!("the twin does not have {lacking}");
         }
     }
     output::save(args.output.as_deref(), &text)

@@ -3,7 +3,7 @@
 use clap::{Arg, ArgAction, ArgMatches, Command};
 use od_bench::serve::options::{CHOICES, Choice, Options};
 
-/// What is about links and not about devices.
+/// Options about links, not about devices.
 const WIRE: [&str; 6] = [
     "link",
     "origin",
@@ -13,7 +13,7 @@ const WIRE: [&str; 6] = [
     "quiet",
 ];
 
-/// The options of the bench, as clap reads them; those of links alone without `DEVICES`.
+/// The options of the bench, as clap reads them; without `DEVICES` only those of links.
 pub(crate) struct Live<const DEVICES: bool>(pub(crate) Options);
 
 fn choices(devices: bool) -> impl Iterator<Item = &'static Choice> {

@@ -46,7 +46,7 @@ pub(crate) fn run(_: &Args) -> Result<(), Failure> {
     let mut is_open = true;
     let mut is_idle = false;
     loop {
-        // All that waits is taken before the next step: a cancelled request is not answered, and a
+        // All waiting messages are read before the next step: a cancelled request is not answered, and a
         // file is checked once for all of its changes.
         let waiting = match is_idle && is_open {
             true => receiver.recv().map_err(|_| TryRecvError::Disconnected),

@@ -103,7 +103,7 @@ fn one(args: &Args, mut network: Network, folder: Option<&Path>) -> Result<usize
     }
     if let Some(folder) = folder {
         for (name, bytes) in &files {
-            // A name of the file is no path out of the folder.
+            // A name in the file must not lead out of the folder.
             if name.contains(['/', '\\']) {
                 return Err(Failure::Failed(format!(
                     "`{name}` is not valid as the name of a file"

@@ -150,7 +150,7 @@ impl Bar {
         }
     }
 
-    /// Counts a frame of a download of so many bytes.
+    /// Counts a frame of a download of `total` bytes.
     pub(crate) fn transfer_of(&mut self, frame: &od_wire::Frame, total: usize) {
         self.total = total;
         if matches!(frame.id().as_standard(), Some(0x601..=0x67F)) {

@@ -1,4 +1,4 @@
-//! A flood of one client is no trouble for another, and costs no memory.
+//! A flood of one client does not disturb another, and costs no memory.
 //!
 //! `ODKIT_LONG=600 cargo test -p od-cli --test fair -- --nocapture` runs ten minutes with the limits
 //! of the real thing and prints a table; `ODKIT` names another binary to measure.

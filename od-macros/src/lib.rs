@@ -44,7 +44,7 @@
 //!                        changes), guarding, consumer (heartbeat), storage, behaviour (1029h), events,
 //!                        servers (SDO servers past the first), sync_producer, time
 //!           | "behaves" "=" path ";"               the device's `Profile`, known to the compiler
-//!           | "errors" "=" 4 ";"                   so many EMCY errors can be active at once, and come or
+//!           | "errors" "=" 4 ";"                   number of EMCY errors that can be active, and come or
 //!                                                  go in one call; 32 unless given
 //!           | { attribute } "variant" name "{" { statement } "}"
 //!           | statement

@@ -28,7 +28,7 @@ const SERVICES: [(&str, &str); 13] = [
     ("time", "TIME"),
 ];
 
-/// What a call says of services.
+/// The services that a call names.
 #[derive(Default)]
 pub(crate) struct Services {
     /// Constants of `Device` that are `false`.
@@ -86,7 +86,7 @@ impl Services {
         report: &mut Report,
     ) -> syn::Result<()> {
         let help =
-            "`errors = 4;`, 1 to 128: so many can be active at once, and come or go in one call";
+            "`errors = 4;`, 1 to 128: the number that can be active, and come or go in one call";
         let number: LitInt = body.parse().map_err(|e| {
             syn::Error::new(
                 e.span(),

@@ -40,7 +40,7 @@ pub struct Names<'a> {
     pub text: &'a str,
 }
 
-/// Bit of [`Range::start`] by which a name is told from a text of the dictionary.
+/// Bit of [`Range::start`] that distinguishes a name from a text of the dictionary.
 const NAME: u32 = 1 << 31;
 
 impl<'a> Dictionary<'a> {
@@ -113,7 +113,7 @@ impl<'a> Dictionary<'a> {
         self.rows.len()
     }
 
-    /// Whether there are no values.
+    /// Whether it contains no values.
     pub const fn is_empty(&self) -> bool {
         self.rows.is_empty()
     }
@@ -126,7 +126,7 @@ impl<'a> Dictionary<'a> {
     /// The value at a position, below [`len`](Self::len).
     ///
     /// # Panics
-    /// If there are not so many values.
+    /// If `position` is not less than the number of values.
     pub const fn at(&self, position: usize) -> Entry {
         self.unpack(position, self.rows[position])
     }
@@ -167,14 +167,14 @@ impl<'a> Dictionary<'a> {
         self.rows
     }
 
-    /// What of a row has no room in it.
+    /// Parts of rows that do not fit into them.
     #[doc(hidden)]
     #[inline(always)]
     pub const fn pool(&self) -> &'a [u32] {
         self.pool
     }
 
-    /// What REALs need; `None`: there are none.
+    /// Functions for REALs; `None` if it has no REALs.
     #[doc(hidden)]
     #[inline(always)]
     pub const fn reals(&self) -> Option<&'static Reals> {

@@ -56,7 +56,7 @@ pub(crate) fn position<'a>(buckets: &[u16], rows: &'a [Row], key: u32) -> Option
     }
 }
 
-/// As [`position`], by the buckets alone.
+/// As [`position`], by the buckets only.
 #[inline(always)]
 pub(crate) fn hashed<'a>(buckets: &[u16], rows: &'a [Row], key: u32) -> Option<(usize, &'a Row)> {
     let mask = buckets.len().checked_sub(1)?;

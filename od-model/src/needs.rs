@@ -1,4 +1,4 @@
-//! What a node needs of a dictionary: sizes that are known at compile time, rows and their defaults.
+//! Sizes that a node needs for a dictionary, known at compile time, and rows with their defaults.
 
 use crate::access::Access;
 use crate::dictionary::Dictionary;

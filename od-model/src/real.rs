@@ -3,7 +3,7 @@
 use crate::row::Row;
 use crate::types::Kind;
 
-/// What a dictionary with REALs has to do for them. It is data, so that a firmware whose dictionary has
+/// Functions of a dictionary with REALs. They are data, so that a firmware whose dictionary has
 /// none holds no code for it.
 #[derive(Debug)]
 pub struct Reals {

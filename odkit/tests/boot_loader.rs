@@ -263,7 +263,7 @@ fn a_reset_or_a_stop_in_the_middle_is_told() {
         rig.nmt(command);
         assert_eq!(rig.loader.ends, [StreamEnd::Cut]);
         rig.answers();
-        // A segment that comes late is no part of anything.
+        // A segment that comes late belongs to no transfer.
         rig.nmt(0x80);
         assert_eq!(rig.ask("0041424344454647"), "8041424301000405");
         assert_eq!(rig.len(), None);

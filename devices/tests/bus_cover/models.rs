@@ -1,4 +1,4 @@
-//! What the eight devices do not have in common, from the print of manual 000.
+//! Differences between the eight devices, from manual 000.
 
 /// A device by its table cells.
 pub(crate) struct Model {

@@ -17,7 +17,7 @@ impl Bench {
         self.set_raw(raw.into());
     }
 
-    /// So many steps of the sensor, on past its ends.
+    /// Turns by this number of steps of the sensor, also past its ends.
     fn turn(&mut self, model: &Model, steps: i64) {
         let step = (1 << 32) / i64::from(model.resolution);
         let by = Angle::from_fractions(steps * step);
@@ -112,7 +112,7 @@ fn a_preset_holds_wherever_the_shaft_is() {
                     let offset = (i128::from(preset) - shown).rem_euclid(range.into());
                     assert_eq!(i128::from(bench.read(0x6509, 0)), offset, "{what}");
                     bench.turn(model, 1);
-                    // A multiturn goes on counting, a singleturn begins anew.
+                    // A multiturn continues to count, a singleturn starts again.
                     let raw = match raw + 1 {
                         past if past == model.resolution && !model.is_multiturn() => 0,
                         next => i128::from(next),

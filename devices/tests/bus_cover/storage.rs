@@ -102,7 +102,7 @@ fn a_save_that_power_cuts_leaves_the_set_before() {
     }
 }
 
-/// Chapter 4.3.5: 5530h, EEPROM error. The factory values stand, and the error lasts until a
+/// Chapter 4.3.5: 5530h, EEPROM error. The node uses the factory values, and the error lasts until a
 /// save or a restore leaves something sound.
 #[test]
 fn a_damaged_eeprom_is_an_error() {
@@ -120,7 +120,7 @@ fn a_damaged_eeprom_is_an_error() {
         assert_eq!(bench.read(0x1003, 1), 0x5530);
     }
     bench.write(0x1010, 1, SAVE).unwrap();
-    assert_eq!(bench.read(0x1001, 0), 0, "a save mends it");
+    assert_eq!(bench.read(0x1001, 0), 0, "a save clears it");
     bench.power_cycle();
     assert_eq!((bench.read(0x1001, 0), bench.read(0x1003, 0)), (0, 0));
 }

@@ -1,4 +1,4 @@
-//! What may be written where: the edges of every value, every length, every command byte.
+//! Access of writes: the edges of every value, every length, every command byte.
 
 use od_devices::find;
 use odkit::Access;
@@ -43,8 +43,8 @@ fn transmission_type(value: u32, _: &Model) -> Result<(), u32> {
     listed(matches!(value, 1..=240 | 254))
 }
 
-/// An identifier of 11 bits has no others beside it, and is none that CiA 301 (table 40) keeps
-/// for itself; bit 31 asks for none.
+/// An identifier of 11 bits has only 0 beside it, and is not one that CiA 301 (table 40) reserves;
+/// with bit 31 it may be any.
 fn cob_id(value: u32, has_valid_bit: bool) -> Result<(), u32> {
     let id = value & 0x1FFF_FFFF;
     let is_extended = value & 1 << 29 != 0;
@@ -136,7 +136,7 @@ fn values(bytes: usize, model: &Model) -> Vec<u32> {
     values
 }
 
-/// What the device answers to a frame of eight bytes; `None`: nothing.
+/// Returns the device's answer to a frame of eight bytes; `None`: nothing.
 fn answer(bench: &mut Bench, request: [u8; 8]) -> Option<Result<(), u32>> {
     let answers = bench.send(0x601, &request);
     let [answer] = &answers[..] else {
@@ -303,7 +303,7 @@ fn every_command_byte() {
             bench.write(0x6003, 0, 7).unwrap();
             let given = answer(&mut bench, request(command, 0x6003, 0, VALUE));
             let (expected, after) = match (command >> 5, command & 3, command >> 2 & 3) {
-                // Download: expedited alone, with a size that suffices.
+                // Download: expedited only, with a size that suffices.
                 (1, 3, 1..) => (Some(Err(GENERAL)), 7),
                 (1, 2 | 3, _) => (Some(Ok(())), VALUE),
                 // Upload.

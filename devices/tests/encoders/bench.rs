@@ -48,7 +48,7 @@ impl Bench {
         self.encoder.shaft.turn(self.now, by);
     }
 
-    /// Off for so long; the shaft turns by so many revolutions meanwhile.
+    /// Switches the power off for `off_ms`, while the shaft turns by `revolutions`.
     pub(crate) fn power_cycle(&mut self, off_ms: u64, revolutions: i64) {
         self.power_off();
         self.turn(revolutions);
@@ -108,7 +108,7 @@ impl<M: Motion> Bench<M> {
         self.node.power_off();
     }
 
-    /// Time passes; everything that is due meanwhile is done when it is due.
+    /// Lets time pass; everything that is due is done at its time.
     pub(crate) fn wait(&mut self, ms: u64) {
         let until = self.now.plus_millis(ms);
         while let Some(at) = self.node.poll_timeout().filter(|at| *at <= until) {

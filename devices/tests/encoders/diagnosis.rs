@@ -235,7 +235,11 @@ fn the_error_behaviour_follows_an_injected_error() {
     bench.write(0x1029, 2, 0).unwrap();
     bench.nmt(1);
     bench.write(0x2116, 1, 0x0008_0023).unwrap();
-    assert_eq!(bench.state(), State::Operational, "a warning is no error");
+    assert_eq!(
+        bench.state(),
+        State::Operational,
+        "a warning is not an error"
+    );
     bench.write(0x2116, 1, 0x0001_0009).unwrap();
     assert_eq!(bench.state(), State::PreOperational);
     bench.nmt(1);

@@ -29,7 +29,7 @@ fn eam_acts_when_it_was_saved_and_the_encoder_restarted() {
     assert_eq!(
         bench.position(),
         409_600,
-        "a new start of the communication is none"
+        "a reset communication is not one"
     );
     bench.nmt(0x81);
     assert_eq!(bench.position(), 65_536);
@@ -121,7 +121,7 @@ fn en_6001h_is_computed_and_has_its_limit() {
         (1333, 5),
         "without effect"
     );
-    // 200000h steps a revolution are the most: 2^21 × 7.5.
+    // 200000h steps per revolution are the most: 2^21 × 7.5.
     assert_eq!(bench.write(0x6002, 0, 15_728_641), INCOMPATIBLE);
     bench.write(0x6002, 0, 15_728_640).unwrap();
     assert_eq!(bench.read(0x6001, 0), 0x20_0000);

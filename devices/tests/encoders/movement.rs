@@ -214,12 +214,12 @@ fn en_speed_has_a_source_a_factor_and_16_bits() {
     bench.rpm(-60_000);
     bench.wait(100);
     assert_eq!(bench.read16(0x6030, 1), i16::MAX);
-    // 2^21 raw steps a second, and 6000h is nothing to them.
+    // 2^21 raw steps per second, and 6000h does not affect them.
     bench.write(0x6031, 1, 2).unwrap();
     bench.write(0x6031, 4, 1024).unwrap();
     bench.write(0x6031, 3, 1).unwrap();
     bench.wait(99);
-    assert_eq!(bench.read16(0x6030, 1), 0, "another source begins anew");
+    assert_eq!(bench.read16(0x6030, 1), 0, "another source starts again");
     bench.wait(1);
     assert_eq!(bench.read16(0x6030, 1), -2048);
     // With the gear a revolution of the encoder is 1333 and a third steps.

@@ -253,7 +253,7 @@ fn en_endless_mode_goes_on_past_the_counter_and_without_power() {
         bench.power_cycle(100, off);
         assert_eq!(bench.position(), total % 3 * 5000 + step, "{off}");
     }
-    // One revolution too many: 65,536 revolutions are lost, and 65,536 is no multiple of 3.
+    // One revolution too many: 65,536 revolutions are lost, and 65,536 is not a multiple of 3.
     bench.power_cycle(100, 32_769);
     let wrong = (98_304 + 32_769 - 65_536) % 3 * 5000 + step;
     assert_eq!(bench.position(), wrong);

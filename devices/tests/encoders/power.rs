@@ -39,7 +39,7 @@ fn en_counts_seconds_tenths_of_hours_and_starts() {
     assert_eq!(
         (total - current, cycles),
         (732, 2),
-        "a reset is no power-on"
+        "a reset is not a power-on"
     );
     bench
         .write(0x1011, 1, u32::from_le_bytes(*b"load"))

@@ -26,7 +26,7 @@ impl Random {
     }
 }
 
-/// What a master wrote, and where the shaft is.
+/// Values that a master wrote, and the position of the shaft.
 struct Model {
     is_eam: bool,
     /// In 2⁻³² revolutions.

@@ -17,7 +17,7 @@ struct Model {
 }
 
 impl Model {
-    /// Steps, range, and where counting begins anew.
+    /// Steps, range, and the position where counting starts again.
     fn scale(&self) -> (i128, i128, i128) {
         let (steps, range) = match self.scaling {
             true => (self.steps, self.range),

@@ -18,7 +18,7 @@ pub(crate) enum When {
     Next,
     /// At a moment.
     At(Instant),
-    /// So many microseconds after the line before it.
+    /// This number of microseconds after the line before it.
     After(u64),
 }
 

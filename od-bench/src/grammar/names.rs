@@ -11,7 +11,7 @@ pub(super) fn fault_name(tokens: &mut Tokens<'_>) -> Result<&'static str, Proble
     tokens.one_of("fault", &faults::NAMES.map(|name| (name, name)))
 }
 
-/// An NMT command, then its node: 0 for `all`, `None` if there is none.
+/// An NMT command, then its node: 0 for `all`, `None` if it is missing.
 pub(crate) fn nmt_command(tokens: &mut Tokens<'_>) -> Result<(Command, Option<u8>), Problem> {
     let command = tokens.one_of(
         "NMT command",

@@ -113,8 +113,8 @@ impl<'t> Tokens<'t> {
             let rest = &self.rest.text[at..];
             let is_here = |sign: &str| {
                 let word = sign.starts_with(|c: char| c.is_alphabetic());
-                let alone = || before.is_whitespace() && rest[sign.len()..].starts_with(' ');
-                rest.starts_with(sign) && (!word || alone())
+                let is_word = || before.is_whitespace() && rest[sign.len()..].starts_with(' ');
+                rest.starts_with(sign) && (!word || is_word())
             };
             // Of `<` and `<=` the longer one.
             let found = signs.iter().filter(|(sign, _)| !quoted && is_here(sign));
@@ -204,7 +204,7 @@ impl<'t> Tokens<'t> {
         self.within(self.peek(), micros)
     }
 
-    /// So many turns of a line must not take longer, either.
+    /// The turns of a line must not take longer, either.
     pub(crate) fn limited_turns(&self, times: u32, every: u64) -> Result<(), Problem> {
         let micros = every.checked_mul(u64::from(times));
         self.within(&format!("{times} times"), micros).map(|_| ())

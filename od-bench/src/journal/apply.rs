@@ -177,7 +177,7 @@ impl Journal {
                     node: Some(self.rig.put_kind(kind, id, place)),
                     trouble: Trouble::None,
                 },
-                None => Added::failed(format!("there is no device `{name}`")),
+                None => Added::failed(format!("device `{name}` does not exist")),
             },
             #[cfg(feature = "eds")]
             Source::Eds { .. } if full(1) => Added::failed(Limits::PAGE.room()),

@@ -17,7 +17,7 @@ const LARGEST: f64 = 1e9;
 pub enum Value {
     /// The field is not there.
     Missing,
-    /// There is no value.
+    /// No value.
     Null,
     /// A truth value.
     Flag(bool),

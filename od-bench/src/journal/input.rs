@@ -55,7 +55,7 @@ choice! {
         "plug" Plug { "station" station: u8, "on" on: bool, }
         /// The CAN controller of a station starts again after bus-off.
         "restart" Restart { "station" station: u8, }
-        /// The power goes in the middle of the next save, after so many bytes.
+        /// The power goes in the middle of the next save, after this number of bytes.
         "cut" Cut { "node" node: u8, "bytes" bytes: u32, }
         /// The EEPROM gets these bytes.
         "eeprom" Eeprom { "node" node: u8, "bytes" bytes: Vec<u8>, }

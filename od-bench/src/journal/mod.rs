@@ -1,4 +1,4 @@
-//! A bench, and all that was done to it. What happened is told by the journal, so that the bench
+//! A bench, and all that was done to it. The journal records every input, so that the bench
 //! can be made again up to any moment: for a step back, from a link, after a reload.
 
 mod apply;
@@ -80,7 +80,7 @@ impl Journal {
         &self.devices
     }
 
-    /// The lesson that is taken.
+    /// The lesson in progress.
     #[cfg(feature = "lessons")]
     pub fn lesson(&self) -> Option<&crate::lesson::Lesson> {
         self.lesson.as_ref()
@@ -96,8 +96,8 @@ impl Journal {
         self.entries.len() - self.done
     }
 
-    /// Returns the entries that are new since the last call, and how many stand before them;
-    /// `None` if there are none.
+    /// Returns the entries that are new since the last call, and the number of entries before them;
+    /// `None` if nothing is new.
     pub fn news(&mut self) -> Option<(usize, &[Entry])> {
         let from = std::mem::replace(&mut self.told, self.entries.len());
         (from != self.told).then(|| (from, &self.entries[from.min(self.told)..]))

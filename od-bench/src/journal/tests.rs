@@ -349,7 +349,7 @@ fn the_bus_has_room_for_16_devices_also_in_a_run_that_is_made_again() {
     assert_eq!(
         journal.act(in_place(0)).node,
         Some(0),
-        "another in a place is none more"
+        "a replacement does not add one"
     );
     let entry = |input| Entry {
         at: Instant::ZERO,

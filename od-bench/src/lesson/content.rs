@@ -37,7 +37,7 @@ pub struct Lesson {
 /// Lines of a script, with their place in the lesson.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Block {
-    /// Number of the first line in the lesson, counted from 1; 0 where there is no such block.
+    /// Number of the first line in the lesson, counted from 1; 0 if the block is missing.
     pub line: u32,
     /// The lines.
     pub text: String,

@@ -43,7 +43,7 @@ impl Quiz {
     }
 }
 
-/// Compares a prediction: `585#43 00 10 00`, or its bytes alone.
+/// Compares a prediction: `585#43 00 10 00`, or only its bytes.
 ///
 /// # Errors
 /// It is neither.

@@ -1,4 +1,4 @@
-//! Which lessons can be taken on a real bus: those that need frames, objects and states only.
+//! Selection of the lessons that work on a real bus: those that need frames, objects and states only.
 
 use std::format;
 use std::prelude::v1::*;

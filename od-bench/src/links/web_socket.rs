@@ -23,7 +23,7 @@ const HEAD: usize = 8 * 1024;
 /// Longest message of a page, in bytes; one holds many frames.
 const MESSAGE: usize = 64 * 1024;
 
-/// Who is let in: a page that shows the token, from this computer or from an origin that was named.
+/// Access control: a page that shows the token, from this computer or from a named origin, is let in.
 #[derive(Debug)]
 pub struct Gate {
     token: String,
@@ -49,7 +49,7 @@ impl Gate {
     /// Looks at a request, and says why it is refused.
     fn admit(&self, request: &Request) -> Result<(), &'static str> {
         let origin = request.headers().get(header::ORIGIN);
-        // A program that is no browser sends none.
+        // Only a browser sends one.
         if let Some(origin) = origin
             && !origin
                 .to_str()
@@ -89,7 +89,7 @@ pub struct WebSocket<'g> {
     is_over: bool,
 }
 
-/// What came in and has not been read, what has to go out.
+/// Bytes that came in and were not read, and bytes to send.
 struct Pipe<'b> {
     input: Cursor<&'b [u8]>,
     output: Vec<u8>,
@@ -285,7 +285,7 @@ fn closed(request: &Request, why: &'static str) -> Option<Vec<u8>> {
     Some(pipe.output)
 }
 
-/// A response that says why there is no WebSocket.
+/// A response that gives the reason why no WebSocket opens.
 pub(crate) fn refusal(status: StatusCode, why: &str) -> String {
     format!(
         "HTTP/1.1 {status}\r\nContent-Type: text/plain; charset=utf-8\r\nContent-Length: {}\r\n\

@@ -33,7 +33,7 @@ impl fmt::Display for Problem {
     }
 }
 
-/// Clocks of the wall are taken off; a log that starts near 0 keeps its times. In microseconds.
+/// Times of day become times from the start; a log that starts near 0 keeps its times. In microseconds.
 const WALL_CLOCK: u64 = 1_000_000_000_000;
 
 /// Lines in which a text has to show what it is.

@@ -23,11 +23,11 @@
 //! | `answer TIME` | from an SDO request to its response |
 //! | `boot-up TIME` | from NMT reset node to the boot-up message |
 //! | `heartbeat TIME`, `tpdo NUMBER TIME` | measured period, where it is not the configured one |
-//! | `emcy TIME CODE REGISTER BYTES` | an error that comes so long after the boot-up message |
+//! | `emcy TIME CODE REGISTER BYTES` | an error, with its time after the boot-up message |
 //! | `without segments blocks` | SDO downloads in segments, or block transfers, are refused |
-//! | `empty OBJECT BYTES` | the value, 1 to 4 bytes, while there is no data (08000024h) |
+//! | `empty OBJECT BYTES` | the value, 1 to 4 bytes, while no data is available (08000024h) |
 //! | `abort OBJECT CODE` | a read is refused with this SDO abort code |
-//! | `value OBJECT TIME BYTES` | the value so long after the boot-up message |
+//! | `value OBJECT TIME BYTES` | the value, with its time after the boot-up message |
 
 mod device;
 mod pace;

@@ -12,7 +12,7 @@ use super::{BYTES, LINES, LONGEST, Recorded, VERSION};
 const FIRST: &str = ";odkit-twin=";
 const START: &str = ";twin ";
 
-/// Reads the recording in the text of an EDS; `None` where there is none.
+/// Reads the recording in the text of an EDS; `None` if it has no recording.
 ///
 /// # Errors
 /// A line that is not valid: its number, and what is wrong with it.

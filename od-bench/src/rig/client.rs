@@ -18,7 +18,7 @@ pub struct Outcome {
     pub node: NodeId,
     /// The object.
     pub address: Address,
-    /// The value that was read, empty after a write; or why there is none.
+    /// The value that was read, empty after a write; or the error.
     pub result: Result<Vec<u8>, SdoError>,
 }
 

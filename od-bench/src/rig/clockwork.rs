@@ -71,7 +71,7 @@ impl Clockwork {
         }
     }
 
-    /// Sends a frame every so many microseconds from now on; 0 ends it. One rhythm a key.
+    /// Sends a frame at this interval in microseconds from now on; 0 ends it. Each key has one rhythm.
     pub(super) fn repeat(&mut self, key: u32, frame: Frame, every: u64, now: Instant) {
         self.cyclic.retain(|one| one.key != key);
         if every > 0 {

@@ -48,7 +48,7 @@ impl Rig {
         self.taken = None;
     }
 
-    /// The lesson that is taken as it is now, and its bus.
+    /// The lesson in progress as it is now, and its bus.
     pub fn lesson(&mut self) -> Option<(&mut Progress, &mut Bus)> {
         self.look();
         let taken = self.taken.as_mut()?;

@@ -67,7 +67,7 @@ pub struct Rig {
     /// The link to a real bus.
     #[cfg(feature = "real")]
     port: Option<port::Port>,
-    /// The lesson that is taken.
+    /// The lesson in progress.
     #[cfg(feature = "lessons")]
     taken: Option<taken::Taken>,
 }
@@ -138,7 +138,7 @@ impl Rig {
         self.clockwork.moves(device)
     }
 
-    /// Sends a frame every so many microseconds from now on; 0 ends it. `key` tells rhythms apart.
+    /// Sends a frame at this interval in microseconds from now on; 0 ends it. `key` tells rhythms apart.
     pub fn repeat(&mut self, key: u32, frame: Frame, micros: u64) {
         let now = self.bus.now();
         self.clockwork.repeat(key, frame, micros, now);

@@ -83,7 +83,7 @@ impl Limits {
     }
 }
 
-/// What a line asks for at the most.
+/// Highest cost of a line.
 #[derive(Default)]
 struct Cost {
     micros: u64,

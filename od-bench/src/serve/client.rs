@@ -20,7 +20,7 @@ const WAITING: usize = 1024 * 1024;
 const FEWEST: usize = 16 * 1024;
 /// Bytes that may wait for all clients together.
 const TOTAL: usize = 8 * 1024 * 1024;
-/// A client that does not read is told no more often than this.
+/// Shortest time between two messages to a client that does not read.
 const AGAIN: Duration = Duration::from_secs(10);
 
 /// Room of each of `count` clients, in bytes.
@@ -264,7 +264,7 @@ mod tests {
 
     use super::*;
 
-    /// A port that takes so many bytes.
+    /// A port that accepts this number of bytes.
     struct Narrow(usize);
 
     impl Port for Narrow {

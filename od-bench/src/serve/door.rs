@@ -15,7 +15,7 @@ const TURN: usize = 64;
 /// A client without room waits this long: another may have left before it came, and the news of that
 /// may come later.
 const PATIENCE: Duration = Duration::from_millis(100);
-/// What the system refuses is tried again after this time.
+/// Time after which a connection that the system refused is tried again.
 const AGAIN: Duration = Duration::from_millis(100);
 /// Files that remain free for everything but clients.
 #[cfg(unix)]
@@ -66,7 +66,7 @@ impl Door {
         self.ready || !self.held.is_empty()
     }
 
-    /// The next client. `full` says why there is no room for it.
+    /// The next client. `full` is the reason if no more clients are accepted.
     pub(super) fn accept(&mut self, full: Option<&str>) -> Option<(Stream, String)> {
         let now = Clock::now();
         if self.shut.is_some_and(|until| now < until) {

@@ -12,7 +12,7 @@ const WAKE: Token = Token(usize::MAX);
 #[cfg(target_os = "linux")]
 const TIMER: Token = Token(usize::MAX - 1);
 
-/// What may be read or written again.
+/// Directions in which a link is ready again.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct Ready {
     /// `None`: another thread called, for whatever port it works.

@@ -133,7 +133,7 @@ impl Live {
         self.stopped.load(Ordering::Relaxed)
     }
 
-    /// Whoever waits for the last lines gets them.
+    /// Sends the last lines to the clients that wait for them.
     fn finish(&mut self) -> io::Result<()> {
         self.flush();
         while self.clients.console_waits() && !self.is_stopped() {

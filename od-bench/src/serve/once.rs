@@ -2,8 +2,8 @@
 
 use std::io::IsTerminal;
 
-/// Whether the hint is to be printed: not to a terminal that has seen it. Whoever reads through a
-/// pipe gets it every time. `to_error`: it goes to standard error.
+/// Whether the hint is to be printed: not to a terminal that has seen it, but always to a pipe.
+/// `to_error`: it goes to standard error.
 pub(super) fn is_due(to_error: bool) -> bool {
     let is_terminal = match to_error {
         true => std::io::stderr().is_terminal(),

@@ -23,7 +23,7 @@ pub struct Options {
     pub origins: Vec<String>,
     /// Bytes for each string and DOMAIN that masters write, of devices of files.
     pub domain_size: u32,
-    /// File with the EEPROM of each device, in their order; in memory if there is none.
+    /// File with the EEPROM of each device, in their order; in memory if a file is missing.
     pub eeproms: Vec<PathBuf>,
     /// Those files start erased.
     pub eeprom_reset: bool,

@@ -43,7 +43,7 @@ impl Pace {
     }
 
     /// Shifts the time of the bus so that it is `due` at `clock`, if it were late otherwise. Returns
-    /// how late it was, if that has to be told.
+    /// how late it was, if that has to be reported.
     pub(super) fn shift(&mut self, due: Instant, clock: Clock) -> Option<Duration> {
         let late = self.at(clock) - due;
         if late <= LATE {
@@ -77,7 +77,7 @@ mod tests {
         assert_eq!(pace.shift(millis(100), after(150)), None);
         assert_eq!(pace.shift(millis(900), after(700)), None);
         assert_eq!(pace.at(after(150)), millis(150));
-        // 5 s are, and are told once.
+        // A delay of 5 s is reported, once.
         let late = Some(Duration::from_secs(5));
         assert_eq!(pace.shift(millis(100), after(5100)), late);
         assert_eq!(pace.at(after(5100)), millis(100));

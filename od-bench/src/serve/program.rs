@@ -15,7 +15,7 @@ use crate::device::VirtualDevice;
 /// returns the exit code of the process.
 ///
 /// `name` is the path of the file that describes the device, for masters. `make` gets the node ID of
-/// the command line, or `None` if there is none.
+/// the command line, or `None`.
 ///
 /// ```no_run
 /// use od_bench::VirtualDevice;

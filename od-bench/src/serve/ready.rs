@@ -75,7 +75,7 @@ struct Link {
     place: Reached,
 }
 
-/// Where masters reach a link.
+/// Address at which masters reach a link.
 #[derive(Serialize)]
 #[serde(rename_all = "lowercase")]
 enum Reached {
@@ -130,6 +130,6 @@ fn link(link: &Opened) -> Link {
 
 /// One line of JSON.
 pub(super) fn line(report: &impl Serialize) -> String {
-    // No map of a report has keys that are not text, and a number that is none becomes null.
-    serde_json::to_string(report).expect("it has fields alone")
+    // All maps of a report have text as keys, and NaN becomes null.
+    serde_json::to_string(report).expect("it has fields only")
 }

@@ -58,7 +58,7 @@ struct Node {
     state: String,
 }
 
-/// What a client sent, and what of the bus it did not get.
+/// Frames that a client sent, and frames of the bus that it did not get.
 #[derive(Serialize)]
 struct Traffic<'g> {
     name: &'g str,

@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// News are not wanted.
 static QUIET: AtomicBool = AtomicBool::new(false);
 
-/// From now on there are no [`news`].
+/// Prints no [`news`] from now on.
 pub(super) fn be_quiet() {
     QUIET.store(true, Ordering::Relaxed);
 }

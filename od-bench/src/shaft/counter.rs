@@ -1,4 +1,4 @@
-//! Revolution counter of an encoder, which may miss revolutions while there is no power.
+//! Revolution counter of an encoder, which may miss revolutions without power.
 
 use od_runtime::encoder::{Angle, Counter, Sensor};
 

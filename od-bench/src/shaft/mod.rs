@@ -25,7 +25,7 @@ pub struct Shaft {
     since: Instant,
     /// At `since`.
     milli_rpm: i32,
-    /// Change of `milli_rpm` from there; it takes no time if there is none.
+    /// Change of `milli_rpm` from there; of length 0 without a ramp.
     ramp: Ramp,
     course: Course,
     placed: Placed,

@@ -16,7 +16,7 @@ const TEXT: Address = Address::new(0x2001, 0);
 const DOMAIN: Address = Address::new(0x2002, 0);
 const MIB: usize = 1 << 20;
 
-/// A device and its master, alone.
+/// A device and its master, on a bus of their own.
 struct Pair {
     device: VirtualDevice,
     client: Client,

@@ -186,7 +186,7 @@ impl Medium {
         }
     }
 
-    /// A station is taken off; those behind it move up.
+    /// Removes a station; those behind it move up.
     pub(crate) fn remove(&mut self, station: usize) {
         self.forget(station);
         let flying = self.flight.iter_mut().map(|flight| &mut flight.waiting);

@@ -21,9 +21,9 @@ pub use self::controller::{Condition, Controller};
 pub(crate) use self::medium::{Due, Medium, PROCESSING, Waiting};
 
 /// Attempts after which a frame that nobody acknowledges is given up: the transmit counter
-/// stands at [`PASSIVE`] then, and would stand there for ever.
+/// is at [`PASSIVE`] then, and would stay there for ever.
 const ATTEMPTS: u16 = 16;
-/// So many disturbances are kept for whoever asks.
+/// Number of disturbances that are kept until they are read.
 const KEPT: usize = 1000;
 
 /// One participant of the bus at one moment.
@@ -154,7 +154,7 @@ impl Line {
         }
     }
 
-    /// Starts a controller afresh, as a power-on does.
+    /// Restarts a controller, as a power-on does.
     pub fn restart(&mut self, station: usize) {
         if let Some(controller) = self.controllers.get_mut(station) {
             *controller = Controller::default();
@@ -340,7 +340,7 @@ impl Line {
         } else {
             None
         };
-        // Who alone destroys what others understood was the first to see the error.
+        // A station that destroys a frame that all others accept was the first to see the error.
         let by = if others.iter().any(same) { 8 } else { 1 };
         for station in strangers {
             self.controllers[station].erred_receiving(by);

@@ -1,4 +1,4 @@
-//! What a flash may be after power went, as the log expects it.
+//! Model of a flash after a power loss, as the log expects it.
 
 use embedded_storage_async::nor_flash::{ErrorType, NorFlash, ReadNorFlash};
 

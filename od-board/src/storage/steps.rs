@@ -7,7 +7,7 @@ use embedded_storage::nor_flash as blocking;
 use embedded_storage_async::nor_flash::{ErrorType, NorFlash, ReadNorFlash};
 
 /// A driver whose calls wait until the flash is done, as an asynchronous one: each poll reads, erases
-/// one page or writes at most 64 bytes, and returns to whoever polls.
+/// one page or writes at most 64 bytes, and returns to the caller.
 #[derive(Clone, Debug)]
 pub struct Steps<F>(pub F);
 

@@ -37,7 +37,7 @@ odkit::object_dictionary! {
     }
 }
 
-/// Counts what it is told.
+/// Counts the calls of the node.
 #[derive(Debug, Default)]
 pub struct Heater {
     pub ticks: u32,

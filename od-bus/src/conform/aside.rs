@@ -8,7 +8,7 @@ use od_wire::{Frame, Instant, NodeId};
 use super::end::{Checked, fail, skip};
 use super::record::Traced;
 
-/// Makes the simulated device anew.
+/// Makes a new simulated device.
 pub type Fresh<'f> = &'f dyn Fn() -> Result<VirtualDevice, String>;
 
 struct Aside<'a> {

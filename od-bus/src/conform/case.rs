@@ -24,13 +24,13 @@ pub struct Case {
     pub group: String,
     /// Standard and clause, or number of the case of the official test.
     pub clause: String,
-    /// What is right, in one sentence.
+    /// The requirement, in one sentence.
     pub title: String,
     /// Conditions that the EDS has to meet.
     pub(crate) applies: Vec<String>,
     /// The built-in devices that it is about; empty: any device.
     pub(crate) devices: Vec<String>,
-    /// What somebody has to allow: `reset`, `store`, `power`.
+    /// Permissions that the case needs: `reset`, `store`, `power`.
     pub(crate) needs: Vec<String>,
     pub(crate) steps: Vec<Step>,
 }
@@ -42,7 +42,7 @@ pub struct Mistake {
     pub id: String,
     /// Counted from 1.
     pub line: u32,
-    /// What is wrong, and what to write.
+    /// The error, and the text to write instead.
     pub message: String,
 }
 

@@ -89,7 +89,7 @@ impl Dut<'_> {
         Ok(())
     }
 
-    /// The next frame that is wanted, within so many microseconds.
+    /// The next frame that is wanted, within `micros` microseconds.
     pub(crate) fn next(
         &mut self,
         micros: u64,
@@ -109,7 +109,7 @@ impl Dut<'_> {
         self.next(micros, |frame| is_data(frame, id))
     }
 
-    /// All data frames with this identifier within so many microseconds.
+    /// All data frames with this identifier within `micros` microseconds.
     pub(crate) fn all_of(&mut self, id: u16, micros: u64) -> Checked<Vec<Heard>> {
         let until = self.now().plus_micros(micros);
         let mut all = Vec::new();
@@ -178,7 +178,7 @@ impl Dut<'_> {
         base + u16::from(self.node.raw())
     }
 
-    /// A slow heartbeat is no way to learn the NMT state: has it every 50 ms from now on.
+    /// Sets the heartbeat to 50 ms, since a slow one does not show the NMT state in time.
     pub(crate) fn follow_state(&mut self) -> Checked {
         if self.eds.writes(0x1017, 0) {
             return self.set(Address::new(0x1017, 0), &[50, 0]);

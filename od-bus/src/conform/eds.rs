@@ -1,4 +1,4 @@
-//! What the EDS says of the node: the objects, and which cases apply.
+//! The EDS of the node: its objects, and the cases that apply.
 
 use od_eds::{Description, Finding, Tables};
 use od_model::{Access, Address, Dictionary, Entry, Kind, Literal, values};

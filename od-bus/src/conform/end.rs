@@ -1,4 +1,4 @@
-//! How a step of a case ends early.
+//! Early end of a step of a case.
 
 use crate::fault::Fault;
 
@@ -7,9 +7,9 @@ use crate::fault::Fault;
 pub(crate) enum End {
     /// The node does something else.
     Fail {
-        /// What would have been right.
+        /// The expected behaviour.
         expected: String,
-        /// What came.
+        /// The actual behaviour.
         got: String,
     },
     /// It cannot be tested here.

@@ -1,4 +1,4 @@
-//! What came of a case.
+//! Result of a case.
 
 use od_wire::{Frame, Instant};
 
@@ -20,9 +20,9 @@ pub enum Verdict {
     Pass,
     /// The node is wrong.
     Fail {
-        /// What would have been right.
+        /// The expected behaviour.
         expected: String,
-        /// What came.
+        /// The actual behaviour.
         got: String,
     },
     /// It could not be tested; why, and what to add.
@@ -52,7 +52,7 @@ impl Verdict {
         }
     }
 
-    /// What is to be said besides the word, one clause.
+    /// The reason of the verdict, one clause.
     pub fn reason(&self) -> String {
         match self {
             Self::Pass => String::new(),
@@ -71,15 +71,15 @@ pub struct Record {
     pub group: String,
     /// Standard and clause.
     pub clause: String,
-    /// What is right.
+    /// The requirement.
     pub title: String,
-    /// What came of it.
+    /// The result.
     pub verdict: Verdict,
-    /// What was changed and put back, and what could not be.
+    /// Values that were changed and restored, and values that could not be restored.
     pub notes: Vec<String>,
     /// Every frame, in order.
     pub frames: Vec<Traced>,
-    /// How long it took, in microseconds of the link's clock.
+    /// Duration, in microseconds of the link's clock.
     pub micros: u64,
 }
 

@@ -25,7 +25,7 @@ pub trait Rig: Link {
         Ok(())
     }
 
-    /// How much later than it happened something may be seen, in microseconds; 0 in virtual time.
+    /// Longest delay with which an event may be seen, in microseconds; 0 in virtual time.
     fn slack(&self) -> u64 {
         0
     }

@@ -15,7 +15,7 @@ use super::record::{Record, Times, Verdict};
 use super::rig::Rig;
 use crate::fault::Fault;
 
-/// What somebody allows the test to do.
+/// Permissions of the test.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub struct Leave {
     /// Reset the node.
@@ -59,7 +59,7 @@ impl<'s> Session<'s> {
         }
     }
 
-    /// The device is a simulated one of this name: a case for it alone gets one of its own.
+    /// Simulates a device of this name: a case for this device only gets one of its own.
     pub fn simulates(&mut self, name: &'s str, fresh: Fresh<'s>) {
         self.simulated = Some((name, fresh));
     }

@@ -15,10 +15,10 @@ use crate::master::Master;
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(super) struct Found {
     pub(super) address: Address,
-    /// The bytes; `None` where there are none now.
+    /// The bytes; `None` while no data is available.
     pub(super) bytes: Option<Vec<u8>>,
     pub(super) is_write_only: bool,
-    /// `None`: it cannot be told without a write.
+    /// `None`: only a write could show it.
     pub(super) writable: Option<bool>,
     /// Bytes that a download may have; `None` if nobody asked, or the node does not say.
     pub(super) room: Option<Room>,
@@ -27,7 +27,7 @@ pub(super) struct Found {
 /// Bytes that a download may have.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Room {
-    /// So many: a number.
+    /// A number of this many bytes.
     Bytes(usize),
     /// More or fewer than now: a string.
     Some,
@@ -100,7 +100,7 @@ impl<L: Link> Probe<L> {
         }))
     }
 
-    /// Whether there is no object, by one request: of 36,864 indices most have none.
+    /// Whether the index has no object, by one request: most of the 36,864 indices have none.
     pub(super) fn lacks(&mut self, index: u16) -> Result<bool, Fault> {
         let answer = self.ask(request(0x40, Address::new(index, 0), [0; 4]))?;
         // A segmented upload that this began ends with the next request.

@@ -1,4 +1,4 @@
-//! Behaviour of a node over a while, as a stand-in plays it.
+//! Behaviour of a node over a while, as a twin plays it.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -38,7 +38,7 @@ pub struct Watch {
 pub struct Seen {
     /// For [`od_bench::VirtualDevice::play_recorded`]; its text goes to the end of the EDS.
     pub recorded: Recorded,
-    /// Behaviour that a stand-in lacks, a sentence each.
+    /// Behaviour that a twin lacks, a sentence each.
     pub lacking: Vec<String>,
 }
 

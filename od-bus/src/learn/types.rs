@@ -16,7 +16,7 @@ pub(super) struct Guess {
 /// Sources of a type, the surest last.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub(super) enum From {
-    /// The length alone.
+    /// Only the length.
     Length,
     /// The value: text, a short decimal fraction, a small negative number.
     Value,

@@ -57,7 +57,7 @@ fn the_twelve_devices_are_learned_and_stand_in() {
         let mut original = Master::new(OnBench(bus), NodeId::ONE);
         let differences = compare(made, &mut original, true).expect("a device that answers");
         assert!(differences.is_empty(), "{name}: {differences:?}");
-        // What was learned stands in for the device.
+        // The learned file replaces the device.
         let device = VirtualDevice::from_eds(&text, EdsOptions::default()).expect("a device");
         let mut twin = Master::new(OnBench(alone(device)), NodeId::ONE);
         for entry in made.entries().filter(|one| one.access == Access::Const) {

@@ -237,7 +237,7 @@ impl Spoiled {
         }
     }
 
-    /// What of a frame of the device is heard.
+    /// Passes on the part of a device's frame that is heard.
     fn hear(&mut self, heard: Heard) {
         let Heard { at, frame } = heard;
         if self.hangs {

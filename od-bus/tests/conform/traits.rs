@@ -1,5 +1,5 @@
 //! No false failure on a simulated node, whatever its EDS leaves out or has wrong: traits of files that
-//! are in use, each on a file of our own. What is wrong with the file is found by the case about it alone.
+//! are in use, each on a file of our own. Only the case about the file finds its errors.
 
 use od_bench::{EdsOptions, VirtualDevice};
 use od_bus::bench::OnBench;
@@ -19,7 +19,7 @@ type Change = (&'static str, &'static str, &'static str);
 const TRAITS: &[(&str, &[Change], &[&str])] = &[
     ("nothing is unusual", &[], &[]),
     (
-        "the identity is in [DeviceInfo] alone",
+        "the identity is in [DeviceInfo] only",
         &[
             ("1018sub1", "DefaultValue", ""),
             ("1018sub2", "DefaultValue", ""),
@@ -38,7 +38,7 @@ const TRAITS: &[(&str, &[Change], &[&str])] = &[
         &[],
     ),
     (
-        "the limits exclude 0, and there is no default",
+        "the limits exclude 0, and no default is given",
         &[("2003", "DefaultValue", "")],
         &[],
     ),

@@ -183,7 +183,7 @@ fn recorded_times_errors_and_aborts_are_played() {
     let gaps = beats.windows(2).map(|two| two[1].micros_since(two[0]));
     assert!(beats.len() >= 4, "{beats:?}");
     assert!(gaps.into_iter().all(|gap| gap == 180_000), "{beats:?}");
-    // Without a configured heartbeat there is none.
+    // Without a configured heartbeat the node sends none.
     let mut master = Master::new(OnBench(&mut bus), NodeId::ONE);
     let off = master.download(Address::new(0x1017, 0), &[0, 0]);
     off.expect("an answer").expect("a value");

@@ -29,7 +29,7 @@ impl<'f, L: Link> Late<'f, L> {
         }
     }
 
-    /// Every SDO response comes later by so many ms.
+    /// Delays every SDO response by `millis` ms.
     fn responses(link: L, millis: u64) -> Self {
         let is_response = |frame: &Frame| (0x581..0x600).contains(&frame.id().raw());
         Self::new(link, move |frame| match is_response(frame) {

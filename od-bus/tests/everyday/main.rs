@@ -1,4 +1,4 @@
-//! What tools do on a bus, on the bench and in virtual time.
+//! Functions of tools on a bus, on the bench and in virtual time.
 
 mod configure;
 mod late;

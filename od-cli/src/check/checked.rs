@@ -23,7 +23,7 @@ pub(super) struct Checked {
     pub(super) failed: Option<String>,
     /// The objects that the findings are about, in words.
     pub(super) names: Names,
-    /// What is wrong with the project's settings.
+    /// Error in the project's settings.
     pub(super) misused: Option<String>,
     /// The tools of `--for`.
     pub(super) tools: Vec<&'static Tool>,

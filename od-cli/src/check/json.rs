@@ -46,7 +46,7 @@ struct Reported {
     fix: Option<Fix>,
 }
 
-/// What a tool makes of the file.
+/// Result of a tool for the file.
 #[derive(Serialize)]
 struct Outcome {
     name: &'static str,
@@ -82,7 +82,7 @@ pub(super) fn report(checked: &[Checked], summary: &Summary) -> String {
     format!("{value:#}")
 }
 
-/// The files of a check; what was fixed and what failed is told of the first.
+/// The files of a check; the fixes and failures are in the first.
 fn files(checked: &Checked) -> Vec<File<'_>> {
     let parts = checked.parts().into_iter();
     let files = parts.enumerate().map(|(at, part)| {

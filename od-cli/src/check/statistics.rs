@@ -1,4 +1,4 @@
-//! How often each rule reports.
+//! Number of findings of each rule.
 
 use std::collections::BTreeMap;
 

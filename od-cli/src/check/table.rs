@@ -10,7 +10,7 @@ use crate::report;
 /// All tools, as a table.
 const ALL: &str = "all";
 
-/// What `--for` takes.
+/// The values that `--for` accepts.
 pub(super) fn names() -> PossibleValuesParser {
     let of = |tool: &&'static Tool| PossibleValue::new(tool.name).help(tool.source);
     let all = PossibleValue::new(ALL).help("A table of all tools instead of the findings");
@@ -68,7 +68,7 @@ pub(super) fn of(checked: &Checked) -> String {
     out
 }
 
-/// `17: VendorNumber= is no number (and 2 more)`, of the gravest findings.
+/// The gravest findings in short, such as `17: the line is not valid (and 2 more)`.
 fn first(findings: &[Finding], tool: &Tool) -> String {
     let gravest = findings.iter().map(Finding::severity).max();
     let of_rank = || findings.iter().filter(|it| Some(it.severity()) == gravest);

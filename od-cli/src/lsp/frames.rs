@@ -7,7 +7,7 @@ const LINE: u64 = 4096;
 /// Longest text, in bytes: a file of 100 MB with every character escaped.
 const TEXT: u64 = 256 << 20;
 
-/// What came.
+/// A message from the input, or its end.
 #[derive(PartialEq, Eq, Debug)]
 pub(super) enum Frame {
     /// A text.

@@ -14,7 +14,7 @@ pub(super) fn read(
     text: &str,
     load: &dyn Fn(&str) -> Result<Description, String>,
 ) -> Result<Vec<Network>, String> {
-    // A backslash in a path is no escape.
+    // A backslash in a path does not escape.
     let options = ParseOption {
         enabled_escape: false,
         enabled_quote: false,

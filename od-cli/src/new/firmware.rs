@@ -68,12 +68,12 @@ const FILES: [Template; 13] = [
 ];
 const TESTS: &str = "//! The scripts of this package are in `scripts`; `scripts.rs` runs them.\n";
 
-/// What a board has of its own.
+/// Parts that differ between boards.
 struct Parts {
     /// Name to show.
     title: &'static str,
     target: &'static str,
-    /// How `cargo run` brings a program to the board.
+    /// Command with which `cargo run` flashes the board.
     runner: &'static str,
     /// Linker scripts after that of `cortex-m-rt`.
     link: &'static str,

@@ -1,4 +1,4 @@
-//! Where a new crate gets odkit from.
+//! Source of odkit for a new crate.
 
 use std::path::{Component, Path, PathBuf};
 

@@ -1,4 +1,4 @@
-//! The crate for the host alone.
+//! The crate for the host only.
 
 use super::device::DeviceFile;
 use super::origin::Origin;

@@ -38,7 +38,7 @@ fn printed(name: &str, eds: &str, node: &[&str]) -> Option<String> {
         .output();
     let Ok(compiler) = compiler else {
         assert!(std::env::var_os("CI").is_none(), "CI needs `gcc`");
-        println!("skipped: there is no C compiler `gcc`");
+        println!("skipped: the C compiler `gcc` is missing");
         return None;
     };
     let said = String::from_utf8_lossy(&compiler.stderr);

@@ -225,7 +225,7 @@ fn no_client_of_the_control_socket_harms_another() {
     let socket = path("flood");
     let sim = Sim::start(&["gxmm", "--control", &unix(&socket)]);
     let connect = || UnixStream::connect(&socket).expect("it listens");
-    // Bytes that are no text, and a line without an end.
+    // Bytes that are not text, and a line without an end.
     let mut noise = connect();
     noise.write_all(b"\xFF\xFE\0\n").expect("it reads");
     let mut answer = [0; 6];

@@ -147,7 +147,7 @@ fn a_c_compiler_takes_the_header() {
             std::env::var_os("CI").is_none(),
             "CI needs a C compiler `cc`"
         );
-        println!("skipped: there is no C compiler `cc`");
+        println!("skipped: the C compiler `cc` is missing");
         return;
     };
     let mut input = compiler.stdin.take().expect("a pipe");

@@ -1,4 +1,4 @@
-//! Who may come to `odkit sim`, and what becomes of it when the system is against it.
+//! Clients of `odkit sim` that are let in or refused, and refusals of the system.
 
 use std::io::{ErrorKind, Read, Write};
 use std::net::TcpStream;
@@ -139,7 +139,7 @@ fn what_a_suspended_bench_missed_is_not_sent() {
     let mut wait_for = pdos(&mut client);
     wait_for(20);
     sim.signal("-STOP");
-    // This long it does not run, and this is no wait for anything.
+    // It does not run for this time; the test waits for nothing else.
     std::thread::sleep(Duration::from_millis(600));
     sim.signal("-CONT");
     let start = Instant::now();

@@ -78,7 +78,7 @@ pub(crate) fn measure(sim: &Sim, silent: usize, mut enough: impl FnMut(usize) ->
     let mut answers = Vec::new();
     while !enough(answers.len()) {
         answers.push(ask(&mut polite));
-        // A pause, as a master has it; what the flood brings waits for it meanwhile.
+        // A pause, as a master has it; frames of the flood wait for it.
         thread::sleep(Duration::from_millis(1));
     }
     let frames = (sent.load(Ordering::Relaxed) - before) as f64;

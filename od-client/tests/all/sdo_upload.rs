@@ -278,7 +278,7 @@ fn only_an_abort_counts_while_a_request_waits() {
     assert_eq!(upload.outcome(), Some(Err(SdoError::Abort(0x0800_0000))));
     assert!(
         upload.out(at(0)).is_empty(),
-        "the request is no longer sent"
+        "the request is not sent any more"
     );
 }
 

@@ -80,7 +80,7 @@ impl ProgramMemory for Flash {
 /// Receives a program page by page; RAM holds one page of it, and one block of the SDO server.
 pub struct BootLoader {
     loader: Loader<Flash, PAGE>,
-    /// How transfers ended.
+    /// The ends of all transfers.
     pub ends: Vec<StreamEnd>,
 }
 

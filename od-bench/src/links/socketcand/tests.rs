@@ -161,7 +161,7 @@ fn what_is_wrong_sends_nothing() {
             "{unknown}"
         );
     }
-    // In RAW mode there are no jobs.
+    // In RAW mode jobs do not exist.
     assert_eq!(
         open("< rawmode >").say("< add 1 0 123 0 >"),
         "< error unknown command >"

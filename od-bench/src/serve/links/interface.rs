@@ -23,7 +23,7 @@ const BUFFER: usize = 64 * 1024 * 1024;
 const FULL: Duration = Duration::from_millis(1);
 /// An interface that is down is looked at after this time.
 const DOWN: Duration = Duration::from_millis(250);
-/// Dropped frames are told no sooner than this after those before them.
+/// Shortest time between two reports of dropped frames.
 const DROPS: Duration = Duration::from_secs(1);
 
 /// A CAN interface.
@@ -36,7 +36,7 @@ pub(super) struct Interface {
     full: Option<Clock>,
     /// Frames that the kernel dropped, as it counts them.
     dropped: u32,
-    /// The number that was told last, and when the next may be told.
+    /// The number that was reported last, and the time of the next report.
     told: (u32, Clock),
     /// Came behind frames.
     failed: Option<io::Error>,

@@ -19,7 +19,7 @@ use crate::serve::terminal::note;
 
 /// A pseudo-terminal whose hosts come and go.
 pub(super) struct Terminal {
-    /// Our end, and the events of which it is part; `None`: there is no end at the moment.
+    /// Our end, and the events of which it is part; `None`: no end is open at the moment.
     end: Option<File>,
     path: PathBuf,
     events: Option<(Registry, Token)>,

@@ -21,7 +21,7 @@ const PIECE: usize = 4096;
 pub(super) struct Threads {
     /// Until the threads have them.
     ends: Option<(Box<dyn Read + Send>, Box<dyn Write + Send>)>,
-    /// Input, nothing at its end, or why there is no more of it, or of output.
+    /// Input, nothing at its end, or the error that ended it or the output.
     input: Option<Receiver<io::Result<Vec<u8>>>>,
     /// Input that found no room in the buffer of the reader.
     rest: Vec<u8>,

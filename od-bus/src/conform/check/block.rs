@@ -9,7 +9,7 @@ use crate::conform::dut::{ANSWER, Dut};
 use crate::conform::end::{Checked, ensure, fail, lacks};
 use crate::conform::sdo::{abort_of, abort_text, crc, is_abort, request};
 
-/// How a client carries out a block transfer.
+/// Variant of a block transfer of a client.
 #[derive(Clone, Copy)]
 struct How {
     crc: bool,

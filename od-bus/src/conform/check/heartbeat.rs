@@ -278,7 +278,7 @@ pub(super) fn life_guarding(dut: &mut Dut<'_>) -> Checked {
     }
 }
 
-/// With a heartbeat there is no response to guarding.
+/// With a heartbeat the node does not respond to guarding.
 pub(super) fn heartbeat_excludes(dut: &mut Dut<'_>) -> Checked {
     dut.set(PRODUCER, &[0xE8, 3])?;
     dut.drain()?;

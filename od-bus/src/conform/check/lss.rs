@@ -238,7 +238,7 @@ pub(super) fn unknown(dut: &mut Dut<'_>) -> Checked {
     with(dut, |dut, _| {
         for command in [0x60, 0x02, 0x70] {
             let data = [command, 0, 0, 0, 0, 0, 0, 0];
-            stays_silent(dut, data, "as there is no such command")?;
+            stays_silent(dut, data, "as the command does not exist")?;
         }
         Ok(())
     })

@@ -56,7 +56,7 @@ fn close(dut: &mut Dut<'_>, open: &Open) -> Checked {
     Ok(())
 }
 
-/// What is tried with an open mapping, which is closed again.
+/// Runs a test with an open mapping, and closes it again.
 fn with(dut: &mut Dut<'_>, test: impl FnOnce(&mut Dut<'_>, u16) -> Checked) -> Checked {
     let open = open(dut)?;
     let done = test(dut, open.pdo.map());

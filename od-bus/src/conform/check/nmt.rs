@@ -201,7 +201,7 @@ pub(super) fn no_sdo_in_stopped(dut: &mut Dut<'_>) -> Checked {
     dut.still_serves()
 }
 
-/// What was not saved is gone after reset communication.
+/// Values that were not saved are lost after reset communication.
 pub(super) fn reset_communication_values(dut: &mut Dut<'_>) -> Checked {
     forgets(dut, Command::ResetCommunication)
 }

@@ -9,7 +9,7 @@ use crate::conform::dut::Dut;
 use crate::conform::end::{Checked, End, ensure, fail, lacks};
 use crate::conform::sdo::{abort_text, request};
 
-/// An abort that says that there is nothing now, not that there is no object.
+/// Whether an abort means that an object has no data now, not that it does not exist.
 fn is_empty(code: u32) -> bool {
     (code >> 24) == 8
 }
@@ -61,7 +61,7 @@ pub(super) fn profile_read(dut: &mut Dut<'_>) -> Checked {
     read_all(dut, 0x6000, 0x9FFF)
 }
 
-/// What is read only refuses its own value.
+/// A read-only object aborts a write of its own value.
 pub(super) fn read_only(dut: &mut Dut<'_>) -> Checked {
     for entry in entries(dut, 0x1000, 0x9FFF) {
         let is_fixed = matches!(entry.access, Access::Ro | Access::Const);
@@ -97,7 +97,7 @@ pub(super) fn write_only(dut: &mut Dut<'_>) -> Checked {
     }
 }
 
-/// What can be written takes its own value.
+/// A writable object accepts its own value.
 pub(super) fn own_value(dut: &mut Dut<'_>) -> Checked {
     for entry in dut.eds.writable() {
         let Ok(bytes) = dut.upload(entry.address)? else {
@@ -240,7 +240,7 @@ pub(super) fn unlisted(dut: &mut Dut<'_>) -> Checked {
     Ok(())
 }
 
-/// What never changes is as the EDS says.
+/// A constant has the value in the EDS.
 pub(super) fn constants(dut: &mut Dut<'_>) -> Checked {
     defaults(dut, |entry| {
         entry.access == Access::Const && entry.address != Address::new(0x1018, 4)

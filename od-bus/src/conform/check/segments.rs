@@ -225,7 +225,7 @@ pub(super) fn no_transfer(dut: &mut Dut<'_>) -> Checked {
     is_abort(&answer, &[InvalidCommand, ToggleBit])
 }
 
-/// After the client's abort there is no transfer.
+/// After the client's abort no transfer is open.
 pub(super) fn aborted(dut: &mut Dut<'_>) -> Checked {
     let (address, bytes) = long_value(dut)?;
     begin(dut, address)?;

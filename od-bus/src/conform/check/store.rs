@@ -69,11 +69,11 @@ pub(super) fn load_signature(dut: &mut Dut<'_>) -> Checked {
     wrong_signature(dut, 0x1011)
 }
 
-/// 1010h says that it saves on command, or by itself.
+/// 1010h declares that it saves on command, or automatically.
 pub(super) fn save_can(dut: &mut Dut<'_>) -> Checked {
     let can = dut.number(0x1010, 1)?;
     if can == 0 {
-        return lacks("1010h:01 is 0: the node saves neither on command nor by itself");
+        return lacks("1010h:01 is 0: the node saves neither on command nor automatically");
     }
     ensure(
         can & !3 == 0,

@@ -107,7 +107,7 @@ pub(super) fn producer_off(dut: &mut Dut<'_>) -> Checked {
 
 /// With 1019h the messages count from 1 to its value.
 pub(super) fn counter(dut: &mut Dut<'_>) -> Checked {
-    // 1019h can be written only while there is no period.
+    // 1019h can be written only while the period is 0.
     dut.set(Address::new(0x1006, 0), &[0; 4])?;
     dut.set(Address::new(0x1019, 0), &[4])?;
     let all = produced(dut, 9)?;

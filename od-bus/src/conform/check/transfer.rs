@@ -300,7 +300,7 @@ pub(super) fn other_node(dut: &mut Dut<'_>) -> Checked {
     dut.still_serves()
 }
 
-/// Frames that are no requests leave the server as it is.
+/// Frames that are not requests leave the server as it is.
 pub(super) fn no_request(dut: &mut Dut<'_>) -> Checked {
     let id = dut.id(0x600);
     dut.send_to(id, &[])?;

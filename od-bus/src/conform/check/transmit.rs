@@ -106,7 +106,7 @@ pub(super) fn first(dut: &mut Dut<'_>) -> Checked<Tpdo> {
     lacks(why)
 }
 
-/// The first TPDO, sent by its event timer alone every so many milliseconds.
+/// The first TPDO, sent only by its event timer, at this interval in milliseconds.
 pub(super) fn timed(dut: &mut Dut<'_>, millis: u16) -> Checked<Tpdo> {
     let pdo = first(dut)?;
     if !dut.eds.writes(pdo.com, 5) {

@@ -3,7 +3,7 @@
 use super::run::{self, Report, millis};
 use crate::conform::record::{Record, Verdict};
 
-/// So many frames of a failed case are shown, the last ones.
+/// Number of frames of a failed case that are shown, the last ones.
 const SHOWN: usize = 12;
 
 pub(super) fn render(report: &Report) -> String {

@@ -47,7 +47,7 @@ impl Run {
     /// It ends with exit code 1, and this text in output and report.
     #[track_caller]
     fn ends(mut self, why: &str) {
-        // It would not wait for whoever reads.
+        // It would not wait for a reader.
         let mut errors = self.child.stderr.take().expect("a pipe");
         let reader = std::thread::spawn(move || std::io::copy(&mut errors, &mut std::io::sink()));
         let output = self.child.wait_with_output().expect("odkit ends");

@@ -222,7 +222,7 @@ impl Bus {
         }
     }
 
-    /// Node 1 alone.
+    /// Node 1 only.
     pub(crate) fn one(client: Client) -> Self {
         Self::new(client, vec![Peer::new(1, [1, 2, 3, 4])])
     }

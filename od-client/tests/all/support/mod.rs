@@ -40,7 +40,7 @@ pub(crate) const fn pattern_at(at: usize) -> u8 {
     (at * 31 + at / 251 + 1) as u8
 }
 
-/// What both directions have.
+/// Functions that both directions have.
 pub(crate) trait Machine {
     fn handle_frame(&mut self, now: Instant, frame: &Frame);
     fn poll_transmit(&mut self, now: Instant) -> Option<Frame>;
