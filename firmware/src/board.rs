@@ -74,7 +74,7 @@ impl<T> Once<T> {
         if taken {
             exit(false);
         }
-        // SAFETY: this is the first call, and there are no interrupts.
+        // SAFETY: this is the first call, and interrupts do not exist.
         unsafe { &mut *self.0.get() }
     }
 }

@@ -1,4 +1,4 @@
-//! What the size programs have in common: start-up, the board, and a master that measures.
+//! Common parts of the size programs: start-up, the board, and a master that measures.
 //!
 //! Each program is a complete firmware for `lm3s6965evb`, an emulated Cortex-M3, but for the CAN
 //! controller: a script takes its place. `cargo xtask size` builds them and prints what they report.

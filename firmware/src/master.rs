@@ -4,7 +4,7 @@ use odkit::{Device, Extras, Frame, Instant, Lent, Node};
 
 use crate::board;
 
-/// What a master sends.
+/// A step of the master.
 #[derive(Clone, Copy)]
 pub enum Step {
     /// A frame.

@@ -64,7 +64,7 @@ impl Log {
         self.extend(other.finish());
     }
 
-    /// Is there room for this number of sub-objects without a section? Then it is taken.
+    /// Counts sub-objects without a section if the limit has room for them. Returns whether it has.
     pub(crate) fn expand(&mut self, count: usize) -> bool {
         let fits = count <= EXPANDED - self.expanded;
         self.expanded += if fits { count } else { 0 };

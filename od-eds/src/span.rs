@@ -10,7 +10,7 @@ pub struct Span {
     pub start: u32,
     /// The byte behind the last one.
     pub end: u32,
-    /// Line of the first byte, counted from 1; 0 if there is no text behind it.
+    /// Line of the first byte, counted from 1; 0 if it has no text.
     pub line: u32,
     /// Column of the first byte, in characters, counted from 1.
     pub column: u32,

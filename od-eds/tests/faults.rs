@@ -217,7 +217,7 @@ fn run(case: &Case<'_>) -> (Vec<Finding>, Option<u32>) {
     (Document::new(text.as_bytes()).load().findings, line)
 }
 
-/// What was found, in a few words.
+/// Returns the findings in a few words.
 fn shown(findings: &[Finding]) -> String {
     let all = findings.iter().map(|finding| {
         let line = finding.span().map_or(0, |span| span.line);

@@ -106,7 +106,7 @@ impl Bench {
         (start.elapsed(), answers)
     }
 
-    /// What an editor asks after a keystroke.
+    /// Sends the requests of an editor after a keystroke.
     fn after(&mut self, line: usize, times: &mut [Vec<Duration>; 5]) -> Duration {
         let document = json!({ "uri": URI });
         let from = json!({ "line": line.saturating_sub(30), "character": 0 });

@@ -37,13 +37,13 @@ pub(crate) struct File {
     seen: OnceCell<Seen>,
 }
 
-/// What odkit reads in a text.
+/// A text as odkit reads it.
 pub(crate) struct Seen {
     pub(crate) layout: Layout,
     pub(crate) description: Description,
     /// Those about this file.
     pub(crate) findings: Vec<Finding>,
-    /// What is wrong with the settings of the project.
+    /// Error in the settings of the project.
     pub(crate) misused: Option<String>,
 }
 
@@ -95,7 +95,7 @@ impl File {
         }
     }
 
-    /// What odkit reads in the text.
+    /// Reads the text as odkit does.
     pub(crate) fn seen(&self, host: &dyn Host) -> &Seen {
         self.seen.get_or_init(|| match self.kind {
             Kind::Eds | Kind::Xdd => self.read(host),

@@ -1,4 +1,4 @@
-//! What the server asks of the world outside: files, and the settings of a project.
+//! Interface of the server to the world outside: files, and the settings of a project.
 
 use od_eds::Finding;
 
@@ -13,7 +13,7 @@ pub trait Host {
     /// Removes findings of rules that a project has off, and gives the others their severity.
     ///
     /// # Errors
-    /// What is wrong with the project's settings; the findings are as they were.
+    /// The error in the project's settings; the findings are unchanged then.
     fn judge(&self, path: &str, findings: &mut Vec<Finding>) -> Result<(), String>;
 }
 

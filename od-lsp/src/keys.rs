@@ -1,6 +1,6 @@
 //! The keys of CiA 306-1 in words.
 
-/// What a key of an object's section says.
+/// Explains a key of an object's section.
 pub(crate) fn of_object(key: &str) -> Option<&'static str> {
     Some(match key.to_ascii_lowercase().as_str() {
         "parametername" => "Name of the object, up to 241 characters.",
@@ -33,7 +33,7 @@ pub(crate) fn of_object(key: &str) -> Option<&'static str> {
     })
 }
 
-/// What a key of another section says.
+/// Explains a key of another section.
 pub(crate) fn of_section(section: &str, key: &str) -> Option<&'static str> {
     let (section, key) = (section.to_ascii_lowercase(), key.to_ascii_lowercase());
     Some(match (section.as_str(), key.as_str()) {
@@ -92,7 +92,7 @@ pub(crate) fn of_section(section: &str, key: &str) -> Option<&'static str> {
     })
 }
 
-/// What a section says.
+/// Explains a section.
 pub(crate) fn section(name: &str) -> Option<&'static str> {
     Some(match name.to_ascii_lowercase().as_str() {
         "fileinfo" => "The file itself: its name, version, author and dates (CiA 306-1).",

@@ -78,7 +78,7 @@ impl Bus {
             .unwrap_or_default()
     }
 
-    /// Hands a frame to one device alone, beside the wire; what it answers goes on the bus.
+    /// Hands a frame to only one device, past the bus; its response goes on the bus.
     pub fn deliver(&mut self, device: usize, id: u32, data: &[u8]) {
         let Some(frame) = frame(id, data, false, false) else {
             return;
@@ -96,7 +96,7 @@ impl Bus {
             .with(device, |device, _| device.set_eeprom(bytes));
     }
 
-    /// Lets a device's power go in the middle of a write to its EEPROM, after so many more bytes.
+    /// Cuts the power of a device during a write to its EEPROM, after this number of bytes.
     #[wasm_bindgen(js_name = cutPowerAfter)]
     pub fn cut_power_after(&mut self, device: usize, bytes: usize) {
         self.journal

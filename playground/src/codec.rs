@@ -43,7 +43,7 @@ record! {
 
     TypingError {
         error: String,
-        /// Where in the text it is, from 0.
+        /// Position in the text, from 0.
         at: usize,
     }
 
@@ -55,7 +55,7 @@ record! {
         index: u16,
         sub: u8,
         "isWrite" is_write: bool,
-        /// What was transferred so far.
+        /// The bytes transferred so far.
         bytes: Bytes,
         state: TransferState,
     }
@@ -157,7 +157,7 @@ pub fn type_range(type_name: &str) -> Vec<JsValue> {
 
 #[wasm_bindgen]
 extern "C" {
-    /// The number that a text is; NaN where it is none.
+    /// Converts a text to a number; NaN if it is not one.
     #[wasm_bindgen(js_name = Number)]
     fn number(text: &str) -> f64;
 }
@@ -220,7 +220,7 @@ impl Transfers {
     }
 }
 
-/// What [`frame_bits`] says of a bit.
+/// Flag of a bit in [`frame_bits`].
 pub(crate) const RECESSIVE: u8 = 0x80;
 pub(crate) const STUFFED: u8 = 0x40;
 /// Numbers of two of its fields.

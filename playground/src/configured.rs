@@ -30,7 +30,7 @@ impl Bus {
             (_, Some(text)) => text,
             (Some(name), None) => {
                 let kind = od_devices::find(&name)
-                    .ok_or_else(|| JsError::new(&format!("there is no device `{name}`")))?;
+                    .ok_or_else(|| JsError::new(&format!("device `{name}` does not exist")))?;
                 od_devices::text::eds(kind)
             }
             (None, None) => return Err(JsError::new("say which device it is, or its text")),
@@ -39,7 +39,7 @@ impl Bus {
         self.journal
             .rig
             .with(device, |device, _| device.configure(&mut description))
-            .ok_or_else(|| JsError::new("there is no device with this number"))?;
+            .ok_or_else(|| JsError::new("no device has this number"))?;
         Ok(od_eds::write(&description))
     }
 }

@@ -49,7 +49,7 @@ crosses! {
     Bytes => "Uint8Array", |Bytes(all)| bytes(&all);
 }
 
-/// Bytes, which are no list of numbers.
+/// Bytes, not as a list of numbers.
 pub(crate) struct Bytes(pub(crate) Vec<u8>);
 
 impl From<&[u8]> for Bytes {
@@ -184,7 +184,7 @@ pub(crate) const fn joined<const N: usize>(mut parts: &[&str]) -> [u8; N] {
     bytes
 }
 
-/// What [`joined`] made.
+/// The text that [`joined`] made.
 pub(crate) const fn text(bytes: &[u8]) -> &str {
     match str::from_utf8(bytes) {
         Ok(text) => text,
@@ -219,7 +219,7 @@ macro_rules! about {
 }
 pub(crate) use about;
 
-/// The name of a field in JavaScript: that of the Rust field if there is no other.
+/// The name of a field in JavaScript: that of the Rust field unless another is given.
 macro_rules! key {
     ($field:ident) => {
         stringify!($field)

@@ -24,7 +24,7 @@ record! {
         code: &'static str,
         severity: Severity,
         message: String,
-        /// How to fix it; empty if the message says so.
+        /// The way to fix it; empty if the message says so.
         help: String,
         /// Counted from 1; 0 where something is missing altogether.
         line: u32,

@@ -16,7 +16,7 @@ use crate::{packed, values};
 
 #[cfg(feature = "eds")]
 record! {
-    /// What came of an EDS text.
+    /// Result of loading an EDS text.
     EdsResult {
         /// The number of the device, or null where it cannot run.
         device: Option<usize>,
@@ -41,7 +41,7 @@ impl Bus {
     ) -> Result<usize, JsError> {
         let node_id = valid(node_id)?;
         let kind = od_devices::find(name)
-            .ok_or_else(|| JsError::new(&format!("there is no device `{name}`")))?;
+            .ok_or_else(|| JsError::new(&format!("device `{name}` does not exist")))?;
         Ok(self.journal.rig.put_kind(kind, node_id, place))
     }
 

@@ -13,7 +13,7 @@ use crate::crossing::{Crosses, record};
 use crate::record::Record;
 
 record! {
-    /// What a master notices of a device in the place of another.
+    /// Difference that a master notices between a device and its replacement.
     Difference {
         /// `6001h`, or `1018h:02`.
         place: String,
@@ -81,7 +81,7 @@ impl LanguageServer {
         self.server.step()
     }
 
-    /// Returns the next message of the server; `undefined` if there is none.
+    /// Returns the next message of the server; `undefined` if none waits.
     pub fn poll(&mut self) -> Option<String> {
         self.server.poll()
     }

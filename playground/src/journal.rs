@@ -53,7 +53,7 @@ record! {
         input: Input,
     }
 
-    /// What came of an input that puts a device on the bus, begins a lesson, or plays a script.
+    /// Result of an input that puts a device on the bus, begins a lesson, or plays a script.
     Added {
         /// Its number, or null where it cannot run.
         node: Option<usize>,
@@ -112,7 +112,7 @@ impl Bus {
         self.journal.entries().iter().map(record).collect()
     }
 
-    /// Returns the new entries of the journal since the last call; `null` if there are none.
+    /// Returns the new entries of the journal since the last call; `null` if nothing is new.
     #[wasm_bindgen(unchecked_return_type = "JournalNews | null")]
     pub fn news(&mut self) -> JsValue {
         let news = self.journal.news().map(|(from, entries)| JournalNews {

@@ -15,14 +15,14 @@ record! {
         line: u32,
         column: usize,
         message: String,
-        /// What to do.
+        /// The correction.
         help: String,
     }
 
     /// A lesson as it was written; texts are Markdown.
     Lesson {
         title: String,
-        /// What it is about, in a sentence; may be empty.
+        /// Summary in a sentence; may be empty.
         summary: String,
         /// `en`, `de` …
         language: String,
@@ -38,7 +38,7 @@ record! {
         text: String,
         /// Each tells a bit more than the one before.
         hints: Vec<String>,
-        /// What just happened: to be shown once the checkpoint is reached.
+        /// Explanation, to be shown once the checkpoint is reached.
         happened: String,
         quiz: Option<LessonQuiz>,
         /// Lines for `Bus.runScript`.
@@ -61,7 +61,7 @@ record! {
     /// One thing that the present step asks for.
     LessonRequirement {
         holds: bool,
-        /// What it is, and what is missing of it.
+        /// The condition in words, with its current state.
         text: String,
         /// It held since the step began, and no longer does.
         lost: Maybe<bool>,
@@ -76,7 +76,7 @@ record! {
         requirements: Vec<LessonRequirement>,
     }
 
-    /// What is right about an answer.
+    /// Judgement of an answer, by its parts.
     Judgement {
         right: bool,
         "wrongIdentifier" wrong_identifier: bool,
@@ -102,7 +102,7 @@ impl Bus {
         started.map(|_| ()).map_err(|all| error(all.first()))
     }
 
-    /// The lesson of the journal; `null` where none is taken.
+    /// The lesson of the journal; `null` without one.
     #[wasm_bindgen(js_name = takenLesson, unchecked_return_type = "Lesson | null")]
     pub fn taken_lesson(&self) -> JsValue {
         self.journal.lesson().map(content).value()
@@ -186,11 +186,11 @@ pub fn parse_lesson(text: &str) -> JsValue {
     LessonResult { lesson, problems }.value()
 }
 
-/// Looks at an answer to a question: a frame such as `585#43 00 10 00`, or its bytes alone.
+/// Judges an answer to a question: a frame such as `585#43 00 10 00`, or only its bytes.
 /// `answer` is what the question has.
 ///
 /// # Errors
-/// It is no frame.
+/// The text is not a frame.
 #[wasm_bindgen(js_name = judgeAnswer, unchecked_return_type = "Judgement")]
 pub fn judge_answer(answer: &str, given: &str) -> Result<JsValue, JsError> {
     let answer = Pattern::parse(answer).map_err(|found| JsError::new(&found.to_string()))?;

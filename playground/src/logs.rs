@@ -15,7 +15,7 @@ record! {
         count: usize,
         /// Number of lines that could not be read.
         skipped: usize,
-        /// The first of them; 0 if there is none.
+        /// The first of them; 0 without any.
         line: u32,
         /// Why it could not be read.
         why: String,

@@ -10,7 +10,7 @@ use crate::values;
 #[wasm_bindgen]
 impl Bus {
     /// The value of an object as a master would read it now, without a frame on the bus;
-    /// `null` where there is none.
+    /// `null` if the object does not exist.
     #[wasm_bindgen(unchecked_return_type = "Value")]
     pub fn read(&mut self, device: usize, index: u16, sub: u8) -> JsValue {
         let address = Address::new(index, sub);
@@ -44,7 +44,7 @@ impl Bus {
     }
 
     /// Returns the value of an object that the EEPROM would bring back at the next start: its saved value, or
-    /// its default; `null` where it is no object that is saved.
+    /// its default; `null` if the object is not saved.
     #[wasm_bindgen(js_name = savedValue, unchecked_return_type = "Value")]
     pub fn saved_value(&mut self, device: usize, index: u16, sub: u8) -> JsValue {
         let address = Address::new(index, sub);

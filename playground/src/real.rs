@@ -344,7 +344,7 @@ mod tests {
                 .lesson()
                 .map(|(progress, _)| progress.step())
         };
-        // The page's frame alone is no answer; that of the node is.
+        // Only the frame of the node is an answer, not the page's own.
         send(&mut bus, 0x601, &[0x2F, 0, 0x10, 0, 1, 0, 0, 0]);
         assert_eq!(step(&mut bus), Some(0));
         adapter.hear(&mut bus, b"t58188000100002000106\r");

@@ -36,7 +36,7 @@ record! {
     Outcome {
         job: u32,
         kind: OutcomeKind,
-        /// The value that was read; empty after a write, null where there is none.
+        /// The value that was read; empty after a write, null after an error.
         bytes: Option<Bytes>,
         /// Why it failed; empty if nobody answered.
         words: String,
@@ -131,7 +131,7 @@ impl Bus {
     }
 
     /// The SDO downloads that change a mapping to `entries`, as in 1A00h:01. With a COB-ID the
-    /// PDO is not valid meanwhile.
+    /// PDO is not valid during the change.
     #[wasm_bindgen(js_name = mappingSteps, unchecked_return_type = "MappingStep[]")]
     pub fn mapping_steps(
         &self,

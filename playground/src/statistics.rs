@@ -35,7 +35,7 @@ impl Statistics {
     }
 
     /// Eight numbers for each CAN-ID, those of 11 bits first: CAN-ID (plus 2³² if it has 29 bits), frames; the last
-    /// period, the shortest, mean and longest; jitter; moment of the last change of its data. NaN: there is none.
+    /// period, the shortest, mean and longest; jitter; moment of the last change of its data. NaN: not known.
     pub fn ids(&self) -> Vec<f64> {
         let mut all = Vec::new();
         for row in self.ids.rows() {
@@ -58,7 +58,7 @@ impl Statistics {
     }
 
     /// Seven numbers for each SDO client: node ID of its server, requests; shortest, mean and longest time to answer;
-    /// aborts; requests without an answer. NaN: there is none.
+    /// aborts; requests without an answer. NaN: not known.
     pub fn clients(&self) -> Vec<f64> {
         let mut all = Vec::new();
         for client in self.clients.all() {

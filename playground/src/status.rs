@@ -43,7 +43,7 @@ record! {
         /// Revolutions from the sensor's zero point, with the fraction.
         turns: f64,
         rpm: f64,
-        /// What the sensor delivers, before scaling.
+        /// The sensor's position, before scaling.
         raw: f64,
     }
 
@@ -55,7 +55,7 @@ record! {
         position: Made<Option<f64>>,
     }
 
-    /// What can be seen of a device from outside.
+    /// The visible state of a device.
     Status {
         "nodeId" node_id: u8,
         powered: bool,

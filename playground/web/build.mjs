@@ -53,7 +53,7 @@ async function index() {
   await writeFile(new URL('index.html', out), html.replace('<meta charset="utf-8">', `<meta charset="utf-8">\n  ${meta}`));
 }
 
-/** Each lesson is a file that the page fetches when it is taken, with a list of them all. */
+/** Each lesson is a file that the page fetches when it is opened, with a list of them all. */
 async function lessons() {
   const folder = new URL('../lessons/', import.meta.url);
   const list = [];

@@ -8,7 +8,7 @@ use pyo3::prelude::*;
 
 use crate::system::{Seen, see};
 
-/// What a thread in a call of this package waits for.
+/// Condition that a thread in a call of this package waits for.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) struct Wait {
     /// A frame for this bus.
@@ -19,7 +19,7 @@ pub(crate) struct Wait {
     pub(crate) seen: Option<usize>,
 }
 
-/// What a thread outside this package does.
+/// State of a thread outside this package.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Outside {
     /// It runs, as far as anybody knows.
@@ -29,7 +29,7 @@ pub(crate) enum Outside {
     Waits(Option<Instant>),
 }
 
-/// What `odkit._who` found of a thread: a number, whether the end of its wait is hidden, and its wait.
+/// Result of `odkit._who` for a thread: a number, whether the end of its wait is hidden, and its wait.
 #[derive(FromPyObject)]
 pub(crate) struct Found(f64, bool, Option<Py<PyAny>>);
 
@@ -57,7 +57,7 @@ pub(crate) struct Party {
     since: Clock,
     /// A moment, and what the thread did then.
     sample: Option<(Clock, Seen)>,
-    /// What it had done when it was looked at first.
+    /// Its activity at the first look.
     first: Option<Seen>,
     /// The wait that it is in, as Python has it.
     token: Option<Py<PyAny>>,
@@ -69,7 +69,7 @@ pub(crate) struct Party {
     pub(crate) daemon: bool,
 }
 
-/// What the threads outside this package do.
+/// State of the threads outside this package.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Known {
     /// One of them runs.
@@ -206,7 +206,7 @@ impl Party {
         }
         self.sample = Some((now, seen));
         let spent = |seen: Seen| seen.ran + seen.waited;
-        // Whoever waits for the interpreter has a turn every 5 ms, and in a lock.
+        // A thread that waits for the interpreter has a turn every 5 ms, and in a lock.
         let is_blocked = seen.locked && seen.turns != before.turns && so_far < LOCKED;
         match !is_blocked && spent(seen).saturating_sub(spent(before)) < elapsed / 2 {
             true => Some(self.since),

@@ -1,4 +1,4 @@
-//! Who moves the time of a wire.
+//! Choice of the thread that moves the time of a wire.
 //!
 //! Time moves when every thread that takes part on the wire waits: in a call of this package, or in
 //! Python (`_who.py`). The thread that finds it so moves time to the next frame. While one of them
@@ -16,16 +16,16 @@ use crate::party::{Known, Outside, Wait};
 use crate::state::{State, Step};
 use crate::wire::Wire;
 
-/// How a wait ended.
+/// End of a wait.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum End {
-    /// What it was for is there.
+    /// The condition of the wait is met.
     Done,
     /// The moment came.
     Late,
 }
 
-/// Changes of the wire between two looks at signals such as Ctrl-C, whoever makes them: each of the
+/// Changes of the wire between two looks at signals such as Ctrl-C, by any thread: each of the
 /// steps of a client is a wait of its own.
 const LOOK: u64 = 1024;
 /// The longest nap of a thread that waits for others.
@@ -284,7 +284,7 @@ impl<'w> Pass<'w> {
         Ok(step)
     }
 
-    /// Lets time pass to a moment, whoever runs.
+    /// Lets time pass to a moment, with any thread that runs.
     fn advance(&mut self, py: Python<'_>, to: Instant) -> PyResult<()> {
         loop {
             let state = self.wire.lock();

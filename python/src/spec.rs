@@ -100,7 +100,7 @@ fn free_name(names: &[String], base: &str, channel: u8) -> String {
         .unwrap_or_else(|| base.to_owned())
 }
 
-/// Where devices come from.
+/// Source of devices.
 enum Made {
     Kind(&'static DeviceKind),
     /// A file, or a base with an overlay.
@@ -143,7 +143,7 @@ impl Made {
             device = self.make(Some(free))?;
         }
         let device = device.delivered();
-        // Devices of one LSS address could not be told apart.
+        // Devices with one LSS address cannot be distinguished.
         let own = device.lss_address();
         let others = bus.devices().iter().map(VirtualDevice::lss_address);
         let alike: Vec<u32> = others

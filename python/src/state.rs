@@ -19,7 +19,7 @@ use crate::party::{Found, Known, Outside, Party, Wait};
 /// Frames that wait for a bus; then the newest ones are lost, as in a controller.
 const QUEUED: usize = 1_000_000;
 
-/// What a bus of python-can received.
+/// A message that a bus of python-can received.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Heard {
     pub(crate) at: Instant,
@@ -38,7 +38,7 @@ pub(crate) struct Listener {
     pub(crate) own: bool,
 }
 
-/// What a step in time led to.
+/// Result of a step in time.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Step {
     /// A frame was sent.
@@ -75,7 +75,7 @@ pub(crate) struct State {
     pub(crate) over: Vec<Py<PyAny>>,
     /// Counts all that is done to the wire.
     pub(crate) changes: u64,
-    /// What `changes` was at the last look at signals such as Ctrl-C.
+    /// Value of `changes` at the last look at signals such as Ctrl-C.
     pub(crate) looked: u64,
     ids: u32,
     /// The process that its threads are in.

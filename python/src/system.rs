@@ -1,4 +1,4 @@
-//! What the operating system says of a thread; Linux alone says it.
+//! State of a thread as the operating system reports it; only Linux does.
 
 use std::fs::read_to_string;
 use std::time::Duration;
@@ -13,7 +13,7 @@ const FUTEX: &str = if cfg!(target_arch = "x86_64") {
     "98"
 };
 
-/// What a thread does, and did so far.
+/// State of a thread, and its activity so far.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) struct Seen {
     /// It neither runs nor waits for a processor.
@@ -24,7 +24,7 @@ pub(crate) struct Seen {
     pub(crate) ran: Duration,
     /// Time in which it waited for a processor.
     pub(crate) waited: Duration,
-    /// How often it got a processor. One that waits for the interpreter gets one every 5 ms.
+    /// Number of turns on a processor. A thread that waits for the interpreter gets one every 5 ms.
     pub(crate) turns: u64,
 }
 

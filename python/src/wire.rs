@@ -22,7 +22,7 @@ pub(crate) struct Wire {
     /// A channel opened it, so it ends with the last bus.
     pub(crate) of_channel: bool,
     state: Mutex<State>,
-    /// What makes the frames of tasks, by their numbers.
+    /// The makers of the frames of tasks, by their numbers.
     makers: Py<PyDict>,
 }
 
@@ -37,7 +37,7 @@ impl Wire {
         }
     }
 
-    /// What the threads with these numbers do, as `odkit._who.waits` says it.
+    /// State of the threads with these numbers, as `odkit._who.waits` reports it.
     ///
     /// # Errors
     /// An exception in Python.
@@ -48,7 +48,7 @@ impl Wire {
         who.call1(py, (threads.to_vec(),))?.extract(py)
     }
 
-    /// What makes the frames of a task.
+    /// The maker of the frames of a task.
     pub(crate) fn maker(&self, py: Python<'_>, task: u32) -> Option<Py<PyAny>> {
         self.makers.bind(py).get_item(task).ok()?.map(Bound::unbind)
     }

@@ -6,7 +6,7 @@ import { opened } from './harness.mjs';
 /** Milliseconds that a machine with other work may take. */
 const PATIENCE = 60_000;
 
-/** What the open pages complained of and what stands on them, for a test that waited in vain. */
+/** The errors and the content of the open pages, for a test that waited in vain. */
 async function seen() {
   const looks = [...opened].map(async ([page, faults]) => {
     const looked = page.evaluate(() => `${document.visibilityState}: ${document.body.innerText.replaceAll(/\s+/g, ' ').slice(0, 3000)}`).catch(String);
@@ -64,7 +64,7 @@ export async function pass(page, milliseconds) {
   await until(`${milliseconds} ms to pass`, async () => (await clock(page)) - from >= milliseconds);
 }
 
-/** Stops time. Pictures that are under way still come, so it is stopped when the clock has stood still for half a second. */
+/** Stops time. Pictures that are under way still come, so it is stopped when the clock has not moved for half a second. */
 export async function stopTime(page) {
   await page.getByRole('button', { name: 'Pause time' }).click();
   let [at, since] = [-1, 0];

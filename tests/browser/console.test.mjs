@@ -41,7 +41,7 @@ check('a filter that cannot be read says so as it is typed', {}, async (page) =>
   const box = page.getByRole('searchbox', { name: 'Filter frames' });
   for (const [text, error] of [['node:', /missing/], ['node:200', /1 to 127/], ['nod:5', /not a field/], ['(sdo', /not closed/]]) {
     await box.fill(text);
-    await becomes(`what stands under “${text}”`, () => page.locator('#filter-note').textContent(), error);
+    await becomes(`the note under “${text}”`, () => page.locator('#filter-note').textContent(), error);
     await becomes('aria-invalid', () => box.getAttribute('aria-invalid'), 'true');
   }
   await box.fill('hb');
@@ -64,7 +64,7 @@ check('one row for each identifier, and back to order without loss', {}, async (
   await row(page, 'what came before', (one) => one.id === '601');
 });
 
-check('changed bytes stand out', {}, async (page) => {
+check('changed bytes are highlighted', {}, async (page) => {
   await sendRaw(page, '181#01 02 03');
   await sendRaw(page, '181#01 FF 03');
   const changed = page.locator('.frame', { hasText: '01 FF 03' }).locator('mark');

@@ -82,7 +82,7 @@ async function drop(page, name, content) {
 }
 
 const deviceName = (page) => page.locator('.device-button').textContent();
-const note = (page, pattern) => becomes('what stands under the SDO line', () => sdoNote(page), pattern);
+const note = (page, pattern) => becomes('the note under the SDO line', () => sdoNote(page), pattern);
 
 const check = checks();
 
@@ -185,7 +185,7 @@ check('a crash of the simulation is not one of the page', {}, async (page) => {
   await row(page, 'an answer after the crash', (one) => one.id === '581');
 });
 
-check('a save that a reset cuts is told in words', { hash: '#device=en580c&node=1' }, async (page) => {
+check('a save that a reset cuts is reported in words', { hash: '#device=en580c&node=1' }, async (page) => {
   await row(page, 'the boot-up', (one) => one.id === '701');
   // The save takes half a second; the reset comes at the same moment.
   await page.getByRole('button', { name: 'Pause time' }).click();
@@ -194,7 +194,7 @@ check('a save that a reset cuts is told in words', { hash: '#device=en580c&node=
   await becomes('what came of it', () => page.locator('.toasts').textContent(), /Node 1: a save was interrupted; the device loaded its factory values/);
 });
 
-/** Everything has room: nothing is wider than what it stands in. */
+/** Everything has room: nothing is wider than its container. */
 const fits = (page) => becomes('what has no room', () => overflow(page), []);
 const overflow = (page) =>
   page.evaluate(() => [...document.querySelectorAll('html, body, main, .panel, .panel-head, .topbar')].filter((e) => e.scrollWidth > e.clientWidth + 1).map((e) => e.textContent.trim().slice(0, 40)));

@@ -11,11 +11,11 @@ const check = checks(async (page) => {
   await booted(page);
 });
 
-const note = (page, pattern) => becomes('what stands under the SDO line', () => sdoNote(page), pattern);
+const note = (page, pattern) => becomes('the note under the SDO line', () => sdoNote(page), pattern);
 const search = (page, text) => page.getByRole('searchbox', { name: 'Search objects' }).fill(text);
 const object = (page, text) => page.getByRole('listbox', { name: 'Objects with their live values' }).getByRole('option').filter({ hasText: text });
 const detail = (page) => page.locator('od-object-detail');
-const detailNote = (page, pattern) => becomes('what stands under the object', () => page.locator('#detail-note').textContent(), pattern);
+const detailNote = (page, pattern) => becomes('the note under the object', () => page.locator('#detail-note').textContent(), pattern);
 const shown = (page) => page.getByRole('option').filter({ visible: true });
 const typed = (page) => page.getByRole('textbox', { name: 'New value' });
 

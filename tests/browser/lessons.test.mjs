@@ -250,7 +250,7 @@ test("a trainer's own lesson is opened from a file; a wrong one says in which li
   await give('own.md', OWN);
   await page.getByRole('heading', { name: 'A lesson of my own' }).waitFor();
   await becomes('the device of the lesson', () => devices(page).first().textContent(), /node 3/);
-  assert.equal(await page.locator('#markup').count(), 0, 'what stands in a lesson is text');
+  assert.equal(await page.locator('#markup').count(), 0, 'markup in a lesson is text');
   await nmt(page, 'Start');
   await page.getByText('You did it').waitFor();
   await page.getByRole('button', { name: 'Begin again' }).click();

@@ -6,7 +6,7 @@ import { checks } from './check.mjs';
 const check = checks(booted);
 
 const part = (page, name) => page.getByRole('group', { name: 'Encoder views' }).getByRole('button', { name }).click();
-const note = (page, pattern) => becomes('what stands under the SDO line', () => sdoNote(page), pattern);
+const note = (page, pattern) => becomes('the note under the SDO line', () => sdoNote(page), pattern);
 const written = (page, object, value) => sdo(page, object, value).then(() => note(page, /written/));
 const cycle = async (page) => {
   await page.getByRole('switch', { name: 'Power' }).click();
@@ -110,7 +110,7 @@ check('without its terminators the wire loses frames, alone on it nobody acknowl
   await becomes('the controller', () => page.locator('[data-controller=node]').textContent(), /error passive/);
 });
 
-check('what breaks is told on the bus and by the lamp', {}, async (page) => {
+check('a fault is reported on the bus and by the lamp', {}, async (page) => {
   await nmt(page, 'Start');
   await part(page, 'Hardware');
   await page.getByRole('button', { name: 'Sensor position' }).click();

@@ -5,7 +5,7 @@ import { checks } from './check.mjs';
 
 const check = checks(booted);
 
-const note = (page, pattern) => becomes('what stands under the SDO line', () => sdoNote(page), pattern);
+const note = (page, pattern) => becomes('the note under the SDO line', () => sdoNote(page), pattern);
 
 check('reads and writes by index', async (page) => {
   await sdo(page, '1017', '500');

@@ -247,7 +247,7 @@ check('scrolling up holds the place, one button goes back to the end', async (pa
   await until('the newest rows', async () => (await rows(page)).at(-1).number > first + 60);
 });
 
-check('time stands still and goes on by steps', async (page) => {
+check('time pauses and continues by steps', async (page) => {
   await stopTime(page);
   const before = await clock(page);
   await page.getByRole('button', { name: 'Step 1 millisecond' }).click();

@@ -229,7 +229,7 @@ test('an adapter over Web Serial: its bus is shown, and a cable that was pulled 
   }
 });
 
-on('a lesson is taken on a real node; one that needs a simulation says what it needs', async (page) => {
+on('a lesson works on a real node; one that needs a simulation says what it needs', async (page) => {
   const { found } = await sim(['gxmm']);
   await booted(page);
   await connect(page, found);

@@ -139,7 +139,7 @@ check('a trigger waits for the value of an object, in a PDO or in the answer to 
   await trigger(page, '6004 >= 4000');
   await becomes('the state', () => said(page), /^Armed: waits for 6004h >= 4000 in a PDO or an SDO response\.$/);
   await nmt(page, 'Start');
-  await row(page, 'a PDO of a shaft that stands', (one) => one.id === '181');
+  await row(page, 'a PDO of a shaft at rest', (one) => one.id === '181');
   await page.getByRole('spinbutton', { name: 'Speed' }).fill('120');
   await page.keyboard.press('Enter');
   await becomes('the state', () => said(page), /^Fired at .* stopped\.$/);

@@ -13,7 +13,7 @@ import { URL_OF_PAGE } from './harness.mjs';
 
 const check = checks();
 
-const note = (page, pattern) => becomes('what stands under the SDO line', () => sdoNote(page), pattern);
+const note = (page, pattern) => becomes('the note under the SDO line', () => sdoNote(page), pattern);
 
 /** Changes something of every kind: values, saved and not, the shaft, the NMT state. */
 async function use(page) {
@@ -85,7 +85,7 @@ async function linkOf(page, { trace = false } = {}) {
   return new URL(link).hash;
 }
 
-check('a link without the run brings the bench as it stands', async (page) => {
+check('a link without the run brings the bench as it is', async (page) => {
   await use(page);
   const at = await position(page);
   const hash = await linkOf(page);

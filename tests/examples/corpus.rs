@@ -1,4 +1,4 @@
-//! What odkit makes of a folder of device files: `cargo xtask corpus DIR`.
+//! Results of odkit for a folder of device files: `cargo xtask corpus DIR`.
 //!
 //! ```text
 //! corpus DIR               a line a file, then the sums
@@ -45,7 +45,7 @@ fn main() -> ExitCode {
         .filter_map(|path| File::read(Path::new(folder), path))
         .collect();
     if files.is_empty() {
-        eprintln!("{folder}: there is no EDS, DCF, XDD, XDC or XPD file below it");
+        eprintln!("{folder} contains no EDS, DCF, XDD, XDC or XPD file");
         return ExitCode::FAILURE;
     }
     let text = match what {
@@ -63,7 +63,7 @@ fn main() -> ExitCode {
             format!("{}\n\n{}", lines.join("\n"), sums(&files))
         }
     };
-    // Whoever reads may stop early, as `head` does.
+    // A reader may stop early, as `head` does.
     let _ = std::io::stdout().write_all(text.as_bytes());
     ExitCode::SUCCESS
 }

@@ -4,7 +4,7 @@
 //! as the file has them, and the cases that fail follow it.
 //!
 //! ```text
-//! slaves DIR            learn, check, compare, stand in; then the conformance test
+//! slaves DIR            learn, check, compare, play the twin; then the conformance test
 //! slaves DIR --learn    without the conformance test
 //! ```
 
@@ -111,7 +111,7 @@ impl Learned {
 
     fn words(&self) -> String {
         format!(
-            "{} values, {} wrong, {} marked as a guess, {} errors, {} differences, {} stands in",
+            "{} values, {} wrong, {} marked as a guess, {} errors, {} differences, {} as a twin",
             self.values,
             self.wrong.len(),
             self.marked,

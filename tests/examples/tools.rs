@@ -1,4 +1,4 @@
-//! What odkit expects of the tools that read device files, for comparisons with the tools themselves.
+//! Expectations of odkit about the tools that read device files, for comparisons with the tools themselves.
 //!
 //! ```text
 //! tools mutants DIR OUT COUNT SEED    COUNT changed copies of the EDS and DCF files below DIR, in OUT
@@ -56,7 +56,7 @@ fn mutants(from: &Path, to: &Path, count: &str, seed: &str) -> io::Result<()> {
     let eds = ALL.iter().find(|target| target.name == "eds");
     let target = Target {
         longest: usize::MAX,
-        ..*eds.ok_or_else(|| io::Error::other("there is no target `eds`"))?
+        ..*eds.ok_or_else(|| io::Error::other("target `eds` does not exist"))?
     };
     fs::create_dir_all(to)?;
     for number in 0..count {

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from bench import exported
 
-# What no default stands for: commands, and what lives.
+# Objects without a default: commands, and live values.
 COMMANDS = {0x1010, 0x1011}
 
 

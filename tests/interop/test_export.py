@@ -1,6 +1,6 @@
 """The EDS that `odkit export` writes of each device, as python-canopen reads it.
 
-What it has to be stands in `odkit dump`, which shows the compiled dictionary.
+The expected content is in `odkit dump`, which shows the compiled dictionary.
 """
 
 import re

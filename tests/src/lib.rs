@@ -1,4 +1,4 @@
-//! What the tests of odkit share.
+//! Shared parts of odkit's tests.
 
 pub mod corpus;
 pub mod scripts;

@@ -7,7 +7,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Where a rule may come from, as the first words of a source.
+/// Allowed sources of a rule, as the first words of a source.
 pub const SOURCES: [&str; 6] = [
     "Manual 000",
     "Manual 001",
@@ -29,7 +29,7 @@ pub fn root() -> PathBuf {
 pub struct File {
     /// From the folder of all scripts on, with `/`.
     pub name: String,
-    /// Where it is.
+    /// Path of the script.
     pub path: PathBuf,
 }
 
@@ -66,12 +66,12 @@ fn collect(folder: &Path, prefix: &str, found: &mut Vec<File>) {
     }
 }
 
-/// What the first lines of a script say.
+/// The first lines of a script.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Header {
     /// The manual and the place in it.
     pub source: String,
-    /// What the script shows.
+    /// The rule that the script shows.
     pub rule: String,
     /// The devices that it is played on; none if it has a `device` line.
     pub devices: Vec<String>,
@@ -81,7 +81,7 @@ impl Header {
     /// Reads the comment at the start of a script.
     ///
     /// # Errors
-    /// What is missing, and what it looks like.
+    /// The missing line, with an example.
     pub fn parse(text: &str) -> Result<Self, String> {
         let mut devices = Vec::new();
         let mut words = Vec::new();
@@ -100,7 +100,7 @@ impl Header {
         };
         if !SOURCES.iter().any(|known| source.starts_with(known)) {
             return Err(format!(
-                "`{source}` is no source; it begins with {}: `{example}`",
+                "`{source}` is not a source; a source begins with {}: `{example}`",
                 SOURCES.join(", ")
             ));
         }
@@ -120,7 +120,7 @@ pub fn cell(text: &str) -> String {
 /// Compares a generated page of `docs/` with the one that is there, or writes it.
 ///
 /// # Errors
-/// The first line that differs, and how to write the page anew.
+/// The first line that differs, and the command that writes the page again.
 pub fn compare_page(name: &str, generated: &str) -> Result<(), String> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR"))
         .join("../docs")
@@ -136,7 +136,7 @@ pub fn compare_page(name: &str, generated: &str) -> Result<(), String> {
     let differs = there.lines().zip(&mut lines).position(|(a, b)| a != b);
     let line = differs.unwrap_or(there.lines().count().min(generated.lines().count())) + 1;
     Err(format!(
-        "docs/{name} is out of date from line {line} on; write it anew with\n  \
+        "docs/{name} is out of date from line {line} on; write it again with\n  \
          ODKIT_ACCEPT=1 cargo test -p od-tests --test rules"
     ))
 }

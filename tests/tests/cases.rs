@@ -191,7 +191,7 @@ fn round_trip(document: &Document) -> Result<Parsed, String> {
     for finding in &loaded.findings {
         let finding = say(finding, &Eds);
         if check::rule(finding.code).is_none_or(|rule| rule.severity != finding.severity) {
-            return Err(format!("{} is no rule", finding.code));
+            return Err(format!("{} is not a rule", finding.code));
         }
         if finding.message.is_empty() || finding.help.is_empty() {
             return Err(format!("{} says too little", finding.code));

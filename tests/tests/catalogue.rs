@@ -24,7 +24,7 @@ fn file(rule: &Rule, name: &str) -> Document {
     let found = ["eds", "xdd"]
         .iter()
         .find_map(|kind| fs::read(path.with_extension(kind)).ok());
-    Document::new(found.unwrap_or_else(|| panic!("there is no {}", path.display())))
+    Document::new(found.unwrap_or_else(|| panic!("{} does not exist", path.display())))
 }
 
 fn of_files() -> impl Iterator<Item = &'static Rule> {
@@ -126,7 +126,7 @@ fn fixes_do_what_they_say() {
             faults.push(format!("{}: it stays", rule.code));
         }
         if fix(&fixed.document, *level, find).edits > 0 {
-            faults.push(format!("{}: there is more to mend", rule.code));
+            faults.push(format!("{}: more findings can be fixed", rule.code));
         }
     }
     all(&faults);

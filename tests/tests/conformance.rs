@@ -17,7 +17,7 @@ use od_tests::scripts::{self, Header};
 /// The built-in devices, and EDS files beside the script.
 struct Bench<'a> {
     folder: PathBuf,
-    /// What a script without a `device` line runs on.
+    /// The device of a script without a `device` line.
     device: Option<&'a str>,
     trace: String,
 }

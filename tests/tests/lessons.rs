@@ -77,13 +77,13 @@ fn every_link_leads_to_a_file() {
         for (line, file) in read(&name, &text).files() {
             assert!(
                 folder().join(file).is_file(),
-                "{name}:{line}: there is no {file}"
+                "{name}:{line}: {file} does not exist"
             );
         }
     }
 }
 
-/// What the learner sees before an answer does not contain it, and a wrong answer is told by its parts.
+/// The text before an answer does not contain it, and a wrong answer is explained by its parts.
 #[test]
 fn no_question_tells_its_answer() {
     let plain = |text: &str| text.replace([' ', '`'], "").to_uppercase();

@@ -1,4 +1,4 @@
-//! What is in the binary, and what makes it new.
+//! Content of the binary, and changes that make it again.
 
 use std::path::Path;
 use std::process::Command;

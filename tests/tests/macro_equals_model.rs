@@ -1,4 +1,4 @@
-//! What the macro makes of a file at compile time is what `od-model` makes of the
+//! The macro makes of a file at compile time the same as `od-model` makes of the
 //! same text at run time, object by object; for every EDS file that we have.
 //!
 //! A file without a line below fails [`no_file_is_forgotten`].

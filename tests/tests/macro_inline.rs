@@ -1,4 +1,4 @@
-//! A dictionary from rows alone, and what its handles are.
+//! A dictionary from rows only, and its handles.
 
 use od_model::typed::{Const, Mapping, Pdo, Ro, Rw, Text, Var, pdo};
 use od_model::{Access, Address, DataType, Group, Literal, ObjectCode};
@@ -119,7 +119,10 @@ fn a_capacity_is_room_in_the_store_and_0_is_a_stream() {
     assert_eq!(logger::STORE_LEN, 1 + 4 + 302);
     let log = logger::DICTIONARY.find(logger::LOG.address()).unwrap();
     assert!(log.is_streamed() && logger::DICTIONARY.has_streams());
-    assert!(!bench::DICTIONARY.has_streams(), "a `const` text is none");
+    assert!(
+        !bench::DICTIONARY.has_streams(),
+        "a `const` text is not a stream"
+    );
     // A block of 127 segments, where the longest value of the store has 300 bytes.
     type Rooms = odkit::Only<odkit::rooms!(logger::Device)>;
     let _: logger::Node = odkit::Node::<logger::Device, 0, 889, Rooms>::new(odkit::NodeId::ONE);

@@ -49,7 +49,7 @@ fn a_service_that_is_off_takes_no_ram() {
     assert!(size_of::<full::Node>() - size_of::<lean::Node>() > 150);
 }
 
-/// What a node answers to each request, and whether it had something to tell its host.
+/// The answers of a node to each request, and whether it had an event for its host.
 macro_rules! answers {
     ($module:path, $requests:expr) => {{
         use $module as device;

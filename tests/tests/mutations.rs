@@ -1,8 +1,8 @@
 //! Corrupted device files: never a panic, never a hang, never a silent wrong value.
 //!
 //! Made of the corpus (`ODKIT_CORPUS`, or `shared/corpus` beside the workspace); where
-//! there is none, of the project's own cases and devices. `ODKIT_ROUNDS` says how many
-//! variants there are; a few hundred without it, 10,000 in `cargo xtask test --long`.
+//! it is missing, of the project's own cases and devices. `ODKIT_ROUNDS` says how many
+//! variants are made; a few hundred without it, 10,000 in `cargo xtask test --long`.
 
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -79,8 +79,8 @@ fn an_illegal_value_never_goes_unnamed() {
     }
 }
 
-/// The line with a value that is none of its key; `None` where it has no such key, or
-/// where nothing is said of the value because nothing reads it.
+/// The line with a value that is not valid for its key; `None` if it has no such key, or
+/// if no finding is reported because nothing reads the value.
 fn illegal(lines: &[&str], at: usize, random: &mut Xorshift) -> Option<String> {
     let (key, value) = lines[at].split_once('=')?;
     let section = section(lines, at)?;
@@ -143,7 +143,7 @@ fn illegal(lines: &[&str], at: usize, random: &mut Xorshift) -> Option<String> {
         }
         _ => return None,
     };
-    // Members of an object that is taken for something else may not be read at all.
+    // Sub-objects of an object with another object code may not be read at all.
     let own = lines[section.start - 1].trim();
     let is_whole = is_object && !own.to_ascii_lowercase().contains("sub");
     let has_members = keys().any(|(key, value)| {
@@ -228,7 +228,7 @@ fn line(bytes: &[u8], at: usize) -> std::ops::Range<usize> {
     start.map_or(0, |s| s + 1)..end.map_or(bytes.len(), |e| at + e + 1)
 }
 
-/// What stands behind the `=` of the line at a byte.
+/// The text behind the `=` of the line at a byte.
 fn value(bytes: &[u8], at: usize) -> std::ops::Range<usize> {
     let line = line(bytes, at);
     let text = &bytes[line.clone()];

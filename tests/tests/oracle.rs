@@ -13,7 +13,7 @@ use ini::{Ini, ParseOption};
 use od_eds::{Document, parse};
 use od_tests::corpus;
 
-/// What we report about lines that are not plain INI.
+/// Findings about lines that are not plain INI.
 const NOT_PLAIN: [&str; 8] = [
     "W0101", "W0102", "W0103", "E0118", "W0104", "W0105", "W0108", "W0110",
 ];
@@ -179,7 +179,7 @@ fn chunks(text: &str) -> Vec<Chunk> {
     chunks
 }
 
-/// What rust-ini reads of one section; `None` if there is none.
+/// The section as rust-ini reads it; `None` without one.
 fn by_rust_ini(text: &str) -> Result<Option<(String, Pairs)>, String> {
     // Quotes and backslashes mean nothing in an EDS.
     let option = ParseOption {

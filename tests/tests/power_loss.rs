@@ -77,7 +77,7 @@ impl Bench {
         while self.bus.poll().is_some() {}
     }
 
-    /// What a master can save.
+    /// The values that a master can save.
     fn values(&mut self) -> Values {
         let entries = self.kind.dictionary.entries().iter();
         let saved = entries.filter(|entry| entry.access.writable() && entry.group != Group::None);
@@ -137,7 +137,7 @@ fn difference(a: &Values, b: &Values) -> Vec<Address> {
     pairs.map(|(a, _)| a.0).collect()
 }
 
-/// A memory whose power goes in the step behind so many others.
+/// A memory whose power is cut in the step behind this number of others.
 trait Cut: Storage + Clone + Send + 'static {
     fn cut_after(&mut self, steps: usize);
     fn is_cut(&self) -> bool;

@@ -1,6 +1,6 @@
 //! The tables of docs/RULES.md and docs/CIA.md are what the scripts say of themselves.
 //!
-//! `ODKIT_ACCEPT=1 cargo test -p od-tests --test rules` writes them anew.
+//! `ODKIT_ACCEPT=1 cargo test -p od-tests --test rules` writes them again.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -124,7 +124,7 @@ fn cia() -> String {
          families answer differently, each has a script of its own.\n\n\
          This page is generated from `tests/conformance/cia`:\n\
          `ODKIT_ACCEPT=1 cargo test -p od-tests --test rules`.\n\n\
-         | case | what it tests | script, or why there is none |\n|---|---|---|\n{rows}"
+         | case | subject | script, or the reason why it has none |\n|---|---|---|\n{rows}"
     )
 }
 

@@ -1,6 +1,6 @@
 //! docs/RULES-EDS.md is what the catalogue says.
 //!
-//! `ODKIT_ACCEPT=1 cargo test -p od-tests --test rules_eds` writes it anew.
+//! `ODKIT_ACCEPT=1 cargo test -p od-tests --test rules_eds` writes it again.
 
 use std::fmt::Write;
 

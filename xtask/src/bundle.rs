@@ -33,7 +33,7 @@ struct Module {
     /// while they are compiled.
     lto: &'static str,
     features: &'static [&'static str],
-    /// How hard wasm-opt tries: `-Os` takes three times as long as `-O1` and saves 4 % more.
+    /// Optimisation level of wasm-opt: `-Os` takes three times as long as `-O1` and saves 4 % more.
     level: &'static str,
     what: &'static str,
 }

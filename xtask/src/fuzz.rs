@@ -175,7 +175,7 @@ fn install(repo: &Repo, console: &Console) -> Result<(PathBuf, String)> {
         add.args(["toolchain", "install", "nightly", "--profile", "minimal"]);
         console.run("installing the nightly compiler (once)", &mut add)?;
     }
-    let missing = || Error::Missing(String::from("there is no nightly compiler; see rustup.rs"));
+    let missing = || Error::Missing(String::from("a nightly compiler is missing; see rustup.rs"));
     let host = host().ok_or_else(missing)?;
     let root = repo.tools().join("fuzz");
     let tool = root.join("bin").join(program("cargo-fuzz"));

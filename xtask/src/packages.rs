@@ -14,7 +14,7 @@ pub(crate) const BENCHES: &str = "od-benches";
 /// A peer whose generated code takes as long to compile as all of odkit.
 pub(crate) const PEER: &str = "od-benches-zencan";
 
-/// What is fuzzed, for the tests from outside and for libFuzzer.
+/// The fuzz targets, for the tests from outside and for libFuzzer.
 pub(crate) const FUZZ: &str = "od-fuzz";
 
 /// The Python module.

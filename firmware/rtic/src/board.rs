@@ -1,4 +1,4 @@
-//! What a board has: a CAN controller and flash; here both are memory.
+//! A board with a CAN controller and flash; here both are memory.
 
 use embedded_can::{ErrorKind, nb};
 use embedded_storage::nor_flash::{
@@ -13,7 +13,7 @@ pub struct Can {
     pub received: [Option<Frame>; 4],
     /// Frames that were sent.
     pub sent: u32,
-    /// How often 1010h was answered.
+    /// Number of responses to 1010h.
     pub saved: u32,
 }
 
@@ -76,14 +76,14 @@ pub const PAGE: usize = 4096;
 pub struct Flash {
     bytes: [u8; 3 * PAGE],
     /// Called in the middle of it.
-    pub meanwhile: fn(),
+    pub during: fn(),
 }
 
 impl Flash {
     /// It is erased.
-    pub const fn new(meanwhile: fn()) -> Self {
+    pub const fn new(during: fn()) -> Self {
         let bytes = [0xFF; 3 * PAGE];
-        Self { bytes, meanwhile }
+        Self { bytes, during }
     }
 }
 
@@ -113,7 +113,7 @@ impl NorFlash for Flash {
     const ERASE_SIZE: usize = PAGE;
 
     fn erase(&mut self, from: u32, to: u32) -> Result<(), Never> {
-        (self.meanwhile)();
+        (self.during)();
         for _ in 0..20 {
             for byte in self.bytes.iter_mut().take(to as usize).skip(from as usize) {
                 *core::hint::black_box(byte) = 0xFF;
@@ -123,7 +123,7 @@ impl NorFlash for Flash {
     }
 
     fn write(&mut self, offset: u32, bytes: &[u8]) -> Result<(), Never> {
-        (self.meanwhile)();
+        (self.during)();
         let to = self.bytes.iter_mut().skip(offset as usize);
         to.zip(bytes).for_each(|(to, from)| *to &= *from);
         Ok(())

@@ -42,7 +42,7 @@ const SIZE: usize = 8192;
 const ERASE_US: u64 = 20_000;
 const WRITE_US: u64 = 400;
 
-/// Stands for flash: it is busy for a while after each command.
+/// In place of flash: it is busy for a while after each command.
 struct Flash {
     bytes: &'static mut [u8; SIZE],
     ready_at: Instant,

@@ -139,7 +139,7 @@ impl<F: Family, D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>
                 let angle = i64::from_le_bytes(self.calls.array()?);
                 self.encoder.shaft.0.source = Angle::from_fractions(angle);
                 if call == b'J' {
-                    // There is no way from the last sample to this one.
+                    // Nothing is known between the last sample and this one.
                     self.encoder.shaft.power_off(now);
                 }
                 if self.node.is_powered() {

@@ -1,4 +1,4 @@
-//! What is written once of an input, and of a source of a device.
+//! One definition of an input, and of a source of a device, in Rust and in TypeScript.
 
 /// Declares a choice of records: the enum, how its fields are read and written, and the type that TypeScript has of it.
 /// The field with the name behind `by` tells which record it is.

@@ -8,7 +8,7 @@ use super::choice::choice;
 use super::parts::{Dip, Rate, Source};
 
 choice! {
-    /// What changes a bench. A journal keeps every input with its virtual moment, so that a run can be made again: for a
+    /// A change of a bench. A journal keeps every input with its virtual moment, so that a run can be made again: for a
     /// step back, from a link, after a reload. Devices and stations count from 0; station 0 is the outside.
     Input by "op" {
         /// A device is put on the bus, in the place of another or in a new one.
@@ -17,7 +17,7 @@ choice! {
             "nodeId" node_id: u8,
             "place" place: Option<u8>,
         }
-        /// A device is taken off the bus.
+        /// A device is removed from the bus.
         "remove" Remove { "node" node: u8, }
         /// A frame is sent from outside. Of a remote frame only the number of bytes counts.
         "send" Send {
@@ -26,7 +26,7 @@ choice! {
             "extended" extended: bool,
             "remote" remote: bool,
         }
-        /// A frame is sent every so many microseconds; 0 ends it. `key` tells rhythms apart.
+        /// A frame is sent at this interval in microseconds; 0 ends it. `key` tells rhythms apart.
         "repeat" Repeat {
             "key" key: u32,
             "id" id: u32,

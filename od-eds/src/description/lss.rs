@@ -1,4 +1,4 @@
-//! What `[DeviceInfo]` says of LSS.
+//! LSS services that `[DeviceInfo]` declares.
 
 use alloc::format;
 

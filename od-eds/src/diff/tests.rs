@@ -45,10 +45,10 @@ AccessType=rw
 DefaultValue=254
 ";
 
-/// What the differences are after a replacement in the text.
+/// Checks the differences after a replacement in the text.
 #[track_caller]
 fn check(from: &str, to: &str, expected: &[&str]) {
-    assert!(BASE.contains(from), "{from:?} does not stand in the text");
+    assert!(BASE.contains(from), "{from:?} is not in the text");
     let changed = BASE.replace(from, to);
     let tables = [BASE, &changed].map(|text| Tables::new(&crate::parse(text).description));
     let both = [tables[0].dictionary(), tables[1].dictionary()];

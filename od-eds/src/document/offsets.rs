@@ -8,7 +8,7 @@ use crate::span::Span;
 /// Bytes of text between two places that are known.
 const STEP: usize = 512;
 
-/// Where the text of a document is in the file, byte order mark and encoding included.
+/// Place of a document's text in the file, including byte order mark and encoding.
 #[derive(Clone, Debug)]
 pub struct Offsets<'a> {
     document: &'a Document,

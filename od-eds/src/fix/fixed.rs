@@ -129,7 +129,7 @@ impl State {
         (finding.code(), finding.object, section.to_vec(), said)
     }
 
-    /// How often each fault is there.
+    /// Counts each fault.
     fn counts<'a>(&self, findings: impl Iterator<Item = &'a Finding>) -> BTreeMap<Fault, usize> {
         let mut counts = BTreeMap::new();
         findings.for_each(|finding| *counts.entry(self.fault(finding)).or_default() += 1);

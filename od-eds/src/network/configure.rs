@@ -9,7 +9,7 @@ use super::pdo;
 use super::wanted::PdoConfiguration;
 use od_model::Address;
 
-/// What a project says of all nodes.
+/// Settings of a project for all nodes.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Options {
     /// Folder of the concise DCFs on the master; empty: that of the master.
@@ -33,7 +33,7 @@ impl Default for Options {
     }
 }
 
-/// What a project says of one node; `None` leaves the value of the device.
+/// Settings of a project for one node; `None` leaves the value of the device.
 #[derive(Clone, PartialEq, Debug, Default)]
 #[allow(missing_docs)] // the keys of dcfgen, which CiA 301 and CiA 302-2 explain
 pub struct Configuration {

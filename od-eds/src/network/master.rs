@@ -8,7 +8,7 @@ use super::concise::Write;
 use super::node::Node;
 use od_model::Address;
 
-/// What a project says of its master.
+/// Settings of a project for its master.
 #[derive(Clone, PartialEq, Debug)]
 #[allow(missing_docs)] // the keys of dcfgen, which CiA 301 and CiA 302-2 explain
 pub struct Master {

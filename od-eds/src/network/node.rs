@@ -20,7 +20,7 @@ pub struct Node {
     pub description: Description,
     /// The writes of its concise DCF, in their order.
     pub writes: Vec<Write>,
-    /// The file that the master reads them from (1F22h); empty if there is none.
+    /// The file that the master reads them from (1F22h); empty without a file.
     pub configuration_file: String,
     /// Identity that the master expects (1F87h, 1F88h); 0: any.
     pub revision_number: u32,

@@ -1,4 +1,4 @@
-//! What of a network does not fit together.
+//! Contradictions between the nodes of a network.
 
 use alloc::collections::BTreeMap;
 use alloc::format;

@@ -125,7 +125,7 @@ fn findings_are_told_where_they_come_from() {
     );
 }
 
-/// What ends a line in an EDS ends one here.
+/// A line of an overlay can end as a line of an EDS can.
 #[test]
 fn any_line_end() {
     for end in ["\n", "\r\n", "\r"] {

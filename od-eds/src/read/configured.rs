@@ -1,4 +1,4 @@
-//! What only a DCF has, in a file that is an EDS.
+//! Keys and sections of a DCF in a file that is an EDS.
 
 use crate::log::Log;
 use crate::rules::lists::w0217;

@@ -29,7 +29,7 @@ pub(crate) struct Reader<'a> {
     pub(crate) log: &'a mut Log,
 }
 
-/// Where the type of a section comes from that gives none.
+/// Source of the type of a section without a DataType.
 #[derive(Clone, Copy)]
 pub(crate) enum Assumed {
     /// It is a DOMAIN.
@@ -273,7 +273,7 @@ impl Reader<'_> {
         data_type: Option<Spanned<DataType>>,
         low: Option<&Value>,
     ) -> Option<Spanned<Value>> {
-        // Without a type there are no values; that was reported, or the checks will.
+        // Without a type it has no values; this was reported, or the checks report it.
         let data_type = data_type.filter(|t| t.kind() != Kind::Record)?;
         let mut notes = Vec::new();
         match values::value(given, *data_type, &mut notes) {

@@ -39,7 +39,7 @@ impl<'a> Fields<'a> {
             keep
         });
         for (key, value) in &mut pairs {
-            // An empty value or limit is none.
+            // An empty value or limit is treated as missing.
             let numeric = |key: &str| {
                 let mut coded = Key::ALL.into_iter().filter(|key| key.is_coded());
                 coded.any(|known| known.is(key))

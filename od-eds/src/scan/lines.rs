@@ -119,7 +119,8 @@ pub(crate) fn lines(text: &str) -> impl Iterator<Item = Line<'_>> {
     })
 }
 
-/// The lines of a text for a reader to which `\n` alone ends one; counted as [`lines`] counts them.
+/// The lines of a text for a reader that ends lines only at `
+/// `; counted as [`lines`] counts them.
 #[cfg(feature = "tools")]
 pub(crate) fn lines_by_newline(text: &str) -> impl Iterator<Item = Line<'_>> {
     let body = text.strip_prefix('\u{FEFF}').unwrap_or(text);
@@ -299,7 +300,7 @@ fn without_sign(line: &str) -> Option<(&str, &str)> {
     (known && !value.contains(char::is_whitespace)).then_some((key, value))
 }
 
-/// Is this a mark of a merge conflict: seven equal signs or brackets, alone or before a name?
+/// Is this a mark of a merge conflict: seven equal signs or brackets, as the whole line or before a name?
 fn is_conflict(line: &str) -> bool {
     let marks = ["<<<<<<<", "=======", ">>>>>>>", "|||||||"];
     let rest = marks.iter().find_map(|mark| line.strip_prefix(mark));

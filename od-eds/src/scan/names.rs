@@ -38,7 +38,7 @@ impl List {
 }
 
 /// The three sections that an object with CompactSubObj may have besides its own,
-/// in the order in which they are taken.
+/// in the order in which they are read.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub enum Compact {
     /// `[1600Name]`

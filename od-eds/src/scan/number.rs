@@ -216,7 +216,7 @@ pub(crate) fn node_id(text: &str, notes: &mut Vec<Note>) -> Option<Result<u32, (
     Some(u32::try_from(offset).map_err(|_| ()))
 }
 
-/// The offset in `$MY_NODE_ID+n`, where a name of its own stands for the node ID; `None` for
+/// The offset in `$MY_NODE_ID+n`, with another name in place of `$NODEID`; `None` for
 /// anything else than one name and numbers.
 pub(crate) fn meant_node_id(text: &str) -> Option<u32> {
     let is_name = |part: &str| {

@@ -92,7 +92,7 @@ fn sum(text: &str, node_id: i128) -> Option<i128> {
     Some(sum)
 }
 
-/// What it makes of a value.
+/// Reads a value as the tool does.
 fn value(text: &str, data_type: i128, node_id: i128) -> Option<Read> {
     let number = || sum(text, node_id);
     // It cuts bits off, and takes what is left.

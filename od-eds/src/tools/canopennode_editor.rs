@@ -201,7 +201,7 @@ fn read(input: &Input<'_>) -> Reading {
 
 type Fault = (usize, String, Span);
 
-/// What it makes of an object's section; a number of the sentence if it leaves it out.
+/// Reads an object's section as the tool does; the number of a sentence if it leaves the section out.
 fn object(section: &Section<'_>, is_orphan: bool) -> Result<Option<ReadEntry>, Fault> {
     let get = |key: &str| section.pairs.get(key);
     let missing = |key: &str| (0, String::from(key), section.header);

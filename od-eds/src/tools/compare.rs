@@ -1,4 +1,4 @@
-//! What a tool reads against what odkit reads, value by value.
+//! Comparison of the values that a tool reads with those that odkit reads.
 
 use alloc::format;
 use alloc::string::{String, ToString};

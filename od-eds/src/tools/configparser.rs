@@ -10,7 +10,7 @@ use crate::scan::lines::{Line, lines};
 use crate::span::Span;
 use crate::tools::python::{is_space, strip};
 
-/// How a tool sets the parser up.
+/// Options with which a tool sets the parser up.
 pub(crate) struct Dialect {
     /// Characters that begin a comment behind a blank.
     pub(crate) inline: &'static [char],
@@ -18,12 +18,12 @@ pub(crate) struct Dialect {
     pub(crate) folds: bool,
 }
 
-/// What the parser stops at.
+/// An error at which the parser stops.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) enum Fault<'a> {
     /// Text before the first section.
     NoSection(Span),
-    /// A line that is no section, `key=value` or comment.
+    /// A line that is not a section, `key=value` or a comment.
     NoPair(Span),
     /// A section that was there before.
     Section {
@@ -224,7 +224,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Where a comment begins.
+    /// Returns the position at which a comment begins.
     fn comment(&self, text: &str) -> Option<usize> {
         if strip(text).starts_with(['#', ';']) {
             return Some(0);

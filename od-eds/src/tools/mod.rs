@@ -43,7 +43,7 @@ mod twincat;
 pub use list::{TOOLS, rules, tool, tool_of};
 pub use tool::{Read, ReadEntry, Reading, Tool};
 
-/// What becomes of a file.
+/// Result of a tool for a file.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Verdict {
     /// The tool reads all of it, as odkit does.
@@ -79,7 +79,7 @@ pub fn verdict(findings: &[Finding]) -> Verdict {
     }
 }
 
-/// What a tool reads of a file.
+/// Reads a file as a tool does.
 pub fn reading(document: &Document, tool: &Tool) -> Reading {
     let mark: &[u8] = b"\xEF\xBB\xBF";
     let bytes = document.bytes();
@@ -104,8 +104,8 @@ pub fn reading(document: &Document, tool: &Tool) -> Reading {
     reading
 }
 
-/// What these tools reject, drop or read otherwise, in file order, without what the text allows. A fix suits all of
-/// them.
+/// Returns what these tools reject, drop or read differently, in file order, without findings that the text
+/// allows. A fix suits all of them.
 ///
 /// `description` is what odkit reads of the file.
 pub fn check(

@@ -1,4 +1,4 @@
-//! What the readers of several tools have in common.
+//! Parts that the readers of several tools share.
 
 use crate::finding::{Fixability, Form, Rule};
 use crate::fix::Fix;
@@ -88,7 +88,7 @@ pub(crate) const TWICE: Rule = Rule {
     ..REJECTS
 };
 
-/// What Python's `configparser` stops at, by the rules of a tool.
+/// Errors at which Python's `configparser` stops, by the rules of a tool.
 pub(crate) fn faults(
     reading: &mut Reading,
     ini: &Ini<'_>,

@@ -126,7 +126,7 @@ fn python_canopen() {
     );
 }
 
-/// What each other tool stops at, or drops.
+/// Each other tool rejects or drops its part of the files.
 #[test]
 fn other_tools() {
     let file = "[FileInfo]\n[DeviceInfo]\n[MandatoryObjects]\nSupportedObjects=0\n[OptionalObjects]\n\
@@ -174,7 +174,7 @@ fn other_tools() {
     );
 }
 
-/// A fix that one tool reads and another does not is none for both.
+/// A fix that one tool can read and another cannot is not offered for both.
 #[test]
 fn a_fix_suits_every_chosen_tool() {
     let findings = found("python-canopen", &format!("{OBJECT}DefaultValue=010\n"));

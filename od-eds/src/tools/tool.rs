@@ -21,12 +21,12 @@ pub struct Tool {
     pub source: &'static str,
     /// Were the rules held against the tool itself?
     pub tried: bool,
-    /// What it rejects, drops or reads otherwise.
+    /// Rules about content that it rejects, drops or reads differently.
     pub rules: &'static [&'static Rule],
     pub(crate) read: fn(&Input<'_>) -> Reading,
-    /// What it makes of the text of a value; `None` for a tool of which that is not known.
+    /// Reads the text of a value as the tool does; `None` for a tool of which that is not known.
     pub(crate) value: Option<ReadValue>,
-    /// How the findings about single values are reported; `None` for a tool of which these are not known.
+    /// Rules of the findings about single values; `None` for a tool of which these are not known.
     pub(crate) differences: Option<&'static Differences>,
 }
 
@@ -100,7 +100,7 @@ impl Reading {
     }
 }
 
-/// How a tool's findings about single values are reported.
+/// Rules of a tool's findings about single values.
 #[derive(Debug)]
 pub(crate) struct Differences {
     /// An object or a member that it does not read.

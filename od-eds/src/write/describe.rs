@@ -188,7 +188,7 @@ fn sections(dictionary: Dictionary<'_>, about: &About<'_>) -> Vec<Section> {
     sections
 }
 
-/// A section with these keys and values, which stand in no text.
+/// A section with these keys and values, which are not part of a text.
 pub(crate) fn section(name: &str, pairs: impl IntoIterator<Item = (String, String)>) -> Section {
     Section {
         name: Spanned::from(name.to_string()),

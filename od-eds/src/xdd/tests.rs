@@ -124,7 +124,7 @@ fn what_parameters_templates_and_types_say() {
         entry(0x2006, 0).default.as_deref(),
         Some(&Value::Bytes([0x12, 0xAB].into()))
     );
-    // A type that refers to itself is none.
+    // A type that refers to itself is not valid.
     assert_eq!(data_type(0x2007, 0), None);
     assert_eq!(
         *parsed.description.objects[&0x2004].code,

@@ -51,7 +51,7 @@ impl Line<'_> {
     }
 }
 
-/// What can be written at a byte.
+/// Returns the completions at a byte.
 pub(crate) fn at(file: &File, seen: &Seen, offset: usize) -> CompletionList {
     let bytes = file.text.line(file.text.line_at(offset));
     let line = Line {

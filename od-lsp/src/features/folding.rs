@@ -1,4 +1,4 @@
-//! What can be folded: sections, objects with their members, comments.
+//! Folding ranges: sections, objects with their sub-objects, comments.
 
 use crate::file::File;
 use crate::layout::{Layout, Section};

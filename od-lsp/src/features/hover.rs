@@ -1,4 +1,4 @@
-//! What is under the cursor: an object, a key, a value in words, and the rules that report there.
+//! Hover: the object, key or value under the cursor in words, and the rules that report there.
 
 use od_eds::check::Fixability;
 use od_eds::outline::{self, Compact, Place};

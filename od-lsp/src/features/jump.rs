@@ -10,7 +10,7 @@ use crate::file::{File, Seen};
 use crate::layout::Spot;
 use crate::mentions::{self, Mention, What, number};
 
-/// What a place is about.
+/// Subject of a place.
 enum Target {
     /// An object, or one of its sub-objects.
     Object(Address, bool),
@@ -48,7 +48,7 @@ fn is_sub(seen: &Seen, mention: &Mention) -> bool {
     mention.what == What::Mapping && object.is_some_and(|object| object.code.has_members())
 }
 
-/// Where the object is described; of a COB-ID, the other values with it, or the mapping of its PDO.
+/// Place of the object's description; of a COB-ID, the other values with it, or the mapping of its PDO.
 pub(crate) fn definition(file: &File, seen: &Seen, offset: usize) -> Vec<Range<usize>> {
     match target(file, seen, offset) {
         None => Vec::new(),

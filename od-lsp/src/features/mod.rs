@@ -1,4 +1,4 @@
-//! What an editor can ask: one file for each feature.
+//! Requests of an editor: one file for each feature.
 
 pub(crate) mod actions;
 pub(crate) mod complete;

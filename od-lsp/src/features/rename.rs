@@ -20,7 +20,7 @@ fn mention(file: &File, seen: &Seen, offset: usize) -> Option<Mention> {
     }
 }
 
-/// The index at a place and its text; `None` if there is no object to rename.
+/// The index at a place and its text; `None` if no object can be renamed there.
 pub(crate) fn prepare(file: &File, seen: &Seen, offset: usize) -> Option<(Range<usize>, String)> {
     let found = mention(file, seen, offset)?;
     let bytes = found.index.unwrap_or(found.bytes);

@@ -26,7 +26,7 @@ pub(crate) struct Base {
     pub(crate) findings: Vec<Finding>,
 }
 
-/// Why there is no base: the place of a path, and a sentence.
+/// Reason why a call has no base: the place of a path, and a sentence.
 pub(crate) type Lacking = (std::ops::Range<usize>, String);
 
 impl Base {
@@ -69,7 +69,7 @@ impl Base {
         }))
     }
 
-    /// Where a finding is, in one of the two files.
+    /// Place of a finding, in one of the two files.
     pub(crate) fn place(&self, finding: &Finding) -> Option<Location> {
         let span = finding.span()?;
         let (named, span) = match &self.overlay {
@@ -85,7 +85,7 @@ impl Base {
         })
     }
 
-    /// Where an object or a member is described in the EDS.
+    /// Place in the EDS that describes an object or a sub-object.
     pub(crate) fn described(&self, place: od_eds::outline::Place) -> Option<Location> {
         let layout = Layout::of(self.eds.text.as_str());
         let section = layout.section_of(place)?;

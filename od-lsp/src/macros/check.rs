@@ -1,4 +1,4 @@
-//! What the macro would say about a call: errors of the file, and of the statements.
+//! Findings of the macro about a call: errors of the file, and of the statements.
 
 use std::ops::Range;
 

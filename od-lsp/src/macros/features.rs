@@ -68,7 +68,7 @@ pub(crate) fn hover(file: &File, offset: usize, find: Find<'_>) -> Option<Hover>
     })
 }
 
-/// Where the object at a byte is described.
+/// Place of the description of the object at a byte.
 pub(crate) fn definition(file: &File, offset: usize, find: Find<'_>) -> Option<Location> {
     let call = call_at(file, offset)?;
     let base = Base::of(file, &call, find).ok()??;
@@ -84,7 +84,7 @@ pub(crate) fn definition(file: &File, offset: usize, find: Find<'_>) -> Option<L
     member.or_else(|| base.described(Place::Object(target.index)))
 }
 
-/// What can be written at a byte.
+/// Returns the completions at a byte.
 pub(crate) fn complete(file: &File, offset: usize, find: Find<'_>) -> Option<CompletionList> {
     let call = call_at(file, offset)?;
     let source = file.str();

@@ -12,7 +12,7 @@ mod io;
 mod measuring;
 mod row;
 
-/// Number of the device profile in 1000h; `None` if there is none.
+/// Number of the device profile in 1000h; `None` without a profile.
 pub(crate) fn profile(description: &Description) -> Option<u16> {
     let entry = description.entry(Address::new(0x1000, 0))?;
     let value = entry.parameter.as_ref().or(entry.default.as_ref())?;

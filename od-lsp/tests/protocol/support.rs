@@ -32,7 +32,7 @@ pub(crate) struct Client {
     pub(crate) server: Server,
     id: i32,
     version: i64,
-    /// Messages that are no answers.
+    /// Messages that are not answers.
     pub(crate) others: Vec<Value>,
 }
 

@@ -12,7 +12,7 @@ export function sendFrame(frame: Typed): void {
   act({ op: 'send', id, data, extended, remote });
 }
 
-/** What a line says, for the selected node. An object alone (`6004`, `1018:4`, its name) is read. */
+/** What a line says, for the selected node. Only an object (`6004`, `1018:4`, its name) is read. */
 export function readTyped(text: string): ReadLine {
   const read = (line: string): ReadLine => readLine(line, state.nodeId.value, (index, sub) => state.objectsByKey.value.get(state.keyOf(index, sub)));
   const parsed = read(text);
@@ -64,7 +64,7 @@ export function setSpeed(factor: number): void {
   send({ op: 'speed', factor });
 }
 
-/** Lets so much time pass, or with `frames` as much as it takes for so many. */
+/** Lets this time pass, or with `frames` as much as this number of frames needs. */
 export function step(micros: number, frames = 0): void {
   setRunning(false);
   send({ op: 'step', micros, frames });
@@ -147,7 +147,7 @@ export function removeDevice(node: number): void {
 
 export const MOST_NODES = 4;
 
-/** The address that opens these devices afresh: `#device=gxmm&node=1&device=gxam&node=2`. */
+/** The address that opens these devices again: `#device=gxmm&node=1&device=gxam&node=2`. */
 function remember(): void {
   if (state.real.value) return;
   const parts = new URLSearchParams();

@@ -42,7 +42,7 @@ async function open(): Promise<void> {
   if (!state.real.value) await begin(recall());
 }
 
-/** What an address says; one that is not well encoded is taken as it is written. */
+/** Decodes an address; one that is not well encoded is read as it is written. */
 function plain(text: string): string {
   try {
     return decodeURIComponent(text);

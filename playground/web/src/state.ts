@@ -88,10 +88,10 @@ export const draft = signal<{ text: string } | null>(null);
 /** Live values of the watched objects, by `keyOf`. */
 export const values = signal<ReadonlyMap<number, Value>>(new Map());
 export const selected = signal<ObjectRecord | null>(null);
-/** What the EEPROM holds for the selected object; null where it is none that is saved. */
+/** What the EEPROM holds for the selected object; null if it is not saved. */
 export const savedValue = signal<Value>(null);
 
-/** The lesson that is taken, and how far it is. */
+/** The lesson in progress, and its current step. */
 export const lesson = signal<Lesson | null>(null);
 export const lessonState = signal<LessonState | null>(null);
 /** What it is called in the list or the address, how often one was begun, and at which step. */
@@ -103,7 +103,7 @@ export const lessonDialog = signal(false);
 /** The encoder is unfolded beside a lesson. */
 export const encoderOpen = signal(false);
 
-/** The step of the tour; null while there is none. */
+/** The step of the tour; null without a tour. */
 export const tour = signal<number | null>(null);
 
 export type Tab = 'encoder' | 'console' | 'objects' | 'lesson';
@@ -112,7 +112,7 @@ export const tab = signal<Tab>('encoder');
 /** A message. One about a fault stays until it is closed or another comes. */
 export const toast = signal<{ text: string; tone: 'info' | 'error'; action?: { text: string; run(): void } } | null>(null);
 
-/** What the page offers once, until it is taken or waved away. */
+/** An offer of the page, shown once, until it is accepted or dismissed. */
 export interface Offer {
   key: string;
   text: string;

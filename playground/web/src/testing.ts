@@ -7,12 +7,12 @@ interface Assert {
   match(text: string, pattern: RegExp, message?: string): void;
 }
 
-// @ts-expect-error there are no types for it here
+// @ts-expect-error its types are not installed
 import nodeAssert from 'node:assert/strict';
-// @ts-expect-error there are no types for it here
+// @ts-expect-error its types are not installed
 import { test as nodeTest } from 'node:test';
 
-// @ts-expect-error there are no types for it here
+// @ts-expect-error its types are not installed
 import { readFileSync } from 'node:fs';
 import { begin } from './codec';
 

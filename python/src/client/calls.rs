@@ -359,7 +359,7 @@ impl Client {
 
     /// Gives the slave with an LSS address (as `lss_scan` returns it) a node ID, and has it store that with
     /// `store=True`. Returns whether it started with it; one that had a node ID takes the new one with its
-    /// next reset. Some devices accept LSS in Stopped alone: `client.nmt("stop", 5)`.
+    /// next reset. Some devices accept LSS in Stopped only: `client.nmt("stop", 5)`.
     ///
     /// Raises `odkit.NodeError` if no slave has the address, or if it refuses.
     #[pyo3(signature = (address, node_id, store=false))]

@@ -119,7 +119,7 @@ impl Conform {
 
     /// Runs a case, and returns what came of it. After the node or the link was lost every case is skipped.
     ///
-    /// Raises `ValueError` if there is no such case.
+    /// Raises `ValueError` if the case does not exist.
     fn run(&self, py: Python<'_>, id: &str) -> PyResult<Record> {
         let case = built_in().iter().find(|case| case.id == id);
         let case = case.ok_or_else(|| {

@@ -48,7 +48,7 @@ pub(crate) fn of_transfer(
             };
             let error =
                 SdoAbort::new_err(format!("node {node}: {address}: abort {code:08X}h{text}"));
-            // It fails in no way that could be told.
+            // It cannot fail in a way worth reporting.
             _ = error.value(py).setattr("code", code);
             error
         }

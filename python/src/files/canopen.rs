@@ -107,7 +107,7 @@ impl<'p> Waiting<'p> {
 impl Drop for Waiting<'_> {
     fn drop(&mut self) {
         if let Some(gc) = &self.0 {
-            // It fails in no way that could be told.
+            // It cannot fail in a way worth reporting.
             _ = gc.call_method0("enable");
         }
     }

@@ -43,7 +43,7 @@ fn form(name: Option<&str>, output: Option<&Path>) -> Result<&'static str, Fault
 /// `md` (datasheet), `c` (header), `canopennode`, `dbc` or `json`. Of `canopennode` the result is a
 /// dictionary of two texts by file name; `output` names the first (`OD.c`). `node_id` (1 to 127),
 /// `bit_rate` (kbit/s) and `values` (`{0x6001: 4096, "1018sub4": 7}`) make a DCF one of a configured
-/// device; `node_id` is taken for DBC and CANopenNode, too. `lossy` accepts that the target lacks
+/// device; DBC and CANopenNode use `node_id`, too. `lossy` accepts that the target lacks
 /// something of the source.
 ///
 /// Raises `ValueError` if the form is not known, the source does not define any object, an argument does

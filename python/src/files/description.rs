@@ -225,7 +225,7 @@ impl Description {
             .collect()
     }
 
-    /// The object or value with an address or a name. Raises `KeyError` if there is none.
+    /// The object or value with an address or a name. Raises `KeyError` if it does not exist.
     fn __getitem__<'p>(
         &self,
         py: Python<'p>,
@@ -240,7 +240,7 @@ impl Description {
         })
     }
 
-    /// The object or value with an address or a name, or `default` if there is none.
+    /// The object or value with an address or a name, or `default` if it does not exist.
     #[pyo3(signature = (key, default=None))]
     fn get<'p>(
         &self,

@@ -82,7 +82,7 @@ impl Entry {
     }
 
     /// DefaultValue: `bool`, `int`, `float`, `str` or `bytes`; `odkit.Relative` if it depends on the
-    /// node ID and that is not known; `None` if there is none, or none that the type can have.
+    /// node ID and that is not known; `None` if it is missing or not valid for the type.
     #[getter]
     fn default<'p>(&self, py: Python<'p>) -> PyResult<Option<Bound<'p, PyAny>>> {
         let entry = self.read.entry(self.address)?;

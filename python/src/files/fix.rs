@@ -113,7 +113,7 @@ impl Fixed {
     }
 
     /// Writes the file; without a path the one that was read. Raises `OSError` if it cannot be written,
-    /// `ValueError` if there is no path.
+    /// `ValueError` without any path.
     #[pyo3(signature = (path=None))]
     fn save(&self, path: Option<PathBuf>) -> PyResult<()> {
         let path = path.or_else(|| self.name.clone().map(PathBuf::from));

@@ -123,7 +123,7 @@ impl Object {
         self.own(py, "value")
     }
 
-    /// The value with a sub-index or a name. Raises `KeyError` if there is none.
+    /// The value with a sub-index or a name. Raises `KeyError` if it does not exist.
     fn __getitem__(&self, key: &Bound<'_, PyAny>) -> PyResult<Entry> {
         let object = self.read.object(self.index)?;
         let sub = match key.extract::<u8>() {

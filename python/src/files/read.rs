@@ -40,7 +40,7 @@ impl Read {
     /// `"Position value"`, `"Identity object.Vendor-ID"`.
     ///
     /// # Errors
-    /// `KeyError`: there is no such object; `TypeError`: it is another kind of key.
+    /// `KeyError`: the object does not exist; `TypeError`: the key has another type.
     pub(crate) fn find(&self, key: &Bound<'_, PyAny>) -> PyResult<Found> {
         let objects = &self.description.objects;
         let missing = |what: String| PyKeyError::new_err(format!("{what} does not exist"));

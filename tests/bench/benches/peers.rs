@@ -48,7 +48,7 @@ fn main() -> ExitCode {
     ExitCode::SUCCESS
 }
 
-/// How many rounds to time.
+/// Number of rounds.
 fn rounds() -> usize {
     let rounds = env::var("OD_BENCH_ROUNDS").ok();
     rounds.and_then(|rounds| rounds.parse().ok()).unwrap_or(800)
@@ -84,7 +84,7 @@ fn count(results: &mut Results) {
     }
 }
 
-/// What [`callgrind`] runs.
+/// Runs one subject for [`callgrind`].
 fn run(name: &str, discipline: &str, operations: &str) -> ExitCode {
     let (Ok(discipline), Ok(operations)) = (discipline.parse(), operations.parse()) else {
         eprintln!("not a discipline and a number: `{discipline} {operations}`");

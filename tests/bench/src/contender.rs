@@ -1,4 +1,4 @@
-//! What a contender does, and the two loops that measure it.
+//! Interface of a contender, and the two loops that measure it.
 
 use std::hint::black_box;
 
@@ -22,7 +22,7 @@ pub trait Pdo {
 /// The request for an address.
 ///
 /// Written as one word: put together from bytes, reading it would have to wait until
-/// the processor has stored them one by one, whoever the contender is.
+/// the processor has stored them one by one, for every contender.
 #[inline]
 pub fn request((index, sub): (u16, u8)) -> [u8; 8] {
     (0x40 | u64::from(index) << 8 | u64::from(sub) << 24).to_le_bytes()

@@ -1,4 +1,4 @@
-//! What is measured: disciplines and their sizes.
+//! Disciplines and their sizes.
 
 use std::fmt;
 use std::num::ParseIntError;
@@ -6,7 +6,7 @@ use std::str::FromStr;
 
 use crate::objects::SIZES;
 
-/// What is measured.
+/// A measured operation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Discipline {
     /// One expedited SDO upload from a dictionary of this many objects.

@@ -1,4 +1,4 @@
-//! What an application computes at each reading: the position of a shaft that turns.
+//! Computation of an application at each reading: the position of a shaft that turns.
 
 use std::hint::black_box;
 

@@ -21,13 +21,13 @@ const FIRST: u16 = 0x2000;
 /// One object in this many is a record.
 const RECORD_EVERY: usize = 4;
 
-/// What sub-index 0 of a record says: members 1 to 5, each a U32.
+/// Value of sub-index 0 of a record: sub-objects 1 to 5, each a U32.
 pub const MEMBERS: u8 = 5;
 
 /// An application object.
 #[derive(Clone, Copy, Debug)]
 pub struct Object {
-    /// Where it stands.
+    /// Index of the object.
     pub index: u16,
     /// A VAR of type U32, or a record of [`MEMBERS`] of them?
     pub is_record: bool,
@@ -66,12 +66,12 @@ pub fn addresses(size: usize) -> Vec<(u16, u8)> {
     objects(size).into_iter().flat_map(subs).collect()
 }
 
-/// How many U32 values `size` objects have.
+/// Number of U32 values of `size` objects.
 pub const fn values(size: usize) -> usize {
     size + records(size) * (MEMBERS as usize - 1)
 }
 
-/// How many of `size` objects are records; each has its sub-index 0 besides its values.
+/// Number of records among `size` objects; each has its sub-index 0 besides its values.
 pub const fn records(size: usize) -> usize {
     size / RECORD_EVERY
 }

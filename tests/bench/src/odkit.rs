@@ -41,7 +41,7 @@ impl Odkit {
 
 impl Odkit {
     /// A gxmm that has turned at 60 revolutions per minute for 250 ms, in the state operational, with its
-    /// position in a TPDO on each SYNC. Time stands still from now on.
+    /// position in a TPDO on each SYNC. Time does not pass from now on.
     pub fn turning() -> Self {
         let device = od_devices::find("gxmm").expect("one of the devices");
         let mut encoder = od_bench::shaft::encoder(device);
@@ -115,7 +115,7 @@ impl Odkit {
     }
 }
 
-/// What a firmware has in statics.
+/// Makes a static, as a firmware has.
 fn leak<T>(value: T) -> &'static mut T {
     Box::leak(Box::new(value))
 }
@@ -206,7 +206,7 @@ impl Seconds {
         odkit.write(0x1800, 5, &[1, 0]);
         if is_moving {
             odkit.write(0x1A00, 0, &[0]);
-            // 64 bits are enough where speed and acceleration have 16; else for them alone.
+            // 64 bits are enough if speed and acceleration have 16; otherwise only for these two.
             let mapped = [(0x6004u16, 0u8), (0x6030, 1), (0x6040, 1)].map(|(index, sub)| {
                 let entry = device.dictionary.entry(index, sub);
                 let bits = entry.and_then(|entry| entry.data_type.bits());
@@ -226,8 +226,8 @@ impl Seconds {
         Self(odkit)
     }
 
-    /// What a host does: sleep until the deadline, tell the time, send what is there.
-    /// Answers with the number of frames.
+    /// Work of a host for a second: sleep until the deadline, pass the time, send the frames.
+    /// Returns the number of frames.
     fn second(&mut self) -> u32 {
         let Odkit { node, device, now } = &mut self.0;
         let end = now.plus_millis(1_000);

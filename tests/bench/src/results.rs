@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use crate::discipline::Discipline;
 
-/// What a number counts.
+/// Unit of a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unit {
     /// Nanoseconds per operation; see [`stopwatch`](crate::stopwatch).
@@ -24,7 +24,7 @@ pub struct Results {
 }
 
 impl Results {
-    /// What `directory` holds of earlier runs.
+    /// Loads the results of earlier runs from `directory`.
     pub fn load(directory: &Path) -> Self {
         let file = directory.join("od-benches.tsv");
         let text = fs::read_to_string(&file).unwrap_or_default();

@@ -1,4 +1,4 @@
-//! Who takes part, in which discipline and size.
+//! The contenders, by discipline and size.
 
 use crate::contender::{Cycles, Nothing, Subject, Uploads};
 use crate::discipline::{Discipline, Simulated};

@@ -8,11 +8,11 @@ use std::time::{Duration, Instant};
 
 use crate::contender::Subject;
 
-/// How long a round of one contender takes: shorter than the slices in which a system
+/// Duration of a round of one contender: shorter than the slices in which a system
 /// with more to do than processors hands them out.
 const ROUND: Duration = Duration::from_micros(500);
 
-/// Nanoseconds per operation of each subject, undisturbed, from so many rounds.
+/// Nanoseconds per operation of each subject, undisturbed, from this number of rounds.
 pub fn race(subjects: &mut [Box<dyn Subject>], rounds: usize) -> Vec<f64> {
     let counts: Vec<u64> = subjects.iter_mut().map(|s| calibrate(s.as_mut())).collect();
     let mut times = vec![Vec::with_capacity(rounds); subjects.len()];

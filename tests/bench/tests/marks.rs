@@ -1,4 +1,4 @@
-//! What is held against the marks, and how it is judged.
+//! Comparison of results with the marks, and its verdicts.
 
 use std::path::Path;
 
@@ -8,7 +8,7 @@ use od_benches::table::{COMPARED, GROWTH, marks};
 
 #[test]
 fn marks_are_judged_on_the_right_side() {
-    let mut results = Results::load(Path::new("there is no such directory"));
+    let mut results = Results::load(Path::new("a missing directory"));
     for (name, time) in [
         (ODKIT, 30.0),
         (CANOPEN_RS, 90.0),

@@ -33,8 +33,8 @@ fn main() {
     }
 }
 
-/// What `zencan_build::compile_device_config` does, without pretty-printing the
-/// result: for 5,000 objects that alone takes half a minute. Lines there must be,
+/// Does the work of `zencan_build::compile_device_config`, but without pretty-printing the
+/// result, which takes half a minute for 5,000 objects. Lines there must be,
 /// clippy takes four minutes over a single one of 8 MB.
 fn generate(config: &str) -> Result<String, Box<dyn Error>> {
     let config = DeviceConfig::load_from_str(config)?;

@@ -1,4 +1,4 @@
-//! A path that is no text.
+//! A path that is not a text.
 
 use odkit::object_dictionary;
 

@@ -1,4 +1,4 @@
-//! An ObjectType that is no object code.
+//! An ObjectType that is not an object code.
 
 use odkit::object_dictionary;
 

@@ -1,4 +1,4 @@
-//! A configured value that is none of its type.
+//! A configured value that is not valid for its type.
 
 use odkit::object_dictionary;
 

@@ -1,4 +1,4 @@
-//! What is sound is made in spite of the fault: its use is no second error.
+//! Valid parts are made in spite of the error: their use is not a second error.
 
 use odkit::object_dictionary;
 

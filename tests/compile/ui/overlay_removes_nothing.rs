@@ -1,4 +1,4 @@
-//! What is not there cannot be removed.
+//! A missing object cannot be removed.
 
 use odkit::object_dictionary;
 

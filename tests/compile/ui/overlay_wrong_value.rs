@@ -1,4 +1,4 @@
-//! A mistake in an overlay is told in the overlay.
+//! A mistake in an overlay is reported in the overlay.
 
 use odkit::object_dictionary;
 

@@ -1,4 +1,4 @@
-//! Several mistakes are told together.
+//! Several mistakes are reported together.
 
 use odkit::object_dictionary;
 

@@ -8,7 +8,7 @@ object_dictionary! {
         add 0x1001 { name = "Error register"; type = u8; mappable = true }
         add 0x1018 { code = record; name = "Identity object" }
         add 0x1018sub1 { name = "Vendor-ID"; type = u32; default = 0x5F }
-        /// How fast.
+        /// The speed.
         add 0x2000 { name = "Speed"; type = u16 }
     }
 }

@@ -1,4 +1,4 @@
-//! A profile that is none.
+//! A profile that does not exist.
 
 use odkit::object_dictionary;
 

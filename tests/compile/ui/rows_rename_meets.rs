@@ -1,4 +1,4 @@
-//! A new name that is taken.
+//! A new name that is in use.
 
 use odkit::object_dictionary;
 

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-/// What each file names: paths from the workspace.
+/// The imports of each file: paths from the workspace.
 #[derive(Default)]
 pub(crate) struct Arrows(BTreeMap<String, BTreeSet<String>>);
 

@@ -22,12 +22,12 @@ use crate::rust::Modules;
 /// Lines that a file may have.
 const LONGEST: usize = 400;
 
-/// What is wrong in one place, and what to do about it.
+/// An error in one place, and the correction.
 struct Breach {
-    /// How the list names it: `circle a/b.rs -> a/c.rs`, `long a/b.rs`. Files are named by
+    /// Its name in the list: `circle a/b.rs -> a/c.rs`, `long a/b.rs`. Files are named by
     /// folder and name, so that a folder can move.
     line: String,
-    /// What is counted, where something is: the list holds the most that is allowed.
+    /// The count, if it has one: the list holds the highest that is allowed.
     count: Option<usize>,
     advice: String,
 }
@@ -159,7 +159,7 @@ fn write(breaches: &[Breach]) -> String {
     )
 }
 
-/// What the list does not allow, and what it allows although nothing is wrong any more.
+/// Breaches that the list does not allow, and entries of the list that are no longer needed.
 fn differences(listed: &BTreeMap<String, Option<usize>>, breaches: &[Breach]) -> Vec<String> {
     let new = breaches
         .iter()

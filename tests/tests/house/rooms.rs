@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 pub(crate) struct Room {
     /// The folder.
     pub(crate) name: &'static str,
-    /// Arrows lead from a higher storey to a lower one; `None` stands apart.
+    /// Arrows lead from a higher storey to a lower one; `None` is outside the order.
     storey: Option<u8>,
     /// Lines of `.rs` and `.ts` that it may have, tests not counted.
     pub(crate) lines: usize,
@@ -51,7 +51,7 @@ pub(crate) const ROOMS: [Room; 19] = [
 pub(crate) const ALL: usize = 50_000;
 
 /// The dependencies that lead up, or to the same storey: pairs of rooms. Those of tests may:
-/// a test stands above all that it needs.
+/// a test is above all that it needs.
 pub(crate) fn arrows_up(files: &BTreeMap<String, String>) -> BTreeSet<(&str, &str)> {
     let manifests = || {
         files
@@ -77,7 +77,7 @@ pub(crate) fn arrows_up(files: &BTreeMap<String, String>) -> BTreeSet<(&str, &st
     found
 }
 
-/// The lines of each room: those of `.rs` and `.ts` that are no tests and no examples.
+/// The lines of each room: those of `.rs` and `.ts` except tests and examples.
 pub(crate) fn lines(files: &BTreeMap<String, String>) -> BTreeMap<&'static str, usize> {
     let mut found = BTreeMap::new();
     for room in ROOMS.iter().filter(|room| room.name != "tests") {
@@ -115,7 +115,7 @@ fn package(manifest: &str) -> Option<&str> {
     line.split('"').nth(1)
 }
 
-/// What the sections of dependencies name, those for one system among them.
+/// The dependencies in a manifest, also those for one system.
 fn dependencies(manifest: &str) -> impl Iterator<Item = &str> {
     let mut is_inside = false;
     manifest.lines().filter_map(move |line| {

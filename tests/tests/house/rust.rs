@@ -1,4 +1,4 @@
-//! What Rust files name of each other: `use`, and paths in the code.
+//! Imports between Rust files: `use`, and paths in the code.
 //!
 //! Modules are found by where their files are, so no macro has to be expanded. An arrow leads to
 //! the file that defines a name, also where another file exports it. A file that only exports
@@ -9,7 +9,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use crate::graph::Arrows;
 use crate::tokens::{Token, tokens};
 
-/// Where a module is: the folder of its crate's root, and the names from there.
+/// Place of a module: the folder of its crate's root, and the names from there.
 type Place = (String, Vec<String>);
 
 /// One file.
@@ -91,7 +91,7 @@ impl<'t> Modules<'t> {
         found
     }
 
-    /// What a file brings in, and the paths in its code, both from the root of the crate.
+    /// The imports of a file, and the paths in its code, both from the root of the crate.
     fn names(&self, module: &Module<'_>) -> (Vec<Use>, Vec<Vec<String>>) {
         let (mut uses, mut paths) = (Vec::new(), Vec::new());
         let tokens = &module.tokens;
@@ -215,7 +215,7 @@ impl Module<'_> {
     }
 }
 
-/// Where the module of a file is; `None` if no crate has it.
+/// Place of the module of a file; `None` if no crate has it.
 fn place(file: &str, files: &BTreeMap<String, String>) -> Option<Place> {
     let mut folder = file;
     let root = loop {

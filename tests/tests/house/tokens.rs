@@ -11,7 +11,7 @@ pub(crate) enum Token<'t> {
     Mark(char),
 }
 
-/// The tokens of a text without what stands behind `#[cfg(test)]`.
+/// The tokens of a text without the parts behind `#[cfg(test)]`.
 pub(crate) fn tokens(text: &str) -> Vec<Token<'_>> {
     let mut found = Vec::new();
     let mut rest = text;

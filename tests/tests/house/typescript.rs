@@ -1,4 +1,4 @@
-//! What TypeScript files import from each other.
+//! Imports between TypeScript files.
 
 use std::collections::BTreeMap;
 

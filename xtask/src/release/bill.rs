@@ -11,7 +11,7 @@ use crate::files;
 use crate::packages::{CLI, PAGE, PYTHON};
 use crate::setup::{mdbook, target};
 
-/// What the programs have in them that cargo does not know, and what the site has.
+/// Components of the programs that cargo does not know, and components of the site.
 const OF_PROGRAMS: &str = "xtask/tools/notices.txt";
 const OF_SITE: &str = "docs/site/notices.txt";
 
@@ -101,7 +101,7 @@ impl Bill {
 /// The parts that have something of others in them.
 pub(super) const PARTS: [&str; 5] = ["bin", "python", "npm", "site", "vscode"];
 
-/// What a part is made of.
+/// The components of a part.
 pub(super) fn of(dist: &Dist<'_>, part: &str) -> Result<Bill> {
     let root = &dist.repo.root;
     match part {
@@ -244,7 +244,7 @@ fn npm(dist: &Dist<'_>, package: &str) -> Result<Bill> {
     Ok(bill)
 }
 
-/// The packages of a package-lock.json, as npm lays it out: what is for developers alone is no part of it.
+/// The packages of a package-lock.json, as npm lays it out, without those for developers.
 fn of_npm(lock: &str) -> Vec<Component> {
     let mut found = Vec::new();
     let (_, packages) = lock.split_once("\"node_modules/").unwrap_or_default();

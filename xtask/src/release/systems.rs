@@ -1,6 +1,6 @@
 //! The systems that the command line is built for.
 
-/// A system, what it is called in file names, and what links its programs if rustc alone cannot:
+/// A system, what it is called in file names, and what links its programs if rustc itself cannot:
 /// the linker and Debian's package of it. `rust-lld` comes with rustc.
 pub(super) struct System {
     pub(super) triple: &'static str,

@@ -35,7 +35,7 @@ pub(crate) fn chromium(console: &Console) -> Result<PathBuf> {
     on_path().ok_or_else(|| Error::Missing(String::from("apt-get installed no `chromium`")))
 }
 
-/// What starts Firefox and WebKit for a long run, and Debian's package of each. WebKit's window needs a display.
+/// The programs that start Firefox and WebKit for a long run, and Debian's package of each. WebKit's window needs a display.
 const ENGINES: [(&str, &str); 3] = [
     ("firefox-esr", "firefox-esr"),
     ("WebKitWebDriver", "webkit2gtk-driver"),

@@ -74,7 +74,7 @@ pub(super) struct Stage {
     pub(super) run: fn(&Context<'_>) -> Result<()>,
     /// Whether it is part of `--quick`.
     pub(super) quick: bool,
-    /// Whether it runs with `--long` alone, or by its name.
+    /// Whether it runs only with `--long`, or by its name.
     pub(super) long: bool,
     /// A stage outside [`Lane::Cargo`] starts when those of that lane before it have ended.
     pub(super) lane: Lane,

@@ -33,7 +33,7 @@ impl Data {
             .map_or(String::new(), |count| format!("[{count}]"))
     }
 
-    /// What leads from a variable to its first element: `[0]`, or nothing.
+    /// Path from a variable to its first element: `[0]`, or empty.
     pub(super) fn to_first(&self) -> &'static str {
         if self.elements.is_some() { "[0]" } else { "" }
     }

@@ -1,4 +1,4 @@
-//! What an object dictionary of CANopenNode cannot express.
+//! Rules about content that an object dictionary of CANopenNode cannot express.
 
 use alloc::vec::Vec;
 

@@ -11,7 +11,7 @@ use crate::convert::c_header::comment;
 use crate::description::Description;
 use od_model::ObjectCode;
 
-/// What CANopenNode counts, by the indices that it counts.
+/// Counters of CANopenNode, with the first and last index that each one counts.
 const COUNTERS: [(&str, u16, u16); 15] = [
     ("NMT", 0x1000, 0x1000),
     ("EM", 0x1001, 0x1001),

@@ -24,7 +24,7 @@ pub struct Files {
     pub source: String,
     /// The text of `OD.h`.
     pub header: String,
-    /// What CANopenNode cannot express; of a remark a master sees nothing.
+    /// Findings about content that CANopenNode cannot express; a remark has no effect for a master.
     pub findings: Vec<Finding>,
 }
 

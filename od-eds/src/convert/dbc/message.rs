@@ -13,7 +13,7 @@ use crate::rules::convert::{w1110, w1111, w1112};
 use crate::span::Spanned;
 use od_model::{Address, DataType, Kind};
 
-/// How the bits of a signal are read.
+/// Interpretation of the bits of a signal.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Sign {
     Unsigned,
@@ -244,7 +244,7 @@ fn signal(
     }
     let sign = match kind {
         Some(Kind::Signed) => Sign::Signed,
-        // Half a real is none.
+        // A part of a REAL is not a REAL.
         Some(Kind::Real) if data_type.and_then(DataType::bits) == Some(bits) => Sign::Real,
         _ => Sign::Unsigned,
     };

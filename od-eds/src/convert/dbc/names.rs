@@ -45,7 +45,7 @@ pub(super) fn quoted(text: &str) -> String {
     format!("\"{}\"", characters.collect::<String>())
 }
 
-/// The unit at the end of a name: `[rpm]` or `[mm/s]`; nothing if there is none.
+/// The unit at the end of a name: `[rpm]` or `[mm/s]`; empty without a unit.
 pub(super) fn unit(name: &str) -> &str {
     let unit = name
         .trim_end()

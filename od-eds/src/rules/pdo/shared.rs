@@ -188,7 +188,7 @@ impl WrongLength {
 /// A COB-ID of the default SDO that is not the standard's.
 pub(super) struct DefaultSdo {
     pub(super) span: Span,
-    /// What the node ID is added to.
+    /// Number to which the node ID is added.
     pub(super) base: u32,
     /// Is it a number, not the node ID and a number?
     pub(super) lacks_node_id: bool,

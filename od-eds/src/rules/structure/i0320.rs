@@ -14,8 +14,8 @@ pub(crate) static RULE: Rule = Rule {
     ..Rule::NEW
 };
 
-/// The finding about a key without the value that it needs. Where the key follows once more,
-/// odkit would read that one if the line were gone, so there is no fix.
+/// The finding about a key without the value that it needs. If the key follows once more,
+/// odkit would read that one if the line were removed, so the finding has no fix.
 pub(crate) fn finding(key: &Text<'_>, is_single: bool) -> Finding {
     let finding = RULE.at(key.span).fact("name", &*key.value);
     match is_single {

@@ -11,7 +11,7 @@ use crate::tools::configparser::{Pair, Section};
 use crate::tools::python::int;
 
 impl<'a> Lint<'a> {
-    /// Reports a value that is no number.
+    /// Reports a value that is not a number.
     pub(super) fn not_a_number(&mut self, pair: &Pair<'_>, data_type: Option<i128>) {
         let finding = NUMBER
             .at(pair.span)
@@ -70,7 +70,7 @@ impl<'a> Lint<'a> {
                         self.range(pair, "its type");
                     }
                 }
-                // A text that is no formula is a warning here; the values and the reader stop at it.
+                // A text that is not a formula is a warning here; the values and the reader stop at it.
                 None if parts(&pair.value).is_some() => self.not_a_number(pair, None),
                 None => {}
             }
@@ -126,7 +126,7 @@ impl<'a> Lint<'a> {
                 None => self.not_a_number(limit, None),
             }
         }
-        // `$NODEID` without a number counts in capitals alone.
+        // `$NODEID` without a number is read only in capitals.
         let read = formula(&pair.value)
             .filter(|_| !pair.value.eq_ignore_ascii_case("$NODEID") || pair.value == "$NODEID");
         let Some((has_node_id, number)) = read else {

@@ -25,7 +25,7 @@ const MEMBERS_OF_PDO: [(i128, u32, &str); 6] = [
     (32, 6, "0x0005"),
 ];
 
-/// Adds the PDO objects that CompactPDO stands for.
+/// Adds the PDO objects that CompactPDO replaces.
 pub(super) fn add_compact_pdos(ini: &mut Ini<'_>, reading: &mut Reading) {
     let Some(info) = ini.section("DeviceInfo") else {
         return;

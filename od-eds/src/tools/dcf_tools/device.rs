@@ -12,7 +12,7 @@ use crate::tools::configparser::{Ini, Pair, Section};
 use crate::tools::python::int;
 use crate::tools::tool::{Read, ReadEntry, Reading};
 
-/// Reports a value that is no number.
+/// Reports a value that is not a number.
 pub(super) fn unread(reading: &mut Reading, pair: &Pair<'_>) {
     let finding = NUMBER.at(pair.span).form(&NUMBER.also[0]);
     reading.push(finding.fact("name", &*pair.key).fact("value", &*pair.value));

@@ -46,7 +46,7 @@ pub(super) fn real(text: &str, data_type: i128) -> Option<f64> {
     }
 }
 
-/// What it makes of a value of a basic type.
+/// Reads a value of a basic type as the tool does.
 pub(super) fn value(text: &str, data_type: i128) -> Option<Read> {
     if is_real(data_type) {
         return real(text, data_type).map(Read::Real);

@@ -54,7 +54,7 @@ pub(super) struct Section {
 }
 
 impl Section {
-    /// What is under a key.
+    /// The value of a key.
     pub(super) fn text(&self, key: &str) -> Option<&(Given, Span)> {
         self.pairs.get(key)
     }

@@ -41,7 +41,7 @@ pub(super) fn parse_int(text: &str) -> Option<f64> {
     Some(sign * digits.iter().fold(0.0, add))
 }
 
-/// `Number(text)`; NaN for a text that is none.
+/// `Number(text)`; NaN for a text that is not a number.
 pub(super) fn number(text: &str) -> f64 {
     let text = trim(text);
     let lower = text.get(..2).map(str::to_ascii_lowercase);
@@ -104,7 +104,7 @@ pub(super) fn integer(data_type: i128) -> Option<(u32, bool)> {
     })
 }
 
-/// What it stores of a default value; an error if it raises one, `None` if it stores nothing.
+/// The value that the tool stores for a default value; an error if it raises one, `None` if it stores nothing.
 pub(super) fn raw(text: &Given, data_type: i128) -> Result<Option<Read>, ()> {
     let is_true = match text {
         Given::Text(text) => !text.is_empty(),

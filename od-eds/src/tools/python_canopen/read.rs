@@ -18,7 +18,7 @@ const DIALECT: Dialect = Dialect {
     folds: false,
 };
 
-/// What it makes of a value.
+/// Reads a value as the tool does.
 pub(super) fn value(text: &str, data_type: i128) -> Option<Read> {
     match data_type {
         0xA | 0xF => from_hex(text).map(Read::Bytes),
@@ -49,7 +49,7 @@ fn without_node_id(text: &str) -> String {
     out + rest
 }
 
-/// What it makes of a limit.
+/// Reads a limit as the tool does.
 pub(super) fn limit(text: &str, data_type: i128) -> Option<Read> {
     let number = int(text, 0)?;
     let bits = match data_type {
@@ -93,7 +93,7 @@ pub(super) fn read(input: &Input<'_>) -> Reading {
     reader.reading
 }
 
-/// What it makes of an object's section.
+/// Object that the tool makes of a section.
 #[derive(Clone, Copy, PartialEq)]
 enum Kind {
     Var,

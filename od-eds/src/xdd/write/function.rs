@@ -1,4 +1,4 @@
-//! What a device is besides its objects: versions of DeviceIdentity, characteristics.
+//! Elements of a device besides its objects: versions of DeviceIdentity, characteristics.
 
 use alloc::format;
 use alloc::string::String;

@@ -14,7 +14,7 @@ use crate::standard;
 
 const MANDATORY: [u16; 3] = [0x1000, 0x1001, 0x1018];
 
-/// What can be in the brackets; with the keys of an object if its section `is_empty`.
+/// Completions of a section name; with the keys of an object if its section `is_empty`.
 pub(super) fn of(seen: &Seen, current: Option<&Section>, is_empty: bool) -> Vec<Choice> {
     let description = &seen.description;
     let has = |index: u16| {

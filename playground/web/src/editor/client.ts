@@ -26,7 +26,7 @@ function started(): Worker {
     worker = null;
     for (const { reject } of waiting.values()) reject(new Error(event.message));
     waiting.clear();
-    // Whoever has a text open opens it again.
+    // Every view with an open text opens it again.
     for (const again of restarted) again();
   };
   return (worker = own);

@@ -189,7 +189,7 @@ export class Code {
     openSearchPanel(this.view);
   }
 
-  /** From a mapping, a list or a header to the object; false if there is none. */
+  /** From a mapping, a list or a header to the object; false without an object. */
   async jump(): Promise<boolean> {
     const [to] = ((await ask('request', 'textDocument/definition', this.here())) ?? []) as { range: Range }[];
     if (to) this.go(to.range.start);
@@ -202,7 +202,7 @@ export class Code {
     return found.filter(({ diagnostics }) => diagnostics?.some((one) => one.code === code)).map((one) => ({ title: one.title, edits: this.edits(one) }));
   }
 
-  /** Applies all safe fixes; false if there are none. */
+  /** Applies all safe fixes; false if no finding has one. */
   async fixAll(): Promise<boolean> {
     const [action] = await this.ask('source.fixAll', { start: { line: 0, character: 0 }, end: { line: 0, character: 0 } });
     if (!action) return false;

@@ -6,7 +6,7 @@ import { ask } from './client';
 import { E } from '../texts/editor';
 import { icons } from '../views/icons';
 
-/** Groups of at most so many findings are unfolded from the start, and all where there are no more. */
+/** Groups of at most this many findings are unfolded from the start, and all groups if the sum is not higher. */
 const FEW = 100;
 /** Findings that are fetched at a time. */
 const PORTION = 50;

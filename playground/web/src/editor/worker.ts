@@ -116,7 +116,7 @@ function published({ uri, version, diagnostics }: { uri: string; version?: numbe
   post({ op: 'found', uri, found }, [found.places.buffer]);
 }
 
-/** Steps of the server; what the page sends meanwhile comes in between. */
+/** Steps of the server; messages of the page come in between. */
 function work(): void {
   isWorking = server.step();
   flush();

@@ -33,7 +33,7 @@ const old = (): string[] => {
 export const finished = (): Set<string> =>
   new Set([...old(), ...Object.entries(progress()).filter(([, [done, all]]) => done >= all).map(([name]) => name)]);
 
-/** So many steps of a lesson are done; a lesson that is taken again loses nothing. */
+/** Records the number of steps of a lesson that are done; a lesson that is repeated loses nothing. */
 export function reached(name: string, done: number, all: number): void {
   const known = progress();
   const [before = 0, of] = Object.hasOwn(known, name) ? known[name]! : [];
@@ -45,7 +45,7 @@ export function reached(name: string, done: number, all: number): void {
   }
 }
 
-/** FNV-1a of 32 bits: a code that was cut or retyped is told from a whole one. */
+/** FNV-1a of 32 bits, which detects a code that was cut or retyped. */
 function sum(text: string): string {
   let hash = 0x811c9dc5;
   for (const byte of new TextEncoder().encode(text)) hash = Math.imul(hash ^ byte, 0x01000193) >>> 0;

@@ -80,7 +80,7 @@ export async function openFile(file: File): Promise<boolean> {
 
 let last = '';
 
-/** Begins the lesson of the moment anew. */
+/** Restarts the lesson in progress. */
 export const again = (): Promise<boolean> => tried(state.lessonRun.value.name, last);
 
 /** Begins a step of it again, with those before it done as their solutions do them. */
@@ -89,7 +89,7 @@ export async function backTo(step: number): Promise<void> {
   await openLesson(state.lessonRun.value.name, last, steps.slice(0, step).map(({ solution }) => solution));
 }
 
-/** A lesson that is wrong is told of where lessons are chosen. */
+/** Opens a lesson; its problems are shown where lessons are chosen. */
 async function tried(name: string, text: string): Promise<boolean> {
   const isOpen = await openLesson(name, text);
   if (isOpen) last = text;

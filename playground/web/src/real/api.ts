@@ -5,7 +5,7 @@ import type { Input, Source } from '../wasm/od_playground';
 /** Where the bus is: behind a WebSocket, or behind an adapter whose port the page has opened. */
 export type Target = { kind: 'ws'; address: string; name: string } | { kind: 'serial'; rate: number | null; name: string };
 
-/** Why there is no connection. `said`: the other side says it in words. */
+/** Reason why no connection was made. `said`: the other side gives it in words. */
 export type Why = { kind: 'refused' | 'denied' | 'slow' | 'silent' | 'closed' | 'gone' } | { kind: 'said'; text: string };
 
 export type RealCommand =
@@ -30,7 +30,7 @@ export type RealReport =
   /** For the port of the page. */
   | { tells: 'bytes'; bytes: Uint8Array };
 
-/** How it stands with a link. */
+/** State of a link. */
 export interface RealState {
   name: string;
   kind: Target['kind'];

@@ -38,7 +38,7 @@ function remember(change: Partial<Last>): void {
   }
 }
 
-/** Why the last attempt failed; empty while there is none. */
+/** Reason why the last attempt failed; empty if it did not fail. */
 export const problem = signal('');
 export const isConnecting = signal(false);
 

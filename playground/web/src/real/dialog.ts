@@ -1,4 +1,4 @@
-// Connecting to a real bus, and how the connection stands.
+// Dialog that connects to a real bus, and shows the state of the connection.
 
 import { html, nothing, type PropertyValues } from 'lit';
 import { effect } from '@preact/signals-core';

@@ -10,7 +10,7 @@ interface Row {
   type?: number;
   access?: string;
   value?: string;
-  /** Record (9) with so many sub-indices. */
+  /** Number of sub-indices of a record (9). */
   members?: number;
 }
 

@@ -3,7 +3,7 @@
 import type { RealReport, Why } from './api';
 
 export interface Port {
-  /** False where there is no room for them now. */
+  /** False if the port cannot accept them now. */
   write(bytes: Uint8Array): boolean;
   close(): void;
 }

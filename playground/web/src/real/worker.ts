@@ -14,7 +14,7 @@ export async function handle(engine: Engine, what: RealCommand): Promise<void> {
       leave(engine);
       const own = new Real(engine.virtual, await engine.virtual.modules.whole(), what.to, (report) => engine.report({ op: 'real', what: report }));
       real = own;
-      // Whatever else there is to do goes on meanwhile.
+      // Other work continues during that.
       void own.open().then(async (why) => {
         if (why === null) {
           for (const { source, nodeId } of what.devices) await own.act({ op: 'add', source, nodeId });

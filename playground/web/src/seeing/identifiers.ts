@@ -15,7 +15,7 @@ import { S } from './texts';
 
 /** Milliseconds between two drawings. */
 const PERIOD = 100;
-/** The rows of a table that `Statistics` has, each of so many numbers. */
+/** The rows of a table of `Statistics`, each with `width` numbers. */
 function* rowsOf(figures: Float64Array, width: number): Generator<number[]> {
   for (let at = 0; at < figures.length; at += width) yield [...figures.subarray(at, at + width)];
 }
@@ -91,7 +91,7 @@ class Identifiers extends View {
     </table>`;
   }
 
-  /** The bytes; those that changed stand out for a while. */
+  /** The bytes; those that changed are highlighted for a while. */
   private bytes(key: number, last: number, data: Uint8Array, before: Uint8Array | undefined) {
     const now = performance.now();
     const known = this.changedAt.get(key) ?? { last: -1, at: [] };

@@ -1,11 +1,11 @@
-// One value over virtual time. There is room for so many points: older ones become coarser, and
+// One value over virtual time. Its number of points is limited: older ones become coarser, and
 // their lowest and highest values stay.
 
 import type { Value } from '../sim/api';
 
 export const MOST_POINTS = 16_000;
 
-/** A value as a number, or null where it is none: a gap in the line. */
+/** A value as a number, or null if it is not one: a gap in the line. */
 export function numeric(value: Value | undefined): number | null {
   if (typeof value === 'bigint') return Number(value);
   if (typeof value === 'boolean') return Number(value);
@@ -55,7 +55,7 @@ export class Series {
     this.values = values.concat(this.values.slice(half));
   }
 
-  /** The last place whose time is not after this one; -1 where there is none. */
+  /** The last place whose time is not after this one; -1 without one. */
   placeAt(time: number): number {
     let [low, high] = [0, this.times.length];
     while (low < high) {
@@ -71,7 +71,7 @@ export class Series {
     return this.values[this.placeAt(time)] ?? null;
   }
 
-  /** The lowest and the highest value between two moments; the lowest is above the highest where there is none. */
+  /** The lowest and the highest value between two moments; the lowest is above the highest if none lies between them. */
   range(from: number, to: number): { least: number; most: number } {
     let [least, most] = [Infinity, -Infinity];
     for (let place = this.placeAt(to); place >= 0 && this.times[place]! >= from; place--) {

@@ -28,7 +28,7 @@ export interface Plottable {
   place: Place | null;
 }
 
-/** What the shaft really does; not every encoder has an object for it. Index 0 is none of a dictionary's values. */
+/** The real motion of the shaft; not every encoder has an object for it. A dictionary has no value with index 0. */
 const SHAFT = standIn({ index: 0, sub: 0, name: S.plot.shaft, type: 'REAL64', bits: 64 });
 
 const isNumeric = (object: ObjectRecord): boolean => /^(UNSIGNED|INTEGER|REAL|BOOLEAN)/.test(object.type) && object.access !== 'wo';

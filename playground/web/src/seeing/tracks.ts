@@ -1,4 +1,4 @@
-// The values that plots show. They live longer than a plot: those of frames are taken from the whole
+// The values that plots show. They live longer than a plot: those of frames come from the whole
 // capture, those of the simulation are recorded from the start of the page.
 
 import { effect, signal } from '@preact/signals-core';
@@ -51,7 +51,7 @@ function take({ now, nodes, plot }: Snapshot): void {
     const rpm = nodes[plot.node]?.shaft?.rpm;
     const value = index === 0 ? (rpm === undefined ? null : Math.round(rpm * 1000) / 1000) : numeric(plot.values[i]);
     const series = seriesOf(plot.node, key);
-    // Time that stands still has one value.
+    // A moment has one value.
     if (series.times.at(-1) === now / 1e6) series.values[series.values.length - 1] = value;
     else series.push(now / 1e6, value);
   });

@@ -18,7 +18,7 @@ export interface Bench {
   entries: Entry[];
 }
 
-/** Why a text is no bench. */
+/** Reason why a text is not a bench. */
 export class NoBench extends Error {}
 
 /** Inputs of one bench; more would take minutes to make again. */
@@ -34,7 +34,7 @@ export function write(bench: Bench): string {
   return JSON.stringify({ odkit: VERSION, ...rest, entries: entries.map(({ at, input }) => [at, input]) }, bytes);
 }
 
-/** Reads what `write` made, whoever had it in hands meanwhile. */
+/** Reads the text of `write`, which may have been changed. */
 export function read(text: string): Bench {
   let all: unknown;
   try {

@@ -25,7 +25,7 @@ const store = createStore('odkit', 'kept');
 
 /** Each visit keeps its bench under a name of its own, so that two tabs do not overwrite each other's. */
 const own = crypto.randomUUID?.() ?? `${Date.now()} ${Math.random()}`;
-/** So many benches stay; the oldest go. */
+/** Number of benches that are kept; the oldest are dropped. */
 const MOST_KEPT = 8;
 /** Milliseconds between two looks for a tab that closes. */
 const LOOK = 250;

@@ -46,7 +46,7 @@ export const hashOf = async (bench: Bench): Promise<string> => `#${KEY}${await p
 
 export const holdsBench = (hash: string): boolean => hash.startsWith(`#${KEY}`);
 
-/** Opens what an address holds; false, with a message, where that is none. */
+/** Opens the bench in an address; false, with a message, if it has none. */
 export async function openHash(hash: string): Promise<boolean> {
   return tried(async () => open(read(await unpack(hash.slice(KEY.length + 1)))), T.share.badLink);
 }

@@ -76,7 +76,7 @@ export class Engine {
     this.schedule();
   }
 
-  /** Shows a real bus, or the virtual bench again: it stood still meanwhile. */
+  /** Shows a real bus, or the virtual bench again, which was paused during that. */
   show(live: Live | null): void {
     this.live = live;
     this.world = live ?? this.home;
@@ -123,7 +123,7 @@ export class Engine {
         this.isBusy = false;
         this.until = command.until;
         this.tellDevices();
-        // The slices go on meanwhile.
+        // The slices continue.
         while (command.waits && this.until !== null) await new Promise((resolve) => setTimeout(resolve, REST));
         break;
       case 'run':

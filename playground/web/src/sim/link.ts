@@ -19,12 +19,12 @@ const LOOK = 250;
 /** Questions without an answer after which it hangs: two seconds. */
 const MOST_UNANSWERED = 8;
 
-/** Virtual microseconds over which the load is taken, and between two moments of it. */
+/** Virtual microseconds over which the load is measured, and between two measurements. */
 const LOAD_WINDOW = 1_000_000;
 const LOAD_STEP = 50_000;
 
 let worker: Worker | null = null;
-/** Questions since its last report; a page that was held up itself asked none meanwhile. */
+/** Questions since its last report; while the page itself was held up it asked none. */
 let unanswered = 0;
 let watchdog = 0;
 let lookedAt = 0;

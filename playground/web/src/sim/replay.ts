@@ -42,7 +42,7 @@ export class Replay {
     this.isPaused = paused;
   }
 
-  /** The next frame as an input; null: it was disturbed on the wire it was recorded from, or there is none. */
+  /** The next frame as an input; null: it was disturbed on the wire it was recorded from, or the log has ended. */
   take(now: number): Extract<Input, { op: 'send' }> | null {
     const frame = this.next;
     if (!frame) return null;

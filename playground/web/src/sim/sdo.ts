@@ -16,7 +16,7 @@ const SILENT: Outcome = { job: 0, kind: 'silent', bytes: null, words: '', wantsP
 export const transfer = ({ index, sub }: Address, bytes: Uint8Array | null): Promise<Outcome> =>
   maySend() ? ask((ticket) => ({ op: 'transfer', ticket, node: nodeId.value, index, sub, bytes }), SILENT) : (hooks.held(), Promise.resolve({ ...SILENT, words: T.sdo.held }));
 
-/** Why there is no value. */
+/** Reason why no value was read. */
 export const failure = ({ words }: Outcome): string => words || (powered.value ? T.sdo.stopped : T.sdo.off);
 
 export function inWords(object: ObjectRecord, isWrite: boolean, outcome: Outcome): Said {

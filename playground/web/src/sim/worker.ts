@@ -11,7 +11,7 @@ void host({
   compiled: () => compiled,
   async core() {
     const answer = await fetch(new URL('core.wasm', import.meta.url));
-    // A server that does not know the type is no reason to fail.
+    // A server that does not know the type must not be an error.
     const isKnown = answer.headers.get('content-type') === 'application/wasm';
     compiled = isKnown ? await WebAssembly.compileStreaming(answer) : await WebAssembly.compile(await answer.arrayBuffer());
     await init({ module_or_path: compiled });

@@ -27,7 +27,7 @@ const BUDGET = 50;
 /** Virtual microseconds and frames between two looks at the budget. */
 const SLICE = 1_000_000;
 const MOST_FRAMES = 2000;
-/** A checkpoint or a full batch can stop time once; what stops it again and again is no run. */
+/** A checkpoint or a full batch can stop time once; a run that is stopped again and again ends. */
 const MOST_STUCK = 1000;
 
 const WHOLE: ReadonlySet<Input['op']> = new Set<Input['op']>(['lesson', 'leave', 'script']);
@@ -124,7 +124,7 @@ export class World {
     this.module = await this.modules.whole();
     this.bus = this.fresh();
     await this.again(bus.entries(), bus.now());
-    // What the page has not seen yet was sent by the bench before; it is told first.
+    // What the page has not seen yet was sent by the bench before; it is reported first.
     this.unseen = bus.drain();
     bus.free();
   }
@@ -143,7 +143,7 @@ export class World {
     if (at !== undefined) await this.again(entries.slice(0, entry), at);
   }
 
-  /** Makes a run again to a moment, unseen, and stays answerable meanwhile. */
+  /** Repeats a run up to a moment, unseen, and stays responsive during that. */
   private async again(entries: Entry[], to: number): Promise<void> {
     const { bus } = this;
     bus.restore(entries, false);

@@ -20,7 +20,7 @@ const bitsOf = (flags: number, dlc: number): number => {
   return body * 1.1;
 };
 
-/** Virtual microseconds over which load and frames a second are taken. */
+/** Virtual microseconds over which load and frames per second are measured. */
 const WINDOW = 1_000_000;
 
 export class Trace {
@@ -177,7 +177,7 @@ export class Trace {
     for (let number = ring.first; number < this.next && number < ring.end; number++) this.place(number);
   }
 
-  /** The capture was cleared or cut: everything is taken from what is left. */
+  /** The capture was cleared or cut: everything is computed again from the rest. */
   restart(): void {
     this.rows = [];
     this.head = 0;

@@ -48,7 +48,7 @@ class App extends View {
       this.isDropping = false;
       void openFile(file, state.nodeId.value, state.deviceDialog.value ?? state.selectedNode.value);
     });
-    // Most visits are no lesson.
+    // Most visits do not open a lesson.
     effect(() => {
       if (state.lesson.value) void import('./lesson');
     });

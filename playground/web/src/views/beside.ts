@@ -1,4 +1,4 @@
-// What the column beside the bus shows while a lesson is taken: the lesson, or the objects.
+// The column beside the bus during a lesson: the lesson, or the objects.
 
 import { html, nothing } from 'lit';
 import * as state from '../state';

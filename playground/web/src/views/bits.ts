@@ -55,7 +55,7 @@ class Bits extends View {
     this.shown = null;
   }
 
-  /** Marks a field; whoever shows the bytes hears of the one that it is. */
+  /** Marks a field, and reports it to the view of the bytes. */
   private mark(part: number | null): void {
     this.shown = part;
     this.dispatchEvent(new CustomEvent('byte', { detail: part !== null && part >= DATA ? part - DATA : null }));

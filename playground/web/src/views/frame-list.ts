@@ -262,7 +262,7 @@ class FrameList extends View {
   }
 }
 
-/** The bytes; those that differ from the frame before with this identifier stand out. */
+/** The bytes; those that differ from the frame before with this identifier are highlighted. */
 function fillData(cell: Element, frame: Frame, fold: Transfer | null | undefined, before: Frame | undefined): void {
   if (frame.disturbed || frame.remote || fold) {
     setText(cell, frame.disturbed ? '' : fold ? T.frames.fold(fold.frames.length, fold.bytes.length) : T.frames.remote);

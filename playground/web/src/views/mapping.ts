@@ -26,7 +26,7 @@ class Mapping extends View {
   declare pdos: Pdo[];
   declare pdo: Pdo | null;
   declare entries: Mapped[];
-  /** The PDO is switched off meanwhile. */
+  /** The PDO is disabled during the change. */
   declare isOff: boolean;
   declare steps: MappingStep[];
   declare said: Said[];

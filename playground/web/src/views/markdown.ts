@@ -11,7 +11,7 @@ const CODES: Record<string, string> = { '&': '&amp;', '<': '&lt;', '>': '&gt;' }
 const reader = new Marked({
   async: false,
   renderer: { html: ({ text }) => text.replace(/[&<>]/g, (char) => CODES[char]!) },
-  // Headings of a text stand below those of the page.
+  // Headings of a text are below those of the page.
   walkTokens: (token) => {
     if (token.type === 'heading') token.depth = 4;
   },

@@ -25,7 +25,7 @@ const chosen = new Map<number, string>();
 /** Which profile a device follows. */
 export const motionOf = (node: number): string => chosen.get(node) ?? '';
 
-/** Steps of a text such as `60 2, 0 1`; the part that is none where there is one. */
+/** Steps of a text such as `60 2, 0 1`; the part that is not valid, if any. */
 export function parseMotion(text: string): number[] | string {
   const steps: number[] = [];
   for (const part of text.split(/[,;\n]/).map((one) => one.trim())) {

@@ -225,7 +225,7 @@ class Objects extends View {
   }
 }
 
-/** Something that a master set: what the device itself changes is no mark. */
+/** Whether a master changed the object: changes by the device itself are not marked. */
 function isChanged(object: ObjectRecord, live: Value): boolean {
   return object.access.startsWith('rw') && object.default !== null && live !== null && !sameValue(live, object.default);
 }

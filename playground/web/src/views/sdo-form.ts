@@ -61,7 +61,7 @@ class SdoForm extends View {
     this.typed = '';
   }
 
-  /** The object that the text names; one outside the dictionary is taken for 32 bits. */
+  /** The object that the text names; one outside the dictionary has 32 bits. */
   private target(): ObjectRecord | null {
     const where = parseAddress(this.text);
     if (where) {

@@ -11,7 +11,7 @@ include!(concat!(env!("OUT_DIR"), "/match.rs"));
 #[derive(Debug)]
 pub struct Values<const N: usize>([u32; N]);
 
-/// What is at an address.
+/// The value at an address.
 #[derive(Debug)]
 pub enum Place<'a> {
     /// A U32.
@@ -22,7 +22,7 @@ pub enum Place<'a> {
 
 /// The `match` itself, one per size, in `match.rs`.
 pub trait Find {
-    /// What is at an address.
+    /// Finds the value at an address.
     fn find(&mut self, index: u16, sub: u8) -> Option<Place<'_>>;
 }
 

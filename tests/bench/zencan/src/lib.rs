@@ -38,11 +38,11 @@ sizes! {
     #[cfg(large)] objects_5000: 5_000, "zencan_5000.rs";
 }
 
-/// What `zencan_node::Node::new` asks for.
+/// Arguments of `zencan_node::Node::new`.
 #[derive(Clone, Copy)]
 #[allow(missing_debug_implementations)] // zencan's types have none
 pub struct Statics {
-    /// Where frames go in and come out.
+    /// Queue of frames in both directions.
     pub mailbox: &'static zencan_node::NodeMbox,
     /// NMT state and PDOs.
     pub state: &'static zencan_node::NodeState<'static>,

@@ -1,6 +1,6 @@
 //! A whole device: frames, time, power, shaft, switches and faults in any order. It never
 //! panics, never floods the bus, keeps silent when it is stopped, and is itself again after it
-//! was mended and power-cycled.
+//! was repaired and power-cycled.
 
 use od_bench::{Bus, VirtualDevice};
 use od_runtime::{Frame, Instant};
@@ -155,7 +155,7 @@ fn recovers(bus: &mut Bus, faults: &[&str]) {
         boots += usize::from(sent.frame == boot);
     }
     let state = bus.devices()[0].state();
-    // Without a node ID it waits for LSS; a node that starts by itself is operational.
+    // Without a node ID it waits for LSS; a node that starts without a master is operational.
     if state == State::Initialising {
         return;
     }

@@ -98,8 +98,11 @@ fn run(input: &[u8]) {
     }
     eds::written_again(&parsed.description);
     if over.trim().is_empty() {
-        let alone = od_eds::parse(base).description;
+        let base_only = od_eds::parse(base).description;
         let same = od_eds::parse(&made.text).description;
-        assert!(alone.objects == same.objects, "nothing was laid over it");
+        assert!(
+            base_only.objects == same.objects,
+            "nothing was laid over it"
+        );
     }
 }

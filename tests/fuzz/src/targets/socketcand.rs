@@ -87,7 +87,7 @@ fn run(input: &[u8]) {
         assert!(!due.is_empty(), "a deadline without a cause");
         assert!(
             whole.deadline().is_none_or(|next| next > now),
-            "time stands still"
+            "time does not pass"
         );
     }
 }

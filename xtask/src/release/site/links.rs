@@ -220,7 +220,7 @@ mod tests {
         assert!(files.iter().any(|(source, _)| source == script));
         let gone = places
             .place(&pages[0], "docs/gone.md")
-            .expect_err("there is no such file");
+            .expect_err("the file does not exist");
         assert_eq!(
             gone.message(),
             "README.md links to docs/gone.md, which is not there"

@@ -47,7 +47,7 @@ fn block(text: &str, fence: &str) -> usize {
     length
 }
 
-/// The length of words between backticks; of the backticks alone if nothing closes them.
+/// The length of words between backticks; of only the backticks if nothing closes them.
 fn words(text: &str) -> usize {
     let ticks = text.len() - text.trim_start_matches('`').len();
     let paragraph = text.find("\n\n").map_or(text, |end| &text[..end]);
@@ -163,7 +163,7 @@ mod tests {
         );
         let code = "`[a](b)` ``[a`](b)``\n```text\n[a](b)\n```\n~~~~\n[a](b)\n~~~\n[a](b)\n~~~~\n";
         assert_eq!(shouted(code), code);
-        assert_eq!(shouted("a ` alone, [b](c)"), "a ` alone, [b](C)");
+        assert_eq!(shouted("a ` only, [b](c)"), "a ` only, [b](C)");
         assert_eq!(
             shouted("a ` here\n\n[b](c) ` there"),
             "a ` here\n\n[b](C) ` there"

@@ -40,7 +40,7 @@ const LESSONS: &str = "playground/lessons";
 const FIRST: [&str; 2] = ["", "Two commands"];
 const HOW_TO: &str = "How to …";
 
-/// What the first page leads to beside the documents.
+/// Links of the first page beside the documents.
 const LINKS: &str = "\n[Open the playground](playground/index.html)\n\n\
                      [Licences of what this site contains](LICENSE.THIRD-PARTY.txt)\n";
 

@@ -127,7 +127,7 @@ fn talk(child: &mut Child) -> Result<()> {
     next("t70117F")
 }
 
-/// What comes out of the serial port, by a thread that ends with the emulator.
+/// The output of the serial port, by a thread that ends with the emulator.
 fn frames(output: ChildStdout) -> mpsc::Receiver<String> {
     let (sender, frames) = mpsc::channel();
     thread::spawn(move || {

@@ -17,7 +17,7 @@ const EMULATORS: [(&str, &[&str]); 2] = [
     ("wine", &["wine", "wine64"]),
 ];
 
-/// Each part of a release, installed from its folder alone: of the one that `ODKIT_DIST` names, or of a new one.
+/// Each part of a release, installed from its folder only: of the one that `ODKIT_DIST` names, or of a new one.
 pub(super) fn dist(context: &Context<'_>) -> Result<()> {
     let (repo, console) = (context.repo, context.console);
     node::check()?;

@@ -108,7 +108,7 @@ pub(super) fn interop(context: &Context<'_>) -> Result<()> {
     context.console.run("python-canopen", &mut command)
 }
 
-/// What `tests/interop/test_tools.py` needs to hold odkit's verdicts against other tools than python-canopen.
+/// Arguments with which `tests/interop/test_tools.py` compares odkit's verdicts with other tools than python-canopen.
 fn other_tools(context: &Context<'_>, python: &Path, command: &mut Command) -> Result<()> {
     let (repo, console) = (context.repo, context.console);
     let mut pip = Command::new(python);

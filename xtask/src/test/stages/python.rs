@@ -11,7 +11,7 @@ use crate::packages::PYTHON;
 use crate::setup::python;
 use crate::test::context::Context;
 
-/// Where pip would put what python-can and pytest look for.
+/// Folder in which pip would put what python-can and pytest look for.
 const INFO: &str = "odkit-0.1.0.dist-info";
 const METADATA: &str = "Metadata-Version: 2.1\nName: odkit\nVersion: 0.1.0\n";
 

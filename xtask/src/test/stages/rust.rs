@@ -129,7 +129,7 @@ fn targets(dir: &Path) -> Result<Vec<String>> {
     Ok(names.collect())
 }
 
-/// What is in a folder, sorted.
+/// The content of a folder, sorted.
 fn folder(dir: &Path) -> Result<Vec<PathBuf>> {
     let files = fs::read_dir(dir).map_err(|e| Error::io("read", dir, &e))?;
     let mut paths: Vec<PathBuf> = files.flatten().map(|file| file.path()).collect();

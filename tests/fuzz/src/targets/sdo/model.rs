@@ -114,7 +114,7 @@ impl Model {
     pub(super) fn send(&mut self, frame: &Frame) {
         let own = Frame::standard(0x600 + u16::from(self.node()), &[]).id();
         let talks = matches!(self.state(), State::PreOperational | State::Operational);
-        // While a block comes in, only 80h is none of its segments.
+        // While a block comes in, every command but 80h is one of its segments.
         let is_abort = match self.block {
             Some(_) if !self.is_saving => frame.bytes()[0] == 0x80,
             _ => frame.bytes()[0] >> 5 == 4,
@@ -334,7 +334,7 @@ impl Model {
     fn wrote(&mut self, address: Address, bytes: Option<&[u8]>) {
         self.check_identifiers();
         let now = self.read(address);
-        // With the gear on, resolution and range follow from it: a write is taken without effect
+        // With the gear on, resolution and range follow from it: a write is accepted without effect
         // (DECISIONS U-14).
         let gear = Address::new(0x2001, 1);
         let default = self.entries.iter().find(|entry| entry.address == gear);

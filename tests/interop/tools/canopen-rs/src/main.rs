@@ -1,4 +1,4 @@
-//! What canopen-rs reads of files: their names come on standard input, their folder is the argument.
+//! Values that canopen-rs reads of files: their names come on standard input, their folder is the argument.
 
 use canopen_host::eds::Eds;
 use canopen_rs::datatypes::{DataType, Value};

@@ -1,4 +1,4 @@
-//! A file with five faults that its owner may not change, mended in the call.
+//! A file with five errors that its owner may not change, corrected in the call.
 
 use odkit::object_dictionary;
 
