@@ -16,9 +16,9 @@ use crate::wiring::Wiring;
 /// A frame that a device on the bus sent, or on a timed line the outside.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Sent {
-    /// When.
+    /// Time of the frame.
     pub at: Instant,
-    /// Which device, counted from 0 in the order of [`Bus::add`]; `None` for one from outside,
+    /// Number of the device, counted from 0 in the order of [`Bus::add`]; `None` for one from outside,
     /// when it came through a timed line.
     pub device: Option<usize>,
     /// The frame.

@@ -57,7 +57,7 @@ pub struct VirtualDevice {
     pub(super) programs: Programs,
     pub(super) wanted_id: NodeId,
     pub(super) wanted_rate: Option<u16>,
-    /// When the turning shaft is looked at again.
+    /// Time when the turning shaft is looked at again.
     look_at: Option<Instant>,
     /// The bit rate that LSS activated since the last start, in kbit/s.
     pub(super) activated: Option<u16>,
@@ -241,7 +241,7 @@ impl VirtualDevice {
         frame
     }
 
-    /// When [`handle_timeout`](Self::handle_timeout) is due.
+    /// Time when [`handle_timeout`](Self::handle_timeout) is due.
     pub fn poll_timeout(&self) -> Option<Instant> {
         let due = self.node.poll_timeout();
         let is_operational = |_: &Instant| self.node.state() == State::Operational;

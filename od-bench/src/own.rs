@@ -65,7 +65,7 @@ impl VirtualDevice {
         Ok(())
     }
 
-    /// Why the value of an object cannot be set from outside.
+    /// Reason why the value of an object cannot be set from outside.
     fn refusal(&self, entry: &Entry) -> Option<&'static str> {
         let Address { index, sub } = entry.address;
         let is_computed = match &self.behaviour {

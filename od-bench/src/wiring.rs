@@ -2,7 +2,7 @@
 
 use std::prelude::v1::*;
 
-/// Which devices sit on one shaft, and who hears whom.
+/// Devices on one shaft, and receivers of each device.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Wiring {
     /// The shaft of each device: the number of the first device on it.

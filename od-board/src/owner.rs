@@ -22,7 +22,7 @@ pub trait Owner {
     /// Returns the next frame to send; `None` when all are out.
     fn poll_transmit(&mut self, now: Instant) -> Option<Frame>;
 
-    /// When [`handle_timeout`](Self::handle_timeout) is to be called next.
+    /// Time when [`handle_timeout`](Self::handle_timeout) is to be called next.
     fn poll_timeout(&self) -> Option<Instant>;
 
     /// Returns the oldest pending event.

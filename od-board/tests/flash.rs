@@ -26,7 +26,7 @@ const BUFFER: usize = SAVED / 2 + 64;
 
 type Mirrored = thermometer::Board<NoApplication, Mirror<SAVED>>;
 
-/// Why a flash fails; there is one reason.
+/// Reason why a flash fails; the only one.
 #[derive(Clone, Copy, Debug)]
 struct Failed;
 

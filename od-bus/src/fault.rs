@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// Why a link or a node did not do what it was asked for. Its text says where, what, and what to do.
+/// Reason why a link or a node did not do its work. The text names the place, the error and the correction.
 #[derive(Clone, PartialEq, Eq, Debug)]
 #[non_exhaustive]
 pub enum Fault {

@@ -7,7 +7,7 @@ use crate::fault::Fault;
 /// A frame that came over a link.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Heard {
-    /// When, by the link's clock.
+    /// Time by the link's clock.
     pub at: Instant,
     /// The frame.
     pub frame: Frame,

@@ -256,7 +256,7 @@ fn master(pace: u64) -> Client {
     Client::with(sdo::Options::DEFAULT, options)
 }
 
-/// Why a search ends that finds a slave a second time.
+/// Reason why a search ends that finds a slave a second time.
 fn twice(identity: Identity) -> String {
     format!(
         "two LSS slaves have the same LSS address (serial number {}), so no master can address one of \

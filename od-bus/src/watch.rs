@@ -46,7 +46,7 @@ pub struct Source {
 /// A value at a moment.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Sample {
-    /// When it came, by the link's clock.
+    /// Time when it came, by the link's clock.
     pub at: Instant,
     /// Its place among the sources.
     pub source: usize,

@@ -1,6 +1,6 @@
-//! Why a subcommand fails, and the exit code that follows.
+//! Reason why a subcommand fails, and the exit code that follows.
 
-/// Why a subcommand did not do what it was asked for.
+/// Reason why a subcommand did not do its work.
 pub(crate) enum Failure {
     /// It was asked for something that cannot be: exit code 2.
     Usage(String),

@@ -112,7 +112,7 @@ impl Source {
     /// The file at a path, or a base with an overlay; never a built-in device.
     ///
     /// # Errors
-    /// Why it cannot be read.
+    /// Reason why it cannot be read.
     pub(crate) fn file(path: &str) -> Result<Self, String> {
         match fs::read(path) {
             Ok(bytes) => Ok(Self::of(path.into(), Document::new(bytes).named(path))),

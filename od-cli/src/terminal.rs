@@ -20,7 +20,7 @@ pub(crate) struct Terminal<'a> {
     pub(crate) output: Option<Output>,
     /// Frames of the script, too.
     pub(crate) echo: bool,
-    /// Why no frame is shown any more.
+    /// Reason why no frame is shown any more.
     pub(crate) broken: Option<Failure>,
 }
 

@@ -35,7 +35,7 @@ impl Edit {
     }
 }
 
-/// Why a document was left as it was.
+/// Reason why a document was left as it was.
 #[derive(Clone, PartialEq, Eq, Debug)]
 #[non_exhaustive]
 pub enum EditError {

@@ -23,7 +23,7 @@ use crate::scan::lines::with_ends;
 use crate::scan::names::{List, object_of};
 use crate::span::Span;
 
-/// Which of the two files a line comes from.
+/// The file that a line comes from.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub enum Origin {
     /// The EDS.
@@ -44,7 +44,7 @@ pub struct Overlaid {
 }
 
 impl Overlaid {
-    /// Which file a place in the text comes from, and where it is there.
+    /// The file of a place in the text, and the place there.
     pub fn locate(&self, span: Span) -> (Origin, Span) {
         let at = (span.line as usize).saturating_sub(1);
         let (Some((origin, line, byte)), Some(start)) = (self.lines.get(at), self.starts.get(at))

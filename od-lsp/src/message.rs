@@ -39,7 +39,7 @@ impl Incoming {
     }
 }
 
-/// Why a request has no result.
+/// Reason why a request has no result.
 #[derive(Serialize, Debug)]
 pub(crate) struct Fault {
     code: i32,

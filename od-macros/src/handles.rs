@@ -1,4 +1,4 @@
-//! Which typed handles a device has, and what they are called.
+//! Typed handles of a device, and their names.
 
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -70,7 +70,7 @@ impl fmt::Display for Access {
     }
 }
 
-/// Which of the four save and restore sub-indices of 1010h/1011h covers a value.
+/// Group of values that one save and restore sub-index of 1010h/1011h covers.
 ///
 /// CiA 301, objects 1010h and 1011h: sub-index 1 covers all groups, 2 the
 /// communication, 3 the application, 4 the manufacturer parameters.

@@ -4,7 +4,7 @@ use od_wire::Instant;
 
 use crate::rooms::Blank;
 
-/// When something is due. Never is all zeros, so that a static node takes no flash; the end of time
+/// Time when something is due. `Never` is all zeros, so that a static node takes no flash; the end of time
 /// is never, too.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[repr(Rust, packed(4))] // as `Instant`

@@ -183,7 +183,7 @@ impl<R: Rooms> Producer<R> {
         cob_id.map(|cob_id| Frame::full(cob_id.can_id(), emcy.emit()))
     }
 
-    /// When [`poll`](Self::poll) is due, if something waits.
+    /// Time when [`poll`](Self::poll) is due, if something waits.
     pub(crate) fn deadline(&self) -> Deadline {
         match self.waiting.is_empty() {
             true => Deadline::NEVER,

@@ -76,7 +76,7 @@ pub enum Restore {
 pub enum SaveAnswer {
     /// At once; the device stores in the background.
     AtOnce,
-    /// When everything is stored. Until then NMT, PDOs and error control go on, and a further
+    /// Time when everything is stored. Until then NMT, PDOs and error control go on, and a further
     /// SDO request waits.
     AfterStoring,
 }
@@ -250,7 +250,7 @@ pub struct Notice {
 pub enum ErrorReset {
     /// With each error that ends; its error register shows the others.
     EachError,
-    /// When the last error ends.
+    /// Time when the last error ends.
     LastError,
 }
 

@@ -44,7 +44,7 @@ impl Producer {
         self.next = now.plus_micros(period_us.into());
     }
 
-    /// When the next SYNC is due.
+    /// Time when the next SYNC is due.
     pub(crate) fn deadline(&self) -> Option<Instant> {
         (self.period_us > 0).then_some(self.next)
     }

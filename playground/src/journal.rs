@@ -73,7 +73,7 @@ impl Bus {
     /// that is made again does not come any more. A lesson takes the place of all that was there.
     ///
     /// # Errors
-    /// Why this is not an input.
+    /// Reason why this is not an input.
     #[wasm_bindgen(unchecked_return_type = "Added")]
     pub fn act(
         &mut self,
@@ -89,7 +89,7 @@ impl Bus {
     /// quiet one does not show what happens at its first moment.
     ///
     /// # Errors
-    /// Why an entry is not one.
+    /// Reason why an entry is not one.
     pub fn restore(
         &mut self,
         #[wasm_bindgen(unchecked_param_type = "Entry[]")] entries: Vec<JsValue>,

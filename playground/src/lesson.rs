@@ -158,7 +158,7 @@ impl Bus {
     /// The first device is the one that lines are about, until `use` names another one.
     ///
     /// # Errors
-    /// Which line cannot be read, or does not work; what the lines before it did stays done.
+    /// The line that cannot be read, or does not work; what the lines before it did stays done.
     #[wasm_bindgen(js_name = runScript)]
     pub fn run_script(&mut self, text: &str) -> Result<(), JsError> {
         let result = self

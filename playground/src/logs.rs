@@ -17,7 +17,7 @@ record! {
         skipped: usize,
         /// The first of them; 0 without any.
         line: u32,
-        /// Why it could not be read.
+        /// Reason why it could not be read.
         why: String,
     }
 }
@@ -25,7 +25,7 @@ record! {
 /// Reads a log: candump, ASC, TRC, pcap or pcapng.
 ///
 /// # Errors
-/// Why it is not a log.
+/// Reason why it is not a log.
 #[wasm_bindgen(js_name = readLog, unchecked_return_type = "Log")]
 pub fn read_log(file: &[u8]) -> Result<JsValue, JsError> {
     let log = read(file).map_err(|why| JsError::new(&why))?;

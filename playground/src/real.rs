@@ -30,7 +30,7 @@ impl Bus {
     /// Adds the description of a node of the real bus, as the input `add` adds a device.
     ///
     /// # Errors
-    /// Why this is not an input.
+    /// Reason why this is not an input.
     #[wasm_bindgen(js_name = addDescription, unchecked_return_type = "Added")]
     pub fn add_description(
         &mut self,

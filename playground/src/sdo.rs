@@ -38,7 +38,7 @@ record! {
         kind: OutcomeKind,
         /// The value that was read; empty after a write, null after an error.
         bytes: Option<Bytes>,
-        /// Why it failed; empty if nobody answered.
+        /// Reason why it failed; empty if nobody answered.
         words: String,
         /// The abort may come from a mapping that changes while its PDO is valid.
         "wantsPdoOff" wants_pdo_off: bool,

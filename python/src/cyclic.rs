@@ -17,7 +17,7 @@ pub(crate) struct Cyclic {
     pub(crate) calls: bool,
     /// Place of the next frame.
     turn: usize,
-    /// When the next frame is due; `None` while it is stopped.
+    /// Time when the next frame is due; `None` while it is stopped.
     next: Option<Instant>,
     end: Option<Instant>,
 }
@@ -56,7 +56,7 @@ impl Cyclic {
         self.next = None;
     }
 
-    /// When the next frame is due.
+    /// Time when the next frame is due.
     pub(crate) fn due(&self) -> Option<Instant> {
         self.next
     }

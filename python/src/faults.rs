@@ -3,7 +3,7 @@
 use pyo3::exceptions::{PyFileNotFoundError, PyOSError, PyTimeoutError, PyValueError};
 use pyo3::prelude::*;
 
-/// Why something is not done.
+/// Reason why something is not done.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(crate) enum Fault {
     /// The caller asks for something that does not exist, or that does not fit: `ValueError`.

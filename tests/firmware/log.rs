@@ -64,7 +64,7 @@ struct Last {
     at: Instant,
     shaft: Shaft,
     sample: Angle,
-    /// When it was put elsewhere.
+    /// Time when it was put elsewhere.
     jumped: Option<Instant>,
     powered: bool,
 }

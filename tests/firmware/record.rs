@@ -67,7 +67,7 @@ pub(crate) fn is_of(text: &str, name: &str) -> bool {
 /// Plays a script; returns a log of each device of this name.
 ///
 /// # Errors
-/// Why the bench cannot play it.
+/// Reason why the bench cannot play it.
 pub(crate) fn record(path: &Path, text: &str, name: &str) -> Result<Vec<Log>, String> {
     let script = Script::parse(text).map_err(|problems| format!("{problems:?}"))?;
     let mut twins = Twins {

@@ -62,7 +62,7 @@ fn rules() -> String {
 struct Case {
     number: String,
     what: String,
-    /// Why no script shows it; empty if one does.
+    /// Reason why no script shows it; empty if one does.
     reason: String,
 }
 

@@ -37,7 +37,7 @@ pub type Board = slave::Board<NoApplication, Mirror<SAVED>>;
 /// Its saved values.
 pub type Keeper = Log<Steps<Flash>, BUFFER>;
 
-/// When the interrupt was requested.
+/// Time when the interrupt was requested.
 static REQUESTED: AtomicU32 = AtomicU32::new(0);
 
 /// The longest that the task of low priority has had the node.

@@ -66,7 +66,7 @@ impl Bus {
         true
     }
 
-    /// When a device is due. One that wants to send waits for room in its controller.
+    /// Time when a device is due. One that wants to send waits for room in its controller.
     pub(super) fn deadline(&self, device: usize) -> Option<Instant> {
         let at = self.devices[device].poll_timeout()?;
         let waits = at <= self.now && self.line.is_timed();

@@ -11,10 +11,10 @@ use super::frames::Frames;
 use super::pattern::Pattern;
 use super::typed::Write;
 
-/// When a line acts.
+/// Time when a line acts.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum When {
-    /// When the line before it is done.
+    /// Time when the line before it is done.
     Next,
     /// At a moment.
     At(Instant),
@@ -85,7 +85,7 @@ pub(crate) enum Expect {
     Fact(Fact),
 }
 
-/// When an expected frame has to come.
+/// Time when an expected frame has to come.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Timing {
     /// It is there already.

@@ -98,7 +98,7 @@ impl Deed {
     /// Does what comes first. A frame is returned: the caller puts it on the bus.
     ///
     /// # Errors
-    /// Why the present device cannot do it.
+    /// Reason why the present device cannot do it.
     pub(crate) fn act(&self, bench: &mut Bench) -> Result<Option<Frame>, String> {
         match self {
             Self::Wait => {}

@@ -104,7 +104,7 @@ impl Fact {
     /// Looks at the bench. `turns` is where the device's shaft was when the step began.
     ///
     /// # Errors
-    /// Why it cannot be so at all: no such object, a value that is not valid.
+    /// Reason why it cannot be true at all: the object does not exist, or the value is not valid.
     pub(crate) fn look(
         &self,
         bus: &mut Bus,

@@ -88,7 +88,7 @@ impl Test {
     /// Does a value of this type hold?
     ///
     /// # Errors
-    /// Why it cannot be compared.
+    /// Reason why it cannot be compared.
     pub(crate) fn holds(&self, data_type: DataType, bytes: &[u8]) -> Result<bool, String> {
         self.fits(data_type)?;
         match self.how {

@@ -94,7 +94,7 @@ impl Write {
     /// Returns the address and the bytes to write.
     ///
     /// # Errors
-    /// Why it cannot be written.
+    /// Reason why it cannot be written.
     pub(crate) fn bytes(&self, dictionary: Dictionary<'_>) -> Result<(Address, Vec<u8>), String> {
         let (address, own) = resolve(dictionary, &self.object)?;
         let data_type = match &self.type_name {

@@ -55,7 +55,7 @@ macro_rules! choice {
             /// Reads the record with this name.
             ///
             /// # Errors
-            /// Why it cannot be read.
+            /// Reason why it cannot be read.
             pub fn read(
                 name: &str,
                 from: &dyn $crate::journal::field::Fields,

@@ -31,7 +31,7 @@ pub enum Value {
     Numbers(Vec<f64>),
 }
 
-/// Why an input cannot be read.
+/// Reason why an input cannot be read.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[non_exhaustive]
 pub enum Fault {

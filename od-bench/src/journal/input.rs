@@ -102,7 +102,7 @@ pub fn frame(id: u32, data: &[u8], extended: bool, remote: bool) -> Option<Frame
 /// An input and its moment.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Entry {
-    /// When.
+    /// Time of the input.
     pub at: Instant,
     /// The input.
     pub input: Input,

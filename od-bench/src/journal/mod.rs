@@ -52,7 +52,7 @@ pub struct Journal {
     done: usize,
     /// Entries that [`news`](Self::news) returned.
     told: usize,
-    /// Why inputs of a run that is made again could not be carried out.
+    /// Reason why inputs of a run that is made again could not be carried out.
     refused: Vec<String>,
     /// Nothing is kept: what happens on a real bus cannot be made again.
     is_live: bool,

@@ -68,7 +68,7 @@ impl Lesson {
     /// Makes the bench: runs the set-up.
     ///
     /// # Errors
-    /// Which line of the lesson cannot be carried out, and why.
+    /// The line of the lesson that cannot be carried out, and why.
     pub fn set_up(&self, host: &mut dyn Host) -> Result<Bench, Problem> {
         self.set_up_on(Bench::default(), host)
     }
@@ -98,7 +98,7 @@ impl Block {
     }
 }
 
-/// Why a block stopped, as a problem of the lesson.
+/// Reason why a block stopped, as a problem of the lesson.
 pub(super) fn stopped(stop: &Stop) -> Problem {
     let why = std::format!("{stop}");
     // The first line names the place, which the problem has already.

@@ -32,7 +32,7 @@ struct Note {
     count: u32,
     /// The last of them.
     last: Option<Instant>,
-    /// When there were enough.
+    /// Time when there were enough.
     done: Option<Instant>,
     /// Since when the fact holds.
     since: Option<Instant>,
@@ -53,7 +53,7 @@ pub struct Progress {
     /// Position of each shaft at that moment.
     turns: Vec<Option<f64>>,
     notes: Vec<Vec<Note>>,
-    /// When a frame was disturbed on the wire.
+    /// Time when a frame was disturbed on the wire.
     disturbed: Option<Instant>,
     reached: Vec<Instant>,
     news: VecDeque<usize>,
@@ -98,7 +98,7 @@ impl Progress {
         self.step >= self.lesson.steps.len()
     }
 
-    /// When each checkpoint was reached.
+    /// Time when each checkpoint was reached.
     pub fn reached(&self) -> &[Instant] {
         &self.reached
     }

@@ -1,4 +1,4 @@
-//! That a lesson works: nothing is done at the start, its solution does it all, and every line
+//! Proof that a lesson works: nothing is done at the start, its solution does it all, and every line
 //! of the solution is needed.
 
 use std::prelude::v1::*;

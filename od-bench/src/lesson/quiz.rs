@@ -29,7 +29,7 @@ pub struct Judgement {
     pub wrong_identifier: bool,
     /// The number of bytes is another one.
     pub wrong_length: bool,
-    /// Which bytes are wrong, counted from 0.
+    /// Numbers of the wrong bytes, counted from 0.
     pub wrong_bytes: Vec<usize>,
 }
 

@@ -45,7 +45,7 @@ pub trait Codec: Send {
     /// hear it. `stamp` is the time of day at `now`, in microseconds.
     fn encode(&mut self, frame: &Frame, now: Instant, stamp: u64, out: &mut Vec<u8>);
 
-    /// When [`wake`](Self::wake) is due; `None`: never.
+    /// Time when [`wake`](Self::wake) is due; `None`: never.
     fn deadline(&self) -> Option<Instant> {
         None
     }

@@ -45,7 +45,7 @@ const BLF: &[u8] = b"LOGG";
 /// Reads a log: candump, ASC, TRC (1.0 to 2.1), pcap or pcapng.
 ///
 /// # Errors
-/// Why it is not a log, or the first line if no line can be read.
+/// Reason why it is not a log, or the first line if no line can be read.
 pub fn read(bytes: &[u8]) -> Result<Log, String> {
     if let Some(records) = pcapng::read(bytes).or_else(|| pcap::read(bytes)) {
         return records.map(|records| finish(records, Vec::new()));

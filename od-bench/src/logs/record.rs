@@ -5,7 +5,7 @@ use od_wire::{CanId, Frame, Instant};
 /// Entry of a log.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Record {
-    /// When, from the beginning of the log.
+    /// Time from the beginning of the log.
     pub at: Instant,
     /// Sent by the writer of the log (Tx); else received.
     pub sent: bool,

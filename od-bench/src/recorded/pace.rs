@@ -36,7 +36,7 @@ impl Pace {
         }
     }
 
-    /// When the next frame goes out.
+    /// Time when the next frame goes out.
     pub(super) fn due(&self) -> Option<Instant> {
         self.next.map(|(at, _)| at)
     }

@@ -20,7 +20,7 @@ const HELD: usize = 256;
 #[derive(Clone, Debug)]
 pub(crate) struct Playing {
     recorded: Recorded,
-    /// When the boot-up message went out.
+    /// Time when the boot-up message went out.
     started: Option<Instant>,
     /// The next value, and when its row began.
     value: (usize, Option<Instant>),
@@ -190,7 +190,7 @@ impl Playing {
         self.tpdos.values_mut().find_map(|pace| pace.take(now))
     }
 
-    /// When something goes out or happens next.
+    /// Time when something goes out or happens next.
     pub(crate) fn due(&self) -> Option<Instant> {
         let held = self.held.front().map(|(at, _)| *at);
         let paces = self.tpdos.values().chain(&self.heartbeat);

@@ -91,7 +91,7 @@ impl Asker {
         self.take(now);
     }
 
-    /// When the client is due. One that was asked for nothing is never; the look through all nodes would
+    /// Time when the client is due. One that was asked for nothing is never; the look through all nodes would
     /// take a third of the time that a simulation takes.
     pub(super) fn poll_timeout(&self) -> Option<Instant> {
         match self.asked.is_empty() {

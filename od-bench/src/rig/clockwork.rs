@@ -85,7 +85,7 @@ impl Clockwork {
         }
     }
 
-    /// When something is due next.
+    /// Time when something is due next.
     pub(super) fn due(&self) -> Option<Instant> {
         let motions = self.motions.iter().map(|motion| motion.due);
         motions.chain(self.cyclic.iter().map(|one| one.due)).min()

@@ -59,7 +59,7 @@ impl Rig {
     /// They are about the first device until `use` names another one.
     ///
     /// # Errors
-    /// Which line cannot be read or fails; what the lines before it did stays.
+    /// The line that cannot be read or fails; what the lines before it did stays.
     pub fn run_script(&mut self, text: &str, host: &mut dyn Host) -> Result<(), String> {
         let script = Script::parse(text).map_err(|all| match all.first() {
             Some(problem) => problem.to_string(),

@@ -32,7 +32,7 @@ pub use self::client::Outcome;
 pub enum Seen {
     /// A frame.
     Frame {
-        /// When.
+        /// Time of the frame.
         at: Instant,
         /// The device that sent it; `None` for one from outside.
         device: Option<usize>,
@@ -41,7 +41,7 @@ pub enum Seen {
     },
     /// A frame that came over a link, and the device that describes its sender.
     Heard {
-        /// When.
+        /// Time of the event.
         at: Instant,
         /// The device that describes its sender.
         device: Option<usize>,

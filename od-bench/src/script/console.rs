@@ -36,9 +36,9 @@ const MOST: usize = 100_000;
 pub struct Console {
     reader: Reader,
     lines: VecDeque<(When, Deed)>,
-    /// When the line before was done.
+    /// Time when the line before was done.
     done: Option<Instant>,
-    /// When it was first asked for something to do: stamps and `at` count from it.
+    /// Time when it was first asked for something to do: stamps and `at` count from it.
     start: Option<Instant>,
     /// The rest of a line that takes time.
     rest: Option<(Instant, Deed)>,
@@ -97,7 +97,7 @@ impl Console {
         self.lines.is_empty() && self.rest.is_none()
     }
 
-    /// When [`step`](Self::step) is due, seen from `now`.
+    /// Time when [`step`](Self::step) is due, seen from `now`.
     pub fn deadline(&self, now: Instant) -> Option<Instant> {
         if let Some((at, _)) = &self.rest {
             return Some(*at);

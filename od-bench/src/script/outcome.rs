@@ -18,7 +18,7 @@ pub struct Summary {
     pub end: Instant,
 }
 
-/// Why a run stopped before its end.
+/// Reason why a run stopped before its end.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Stop {
     /// The line, counted from 1.
@@ -27,7 +27,7 @@ pub struct Stop {
     pub text: String,
     /// Virtual time.
     pub at: Instant,
-    /// Why.
+    /// Reason.
     pub reason: Reason,
 }
 

@@ -43,7 +43,7 @@ pub(super) struct Client {
     pub(super) readable: bool,
     /// There may be room to write.
     writable: bool,
-    /// When it sent its last byte; what waits still goes out.
+    /// Time when it sent its last byte; what waits still goes out.
     pub(super) ended: Option<Clock>,
     /// It does not read; `true`: that was told.
     deaf: Option<bool>,
@@ -51,7 +51,7 @@ pub(super) struct Client {
     dropped: usize,
     /// Messages dropped for it.
     pub(super) lost: u64,
-    /// When it was told the last time that it does not read.
+    /// Time of the last report that it does not read.
     told: Option<Clock>,
 }
 
@@ -223,7 +223,7 @@ impl Client {
         }
     }
 
-    /// When something is due that no event tells.
+    /// Time when something is due that no event reports.
     pub(super) fn deadline(&self) -> Option<Clock> {
         let pause = self.outbox.deadline().into_iter();
         pause.chain(self.port.next_check()).min()

@@ -127,7 +127,7 @@ impl Clients {
         lost.collect()
     }
 
-    /// When a codec has something to do next.
+    /// Time when a codec has something to do next.
     pub(super) fn codecs_due(&self) -> Option<Instant> {
         let codecs = self.list.iter().map(|client| client.codec.deadline());
         codecs.flatten().min()
@@ -188,7 +188,7 @@ impl Clients {
         came
     }
 
-    /// Why no further client is let in: at the control socket, or at a link.
+    /// Reason why no further client is let in: at the control socket, or at a link.
     fn full(&self, control: bool) -> Option<String> {
         let guests = self.list.iter().filter(|client| client.number >= LINKS);
         let guests = guests.filter(|client| (client.protocol == Protocol::Control) == control);

@@ -55,7 +55,7 @@ impl Door {
         })
     }
 
-    /// When to try again what the system refused, or to refuse a client.
+    /// Time when to try again what the system refused, or to refuse a client.
     pub(super) fn deadline(&self) -> Option<Clock> {
         let held = self.held.front().map(|(_, _, until)| *until);
         self.shut.into_iter().chain(held).min()

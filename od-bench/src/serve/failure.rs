@@ -1,8 +1,8 @@
-//! Why a bench does not run.
+//! Reason why a bench does not run.
 
 use std::fmt;
 
-/// Why a bench does not run, in a sentence for the person at the terminal.
+/// Reason why a bench does not run, in a sentence for the person at the terminal.
 #[derive(Clone, PartialEq, Eq, Debug)]
 #[non_exhaustive]
 pub enum Failure {

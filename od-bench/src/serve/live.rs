@@ -47,7 +47,7 @@ pub(super) struct Live {
     cause: Option<usize>,
     /// Links with a client of their own that are left.
     links: usize,
-    /// Why the last link was lost.
+    /// Reason why the last link was lost.
     lost: Option<String>,
 }
 

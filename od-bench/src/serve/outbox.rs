@@ -77,7 +77,7 @@ impl Outbox {
         self.resting = Some(until);
     }
 
-    /// When the rest ends; `None`: nothing waits for that.
+    /// Time when the rest ends; `None`: nothing waits for that.
     pub(super) fn deadline(&self) -> Option<Clock> {
         self.resting.filter(|_| !self.is_empty())
     }

@@ -17,7 +17,7 @@ pub(super) struct Pace {
     start: Clock,
     /// Time of day at the start of the bus, in microseconds.
     epoch: u64,
-    /// When the bus was late the last time.
+    /// Time when the bus was late the last time.
     last: Option<Clock>,
 }
 

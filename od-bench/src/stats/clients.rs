@@ -31,7 +31,7 @@ pub struct Client {
     /// Requests that were not answered before the next one.
     pub unanswered: u32,
     times: Sum,
-    /// When the last request came, while it waits for its answer.
+    /// Time when the last request came, while it waits for its answer.
     asked: Option<Instant>,
     block: Block,
 }

@@ -14,11 +14,11 @@ const GAPS: usize = 32;
 pub struct Row {
     /// The last frame.
     pub frame: Frame,
-    /// When it came.
+    /// Time when it came.
     pub at: Instant,
     /// Frames so far.
     pub count: u32,
-    /// When the data changed last; `None`: each frame has the data of the first.
+    /// Time when the data changed last; `None`: each frame has the data of the first.
     pub changed: Option<Instant>,
     all: Sum,
     /// The last distances, in microseconds.

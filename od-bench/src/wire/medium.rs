@@ -104,7 +104,7 @@ impl Medium {
         waiting.any(|one| one.station == 0 && one.frame == *frame)
     }
 
-    /// When something is due next.
+    /// Time when something is due next.
     pub(crate) fn due(&self) -> Option<Instant> {
         let nanos = match self.flight {
             Some(flight) => flight.end,

@@ -35,7 +35,7 @@ pub struct Station {
     pub rate: Option<u16>,
 }
 
-/// Why a frame did not come through at once.
+/// Reason why a frame did not come through at once.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub enum Trouble {
     /// Nobody acknowledged it.
@@ -49,13 +49,13 @@ pub enum Trouble {
 /// A frame that was disturbed.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Disturbance {
-    /// When.
+    /// Time of the disturbance.
     pub at: Instant,
     /// Whose frame; `None` for one from outside.
     pub device: Option<usize>,
     /// The frame.
     pub frame: Frame,
-    /// Why, at the last attempt that failed.
+    /// Reason, at the last attempt that failed.
     pub trouble: Trouble,
     /// Attempts that failed.
     pub attempts: u16,

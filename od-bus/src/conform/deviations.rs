@@ -2,7 +2,7 @@
 
 use super::eds::Eds;
 
-/// Which product is spared which cases.
+/// Cases that a product may skip.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub(crate) struct Deviations(Vec<Deviation>);
 
@@ -26,7 +26,7 @@ impl Deviations {
         Self(lines.filter_map(line).collect())
     }
 
-    /// Why the product of this EDS is spared a case.
+    /// Reason why the product of this EDS is spared a case.
     pub(crate) fn reason(&self, eds: &Eds, id: &str) -> Option<&str> {
         let number = |sub| eds.entry(0x1018, sub)?.default.integer(0);
         let (vendor, product) = (number(1)?, number(2)?);

@@ -102,7 +102,7 @@ impl Eds {
         }
     }
 
-    /// Why the EDS does not allow a master to write this: access, length or limits. `None`: it does, or
+    /// Reason why the EDS does not allow a master to write this: access, length or limits. `None`: it does, or
     /// it does not have the object.
     pub(crate) fn excludes(&self, address: Address, bytes: &[u8], node: NodeId) -> Option<String> {
         let entry = self.entry(address.index, address.sub)?;

@@ -2,7 +2,7 @@
 
 use crate::fault::Fault;
 
-/// Why a step is the last one.
+/// Reason why a step is the last one.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(crate) enum End {
     /// The node does something else.

@@ -5,7 +5,7 @@ use od_wire::{Frame, Instant};
 /// A frame of a case.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Traced {
-    /// When, by the link's clock.
+    /// Time by the link's clock.
     pub at: Instant,
     /// Whether the test sent it.
     pub ours: bool,

@@ -69,7 +69,7 @@ impl<'s> Session<'s> {
         &self.times
     }
 
-    /// Why the test could not go on, if it could not.
+    /// Reason why the test could not go on, if it could not.
     pub fn lost(&self) -> Option<&str> {
         self.lost.as_deref()
     }

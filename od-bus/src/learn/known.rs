@@ -84,7 +84,7 @@ pub(super) fn types(profile: u16, index: u16, sub: u8) -> Vec<DataType> {
         .collect()
 }
 
-/// Which profile each logical device of a node follows.
+/// Profile of each logical device of a node.
 pub(super) struct Profiles {
     /// The profile that 1000h names.
     named: u16,

@@ -43,7 +43,7 @@ pub(super) trait Protocol {
     /// Takes what is whole off the front of `bytes`; `None`: more has to come.
     ///
     /// # Errors
-    /// Why the other side cannot be understood.
+    /// Reason why the other side cannot be understood.
     fn take(&mut self, bytes: &mut Vec<u8>) -> Result<Option<Said>, String>;
 
     /// Adds the bytes that send a frame.

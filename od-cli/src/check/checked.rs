@@ -19,7 +19,7 @@ pub(super) struct Checked {
     pub(super) fixed: usize,
     /// Fixes that were not applied.
     pub(super) held: Vec<Held>,
-    /// Why the file could not be read or written.
+    /// Reason why the file could not be read or written.
     pub(super) failed: Option<String>,
     /// The objects that the findings are about, in words.
     pub(super) names: Names,
@@ -68,7 +68,7 @@ pub(super) fn about(finding: &Sentence) -> String {
     }
 }
 
-/// Why a fix was not applied, as a clause.
+/// Reason why a fix was not applied, as a clause.
 pub(super) fn why(held: &Held) -> String {
     match &held.why {
         Why::Adds(error) => {

@@ -1,4 +1,4 @@
-//! Which files, and many of them at once.
+//! Search for files, and work on many of them at once.
 
 use std::path::Path;
 use std::sync::Mutex;

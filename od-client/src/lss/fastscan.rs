@@ -22,7 +22,7 @@ enum Step {
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct Fastscan {
     found: [u32; 4],
-    /// Which of the four numbers, 0 to 3.
+    /// Index of the number, 0 to 3.
     part: u8,
     step: Step,
 }

@@ -87,7 +87,7 @@ pub struct EntryDescription {
     pub high: Option<Spanned<Value>>,
     /// ParameterValue of a DCF.
     pub parameter: Option<Spanned<Value>>,
-    /// Which sub-index of 1010h saves it; `None` where the text does not say,
+    /// Sub-index of 1010h that saves it; `None` where the text does not say,
     /// which means the group of the index for what a master can write.
     pub group: Option<Spanned<Group>>,
     /// Bytes of a string or DOMAIN that the store holds, if its default is not longer; 0: none, as the

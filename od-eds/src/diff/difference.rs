@@ -51,7 +51,7 @@ pub enum Field {
     LowLimit,
     /// HighLimit.
     HighLimit,
-    /// Which group of 1010h saves it.
+    /// Group of 1010h that saves it.
     Storage,
 }
 

@@ -1,4 +1,4 @@
-//! Which differences break a master that was set up for the first device.
+//! Differences that break a master that was set up for the first device.
 
 use crate::diff::difference::Impact;
 use od_model::{Access, Address, Dictionary, Entry, Group, Literal, ObjectCode};

@@ -44,7 +44,7 @@ pub struct Held {
     pub why: Why,
 }
 
-/// Why a fix was not applied.
+/// Reason why a fix was not applied.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Why {
     /// It would add this error.
@@ -152,7 +152,7 @@ impl State {
     }
 }
 
-/// Why a set of fixes is not applied.
+/// Reason why a set of fixes is not applied.
 enum Refusal {
     Adds(Vec<Finding>),
     Stays(BTreeSet<Fault>),

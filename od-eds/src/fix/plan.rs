@@ -33,7 +33,7 @@ impl TextEdit {
 
 /// A fix that is to be applied.
 pub(super) struct Choice {
-    /// Which finding it belongs to.
+    /// Index of its finding.
     pub(super) finding: usize,
     pub(super) edits: Vec<TextEdit>,
 }

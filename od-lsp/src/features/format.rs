@@ -18,7 +18,7 @@ use crate::types::TextEdit;
 /// The edits that bring a file into its canonical form.
 ///
 /// # Errors
-/// Why the file has none.
+/// Reason why the file has no canonical form.
 pub(crate) fn edits(file: &File, seen: &Seen) -> Result<Vec<TextEdit>, String> {
     if file.kind != Kind::Eds || od_eds::is_xml(file.str()) {
         return Err("only EDS and DCF files have a canonical form".into());

@@ -30,7 +30,7 @@ pub(crate) fn prepare(file: &File, seen: &Seen, offset: usize) -> Option<(Range<
 /// The edits that give the object at a place another index.
 ///
 /// # Errors
-/// Why that cannot be.
+/// Reason why a rename is not possible.
 pub(crate) fn edits(
     file: &File,
     seen: &Seen,

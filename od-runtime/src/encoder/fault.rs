@@ -98,10 +98,10 @@ impl fmt::Display for Fault {
 
 impl core::error::Error for Fault {}
 
-/// When a fault is seen.
+/// Phase in which a fault is seen.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Appears {
-    /// As long as it is there.
+    /// As long as it lasts.
     Always,
     /// By the check at the start: if it is there then.
     Startup,
@@ -112,7 +112,7 @@ pub enum Appears {
     Injected,
 }
 
-/// When a report goes.
+/// Event that ends a report.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Until {
     /// As soon as the fault ends.
@@ -126,7 +126,7 @@ pub enum Until {
 /// Report of a fault in a family. A fault can have several, each its own source of errors.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Report {
-    /// Which.
+    /// The fault.
     pub fault: Fault,
     /// EMCY code.
     pub code: u16,
@@ -138,9 +138,9 @@ pub struct Report {
     pub warning: u16,
     /// Object that counts how often it came.
     pub counter: Option<Address>,
-    /// When it is seen.
+    /// Phase in which it is seen.
     pub appears: Appears,
-    /// When it goes.
+    /// Event that ends it.
     pub until: Until,
     /// With [`Appears::Startup`]: seen only where power was off this long, in milliseconds
     /// (a battery that is tested during that time); 0: at every start.

@@ -29,7 +29,7 @@ pub(super) struct Faults {
     changed: bool,
     /// Faults that the host set.
     broken: u32,
-    /// Why the sensor does not tell the angle; see [`seen`].
+    /// Reason why the sensor does not deliver the angle; see [`seen`].
     sensed: u32,
     /// Faults at the last start.
     at_start: u32,

@@ -86,9 +86,9 @@ pub struct Sampled<P, const N: usize = 16> {
     pub source: P,
     /// Microseconds between two samples, 1 or more.
     every: u32,
-    /// When the sensor was asked last.
+    /// Time when the sensor was asked last.
     asked: Option<Instant>,
-    /// Why it did not tell then.
+    /// Reason why it did not deliver a position then.
     fault: Option<Fault>,
     /// Whole revolutions that a volatile counter forgot.
     forgotten: i64,

@@ -55,11 +55,11 @@ pub struct Encoder<M, F = AnyFamily> {
     pub(super) own_steps: u64,
     /// The last angle that the sensor told.
     pub(super) angle: Angle,
-    /// When power went.
+    /// Time when power went.
     pub(super) off: Option<Instant>,
     /// The last reset; `None` without power.
     pub(super) started: Option<Instant>,
-    /// When the record of the device's life is saved next, where there is one.
+    /// Time when the record of the device's life is saved next, where there is one.
     pub(super) keep_at: Option<Instant>,
     /// Seconds of operation before `started`.
     pub(super) seconds: u32,

@@ -6,7 +6,7 @@ use crate::profile::Profile;
 use crate::store::Store;
 use od_wire::Instant;
 
-/// When the next heartbeat is due.
+/// Time when the next heartbeat is due.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Producer {
     period_ms: u32,
@@ -55,7 +55,7 @@ impl Producer {
         is_due
     }
 
-    /// When the next one is due.
+    /// Time when the next one is due.
     #[inline]
     pub(crate) fn deadline(&self) -> Deadline {
         self.next

@@ -119,7 +119,7 @@ impl<R: Rooms> Monitor<R> {
         self.lost
     }
 
-    /// When somebody is lost unless heard of.
+    /// Time when a node is lost unless it is heard before.
     #[inline]
     pub(crate) fn deadline<D: Device>(&self) -> Deadline {
         let guards = self.guards.all().iter().map(guarding::Guard::deadline);

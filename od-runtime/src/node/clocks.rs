@@ -48,7 +48,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         }
     }
 
-    /// When the next SYNC of this node is due.
+    /// Time when the next SYNC of this node is due.
     #[inline]
     pub(super) fn sync_deadline(&self) -> Option<Instant> {
         self.extras.clocks()?.sync.deadline()

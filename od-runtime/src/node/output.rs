@@ -161,7 +161,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
         None
     }
 
-    /// When [`handle_timeout`](Self::handle_timeout) is to be called next; `None` if only a
+    /// Time when [`handle_timeout`](Self::handle_timeout) is to be called next; `None` if only a
     /// frame or a change can give the node something to do.
     #[inline]
     pub fn poll_timeout(&self) -> Option<Instant> {

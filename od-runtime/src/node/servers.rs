@@ -181,7 +181,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         })
     }
 
-    /// When one of them has something to do.
+    /// Time when one of them has something to do.
     pub(super) fn servers_deadline(&self) -> Deadline {
         let servers = self.extras.servers().iter();
         servers.fold(Deadline::NEVER, |first, one| {

@@ -236,7 +236,7 @@ impl<D: Device> Objects<'_, D> {
         self.save_due().is_set()
     }
 
-    /// When the save that goes on is complete.
+    /// Time when the save that goes on is complete.
     pub(crate) fn save_due(&self) -> Deadline {
         let saving = self.saving.as_ref().filter(|_| D::STORAGE);
         saving.map_or(Deadline::NEVER, |saving| saving.due)

@@ -275,7 +275,7 @@ impl<R: Rooms> Tpdo<R> {
         self.event_at
     }
 
-    /// When what is pending can be sent; so is what SYNC marked.
+    /// Time when what is pending can be sent; so is what SYNC marked.
     pub(crate) fn ready_at(&self, is_marked: bool) -> Deadline {
         match self.pending || is_marked {
             true => Deadline::at(self.inhibited_until),

@@ -371,7 +371,7 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
         self.late.all_mut().first_mut()?.held.take()
     }
 
-    /// When a block transfer gives up, or a stream is asked again.
+    /// Time when a block transfer gives up, or a stream is asked again.
     #[inline]
     pub(crate) fn deadline(&self) -> Deadline {
         self.deadline

@@ -1,4 +1,4 @@
-//! Which dictionary of an unknown family is an encoder's (CiA 406).
+//! Tests which dictionary of an unknown family is an encoder's (CiA 406).
 
 use crate::support::{rows, tables, unsigned};
 use od_model::{Access, DataType};

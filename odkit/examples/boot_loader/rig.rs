@@ -64,7 +64,7 @@ impl Rig {
         self.lend(|node, device, now| node.handle_frame(device, now, frame));
     }
 
-    /// When the device has something to do.
+    /// Time when the device has something to do.
     pub fn due(&self) -> Option<Instant> {
         self.node.poll_timeout()
     }

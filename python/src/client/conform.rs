@@ -88,7 +88,7 @@ pub(crate) struct Conform {
     node: od_wire::NodeId,
     eds: Eds,
     leave: Leave,
-    /// Why the test cannot go on.
+    /// Reason why the test cannot go on.
     lost: std::sync::Mutex<Option<String>>,
 }
 

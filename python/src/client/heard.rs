@@ -21,7 +21,7 @@ pub(crate) struct Pdo {
     number: u16,
     /// CAN-ID of the frame.
     can_id: u32,
-    /// When it came, in seconds of the link's clock.
+    /// Time when it came, in seconds of the link's clock.
     time: f64,
     /// The data.
     data: Py<PyBytes>,
@@ -98,7 +98,7 @@ pub(crate) struct Emcy {
     register: u8,
     /// The five bytes of the manufacturer.
     info: Py<PyBytes>,
-    /// When it was heard, in seconds of the link's clock.
+    /// Time when it was heard, in seconds of the link's clock.
     time: f64,
 }
 

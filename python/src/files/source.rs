@@ -56,7 +56,7 @@ impl Source {
     /// A built-in device, a file, or `base+overlay`.
     ///
     /// # Errors
-    /// Why it cannot be read.
+    /// Reason why it cannot be read.
     pub(crate) fn find(name: &str) -> Result<Self, Fault> {
         if let Some(kind) = od_devices::find(name) {
             let document = Document::new(od_devices::text::eds(kind));

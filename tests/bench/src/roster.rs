@@ -25,7 +25,7 @@ pub const ODKIT: &str = "odkit";
 /// All contenders, in the order of the table.
 pub const NAMES: [&str; 6] = [ODKIT, CANOPEN_RS, ZENCAN, ZENCAN_STD, CANOPEN_SDO, NOTHING];
 
-/// Which of the two zencan-nodes was built: they cannot be in one program.
+/// Name of the zencan-node that was built: the two cannot be in one program.
 const ZENCAN_BUILT: &str = if cfg!(feature = "zencan-std") {
     ZENCAN_STD
 } else {

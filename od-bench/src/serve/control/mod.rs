@@ -74,7 +74,7 @@ impl Control {
         self.0.retain(|one| !one.is_over());
     }
 
-    /// When a line is due, seen from `now`.
+    /// Time when a line is due, seen from `now`.
     pub(super) fn deadline(&self, now: Instant) -> Option<Instant> {
         let due = |session: &Session| match session.queue.front() {
             Some(Entry::Line) | None => session.console.deadline(now),

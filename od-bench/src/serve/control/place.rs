@@ -47,7 +47,7 @@ impl Place {
     /// Connects to it.
     ///
     /// # Errors
-    /// Why nobody is there.
+    /// Reason why no bench answers.
     pub fn connect(&self) -> io::Result<Box<dyn Connection>> {
         Ok(match self {
             #[cfg(unix)]

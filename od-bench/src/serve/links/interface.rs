@@ -30,9 +30,9 @@ const DROPS: Duration = Duration::from_secs(1);
 pub(super) struct Interface {
     name: String,
     socket: CanSocket,
-    /// When to look whether it is up again, if it is down.
+    /// Time when to look whether it is up again, if it is down.
     down: Option<Clock>,
-    /// When to write again, if its queue is full.
+    /// Time when to write again, if its queue is full.
     full: Option<Clock>,
     /// Frames that the kernel dropped, as it counts them.
     dropped: u32,

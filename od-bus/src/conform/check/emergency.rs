@@ -119,7 +119,7 @@ pub(super) fn logged(dut: &mut Dut<'_>) -> Checked {
     )
 }
 
-/// When the error is over there is EMCY 0000h, or one without the bits of the error.
+/// The end of the error sends EMCY 0000h, or an EMCY message without the bits of the error.
 pub(super) fn reset(dut: &mut Dut<'_>) -> Checked {
     let (node, _) = provoked(dut)?;
     dut.drain()?;

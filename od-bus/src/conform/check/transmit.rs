@@ -58,7 +58,7 @@ pub(super) fn mapping(dut: &mut Dut<'_>, map: u16) -> Checked<Vec<Mapped>> {
     Ok(all)
 }
 
-/// Why a node cannot have this mapping, by the EDS. A case of its own is about that (pdo-mapped-objects).
+/// Reason why a node cannot have this mapping, by the EDS. A case of its own is about that (pdo-mapped-objects).
 pub(super) fn contradiction(eds: &Eds, all: &[Mapped], transmits: bool) -> Option<String> {
     all.iter().find_map(|Mapped { address, bits }| {
         if !transmits && address.index < 0x20 {

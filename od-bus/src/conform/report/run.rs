@@ -17,7 +17,7 @@ pub struct Report {
     pub records: Vec<Record>,
     /// Times that the node took.
     pub times: Times,
-    /// Why the run could not go on, if it could not.
+    /// Reason why the run could not go on, if it could not.
     pub lost: Option<String>,
 }
 

@@ -11,7 +11,7 @@ use crate::description::{Description, EntryDescription, ObjectDescription};
 use crate::read::fields;
 use od_model::{Address, Group, ObjectCode};
 
-/// Which of the three types of an object (`OD_objectTypes_t`).
+/// One of the three types of an object (`OD_objectTypes_t`).
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Shape {
     Var,

@@ -59,7 +59,7 @@ impl Standard {
             || matches!((own, right), (ObjectCode::Domain, ObjectCode::Var))
     }
 
-    /// Which standard it is in.
+    /// The standard that defines it.
     pub(super) const fn source(&self) -> &'static str {
         match self.first {
             0x1F00..=0x1F9F => "CiA 302",
@@ -72,7 +72,7 @@ impl Standard {
 pub struct Specified {
     /// The standard's name of it.
     pub name: &'static str,
-    /// Which standard it is in.
+    /// The standard that defines it.
     pub source: &'static str,
     /// VAR, ARRAY or RECORD.
     pub code: ObjectCode,

@@ -9,7 +9,7 @@ pub(crate) static RULE: Rule = Rule {
     code: "E0403",
     severity: Error,
     title: "value has the type of a record",
-    why: "0020h to 0023h are types of whole objects; a value has a basic type. odkit leaves the value out of the dictionary.",
+    why: "0020h to 0023h are types of RECORDs; a value has a basic type. odkit leaves the value out of the dictionary.",
     source: "CiA 301, data types",
     says: WHOLE.says,
     help: WHOLE.help,

@@ -21,9 +21,9 @@ pub(crate) const NOT_VALID: &str = "{key} `{given}` is not a valid {type}";
 /// The help for a value that odkit reads, though not every tool does.
 pub(super) const WRITE: &str = "write `{key={right}}`{fix}";
 
-/// The sentences for a type that only a whole object has.
+/// The sentences for a type that only a RECORD has.
 pub(crate) const WHOLE: Form = Form {
-    says: "{type} is the type of a whole object",
+    says: "{type} is the type of a RECORD, not of a value",
     help: "write the type of a single value, such as `{DataType={right}}` ({right})",
 };
 
@@ -129,7 +129,7 @@ pub(super) struct Outside<'a> {
     pub(super) key: Key,
     pub(super) value: &'a Spanned<Value>,
     pub(super) limit: &'a Spanned<Value>,
-    /// Which limit.
+    /// The limit.
     pub(super) side: Key,
 }
 

@@ -1,4 +1,4 @@
-//! When a family sees its faults, and how long.
+//! Tests when a family sees its faults, and for how long.
 
 use super::family::bench;
 use super::*;

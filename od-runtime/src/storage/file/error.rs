@@ -1,4 +1,4 @@
-//! Why a file is not used.
+//! Reason why a file is not used.
 
 use core::fmt;
 use std::io;

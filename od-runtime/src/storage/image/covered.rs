@@ -1,4 +1,4 @@
-//! Which values are saved, and which of them a sub-index of 1010h and 1011h covers.
+//! Values that are saved, and those that a sub-index of 1010h and 1011h covers.
 
 use od_model::row::Row;
 use od_model::{Address, Group};

@@ -84,7 +84,7 @@ export const bus = {
   },
   plot: 'Plot',
   trouble: {
-    why: ['', 'no station acknowledged it', 'a station with another bit rate destroyed it', 'reflections destroyed it: a terminator is missing'],
+    why: ['', 'no node acknowledged it', 'a node with another bit rate destroyed it', 'reflections destroyed it: a terminator is missing'],
     text: (why: string, attempts: number, delivered: boolean, busOff: boolean) =>
       `${delivered ? 'Came through after' : 'Lost after'} ${attempts} failed attempt${attempts === 1 ? '' : 's'}: ${why}${busOff ? '; its sender is bus-off now' : ''}`,
     busOff: 'Lost: its sender is bus-off',

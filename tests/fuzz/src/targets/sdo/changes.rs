@@ -1,4 +1,4 @@
-//! Which objects may change: by a frame other than an SDO request, and together with others.
+//! Objects that may change: by a frame other than an SDO request, and together with others.
 
 use od_bench::VirtualDevice;
 use od_runtime::Frame;
