@@ -64,7 +64,7 @@ impl Bench {
     /// The device that lines are about.
     ///
     /// # Errors
-    /// It was taken off the bus.
+    /// It was removed from the bus.
     pub(crate) fn present(&self) -> Result<&VirtualDevice, String> {
         let device = self.bus.devices().get(self.current);
         device.ok_or_else(|| self.missing())
@@ -73,7 +73,7 @@ impl Bench {
     /// Does something with the device that lines are about.
     ///
     /// # Errors
-    /// It was taken off the bus.
+    /// It was removed from the bus.
     pub(crate) fn with<R>(
         &mut self,
         act: impl FnOnce(&mut VirtualDevice, Instant) -> R,

@@ -36,7 +36,7 @@ pub struct Sent {
 pub struct Bus {
     devices: Vec<VirtualDevice>,
     wiring: Wiring,
-    /// The wire; ideal unless somebody makes it real.
+    /// The wire; ideal unless it is set to real.
     pub line: Line,
     now: Instant,
     sent: VecDeque<Sent>,

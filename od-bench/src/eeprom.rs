@@ -39,7 +39,7 @@ impl Eeprom {
         }
     }
 
-    /// Somebody else's storage.
+    /// A storage of the caller.
     pub(super) fn lent(storage: Box<dyn Storage + Send>) -> Self {
         Self {
             storage: Keeper::Lent(storage),
@@ -48,7 +48,7 @@ impl Eeprom {
         }
     }
 
-    /// A copy; `None` of somebody else's storage.
+    /// A copy; `None` of a storage of the caller.
     pub(super) fn copy(&self) -> Option<Self> {
         match &self.storage {
             Keeper::Own(memory) => Some(Self {

@@ -125,7 +125,7 @@ impl VirtualDevice {
         &self.services
     }
 
-    /// Writes the wanted node ID and bit rate into an empty EEPROM, as somebody did who set the device up.
+    /// Writes the wanted node ID and bit rate into an empty EEPROM, as in a device that was set up.
     pub(super) fn configure_node_id(&mut self) {
         let Behaviour::Encoder(encoder) = &self.behaviour else {
             return;

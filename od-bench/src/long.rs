@@ -191,7 +191,7 @@ impl Stream for Beside<'_> {
     ) -> Result<(), Halt> {
         let at = at as usize;
         self.look(cx.store, address, |value| {
-            // The value may have changed since its length was told.
+            // The value may have changed since its length was announced.
             let part = value.get(at..at + to.len()).ok_or(AbortCode::General)?;
             to.copy_from_slice(part);
             Ok(())

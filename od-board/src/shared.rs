@@ -45,7 +45,7 @@ const AGAIN: embassy_time::Duration = embassy_time::Duration::from_millis(1);
 /// An [`Owner`] that several tasks use: one is [`run`](Self::run), the others change values. It can be a
 /// `static`.
 ///
-/// The lock is held for one call of the node at most, and never while anybody waits.
+/// The lock is held for one call of the node at most, and never during a wait.
 pub struct Shared<M: RawMutex, B> {
     owner: Mutex<M, RefCell<B>>,
     /// Frames may be there to be sent.

@@ -12,7 +12,7 @@ pub enum Fault {
     Link(String),
     /// A node is silent, or says what no node should.
     Node(String),
-    /// Somebody asked the program to stop (Ctrl-C).
+    /// The user stopped the program (Ctrl-C).
     Interrupted,
 }
 

@@ -1,4 +1,4 @@
-//! A link whose waits end when somebody asks for it.
+//! A link whose waits end on request.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};

@@ -33,7 +33,7 @@ pub trait Link {
     fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Fault>;
 
     /// Goes on at another bit rate, in kbit/s, and only listens there: it acknowledges nothing,
-    /// so a wrong bit rate disturbs nobody.
+    /// so a wrong bit rate disturbs no node.
     ///
     /// # Errors
     /// [`Fault::Usage`] if this link cannot; [`Fault::Link`] if it is lost.

@@ -1,4 +1,4 @@
-//! Objects that somebody names: by address, name or glob, with a dictionary or without.
+//! Objects that a user names: by address, name or glob, with a dictionary or without.
 
 use od_model::values;
 use od_model::{Address, DataType, Dictionary, Entry, Kind, Literal, ObjectCode};
@@ -154,7 +154,7 @@ pub fn type_of(address: Address, bytes: &[u8]) -> DataType {
     }
 }
 
-/// The bytes of a value that somebody wrote, after all checks that need no node.
+/// The bytes of a value that a user wrote, after all checks that need no node.
 ///
 /// # Errors
 /// A sentence: the value cannot be written, or is not of its type or within its limits.

@@ -1,4 +1,4 @@
-//! A link that shows its frames to somebody.
+//! A link that shows its frames to a listener.
 
 use od_wire::{Frame, Instant};
 

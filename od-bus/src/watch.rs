@@ -132,7 +132,7 @@ fn mapped(frame: &Frame, first: u8, bits: u8) -> Option<Vec<u8>> {
 /// A node that does not answer is asked again.
 ///
 /// # Errors
-/// The link is lost, or somebody stops it.
+/// The link is lost, or the user stops it.
 pub fn watch(
     link: &mut impl Link,
     node: NodeId,

@@ -13,7 +13,7 @@ impl Output {
         Self(BufWriter::new(io::stdout().lock()))
     }
 
-    /// Writes a line. Answers whether anybody still reads.
+    /// Writes a line. Returns whether the reader is still there.
     pub(crate) fn line(&mut self, line: &str) -> Result<bool, Failure> {
         open(writeln!(self.0, "{line}"))
     }
@@ -64,7 +64,7 @@ fn open(result: io::Result<()>) -> Result<bool, Failure> {
 
 /// Prints a message of the argument parser where it belongs.
 pub(crate) fn print_or_ignore(error: &clap::Error) {
-    // If nobody listens there is nobody to tell.
+    // Without a listener the error cannot be reported.
     let _ = error.print();
 }
 
@@ -73,7 +73,7 @@ pub(crate) fn error(message: &str) {
     note_text(&format!("odkit: {message}\n"));
 }
 
-/// A line on standard error. Unlike `eprintln!` it does not panic where nobody listens.
+/// A line on standard error. Unlike `eprintln!` it does not panic without a listener.
 macro_rules! note {
     ($($argument:tt)*) => {
         $crate::output::note_text(&format!("{}\n", format_args!($($argument)*)))

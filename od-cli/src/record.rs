@@ -114,7 +114,7 @@ impl Recorder {
     }
 }
 
-/// The end of a command that runs until somebody stops it.
+/// The end of a command that runs until the user stops it.
 pub(crate) fn end(link: &impl Link, seconds: Option<f64>) -> Instant {
     match seconds.map(Duration::try_from_secs_f64) {
         Some(Ok(time)) => link.now() + time,

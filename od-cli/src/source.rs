@@ -25,7 +25,7 @@ pub(crate) struct Source {
     pub(crate) path: String,
     /// The built-in device, if it is one.
     pub(crate) kind: Option<&'static DeviceKind>,
-    /// The file as it is; of a built-in device its EDS, made when somebody wants it.
+    /// The file as it is; of a built-in device its EDS, made on demand.
     document: OnceCell<Document>,
     laid: Option<Box<Laid>>,
 }
@@ -50,7 +50,7 @@ pub(crate) struct Lost(Vec<Finding>);
 
 impl Lost {
     /// # Errors
-    /// The target lacks objects, and nobody accepted that.
+    /// The target lacks objects, and `--lossy` is not given.
     pub(crate) fn judge(&self, accepted: bool) -> Result<(), Failure> {
         if self.0.is_empty() || accepted {
             return Ok(());

@@ -1,4 +1,4 @@
-//! Findings of one text while it is read: no more of one rule than somebody can look at.
+//! Findings of one text while it is read: no more of one rule than a person can look at.
 
 use alloc::collections::BTreeMap;
 use alloc::collections::btree_map::Entry;

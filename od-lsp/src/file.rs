@@ -1,4 +1,4 @@
-//! One open file: its text, and what odkit reads in it, made when somebody asks.
+//! One open file: its text, and what odkit reads in it, made on demand.
 
 use std::cell::OnceCell;
 

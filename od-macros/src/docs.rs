@@ -103,7 +103,7 @@ fn access(access: Access) -> &'static str {
         Access::Rw => "the master reads and writes it",
         Access::Rwr => "the master reads and writes it, and gets it by TPDO",
         Access::Rww => "the master reads and writes it, and sends it by RPDO",
-        Access::Const => "nobody changes it",
+        Access::Const => "it never changes",
     }
 }
 

@@ -202,7 +202,7 @@ impl Row {
         of >> (self.0[3] >> 4 & 7) & 1 != 0
     }
 
-    /// Whether nobody writes the value.
+    /// Whether the value is never written.
     pub const fn is_const(self) -> bool {
         self.has_access(1 << Access::Const as u32)
     }

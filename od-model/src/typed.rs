@@ -97,7 +97,7 @@ markers! {
     Rwr,
     /// Access `rww`: `rw`, in a PDO only from master to device.
     Rww,
-    /// Access `const`: nobody writes.
+    /// Access `const`: the value never changes.
     Const,
     /// PDOMapping=1: a PDO can carry it.
     Pdo,

@@ -41,7 +41,7 @@ pub fn hex(bytes: &[u8]) -> String {
         .join(" ")
 }
 
-/// The bytes of a value that somebody wrote: `4096`, `0x1000`, `1000h`, `-5`, `1.5`, `true`,
+/// The bytes of a value that a user wrote: `4096`, `0x1000`, `1000h`, `-5`, `1.5`, `true`,
 /// `"text"`, or `[01 02 03]` for bytes of any type.
 ///
 /// # Errors
@@ -142,7 +142,7 @@ pub fn address(text: &str) -> Option<Address> {
     Some(Address::new(index, sub))
 }
 
-/// The entry that somebody means: by [`address`], or by name in any case. A member is named
+/// The entry that a user names: by [`address`], or by name in any case. A member is named
 /// by its own name if there is only one such, else as `object.member`.
 ///
 /// # Errors

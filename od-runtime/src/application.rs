@@ -231,7 +231,7 @@ pub trait Stream {
     /// less.
     ///
     /// # Errors
-    /// [`Halt`]; with [`Halt::Until`] nothing was taken, and the part comes again.
+    /// [`Halt`]; with [`Halt::Until`] nothing was accepted, and the part comes again.
     fn write(
         &mut self,
         cx: &mut Context<'_, '_>,

@@ -129,7 +129,7 @@ pub fn read_line(text: &str, node_id: u8, objects: &Objects) -> JsValue {
     result.value()
 }
 
-/// The bytes of a value that somebody typed for an object of this type, such as `UNSIGNED32`.
+/// The bytes of a value that a user typed for an object of this type, such as `UNSIGNED32`.
 ///
 /// # Errors
 /// The problem of the text.

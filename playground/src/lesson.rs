@@ -1,4 +1,4 @@
-//! Lessons on a bus: what there is to do, and how far somebody is.
+//! Lessons on a bus: their steps, and the progress of a learner.
 
 use od_bench::lesson::{self, Problem};
 use od_bench::script::{Bare, Pattern};

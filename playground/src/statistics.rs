@@ -16,7 +16,7 @@ pub struct Statistics {
 
 #[wasm_bindgen]
 impl Statistics {
-    /// No frame was taken so far.
+    /// No frame was counted so far.
     #[wasm_bindgen(constructor)]
     pub fn new() -> Self {
         Self::default()

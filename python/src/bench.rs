@@ -27,7 +27,7 @@ use crate::wire::{Wire, micros};
 /// power at once. A snapshot in their place makes a bench in its state. `can.Bus(interface="odkit", channel=bench.name)` connects to the bench, and
 /// `bench.bus()` does so, too.
 ///
-/// Time moves while somebody waits: in `run`, `until`, `expect`, or in `recv` of a bus. With
+/// Time moves while a thread waits: in `run`, `until`, `expect`, or in `recv` of a bus. With
 /// `time="real"` it is that of the clock.
 ///
 /// Raises `ValueError` if a device cannot be made, `OSError` if a file cannot be read.

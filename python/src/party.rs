@@ -22,7 +22,7 @@ pub(crate) struct Wait {
 /// State of a thread outside this package.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Outside {
-    /// It runs, as far as anybody knows.
+    /// It runs, as far as is known.
     Runs,
     /// It waits in Python: for a lock of `threading`, a queue, another thread, events of asyncio.
     /// `Some`: at most until this moment of virtual time.

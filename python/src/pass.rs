@@ -37,12 +37,12 @@ enum Way {
     Free(Option<Instant>),
     /// As `Free`, but not for the sake of a time-out.
     Frames(Option<Instant>),
-    /// Somebody runs.
+    /// A thread runs.
     Closed,
 }
 
 /// Waits until `done` or until `wait` is over. `done` is asked whenever something happened; what comes
-/// for a bus `in_turn`, while nobody else runs. After `patience` on the clock it is over in any case.
+/// for a bus `in_turn`, while no other thread runs. After `patience` on the clock it is over in any case.
 ///
 /// # Errors
 /// An exception in Python, such as `KeyboardInterrupt`.
@@ -72,7 +72,7 @@ struct Pass<'w> {
     idle: u32,
     /// No thread has started since it looked.
     knows_threads: bool,
-    /// A frame is received only while nobody else runs.
+    /// A frame is received only while no other thread runs.
     in_turn: bool,
 }
 
@@ -231,7 +231,7 @@ impl<'w> Pass<'w> {
         Ok((state, way))
     }
 
-    /// Does nobody run, and has nobody a turn before this one?
+    /// Whether no thread runs, and none has a turn before this one.
     fn is_next(&self, py: Python<'_>, turn: (u8, u32)) -> PyResult<(MutexGuard<'w, State>, bool)> {
         let id = thread::current().id();
         let state = self.wire.lock();

@@ -23,7 +23,7 @@ pub(crate) struct Bench<M: Motion = Shaft> {
     pub(crate) encoder: Encoder<M>,
     node: Node,
     pub(crate) now: Instant,
-    /// Frames that nobody asked for, in their order.
+    /// Frames that were not requested, in their order.
     pub(crate) heard: Vec<Frame>,
 }
 

@@ -1,5 +1,5 @@
 //! Fields of an input as a program outside hands them over, and the checks on them: they may come
-//! from a link that anybody wrote.
+//! from a link of unknown origin.
 
 use std::prelude::v1::*;
 use std::{fmt, format};

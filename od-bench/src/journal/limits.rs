@@ -1,4 +1,4 @@
-//! Limits of a run that is made again: it may come from a link that anybody wrote.
+//! Limits of a run that is made again: it may come from a link of unknown origin.
 
 use std::fmt;
 use std::prelude::v1::*;

@@ -41,7 +41,7 @@ struct Note {
     held: bool,
 }
 
-/// Watches a bench while somebody takes a lesson.
+/// Watches a bench during a lesson.
 ///
 /// Hand it every frame that came through, then let it look; both change nothing on the bench.
 pub struct Progress {

@@ -10,7 +10,7 @@ use super::watch::{Watched, pass};
 use crate::grammar::problem::Problem;
 use crate::script::{Bench, Host, Recorder, Script, run_on};
 
-/// So long nobody does anything, in microseconds; no checkpoint may be reached by that.
+/// Time without any action, in microseconds; it must not reach a checkpoint.
 const IDLE: u64 = 20_000_000;
 
 const NEEDS_ACTION: &str = "add a condition that needs an action";
@@ -20,7 +20,7 @@ const NEEDS_ACTION: &str = "add a condition that needs an action";
 /// Returns problems in order of the lines; none if the lesson meets all of this:
 ///
 /// - the set-up and the solutions can be carried out, and what checkpoints ask for can be;
-/// - no checkpoint holds at the start, nor after a while in which nobody does anything, nor
+/// - no checkpoint holds at the start, nor after a while without any action, nor
 ///   when the steps before it are done;
 /// - each step's solution reaches its checkpoint and no other;
 /// - without any one line of the solutions the lesson does not come to its end;

@@ -84,7 +84,7 @@ impl Adapter {
         match line {
             [] => self.answer(is_right),
             [b'z' | b'Z'] | [b'V' | b'v' | b'N' | b'F', ..] => Said::Nothing,
-            // The end of a line whose beginning went to somebody else.
+            // The end of a line whose beginning another reader got.
             _ if !self.is_open => Said::Nothing,
             line => Said::Noise(line.to_vec()),
         }

@@ -77,7 +77,7 @@ impl Channel {
     /// One line without its CR.
     fn command(&mut self, line: &[u8], steps: &mut Vec<Step>) -> Option<Frame> {
         let answer = match line {
-            // Hosts send empty lines to clear a half line of somebody before them.
+            // Hosts send empty lines to clear half a line of an earlier host.
             [] => OK,
             // Opening what is open and closing what is closed: hosts do it to be sure.
             [b'C'] => {

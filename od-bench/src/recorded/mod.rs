@@ -59,7 +59,7 @@ pub struct Recorded {
     pub length: u64,
     /// From an SDO request to its response.
     pub answer: u64,
-    /// From NMT reset node to the boot-up message; `None` where nobody measured it.
+    /// From NMT reset node to the boot-up message; `None` if it was not measured.
     pub boot_up: Option<u64>,
     /// Measured period of the heartbeat.
     pub heartbeat: Option<u64>,

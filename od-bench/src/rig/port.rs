@@ -12,6 +12,6 @@ pub(super) struct Port {
     pub(super) out: VecDeque<Frame>,
     /// Frames that were held back.
     pub(super) held: u64,
-    /// Things that were dropped before anybody drained them.
+    /// Number of items that were dropped before they were drained.
     pub(super) dropped: u64,
 }

@@ -54,7 +54,7 @@ impl Rig {
         self.port.as_ref().map_or(0, |port| port.held)
     }
 
-    /// Returns how many things were dropped before anybody drained them.
+    /// Returns the number of items that were dropped before they were drained.
     pub fn dropped(&self) -> u64 {
         self.port.as_ref().map_or(0, |port| port.dropped)
     }

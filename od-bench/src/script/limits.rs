@@ -1,4 +1,4 @@
-//! Limits of a script that runs while somebody waits for it: a text from outside must not hang
+//! Limits of a script that runs while a user waits for it: a text from outside must not hang
 //! the program that opens it.
 
 use std::format;

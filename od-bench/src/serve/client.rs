@@ -36,7 +36,7 @@ pub(super) struct Client {
     pub(super) protocol: Protocol,
     pub(super) codec: Box<dyn Codec>,
     pub(super) port: Box<dyn Port>,
-    /// First bytes of a client that anybody may be.
+    /// First bytes of a client of unknown kind.
     opening: Option<Opening>,
     outbox: Outbox,
     /// There may be more to read.
@@ -45,7 +45,7 @@ pub(super) struct Client {
     writable: bool,
     /// Time when it sent its last byte; what waits still goes out.
     pub(super) ended: Option<Clock>,
-    /// It does not read; `true`: that was told.
+    /// It does not read; `true`: that was reported.
     deaf: Option<bool>,
     /// Messages dropped for it that were not told.
     dropped: usize,
@@ -59,7 +59,7 @@ pub(super) struct Client {
 pub(super) type Encoded = Vec<(&'static str, Vec<u8>)>;
 
 impl Client {
-    /// A client that speaks `protocol`. `is_guest`: it came over a network, and may be anybody.
+    /// A client that speaks `protocol`. `is_guest`: it came over a network, and its kind is unknown.
     pub(super) fn new(
         number: usize,
         name: String,

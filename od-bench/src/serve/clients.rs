@@ -209,7 +209,7 @@ impl Clients {
         let number = self.next.1;
         self.next.1 += 1;
         let client = Client::new(number, name.clone(), protocol, stream.into_port(), true);
-        // A connection that broke already is nobody.
+        // A connection that broke already is not a client.
         self.add(client).ok()?;
         Some((number, name))
     }

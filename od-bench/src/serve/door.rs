@@ -30,9 +30,9 @@ pub(super) struct Door {
     pub(super) ready: bool,
     /// Clients without room, and when they are refused.
     held: VecDeque<(Stream, String, Clock)>,
-    /// Nobody is let in before this moment.
+    /// No client is let in before this moment.
     shut: Option<Clock>,
-    /// The last client was refused, and that was told.
+    /// The last client was refused, and that was reported.
     refuses: bool,
 }
 
@@ -61,7 +61,7 @@ impl Door {
         self.shut.into_iter().chain(held).min()
     }
 
-    /// Does anybody wait to be let in?
+    /// Does a client wait to be let in?
     pub(super) fn is_wanted(&self) -> bool {
         self.ready || !self.held.is_empty()
     }

@@ -175,7 +175,7 @@ impl Live {
             ));
         }
         self.bench.bus.advance(self.pace.at(clock));
-        // Nobody brought this about.
+        // No client caused this.
         let cause = self.cause.take();
         self.deliver();
         self.cause = cause;

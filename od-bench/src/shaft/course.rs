@@ -29,7 +29,7 @@ impl Ramp {
 
     /// The speed at its end, from `from` on.
     pub(super) const fn to(self, from: i32) -> i32 {
-        // The sum is the speed that somebody gave.
+        // The sum is the given speed.
         (from as i64 + self.by) as i32
     }
 

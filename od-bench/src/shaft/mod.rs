@@ -167,7 +167,7 @@ impl Shaft {
         self.set_angle(now, angle);
     }
 
-    /// The speed, if the shaft turned evenly since `from`, and nobody placed it.
+    /// The speed, if the shaft turned evenly since `from`, and was not set to a position.
     #[inline]
     fn even_since(&self, from: Instant) -> Option<i32> {
         let even = self.course.even_since(from);

@@ -50,7 +50,7 @@ impl<const N: usize> Newest<'_, N> {
         });
     }
 
-    /// Whether a set is the newest one, or one before it, which nobody has to compare.
+    /// Whether a set is the newest one, or one before it, which need not be compared.
     fn is(&self, stored: &[u8]) -> bool {
         let mut is_same = false;
         self.set(&mut |bytes, number| is_same = number != self.number.get() || bytes == stored);

@@ -5,11 +5,11 @@ use core::task::{Context, Poll, Waker};
 use od_runtime::storage::{Storage, StorageError, image};
 
 /// The storage of a node whose saves go to flash in the background: the node writes here, and
-/// somebody of lower priority carries the newest set on ([`Log`](super::Log), or your own by
+/// a task of lower priority carries the newest set on ([`Log`](super::Log), or your own by
 /// [`poll_changed`](Self::poll_changed), [`newest`](Self::newest) and [`stored`](Self::stored)).
 ///
 /// `N`: [`image::capacity_needed`] of the dictionary, and [`image::OWN_CAPACITY`] more where LSS stores
-/// the node ID. Without anybody to carry it on, 1010h is never answered.
+/// the node ID. Without such a task, 1010h is never answered.
 #[derive(Debug)]
 pub struct Mirror<const N: usize> {
     bytes: [u8; N],

@@ -46,7 +46,7 @@ impl<B: BorrowMut<Bus>> Rig for OnBench<B> {
 pub struct RealBus {
     /// The link.
     pub link: Box<dyn Link>,
-    /// A command line; `on` or `off` is appended to it. `None`: nobody switches the power.
+    /// A command line; `on` or `off` is appended to it. `None`: the power is not switched.
     pub power: Option<String>,
 }
 

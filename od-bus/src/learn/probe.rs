@@ -20,7 +20,7 @@ pub(super) struct Found {
     pub(super) is_write_only: bool,
     /// `None`: only a write could show it.
     pub(super) writable: Option<bool>,
-    /// Bytes that a download may have; `None` if nobody asked, or the node does not say.
+    /// Bytes that a download may have; `None` if it was not tried, or the node does not show it.
     pub(super) room: Option<Room>,
 }
 

@@ -150,7 +150,7 @@ fn by_value(found: &Found) -> Guess {
     }
 }
 
-/// Is it a number that somebody would write as a decimal fraction?
+/// Is it a number that a person would write as a decimal fraction?
 fn is_real(value: f32) -> bool {
     let size = value.abs();
     (1e-5..1e8).contains(&size) && format!("{size}").len() <= 7

@@ -166,7 +166,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     }
 }
 
-/// Shows a value. Answers whether anybody still reads.
+/// Shows a value. Returns whether the reader is still there.
 fn show(
     sink: &mut Sink,
     file: Option<&mut BufWriter<File>>,

@@ -41,7 +41,7 @@ pub(crate) enum Assumed {
 /// Values that could not be read, kept as text.
 pub(crate) type Unread = Vec<(String, String)>;
 
-/// The texts that an object or entry keeps: the keys that nobody took, in file
+/// The texts that an object or entry keeps: the keys that were not read, in file
 /// order, then what could not be read, by key, so that reading again finds the same.
 pub(crate) fn extra(mut rest: Vec<(String, String)>, mut unread: Unread) -> Vec<(String, String)> {
     unread.sort();

@@ -1,4 +1,4 @@
-//! The keys of one section, taken one by one; what nobody takes is left over.
+//! The keys of one section, read one by one; the others are left over.
 
 use alloc::borrow::Cow;
 use alloc::collections::BTreeMap;
@@ -84,7 +84,7 @@ impl<'a> Fields<'a> {
             .any(|(k, v)| k.eq_ignore_ascii_case(key) && !v.is_empty())
     }
 
-    /// The keys that nobody has taken, in file order; unknown ones are reported.
+    /// The keys that were not read, in file order; unknown ones are reported.
     pub(crate) fn rest(self, address: Address, log: &mut Log) -> Vec<(String, String)> {
         unknown_object_keys(&self.pairs, address, log);
         self.pairs

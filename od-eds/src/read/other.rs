@@ -73,7 +73,7 @@ fn object_section(name: &str) -> Option<String> {
     Some(format!("{index:04X}sub{sub:X}"))
 }
 
-/// The finding about a key that nobody reads, with the one that may be meant.
+/// The finding about a key that odkit ignores, with the one that may be meant.
 fn unknown_key<'a>(key: &Text<'_>, value: &str, keys: impl Iterator<Item = &'a str>) -> Finding {
     match known::near(key, keys) {
         Some(meant) => w0318::finding(key, value, &meant.replace('#', "1")),
@@ -81,7 +81,7 @@ fn unknown_key<'a>(key: &Text<'_>, value: &str, keys: impl Iterator<Item = &'a s
     }
 }
 
-/// Names the keys of an object or a member that nobody reads.
+/// Names the keys of an object or a sub-object that odkit ignores.
 pub(crate) fn unknown_object_keys(rest: &[(Text<'_>, Text<'_>)], address: Address, log: &mut Log) {
     for (key, value) in rest {
         if !OBJECT_KEYS

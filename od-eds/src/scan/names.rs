@@ -123,7 +123,7 @@ pub(crate) fn intended(name: &str, describes: bool) -> Option<Place> {
         let text = text.strip_prefix("0x").unwrap_or(text);
         let text = text.strip_suffix('h').unwrap_or(text);
         let starts = text.bytes().next()?;
-        // `[add]` is somebody's own section; `[5]` is an object.
+        // `[add]` is a section of a tool; `[5]` is an object.
         match text.len() {
             4 => hex(text),
             5..=8 if describes && text.starts_with('0') => hex(text),

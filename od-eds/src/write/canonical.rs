@@ -69,7 +69,7 @@ fn sections(description: &Description) -> Vec<Canonical> {
             made.push((order, Canonical { name, pairs }));
         }
     }
-    // Stable: what nobody knows keeps its order, behind all others.
+    // Stable: unknown sections keep their order, behind all others.
     made.sort_by_key(|(order, _)| *order);
     let mut made: Vec<Canonical> = made.into_iter().map(|(_, made)| made).collect();
     for section in &mut made {

@@ -44,7 +44,7 @@ impl<R: Rooms> Consumer<R> {
     }
 
     /// Reads 1016h: bits 0–15 the time in ms, bits 16–23 the node ID. An entry that did
-    /// not change goes on. Without `enabled` nobody is watched.
+    /// not change goes on. Without `enabled` no node is watched.
     pub(super) fn configure(&mut self, store: &Store<'_>, enabled: bool) {
         self.count = 0;
         for (sub, watch) in (1..).zip(self.watches.all_mut()) {

@@ -57,7 +57,7 @@ impl<R: Rooms> Monitor<R> {
         }
     }
 
-    /// Boot-up: nobody is watched yet, nothing is lost.
+    /// Boot-up: no node is watched yet, and none is lost.
     pub(crate) fn reset(&mut self) {
         self.guards.all_mut().fill(Blank::BLANK);
         self.consumer.reset();
@@ -103,7 +103,7 @@ impl<R: Rooms> Monitor<R> {
         }
     }
 
-    /// `Some(true)` when somebody was lost and nobody before, `Some(false)` when
+    /// `Some(true)` when a node was lost and none before, `Some(false)` when
     /// everybody is back.
     #[inline]
     pub(crate) fn poll<D: Device>(&mut self) -> Option<bool> {

@@ -62,7 +62,7 @@ pub(super) struct Fastscan {
 }
 
 impl Fastscan {
-    /// `bit` of the request that asks whether anybody is there, and begins a scan.
+    /// `bit` of the request that asks whether a slave responds, and begins a scan.
     const BEGIN: u8 = 0x80;
 
     pub(super) const fn new() -> Self {
@@ -145,7 +145,7 @@ mod tests {
     fn no_scan_is_complete_before_its_end() {
         let mut slave = Fastscan::new();
         slave.step(0, 0x80, 0, 0, 0);
-        // A master that jumps over numbers, or back, finds nobody.
+        // A master that jumps over numbers, or back, finds no slave.
         assert_eq!(slave.step(ADDRESS[3], 0, 3, 0, ADDRESS[3]), Seen::Other);
         assert_eq!(slave.step(ADDRESS[0], 0, 0, 3, ADDRESS[0]), Seen::Other);
         assert_eq!(slave.step(ADDRESS[0], 0, 0, 1, ADDRESS[0]), Seen::Match);

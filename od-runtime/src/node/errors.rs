@@ -43,7 +43,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         }
     }
 
-    /// Somebody was lost, or everybody is back.
+    /// A watched node was lost, or all are back.
     #[cold]
     fn tell(&mut self, objects: &mut Objects<'_, D>, lost: bool) {
         let notice = objects.profile().errors.lost;

@@ -264,7 +264,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         None => true,
     };
 
-    /// There is somebody to watch: a master that guards, or a node that sends heartbeats.
+    /// The node watches others: a master that guards, or a node that sends heartbeats.
     const HAS_MONITOR: bool = D::GUARDING || D::CONSUMER;
 
     /// Queues a frame, if there is room.

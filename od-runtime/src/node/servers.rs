@@ -114,7 +114,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         }
     }
 
-    /// As [`cut_transfers`](Self::cut_transfers), where there is nobody to tell.
+    /// As [`cut_transfers`](Self::cut_transfers), without telling a client.
     pub(super) fn forget_transfers(&mut self) {
         self.sdo.forget();
         if D::SERVERS {

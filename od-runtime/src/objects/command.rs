@@ -27,7 +27,7 @@ pub(crate) struct Saving {
     /// While a save goes on, the set that waits for its commit word; without one all is written, and on its
     /// way to the memory that keeps it.
     pub(super) banks: Banks,
-    /// Sub-index of 1010h; [`RESTORE`]: it is a restore, which was told.
+    /// Sub-index of 1010h; [`RESTORE`]: it is a restore, which was reported.
     pub(super) sub: u8,
     /// It is complete then; never without one.
     pub(super) due: Deadline,

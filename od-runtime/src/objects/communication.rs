@@ -41,7 +41,7 @@ pub(super) fn check<D: Device>(
     bytes: &[u8],
 ) -> Result<(), AbortCode> {
     let Address { index, sub } = row.address();
-    // What is longer than a word (of a dictionary of somebody's own) is too great.
+    // What is longer than a word (of another dictionary) is too great.
     let value = u32::try_from(number_in(bytes)).unwrap_or(u32::MAX);
     let check_cob_id = |has_valid_bit| check_cob_id(store, profile, row, value, has_valid_bit);
     match (index, sub) {

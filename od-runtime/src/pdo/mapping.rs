@@ -11,7 +11,7 @@ use crate::objects::{Objects, check_mapped};
 use crate::rooms::{Room, Rooms};
 use crate::store::Store;
 
-/// A mapped value: in the low 24 bits one more than the position of its row, 0 for bits that nobody
+/// A mapped value: in the low 24 bits one more than the position of its row, 0 for bits that nothing
 /// reads, and above them its length in bits.
 type Mapped = u32;
 

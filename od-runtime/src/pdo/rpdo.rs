@@ -19,7 +19,7 @@ pub(crate) struct Rpdo<R: Rooms> {
 /// Result of a frame.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Received {
-    /// It was taken, or waits for SYNC.
+    /// It was processed, or waits for SYNC.
     Taken,
     /// It is shorter than the mapping: EMCY 8210h.
     TooShort,

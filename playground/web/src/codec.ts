@@ -41,7 +41,7 @@ export function tagAt(place: number): Tag {
 /** Two numbers for each packed frame: service, node and whether there is an object; the object. */
 export const tags = (frames: Uint8Array): Uint32Array => tagsOf(frames);
 
-/** A frame that somebody typed. */
+/** A frame that a user typed. */
 export interface Typed {
   id: number;
   extended: boolean;

@@ -59,7 +59,7 @@ export const lastPdo = signal<{ time: number; data: Uint8Array } | null>(null);
 
 /** Objects of the selected device that a power cycle would change. */
 export const unsaved = signal<ReadonlySet<number>>(new Set());
-/** The EEPROM of the selected device, while somebody looks. */
+/** The EEPROM of the selected device, while it is shown. */
 export const eeprom = signal<Uint8Array | null>(null);
 
 /** The frames that are shown; `captured` changes whenever the ring does. */
@@ -77,7 +77,7 @@ export const pausedAt = signal<number | null>(null);
 /** Counts how often the capture was cleared. */
 export const cleared = signal(0);
 
-/** Numbers of frames that somebody marked. */
+/** Numbers of frames that the user marked. */
 export const bookmarks = signal<ReadonlySet<number>>(new Set());
 
 /** Number of the frame that is shown in full. */

@@ -1,4 +1,4 @@
-//! A value with the type of a whole object.
+//! A value with the type of a RECORD.
 
 use odkit::object_dictionary;
 

@@ -111,7 +111,7 @@ impl Port for Terminal {
                 return Ok(len);
             }
             Err(error) if error.raw_os_error() != Some(Errno::EIO as i32) => return Err(error),
-            // Nobody has opened the other end.
+            // The other end is not open.
             _ => {}
         }
         if !std::mem::take(&mut self.used) {

@@ -121,7 +121,7 @@ fn read(mut reading: impl Read, heard: &SyncSender<io::Result<Vec<u8>>>, waker: 
             Err(error) if passes(&error) => continue,
             Err(error) => (Err(error), true),
         };
-        // The bench is gone when nobody takes it.
+        // The bench has ended when the channel is closed.
         if heard.send(piece).is_err() || waker.wake().is_err() || is_last {
             break;
         }

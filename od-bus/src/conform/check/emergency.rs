@@ -62,7 +62,7 @@ pub(super) fn history_clear(dut: &mut Dut<'_>) -> Checked {
     ensure(
         count == 0,
         "no entry after 0 was written to 1003h:00",
-        format!("{count} entries"),
+        format!("1003h:00 is {count}"),
     )
 }
 

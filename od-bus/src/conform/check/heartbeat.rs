@@ -154,7 +154,7 @@ pub(super) fn consumer_too_late(dut: &mut Dut<'_>) -> Checked {
     }
 }
 
-/// Nobody is missed who was never heard.
+/// A node that was never heard is not reported missing.
 pub(super) fn consumer_waits(dut: &mut Dut<'_>) -> Checked {
     watch(dut, 100)?;
     dut.nmt(Command::Start)?;

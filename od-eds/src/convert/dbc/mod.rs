@@ -45,7 +45,7 @@ pub fn write(description: &Description, node: u8) -> (String, Vec<Finding>) {
     (text(description, node, &messages), found)
 }
 
-/// Is a message lost that is on the bus, or whose mapping somebody made? A server without a CAN-ID has none.
+/// Whether the loss of a message is reported: that of a PDO, or of a service with a valid CAN-ID.
 fn is_lost(used: &Used) -> bool {
     match used.service {
         Service::Tpdo(_) | Service::Rpdo(_) => true,

@@ -8,7 +8,7 @@ pub(crate) static RULE: Rule = Rule {
     code: "W0651",
     severity: Warning,
     title: "heartbeat consumer watches a node that cannot exist",
-    why: "The device ignores the entry, so it watches nobody. Bits 16 to 23 are the node ID, 1 to 127, bits 0 to 15 the time.",
+    why: "The device ignores the entry, so it watches no node. Bits 16 to 23 are the node ID, 1 to 127, bits 0 to 15 the time.",
     source: "CiA 301, object 1016h",
     says: "node ID {node} is not valid, but the entry has a heartbeat time",
     help: "write a node ID from 1 to 127 in bits 16 to 23, or 0 for no entry",

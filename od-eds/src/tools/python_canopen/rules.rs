@@ -31,7 +31,7 @@ pub(super) static MISSING: Rule = Rule {
     code: "T0104",
     title: "a key that the tool needs is missing",
     source: SOURCE,
-    says: "{tool} rejects the file: `[{section}]` lacks `{name}`, which it compares letter by letter",
+    says: "{tool} rejects the file: `[{section}]` lacks `{name}`; the tool distinguishes upper and lower case",
     help: "add `{line}`{fix}",
     also: &[Form {
         help: "add `{line}`",

@@ -42,7 +42,7 @@ export class FindingList {
   constructor(
     private readonly viewport: HTMLElement,
     private readonly uri: string,
-    /** Called with the finding that somebody chose. */
+    /** Called with the finding that the user chose. */
     private readonly choose: (finding: Finding) => void,
     /** What is below the chosen one. */
     private readonly below: (finding: Finding) => unknown = () => nothing,

@@ -19,7 +19,7 @@ const read = <T>(key: string, none: T): T => {
 const isDone = (value: unknown): value is Done =>
   Array.isArray(value) && value.length === 3 && value.slice(0, 2).every((count) => Number.isSafeInteger(count) && count >= 0) && /^\d{4}-\d\d-\d\d$/.test(String(value[2]));
 
-/** What somebody else wrote there is left out. */
+/** Other content of the storage is left out. */
 export const progress = (): Progress => {
   const known: unknown = read(KEY, {});
   return Object.fromEntries(Object.entries(known ?? {}).filter((one): one is [string, Done] => isDone(one[1])));

@@ -116,7 +116,7 @@ export class Real extends World {
   private ended(why: Why): void {
     this.drop();
     this.why = why;
-    // A link that comes back sends nothing before somebody says so again.
+    // A link that comes back sends nothing before the user allows it again.
     this.setSending(false);
     if (this.first) {
       this.first(why);

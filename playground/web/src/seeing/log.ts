@@ -12,7 +12,7 @@ import { S } from './texts';
 /** The end of the capture while it is a log, and nothing came since. */
 let onlyLog: { cleared: number; end: number } | null = null;
 
-/** Shows a log. A capture that somebody may want is not replaced unasked. */
+/** Shows a log. A capture is not replaced without a question. */
 export function opened(name: string, log: Log): void {
   const { ring } = state.live;
   const isFree = ring.end === ring.first || (onlyLog?.end === ring.end && onlyLog.cleared === state.cleared.value);

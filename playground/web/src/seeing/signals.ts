@@ -73,10 +73,10 @@ export async function learn(): Promise<void> {
   if (JSON.stringify(next) !== JSON.stringify(mapped.peek())) mapped.value = next;
 }
 
-/** Milliseconds after which a mapping that somebody changed is known. */
+/** Milliseconds after which a changed mapping is known. */
 const LEARNED = 1000;
 
-/** Learns again and again, while somebody looks. */
+/** Repeats the reading while the view is open. */
 export function keepLearning(): () => void {
   void learn();
   const timer = window.setInterval(() => void learn(), LEARNED);

@@ -1,4 +1,4 @@
-// The last bench, kept in this browser: nobody loses his work by closing a tab.
+// The last bench, kept in this browser: closing a tab loses no work.
 
 import { effect } from '@preact/signals-core';
 import { createStore, del, entries, set } from 'idb-keyval';

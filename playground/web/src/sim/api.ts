@@ -98,7 +98,7 @@ export interface Snapshot {
   saved: Value;
   /** Of the selected node: objects that are not saved as they are, as `index * 256 + sub`; with the values. */
   unsaved: Uint32Array | null;
-  /** Of the selected node: the bytes of its EEPROM, while somebody looks. */
+  /** Of the selected node: the bytes of its EEPROM, while they are shown. */
   eeprom: Uint8Array | null;
   /** Values of the plotted objects, and whose they are: others may be wanted by now. */
   plot: { node: number; addresses: Address[]; values: Value[] } | null;

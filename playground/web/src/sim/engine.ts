@@ -289,7 +289,7 @@ export class Engine {
     return isReached;
   }
 
-  /** Time that is paused goes on until the frame that somebody sent is through: its answer comes with the next step. */
+  /** Time that is paused goes on until the frame that the user sent is transmitted: its answer comes with the next step. */
   private sendOut(): void {
     const { bus } = this.world;
     for (let left = MOST_FRAMES; left > 0 && bus.isSending(); left--) bus.advance(SLICE, 1);

@@ -43,7 +43,7 @@ export const hooks = {
   held(): void {},
 };
 
-/** May something be sent? Not to a real bus before somebody switched sending on. */
+/** May something be sent? Not to a real bus before the user switched sending on. */
 export const maySend = (): boolean => state.real.peek()?.sending !== false;
 
 export function start(): void {
@@ -164,7 +164,7 @@ function receive(report: Report): void {
   }
 }
 
-/** Null: nobody will answer any more. */
+/** Null: no answer will come any more. */
 function resolve(ticket: number, value: unknown): void {
   const asked = waiting.get(ticket);
   asked?.resolve(value ?? asked.otherwise);

@@ -9,7 +9,7 @@ import { ask, hooks, maySend } from './link';
 
 export type Said = { tone: '' | 'error' | 'good'; text: string };
 
-/** Nobody answered. */
+/** No node answered. */
 const SILENT: Outcome = { job: 0, kind: 'silent', bytes: null, words: '', wantsPdoOff: false };
 
 /** Reads an object of the selected node over the bus, or with bytes writes it. */

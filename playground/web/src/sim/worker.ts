@@ -1,5 +1,5 @@
 // The worker that ships: the simulation in WebAssembly. It begins with the small module;
-// the whole one is fetched when somebody opens an EDS text.
+// the whole one is fetched when the user opens an EDS text.
 
 import init, * as core from '../wasm/core/od_playground';
 import { host } from './host';

@@ -1,4 +1,4 @@
-// A real bus: fetched when somebody connects to one.
+// A real bus: fetched when the user connects to one.
 
 import type { Why } from '../real/api';
 

@@ -66,7 +66,7 @@ class App extends View {
     });
     effect(() => {
       const { value } = state.toast;
-      // What went wrong stays until somebody has read it.
+      // What went wrong stays until the user closes it.
       if (value?.tone === 'info') setTimeout(() => state.toast.value === value && (state.toast.value = null), READ);
     });
   }

@@ -46,7 +46,7 @@ class DeviceDialog extends View {
     return Number.isInteger(node) && node >= 1 && node <= 127 ? node : null;
   }
 
-  /** The first node ID that nobody has. */
+  /** The first node ID that no device has. */
   private free(): number {
     const taken = new Set(state.statuses.peek().map((one) => one.nodeId));
     let node = 1;
