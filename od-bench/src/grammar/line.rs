@@ -76,7 +76,7 @@ fn time(tokens: &mut Tokens<'_>, origin: &mut Option<u64>) -> Result<When, Probl
     here.limited(Some(micros.saturating_sub(first))).map(at)
 }
 
-/// What is in parentheses, but not a time stamp.
+/// Content of parentheses that is not a time stamp.
 fn no_stamp(here: Tokens<'_>) -> Result<u64, Problem> {
     let word = here.peek();
     let inner = word

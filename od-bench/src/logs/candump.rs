@@ -89,7 +89,7 @@ pub fn parse_line(line: &str) -> Result<Line, Error> {
     }
 }
 
-/// What a line of a log says.
+/// Content of a line of a log.
 pub(super) struct Logged<'t> {
     pub(super) at: Option<Instant>,
     interface: Option<&'t str>,
@@ -98,7 +98,7 @@ pub(super) struct Logged<'t> {
     pub(super) frame: Placed<'t>,
 }
 
-/// What there was on the bus, and the word that begins it.
+/// Event on the bus, and the word that begins it.
 pub(super) struct Placed<'t> {
     pub(super) what: What,
     column: (usize, &'t str),

@@ -2,8 +2,8 @@
 
 use crate::cursor::Cursor;
 
-/// Takes the time stamp at the front, `(0.100000)` or `(2026-11-25 15:50:01.123456)`, in microseconds. `None` if there
-/// is none; then nothing is taken.
+/// Reads the time stamp at the front, `(0.100000)` or `(2026-11-25 15:50:01.123456)`, in microseconds. `None` if it
+/// is missing; then nothing is read.
 pub(crate) fn take(rest: &mut Cursor<'_>) -> Option<u64> {
     let (inner, after) = rest.text.strip_prefix('(')?.split_once(')')?;
     if !after.is_empty() && !after.starts_with(char::is_whitespace) {

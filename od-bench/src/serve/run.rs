@@ -89,7 +89,7 @@ fn open(options: &Options) -> Result<Vec<Opened>, Failure> {
     };
     let consoles = links.iter().filter(|link| **link == Link::Console).count();
     if consoles > 1 || links.len() > LINKS {
-        let why = "`--link -` can be given once, and all links at most 64 times";
+        let why = "`--link -` can be given only once; the limit is 64 links";
         return Err(Failure::Usage(why.into()));
     }
     let opened = links.iter().map(|link| link.open(&options.origins));

@@ -321,7 +321,7 @@ fn what_cannot_be_is_said_in_one_line() {
         (
             &["sim", "gxmm", "--link", "-", "--link", "-"],
             2,
-            "one standard input",
+            "can be given only once",
         ),
         (
             &["sim", "gxmm", "--link", "slcan:/dev/nothing"],

@@ -1,4 +1,4 @@
-//! What is known of the banks: which are whole, and which is the newest.
+//! State of the banks: which are whole, and which is the newest.
 
 use core::num::NonZeroUsize;
 
@@ -42,7 +42,7 @@ pub(crate) struct Banks {
     pub(super) newest: Option<Set>,
     /// The set that a start loads, whether or not its records fit.
     pub(super) state: Loaded,
-    /// The commit word of the next set; [erased](Code::ERASED): there is none.
+    /// The commit word of the next set; [erased](Code::ERASED): no set follows.
     pub(super) next: Code,
     /// The newest set does not count, because a later save was interrupted on a device that loads
     /// the factory values then; the operating records in it do.
@@ -50,7 +50,7 @@ pub(crate) struct Banks {
 }
 
 impl Banks {
-    /// Banks that nobody has looked at: all zeros.
+    /// Banks that were not read yet: all zeros.
     pub(crate) const NONE: Self = Self {
         layout: Layout::NONE,
         stays: 0,
@@ -67,7 +67,7 @@ impl Banks {
         self.next != Code::ERASED
     }
 
-    /// What two banks are together.
+    /// State of two banks together.
     #[inline(never)]
     pub(super) fn judge(&mut self, stays: &Bank, target: &Bank) {
         let was_withdrawn = stays.mark == Code::WITHDRAWN;

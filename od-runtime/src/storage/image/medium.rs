@@ -50,7 +50,7 @@ impl<'m> Medium<'m> {
         part
     }
 
-    /// Writes so many bytes of the buffer.
+    /// Writes this number of bytes of the buffer.
     #[inline(never)]
     pub(super) fn write(&mut self, at: usize, len: usize) {
         if self.outcome.is_ok() {

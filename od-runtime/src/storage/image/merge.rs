@@ -162,7 +162,7 @@ struct Set<'s, 'm> {
     crc: Crc32,
 }
 
-/// Where bytes of a set come from.
+/// Source of bytes of a set.
 #[derive(Clone, Copy)]
 enum Source<'b> {
     Bytes(&'b [u8]),
@@ -279,7 +279,7 @@ impl Set<'_, '_> {
         }
     }
 
-    /// Puts so many bytes.
+    /// Puts this number of bytes.
     #[inline(never)]
     fn put(&mut self, source: Source<'_>, len: usize) {
         if self.only_counts {

@@ -57,7 +57,7 @@ impl Medium<'_> {
         self.outcome.map(|()| own)
     }
 
-    /// What is in the bank from here on.
+    /// Content of the bank from here on.
     #[inline(never)]
     fn look(&mut self, start: usize) -> Bank {
         let Layout { word, size, .. } = self.banks.layout;
@@ -129,7 +129,7 @@ pub(super) struct Records {
 pub(super) const END: u32 = u32::MAX;
 
 impl Records {
-    /// Goes to the next record, or to the [`END`] if the rest is none.
+    /// Goes to the next record, or to the [`END`] if the rest is not a record.
     #[inline(never)]
     pub(super) fn next(&mut self, medium: &mut Medium<'_>) {
         self.key = END;
