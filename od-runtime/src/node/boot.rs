@@ -83,7 +83,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
         let node = &mut self.machines;
         node.powered = false;
         node.save_at = Room::BLANK;
-        // With nothing that waits there is no deadline either.
+        // If nothing waits, no deadline remains either.
         node.next = Instant::ZERO;
         node.pending = 0;
         node.ear = Ear::DEAF;
