@@ -124,7 +124,7 @@ async function throughput(browser) {
   // Whole pictures are counted, so a second may have some frames less.
   row('Frames per second through the console', round(seen.frames), '', 'at least 5,000', seen.frames >= 4950);
   row(`Frames dropped of ${round(times.length)}`, dropped, '', 'none', dropped === 0 && times.length > 20_000);
-  row('Longest task meanwhile', seen.longest ? round(seen.longest) : 'under 50', 'ms', 'at most 100 ms', seen.longest <= 100);
+  row('Longest task during that', seen.longest ? round(seen.longest) : 'under 50', 'ms', 'at most 100 ms', seen.longest <= 100);
   row('Rendered frames per second during that', round(seen.pictures), '', 'at least 50', seen.pictures >= 50);
 }
 
@@ -160,8 +160,8 @@ async function real(browser) {
   const drawn = await pictures;
   const seen = await captured();
   await until('all frames', async () => (await captured()) === sent);
-  row('Real bus over WebSocket: frames a second', round(seen / 8), '', 'at least 5,000', seen / 8 >= 4950);
-  row('Real bus: pictures a second meanwhile', round(drawn), '', 'at least 50', drawn >= 50);
+  row('Real bus over WebSocket: CAN frames per second', round(seen / 8), '', 'at least 5,000', seen / 8 >= 4950);
+  row('Real bus: rendered frames per second during that', round(drawn), '', 'at least 50', drawn >= 50);
   other.close();
   await own.close();
   await bus.stop();
@@ -192,7 +192,7 @@ async function typing(browser) {
   await page.waitForTimeout(1500);
   const longest = await page.evaluate(() => globalThis.longest);
   await own.close();
-  row('Longest task while one types in an EDS of 560 kB', longest ? round(longest) : 'under 50', 'ms', 'under 50 ms', !longest);
+  row('Longest task while typing in an EDS of 560 kB', longest ? round(longest) : 'under 50', 'ms', 'under 50 ms', !longest);
 }
 
 const browser = await launch();
