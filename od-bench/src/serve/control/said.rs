@@ -40,10 +40,7 @@ pub(super) fn said(deed: &Deed, bench: &Bench) -> String {
         Deed::Cycle(micros) => format!("power off for {}, then on", duration(*micros)),
         Deed::Shaft(shaft) => match shaft {
             Shaft::At(raw) => format!("shaft at raw position {raw}"),
-            Shaft::Turn(turns) => match turns.to_string().as_str() {
-                "1" => String::from("shaft turned by 1 revolution"),
-                turns => format!("shaft turned by {turns} revolutions"),
-            },
+            Shaft::Turn(turns) => format!("shaft turned, in revolutions: {turns}"),
             Shaft::Rpm(rpm) => format!("shaft at {rpm} rpm"),
             Shaft::Ramp(rpm, micros) => format!("shaft to {rpm} rpm over {}", duration(*micros)),
         },
