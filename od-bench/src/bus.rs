@@ -318,7 +318,7 @@ impl Bus {
         self.meet(device, 0, to)
     }
 
-    /// Meets the deadlines of a device at this moment, of which so many were met already. Answers whether it
+    /// Meets the deadlines of a device at this moment, of which `met` were met already. Returns whether it
     /// is not after `to` now.
     fn meet(&mut self, device: usize, met: u32, to: Instant) -> bool {
         for _ in met..STUCK {

@@ -33,9 +33,9 @@ pub(crate) struct Stretch {
     pub(crate) now: Instant,
     /// Its end.
     pub(crate) to: Instant,
-    /// It is over earlier when so many frames were sent.
+    /// Number of sent frames that ends it earlier.
     pub(crate) frames: usize,
-    /// What happened at its end; it is over when something does.
+    /// Events at its end; the first one ends it.
     pub(crate) events: Vec<Event>,
 }
 

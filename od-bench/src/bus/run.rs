@@ -14,7 +14,7 @@ impl Bus {
         self.advance_until_full(to, 1)
     }
 
-    /// As [`advance_until_sent`](Self::advance_until_sent), until so many frames wait to be
+    /// As [`advance_until_sent`](Self::advance_until_sent), until this number of frames wait to be
     /// [polled](Self::poll).
     pub fn advance_until_full(&mut self, to: Instant, frames: usize) -> bool {
         while self.sent.len() < frames {
@@ -29,7 +29,7 @@ impl Bus {
         true
     }
 
-    /// A device that is alone on an ideal line meets many deadlines at once. Answers as `step` does; `None`:
+    /// A device that is the only one on an ideal line meets many deadlines at once. Answers as `step` does; `None`:
     /// it is not alone, or somebody looks on.
     fn run(&mut self, to: Instant, frames: usize) -> Option<bool> {
         let Self {

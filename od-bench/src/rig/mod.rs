@@ -179,7 +179,7 @@ impl Rig {
                 false => overdue.unwrap_or(to),
             };
             let due = self.clockwork.due().filter(|due| *due <= to);
-            // Whoever looks on acts after each frame; a real line may have more to say between two.
+            // An observer acts after each frame; a real line may have more to say between two.
             let frames = match self.is_watched() || self.bus.line.is_real {
                 true => 1,
                 false => full - self.seen.len(),

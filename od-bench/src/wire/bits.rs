@@ -148,7 +148,7 @@ impl Word {
 /// Bits behind the CRC sequence: delimiter, acknowledge slot, delimiter, end of frame.
 const END: u64 = 3 + 7;
 
-/// What each byte leaves of the CRC.
+/// Remainder of the CRC for each byte.
 static REMAINDERS: [u16; 256] = {
     let mut all = [0; 256];
     let mut byte = 0;

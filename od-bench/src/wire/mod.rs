@@ -139,7 +139,7 @@ impl Line {
             .min()
     }
 
-    /// Will something happen on the line by itself?
+    /// Will something happen on the line without input?
     pub(super) fn has_plans(&self) -> bool {
         self.medium.due().is_some() || self.next_recovery().is_some()
     }

@@ -35,7 +35,7 @@ pub trait Motion {
     /// [`speed`](Self::speed).
     fn acceleration(&self, now: Instant, interval: u32, gain: Gain) -> Option<i64>;
 
-    /// Returns a number that stands for the speed, if it did not change since `from`, and a glance tells
+    /// Returns a number that identifies the speed, if it did not change since `from`, and a glance shows
     /// that: what [`speed`](Self::speed) and [`acceleration`](Self::acceleration) returned for the same
     /// number, interval and gain, they would return again. `None`: they are to be asked.
     #[inline]

@@ -28,7 +28,7 @@ pub(super) struct Rate {
     /// Counts the other way round.
     pub(super) is_turned: bool,
     pub(super) value: Shown,
-    /// What it was last, and the number of the [steady](Motion::steady) speed that it was of.
+    /// Its last value, and the number of the [steady](Motion::steady) speed that it was of.
     pub(super) last: Option<(i32, i64)>,
 }
 

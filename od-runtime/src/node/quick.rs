@@ -18,7 +18,7 @@ use crate::pdo;
 use crate::rooms::Room;
 use crate::store::Store;
 
-/// What comes of a request by the shortest way.
+/// Outcome of a request on the short path.
 enum Upload<'d> {
     /// The response waits.
     Done,

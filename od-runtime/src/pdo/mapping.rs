@@ -47,7 +47,7 @@ struct Plain {
 const PLAIN: usize = 8;
 
 impl Plain {
-    /// The mapping is none.
+    /// No plain mapping.
     const NONE: Self = Self {
         places: [0; PLAIN],
         lives: [Address::new(0, 0); PLAIN],
