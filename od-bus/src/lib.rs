@@ -1,4 +1,4 @@
-//! The other end of a CANopen bus, for programs that look at devices.
+//! Client side of a CANopen bus, with I/O, for programs that look at devices.
 //!
 //! [`link::Link`] is a bus with a clock of its own, in real or in virtual time;
 //! [`master::Master`] waits for answers on it; [`conform`] is the open conformance test, [`learn`] makes an EDS of a node.

@@ -2,14 +2,14 @@
  *
  * Made by cbindgen; see od-capi/tests/header.rs.
  *
- * Functions that answer uint32_t answer ODKIT_OK, an error of the call (ODKIT_NULL and so on), or an
+ * Functions that return uint32_t return ODKIT_OK, an error of the call (ODKIT_NULL and so on), or an
  * SDO abort code of CiA 301 (0x05030000 and above).
  *
  * One thread at a time may call; an interrupt or a thread that calls while another call is not over
  * gets ODKIT_BUSY, as long as that call is not inside a callback. Pointers are used during the call
  * only, but for the callbacks and the context of odkit_power_on.
  *
- * The library has no memory but static one. If it finds a fault of its own, it calls
+ * The library uses static memory only. If it finds an error in itself, it calls
  * `void odkit_panic(void)`, which the firmware defines and which must not return; a linker that drops
  * unused functions asks for it only if the library can get there.
  */
@@ -250,14 +250,14 @@ typedef struct odkit_event {
 extern "C" {
 #endif // __cplusplus
 
-// Power comes: the values become the saved ones or their defaults, and the node boots up.
+// Switches the power on: loads the saved values or their defaults, and the node boots up.
 //
 // `now_us` is a counter of microseconds that may start anywhere and wraps at 2^32.
 // `node_id` is 1 to 127; or ODKIT_UNCONFIGURED for a device that waits for LSS. A saved node ID
 // or the callback `node_id` replaces it. `device` may be null; it is copied.
 uint32_t odkit_power_on(uint32_t now_us, uint8_t node_id, const struct odkit_device *device);
 
-// Power goes: silence until odkit_power_on.
+// Switches the power off: the node is silent until odkit_power_on.
 uint32_t odkit_power_off(void);
 
 // Handles a frame that was received.

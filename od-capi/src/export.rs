@@ -8,7 +8,7 @@ macro_rules! export {
         static ODKIT: $crate::instance::Instance<$device::Node, { $device::STORE_LEN }> =
             $crate::instance::Instance::new();
 
-        /// Power comes: the values become the saved ones or their defaults, and the node boots up.
+        /// Switches the power on: loads the saved values or their defaults, and the node boots up.
         ///
         /// `now_us` is a counter of microseconds that may start anywhere and wraps at 2^32.
         /// `node_id` is 1 to 127; or ODKIT_UNCONFIGURED for a device that waits for LSS. A saved node ID
@@ -22,7 +22,7 @@ macro_rules! export {
             unsafe { ODKIT.power_on(now_us, node_id, device) }
         }
 
-        /// Power goes: silence until odkit_power_on.
+        /// Switches the power off: the node is silent until odkit_power_on.
         #[unsafe(no_mangle)]
         pub extern "C" fn odkit_power_off() -> u32 {
             ODKIT.power_off()

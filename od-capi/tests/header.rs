@@ -9,14 +9,14 @@ const HEAD: &str = "/* A CANopen node: odkit for C.
  *
  * Made by cbindgen; see od-capi/tests/header.rs.
  *
- * Functions that answer uint32_t answer ODKIT_OK, an error of the call (ODKIT_NULL and so on), or an
+ * Functions that return uint32_t return ODKIT_OK, an error of the call (ODKIT_NULL and so on), or an
  * SDO abort code of CiA 301 (0x05030000 and above).
  *
  * One thread at a time may call; an interrupt or a thread that calls while another call is not over
  * gets ODKIT_BUSY, as long as that call is not inside a callback. Pointers are used during the call
  * only, but for the callbacks and the context of odkit_power_on.
  *
- * The library has no memory but static one. If it finds a fault of its own, it calls
+ * The library uses static memory only. If it finds an error in itself, it calls
  * `void odkit_panic(void)`, which the firmware defines and which must not return; a linker that drops
  * unused functions asks for it only if the library can get there.
  */";

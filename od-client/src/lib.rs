@@ -1,4 +1,4 @@
-//! The other end of a CANopen bus: SDO client, NMT commands, heartbeat and EMCY consumers, LSS
+//! Client side of a CANopen bus: SDO client, NMT commands, heartbeat and EMCY consumers, LSS
 //! master, PDO decoding.
 //!
 //! Sans-io, as the node in `od-runtime` is: time and frames are arguments, and nothing here reads
@@ -27,7 +27,7 @@
 //!     while let Some(frame) = client.poll_transmit(clock()) {
 //!         bus.send(&frame);
 //!     }
-//!     // 2. Take what happened.
+//!     // 2. Handle events.
 //!     match client.poll_event() {
 //!         Some(Event::Read(done, result)) if done == job => break result,
 //!         Some(_) => continue,

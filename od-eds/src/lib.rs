@@ -2,9 +2,9 @@
 //!
 //! Needs `alloc`, not `std`: text in, text out, no files.
 //!
-//! [`parse`] never fails: it returns what it understood, and a diagnostic for
-//! everything else, each with its place in the text. What it cannot make a value
-//! of, it keeps as text in `extra`, so that [`write()`] loses nothing.
+//! [`parse`] never fails: it returns the parts that it understood, and a finding for
+//! everything else, each with its place in the text. It keeps text that is not a valid
+//! value in `extra`, so that [`write()`] loses nothing.
 //!
 //! ```
 //! use od_eds::Value;

@@ -30,14 +30,14 @@
 //! assert_eq!(thermometer::identity_object::VENDOR_ID.address().sub, 1);
 //! ```
 //!
-//! The crate that calls it needs `odkit`; where that is not at `::odkit`, `crate = path;` says where.
+//! The calling crate depends on `odkit`; if its path is not `::odkit`, `crate = path;` gives the path.
 //!
 //! # Grammar
 //!
 //! ```text
 //! call      = { attribute } [ visibility ] "mod" name "{" { item } "}"
 //! item      = "eds" "=" "path" [ "+" "path" ] ";"  relative to this source file; an overlay
-//!           | "crate" "=" path ";"                 where `odkit` is, if not at ::odkit
+//!           | "crate" "=" path ";"                 path of `odkit`, if not ::odkit
 //!           | "profile" "=" cia406 ";"             checked against 1000h, nothing else
 //!           | "without" service { "," service } ";"  the node of the device has no code for these:
 //!                        lss, segmented, block (SDO transfers), rpdos, changes (PDOs when a value
@@ -48,8 +48,8 @@
 //!                                                  go in one call; 32 unless given
 //!           | { attribute } "variant" name "{" { statement } "}"
 //!           | statement
-//! statement = "add" target "{" fields "}"          what is not there yet
-//!           | "modify" target "{" fields "}"       what is
+//! statement = "add" target "{" fields "}"          an object that does not exist yet
+//!           | "modify" target "{" fields "}"       an object that exists
 //!           | "remove" target ";"
 //!           | "rename" target "=" IDENTIFIER ";"   the handle, not the object
 //! target    = 0x6004 | 0x1018sub2                  sub-indices are hex, as in the EDS
@@ -67,45 +67,42 @@
 //!           | "$NODEID" [ "+" 0x180 ]              "NODEID" inside macro_rules
 //! ```
 //!
-//! `add` wants `name` and `type`; `access` is `ro`, `code` is `var`, nothing is
-//! mappable unless it says so. `capacity` is 64, of a DOMAIN that a master can write 1,024, and never less
-//! than the default needs; with 0 the store holds nothing, and the application streams the value. A
-//! RECORD or an ARRAY is added first and its members after it; sub-index 0 is added automatically unless an `add` gives it, and follows where a
-//! patch adds or removes members. `none` takes a
-//! default or a limit away.
+//! `add` needs `name` and `type`. The defaults of the other fields: `access = ro`, `code = var`,
+//! `mappable = false`, `capacity = 64` (1,024 for a DOMAIN that a master can write, and never less than the default
+//! value needs). With `capacity = 0` the store does not hold the value, and the application streams it. Add a
+//! RECORD or an ARRAY first, then its sub-objects. Sub-index 0 is added automatically unless an `add` gives it,
+//! and it is adapted when a patch adds or removes sub-objects. `none` removes a default or a limit.
 //!
-//! The statements of the module make the base; each variant starts from it. They
-//! are strict: to edit what is not there is an error, and to add what is, too. What is
-//! checked is the result, so faults of a file that cannot be changed are corrected here:
-//! `modify 0x2300 { default = 1 }` where its default is nonsense.
+//! The statements of the module make the base; each variant starts from it. It is an error to edit a missing
+//! object, or to add an existing one. The checks apply to the result, so a call can correct errors in a file
+//! that must not be changed: `modify 0x2300 { default = 1 }` replaces an invalid default.
 //!
-//! # What is made
+//! # Generated module
 //!
-//! A module with `DICTIONARY`, `STORE_LEN` and a handle for every value: constants
-//! for VARs, modules of constants for RECORDs and ARRAYs. Names come from the
-//! EDS's: `Device type` is `DEVICE_TYPE`, `Identity object` the module
-//! `identity_object`. What is not a letter or a digit separates words. **Names that
-//! repeat all get their index or sub-index behind**, `RESERVED_2110`, `RESERVED_2111`
-//! or `RESERVED_05`; `rename` gives better ones, and two renames that meet are an
-//! error. A module that is called like a variant gets its index too. Every item's documentation says index, type, access, default, limits and
-//! its place in the EDS.
+//! The module contains `DICTIONARY`, `STORE_LEN` and a handle for every value: constants
+//! for VARs, modules of constants for RECORDs and ARRAYs. Their names come from the names in the
+//! EDS: `Device type` becomes `DEVICE_TYPE`, `Identity object` the module
+//! `identity_object`. Characters other than letters and digits separate words. **Names that
+//! repeat all get their index or sub-index as a suffix**: `RESERVED_2110`, `RESERVED_2111`
+//! or `RESERVED_05`. `rename` gives better names; two renames to the same name are an
+//! error. A module with the name of a variant gets its index too. The documentation of every item gives index, type,
+//! access, default, limits and its place in the EDS.
 //!
-//! A variant is a module inside: `thermometer::outdoor` has its own `DICTIONARY` and
-//! hands on those handles that it keeps, so that one which it removed is not found.
-//! It is inside because it is written inside, takes the family's visibility with
-//! it and can reach what it hands on. The family has one storage layout: **a handle
-//! of the family is good for the store of every variant that keeps the object and
-//! its type**, so code for all variants is written once, with the family's handles.
+//! A variant is a module inside this module: `thermometer::outdoor` has its own `DICTIONARY` and
+//! re-exports the handles of objects that it keeps, so a removed object has no handle there.
+//! The family has one storage layout: **a handle of the family works with the store of every
+//! variant that keeps the object and its type**, so code for all variants is written once, with the
+//! family's handles.
 //!
-//! # Faults
+//! # Errors
 //!
-//! All at once: those of the call at their tokens; those of the EDS at its path, the
-//! text says `file:line:column`. The module is made nevertheless from what is
-//! sound, so that one mistake is one error. Warnings do not stop a build: `odkit
-//! check` shows them, the module's documentation has their number.
+//! The macro reports all errors at once: those of the call at their tokens, those of the EDS at its path with
+//! `file:line:column` in the text. It still makes the module from the valid parts, so that one mistake is
+//! one error. Warnings do not stop a build: `odkit check` shows them, and the documentation of the module
+//! gives their number.
 //!
-//! A change of the EDS rebuilds. Nothing of its text but names, texts and values is
-//! in the binary.
+//! A change of the EDS causes a rebuild. The binary contains only names, texts and values of the EDS, not its
+//! other text.
 
 mod docs;
 mod emit;

@@ -1,12 +1,12 @@
 //! A CANopen slave node and a CiA 406 encoder, sans-io.
 //!
-//! Frames and virtual time go in, frames, the next deadline and events come out.
-//! No clock, no thread, no allocation, no `unsafe`, and no input that panics.
+//! A node receives frames and the time, and returns frames, the next deadline and events.
+//! It uses no clock, thread, allocation or `unsafe`, and no input makes it panic.
 //!
 //! # The loop
 //!
 //! A [`Node`] keeps the state of the services. What belongs to the device (dictionary,
-//! values, behaviour, storage) is lent to each call as a [`Lent`]. After every input,
+//! values, behaviour, storage) is lent to each call as a [`Lent`]. After every input, call
 //! [`poll_transmit`](Node::poll_transmit) until it returns no frame; then sleep until
 //! the next frame or [`poll_timeout`](Node::poll_timeout), whichever is first:
 //!
@@ -59,10 +59,10 @@
 //! # Ok::<(), od_runtime::Unfit>(())
 //! ```
 //!
-//! A host that knows the state of its CAN controller tells it with [`Node::handle_bus`].
+//! A host that knows the state of its CAN controller reports it with [`Node::handle_bus`].
 //!
-//! Behaviour of its own plugs in as an [`Application`]; the encoder of CiA 406 is one
-//! ([`encoder::Encoder`]). What one family does differently is a [`Profile`]. Saved values
+//! The behaviour of a device is an [`Application`]; the encoder of CiA 406 is one
+//! ([`encoder::Encoder`]). A [`Profile`] contains the differences of a device family. Saved values
 //! go to any [`storage::Storage`].
 #![no_std]
 #![forbid(unsafe_code)]
@@ -96,7 +96,7 @@ pub mod storage;
 mod store;
 mod sync;
 
-// What frames and times of the node's own functions are made of.
+// Types in the signatures of the node's functions.
 pub use od_wire::emcy::Emcy;
 pub use od_wire::time_of_day::TimeOfDay;
 pub use od_wire::{AbortCode, CanId, CobId, Duration, Frame, Instant, NodeId};

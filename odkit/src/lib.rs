@@ -1,8 +1,8 @@
 //! One dependency for a CANopen device: dictionary, macro, node.
 //!
 //! [`object_dictionary!`] makes a typed, `const` [`Dictionary`] of an EDS file or of rows in the
-//! source; a [`Node`] runs it, sans-io: frames and virtual time go in, frames, the next deadline
-//! and events come out.
+//! source. A [`Node`] runs it, sans-io: it receives frames and the time, and returns frames, the next
+//! deadline and events.
 //!
 //! ```
 //! use odkit::storage::Memory;
@@ -65,7 +65,7 @@ pub use od_runtime::{
 pub use od_wire::{emcy, lss, nmt, sdo};
 
 /// The paths that [`object_dictionary!`] emits; not an API. The number changes with the shape of
-/// what is emitted, so that a macro and a crate that do not belong together fail at this name.
+/// the emitted code, so that a macro and a crate of different versions fail at this name.
 #[doc(hidden)]
 pub mod __private4 {
     pub use od_board::Board;
