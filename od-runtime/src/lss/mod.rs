@@ -233,11 +233,10 @@ impl Slave {
         let mut banks = Banks::NONE;
         let mut medium = Medium::new(objects.storage, &mut banks);
         let stored = medium.own(device).and_then(|[node_id, bit_rate]| {
-            let own = [
-                self.node_id.or(node_id).or(Some(active)),
-                self.bit_rate.or(bit_rate),
-            ];
-            medium.begin(&objects.store, profile, &Plan::Own(own))?;
+            let node_id = self.node_id.or(node_id).unwrap_or(active);
+            let (own, len) = image::own_records(node_id, self.bit_rate.or(bit_rate));
+            let plan = Plan::Own(own.get(..len).unwrap_or_default());
+            medium.begin(&objects.store, profile, &plan)?;
             medium.commit()
         });
         code(stored)

@@ -220,20 +220,19 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
             }
             let loaded = match D::STORAGE {
                 true => objects.load(&which),
-                false => Ok(Loaded::Blank),
+                false => Loaded::Blank,
             };
             Self::forget_dynamic(objects);
             let news = match loaded {
-                Ok(Loaded::Blank | Loaded::Complete) => None,
-                Ok(Loaded::Cut { factory }) => Some(Event::SaveCut { factory }),
-                Ok(other) => Some(Event::Loaded(other)),
-                Err(_) => Some(Event::Loaded(Loaded::Damaged)),
+                Loaded::Blank | Loaded::Complete => None,
+                Loaded::Cut { factory } => Some(Event::SaveCut { factory }),
+                other => Some(Event::Loaded(other)),
             };
             if let Some(event) = news.filter(|_| pass == 0) {
                 self.event(event);
             }
             // A cut save is what power does to a memory that is sound.
-            let sound = !matches!(loaded, Ok(Loaded::Damaged | Loaded::Foreign) | Err(_));
+            let sound = !matches!(loaded, Loaded::Damaged | Loaded::Foreign);
             objects.application.storage_is(sound);
             match objects.application.node_id(&objects.store) {
                 Some(node_id) if node_id != self.node_id && pass == 0 => {

@@ -191,9 +191,14 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
             self.answer = words(answer);
             self.pending |= pending::ANSWER;
         } else {
-            let response = self.response(answer);
-            self.push(response);
+            self.push_answer(answer);
         }
+    }
+
+    #[cold]
+    fn push_answer(&mut self, answer: [u8; 8]) {
+        let response = self.response(answer);
+        self.push(response);
     }
 
     #[inline]

@@ -12,7 +12,6 @@ use crate::application::Reset;
 use crate::deadline::Deadline;
 use crate::device::Device;
 use crate::profile::{Restore, SaveAnswer};
-use crate::storage::StorageError;
 use crate::storage::image::{self, Banks, Loaded, Medium, Plan};
 
 /// Time until a memory that is still writing is asked again, in microseconds.
@@ -35,14 +34,17 @@ impl<D: Device> Objects<'_, D> {
     }
 
     /// Puts saved values over those of the store, for the entries that `which` names; no save goes on.
-    pub(crate) fn load(&mut self, which: &dyn Fn(&Row) -> bool) -> Result<Loaded, StorageError> {
+    /// A storage that cannot be read is damaged.
+    pub(crate) fn load(&mut self, which: &dyn Fn(&Row) -> bool) -> Loaded {
         let (device, profile) = (self.device(), &self.profile().store);
         let Some(saving) = &mut self.saving else {
-            return Ok(Loaded::Blank);
+            return Loaded::Blank;
         };
         let mut medium = Medium::new(self.storage, &mut saving.banks);
-        medium.survey(device)?;
-        image::take_over(&mut medium, &mut self.store, profile, which)
+        let loaded = medium
+            .survey(device)
+            .and_then(|()| image::take_over(&mut medium, &mut self.store, profile, which));
+        loaded.unwrap_or(Loaded::Damaged)
     }
 
     /// 1010h and 1011h: the signature is the value, and nothing is kept of it.
@@ -233,7 +235,8 @@ impl<D: Device> Objects<'_, D> {
 
     /// Whether a save goes on.
     fn is_saving(&self) -> bool {
-        self.save_due().is_set()
+        let saving = self.saving.as_ref().filter(|_| D::STORAGE);
+        saving.is_some_and(|saving| saving.due.is_set())
     }
 
     /// Time when the save that goes on is complete.

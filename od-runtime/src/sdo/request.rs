@@ -52,7 +52,7 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
                 }
                 self.open_download(objects, size)?;
                 self.set_transfer(Transfer::Download(Download::new(size)));
-                Ok(Some(Response::InitiateDownload { address }.emit()))
+                Ok(Some(Response::InitiateDownload { address }.emit_to(data)))
             }
             (Request::UploadSegment { toggle }, [Transfer::Upload(upload)]) if D::SEGMENTED => {
                 upload.check(toggle)?;
@@ -107,7 +107,7 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
                         crc: true,
                         size: Some(len as u32),
                     }
-                    .emit(),
+                    .emit_to(data),
                 ))
             }
             (Request::StartBlockUpload, [Transfer::BlockUpload(block)]) if D::BLOCK => {
@@ -138,7 +138,7 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
                         crc: true,
                         block_size: block.block_size(),
                     }
-                    .emit(),
+                    .emit_to(data),
                 ))
             }
             (Request::EndBlockDownload { unused, crc }, [Transfer::BlockDownload(block)])
@@ -193,7 +193,7 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
             self.window.put(bytes)?;
             self.complete(objects, len)?;
         }
-        Ok(Some(Response::InitiateDownload { address }.emit()))
+        Ok(Some(Response::InitiateDownload { address }.emit_to(data)))
     }
 
     /// A value is to be written, if it may be, and there is room for it.

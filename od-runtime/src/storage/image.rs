@@ -61,6 +61,7 @@ pub(crate) use banks::Banks;
 pub(crate) use covered::is_kept;
 pub use covered::{is_life_record, restores};
 pub use layout::MAX_VALUE;
+pub(crate) use layout::own_records;
 pub use loaded::Loaded;
 pub(crate) use medium::Medium;
 pub(crate) use merge::{Plan, write};

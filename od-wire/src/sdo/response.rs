@@ -123,6 +123,16 @@ impl Response {
     }
 }
 
+impl Response {
+    /// As [`emit`](Self::emit), with the address as it is in the request, which is less work.
+    #[inline(always)]
+    pub fn emit_to(self, request: &[u8; 8]) -> [u8; 8] {
+        let [_, low, high, sub, ..] = *request;
+        let [command, _, _, _, a, b, c, d] = self.emit();
+        [command, low, high, sub, a, b, c, d]
+    }
+}
+
 /// The frame of an expedited upload: `len` bytes, 1–4, of `value`. It is what
 /// [`Response::InitiateUpload`] emits, for the one answer that masters ask for all day.
 #[inline]

@@ -59,6 +59,7 @@ pub fn block_segment(sequence: u8, rest: &[u8], last: bool) -> [u8; 8] {
 }
 
 /// Segments of a block transfer that carry `len` bytes; an empty value needs one.
+#[inline(never)] // one copy in a microcontroller
 pub const fn block_segments(len: usize) -> usize {
     if len == 0 { 1 } else { len.div_ceil(7) }
 }

@@ -1,5 +1,7 @@
 //! Sizes and codes of a bank; [`image`](super) has the table.
 
+use od_model::Address;
+
 use crate::storage::{Geometry, Storage};
 
 /// The longest value that is saved, in bytes.
@@ -133,6 +135,24 @@ impl Layout {
         }
         layout
     }
+}
+
+/// Bytes of a record before its value, with the key of its address.
+pub(super) const fn head(key: u32, len: u16) -> [u8; RECORD] {
+    let [sub, index_low, index_high, _] = key.to_le_bytes();
+    let [len_low, len_high] = len.to_le_bytes();
+    [index_low, index_high, sub, len_low, len_high]
+}
+
+/// The records of node ID and bit rate, and how many bytes of them there are.
+pub(crate) const fn own_records(node_id: u8, bit_rate: Option<u8>) -> ([u8; 12], usize) {
+    let [a, b, c, d, e] = head(Address::new(OWN, 1).key(), 1);
+    let [f, g, h, i, j] = head(Address::new(OWN, 2).key(), 1);
+    let (rate, len) = match bit_rate {
+        Some(rate) => (rate, 12),
+        None => (0, 6),
+    };
+    ([a, b, c, d, e, node_id, f, g, h, i, j, rate], len)
 }
 
 /// Bytes of a header on a storage with words of this size.

@@ -18,6 +18,7 @@ pub(crate) struct Medium<'m> {
 }
 
 impl<'m> Medium<'m> {
+    #[inline(never)]
     pub(crate) fn new(storage: &'m mut dyn Storage, banks: &'m mut Banks) -> Self {
         Self {
             storage,

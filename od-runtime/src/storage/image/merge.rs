@@ -6,7 +6,9 @@ use od_model::{Address, Group};
 use super::banks::Banks;
 use super::cob_id;
 use super::covered::{is_covered, is_life_record, is_saved};
-use super::layout::{Code, ERASED, FIELDS, Layout, MAX_VALUE, MAX_WORD, OWN, RECORD, whole_words};
+use super::layout::{
+    self, Code, ERASED, FIELDS, Layout, MAX_VALUE, MAX_WORD, OWN, RECORD, whole_words,
+};
 use super::loaded::Loaded;
 use super::medium::Medium;
 use super::survey::END;
@@ -25,8 +27,9 @@ pub(crate) enum Plan<'p> {
     Restore(u8),
     /// The values at these addresses.
     Only(&'p [Address]),
-    /// Node ID and bit rate of LSS, in records of their own.
-    Own([Option<u8>; 2]),
+    /// Node ID and bit rate of LSS, in records of their own: [these](super::own_records) in place of those
+    /// that there are.
+    Own(&'p [u8]),
 }
 
 /// Writes the next set of a device, if there is to be one.
@@ -175,7 +178,7 @@ impl Set<'_, '_> {
     #[inline(never)]
     fn records(&mut self, profile: &StoreProfile) {
         if let Plan::Own(own) = self.plan {
-            self.own(own);
+            self.put(Source::Bytes(own), own.len());
         }
         let mut old = self.medium.records();
         old.next(self.medium);
@@ -259,24 +262,9 @@ impl Set<'_, '_> {
     }
 
     /// Begins a record.
-    #[inline(never)]
     fn head(&mut self, key: u32, len: usize) {
-        let [sub, index_low, index_high, _] = key.to_le_bytes();
         // MAX_VALUE and the records' own length field keep it below 64 KiB.
-        let [len_low, len_high] = (len as u16).to_le_bytes();
-        let head: [u8; RECORD] = [index_low, index_high, sub, len_low, len_high];
-        self.put(Source::Bytes(&head), RECORD);
-    }
-
-    /// Records of node ID and bit rate.
-    #[inline(never)]
-    fn own(&mut self, own: &[Option<u8>; 2]) {
-        for (key, value) in (1..).zip(own) {
-            if let Some(value) = value {
-                self.head(key, 1);
-                self.put(Source::Bytes(&[*value]), 1);
-            }
-        }
+        self.put(Source::Bytes(&layout::head(key, len as u16)), RECORD);
     }
 
     /// Puts this number of bytes.
