@@ -18,20 +18,14 @@ use crate::repo::{self, Repo};
 use crate::setup::{binaryen, bindgen, node, target};
 use crate::stamp::{Fingerprint, Stamp};
 
-/// The size of the download counts more than the last bit of speed. One crate for all is worth
-/// its time for what the page begins with, not for what it fetches later.
-pub(crate) const RELEASE: [(&str, &str); 2] = [
-    ("CARGO_PROFILE_RELEASE_OPT_LEVEL", "s"),
-    ("CARGO_PROFILE_RELEASE_LTO", "off"),
-];
+/// The size of the download counts more than the last bit of speed. All modules are of one profile, so
+/// that they share the crates that they have in common, and what runs while those are compiled.
+pub(crate) const RELEASE: (&str, &str) = ("CARGO_PROFILE_RELEASE_OPT_LEVEL", "s");
 
 /// A WebAssembly module of the page.
 struct Module {
     /// Its folder under the bindings.
     folder: &'static str,
-    /// Whether it is compiled as one crate. Both are of one profile, so that they share what runs
-    /// while they are compiled.
-    lto: &'static str,
     features: &'static [&'static str],
     /// Optimisation level of wasm-opt: `-Os` takes three times as long as `-O1` and saves 4 % more.
     level: &'static str,
@@ -40,7 +34,6 @@ struct Module {
 
 const WHOLE: Module = Module {
     folder: "",
-    lto: RELEASE[1].1,
     features: &[],
     level: "-O1",
     what: "compiling the virtual encoder to WebAssembly",
@@ -48,7 +41,6 @@ const WHOLE: Module = Module {
 
 const CORE: Module = Module {
     folder: "core",
-    lto: "fat",
     features: &["--no-default-features"],
     level: "-Os",
     what: "compiling what the page begins with",
@@ -87,7 +79,7 @@ fn generate(repo: &Repo, console: &Console, module: &Module) -> Result<PathBuf> 
     let mut build = cargo(&repo.root, &["build", "--lib", "--release"]);
     build.args(["--package", PAGE.0, "--target", target::WASM]);
     build.args(module.features);
-    build.envs(RELEASE).env(RELEASE[1].0, module.lto);
+    build.env(RELEASE.0, RELEASE.1);
     // A page for others does not name the folders of this computer, and is the same from any.
     build.env("CARGO_ENCODED_RUSTFLAGS", without_paths(&repo.root));
     console.run(module.what, &mut build)?;

@@ -29,7 +29,7 @@ pub(crate) fn run(repo: &Repo, console: &Console, args: &[String]) -> Result<()>
     });
     command
         .current_dir(&repo.root)
-        .envs(RELEASE)
+        .env(RELEASE.0, RELEASE.1)
         .env("CARGO_ENCODED_RUSTFLAGS", without_paths(&repo.root))
         .env("ODKIT_TOOLS", repo.tools());
     if args.is_empty() {
