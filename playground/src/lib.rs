@@ -46,6 +46,8 @@ mod packed;
 #[cfg(feature = "eds")]
 mod places;
 #[cfg(feature = "real")]
+mod plain;
+#[cfg(feature = "real")]
 mod real;
 mod record;
 mod sdo;
@@ -69,6 +71,8 @@ pub use journal::{check_run, read_input};
 pub use lesson::{judge_answer, parse_lesson};
 #[cfg(feature = "logs")]
 pub use logs::{read_log, write_log};
+#[cfg(feature = "real")]
+pub use plain::plain_eds;
 #[cfg(feature = "real")]
 pub use real::{Adapter, identify};
 pub use signals::{mapped_values, read_values};

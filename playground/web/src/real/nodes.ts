@@ -2,11 +2,10 @@
 
 import { signal } from '@preact/signals-core';
 import type { Outcome, Source } from '../sim/api';
-import { ask, describe, hooks, maySend, select } from '../sim/link';
+import { ask, describe, hooks, maySend, select, use } from '../sim/link';
 import * as state from '../state';
 import { R } from '../texts/real';
 import { identify } from './connect';
-import { plain } from './plain';
 
 /** SDO requests that are under way at a time while nodes are searched for. */
 const AT_ONCE = 32;
@@ -57,9 +56,15 @@ export const search = (): Promise<void> =>
     return R.found(found.size);
   });
 
+/** The little that every node has. */
+async function plain(name: string): Promise<Source> {
+  const text = await use('plainEds', name);
+  return { kind: 'eds', name, text: 'value' in text ? text.value : '', lenient: true };
+}
+
 /** Puts the description of a node among the devices: one of ours that has its identity, else the little that every node has. */
 export async function show(node: number): Promise<void> {
-  let source: Source = plain(R.node(node));
+  let source = await plain(R.node(node));
   if (maySend() && !isBusy.peek()) {
     await alone(async () => {
       doing.value = R.asked(node);
@@ -70,7 +75,7 @@ export async function show(node: number): Promise<void> {
       else {
         const { bytes } = await read(node, 0x1008, 0);
         const name = new TextDecoder().decode(bytes ?? new Uint8Array(0)).replace(/[^ -~]/g, '').trim();
-        if (name) source = plain(name);
+        if (name) source = await plain(name);
       }
       return '';
     });

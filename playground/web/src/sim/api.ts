@@ -2,7 +2,7 @@
 // that cross between the page and the worker. Only numbers, strings and plain records.
 
 import type { RealCommand, RealReport, RealState } from '../real/api';
-import type { Builtin, Bus, Chain, decodeEds, DeviceInfo, Entry, Input, JournalNews, judgeAnswer, Lesson, LessonState, LineStatus, readLog, Status, Value, writeLog } from '../wasm/od_playground';
+import type { Builtin, Bus, Chain, decodeEds, DeviceInfo, Entry, Input, JournalNews, judgeAnswer, Lesson, LessonState, LineStatus, plainEds, readLog, Status, Value, writeLog } from '../wasm/od_playground';
 
 export type { Added, Builtin, Chain, DeviceInfo, Diagnostic, Entry, Field, FrameTemplate, Input, Judgement, Lamp, Lesson, LessonState, LineStatus, Log, Mapped, MappingStep, ObjectRecord, Outcome, Pdo, Source, Status, Transfer, Value } from '../wasm/od_playground';
 
@@ -18,6 +18,7 @@ export type Questions = Pick<Bus, 'describeAll' | 'fields' | 'mappingSteps' | 'p
 export interface Tools {
   decodeEds: typeof decodeEds;
   judgeAnswer: typeof judgeAnswer;
+  plainEds: typeof plainEds;
   readLog: typeof readLog;
   writeLog: typeof writeLog;
 }

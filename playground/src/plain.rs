@@ -1,0 +1,181 @@
+//! The description of a node without an EDS: what CiA 301 lets every node have.
+
+use std::fmt::Write;
+
+use od_model::DataType;
+use wasm_bindgen::prelude::*;
+
+/// Returns an EDS of a node of which nothing is known: what every node may have, with four PDOs each way.
+#[wasm_bindgen(js_name = plainEds)]
+pub fn plain_eds(name: &str) -> String {
+    let mut objects = Vec::new();
+    communication(&mut objects);
+    for (kind, parameter, mapping, base) in
+        [('R', 0x1400, 0x1600, 0x200), ('T', 0x1800, 0x1A00, 0x180)]
+    {
+        for number in 0..4 {
+            let base = base + 0x100 * u32::from(number);
+            pdo(&mut objects, kind, number, parameter, mapping, base);
+        }
+    }
+    let name = name.replace(['\r', '\n'], " ");
+    let mut text = format!(
+        "[DeviceInfo]\nVendorName=\nProductName={name}\nNrOfRXPDO=4\nNrOfTXPDO=4\n\n{}\n{}\n{}",
+        list("MandatoryObjects", &objects, is_mandatory),
+        list("OptionalObjects", &objects, |index| !is_mandatory(index)),
+        list("ManufacturerObjects", &objects, |_| false),
+    );
+    for object in &objects {
+        text.push('\n');
+        text.push_str(&object.text);
+    }
+    text
+}
+
+/// An object, and its sections.
+struct Object {
+    index: u16,
+    text: String,
+}
+
+impl Object {
+    fn var(index: u16, name: &str, data_type: DataType, access: &str, value: &str) -> Self {
+        let text = section(&format!("{index:X}"), name, data_type, access, value);
+        Self { index, text }
+    }
+
+    /// A record, whose members follow from sub-index 0 on.
+    fn record(index: u16, name: &str, members: &[(String, DataType, &str, String)]) -> Self {
+        let count = members.len();
+        let mut text =
+            format!("[{index:X}]\nParameterName={name}\nObjectType=0x9\nSubNumber={count}\n");
+        for (sub, (name, data_type, access, value)) in members.iter().enumerate() {
+            let place = format!("{index:X}sub{sub:X}");
+            text.push('\n');
+            text.push_str(&section(&place, name, *data_type, access, value));
+        }
+        Self { index, text }
+    }
+}
+
+fn section(place: &str, name: &str, data_type: DataType, access: &str, value: &str) -> String {
+    let code = data_type.code();
+    format!(
+        "[{place}]\nParameterName={name}\nObjectType=0x7\nDataType=0x{code:04X}\nAccessType={access}\n\
+         DefaultValue={value}\nPDOMapping=0\n"
+    )
+}
+
+fn communication(objects: &mut Vec<Object>) {
+    use DataType::{Unsigned8, Unsigned16, Unsigned32, VisibleString};
+    let names = [
+        "Vendor-ID",
+        "Product code",
+        "Revision number",
+        "Serial number",
+    ];
+    let number = |name: &str| (name.into(), Unsigned32, "ro", "0".into());
+    let mut identity = vec![("Highest sub-index".into(), Unsigned8, "ro", "4".into())];
+    identity.extend(names.map(number));
+    objects.extend([
+        Object::var(0x1000, "Device type", Unsigned32, "ro", "0"),
+        Object::var(0x1001, "Error register", Unsigned8, "ro", "0"),
+        Object::record(0x1018, "Identity object", &identity),
+    ]);
+    let texts = [
+        (0x1008, "Manufacturer device name"),
+        (0x1009, "Manufacturer hardware version"),
+        (0x100A, "Manufacturer software version"),
+    ];
+    for (index, name, data_type, access, value) in [
+        (
+            0x1002,
+            "Manufacturer status register",
+            Unsigned32,
+            "ro",
+            "0",
+        ),
+        (0x1005, "COB-ID SYNC message", Unsigned32, "rw", "0x80"),
+        (
+            0x1014,
+            "COB-ID EMCY message",
+            Unsigned32,
+            "rw",
+            "$NODEID+0x80",
+        ),
+        (0x1017, "Producer heartbeat time", Unsigned16, "rw", "0"),
+    ] {
+        objects.push(Object::var(index, name, data_type, access, value));
+    }
+    objects.extend(texts.map(|(index, name)| Object::var(index, name, VisibleString, "const", "")));
+}
+
+fn pdo(
+    objects: &mut Vec<Object>,
+    kind: char,
+    number: u16,
+    parameter: u16,
+    mapping: u16,
+    base: u32,
+) {
+    use DataType::{Unsigned8, Unsigned32};
+    let rw = |name: String, data_type, value: String| (name, data_type, "rw", value);
+    let highest = (
+        "Highest sub-index".into(),
+        Unsigned8,
+        "ro",
+        String::from("2"),
+    );
+    let parameters = [
+        highest,
+        rw("COB-ID".into(), Unsigned32, format!("$NODEID+0x{base:X}")),
+        rw("Transmission type".into(), Unsigned8, "255".into()),
+    ];
+    let mut mapped = vec![rw("Number of mapped objects".into(), Unsigned8, "0".into())];
+    mapped.extend((1..=8).map(|sub| rw(format!("Mapped object {sub}"), Unsigned32, "0".into())));
+    let name = |what| format!("{kind}PDO{} {what} parameter", number + 1);
+    objects.push(Object::record(
+        parameter + number,
+        &name("communication"),
+        &parameters,
+    ));
+    objects.push(Object::record(mapping + number, &name("mapping"), &mapped));
+}
+
+const fn is_mandatory(index: u16) -> bool {
+    matches!(index, 0x1000 | 0x1001 | 0x1018)
+}
+
+/// A list of objects, as CiA 306 counts them.
+fn list(name: &str, objects: &[Object], belongs: impl Fn(u16) -> bool) -> String {
+    let indices = objects.iter().map(|object| object.index);
+    let indices: Vec<_> = indices.filter(|index| belongs(*index)).collect();
+    let mut text = format!("[{name}]\nSupportedObjects={}\n", indices.len());
+    for (place, index) in indices.iter().enumerate() {
+        let _ = writeln!(text, "{}=0x{index:X}", place + 1);
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use od_eds::Severity;
+
+    use super::plain_eds;
+
+    #[test]
+    fn a_node_of_which_nothing_is_known_has_a_sound_description() {
+        let parsed = od_eds::load(&plain_eds("A\nname"));
+        // Of the device itself nothing is known: the keys of [DeviceInfo] and [FileInfo] are missing.
+        let errors = parsed.findings.iter();
+        let errors: Vec<_> = errors
+            .filter(|one| one.rule.severity == Severity::Error)
+            .map(|one| one.rule.code)
+            .collect();
+        assert_eq!(errors, [""; 0]);
+        assert_eq!(parsed.description.objects.len(), 26);
+        let info = parsed.description.section("DeviceInfo");
+        let name = info.and_then(|info| info.get("ProductName"));
+        assert_eq!(name.map(|name| name.value.as_str()), Some("A name"));
+    }
+}
