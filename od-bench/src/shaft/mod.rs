@@ -209,8 +209,8 @@ impl Motion for Shaft {
             return None;
         }
         let micros = now.micros_since(self.since);
-        let way = u64::from(self.milli_rpm.unsigned_abs()).checked_mul(micros)?;
-        let turned = fractions(way / PER_REVOLUTION, way % PER_REVOLUTION);
+        let way = product(self.milli_rpm.unsigned_abs(), micros)?;
+        let turned = whole_way(way);
         let turned = if self.milli_rpm < 0 {
             turned.wrapping_neg()
         } else {
@@ -284,10 +284,29 @@ const fn before(now: Instant, micros: u32) -> Instant {
 /// 2⁻³² revolutions in `micros` at this speed, rounded down.
 #[inline]
 fn turned(milli_rpm: u32, micros: u64) -> i64 {
-    match u64::from(milli_rpm).checked_mul(micros) {
-        Some(way) => fractions(way / PER_REVOLUTION, way % PER_REVOLUTION),
+    match product(milli_rpm, micros) {
+        Some(way) => whole_way(way),
         None => long_way(milli_rpm, micros),
     }
+}
+
+/// A way, if it has no more than 64 bits. WebAssembly has no instruction that tells: where the bits of the
+/// factors are as many together, it is left to the longer way there.
+#[inline]
+fn product(milli_rpm: u32, micros: u64) -> Option<u64> {
+    let milli_rpm = u64::from(milli_rpm);
+    if cfg!(target_family = "wasm") {
+        let fits = milli_rpm.leading_zeros() + micros.leading_zeros() >= u64::BITS;
+        return fits.then(|| milli_rpm.wrapping_mul(micros));
+    }
+    milli_rpm.checked_mul(micros)
+}
+
+/// 2⁻³² revolutions of a way, rounded down.
+#[inline]
+fn whole_way(way: u64) -> i64 {
+    let turns = way / PER_REVOLUTION;
+    fractions(turns, way - turns * PER_REVOLUTION)
 }
 
 #[cold]
