@@ -269,6 +269,11 @@ impl Row {
         self.0[0] & 7 > 2 || self.0[2] != 0
     }
 
+    /// Whether the description gives an integer as the default, also with `$NODEID`.
+    pub const fn has_integer_default(self) -> bool {
+        matches!(self.0[0] & 7, 1..=5)
+    }
+
     /// Whether the default is `$NODEID` and a number.
     pub const fn follows_node_id(self) -> bool {
         self.0[0] & 7 == 3

@@ -66,7 +66,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
 
     /// A request of the client of the default server. What it commands is carried out here: nothing is as
     /// deep in the stack as a save.
-    #[inline]
+    #[inline(never)]
     pub(super) fn ask(&mut self, objects: &mut Objects<'_, D>, data: &[u8; 8], dlc: u8) {
         self.handle_sdo(objects, data, dlc);
         if let Some(done) = objects.carry_out() {

@@ -31,18 +31,13 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         if !D::SERVERS {
             return;
         }
-        let node_id = objects.store.node_id().raw();
-        for entry in objects.store.dictionary().entries() {
-            if !matches!(
-                (entry.address.index, entry.address.sub),
-                (0x1201..=0x127F, 1 | 2)
-            ) {
-                continue;
-            }
-            if objects.store.number(&entry) & 1 << 30 != 0
-                && let Some(default) = entry.default.integer(node_id)
+        for row in objects.store.dictionary().rows() {
+            let address = row.address();
+            if matches!((address.index, address.sub), (0x1201..=0x127F, 1 | 2))
+                && row.has_integer_default()
+                && objects.store.number_of(row) & 1 << 30 != 0
             {
-                objects.store.set_unsigned(entry.address, default as u64);
+                objects.store.reset_row(row);
             }
         }
     }

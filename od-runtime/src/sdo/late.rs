@@ -66,9 +66,9 @@ impl Late {
 
     /// A frame comes before the answer has gone: an abort ends the transfer, though not the
     /// storing; of requests the newest is kept, as a new one replaces an old one.
-    pub(super) fn hold(&mut self, data: &[u8; 8], dlc: u8) {
+    pub(super) fn hold(&mut self, data: &[u8; 8], dlc: u8, streams: bool) {
         // Where a block waits for a stream, other bits belong to a segment.
-        if data[0] >> 5 == 4 && (data[0] == 0x80 || !self.awaits_stream()) {
+        if data[0] >> 5 == 4 && (data[0] == 0x80 || !(streams && self.awaits_stream())) {
             self.answer = None;
             self.held = None;
         } else {

@@ -179,7 +179,7 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
         }
         if (D::STORAGE || D::STREAMS) && self.late().is_awaited() {
             for late in self.late.all_mut() {
-                late.hold(data, dlc);
+                late.hold(data, dlc, D::STREAMS);
             }
             if D::STREAMS && data[0] == ABORT && self.late().awaits_stream() {
                 let answer = self.request(objects, data, dlc);

@@ -21,9 +21,8 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
         data: &[u8; 8],
         dlc: u8,
     ) -> Answer {
-        let [command, low, high, sub, ..] = *data;
-        let address = Address::new(u16::from_le_bytes([low, high]), sub);
-        let [.., a, b, c, d] = *data;
+        let [command, .., a, b, c, d] = *data;
+        let address = address(data);
         match command >> 5 {
             1 if command & 2 != 0 => self.expedited(objects, address, data, dlc),
             4 => {
@@ -44,9 +43,19 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
     #[inline(never)]
     fn transfer_request(&mut self, objects: &mut Objects<'_, D>, data: &[u8; 8]) -> Answer {
         let profile = objects.profile().sdo;
-        match (parse(data), self.transfers.all_mut()) {
+        let request = parse(data);
+        let begins = match request {
+            Request::InitiateDownload { .. } => true,
+            Request::InitiateBlockUpload { .. } | Request::InitiateBlockDownload { .. } => {
+                D::BLOCK && profile.block
+            }
+            _ => false,
+        };
+        if begins {
+            self.replace(objects, address(data));
+        }
+        match (request, self.transfers.all_mut()) {
             (Request::InitiateDownload { address, size, .. }, _) => {
-                self.replace(objects, address);
                 if !D::SEGMENTED || !profile.segmented_download {
                     return Err(AbortCode::InvalidCommand.into());
                 }
@@ -95,7 +104,6 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
                 },
                 _,
             ) if D::BLOCK && profile.block => {
-                self.replace(objects, address);
                 block_upload::check(block_size)?;
                 let len = self.open_upload(objects)?;
                 self.set_transfer(Transfer::BlockUpload(BlockUpload::new(
@@ -128,7 +136,6 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
             (Request::InitiateBlockDownload { address, crc, size }, _)
                 if D::BLOCK && profile.block =>
             {
-                self.replace(objects, address);
                 self.open_download(objects, size)?;
                 let block = BlockDownload::new(N, crc, size);
                 self.set_transfer(Transfer::BlockDownload(block));
@@ -150,8 +157,7 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
             }
             (_, transfer) => {
                 if matches!(transfer, [] | [Transfer::None]) {
-                    let [_, low, high, sub, ..] = *data;
-                    self.address = Address::new(u16::from_le_bytes([low, high]), sub);
+                    self.address = address(data);
                 }
                 Err(AbortCode::InvalidCommand.into())
             }
@@ -267,6 +273,12 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
         self.close(objects, StreamEnd::Complete);
         Ok(())
     }
+}
+
+/// The address of a request that has one.
+fn address(data: &[u8; 8]) -> Address {
+    let [_, low, high, sub, ..] = *data;
+    Address::new(u16::from_le_bytes([low, high]), sub)
 }
 
 /// A call, since the compiler would take the request apart into bytes.

@@ -96,16 +96,13 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>> Storage for Memory<B> {
             .as_mut()
             .get_mut(offset..offset.saturating_add(bytes.len()))
             .ok_or(StorageError::OutOfRange)?;
-        let len = match &mut self.left {
-            Some(left) => {
-                let len = bytes.len().min(*left);
-                *left -= len;
-                self.cut = len < bytes.len();
-                len
-            }
-            None => bytes.len(),
-        };
-        copy(to.get_mut(..len).unwrap_or_default(), bytes);
+        let mut bytes = bytes;
+        if let Some(left) = &mut self.left {
+            self.cut = *left < bytes.len();
+            bytes = bytes.get(..*left).unwrap_or(bytes);
+            *left -= bytes.len();
+        }
+        copy(to, bytes);
         if self.cut {
             Err(StorageError::PowerCut)
         } else {
