@@ -189,16 +189,7 @@ impl<'a> Dictionary<'a> {
 
     /// Position of the first entry of an object, or of what comes after where it would be.
     pub(crate) const fn first(&self, index: u16) -> usize {
-        let (mut from, mut to) = (0, self.rows.len());
-        while from < to {
-            let middle = from + (to - from) / 2;
-            if middle < self.rows.len() && self.rows[middle].index() < index {
-                from = middle + 1;
-            } else {
-                to = middle;
-            }
-        }
-        from
+        index::first(self.rows, (index as u32) << 8)
     }
 
     /// Index of the object of the value at a position.

@@ -75,9 +75,24 @@ pub(crate) fn hashed<'a>(buckets: &[u16], rows: &'a [Row], key: u32) -> Option<(
 /// The search among more rows than buckets can name; they are sorted.
 #[cold]
 fn search(rows: &[Row], key: u32) -> Option<(usize, &Row)> {
-    let position = rows.partition_point(|row| row.key() < key);
+    let position = first(rows, key);
     let row = rows.get(position)?;
     (row.key() == key).then_some((position, row))
+}
+
+/// Position of the first row from this key on; they are sorted.
+#[inline(never)]
+pub(crate) const fn first(rows: &[Row], key: u32) -> usize {
+    let (mut from, mut to) = (0, rows.len());
+    while from < to {
+        let middle = from + (to - from) / 2;
+        if middle < rows.len() && rows[middle].key() < key {
+            from = middle + 1;
+        } else {
+            to = middle;
+        }
+    }
+    from
 }
 
 /// Bucket at which the search for a key begins; modulo the number of buckets, which is 2¹⁷ at most.

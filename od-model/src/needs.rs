@@ -4,7 +4,7 @@ use crate::access::Access;
 use crate::dictionary::Dictionary;
 use crate::entry::Entry;
 use crate::row::Row;
-use crate::types::DataType;
+use crate::types::Kind;
 
 impl Dictionary<'_> {
     /// Number of TPDOs that a node needs: up to the last object of 1800h–19FFh, 0–512.
@@ -86,8 +86,8 @@ impl<'a> Dictionary<'a> {
     #[doc(hidden)]
     pub fn default_bytes(&self, row: &Row) -> &'a [u8] {
         let range = row.range(self.pool());
-        match row.data_type() {
-            DataType::VisibleString => self.text(range).as_bytes(),
+        match row.kind() {
+            Kind::Text => self.text_bytes(range),
             _ => self.blob(range),
         }
     }

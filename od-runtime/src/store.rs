@@ -4,7 +4,7 @@ use core::fmt;
 
 use od_model::row::Row;
 use od_model::typed::{DeviceWritable, Scalar, Text, Var};
-use od_model::{Address, DataType, Dictionary, Entry, Slot};
+use od_model::{Address, Dictionary, Entry, Kind, Slot};
 
 use crate::number::{copy, fill, little_endian, number_in};
 use od_wire::{AbortCode, NodeId};
@@ -389,7 +389,7 @@ fn default_bytes<'b>(
 fn default(dictionary: &Dictionary<'_>, row: &Row, node_id: NodeId) -> u64 {
     let default = row.default(dictionary.pool(), node_id.raw());
     match dictionary.reals() {
-        Some(reals) if row.data_type() == DataType::Real32 => (reals.narrowed)(default).into(),
+        Some(reals) if row.kind() == Kind::Real && row.bits() == 32 => (reals.narrowed)(default).into(),
         _ => default,
     }
 }

@@ -20,6 +20,12 @@ impl<'a> Dictionary<'a> {
             .unwrap_or("")
     }
 
+    /// The bytes of a text of the dictionary, which is no name. Not by way of the text: code that looks
+    /// where its letters begin and end is not small.
+    pub(crate) fn text_bytes(&self, range: Range) -> &'a [u8] {
+        range.of(self.text.as_bytes())
+    }
+
     /// The bytes of a range: an OCTET_STRING or a DOMAIN.
     pub fn blob(&self, range: Range) -> &'a [u8] {
         range.of(self.blob)

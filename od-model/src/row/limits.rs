@@ -3,31 +3,27 @@
 use super::{RANGE, Row, bits, number, word, words};
 
 impl Row {
-    /// Lower limit, as [`default`](Self::default) has numbers; `None`: the type limits the value.
-    #[inline]
-    pub const fn low(self, pool: &[u32], node_id: u8) -> Option<u64> {
-        match (self.0[3] >> 14) as usize {
-            0 => None,
-            at => limit(pool, at, word(pool, at - 1) & 7, node_id),
-        }
+    /// Whether the value has limits besides those of its type.
+    #[inline(always)]
+    pub const fn has_limits(self) -> bool {
+        self.0[3] >> 14 != 0
     }
 
-    /// Upper limit, as [`low`](Self::low).
-    #[inline]
-    pub const fn high(self, pool: &[u32], node_id: u8) -> Option<u64> {
-        let at = (self.0[3] >> 14) as usize;
+    /// Lower or upper limit, as [`default`](Self::default) has numbers; `None`: the type limits the value.
+    #[inline(never)]
+    pub const fn limit(&self, is_upper: bool, pool: &[u32], node_id: u8) -> Option<u64> {
+        let mut at = (self.0[3] >> 14) as usize;
         if at == 0 {
             return None;
         }
-        let kinds = word(pool, at - 1);
-        limit(pool, at + words(kinds & 7), kinds >> 3, node_id)
-    }
-}
-
-#[inline(never)]
-const fn limit(pool: &[u32], at: usize, kind: u32, node_id: u8) -> Option<u64> {
-    match kind {
-        0 | RANGE => None,
-        _ => Some(number(kind, bits(pool, at, kind), node_id)),
+        let mut kind = word(pool, at - 1);
+        if is_upper {
+            at += words(kind & 7);
+            kind >>= 3;
+        }
+        match kind & 7 {
+            0 | RANGE => None,
+            kind => Some(number(kind, bits(pool, at, kind), node_id)),
+        }
     }
 }

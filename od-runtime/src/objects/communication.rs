@@ -44,76 +44,93 @@ pub(super) fn check<D: Device>(
     // What is longer than a word (of another dictionary) is too great.
     let value = u32::try_from(number_in(bytes)).unwrap_or(u32::MAX);
     let check_cob_id = |has_valid_bit| check_cob_id(store, profile, row, value, has_valid_bit);
+    let allow = |is_allowed| match is_allowed {
+        true => Ok(()),
+        false => Err(AbortCode::ValueRange),
+    };
+    // Each index has one arm, and what the device lacks is asked for in it: as a guard it would lead on to
+    // all arms below.
     match (index, sub) {
         // Writing 0 clears the log; nothing else may be written (chapter 7.5.2.4).
-        (0x1003, 0) if const { may_have::<D>(0x1003, 0x1003, None) } && value != 0 => {
-            Err(AbortCode::ValueRange)
+        (0x1003, 0) => allow(!const { may_have::<D>(0x1003, 0x1003, None) } || value == 0),
+        (0x1005, 0) => {
+            // A device that produces no SYNC cannot have bit 30 set (chapter 7.5.2.5).
+            allow(!CobId::new(value).produces_sync() || produces_sync::<D>(store))?;
+            allow(!D::SYNC_PRODUCER || !is_in_use(store, index, value, PRODUCER))?;
+            check_cob_id(false)
         }
-        // A device that produces no SYNC cannot have bit 30 set (chapter 7.5.2.5).
-        (0x1005, 0) if CobId::new(value).produces_sync() && !produces_sync::<D>(store) => {
-            Err(AbortCode::ValueRange)
+        (0x1012, 0) => {
+            if D::TIME {
+                allow(!is_in_use(store, index, value, PRODUCER | CONSUMER))?;
+                check_cob_id(false)?;
+            }
+            Ok(())
         }
-        (0x1005, 0) if D::SYNC_PRODUCER && is_in_use(store, index, value, PRODUCER) => {
-            Err(AbortCode::ValueRange)
-        }
-        (0x1005, 0) => check_cob_id(false),
-        (0x1012, 0) if D::TIME && is_in_use(store, index, value, PRODUCER | CONSUMER) => {
-            Err(AbortCode::ValueRange)
-        }
-        (0x1012, 0) if D::TIME => check_cob_id(false),
-        (0x1019, 0)
-            if const { may_have::<D>(0x1019, 0x1019, None) } && !sync::is_overflow(value as u8) =>
-        {
-            Err(AbortCode::ValueRange)
-        }
-        // SYNC may be on its way (chapter 7.5.2.22).
-        (0x1019, 0)
-            if const { may_have::<D>(0x1019, 0x1019, None) } && store.unsigned(0x1006, 0) != 0 =>
-        {
-            Err(AbortCode::DeviceState)
+        (0x1019, 0) => {
+            if const { may_have::<D>(0x1019, 0x1019, None) } {
+                allow(sync::is_overflow(value as u8))?;
+                // SYNC may be on its way (chapter 7.5.2.22).
+                if store.unsigned(0x1006, 0) != 0 {
+                    return Err(AbortCode::DeviceState);
+                }
+            }
+            Ok(())
         }
         // A node has one heartbeat time (chapter 7.5.2.13).
-        (0x1016, 1..) if D::CONSUMER && is_watched_elsewhere(store, sub, value) => {
-            Err(AbortCode::Incompatible)
-        }
+        (0x1016, 1..) => match D::CONSUMER && is_watched_elsewhere(store, sub, value) {
+            true => Err(AbortCode::Incompatible),
+            false => Ok(()),
+        },
         // CiA 301 reserves 03h to 7Fh; the bus covers have a meaning for 03h (chapter 7.5.2.32).
-        (0x1029, 1..) if D::BEHAVIOUR && matches!(value, 4..=0x7F) => Err(AbortCode::ValueRange),
-        (0x1014, 0) | (0x1800..=0x19FF, 1) => check_cob_id(true),
+        (0x1029, 1..) => allow(!D::BEHAVIOUR || !matches!(value, 4..=0x7F)),
+        (0x1014, 0) => check_cob_id(true),
         // An SDO exists while both COB-IDs are valid (chapter 7.5.2.33).
-        (0x1201..=0x127F, 1 | 2) if D::SERVERS => check_cob_id(true),
-        (0x1400..=0x15FF, 1) if D::RPDOS => check_cob_id(true),
-        (0x1400..=0x15FF, 2) if D::RPDOS && matches!(value, 241..=253) => {
-            Err(AbortCode::ValueRange)
-        }
-        (0x1800..=0x19FF, 2) => {
-            let mut types = profile.pdo.tpdo_types.iter();
-            if types.any(|(low, high)| (*low..=*high).contains(&(value as u8))) {
-                Ok(())
-            } else {
-                Err(AbortCode::ValueRange)
+        (0x1201..=0x127F, 1 | 2) => match D::SERVERS {
+            true => check_cob_id(true),
+            false => Ok(()),
+        },
+        (0x1400..=0x15FF, _) => match sub {
+            1 if D::RPDOS => check_cob_id(true),
+            2 => allow(!D::RPDOS || !matches!(value, 241..=253)),
+            _ => Ok(()),
+        },
+        (0x1800..=0x19FF, _) => match sub {
+            1 => check_cob_id(true),
+            2 => {
+                let mut types = profile.pdo.tpdo_types.iter();
+                allow(types.any(|(low, high)| (*low..=*high).contains(&(value as u8))))
             }
-        }
-        // The inhibit time cannot change while the PDO exists (chapter 7.5.2.37).
-        (0x1800..=0x19FF, 3)
-            if const { may_have::<D>(0x1800, 0x19FF, Some(3)) }
-                && is_valid(store, index)
-                && !profile.pdo.direct_cob_id =>
-        {
-            Err(AbortCode::ValueRange)
-        }
-        (0x1600..=0x17FF | 0x1A00..=0x1BFF, _) if !const { can_map::<D>() } => Ok(()),
-        (0x1600..=0x17FF | 0x1A00..=0x1BFF, 0) => check_mapping_count(store, index, value),
-        (0x1600..=0x17FF | 0x1A00..=0x1BFF, _) => {
-            if store.word(index, 0, 0) != 0 {
-                return Err(profile.sdo.mapping_in_use);
+            // The inhibit time cannot change while the PDO exists (chapter 7.5.2.37).
+            3 if const { may_have::<D>(0x1800, 0x19FF, Some(3)) } => {
+                allow(!is_valid(store, index) || profile.pdo.direct_cob_id)
             }
-            // An entry that maps nothing can be written; it cannot be counted.
-            if value == 0 {
-                return Ok(());
-            }
-            check_mapped(store, index, value)
-        }
+            _ => Ok(()),
+        },
+        (0x1600..=0x17FF | 0x1A00..=0x1BFF, _) => match const { can_map::<D>() } {
+            true => check_mapping(store, profile, row.address(), value),
+            false => Ok(()),
+        },
         _ => Ok(()),
+    }
+}
+
+/// A value of a mapping object: the count, or an entry.
+fn check_mapping(
+    store: &Store<'_>,
+    profile: &Profile,
+    Address { index, sub }: Address,
+    value: u32,
+) -> Result<(), AbortCode> {
+    if sub == 0 {
+        return check_mapping_count(store, index, value);
+    }
+    if store.word(index, 0, 0) != 0 {
+        return Err(profile.sdo.mapping_in_use);
+    }
+    // An entry that maps nothing can be written; it cannot be counted.
+    match value {
+        0 => Ok(()),
+        _ => check_mapped(store, index, value),
     }
 }
 
