@@ -6,11 +6,13 @@ use od_model::Missing;
 
 macro_rules! abort_codes {
     ($($(#[$doc:meta])* $name:ident = $code:literal, $text:literal;)*) => {
-        /// SDO abort code (CiA 301, table 22). The discriminant is the value on the bus.
+        /// SDO abort code (CiA 301, table 22), by its position in [`ALL`](Self::ALL); [`code`](Self::code) is the value
+        /// on the bus.
+        // A small number is one short instruction; in a word, it and a pointer are returned in registers.
         #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
         #[repr(u32)]
         #[non_exhaustive]
-        pub enum AbortCode { $(#[doc = $text] $(#[$doc])* $name = $code,)* }
+        pub enum AbortCode { $(#[doc = $text] $(#[$doc])* $name,)* }
 
         impl AbortCode {
             /// Every code, by ascending number.
@@ -19,6 +21,18 @@ macro_rules! abort_codes {
             /// Returns the abort code with this value; `None` for a value that CiA 301 does not define.
             pub const fn from_code(code: u32) -> Option<Self> {
                 match code { $($code => Some(Self::$name),)* _ => None }
+            }
+
+            /// The value on the bus.
+            pub const fn code(self) -> u32 {
+                let short = self.short() as u32;
+                short << 12 & 0xF00_0000 | short << 8 & 0xF_0000 | short & 0xFF
+            }
+
+            // A call, so that the compiler makes a table of them.
+            #[inline(never)]
+            const fn short(self) -> u16 {
+                match self { $(Self::$name => const { short($code) },)* }
             }
 
             /// Returns a short English description.
@@ -72,12 +86,10 @@ abort_codes! {
     NoData = 0x0800_0024, "no data available";
 }
 
-impl AbortCode {
-    /// The value on the bus.
-    #[inline]
-    pub const fn code(self) -> u32 {
-        self as u32
-    }
+/// A code without the digits that are 0 in all of them.
+const fn short(code: u32) -> u16 {
+    assert!(code & !0xF0F_00FF == 0, "a digit that no abort code has");
+    (code >> 12 & 0xF000 | code >> 8 & 0xF00 | code & 0xFF) as u16
 }
 
 impl fmt::Display for AbortCode {

@@ -12,7 +12,7 @@
 //! assert_eq!(response.id(), NodeId::ONE.plus(0x580));
 //! let Some(data) = response.data().first_chunk() else { unreachable!() };
 //! let sdo::Response::Abort { code, .. } = sdo::Response::parse(data) else { unreachable!() };
-//! assert_eq!(code, AbortCode::NoObject as u32);
+//! assert_eq!(code, AbortCode::NoObject.code());
 //! ```
 #![no_std]
 #![forbid(unsafe_code)]

@@ -291,7 +291,7 @@ fn a_save_that_is_not_there_aborts_and_is_told() {
         let events: Vec<_> = std::iter::from_fn(|| node.poll_event()).collect();
         answers.push((answer.data()[0], answer.data()[4..].to_vec(), events));
     }
-    let abort = (AbortCode::Hardware as u32).to_le_bytes().to_vec();
+    let abort = AbortCode::Hardware.code().to_le_bytes().to_vec();
     assert_eq!(abort, [0, 0, 6, 6]);
     assert_eq!(answers[0], (0x60, vec![0; 4], vec![Event::Saved(1)]));
     assert_eq!(answers[1], (0x80, abort, vec![Event::NotSaved]));
