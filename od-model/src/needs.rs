@@ -3,6 +3,7 @@
 use crate::access::Access;
 use crate::dictionary::Dictionary;
 use crate::entry::Entry;
+use crate::index;
 use crate::row::Row;
 use crate::types::Kind;
 
@@ -74,6 +75,16 @@ impl Dictionary<'_> {
 }
 
 impl<'a> Dictionary<'a> {
+    /// The position of the value whose address has this [key](crate::Address::key).
+    #[doc(hidden)]
+    pub const fn position(&self, key: u32) -> Option<usize> {
+        let position = index::first(self.rows(), key);
+        match position < self.len() && self.rows()[position].key() == key {
+            true => Some(position),
+            false => None,
+        }
+    }
+
     /// The rows of an object, by ascending sub-index.
     #[doc(hidden)]
     pub fn rows_of(&self, index: u16) -> &'a [Row] {

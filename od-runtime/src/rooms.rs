@@ -208,7 +208,7 @@ const FRAMES: usize = 8;
 /// Number of nodes that can be watched; entries of 1016h beyond it are ignored.
 const WATCHES: usize = 8;
 /// Mapping entries that are kept; more (BOOLEANs, say) are read from the mapping object each time.
-const KEPT: usize = 8;
+pub(crate) const KEPT: usize = 8;
 
 /// A size of [`Fit`] for a device, by its position.
 #[doc(hidden)]

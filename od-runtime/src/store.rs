@@ -389,7 +389,9 @@ fn default_bytes<'b>(
 fn default(dictionary: &Dictionary<'_>, row: &Row, node_id: NodeId) -> u64 {
     let default = row.default(dictionary.pool(), node_id.raw());
     match dictionary.reals() {
-        Some(reals) if row.kind() == Kind::Real && row.bits() == 32 => (reals.narrowed)(default).into(),
+        Some(reals) if row.kind() == Kind::Real && row.bits() == 32 => {
+            (reals.narrowed)(default).into()
+        }
         _ => default,
     }
 }

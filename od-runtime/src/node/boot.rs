@@ -287,8 +287,9 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
             self.rpdo_count = dictionary.rpdos().min(Self::RPDOS) as u16;
         }
         let operates = self.state == State::Operational;
-        for (number, tpdo) in (0..).zip(self.tpdos_mut()) {
-            if tpdo.configure(objects, number) && operates {
+        let fixed = const { &pdo::Fixed::all::<D, PDO>() };
+        for (number, (tpdo, fixed)) in (0..).zip(self.tpdos_mut().iter_mut().zip(fixed)) {
+            if tpdo.configure(objects, number, fixed) && operates {
                 tpdo.start(objects);
             }
         }

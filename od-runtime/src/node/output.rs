@@ -120,7 +120,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
         let pdo = node.tpdo.get_mut(at)?;
         if pdo.is_live() {
             let outbox = Room::outbox(&mut self.outbox);
-            refresh(pdo, device, node.node_id, now, outbox);
+            refresh::<D, _>(pdo, device, node.node_id, now, outbox);
             if !outbox.is_empty() {
                 // What the application has to say of the values comes with the next call.
                 node.next = Instant::ZERO;
@@ -291,7 +291,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
 
 /// Has the application bring the live values of a PDO up to date.
 #[cfg_attr(target_os = "none", inline(never))]
-fn refresh<R: Rooms>(
+fn refresh<D: Device, R: Rooms>(
     pdo: &pdo::Tpdo<R>,
     device: &mut Lent<'_>,
     node_id: NodeId,
@@ -304,7 +304,7 @@ fn refresh<R: Rooms>(
             now,
             signals: &mut outbox.signals,
         };
-        pdo.refresh(device.application, &mut context, outbox.live);
+        pdo.refresh::<D>(device.application, &mut context, outbox.live);
     }
 }
 

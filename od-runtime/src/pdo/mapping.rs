@@ -4,6 +4,7 @@ use od_model::Address;
 use od_model::row::Row;
 use od_model::typed::MapEntry;
 
+use super::fixed::{Fixed, is_fixed};
 use crate::application::{Application, Context};
 use crate::device::{Device, ROOMY};
 use crate::objects::outbox::is_live;
@@ -129,6 +130,29 @@ impl<R: Rooms> Mapping<R> {
         changed
     }
 
+    /// As [`load`](Self::load), where the compiler knows what the object says.
+    #[inline(always)]
+    pub(super) fn fix<D: Device>(
+        &mut self,
+        objects: &Objects<'_, D>,
+        object: u16,
+        fixed: &Fixed,
+    ) -> bool {
+        let changed = self.object != object;
+        (self.object, self.len, self.is_live) = (object, fixed.len, false);
+        self.count = fixed.rows().len() as u8;
+        self.is_plain = ROOMY;
+        for (kept, position) in self.kept.all_mut().iter_mut().zip(fixed.rows()) {
+            let Some(row) = objects.store.dictionary().row((*position).into()) else {
+                continue;
+            };
+            *kept = u32::from(row.bits()) << 24 | u32::from(*position) + 1;
+            self.is_live |= objects.is_live(row.address());
+            self.is_plain &= ROOMY && matches!(row.plain().len, 1..=4);
+        }
+        changed
+    }
+
     /// Length of the frame in bytes; 0 where nothing is mapped.
     #[inline(always)]
     pub(super) fn len(&self) -> u8 {
@@ -143,9 +167,10 @@ impl<R: Rooms> Mapping<R> {
 
     /// The row of a mapped value, if it has one, and its bits.
     #[inline(always)]
-    fn value<'a>(&self, store: &Store<'a>, at: u8) -> (Option<&'a Row>, u32) {
+    fn value<'a, D: Device>(&self, store: &Store<'a>, at: u8) -> (Option<&'a Row>, u32) {
         let mapped = match self.kept.all().get(usize::from(at)) {
             Some(mapped) => *mapped,
+            None if const { is_fixed::<D>() } => 0,
             // The object has not changed since `load`, so the entry is still there.
             None => mapped(store, store.word(self.object, at + 1, 0)),
         };
@@ -175,14 +200,14 @@ impl<R: Rooms> Mapping<R> {
 
     /// Has the application bring the live values up to date, by the set of them.
     #[cfg_attr(target_os = "none", inline(never))]
-    pub(super) fn refresh(
+    pub(super) fn refresh<D: Device>(
         &self,
         application: &mut dyn Application,
         context: &mut Context<'_, '_>,
         live: u32,
     ) {
         for at in 0..self.count {
-            if let (Some(row), _) = self.value(context.store, at) {
+            if let (Some(row), _) = self.value::<D>(context.store, at) {
                 let address = row.address();
                 if is_live(live, address) {
                     // A PDO has no way to say that a value could not be had; it takes the last one.
@@ -210,10 +235,10 @@ impl<R: Rooms> Mapping<R> {
 
     /// Returns the frame's bytes with the values of the store.
     #[inline(never)]
-    pub(super) fn read(&self, store: &Store<'_>) -> [u8; 8] {
+    pub(super) fn read<D: Device>(&self, store: &Store<'_>) -> [u8; 8] {
         let (mut data, mut first) = (0u64, 0);
         for at in 0..self.count {
-            let (row, bits) = self.value(store, at);
+            let (row, bits) = self.value::<D>(store, at);
             if let Some(row) = row {
                 data |= cut(store.number_of(row), bits) << (first & 63);
             }
@@ -226,9 +251,10 @@ impl<R: Rooms> Mapping<R> {
     pub(super) fn sample<D: Device>(&self, objects: &mut Objects<'_, D>) -> [u8; 8] {
         if self.is_live {
             let live = objects.outbox.live;
-            objects.application(|application, context| self.refresh(application, context, live));
+            objects
+                .application(|application, context| self.refresh::<D>(application, context, live));
         }
-        self.read(&objects.store)
+        self.read::<D>(&objects.store)
     }
 
     /// Writes the frame's bytes into the objects, each by the rules of its own; one that
@@ -237,7 +263,7 @@ impl<R: Rooms> Mapping<R> {
     pub(super) fn apply<D: Device>(&self, objects: &mut Objects<'_, D>, data: [u8; 8]) {
         let mut data = u64::from_le_bytes(data);
         for at in 0..self.count {
-            let (row, bits) = self.value(&objects.store, at);
+            let (row, bits) = self.value::<D>(&objects.store, at);
             if let Some(row) = row {
                 let value = cut(data, bits).to_le_bytes();
                 let value = value.get(..row.size()).unwrap_or_default();

@@ -1,6 +1,7 @@
 //! One TPDO: when it is sent, and with what.
 
 use super::config::{Config, Parameters, Validity, kind};
+use super::fixed::{Fixed, is_fixed};
 use super::mapping::Mapping;
 use crate::application::{Application, Context};
 use crate::deadline::Deadline;
@@ -48,10 +49,19 @@ impl<R: Rooms> Tpdo<R> {
     };
 
     /// Reads the objects of TPDO `number` (0 is 1800h and 1A00h) again. Answers whether
-    /// they say something else than before; only then the TPDO restarts.
-    pub(crate) fn configure<D: Device>(&mut self, objects: &Objects<'_, D>, number: u16) -> bool {
+    /// they say something else than before; only then the TPDO restarts. `fixed` is its mapping where none
+    /// can change.
+    pub(crate) fn configure<D: Device>(
+        &mut self,
+        objects: &Objects<'_, D>,
+        number: u16,
+        fixed: &Fixed,
+    ) -> bool {
         let mut config = Config::load(objects, number);
-        let mut changed = self.mapping.load(objects, 0x1A00 + number);
+        let mut changed = match const { is_fixed::<D>() } {
+            true => self.mapping.fix(objects, 0x1A00 + number, fixed),
+            false => self.mapping.load(objects, 0x1A00 + number),
+        };
         if self.mapping.len() == 0 {
             config.validity = Validity::Off;
         }
@@ -291,13 +301,13 @@ impl<R: Rooms> Tpdo<R> {
 
     /// Has the application bring the live values up to date, by the set of them.
     #[inline(always)]
-    pub(crate) fn refresh(
+    pub(crate) fn refresh<D: Device>(
         &self,
         application: &mut dyn Application,
         context: &mut Context<'_, '_>,
         live: u32,
     ) {
-        self.mapping.refresh(application, context, live);
+        self.mapping.refresh::<D>(application, context, live);
     }
 
     /// Whether all its values are plain numbers of the store, whether live or not.
@@ -329,7 +339,7 @@ impl<R: Rooms> Tpdo<R> {
             Some(data) => data.to_le_bytes(),
             None => {
                 let store = Store::new(dictionary, values, node_id).ok()?;
-                self.mapping.read(&store)
+                self.mapping.read::<D>(&store)
             }
         };
         Some(self.sent::<D>(data, now))
