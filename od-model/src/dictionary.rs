@@ -276,8 +276,10 @@ impl<'a> Dictionary<'a> {
         matches!(row.plain().len, 1..=4).then_some(row)
     }
 
+    /// What of an address is absent that [`row_at`](Self::row_at) did not find.
+    #[doc(hidden)]
     #[cold]
-    fn missing(&self, address: Address) -> Missing {
+    pub fn missing(&self, address: Address) -> Missing {
         match self.rows.get(self.first(address.index)) {
             Some(row) if row.index() == address.index => Missing::SubIndex,
             _ => Missing::Object,

@@ -113,7 +113,7 @@ impl<R: Rooms> Producer<R> {
                 register,
                 info,
             } => {
-                let is_it = |known: &Emcy| {
+                let is_it = |known: Emcy| {
                     known.code == code && register.is_none_or(|bits| bits == known.register)
                 };
                 if !self.active_mut().remove(is_it) {

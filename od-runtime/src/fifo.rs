@@ -6,17 +6,55 @@
 /// Its functions are those of `Fifo<[T]>`, so that they exist once, whatever the room.
 #[derive(Clone, Copy, Debug)]
 pub struct Fifo<Q: ?Sized> {
+    span: Span,
+    items: Q,
+}
+
+/// The places that are taken, of a queue of any items: from the first one on, and around the end.
+#[derive(Clone, Copy, Debug)]
+struct Span {
     head: u8,
     len: u8,
-    items: Q,
+}
+
+impl Span {
+    const NONE: Self = Self { head: 0, len: 0 };
+
+    /// The place of the item that is `at` behind the first one.
+    #[inline]
+    fn place(self, at: u8, room: usize) -> usize {
+        let at = usize::from(self.head) + usize::from(at);
+        match at.checked_sub(room) {
+            Some(wrapped) => wrapped,
+            None => at,
+        }
+    }
+
+    /// Takes the next place, if there is room.
+    #[inline(never)]
+    fn push(&mut self, room: usize) -> Option<usize> {
+        let has_room = usize::from(self.len) < room;
+        has_room.then(|| {
+            self.len += 1;
+            self.place(self.len - 1, room)
+        })
+    }
+
+    /// Leaves the first place, and returns it.
+    #[inline(never)]
+    fn pop(&mut self, room: usize) -> usize {
+        let first = self.head.into();
+        self.head = self.place(1, room) as u8;
+        self.len = self.len.saturating_sub(1);
+        first
+    }
 }
 
 impl<Q> Fifo<Q> {
     /// An empty queue; `items` is the content of empty places, 255 at most.
     pub(crate) const fn new(items: Q) -> Self {
         Self {
-            head: 0,
-            len: 0,
+            span: Span::NONE,
             items,
         }
     }
@@ -25,64 +63,67 @@ impl<Q> Fifo<Q> {
 impl<Q: ?Sized> Fifo<Q> {
     #[inline]
     pub(crate) const fn is_empty(&self) -> bool {
-        self.len == 0
+        self.span.len == 0
     }
 
     pub(crate) const fn clear(&mut self) {
-        self.head = 0;
-        self.len = 0;
+        self.span = Span::NONE;
     }
 }
 
 impl<T: Copy> Fifo<[T]> {
-    /// The place of the item that is `at` behind the first one.
-    #[inline]
-    fn place(&self, at: u8) -> usize {
-        let at = usize::from(self.head) + usize::from(at);
-        match at.checked_sub(self.items.len()) {
-            Some(wrapped) => wrapped,
-            None => at,
-        }
-    }
-
     /// Answers whether there was room.
     #[inline(never)]
     pub(crate) fn push(&mut self, item: T) -> bool {
-        let has_room = usize::from(self.len) < self.items.len();
-        let place = self.place(self.len);
-        if has_room && let Some(to) = self.items.get_mut(place) {
+        let place = self.span.push(self.items.len());
+        if let Some(place) = place
+            && let Some(to) = self.items.get_mut(place)
+        {
             *to = item;
-            self.len += 1;
         }
-        has_room
+        place.is_some()
     }
 
     #[inline]
     pub(crate) fn pop(&mut self) -> Option<T> {
-        if self.len == 0 {
+        if self.is_empty() {
             return None;
         }
-        let item = self.items.get(usize::from(self.head)).copied();
-        self.head = self.place(1) as u8;
-        self.len -= 1;
-        item
+        let place = self.span.pop(self.items.len());
+        self.items.get(place).copied()
     }
 
     pub(crate) fn iter(&self) -> impl Iterator<Item = T> + '_ {
-        (0..self.len).filter_map(|at| self.items.get(self.place(at)).copied())
+        (0..self.span.len).filter_map(|at| self.get(at))
+    }
+
+    /// The item that is `at` behind the first one.
+    #[inline]
+    fn get(&self, at: u8) -> Option<T> {
+        let place = self.span.place(at, self.items.len());
+        self.items.get(place).copied()
     }
 
     /// Takes the first item out that `which` names; answers whether there was one.
-    pub(crate) fn remove(&mut self, mut which: impl FnMut(&T) -> bool) -> bool {
-        let mut removed = false;
-        for _ in 0..self.len {
-            match self.pop() {
-                Some(item) if !removed && which(&item) => removed = true,
-                Some(item) => _ = self.push(item),
-                None => break,
-            }
+    pub(crate) fn remove(&mut self, which: impl FnMut(T) -> bool) -> bool {
+        let at = self.iter().position(which);
+        if let Some(at) = at {
+            self.take_out(at as u8);
         }
-        removed
+        at.is_some()
+    }
+
+    /// Takes out the item that is `at` behind the first one: those behind it move up.
+    #[inline(never)]
+    fn take_out(&mut self, mut at: u8) {
+        while let Some(next) = at.checked_add(1).filter(|next| *next < self.span.len)
+            && let Some(item) = self.get(next)
+            && let Some(to) = self.items.get_mut(self.span.place(at, self.items.len()))
+        {
+            *to = item;
+            at = next;
+        }
+        self.span.len = self.span.len.saturating_sub(1);
     }
 }
 
@@ -104,8 +145,8 @@ mod tests {
         for round in 0..5 {
             assert!(fifo.push(round) && fifo.push(round + 1) && fifo.push(round + 2));
             assert!(!fifo.push(99));
-            assert!(fifo.remove(|item| *item == round + 1));
-            assert!(!fifo.remove(|item| *item == 99));
+            assert!(fifo.remove(|item| item == round + 1));
+            assert!(!fifo.remove(|item| item == 99));
             assert_eq!(fifo.pop(), Some(round));
             assert_eq!(fifo.pop(), Some(round + 2));
             assert_eq!(fifo.pop(), None);

@@ -28,9 +28,11 @@ impl Emcy {
 
     /// The frame's bytes.
     pub const fn emit(self) -> [u8; 8] {
-        let [low, high] = self.code.to_le_bytes();
+        // As a number, which is stored in one go.
         let [a, b, c, d, e] = self.info;
-        [low, high, self.register, a, b, c, d, e]
+        let low = self.code as u32 | (self.register as u32) << 16 | (a as u32) << 24;
+        let high = u32::from_le_bytes([b, c, d, e]);
+        ((high as u64) << 32 | low as u64).to_le_bytes()
     }
 }
 
