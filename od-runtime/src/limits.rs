@@ -1,6 +1,7 @@
 //! Values against their limits: for what a master writes, and for what storage holds.
 
 use od_model::Kind;
+use od_model::real::Reals;
 use od_model::row::Row;
 
 use crate::store::Store;
@@ -19,8 +20,19 @@ pub(crate) enum Outside {
 }
 
 /// Checks a value against the limits of an entry. `bytes` has the entry's length.
-#[inline(never)]
+#[inline(always)]
 pub(crate) fn check(store: &Store<'_>, row: &Row, bytes: &[u8]) -> Result<(), Outside> {
+    check_with(store, row, bytes, store.dictionary().reals())
+}
+
+/// As [`check`], where the compiler may know that there are no REALs.
+#[inline(never)]
+pub(crate) fn check_with(
+    store: &Store<'_>,
+    row: &Row,
+    bytes: &[u8],
+    reals: Option<&'static Reals>,
+) -> Result<(), Outside> {
     let kind = row.kind();
     if kind == Kind::Boolean && bytes.first().is_some_and(|byte| *byte > 1) {
         return Err(Outside::NotAllowed);
@@ -29,20 +41,24 @@ pub(crate) fn check(store: &Store<'_>, row: &Row, bytes: &[u8]) -> Result<(), Ou
         return Err(Outside::Length);
     }
     match row.has_limits() {
-        true => compare(store, row, bytes, kind),
+        true => compare(store, row, bytes, kind, reals),
         false => Ok(()),
     }
 }
 
 /// Compares a number with its limits.
 #[inline]
-fn compare(store: &Store<'_>, row: &Row, bytes: &[u8], kind: Kind) -> Result<(), Outside> {
-    let dictionary = store.dictionary();
-    let reals = match kind {
-        Kind::Text | Kind::Bytes | Kind::Record => return Ok(()),
-        Kind::Real => dictionary.reals(),
-        _ => None,
-    };
+fn compare(
+    store: &Store<'_>,
+    row: &Row,
+    bytes: &[u8],
+    kind: Kind,
+    reals: Option<&'static Reals>,
+) -> Result<(), Outside> {
+    if matches!(kind, Kind::Text | Kind::Bytes | Kind::Record) {
+        return Ok(());
+    }
+    let reals = reals.filter(|_| kind == Kind::Real);
     let is_signed = kind == Kind::Signed;
     let is_negative = is_signed && bytes.last().is_some_and(|byte| byte & 0x80 != 0);
     let above = if is_negative { u64::MAX } else { 0 };
@@ -59,7 +75,8 @@ fn compare(store: &Store<'_>, row: &Row, bytes: &[u8], kind: Kind) -> Result<(),
         Some(reals) => (reals.is_greater)(one, other),
         None => one ^ sign > other ^ sign,
     };
-    let limit = |is_upper| row.limit(is_upper, dictionary.pool(), store.node_id().raw());
+    let pool = store.dictionary().pool();
+    let limit = |is_upper| row.limit(is_upper, pool, store.node_id().raw());
     if limit(true).is_some_and(|high| is_greater(value, high)) {
         Err(Outside::Above)
     } else if limit(false).is_some_and(|low| is_greater(low, value)) {

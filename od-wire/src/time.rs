@@ -58,19 +58,15 @@ impl Instant {
             return next;
         }
         let micros = if micros == 0 { 1 } else { micros };
-        // What is left of the last period, by shifts: a microcontroller has no division of 64 bits.
-        let (mut rest, mut periods) = (now.0 - self.0, micros);
-        while periods <= rest / 2 {
-            periods *= 2;
-        }
-        while periods >= micros {
-            if rest >= periods {
-                rest -= periods;
+        // What is left of the last period, bit by bit: a microcontroller has no division of 64 bits.
+        let (mut late, mut rest, mut bits) = (now.0 - self.0, 0, u64::BITS);
+        while bits > 0 {
+            rest = rest << 1 | late >> 63;
+            if rest >= micros {
+                rest -= micros;
             }
-            if periods == micros {
-                break;
-            }
-            periods /= 2;
+            late <<= 1;
+            bits -= 1;
         }
         now.plus_micros(micros - rest)
     }

@@ -198,18 +198,17 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         // bus with, or all that can be saved or written; it leaves the errors that last.
         let lent = objects.lent_profile;
         let which = |row: &Row| {
+            // Not as a part of it that is carried in: of a profile that the compiler knows nothing is read.
             let profile = D::PROFILE.unwrap_or(lent);
-            let lss = profile.lss.as_ref();
-            let scope = profile.nmt.reset_communication;
             let address = row.address();
             let starts_with = |lss: &LssProfile| address == lss.node_id || address == lss.bit_rate;
             all || match address.index {
                 0x1001 | 0x1003 => false,
                 0x1000..=0x1FFF => true,
-                _ if scope == CommunicationReset::Everything => {
+                _ if profile.nmt.reset_communication == CommunicationReset::Everything => {
                     image::is_kept(row) || row.writable()
                 }
-                _ => lss.is_some_and(starts_with),
+                _ => profile.lss.as_ref().is_some_and(starts_with),
             }
         };
         for pass in 0..2 {

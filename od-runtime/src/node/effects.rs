@@ -49,12 +49,16 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         if objects.outbox.signals.take(Signals::TICK) {
             self.tick(objects);
         }
-        let send_time = objects.outbox.signals.take(Signals::SEND_TIME);
-        if D::TIME && send_time {
+        let send_time = if D::TIME { 0 } else { Signals::SEND_TIME };
+        let keep = if D::STORAGE { 0 } else { Signals::KEEP };
+        if const { !(D::TIME && D::STORAGE) } {
+            // Nobody carries these out.
+            objects.outbox.signals.take(send_time | keep);
+        }
+        if D::TIME && objects.outbox.signals.take(Signals::SEND_TIME) {
             self.produce_time(objects);
         }
-        let keep = objects.outbox.signals.take(Signals::KEEP);
-        if D::STORAGE && keep && objects.keep() {
+        if D::STORAGE && objects.outbox.signals.take(Signals::KEEP) && objects.keep() {
             self.event(Event::NotSaved);
         }
         self.take_errors(objects);

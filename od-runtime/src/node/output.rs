@@ -137,19 +137,20 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
     fn poll_services(&mut self, device: &mut Lent<'_>, now: Instant) -> Option<Frame> {
         let node = &mut self.machines;
         let now = now.max(node.now);
-        let (outbox, saving) = (
-            Room::outbox(&mut self.outbox),
-            self.saves.all_mut().first_mut(),
-        );
-        let mut objects = device.objects(node.node_id, now, outbox, saving);
-        let objects: &mut Objects<'_, D> = objects.as_mut()?;
         if node.sends_emcy() {
-            let frame = node.emcy.poll::<D>(&objects.store, now);
+            let store = Store::new(&device.dictionary, device.values, node.node_id).ok()?;
+            let frame = node.emcy.poll::<D>(&store, now);
             if frame.is_some() {
                 return frame;
             }
         }
         if D::BLOCK {
+            let (outbox, saving) = (
+                Room::outbox(&mut self.outbox),
+                self.saves.all_mut().first_mut(),
+            );
+            let mut objects = device.objects(node.node_id, now, outbox, saving);
+            let objects: &mut Objects<'_, D> = objects.as_mut()?;
             node.next = Instant::ZERO;
             if let Some(segment) = node.sdo.poll(objects) {
                 return Some(node.response(segment));

@@ -230,7 +230,12 @@ impl<'c, D: Device> Objects<'c, D> {
         {
             return self.command(address, signature, bytes);
         }
-        limits::check(&self.store, row, bytes).map_err(|outside| self.refusal(address, outside))?;
+        let reals = match &D::DICTIONARY {
+            Some(dictionary) => dictionary.reals(),
+            None => self.store.dictionary().reals(),
+        };
+        limits::check_with(&self.store, row, bytes, reals)
+            .map_err(|outside| self.refusal(address, outside))?;
         if address.index < 0x2000 {
             communication::check::<D>(&self.store, self.profile(), row, bytes)?;
         }

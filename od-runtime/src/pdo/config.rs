@@ -67,6 +67,10 @@ impl Config {
     pub(super) fn load<D: Device>(objects: &Objects<'_, D>, number: u16) -> Self {
         let parameter = 0x1800 + number;
         let store = &objects.store;
+        let word = |may_be_there, sub| match may_be_there {
+            true => store.word(parameter, sub, 0),
+            false => 0,
+        };
         let cob_id = CobId::new(store.word(parameter, 1, 1 << 31));
         let repeat = objects
             .profile()
@@ -88,10 +92,10 @@ impl Config {
             },
             kind,
             repeat: repeat.map_or(0, |index| store.word(index, 0, 0) as u8),
-            sync_start: store.word(parameter, 6, 0) as u8,
+            sync_start: word(D::STARTED, 6) as u8,
             id: cob_id.can_id(),
-            event: store.word(parameter, 5, 0),
-            inhibit: store.word(parameter, 3, 0),
+            event: word(D::TIMED, 5),
+            inhibit: word(D::INHIBITED, 3),
         }
     }
 }

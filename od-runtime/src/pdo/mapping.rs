@@ -139,17 +139,18 @@ impl<R: Rooms> Mapping<R> {
         fixed: &Fixed,
     ) -> bool {
         let changed = self.object != object;
-        (self.object, self.len, self.is_live) = (object, fixed.len, false);
+        (self.object, self.len) = (object, fixed.len);
         self.count = fixed.rows().len() as u8;
-        self.is_plain = ROOMY;
+        let (mut is_live, mut is_plain) = (false, ROOMY);
         for (kept, position) in self.kept.all_mut().iter_mut().zip(fixed.rows()) {
             let Some(row) = objects.store.dictionary().row((*position).into()) else {
                 continue;
             };
             *kept = u32::from(row.bits()) << 24 | u32::from(*position) + 1;
-            self.is_live |= objects.is_live(row.address());
-            self.is_plain &= ROOMY && matches!(row.plain().len, 1..=4);
+            is_live |= objects.is_live(row.address());
+            is_plain &= ROOMY && matches!(row.plain().len, 1..=4);
         }
+        (self.is_live, self.is_plain) = (is_live, is_plain);
         changed
     }
 
