@@ -69,14 +69,19 @@ impl<T> Once<T> {
     /// Takes the value.
     #[allow(clippy::mut_from_ref)] // once
     pub fn take(&self) -> &mut T {
-        let taken = self.1.load(Ordering::Relaxed);
-        self.1.store(true, Ordering::Relaxed);
-        if taken {
-            exit(false);
-        }
+        take(&self.1);
         // SAFETY: this is the first call, and interrupts do not exist.
         unsafe { &mut *self.0.get() }
     }
+}
+
+/// Marks something as taken; the second call for it ends the program.
+#[inline(never)]
+fn take(taken: &AtomicBool) {
+    if taken.load(Ordering::Relaxed) {
+        exit(false);
+    }
+    taken.store(true, Ordering::Relaxed);
 }
 
 /// Bytes of flash (code, constants, content of .data), and bytes of static RAM.

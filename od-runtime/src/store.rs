@@ -135,7 +135,7 @@ impl<'a> Store<'a> {
     }
 
     /// Puts a number in its place, cut to its length, if it has one.
-    #[inline(always)]
+    #[cfg_attr(target_os = "none", inline(never))]
     fn put_number(&mut self, row: &Row, number: u64) {
         if let Some(room) = slot_mut(self.values, row.fixed_slot()) {
             fill(room, number.to_le_bytes());
@@ -309,11 +309,7 @@ impl<'a> Store<'a> {
     /// the store.
     #[inline(never)]
     fn other_number(&self, row: &Row) -> u64 {
-        match row.size() {
-            0 => number_in(variable(self.dictionary, self.values, row)),
-            _ if row.is_stored() => number_in(self.slot(row.fixed_slot())),
-            _ => self.default_number(row),
-        }
+        number_in(self.value(row, &mut [0; 8]))
     }
 
     /// The default of a number, cut to its length.
@@ -348,14 +344,13 @@ impl<'a> Store<'a> {
 
 #[inline]
 fn slot(values: &[u8], slot: Slot) -> Option<&[u8]> {
-    let start = slot.offset as usize;
-    values.get(start..start + usize::from(slot.len))
+    values.get(slot.offset as usize..)?.get(..slot.len.into())
 }
 
 #[inline]
 fn slot_mut(values: &mut [u8], slot: Slot) -> Option<&mut [u8]> {
-    let start = slot.offset as usize;
-    values.get_mut(start..start + usize::from(slot.len))
+    let rest = values.get_mut(slot.offset as usize..)?;
+    rest.get_mut(..slot.len.into())
 }
 
 /// A string: two bytes of length, then the bytes; the default where nothing is stored.
