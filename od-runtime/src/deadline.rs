@@ -42,8 +42,9 @@ impl Deadline {
         self.is_set() && self.0 - 1 <= now.as_micros()
     }
 
-    /// The earlier one of two.
-    #[inline(always)]
+    /// The earlier one of two. On a microcontroller it is a call.
+    #[cfg_attr(target_os = "none", inline(never))]
+    #[cfg_attr(not(target_os = "none"), inline(always))]
     pub(crate) const fn or(self, other: Self) -> Self {
         match self.0.wrapping_sub(1) <= other.0.wrapping_sub(1) {
             true => self,

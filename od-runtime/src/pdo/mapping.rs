@@ -146,7 +146,7 @@ impl<R: Rooms> Mapping<R> {
             let Some(row) = objects.store.dictionary().row((*position).into()) else {
                 continue;
             };
-            *kept = u32::from(row.bits()) << 24 | u32::from(*position) + 1;
+            *kept = u32::from(row.bits()) << 24 | (u32::from(*position) + 1);
             is_live |= objects.is_live(row.address());
             is_plain &= ROOMY && matches!(row.plain().len, 1..=4);
         }
