@@ -141,16 +141,22 @@ impl<R: Rooms> Mapping<R> {
         let changed = self.object != object;
         (self.object, self.len) = (object, fixed.len);
         self.count = fixed.rows().len() as u8;
-        let (mut is_live, mut is_plain) = (false, ROOMY);
-        for (kept, position) in self.kept.all_mut().iter_mut().zip(fixed.rows()) {
+        for plain in &mut self.plain {
+            (plain.live, plain.is_one) = (0, true);
+        }
+        let mut has_live = false;
+        for (at, (kept, position)) in self.kept.all_mut().iter_mut().zip(fixed.rows()).enumerate() {
             let Some(row) = objects.store.dictionary().row((*position).into()) else {
                 continue;
             };
             *kept = u32::from(row.bits()) << 24 | (u32::from(*position) + 1);
-            is_live |= objects.is_live(row.address());
-            is_plain &= ROOMY && matches!(row.plain().len, 1..=4);
+            let is_live = objects.is_live(row.address());
+            has_live |= is_live;
+            for plain in &mut self.plain {
+                plain.add(&objects.store, at, *kept, is_live.then_some(row.address()));
+            }
         }
-        (self.is_live, self.is_plain) = (is_live, is_plain);
+        self.is_live = has_live;
         changed
     }
 
