@@ -16,12 +16,13 @@
 //! The pool is words: of a wide literal low and high half, of a string start and length of its default
 //! and the length of its slot, of limits the kinds of both and then their words.
 
+mod kinds;
 mod limits;
 
 use crate::access::{Access, Group};
 use crate::address::Address;
 use crate::entry::{Entry, Slot};
-use crate::types::{DataType, Kind, ObjectCode};
+use crate::types::{DataType, ObjectCode};
 use crate::value::{Literal, Range};
 
 /// A value of a dictionary, packed.
@@ -138,17 +139,6 @@ static BITS: [u8; 32] = {
     bits
 };
 
-/// Kind of each data type, as [`BITS`].
-static KINDS: [Kind; 32] = {
-    let mut kinds = [Kind::Unsigned; 32];
-    let mut i = 0;
-    while i < DataType::ALL.len() {
-        kinds[i] = DataType::ALL[i].kind();
-        i += 1;
-    }
-    kinds
-};
-
 impl Row {
     /// The row of an entry of an object with this code. `default` is its bits, or where they are in the pool;
     /// `limits` as the row has them.
@@ -254,12 +244,6 @@ impl Row {
             true => DataType::ALL[number],
             false => DataType::Unsigned8,
         }
-    }
-
-    /// Meaning of the bytes, as that of the data type.
-    #[inline(always)]
-    pub const fn kind(self) -> Kind {
-        KINDS[(self.0[0] >> 3 & 31) as usize]
     }
 
     /// Length of a value whose type gives it, in bits; 0 for a string or DOMAIN.
