@@ -82,6 +82,9 @@ fn the_log_keeps_the_newest() {
     assert_eq!(bench.ask("601#4003100200000000"), "581#4303100230550000");
     assert_eq!(bench.ask("601#2F03100000000000"), "581#6003100000000000");
     assert_eq!(bench.ask("601#4003100100000000"), "581#8003100124000008");
+    for sub in 0..=2 {
+        assert_eq!(bench.value(0x1003, sub), 0, "a host sees none either");
+    }
 }
 
 #[test]
@@ -195,4 +198,30 @@ fn the_inhibit_time_is_in_units_of_100_microseconds() {
     assert_eq!(bench.change().len(), 1);
     let at = bench.node.poll_timeout();
     assert_eq!(at, Some(bench.now.plus_micros(2_500)));
+}
+
+#[test]
+fn a_reset_forgets_errors_and_those_that_wait() {
+    // 50 ms, in units of 100 us.
+    let word = DataType::Unsigned16;
+    let inhibit = (0x1015, 0, word, Access::Rw, false, unsigned(500));
+    for start in ["reset node", "power"] {
+        let mut bench = bench(&[inhibit.clone()]);
+        let both = [error(0x1000, 1), error(0x5530, 0x81)];
+        bench.application.raise.extend(both);
+        assert_eq!(bench.change(), ["081#0010010102030405"]);
+        let out = match start {
+            "power" => bench.power_cycle(),
+            _ => bench.send("000#8101"),
+        };
+        assert_eq!(out, ["701#00"], "{start}");
+        assert!(
+            bench.wait(200).is_empty(),
+            "{start}: the second waits no more"
+        );
+        assert_eq!(bench.ask("601#4001100000000000"), "581#4F01100000000000");
+        bench.application.raise.push(error(0x1000, 1));
+        assert_eq!(bench.change(), ["081#0010010102030405"], "{start}");
+        assert_eq!(bench.ask("601#4001100000000000"), "581#4F01100001000000");
+    }
 }

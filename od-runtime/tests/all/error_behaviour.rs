@@ -2,7 +2,7 @@
 
 use crate::support::{Bench, rows, unsigned};
 use od_model::{Access, DataType};
-use od_runtime::{Application, Context, Emcy, ErrorReset, Instant};
+use od_runtime::{Application, BusEvent, Context, Emcy, ErrorReset, Instant};
 use od_wire::nmt::State;
 
 #[derive(Default)]
@@ -152,4 +152,43 @@ fn many_errors_at_once_are_all_told() {
     bench.application.clear.extend(0xFF00..0xFF14);
     assert_eq!(bench.change().len(), 16);
     assert_eq!(bench.value(0x1001, 0), 0, "but none is forgotten");
+}
+
+#[test]
+fn a_bus_off_acts_by_the_bits_that_become_set() {
+    for (was_set, state) in [(false, State::Stopped), (true, State::Operational)] {
+        let mut bench = bench([1, 1, 1], false);
+        bench.profile.errors.bus_off = 0x08;
+        if was_set {
+            raise(&mut bench, 0x4200, 0x08);
+        }
+        bench.ask("601#2F29100302000000");
+        bench.bus(BusEvent::Off);
+        assert_eq!(bench.node.state(), state, "set before: {was_set}");
+    }
+}
+
+#[test]
+fn a_watched_node_is_forgotten_by_a_reset() {
+    let mut all = rows();
+    all.push((
+        0x1016,
+        0,
+        DataType::Unsigned8,
+        Access::Const,
+        false,
+        unsigned(1),
+    ));
+    let watch = unsigned(0x0005_0064);
+    all.push((0x1016, 1, DataType::Unsigned32, Access::Rw, false, watch));
+    for reset in ["000#8101", "000#8201"] {
+        let mut bench = Bench::with(all.clone(), Faults::default());
+        bench.power_on();
+        bench.send("705#05");
+        assert_eq!(bench.send(reset), ["701#00"]);
+        assert!(bench.wait(1_000).is_empty(), "not heard since then");
+        bench.send("705#05");
+        let late = [(1_100, String::from("081#3081110000000000"))];
+        assert_eq!(bench.wait(1_000), late, "100 ms without a heartbeat");
+    }
 }

@@ -241,6 +241,20 @@ fn what_a_family_lacks_is_not_answered() {
             "{request}"
         );
     }
+    bench.send("7E5#0400000000000000");
+    for step in [
+        "46EC000000",
+        "470A000000",
+        "4800000000",
+        "49FFFFFFFF",
+        "4A00000000",
+        "4BFFFFFFFF",
+    ] {
+        assert!(
+            bench.send(&format!("7E5#{step}000000")).is_empty(),
+            "{step}"
+        );
+    }
     assert!(bench.send("7E5#040100").is_empty() && bench.send("7E5#R8").is_empty());
 }
 

@@ -3,8 +3,8 @@
 use crate::support::{Bench, Full, Row, rows, unsigned};
 use od_model::{Access, Address, DataType};
 use od_runtime::{
-    AnyDevice, Application, Chunk, Context, Extra, Halt, NoApplication, Node, Stream, StreamEnd,
-    Unfit,
+    AnyDevice, Application, Chunk, Context, Extra, Halt, NoApplication, Node, SaveAnswer, Stream,
+    StreamEnd, Unfit,
 };
 
 /// 1201h and 1203h; 1202h is missing.
@@ -239,4 +239,19 @@ fn a_stream_is_read_by_one_server_at_a_time() {
     bench.send("000#0201");
     let cancelled = StreamEnd::Cancelled(0x0504_0000);
     assert_eq!(bench.application.ends, [cancelled, StreamEnd::Cut]);
+}
+
+#[test]
+fn a_save_answers_on_the_channel_that_asked_when_it_is_complete() {
+    let mut bench = bench();
+    bench.profile.store.answer = SaveAnswer::AfterStoring;
+    bench.hear("680#2310100173617665");
+    bench.hear("680#4000200000000000");
+    let mut out = bench.drain();
+    out.extend(bench.wait(1_000).into_iter().map(|(_, frame)| frame));
+    assert_eq!(
+        out,
+        ["6C0#6010100100000000", "6C0#4300200005000000"],
+        "and the request behind it"
+    );
 }
