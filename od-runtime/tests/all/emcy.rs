@@ -206,7 +206,7 @@ fn a_reset_forgets_errors_and_those_that_wait() {
     let word = DataType::Unsigned16;
     let inhibit = (0x1015, 0, word, Access::Rw, false, unsigned(500));
     for start in ["reset node", "power"] {
-        let mut bench = bench(&[inhibit.clone()]);
+        let mut bench = bench(std::slice::from_ref(&inhibit));
         let both = [error(0x1000, 1), error(0x5530, 0x81)];
         bench.application.raise.extend(both);
         assert_eq!(bench.change(), ["081#0010010102030405"]);
