@@ -276,3 +276,32 @@ fn the_end_of_a_block_upload_comes_last() {
         assert_eq!(bench.ask("601#A100000000000000"), "581#8002200001000405");
     }
 }
+
+#[test]
+fn what_an_expedited_download_of_a_text_carries() {
+    for (request, text) in [
+        ("2302200061626364", "581#4302200061626364"), // 4 bytes
+        ("2702200061626364", "581#4702200061626300"), // 3
+        ("2F02200061626364", "581#4F02200061000000"), // 1
+        ("2202200061626364", "581#4302200061626364"), // not said: all
+    ] {
+        let mut bench = Bench::new();
+        bench.power_on();
+        let answer = bench.ask(&format!("601#{request}"));
+        assert_eq!(answer, "581#6002200000000000", "{request}");
+        assert_eq!(bench.ask("601#4002200000000000"), text, "{request}");
+    }
+}
+
+#[test]
+fn bytes_that_do_not_count_need_not_be_there() {
+    let mut bench = Bench::new();
+    bench.profile.sdo.length.too_long = None;
+    bench.profile.sdo.min_dlc = 4;
+    bench.power_on();
+    // Four bytes for an UNSIGNED8, and one for an INTEGER16.
+    assert_eq!(bench.ask("601#2304200007"), "581#6004200000000000");
+    assert_eq!(bench.value(0x2004, 0), 7);
+    assert!(bench.ask("601#2301200007").starts_with("581#80"));
+    assert_eq!(bench.value(0x2001, 0), 0xFFFE);
+}
