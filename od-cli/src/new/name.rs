@@ -2,24 +2,36 @@
 
 use std::path::Path;
 
-/// Words that cannot name a crate, or have another meaning in code that uses the crate.
-const TAKEN: [&str; 15] = [
+/// Words that cannot name a crate or its program, or have another meaning in code that uses the crate.
+const TAKEN: [&str; 24] = [
     "test",
     "core",
     "std",
     "alloc",
     "proc_macro",
-    "self",
-    "super",
-    "crate",
-    "od_model",
-    "od_board",
     "odkit",
-    "od_bench",
     "dictionary",
     "build",
+    "deps",
+    "examples",
+    "incremental",
     "main",
+    "board",
+    "sensor",
+    "cortex_m",
+    "cortex_m_rt",
+    "embedded_can",
+    "embedded_hal_bus",
+    "mcp25xx",
+    "nb",
+    "panic_halt",
+    "portable_atomic",
+    "static_cell",
+    "nul",
 ];
+
+/// The crates of odkit and embassy.
+const FAMILIES: [&str; 2] = ["od_", "embassy_"];
 
 /// Checks that a crate can have this name.
 ///
@@ -28,14 +40,18 @@ const TAKEN: [&str; 15] = [
 pub(super) fn check(name: &str) -> Result<(), String> {
     let starts = name.starts_with(|c: char| c.is_ascii_alphabetic());
     let fits = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
-    let identifier = name.replace('-', "_");
+    // The library has it in lower case.
+    let identifier = name.replace('-', "_").to_ascii_lowercase();
     if !starts || !name.chars().all(fits) || name.len() > 64 {
         return Err(format!(
-            "`{name}` is not a valid crate name; start with a letter, then letters, digits, `-` or `_`"
+            "`{name}` is not a valid crate name, which is a letter, then letters, digits, `-` or `_`"
         ));
     }
-    if TAKEN.contains(&identifier.as_str()) || is_keyword(&identifier) {
-        return Err(format!("`{name}` is reserved in Rust; choose another name"));
+    let is_family = FAMILIES.iter().any(|family| identifier.starts_with(family));
+    if is_family || TAKEN.contains(&identifier.as_str()) || is_keyword(&identifier) {
+        return Err(format!(
+            "`{name}` cannot name the crate: Rust, or a crate that it needs, has that name"
+        ));
     }
     Ok(())
 }
@@ -55,14 +71,15 @@ pub(super) fn of(source: &str) -> Result<String, String> {
     };
     let name: String = stem.chars().map(plain).collect();
     let name = name.trim_matches(['-', '_']);
-    check(name).map_err(|why| format!("{why} with `--name`"))?;
+    check(name).map_err(|why| format!("{why}; choose another one with `--name`"))?;
     Ok(name.to_owned())
 }
 
+/// Returns whether Rust has the word for itself.
 fn is_keyword(word: &str) -> bool {
-    const WORDS: &str = "abstract as async await become box break const continue do dyn else enum \
+    const WORDS: &str = "abstract as async await become box break const continue crate do dyn else enum \
         extern false final fn for gen if impl in let loop macro match mod move mut override priv \
-        pub ref return static struct trait true try type typeof union unsafe unsized use virtual \
+        pub ref return self static struct super trait true try type typeof union unsafe unsized use virtual \
         where while yield";
     WORDS.split_whitespace().any(|keyword| keyword == word)
 }
@@ -77,6 +94,10 @@ mod tests {
             assert_eq!(check(name), Ok(()), "{name}");
         }
         for name in ["", "5x", "-a", "a b", "ü", "test", "fn", "od-model", "a/b"] {
+            assert!(check(name).is_err(), "{name}");
+        }
+        // In lower case a keyword; a module and a crate of the firmware.
+        for name in ["Self", "Fn", "board", "Sensor", "embassy-time", "od-new"] {
             assert!(check(name).is_err(), "{name}");
         }
     }
