@@ -2,7 +2,8 @@
 //!
 //! - [`Board`] owns node, values, application and storage, and can be a `static`.
 //! - [`Port`] connects it to a CAN controller with the traits of `embedded-can`, nb or blocking.
-//! - `Shared` (feature `embassy`) is a node for several tasks, and the task that runs it.
+//! - `Shared` (feature `embassy`) is a node for several tasks, and the task that runs it; `Watch` looks for
+//!   bus-off where the driver of the CAN controller does not report it.
 //! - [`Filters`] are the acceptance filters for the CAN-IDs that the node listens to.
 //! - [`storage`] keeps saved values on NOR flash, in the background or at once (feature `flash`).
 //! - [`Clock`] is time of a counter of 32 bits or less that wraps.
@@ -179,6 +180,8 @@ mod port;
 #[cfg(feature = "embassy")]
 mod shared;
 pub mod storage;
+#[cfg(feature = "embassy")]
+mod watch;
 
 pub use board::Board;
 pub use clock::Clock;
@@ -187,5 +190,7 @@ pub use owner::Owner;
 pub use port::Port;
 #[cfg(feature = "embassy")]
 pub use shared::{Receive, Shared, Transmit};
+#[cfg(feature = "embassy")]
+pub use watch::Watch;
 
 pub use od_wire as wire;

@@ -3,6 +3,7 @@
 
 mod support;
 
+use std::cell::{Cell, RefCell};
 use std::collections::VecDeque;
 use std::future::poll_fn;
 use std::pin::{Pin, pin};
@@ -12,7 +13,7 @@ use std::task::{Context, Poll, Wake, Waker};
 
 use embassy_sync::blocking_mutex::raw::CriticalSectionRawMutex;
 use embassy_time::{Duration, MockDriver};
-use odkit::board::{Filter, Filters, Receive, Shared, Transmit};
+use odkit::board::{Filter, Filters, Receive, Shared, Transmit, Watch};
 use odkit::storage::NoStorage;
 use odkit::{BusEvent, Frame, NodeId};
 use support::{Heater, frame, thermometer};
@@ -277,4 +278,49 @@ fn bus_off_and_back() {
                 .contains(&"581#4300100000000000".to_owned())
         );
     });
+}
+
+#[test]
+fn a_watch_tells_the_states_of_a_driver_that_waits_for_frames_alone() {
+    let _guard = clock();
+    // The clock does not begin at 0, and the bus is fine: nothing but frames.
+    MockDriver::get().advance(Duration::from_secs(5));
+    let state = Cell::new(BusEvent::Active);
+    let came = RefCell::new(VecDeque::new());
+    let mut watch = Watch::new();
+    let mut receive = |for_millis: u64| {
+        let read = async || {
+            poll_fn(|_| {
+                came.borrow_mut()
+                    .pop_front()
+                    .map_or(Poll::Pending, Poll::Ready)
+            })
+            .await
+        };
+        let mut received = pin!(watch.receive(|| state.get(), read));
+        let mut cx = Context::from_waker(Waker::noop());
+        for _ in 0..=for_millis {
+            if let Poll::Ready(result) = received.as_mut().poll(&mut cx) {
+                return Some(result);
+            }
+            MockDriver::get().advance(Duration::from_millis(1));
+        }
+        None
+    };
+    assert_eq!(receive(1000), None);
+    came.borrow_mut().push_back(Some(frame("080#")));
+    assert_eq!(receive(0), Some(Ok(frame("080#"))));
+    // Errors of the bus hold nobody up for long, and lose no frame.
+    came.borrow_mut().extend([None, None, Some(frame("081#"))]);
+    assert_eq!(receive(0), None);
+    assert_eq!(receive(2), Some(Ok(frame("081#"))));
+    for event in [BusEvent::Passive, BusEvent::Off, BusEvent::Active] {
+        assert_eq!(receive(20), None);
+        state.set(event);
+        assert_eq!(receive(20), Some(Err(event)));
+    }
+    state.set(BusEvent::Off);
+    came.borrow_mut().push_back(Some(frame("082#")));
+    assert_eq!(receive(0), Some(Err(BusEvent::Off)));
+    assert_eq!(receive(0), Some(Ok(frame("082#"))));
 }

@@ -1,0 +1,58 @@
+//! The state of a CAN controller whose driver does not report it.
+
+use embassy_time::{Duration, Timer, with_timeout};
+use od_runtime::{BusEvent, Frame};
+
+/// Time after which the state is looked at again.
+const LOOK: Duration = Duration::from_millis(10);
+
+/// Pause after an error of the bus: a controller may report one for each bit.
+const PAUSE: Duration = Duration::from_millis(1);
+
+/// Looks at the state of a CAN controller, so that the node learns of bus-off and of the way back:
+/// a part of [`Receive`](crate::Receive) for drivers that wait for frames alone.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Watch {
+    /// What the node knows.
+    known: BusEvent,
+}
+
+impl Default for Watch {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl Watch {
+    /// The watch of a controller that has just been started.
+    pub const fn new() -> Self {
+        Self {
+            known: BusEvent::Active,
+        }
+    }
+
+    /// Waits for a frame, or for another state than that of the call before. `state` returns the state of
+    /// the controller, or [`BusEvent::Overrun`] once where a frame was lost. `read` waits for a frame, and
+    /// returns none after an error of the bus; it may be dropped before.
+    ///
+    /// # Errors
+    /// The state where it is another one.
+    pub async fn receive(
+        &mut self,
+        mut state: impl FnMut() -> BusEvent,
+        mut read: impl AsyncFnMut() -> Option<Frame>,
+    ) -> Result<Frame, BusEvent> {
+        loop {
+            let state = state();
+            if state != self.known {
+                self.known = state;
+                return Err(state);
+            }
+            match with_timeout(LOOK, read()).await {
+                Ok(Some(frame)) => return Ok(frame),
+                Ok(None) => Timer::after(PAUSE).await,
+                Err(_) => {}
+            }
+        }
+    }
+}
