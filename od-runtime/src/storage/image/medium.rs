@@ -118,7 +118,8 @@ impl<'m> Medium<'m> {
     pub(super) fn wipe(&mut self, mut at: usize, end: usize) {
         while self.banks.layout.page == 0 && at < end {
             let part = (end - at).min(MAX_WORD);
-            if !self.is_blank(at, at + part) {
+            // One that is new may be all 0: part of it would look like a set that is gone.
+            if !self.holds(at, at + part, ERASED) {
                 self.fill(at, part, ERASED);
             }
             at += part;

@@ -122,23 +122,27 @@ fn storage() -> Memory<Vec<u8>> {
 
 #[test]
 fn saved_values_come_back() {
-    let (mut bench, mut memory) = (Bench::new(device()), storage());
-    let defaults = bench.values();
-    assert_eq!(bench.start(&mut memory), Loaded::Blank);
-    assert_eq!(bench.values(), defaults);
-    for with in 1..40 {
-        bench.fill(with);
-        let saved = bench.values();
-        save(&mut memory, &bench.store(), STORE, 1).unwrap();
+    // An EEPROM may be new as all FFh, or as all 0.
+    for new in [0xFF, 0] {
+        let mut bench = Bench::new(device());
+        let mut memory = Memory::new(vec![new; capacity_needed(&device().dictionary())]);
+        let defaults = bench.values();
+        assert_eq!(bench.start(&mut memory), Loaded::Blank);
+        assert_eq!(bench.values(), defaults);
+        for with in 1..40 {
+            bench.fill(with);
+            let saved = bench.values();
+            save(&mut memory, &bench.store(), STORE, 1).unwrap();
+            assert_eq!(bench.start(&mut memory), Loaded::Complete, "{new:X}h");
+            assert_eq!(bench.values(), saved);
+        }
+        erase(&mut memory, &bench.store(), STORE, 1).unwrap();
         assert_eq!(bench.start(&mut memory), Loaded::Complete);
-        assert_eq!(bench.values(), saved);
+        bench
+            .store()
+            .set_unsigned(od_model::Address::new(0x2201, 0), 0);
+        assert_eq!(bench.values(), defaults, "all but the life record");
     }
-    erase(&mut memory, &bench.store(), STORE, 1).unwrap();
-    assert_eq!(bench.start(&mut memory), Loaded::Complete);
-    bench
-        .store()
-        .set_unsigned(od_model::Address::new(0x2201, 0), 0);
-    assert_eq!(bench.values(), defaults, "all but the life record");
 }
 
 #[test]
