@@ -1,6 +1,6 @@
 //! PDOs taken apart by their mapping.
 
-use od_client::pdo::{Field, Mapping, TooShort, decode};
+use od_client::pdo::{Field, Mapping, TooShort, bits, decode};
 use od_eds::{Description, EntryDescription, ObjectDescription, Spanned, Tables, Value};
 use od_model::{Address, DataType, ObjectCode};
 
@@ -179,4 +179,29 @@ fn more_data_than_mapped_is_ignored_and_less_is_an_error() {
     assert_eq!(error(&[0x6000_0008, 0x6000_0008], &[1, 2]), None);
     assert_eq!(error(&[0x6000_00FF; 3], &[0; 64]), short(765, 64));
     assert_eq!(error(&[0x6000_0041], &[0; 8]), short(65, 64));
+}
+
+#[test]
+fn bits_of_a_frame_are_a_number() {
+    let data = [0x81, 0x32, 0x54, 0x76, 0x98, 0xBA, 0xDC, 0xFE];
+    for (len, first, count, value) in [
+        (8, 0, 64, Some(0xFEDC_BA98_7654_3281)),
+        (8, 4, 8, Some(0x28)),
+        (8, 7, 1, Some(1)),
+        (8, 63, 1, Some(1)),
+        (1, 0, 8, Some(0x81)),
+        (1, 1, 8, None), // the data ends before
+        (8, 1, 64, None),
+        (8, 0, 0, None),
+        (8, 0, 65, None),
+        (0, 0, 1, None),
+    ] {
+        assert_eq!(
+            bits(&data[..len], first, count),
+            value,
+            "{len} {first} {count}"
+        );
+    }
+    // Of longer data the first 64 bits count.
+    assert_eq!(bits(&[0xFF; 9], 60, 5), None);
 }
