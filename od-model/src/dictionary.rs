@@ -10,6 +10,7 @@ use crate::index;
 use crate::real::Reals;
 use crate::row::Row;
 use crate::value::Range;
+use crate::varying::{Arenas, Varying};
 
 /// A view over sorted tables; the same for a compiled device and for a loaded file.
 ///
@@ -22,11 +23,10 @@ use crate::value::Range;
 pub struct Dictionary<'a> {
     buckets: &'a [u16],
     rows: &'a [Row],
-    pool: &'a [u32],
-    text: &'a str,
-    blob: &'a [u8],
+    arenas: Arenas<'a>,
     store_len: usize,
     reals: Option<&'static Reals>,
+    varying: Option<&'static Varying>,
     #[cfg(feature = "names")]
     names: Names<'a>,
 }
@@ -53,6 +53,7 @@ impl<'a> Dictionary<'a> {
         &[],
         0,
         None,
+        None,
         Names {
             rows: &[],
             text: "",
@@ -70,6 +71,7 @@ impl<'a> Dictionary<'a> {
         blob: &'a [u8],
         store_len: usize,
         reals: Option<&'static Reals>,
+        varying: Option<&'static Varying>,
         names: Names<'a>,
     ) -> Self {
         #[cfg(not(feature = "names"))]
@@ -77,11 +79,10 @@ impl<'a> Dictionary<'a> {
         Self {
             buckets,
             rows,
-            pool,
-            text,
-            blob,
+            arenas: Arenas { pool, text, blob },
             store_len,
             reals,
+            varying,
             #[cfg(feature = "names")]
             names,
         }
@@ -133,7 +134,7 @@ impl<'a> Dictionary<'a> {
 
     #[inline(never)]
     const fn unpack(&self, position: usize, row: Row) -> Entry {
-        let mut entry = row.entry(self.pool);
+        let mut entry = row.entry(self.arenas.pool);
         entry.name = self.names_at(position)[0];
         entry
     }
@@ -171,7 +172,14 @@ impl<'a> Dictionary<'a> {
     #[doc(hidden)]
     #[inline(always)]
     pub const fn pool(&self) -> &'a [u32] {
-        self.pool
+        self.arenas.pool
+    }
+
+    /// What the rows point into.
+    #[doc(hidden)]
+    #[inline(always)]
+    pub const fn arenas(&self) -> &Arenas<'a> {
+        &self.arenas
     }
 
     /// Functions for REALs; `None` if it has no REALs.
@@ -179,6 +187,13 @@ impl<'a> Dictionary<'a> {
     #[inline(always)]
     pub const fn reals(&self) -> Option<&'static Reals> {
         self.reals
+    }
+
+    /// Functions for values whose length varies; `None` if it has none.
+    #[doc(hidden)]
+    #[inline(always)]
+    pub const fn varying(&self) -> Option<&'static Varying> {
+        self.varying
     }
 
     /// The object at `index`.

@@ -32,6 +32,8 @@ mod types;
 mod value;
 #[cfg(feature = "alloc")]
 pub mod values;
+#[doc(hidden)]
+pub mod varying;
 
 pub use access::{Access, Group};
 pub use address::Address;

@@ -1,11 +1,10 @@
-//! Sizes that a node needs for a dictionary, known at compile time, and rows with their defaults.
+//! Sizes that a node needs for a dictionary, known at compile time, and its rows.
 
 use crate::access::Access;
 use crate::dictionary::Dictionary;
 use crate::entry::Entry;
 use crate::index;
 use crate::row::Row;
-use crate::types::Kind;
 
 impl Dictionary<'_> {
     /// Number of TPDOs that a node needs: up to the last object of 1800h–19FFh, 0–512.
@@ -91,16 +90,6 @@ impl<'a> Dictionary<'a> {
         let rows = self.rows().get(self.first(index)..).unwrap_or_default();
         let count = rows.iter().take_while(|row| row.index() == index).count();
         rows.get(..count).unwrap_or_default()
-    }
-
-    /// The default of a string; empty for a number.
-    #[doc(hidden)]
-    pub fn default_bytes(&self, row: &Row) -> &'a [u8] {
-        let range = row.range(self.pool());
-        match row.kind() {
-            Kind::Text => self.text_bytes(range),
-            _ => self.blob(range),
-        }
     }
 }
 

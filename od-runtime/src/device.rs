@@ -166,7 +166,7 @@ mod tests {
             rows: &[],
             text: "",
         };
-        Dictionary::trusted(&[], rows, &[], "", &[], 4, None, names)
+        Dictionary::trusted(&[], rows, &[], "", &[], 4, None, None, names)
     }
 
     #[test]

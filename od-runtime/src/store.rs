@@ -4,6 +4,7 @@ use core::fmt;
 
 use od_model::row::Row;
 use od_model::typed::{DeviceWritable, Scalar, Text, Var};
+use od_model::varying::Varying;
 use od_model::{Address, Dictionary, Entry, Kind, Slot};
 
 use crate::number::{copy, fill, little_endian, number_in};
@@ -127,10 +128,12 @@ impl<'a> Store<'a> {
     /// One value becomes its default.
     #[inline(never)]
     pub(crate) fn reset_row(&mut self, row: &Row) {
-        // The layout left room for the default; a longer one cannot be.
-        match row.is_variable() {
-            true => _ = self.put_row(row, self.dictionary.default_bytes(row)),
-            false => self.put_number(row, default(self.dictionary, row, self.node_id)),
+        match varying(self.dictionary, row) {
+            // The layout left room for the default; a longer one cannot be.
+            Some(varying) => {
+                _ = self.put_row(row, (varying.value)(self.dictionary.arenas(), &[], row))
+            }
+            None => self.put_number(row, default(self.dictionary, row, self.node_id)),
         }
     }
 
@@ -151,7 +154,11 @@ impl<'a> Store<'a> {
     /// Whether the value is its default.
     pub(crate) fn has_default(&self, row: &Row) -> bool {
         let (mut a, mut b) = ([0; 8], [0; 8]);
-        self.value(row, &mut a) == default_bytes(self.dictionary, row, self.node_id, &mut b)
+        let default = match varying(self.dictionary, row) {
+            Some(varying) => (varying.value)(self.dictionary.arenas(), &[], row),
+            None => default_bytes(self.dictionary, row, self.node_id, &mut b),
+        };
+        self.value(row, &mut a) == default
     }
 
     /// The value of a handle.
@@ -180,7 +187,10 @@ impl<'a> Store<'a> {
     /// The bytes of a string or domain.
     pub fn text<A>(&self, text: Text<A>) -> &[u8] {
         match self.dictionary.row_at(text.address()) {
-            Some(row) => variable(self.dictionary, self.values, row),
+            Some(row) => match self.dictionary.varying() {
+                Some(varying) => (varying.value)(self.dictionary.arenas(), self.values, row),
+                None => &[],
+            },
             None => &[],
         }
     }
@@ -221,8 +231,11 @@ impl<'a> Store<'a> {
     /// As [`bytes`](Self::bytes).
     #[inline(never)]
     pub(crate) fn value<'b>(&'b self, row: &Row, number: &'b mut [u8; 8]) -> &'b [u8] {
-        match self.stored(row) {
-            [] if !row.is_variable() => default_bytes(self.dictionary, row, self.node_id, number),
+        if let Some(varying) = varying(self.dictionary, row) {
+            return (varying.value)(self.dictionary.arenas(), self.values, row);
+        }
+        match self.slot(row.fixed_slot()) {
+            [] => default_bytes(self.dictionary, row, self.node_id, number),
             bytes => bytes,
         }
     }
@@ -230,9 +243,9 @@ impl<'a> Store<'a> {
     /// The bytes that the store has of a value; of a string that it does not have the default.
     #[inline]
     pub(crate) fn stored(&self, row: &Row) -> &[u8] {
-        match row.is_variable() {
-            true => variable(self.dictionary, self.values, row),
-            false => self.slot(row.fixed_slot()),
+        match varying(self.dictionary, row) {
+            Some(varying) => (varying.value)(self.dictionary.arenas(), self.values, row),
+            None => self.slot(row.fixed_slot()),
         }
     }
 
@@ -255,19 +268,14 @@ impl<'a> Store<'a> {
 
     /// The place for a value of this length, which a string has from now on; to be filled at once.
     pub(crate) fn room(&mut self, row: &Row, len: usize) -> Result<&mut [u8], AbortCode> {
-        let slot = row.slot(self.dictionary.pool());
-        let to = slot_mut(self.values, slot)
-            .filter(|to| !to.is_empty())
-            .ok_or(AbortCode::ReadOnly)?;
-        if row.is_variable() {
-            let [low, high, room @ ..] = to else {
-                return Err(AbortCode::TooLong);
-            };
-            let room = room.get_mut(..len).ok_or(AbortCode::TooLong)?;
-            // The room is shorter than 64 KiB, so the length fits.
-            [*low, *high] = (len as u16).to_le_bytes();
-            return Ok(room);
+        if !row.is_stored() {
+            return Err(AbortCode::ReadOnly);
         }
+        if let Some(varying) = varying(self.dictionary, row) {
+            let room = (varying.room)(self.dictionary.arenas(), self.values, row, len);
+            return room.ok_or(AbortCode::TooLong);
+        }
+        let to = slot_mut(self.values, row.fixed_slot()).unwrap_or_default();
         match len {
             len if len < to.len() => Err(AbortCode::TooShort),
             len if len > to.len() => Err(AbortCode::TooLong),
@@ -334,11 +342,8 @@ impl<'a> Store<'a> {
         let Some(row) = self.dictionary.row_at(address) else {
             return false;
         };
-        let is_number = row.is_stored() && !row.is_variable();
-        if is_number {
-            self.put_number(row, value);
-        }
-        is_number
+        self.put_number(row, value);
+        row.fixed_slot().len > 0
     }
 }
 
@@ -353,18 +358,13 @@ fn slot_mut(values: &mut [u8], slot: Slot) -> Option<&mut [u8]> {
     rest.get_mut(..slot.len.into())
 }
 
-/// A string: two bytes of length, then the bytes; the default where nothing is stored.
-#[inline(never)]
-fn variable<'b>(dictionary: &Dictionary<'b>, values: &'b [u8], row: &Row) -> &'b [u8] {
-    match slot(values, row.slot(dictionary.pool())) {
-        Some([low, high, rest @ ..]) => {
-            let len = usize::from(u16::from_le_bytes([*low, *high]));
-            rest.get(..len).unwrap_or(rest)
-        }
-        _ => dictionary.default_bytes(row),
-    }
+/// The functions for a value, if its length varies.
+#[inline]
+fn varying(dictionary: &Dictionary<'_>, row: &Row) -> Option<&'static Varying> {
+    dictionary.varying().filter(|_| row.is_variable())
 }
 
+/// The bytes of the default of a number.
 #[inline(never)]
 fn default_bytes<'b>(
     dictionary: &Dictionary<'b>,
@@ -372,9 +372,6 @@ fn default_bytes<'b>(
     node_id: NodeId,
     number: &'b mut [u8; 8],
 ) -> &'b [u8] {
-    if row.is_variable() {
-        return dictionary.default_bytes(row);
-    }
     *number = default(dictionary, row, node_id).to_le_bytes();
     number.get(..row.size()).unwrap_or_default()
 }

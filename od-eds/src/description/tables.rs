@@ -10,6 +10,7 @@ use crate::span::Spanned;
 use od_model::owned::{EMPTY, bucket_count, fill};
 use od_model::real::Reals;
 use od_model::row::{Row, literal, words};
+use od_model::varying::Varying;
 use od_model::{
     Access, Address, DataType, Dictionary, Entry, Kind, Literal, Names, ObjectCode, Range, Slot,
 };
@@ -72,6 +73,7 @@ impl Tables {
             &self.blob,
             self.store_len,
             Reals::SOME,
+            Varying::SOME,
             self.names(),
         )
     }

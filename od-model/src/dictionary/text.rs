@@ -10,25 +10,19 @@ impl<'a> Dictionary<'a> {
         let arena = if range.start & NAME != 0 {
             self.names.text
         } else {
-            self.text
+            self.arenas.text
         };
         #[cfg(not(feature = "names"))]
-        let arena = self.text;
+        let arena = self.arenas.text;
         let start = (range.start & !NAME) as usize;
         arena
             .get(start..start.saturating_add(range.len as usize))
             .unwrap_or("")
     }
 
-    /// The bytes of a text of the dictionary, which is no name. Not by way of the text: code that looks
-    /// where its letters begin and end is not small.
-    pub(crate) fn text_bytes(&self, range: Range) -> &'a [u8] {
-        range.of(self.text.as_bytes())
-    }
-
     /// The bytes of a range: an OCTET_STRING or a DOMAIN.
     pub fn blob(&self, range: Range) -> &'a [u8] {
-        range.of(self.blob)
+        range.of(self.arenas.blob)
     }
 
     /// The bytes of a string-like literal; empty for numbers.

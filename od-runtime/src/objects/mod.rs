@@ -55,6 +55,12 @@ impl<'c, D: Device> Objects<'c, D> {
     /// The device may have a log of its errors.
     pub(crate) const HAS_LOG: bool = may_have::<D>(0x1003, 0x1003, None);
 
+    /// The device may have values whose length varies.
+    const VARIES: bool = match &D::DICTIONARY {
+        Some(dictionary) => dictionary.varying().is_some(),
+        None => true,
+    };
+
     /// Options of the device family: those that the compiler knows, or else those that were lent.
     #[inline(always)]
     pub(crate) fn profile(&self) -> &'c Profile {
@@ -186,7 +192,7 @@ impl<'c, D: Device> Objects<'c, D> {
     pub(crate) fn fit(&self, row: &Row, len: usize) -> Result<usize, AbortCode> {
         let rule = &self.profile().sdo.length;
         let (low, high) = match row.size() {
-            0 => {
+            0 if Self::VARIES => {
                 let slot = row.slot(self.store.dictionary().pool());
                 (0, usize::from(slot.len.saturating_sub(2)))
             }

@@ -89,5 +89,5 @@ const fn dictionary(rows: &'static [Row]) -> Dictionary<'static> {
         rows: &[],
         text: "",
     };
-    Dictionary::trusted(&[], rows, &[], "", &[], 4, None, names)
+    Dictionary::trusted(&[], rows, &[], "", &[], 4, None, None, names)
 }

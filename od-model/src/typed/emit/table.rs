@@ -9,6 +9,7 @@ pub use crate::index::{bucket_count, buckets};
 use crate::real::Reals;
 pub use crate::row::Row;
 pub use crate::value::Range;
+use crate::varying::Varying;
 
 /// A number of its bytes, little-endian. Not `from_le_bytes`: the compiler runs this for
 /// every row of every dictionary, and there a call costs as much as twenty operators.
@@ -82,6 +83,8 @@ pub const fn dictionary(
     store_len: usize,
     names: Names<'static>,
 ) -> Dictionary<'static> {
-    let reals = Reals::of(rows);
-    Dictionary::trusted(buckets, rows, pool, text, blob, store_len, reals, names)
+    let (reals, varying) = (Reals::of(rows), Varying::of(rows));
+    Dictionary::trusted(
+        buckets, rows, pool, text, blob, store_len, reals, varying, names,
+    )
 }
