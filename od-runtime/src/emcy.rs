@@ -94,34 +94,27 @@ impl<R: Rooms> Producer<R> {
         send: bool,
     ) -> Outcome {
         let before = self.register();
-        let (code, info) = match change {
-            Change::Raised(error) => {
-                // Sources that share a code differ in their bits of 1001h.
-                let same =
-                    |known: Emcy| known.code == error.code && known.register == error.register;
-                if self.active().iter().any(same) {
-                    return NO_NEWS;
-                }
-                self.active_mut().push(error);
-                if const { may_have::<D>(0x1003, 0x1003, None) } {
-                    log(store, error.code);
-                }
-                (error.code, error.info)
-            }
+        let (mut code, register, info) = match change {
+            Change::Raised(error) => (error.code, Some(error.register), error.info),
             Change::Cleared {
                 code,
                 register,
                 info,
-            } => {
-                let is_it = |known: Emcy| {
-                    known.code == code && register.is_none_or(|bits| bits == known.register)
-                };
-                if !self.active_mut().remove(is_it) {
-                    return NO_NEWS;
-                }
-                (0, info)
-            }
+            } => (code, register, info),
         };
+        match (change, self.position(code, register)) {
+            (Change::Raised(error), None) => {
+                self.active_mut().push(error);
+                if const { may_have::<D>(0x1003, 0x1003, None) } {
+                    log(store, code);
+                }
+            }
+            (Change::Cleared { .. }, Some(at)) => {
+                self.active_mut().take_out(at);
+                code = 0;
+            }
+            _ => return NO_NEWS,
+        }
         let register = self.show(store);
         let is_last = reset == ErrorReset::EachError || self.active.is_empty();
         let message = Emcy {
@@ -139,8 +132,16 @@ impl<R: Rooms> Producer<R> {
 
     /// Whether an error with this code and these bits of 1001h lasts.
     pub(crate) fn is_active(&self, error: Emcy) -> bool {
-        let mut active = self.active().iter();
-        active.any(|known| known.code == error.code && known.register == error.register)
+        self.position(error.code, Some(error.register)).is_some()
+    }
+
+    /// The first active error with this code and, as sources that share a code differ in them, these bits of
+    /// 1001h.
+    #[inline]
+    fn position(&self, code: u16, register: Option<u8>) -> Option<u8> {
+        self.active().position(|known| {
+            known.code == code && register.is_none_or(|bits| bits == known.register)
+        })
     }
 
     /// Sets the bits of 1001h without an EMCY message. Returns those that became set.

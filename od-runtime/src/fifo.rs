@@ -106,16 +106,22 @@ impl<T: Copy> Fifo<[T]> {
 
     /// Takes the first item out that `which` names; answers whether there was one.
     pub(crate) fn remove(&mut self, which: impl FnMut(T) -> bool) -> bool {
-        let at = self.iter().position(which);
+        let at = self.position(which);
         if let Some(at) = at {
-            self.take_out(at as u8);
+            self.take_out(at);
         }
         at.is_some()
     }
 
+    /// Returns how far the first item that `which` names is behind the first one.
+    #[inline]
+    pub(crate) fn position(&self, which: impl FnMut(T) -> bool) -> Option<u8> {
+        self.iter().position(which).map(|at| at as u8)
+    }
+
     /// Takes out the item that is `at` behind the first one: those behind it move up.
     #[inline(never)]
-    fn take_out(&mut self, mut at: u8) {
+    pub(crate) fn take_out(&mut self, mut at: u8) {
         while let Some(next) = at.checked_add(1).filter(|next| *next < self.span.len)
             && let Some(item) = self.get(next)
             && let Some(to) = self.items.get_mut(self.span.place(at, self.items.len()))

@@ -18,7 +18,8 @@ use crate::rooms::Room;
 impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<D, PDO, SDO, X> {
     /// The end of a call: services read changed objects again, errors go out, and changed values
     /// cause event-driven PDOs.
-    #[inline]
+    #[cfg_attr(target_os = "none", inline(never))]
+    #[cfg_attr(not(target_os = "none"), inline)]
     pub(super) fn finish(&mut self, objects: &mut Objects<'_, D>) {
         if !objects.outbox.is_empty() {
             self.empty_outbox(objects);
