@@ -37,7 +37,7 @@ pub(crate) fn check_with(
     if kind == Kind::Boolean && bytes.first().is_some_and(|byte| *byte > 1) {
         return Err(Outside::NotAllowed);
     }
-    if kind == Kind::Real && !matches!(bytes.len(), 4 | 8) {
+    if reals.is_some() && kind == Kind::Real && !matches!(bytes.len(), 4 | 8) {
         return Err(Outside::Length);
     }
     match row.has_limits() {

@@ -3,8 +3,10 @@
 use od_model::Slot;
 use od_model::row::Row;
 
-/// The number that up to eight bytes are. The usual lengths are one load each.
-#[inline(always)]
+/// The number that up to eight bytes are. The usual lengths are one load each. On a microcontroller it is a
+/// call.
+#[cfg_attr(target_os = "none", inline(never))]
+#[cfg_attr(not(target_os = "none"), inline(always))]
 pub(crate) fn little_endian(bytes: &[u8]) -> u64 {
     match *bytes {
         [a] => a.into(),
@@ -28,7 +30,8 @@ pub(crate) fn word(values: &[u8], row: &Row) -> Option<(u32, u32)> {
 }
 
 /// As [`little_endian`], where a call is better than its code.
-#[inline(never)]
+#[cfg_attr(target_os = "none", inline(always))]
+#[cfg_attr(not(target_os = "none"), inline(never))]
 pub(crate) fn number_in(bytes: &[u8]) -> u64 {
     little_endian(bytes)
 }

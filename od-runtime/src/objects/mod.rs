@@ -11,7 +11,7 @@ use od_model::row::Row;
 use od_model::{Address, Dictionary};
 
 use crate::application::{Application, Context, Halt, Reset, Stream};
-use crate::device::{Device, may_have};
+use crate::device::{Device, ROOMY, may_have};
 use crate::limits::{self, Outside};
 use crate::profile::Profile;
 use crate::storage::Storage;
@@ -108,8 +108,8 @@ impl<'c, D: Device> Objects<'c, D> {
         }
         self.refresh(address)?;
         Ok(match self.store.slot(plain) {
-            [] => self.store.value(row, number),
-            bytes => bytes,
+            bytes @ [_, ..] if ROOMY => bytes,
+            _ => self.store.value(row, number),
         })
     }
 
