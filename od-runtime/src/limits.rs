@@ -55,9 +55,6 @@ fn compare(
     kind: Kind,
     reals: Option<&'static Reals>,
 ) -> Result<(), Outside> {
-    if matches!(kind, Kind::Text | Kind::Bytes | Kind::Record) {
-        return Ok(());
-    }
     let reals = reals.filter(|_| kind == Kind::Real);
     let is_signed = kind == Kind::Signed;
     let is_negative = is_signed && bytes.last().is_some_and(|byte| byte & 0x80 != 0);
