@@ -5,3 +5,7 @@ catalogue! {
     w0802 W0802
     i0803 I0803
 }
+
+pub(crate) mod i0803;
+pub(crate) mod w0801;
+pub(crate) mod w0802;

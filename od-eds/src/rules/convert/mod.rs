@@ -16,3 +16,17 @@ catalogue! {
     w1112 W1112 (example)
     w1113 W1113 (example)
 }
+
+pub(crate) mod i1106;
+pub(crate) mod i1107;
+pub(crate) mod i1108;
+pub(crate) mod w1101;
+pub(crate) mod w1102;
+pub(crate) mod w1103;
+pub(crate) mod w1104;
+pub(crate) mod w1105;
+pub(crate) mod w1109;
+pub(crate) mod w1110;
+pub(crate) mod w1111;
+pub(crate) mod w1112;
+pub(crate) mod w1113;

@@ -12,3 +12,14 @@ catalogue! {
     e0709 E0709 (example)
     e0710 E0710 (example)
 }
+
+pub(crate) mod e0701;
+pub(crate) mod e0702;
+pub(crate) mod e0703;
+pub(crate) mod e0704;
+pub(crate) mod e0705;
+pub(crate) mod e0706;
+pub(crate) mod e0707;
+pub(crate) mod e0708;
+pub(crate) mod e0709;
+pub(crate) mod e0710;

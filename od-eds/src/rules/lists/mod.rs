@@ -34,3 +34,36 @@ catalogue! {
     w0252 W0252
     w0253 W0253
 }
+
+pub(crate) mod e0208;
+pub(crate) mod e0210;
+pub(crate) mod i0211;
+pub(crate) mod i0212;
+pub(crate) mod i0240;
+pub(crate) mod i0251;
+pub(crate) mod w0201;
+pub(crate) mod w0202;
+pub(crate) mod w0203;
+pub(crate) mod w0204;
+pub(crate) mod w0205;
+pub(crate) mod w0206;
+pub(crate) mod w0207;
+pub(crate) mod w0209;
+pub(crate) mod w0213;
+pub(crate) mod w0214;
+pub(crate) mod w0215;
+pub(crate) mod w0216;
+pub(crate) mod w0217;
+pub(crate) mod w0218;
+pub(crate) mod w0219;
+pub(crate) mod w0241;
+pub(crate) mod w0242;
+pub(crate) mod w0243;
+pub(crate) mod w0244;
+pub(crate) mod w0245;
+pub(crate) mod w0246;
+pub(crate) mod w0247;
+pub(crate) mod w0248;
+pub(crate) mod w0249;
+pub(crate) mod w0252;
+pub(crate) mod w0253;

@@ -8,3 +8,10 @@ catalogue! {
     w1205 W1205 (example)
     w1206 W1206 (example)
 }
+
+pub(crate) mod e1201;
+pub(crate) mod e1202;
+pub(crate) mod e1204;
+pub(crate) mod w1203;
+pub(crate) mod w1205;
+pub(crate) mod w1206;

@@ -34,3 +34,33 @@ catalogue! {
     w0535 W0535
     w0536 W0536
 }
+
+pub(crate) mod e0501;
+pub(crate) mod e0502;
+pub(crate) mod e0503;
+pub(crate) mod e0504;
+pub(crate) mod e0505;
+pub(crate) mod e0507;
+pub(crate) mod e0509;
+pub(crate) mod e0510;
+pub(crate) mod e0512;
+pub(crate) mod e0532;
+pub(crate) mod e0533;
+pub(crate) mod i0515;
+pub(crate) mod i0528;
+pub(crate) mod i0531;
+pub(crate) mod w0506;
+pub(crate) mod w0508;
+pub(crate) mod w0511;
+pub(crate) mod w0513;
+pub(crate) mod w0520;
+pub(crate) mod w0521;
+pub(crate) mod w0522;
+pub(crate) mod w0524;
+pub(crate) mod w0525;
+pub(crate) mod w0526;
+pub(crate) mod w0529;
+pub(crate) mod w0530;
+pub(crate) mod w0534;
+pub(crate) mod w0535;
+pub(crate) mod w0536;

@@ -37,3 +37,36 @@ catalogue! {
     w0962 W0962
     w0963 W0963
 }
+
+pub(crate) mod e0907;
+pub(crate) mod e0908;
+pub(crate) mod e0916;
+pub(crate) mod e0961;
+pub(crate) mod w0901;
+pub(crate) mod w0902;
+pub(crate) mod w0903;
+pub(crate) mod w0904;
+pub(crate) mod w0905;
+pub(crate) mod w0906;
+pub(crate) mod w0909;
+pub(crate) mod w0910;
+pub(crate) mod w0911;
+pub(crate) mod w0912;
+pub(crate) mod w0913;
+pub(crate) mod w0914;
+pub(crate) mod w0915;
+pub(crate) mod w0917;
+pub(crate) mod w0918;
+pub(crate) mod w0950;
+pub(crate) mod w0951;
+pub(crate) mod w0952;
+pub(crate) mod w0953;
+pub(crate) mod w0954;
+pub(crate) mod w0955;
+pub(crate) mod w0956;
+pub(crate) mod w0957;
+pub(crate) mod w0958;
+pub(crate) mod w0959;
+pub(crate) mod w0960;
+pub(crate) mod w0962;
+pub(crate) mod w0963;

@@ -38,3 +38,37 @@ catalogue! {
     w0656 W0656
     i0657 I0657
 }
+
+pub(crate) mod e0601;
+pub(crate) mod e0602;
+pub(crate) mod e0603;
+pub(crate) mod e0604;
+pub(crate) mod e0605;
+pub(crate) mod e0606;
+pub(crate) mod e0643;
+pub(crate) mod e0646;
+pub(crate) mod e0650;
+pub(crate) mod i0610;
+pub(crate) mod i0611;
+pub(crate) mod i0657;
+pub(crate) mod w0607;
+pub(crate) mod w0608;
+pub(crate) mod w0609;
+pub(crate) mod w0630;
+pub(crate) mod w0631;
+pub(crate) mod w0632;
+pub(crate) mod w0633;
+pub(crate) mod w0634;
+pub(crate) mod w0635;
+pub(crate) mod w0637;
+pub(crate) mod w0638;
+pub(crate) mod w0639;
+pub(crate) mod w0642;
+pub(crate) mod w0644;
+pub(crate) mod w0647;
+pub(crate) mod w0648;
+pub(crate) mod w0649;
+pub(crate) mod w0651;
+pub(crate) mod w0653;
+pub(crate) mod w0655;
+pub(crate) mod w0656;

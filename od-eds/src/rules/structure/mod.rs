@@ -39,3 +39,39 @@ catalogue! {
     w0352 W0352
     e0353 E0353 (example)
 }
+
+pub(crate) mod e0301;
+pub(crate) mod e0303;
+pub(crate) mod e0305;
+pub(crate) mod e0309;
+pub(crate) mod e0310;
+pub(crate) mod e0353;
+pub(crate) mod i0319;
+pub(crate) mod i0320;
+pub(crate) mod i0345;
+pub(crate) mod i0346;
+pub(crate) mod w0302;
+pub(crate) mod w0304;
+pub(crate) mod w0306;
+pub(crate) mod w0307;
+pub(crate) mod w0308;
+pub(crate) mod w0311;
+pub(crate) mod w0312;
+pub(crate) mod w0313;
+pub(crate) mod w0314;
+pub(crate) mod w0315;
+pub(crate) mod w0316;
+pub(crate) mod w0317;
+pub(crate) mod w0318;
+pub(crate) mod w0321;
+pub(crate) mod w0322;
+pub(crate) mod w0323;
+pub(crate) mod w0324;
+pub(crate) mod w0325;
+pub(crate) mod w0342;
+pub(crate) mod w0343;
+pub(crate) mod w0344;
+pub(crate) mod w0347;
+pub(crate) mod w0350;
+pub(crate) mod w0351;
+pub(crate) mod w0352;

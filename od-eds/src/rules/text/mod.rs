@@ -20,3 +20,22 @@ catalogue! {
     e0117 E0117
     e0118 E0118
 }
+
+pub(crate) mod e0113;
+pub(crate) mod e0114;
+pub(crate) mod e0115;
+pub(crate) mod e0117;
+pub(crate) mod e0118;
+pub(crate) mod i0111;
+pub(crate) mod w0101;
+pub(crate) mod w0102;
+pub(crate) mod w0103;
+pub(crate) mod w0104;
+pub(crate) mod w0105;
+pub(crate) mod w0106;
+pub(crate) mod w0107;
+pub(crate) mod w0108;
+pub(crate) mod w0109;
+pub(crate) mod w0110;
+pub(crate) mod w0112;
+pub(crate) mod w0116;

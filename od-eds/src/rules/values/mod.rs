@@ -38,3 +38,38 @@ catalogue! {
     w0453 W0453
     w0454 W0454
 }
+
+pub(crate) mod e0401;
+pub(crate) mod e0402;
+pub(crate) mod e0403;
+pub(crate) mod e0405;
+pub(crate) mod e0412;
+pub(crate) mod e0413;
+pub(crate) mod e0414;
+pub(crate) mod e0415;
+pub(crate) mod e0417;
+pub(crate) mod e0418;
+pub(crate) mod i0408;
+pub(crate) mod i0410;
+pub(crate) mod i0411;
+pub(crate) mod i0425;
+pub(crate) mod i0447;
+pub(crate) mod i0450;
+pub(crate) mod w0404;
+pub(crate) mod w0406;
+pub(crate) mod w0407;
+pub(crate) mod w0409;
+pub(crate) mod w0416;
+pub(crate) mod w0419;
+pub(crate) mod w0420;
+pub(crate) mod w0421;
+pub(crate) mod w0422;
+pub(crate) mod w0423;
+pub(crate) mod w0424;
+pub(crate) mod w0426;
+pub(crate) mod w0427;
+pub(crate) mod w0445;
+pub(crate) mod w0446;
+pub(crate) mod w0452;
+pub(crate) mod w0453;
+pub(crate) mod w0454;

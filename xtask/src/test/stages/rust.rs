@@ -78,11 +78,9 @@ pub(super) fn odkit(context: &Context<'_>) -> Result<PathBuf> {
 /// All test programs, in one call of cargo, which compiles side by side what several stages run.
 pub(super) fn build(context: &Context<'_>) -> Result<()> {
     odkit(context)?;
-    run(
-        context,
-        "test programs",
-        &[&["test", "--no-run"], &ALL[..]].concat(),
-    )
+    let what = ["--lib", "--bins", "--examples", "--tests"];
+    let args = [&["test", "--no-run"], &ALL[..], &what].concat();
+    run(context, "test programs", &args)
 }
 
 /// The tests of all packages but those from outside. Without the packages of these, others would have
