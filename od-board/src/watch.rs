@@ -13,7 +13,7 @@ const PAUSE: Duration = Duration::from_millis(1);
 /// a part of [`Receive`](crate::Receive) for drivers that wait for frames alone.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Watch {
-    /// What the node knows.
+    /// State that was reported to the node last.
     known: BusEvent,
 }
 

@@ -175,7 +175,7 @@ impl<'a> Dictionary<'a> {
         self.arenas.pool
     }
 
-    /// What the rows point into.
+    /// Limits, texts and bytes that rows refer to.
     #[doc(hidden)]
     #[inline(always)]
     pub const fn arenas(&self) -> &Arenas<'a> {
@@ -291,7 +291,7 @@ impl<'a> Dictionary<'a> {
         matches!(row.plain().len, 1..=4).then_some(row)
     }
 
-    /// What of an address is absent that [`row_at`](Self::row_at) did not find.
+    /// Returns what is absent, the object or its sub-object, where [`row_at`](Self::row_at) finds none.
     #[doc(hidden)]
     #[cold]
     pub fn missing(&self, address: Address) -> Missing {

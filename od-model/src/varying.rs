@@ -4,7 +4,7 @@ use crate::entry::Slot;
 use crate::row::Row;
 use crate::types::Kind;
 
-/// What the rows of a dictionary point into.
+/// Limits, texts and bytes of a dictionary that its rows refer to.
 #[derive(Clone, Copy, Debug)]
 pub struct Arenas<'a> {
     /// Parts of rows that do not fit into them.
