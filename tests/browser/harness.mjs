@@ -24,7 +24,11 @@ export async function blank(browser, { width = 1280, height = 800, ...context } 
   const fault = (text) => opened.get(page)?.push(text);
   page.on('console', (message) => message.type() === 'error' && fault(message.text()));
   page.on('pageerror', (error) => fault(String(error)));
-  page.on('requestfailed', (request) => fault(`${request.url()} ${request.failure()?.errorText}`));
+  page.on('requestfailed', (request) => {
+    const why = request.failure()?.errorText;
+    // A page that is left, or loaded again, drops what it was still loading: nobody waits for that.
+    if (why !== 'net::ERR_ABORTED') fault(`${request.url()} ${why}`);
+  });
   page.on('close', () => opened.delete(page));
   return page;
 }
