@@ -1,6 +1,7 @@
 // What crosses between the page and the worker with the language server.
 
 import type { Difference } from '../wasm/od_playground';
+import type { Range } from './protocol';
 
 export type { Difference };
 
@@ -8,22 +9,6 @@ export type Severity = 'error' | 'warning' | 'info';
 
 /** In the order in which they are listed. */
 export const SEVERITIES = ['error', 'warning', 'info'] as const satisfies Severity[];
-
-/** Counted from 0, in UTF-16 units, as the Language Server Protocol counts. */
-export interface Position {
-  line: number;
-  character: number;
-}
-
-export interface Range {
-  start: Position;
-  end: Position;
-}
-
-export interface TextEdit {
-  range: Range;
-  newText: string;
-}
 
 /** A finding as a list shows it. */
 export interface Finding {

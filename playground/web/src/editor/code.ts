@@ -8,31 +8,17 @@ import { ChangeSet, EditorSelection, EditorState, type Text, type TransactionSpe
 import { drawSelection, EditorView, highlightActiveLine, highlightActiveLineGutter, hoverTooltip, keymap, lineNumbers, type Tooltip, type ViewUpdate } from '@codemirror/view';
 import { render } from 'lit';
 import { markdown } from '../views/markdown';
-import type { Found, Position, Range, TextEdit } from './api';
+import type { Found } from './api';
 import { ask, listen, send } from './client';
 import { E } from '../texts/editor';
 import { colours, dotted, marks, setMarks } from './marks';
+import type { CodeAction, CompletionItem, Hover, Location, Position, Range, TextEdit } from './protocol';
 import { theme } from './theme';
 
 /** A fix, or another edit that a finding offers. */
 export interface Action {
   title: string;
   edits: TextEdit[];
-}
-
-interface Item {
-  label: string;
-  detail?: string;
-  documentation?: { value: string };
-  sortText: string;
-  filterText: string;
-  textEdit: TextEdit;
-}
-
-interface RawAction {
-  title: string;
-  edit?: { changes: Record<string, TextEdit[]> };
-  diagnostics?: { code: string }[];
 }
 
 export class Code {
@@ -191,7 +177,7 @@ export class Code {
 
   /** From a mapping, a list or a header to the object; false without an object. */
   async jump(): Promise<boolean> {
-    const [to] = ((await ask('request', 'textDocument/definition', this.here())) ?? []) as { range: Range }[];
+    const [to] = ((await ask('request', 'textDocument/definition', this.here())) ?? []) as Location[];
     if (to) this.go(to.range.start);
     return to !== undefined;
   }
@@ -206,19 +192,19 @@ export class Code {
   async fixAll(): Promise<boolean> {
     const [action] = await this.ask('source.fixAll', { start: { line: 0, character: 0 }, end: { line: 0, character: 0 } });
     if (!action) return false;
-    const resolved = action.edit ? action : ((await ask('request', 'codeAction/resolve', action)) as RawAction);
+    const resolved = action.edit ? action : ((await ask('request', 'codeAction/resolve', action)) as CodeAction);
     const edits = this.edits(resolved);
     this.apply(edits);
     return edits.length > 0;
   }
 
-  private async ask(kind: string, range: Range): Promise<RawAction[]> {
+  private async ask(kind: string, range: Range): Promise<CodeAction[]> {
     const params = { textDocument: { uri: this.uri }, range, context: { diagnostics: [], only: [kind] } };
-    return ((await ask('request', 'textDocument/codeAction', params)) ?? []) as RawAction[];
+    return ((await ask('request', 'textDocument/codeAction', params)) ?? []) as CodeAction[];
   }
 
-  private edits(action: RawAction): TextEdit[] {
-    return action.edit?.changes[this.uri] ?? [];
+  private edits(action: CodeAction): TextEdit[] {
+    return action.edit?.changes?.[this.uri] ?? [];
   }
 
   apply(edits: TextEdit[]): void {
@@ -230,7 +216,7 @@ export class Code {
   }
 
   private async complete(context: CompletionContext): Promise<CompletionResult | null> {
-    const list = (await ask('request', 'textDocument/completion', this.here(context.pos))) as { items: Item[] } | null;
+    const list = (await ask('request', 'textDocument/completion', this.here(context.pos))) as { items: CompletionItem[] } | null;
     const first = list?.items[0];
     if (!list || !first || context.aborted) return null;
     const from = this.offset(first.textEdit.range.start);
@@ -252,7 +238,7 @@ export class Code {
   }
 
   /** Adds a button for each fix. */
-  private withFixes(dom: HTMLElement, fixes: RawAction[]): HTMLElement {
+  private withFixes(dom: HTMLElement, fixes: CodeAction[]): HTMLElement {
     for (const fix of fixes) {
       const button = document.createElement('button');
       button.className = 'cm-button';
@@ -264,7 +250,7 @@ export class Code {
   }
 
   private async hover(at: number): Promise<Tooltip | null> {
-    const found = (await ask('request', 'textDocument/hover', this.here(at))) as { contents: { value: string }; range?: Range } | null;
+    const found = (await ask('request', 'textDocument/hover', this.here(at))) as Hover | null;
     if (!found) return null;
     const fixes = (await this.ask('quickfix', found.range ?? { start: this.position(at), end: this.position(at) })).filter(({ title }) => !title.startsWith('Allow'));
     const [pos, end] = found.range ? [this.offset(found.range.start), this.offset(found.range.end)] : [at, at];

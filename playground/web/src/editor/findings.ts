@@ -1,15 +1,7 @@
 // The findings of a text as a list shows them: errors first, then by their rules.
 
-import { PLACE, SEVERITIES, type Finding, type Group, type Range, type Severity } from './api';
-
-/** A finding as the language server has it. */
-export interface Diagnostic {
-  range: Range;
-  /** 1 for an error, 2, 3. */
-  severity: number;
-  code: string;
-  message: string;
-}
+import { PLACE, SEVERITIES, type Finding, type Group, type Severity } from './api';
+import type { Diagnostic } from './protocol';
 
 const rank = (one: Diagnostic): number => Math.min(Math.max(one.severity - 1, 0), SEVERITIES.length - 1);
 

@@ -2,7 +2,8 @@
 
 import init, { compareEds, decodeEds, deviceEds, encodeEds, LanguageServer, ruleTitles } from '../wasm/od_playground';
 import type { Command, Finding, Found, Origin, Outline, Report, Requests } from './api';
-import { finding, Findings, type Diagnostic } from './findings';
+import { finding, Findings } from './findings';
+import type { Diagnostics, DocumentSymbol } from './protocol';
 
 const post = (report: Report, transfer: Transferable[] = []): void => (self as unknown as Worker).postMessage(report, transfer);
 
@@ -12,12 +13,6 @@ interface Open {
   lines: string[] | null;
   version: number;
   found: Findings;
-}
-
-interface Symbol {
-  name: string;
-  range: { start: { line: number } };
-  children?: Symbol[];
 }
 
 let server: LanguageServer;
@@ -52,7 +47,7 @@ function rows(uri: string, version: number, from: number, to: number): Finding[]
   return own.found.slice(from, to).map((one) => finding(one, own.lines));
 }
 
-function outline(symbols: Symbol[]): Outline {
+function outline(symbols: DocumentSymbol[]): Outline {
   const flat = symbols.flatMap((one) => [[one, 0] as const, ...(one.children ?? []).map((child) => [child, 1] as const)]);
   return {
     names: flat.map(([one]) => one.name).join('\n'),
@@ -81,7 +76,7 @@ function take(command: Command): void {
     case 'request':
       return ask(command.ticket, ...command.args);
     case 'outline':
-      return ask(command.ticket, 'textDocument/documentSymbol', { textDocument: { uri: command.args[0] } }, (value) => outline(value as Symbol[]));
+      return ask(command.ticket, 'textDocument/documentSymbol', { textDocument: { uri: command.args[0] } }, (value) => outline(value as DocumentSymbol[]));
     default: {
       const { op, args, ticket } = command;
       try {
@@ -96,7 +91,7 @@ function take(command: Command): void {
 /** What the server says goes to the page. */
 function flush(): void {
   for (let text = server.poll(); text !== undefined; text = server.poll()) {
-    const message = JSON.parse(text) as { id?: number; method?: string; result?: unknown; error?: { message: string }; params: { uri: string; version?: number; diagnostics: Diagnostic[] } };
+    const message = JSON.parse(text) as { id?: number; method?: string; result?: unknown; error?: { message: string }; params: Diagnostics };
     if (message.method === 'textDocument/publishDiagnostics') published(message.params);
     if (message.id === undefined || message.method) continue;
     const read = waiting.get(message.id);
@@ -106,7 +101,7 @@ function flush(): void {
   }
 }
 
-function published({ uri, version, diagnostics }: { uri: string; version?: number; diagnostics: Diagnostic[] }): void {
+function published({ uri, version, diagnostics }: Diagnostics): void {
   const own = texts.get(uri);
   if (!own || version === undefined) return;
   own.found = new Findings(diagnostics, titles);
