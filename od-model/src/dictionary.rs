@@ -246,40 +246,24 @@ impl<'a> Dictionary<'a> {
     /// # Errors
     /// [`Missing`] says whether the object or only the sub-index is absent.
     pub fn find(&self, address: Address) -> Result<Entry, Missing> {
-        let (position, row) = self.locate(address)?;
-        Ok(self.unpack(position, *row))
-    }
-
-    /// The position of an address and its row, of which most reads need only
-    /// [`plain`](Row::plain).
-    ///
-    /// # Errors
-    /// As for [`find`](Self::find).
-    #[doc(hidden)]
-    #[inline(always)] // into the one read that masters ask for all day
-    pub fn locate(&self, address: Address) -> Result<(usize, &'a Row), Missing> {
-        match index::position(self.buckets, self.rows, address.key()) {
-            Some(both) => Ok(both),
+        match self.locate(address) {
+            Some((position, row)) => Ok(self.unpack(position, *row)),
             None => Err(self.missing(address)),
         }
     }
 
-    /// The row of an address.
-    ///
-    /// # Errors
-    /// As for [`find`](Self::find).
+    /// The position of an address and its row, if there is one; in registers.
     #[doc(hidden)]
     #[inline(never)]
-    pub fn row_of(&self, address: Address) -> Result<&'a Row, Missing> {
-        self.row_at(address).ok_or_else(|| self.missing(address))
+    pub fn locate(&self, address: Address) -> Option<(usize, &'a Row)> {
+        index::position(self.buckets, self.rows, address.key())
     }
 
-    /// The row of an address, if there is one. A pointer, which a register holds; what
-    /// [`row_of`](Self::row_of) returns goes through memory.
+    /// The row of an address, if there is one.
     #[doc(hidden)]
-    #[inline(never)]
+    #[inline(always)]
     pub fn row_at(&self, address: Address) -> Option<&'a Row> {
-        index::position(self.buckets, self.rows, address.key()).map(|(_, row)| row)
+        self.locate(address).map(|(_, row)| row)
     }
 
     /// The row of a number in the store that a master may read and one frame carries, by the

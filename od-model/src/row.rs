@@ -125,6 +125,13 @@ const fn number(kind: u32, bits: u64, node_id: u8) -> u64 {
     }
 }
 
+/// Length in bytes of a value by the first word of its row. On a microcontroller it is a call.
+#[cfg_attr(target_os = "none", inline(never))]
+#[cfg_attr(not(target_os = "none"), inline(always))]
+const fn size(head: u32) -> usize {
+    (BITS[(head >> 3 & 31) as usize] as usize).div_ceil(8)
+}
+
 /// Length of each data type in bits, 0 where it varies, in the order of [`DataType::ALL`]: for every number
 /// that a row can have.
 static BITS: [u8; 32] = {
@@ -255,7 +262,7 @@ impl Row {
     /// Length of a value whose type gives it, in bytes; 0 for a string or DOMAIN.
     #[inline(always)]
     pub const fn size(self) -> usize {
-        (self.bits() as usize).div_ceil(8)
+        size(self.0[0])
     }
 
     /// Whether the length varies (strings, domains) instead of following from the type.

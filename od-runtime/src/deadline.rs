@@ -42,20 +42,16 @@ impl Deadline {
         self.is_set() && self.0 - 1 <= now.as_micros()
     }
 
-    /// The earlier one of two. On a microcontroller it is a call.
-    #[cfg_attr(target_os = "none", inline(never))]
-    #[cfg_attr(not(target_os = "none"), inline(always))]
+    /// The earlier one of two.
+    #[inline(always)]
     pub(crate) const fn or(self, other: Self) -> Self {
-        match self.0.wrapping_sub(1) <= other.0.wrapping_sub(1) {
-            true => self,
-            false => other,
-        }
+        Self(earlier(self.0, other.0))
     }
 
     /// The next one of a period in milliseconds that had one here, after `now`.
-    #[inline(never)]
+    #[inline(always)]
     pub(crate) const fn next_period(self, millis: u32, now: Instant) -> Self {
-        Self::at(self.moment().next_period(millis as u64 * 1000, now))
+        Self(next(self.0, millis, now.as_micros()))
     }
 
     /// As [`next_period`](Self::next_period), for a caller that mostly comes in time.
@@ -73,4 +69,22 @@ impl Deadline {
     pub(crate) const fn moment(self) -> Instant {
         Instant::from_micros(self.0.wrapping_sub(1))
     }
+}
+
+/// The earlier one of two numbers of [`Deadline`]s. Numbers are in registers, which `Deadline` is not; on a
+/// microcontroller it is a call.
+#[cfg_attr(target_os = "none", inline(never))]
+#[cfg_attr(not(target_os = "none"), inline(always))]
+const fn earlier(one: u64, other: u64) -> u64 {
+    match one.wrapping_sub(1) <= other.wrapping_sub(1) {
+        true => one,
+        false => other,
+    }
+}
+
+/// [`Deadline::next_period`], likewise.
+#[inline(never)]
+const fn next(at: u64, millis: u32, now: u64) -> u64 {
+    let (at, now) = (Deadline(at).moment(), Instant::from_micros(now));
+    Deadline::at(at.next_period(millis as u64 * 1000, now)).0
 }

@@ -137,7 +137,7 @@ impl<R: Rooms> Producer<R> {
 
     /// The first active error with this code and, as sources that share a code differ in them, these bits of
     /// 1001h.
-    #[inline]
+    #[cfg_attr(target_os = "none", inline(never))]
     fn position(&self, code: u16, register: Option<u8>) -> Option<u8> {
         self.active().position(|known| {
             known.code == code && register.is_none_or(|bits| bits == known.register)

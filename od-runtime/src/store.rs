@@ -249,13 +249,23 @@ impl<'a> Store<'a> {
         }
     }
 
+    /// The row of the value at an address.
+    #[cfg_attr(target_os = "none", inline(never))]
+    #[cfg_attr(not(target_os = "none"), inline)]
+    pub(crate) fn row(&self, address: Address) -> Result<&'a Row, AbortCode> {
+        match self.dictionary.row_at(address) {
+            Some(row) => Ok(row),
+            None => Err(missing(self.dictionary, address)),
+        }
+    }
+
     /// Puts bytes as an SDO carries them in place, if they have the right length.
     ///
     /// # Errors
     /// [`AbortCode::TooLong`] or [`AbortCode::TooShort`] by the entry's length or capacity;
     /// [`AbortCode::ReadOnly`] where nothing is stored.
     pub fn put(&mut self, entry: &Entry, bytes: &[u8]) -> Result<(), AbortCode> {
-        self.put_row(self.dictionary.row_of(entry.address)?, bytes)
+        self.put_row(self.row(entry.address)?, bytes)
     }
 
     /// As [`put`](Self::put).
@@ -293,6 +303,13 @@ impl<'a> Store<'a> {
     pub fn try_unsigned(&self, index: u16, sub: u8) -> Option<u64> {
         let row = self.dictionary.row_at(Address::new(index, sub))?;
         Some(self.number_of(row))
+    }
+
+    /// The low 32 bits of the number at an address, if there is such an object; in registers.
+    #[inline(never)]
+    pub(crate) fn try_word(&self, index: u16, sub: u8) -> Option<u32> {
+        let row = self.dictionary.row_at(Address::new(index, sub))?;
+        Some(self.number_of(row) as u32)
     }
 
     /// The low 32 bits of the number at an address; `missing` without such an object.
@@ -345,6 +362,13 @@ impl<'a> Store<'a> {
         self.put_number(row, value);
         row.fixed_slot().len > 0
     }
+}
+
+/// The abort code where there is no such value.
+#[cold]
+#[inline(never)]
+fn missing(dictionary: &Dictionary<'_>, address: Address) -> AbortCode {
+    dictionary.missing(address).into()
 }
 
 #[inline]

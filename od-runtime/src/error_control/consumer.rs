@@ -48,7 +48,7 @@ impl<R: Rooms> Consumer<R> {
     pub(super) fn configure(&mut self, store: &Store<'_>, enabled: bool) {
         self.count = 0;
         for (sub, watch) in (1..).zip(self.watches.all_mut()) {
-            let Some(raw) = store.try_unsigned(0x1016, sub) else {
+            let Some(raw) = store.try_word(0x1016, sub) else {
                 break;
             };
             let (node, period_ms) = ((raw >> 16) as u8, raw as u16);

@@ -30,7 +30,10 @@ impl Blank for Guard {
 
 impl Guard {
     pub(super) fn configure(&mut self, store: &Store<'_>, enabled: bool) {
-        let life_ms = (store.unsigned(0x100C, 0) * store.unsigned(0x100D, 0)) as u32;
+        let life_ms = {
+            let [guard, factor] = [0x100C, 0x100D].map(|index| store.word(index, 0, 0));
+            guard.wrapping_mul(factor)
+        };
         if !enabled || life_ms == 0 {
             self.deadline = Deadline::NEVER;
             self.lost = false;

@@ -25,9 +25,7 @@ use od_wire::{CanId, Instant, NodeId};
 pub(crate) fn guards<D: Device>(store: &Store<'_>, profile: &Profile) -> bool {
     match profile.guarding_switch {
         Some((index, mask)) => store.word(index, 0, 0) & mask != 0,
-        None => {
-            D::GUARDING && store.word(0x1017, 0, 0) == 0 && store.try_unsigned(0x100C, 0).is_some()
-        }
+        None => D::GUARDING && store.word(0x1017, 0, 0) == 0 && store.try_word(0x100C, 0).is_some(),
     }
 }
 

@@ -41,8 +41,8 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
             clocks.sync.configure(&objects.store, objects.now, may_send);
         }
         if D::TIME {
-            let cob_id = objects.store.try_unsigned(0x1012, 0);
-            let cob_id = cob_id.map(|raw| CobId::new(raw as u32));
+            let cob_id = objects.store.try_word(0x1012, 0);
+            let cob_id = cob_id.map(CobId::new);
             let consumed = cob_id.filter(|cob_id| cob_id.consumes_time());
             clocks.time_id = consumed.map(CobId::can_id);
         }

@@ -72,7 +72,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         let subs = asked.map(|(_, sub)| *sub).chain(lost.then_some(1));
         let mut gravest = Behaviour::Nothing;
         for sub in subs {
-            gravest = gravest.max(match objects.store.try_unsigned(0x1029, sub) {
+            gravest = gravest.max(match objects.store.try_word(0x1029, sub) {
                 None | Some(0) if operational => Behaviour::PreOperational,
                 Some(2) => Behaviour::Stopped,
                 // Of the families that accept the value, only the bus covers have it.

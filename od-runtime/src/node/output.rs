@@ -186,7 +186,8 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
 
 impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<D, PDO, SDO, X> {
     /// Sends an SDO response, after all that waits already.
-    #[inline]
+    #[cfg_attr(target_os = "none", inline(never))]
+    #[cfg_attr(not(target_os = "none"), inline)]
     pub(super) fn answer(&mut self, answer: [u8; 8]) {
         if self.pending & pending::ANSWER == 0 && self.out.is_empty() {
             self.answer = words(answer);

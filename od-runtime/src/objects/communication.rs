@@ -140,7 +140,7 @@ const CONSUMER: u32 = 1 << 31;
 
 /// Whether the device can produce SYNC: it has the period, too.
 fn produces_sync<D: Device>(store: &Store<'_>) -> bool {
-    D::SYNC_PRODUCER && store.try_unsigned(0x1006, 0).is_some()
+    D::SYNC_PRODUCER && store.try_word(0x1006, 0).is_some()
 }
 
 /// Whether the mapping of a PDO may change.
@@ -157,7 +157,7 @@ fn is_in_use(store: &Store<'_>, index: u16, new: u32, bits: u32) -> bool {
 /// Whether another sub-index of 1016h than `sub` has a time for the node of `value`, which has one.
 fn is_watched_elsewhere(store: &Store<'_>, sub: u8, value: u32) -> bool {
     let (node, time) = (value >> 16 & 0xFF, value & 0xFFFF);
-    let mut others = (1..=0x7F).filter(|other| *other != sub);
+    let mut others = (1..0x80).filter(|other| *other != sub);
     let same = |other: u8| {
         let entry = store.word(0x1016, other, 0);
         entry >> 16 & 0xFF == node && entry & 0xFFFF != 0
@@ -196,9 +196,9 @@ fn is_valid(store: &Store<'_>, parameter: u16) -> bool {
 /// exist, can be mapped, and together fit into a frame (chapter 7.5.2.36).
 fn check_mapping_count(store: &Store<'_>, index: u16, count: u32) -> Result<(), AbortCode> {
     let mut bits = 0;
-    for sub in 1..=count.min(0xFF) as u8 {
-        let raw = store.try_unsigned(index, sub);
-        let raw = raw.ok_or(AbortCode::PdoTooLong)? as u32;
+    for sub in 1..count.min(0xFF) + 1 {
+        let raw = store.try_word(index, sub as u8);
+        let raw = raw.ok_or(AbortCode::PdoTooLong)?;
         check_mapped(store, index, raw)?;
         bits += u32::from(MapEntry::parse(raw).bits);
         if bits > 64 {
@@ -219,13 +219,18 @@ pub(crate) fn check_mapped(store: &Store<'_>, index: u16, raw: u32) -> Result<()
         sub: 0,
     } = mapped.address
     {
-        let bits = od_model::DataType::from_code(dummy).and_then(od_model::DataType::bits);
+        let bits = match dummy {
+            1 => 1,
+            2 | 5 => 8,
+            3 | 6 => 16,
+            _ => 32,
+        };
         return match transmits {
-            false if bits == Some(mapped.bits) => Ok(()),
+            false if bits == mapped.bits => Ok(()),
             _ => Err(AbortCode::NotMappable),
         };
     }
-    let row = store.dictionary().row_of(mapped.address)?;
+    let row = store.row(mapped.address)?;
     let direction = match transmits {
         true => row.maps_to_tpdo(),
         false => row.maps_to_rpdo(),

@@ -7,8 +7,8 @@ mod saving;
 
 use core::marker::PhantomData;
 
+use od_model::Address;
 use od_model::row::Row;
-use od_model::{Address, Dictionary};
 
 use crate::application::{Application, Context, Halt, Reset, Stream};
 use crate::device::{Device, ROOMY, may_have};
@@ -88,7 +88,7 @@ impl<'c, D: Device> Objects<'c, D> {
 
     /// The row of the value at an address.
     pub(crate) fn row(&self, address: Address) -> Result<&'c Row, AbortCode> {
-        row(self.store.dictionary(), address)
+        self.store.row(address)
     }
 
     /// The bytes of a readable object, brought up to date. `number` is room for a
@@ -275,20 +275,4 @@ impl<'c, D: Device> Objects<'c, D> {
             _ => Ok(()),
         }
     }
-}
-
-/// The row of the value at an address. In registers, which `row_of` is not.
-#[inline]
-fn row<'a>(dictionary: &Dictionary<'a>, address: Address) -> Result<&'a Row, AbortCode> {
-    match dictionary.row_at(address) {
-        Some(row) => Ok(row),
-        None => Err(missing(dictionary, address)),
-    }
-}
-
-/// The abort code where there is no such value.
-#[cold]
-#[inline(never)]
-fn missing(dictionary: &Dictionary<'_>, address: Address) -> AbortCode {
-    dictionary.missing(address).into()
 }

@@ -99,7 +99,8 @@ impl<R: Rooms> Mapping<R> {
             (plain.live, plain.is_one) = (0, true);
         }
         let mut bits = 0u32;
-        for sub in 1..=count {
+        // 64 at most.
+        for sub in 1..count + 1 {
             let raw = store.word(object, sub, 0);
             if check_mapped(store, object, raw).is_err() {
                 bits = u32::MAX;
@@ -286,8 +287,8 @@ impl<R: Rooms> Mapping<R> {
 fn mapped(store: &Store<'_>, raw: u32) -> Mapped {
     let MapEntry { address, bits } = MapEntry::parse(raw);
     let row = match store.dictionary().locate(address) {
-        Ok((at, _)) => at as u32 + 1,
-        Err(_) => 0,
+        Some((at, _)) => at as u32 + 1,
+        None => 0,
     };
     u32::from(bits) << 24 | row & 0xFF_FFFF
 }

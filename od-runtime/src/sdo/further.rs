@@ -54,7 +54,7 @@ impl<D, const N: usize, R: Rooms> SdoServer<D, N, R> {
     /// on the old one has lost its client.
     pub(crate) fn configure(&mut self, store: &Store<'_>, index: u16) -> bool {
         let cob_id = |sub| {
-            let cob_id = CobId::new(store.try_unsigned(index, sub)? as u32);
+            let cob_id = CobId::new(store.try_word(index, sub)?);
             cob_id.is_valid().then_some(cob_id.can_id())
         };
         let channel = match (cob_id(1), cob_id(2)) {
