@@ -153,7 +153,7 @@ impl<R: Rooms> Producer<R> {
 
     /// Ends errors without an EMCY message, as a reset of the communication does.
     pub(crate) fn forget(&mut self, store: &mut Store<'_>, which: impl Fn(u16) -> bool) {
-        while self.active_mut().remove(|error| which(error.code)) {}
+        self.active_mut().remove(|error| which(error.code));
         self.silent = 0;
         self.show(store);
     }
@@ -213,7 +213,7 @@ fn log(store: &mut Store<'_>, code: u16) {
         [] => return,
     };
     let count = (store.word(0x1003, 0, 0) as u8).min(capacity);
-    for sub in (1..=count.min(capacity.saturating_sub(1))).rev() {
+    for sub in (1..count.min(capacity.saturating_sub(1)).saturating_add(1)).rev() {
         let older = store.word(0x1003, sub, 0).into();
         store.set_unsigned(Address::new(0x1003, sub + 1), older);
     }

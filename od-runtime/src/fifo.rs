@@ -104,13 +104,15 @@ impl<T: Copy> Fifo<[T]> {
         self.items.get(place).copied()
     }
 
-    /// Takes the first item out that `which` names; answers whether there was one.
-    pub(crate) fn remove(&mut self, which: impl FnMut(T) -> bool) -> bool {
-        let at = self.position(which);
-        if let Some(at) = at {
-            self.take_out(at);
+    /// Takes out all items that `which` names.
+    pub(crate) fn remove(&mut self, which: impl Fn(T) -> bool) {
+        let mut at = 0;
+        while at < self.span.len {
+            match self.get(at) {
+                Some(item) if which(item) => self.take_out(at),
+                _ => at += 1,
+            }
         }
-        at.is_some()
     }
 
     /// Returns how far the first item that `which` names is behind the first one.
@@ -151,8 +153,8 @@ mod tests {
         for round in 0..5 {
             assert!(fifo.push(round) && fifo.push(round + 1) && fifo.push(round + 2));
             assert!(!fifo.push(99));
-            assert!(fifo.remove(|item| item == round + 1));
-            assert!(!fifo.remove(|item| item == 99));
+            fifo.remove(|item| item == round + 1);
+            fifo.remove(|item| item == 99);
             assert_eq!(fifo.pop(), Some(round));
             assert_eq!(fifo.pop(), Some(round + 2));
             assert_eq!(fifo.pop(), None);

@@ -5,7 +5,7 @@ use od_wire::nmt::State;
 use od_wire::{CobId, Instant, NodeId};
 
 use super::ear::{Ear, Quick};
-use super::{BusEvent, Event, Machines, Node, Unfit, pending};
+use super::{BusEvent, Event, Machines, Node, Unfit};
 use crate::application::Reset;
 use crate::deadline::Deadline;
 use crate::device::Device;
@@ -48,20 +48,18 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
         now: Instant,
     ) -> Result<(), StoreTooSmall> {
         let needed = device.dictionary.store_len();
+        if device.values.len() < needed {
+            return Err(StoreTooSmall { needed });
+        }
         let node = &mut self.machines;
-        let (outbox, saving) = (
-            Room::outbox(&mut self.outbox),
-            self.saves.all_mut().first_mut(),
-        );
-        let mut objects = device.objects(node.node_id, now, outbox, saving);
-        let objects = objects.as_mut().ok_or(StoreTooSmall { needed })?;
         node.now = now;
-        node.next = Instant::ZERO;
-        node.pending = pending::OTHER;
+        node.pending = 0;
         node.powered = true;
         node.mute = None;
         node.discard_frames();
-        node.reset(objects, Reset::PowerOn);
+        if let Some((node, objects)) = &mut self.open(device, now) {
+            node.reset(objects, Reset::PowerOn);
+        }
         Ok(())
     }
 
@@ -293,10 +291,12 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
             }
         }
         if D::CHANGES && objects.profile().pdo.event_on_change {
-            let mut tpdos = self.tpdos().iter();
-            let changes = tpdos.clone().any(pdo::Tpdo::watches_changes);
-            self.watches_live = tpdos.any(pdo::Tpdo::watches_live);
-            self.watches_changes = changes;
+            let (mut changes, mut live) = (false, false);
+            for pdo in self.tpdos() {
+                changes |= pdo.watches_changes();
+                live |= pdo.watches_live();
+            }
+            (self.watches_changes, self.watches_live) = (changes, live);
         }
         if D::RPDOS {
             for (number, rpdo) in (0..).zip(self.rpdos_mut()) {

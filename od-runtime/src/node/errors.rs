@@ -8,6 +8,7 @@ use crate::emcy;
 use crate::extras::Extras;
 use crate::objects::Objects;
 use crate::profile::Notice;
+use crate::store::Store;
 use od_wire::emcy::Emcy;
 use od_wire::nmt::State;
 
@@ -68,17 +69,12 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         if self.state == State::Initialising || profile.operational_only && !operational {
             return;
         }
-        let asked = profile.behaviour.iter().filter(|(of, _)| of & bits != 0);
-        let subs = asked.map(|(_, sub)| *sub).chain(lost.then_some(1));
-        let mut gravest = Behaviour::Nothing;
-        for sub in subs {
-            gravest = gravest.max(match objects.store.try_word(0x1029, sub) {
-                None | Some(0) if operational => Behaviour::PreOperational,
-                Some(2) => Behaviour::Stopped,
-                // Of the families that accept the value, only the bus covers have it.
-                Some(3) => Behaviour::Reset,
-                _ => Behaviour::Nothing,
-            });
+        let mut gravest = match lost {
+            true => asked(&objects.store, 1, operational),
+            false => Behaviour::Nothing,
+        };
+        for (_, sub) in profile.behaviour.iter().filter(|(of, _)| of & bits != 0) {
+            gravest = gravest.max(asked(&objects.store, *sub, operational));
         }
         if gravest >= Behaviour::Stopped && self.sends_emcy() {
             while let Some(frame) = self.emcy.poll::<D>(&objects.store, objects.now) {
@@ -125,5 +121,17 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         if set != 0 || lost {
             self.react(objects, set, lost);
         }
+    }
+}
+
+/// The reaction that a sub-index of 1029h requests.
+#[inline(never)]
+fn asked(store: &Store<'_>, sub: u8, operational: bool) -> Behaviour {
+    match store.try_word(0x1029, sub) {
+        None | Some(0) if operational => Behaviour::PreOperational,
+        Some(2) => Behaviour::Stopped,
+        // Of the families that accept the value, only the bus covers have it.
+        Some(3) => Behaviour::Reset,
+        _ => Behaviour::Nothing,
     }
 }

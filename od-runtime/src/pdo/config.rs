@@ -38,7 +38,7 @@ pub(super) enum Validity {
 }
 
 /// Configuration of a TPDO, from its objects.
-#[derive(Clone, Copy, PartialEq, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Config {
     pub(super) validity: Validity,
     pub(super) kind: u8,
@@ -61,6 +61,17 @@ impl Config {
         event: 0,
         inhibit: 0,
     };
+
+    /// Whether it says the same as another one. Word by word: that is less code than field by field.
+    pub(super) fn is_same(&self, other: &Self) -> bool {
+        let words = |it: &Self| {
+            let bytes = [it.kind, it.repeat, it.sync_start, it.validity as u8];
+            let [event, inhibit] = [it.event, it.inhibit];
+            [it.id.raw(), event, inhibit, u32::from_le_bytes(bytes)]
+        };
+        let both = words(self).into_iter().zip(words(other));
+        both.fold(0, |bits, (one, other)| bits | one ^ other) == 0
+    }
 
     /// Reads the objects of TPDO `number`, but for its mapping.
     #[inline(never)]

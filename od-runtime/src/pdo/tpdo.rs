@@ -65,7 +65,7 @@ impl<R: Rooms> Tpdo<R> {
         if self.mapping.len() == 0 {
             config.validity = Validity::Off;
         }
-        changed |= config != self.config;
+        changed |= !config.is_same(&self.config);
         if changed {
             self.config = config;
             self.stop();

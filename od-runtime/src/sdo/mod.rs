@@ -245,6 +245,7 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
     }
 
     /// Finds out whether the next frame needs a closer look.
+    #[cfg_attr(target_os = "none", inline(never))]
     fn look(&mut self) {
         self.is_busy = self.takes_anything()
             || self.streams()
