@@ -68,7 +68,7 @@ impl Bench {
             values: &mut self.values,
             application: &mut self.encoder,
             storage: &mut self.storage,
-            profile: self.kind.profile,
+            profile: Some(self.kind.profile),
         };
         call(&mut self.node, &mut device, self.now)
     }

@@ -352,7 +352,7 @@ impl VirtualDevice {
             values,
             application,
             storage,
-            profile,
+            profile: Some(profile),
         };
         call(&mut **node, &mut device)
     }

@@ -4,8 +4,7 @@ use od_model::Dictionary;
 use od_model::typed::{DeviceWritable, Scalar, Var};
 use od_runtime::storage::Storage;
 use od_runtime::{
-    Application, BusEvent, Device, Event, Extras, Frame, Instant, Lent, Node, NodeId, Profile,
-    Store, Unfit,
+    Application, BusEvent, Device, Event, Extras, Frame, Instant, Lent, Node, NodeId, Store, Unfit,
 };
 use od_wire::CanId;
 
@@ -15,7 +14,7 @@ use crate::owner::Owner;
 ///
 /// `object_dictionary!` makes the type `Board<A, S>` of each module, with the sizes of its
 /// dictionary: `PDO`, `SDO` and `X` are those of [`Node`], `LEN` is the number of bytes of the values.
-/// Dictionary and profile are those of `D`; without `behaves` the profile is [`Profile::CIA301`].
+/// Dictionary and profile are those of `D`; without `behaves` the profile is [`Profile::CIA301`](od_runtime::Profile::CIA301).
 ///
 /// Inputs and outputs are the functions of [`Owner`].
 #[derive(Debug)]
@@ -129,7 +128,7 @@ impl<
             values: &mut self.values,
             application: &mut self.application,
             storage: &mut self.storage,
-            profile: D::PROFILE.unwrap_or(&Profile::CIA301),
+            profile: None,
         };
         (&mut self.node, lent)
     }

@@ -47,7 +47,7 @@ impl<'d> Rig<'d> {
             values: &mut self.values,
             application,
             storage: &mut self.storage,
-            profile: self.profile,
+            profile: Some(self.profile),
         };
         act(&mut self.node, &mut lent)
     }

@@ -4,7 +4,7 @@
 use core::cell::UnsafeCell;
 use core::sync::atomic::{AtomicBool, Ordering};
 
-use odkit::{BusEvent, Device, Dictionary, Extras, Instant, Lent, Node, NodeId, Profile, nmt};
+use odkit::{BusEvent, Device, Dictionary, Extras, Instant, Lent, Node, NodeId, nmt};
 
 use crate::answer::{ODKIT_ARGUMENT, ODKIT_BUSY, ODKIT_NULL, ODKIT_OK, ODKIT_SIZE, ODKIT_STATE};
 use crate::application::Behaviour;
@@ -146,7 +146,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>, const LEN
                 values: &mut state.values,
                 application: &mut behaviour,
                 storage: &mut memory,
-                profile: D::PROFILE.unwrap_or(&Profile::CIA301),
+                profile: None,
             },
             clock: &mut state.clock,
         })

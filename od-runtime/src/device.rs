@@ -18,7 +18,7 @@ pub trait Device {
     /// [`Node::power_on`](crate::Node::power_on) checks it.
     const DICTIONARY: Option<Dictionary<'static>> = None;
     /// Options of the device family, for which [`Lent::profile`](crate::Lent::profile) does not
-    /// count then; `None`: known at run time.
+    /// count then, and is `None`; `None`: known at run time.
     const PROFILE: Option<&'static Profile> = None;
     /// LSS slave (CiA 305).
     const LSS: bool = true;
@@ -70,6 +70,15 @@ pub trait Device {
         Some(dictionary) => dictionary.has_streams(),
         None => true,
     };
+}
+
+/// Options of the device family: those that the compiler knows, or else those that were lent.
+#[inline(always)]
+pub(crate) fn profile<'p, D: Device>(lent: Option<&'p Profile>) -> &'p Profile {
+    match D::PROFILE {
+        Some(profile) => profile,
+        None => lent.unwrap_or(&Profile::CIA301),
+    }
 }
 
 /// Whether a device may have a value whose index is one of these, and whose sub-index is this one if it is

@@ -27,8 +27,9 @@ pub struct Lent<'d> {
     pub application: &'d mut dyn Application,
     /// Non-volatile memory for the values saved with 1010h.
     pub storage: &'d mut dyn Storage,
-    /// Options and deviations of this device family relative to CiA 301.
-    pub profile: &'d Profile,
+    /// Options and deviations of this device family relative to CiA 301; `None`: those that the compiler
+    /// knows ([`Device::PROFILE`]), or else none.
+    pub profile: Option<&'d Profile>,
 }
 
 impl Lent<'_> {

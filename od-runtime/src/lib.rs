@@ -27,7 +27,7 @@
 //!     values: &mut values,
 //!     application: &mut application,
 //!     storage: &mut storage,
-//!     profile: &Profile::CIA301,
+//!     profile: Some(&Profile::CIA301),
 //! };
 //! let mut node: Node = Node::new(NodeId::ONE);
 //! let mut bus = Vec::new(); // in place of the CAN controller

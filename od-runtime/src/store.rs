@@ -1,6 +1,6 @@
 //! Values: a slice that the caller owns, laid out by the dictionary.
 
-use core::fmt;
+mod error;
 
 use od_model::row::Row;
 use od_model::typed::{DeviceWritable, Scalar, Text, Var};
@@ -10,45 +10,7 @@ use od_model::{Address, Dictionary, Entry, Kind, Slot};
 use crate::number::{copy, fill, little_endian, number_in};
 use od_wire::{AbortCode, NodeId};
 
-/// The slice is shorter than [`Dictionary::store_len`].
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub struct StoreTooSmall {
-    /// Bytes that the dictionary needs.
-    pub needed: usize,
-}
-
-impl fmt::Display for StoreTooSmall {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let needed = self.needed;
-        write!(
-            f,
-            "the values of the dictionary need {needed} bytes; lend a longer slice"
-        )
-    }
-}
-
-impl core::error::Error for StoreTooSmall {}
-
-/// The text is longer than the object's capacity.
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub struct TextTooLong {
-    /// Bytes that the object can hold.
-    pub capacity: usize,
-}
-
-impl fmt::Display for TextTooLong {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            f,
-            "the text is longer than its object; the limit is {} bytes",
-            self.capacity
-        )
-    }
-}
-
-impl core::error::Error for TextTooLong {}
+pub use error::{StoreTooSmall, TextTooLong};
 
 /// The current values of a device, over a dictionary and a slice of the caller's.
 ///

@@ -27,7 +27,7 @@
 //!     values: &mut values,
 //!     application: &mut application,
 //!     storage: &mut storage,
-//!     profile: &Profile::CIA301,
+//!     profile: Some(&Profile::CIA301),
 //! };
 //! let mut node = thermometer::Node::new(NodeId::ONE);
 //! let now = Instant::ZERO;

@@ -60,7 +60,7 @@ macro_rules! answers {
             values: &mut values,
             application: &mut NoApplication,
             storage: &mut Memory::new([]),
-            profile: &Profile::CIA301,
+            profile: Some(&Profile::CIA301),
         };
         let now = Instant::ZERO;
         node.power_on(&mut device, now).unwrap();
@@ -126,7 +126,7 @@ fn a_node_has_the_servers_and_the_sync_producer_of_its_dictionary() {
         values: &mut values,
         application: &mut NoApplication,
         storage: &mut Memory::new([]),
-        profile: &Profile::CIA301,
+        profile: Some(&Profile::CIA301),
     };
     node.power_on(&mut device, Instant::ZERO).unwrap();
     while node.poll_transmit(&mut device, Instant::ZERO).is_some() {}

@@ -51,7 +51,7 @@ fn every_answer_is_the_printed_one() {
         values: &mut values,
         application: &mut encoder,
         storage: &mut storage,
-        profile: kind.profile,
+        profile: Some(kind.profile),
     };
     node.power_on(&mut device, now).unwrap();
     let mut words = TRACE.split_whitespace();

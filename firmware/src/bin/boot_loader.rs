@@ -204,7 +204,7 @@ extern "C" fn main() -> ! {
         values: VALUES.take(),
         application: &mut loader,
         storage: &mut NoStorage,
-        profile: &PROFILE,
+        profile: None,
     };
     let mut master = Master {
         node: NODE.take(),

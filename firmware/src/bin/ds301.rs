@@ -70,7 +70,7 @@ extern "C" fn main() -> ! {
         values: VALUES.take(),
         application: &mut NoApplication,
         storage: &mut Memory::new(&mut EEPROM.take()[..]),
-        profile: &PROFILE,
+        profile: None,
     };
     master::run(NODE.take(), &mut device, &UPLOAD, &SCRIPT)
 }

@@ -77,7 +77,7 @@ extern "C" fn main() -> ! {
         values: VALUES.take(),
         application: SHAFT.take(),
         storage: &mut Memory::new(&mut EEPROM.take()[..]),
-        profile: &PROFILE,
+        profile: None,
     };
     master::run(NODE.take(), &mut device, &UPLOAD, &SCRIPT)
 }

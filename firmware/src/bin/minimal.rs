@@ -99,7 +99,7 @@ extern "C" fn main() -> ! {
         values: VALUES.take(),
         application: &mut Thermometer,
         storage: &mut NoStorage,
-        profile: &PROFILE,
+        profile: None,
     };
     master::run(NODE.take(), &mut device, &UPLOAD, &SCRIPT)
 }

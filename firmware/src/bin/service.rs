@@ -204,7 +204,7 @@ extern "C" fn main() -> ! {
         values: VALUES.take(),
         application: &mut NoApplication,
         storage,
-        profile: &PROFILE,
+        profile: None,
     };
     master::run(NODE.take(), &mut device, &UPLOAD, &SCRIPT)
 }

@@ -251,7 +251,7 @@ impl<F: Family, D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>
             values: self.values,
             application: &mut self.encoder,
             storage: &mut self.eeprom,
-            profile: self.profile,
+            profile: Some(self.profile),
         };
         let before = board::clock();
         call(self.node, &mut device);

@@ -8,7 +8,7 @@ use super::ear::{Ear, Quick};
 use super::{BusEvent, Event, Machines, Node, Unfit};
 use crate::application::Reset;
 use crate::deadline::Deadline;
-use crate::device::Device;
+use crate::device::{Device, profile};
 use crate::extras::Extras;
 use crate::lent::Lent;
 use crate::objects::Objects;
@@ -197,7 +197,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         let lent = objects.lent_profile;
         let which = |row: &Row| {
             // Not as a part of it that is carried in: of a profile that the compiler knows nothing is read.
-            let profile = D::PROFILE.unwrap_or(lent);
+            let profile = profile::<D>(lent);
             let address = row.address();
             let starts_with = |lss: &LssProfile| address == lss.node_id || address == lss.bit_rate;
             all || match address.index {

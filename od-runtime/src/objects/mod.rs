@@ -11,7 +11,7 @@ use od_model::Address;
 use od_model::row::Row;
 
 use crate::application::{Application, Context, Halt, Reset, Stream};
-use crate::device::{Device, ROOMY, may_have};
+use crate::device::{Device, ROOMY, may_have, profile};
 use crate::limits::{self, Outside};
 use crate::profile::Profile;
 use crate::storage::Storage;
@@ -44,7 +44,7 @@ pub(crate) struct Objects<'c, D> {
     pub(crate) application: &'c mut dyn Application,
     pub(crate) storage: &'c mut dyn Storage,
     /// See [`profile`](Self::profile).
-    pub(crate) lent_profile: &'c Profile,
+    pub(crate) lent_profile: Option<&'c Profile>,
     pub(crate) now: Instant,
     pub(crate) outbox: &'c mut Outbox,
     /// A save; a device without storage has no room for one.
@@ -64,7 +64,7 @@ impl<'c, D: Device> Objects<'c, D> {
     /// Options of the device family: those that the compiler knows, or else those that were lent.
     #[inline(always)]
     pub(crate) fn profile(&self) -> &'c Profile {
-        D::PROFILE.unwrap_or(self.lent_profile)
+        profile::<D>(self.lent_profile)
     }
 
     /// Whether one of these bits of an object is set.

@@ -253,7 +253,7 @@ fn a_reset_of_the_communication_ends_its_errors_alone() {
                 values: &mut bench.values,
                 application: &mut bench.application,
                 storage: &mut bench.storage,
-                profile: &bench.profile,
+                profile: Some(&bench.profile),
             };
             let (code, register, info) = (*code, *register, [0; 5]);
             let error = Emcy {

@@ -30,7 +30,7 @@ fn start_as<D: Device, const PDO: usize, const SDO: usize>(
         values: &mut vec![0; values],
         application: &mut NoApplication,
         storage: &mut NoStorage,
-        profile: &Profile::CIA301,
+        profile: Some(&Profile::CIA301),
     };
     let result = node.power_on(&mut device, Instant::ZERO);
     assert_eq!(result.is_ok(), node.is_powered());

@@ -270,7 +270,7 @@ fn a_save_that_is_not_there_aborts_and_is_told() {
         values: &mut device.values,
         application: &mut NoApplication,
         storage: &mut flash,
-        profile: &Profile::CIA301,
+        profile: Some(&Profile::CIA301),
     };
     node.power_on_partly(&mut lent, now).expect("room");
     while node.poll_transmit(&mut lent, now).is_some() {}
@@ -283,7 +283,7 @@ fn a_save_that_is_not_there_aborts_and_is_told() {
             values: &mut device.values,
             application: &mut NoApplication,
             storage: &mut flash,
-            profile: &Profile::CIA301,
+            profile: Some(&Profile::CIA301),
         };
         while node.poll_event().is_some() {}
         node.handle_frame(&mut lent, now, &save);

@@ -29,7 +29,7 @@ macro_rules! own {
                 values: &mut $bench.values,
                 application: &mut $bench.application,
                 storage: &mut $bench.storage,
-                profile: &$bench.profile,
+                profile: Some(&$bench.profile),
             },
             $bench.now,
             $($argument),*

@@ -158,7 +158,7 @@ macro_rules! device {
             values: &mut $bench.values,
             application: &mut $bench.application,
             storage: &mut $bench.storage,
-            profile: &$bench.profile,
+            profile: Some(&$bench.profile),
         }
     };
 }

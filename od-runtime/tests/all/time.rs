@@ -137,7 +137,7 @@ fn a_host_hears_whether_the_time_went_out() {
             values: &mut bench.values,
             application: &mut bench.application,
             storage: &mut bench.storage,
-            profile: &bench.profile,
+            profile: Some(&bench.profile),
         };
         let sent = bench.node.send_time(&mut device, bench.now);
         assert_eq!(sent, bench.drain() == ["100#04030201323D"]);

@@ -49,7 +49,7 @@ impl Rig {
             values: &mut self.values,
             application: &mut self.loader,
             storage: &mut NoStorage,
-            profile: &Profile::CIA301,
+            profile: Some(&Profile::CIA301),
         };
         call(&mut self.node, &mut device, self.now)
     }

@@ -69,7 +69,7 @@ impl Odkit {
                 values: leak(vec![0; dictionary.store_len()]),
                 application: leak(application),
                 storage: leak(Memory::new(Vec::new())),
-                profile,
+                profile: Some(profile),
             },
             now: Instant::ZERO,
         };

@@ -120,7 +120,7 @@ macro_rules! device {
             values: &mut $peer.values,
             application: &mut $peer.application,
             storage: &mut $peer.storage,
-            profile: &$peer.profile,
+            profile: Some(&$peer.profile),
         }
     };
 }

@@ -58,7 +58,7 @@ macro_rules! call {
             values: &mut $bench.values,
             application: &mut $bench.live,
             storage: &mut NoStorage,
-            profile: &$bench.profile,
+            profile: Some(&$bench.profile),
         };
         $bench.node.$call(&mut device $(, $argument)*)
     }};
@@ -170,7 +170,7 @@ fn is_short(bench: &mut Bench, index: u16, sub: u8) -> bool {
         values: &mut bench.values,
         application: &mut bench.live,
         storage: &mut NoStorage,
-        profile: &bench.profile,
+        profile: Some(&bench.profile),
     };
     let way = bench.node.upload(&mut device, &request(index, sub));
     !matches!(way, Upload::Other)
