@@ -6,6 +6,7 @@
 use std::fmt::Write;
 
 use od_eds::Tables;
+use od_model::owned::SMALL;
 use proc_macro2::TokenStream;
 use quote::quote;
 
@@ -195,11 +196,15 @@ static ROWS: [Row; {entries}] = rows("
     bytes(out, pool.iter().flat_map(|word| word.to_le_bytes()));
     let _ = write!(out, ");\nstatic NAMES: [[Range; 2]; {entries}] = names(");
     bytes(out, name_words.flat_map(u32::to_le_bytes));
+    let (number, make, kind) = match entries <= SMALL {
+        true => ("u8", "small_buckets", "Bytes"),
+        false => ("u16", "buckets", "Words"),
+    };
     let _ = write!(
         out,
         ");
-static BUCKETS: [u16; bucket_count({entries})] = buckets(&ROWS);
-dictionary(&BUCKETS, &ROWS, &POOL, {:?}, ",
+static BUCKETS: [{number}; bucket_count({entries})] = {make}(&ROWS);
+dictionary(Buckets::{kind}(&BUCKETS), &ROWS, &POOL, {:?}, ",
         tables.text()
     );
     bytes(out, tables.blob().iter().copied());

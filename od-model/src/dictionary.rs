@@ -6,7 +6,7 @@ use core::ops::Range as Span;
 
 use crate::address::Address;
 use crate::entry::{Entry, Missing, Object};
-use crate::index;
+use crate::index::{self, Buckets};
 use crate::real::Reals;
 use crate::row::Row;
 use crate::value::Range;
@@ -21,7 +21,7 @@ use crate::varying::{Arenas, Varying};
 /// hold their text.
 #[derive(Clone, Copy, Debug)]
 pub struct Dictionary<'a> {
-    buckets: &'a [u16],
+    buckets: Buckets<'a>,
     rows: &'a [Row],
     arenas: Arenas<'a>,
     store_len: usize,
@@ -46,7 +46,7 @@ const NAME: u32 = 1 << 31;
 impl<'a> Dictionary<'a> {
     /// The dictionary without objects.
     pub const EMPTY: Self = Self::trusted(
-        &[],
+        Buckets::Words(&[]),
         &[],
         &[],
         "",
@@ -64,7 +64,7 @@ impl<'a> Dictionary<'a> {
     #[doc(hidden)]
     #[allow(clippy::too_many_arguments)] // each is a table
     pub const fn trusted(
-        buckets: &'a [u16],
+        buckets: Buckets<'a>,
         rows: &'a [Row],
         pool: &'a [u32],
         text: &'a str,

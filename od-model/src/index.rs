@@ -7,6 +7,37 @@ use crate::row::Row;
 
 /// Content of an empty bucket: not the position of an entry.
 pub const EMPTY: u16 = u16::MAX;
+/// Most rows whose positions fit into bytes, of which the last one is an empty bucket.
+pub const SMALL: usize = u8::MAX as usize;
+
+/// A hash table of positions: as bytes where there are no more than [`SMALL`].
+#[derive(Clone, Copy, Debug)]
+pub enum Buckets<'a> {
+    /// [`small_buckets`].
+    Bytes(&'a [u8]),
+    /// [`buckets`].
+    Words(&'a [u16]),
+}
+
+impl Buckets<'_> {
+    /// Number of buckets.
+    #[inline(always)]
+    const fn len(self) -> usize {
+        match self {
+            Self::Bytes(all) => all.len(),
+            Self::Words(all) => all.len(),
+        }
+    }
+
+    /// Content of a bucket: past the last row where it is empty.
+    #[inline(always)]
+    fn get(self, at: usize) -> Option<usize> {
+        match self {
+            Self::Bytes(all) => all.get(at).copied().map(usize::from),
+            Self::Words(all) => all.get(at).copied().map(usize::from),
+        }
+    }
+}
 
 /// Number of buckets that [`buckets`] makes for this number of rows: a power of two, 1½ to 3 times
 /// as many; 0 if their positions do not fit 16 bits.
@@ -30,6 +61,24 @@ pub const fn buckets<const N: usize>(rows: &[Row]) -> [u16; N] {
     buckets
 }
 
+/// As [`buckets`], for no more than [`SMALL`] rows.
+///
+/// # Panics
+/// Likewise.
+#[must_use]
+pub const fn small_buckets<const N: usize>(rows: &[Row]) -> [u8; N] {
+    assert!(rows.len() <= SMALL, "positions that fit into bytes");
+    let wide: [u16; N] = buckets(rows);
+    let mut buckets = [0; N];
+    let mut at = 0;
+    while at < N {
+        // An empty one stays one.
+        buckets[at] = wide[at] as u8;
+        at += 1;
+    }
+    buckets
+}
+
 /// Puts each row's position into the first bucket from its own on that is empty.
 /// `buckets` are all empty, and as many as [`bucket_count`] says.
 pub const fn fill(buckets: &mut [u16], rows: &[Row]) {
@@ -49,20 +98,28 @@ pub const fn fill(buckets: &mut [u16], rows: &[Row]) {
 
 /// The row with the address of this key, and its position.
 #[inline(always)]
-pub(crate) fn position<'a>(buckets: &[u16], rows: &'a [Row], key: u32) -> Option<(usize, &'a Row)> {
-    match buckets {
-        [] => search(rows, key),
+pub(crate) fn position<'a>(
+    buckets: Buckets<'_>,
+    rows: &'a [Row],
+    key: u32,
+) -> Option<(usize, &'a Row)> {
+    match buckets.len() {
+        0 => search(rows, key),
         _ => hashed(buckets, rows, key),
     }
 }
 
 /// As [`position`], by the buckets only.
 #[inline(always)]
-pub(crate) fn hashed<'a>(buckets: &[u16], rows: &'a [Row], key: u32) -> Option<(usize, &'a Row)> {
+pub(crate) fn hashed<'a>(
+    buckets: Buckets<'_>,
+    rows: &'a [Row],
+    key: u32,
+) -> Option<(usize, &'a Row)> {
     let mask = buckets.len().checked_sub(1)?;
     let mut at = own_bucket(key);
     loop {
-        let position = usize::from(*buckets.get(at & mask)?);
+        let position = buckets.get(at & mask)?;
         // An empty bucket is past the last row.
         let row = rows.get(position)?;
         if row.key() == key {
@@ -113,15 +170,38 @@ mod tests {
 
     #[test]
     fn every_row_is_found_and_no_other() {
-        for count in [0, 1, 2, 3, 128, 300, 5_000] {
+        for count in [0, 1, 2, 3, 128, 255, 300, 5_000] {
             let rows: Vec<Row> = (0..count).map(|i| keyed(0x20_0000 + 0x83 * i)).collect();
             let mut buckets = vec![EMPTY; bucket_count(rows.len())];
             fill(&mut buckets, &rows);
-            for (at, row) in rows.iter().enumerate() {
-                let found = position(&buckets, &rows, row.key());
+            let small: Vec<u8> = buckets.iter().map(|at| *at as u8).collect();
+            let mut all = vec![Buckets::Words(&buckets)];
+            all.extend((rows.len() <= SMALL).then_some(Buckets::Bytes(&small)));
+            for (buckets, (at, row)) in all
+                .iter()
+                .flat_map(|buckets| rows.iter().enumerate().map(move |row| (*buckets, row)))
+            {
+                let found = position(buckets, &rows, row.key());
                 assert_eq!(found, Some((at, row)));
-                assert_eq!(position(&buckets, &rows, row.key() + 1), None);
+                assert_eq!(position(buckets, &rows, row.key() + 1), None);
             }
+        }
+    }
+
+    #[test]
+    fn small_buckets_say_the_same() {
+        const ROWS: [Row; 3] = [
+            Row([0x20_0000 << 8; 4]),
+            Row([0x20_0100 << 8; 4]),
+            Row([0x60_0400 << 8; 4]),
+        ];
+        let (small, wide): ([u8; 8], [u16; 8]) = (small_buckets(&ROWS), buckets(&ROWS));
+        for (small, wide) in small.into_iter().zip(wide) {
+            let is_empty = wide == EMPTY;
+            assert_eq!(
+                usize::from(small),
+                if is_empty { SMALL } else { wide.into() }
+            );
         }
     }
 
@@ -129,8 +209,9 @@ mod tests {
     fn more_rows_than_buckets_can_name_are_searched() {
         let rows: Vec<Row> = (0..70_000).map(|i| keyed(3 * i)).collect();
         assert_eq!(bucket_count(rows.len()), 0);
-        let found = position(&[], &rows, 3 * 69_999);
+        let none = Buckets::Words(&[]);
+        let found = position(none, &rows, 3 * 69_999);
         assert_eq!(found.map(|(at, _)| at), Some(69_999));
-        assert_eq!(position(&[], &rows, 3 * 69_999 + 1), None);
+        assert_eq!(position(none, &rows, 3 * 69_999 + 1), None);
     }
 }

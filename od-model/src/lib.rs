@@ -46,5 +46,5 @@ pub use value::{Literal, Range};
 /// Parts that owned tables are built with by `od-eds`; not an API.
 #[doc(hidden)]
 pub mod owned {
-    pub use crate::index::{EMPTY, bucket_count, fill};
+    pub use crate::index::{Buckets, EMPTY, SMALL, bucket_count, fill};
 }

@@ -74,7 +74,7 @@ pub trait Device {
 
 /// Options of the device family: those that the compiler knows, or else those that were lent.
 #[inline(always)]
-pub(crate) fn profile<'p, D: Device>(lent: Option<&'p Profile>) -> &'p Profile {
+pub(crate) fn profile<D: Device>(lent: Option<&Profile>) -> &Profile {
     match D::PROFILE {
         Some(profile) => profile,
         None => lent.unwrap_or(&Profile::CIA301),
@@ -175,7 +175,8 @@ mod tests {
             rows: &[],
             text: "",
         };
-        Dictionary::trusted(&[], rows, &[], "", &[], 4, None, None, names)
+        let buckets = od_model::owned::Buckets::Words(&[]);
+        Dictionary::trusted(buckets, rows, &[], "", &[], 4, None, None, names)
     }
 
     #[test]

@@ -7,7 +7,7 @@ use alloc::vec::Vec;
 
 use crate::description::{Description, EntryDescription, Value};
 use crate::span::Spanned;
-use od_model::owned::{EMPTY, bucket_count, fill};
+use od_model::owned::{Buckets, EMPTY, bucket_count, fill};
 use od_model::real::Reals;
 use od_model::row::{Row, literal, words};
 use od_model::varying::Varying;
@@ -66,7 +66,7 @@ impl Tables {
     /// The view that runs; it costs nothing to make.
     pub fn dictionary(&self) -> Dictionary<'_> {
         Dictionary::trusted(
-            &self.buckets,
+            Buckets::Words(&self.buckets),
             &self.rows,
             &self.pool,
             &self.text,

@@ -89,5 +89,6 @@ const fn dictionary(rows: &'static [Row]) -> Dictionary<'static> {
         rows: &[],
         text: "",
     };
-    Dictionary::trusted(&[], rows, &[], "", &[], 4, None, None, names)
+    let buckets = od_model::owned::Buckets::Words(&[]);
+    Dictionary::trusted(buckets, rows, &[], "", &[], 4, None, None, names)
 }

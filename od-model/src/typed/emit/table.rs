@@ -5,7 +5,7 @@
 //! ten times as much, and an IDE keeps each of its tokens.
 
 pub use crate::dictionary::{Dictionary, Names};
-pub use crate::index::{bucket_count, buckets};
+pub use crate::index::{Buckets, bucket_count, buckets, small_buckets};
 use crate::real::Reals;
 pub use crate::row::Row;
 pub use crate::value::Range;
@@ -75,7 +75,7 @@ pub const fn names<const N: usize>(bytes: &[u8]) -> [[Range; 2]; N] {
 
 /// The view over tables that the macro takes out of `od_eds::Tables`.
 pub const fn dictionary(
-    buckets: &'static [u16],
+    buckets: Buckets<'static>,
     rows: &'static [Row],
     pool: &'static [u32],
     text: &'static str,
