@@ -67,22 +67,23 @@ impl<R: Rooms> Consumer<R> {
 
     /// The nodes that are watched; 0: none.
     pub(super) fn nodes(&self) -> impl Iterator<Item = u8> + '_ {
-        self.watches
-            .all()
-            .iter()
-            .take(self.count.into())
-            .map(|watch| watch.node)
+        self.watches().iter().map(|watch| watch.node)
     }
 
-    fn watches(&mut self) -> impl Iterator<Item = &mut Watch> {
-        let watches = self.watches.all_mut().iter_mut();
-        watches
-            .take(self.count.into())
-            .filter(|watch| watch.period_ms > 0)
+    /// One for each entry of 1016h.
+    fn watches(&self) -> &[Watch] {
+        let watches = self.watches.all().get(..self.count.into());
+        watches.unwrap_or_default()
+    }
+
+    fn active(&mut self) -> impl Iterator<Item = &mut Watch> {
+        let watches = self.watches.all_mut().get_mut(..self.count.into());
+        let watches = watches.unwrap_or_default().iter_mut();
+        watches.filter(|watch| watch.period_ms > 0)
     }
 
     pub(super) fn heartbeat(&mut self, node: u8, now: Instant) {
-        for watch in self.watches().filter(|watch| watch.node == node) {
+        for watch in self.active().filter(|watch| watch.node == node) {
             watch.lost = false;
             watch.deadline = Deadline::at(now.plus_millis(watch.period_ms.into()));
         }
@@ -90,7 +91,7 @@ impl<R: Rooms> Consumer<R> {
 
     #[inline]
     pub(super) fn handle_timeout(&mut self, now: Instant) {
-        for watch in self.watches() {
+        for watch in self.active() {
             if watch.deadline.is_due(now) {
                 watch.deadline = Deadline::NEVER;
                 watch.lost = true;
@@ -100,16 +101,12 @@ impl<R: Rooms> Consumer<R> {
 
     #[inline]
     pub(super) fn is_lost(&self) -> bool {
-        self.watches
-            .all()
-            .iter()
-            .take(self.count.into())
-            .any(|watch| watch.lost)
+        self.watches().iter().any(|watch| watch.lost)
     }
 
     #[inline]
     pub(super) fn deadline(&self) -> Deadline {
-        let watches = self.watches.all().iter().take(self.count.into());
+        let watches = self.watches().iter();
         watches.fold(Deadline::NEVER, |first, watch| first.or(watch.deadline))
     }
 }

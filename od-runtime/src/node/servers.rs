@@ -1,6 +1,6 @@
 //! The SDO servers past the default one (1201h to 127Fh; CiA 301, chapter 7.5.2.33).
 
-use od_model::Address;
+use od_wire::sdo::address;
 use od_wire::{AbortCode, Frame};
 
 use super::Machines;
@@ -193,8 +193,3 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
 
 /// Abort code for a value that another server streams.
 const TAKEN: AbortCode = AbortCode::DeviceState;
-
-/// The object that a request begins with.
-fn address(data: &[u8; 8]) -> Address {
-    Address::new(u16::from_le_bytes([data[1], data[2]]), data[3])
-}

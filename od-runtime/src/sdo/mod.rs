@@ -24,7 +24,7 @@ use crate::device::Device;
 use crate::number::number_in;
 use crate::objects::{Objects, Unread};
 use crate::rooms::{Blank, FullRooms, Room, Rooms};
-use od_wire::sdo::{Response, expedited_upload};
+use od_wire::sdo::{Response, address, expedited_upload};
 use od_wire::{AbortCode, Frame, Instant};
 
 use block_download::BlockDownload;
@@ -157,7 +157,7 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
         if dlc < objects.profile().sdo.min_dlc {
             return None;
         }
-        let address = Address::new(u16::from_le_bytes([data[1], data[2]]), data[3]);
+        let address = address(data);
         self.begin(address);
         match self.upload(objects, address) {
             Ok(answer) => Some(answer),

@@ -2,7 +2,7 @@
 
 use od_model::Address;
 use od_wire::AbortCode;
-use od_wire::sdo::{Request, Response, crc16_after};
+use od_wire::sdo::{Response, Segment, address, crc16_after, end, number, toggle, wants_crc};
 
 use super::block_download::BlockDownload;
 use super::block_upload::{self, BlockUpload};
@@ -42,29 +42,24 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
     /// save all values: that is as deep as the stack gets.
     #[inline(never)]
     fn transfer_request(&mut self, objects: &mut Objects<'_, D>, data: &[u8; 8]) -> Answer {
-        let profile = objects.profile().sdo;
-        let request = parse(data);
-        let begins = match request {
-            Request::InitiateDownload { .. } => true,
-            Request::InitiateBlockUpload { .. } | Request::InitiateBlockDownload { .. } => {
-                D::BLOCK && profile.block
-            }
-            _ => false,
-        };
-        if begins {
-            self.replace(objects, address(data));
-        }
-        match (request, self.transfers.all_mut()) {
-            (Request::InitiateDownload { address, size, .. }, _) => {
+        let profile = &objects.profile().sdo;
+        let has_blocks = D::BLOCK && profile.block;
+        // Not a `Request` of all: taken apart it is more code than its parts where they are.
+        let (command, kind) = (data[0] >> 5, data[0] & 3);
+        match (command, kind, self.transfers.all_mut()) {
+            (1, ..) => {
+                self.replace(objects, address(data));
                 if !D::SEGMENTED || !profile.segmented_download {
                     return Err(AbortCode::InvalidCommand.into());
                 }
+                let size = (kind == 1).then_some(number(data));
                 self.open_download(objects, size)?;
                 self.set_transfer(Transfer::Download(Download::new(size)));
+                let address = self.address;
                 Ok(Some(Response::InitiateDownload { address }.emit_to(data)))
             }
-            (Request::UploadSegment { toggle }, [Transfer::Upload(upload)]) if D::SEGMENTED => {
-                upload.check(toggle)?;
+            (3, _, [Transfer::Upload(upload)]) if D::SEGMENTED => {
+                upload.check(toggle(data))?;
                 let (at, len) = (upload.sent(), upload.len());
                 self.fetch(objects, at, len)?;
                 let [Transfer::Upload(upload)] = self.transfers.all_mut() else {
@@ -76,86 +71,70 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
                 }
                 Ok(Some(segment))
             }
-            (Request::DownloadSegment(segment), [Transfer::Download(download)]) if D::SEGMENTED => {
+            (0, _, [Transfer::Download(download)]) if D::SEGMENTED => {
                 let mut download = *download;
-                let bytes = segment.bytes();
-                download.check(&segment, self.window.end() + bytes.len())?;
+                let (bytes, is_last) = Segment::of_frame(data);
+                let toggle = toggle(data);
+                download.check(toggle, self.window.end() + bytes.len(), is_last)?;
                 if self.streams() && bytes.len() > self.window.room() {
                     self.pass_on(objects)?;
                 }
                 self.window.put(bytes)?;
                 let len = self.window.len + bytes.len();
-                if segment.last {
+                if is_last {
                     self.complete(objects, len)?;
                 } else {
                     self.window.len = len;
                     download.go_on();
                     self.set_transfer(Transfer::Download(download));
                 }
-                let toggle = segment.toggle;
                 Ok(Some(Response::DownloadSegment { toggle }.emit()))
             }
-            (
-                Request::InitiateBlockUpload {
-                    address,
-                    crc,
-                    block_size,
-                    ..
-                },
-                _,
-            ) if D::BLOCK && profile.block => {
+            (5, 0, _) if has_blocks => {
+                self.replace(objects, address(data));
+                let block_size = data[4];
                 block_upload::check(block_size)?;
                 let len = self.open_upload(objects)?;
-                self.set_transfer(Transfer::BlockUpload(BlockUpload::new(
-                    len, crc, block_size,
-                )));
-                Ok(Some(
-                    Response::InitiateBlockUpload {
-                        address,
-                        crc: true,
-                        size: Some(len as u32),
-                    }
-                    .emit_to(data),
-                ))
+                let block = BlockUpload::new(len, wants_crc(data), block_size);
+                self.set_transfer(Transfer::BlockUpload(block));
+                let response = Response::InitiateBlockUpload {
+                    address: self.address,
+                    crc: true,
+                    size: Some(len as u32),
+                };
+                Ok(Some(response.emit_to(data)))
             }
-            (Request::StartBlockUpload, [Transfer::BlockUpload(block)]) if D::BLOCK => {
+            (5, 3, [Transfer::BlockUpload(block)]) if D::BLOCK => {
                 block.start()?;
                 Ok(None)
             }
-            (Request::BlockUploadResponse { ack, block_size }, [Transfer::BlockUpload(block)])
-                if D::BLOCK =>
-            {
-                Ok(block.acknowledged(ack, block_size)?)
+            (5, 2, [Transfer::BlockUpload(block)]) if D::BLOCK => {
+                Ok(block.acknowledged(data[1], data[2])?)
             }
-            (Request::EndBlockUpload, [Transfer::BlockUpload(block)])
-                if D::BLOCK && block.is_complete() =>
-            {
+            (5, 1, [Transfer::BlockUpload(block)]) if D::BLOCK && block.is_complete() => {
                 self.close(objects, StreamEnd::Complete);
                 Ok(None)
             }
-            (Request::InitiateBlockDownload { address, crc, size }, _)
-                if D::BLOCK && profile.block =>
-            {
+            (6, 0 | 2, _) if has_blocks => {
+                self.replace(objects, address(data));
+                let size = (kind == 2).then_some(number(data));
                 self.open_download(objects, size)?;
-                let block = BlockDownload::new(N, crc, size);
+                let block = BlockDownload::new(N, wants_crc(data), size);
                 self.set_transfer(Transfer::BlockDownload(block));
-                Ok(Some(
-                    Response::InitiateBlockDownload {
-                        address,
-                        crc: true,
-                        block_size: block.block_size(),
-                    }
-                    .emit_to(data),
-                ))
+                let response = Response::InitiateBlockDownload {
+                    address: self.address,
+                    crc: true,
+                    block_size: block.block_size(),
+                };
+                Ok(Some(response.emit_to(data)))
             }
-            (Request::EndBlockDownload { unused, crc }, [Transfer::BlockDownload(block)])
-                if D::BLOCK =>
-            {
+            (6, 1 | 3, [Transfer::BlockDownload(block)]) if D::BLOCK => {
+                let (unused, crc) = end(data);
                 let len = block.end(&self.window, unused, crc)?;
                 self.complete(objects, len)?;
                 Ok(Some(Response::EndBlockDownload.emit()))
             }
-            (_, transfer) => {
+            (.., transfer) => {
                 if matches!(transfer, [] | [Transfer::None]) {
                     self.address = address(data);
                 }
@@ -273,16 +252,4 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
         self.close(objects, StreamEnd::Complete);
         Ok(())
     }
-}
-
-/// The address of a request that has one.
-fn address(data: &[u8; 8]) -> Address {
-    let [_, low, high, sub, ..] = *data;
-    Address::new(u16::from_le_bytes([low, high]), sub)
-}
-
-/// A call, since the compiler would take the request apart into bytes.
-#[inline(never)]
-fn parse(data: &[u8; 8]) -> Request {
-    Request::parse(data)
 }

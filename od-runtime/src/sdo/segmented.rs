@@ -68,12 +68,12 @@ impl Download {
         }
     }
 
-    /// Checks a segment with which `end` bytes have come.
-    pub(super) fn check(&self, segment: &Segment, end: usize) -> Result<(), AbortCode> {
-        check(self.toggle, segment.toggle)?;
+    /// Checks a segment, with which `end` bytes have come; the last one if `is_last`.
+    pub(super) fn check(&self, toggle: bool, end: usize, is_last: bool) -> Result<(), AbortCode> {
+        check(self.toggle, toggle)?;
         match self.size.map(|size| size as usize) {
             Some(size) if end > size => Err(AbortCode::TooLong),
-            Some(size) if end < size && segment.last => Err(AbortCode::TooShort),
+            Some(size) if end < size && is_last => Err(AbortCode::TooShort),
             _ => Ok(()),
         }
     }

@@ -16,17 +16,17 @@ pub(super) const fn short(command: u8, [a, b]: [u8; 2]) -> [u8; 8] {
 }
 
 /// The address of a command that has one.
-pub(super) const fn address(data: &[u8; 8]) -> Address {
+pub const fn address(data: &[u8; 8]) -> Address {
     Address::new(u16::from_le_bytes([data[1], data[2]]), data[3])
 }
 
 /// The number behind the address.
-pub(super) const fn number(data: &[u8; 8]) -> u32 {
+pub const fn number(data: &[u8; 8]) -> u32 {
     u32::from_le_bytes([data[4], data[5], data[6], data[7]])
 }
 
 /// The toggle bit.
-pub(super) const fn toggle(data: &[u8; 8]) -> bool {
+pub const fn toggle(data: &[u8; 8]) -> bool {
     data[0] & 0x10 != 0
 }
 
@@ -73,7 +73,12 @@ pub(super) const fn block(data: &[u8; 8]) -> (bool, Option<u32>) {
     } else {
         None
     };
-    (data[0] & 4 != 0, size)
+    (wants_crc(data), size)
+}
+
+/// Whether the sender of a frame that begins a block transfer can make or check a CRC.
+pub const fn wants_crc(data: &[u8; 8]) -> bool {
+    data[0] & 4 != 0
 }
 
 /// The frame that begins a block transfer of a value.
@@ -83,7 +88,7 @@ pub(super) fn block_frame(address: Address, crc: bool, size: Option<u32>) -> [u8
 }
 
 /// Unused bytes of the last segment, and the CRC, at the end of a block transfer.
-pub(super) const fn end(data: &[u8; 8]) -> (u8, u16) {
+pub const fn end(data: &[u8; 8]) -> (u8, u16) {
     (data[0] >> 2 & 7, u16::from_le_bytes([data[1], data[2]]))
 }
 

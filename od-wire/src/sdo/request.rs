@@ -80,7 +80,7 @@ impl Request {
             5 => match data[0] & 3 {
                 0 => Self::InitiateBlockUpload {
                     address,
-                    crc: data[0] & 4 != 0,
+                    crc: fields::wants_crc(data),
                     block_size: data[4],
                     threshold: data[5],
                 },

@@ -127,9 +127,9 @@ impl Response {
     /// As [`emit`](Self::emit), with the address as it is in the request, which is less work.
     #[inline(always)]
     pub fn emit_to(self, request: &[u8; 8]) -> [u8; 8] {
-        let [_, low, high, sub, ..] = *request;
-        let [command, _, _, _, a, b, c, d] = self.emit();
-        [command, low, high, sub, a, b, c, d]
+        const ADDRESS: u64 = 0xFFFF_FF00;
+        let [request, own] = [*request, self.emit()].map(u64::from_le_bytes);
+        (request & ADDRESS | own & !ADDRESS).to_le_bytes()
     }
 }
 

@@ -34,6 +34,12 @@ impl Segment {
         &self.data[..usize::from(self.len.min(7))]
     }
 
+    /// The bytes of a segment that count, where they are in its frame, and whether it is the last one.
+    pub fn of_frame([command, data @ ..]: &[u8; 8]) -> (&[u8], bool) {
+        let unused = usize::from(command >> 1 & 7);
+        (&data[..7 - unused], command & 1 != 0)
+    }
+
     pub(super) const fn parse(frame: &[u8; 8]) -> Self {
         let [command, data @ ..] = *frame;
         Self {
