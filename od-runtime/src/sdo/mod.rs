@@ -10,6 +10,7 @@ mod further;
 mod late;
 mod request;
 mod segmented;
+mod stop;
 mod streamed;
 mod under_way;
 mod window;
@@ -18,7 +19,7 @@ use core::marker::PhantomData;
 
 use od_model::Address;
 
-use crate::application::{Halt, StreamEnd};
+use crate::application::StreamEnd;
 use crate::deadline::Deadline;
 use crate::device::Device;
 use crate::number::number_in;
@@ -31,6 +32,7 @@ use block_download::BlockDownload;
 use block_upload::BlockUpload;
 use late::Late;
 use segmented::{Download, Upload};
+use stop::Stop;
 use window::Window;
 
 pub use further::SdoServer;
@@ -78,7 +80,7 @@ pub(crate) struct Server<D, const N: usize, R: Rooms = FullRooms> {
 }
 
 /// Response of the server, if there is one, or the reason why it does not come.
-type Answer = Result<Option<[u8; 8]>, Halt>;
+type Answer = Result<Option<[u8; 8]>, Stop>;
 
 impl<D, const N: usize, R: Rooms> Server<D, N, R> {
     pub(crate) const fn idle() -> Self {
@@ -212,6 +214,7 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
         data: &[u8; 8],
         dlc: u8,
     ) -> Option<[u8; 8]> {
+        let until = self.deadline;
         self.await_client(objects.now);
         let is_late = objects.is_commanded();
         let answer = match answer {
@@ -220,10 +223,10 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
                 None
             }
             Ok(response) => response,
-            Err(Halt::Abort(code)) => Some(self.abort(objects, code)),
-            Err(Halt::Until(at)) => {
+            Err(Stop::Abort(code)) => Some(self.abort(objects, code)),
+            Err(Stop::Wait) => {
                 if D::STREAMS {
-                    self.await_stream(at, Some((*data, dlc)));
+                    self.await_stream(until, Some((*data, dlc)));
                 }
                 None
             }
@@ -344,9 +347,9 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
         let fetched = self.fetch(objects, at, len);
         let answer = match (fetched, self.transfers.all_mut()) {
             (Ok(()), [Transfer::BlockUpload(block)]) => Some(block.segment(self.window.from(at))),
-            (Err(Halt::Abort(code)), _) => Some(self.abort(objects, code)),
-            (Err(Halt::Until(at)), _) if D::STREAMS => {
-                self.await_stream(at, None);
+            (Err(Stop::Abort(code)), _) => Some(self.abort(objects, code)),
+            (Err(Stop::Wait), _) if D::STREAMS => {
+                self.await_stream(self.deadline, None);
                 None
             }
             _ => None,

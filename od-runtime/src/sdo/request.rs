@@ -7,8 +7,9 @@ use od_wire::sdo::{Response, Segment, address, crc16_after, end, number, toggle,
 use super::block_download::BlockDownload;
 use super::block_upload::{self, BlockUpload};
 use super::segmented::Download;
+use super::stop::Stop;
 use super::{Answer, Server, Transfer, expedited};
-use crate::application::{Halt, StreamEnd};
+use crate::application::StreamEnd;
 use crate::device::Device;
 use crate::objects::{Objects, Unread};
 use crate::rooms::{Room, Rooms};
@@ -186,14 +187,15 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
         &mut self,
         objects: &mut Objects<'_, D>,
         size: Option<u32>,
-    ) -> Result<(), Halt> {
+    ) -> Result<(), Stop> {
         let address = self.address;
         let row = objects.writable(address)?;
         self.window.clear();
         if objects.streams(row) {
-            objects.stream(address, |stream, cx| {
+            let begun = objects.stream(address, |stream, cx| {
                 stream.begin_download(cx, address, size)
-            })?;
+            });
+            begun.map_err(|halt| Stop::new(halt, &mut self.deadline))?;
             self.is_streaming = true;
             return Ok(());
         }
@@ -208,7 +210,7 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
     }
 
     /// A value is to be read, in blocks. Returns its length.
-    fn open_upload(&mut self, objects: &mut Objects<'_, D>) -> Result<usize, Halt> {
+    fn open_upload(&mut self, objects: &mut Objects<'_, D>) -> Result<usize, Stop> {
         let mut number = [0; 8];
         match objects.read(self.address, &mut number) {
             Ok(bytes) => Ok(self.window.load(bytes)?),
@@ -242,7 +244,7 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
 
     /// A download is complete with the first `len` bytes of the buffer: they are written, and
     /// the transfer ends.
-    fn complete(&mut self, objects: &mut Objects<'_, D>, len: usize) -> Result<(), Halt> {
+    fn complete(&mut self, objects: &mut Objects<'_, D>, len: usize) -> Result<(), Stop> {
         if self.streams() {
             self.give(objects, len, true)?;
             objects.streamed(self.address);

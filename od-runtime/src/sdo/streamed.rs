@@ -1,12 +1,13 @@
 //! Values that the application streams: the buffer has the part that is on its way.
 
+use od_wire::AbortCode;
 use od_wire::sdo::Response;
-use od_wire::{AbortCode, Instant};
 
 use super::late::{Held, Late};
 use super::segmented::Upload;
+use super::stop::Stop;
 use super::{Answer, Server, Transfer};
-use crate::application::{Chunk, Halt, StreamEnd};
+use crate::application::{Chunk, StreamEnd};
 use crate::deadline::Deadline;
 use crate::device::Device;
 use crate::number::number_in;
@@ -20,12 +21,13 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
     }
 
     /// Begins to read from the stream. Returns the length of the value.
-    pub(super) fn open_stream(&mut self, objects: &mut Objects<'_, D>) -> Result<usize, Halt> {
+    pub(super) fn open_stream(&mut self, objects: &mut Objects<'_, D>) -> Result<usize, Stop> {
         if !D::STREAMS {
             return Err(AbortCode::NoResource.into());
         }
         let address = self.address;
-        let len = objects.stream(address, |stream, cx| stream.begin_upload(cx, address))?;
+        let begun = objects.stream(address, |stream, cx| stream.begin_upload(cx, address));
+        let len = begun.map_err(|halt| Stop::new(halt, &mut self.deadline))?;
         self.window.clear();
         self.is_streaming = true;
         Ok(len as usize)
@@ -43,8 +45,8 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
                     let value = number_in(self.window.from(0)) as u32;
                     expedited = Some(value.to_le_bytes());
                 }
-                Err(Halt::Until(_)) => {}
-                Err(halt) => return Err(halt),
+                Err(Stop::Wait) => {}
+                Err(stop) => return Err(stop),
             }
         }
         let segmented = D::SEGMENTED && objects.profile().sdo.segmented_upload;
@@ -72,7 +74,7 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
         objects: &mut Objects<'_, D>,
         at: usize,
         len: usize,
-    ) -> Result<(), Halt> {
+    ) -> Result<(), Stop> {
         if self.streams() {
             let left = len.saturating_sub(at);
             let end = at + left.min(7);
@@ -84,9 +86,10 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
                 }
                 (window.start, window.len) = (at, 0);
                 let address = self.address;
-                objects.stream(address, |stream, cx| {
+                let read = objects.stream(address, |stream, cx| {
                     stream.read(cx, address, at as u32, to)
-                })?;
+                });
+                read.map_err(|halt| Stop::new(halt, &mut self.deadline))?;
                 window.len = left.min(N);
             }
         }
@@ -99,18 +102,19 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
         objects: &mut Objects<'_, D>,
         len: usize,
         last: bool,
-    ) -> Result<(), Halt> {
+    ) -> Result<(), Stop> {
         if !D::STREAMS {
             return Ok(());
         }
         let (address, at) = (self.address, self.window.start as u32);
         let bytes = self.window.first(len);
         let chunk = Chunk { at, bytes, last };
-        objects.stream(address, |stream, cx| stream.write(cx, address, chunk))
+        let given = objects.stream(address, |stream, cx| stream.write(cx, address, chunk));
+        given.map_err(|halt| Stop::new(halt, &mut self.deadline))
     }
 
     /// Gives all that is in the buffer to the stream, and empties it.
-    pub(super) fn pass_on(&mut self, objects: &mut Objects<'_, D>) -> Result<(), Halt> {
+    pub(super) fn pass_on(&mut self, objects: &mut Objects<'_, D>) -> Result<(), Stop> {
         let len = self.window.len;
         if len > 0 {
             self.give(objects, len, false)?;
@@ -134,9 +138,9 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
     }
 
     /// The stream cannot serve this request, or the next segment, before this moment.
-    pub(super) fn await_stream(&mut self, at: Instant, held: Option<Held>) {
+    pub(super) fn await_stream(&mut self, until: Deadline, held: Option<Held>) {
         self.set_late(Late::stream(held));
-        self.deadline = Deadline::at(at);
+        self.deadline = until;
     }
 
     /// The stream is asked again.
