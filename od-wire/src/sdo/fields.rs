@@ -5,9 +5,9 @@ use od_model::Address;
 /// A command with address and number.
 #[inline]
 pub(super) const fn head(command: u8, address: Address, number: u32) -> [u8; 8] {
-    let [low, high] = address.index.to_le_bytes();
-    let [a, b, c, d] = number.to_le_bytes();
-    [command, low, high, address.sub, a, b, c, d]
+    // Not byte by byte: a microcontroller has two words to store.
+    let head = command as u64 | (address.index as u64) << 8 | (address.sub as u64) << 24;
+    (head | (number as u64) << 32).to_le_bytes()
 }
 
 /// A command with two bytes.
