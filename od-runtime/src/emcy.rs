@@ -210,20 +210,27 @@ fn log(store: &mut Store<'_>, code: u16) {
     let dictionary = store.dictionary();
     let capacity = match dictionary.rows_of(0x1003) {
         [.., last] => last.address().sub,
-        [] => return,
+        [] => 0,
     };
-    let count = (store.word(0x1003, 0, 0) as u8).min(capacity);
-    for sub in (1..count.min(capacity.saturating_sub(1)).saturating_add(1)).rev() {
-        let older = store.word(0x1003, sub, 0).into();
-        store.set_unsigned(Address::new(0x1003, sub + 1), older);
+    if capacity == 0 {
+        return;
     }
-    if capacity > 0 {
-        store.set_unsigned(Address::new(0x1003, 1), code.into());
-        store.set_unsigned(
-            Address::new(0x1003, 0),
-            u64::from(count.saturating_add(1).min(capacity)),
-        );
+    let count = (store.word(0x1003, 0, 0) as u8)
+        .saturating_add(1)
+        .min(capacity);
+    let mut entry = code.into();
+    for sub in 0..count {
+        let older = store.word(0x1003, sub + 1, 0);
+        put(store, sub + 1, entry);
+        entry = older;
     }
+    put(store, 0, count.into());
+}
+
+/// Sets a sub-index of 1003h.
+#[inline(never)]
+fn put(store: &mut Store<'_>, sub: u8, value: u32) {
+    store.set_unsigned(Address::new(0x1003, sub), value.into());
 }
 
 /// Empties 1003h, as writing 0 to its sub-index 0 does.

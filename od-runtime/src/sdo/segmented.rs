@@ -2,7 +2,7 @@
 //! buffer.
 
 use od_wire::AbortCode;
-use od_wire::sdo::{Response, Segment};
+use od_wire::sdo::segment;
 
 /// An upload under way.
 #[derive(Clone, Copy, Debug)]
@@ -44,11 +44,10 @@ impl Upload {
 
     /// Returns the next segment, the first bytes of `rest`.
     pub(super) fn segment(&mut self, rest: &[u8]) -> [u8; 8] {
-        let mut segment = Segment::first_of(rest, self.toggle);
-        self.sent += usize::from(segment.len);
+        self.sent += rest.len().min(7);
+        let segment = segment(self.toggle, rest, self.is_over());
         self.toggle = !self.toggle;
-        segment.last = self.is_over();
-        Response::UploadSegment(segment).emit()
+        segment
     }
 }
 

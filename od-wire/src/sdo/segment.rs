@@ -57,11 +57,26 @@ impl Segment {
     }
 }
 
+/// The frame of a segment with the head of `rest`, the bytes of the value that are left.
+#[inline]
+pub fn segment(toggle: bool, rest: &[u8], last: bool) -> [u8; 8] {
+    let unused = 7 - rest.len().min(7) as u8;
+    led_by(toggled(toggle) | unused << 1 | u8::from(last), rest).to_le_bytes()
+}
+
 /// The frame of segment `sequence` of a block, 1 to 127, with the head of `rest`, the bytes of the
 /// value that are left. The last segment of all has bit 7 set.
+#[inline]
 pub fn block_segment(sequence: u8, rest: &[u8], last: bool) -> [u8; 8] {
-    let [_, a, b, c, d, e, f, g] = Segment::first_of(rest, false).emit();
-    [sequence | u8::from(last) << 7, a, b, c, d, e, f, g]
+    led_by(sequence | u8::from(last) << 7, rest).to_le_bytes()
+}
+
+/// A frame of a byte and up to seven of others, as a number.
+#[inline(never)] // one copy in a microcontroller
+fn led_by(head: u8, rest: &[u8]) -> u64 {
+    let rest = rest.iter().take(7).rev();
+    let number = rest.fold(0, |number, byte| number << 8 | u64::from(*byte));
+    number << 8 | u64::from(head)
 }
 
 /// Segments of a block transfer that carry `len` bytes; an empty value needs one.
@@ -92,5 +107,12 @@ mod tests {
         assert!(!segment.last && segment.bytes() == [1, 2, 3, 4, 5, 6, 7]);
         assert!(Segment::first_of(&[1], true).last);
         assert_eq!(block_segment(2, &[9, 8], true), [0x82, 9, 8, 0, 0, 0, 0, 0]);
+        for len in 0..=8 {
+            let rest = &[1, 2, 3, 4, 5, 6, 7, 8][..len];
+            for (toggle, last) in [(false, len <= 7), (true, len <= 7)] {
+                let made = Segment::first_of(rest, toggle);
+                assert_eq!(segment(toggle, rest, last), made.emit(), "{len}");
+            }
+        }
     }
 }
