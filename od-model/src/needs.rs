@@ -73,7 +73,7 @@ impl Dictionary<'_> {
     }
 }
 
-impl<'a> Dictionary<'a> {
+impl Dictionary<'_> {
     /// The position of the value whose address has this [key](crate::Address::key).
     #[doc(hidden)]
     pub const fn position(&self, key: u32) -> Option<usize> {
@@ -84,12 +84,13 @@ impl<'a> Dictionary<'a> {
         }
     }
 
-    /// The rows of an object, by ascending sub-index.
+    /// The last sub-index of an object, or 0 without one.
     #[doc(hidden)]
-    pub fn rows_of(&self, index: u16) -> &'a [Row] {
-        let rows = self.rows().get(self.first(index)..).unwrap_or_default();
-        let count = rows.iter().take_while(|row| row.index() == index).count();
-        rows.get(..count).unwrap_or_default()
+    pub const fn last_sub(&self, index: u16) -> u8 {
+        match self.first(index + 1).checked_sub(1) {
+            Some(last) if self.index_at(last) == index => self.rows()[last].address().sub,
+            _ => 0,
+        }
     }
 }
 

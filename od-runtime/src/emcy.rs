@@ -106,7 +106,7 @@ impl<R: Rooms> Producer<R> {
             (Change::Raised(error), None) => {
                 self.active_mut().push(error);
                 if const { may_have::<D>(0x1003, 0x1003, None) } {
-                    log(store, code);
+                    log::<D>(store, code);
                 }
             }
             (Change::Cleared { .. }, Some(at)) => {
@@ -206,12 +206,8 @@ pub(crate) fn cob_id(store: &Store<'_>) -> Option<CobId> {
 }
 
 /// Puts the code on top of 1003h; the oldest entry falls out.
-fn log(store: &mut Store<'_>, code: u16) {
-    let dictionary = store.dictionary();
-    let capacity = match dictionary.rows_of(0x1003) {
-        [.., last] => last.address().sub,
-        [] => 0,
-    };
+fn log<D: Device>(store: &mut Store<'_>, code: u16) {
+    let capacity = capacity::<D>(store);
     if capacity == 0 {
         return;
     }
@@ -234,9 +230,20 @@ fn put(store: &mut Store<'_>, sub: u8, value: u32) {
 }
 
 /// Empties 1003h, as writing 0 to its sub-index 0 does.
-pub(crate) fn clear_log(store: &mut Store<'_>) {
-    let dictionary = store.dictionary();
-    for row in dictionary.rows_of(0x1003) {
-        store.set_unsigned(row.address(), 0);
+pub(crate) fn clear_log<D: Device>(store: &mut Store<'_>) {
+    for sub in 0..u16::from(capacity::<D>(store)) + 1 {
+        put(store, sub as u8, 0);
     }
+}
+
+/// Entries of 1003h, as far as the compiler knows them.
+#[inline(always)]
+fn capacity<D: Device>(store: &Store<'_>) -> u8 {
+    let known = const {
+        match &D::DICTIONARY {
+            Some(dictionary) => Some(dictionary.last_sub(0x1003)),
+            None => None,
+        }
+    };
+    known.unwrap_or_else(|| store.dictionary().last_sub(0x1003))
 }

@@ -248,7 +248,7 @@ impl<'c, D: Device> Objects<'c, D> {
         self.application(|application, context| application.validate(context, address, bytes))?;
         self.store.put_row(row, bytes)?;
         if Self::HAS_LOG && address == Address::new(0x1003, 0) {
-            crate::emcy::clear_log(&mut self.store);
+            crate::emcy::clear_log::<D>(&mut self.store);
         }
         self.application(|application, context| application.written(context, address));
         self.outbox.written(address);

@@ -111,7 +111,7 @@ mod tests {
             let rest = &[1, 2, 3, 4, 5, 6, 7, 8][..len];
             for (toggle, last) in [(false, len <= 7), (true, len <= 7)] {
                 let made = Segment::first_of(rest, toggle);
-                assert_eq!(segment(toggle, rest, last), made.emit(), "{len}");
+                assert_eq!(super::segment(toggle, rest, last), made.emit(), "{len}");
             }
         }
     }
