@@ -233,7 +233,8 @@ fn ctrl_c_ends_it_under_a_flood() {
     sim.signal("-INT");
     let asked = std::time::Instant::now();
     assert_eq!(sim.child.wait().expect("it ends").code(), Some(0));
-    assert!(asked.elapsed() < Duration::from_secs(5));
+    // A busy computer takes seconds; one that answers the flood first would never end.
+    assert!(asked.elapsed() < Duration::from_secs(20));
     for flood in floods {
         flood.join().expect("no panic");
     }
