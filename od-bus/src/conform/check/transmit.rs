@@ -74,9 +74,9 @@ pub(super) fn contradiction(eds: &Eds, all: &[Mapped], transmits: bool) -> Optio
         let own = entry.data_type.bits().map_or(0, usize::from);
         match may {
             false => Some(format!("{address} cannot be mapped")),
-            true if own != *bits => {
-                Some(format!("{address} has {own} bits, and {bits} are mapped"))
-            }
+            true if own != *bits => Some(format!(
+                "{address} is a {own}-bit value, mapped with length {bits}"
+            )),
             true => None,
         }
     })
