@@ -16,7 +16,7 @@ pub(crate) const BARE: &str = "thumbv7m-none-eabi";
 pub(crate) const SMALLEST: &str = "thumbv6m-none-eabi";
 /// A microcontroller with a floating point unit that its calls do not use.
 pub(crate) const FLOAT: &str = "thumbv7em-none-eabi";
-/// The other systems that people develop on: Windows, and macOS, which has little that Linux has not.
+/// The other systems that people develop on.
 pub(crate) const HOSTS: [&str; 2] = ["x86_64-pc-windows-gnu", "aarch64-apple-darwin"];
 
 /// rustup does not wait for another rustup, and stages run beside each other.

@@ -122,7 +122,7 @@ pub(super) const STAGES: &[Stage] = &[
     stage("python", Tests, "the Python package: a bus of python-can with devices in it", python::python).beside(Lane::Bus),
     stage("size", Check, "no firmware is larger than README.md says, and a boot loader starts a program, on an emulated Cortex-M3", rust::size).beside(Lane::Board),
     stage("no_std", Check, "what runs in a node builds for a bare Cortex-M3 and M0", rust::no_std).beside(Lane::Cross),
-    stage("hosts", Check, "the command line compiles for Windows, and for macOS with --long", rust::hosts).beside(Lane::Cross),
+    stage("hosts", Check, "the command line compiles for Windows and macOS", rust::hosts).beside(Lane::Cross),
     stage("build", Check, "all tests compile", rust::build),
     stage("firmware", Tests, "conformance scripts on an emulated Cortex-M3, to the byte", rust::firmware).beside(Lane::Board),
     stage("c", Tests, "a node in C answers as the bench does: here, and on an emulated Cortex-M3", c::c).beside(Lane::Board),

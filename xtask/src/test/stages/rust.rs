@@ -204,13 +204,16 @@ pub(super) fn firmware(context: &Context<'_>) -> Result<()> {
 }
 
 pub(super) fn hosts(context: &Context<'_>) -> Result<()> {
-    let (windows, all) = (&target::HOSTS[..1], &target::HOSTS[..]);
-    let hosts = if context.long { all } else { windows };
-    for target in hosts {
+    for target in target::HOSTS {
         target::add(context.repo, context.console, target)?;
     }
     let args = ["check", "--package", CLI.0];
-    cross(context, "odkit for other systems", hosts, &args)
+    cross(
+        context,
+        "odkit for Windows and macOS",
+        &target::HOSTS,
+        &args,
+    )
 }
 
 /// cargo for other computers, in the target directory of [`Lane::Cross`](super::Lane::Cross).
