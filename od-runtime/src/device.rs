@@ -127,7 +127,7 @@ impl Device for AnyDevice {}
 pub(crate) const ROOMY: bool = cfg!(not(target_os = "none"));
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use od_model::row::Row;
     use od_model::{
         Access, Address, DataType, Entry, Group, Literal, Names, ObjectCode, Range, Slot,
@@ -152,7 +152,8 @@ mod tests {
         Row::new(&entry, ObjectCode::Record, 0, 0)
     }
 
-    struct Known;
+    /// The mapping of a TPDO can change, that of an RPDO cannot.
+    pub(crate) struct Known;
 
     impl Device for Known {
         const DICTIONARY: Option<Dictionary<'static>> = {
@@ -161,7 +162,8 @@ mod tests {
         };
     }
 
-    struct Rich;
+    /// It has no PDO.
+    pub(crate) struct Rich;
 
     impl Device for Rich {
         const DICTIONARY: Option<Dictionary<'static>> = {

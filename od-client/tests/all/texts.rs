@@ -55,3 +55,13 @@ fn errors_name_their_numbers() {
     };
     assert_eq!(error.to_string(), "the PDO has 16 bits, but its mapping 32");
 }
+
+#[test]
+fn whoever_has_to_wait_or_has_no_room_is_told_why() {
+    let busy = "the LSS master is at work on another service";
+    assert_eq!(od_client::lss::Busy.to_string(), busy);
+    assert_eq!(
+        od_client::watch::Full.to_string(),
+        "no more nodes can be watched"
+    );
+}

@@ -85,12 +85,7 @@ enum Step {
 impl Scale {
     /// Shows the sensor as it is. A range past 2³² is cut there.
     pub const fn unscaled(sensor: Sensor) -> Self {
-        let range = sensor.range();
-        Self::new(
-            sensor,
-            sensor.steps,
-            if range > 1 << 32 { 1 << 32 } else { range },
-        )
+        Self::new(sensor, sensor.steps, sensor.range())
     }
 
     /// Shows `steps` a revolution (6001h) and positions 0 to `range` − 1 (6002h).

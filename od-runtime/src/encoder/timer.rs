@@ -22,16 +22,21 @@ impl<M: Motion, F: Family> Encoder<M, F> {
         }
     }
 
-    /// 6200h rules: 1800h:05 follows. 0 is off in both.
+    /// The event timer for a value of 6200h. 0 is off in both.
+    fn event_timer(&self, store: &Store<'_>, timer: u64) -> u64 {
+        match timer {
+            0 => 0,
+            timer => (timer + self.delay(store)).min(u16::MAX.into()),
+        }
+    }
+
+    /// 6200h rules: 1800h:05 follows.
     pub(super) fn timer_to_event_timer(&mut self, cx: &mut Context<'_, '_>) {
         let Some(timer) = cx.store.try_unsigned(TIMER.index, TIMER.sub) else {
             return;
         };
         self.timer = timer;
-        let event_timer = match timer {
-            0 => 0,
-            timer => (timer + self.delay(cx.store)).min(u16::MAX.into()),
-        };
+        let event_timer = self.event_timer(cx.store, timer);
         let old = cx.store.try_unsigned(EVENT_TIMER.index, EVENT_TIMER.sub);
         if old.is_some_and(|old| old != event_timer) {
             cx.store.set_unsigned(EVENT_TIMER, event_timer);
@@ -59,10 +64,7 @@ impl<M: Motion, F: Family> Encoder<M, F> {
             Some(row) => cx.store.number_of(row) != was,
             None => false,
         };
-        let was = match self.timer {
-            0 => 0,
-            timer => timer + self.delay(cx.store),
-        };
+        let was = self.event_timer(cx.store, self.timer);
         if changed(EVENT_TIMER, was) && !(starts && changed(TIMER, self.timer)) {
             self.event_timer_to_timer(cx);
         } else {

@@ -32,7 +32,7 @@ use od_wire::{CanId, Frame, Instant, NodeId};
 
 use crate::change::Change;
 use crate::deadline::Deadline;
-use crate::device::{AnyDevice, Device, ROOMY};
+use crate::device::{AnyDevice, Device};
 use crate::extras::Extras;
 use crate::fifo::Fifo;
 use crate::lent::Lent;
@@ -198,9 +198,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
         if !machines.powered {
             return None;
         }
-        if ROOMY && machines.pending & pending::MARKS != 0 {
-            machines.pend_marked();
-        }
+        machines.pend_marks();
         machines.now = machines.now.max(now);
         machines.next = Instant::ZERO;
         machines.pending |= pending::OTHER;
@@ -338,10 +336,8 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         if self.state == state {
             return;
         }
-        if D::LSS
-            && self.state == State::Stopped
-            && objects.profile().lss.is_some_and(|lss| lss.stopped_only)
-        {
+        // Its LSS hears nothing outside Stopped, so it is in configuration there alone.
+        if D::LSS && objects.profile().lss.is_some_and(|lss| lss.stopped_only) {
             self.lss.all_mut().iter_mut().for_each(lss::Slave::leave);
         }
         self.state = state;

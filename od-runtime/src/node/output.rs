@@ -62,9 +62,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
         if let Some(frame) = Room::queue_mut(&mut node.out).pop() {
             return Some(frame);
         }
-        if ROOMY && node.pending & pending::MARKS != 0 {
-            node.pend_marked();
-        }
+        node.pend_marks();
         if node.pending & pending::PDO != 0
             && let Some(frame) = self.poll_pdo(device, now)
         {

@@ -234,10 +234,17 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         marks
     }
 
-    /// TPDOs that a SYNC marked are waiting to be sent, as any others.
+    /// TPDOs that a SYNC marked, if there are any, are waiting to be sent, as any others.
+    #[inline(always)]
+    pub(super) fn pend_marks(&mut self) {
+        if ROOMY && self.pending & pending::MARKS != 0 {
+            self.pend_marked();
+        }
+    }
+
     #[cold]
     #[inline(never)]
-    pub(super) fn pend_marked(&mut self) {
+    fn pend_marked(&mut self) {
         let mut marks = self.pending;
         self.pending = marks & !pending::MARKS | pending::PDO;
         marks &= pending::MARKS;

@@ -241,3 +241,17 @@ pub(crate) fn check_mapped(store: &Store<'_>, index: u16, raw: u32) -> Result<()
         Err(AbortCode::NotMappable)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::can_map;
+    use crate::device::AnyDevice;
+    use crate::device::tests::{Known, Rich};
+
+    #[test]
+    fn one_mapping_that_can_change_is_enough() {
+        assert!(can_map::<AnyDevice>());
+        assert!(can_map::<Known>());
+        assert!(!can_map::<Rich>());
+    }
+}

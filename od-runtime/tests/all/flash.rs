@@ -131,6 +131,24 @@ fn a_small_set_in_a_large_bank_is_one_erasure() {
 }
 
 #[test]
+fn a_page_behind_the_set_is_erased_only_if_it_has_to_be() {
+    let mut device = Device::new(CutSave::LastSet);
+    let mut flash = Nor::new(8192, 1024, 1);
+    device.save(&mut flash).expect("a save");
+    let set = image::newest(&mut flash).expect("it can be read");
+    let page = set.expect("a set").len();
+    // The set fills the first of two pages.
+    let mut flash = Nor::new(4 * page, page, 1);
+    device.save(&mut flash).expect("a save");
+    assert_eq!(flash.erases, 1);
+    // Flash that is all 0 has to be erased, too, where the set goes.
+    flash.bytes.fill(0);
+    device.save(&mut flash).expect("a save");
+    let values = device.set();
+    assert_eq!(device.start(&mut flash), (Loaded::Complete, values));
+}
+
+#[test]
 fn power_can_go_in_any_step() {
     for (cut, seeds) in [(CutSave::LastSet, 2), (CutSave::Factory, 2)] {
         for (page, word) in GEOMETRIES {

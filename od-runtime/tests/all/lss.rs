@@ -2,7 +2,7 @@
 
 use crate::support::{Bench, rows, unsigned};
 use od_model::{Access, Address, DataType};
-use od_runtime::{Application, Event, LssProfile, NodeId, Profile, Store};
+use od_runtime::{Application, Event, LssProfile, NoApplication, NodeId, Profile, Store};
 
 /// A device that starts with the node ID in 2101h.
 struct Device;
@@ -14,6 +14,10 @@ impl Application for Device {
 }
 
 fn bench(lss: LssProfile) -> Bench<Device> {
+    bench_of(lss, Device)
+}
+
+fn bench_of<A: Application>(lss: LssProfile, application: A) -> Bench<A> {
     use Access::*;
     use DataType::*;
     let mut all = rows();
@@ -27,7 +31,7 @@ fn bench(lss: LssProfile) -> Bench<Device> {
         (0x2101, 0, Unsigned8, Rw, false, unsigned(1)),
         (0x2300, 0, Unsigned8, Rw, false, unsigned(7)),
     ]);
-    let mut bench = Bench::with(all, Device);
+    let mut bench = Bench::with(all, application);
     bench.profile = Profile {
         lss: Some(lss),
         ..Profile::CIA301
@@ -108,6 +112,18 @@ fn lss_is_there_in_stopped_alone() {
         bench.send("7E5#5E00000000000000").is_empty(),
         "leaving Stopped leaves configuration"
     );
+}
+
+/// The host of this device gives it its node ID, though LSS can write 2101h.
+#[test]
+fn what_is_pending_and_not_stored_is_lost_where_there_are_objects_for_it() {
+    let mut bench = bench_of(ALL, NoApplication);
+    for reset in ["000#8201", "000#8101"] {
+        bench.send("000#0201");
+        bench.send("7E5#0401000000000000");
+        assert_eq!(bench.ask("7E5#1109000000000000"), "7E4#1100000000000000");
+        assert_eq!(bench.send(reset), ["701#00"]);
+    }
 }
 
 #[test]

@@ -142,3 +142,18 @@ fn the_configuration_state_outlasts_nmt_commands() {
         assert_eq!(bench.ask("7E5#5E00000000000000"), "7E4#5E07000000000000");
     }
 }
+
+#[test]
+fn what_is_stored_last_is_all_that_is_kept() {
+    let mut bench = bench(NodeId::new(7));
+    bench.power_on();
+    for next in 10..20 {
+        bench.send(CONFIGURATION);
+        bench.ask(&format!("7E5#11{next:02X}000000000000"));
+        bench.ask(&format!("7E5#1300{:02X}0000000000", next % 7));
+        // There is room for two records of each, and no more.
+        assert_eq!(bench.ask("7E5#1700000000000000"), "7E4#1700000000000000");
+        bench.node.power_off();
+        assert_eq!(bench.power_on(), [format!("7{next:02X}#00")]);
+    }
+}

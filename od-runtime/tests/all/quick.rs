@@ -123,6 +123,20 @@ fn all_that_a_sync_asks_for_is_sent() {
 }
 
 #[test]
+fn what_the_application_says_of_a_pdo_that_waited_comes_with_the_next_call() {
+    let mut bench = synchronous();
+    bench.application.raises = true;
+    bench.hear("080#");
+    // Behind another frame it waits like any PDO.
+    bench.hear("000#0101");
+    assert_eq!(bench.drain(), ["181#05000000", "281#0200"]);
+    assert_eq!(
+        bench.send("601#4000200000000000"),
+        ["581#4300200005000000", "081#0050010000000000"]
+    );
+}
+
+#[test]
 fn what_a_sync_asked_for_waits_for_a_slow_host() {
     let mut bench = synchronous();
     bench.hear("080#");

@@ -70,6 +70,10 @@ fn a_client_that_does_not_wait_is_answered_afterwards() {
     assert!(bench.wait(100).is_empty());
     assert_eq!(bench.ask("601#4000100000000000"), "581#4300100096010200");
     assert_eq!(after_power_cycle(&mut bench), 9);
+    // Bits 0 to 4 of the command of an abort mean nothing (CiA 301, chapter 7.2.4.3.17).
+    bench.send(SAVE);
+    assert!(bench.send("601#9F10100100000405").is_empty());
+    assert!(bench.wait(100).is_empty());
 }
 
 #[test]

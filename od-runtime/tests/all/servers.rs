@@ -255,3 +255,17 @@ fn a_save_answers_on_the_channel_that_asked_when_it_is_complete() {
         "and the request behind it"
     );
 }
+
+#[test]
+fn a_save_that_takes_its_time_answers_there_too() {
+    let mut bench = bench();
+    bench.profile.store.answer = SaveAnswer::AfterStoring;
+    bench.profile.store.duration_us = 50_000;
+    assert!(bench.send("680#2310100173617665").is_empty());
+    assert!(bench.send("680#4000200000000000").is_empty(), "behind it");
+    let frames = ["6C0#6010100100000000", "6C0#4300200005000000"];
+    assert_eq!(
+        bench.wait(1_000),
+        frames.map(|frame| (50, frame.to_owned()))
+    );
+}

@@ -156,3 +156,22 @@ fn a_stored_value_that_the_object_cannot_have_is_left_out() {
     assert_eq!(bench.value(0x2006, 0), 0);
     assert_eq!(values(&bench), [9, 9, 9], "the rest is loaded");
 }
+
+#[test]
+fn a_number_is_put_in_its_own_length() {
+    use od_model::Address;
+    use od_runtime::{AbortCode, NodeId, Store};
+    let mut bench = bench();
+    let entry = bench.entry(Address::new(0x2000, 0));
+    let dictionary = bench.tables.dictionary();
+    let mut store = Store::new(&dictionary, &mut bench.values, NodeId::ONE).expect("room");
+    for (bytes, result) in [
+        (&[1, 2, 3, 4][..], Ok(())),
+        (&[5, 6, 7], Err(AbortCode::TooShort)),
+        (&[5, 6, 7, 8, 9], Err(AbortCode::TooLong)),
+        (&[], Err(AbortCode::TooShort)),
+    ] {
+        assert_eq!(store.put(&entry, bytes), result, "{bytes:?}");
+        assert_eq!(store.number(&entry), 0x0403_0201);
+    }
+}

@@ -11,6 +11,8 @@ struct Pipe {
     value: Vec<u8>,
     /// Not now.
     halt: Option<Halt>,
+    /// No bytes now, though a download may begin.
+    is_full: Option<Halt>,
     chunks: Vec<usize>,
     /// Every read: where, and how much.
     reads: Vec<(u32, usize)>,
@@ -39,6 +41,7 @@ impl Stream for Pipe {
 
     fn write(&mut self, _: &mut Context<'_, '_>, _: Address, chunk: Chunk<'_>) -> Result<(), Halt> {
         self.gate()?;
+        self.is_full.map_or(Ok(()), Err)?;
         assert_eq!(chunk.at as usize, self.value.len());
         self.value.extend_from_slice(chunk.bytes);
         self.chunks.push(chunk.bytes.len());
@@ -211,6 +214,23 @@ fn the_newest_request_is_answered_when_a_stream_goes_on() {
     assert!(bench.send("601#4000100000000000").is_empty());
     assert_eq!(bench.wait(10), [(10, "581#4300100096010200".into())]);
     assert_eq!(bench.application.ends, [StreamEnd::Replaced]);
+}
+
+/// 2002h and 2003h are two values, whatever waits of the first.
+#[test]
+fn an_expedited_download_of_another_object_replaces_one_that_waits() {
+    let mut bench = bench(0);
+    bench.application.is_full = Some(Halt::Until(bench.now.plus_millis(10)));
+    assert!(bench.send("601#2F03200011000000").is_empty());
+    assert_eq!(bench.application.ends, [], "it has begun");
+    assert!(bench.send("601#2F02200022000000").is_empty());
+    bench.application.is_full = None;
+    assert_eq!(bench.wait(10), [(10, "581#6002200000000000".into())]);
+    assert_eq!(bench.application.value, [0x22]);
+    assert_eq!(
+        bench.application.ends,
+        [StreamEnd::Replaced, StreamEnd::Complete]
+    );
 }
 
 #[test]

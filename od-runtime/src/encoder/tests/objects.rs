@@ -123,6 +123,27 @@ fn two_timers_are_one() {
         (bench.read(0x6200, 0), bench.read(0x1800, 5)),
         (0x203, 0x203)
     );
+    // An event timer that 6200h and the delay do not give has changed, whatever it is.
+    bench.write(0x2110, 0, 0x108).unwrap();
+    for (event_timer, timer) in [(8, 6), (20, 18), (12, 10)] {
+        bench.write(0x6200, 0, 10).unwrap();
+        bench.with(|encoder, cx| {
+            cx.store.set_unsigned(Address::new(0x1800, 5), event_timer);
+            encoder.reset(cx, Reset::Communication);
+        });
+        assert_eq!(
+            (bench.read(0x6200, 0), bench.read(0x1800, 5)),
+            (timer, event_timer)
+        );
+    }
+    // FFFEh and the delay are FFFFh: so they stay.
+    bench.write(0x6200, 0, 0xFFFE).unwrap();
+    bench.with(|encoder, cx| encoder.reset(cx, Reset::Communication));
+    assert_eq!(
+        (bench.read(0x6200, 0), bench.read(0x1800, 5)),
+        (0xFFFE, 0xFFFF)
+    );
+    bench.write(0x2110, 0, 8).unwrap();
     // And at a start the saved values: here only 6200h was saved.
     bench.with(|encoder, cx| {
         cx.store.reset(|_| true);
@@ -130,6 +151,37 @@ fn two_timers_are_one() {
         encoder.reset(cx, Reset::Node);
     });
     assert_eq!((bench.read(0x6200, 0), bench.read(0x1800, 5)), (11, 11));
+}
+
+/// C-EAM-04: 6003h and 6010h:01 are one value. Here two others are: 6000h and 6200h, which are saved, or
+/// 650Bh, which is not.
+#[test]
+fn of_two_linked_objects_the_one_that_was_stored_rules() {
+    const LINK: [(Address, Address); 1] = [(Address::new(0x6000, 0), Address::new(0x6200, 0))];
+    const UNSAVED: [(Address, Address); 1] = [(Address::new(0x6000, 0), Address::new(0x650B, 0))];
+    const DEFAULT: u64 = 4;
+    for (links, stored, shown) in [
+        (&LINK, [None, None], DEFAULT),
+        (&LINK, [Some(5), None], 5),
+        (&LINK, [None, Some(6)], 6),
+        (&LINK, [Some(5), Some(6)], 5),
+        (&UNSAVED, [None, Some(6)], DEFAULT),
+    ] {
+        let profile =
+            std::boxed::Box::leak(std::boxed::Box::new(EncoderProfile { links, ..PROFILE }));
+        let mut bench = Bench::new(0x2000);
+        bench.encoder = Encoder::new(profile, Still(Angle::ZERO));
+        let (first, second) = links[0];
+        let values = bench.with(|encoder, cx| {
+            cx.store.reset(|_| true);
+            for (at, value) in [first, second].into_iter().zip(stored) {
+                value.map(|value| cx.store.set_unsigned(at, value));
+            }
+            encoder.agree_on_links(cx.store);
+            [first, second].map(|at| cx.store.unsigned(at.index, at.sub))
+        });
+        assert_eq!(values, [shown, shown], "{second} {stored:?}");
+    }
 }
 
 #[test]

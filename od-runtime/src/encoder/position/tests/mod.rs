@@ -39,6 +39,14 @@ fn the_trace_of_the_manual() {
 }
 
 #[test]
+fn a_sensor_without_steps_or_turns_has_one_angle() {
+    for (steps, turns) in [(0, 1), (1, 0), (0, 0)] {
+        let sensor = Sensor { steps, turns };
+        assert_eq!(sensor.angle(5), Angle::ZERO, "{steps} {turns}");
+    }
+}
+
+#[test]
 fn sense_of_rotation_comes_before_the_offset() {
     let scale = Scale::new(MULTIVO, 0x2000, 0x2000_0000).with_sense(true);
     check(scale, MULTIVO, 0, 0);

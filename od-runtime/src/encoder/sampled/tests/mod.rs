@@ -230,8 +230,11 @@ fn a_sensor_that_fails_is_asked_again_and_has_no_speed() {
         assert_eq!(shaft.angle(now(ms)), Err(Fault::Internal));
         assert_eq!(shaft.due(), Some(now(ms + 1)));
     }
+    let acceleration = |ms| shaft.acceleration(now(ms), 50_000, Gain::steps(STEPS));
     assert_eq!(speed(&shaft, 149 * MS), Some(1000));
+    assert_eq!([148, 149].map(acceleration), [Some(0); 2]);
     assert_eq!(speed(&shaft, 150 * MS), None);
+    assert_eq!([150, 151].map(acceleration), [None; 2]);
     state.set(Ok((160i64 << 32) / 8192));
     ask(&mut shaft, 160 * MS);
     assert_eq!(speed(&shaft, 160 * MS), Some(1000));

@@ -24,6 +24,19 @@ fn event_timers_tick_without_the_machines() {
     assert_ne!(bench.node.machines.pending & pending::OTHER, 0);
 }
 
+/// CiA 301, chapter 7.5.2.37 (sub-index 05h): the period goes on, and what was missed is not made up for.
+#[test]
+fn a_host_that_is_late_sends_one_frame_for_all_ticks_it_missed() {
+    let mut bench = running(&[255], 0);
+    for (now, next) in [(10, 20), (30, 40), (45, 50), (75, 80), (80, 90)] {
+        let at = Instant::from_millis(now);
+        call!(bench.handle_timeout, at);
+        let frames = core::iter::from_fn(|| call!(bench.poll_transmit, at)).count();
+        let due = Some(Instant::from_millis(next));
+        assert_eq!((frames, bench.node.poll_timeout()), (1, due), "{now}");
+    }
+}
+
 #[test]
 fn what_the_inhibit_time_holds_back_is_not_marked() {
     let mut bench = running(&[255, 255], 0x2001);
