@@ -164,6 +164,10 @@ impl<
         node.handle_bus(&mut lent, now, event);
     }
 
+    fn is_bus_off(&self) -> bool {
+        self.node.is_bus_off()
+    }
+
     fn poll_transmit(&mut self, now: Instant) -> Option<Frame> {
         let (node, mut lent) = self.parts();
         node.poll_transmit(&mut lent, now)

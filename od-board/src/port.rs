@@ -40,7 +40,7 @@ impl Port {
         self.len == 0
     }
 
-    /// Drops the frames that wait, as after bus-off.
+    /// Drops the frames that wait, as [`peek`](Self::peek) does while the owner knows of bus-off.
     pub const fn clear(&mut self) {
         self.len = 0;
     }
@@ -48,6 +48,9 @@ impl Port {
     /// Returns the frame to send next, without taking it: the controller may have no room. As long as
     /// there is room, frames go in the order of the node.
     pub fn peek(&mut self, owner: &mut impl Owner, now: Instant) -> Option<&Frame> {
+        if owner.is_bus_off() {
+            self.clear();
+        }
         if self.len == 0
             && let Some(frame) = owner.poll_transmit(now)
         {

@@ -32,7 +32,7 @@ pub trait Receive {
 /// The sending half of a CAN controller.
 pub trait Transmit {
     /// Waits until the controller has room, and hands the frame over. Returns the frame that the
-    /// controller threw out for it, if it does so.
+    /// controller threw out for it, if it does so. At bus-off the future is dropped, and the frame with it.
     fn transmit(&mut self, frame: &Frame) -> impl Future<Output = Result<Option<Frame>, BusEvent>>;
 }
 
@@ -54,6 +54,8 @@ pub struct Shared<M: RawMutex, B> {
     deadline: Signal<M, ()>,
     /// The filters may be others.
     filters: Signal<M, ()>,
+    /// The controller is bus-off, or was: frames of before are of no use any more.
+    off: Signal<M, ()>,
 }
 
 impl<M: RawMutex, B: Owner> Shared<M, B> {
@@ -64,6 +66,7 @@ impl<M: RawMutex, B: Owner> Shared<M, B> {
             frames: Signal::new(),
             deadline: Signal::new(),
             filters: Signal::new(),
+            off: Signal::new(),
         }
     }
 
@@ -81,7 +84,12 @@ impl<M: RawMutex, B: Owner> Shared<M, B> {
     fn lock<R>(&self, act: impl FnOnce(&mut B, Instant) -> R) -> R {
         let result = self.owner.lock(|owner| {
             let now = embassy_time::Instant::now().as_micros();
-            act(&mut owner.borrow_mut(), Instant::from_micros(now))
+            let mut owner = owner.borrow_mut();
+            let result = act(&mut owner, Instant::from_micros(now));
+            if owner.is_bus_off() {
+                self.off.signal(());
+            }
+            result
         });
         self.frames.signal(());
         self.deadline.signal(());
@@ -131,6 +139,10 @@ impl<M: RawMutex, B: Owner> Shared<M, B> {
         let (mut port, mut has_sent) = (Port::new(), false);
         loop {
             let next = self.owner.lock(|owner| {
+                // Whoever reported it: receiver, transmitter or another task.
+                if self.off.try_take().is_some() {
+                    port.clear();
+                }
                 let now = embassy_time::Instant::now().as_micros();
                 let next = port.peek(&mut *owner.borrow_mut(), Instant::from_micros(now));
                 next.copied()
@@ -143,15 +155,13 @@ impl<M: RawMutex, B: Owner> Shared<M, B> {
                 self.frames.wait().await;
                 continue;
             };
-            match transmitter.transmit(&frame).await {
-                Ok(thrown_out) => {
+            match select(self.off.wait(), transmitter.transmit(&frame)).await {
+                Either::First(()) => port.clear(),
+                Either::Second(Ok(thrown_out)) => {
                     port.sent(&frame, thrown_out);
                     has_sent = true;
                 }
-                Err(event) => {
-                    if event == BusEvent::Off {
-                        port.clear();
-                    }
+                Either::Second(Err(event)) => {
                     self.lock(|owner, now| owner.handle_bus(now, event));
                     yield_now().await;
                 }

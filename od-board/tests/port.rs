@@ -79,6 +79,9 @@ impl Owner for Talker {
     fn handle_bus(&mut self, _: Instant, event: BusEvent) {
         self.1.push(event);
     }
+    fn is_bus_off(&self) -> bool {
+        false
+    }
     fn poll_transmit(&mut self, _: Instant) -> Option<Frame> {
         self.0.pop_front()
     }
@@ -175,6 +178,27 @@ fn a_node_answers_through_an_nb_controller() {
     let bus: Vec<_> = can.bus.iter().map(Frame::to_string).collect();
     let expected = ["581#4300100000000000", "581#6017100000000000", "701#00"];
     assert_eq!(bus, [&expected[..], &["701#7F"]].concat());
+}
+
+#[test]
+fn no_frame_of_before_bus_off_follows_the_way_back() {
+    let (mut can, mut port) = (Mailboxes::default(), Port::new());
+    let mut board = thermometer::Board::new(NodeId::ONE, NoApplication, odkit::storage::NoStorage);
+    board.power_on(Instant::ZERO).unwrap();
+    // Frames of others keep the mailboxes full.
+    can.pending = vec![frame("080#"); 3];
+    can.received.push_back(frame("601#4000100000000000"));
+    port.serve_nb(&mut board, &mut can, Instant::ZERO).unwrap();
+    assert!(!port.is_empty());
+    board.handle_bus(Instant::ZERO, BusEvent::Off);
+    port.serve_nb(&mut board, &mut can, Instant::ZERO).unwrap();
+    assert!(port.is_empty());
+    board.handle_bus(Instant::ZERO, BusEvent::Active);
+    can.pending.clear();
+    can.received.push_back(frame("601#4001100000000000"));
+    port.serve_nb(&mut board, &mut can, Instant::ZERO).unwrap();
+    let ids: Vec<_> = can.pending.iter().map(Frame::to_string).collect();
+    assert_eq!(ids, ["581#4F01100000000000"]);
 }
 
 /// A controller that waits until all is done.

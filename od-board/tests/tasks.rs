@@ -13,7 +13,7 @@ use std::task::{Context, Poll, Wake, Waker};
 
 use embassy_sync::blocking_mutex::raw::CriticalSectionRawMutex;
 use embassy_time::{Duration, MockDriver};
-use odkit::board::{Filter, Filters, Receive, Shared, Transmit, Watch};
+use odkit::board::{Filter, Filters, Owner, Receive, Shared, Transmit, Watch};
 use odkit::storage::NoStorage;
 use odkit::{BusEvent, Frame, NodeId};
 use support::{Heater, frame, thermometer};
@@ -39,6 +39,8 @@ struct Controller {
     thrown_out: VecDeque<Frame>,
     /// It has no room for a frame.
     is_full: bool,
+    /// States that it has to report to the sending half.
+    refuses: VecDeque<BusEvent>,
     writer: Option<Waker>,
     filters: Vec<Vec<Filter>>,
 }
@@ -67,6 +69,9 @@ impl Transmit for Half {
     async fn transmit(&mut self, frame: &Frame) -> Result<Option<Frame>, BusEvent> {
         poll_fn(|cx| {
             let mut controller = self.0.lock().unwrap();
+            if let Some(event) = controller.refuses.pop_front() {
+                return Poll::Ready(Err(event));
+            }
             if controller.is_full {
                 controller.writer = Some(cx.waker().clone());
                 return Poll::Pending;
@@ -277,6 +282,48 @@ fn bus_off_and_back() {
                 .sends()
                 .contains(&"581#4300100000000000".to_owned())
         );
+    });
+}
+
+/// A node that is learnt to be bus-off in one of three ways while its frames wait for the controller.
+fn frames_of_before_bus_off(learn: impl Fn(&mut Executor<'_>, &Thermometer)) {
+    run(|executor, shared| {
+        executor.controller.lock().unwrap().is_full = true;
+        executor.receives(Ok(frame("601#2B17100064000000")));
+        executor.receives(Ok(frame("000#0100")));
+        assert_eq!(executor.sends(), [""; 0]);
+        learn(executor, shared);
+        assert_eq!(executor.sends(), [""; 0]);
+        assert!(shared.with(|board, _| board.node().is_bus_off()));
+        assert_eq!(executor.advance(500).0, [""; 0]);
+        executor.receives(Err(BusEvent::Active));
+        let mut controller = executor.controller.lock().unwrap();
+        controller.is_full = false;
+        if let Some(writer) = controller.writer.take() {
+            writer.wake();
+        }
+        drop(controller);
+        let sent = executor.sends();
+        assert!(!shared.with(|board, _| board.node().is_bus_off()));
+        assert_eq!(sent, [""; 0]);
+        executor.receives(Ok(frame("601#4000100000000000")));
+        assert_eq!(executor.sends(), ["581#4300100000000000"]);
+    });
+}
+
+#[test]
+fn no_frame_of_before_bus_off_follows_the_way_back() {
+    // The receiving half reports it, as a `Watch` does.
+    frames_of_before_bus_off(|executor, _| executor.receives(Err(BusEvent::Off)));
+    // Another task does, such as an interrupt of the controller.
+    frames_of_before_bus_off(|_, shared| {
+        shared.with(|board, now| board.handle_bus(now, BusEvent::Off));
+    });
+    // The sending half does.
+    frames_of_before_bus_off(|executor, _| {
+        let mut controller = executor.controller.lock().unwrap();
+        controller.refuses.push_back(BusEvent::Off);
+        controller.writer.take().expect("somebody writes").wake();
     });
 }
 
