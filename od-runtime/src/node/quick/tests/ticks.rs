@@ -35,6 +35,15 @@ fn a_host_that_is_late_sends_one_frame_for_all_ticks_it_missed() {
         let due = Some(Instant::from_millis(next));
         assert_eq!((frames, bench.node.poll_timeout()), (1, due), "{now}");
     }
+    // 1800h:05 counts milliseconds, and more than a second of them, too.
+    let period = Frame::standard(0x601, &[0x2B, 0x00, 0x18, 5, 0xD0, 7, 0, 0]);
+    call!(bench.handle_frame, Instant::from_millis(80), &period);
+    for now in [2080, 4080, 6080] {
+        drain(&mut bench);
+        let at = Instant::from_millis(now);
+        assert_eq!(bench.node.poll_timeout(), Some(at));
+        call!(bench.handle_timeout, at);
+    }
 }
 
 #[test]
