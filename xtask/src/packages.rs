@@ -39,7 +39,7 @@ pub(crate) const MUTATED: [Mutated; 3] = [
     (
         "od-eds",
         "od-eds/src/rules/",
-        &[(TESTS, &["rules", "cases"])],
+        &[(TESTS, &["catalogue", "cases", "rules_eds"])],
     ),
 ];
 

@@ -173,5 +173,8 @@ fn a_number_is_put_in_its_own_length() {
     ] {
         assert_eq!(store.put(&entry, bytes), result, "{bytes:?}");
         assert_eq!(store.number(&entry), 0x0403_0201);
+        assert!(!store.is_default(&entry));
     }
+    store.reset_entry(&entry);
+    assert!(store.is_default(&entry));
 }

@@ -97,6 +97,34 @@ fn limits() {
     }
 }
 
+/// 6031h:04 and 6041h:04 of the EN580C, also where the dictionary gives no lower limit.
+#[test]
+fn nothing_can_be_divided_by_0() {
+    static DIVIDED: EncoderProfile = EncoderProfile {
+        objects: &[(
+            Address::new(0x6505, 0),
+            Role::Movement(Movement {
+                quantity: Quantity::Speed,
+                selector: None,
+                sources: &[(1, Source::Position)],
+                interval: Address::new(0x6503, 0),
+                factor: Some((Address::new(0x6000, 0), Address::new(0x6200, 0))),
+            }),
+        )],
+        ..PROFILE
+    };
+    let mut bench = Bench::new(0x2000);
+    bench.encoder = Encoder::new(&DIVIDED, Still(Angle::ZERO));
+    assert_eq!(bench.write(0x6000, 0, 0), Ok(()), "but multiplied");
+    for (divider, result) in [
+        (0, Err(AbortCode::ValueRange)),
+        (1, Ok(())),
+        (0xFFFF, Ok(())),
+    ] {
+        assert_eq!(bench.write(0x6200, 0, divider), result, "{divider}");
+    }
+}
+
 #[test]
 fn two_timers_are_one() {
     let mut bench = Bench::new(0x2000_0000);
