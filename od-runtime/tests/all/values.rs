@@ -107,6 +107,26 @@ fn reals_of_both_lengths_have_their_limits() {
 }
 
 #[test]
+fn reals_of_both_lengths_have_their_defaults() {
+    use DataType::{Real32, Real64};
+    let mut all = rows();
+    for (index, data_type, access) in [
+        (0x2010, Real32, Access::Rw),
+        (0x2011, Real64, Access::Rw),
+        (0x2012, Real32, Access::Const),
+    ] {
+        all.push((index, 0, data_type, access, false, Some(Value::Real(-1.5))));
+    }
+    let mut bench = Bench::with(all, NoApplication);
+    bench.power_on();
+    let single = (-1.5f32).to_bits().into();
+    assert_eq!(bench.value(0x2010, 0), single);
+    assert_eq!(bench.value(0x2011, 0), (-1.5f64).to_bits());
+    assert_eq!(bench.value(0x2012, 0), single);
+    assert_eq!(bench.ask("601#4012200000000000"), "581#431220000000C0BF");
+}
+
+#[test]
 fn a_boolean_is_0_or_1() {
     let mut bench = Bench::new();
     bench.power_on();

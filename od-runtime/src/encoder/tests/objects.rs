@@ -179,6 +179,27 @@ fn two_timers_are_one() {
         encoder.reset(cx, Reset::Node);
     });
     assert_eq!((bench.read(0x6200, 0), bench.read(0x1800, 5)), (11, 11));
+    for (reset, stored, expected) in [
+        // Only 1800h:05 was saved, also where it is what it was.
+        (Reset::Node, [None, Some(30)], 30),
+        (Reset::Node, [None, Some(30)], 30),
+        (Reset::Node, [Some(12), Some(30)], 12),
+        // A family whose NMT reset communication loads 6200h, too.
+        (Reset::Communication, [Some(11), None], 11),
+    ] {
+        bench.with(|encoder, cx| {
+            cx.store.reset(|_| true);
+            for (index, value) in [(0x6200, stored[0]), (0x1800, stored[1])] {
+                let at = Address::new(index, if index == 0x1800 { 5 } else { 0 });
+                value.map(|value| cx.store.set_unsigned(at, value));
+            }
+            encoder.reset(cx, reset);
+        });
+        assert_eq!(
+            (bench.read(0x6200, 0), bench.read(0x1800, 5)),
+            (expected, expected)
+        );
+    }
 }
 
 /// C-EAM-04: 6003h and 6010h:01 are one value. Here two others are: 6000h and 6200h, which are saved, or
