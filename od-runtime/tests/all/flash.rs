@@ -141,6 +141,11 @@ fn a_page_behind_the_set_is_erased_only_if_it_has_to_be() {
     let mut flash = Nor::new(4 * page, page, 1);
     device.save(&mut flash).expect("a save");
     assert_eq!(flash.erases, 1);
+    // Nothing stays there of a longer set.
+    flash.bytes[page..2 * page].fill(b'x');
+    device.save(&mut flash).expect("in the other bank");
+    device.save(&mut flash).expect("a save");
+    assert!(flash.bytes[page..2 * page].iter().all(|byte| *byte == 0xFF));
     // Flash that is all 0 has to be erased, too, where the set goes.
     flash.bytes.fill(0);
     device.save(&mut flash).expect("a save");
