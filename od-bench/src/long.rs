@@ -228,6 +228,10 @@ impl Application for Beside<'_> {
         self.application.refresh(cx, address)
     }
 
+    fn number(&mut self, now: Instant, address: Address) -> Option<u32> {
+        self.application.number(now, address)
+    }
+
     fn validate(
         &mut self,
         cx: &mut Context<'_, '_>,

@@ -299,6 +299,14 @@ pub trait Application {
         Ok(())
     }
 
+    /// Returns the number of a live value of up to four bytes, if it is at hand: the node puts it into the
+    /// store, and does without [`refresh`](Self::refresh), which would do no more than that. `None`: it is
+    /// not. A node on a microcontroller does not ask.
+    fn number(&mut self, now: Instant, address: Address) -> Option<u32> {
+        let _ = (now, address);
+        None
+    }
+
     /// Checks a `value` that a master wants to write; it has the length of the object and is
     /// within its limits. The store still holds the old value.
     ///
@@ -376,25 +384,4 @@ impl Application for NoApplication {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn each_request_is_carried_out_once() {
-        let requests = [
-            (Signals::reconfigure as fn(&mut _), Signals::RECONFIGURE),
-            (Signals::wake, Signals::TICK),
-            (Signals::keep, Signals::KEEP),
-            (Signals::send_time, Signals::SEND_TIME),
-        ];
-        for (ask, request) in requests {
-            let mut signals = Signals::new();
-            assert!(signals.is_idle());
-            ask(&mut signals);
-            assert!(!signals.is_idle());
-            assert!(!signals.take(!request), "no other");
-            assert!(signals.take(request));
-            assert!(!signals.take(request) && signals.is_idle());
-        }
-    }
-}
+mod tests;

@@ -29,6 +29,17 @@ pub(crate) fn word(values: &[u8], row: &Row) -> Option<(u32, u32)> {
     Some((word << (8 * unused) >> (8 * unused), unused))
 }
 
+/// Puts the low bytes of a number in the place of a value that has so many bits less than four bytes.
+/// Returns these bytes. As for [`word`], there have to be bytes enough behind it.
+#[inline(always)]
+pub(crate) fn put_word(values: &mut [u8], at: usize, unused: u32, number: u32) -> Option<u32> {
+    let bytes = values.get_mut(at..at + 4)?.first_chunk_mut()?;
+    let mask = u32::MAX >> (unused & 31);
+    let value = number & mask;
+    *bytes = (u32::from_le_bytes(*bytes) & !mask | value).to_le_bytes();
+    Some(value)
+}
+
 /// As [`little_endian`], where a call is better than its code.
 #[cfg_attr(target_os = "none", inline(always))]
 #[cfg_attr(not(target_os = "none"), inline(never))]

@@ -70,6 +70,16 @@ impl<M: Motion, F: Family> Application for Encoder<M, F> {
         Ok(())
     }
 
+    fn number(&mut self, now: Instant, address: Address) -> Option<u32> {
+        match address {
+            Address {
+                index: POSITION,
+                sub: 0,
+            } if ROOMY => Some(self.glance(now)?.1),
+            _ => None,
+        }
+    }
+
     fn validate(
         &mut self,
         cx: &mut Context<'_, '_>,

@@ -13,7 +13,7 @@ use crate::application::Context;
 use crate::device::{Device, ROOMY};
 use crate::extras::Extras;
 use crate::lent::Lent;
-use crate::number::word;
+use crate::number::{put_word, word};
 use crate::pdo;
 use crate::rooms::Room;
 use crate::store::Store;
@@ -34,7 +34,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
     pub(super) fn handle_request(&mut self, device: &mut Lent<'_>, frame: &Frame) {
         match self.upload(device, frame) {
             Upload::Done => {}
-            Upload::Live(row, head) if ROOMY => self.upload_live(device, frame, row, head),
+            Upload::Live(row, head) if ROOMY => self.upload_live(device, row, head),
             _ => self.handle_seldom(device, frame),
         }
     }
@@ -57,8 +57,11 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
         let Some(row) = device.dictionary.plain_row(key) else {
             return Upload::Other;
         };
-        if self.outbox.is_marked(key) && (ROOMY || key >= 0x20_0000) {
-            return Upload::Live(row, head);
+        if self.outbox.is_marked(key) && key >= 0x20_0000 {
+            return match !ROOMY || word(device.values, row).is_some() {
+                true => Upload::Live(row, head),
+                false => Upload::Other,
+            };
         }
         let Some((value, unused)) = word(device.values, row) else {
             return Upload::Other;
@@ -70,27 +73,40 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
 
     /// As [`upload`](Self::upload), of a value that the application may have to bring up to date. `head` is
     /// the beginning of the request.
+    #[inline(always)]
+    fn upload_live(&mut self, device: &mut Lent<'_>, row: &Row, head: u32) {
+        let node = &mut self.machines;
+        let Some(number) = device.application.number(node.now, row.address()) else {
+            return self.upload_refreshed(device, row, head);
+        };
+        let Slot { offset, len } = row.plain();
+        let unused = u32::from(len).wrapping_neg() & 3;
+        let Some(value) = put_word(device.values, offset as usize, 8 * unused, number) else {
+            return self.upload_refreshed(device, row, head);
+        };
+        node.sdo.reset();
+        node.respond(head, value, unused);
+        if D::CHANGES && node.watches_changes {
+            self.end_upload(device);
+        }
+    }
+
+    /// As [`upload_live`](Self::upload_live), where the application needs the store, or does not have the
+    /// value at hand.
     #[inline(never)]
-    fn upload_live(&mut self, device: &mut Lent<'_>, frame: &Frame, row: &Row, head: u32) {
+    fn upload_refreshed(&mut self, device: &mut Lent<'_>, row: &Row, head: u32) {
         let node = &mut self.machines;
         let outbox = Room::outbox(&mut self.outbox);
-        let Slot { offset, .. } = row.plain();
-        let is_word = device.values.len() >= offset as usize + 4;
         let store = Store::new(&device.dictionary, device.values, node.node_id);
-        let (true, Ok(mut store)) = (is_word, store) else {
-            return self.handle_seldom(device, frame);
-        };
+        // `upload` has looked whether there are enough values.
+        let Ok(mut store) = store else { return };
         let mut context = Context {
             store: &mut store,
             now: node.now,
             signals: &mut outbox.signals,
         };
         let address = row.address();
-        let refreshed = match address.index {
-            // One of the services' own that looks like a live one.
-            ..0x2000 => Ok(()),
-            _ => device.application.refresh(&mut context, address),
-        };
+        let refreshed = device.application.refresh(&mut context, address);
         node.sdo.reset();
         match (refreshed, word(device.values, row)) {
             (Ok(()), Some((value, unused))) => node.respond(head, value, unused),
@@ -157,6 +173,20 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
     /// As [`send_pdo`](Self::send_pdo), of a plain one.
     #[inline(never)]
     fn send_live(&mut self, device: &mut Lent<'_>, now: Instant, at: usize) -> Option<Frame> {
+        let pdo = self.machines.tpdo.get_mut(at)?;
+        if !pdo.take_numbers(device.application, device.values, now) {
+            return self.send_refreshed(device, now, at);
+        }
+        match pdo.send_plain::<D>(device.values, now) {
+            None => self.send_stored(device, now, at),
+            frame => frame,
+        }
+    }
+
+    /// As [`send_live`](Self::send_live), where the application needs the store, or does not have all
+    /// values at hand.
+    #[inline(never)]
+    fn send_refreshed(&mut self, device: &mut Lent<'_>, now: Instant, at: usize) -> Option<Frame> {
         let node = &mut self.machines;
         let pdo = node.tpdo.get_mut(at)?;
         let outbox = Room::outbox(&mut self.outbox);

@@ -7,10 +7,12 @@ use od_model::typed::MapEntry;
 use super::fixed::{Fixed, is_fixed};
 use crate::application::{Application, Context};
 use crate::device::{Device, ROOMY};
+use crate::number::put_word;
 use crate::objects::outbox::is_live;
 use crate::objects::{Objects, check_mapped};
 use crate::rooms::{Room, Rooms};
 use crate::store::Store;
+use od_wire::Instant;
 
 /// A mapped value: in the low 24 bits one more than the position of its row, 0 for bits that nothing
 /// reads, and above them its length in bits.
@@ -36,8 +38,9 @@ pub(super) struct Mapping<R: Rooms> {
 struct Plain {
     /// Of each value its place in the store, and above the low 24 bits its length in bits.
     places: [u32; PLAIN],
-    /// Addresses of the live values.
-    lives: [Address; PLAIN],
+    /// Addresses of the live values, and their places; above the low 24 bits the bits that the store has
+    /// less than four bytes.
+    lives: [(Address, u32); PLAIN],
     /// Number of the live values.
     live: u8,
     /// Whether the mapping is one.
@@ -51,7 +54,7 @@ impl Plain {
     /// No plain mapping.
     const NONE: Self = Self {
         places: [0; PLAIN],
-        lives: [Address::new(0, 0); PLAIN],
+        lives: [(Address::new(0, 0), 0); PLAIN],
         live: 0,
         is_one: false,
     };
@@ -63,16 +66,27 @@ impl Plain {
             .row((mapped as usize & 0xFF_FFFF).wrapping_sub(1));
         let slot = row.map(|row| row.plain());
         let slot = slot.filter(|slot| matches!(slot.len, 1..=4) && slot.offset <= 0xFF_FFFF);
-        match (slot, self.places.get_mut(at)) {
-            (Some(slot), Some(place)) => *place = mapped & !0xFF_FFFF | slot.offset,
-            _ => self.is_one = false,
+        let Some(slot) = slot else {
+            self.is_one = false;
+            return;
+        };
+        match self.places.get_mut(at) {
+            Some(place) => *place = mapped & !0xFF_FFFF | slot.offset,
+            None => self.is_one = false,
         }
         if let Some(address) = live
             && let Some(to) = self.lives.get_mut(usize::from(self.live))
         {
-            *to = address;
+            let unused = 8 * (4 - u32::from(slot.len));
+            *to = (address, unused << 24 | slot.offset);
             self.live += 1;
         }
+    }
+
+    /// The live values.
+    #[inline(always)]
+    fn lives(&self) -> &[(Address, u32)] {
+        self.lives.get(..self.live.into()).unwrap_or_default()
     }
 }
 
@@ -200,10 +214,31 @@ impl<R: Rooms> Mapping<R> {
         context: &mut Context<'_, '_>,
     ) {
         for plain in &self.plain {
-            for address in plain.lives.iter().take(plain.live.into()) {
+            for (address, _) in plain.lives() {
                 let _ = application.refresh(context, *address);
             }
         }
+    }
+
+    /// As [`refresh_plain`](Self::refresh_plain), where the application has all the live values at hand.
+    /// Returns whether it has.
+    #[inline(always)]
+    pub(super) fn take_numbers(
+        &self,
+        application: &mut dyn Application,
+        values: &mut [u8],
+        now: Instant,
+    ) -> bool {
+        for (address, place) in self.plain.first().map_or(&[][..], Plain::lives) {
+            let at = *place as usize & 0xFF_FFFF;
+            let Some(number) = application.number(now, *address) else {
+                return false;
+            };
+            if put_word(values, at, *place >> 24, number).is_none() {
+                return false;
+            }
+        }
+        true
     }
 
     /// Has the application bring the live values up to date, by the set of them.

@@ -300,7 +300,6 @@ impl<R: Rooms> Tpdo<R> {
     }
 
     /// Has the application bring the live values up to date, by the set of them.
-    #[inline(always)]
     pub(crate) fn refresh<D: Device>(
         &self,
         application: &mut dyn Application,
@@ -316,14 +315,24 @@ impl<R: Rooms> Tpdo<R> {
         self.mapping.is_plain()
     }
 
-    /// As [`refresh`](Self::refresh), of one that [is plain](Self::is_plain).
-    #[inline(always)]
+    /// As `refresh`, of one that [is plain](Self::is_plain).
     pub(crate) fn refresh_plain(
         &self,
         application: &mut dyn Application,
         context: &mut Context<'_, '_>,
     ) {
         self.mapping.refresh_plain(application, context);
+    }
+
+    /// Likewise, if the application has all of them at hand. Returns whether it has.
+    #[inline(always)]
+    pub(crate) fn take_numbers(
+        &self,
+        application: &mut dyn Application,
+        values: &mut [u8],
+        now: Instant,
+    ) -> bool {
+        self.mapping.take_numbers(application, values, now)
     }
 
     /// The frame, with the values of the store. It is to be [ready](Self::is_ready).
@@ -369,7 +378,6 @@ impl<R: Rooms> Tpdo<R> {
     }
 
     /// Something waits to be sent, now or later.
-    #[inline]
     pub(crate) fn is_pending(&self) -> bool {
         self.pending
     }

@@ -21,6 +21,8 @@ struct Live {
     reads: u8,
     raises: bool,
     fails: bool,
+    /// The value, if it is at hand.
+    at_hand: Option<u32>,
 }
 
 impl Application for Live {
@@ -39,6 +41,11 @@ impl Application for Live {
             true => Err(AbortCode::DeviceState),
             false => Ok(()),
         }
+    }
+
+    fn number(&mut self, _: Instant, address: Address) -> Option<u32> {
+        assert_eq!(address.index, 0x2001, "no other is live");
+        self.at_hand
     }
 }
 
@@ -65,6 +72,7 @@ macro_rules! call {
 }
 
 mod marks;
+mod numbers;
 mod ticks;
 
 /// TPDOs of these types, the first one with 2000h and the others with `others`; RPDO 1.
