@@ -73,7 +73,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
 
     /// As [`upload`](Self::upload), of a value that the application may have to bring up to date. `head` is
     /// the beginning of the request.
-    #[inline(always)]
+    #[inline(never)]
     fn upload_live(&mut self, device: &mut Lent<'_>, row: &Row, head: u32) {
         let node = &mut self.machines;
         let Some(number) = device.application.number(node.now, row.address()) else {
