@@ -34,7 +34,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
     pub(super) fn handle_request(&mut self, device: &mut Lent<'_>, frame: &Frame) {
         match self.upload(device, frame) {
             Upload::Done => {}
-            Upload::Live(row, head) if ROOMY => self.upload_live(device, row, head),
+            Upload::Live(row, head) if ROOMY => self.upload_live(device, frame, row, head),
             _ => self.handle_seldom(device, frame),
         }
     }
@@ -57,11 +57,8 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
         let Some(row) = device.dictionary.plain_row(key) else {
             return Upload::Other;
         };
-        if self.outbox.is_marked(key) && key >= 0x20_0000 {
-            return match !ROOMY || word(device.values, row).is_some() {
-                true => Upload::Live(row, head),
-                false => Upload::Other,
-            };
+        if self.outbox.is_marked(key) && (ROOMY || key >= 0x20_0000) {
+            return Upload::Live(row, head);
         }
         let Some((value, unused)) = word(device.values, row) else {
             return Upload::Other;
@@ -74,15 +71,20 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
     /// As [`upload`](Self::upload), of a value that the application may have to bring up to date. `head` is
     /// the beginning of the request.
     #[inline(never)]
-    fn upload_live(&mut self, device: &mut Lent<'_>, row: &Row, head: u32) {
+    fn upload_live(&mut self, device: &mut Lent<'_>, frame: &Frame, row: &Row, head: u32) {
         let node = &mut self.machines;
-        let Some(number) = device.application.number(node.now, row.address()) else {
-            return self.upload_refreshed(device, row, head);
+        let (Slot { offset, len }, address) = (row.plain(), row.address());
+        // One of the services' own may look like a live one.
+        let number = match address.index {
+            ..0x2000 => None,
+            _ => device.application.number(node.now, address),
         };
-        let Slot { offset, len } = row.plain();
         let unused = u32::from(len).wrapping_neg() & 3;
+        let Some(number) = number else {
+            return self.upload_refreshed(device, frame, row, head);
+        };
         let Some(value) = put_word(device.values, offset as usize, 8 * unused, number) else {
-            return self.upload_refreshed(device, row, head);
+            return self.handle_seldom(device, frame);
         };
         node.sdo.reset();
         node.respond(head, value, unused);
@@ -94,19 +96,24 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
     /// As [`upload_live`](Self::upload_live), where the application needs the store, or does not have the
     /// value at hand.
     #[inline(never)]
-    fn upload_refreshed(&mut self, device: &mut Lent<'_>, row: &Row, head: u32) {
+    fn upload_refreshed(&mut self, device: &mut Lent<'_>, frame: &Frame, row: &Row, head: u32) {
         let node = &mut self.machines;
         let outbox = Room::outbox(&mut self.outbox);
+        let is_word = word(device.values, row).is_some();
         let store = Store::new(&device.dictionary, device.values, node.node_id);
-        // `upload` has looked whether there are enough values.
-        let Ok(mut store) = store else { return };
+        let (true, Ok(mut store)) = (is_word, store) else {
+            return self.handle_seldom(device, frame);
+        };
         let mut context = Context {
             store: &mut store,
             now: node.now,
             signals: &mut outbox.signals,
         };
         let address = row.address();
-        let refreshed = device.application.refresh(&mut context, address);
+        let refreshed = match address.index {
+            ..0x2000 => Ok(()),
+            _ => device.application.refresh(&mut context, address),
+        };
         node.sdo.reset();
         match (refreshed, word(device.values, row)) {
             (Ok(()), Some((value, unused))) => node.respond(head, value, unused),
