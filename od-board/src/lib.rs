@@ -101,7 +101,7 @@
 //!
 //! A block transfer is a frame at a time in the interrupt, and never more. While flash is erased or written
 //! nobody holds the board, so a SYNC is answered at once. The longest call of the node is the longest that
-//! a frame can wait: the call that starts a save, which `firmware/rtic` measures.
+//! a frame can wait: a save copies the values and returns, as `firmware/rtic` measures.
 #![cfg_attr(
     all(feature = "embassy", feature = "flash"),
     doc = r#"
@@ -133,10 +133,11 @@ odkit::object_dictionary! {
 }
 
 const SAVED: usize = capacity_needed(&thermometer::DICTIONARY);
-type Board = thermometer::Board<NoApplication, Mirror<SAVED>>;
+type Saved = Mirror<SAVED, { thermometer::STORE_LEN }>;
+type Board = thermometer::Board<NoApplication, Saved>;
 
 static NODE: Shared<CriticalSectionRawMutex, Board> =
-    Shared::new(Board::new(NodeId::ONE, NoApplication, Mirror::new()));
+    Shared::new(Board::new(NodeId::ONE, NoApplication, Saved::new(&thermometer::DICTIONARY)));
 
 struct Rx<D>(D);
 # trait Driver { type Frame: embedded_can::Frame; async fn read(&mut self) -> Result<Self::Frame, ()>; }
@@ -154,7 +155,7 @@ async fn run(mut rx: impl Receive, mut tx: impl Transmit) {
 
 async fn keep<F: embedded_storage::nor_flash::NorFlash>(flash: F) {
     let mut log = Log::<_, { SAVED / 2 + 64 }>::new(Steps(flash), 0x1_E000..0x2_0000);
-    let mut saved = Mirror::<SAVED>::new();
+    let mut saved = Saved::new(&thermometer::DICTIONARY);
     log.load(&mut saved).await.ok();
     NODE.with(|board, now| {
         board.storage = saved;

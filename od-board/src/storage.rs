@@ -5,8 +5,8 @@
 //!
 //! | | [`Nor`] | [`Mirror`] and [`Log`] |
 //! |---|---|---|
-//! | RAM | none | three times the set of saved values |
-//! | a save | inside the call of the node that got it: erases a page of each bank, so tens of milliseconds | some thousand instructions in that call; the flash is written by a task of low priority, in steps of one erasure or 64 bytes |
+//! | RAM | none | three times the set of saved values, and all values once |
+//! | a save | inside the call of the node that got it: erases a page of each bank, so tens of milliseconds | the call copies the values; a task of low priority makes the set of them and writes flash, in steps of 64 bytes, eight values or one erasure |
 //! | erasures | one a save if a bank is one page | less than one a save, spread over all pages |
 //! | needs | two banks of pages | three pages or more; a set fits into one |
 //!

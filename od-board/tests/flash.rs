@@ -24,7 +24,7 @@ use support::{frame, sent, thermometer};
 const SAVED: usize = capacity_needed(&thermometer::DICTIONARY);
 const BUFFER: usize = SAVED / 2 + 64;
 
-type Mirrored = thermometer::Board<NoApplication, Mirror<SAVED>>;
+type Mirrored = thermometer::Board<NoApplication, Mirror<SAVED, { thermometer::STORE_LEN }>>;
 
 /// Reason why a flash fails; the only one.
 #[derive(Clone, Copy, Debug)]
@@ -117,7 +117,11 @@ fn start<const PAGE: usize, const WORD: usize>(
     chip: &Chip<PAGE, WORD>,
 ) -> (Mirrored, Log<Steps<Chip<PAGE, WORD>>, BUFFER>) {
     let mut log = log(chip);
-    let mut board = Mirrored::new(NodeId::ONE, NoApplication, Mirror::new());
+    let mut board = Mirrored::new(
+        NodeId::ONE,
+        NoApplication,
+        Mirror::new(&thermometer::DICTIONARY),
+    );
     wait(log.load(&mut board.storage), || {}).expect("a flash that works");
     board.power_on(Instant::ZERO).expect("it fits");
     sent(&mut board, Instant::ZERO);

@@ -62,6 +62,12 @@ impl<'a> Store<'a> {
         self.node_id = node_id;
     }
 
+    /// All values, laid out by the dictionary.
+    pub(crate) fn values(&self) -> &[u8] {
+        let len = self.dictionary.store_len();
+        self.values.get(..len).unwrap_or_default()
+    }
+
     /// Every value for which `which` is true becomes its default.
     pub fn reset(&mut self, mut which: impl FnMut(&Row) -> bool) {
         for row in self.dictionary.rows() {

@@ -33,7 +33,7 @@ const BUFFER: usize = SAVED / 2 + 64;
 const _: () = assert!(BUFFER + 64 <= PAGE);
 
 /// The node.
-pub type Board = slave::Board<NoApplication, Mirror<SAVED>>;
+pub type Board = slave::Board<NoApplication, Mirror<SAVED, { slave::STORE_LEN }>>;
 /// Its saved values.
 pub type Keeper = Log<Steps<Flash>, BUFFER>;
 
@@ -96,7 +96,7 @@ mod app {
         timer.set_clock_source(cortex_m::peripheral::syst::SystClkSource::Core);
         timer.enable_counter();
         let mut clock = Clock::new();
-        let mut board = Board::new(NodeId::ONE, NoApplication, Mirror::new());
+        let mut board = Board::new(NodeId::ONE, NoApplication, Mirror::new(&slave::DICTIONARY));
         if board.power_on(clock.at(ticks())).is_err() {
             debug::exit(debug::EXIT_FAILURE);
         }
@@ -162,6 +162,7 @@ mod app {
         for frame in frames {
             send(&mut cx, frame);
         }
+        TOOK.store(0, Ordering::Relaxed);
         // As many saves as fill the flash twice.
         for save in 1..=20 {
             send(&mut cx, sdo([0x23, 0x10, 0x10, 1, b's', b'a', b'v', b'e']));

@@ -12,6 +12,7 @@ use sequential_storage::map::{MapConfig, MapStorage, SerializationError, Value};
 
 use super::guard::Guard;
 use super::mirror::Mirror;
+use super::steps::pause;
 
 type Map<F> = MapStorage<u8, Guard<F>, Cache<Uncached, Uncached, Uncached, u8>>;
 
@@ -33,15 +34,16 @@ pub struct Log<F: NorFlash, const B: usize> {
 }
 
 /// Calls its argument with the mirror.
-type With<'w, const N: usize> = &'w mut dyn FnMut(&mut dyn FnMut(&mut Mirror<N>));
+type With<'w, const N: usize, const V: usize> =
+    &'w mut dyn FnMut(&mut dyn FnMut(&mut Mirror<N, V>));
 
 /// The newest set of a mirror, which is copied where it is written.
-struct Newest<'w, const N: usize> {
-    with: RefCell<With<'w, N>>,
+struct Newest<'w, const N: usize, const V: usize> {
+    with: RefCell<With<'w, N, V>>,
     number: Cell<u32>,
 }
 
-impl<const N: usize> Newest<'_, N> {
+impl<const N: usize, const V: usize> Newest<'_, N, V> {
     /// Calls `act` with the set and its number.
     fn set(&self, act: &mut dyn FnMut(&[u8], u32)) {
         (self.with.borrow_mut())(&mut |mirror| {
@@ -58,7 +60,7 @@ impl<const N: usize> Newest<'_, N> {
     }
 }
 
-impl<const N: usize> Value<'_> for Newest<'_, N> {
+impl<const N: usize, const V: usize> Value<'_> for Newest<'_, N, V> {
     fn serialize_into(&self, buffer: &mut [u8]) -> Result<usize, SerializationError> {
         let mut result = Err(SerializationError::BufferTooSmall);
         self.set(&mut |bytes, number| {
@@ -103,9 +105,9 @@ impl<F: NorFlash, const B: usize> Log<F, B> {
     ///
     /// # Errors
     /// [`StorageError::Device`] if the flash cannot be read or repaired.
-    pub async fn load<const N: usize>(
+    pub async fn load<const N: usize, const V: usize>(
         &mut self,
-        mirror: &mut Mirror<N>,
+        mirror: &mut Mirror<N, V>,
     ) -> Result<(), StorageError> {
         let set = self.map.fetch_item::<&[u8]>(&mut self.buffer, &SET).await;
         mirror.load(set.map_err(|_| StorageError::Device)?.unwrap_or(&[]));
@@ -114,9 +116,9 @@ impl<F: NorFlash, const B: usize> Log<F, B> {
 
     /// Keeps what the node saves, for ever. `with` calls its argument with the mirror, in whatever lock
     /// the node is; it is held as long as it takes to copy a set.
-    pub async fn run<const N: usize>(
+    pub async fn run<const N: usize, const V: usize>(
         &mut self,
-        mut with: impl FnMut(&mut dyn FnMut(&mut Mirror<N>)),
+        mut with: impl FnMut(&mut dyn FnMut(&mut Mirror<N, V>)),
     ) {
         loop {
             poll_fn(|cx| {
@@ -130,11 +132,20 @@ impl<F: NorFlash, const B: usize> Log<F, B> {
     }
 
     /// Keeps what the node has saved by now, if that is not kept already.
-    pub async fn save<const N: usize>(
+    pub async fn save<const N: usize, const V: usize>(
         &mut self,
-        mut with: impl FnMut(&mut dyn FnMut(&mut Mirror<N>)),
+        mut with: impl FnMut(&mut dyn FnMut(&mut Mirror<N, V>)),
     ) {
         const { assert!(N / 2 + 64 <= B, "the buffer has room for a set and its key") };
+        // The set is made in steps, between which the node is free.
+        loop {
+            let mut goes_on = false;
+            with(&mut |mirror| goes_on = mirror.step());
+            if !goes_on {
+                break;
+            }
+            pause().await;
+        }
         let newest = Newest {
             with: RefCell::new(&mut with),
             number: Cell::new(0),
@@ -154,7 +165,10 @@ impl<F: NorFlash, const B: usize> Log<F, B> {
 
     /// Appends a set, and reads it back: behind a word that power left half-written, the next one may not
     /// be found (sequential-storage 136).
-    async fn append<const N: usize>(&mut self, set: &Newest<'_, N>) -> Result<(), StorageError> {
+    async fn append<const N: usize, const V: usize>(
+        &mut self,
+        set: &Newest<'_, N, V>,
+    ) -> Result<(), StorageError> {
         let mut result = Err(StorageError::Device);
         for _ in 0..ATTEMPTS {
             let stored = self.map.store_item(&mut self.buffer, &SET, set).await;

@@ -1,37 +1,60 @@
 //! Saved values in RAM, on their way to flash.
 
+use core::ops::Range;
 use core::task::{Context, Poll, Waker};
 
-use od_runtime::storage::{Storage, StorageError, image};
+use od_model::Dictionary;
+use od_runtime::storage::{Save, Storage, StorageError, image};
 
-/// The storage of a node whose saves go to flash in the background: the node writes here, and
-/// a task of lower priority carries the newest set on ([`Log`](super::Log), or your own by
-/// [`poll_changed`](Self::poll_changed), [`newest`](Self::newest) and [`stored`](Self::stored)).
+/// The storage of a node whose saves go to flash in the background: a save copies the values, and
+/// a task of lower priority makes the set of them and carries it on ([`Log`](super::Log), or your own by
+/// [`poll_changed`](Self::poll_changed), [`step`](Self::step), [`newest`](Self::newest) and
+/// [`stored`](Self::stored)).
 ///
 /// `N`: [`image::capacity_needed`] of the dictionary, and [`image::OWN_CAPACITY`] more where LSS stores
-/// the node ID. Without such a task, 1010h is never answered.
+/// the node ID. `V`: bytes of all values, `STORE_LEN` of the dictionary's module. Without such a task,
+/// 1010h is never answered.
 #[derive(Debug)]
-pub struct Mirror<const N: usize> {
-    bytes: [u8; N],
-    /// Number of writes, and what it was for the set that is kept.
+pub struct Mirror<const N: usize, const V: usize> {
+    dictionary: &'static Dictionary<'static>,
+    device: u32,
+    sets: Sets<N>,
+    /// The values of the save that the next steps make a set of.
+    values: [u8; V],
+    job: Option<image::Job>,
+    /// Place of the newest set, as far as it is known.
+    newest: Option<Range<usize>>,
+    /// Number of saves and writes; what it was for the newest set, and for the set that is kept.
     changes: u32,
+    made: u32,
     kept: u32,
     failed: bool,
     waker: Option<Waker>,
 }
 
-impl<const N: usize> Default for Mirror<N> {
-    fn default() -> Self {
-        Self::new()
-    }
-}
+/// Two banks.
+#[derive(Debug)]
+struct Sets<const N: usize>([u8; N]);
 
-impl<const N: usize> Mirror<N> {
-    /// A mirror without saved values.
-    pub const fn new() -> Self {
+impl<const N: usize, const V: usize> Mirror<N, V> {
+    /// A mirror without saved values, of a node with this dictionary.
+    ///
+    /// # Panics
+    /// In a constant: does not compile. Where `V` is too small for the values.
+    pub const fn new(dictionary: &'static Dictionary<'static>) -> Self {
+        assert!(
+            dictionary.store_len() <= V,
+            "a mirror has room for all values of its dictionary: `STORE_LEN`"
+        );
         Self {
-            bytes: [0xFF; N],
+            dictionary,
+            device: image::device(dictionary),
+            sets: Sets([0xFF; N]),
+            values: [0; V],
+            job: None,
+            newest: Some(0..0),
             changes: 0,
+            made: 0,
             kept: 0,
             failed: false,
             waker: None,
@@ -40,11 +63,13 @@ impl<const N: usize> Mirror<N> {
 
     /// Takes over the set that [`newest`](Self::newest) returned once; before the node has power.
     pub fn load(&mut self, set: &[u8]) {
-        self.bytes.fill(0xFF);
-        if let Some(to) = self.bytes.get_mut(..set.len()) {
+        self.sets.0.fill(0xFF);
+        self.newest = None;
+        if let Some(to) = self.sets.0.get_mut(..set.len()) {
             to.copy_from_slice(set);
         }
-        self.kept = self.changes;
+        self.job = None;
+        (self.made, self.kept) = (self.changes, self.changes);
     }
 
     /// Waits until there is something to keep.
@@ -56,49 +81,87 @@ impl<const N: usize> Mirror<N> {
         Poll::Pending
     }
 
+    /// Makes a set of what was saved, 64 bytes or eight values at most. Returns whether there is more to
+    /// do: so long [`newest`](Self::newest) is the set before it.
+    pub fn step(&mut self) -> bool {
+        let Some(job) = &mut self.job else {
+            return false;
+        };
+        let Some(result) = job.step(&mut self.sets, self.dictionary, &mut self.values) else {
+            return true;
+        };
+        self.newest = Some(job.newest());
+        self.job = None;
+        self.made = self.changes;
+        if result.is_err() {
+            self.stored(self.made, result);
+        }
+        false
+    }
+
     /// Returns the newest set, `N / 2` bytes at most, and the number to call [`stored`](Self::stored)
     /// with; no bytes if nothing was ever saved.
     pub fn newest(&mut self) -> (&[u8], u32) {
-        let place = image::newest(self).ok().flatten().unwrap_or(0..0);
-        (self.bytes.get(place).unwrap_or_default(), self.changes)
+        let place = match self.newest.take() {
+            Some(place) => place,
+            None => image::newest(&mut self.sets).ok().flatten().unwrap_or(0..0),
+        };
+        self.newest = Some(place.clone());
+        (self.sets.0.get(place).unwrap_or_default(), self.made)
     }
 
     /// The set with this number is kept, or cannot be; the node answers its master.
     pub fn stored(&mut self, number: u32, result: Result<(), StorageError>) {
-        if result.is_err() {
+        self.failed = result.is_err();
+        self.kept = match result {
+            Ok(()) => number,
             // The next change is the next attempt.
-            self.failed = true;
-            self.kept = self.changes;
-        } else {
-            self.kept = number;
+            Err(_) => self.made,
+        };
+    }
+
+    /// Something is to be kept.
+    fn change(&mut self) {
+        self.changes = self.changes.wrapping_add(1);
+        if let Some(waker) = self.waker.take() {
+            waker.wake();
         }
     }
 
-    fn range(&self, offset: usize, len: usize) -> Result<core::ops::Range<usize>, StorageError> {
-        let end = offset.checked_add(len).filter(|end| *end <= N);
-        end.map(|end| offset..end).ok_or(StorageError::OutOfRange)
+    /// A save that waits is complete before anything else is read or written.
+    fn finish(&mut self) {
+        while self.step() {}
     }
 }
 
-impl<const N: usize> Storage for Mirror<N> {
+impl<const N: usize, const V: usize> Storage for Mirror<N, V> {
     fn capacity(&self) -> usize {
         N
     }
 
     fn read(&mut self, offset: usize, to: &mut [u8]) -> Result<(), StorageError> {
-        let range = self.range(offset, to.len())?;
-        to.copy_from_slice(&self.bytes[range]);
-        Ok(())
+        self.finish();
+        self.sets.read(offset, to)
     }
 
     fn write(&mut self, offset: usize, bytes: &[u8]) -> Result<(), StorageError> {
-        let range = self.range(offset, bytes.len())?;
-        self.bytes[range].copy_from_slice(bytes);
-        self.changes = self.changes.wrapping_add(1);
-        if let Some(waker) = self.waker.take() {
-            waker.wake();
-        }
+        self.finish();
+        self.sets.write(offset, bytes)?;
+        self.newest = None;
+        self.change();
+        self.made = self.changes;
         Ok(())
+    }
+
+    fn take(&mut self, save: &Save<'_>) -> bool {
+        if !save.is_of(self.device, self.dictionary) {
+            return false;
+        }
+        self.finish();
+        self.job = Some(image::Job::new(save, &mut self.values));
+        self.failed = false;
+        self.change();
+        true
     }
 
     fn is_writing(&mut self) -> bool {
@@ -113,5 +176,28 @@ impl<const N: usize> Storage for Mirror<N> {
             true => Err(StorageError::Device),
             false => Ok(()),
         }
+    }
+}
+
+impl<const N: usize> Sets<N> {
+    fn range(offset: usize, len: usize) -> Result<Range<usize>, StorageError> {
+        let end = offset.checked_add(len).filter(|end| *end <= N);
+        end.map(|end| offset..end).ok_or(StorageError::OutOfRange)
+    }
+}
+
+impl<const N: usize> Storage for Sets<N> {
+    fn capacity(&self) -> usize {
+        N
+    }
+
+    fn read(&mut self, offset: usize, to: &mut [u8]) -> Result<(), StorageError> {
+        to.copy_from_slice(&self.0[Self::range(offset, to.len())?]);
+        Ok(())
+    }
+
+    fn write(&mut self, offset: usize, bytes: &[u8]) -> Result<(), StorageError> {
+        self.0[Self::range(offset, bytes.len())?].copy_from_slice(bytes);
+        Ok(())
     }
 }

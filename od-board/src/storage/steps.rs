@@ -15,7 +15,7 @@ pub struct Steps<F>(pub F);
 const STEP: usize = 64;
 
 /// Lets others run.
-async fn pause() {
+pub(super) async fn pause() {
     let mut waited = false;
     poll_fn(|cx| {
         if core::mem::replace(&mut waited, true) {

@@ -12,6 +12,7 @@ use crate::application::Reset;
 use crate::deadline::Deadline;
 use crate::device::Device;
 use crate::profile::{Restore, SaveAnswer};
+use crate::storage::Save;
 use crate::storage::image::{self, Banks, Loaded, Medium, Plan};
 
 /// Time until a memory that is still writing is asked again, in microseconds.
@@ -22,6 +23,20 @@ impl<D: Device> Objects<'_, D> {
     const DEVICE: Option<u32> = match &D::DICTIONARY {
         Some(dictionary) => Some(image::device(dictionary)),
         None => None,
+    };
+
+    /// There are operating records, as far as the compiler knows.
+    const HAS_LIFE_RECORD: bool = match &D::DICTIONARY {
+        Some(dictionary) => {
+            let mut rest = dictionary.rows();
+            let mut found = false;
+            while let [row, others @ ..] = rest {
+                found |= image::is_life_record(row);
+                rest = others;
+            }
+            found
+        }
+        None => true,
     };
 
     /// The [device](image::device) whose values are saved.
@@ -100,11 +115,20 @@ impl<D: Device> Objects<'_, D> {
         }
         let begun = self.begin(command);
         match command {
-            KEEP => Some(begun && self.commit()),
+            KEEP => Some(begun && self.kept()),
             Command::Save(sub) => self.saved(sub, begun),
             Command::Restore(sub) => self.restored(sub, begun),
             Command::None => None,
         }
+    }
+
+    /// The operating records: they are saved, or will be, and only a failure is reported.
+    fn kept(&mut self) -> bool {
+        let is_done = self.commit();
+        if self.storage.is_writing() {
+            self.await_memory(RESTORE);
+        }
+        is_done
     }
 
     /// The set that a command makes is written, but for its commit word. Returns whether that is done.
@@ -114,10 +138,25 @@ impl<D: Device> Objects<'_, D> {
         let Some(saving) = &mut self.saving else {
             return false;
         };
-        let plan = match command {
-            Command::Restore(sub) => Plan::Restore(sub),
-            Command::Save(sub) => Plan::Save(sub),
+        let (restores, sub) = match command {
+            Command::Restore(sub) => (true, sub),
+            Command::Save(sub) => (false, sub),
             Command::None => return false,
+        };
+        let store = &self.store;
+        if self.storage.take(&Save {
+            restores,
+            sub,
+            device,
+            store,
+            profile,
+        }) {
+            saving.banks = Banks::NONE;
+            return true;
+        }
+        let plan = match restores {
+            true => Plan::Restore(sub),
+            false => Plan::Save(sub),
         };
         let mut medium = Medium::new(self.storage, &mut saving.banks);
         let mut begun = medium.survey(device);
@@ -260,6 +299,9 @@ impl<D: Device> Objects<'_, D> {
 
     /// Updates the operating records before they are saved.
     fn refresh_life_record(&mut self) {
+        if !Self::HAS_LIFE_RECORD {
+            return;
+        }
         for row in self.store.dictionary().rows() {
             if image::is_life_record(row) {
                 // A value that cannot be updated is saved as it is.

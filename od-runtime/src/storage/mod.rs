@@ -9,12 +9,14 @@ pub(crate) mod crc;
 mod file;
 pub mod image;
 mod memory;
+mod save;
 
 use core::fmt;
 
 #[cfg(feature = "std")]
 pub use file::{File, OpenError, Owner};
 pub use memory::Memory;
+pub use save::Save;
 
 /// Reason why bytes could not be read or written.
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -111,6 +113,14 @@ pub trait Storage {
     fn erase(&mut self, offset: usize) -> Result<(), StorageError> {
         let _ = offset;
         Err(StorageError::Device)
+    }
+
+    /// Takes over a save, of which it makes the image itself, in bounded steps after this call
+    /// ([`image::Job`]). From now on it [is writing](Self::is_writing), and whatever is read or written later
+    /// finds the save complete. `false`: the node makes the image in this call.
+    fn take(&mut self, save: &Save<'_>) -> bool {
+        let _ = save;
+        false
     }
 
     /// Whether written bytes are on their way to the memory that keeps them, where somebody else does

@@ -15,6 +15,7 @@ pub(crate) struct Set {
 }
 
 /// Content of a bank.
+#[derive(Clone, Debug)]
 pub(super) struct Bank {
     /// Commit word.
     pub(super) code: Code,
@@ -26,6 +27,14 @@ pub(super) struct Bank {
     pub(super) is_clean: bool,
     /// Version 1 of this layout.
     pub(super) is_old: bool,
+}
+
+impl Bank {
+    /// Bytes that codes and set take.
+    #[inline(always)]
+    pub(super) fn used(&self, word: usize) -> usize {
+        self.set.map_or(2 * word, |set| set.len.get())
+    }
 }
 
 /// State of both banks.

@@ -74,7 +74,7 @@ impl<'m> Medium<'m> {
 
     /// Whether all bytes of a range are this one.
     #[inline(never)]
-    fn holds(&mut self, mut at: usize, end: usize, byte: u8) -> bool {
+    pub(super) fn holds(&mut self, mut at: usize, end: usize, byte: u8) -> bool {
         let word = [byte; 4];
         self.buffer = [byte; MAX_WORD];
         while at < end {
@@ -159,10 +159,18 @@ impl<'m> Medium<'m> {
     /// Returns the set of a bank, if fields and records are whole.
     #[inline(never)]
     pub(super) fn content(&mut self, bank: usize) -> Option<Set> {
+        let mut content = self.open(bank)?;
+        content.go_on(self, usize::MAX);
+        content.set(self)
+    }
+
+    /// The records of a bank, if its fields can be those of a set.
+    #[inline(always)]
+    pub(super) fn open(&mut self, bank: usize) -> Option<Content> {
         let Layout {
             word, header, size, ..
         } = self.banks.layout;
-        let (mut fields, mut at) = ([[0; 4]; 3], bank + 2 * word);
+        let (mut fields, at) = ([[0; 4]; 3], bank + 2 * word);
         self.read(at, fields.as_flattened_mut());
         let [device, len, sum] = fields.map(u32::from_le_bytes);
         let (records, len) = (bank + header, len as usize);
@@ -171,12 +179,46 @@ impl<'m> Medium<'m> {
         }
         let mut crc = Crc32::new();
         crc.update(fields[..2].as_flattened());
-        at = records;
-        while at < records + len {
-            crc.update(self.fetch(at, (records + len - at).min(MAX_WORD)));
-            at += MAX_WORD;
+        Some(Content {
+            device,
+            len,
+            sum,
+            crc,
+            at: records,
+            end: records + len,
+        })
+    }
+}
+
+/// The records of a bank, while they are read to their end.
+#[derive(Clone, Debug)]
+pub(super) struct Content {
+    device: u32,
+    len: usize,
+    sum: u32,
+    crc: Crc32,
+    at: usize,
+    end: usize,
+}
+
+impl Content {
+    /// Reads this number of bytes, in whole buffers. Returns whether these were the last.
+    #[inline(always)]
+    pub(super) fn go_on(&mut self, medium: &mut Medium<'_>, most: usize) -> bool {
+        let end = self.at + most.min(self.end - self.at);
+        while self.at < end {
+            let part = medium.fetch(self.at, (self.end - self.at).min(MAX_WORD));
+            self.crc.update(part);
+            self.at += MAX_WORD;
         }
-        let len = NonZeroUsize::new(header + len)?;
-        (crc.finish() == sum).then_some(Set { device, len })
+        self.at >= self.end
+    }
+
+    /// The set, if its checksum is right.
+    #[inline(always)]
+    pub(super) fn set(self, medium: &Medium<'_>) -> Option<Set> {
+        let len = NonZeroUsize::new(medium.banks.layout.header + self.len)?;
+        let device = self.device;
+        (self.crc.finish() == self.sum).then_some(Set { device, len })
     }
 }

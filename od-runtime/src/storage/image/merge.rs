@@ -19,7 +19,7 @@ use crate::storage::{Storage, StorageError};
 use crate::store::Store;
 
 /// Recipe of the next set.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) enum Plan<'p> {
     /// The values that this sub-index of 1010h covers, and the operating records; 0: only these.
     Save(u8),
@@ -58,20 +58,10 @@ impl Medium<'_> {
         plan: &Plan<'_>,
     ) -> Result<(), StorageError> {
         let Layout {
-            page,
-            word,
-            header,
-            size,
+            word, header, size, ..
         } = self.banks.layout;
-        match (plan, self.banks.state) {
-            // The device itself writes nothing over the set of another one.
-            (Plan::Save(0), Loaded::Foreign) => return Err(StorageError::Foreign),
-            (Plan::Restore(_), Loaded::Blank) => {
-                self.banks.next = Code::ERASED;
-                return Ok(());
-            }
-            _ if size == 0 => return Err(StorageError::Full),
-            _ => {}
+        if !self.admits(plan)? {
+            return Ok(());
         }
         let mut set = Set {
             medium: self,
@@ -93,23 +83,8 @@ impl Medium<'_> {
             set.medium.fail(StorageError::Full);
         }
         set.medium.outcome?;
-        // The device's own saves, and a restore, take nothing away when they are cut. Once the set does not
-        // count, only a complete one ends that.
-        let cut = match plan {
-            Plan::Save(0) | Plan::Restore(_) => CutSave::LastSet,
-            _ => profile.cut,
-        };
-        let mark = match cut {
-            CutSave::LastSet if !set.medium.banks.is_withdrawn => Code::REPLACED,
-            _ => Code::WITHDRAWN,
-        };
-        let stays = set.medium.banks.stays;
-        set.medium.stamp(stays + word, mark);
-        match set.medium.outcome {
-            // A mark that power or a save before this one left in flash stays as it is.
-            Err(StorageError::NotWritten) if page > 0 => set.medium.outcome = Ok(()),
-            outcome => outcome?,
-        }
+        set.medium.mark(profile, plan);
+        set.medium.outcome?;
         let (target, len) = (set.medium.banks.target, set.at);
         set.medium.clear(target, header + len);
         // The length is less than a bank, which a header can describe.
@@ -135,6 +110,42 @@ impl Medium<'_> {
         set.medium.outcome
     }
 
+    /// Whether there is to be a next set, of banks that were surveyed.
+    #[inline(always)]
+    pub(super) fn admits(&mut self, plan: &Plan<'_>) -> Result<bool, StorageError> {
+        match (plan, self.banks.state) {
+            // The device itself writes nothing over the set of another one.
+            (Plan::Save(0), Loaded::Foreign) => Err(StorageError::Foreign),
+            (Plan::Restore(_), Loaded::Blank) => {
+                self.banks.next = Code::ERASED;
+                Ok(false)
+            }
+            _ if self.banks.layout.size == 0 => Err(StorageError::Full),
+            _ => Ok(true),
+        }
+    }
+
+    /// Marks the newest set: a save that replaces it begins.
+    #[inline(always)]
+    pub(super) fn mark(&mut self, profile: &StoreProfile, plan: &Plan<'_>) {
+        // The device's own saves, and a restore, take nothing away when they are cut. Once the set does not
+        // count, only a complete one ends that.
+        let cut = match plan {
+            Plan::Save(0) | Plan::Restore(_) => CutSave::LastSet,
+            _ => profile.cut,
+        };
+        let mark = match cut {
+            CutSave::LastSet if !self.banks.is_withdrawn => Code::REPLACED,
+            _ => Code::WITHDRAWN,
+        };
+        let Banks { stays, layout, .. } = *self.banks;
+        self.stamp(stays + layout.word, mark);
+        // A mark that power or a save before this one left in flash stays as it is.
+        if layout.page > 0 && self.outcome == Err(StorageError::NotWritten) {
+            self.outcome = Ok(());
+        }
+    }
+
     /// The commit word, if there is a next set: from now on it is the newest.
     pub(crate) fn commit(&mut self) -> Result<(), StorageError> {
         if self.banks.is_some() {
@@ -151,23 +162,23 @@ impl Medium<'_> {
 }
 
 /// The next set, whose small writes are gathered and summed up.
-struct Set<'s, 'm> {
-    medium: &'s mut Medium<'m>,
-    store: &'s Store<'s>,
-    plan: &'s Plan<'s>,
+pub(super) struct Set<'s, 'm> {
+    pub(super) medium: &'s mut Medium<'m>,
+    pub(super) store: &'s Store<'s>,
+    pub(super) plan: &'s Plan<'s>,
     /// With the records whose objects the dictionary does not have.
-    has_orphans: bool,
+    pub(super) has_orphans: bool,
     /// Nothing is written.
-    only_counts: bool,
+    pub(super) only_counts: bool,
     /// Place of the next byte that is written.
-    at: usize,
-    filled: usize,
-    crc: Crc32,
+    pub(super) at: usize,
+    pub(super) filled: usize,
+    pub(super) crc: Crc32,
 }
 
 /// Source of bytes of a set.
 #[derive(Clone, Copy)]
-enum Source<'b> {
+pub(super) enum Source<'b> {
     Bytes(&'b [u8]),
     /// This place in the storage.
     Storage(usize),
@@ -207,7 +218,7 @@ impl Set<'_, '_> {
     }
 
     /// Whether a record without an object stays.
-    fn keeps(&self, key: u32) -> bool {
+    pub(super) fn keeps(&self, key: u32) -> bool {
         let index = (key >> 8) as u16;
         let is_dropped = match *self.plan {
             Plan::Restore(sub) => Group::of_index(index).covered_by(sub),
@@ -220,7 +231,7 @@ impl Set<'_, '_> {
 
     /// Whether the plan is about a value.
     #[inline(never)]
-    fn is_meant(&self, profile: &StoreProfile, row: &Row) -> bool {
+    pub(super) fn is_meant(&self, profile: &StoreProfile, row: &Row) -> bool {
         match *self.plan {
             Plan::Save(_) if is_life_record(row) => true,
             Plan::Restore(_) if is_life_record(row) => false,
@@ -231,7 +242,7 @@ impl Set<'_, '_> {
     }
 
     /// Whether a value that the plan is about goes in.
-    fn goes_in(&self, row: &Row) -> bool {
+    pub(super) fn goes_in(&self, row: &Row) -> bool {
         match self.plan {
             Plan::Restore(_) => false,
             // One that was not changed follows the node ID.
@@ -242,7 +253,7 @@ impl Set<'_, '_> {
 
     /// The record of a value of the store.
     #[inline(never)]
-    fn value(&mut self, profile: &StoreProfile, row: &Row) {
+    pub(super) fn value(&mut self, profile: &StoreProfile, row: &Row) {
         let bytes = self.store.stored(row);
         if bytes.len() > MAX_VALUE {
             return self.medium.fail(StorageError::Full);
@@ -252,6 +263,18 @@ impl Set<'_, '_> {
             0 => self.put(Source::Bytes(bytes), bytes.len()),
             base => self.difference(bytes, base),
         }
+    }
+
+    /// Part of the record of a value: these bytes of it, and its head before the first.
+    pub(super) fn part(&mut self, row: &Row, done: usize, len: usize) {
+        let bytes = self.store.stored(row);
+        if bytes.len() > MAX_VALUE {
+            return self.medium.fail(StorageError::Full);
+        }
+        if done == 0 {
+            self.head(row.key(), bytes.len());
+        }
+        self.put(Source::Bytes(bytes.get(done..).unwrap_or_default()), len);
     }
 
     /// A value less its default.
@@ -269,7 +292,7 @@ impl Set<'_, '_> {
 
     /// Puts this number of bytes.
     #[inline(never)]
-    fn put(&mut self, source: Source<'_>, len: usize) {
+    pub(super) fn put(&mut self, source: Source<'_>, len: usize) {
         if self.only_counts {
             self.at += len;
             return;
@@ -298,7 +321,7 @@ impl Set<'_, '_> {
     }
 
     /// Writes the buffer, with the rest of its last word.
-    fn write_out(&mut self, word: usize) {
+    pub(super) fn write_out(&mut self, word: usize) {
         let end = whole_words(self.filled, word);
         let rest = self.medium.buffer.get_mut(self.filled..end);
         let rest = rest.unwrap_or_default();

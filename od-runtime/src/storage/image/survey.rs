@@ -20,19 +20,26 @@ impl Medium<'_> {
         let size = self.banks.layout.size;
         if size > 0 {
             let (first, second) = (self.look(0), self.look(size));
-            let first_stays = match (first.set, second.set) {
-                (Some(_), None) => true,
-                (None, Some(_)) => false,
-                _ => first.code.is_complete() && second.code.later_than(first.code) == 0,
-            };
-            match first_stays {
-                true => self.banks.judge(&first, &second),
-                false => self.banks.judge(&second, &first),
-            }
-            self.banks.stays = if first_stays { 0 } else { size };
-            self.banks.target = size - self.banks.stays;
+            self.pair(&first, &second);
         }
         self.outcome
+    }
+
+    /// Both banks were looked at.
+    #[inline(always)]
+    pub(super) fn pair(&mut self, first: &Bank, second: &Bank) {
+        let size = self.banks.layout.size;
+        let first_stays = match (first.set, second.set) {
+            (Some(_), None) => true,
+            (None, Some(_)) => false,
+            _ => first.code.is_complete() && second.code.later_than(first.code) == 0,
+        };
+        match first_stays {
+            true => self.banks.judge(first, second),
+            false => self.banks.judge(second, first),
+        }
+        self.banks.stays = if first_stays { 0 } else { size };
+        self.banks.target = size - self.banks.stays;
     }
 
     /// Returns the node ID and the bit rate that this device saved by [`Plan::Own`](super::Plan::Own).
@@ -61,20 +68,27 @@ impl Medium<'_> {
     #[inline(never)]
     fn look(&mut self, start: usize) -> Bank {
         let Layout { word, size, .. } = self.banks.layout;
+        let mut bank = self.head(start);
+        if bank.code.is_complete() {
+            bank.set = self.content(start);
+        }
+        let used = bank.used(word);
+        bank.is_clean &= bank.code == Code::GIVEN_UP || self.is_blank(start + used, start + size);
+        bank
+    }
+
+    /// Content of the bank from here on, as far as its codes tell.
+    #[inline(always)]
+    pub(super) fn head(&mut self, start: usize) -> Bank {
+        let word = self.banks.layout.word;
         let ((code, is_exact), (mark, is_right)) = (self.code(start), self.code(start + word));
         let mut magic = [0; MAGIC_1.len()];
         self.read(start, &mut magic);
-        let set = match code.is_complete() {
-            true => self.content(start),
-            false => None,
-        };
-        let used = set.map_or(2 * word, |set| set.len.get());
-        let is_clean = code == Code::GIVEN_UP || self.is_blank(start + used, start + size);
         Bank {
             code,
             mark,
-            set,
-            is_clean: is_exact && is_right && is_clean,
+            set: None,
+            is_clean: is_exact && is_right,
             is_old: magic == MAGIC_1,
         }
     }
@@ -123,6 +137,16 @@ pub(super) struct Records {
     pub(super) at: usize,
     pub(super) len: usize,
     end: usize,
+}
+
+impl Records {
+    /// Of no set.
+    pub(super) const NONE: Self = Self {
+        key: END,
+        at: 0,
+        len: 0,
+        end: 0,
+    };
 }
 
 /// Past the last address.

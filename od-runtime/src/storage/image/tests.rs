@@ -15,6 +15,7 @@ use crate::storage::Memory;
 
 mod factory;
 mod flips;
+mod steps;
 mod versions;
 use crate::profile::Profile;
 use od_wire::NodeId;

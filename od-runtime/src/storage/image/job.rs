@@ -1,0 +1,351 @@
+//! A save in steps, for memory that is written in the background.
+//!
+//! The image is the one that [`save`](super::save) and [`erase`](super::erase) write, to the byte.
+
+use core::ops::Range;
+
+use od_model::Dictionary;
+use od_wire::NodeId;
+
+use super::banks::{Bank, Banks};
+use super::layout::{Code, ERASED, FIELDS, Layout, MAX_WORD};
+use super::medium::{Content, Medium};
+use super::merge::{Plan, Set, Source};
+use super::walk::{STEP, Walk};
+use crate::profile::StoreProfile;
+use crate::storage::crc::Crc32;
+use crate::storage::save::Save;
+use crate::storage::{Storage, StorageError};
+use crate::store::Store;
+
+/// A save or a restore in bounded steps, with the values of the moment at which it began.
+///
+/// It is for a storage that [takes over](Storage::take) what the node saves. The image goes into memory
+/// that needs no erasure, such as RAM on its way to flash.
+#[derive(Clone, Debug)]
+pub struct Job {
+    plan: Plan<'static>,
+    profile: StoreProfile,
+    node_id: NodeId,
+    banks: Banks,
+    phase: Phase,
+    /// The first bank, while the other one is looked at.
+    first: Option<Bank>,
+    /// Bytes of the set that is written.
+    len: usize,
+    /// The set in the making.
+    walk: Walk,
+    has_orphans: bool,
+    at: usize,
+    filled: usize,
+    crc: Crc32,
+    buffer: [u8; MAX_WORD],
+    place: Range<usize>,
+}
+
+/// What a step goes on with.
+#[derive(Clone, Debug)]
+enum Phase {
+    /// The banks are looked at: the head of this one, its records, and what is behind them.
+    Head(usize),
+    Records(usize, Bank, Content),
+    Rest(usize, Bank, Rest),
+    /// The set is counted, written, and read back.
+    Count,
+    Write,
+    Wipe,
+    Check(Content),
+}
+
+/// The end of a bank, of which all bytes so far are FFh, or 0.
+#[derive(Clone, Debug)]
+struct Rest {
+    at: usize,
+    is_erased: bool,
+    is_zero: bool,
+}
+
+impl Job {
+    /// Begins a save. `values` has room for all values of the dictionary, which are copied.
+    pub fn new(save: &Save<'_>, values: &mut [u8]) -> Self {
+        let now = save.store.values();
+        if let Some(to) = values.get_mut(..now.len()) {
+            to.copy_from_slice(now);
+        }
+        let plan = match save.restores {
+            true => Plan::Restore(save.sub),
+            false => Plan::Save(save.sub),
+        };
+        Self {
+            plan,
+            profile: *save.profile,
+            node_id: save.store.node_id(),
+            banks: Banks {
+                device: save.device,
+                ..Banks::NONE
+            },
+            phase: Phase::Head(0),
+            first: None,
+            len: 0,
+            walk: Walk::NONE,
+            has_orphans: true,
+            at: 0,
+            filled: 0,
+            crc: Crc32::new(),
+            buffer: [0; MAX_WORD],
+            place: 0..0,
+        }
+    }
+
+    /// Goes on for at most 64 bytes, or eight values of the dictionary. `values` are those of
+    /// [`new`](Self::new). Returns what became of it when it is done.
+    pub fn step(
+        &mut self,
+        storage: &mut dyn Storage,
+        dictionary: &Dictionary<'_>,
+        values: &mut [u8],
+    ) -> Option<Result<(), StorageError>> {
+        let Ok(store) = Store::new(dictionary, values, self.node_id) else {
+            return Some(Err(StorageError::Full));
+        };
+        let mut banks = self.banks;
+        let mut medium = Medium::new(storage, &mut banks);
+        medium.buffer = self.buffer;
+        let done = self.go_on(&mut medium, &store);
+        self.buffer = medium.buffer;
+        let outcome = medium.outcome;
+        self.banks = banks;
+        match outcome {
+            Ok(()) => done.then_some(Ok(())),
+            failed => Some(failed),
+        }
+    }
+
+    /// Range of the newest set with its header, once the job is done: as [`newest`](super::newest).
+    pub fn newest(&self) -> Range<usize> {
+        self.place.clone()
+    }
+
+    /// Whether it is done.
+    fn go_on(&mut self, medium: &mut Medium<'_>, store: &Store<'_>) -> bool {
+        match self.phase.clone() {
+            Phase::Head(bank) => {
+                if bank == 0 {
+                    medium.banks.layout = Layout::of(medium.storage);
+                }
+                self.head(medium, bank)
+            }
+            Phase::Records(at, mut bank, mut content) => {
+                if content.go_on(medium, STEP) {
+                    bank.set = content.set(medium);
+                    self.rest(medium, at, bank);
+                } else {
+                    self.phase = Phase::Records(at, bank, content);
+                }
+                false
+            }
+            Phase::Rest(at, bank, mut rest) => {
+                let size = medium.banks.layout.size;
+                let part = rest.at..(rest.at + STEP).min(at + size);
+                rest.is_erased &= medium.holds(part.start, part.end, ERASED);
+                rest.is_zero &= medium.holds(part.start, part.end, 0);
+                rest.at = part.end;
+                if rest.at < at + size && (rest.is_erased || rest.is_zero) {
+                    self.phase = Phase::Rest(at, bank, rest);
+                    return false;
+                }
+                let is_clean = bank.is_clean && (rest.is_erased || rest.is_zero);
+                self.looked(medium, Bank { is_clean, ..bank })
+            }
+            Phase::Count => self.count(medium, store),
+            Phase::Write => {
+                if self.walk(medium, store, false) {
+                    let word = medium.banks.layout.word;
+                    self.put(medium, store, false, |set| set.write_out(word));
+                    self.phase = Phase::Wipe;
+                }
+                false
+            }
+            Phase::Wipe => self.wipe(medium, store),
+            Phase::Check(mut content) => {
+                if !content.go_on(medium, STEP) {
+                    self.phase = Phase::Check(content);
+                    return false;
+                }
+                let set = content.set(medium);
+                self.check(medium, set.map(|set| set.len.get()))
+            }
+        }
+    }
+
+    /// The head of a bank.
+    fn head(&mut self, medium: &mut Medium<'_>, at: usize) -> bool {
+        if medium.banks.layout.size == 0 {
+            return self.begin(medium);
+        }
+        let bank = medium.head(at);
+        let content = match bank.code.is_complete() {
+            true => medium.open(at),
+            false => None,
+        };
+        match content {
+            Some(content) => self.phase = Phase::Records(at, bank, content),
+            None if bank.code == Code::GIVEN_UP => return self.looked(medium, bank),
+            None => self.rest(medium, at, bank),
+        }
+        false
+    }
+
+    /// The end of a bank is next.
+    fn rest(&mut self, medium: &mut Medium<'_>, at: usize, bank: Bank) {
+        let rest = Rest {
+            at: at + bank.used(medium.banks.layout.word),
+            is_erased: true,
+            is_zero: true,
+        };
+        self.phase = Phase::Rest(at, bank, rest);
+    }
+
+    /// A bank was looked at.
+    fn looked(&mut self, medium: &mut Medium<'_>, bank: Bank) -> bool {
+        match self.first.take() {
+            None => {
+                self.first = Some(bank);
+                self.phase = Phase::Head(medium.banks.layout.size);
+                false
+            }
+            Some(first) => {
+                medium.pair(&first, &bank);
+                self.begin(medium)
+            }
+        }
+    }
+
+    /// Both banks were looked at. Done where there is nothing to write.
+    fn begin(&mut self, medium: &mut Medium<'_>) -> bool {
+        let stays = medium.banks.stays;
+        self.place = medium
+            .banks
+            .newest
+            .map_or(0..0, |set| stays..stays + set.len.get());
+        match medium.admits(&self.plan) {
+            Ok(true) => {
+                self.start(medium, 0);
+                self.phase = Phase::Count;
+                false
+            }
+            Ok(false) => true,
+            Err(error) => {
+                medium.fail(error);
+                true
+            }
+        }
+    }
+
+    /// Records are gone through from the first one on.
+    fn start(&mut self, medium: &mut Medium<'_>, at: usize) {
+        self.at = at;
+        self.walk = Walk::new(medium);
+    }
+
+    /// Once more without the records that have no object, if there is no room for them.
+    fn count(&mut self, medium: &mut Medium<'_>, store: &Store<'_>) -> bool {
+        if !self.walk(medium, store, true) {
+            return false;
+        }
+        let header = medium.banks.layout.header;
+        match self.at > medium.banks.layout.size - header {
+            true if self.has_orphans => {
+                self.has_orphans = false;
+                self.start(medium, 0);
+            }
+            true => medium.fail(StorageError::Full),
+            false => {
+                self.len = self.at;
+                medium.mark(&self.profile, &self.plan);
+                let target = medium.banks.target;
+                medium.clear(target, header + self.len);
+                self.crc = Crc32::new();
+                self.crc.update(self.fields(medium)[..2].as_flattened());
+                self.start(medium, target + header);
+                self.phase = Phase::Write;
+            }
+        }
+        false
+    }
+
+    /// The fields of the header.
+    fn fields(&self, medium: &Medium<'_>) -> [[u8; 4]; 3] {
+        [medium.banks.device, self.len as u32, self.crc.finish()].map(u32::to_le_bytes)
+    }
+
+    /// Behind the records; then the fields.
+    fn wipe(&mut self, medium: &mut Medium<'_>, store: &Store<'_>) -> bool {
+        let Banks { target, layout, .. } = *medium.banks;
+        let end = (self.at + STEP).min(target + layout.size);
+        medium.wipe(self.at, end);
+        self.at = end;
+        if end < target + layout.size {
+            return false;
+        }
+        let fields = self.fields(medium);
+        self.at = target + 2 * layout.word;
+        self.put(medium, store, false, |set| {
+            set.put(Source::Bytes(fields.as_flattened()), FIELDS);
+            set.write_out(layout.word);
+        });
+        medium.flush();
+        match medium.open(target) {
+            Some(content) => {
+                self.phase = Phase::Check(content);
+                false
+            }
+            None => self.check(medium, None),
+        }
+    }
+
+    /// The end: the set was read back, with this length.
+    fn check(&mut self, medium: &mut Medium<'_>, len: Option<usize>) -> bool {
+        let (target, whole) = (medium.banks.target, medium.banks.layout.header + self.len);
+        if len != Some(whole) {
+            medium.fail(StorageError::NotWritten);
+            medium.give_up(target);
+        }
+        if medium.outcome.is_ok() && medium.commit().is_ok() {
+            self.place = target..target + whole;
+        }
+        true
+    }
+
+    /// Does something with the set in the making.
+    fn put(
+        &mut self,
+        medium: &mut Medium<'_>,
+        store: &Store<'_>,
+        only_counts: bool,
+        act: impl FnOnce(&mut Set<'_, '_>),
+    ) {
+        let mut set = Set {
+            medium,
+            store,
+            plan: &self.plan,
+            has_orphans: self.has_orphans,
+            only_counts,
+            at: self.at,
+            filled: self.filled,
+            crc: self.crc,
+        };
+        act(&mut set);
+        (self.at, self.filled, self.crc) = (set.at, set.filled, set.crc);
+    }
+
+    /// Some of the records. Returns whether that was the last one.
+    fn walk(&mut self, medium: &mut Medium<'_>, store: &Store<'_>, only_counts: bool) -> bool {
+        let (mut walk, profile, mut done) = (self.walk.clone(), self.profile, false);
+        self.put(medium, store, only_counts, |set| {
+            done = walk.step(set, &profile);
+        });
+        self.walk = walk;
+        done
+    }
+}

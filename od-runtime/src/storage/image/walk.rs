@@ -1,0 +1,127 @@
+//! The records of the next set, one after another in steps, as [`Set::records`] puts them at once.
+
+use super::covered::{is_life_record, is_saved};
+use super::layout::RECORD;
+use super::medium::Medium;
+use super::merge::{Set, Source};
+use super::survey::{END, Records};
+use crate::profile::StoreProfile;
+
+/// Bytes that a step reads or writes at most, but for a few headers.
+pub(super) const STEP: usize = 64;
+
+/// Rows of the dictionary that a step looks at.
+const ROWS: usize = 8;
+
+/// Place in dictionary and newest set, side by side.
+#[derive(Clone, Debug)]
+pub(super) struct Walk {
+    row: usize,
+    old: Records,
+    piece: Option<Piece>,
+}
+
+/// Part of a record that is still to be put.
+#[derive(Clone, Debug)]
+struct Piece {
+    /// A place in the storage, or a value of the store: the number of its row.
+    from: From,
+    done: usize,
+    len: usize,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum From {
+    Storage(usize),
+    Row(usize),
+}
+
+impl Walk {
+    pub(super) const NONE: Self = Self {
+        row: 0,
+        old: Records::NONE,
+        piece: None,
+    };
+
+    /// From the first record on.
+    pub(super) fn new(medium: &mut Medium<'_>) -> Self {
+        let mut old = medium.records();
+        old.next(medium);
+        Self { old, ..Self::NONE }
+    }
+
+    /// Puts some of the records. Returns whether that was the last one.
+    pub(super) fn step(&mut self, set: &mut Set<'_, '_>, profile: &StoreProfile) -> bool {
+        for _ in 0..ROWS {
+            if let Some(mut piece) = self.piece.take() {
+                piece.put(set, profile);
+                if piece.done < piece.len {
+                    self.piece = Some(piece);
+                }
+                return false;
+            }
+            if self.next(set, profile) {
+                return true;
+            }
+        }
+        false
+    }
+
+    /// The next row, or the next record of the newest set. Returns whether that was the last one.
+    fn next(&mut self, set: &mut Set<'_, '_>, profile: &StoreProfile) -> bool {
+        let row = set.store.dictionary().rows().get(self.row);
+        if row.is_some_and(|row| !is_saved(row)) {
+            self.row += 1;
+            return false;
+        }
+        let key = row.map_or(END, |row| row.key());
+        let of_old = Piece {
+            from: From::Storage(self.old.at.wrapping_sub(RECORD)),
+            done: 0,
+            len: RECORD + self.old.len,
+        };
+        if self.old.key < key {
+            self.piece = set.keeps(self.old.key).then_some(of_old);
+            self.old.next(set.medium);
+            return false;
+        }
+        let Some(row) = row else { return true };
+        let (is_old, is_meant) = (self.old.key == key, set.is_meant(profile, row));
+        if is_meant && set.goes_in(row) {
+            self.piece = Some(Piece {
+                from: From::Row(self.row),
+                done: 0,
+                len: set.store.stored(row).len(),
+            });
+        }
+        if is_old {
+            if !is_meant && (!set.medium.banks.is_withdrawn || is_life_record(row)) {
+                self.piece = Some(of_old);
+            }
+            self.old.next(set.medium);
+        }
+        self.row += 1;
+        false
+    }
+}
+
+impl Piece {
+    /// Puts the next bytes.
+    fn put(&mut self, set: &mut Set<'_, '_>, profile: &StoreProfile) {
+        let part = (self.len - self.done).min(STEP);
+        match self.from {
+            From::Storage(at) => set.put(Source::Storage(at + self.done), part),
+            From::Row(row) => {
+                let Some(row) = set.store.dictionary().rows().get(row) else {
+                    return;
+                };
+                if self.len <= STEP {
+                    set.value(profile, row);
+                } else {
+                    set.part(row, self.done, part);
+                }
+            }
+        }
+        self.done += part;
+    }
+}
