@@ -43,7 +43,7 @@ static REQUESTED: AtomicU32 = AtomicU32::new(0);
 /// The longest that the task of low priority has had the node.
 static HELD: AtomicU32 = AtomicU32::new(0);
 
-/// The longest that the interrupt took: a save, up to where flash begins.
+/// The longest that the interrupt took since the saves began.
 static TOOK: AtomicU32 = AtomicU32::new(0);
 
 /// Ticks of the clock, upwards.
