@@ -268,7 +268,7 @@ impl Row {
     /// Whether the length varies (strings, domains) instead of following from the type.
     #[inline(always)]
     pub const fn is_variable(self) -> bool {
-        self.bits() == 0
+        size(self.0[0]) == 0
     }
 
     /// Whether the default may be another than 0 or empty.

@@ -39,7 +39,7 @@ impl Deadline {
     /// Whether it is due by now.
     #[inline(always)]
     pub(crate) const fn is_due(self, now: Instant) -> bool {
-        self.is_set() && self.0 - 1 <= now.as_micros()
+        is_due(self.0, now.as_micros())
     }
 
     /// The earlier one of two.
@@ -71,8 +71,16 @@ impl Deadline {
     }
 }
 
-/// The earlier one of two numbers of [`Deadline`]s. Numbers are in registers, which `Deadline` is not; on a
-/// microcontroller it is a call.
+// Numbers are in registers, which `Deadline` is not. On a microcontroller they are calls.
+
+/// [`Deadline::is_due`].
+#[cfg_attr(target_os = "none", inline(never))]
+#[cfg_attr(not(target_os = "none"), inline(always))]
+const fn is_due(at: u64, now: u64) -> bool {
+    at != 0 && at - 1 <= now
+}
+
+/// [`Deadline::or`].
 #[cfg_attr(target_os = "none", inline(never))]
 #[cfg_attr(not(target_os = "none"), inline(always))]
 const fn earlier(one: u64, other: u64) -> u64 {
@@ -82,7 +90,7 @@ const fn earlier(one: u64, other: u64) -> u64 {
     }
 }
 
-/// [`Deadline::next_period`], likewise.
+/// [`Deadline::next_period`].
 #[inline(never)]
 const fn next(at: u64, millis: u32, now: u64) -> u64 {
     let (at, now) = (Deadline(at).moment(), Instant::from_micros(now));

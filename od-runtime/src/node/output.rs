@@ -55,6 +55,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
             node.discard_frames();
             return None;
         }
+        let now = now.max(node.now);
         if ROOMY && node.pending & pending::ANSWER != 0 {
             node.pending &= !pending::ANSWER;
             return Some(node.response(bytes(node.answer)));
@@ -82,11 +83,10 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
         None
     }
 
-    /// Returns the next PDO that is ready.
+    /// Returns the next PDO that is ready. `now` is not before the time of the node.
     #[inline(never)]
     fn poll_pdo(&mut self, device: &mut Lent<'_>, now: Instant) -> Option<Frame> {
         let node = &mut self.machines;
-        let now = now.max(node.now);
         if device.values.len() < device.dictionary.store_len() {
             return None;
         }
@@ -130,11 +130,11 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
         pdo.send::<D>(&device.dictionary, device.values, node.node_id, now)
     }
 
-    /// Returns the next frame that no request asked for but a PDO: EMCY message, block segment.
+    /// Returns the next frame that no request asked for but a PDO: EMCY message, block segment. `now` as
+    /// for PDOs.
     #[inline(never)]
     fn poll_services(&mut self, device: &mut Lent<'_>, now: Instant) -> Option<Frame> {
         let node = &mut self.machines;
-        let now = now.max(node.now);
         if node.sends_emcy() {
             let store = Store::new(&device.dictionary, device.values, node.node_id).ok()?;
             let frame = node.emcy.poll::<D>(&store, now);

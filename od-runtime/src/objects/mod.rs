@@ -114,7 +114,7 @@ impl<'c, D: Device> Objects<'c, D> {
     }
 
     /// Whether a value that is not plain (a number in the store) can be read from the store.
-    #[inline(never)]
+    #[cfg_attr(not(target_os = "none"), inline(never))]
     fn check_special(&mut self, row: &Row) -> Result<(), Unread> {
         if !row.readable() {
             return Err(Unread::Abort(AbortCode::WriteOnly));
@@ -268,7 +268,7 @@ impl<'c, D: Device> Objects<'c, D> {
     }
 
     /// Reading an entry of 1003h that holds no error.
-    #[inline(never)]
+    #[cfg_attr(not(target_os = "none"), inline(never))]
     fn unused_error(&self, address: Address) -> Result<(), AbortCode> {
         match self.profile().sdo.unused_error {
             Some(code) if u32::from(address.sub) > self.store.word(0x1003, 0, 0) => Err(code),
