@@ -70,6 +70,22 @@ fn a_section_with_a_misspelled_name_still_counts() {
 }
 
 #[test]
+fn a_gap_is_not_filled_with_a_sub_index_in_decimal_that_is_elsewhere() {
+    // Sub-index 1 is missing, and `sub10` behind `sub9` may well be decimal.
+    let subs = ["2", "3", "4", "5", "6", "7", "8", "9", "10"];
+    let text = subs.iter().fold(
+        String::from("[2010]\nParameterName=a\nObjectType=0x8\nSubNumber=9\n"),
+        |text, sub| {
+            text + &format!("[2010sub{sub}]\nParameterName={sub}\nDataType=5\nAccessType=rw\n")
+        },
+    );
+    let findings = Document::new(text.as_str()).load().findings;
+    let gap = findings.iter().find(|finding| finding.code() == "W0351");
+    let gap = gap.expect("there is a gap");
+    assert!(gap.fix.is_none(), "{}", say(gap, &Eds).help);
+}
+
+#[test]
 fn a_sub_index_in_decimal_does_not_raise_sub_index_0() {
     let subs = [
         "sub1", "sub2", "sub3", "sub4", "sub5", "sub6", "sub7", "sub8", "sub9", "sub10",

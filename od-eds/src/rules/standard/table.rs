@@ -330,4 +330,35 @@ mod tests {
             assert!(of(index).is_none(), "{index:04X}");
         }
     }
+
+    #[test]
+    fn the_types_of_values_are_those_of_the_standards() {
+        for (index, sub, is_whole, data_type) in [
+            (0x1000, 0, true, Some(Unsigned32)),
+            (0x1000, 0, false, None),
+            (0x1001, 0, true, Some(Unsigned8)),
+            (0x1018, 0, false, Some(Unsigned8)),
+            (0x1018, 4, false, Some(Unsigned32)),
+            (0x1018, 5, false, None),
+            (0x1018, 0, true, None),
+            (0x1010, 127, false, Some(Unsigned32)),
+            (0x1600, 0, false, Some(Unsigned8)),
+            (0x1A00, 1, false, Some(Unsigned32)),
+            (0x1BFF, 64, false, Some(Unsigned32)),
+            (0x1BFF, 65, false, None),
+            (0x2000, 0, true, None),
+            // The records that the standard describes as types.
+            (0x20, 0, false, Some(Unsigned8)),
+            (0x20, 2, false, Some(Unsigned8)),
+            (0x20, 3, false, Some(Unsigned16)),
+            (0x21, 64, false, Some(Unsigned32)),
+            (0x21, 65, false, None),
+            (0x22, 1, false, Some(Unsigned32)),
+            (0x23, 4, false, Some(Unsigned32)),
+            (0x23, 5, false, None),
+        ] {
+            let found = super::data_type(index, sub, is_whole);
+            assert_eq!(found, data_type, "{index:04X}:{sub:02X}");
+        }
+    }
 }

@@ -73,6 +73,16 @@ fn what_the_inhibit_time_holds_back_is_not_marked() {
 }
 
 #[test]
+fn a_pdo_that_has_nothing_to_send_calls_nobody_back() {
+    let mut bench = running(&[255, 1], 0x2001);
+    let (at, due) = (Instant::from_millis(10), Instant::from_millis(15));
+    bench.node.machines.tpdos_mut()[0].inhibit(due);
+    call!(bench.handle_timeout, at);
+    assert_eq!(call!(bench.poll_transmit, at), None);
+    assert_eq!(bench.node.poll_timeout(), Some(due));
+}
+
+#[test]
 fn other_deadlines_have_the_machines_look() {
     let mut bench = running(&[255], 0);
     let producer = Frame::standard(0x601, &[0x2B, 0x17, 0x10, 0, 15, 0, 0, 0]);
