@@ -85,6 +85,33 @@ fn a_gap_is_not_filled_with_a_sub_index_in_decimal_that_is_elsewhere() {
     assert!(gap.fix.is_none(), "{}", say(gap, &Eds).help);
 }
 
+/// Whether a rule has something to say.
+fn finds(text: &str, code: &str) -> bool {
+    let findings = Document::new(text).load().findings;
+    findings.iter().any(|finding| finding.code() == code)
+}
+
+#[test]
+fn steps_in_6502h_are_not_taken_for_revolutions() {
+    let turns = include_str!("../cases/W0957/fixed.eds");
+    let steps = turns.replace("DefaultValue=4096", "DefaultValue=33554432");
+    assert_ne!(turns, steps);
+    assert!(!finds(&steps, "W0957"), "8192 × 4096 steps, multiturn");
+    let singleturn = steps.replace("DefaultValue=0x00020196", "DefaultValue=0x00010196");
+    assert!(finds(&singleturn, "W0957"));
+}
+
+#[test]
+fn a_dcf_may_write_out_the_cob_ids_of_its_node() {
+    let eds = include_str!("../cases/W0530/fixed.eds");
+    let dcf = format!("{eds}\n[DeviceComissioning]\nNodeID=5\n");
+    for (cob_id, is_wrong) in [("0x605", false), ("0x606", true), ("0x600", true)] {
+        let text = dcf.replace("$NODEID+0x600", cob_id);
+        assert_ne!(text, dcf);
+        assert_eq!(finds(&text, "W0530"), is_wrong, "{cob_id}");
+    }
+}
+
 #[test]
 fn a_sub_index_in_decimal_does_not_raise_sub_index_0() {
     let subs = [

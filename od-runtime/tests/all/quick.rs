@@ -82,6 +82,22 @@ fn each_upload_of_a_live_number_reads_it_once() {
 }
 
 #[test]
+fn a_block_has_a_live_number_as_it_is_now() {
+    let mut bench = Bench::with(rows(), Counter::default());
+    bench.power_on();
+    for reads in ["01", "02"] {
+        let start = bench.ask("601#A00120007F000000");
+        assert_eq!(start, "581#C601200002000000");
+        let segment = bench.ask("601#A300000000000000");
+        assert_eq!(segment, format!("581#81{reads}000000000000"));
+        bench.send("601#8001200000000008");
+    }
+    bench.application.fails = true;
+    let refused = bench.ask("601#A00120007F000000");
+    assert_eq!(refused, "581#8001200022000008");
+}
+
+#[test]
 fn an_upload_takes_the_place_of_a_transfer_in_segments() {
     let mut bench = Bench::new();
     bench.power_on();

@@ -178,3 +178,20 @@ fn a_number_is_put_in_its_own_length() {
     store.reset_entry(&entry);
     assert!(store.is_default(&entry));
 }
+
+#[test]
+fn a_handle_of_a_constant_has_its_default() {
+    use od_model::typed::Var;
+    use od_model::{Address, Slot};
+    let mut bench = bench();
+    let dictionary = bench.tables.dictionary();
+    let values = &mut bench.values;
+    let store = od_runtime::Store::new(&dictionary, values, od_runtime::NodeId::ONE);
+    let store = store.expect("room");
+    let handle = |index| {
+        let nowhere = Slot { offset: 0, len: 0 };
+        Var::<u8, ()>::new(Address::new(index, 0), nowhere, 8)
+    };
+    assert_eq!(store.get(handle(0x1010)), 1);
+    assert_eq!(store.get(handle(0x2FFF)), 0, "there is no such object");
+}
