@@ -102,6 +102,22 @@ fn steps_in_6502h_are_not_taken_for_revolutions() {
 }
 
 #[test]
+fn a_maximum_of_0_is_none() {
+    let bad = include_str!("../cases/W0917/bad.eds");
+    let unset = bad.replace("DefaultValue=3000", "DefaultValue=0");
+    assert_ne!(bad, unset);
+    assert!(finds(bad, "W0917") && !finds(&unset, "W0917"));
+}
+
+#[test]
+fn several_logical_devices_have_no_reserved_bits() {
+    let one = include_str!("../cases/W0914/fixed.eds");
+    let with = |device_type| one.replace("DefaultValue=0x00040191", device_type);
+    assert!(finds(&with("DefaultValue=0x007F0191"), "W0914"));
+    assert!(!finds(&with("DefaultValue=0xFFFF0191"), "W0914"));
+}
+
+#[test]
 fn a_dcf_may_write_out_the_cob_ids_of_its_node() {
     let eds = include_str!("../cases/W0530/fixed.eds");
     let dcf = format!("{eds}\n[DeviceComissioning]\nNodeID=5\n");

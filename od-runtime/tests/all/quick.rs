@@ -8,6 +8,8 @@ use od_runtime::{AbortCode, Application, Context, Emcy};
 #[derive(Default)]
 struct Counter {
     reads: u64,
+    /// How often it was asked for an object of the services.
+    strange: u64,
     fails: bool,
     raises: bool,
 }
@@ -19,6 +21,7 @@ impl Application for Counter {
 
     fn refresh(&mut self, cx: &mut Context<'_, '_>, address: Address) -> Result<(), AbortCode> {
         if address.index != 0x2001 {
+            self.strange += u64::from(address.index < 0x2000);
             return Ok(());
         }
         self.reads += 1;
@@ -79,6 +82,15 @@ fn each_upload_of_a_live_number_reads_it_once() {
         "the response, then what the application has to say"
     );
     assert_eq!(bench.application.reads, 7);
+}
+
+/// Of 1001h and 2001h the last digits are the same, which the node's quick look goes by.
+#[test]
+fn an_application_is_not_asked_for_the_objects_of_the_services() {
+    let mut bench = Bench::with(rows(), Counter::default());
+    bench.power_on();
+    assert_eq!(bench.ask("601#4001100000000000"), "581#4F01100000000000");
+    assert_eq!(bench.application.strange, 0);
 }
 
 #[test]
