@@ -119,7 +119,7 @@ fn reals_of_both_lengths_have_their_defaults() {
     }
     let mut bench = Bench::with(all, NoApplication);
     bench.power_on();
-    let single = (-1.5f32).to_bits().into();
+    let single = u64::from((-1.5f32).to_bits());
     assert_eq!(bench.value(0x2010, 0), single);
     assert_eq!(bench.value(0x2011, 0), (-1.5f64).to_bits());
     assert_eq!(bench.value(0x2012, 0), single);
