@@ -25,6 +25,17 @@ const BOARDS: [(&str, &[&str], bool); 4] = [
     ("stm32g0", &[target::SMALLEST], false),
     ("stm32f4", &[target::FLOAT], false),
 ];
+/// Beginnings of the names of functions for doubles and atomics.
+const HELP: [&str; 8] = [
+    "__aeabi_dadd",
+    "__aeabi_dsub",
+    "__aeabi_dmul",
+    "__aeabi_ddiv",
+    "__aeabi_dcmp",
+    "__aeabi_d2",
+    "__atomic_",
+    "__sync_",
+];
 /// Frames to the firmware of gxmm in the emulator, and the one that answers each, as slcan text.
 const DIALOGUE: [(&str, &str); 4] = [
     ("", "t701100"),
@@ -68,14 +79,42 @@ pub(super) fn boards(context: &Context<'_>) -> Result<()> {
             check.arg(name).arg("--target-dir").arg(&repo.target);
             check.args(["--", "-D", "warnings"]);
             console.run(&format!("{board} for {name}"), &mut check)?;
-            if context.long {
+            // What a Cortex-M0 calls for doubles and atomics is seen in what is linked.
+            if context.long || *name == target::SMALLEST {
                 let mut link = cargo(&firmware, &["build", "--quiet", "--release", "--target"]);
                 link.arg(name).arg("--target-dir").arg(&repo.target);
                 console.run(&format!("{board} for {name}, linked"), &mut link)?;
+                let program = repo.target.join(name).join("release/encoder-firmware");
+                if *name == target::SMALLEST {
+                    needs_no_help(&program)?;
+                }
             }
         }
     }
     emulate(context, &folder.join("generic/firmware"))
+}
+
+/// A firmware for a Cortex-M0 has no arithmetic of doubles and no atomics by calls: gxmm has no REAL64.
+fn needs_no_help(program: &Path) -> Result<()> {
+    let bytes = fs::read(program).map_err(|e| Error::io("read", program, &e))?;
+    // A program without symbols would show nothing.
+    if !has(&bytes, b"__aeabi_") {
+        return Err(Error::Failed(format!(
+            "{} has no symbols",
+            program.display()
+        )));
+    }
+    match HELP.iter().find(|name| has(&bytes, name.as_bytes())) {
+        Some(name) => Err(Error::Failed(format!(
+            "{} calls {name}...",
+            program.display()
+        ))),
+        None => Ok(()),
+    }
+}
+
+fn has(bytes: &[u8], name: &[u8]) -> bool {
+    bytes.windows(name.len()).any(|part| part == name)
 }
 
 /// Runs the firmware of the board `generic`.
