@@ -99,6 +99,8 @@ fn steps_in_6502h_are_not_taken_for_revolutions() {
     assert!(!finds(&steps, "W0957"), "8192 × 4096 steps, multiturn");
     let singleturn = steps.replace("DefaultValue=0x00020196", "DefaultValue=0x00010196");
     assert!(finds(&singleturn, "W0957"));
+    let range = singleturn.replace("=33554432", "=8192");
+    assert!(!finds(&range, "W0957"), "8192 steps are one revolution");
 }
 
 #[test]
@@ -107,6 +109,36 @@ fn a_maximum_of_0_is_none() {
     let unset = bad.replace("DefaultValue=3000", "DefaultValue=0");
     assert_ne!(bad, unset);
     assert!(finds(bad, "W0917") && !finds(&unset, "W0917"));
+}
+
+#[test]
+fn a_mode_has_its_own_bit_in_6502h() {
+    let bad = include_str!("../cases/W0910/bad.eds");
+    for (modes, is_wrong) in [
+        ("0x4", false),
+        ("0x3FB", true),
+        ("0x7", false),
+        ("0", false),
+    ] {
+        let text = bad.replace("DefaultValue=1\n", &format!("DefaultValue={modes}\n"));
+        assert_eq!(finds(&text, "W0910"), is_wrong, "mode 3 of {modes}");
+    }
+    let findings = Document::new(bad).load().findings;
+    let finding = findings.iter().find(|finding| finding.code() == "W0910");
+    let said = say(finding.expect("a finding"), &Eds);
+    assert!(said.message.contains("bit 2"), "{}", said.message);
+}
+
+#[test]
+fn a_name_of_241_characters_is_not_too_long() {
+    let text = array("2010", &[("sub1", "0x0005")]);
+    let named = |length| {
+        text.replace(
+            "ParameterName=a",
+            &format!("ParameterName={}", "x".repeat(length)),
+        )
+    };
+    assert!(!finds(&named(241), "W0344") && finds(&named(242), "W0344"));
 }
 
 #[test]
@@ -126,6 +158,8 @@ fn a_dcf_may_write_out_the_cob_ids_of_its_node() {
         assert_ne!(text, dcf);
         assert_eq!(finds(&text, "W0530"), is_wrong, "{cob_id}");
     }
+    let other = dcf.replace("$NODEID+0x600", "0x700");
+    assert!(finds(&other, "E0533") && !finds(&other, "W0530"));
 }
 
 #[test]
