@@ -33,8 +33,8 @@ const HEAD = 4096;
 /** A section, a comment or a key with a value: a line of an EDS. */
 const SECTION = /^[ \t]*\[[^\]\r\n]+\]/m;
 
-/** What a file is; null for one that may be an EDS, a DCF or an XDD. */
-export async function kindOf(bytes: Uint8Array): Promise<Kind | null> {
+/** What a file is, or the text of one that may be an EDS, a DCF or an XDD. */
+export async function kindOf(bytes: Uint8Array): Promise<Kind | string> {
   if (bytes.length === 0) return { what: k.empty };
   const head = Array.from(bytes.subarray(0, HEAD), (byte) => String.fromCharCode(byte)).join('');
   const known = MAGIC.find(([pattern]) => pattern.test(head));
@@ -46,10 +46,10 @@ export async function kindOf(bytes: Uint8Array): Promise<Kind | null> {
   if (/^\s*$/.test(text)) return { what: k.blank };
   if (/\0/.test(text)) return { what: k.binary };
   if (/^\s*<(!doctype html|html)/i.test(text)) return { what: k.webPage };
-  if (/^\s*<\?xml|^\s*<[a-z]/i.test(text)) return /ISO15745Profile/.test(text) ? null : { what: k.xml };
+  if (/^\s*<\?xml|^\s*<[a-z]/i.test(text)) return /ISO15745Profile/.test(text) ? text : { what: k.xml };
   // A section can be an array of JSON, too.
   if (/^\s*[[{]/.test(text) && isJson(text)) return { what: k.json };
-  return SECTION.test(text) ? null : { what: k.text };
+  return SECTION.test(text) ? text : { what: k.text };
 }
 
 function isJson(text: string): boolean {

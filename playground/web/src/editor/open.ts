@@ -2,7 +2,6 @@
 
 import { openDevice } from '../actions';
 import { opened } from '../seeing/log';
-import { use } from '../sim/link';
 import * as state from '../state';
 import { E } from '../texts/editor';
 import { kindOf } from './kind';
@@ -10,14 +9,13 @@ import { kindOf } from './kind';
 /** Opens the bytes of a file; false where it is not on the bus. */
 export async function openBytes(name: string, bytes: Uint8Array, nodeId: number, place: number | 'new'): Promise<boolean> {
   const kind = await kindOf(bytes);
-  if (kind) {
+  if (typeof kind !== 'string') {
     const { what, next, log } = kind;
     const action = log ? { text: E.report.asLog, run: () => opened(name, log) } : undefined;
     report({ name, said: E.report.not(name, what, next), isBad: true, device: null, ...(action && { action }) });
     return false;
   }
-  const text = await use('decodeEds', bytes);
-  return 'value' in text && openText({ name, text: text.value, bytes, nodeId, place }, false);
+  return openText({ name, text: kind, bytes, nodeId, place }, false);
 }
 
 /** Runs an EDS text; a lenient try leaves out what is wrong with it. */
