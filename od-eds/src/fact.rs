@@ -11,6 +11,7 @@ use crate::description::Value;
 /// A key of an object's section in an EDS, which is a field of a row in a macro call.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 #[allow(missing_docs)] // the variants are the keys' names
+#[non_exhaustive]
 pub enum Key {
     ParameterName,
     ObjectType,

@@ -8,6 +8,7 @@ use super::{candump, pcapng};
 
 /// File format of a log.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[non_exhaustive]
 pub enum Format {
     /// `candump -L`.
     Candump,

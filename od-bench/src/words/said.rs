@@ -7,6 +7,7 @@ use od_model::Address;
 
 /// Service of a frame.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[non_exhaustive]
 pub enum Service {
     /// NMT command.
     Nmt,
