@@ -1,7 +1,7 @@
 // A stand-in for Web Serial: the page's port leads to a terminal, as that of a USB adapter would.
 import { constants, openSync } from 'node:fs';
 import { ReadStream } from 'node:tty';
-import { URL_OF_PAGE } from './harness.mjs';
+import { opened, URL_OF_PAGE } from './harness.mjs';
 
 /** A terminal, byte by byte, as a browser opens it. */
 const terminal = (path) => new ReadStream(openSync(path, constants.O_RDWR | constants.O_NOCTTY)).setRawMode(true);
@@ -10,6 +10,9 @@ const terminal = (path) => new ReadStream(openSync(path, constants.O_RDWR | cons
 export async function withAdapter(browser) {
   const context = await browser.newContext({ viewport: { width: 1366, height: 625 } });
   const page = await context.newPage();
+  // A test that waits in vain shows what is on it.
+  opened.set(page, []);
+  page.on('close', () => opened.delete(page));
   let line = null;
   let isPlugged = false;
   await page.exposeFunction('toAdapter', (text) => void line?.write(text, 'latin1'));

@@ -32,7 +32,12 @@ async function connect(page, address) {
   await mark(page).waitFor();
 }
 
-const turnOn = (page) => page.getByRole('switch', { name: 'Sending' }).click();
+/** The page holds frames back until the worker has said that sending is on. */
+async function turnOn(page) {
+  const sending = page.getByRole('switch', { name: 'Sending' });
+  await sending.click();
+  await becomes('sending', () => sending.getAttribute('aria-checked'), 'true');
+}
 
 /** A test with a page of its own. Its console may say that a connection failed: the browser does. */
 const on = (name, body, options) =>
