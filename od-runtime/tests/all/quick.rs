@@ -8,7 +8,7 @@ use od_runtime::{AbortCode, Application, Context, Emcy};
 #[derive(Default)]
 struct Counter {
     reads: u64,
-    /// How often it was asked for an object of the services.
+    /// Number of requests for an object of the services.
     strange: u64,
     fails: bool,
     raises: bool,

@@ -43,7 +43,7 @@ pub struct Job {
     place: Range<usize>,
 }
 
-/// What a step goes on with.
+/// The work of the next step.
 #[derive(Clone, Debug)]
 enum Phase {
     /// The banks are looked at: the head of this one, its records, and what is behind them.

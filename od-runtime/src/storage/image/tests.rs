@@ -25,8 +25,10 @@ const HEADER: usize = layout::header(1);
 
 const STORE: &StoreProfile = &Profile::CIA301.store;
 
-/// Rows: index, type, access, default.
-fn tables(rows: &[(u16, DataType, Access, Raw)]) -> Tables {
+/// Index, type, access, default.
+type Row = (u16, DataType, Access, Raw);
+
+fn tables(rows: &[Row]) -> Tables {
     let mut description = Description::default();
     for (index, data_type, access, default) in rows {
         let mut edit = Edit::add(Target::object(*index))
@@ -43,10 +45,10 @@ fn tables(rows: &[(u16, DataType, Access, Raw)]) -> Tables {
     Tables::new(&description)
 }
 
-fn device() -> Tables {
+fn rows() -> Vec<Row> {
     use Access::{Ro, Rw};
     use DataType::{Integer16, Unsigned8, Unsigned32, VisibleString};
-    tables(&[
+    vec![
         (0x1000, Unsigned32, Ro, Raw::Integer(0x0002_0196)),
         (0x1014, Unsigned32, Rw, Raw::NodeId(0x80)),
         (0x1017, Unsigned32, Rw, Raw::Integer(0)),
@@ -55,7 +57,11 @@ fn device() -> Tables {
         (0x2300, VisibleString, Rw, Raw::Text("".into())),
         (0x6003, Unsigned32, Rw, Raw::Integer(0)),
         (0x6010, Integer16, Rw, Raw::Integer(-1)),
-    ])
+    ]
+}
+
+fn device() -> Tables {
+    tables(&rows())
 }
 
 /// A store with defaults, overlaid with what is saved.

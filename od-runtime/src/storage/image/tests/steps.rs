@@ -84,21 +84,11 @@ fn in_steps(
 
 /// A device whose dictionary lacks some of the objects of others, with a string longer than a step.
 fn variant(lacks: u16) -> Bench {
-    use Access::{Ro, Rw};
-    use DataType::{Integer16, Unsigned8, Unsigned32, VisibleString};
     let long: String = "long ".repeat(60);
-    let mut rows = vec![
-        (0x1000, Unsigned32, Ro, Raw::Integer(0x0002_0196)),
-        (0x1014, Unsigned32, Rw, Raw::NodeId(0x80)),
-        (0x1017, Unsigned32, Rw, Raw::Integer(0)),
-        (0x2101, Unsigned8, Rw, Raw::Integer(1)),
-        (0x2201, Unsigned32, Ro, Raw::Integer(0)),
-        (0x2300, VisibleString, Rw, Raw::Text("".into())),
-        (0x2301, VisibleString, Rw, Raw::Text(long)),
-        (0x6003, Unsigned32, Rw, Raw::Integer(0)),
-        (0x6010, Integer16, Rw, Raw::Integer(-1)),
-    ];
-    rows.extend((0..30).map(|i| (0x6100 + i, Unsigned8, Rw, Raw::Integer(0))));
+    let mut rows = rows();
+    rows.push((0x2301, DataType::VisibleString, Access::Rw, Raw::Text(long)));
+    let number = |i: u16| (0x6100 + i, DataType::Unsigned8, Access::Rw, Raw::Integer(0));
+    rows.extend((0..30).map(number));
     rows.retain(|row| row.0 == 0x1000 || (row.0 ^ row.0 >> 4) & 7 != lacks);
     Bench::new(tables(&rows))
 }
