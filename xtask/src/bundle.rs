@@ -1,8 +1,8 @@
 //! From Rust and TypeScript to the folder that is served.
 //!
-//! 1. `cargo build` makes `od_playground.wasm`,
-//! 2. wasm-bindgen and wasm-opt turn it into `playground/web/src/wasm/`, and a smaller one
-//!    without EDS texts into `core/` in there: the page begins with that,
+//! 1. `cargo build` makes `od_playground.wasm`, and `od_playground_core.wasm` without EDS texts,
+//! 2. wasm-bindgen and wasm-opt turn them into `playground/web/src/wasm/`, the smaller one into
+//!    `core/` in there: the page begins with that,
 //! 3. `npm run build` bundles the page into `playground/web/dist/`.
 
 use std::fs;
@@ -13,7 +13,7 @@ use crate::console::{Console, cargo};
 use crate::error::{Error, Result};
 use crate::flags::without_paths;
 use crate::lock::SetupLock;
-use crate::packages::PAGE;
+use crate::packages::{PAGE, PAGE_CORE};
 use crate::repo::{self, Repo};
 use crate::setup::{binaryen, bindgen, node, target};
 use crate::stamp::{Fingerprint, Stamp};
@@ -26,7 +26,8 @@ pub(crate) const RELEASE: (&str, &str) = ("CARGO_PROFILE_RELEASE_OPT_LEVEL", "s"
 struct Module {
     /// Its folder under the bindings.
     folder: &'static str,
-    features: &'static [&'static str],
+    /// Its package, and its library.
+    package: (&'static str, &'static str),
     /// Optimisation level of wasm-opt: `-Os` takes three times as long as `-O1` and saves 4 % more.
     level: &'static str,
     what: &'static str,
@@ -34,14 +35,14 @@ struct Module {
 
 const WHOLE: Module = Module {
     folder: "",
-    features: &[],
+    package: PAGE,
     level: "-O1",
     what: "compiling the virtual encoder to WebAssembly",
 };
 
 const CORE: Module = Module {
     folder: "core",
-    features: &["--no-default-features"],
+    package: PAGE_CORE,
     level: "-Os",
     what: "compiling what the page begins with",
 };
@@ -77,8 +78,7 @@ pub(crate) fn bindings(repo: &Repo, console: &Console) -> Result<PathBuf> {
 fn generate(repo: &Repo, console: &Console, module: &Module) -> Result<PathBuf> {
     target::add(repo, console, target::WASM)?;
     let mut build = cargo(&repo.root, &["build", "--lib", "--release"]);
-    build.args(["--package", PAGE.0, "--target", target::WASM]);
-    build.args(module.features);
+    build.args(["--package", module.package.0, "--target", target::WASM]);
     build.env(RELEASE.0, RELEASE.1);
     // A page for others does not name the folders of this computer, and is the same from any.
     build.env("CARGO_ENCODED_RUSTFLAGS", without_paths(&repo.root));
@@ -87,7 +87,7 @@ fn generate(repo: &Repo, console: &Console, module: &Module) -> Result<PathBuf> 
         .target
         .join(target::WASM)
         .join("release")
-        .join(format!("{}.wasm", PAGE.1));
+        .join(format!("{}.wasm", module.package.1));
 
     let out = repo.bindings().join(module.folder);
     let level = module.level;
@@ -107,8 +107,9 @@ fn generate(repo: &Repo, console: &Console, module: &Module) -> Result<PathBuf> 
     let tool = bindgen::get(repo, console)?;
     prepare(&out)?;
     let mut command = Command::new(tool);
-    command.args(["--target", "web", "--typescript", "--out-dir"]);
-    command.arg(&out).arg(&wasm).current_dir(&repo.root);
+    command.args(["--target", "web", "--typescript", "--out-name", PAGE.1]);
+    command.arg("--out-dir").arg(&out);
+    command.arg(&wasm).current_dir(&repo.root);
     console.run(
         "generating JavaScript and types (wasm-bindgen)",
         &mut command,

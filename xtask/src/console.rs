@@ -166,6 +166,8 @@ pub(crate) fn clean(program: &Path, dir: &Path, args: &[&str]) -> Command {
         // Nobody edits here and builds again, and a build for that takes longer.
         command.env("CARGO_INCREMENTAL", "0");
         command.env("CARGO_PROFILE_DEV_DEBUG", "0");
+        // With this, a workspace of `odkit new` shares macros with those of this repository.
+        command.env("CARGO_PROFILE_RELEASE_DEBUG", "0");
         // The other lanes have the processors, and each part of a crate has a cost of its own.
         command.env("CARGO_PROFILE_DEV_CODEGEN_UNITS", "2");
     }

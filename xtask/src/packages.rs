@@ -4,6 +4,8 @@
 pub(crate) const CLI: (&str, &str) = ("od-cli", "odkit");
 /// The WebAssembly module, and its library.
 pub(crate) const PAGE: (&str, &str) = ("od-playground", "od_playground");
+/// The smaller one that the page begins with: the same sources without features.
+pub(crate) const PAGE_CORE: (&str, &str) = ("od-playground-core", "od_playground_core");
 /// The tests from outside.
 pub(crate) const TESTS: &str = "od-tests";
 /// Those of what compiles and what does not; a package of its own, since trybuild builds all that
@@ -22,8 +24,8 @@ pub(crate) const PYTHON: &str = "odkit-python";
 
 /// Packages that are not for crates.io; the playground is for npm, the Python module for PyPI.
 #[rustfmt::skip]
-pub(crate) const UNPUBLISHED: [&str; 8] =
-    [BENCHES, PEER, PAGE.0, PYTHON, TESTS, COMPILE, FUZZ, "xtask"];
+pub(crate) const UNPUBLISHED: [&str; 9] =
+    [BENCHES, PEER, PAGE.0, PAGE_CORE.0, PYTHON, TESTS, COMPILE, FUZZ, "xtask"];
 
 /// Packages that `cargo xtask mutants` changes.
 pub(crate) const MUTATED: [Mutated; 3] = [

@@ -7,16 +7,16 @@ use std::sync::{Mutex, PoisonError};
 
 use crate::console::cargo;
 use crate::error::{Error, Result};
-use crate::packages::{BENCHES, CLI, NO_STD, PEER};
+use crate::packages::{BENCHES, CLI, NO_STD, PAGE_CORE, PEER};
 use crate::setup::target;
 use crate::size::{self, measure};
 use crate::test::context::Context;
 
-/// All that is built for the host, except the benchmarks with their heavy peers. Always these
-/// packages with these features: another choice would be a build of its own.
+/// All that is built for the host, except the benchmarks with their heavy peers, and sources that another
+/// package has, too. Always these packages with these features: another choice would be a build of its own.
 #[rustfmt::skip]
-pub(super) const ALL: [&str; 6] =
-    ["--workspace", "--exclude", BENCHES, "--exclude", PEER, "--all-features"];
+pub(super) const ALL: [&str; 8] =
+    ["--workspace", "--exclude", BENCHES, "--exclude", PEER, "--exclude", PAGE_CORE.0, "--all-features"];
 
 /// Folders of packages whose tests are not those of [`unit`].
 const OUTSIDE: [&str; 5] = ["tests", "tests/compile", "tests/bench", "python", "target"];
