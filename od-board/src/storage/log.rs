@@ -114,17 +114,23 @@ impl<F: NorFlash, const B: usize> Log<F, B> {
         }
     }
 
-    /// Loads the newest set into a mirror, before the node has power.
+    /// Loads the newest set into a mirror, before the node has power. After an error the node reports its
+    /// storage as damaged, and goes on.
     ///
     /// # Errors
-    /// [`StorageError::Device`] if the flash cannot be read or repaired.
+    /// [`StorageError::Device`] if the flash cannot be read or repaired, else those of [`Mirror::load`].
     pub async fn load<const N: usize, const V: usize>(
         &mut self,
         mirror: &mut Mirror<N, V>,
     ) -> Result<(), StorageError> {
         let set = self.map.fetch_item::<&[u8]>(&mut self.buffer, &SET).await;
-        mirror.load(set.map_err(|_| StorageError::Device)?.unwrap_or(&[]));
-        Ok(())
+        match set {
+            Ok(set) => mirror.load(set.unwrap_or(&[])),
+            Err(_) => {
+                mirror.lose(StorageError::Device);
+                Err(StorageError::Device)
+            }
+        }
     }
 
     /// Keeps what the node saves, for ever. `with` calls its argument with the mirror, in whatever lock

@@ -29,6 +29,8 @@ pub struct Mirror<const N: usize, const V: usize> {
     made: u32,
     kept: u32,
     failed: bool,
+    /// There is a set that could not be loaded.
+    lost: Option<StorageError>,
     waker: Option<Waker>,
 }
 
@@ -57,19 +59,36 @@ impl<const N: usize, const V: usize> Mirror<N, V> {
             made: 0,
             kept: 0,
             failed: false,
+            lost: None,
             waker: None,
         }
     }
 
     /// Takes over the set that [`newest`](Self::newest) returned once; before the node has power.
-    pub fn load(&mut self, set: &[u8]) {
+    ///
+    /// # Errors
+    /// [`StorageError::OutOfRange`] if it is longer than the sets of this mirror, as
+    /// [`lose`](Self::lose) says it: a program with more values has kept it.
+    pub fn load(&mut self, set: &[u8]) -> Result<(), StorageError> {
         self.sets.0.fill(0xFF);
-        self.newest = None;
-        if let Some(to) = self.sets.0.get_mut(..set.len()) {
-            to.copy_from_slice(set);
-        }
-        self.job = None;
+        (self.newest, self.job, self.lost) = (None, None, None);
         (self.made, self.kept) = (self.changes, self.changes);
+        match self.sets.0.get_mut(..set.len()) {
+            Some(to) if set.len() <= N / 2 => {
+                to.copy_from_slice(set);
+                Ok(())
+            }
+            _ => {
+                self.lose(StorageError::OutOfRange);
+                Err(StorageError::OutOfRange)
+            }
+        }
+    }
+
+    /// There is a set, and it cannot be had: the node reports its storage as damaged, and nothing but a
+    /// master's 1010h replaces the set.
+    pub fn lose(&mut self, error: StorageError) {
+        self.lost = Some(error);
     }
 
     /// Waits until there is something to keep.
@@ -141,11 +160,13 @@ impl<const N: usize, const V: usize> Storage for Mirror<N, V> {
 
     fn read(&mut self, offset: usize, to: &mut [u8]) -> Result<(), StorageError> {
         self.finish();
+        self.lost.map_or(Ok(()), Err)?;
         self.sets.read(offset, to)
     }
 
     fn write(&mut self, offset: usize, bytes: &[u8]) -> Result<(), StorageError> {
         self.finish();
+        self.lost.map_or(Ok(()), Err)?;
         self.sets.write(offset, bytes)?;
         self.newest = None;
         self.change();
@@ -159,7 +180,7 @@ impl<const N: usize, const V: usize> Storage for Mirror<N, V> {
         }
         self.finish();
         self.job = Some(image::Job::new(save, &mut self.values));
-        self.failed = false;
+        (self.failed, self.lost) = (false, None);
         self.change();
         true
     }
