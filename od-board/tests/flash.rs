@@ -17,8 +17,8 @@ use embedded_storage::nor_flash::{
 use odkit::board::Owner;
 use odkit::board::storage::{Log, Mirror, Nor, Steps};
 use odkit::storage::image::capacity_needed;
-use odkit::storage::{Storage, StorageError, image};
-use odkit::{Application, Event, Instant, NoApplication, NodeId};
+use odkit::storage::{Storage, image};
+use odkit::{Event, Instant, NoApplication, NodeId};
 use support::{frame, sent, thermometer};
 
 const SAVED: usize = capacity_needed(&thermometer::DICTIONARY);
@@ -145,54 +145,6 @@ fn command(board: &mut impl Owner, time: u16) -> Vec<String> {
 const SET: &str = "581#6017100000000000";
 const SAVED_NOW: &str = "581#6010100100000000";
 const NOT_SAVED: &str = "581#8010100100000606";
-
-/// Says what the storage was like at the start.
-#[derive(Default)]
-struct Told {
-    sound: Option<bool>,
-}
-
-impl Application for Told {
-    fn storage_is(&mut self, sound: bool) {
-        self.sound = Some(sound);
-    }
-}
-
-#[test]
-fn a_set_that_cannot_be_loaded_is_damage_until_a_master_saves() {
-    type Board = thermometer::Board<Told, Mirror<SAVED, { thermometer::STORE_LEN }>>;
-    let lost = |lose: &dyn Fn(&mut Mirror<SAVED, { thermometer::STORE_LEN }>)| {
-        let mut mirror = Mirror::new(&thermometer::DICTIONARY);
-        lose(&mut mirror);
-        let mut board = Board::new(NodeId::ONE, Told::default(), mirror);
-        board.power_on(Instant::ZERO).expect("it fits");
-        sent(&mut board, Instant::ZERO);
-        board
-    };
-    // A program with more values made it.
-    let longer = |mirror: &mut Mirror<SAVED, { thermometer::STORE_LEN }>| {
-        let result = mirror.load(&[0x55; SAVED / 2 + 1]);
-        assert_eq!(result, Err(StorageError::OutOfRange));
-    };
-    let unreadable =
-        |mirror: &mut Mirror<SAVED, { thermometer::STORE_LEN }>| mirror.lose(StorageError::Device);
-    for lose in [&longer as &dyn Fn(&mut _), &unreadable] {
-        let mut board = lost(lose);
-        assert_eq!(board.application.sound, Some(false));
-        assert!(board.storage.newest().0.is_empty());
-        // 1010h:01 replaces it, and the storage is sound again.
-        assert_eq!(command(&mut board, 500), [SET]);
-        while board.storage.step() {}
-        let (set, number) = board.storage.newest();
-        let set = set.to_vec();
-        board.storage.stored(number, Ok(()));
-        board.handle_timeout(Instant::from_millis(10));
-        assert_eq!(sent(&mut board, Instant::from_millis(10)), [SAVED_NOW]);
-        assert_eq!(board.application.sound, Some(true));
-        let board = lost(&|mirror| mirror.load(&set).expect("its own set"));
-        assert_eq!(board.application.sound, Some(true));
-    }
-}
 
 #[test]
 fn a_save_is_answered_when_the_flash_has_it() {

@@ -1,0 +1,64 @@
+//! Saved values that are there and cannot be had: the node says so, and a master may replace them.
+
+mod support;
+
+use odkit::board::Owner;
+use odkit::board::storage::Mirror;
+use odkit::storage::StorageError;
+use odkit::storage::image::capacity_needed;
+use odkit::{Application, Instant, NodeId};
+use support::{frame, sent, thermometer};
+
+const SAVED: usize = capacity_needed(&thermometer::DICTIONARY);
+type Mirrored = Mirror<SAVED, { thermometer::STORE_LEN }>;
+
+/// Says what the storage was like at the start.
+#[derive(Default)]
+struct Told {
+    sound: Option<bool>,
+}
+
+impl Application for Told {
+    fn storage_is(&mut self, sound: bool) {
+        self.sound = Some(sound);
+    }
+}
+
+#[test]
+fn a_set_that_cannot_be_loaded_is_damage_until_a_master_saves() {
+    type Board = thermometer::Board<Told, Mirrored>;
+    let lost = |lose: &dyn Fn(&mut Mirrored)| {
+        let mut mirror = Mirror::new(&thermometer::DICTIONARY);
+        lose(&mut mirror);
+        let mut board = Board::new(NodeId::ONE, Told::default(), mirror);
+        board.power_on(Instant::ZERO).expect("it fits");
+        sent(&mut board, Instant::ZERO);
+        board
+    };
+    // A program with more values made it.
+    let longer = |mirror: &mut Mirrored| {
+        let result = mirror.load(&[0x55; SAVED / 2 + 1]);
+        assert_eq!(result, Err(StorageError::OutOfRange));
+    };
+    let unreadable = |mirror: &mut Mirrored| mirror.lose(StorageError::Device);
+    for lose in [&longer as &dyn Fn(&mut _), &unreadable] {
+        let mut board = lost(lose);
+        assert_eq!(board.application.sound, Some(false));
+        assert!(board.storage.newest().0.is_empty());
+        // 1010h:01 replaces it, and the storage is sound again.
+        board.handle_frame(Instant::ZERO, &frame("601#2310100173617665"));
+        assert_eq!(sent(&mut board, Instant::ZERO), [] as [String; 0]);
+        while board.storage.step() {}
+        let (set, number) = board.storage.newest();
+        let set = set.to_vec();
+        board.storage.stored(number, Ok(()));
+        board.handle_timeout(Instant::from_millis(10));
+        assert_eq!(
+            sent(&mut board, Instant::from_millis(10)),
+            ["581#6010100100000000"]
+        );
+        assert_eq!(board.application.sound, Some(true));
+        let board = lost(&|mirror| mirror.load(&set).expect("its own set"));
+        assert_eq!(board.application.sound, Some(true));
+    }
+}
