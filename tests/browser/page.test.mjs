@@ -247,6 +247,22 @@ check('scrolling up holds the place, one button goes back to the end', async (pa
   await until('the newest rows', async () => (await rows(page)).at(-1).number > first + 60);
 });
 
+check('the wheel holds the list before the browser has scrolled it', async (page) => {
+  await nmt(page, 'Start');
+  await page.getByRole('combobox', { name: 'Speed' }).selectOption('100');
+  await until('many frames', async () => (await captured(page)) > 300);
+  const latest = page.getByRole('button', { name: 'Latest frames' });
+  const turn = (deltaY) => page.locator('.frames').evaluate((list, deltaY) => list.dispatchEvent(new WheelEvent('wheel', { deltaY, bubbles: true })), deltaY);
+  await turn(-1);
+  await latest.waitFor();
+  await stays(page, 'the last row', async () => (await rows(page)).at(-1).number, 40_000);
+  await latest.click();
+  await latest.waitFor({ state: 'detached' });
+  await turn(1);
+  const last = (await rows(page)).at(-1).number;
+  await until('the newest rows', async () => (await rows(page)).at(-1).number > last + 60);
+});
+
 check('time pauses and continues by steps', async (page) => {
   await stopTime(page);
   const before = await clock(page);

@@ -64,25 +64,40 @@ class FrameList extends View {
     });
     this.rows = rows;
     // Only a person's hand stops the console from following; a resize does not.
-    const release = (): void => {
+    const hold = (): void => {
+      this.follows = false;
+      this.behind = true;
+    };
+    const look = (mayFollow: boolean): void => {
       requestAnimationFrame(() => {
         const atEnd = viewport.scrollTop + viewport.clientHeight >= viewport.scrollHeight - rows.rowHeight;
-        this.follows = atEnd;
-        this.behind = !atEnd;
+        if (!atEnd) return hold();
+        if (!mayFollow) return;
+        this.follows = true;
+        this.behind = false;
       });
     };
-    viewport.addEventListener('wheel', (event) => {
-      if (event.deltaY < 0 && viewport.scrollTop > 0) this.follows = false;
-      release();
+    // Upwards it stops at once: until the browser has scrolled, the list is at its end, and a busy one would stay there.
+    const release = (isUp: boolean): void => (isUp && viewport.scrollTop > 0 ? hold() : look(true));
+    viewport.addEventListener('wheel', (event) => release(event.deltaY < 0 && !event.ctrlKey), { passive: true });
+    let touched = 0;
+    const finger = (event: TouchEvent): number => event.touches[0]?.clientY ?? touched;
+    viewport.addEventListener('touchstart', (event) => { touched = finger(event); }, { passive: true });
+    viewport.addEventListener('touchmove', (event) => {
+      release(finger(event) > touched);
+      touched = finger(event);
     }, { passive: true });
-    viewport.addEventListener('touchmove', release, { passive: true });
     viewport.addEventListener('keydown', (event) => {
-      if (!this.moveChoice(event)) release();
+      if (!this.moveChoice(event)) release(['ArrowUp', 'PageUp', 'Home'].includes(event.key));
     });
     viewport.addEventListener('pointerdown', () => { if (viewport.scrollTop > 0) this.follows = false; });
-    viewport.addEventListener('pointerup', release);
+    viewport.addEventListener('pointerup', () => look(true));
+    let top = 0;
     viewport.addEventListener('scroll', () => {
-      if (Math.abs(viewport.scrollTop - this.ownScroll) > 2) release();
+      const isUp = viewport.scrollTop < top;
+      top = viewport.scrollTop;
+      // A smooth way up begins at the end.
+      if (Math.abs(top - this.ownScroll) > 2) look(!isUp);
     }, { passive: true });
     this.disposers.push(
       effect(() => {
