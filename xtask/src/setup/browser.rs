@@ -6,16 +6,21 @@ use std::path::PathBuf;
 use super::apt;
 use crate::console::{Console, which};
 use crate::error::{Error, Result};
+use crate::repo::is_ci;
+
+/// Debian's Chromium without a window, in a package of its own: a sixth less work for the tests.
+const SHELL: &str = "chromium-headless-shell";
 
 /// The names that a Chromium goes by.
-const NAMES: [&str; 4] = [
+const NAMES: [&str; 5] = [
+    SHELL,
     "chromium",
     "chromium-browser",
     "google-chrome",
     "google-chrome-stable",
 ];
 
-/// The path of a Chromium: `CHROMIUM`, one on PATH, or Debian's, which root gets installed.
+/// The path of a Chromium: `CHROMIUM`, one on PATH, or one of Debian's, which root gets installed.
 pub(crate) fn chromium(console: &Console) -> Result<PathBuf> {
     if let Some(path) = env::var_os("CHROMIUM").filter(|path| !path.is_empty()) {
         let path = PathBuf::from(path);
@@ -27,13 +32,20 @@ pub(crate) fn chromium(console: &Console) -> Result<PathBuf> {
         };
     }
     let on_path = || NAMES.iter().find_map(|name| which(name));
+    let (found, why) = (on_path(), "no Chromium on PATH");
+    // A computer of a CI service gets the one that is faster, if there is such a package.
+    if which(SHELL).is_none() && (found.is_none() || is_ci()) {
+        let _ = apt::install(console, &[SHELL, FONTS], why);
+    }
     if let Some(path) = on_path() {
         return Ok(path);
     }
-    let packages = ["chromium", "fonts-liberation"];
-    apt::install(console, &packages, "no Chromium on PATH")?;
+    apt::install(console, &["chromium", FONTS], why)?;
     on_path().ok_or_else(|| Error::Missing(String::from("apt-get installed no `chromium`")))
 }
+
+/// The package of the fonts that the page falls back to.
+const FONTS: &str = "fonts-liberation";
 
 /// The programs that start Firefox and WebKit for a long run, and Debian's package of each. WebKit's window needs a display.
 const ENGINES: [(&str, &str); 3] = [
