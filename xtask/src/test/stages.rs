@@ -114,7 +114,7 @@ impl Stage {
 /// Every stage there is.
 #[rustfmt::skip]
 pub(super) const STAGES: &[Stage] = &[
-    stage("fmt", Check, "rustfmt has nothing to change", rust::fmt).quick(),
+    stage("fmt", Check, "rustfmt has nothing to change", rust::fmt).quick().beside(Lane::Lint),
     stage("page", Check, "types, tests and size of the TypeScript page", page::page).beside(Lane::Page),
     stage("wasm", Tests, "the tests of the WebAssembly module under Node.js", page::wasm).beside(Lane::Page),
     stage("browser", Tests, "the page in Chromium", page::browser).beside(Lane::Page),
@@ -128,7 +128,7 @@ pub(super) const STAGES: &[Stage] = &[
     stage("c", Tests, "a node in C answers as the bench does: here, and on an emulated Cortex-M3", c::c).beside(Lane::Board),
     stage("boards", Check, "the firmware of `odkit new` compiles for its boards, and one runs", boards::boards).beside(Lane::Board),
     stage("wasm-pack", Tests, "wasm-pack makes the npm packages, and they work", page::wasm_pack).beside(Lane::Board),
-    stage("ui", Tests, "what must not compile, and what the compiler says", |c| rust::outside(c, &["ui", "pass"])).quick().beside(Lane::Cross),
+    stage("ui", Tests, "what must not compile, and what the compiler says", |c| rust::outside(c, &["ui", "pass"])).beside(Lane::Cross),
     stage("package", Check, "every crate is packed with its licences, and compiles from that with --long", release::package).beside(Lane::Bus),
     stage("conformance", Tests, "frame scripts per CANopen service", |c| rust::outside(c, &["conformance"])).quick().beside(Lane::Outside),
     stage("tests", Tests, "all other tests from outside", rust::other_outside).beside(Lane::Outside),

@@ -83,8 +83,8 @@ pub(super) fn build(context: &Context<'_>) -> Result<()> {
     run(context, "test programs", &args)
 }
 
-/// The tests of all packages but those from outside. Without the packages of these, others would have
-/// fewer features, and be built once more for that.
+/// The tests of all packages but those from outside; in a quick run only those inside the sources. Without
+/// the packages of the others, some would have fewer features, and be built once more for that.
 pub(super) fn unit(context: &Context<'_>) -> Result<()> {
     let mut names = Vec::new();
     for parent in [&context.repo.root, &context.repo.root.join("tests")] {
@@ -100,6 +100,9 @@ pub(super) fn unit(context: &Context<'_>) -> Result<()> {
         }
     }
     let what = ["--lib", "--bins", "--examples", "--no-fail-fast"];
+    if context.quick {
+        names.clear();
+    }
     test(context, "unit tests", &[&ALL[..], &what].concat(), &names)
 }
 
