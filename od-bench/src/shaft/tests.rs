@@ -224,3 +224,19 @@ fn positions_set_one_after_another_have_an_acceleration() {
     let later = Instant::from_millis(600);
     assert_eq!(shaft.acceleration(later, 100_000, gain), Some(0));
 }
+
+#[test]
+fn a_way_is_divided_exactly() {
+    let exact = |way: u64| ((u128::from(way) << 32) / u128::from(PER_REVOLUTION)) as i64;
+    let mut seed = 1u64;
+    for round in 0..100_000u64 {
+        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+        let random = seed >> (round % 64);
+        // About whole steps, too, where a quotient begins.
+        let begins = (u128::from(random) * u128::from(PER_REVOLUTION)).div_ceil(1 << 32);
+        for way in [random, begins as u64, (begins as u64).wrapping_sub(1)] {
+            assert_eq!(whole_way(way), exact(way), "{way}");
+        }
+    }
+    assert_eq!(whole_way(u64::MAX), exact(u64::MAX));
+}

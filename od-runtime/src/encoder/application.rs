@@ -208,12 +208,12 @@ impl<M: Motion, F: Family> Encoder<M, F> {
     fn glance(&mut self, now: Instant) -> Option<(Var<u32, Ro>, u32)> {
         let handle = self.position?;
         let angle = self.shaft.glance(now)?;
-        let count = self.scale.quick_count(angle)?;
+        let position = self.scale.quick_position(angle)?;
         if self.faults.is_blind() {
             return None;
         }
         self.angle = angle;
-        Some((handle, self.scale.shown(count)))
+        Some((handle, position))
     }
 
     /// Returns the angle now; while the sensor cannot tell, the last one.

@@ -8,6 +8,7 @@
 pub(super) mod ratio;
 
 use super::angle::Angle;
+use crate::device::ROOMY;
 use ratio::{Ratio, at_least_1};
 
 /// Resolution and range of a sensor.
@@ -71,6 +72,46 @@ pub struct Scale {
     reversed: bool,
     /// 0 to `range` − 1.
     offset: u64,
+    /// The same in short, where there is room for it.
+    powers: [Powers; ROOMY as usize],
+}
+
+/// A [`Scale`] of powers of two alone: what it shows are bits of the angle.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+struct Powers {
+    /// Bits of a revolution that are finer than a step.
+    finer: u8,
+    /// All ones where the sense is reversed, else 0.
+    reversed: u32,
+    offset: u32,
+    /// Positions that are shown, less one; 0 where the scale is another one.
+    mask: u32,
+}
+
+impl Powers {
+    const NONE: Self = Self {
+        finer: 0,
+        reversed: 0,
+        offset: 0,
+        mask: 0,
+    };
+
+    const fn of(scale: &Scale) -> Self {
+        let (sensor, steps) = (scale.sensor.steps, scale.steps);
+        let is_one = sensor.is_power_of_two()
+            && steps.is_power_of_two()
+            && steps <= sensor as u64
+            && scale.wrap == scale.range;
+        if !is_one {
+            return Self::NONE;
+        }
+        Self {
+            finer: (32 - steps.trailing_zeros()) as u8,
+            reversed: if scale.reversed { u32::MAX } else { 0 },
+            offset: scale.offset as u32,
+            mask: scale.mask as u32,
+        }
+    }
 }
 
 /// Conversion of a step of the sensor into one that is shown.
@@ -120,7 +161,18 @@ impl Scale {
             gear: None,
             reversed: false,
             offset: 0,
+            powers: [Powers::NONE; ROOMY as usize],
         }
+        .in_short()
+    }
+
+    /// With its short form, when all else is set.
+    const fn in_short(mut self) -> Self {
+        let powers = Powers::of(&self);
+        if let [short, ..] = self.powers.as_mut_slice() {
+            *short = powers;
+        }
+        self
     }
 
     /// Counts on past the revolutions of the sensor: only the range decides when it starts
@@ -134,7 +186,7 @@ impl Scale {
         } else {
             0
         };
-        self
+        self.in_short()
     }
 
     /// The count is multiplied by `numerator` and divided by `denominator`, exactly
@@ -145,21 +197,21 @@ impl Scale {
         let mut scale = self.counting_on();
         scale.mask = 0;
         scale.gear = Some(Ratio::new(numerator, denominator));
-        scale
+        scale.in_short()
     }
 
     /// With the sense of rotation: counter-clockwise counts up if `reversed`.
     #[must_use]
     pub const fn with_sense(mut self, reversed: bool) -> Self {
         self.reversed = reversed;
-        self
+        self.in_short()
     }
 
     /// With an offset in steps of this scale; any number, taken modulo the range.
     #[must_use]
     pub const fn with_offset(mut self, offset: i64) -> Self {
         self.offset = self.in_range(offset);
-        self
+        self.in_short()
     }
 
     /// Returns whether the position increases counter-clockwise.
@@ -199,9 +251,25 @@ impl Scale {
         self.count(angle, true)
     }
 
+    /// As [`position`](Self::position), where it needs no division and no gear turns.
+    #[inline(always)]
+    pub(super) const fn quick_position(&self, angle: Angle) -> Option<u32> {
+        if let [powers, ..] = self.powers.as_slice()
+            && powers.mask != 0
+        {
+            let steps = (angle.fractions() >> (powers.finer & 63)) as u32;
+            let steps = (steps ^ powers.reversed).wrapping_sub(powers.reversed);
+            return Some(steps.wrapping_add(powers.offset) & powers.mask);
+        }
+        match self.quick_count(angle) {
+            Some(count) => Some(self.shown(count)),
+            None => None,
+        }
+    }
+
     /// As [`without_offset`](Self::without_offset), where powers of two need no division and no gear turns.
     #[inline(always)]
-    pub(super) const fn quick_count(&self, angle: Angle) -> Option<u64> {
+    const fn quick_count(&self, angle: Angle) -> Option<u64> {
         let (turns, fraction) = angle.split();
         let step = self.sensor.step(fraction);
         let step = match self.step {

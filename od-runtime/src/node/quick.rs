@@ -75,21 +75,31 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
         let node = &mut self.machines;
         let (Slot { offset, len }, address) = (row.plain(), row.address());
         // One of the services' own may look like a live one.
-        let number = match address.index {
-            ..0x2000 => None,
-            _ => device.application.number(node.now, address),
-        };
-        let unused = u32::from(len).wrapping_neg() & 3;
-        let Some(number) = number else {
+        if address.index < 0x2000 {
             return self.upload_refreshed(device, frame, row, head);
-        };
-        let Some(value) = put_word(device.values, offset as usize, 8 * unused, number) else {
-            return self.handle_seldom(device, frame);
-        };
+        }
+        let unused = u32::from(len).wrapping_neg() & 3;
+        // No answer waits, so its place is free; the fewer values are kept over the call, the better.
+        node.respond(head, 0, unused);
         node.sdo.reset();
-        node.respond(head, value, unused);
+        let number = device.application.number(node.now, address);
+        let value = number.and_then(|it| put_word(device.values, offset as usize, 8 * unused, it));
+        let Some(value) = value else {
+            node.pending &= !pending::ANSWER;
+            return self.upload_anew(device, frame);
+        };
+        node.answer[1] = value;
         if D::CHANGES && node.watches_changes {
             self.end_upload(device);
+        }
+    }
+
+    /// As [`upload_refreshed`](Self::upload_refreshed), by the frame alone.
+    #[inline(never)]
+    fn upload_anew(&mut self, device: &mut Lent<'_>, frame: &Frame) {
+        match self.upload(device, frame) {
+            Upload::Live(row, head) => self.upload_refreshed(device, frame, row, head),
+            _ => self.handle_seldom(device, frame),
         }
     }
 
@@ -181,11 +191,8 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
     #[inline(never)]
     fn send_live(&mut self, device: &mut Lent<'_>, now: Instant, at: usize) -> Option<Frame> {
         let pdo = self.machines.tpdo.get_mut(at)?;
-        if !pdo.take_numbers(device.application, device.values, now) {
-            return self.send_refreshed(device, now, at);
-        }
-        match pdo.send_plain::<D>(device.values, now) {
-            None => self.send_stored(device, now, at),
+        match pdo.send_live::<D>(device.application, device.values, now) {
+            None => self.send_refreshed(device, now, at),
             frame => frame,
         }
     }

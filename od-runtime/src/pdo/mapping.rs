@@ -38,10 +38,9 @@ pub(super) struct Mapping<R: Rooms> {
 struct Plain {
     /// Of each value its place in the store, and above the low 24 bits its length in bits.
     places: [u32; PLAIN],
-    /// Addresses of the live values, and their places; above the low 24 bits the bits that the store has
-    /// less than four bytes.
-    lives: [(Address, u32); PLAIN],
-    /// Number of the live values.
+    /// Addresses of the live values.
+    addresses: [Address; PLAIN],
+    /// Which values are live, the first one in bit 0.
     live: u8,
     /// Whether the mapping is one.
     is_one: bool,
@@ -54,7 +53,7 @@ impl Plain {
     /// No plain mapping.
     const NONE: Self = Self {
         places: [0; PLAIN],
-        lives: [(Address::new(0, 0), 0); PLAIN],
+        addresses: [Address::new(0, 0); PLAIN],
         live: 0,
         is_one: false,
     };
@@ -75,18 +74,20 @@ impl Plain {
             None => self.is_one = false,
         }
         if let Some(address) = live
-            && let Some(to) = self.lives.get_mut(usize::from(self.live))
+            && let Some(to) = self.addresses.get_mut(at)
         {
-            let unused = 8 * (4 - u32::from(slot.len));
-            *to = (address, unused << 24 | slot.offset);
-            self.live += 1;
+            *to = address;
+            self.live |= 1 << at;
+            // What comes from the application fills its place in the store.
+            self.is_one &= mapped >> 24 == 8 * u32::from(slot.len);
         }
     }
 
-    /// The live values.
-    #[inline(always)]
-    fn lives(&self) -> &[(Address, u32)] {
-        self.lives.get(..self.live.into()).unwrap_or_default()
+    /// The addresses of the live values.
+    fn lives(&self) -> impl Iterator<Item = Address> {
+        let live = self.live;
+        let addresses = self.addresses.iter().enumerate();
+        addresses.filter_map(move |(at, address)| (live >> at & 1 != 0).then_some(*address))
     }
 }
 
@@ -214,31 +215,40 @@ impl<R: Rooms> Mapping<R> {
         context: &mut Context<'_, '_>,
     ) {
         for plain in &self.plain {
-            for (address, _) in plain.lives() {
-                let _ = application.refresh(context, *address);
+            for address in plain.lives() {
+                let _ = application.refresh(context, address);
             }
         }
     }
 
-    /// As [`refresh_plain`](Self::refresh_plain), where the application has all the live values at hand.
-    /// Returns whether it has.
+    /// As [`gather`](Self::gather), with the live values as the application has them at hand: they go into
+    /// the store, too. `None` where it does not have all of them.
     #[inline(always)]
-    pub(super) fn take_numbers(
+    pub(super) fn gather_live(
         &self,
         application: &mut dyn Application,
         values: &mut [u8],
         now: Instant,
-    ) -> bool {
-        for (address, place) in self.plain.first().map_or(&[][..], Plain::lives) {
+    ) -> Option<u64> {
+        let plain = self.plain.first().filter(|plain| plain.is_one)?;
+        let (mut data, mut first, mut live) = (0u64, 0, plain.live);
+        let entries = plain.places.iter().zip(&plain.addresses);
+        for (place, address) in entries.take(self.count.into()) {
             let at = *place as usize & 0xFF_FFFF;
-            let Some(number) = application.number(now, *address) else {
-                return false;
+            let bits = *place >> 24;
+            let unused = bits.wrapping_neg() & 31;
+            let word = match live & 1 != 0 {
+                true => put_word(values, at, unused, application.number(now, *address)?)?,
+                false => {
+                    let bytes = *values.get(at..at + 4)?.first_chunk()?;
+                    u32::from_le_bytes(bytes) << unused >> unused
+                }
             };
-            if put_word(values, at, *place >> 24, number).is_none() {
-                return false;
-            }
+            data |= u64::from(word) << (first & 63);
+            first += bits;
+            live >>= 1;
         }
-        true
+        Some(data)
     }
 
     /// Has the application bring the live values up to date, by the set of them.

@@ -48,9 +48,8 @@ impl<R: Rooms> Tpdo<R> {
         sampled: false,
     };
 
-    /// Reads the objects of TPDO `number` (0 is 1800h and 1A00h) again. Answers whether
-    /// they say something else than before; only then the TPDO restarts. `fixed` is its mapping where none
-    /// can change.
+    /// Reads the objects of TPDO `number` (0 is 1800h and 1A00h) again. Answers whether they say something
+    /// else than before; only then the TPDO restarts. `fixed` is its mapping where none can change.
     pub(crate) fn configure<D: Device>(
         &mut self,
         objects: &Objects<'_, D>,
@@ -324,17 +323,6 @@ impl<R: Rooms> Tpdo<R> {
         self.mapping.refresh_plain(application, context);
     }
 
-    /// Likewise, if the application has all of them at hand. Returns whether it has.
-    #[inline(always)]
-    pub(crate) fn take_numbers(
-        &self,
-        application: &mut dyn Application,
-        values: &mut [u8],
-        now: Instant,
-    ) -> bool {
-        self.mapping.take_numbers(application, values, now)
-    }
-
     /// The frame, with the values of the store. It is to be [ready](Self::is_ready).
     #[inline(always)]
     pub(crate) fn send<D: Device>(
@@ -359,6 +347,18 @@ impl<R: Rooms> Tpdo<R> {
     #[inline(always)]
     pub(crate) fn send_plain<D: Device>(&mut self, values: &[u8], now: Instant) -> Option<Frame> {
         let data = self.mapping.gather(values)?;
+        Some(self.sent::<D>(data.to_le_bytes(), now))
+    }
+
+    /// As [`send_plain`](Self::send_plain), with live values, if the application has all of them at hand.
+    #[inline(always)]
+    pub(crate) fn send_live<D: Device>(
+        &mut self,
+        application: &mut dyn Application,
+        values: &mut [u8],
+        now: Instant,
+    ) -> Option<Frame> {
+        let data = self.mapping.gather_live(application, values, now)?;
         Some(self.sent::<D>(data.to_le_bytes(), now))
     }
 

@@ -178,3 +178,55 @@ fn a_gear_is_exact_at_the_ends_of_the_simulation() {
         .position(Angle::from_fractions(1 << 32));
     assert_eq!(nothing, 5 * 0x2000);
 }
+
+#[test]
+fn a_glance_shows_the_same_position() {
+    let mut seed = 1u64;
+    let mut random = |bits: u32| {
+        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+        seed >> (64 - bits)
+    };
+    let (mut of_powers, mut others) = (0, 0);
+    for round in 0..20_000u32 {
+        let sensor = Sensor {
+            steps: [1 << random(5), 1 + random(16) as u32][usize::from(round % 5 == 0)],
+            turns: [1 << random(4), 1 + random(12) as u32][usize::from(round % 7 == 0)],
+        };
+        let steps = [1 << random(5), 1 + random(18) as u32][usize::from(round % 3 == 0)];
+        let range = [1 << random(5), random(33), sensor.range()][round as usize % 3];
+        let scale = Scale::new(sensor, steps, range);
+        let scale = if round % 4 == 0 {
+            scale.counting_on()
+        } else {
+            scale
+        };
+        let scale = scale
+            .with_sense(round % 2 == 0)
+            .with_offset(random(40) as i64);
+        let scale = if round % 11 == 0 {
+            scale.with_gear(random(8), random(8))
+        } else {
+            scale
+        };
+        for angle in [
+            random(64) as i64,
+            random(40) as i64,
+            -(random(34) as i64),
+            0,
+            -1,
+        ] {
+            let angle = Angle::from_fractions(angle);
+            match scale.quick_position(angle) {
+                Some(position) => {
+                    of_powers += 1;
+                    assert_eq!(position, scale.position(angle), "{scale:?} {angle:?}");
+                }
+                None => others += 1,
+            }
+        }
+    }
+    assert!(
+        of_powers > 10_000 && others > 10_000,
+        "{of_powers} {others}"
+    );
+}
