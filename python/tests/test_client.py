@@ -247,9 +247,9 @@ def test_over_slcan():
             node[0x1017] = 20
             assert client.heartbeat(1, 30) == "Pre-operational"
             assert node.nmt("start", timeout=30) == "Operational"
-            # The case gives a node one second, which a busy machine may take from it.
+            # Heartbeats come while it runs.
             conform = odkit.Conform(client, 1, EDS)
-            attempts = (conform.run("sdo-upload-expedited").verdict for _ in range(10))
-            assert "pass" in attempts
+            cases = [conform.run("sdo-upload-expedited") for _ in range(20)]
+            assert [case.reason for case in cases if case.verdict != "pass"] == []
     finally:
         sim.stop()

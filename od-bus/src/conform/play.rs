@@ -2,7 +2,7 @@
 
 use od_bench::script::{Known, Pattern, frame_of};
 use od_model::{DataType, values};
-use od_wire::AbortCode;
+use od_wire::{AbortCode, Frame};
 
 use super::dut::Dut;
 use super::end::{Checked, End, ensure, fail, lacks, skip};
@@ -17,6 +17,7 @@ const WORLD: [&str; 12] = [
 /// Plays the lines, from the first to the last or to the one that does not hold.
 pub(crate) fn play(dut: &mut Dut<'_>, text: &str) -> Checked {
     let mut ignored = Vec::new();
+    let beats = heartbeats(dut, text);
     for line in text.lines() {
         let line = placed(line, dut.node.raw());
         let line = match line.find(" #") {
@@ -35,7 +36,7 @@ pub(crate) fn play(dut: &mut Dut<'_>, text: &str) -> Checked {
             "skip" => dut.drain()?,
             "ignore" if rest == "nothing" => ignored.clear(),
             "ignore" => ignored.push(pattern(rest)?),
-            "expect" => expect(dut, rest, &ignored)?,
+            "expect" => expect(dut, rest, &ignored, beats)?,
             "sdo" => transfer(dut, rest)?,
             _ if WORLD.contains(&verb) => {
                 return skip(format!(
@@ -125,14 +126,30 @@ fn own_sync(dut: &Dut<'_>) -> Option<u16> {
     (raw & 0x4000_0000 != 0).then_some((raw & 0x7FF) as u16)
 }
 
+/// The identifier of the node's heartbeats, which come when they are due, if the lines are not about them:
+/// neither 1017h nor a frame with it.
+fn heartbeats(dut: &Dut<'_>, text: &str) -> Option<u16> {
+    let is_about = ["1017", "17 10", "$700"]
+        .iter()
+        .any(|word| text.contains(word));
+    (!is_about).then(|| 0x700 + u16::from(dut.node.raw()))
+}
+
+/// Whether a frame is a heartbeat with this identifier; a boot-up message is none.
+fn is_beat(frame: &Frame, beats: Option<u16>) -> bool {
+    beats.is_some()
+        && frame.id().as_standard() == beats
+        && matches!(frame.data(), [state] if *state != 0)
+}
+
 /// `PATTERN`, `PATTERN within 1s`, `PATTERN after 100ms`, `silence 1s`.
-fn expect(dut: &mut Dut<'_>, text: &str, ignored: &[Pattern]) -> Checked {
+fn expect(dut: &mut Dut<'_>, text: &str, ignored: &[Pattern], beats: Option<u16>) -> Checked {
     if let Some(rest) = text.strip_prefix("silence ") {
         let micros = duration(rest)?;
         let own_sync = own_sync(dut);
         let came = dut.next(micros, |frame| {
             let is_sync = frame.id().as_standard() == own_sync && own_sync.is_some();
-            !is_sync && !ignored.iter().any(|one| one.matches(frame))
+            !is_sync && !is_beat(frame, beats) && !ignored.iter().any(|one| one.matches(frame))
         })?;
         return match came {
             Some(heard) => fail(
@@ -156,7 +173,7 @@ fn expect(dut: &mut Dut<'_>, text: &str, ignored: &[Pattern]) -> Checked {
     let came = dut.next(micros, |frame| {
         let is_sync =
             own_sync.is_some() && frame.id().as_standard() == own_sync && !wanted.matches(frame);
-        !is_sync && !ignored.iter().any(|one| one.matches(frame))
+        !is_sync && !is_beat(frame, beats) && !ignored.iter().any(|one| one.matches(frame))
     })?;
     let Some(heard) = came else {
         return fail(text, "nothing came");
