@@ -4,21 +4,28 @@ mod support;
 
 use odkit::board::Owner;
 use odkit::board::storage::Mirror;
-use odkit::storage::StorageError;
 use odkit::storage::image::capacity_needed;
-use odkit::{Application, Instant, NodeId};
+use odkit::storage::{Storage, StorageError};
+use odkit::{Application, Context, Instant, NodeId};
 use support::{frame, sent, thermometer};
 
 const SAVED: usize = capacity_needed(&thermometer::DICTIONARY);
 type Mirrored = Mirror<SAVED, { thermometer::STORE_LEN }>;
 
-/// Says what the storage was like at the start.
+/// Keeps what it was told of the storage, and saves operating records when time passes.
 #[derive(Default)]
 struct Told {
     sound: Option<bool>,
 }
 
 impl Application for Told {
+    fn tick(&mut self, cx: &mut Context<'_, '_>) -> Option<Instant> {
+        if cx.now > Instant::ZERO {
+            cx.signals.keep();
+        }
+        Some(cx.now.plus_millis(1))
+    }
+
     fn storage_is(&mut self, sound: bool) {
         self.sound = Some(sound);
     }
@@ -45,6 +52,13 @@ fn a_set_that_cannot_be_loaded_is_damage_until_a_master_saves() {
         let mut board = lost(lose);
         assert_eq!(board.application.sound, Some(false));
         assert!(board.storage.newest().0.is_empty());
+        // The device itself does not replace it.
+        board.handle_timeout(Instant::from_millis(5));
+        assert!(!board.storage.is_writing());
+        // Neither does 1011h:01, which has nothing to restore.
+        board.handle_frame(Instant::ZERO, &frame("601#231110016C6F6164"));
+        assert_eq!(sent(&mut board, Instant::ZERO), ["581#8011100100000606"]);
+        assert_eq!(board.application.sound, Some(false));
         // 1010h:01 replaces it, and the storage is sound again.
         board.handle_frame(Instant::ZERO, &frame("601#2310100173617665"));
         assert_eq!(sent(&mut board, Instant::ZERO), [] as [String; 0]);

