@@ -17,7 +17,7 @@ const WORLD: [&str; 12] = [
 /// Plays the lines, from the first to the last or to the one that does not hold.
 pub(crate) fn play(dut: &mut Dut<'_>, text: &str) -> Checked {
     let mut ignored = Vec::new();
-    let beats = heartbeats(dut, text);
+    let periodic = Periodic::of(dut, text);
     for line in text.lines() {
         let line = placed(line, dut.node.raw());
         let line = match line.find(" #") {
@@ -36,7 +36,7 @@ pub(crate) fn play(dut: &mut Dut<'_>, text: &str) -> Checked {
             "skip" => dut.drain()?,
             "ignore" if rest == "nothing" => ignored.clear(),
             "ignore" => ignored.push(pattern(rest)?),
-            "expect" => expect(dut, rest, &ignored, beats)?,
+            "expect" => expect(dut, rest, &ignored, &periodic)?,
             "sdo" => transfer(dut, rest)?,
             _ if WORLD.contains(&verb) => {
                 return skip(format!(
@@ -119,38 +119,48 @@ fn send(dut: &mut Dut<'_>, line: &str) -> Checked {
     }
 }
 
-/// The identifier of SYNC where the node produces it: no case expects silence of that.
+/// CAN-IDs of the messages that the node sends periodically, whatever a master does: they neither break a
+/// silence nor take the place of a response.
+struct Periodic {
+    /// SYNC, if the node produces it.
+    sync: Option<u16>,
+    /// Heartbeats, unless the lines of the case are about them.
+    heartbeat: Option<u16>,
+}
+
+impl Periodic {
+    fn of(dut: &Dut<'_>, text: &str) -> Self {
+        let is_about_heartbeats = ["1017", "17 10", "$700"]
+            .iter()
+            .any(|word| text.contains(word));
+        Self {
+            sync: own_sync(dut),
+            heartbeat: (!is_about_heartbeats).then(|| 0x700 + u16::from(dut.node.raw())),
+        }
+    }
+
+    /// Whether the frame is one of these messages. A boot-up message (state 0) is not.
+    fn has(&self, frame: &Frame) -> bool {
+        let id = frame.id().as_standard();
+        id.is_some()
+            && (id == self.sync
+                || id == self.heartbeat && matches!(frame.data(), [state] if *state != 0))
+    }
+}
+
+/// The CAN-ID of SYNC, if the node produces it.
 fn own_sync(dut: &Dut<'_>) -> Option<u16> {
     let entry = dut.eds.entry(0x1005, 0)?;
     let raw = entry.default.integer(dut.node.raw())?;
     (raw & 0x4000_0000 != 0).then_some((raw & 0x7FF) as u16)
 }
 
-/// The identifier of the node's heartbeats, which come when they are due, if the lines are not about them:
-/// neither 1017h nor a frame with it.
-fn heartbeats(dut: &Dut<'_>, text: &str) -> Option<u16> {
-    let is_about = ["1017", "17 10", "$700"]
-        .iter()
-        .any(|word| text.contains(word));
-    (!is_about).then(|| 0x700 + u16::from(dut.node.raw()))
-}
-
-/// Whether a frame is a heartbeat with this identifier; a boot-up message is none.
-fn is_beat(frame: &Frame, beats: Option<u16>) -> bool {
-    beats.is_some()
-        && frame.id().as_standard() == beats
-        && matches!(frame.data(), [state] if *state != 0)
-}
-
 /// `PATTERN`, `PATTERN within 1s`, `PATTERN after 100ms`, `silence 1s`.
-fn expect(dut: &mut Dut<'_>, text: &str, ignored: &[Pattern], beats: Option<u16>) -> Checked {
+fn expect(dut: &mut Dut<'_>, text: &str, ignored: &[Pattern], periodic: &Periodic) -> Checked {
+    let is_ignored = |frame: &Frame| ignored.iter().any(|one| one.matches(frame));
     if let Some(rest) = text.strip_prefix("silence ") {
         let micros = duration(rest)?;
-        let own_sync = own_sync(dut);
-        let came = dut.next(micros, |frame| {
-            let is_sync = frame.id().as_standard() == own_sync && own_sync.is_some();
-            !is_sync && !is_beat(frame, beats) && !ignored.iter().any(|one| one.matches(frame))
-        })?;
+        let came = dut.next(micros, |frame| !periodic.has(frame) && !is_ignored(frame))?;
         return match came {
             Some(heard) => fail(
                 format!("silence for {rest}"),
@@ -169,11 +179,8 @@ fn expect(dut: &mut Dut<'_>, text: &str, ignored: &[Pattern], beats: Option<u16>
     let wanted = pattern(shown)?;
     let from = dut.now();
     let slack = dut.rig.slack();
-    let own_sync = own_sync(dut);
     let came = dut.next(micros, |frame| {
-        let is_sync =
-            own_sync.is_some() && frame.id().as_standard() == own_sync && !wanted.matches(frame);
-        !is_sync && !is_beat(frame, beats) && !ignored.iter().any(|one| one.matches(frame))
+        (wanted.matches(frame) || !periodic.has(frame)) && !is_ignored(frame)
     })?;
     let Some(heard) = came else {
         return fail(text, "nothing came");

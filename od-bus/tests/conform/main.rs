@@ -1,6 +1,7 @@
 //! The conformance test: no false failure on what is right, and what is wrong is found.
 
 mod devices;
+mod late;
 mod learn;
 mod mutant;
 mod mutants;

@@ -1,0 +1,72 @@
+//! A bus on which other frames of the node come between a request and its response.
+
+use std::collections::VecDeque;
+
+use od_bus::bench::OnBench;
+use od_bus::conform::case::built_in;
+use od_bus::conform::eds::Eds;
+use od_bus::conform::record::Verdict;
+use od_bus::conform::rig::RealBus;
+use od_bus::conform::session::{Leave, Session};
+use od_bus::fault::Fault;
+use od_bus::link::{Heard, Link};
+use od_bus::master::Master;
+use od_model::Address;
+use od_wire::{Frame, Instant, NodeId};
+
+use crate::simulated::bus;
+
+/// A link whose frames reach the node 4 ms late; what the node sends by then comes before its response.
+struct Late<L> {
+    link: L,
+    heard: VecDeque<Heard>,
+}
+
+impl<L: Link> Link for Late<L> {
+    fn now(&self) -> Instant {
+        self.link.now()
+    }
+
+    fn send(&mut self, frame: &Frame) -> Result<(), Fault> {
+        let arrival = self.link.now().plus_millis(4);
+        while let Some(heard) = self.link.receive(arrival)? {
+            self.heard.push_back(heard);
+        }
+        self.link.send(frame)
+    }
+
+    fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Fault> {
+        match self.heard.pop_front() {
+            Some(heard) => Ok(Some(heard)),
+            None => self.link.receive(until),
+        }
+    }
+}
+
+#[test]
+fn heartbeats_between_request_and_response_fail_no_case() {
+    for name in ["gxmm", "eam_mt", "en580c"] {
+        let mut bus = bus(name);
+        let mut master = Master::new(OnBench(&mut bus), NodeId::ONE);
+        // Every 3 ms, also after each reset.
+        for (index, sub, bytes) in [(0x1017, 0, &[3, 0][..]), (0x1010, 1, b"save")] {
+            let written = master.download(Address::new(index, sub), bytes);
+            assert_eq!(written, Ok(Ok(())), "{name} {index:X}");
+        }
+        let kind = od_devices::find(name).expect("a device");
+        let eds = Eds::read(&od_devices::text::eds(kind));
+        let heard = VecDeque::new();
+        let link = OnBench(bus);
+        let mut rig = RealBus {
+            link: Box::new(Late { link, heard }),
+            power: None,
+        };
+        let mut session = Session::new(&mut rig, &eds, NodeId::ONE, Leave::default());
+        for case in built_in() {
+            let record = session.run(case);
+            if let Verdict::Fail { expected, got } = record.verdict {
+                panic!("{name}, {}: expected {expected}; {got}", case.id);
+            }
+        }
+    }
+}
