@@ -235,8 +235,9 @@ fn a_way_is_divided_exactly() {
         // About whole steps, too, where a quotient begins.
         let begins = (u128::from(random) * u128::from(PER_REVOLUTION)).div_ceil(1 << 32);
         for way in [random, begins as u64, (begins as u64).wrapping_sub(1)] {
-            assert_eq!(whole_way(way), exact(way), "{way}");
+            assert_eq!(way_by_factor(way), exact(way), "{way}");
+            assert_eq!(way_by_division(way), exact(way), "{way}");
         }
     }
-    assert_eq!(whole_way(u64::MAX), exact(u64::MAX));
+    assert_eq!(way_by_factor(u64::MAX), exact(u64::MAX));
 }
