@@ -32,9 +32,9 @@ pub(crate) fn chromium(console: &Console) -> Result<PathBuf> {
         };
     }
     let on_path = || NAMES.iter().find_map(|name| which(name));
-    let (found, why) = (on_path(), "no Chromium on PATH");
+    let why = "no Chromium on PATH";
     // A computer of a CI service gets the one that is faster, if there is such a package.
-    if which(SHELL).is_none() && (found.is_none() || is_ci()) {
+    if which(SHELL).is_none() && (is_ci() || on_path().is_none()) {
         let _ = apt::install(console, &[SHELL, FONTS], why);
     }
     if let Some(path) = on_path() {

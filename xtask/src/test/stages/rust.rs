@@ -86,6 +86,16 @@ pub(super) fn build(context: &Context<'_>) -> Result<()> {
 /// The tests of all packages but those from outside; in a quick run only those inside the sources. Without
 /// the packages of the others, some would have fewer features, and be built once more for that.
 pub(super) fn unit(context: &Context<'_>) -> Result<()> {
+    let names = match context.quick {
+        true => Vec::new(),
+        false => beside_sources(context)?,
+    };
+    let what = ["--lib", "--bins", "--examples", "--no-fail-fast"];
+    test(context, "unit tests", &[&ALL[..], &what].concat(), &names)
+}
+
+/// The test targets of the packages that [`unit`] tests.
+fn beside_sources(context: &Context<'_>) -> Result<Vec<String>> {
     let mut names = Vec::new();
     for parent in [&context.repo.root, &context.repo.root.join("tests")] {
         for member in folder(parent)? {
@@ -99,11 +109,7 @@ pub(super) fn unit(context: &Context<'_>) -> Result<()> {
             }
         }
     }
-    let what = ["--lib", "--bins", "--examples", "--no-fail-fast"];
-    if context.quick {
-        names.clear();
-    }
-    test(context, "unit tests", &[&ALL[..], &what].concat(), &names)
+    Ok(names)
 }
 
 /// Some of the test targets from outside.
