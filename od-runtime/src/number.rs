@@ -34,6 +34,10 @@ pub(crate) fn word(values: &[u8], row: &Row) -> Option<(u32, u32)> {
 #[inline(always)]
 pub(crate) fn put_word(values: &mut [u8], at: usize, unused: u32, number: u32) -> Option<u32> {
     let bytes = values.get_mut(at..at + 4)?.first_chunk_mut()?;
+    if unused == 0 {
+        *bytes = number.to_le_bytes();
+        return Some(number);
+    }
     let mask = u32::MAX >> (unused & 31);
     let value = number & mask;
     *bytes = (u32::from_le_bytes(*bytes) & !mask | value).to_le_bytes();

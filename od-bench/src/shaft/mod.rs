@@ -4,6 +4,7 @@ mod counter;
 mod course;
 mod exact;
 mod placed;
+mod rate;
 
 use od_model::Dictionary;
 use od_runtime::encoder::{Angle, Counter, Encoder, EncoderProfile, Fault, Gain, Motion, Sensor};
@@ -13,6 +14,7 @@ use counter::Unseen;
 use course::{Course, FINE, PER_REVOLUTION, Ramp};
 use exact::{even, exact};
 use placed::Placed;
+use rate::Rate;
 
 /// A shaft that turns evenly, or speeds up and slows down evenly, between two changes of its
 /// speed.
@@ -27,6 +29,8 @@ pub struct Shaft {
     milli_rpm: i32,
     /// Change of `milli_rpm` from there; of length 0 without a ramp.
     ramp: Ramp,
+    /// The same while it does not change.
+    rate: Rate,
     course: Course,
     placed: Placed,
     unseen: Unseen,
@@ -40,6 +44,7 @@ impl Shaft {
             since: Instant::ZERO,
             milli_rpm: 0,
             ramp: Ramp::NONE,
+            rate: Rate::even(0),
             course: Course::AT_REST,
             placed: Placed::new(),
             unseen: Unseen::NOTHING,
@@ -75,13 +80,19 @@ impl Shaft {
     /// Returns the angle at a moment. Before the last change it is not known any more.
     #[inline]
     pub fn at(&self, now: Instant) -> Angle {
+        match self.rate.turned(now.micros_since(self.since)) {
+            Some(turned) => self.angle.plus(Angle::from_fractions(turned)),
+            None => self.angle_later(now),
+        }
+    }
+
+    /// As [`at`](Self::at), on a ramp or days after the last change.
+    #[cold]
+    fn angle_later(&self, now: Instant) -> Angle {
         if self.ramp.micros != 0 {
             return self.angle_on_ramp(now);
         }
-        if self.milli_rpm == 0 {
-            return self.angle;
-        }
-        let turned = turned(self.milli_rpm.unsigned_abs(), now.micros_since(self.since));
+        let turned = rate::turned(self.milli_rpm, now.micros_since(self.since));
         let turned = Angle::from_fractions(turned);
         if self.milli_rpm > 0 {
             self.angle.plus(turned)
@@ -90,7 +101,6 @@ impl Shaft {
         }
     }
 
-    #[cold]
     fn angle_on_ramp(&self, now: Instant) -> Angle {
         let micros = now.micros_since(self.since);
         let way = self.ramp.way(self.milli_rpm, micros);
@@ -132,8 +142,10 @@ impl Shaft {
             micros,
             by: i64::from(milli_rpm) - i64::from(from),
         };
-        self.milli_rpm = if micros == 0 { milli_rpm } else { from };
-        self.ramp = if micros == 0 { Ramp::NONE } else { ramp };
+        match micros {
+            0 => self.go(milli_rpm, Ramp::NONE),
+            _ => self.go(from, ramp),
+        }
         self.course.add(self.since, self.milli_rpm, self.ramp);
     }
 
@@ -174,6 +186,15 @@ impl Shaft {
         even.filter(|_| self.placed.is_empty())
     }
 
+    /// It has this speed and this ramp from its last change on.
+    fn go(&mut self, milli_rpm: i32, ramp: Ramp) {
+        (self.milli_rpm, self.ramp) = (milli_rpm, ramp);
+        self.rate = match ramp.micros {
+            0 => Rate::even(milli_rpm),
+            _ => Rate::NONE,
+        };
+    }
+
     /// The last change is `now`: angle, speed and what is left of the ramp are those of now.
     fn rebase(&mut self, now: Instant) {
         let micros = now.micros_since(self.since);
@@ -182,16 +203,15 @@ impl Shaft {
             let from = self.ramp.speed(self.milli_rpm, micros);
             let to = self.ramp.to(self.milli_rpm);
             let left = u64::from(self.ramp.micros).saturating_sub(micros);
-            self.milli_rpm = from;
-            self.ramp = if left == 0 {
-                Ramp::NONE
-            } else {
-                Ramp {
+            let ramp = match left {
+                0 => Ramp::NONE,
+                _ => Ramp {
                     // What is left is not more than what there was.
                     micros: left as u32,
                     by: i64::from(to) - i64::from(from),
-                }
+                },
             };
+            self.go(from, ramp);
         }
         self.since = self.since.max(now);
     }
@@ -205,17 +225,7 @@ impl Motion for Shaft {
 
     #[inline]
     fn glance(&self, now: Instant) -> Option<Angle> {
-        if self.ramp.micros != 0 {
-            return None;
-        }
-        let micros = now.micros_since(self.since);
-        let way = product(self.milli_rpm.unsigned_abs(), micros)?;
-        let turned = whole_way(way);
-        let turned = if self.milli_rpm < 0 {
-            turned.wrapping_neg()
-        } else {
-            turned
-        };
+        let turned = self.rate.turned(now.micros_since(self.since))?;
         let angle = self.angle.fractions().wrapping_add(turned);
         Some(Angle::from_fractions(angle).minus(self.unseen.angle()))
     }
@@ -279,72 +289,6 @@ pub fn encoder_of(dictionary: Dictionary<'_>) -> Option<Encoder<Shaft>> {
 /// The moment `micros` before `now`, the origin at the earliest.
 const fn before(now: Instant, micros: u32) -> Instant {
     Instant::from_micros(now.as_micros().saturating_sub(micros as u64))
-}
-
-/// 2⁻³² revolutions in `micros` at this speed, rounded down.
-#[inline]
-fn turned(milli_rpm: u32, micros: u64) -> i64 {
-    match product(milli_rpm, micros) {
-        Some(way) => whole_way(way),
-        None => long_way(milli_rpm, micros),
-    }
-}
-
-/// A way, if it has no more than 64 bits. WebAssembly has no instruction that tells: where the bits of the
-/// factors are as many together, it is left to the longer way there.
-#[inline]
-fn product(milli_rpm: u32, micros: u64) -> Option<u64> {
-    let milli_rpm = u64::from(milli_rpm);
-    if cfg!(target_family = "wasm") {
-        let fits = milli_rpm.leading_zeros() + micros.leading_zeros() >= u64::BITS;
-        return fits.then(|| milli_rpm.wrapping_mul(micros));
-    }
-    milli_rpm.checked_mul(micros)
-}
-
-/// 2⁻³² revolutions of a way, rounded down.
-#[inline]
-fn whole_way(way: u64) -> i64 {
-    // WebAssembly has a division, but not a product of 128 bits.
-    match cfg!(target_family = "wasm") {
-        true => way_by_division(way),
-        false => way_by_factor(way),
-    }
-}
-
-/// [`whole_way`] by a multiplication, which takes half the instructions.
-#[inline]
-fn way_by_factor(way: u64) -> i64 {
-    // 2³² / `PER_REVOLUTION` times 2⁶⁷, rounded down: the product is at most one too small.
-    const FACTOR: u64 = ((1u128 << 99) / PER_REVOLUTION as u128) as u64;
-    let part = ((u128::from(way) * u128::from(FACTOR)) >> 67) as u64;
-    // The remainder is less than twice the divisor, so its low 64 bits are enough.
-    let rest = (way << 32).wrapping_sub(part.wrapping_mul(PER_REVOLUTION));
-    (part + u64::from(rest >= PER_REVOLUTION)) as i64
-}
-
-/// [`whole_way`] by two divisions of 64 bits.
-#[inline]
-fn way_by_division(way: u64) -> i64 {
-    let turns = way / PER_REVOLUTION;
-    fractions(turns, way - turns * PER_REVOLUTION)
-}
-
-#[cold]
-fn long_way(milli_rpm: u32, micros: u64) -> i64 {
-    let way = u128::from(milli_rpm) * u128::from(micros);
-    // Revolutions past 2³² do not matter: the angle wraps there.
-    let turns = (way / u128::from(PER_REVOLUTION)) as u64;
-    fractions(turns, (way % u128::from(PER_REVOLUTION)) as u64)
-}
-
-/// 2⁻³² revolutions of whole ones and the rest of a way.
-#[inline]
-const fn fractions(turns: u64, rest: u64) -> i64 {
-    // A way of 2³⁶ at most has room for 21 bits; the other 11 are a factor of the revolution.
-    const { assert!(PER_REVOLUTION.trailing_zeros() == 11) };
-    let part = (rest << 21) / (PER_REVOLUTION >> 11);
-    (turns << 32 | part) as i64
 }
 
 #[cfg(test)]

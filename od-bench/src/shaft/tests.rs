@@ -95,15 +95,6 @@ fn no_ramp_is_too_steep_or_too_long() {
     }
 }
 
-#[test]
-fn the_long_way_is_the_short_way() {
-    for (milli_rpm, micros) in [(1, 1), (6_000_000, 123_456_789), (u32::MAX, 1 << 31)] {
-        assert_eq!(long_way(milli_rpm, micros), turned(milli_rpm, micros));
-    }
-    // Three hundred thousand years at full speed, and no panic.
-    let _ = turned(u32::MAX, u64::MAX);
-}
-
 const SENSOR: Sensor = Sensor {
     steps: 0x1000,
     turns: 0x100,
@@ -223,21 +214,4 @@ fn positions_set_one_after_another_have_an_acceleration() {
     assert!((found - 2000).abs() <= 1600, "{found}");
     let later = Instant::from_millis(600);
     assert_eq!(shaft.acceleration(later, 100_000, gain), Some(0));
-}
-
-#[test]
-fn a_way_is_divided_exactly() {
-    let exact = |way: u64| ((u128::from(way) << 32) / u128::from(PER_REVOLUTION)) as i64;
-    let mut seed = 1u64;
-    for round in 0..100_000u64 {
-        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
-        let random = seed >> (round % 64);
-        // About whole steps, too, where a quotient begins.
-        let begins = (u128::from(random) * u128::from(PER_REVOLUTION)).div_ceil(1 << 32);
-        for way in [random, begins as u64, (begins as u64).wrapping_sub(1)] {
-            assert_eq!(way_by_factor(way), exact(way), "{way}");
-            assert_eq!(way_by_division(way), exact(way), "{way}");
-        }
-    }
-    assert_eq!(way_by_factor(u64::MAX), exact(u64::MAX));
 }

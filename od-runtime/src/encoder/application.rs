@@ -64,18 +64,20 @@ impl<M: Motion, F: Family> Application for Encoder<M, F> {
                 Some((handle, position)) if ROOMY => cx.store.set(handle, position),
                 _ => self.show_position(cx),
             }
-        } else if !self.show_kept_movement(cx, address) {
+        } else if let Some((shown, value)) = self.kept_movement(cx.now, address) {
+            shown.show(cx.store, value);
+        } else {
             self.refresh_other(cx, address);
         }
         Ok(())
     }
 
     fn number(&mut self, now: Instant, address: Address) -> Option<u32> {
-        match address {
-            Address {
-                index: POSITION,
-                sub: 0,
-            } if ROOMY => Some(self.glance(now)?.1),
+        if address.index != POSITION {
+            return self.kept_number(now, address);
+        }
+        match address.sub {
+            0 if ROOMY => Some(self.glance(now)?.1),
             _ => None,
         }
     }

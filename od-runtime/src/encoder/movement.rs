@@ -9,6 +9,7 @@ use super::rate::{KEPT, Rate, Shown};
 use super::state::Encoder;
 use crate::application::Context;
 use crate::store::Store;
+use od_wire::Instant;
 
 impl<M: Motion, F: Family> Encoder<M, F> {
     /// The movements of the family.
@@ -44,21 +45,20 @@ impl<M: Motion, F: Family> Encoder<M, F> {
         movement.selector == Some(address) || movement.interval == address
     }
 
-    /// Brings a movement whose rate is kept up to date, if there is one at this address.
-    #[cfg_attr(target_os = "none", inline)]
-    #[cfg_attr(not(target_os = "none"), inline(never))]
-    pub(super) fn show_kept_movement(
-        &mut self,
-        cx: &mut Context<'_, '_>,
-        address: Address,
-    ) -> bool {
+    /// The movement at an address with its handle, if its rate is kept.
+    #[inline]
+    pub(super) fn kept_movement(&mut self, now: Instant, address: Address) -> Option<(Shown, i64)> {
         let mut kept = self.rates.iter_mut().flatten();
-        let Some(rate) = kept.find(|rate| rate.value.address() == address) else {
-            return false;
-        };
-        let value = rate.kept(&self.shaft, cx.now);
-        rate.value.show(cx.store, value);
-        true
+        let rate = kept.find(|rate| rate.value.address() == address)?;
+        let value = rate.kept(&self.shaft, now);
+        Some((rate.value, value))
+    }
+
+    /// The same as the low bytes of a number.
+    #[inline(never)]
+    pub(super) fn kept_number(&mut self, now: Instant, address: Address) -> Option<u32> {
+        let (shown, value) = self.kept_movement(now, address)?;
+        Some(shown.limited(value) as u32)
     }
 
     /// Brings the movement at an address up to date; it is 0 while it is not known.

@@ -97,9 +97,15 @@ impl Shown {
         self.var.address()
     }
 
+    /// A number within the limits of the object.
+    #[inline]
+    pub(super) fn limited(&self, number: i64) -> i64 {
+        number.clamp(-self.most - 1, self.most)
+    }
+
     /// Shows a number, within the limits of the object.
     #[inline]
     pub(super) fn show(&self, store: &mut Store<'_>, number: i64) {
-        store.set(self.var, number.clamp(-self.most - 1, self.most));
+        store.set(self.var, self.limited(number));
     }
 }

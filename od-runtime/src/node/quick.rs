@@ -4,9 +4,9 @@
 use od_model::Slot;
 use od_model::row::Row;
 use od_wire::sdo::{Response, upload_command};
-use od_wire::{AbortCode, Frame, Instant};
+use od_wire::{AbortCode, Frame, Instant, NodeId};
 
-use super::ear::{self, Ear, Quick};
+use super::ear::{self, Ear};
 use super::output::words;
 use super::{Machines, Node, pending};
 use crate::application::Context;
@@ -15,7 +15,7 @@ use crate::extras::Extras;
 use crate::lent::Lent;
 use crate::number::{put_word, word};
 use crate::pdo;
-use crate::rooms::Room;
+use crate::rooms::{Room, Rooms};
 use crate::store::Store;
 
 /// Outcome of a request on the short path.
@@ -167,69 +167,31 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
     pub(super) fn poll_waiting(&mut self, device: &mut Lent<'_>, now: Instant) -> Option<Frame> {
         let node = &mut self.machines;
         let marks = node.pending;
-        let at = pending::position(marks);
-        if marks & !pending::MARKS == 0
-            && device.values.len() >= device.dictionary.store_len()
-            && let Some(pdo) = node.tpdo.get_mut(at)
-        {
-            node.pending = marks & marks.wrapping_sub(1);
-            let now = now.max(node.now);
-            if !pdo.is_live()
-                && let Some(frame) = pdo.send_plain::<D>(device.values, now)
-            {
-                return Some(frame);
-            }
-            return match pdo.is_plain() {
-                true => self.send_live(device, now, at),
-                false => self.send_pdo(device, now, at),
-            };
+        if marks & !pending::MARKS != 0 {
+            return self.poll_seldom(device, now);
         }
-        self.poll_seldom(device, now)
+        let at = pending::position(marks);
+        let Some(pdo) = node.tpdo.get_mut(at) else {
+            return self.poll_seldom(device, now);
+        };
+        node.pending = marks & marks.wrapping_sub(1);
+        let now = now.max(node.now);
+        match (pdo.is_plain(), pdo.is_live()) {
+            (true, false) => send_plain::<D, _>(pdo, device, node.node_id, now),
+            (true, true) => self.send_live(device, now, at),
+            _ => self.send_pdo(device, now, at),
+        }
     }
 
     /// As [`send_pdo`](Self::send_pdo), of a plain one.
     #[inline(never)]
     fn send_live(&mut self, device: &mut Lent<'_>, now: Instant, at: usize) -> Option<Frame> {
-        let pdo = self.machines.tpdo.get_mut(at)?;
-        match pdo.send_live::<D>(device.application, device.values, now) {
-            None => self.send_refreshed(device, now, at),
-            frame => frame,
-        }
-    }
-
-    /// As [`send_live`](Self::send_live), where the application needs the store, or does not have all
-    /// values at hand.
-    #[inline(never)]
-    fn send_refreshed(&mut self, device: &mut Lent<'_>, now: Instant, at: usize) -> Option<Frame> {
         let node = &mut self.machines;
         let pdo = node.tpdo.get_mut(at)?;
-        let outbox = Room::outbox(&mut self.outbox);
-        let mut store = Store::new(&device.dictionary, device.values, node.node_id).ok()?;
-        let mut context = Context {
-            store: &mut store,
-            now,
-            signals: &mut outbox.signals,
-        };
-        pdo.refresh_plain(device.application, &mut context);
-        if !outbox.is_empty() {
-            // As in `send_pdo`.
-            node.next = Instant::ZERO;
-            node.pending |= pending::OTHER;
-            node.ear.codes = Ear::EVERYTHING;
-            node.quick = Quick::NONE;
+        match pdo.fetch_live(device.application, device.values, now) {
+            Some(()) => send_plain::<D, _>(pdo, device, node.node_id, now),
+            None => self.send_pdo(device, now, at),
         }
-        match pdo.send_plain::<D>(device.values, now) {
-            None => self.send_stored(device, now, at),
-            frame => frame,
-        }
-    }
-
-    /// As [`send_pdo`](Self::send_pdo), of one whose values are up to date.
-    #[cold]
-    fn send_stored(&mut self, device: &mut Lent<'_>, now: Instant, at: usize) -> Option<Frame> {
-        let node = &mut self.machines;
-        let pdo = node.tpdo.get_mut(at)?;
-        pdo.send::<D>(&device.dictionary, device.values, node.node_id, now)
     }
 }
 
@@ -297,6 +259,31 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
             marks >>= 1;
         }
     }
+}
+
+/// Sends a plain PDO whose values are up to date.
+#[inline(never)]
+fn send_plain<D: Device, R: Rooms>(
+    pdo: &mut pdo::Tpdo<R>,
+    device: &mut Lent<'_>,
+    node_id: NodeId,
+    now: Instant,
+) -> Option<Frame> {
+    match pdo.send_single::<D>(device.values, now) {
+        None => send_stored::<D, R>(pdo, device, node_id, now),
+        frame => frame,
+    }
+}
+
+/// As [`send_plain`], of more than one value, or of the last one of the store.
+#[inline(never)]
+fn send_stored<D: Device, R: Rooms>(
+    pdo: &mut pdo::Tpdo<R>,
+    device: &mut Lent<'_>,
+    node_id: NodeId,
+    now: Instant,
+) -> Option<Frame> {
+    pdo.send::<D>(&device.dictionary, device.values, node_id, now)
 }
 
 #[cfg(test)]

@@ -36,8 +36,10 @@ pub(super) struct Mapping<R: Rooms> {
 /// may read.
 #[derive(Clone, Debug)]
 struct Plain {
-    /// Of each value its place in the store, and above the low 24 bits its length in bits.
+    /// Of each value its place in the store.
     places: [u32; PLAIN],
+    /// The bits that each is shorter than four bytes.
+    unused: [u8; PLAIN],
     /// Addresses of the live values.
     addresses: [Address; PLAIN],
     /// Which values are live, the first one in bit 0.
@@ -53,6 +55,7 @@ impl Plain {
     /// No plain mapping.
     const NONE: Self = Self {
         places: [0; PLAIN],
+        unused: [0; PLAIN],
         addresses: [Address::new(0, 0); PLAIN],
         live: 0,
         is_one: false,
@@ -64,15 +67,15 @@ impl Plain {
             .dictionary()
             .row((mapped as usize & 0xFF_FFFF).wrapping_sub(1));
         let slot = row.map(|row| row.plain());
-        let slot = slot.filter(|slot| matches!(slot.len, 1..=4) && slot.offset <= 0xFF_FFFF);
-        let Some(slot) = slot else {
+        let slot = slot.filter(|slot| matches!(slot.len, 1..=4));
+        let (Some(slot), Some(place), Some(unused)) =
+            (slot, self.places.get_mut(at), self.unused.get_mut(at))
+        else {
             self.is_one = false;
             return;
         };
-        match self.places.get_mut(at) {
-            Some(place) => *place = mapped & !0xFF_FFFF | slot.offset,
-            None => self.is_one = false,
-        }
+        *place = slot.offset;
+        *unused = 32u8.wrapping_sub((mapped >> 24) as u8);
         if let Some(address) = live
             && let Some(to) = self.addresses.get_mut(at)
         {
@@ -81,13 +84,6 @@ impl Plain {
             // What comes from the application fills its place in the store.
             self.is_one &= mapped >> 24 == 8 * u32::from(slot.len);
         }
-    }
-
-    /// The addresses of the live values.
-    fn lives(&self) -> impl Iterator<Item = Address> {
-        let live = self.live;
-        let addresses = self.addresses.iter().enumerate();
-        addresses.filter_map(move |(at, address)| (live >> at & 1 != 0).then_some(*address))
     }
 }
 
@@ -207,48 +203,25 @@ impl<R: Rooms> Mapping<R> {
         self.plain.first().is_some_and(|plain| plain.is_one)
     }
 
-    /// As [`refresh`](Self::refresh), if it [is plain](Self::is_plain).
-    #[inline(always)]
-    pub(super) fn refresh_plain(
-        &self,
-        application: &mut dyn Application,
-        context: &mut Context<'_, '_>,
-    ) {
-        for plain in &self.plain {
-            for address in plain.lives() {
-                let _ = application.refresh(context, address);
-            }
-        }
-    }
-
     /// As [`gather`](Self::gather), with the live values as the application has them at hand: they go into
     /// the store, too. `None` where it does not have all of them.
     #[inline(always)]
-    pub(super) fn gather_live(
+    pub(super) fn fetch_live(
         &self,
         application: &mut dyn Application,
         values: &mut [u8],
         now: Instant,
-    ) -> Option<u64> {
-        let plain = self.plain.first().filter(|plain| plain.is_one)?;
-        let (mut data, mut first, mut live) = (0u64, 0, plain.live);
-        let entries = plain.places.iter().zip(&plain.addresses);
-        for (place, address) in entries.take(self.count.into()) {
-            let at = *place as usize & 0xFF_FFFF;
-            let bits = *place >> 24;
-            let unused = bits.wrapping_neg() & 31;
-            let word = match live & 1 != 0 {
-                true => put_word(values, at, unused, application.number(now, *address)?)?,
-                false => {
-                    let bytes = *values.get(at..at + 4)?.first_chunk()?;
-                    u32::from_le_bytes(bytes) << unused >> unused
-                }
-            };
-            data |= u64::from(word) << (first & 63);
-            first += bits;
-            live >>= 1;
+    ) -> Option<()> {
+        let plain = self.plain.first()?;
+        let mut live = plain.live;
+        while live != 0 {
+            let at = live.trailing_zeros() as usize % PLAIN;
+            live &= live - 1;
+            let number = application.number(now, *plain.addresses.get(at)?)?;
+            let (place, unused) = (plain.places.get(at)?, *plain.unused.get(at)?);
+            put_word(values, *place as usize, unused.into(), number)?;
         }
-        Some(data)
+        Some(())
     }
 
     /// Has the application bring the live values up to date, by the set of them.
@@ -270,18 +243,23 @@ impl<R: Rooms> Mapping<R> {
         }
     }
 
-    /// Returns the frame's bytes with the values of the store, as a number.
+    /// As [`gather`](Self::gather), of a single value.
+    #[inline(always)]
+    pub(super) fn single(&self, values: &[u8]) -> Option<u64> {
+        let ([place, ..], [unused, ..]) = self.plain.first().map(|it| (&it.places, it.unused))?;
+        let word = cut_word(values, *place, unused);
+        word.filter(|_| self.count == 1).map(u64::from)
+    }
+
+    /// Returns the frame's bytes with the values of the store, as a number, if it [is plain](Self::is_plain).
     #[inline(always)]
     pub(super) fn gather(&self, values: &[u8]) -> Option<u64> {
-        let plain = self.plain.first().filter(|plain| plain.is_one)?;
+        let plain = self.plain.first()?;
         let (mut data, mut first) = (0u64, 0);
-        for place in plain.places.iter().take(self.count.into()) {
-            let at = *place as usize & 0xFF_FFFF;
-            let word = u32::from_le_bytes(*values.get(at..at + 4)?.first_chunk()?);
-            let bits = *place >> 24;
-            let unused = bits.wrapping_neg() & 31;
-            data |= u64::from(word << unused >> unused) << (first & 63);
-            first += bits;
+        let places = plain.places.get(..self.count.into())?;
+        for (place, unused) in places.iter().zip(plain.unused) {
+            data |= u64::from(cut_word(values, *place, unused)?) << (first & 63);
+            first += 32 - u32::from(unused);
         }
         Some(data)
     }
@@ -326,6 +304,14 @@ impl<R: Rooms> Mapping<R> {
             data = data.checked_shr(bits).unwrap_or(0);
         }
     }
+}
+
+/// A number of the store that is some bits shorter than four bytes.
+#[inline(always)]
+fn cut_word(values: &[u8], place: u32, unused: u8) -> Option<u32> {
+    let at = place as usize;
+    let word = u32::from_le_bytes(*values.get(at..at + 4)?.first_chunk()?);
+    Some(word.wrapping_shl(unused.into()).wrapping_shr(unused.into()))
 }
 
 /// Decodes an entry of a mapping object.

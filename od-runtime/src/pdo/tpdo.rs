@@ -314,15 +314,6 @@ impl<R: Rooms> Tpdo<R> {
         self.mapping.is_plain()
     }
 
-    /// As `refresh`, of one that [is plain](Self::is_plain).
-    pub(crate) fn refresh_plain(
-        &self,
-        application: &mut dyn Application,
-        context: &mut Context<'_, '_>,
-    ) {
-        self.mapping.refresh_plain(application, context);
-    }
-
     /// The frame, with the values of the store. It is to be [ready](Self::is_ready).
     #[inline(always)]
     pub(crate) fn send<D: Device>(
@@ -332,7 +323,8 @@ impl<R: Rooms> Tpdo<R> {
         node_id: NodeId,
         now: Instant,
     ) -> Option<Frame> {
-        let data = match self.mapping.gather(values) {
+        let plain = self.is_plain().then(|| self.mapping.gather(values));
+        let data = match plain.flatten() {
             Some(data) => data.to_le_bytes(),
             None => {
                 let store = Store::new(dictionary, values, node_id).ok()?;
@@ -345,21 +337,20 @@ impl<R: Rooms> Tpdo<R> {
     /// As [`send`](Self::send), of one that [is plain](Self::is_plain), if its values are not the last ones
     /// of the store.
     #[inline(always)]
-    pub(crate) fn send_plain<D: Device>(&mut self, values: &[u8], now: Instant) -> Option<Frame> {
-        let data = self.mapping.gather(values)?;
+    pub(crate) fn send_single<D: Device>(&mut self, values: &[u8], now: Instant) -> Option<Frame> {
+        let data = self.mapping.single(values)?;
         Some(self.sent::<D>(data.to_le_bytes(), now))
     }
 
-    /// As [`send_plain`](Self::send_plain), with live values, if the application has all of them at hand.
+    /// Puts the live values into the store, if the application has all of them at hand.
     #[inline(always)]
-    pub(crate) fn send_live<D: Device>(
-        &mut self,
+    pub(crate) fn fetch_live(
+        &self,
         application: &mut dyn Application,
         values: &mut [u8],
         now: Instant,
-    ) -> Option<Frame> {
-        let data = self.mapping.gather_live(application, values, now)?;
-        Some(self.sent::<D>(data.to_le_bytes(), now))
+    ) -> Option<()> {
+        self.mapping.fetch_live(application, values, now)
     }
 
     /// It is sent with these values.
