@@ -11,6 +11,7 @@ import time
 import unittest
 from pathlib import Path
 
+import can
 import canopen
 
 # A machine that does other things meanwhile is slow, not wrong.
@@ -99,14 +100,17 @@ class Sim:
 
     def network(self):
         """A python-canopen network on the bus."""
-        network = canopen.Network()
-        network.NOTIFIER_CYCLE = 0.05  # how long `disconnect` waits for its thread
-        network.connect(
+        bus = can.Bus(
             interface="slcan",
             channel=f"socket://127.0.0.1:{self.port}",
             bitrate=500000,
             sleep_after_open=0,
         )
+        # python-can does not wait for its channel, which hears nothing until it is open.
+        bus.get_version(PATIENCE)
+        network = canopen.Network(bus)
+        network.NOTIFIER_CYCLE = 0.05  # how long `disconnect` waits for its thread
+        network.connect()
         self.networks.append(network)
         return network
 
