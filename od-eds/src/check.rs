@@ -33,7 +33,7 @@ pub(crate) fn run(description: &Description, log: &mut Log) {
             Check::Entry(check) => of_entries.push(check),
             Check::Object(check) => of_objects.push(check),
             Check::Device(check) => of_device.push(check),
-            Check::ByReader | Check::ByEdit | Check::ByTarget => {}
+            Check::Elsewhere => {}
         }
     }
     let mut found = Vec::new();

@@ -82,12 +82,9 @@ pub(crate) enum Check {
     Object(fn(&Object<'_>, &mut Vec<Finding>)),
     /// By looking at the whole description.
     Device(fn(&Description, &mut Vec<Finding>)),
-    /// While the text is read.
-    ByReader,
-    /// While edits are applied, and by the macro.
-    ByEdit,
-    /// While a target is written that cannot express all.
-    ByTarget,
+    /// By those who call the constructor in its file: while the text is read, edits are applied, or a target
+    /// is written that cannot express all.
+    Elsewhere,
 }
 
 /// One rule: what a code means, what its findings say, and how they are found.
@@ -143,7 +140,7 @@ impl Rule {
     /// The defaults of a rule.
     pub(crate) const NEW: Self = Self {
         code: "",
-        severity: Severity::Error,
+        severity: Severity::Info,
         title: "",
         why: "",
         source: "",
@@ -153,7 +150,7 @@ impl Rule {
         help: "",
         also: &[],
         buildable: false,
-        check: Check::ByReader,
+        check: Check::Elsewhere,
     };
 
     /// All that its findings can say.

@@ -130,12 +130,12 @@ struct Periodic {
 
 impl Periodic {
     fn of(dut: &Dut<'_>, text: &str) -> Self {
-        let is_about_heartbeats = ["1017", "17 10", "$700"]
-            .iter()
-            .any(|word| text.contains(word));
+        let heartbeat = 0x700 + u16::from(dut.node.raw());
+        let by_number = format!("{heartbeat:X}#");
+        let words = ["1017", "17 10", "$700", &by_number];
         Self {
             sync: own_sync(dut),
-            heartbeat: (!is_about_heartbeats).then(|| 0x700 + u16::from(dut.node.raw())),
+            heartbeat: (!words.iter().any(|word| text.contains(word))).then_some(heartbeat),
         }
     }
 

@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 
 use od_bus::bench::OnBench;
-use od_bus::conform::case::built_in;
+use od_bus::conform::case::{Case, built_in};
 use od_bus::conform::eds::Eds;
 use od_bus::conform::record::Verdict;
 use od_bus::conform::rig::RealBus;
@@ -68,5 +68,26 @@ fn heartbeats_between_request_and_response_fail_no_case() {
                 panic!("{name}, {}: expected {expected}; {got}", case.id);
             }
         }
+    }
+}
+
+#[test]
+fn a_case_about_heartbeats_hears_them() {
+    let mut bus = bus("gxmm");
+    let mut master = Master::new(OnBench(&mut bus), NodeId::ONE);
+    let written = master.download(Address::new(0x1017, 0), &[3, 0]);
+    assert_eq!(written, Ok(Ok(())));
+    let kind = od_devices::find("gxmm").expect("a device");
+    let eds = Eds::read(&od_devices::text::eds(kind));
+    let mut rig = RealBus {
+        link: Box::new(OnBench(bus)),
+        power: None,
+    };
+    let mut session = Session::new(&mut rig, &eds, NodeId::ONE, Leave::default());
+    for (first, is_heard) in [("", false), ("expect 701#7F\n", true)] {
+        let text = format!("# CiA 301: Own.\n# Group: NMT\n{first}expect silence 20ms\n");
+        let case = Case::parse("own", &text).expect("a case");
+        let heard = matches!(session.run(&case).verdict, Verdict::Fail { .. });
+        assert_eq!(heard, is_heard, "{first}");
     }
 }

@@ -1,4 +1,4 @@
-use crate::finding::{Check, Finding, Rule, Severity::Info};
+use crate::finding::{Finding, Rule, Severity::Info};
 
 pub(crate) static RULE: Rule = Rule {
     code: "I1106",
@@ -9,7 +9,6 @@ pub(crate) static RULE: Rule = Rule {
     example: "[2100] LowLimit=1",
     says: "the node does not check the limits of {count:value|values}",
     help: "check them in the `write` function of an `OD_extension_t`",
-    check: Check::ByTarget,
     ..Rule::NEW
 };
 

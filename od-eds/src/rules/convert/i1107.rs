@@ -1,5 +1,5 @@
 use crate::fact::Fact;
-use crate::finding::{Check, Finding, Rule, Severity::Info};
+use crate::finding::{Finding, Rule, Severity::Info};
 
 pub(crate) static RULE: Rule = Rule {
     code: "I1107",
@@ -10,7 +10,6 @@ pub(crate) static RULE: Rule = Rule {
     example: "a file without [1016]",
     says: "CANopenNode needs {objects} unless their services are off",
     help: "add the objects, or set CO_CONFIG_EM, CO_CONFIG_HB_CONS or CO_CONFIG_SYNC in CO_driver_target.h",
-    check: Check::ByTarget,
     ..Rule::NEW
 };
 

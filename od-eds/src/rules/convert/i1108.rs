@@ -1,4 +1,4 @@
-use crate::finding::{Check, Finding, Rule, Severity::Info};
+use crate::finding::{Finding, Rule, Severity::Info};
 use crate::span::Span;
 use od_model::Address;
 
@@ -11,7 +11,6 @@ pub(crate) static RULE: Rule = Rule {
     example: "[1A00sub1] DefaultValue=0x20000001",
     says: "a mapping entry of {bits:bit|bits} needs CO_CONFIG_PDO_BITWISE_MAPPING",
     help: "add it to CO_CONFIG_PDO",
-    check: Check::ByTarget,
     ..Rule::NEW
 };
 

@@ -1,4 +1,4 @@
-use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::finding::{Finding, Rule, Severity::Warning};
 use crate::span::Span;
 use od_model::{Address, DataType};
 
@@ -11,7 +11,6 @@ pub(crate) static RULE: Rule = Rule {
     example: "[2100] DataType=0x000F, without a DefaultValue",
     says: "OD.c has no storage for a {type} without a default value",
     help: "provide the data by `OD_extension_init`, or add a DefaultValue",
-    check: Check::ByTarget,
     ..Rule::NEW
 };
 

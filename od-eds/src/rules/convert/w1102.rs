@@ -1,5 +1,5 @@
 use crate::fact::Key;
-use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::finding::{Finding, Rule, Severity::Warning};
 use crate::span::Span;
 use od_model::Address;
 
@@ -12,7 +12,6 @@ pub(crate) static RULE: Rule = Rule {
     example: "[2100] DefaultValue=$NODEID+0x10",
     says: "{DefaultValue} depends on the node ID, and CANopenNode does not add it here",
     help: "add `--node-id 5` to write the value of one node",
-    check: Check::ByTarget,
     ..Rule::NEW
 };
 

@@ -1,5 +1,5 @@
 use crate::fact::Key;
-use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::finding::{Finding, Rule, Severity::Warning};
 use crate::span::Span;
 use od_model::Address;
 
@@ -12,7 +12,6 @@ pub(crate) static RULE: Rule = Rule {
     example: "[1800sub1] DefaultValue=0x180",
     says: "CANopenNode adds the node ID to COB-ID {id:03X}h",
     help: "write `{DefaultValue=$NODEID+0x{id:X}}` if it follows the node ID, or another COB-ID",
-    check: Check::ByTarget,
     ..Rule::NEW
 };
 

@@ -1,5 +1,5 @@
 use crate::fact::Fact;
-use crate::finding::{Check, Finding, Form, Rule, Severity::Warning};
+use crate::finding::{Finding, Form, Rule, Severity::Warning};
 use crate::span::Span;
 use od_model::Address;
 
@@ -13,7 +13,6 @@ pub(crate) static RULE: Rule = Rule {
     says: "CANopenNode needs {missing}, since it takes PDOs one after the other",
     help: "add {section}; it may be a PDO that is not valid (bit 31 of its COB-ID)",
     also: &[MANY],
-    check: Check::ByTarget,
     ..Rule::NEW
 };
 

@@ -1,4 +1,4 @@
-use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::finding::{Finding, Rule, Severity::Warning};
 use crate::span::Span;
 use od_model::Address;
 
@@ -10,8 +10,6 @@ pub(crate) static RULE: Rule = Rule {
     source: "CANopenNode 4, 301/CO_ODinterface.h: OD_entry_t",
     example: "[2100], an ARRAY with sub-indices 0 to 255",
     says: "an object dictionary of CANopenNode cannot have this object",
-    help: "",
-    check: Check::ByTarget,
     ..Rule::NEW
 };
 

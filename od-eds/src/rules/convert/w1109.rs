@@ -1,5 +1,5 @@
 use crate::fact::Fact;
-use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::finding::{Finding, Rule, Severity::Warning};
 use od_model::Address;
 
 pub(crate) static RULE: Rule = Rule {
@@ -11,7 +11,6 @@ pub(crate) static RULE: Rule = Rule {
     example: "a file without [1017]",
     says: "CANopenNode does not start without {object}",
     help: "add {section}; a 1017h of 0 sends no heartbeat",
-    check: Check::ByTarget,
     ..Rule::NEW
 };
 

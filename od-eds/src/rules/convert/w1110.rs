@@ -1,4 +1,4 @@
-use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::finding::{Finding, Rule, Severity::Warning};
 use od_model::Address;
 
 pub(crate) static RULE: Rule = Rule {
@@ -9,8 +9,6 @@ pub(crate) static RULE: Rule = Rule {
     source: "CiA 301, multiplexed PDO",
     example: "[1A00sub0] DefaultValue=255",
     says: "DBC cannot describe a multiplexed PDO",
-    help: "",
-    check: Check::ByTarget,
     ..Rule::NEW
 };
 

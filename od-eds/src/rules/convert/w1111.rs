@@ -1,5 +1,5 @@
 use crate::fact::Fact;
-use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::finding::{Finding, Rule, Severity::Warning};
 use od_model::Address;
 
 pub(crate) static RULE: Rule = Rule {
@@ -11,7 +11,6 @@ pub(crate) static RULE: Rule = Rule {
     example: "[1A00sub3] maps 32 bits behind 64",
     says: "{mapped} has no room in the 64 bits of the PDO",
     help: "remove a mapping entry, or map a shorter object",
-    check: Check::ByTarget,
     ..Rule::NEW
 };
 

@@ -1,4 +1,4 @@
-use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::finding::{Finding, Rule, Severity::Warning};
 use od_model::{Address, DataType};
 
 pub(crate) static RULE: Rule = Rule {
@@ -9,8 +9,6 @@ pub(crate) static RULE: Rule = Rule {
     source: "DBC file format, signals",
     example: "[1A00sub1] maps a VISIBLE_STRING",
     says: "the mapped {type} is written as an unsigned number",
-    help: "",
-    check: Check::ByTarget,
     ..Rule::NEW
 };
 

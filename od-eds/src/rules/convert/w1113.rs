@@ -1,4 +1,4 @@
-use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::finding::{Finding, Rule, Severity::Warning};
 use od_model::Address;
 
 pub(crate) static RULE: Rule = Rule {
@@ -10,7 +10,6 @@ pub(crate) static RULE: Rule = Rule {
     example: "[1801sub1] DefaultValue=$NODEID+0x180",
     says: "another message has CAN-ID {id:03X}h",
     help: "write another COB-ID, or `--node-id` for the node ID of the device",
-    check: Check::ByTarget,
     ..Rule::NEW
 };
 

@@ -1,5 +1,5 @@
 use crate::fact::Fact;
-use crate::finding::{Check, Finding, Form, Rule, Severity::Error};
+use crate::finding::{Finding, Form, Rule, Severity::Error};
 use crate::patch::target::Target;
 use crate::span::Spanned;
 use alloc::string::ToString;
@@ -14,7 +14,6 @@ pub(crate) static RULE: Rule = Rule {
     says: "{object} does not exist",
     help: "list the objects of a file with `odkit dump`",
     also: &[NEAR, FIRST, MEMBERS],
-    check: Check::ByEdit,
     ..Rule::NEW
 };
 

@@ -1,4 +1,4 @@
-use crate::finding::{Check, Finding, Rule, Severity::Error};
+use crate::finding::{Finding, Rule, Severity::Error};
 use crate::patch::target::Target;
 use crate::span::Spanned;
 pub(crate) static RULE: Rule = Rule {
@@ -10,7 +10,6 @@ pub(crate) static RULE: Rule = Rule {
     example: "add 0x1017 { name = \"Heartbeat\"; type = u16 }   // the EDS has 1017h",
     says: "{object} already exists",
     help: "write `modify {target} {{ … }}` to change it",
-    check: Check::ByEdit,
     ..Rule::NEW
 };
 

@@ -1,5 +1,5 @@
 use crate::fact::Fact;
-use crate::finding::{Check, Finding, Rule, Severity::Error};
+use crate::finding::{Finding, Rule, Severity::Error};
 use crate::patch::target::Target;
 use crate::span::Spanned;
 pub(crate) static RULE: Rule = Rule {
@@ -11,7 +11,6 @@ pub(crate) static RULE: Rule = Rule {
     example: "add 0x2000sub1 { name = \"Order\"; type = u8 }",
     says: "`{target}` needs object {object}, which does not exist",
     help: "write `add 0x{object:04X} {{ code = record; name = \"…\" }}` first",
-    check: Check::ByEdit,
     ..Rule::NEW
 };
 

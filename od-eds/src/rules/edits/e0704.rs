@@ -1,5 +1,5 @@
 use crate::fact::Fact;
-use crate::finding::{Check, Finding, Form, Rule, Severity::Error};
+use crate::finding::{Finding, Form, Rule, Severity::Error};
 use crate::patch::target::Target;
 use crate::span::Spanned;
 use od_model::ObjectCode;
@@ -14,7 +14,6 @@ pub(crate) static RULE: Rule = Rule {
     says: "{object} has object code {code} and no sub-objects",
     help: "write `0x{object:04X}` for its value",
     also: &[ADDED],
-    check: Check::ByEdit,
     ..Rule::NEW
 };
 

@@ -1,4 +1,4 @@
-use crate::finding::{Check, Finding, Rule, Severity::Error};
+use crate::finding::{Finding, Rule, Severity::Error};
 use crate::patch::target::Target;
 use crate::span::Spanned;
 pub(crate) static RULE: Rule = Rule {
@@ -10,7 +10,6 @@ pub(crate) static RULE: Rule = Rule {
     example: "add 0x2000 { type = u16 }",
     says: "`add {target}` lacks {ParameterName}",
     help: "write `{ParameterName=\"…\"}`",
-    check: Check::ByEdit,
     ..Rule::NEW
 };
 

@@ -1,4 +1,4 @@
-use crate::finding::{Check, Finding, Rule, Severity::Error};
+use crate::finding::{Finding, Rule, Severity::Error};
 use crate::patch::target::Target;
 use crate::span::Spanned;
 use od_model::DataType;
@@ -12,7 +12,6 @@ pub(crate) static RULE: Rule = Rule {
     example: "add 0x2000 { name = \"Gain\" }",
     says: "`add {target}` lacks {DataType}",
     help: "write `{DataType={type}}` ({type}), or another type",
-    check: Check::ByEdit,
     ..Rule::NEW
 };
 

@@ -1,5 +1,5 @@
 use crate::fact::{Fact, Key};
-use crate::finding::{Check, Finding, Rule, Severity::Error};
+use crate::finding::{Finding, Rule, Severity::Error};
 use crate::patch::target::Target;
 use crate::rules::values::shared::{NOT_VALID, WHOLE};
 use crate::span::{Span, Spanned};
@@ -15,7 +15,6 @@ pub(crate) static RULE: Rule = Rule {
     says: NOT_VALID,
     help: "write {form}",
     also: &[WHOLE],
-    check: Check::ByEdit,
     ..Rule::NEW
 };
 

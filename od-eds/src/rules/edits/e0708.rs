@@ -1,5 +1,5 @@
 use crate::fact::{Fact, Key};
-use crate::finding::{Check, Finding, Rule, Severity::Error};
+use crate::finding::{Finding, Rule, Severity::Error};
 use crate::patch::target::Target;
 use crate::span::{Span, Spanned};
 use od_model::DataType;
@@ -13,7 +13,6 @@ pub(crate) static RULE: Rule = Rule {
     example: "modify 0x1000 { type = u8 }          // its default is 0x20196",
     says: "{key} `{given}` of the base is not a valid {type}",
     help: "write {key} too: {form}, or `none`",
-    check: Check::ByEdit,
     ..Rule::NEW
 };
 

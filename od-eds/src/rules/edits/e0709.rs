@@ -1,5 +1,5 @@
 use crate::fact::Fact;
-use crate::finding::{Check, Finding, Rule, Severity::Error};
+use crate::finding::{Finding, Rule, Severity::Error};
 use crate::patch::target::Target;
 use crate::span::{Span, Spanned};
 pub(crate) static RULE: Rule = Rule {
@@ -11,7 +11,6 @@ pub(crate) static RULE: Rule = Rule {
     example: "modify 0x1018sub1 { code = var }",
     says: "`{target}` is a sub-object and has no {ObjectType}",
     help: "write `0x{object:04X} {{ {ObjectType=record} }}`",
-    check: Check::ByEdit,
     ..Rule::NEW
 };
 

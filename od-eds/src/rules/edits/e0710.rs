@@ -1,5 +1,5 @@
 use crate::fact::{Fact, Key};
-use crate::finding::{Check, Finding, Rule, Severity::Error};
+use crate::finding::{Finding, Rule, Severity::Error};
 use crate::patch::target::Target;
 use crate::span::{Span, Spanned};
 
@@ -12,7 +12,6 @@ pub(crate) static RULE: Rule = Rule {
     example: "modify 0x1018 { default = 5 }        // a RECORD has no value",
     says: "{object} has sub-objects, and {key} belongs to one of them",
     help: "write the sub-object, such as `0x{object:04X}sub1`",
-    check: Check::ByEdit,
     ..Rule::NEW
 };
 

@@ -1,4 +1,4 @@
-use crate::finding::{Check, Finding, Rule, Severity::Error};
+use crate::finding::{Finding, Rule, Severity::Error};
 
 pub(crate) static RULE: Rule = Rule {
     code: "E1201",
@@ -9,7 +9,6 @@ pub(crate) static RULE: Rule = Rule {
     example: "two nodes with node_id: 5",
     says: "{first} and {second} have node ID {id}",
     help: "give each node a node ID of its own, from 1 to 127",
-    check: Check::ByTarget,
     ..Rule::NEW
 };
 

@@ -1,4 +1,4 @@
-use crate::finding::{Check, Finding, Rule, Severity::Error};
+use crate::finding::{Finding, Rule, Severity::Error};
 
 pub(crate) static RULE: Rule = Rule {
     code: "E1202",
@@ -9,7 +9,6 @@ pub(crate) static RULE: Rule = Rule {
     example: "TPDO 1 of two nodes has cob_id: 0x181",
     says: "{first} and {second} have CAN-ID {id:03X}h",
     help: "give one of them another COB-ID, or make it not valid",
-    check: Check::ByTarget,
     ..Rule::NEW
 };
 

@@ -1,4 +1,4 @@
-use crate::finding::{Check, Finding, Rule, Severity::Error};
+use crate::finding::{Finding, Rule, Severity::Error};
 
 pub(crate) static RULE: Rule = Rule {
     code: "E1204",
@@ -9,7 +9,6 @@ pub(crate) static RULE: Rule = Rule {
     example: "1016h:01 = 0x00050064 for a node 5 with 1017h = 100",
     says: "{consumer} waits {time} ms for the heartbeat of {producer}, which comes every {period} ms",
     help: "write at least 1.5 times the producer heartbeat time to 1016h",
-    check: Check::ByTarget,
     ..Rule::NEW
 };
 

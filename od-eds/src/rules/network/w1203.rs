@@ -1,4 +1,4 @@
-use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::finding::{Finding, Rule, Severity::Warning};
 
 pub(crate) static RULE: Rule = Rule {
     code: "W1203",
@@ -9,7 +9,6 @@ pub(crate) static RULE: Rule = Rule {
     example: "1016h:01 = 0x000503E8, without node 5",
     says: "{consumer} waits for {what}, which no node sends",
     help: "add the producer, or make the consumer not valid",
-    check: Check::ByTarget,
     ..Rule::NEW
 };
 

@@ -1,4 +1,4 @@
-use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::finding::{Finding, Rule, Severity::Warning};
 
 pub(crate) static RULE: Rule = Rule {
     code: "W1205",
@@ -9,7 +9,6 @@ pub(crate) static RULE: Rule = Rule {
     example: "50 TPDOs of 8 bytes every 10 ms at 250 kbit/s",
     says: "periodic frames take up to {percent} % of {rate} kbit/s",
     help: "send them less often, or use a higher bit rate",
-    check: Check::ByTarget,
     ..Rule::NEW
 };
 

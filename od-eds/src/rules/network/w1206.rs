@@ -1,4 +1,4 @@
-use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::finding::{Finding, Rule, Severity::Warning};
 
 pub(crate) static RULE: Rule = Rule {
     code: "W1206",
@@ -9,7 +9,6 @@ pub(crate) static RULE: Rule = Rule {
     example: "TPDO 1 with 2 bytes, received by an RPDO with 4",
     says: "{consumer} maps {mapped:byte|bytes}, but {producer} sends {sent:byte|bytes}",
     help: "map as many bytes as the producer sends, or map more objects in the producer",
-    check: Check::ByTarget,
     ..Rule::NEW
 };
 
