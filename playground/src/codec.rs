@@ -75,19 +75,26 @@ pub fn tag_names() -> Vec<String> {
     TAGS.into_iter().map(String::from).collect()
 }
 
-/// Of each packed frame two numbers: place in `tagNames` + 256 * node ID (0: none, or all)
-/// + 65536 if it names an object; and that object as `index * 256 + sub`.
+/// Numbers of each frame in `tags`.
+pub(crate) const TAG_LEN: usize = 2;
+/// Bits of the first for the place in `tagNames`, and again for the node ID above it.
+pub(crate) const TAG_NODE: u32 = 8;
+/// Bits below the one that says whether there is an object.
+pub(crate) const TAG_OBJECT: u32 = 16;
+
+/// Of each packed frame two numbers: its place in `tagNames`, its node ID (0: none, or all) and whether it
+/// names an object; and that object as `index * 256 + sub`.
 #[wasm_bindgen]
 pub fn tags(frames: &[u8]) -> Vec<u32> {
     let of = |packed: &[u8]| {
         let tag = packed::frame(packed).map(|frame| tag(&frame));
         let object = tag.and_then(|tag| tag.object);
-        let first = tag.map_or(0, |tag| u32::from(tag.tag) | u32::from(tag.node) << 8);
+        let first = tag.map_or(0, |tag| {
+            u32::from(tag.tag) | u32::from(tag.node) << TAG_NODE
+        });
         let key = |at: Address| u32::from(at.index) << 8 | u32::from(at.sub);
-        [
-            first | u32::from(object.is_some()) << 16,
-            object.map_or(0, key),
-        ]
+        let first = first | u32::from(object.is_some()) << TAG_OBJECT;
+        [first, object.map_or(0, key)] as [u32; TAG_LEN]
     };
     frames.chunks_exact(packed::LEN).flat_map(of).collect()
 }

@@ -187,11 +187,11 @@ pub fn check_run(
 /// The result of an input, and of the text of its device.
 pub(crate) fn outcome(added: journal::Added, text: &str) -> Added {
     let diagnostics = match added.trouble {
-        Trouble::None => Vec::new(),
         Trouble::Message(message) => vec![diagnostics::message(&message)],
         #[cfg(feature = "eds")]
         Trouble::Findings(found) => diagnostics::findings(&found, text),
         Trouble::Problems(all) => all.iter().map(diagnostics::problem).collect(),
+        _ => Vec::new(),
     };
     #[cfg(not(feature = "eds"))]
     let _ = text;

@@ -2,7 +2,7 @@
 
 use std::{env, fs};
 
-use crate::codec::{CRC, DATA, RECESSIVE, STUFFED};
+use crate::codec::{CRC, DATA, RECESSIVE, STUFFED, TAG_LEN, TAG_NODE, TAG_OBJECT};
 use crate::packed::{self, DISTURBED, EXTENDED, OWN, REMOTE, at};
 
 fn written() -> String {
@@ -37,11 +37,14 @@ fn written() -> String {
          /** Its flags. */\n{}\n\
          /** Where its parts begin; numbers are little endian. */\n\
          export const AT = {{\n{}}} as const;\n\n\
+         /** Numbers of each frame in `tags`; of the first a mask for its parts, and the bits below the node ID and the object. */\n\
+         export const TAG = {{ length: {TAG_LEN}, mask: {}, node: {TAG_NODE}, object: {TAG_OBJECT} }} as const;\n\n\
          /** What `frameBits` says of a bit, and the numbers of two of its parts. */\n\
          export const BIT = {{\n{}}} as const;\n",
         packed::LEN,
         flags.concat(),
         offsets.concat(),
+        (1u32 << TAG_NODE) - 1,
         bits.concat(),
     )
 }

@@ -26,6 +26,7 @@ pub struct Added {
 
 /// Findings of an EDS text, problems of a lesson or a script.
 #[derive(Debug, Default)]
+#[non_exhaustive]
 pub enum Trouble {
     /// Nothing.
     #[default]

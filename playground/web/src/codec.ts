@@ -38,7 +38,7 @@ export function tagAt(place: number): Tag {
   return known[place]!;
 }
 
-/** Two numbers for each packed frame: service, node and whether there is an object; the object. */
+/** For each packed frame the numbers that TAG reads: service, node and whether there is an object; the object. */
 export const tags = (frames: Uint8Array): Uint32Array => tagsOf(frames);
 
 /** A frame that a user typed. */

@@ -19,6 +19,9 @@ export const AT = {
   data: 16,
 } as const;
 
+/** Numbers of each frame in `tags`; of the first a mask for its parts, and the bits below the node ID and the object. */
+export const TAG = { length: 2, mask: 255, node: 8, object: 16 } as const;
+
 /** What `frameBits` says of a bit, and the numbers of two of its parts. */
 export const BIT = {
   recessive: 128,

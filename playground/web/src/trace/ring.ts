@@ -2,6 +2,7 @@
 // never changes, so a view can hold its place while old frames fall out.
 
 import { ERROR, tagAt, tags, type Tag } from '../codec';
+import { TAG } from '../sim/layout';
 import { AT, DISTURBED, FRAME_BYTES, unpack, type Packed } from '../sim/packed';
 
 export const CAPACITY = 200_000;
@@ -17,8 +18,8 @@ export interface Frame extends Packed {
 
 export class Ring {
   private bytes = new Uint8Array(4096 * FRAME_BYTES);
-  /** Two numbers for each frame, as `tags` gives them. */
-  private marks = new Uint32Array(4096 * 2);
+  /** The numbers of each frame, as `tags` gives them. */
+  private marks = new Uint32Array(4096 * TAG.length);
   /** Number of the oldest frame that is kept. */
   first = 0;
   /** Number that the next frame will get. */
@@ -43,7 +44,7 @@ export class Ring {
     while (from < count) {
       const run = Math.min(count - from, this.room - at);
       this.bytes.set(batch.subarray(from * FRAME_BYTES, (from + run) * FRAME_BYTES), at * FRAME_BYTES);
-      this.marks.set(marks.subarray(from * 2, (from + run) * 2), at * 2);
+      this.marks.set(marks.subarray(from * TAG.length, (from + run) * TAG.length), at * TAG.length);
       from += run;
       at = (at + run) % this.room;
     }
@@ -56,7 +57,7 @@ export class Ring {
     const kept = this.slice(this.first, this.end);
     const room = Math.min(CAPACITY, Math.max(needed, this.room * 4));
     this.bytes = new Uint8Array(room * FRAME_BYTES);
-    this.marks = new Uint32Array(room * 2);
+    this.marks = new Uint32Array(room * TAG.length);
     const end = this.end;
     this.end = this.first;
     this.append(kept);
@@ -88,18 +89,18 @@ export class Ring {
   get(number: number): Frame | undefined {
     if (number < this.first || number >= this.end) return undefined;
     const at = number % this.room;
-    const mark = this.marks[at * 2]!;
+    const mark = this.marks[at * TAG.length]!;
     const frame = unpack(this.bytes, at * FRAME_BYTES) as Frame;
-    frame.tag = frame.disturbed ? ERROR : tagAt(mark & 255);
-    frame.node = (mark >> 8) & 255;
-    frame.object = mark >> 16 ? this.marks[at * 2 + 1]! : null;
+    frame.tag = frame.disturbed ? ERROR : tagAt(mark & TAG.mask);
+    frame.node = (mark >> TAG.node) & TAG.mask;
+    frame.object = mark >> TAG.object ? this.marks[at * TAG.length + 1]! : null;
     return frame;
   }
 
   /** Is it an SDO frame? Quicker than to ask the frame. */
   isSdo(number: number): boolean {
     const at = number % this.room;
-    return (this.bytes[at * FRAME_BYTES + AT.flags]! & DISTURBED) === 0 && tagAt(this.marks[at * 2]! & 255).service === 'SDO';
+    return (this.bytes[at * FRAME_BYTES + AT.flags]! & DISTURBED) === 0 && tagAt(this.marks[at * TAG.length]! & TAG.mask).service === 'SDO';
   }
 
   /** The packed bytes of one frame. */
