@@ -2,7 +2,7 @@
 
 use std::prelude::v1::*;
 
-use od_model::Group;
+use od_model::{Group, Refused};
 use od_runtime::Store;
 use od_runtime::encoder::{Role, Switches};
 use od_runtime::storage::image;
@@ -109,11 +109,12 @@ impl VirtualDevice {
     ///
     /// # Errors
     /// A sentence, if the device has no LSS slave, or one that always has a node ID.
-    pub fn without_node_id(mut self) -> Result<Self, String> {
+    pub fn without_node_id(mut self) -> Result<Self, Refused> {
         if !self.profile.lss.is_some_and(|lss| lss.is_own()) {
             return Err(String::from(
                 "a device starts without a node ID only if its EDS says `LSS_Supported=1`",
-            ));
+            )
+            .into());
         }
         self.node.set_node_id(None);
         Ok(self)

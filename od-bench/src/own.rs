@@ -4,7 +4,7 @@ use std::format;
 use std::prelude::v1::*;
 use std::string::ToString;
 
-use od_model::{Access, Address, Entry, values};
+use od_model::{Access, Address, Entry, Refused, values};
 use od_runtime::{Instant, Store};
 use od_wire::AbortCode;
 use od_wire::emcy::Emcy;
@@ -29,19 +29,19 @@ impl VirtualDevice {
         address: Address,
         bytes: &[u8],
         now: Instant,
-    ) -> Result<(), String> {
+    ) -> Result<(), Refused> {
         self.runs()?;
         let dictionary = self.dictionary();
         let entry = values::find(dictionary, &address.to_string())?;
         let label = values::label(dictionary, address);
         if let Some(why) = self.refusal(&entry) {
-            return Err(format!("{label} {why}"));
+            return Err(format!("{label} {why}").into());
         }
         let len = bytes.len();
         if let Some(size) = entry.data_type.size().filter(|size| *size != len) {
             let data_type = entry.data_type;
             let (size, len) = (size * 8, len * 8);
-            return Err(format!("{label}: {data_type} has {size} bits, not {len}"));
+            return Err(format!("{label}: {data_type} has {size} bits, not {len}").into());
         }
         self.forward(now, Call::Value(address, bytes));
         let result = self.lend(|node, lent| node.set_value(lent, now, address, bytes));
@@ -60,7 +60,7 @@ impl VirtualDevice {
         let shown = self.read(address, now);
         if shown != bytes {
             let shown = values::show(entry.data_type, &shown);
-            return Err(format!("{label} is computed by the device; it is {shown}"));
+            return Err(format!("{label} is computed by the device; it is {shown}").into());
         }
         Ok(())
     }
@@ -96,7 +96,7 @@ impl VirtualDevice {
         register: u8,
         info: Option<[u8; 5]>,
         now: Instant,
-    ) -> Result<(), String> {
+    ) -> Result<(), Refused> {
         self.runs()?;
         if self.dictionary().entry(0x1014, 0).is_none() {
             return Err("the device sends no EMCY messages: object 1014h is missing".into());
@@ -117,14 +117,15 @@ impl VirtualDevice {
             info: info.unwrap_or(own.unwrap_or_default()),
         };
         if self.raised.len() >= ERRORS {
-            return Err(format!(
-                "{ERRORS} errors are active; write `emcy 0000h` to end them"
-            ));
+            return Err(
+                format!("{ERRORS} errors are active; write `emcy 0000h` to end them").into(),
+            );
         }
         if !self.change_error(error, true, now) {
             return Err(format!(
                 "error {code:04X}h is active; write `emcy {code:04X}h off` to end it"
-            ));
+            )
+            .into());
         }
         self.raised.push(error);
         Ok(())
@@ -134,7 +135,7 @@ impl VirtualDevice {
     ///
     /// # Errors
     /// A sentence: the device is off or starting, or no such error is active.
-    pub fn clear_error(&mut self, code: u16, now: Instant) -> Result<(), String> {
+    pub fn clear_error(&mut self, code: u16, now: Instant) -> Result<(), Refused> {
         self.runs()?;
         let all = std::mem::take(&mut self.raised);
         let (ended, left): (Vec<_>, Vec<_>) =
@@ -148,7 +149,7 @@ impl VirtualDevice {
         match (any, code) {
             (true, _) => Ok(()),
             (false, 0) => Err("no error of an `emcy` line is active".into()),
-            (false, _) => Err(format!("error {code:04X}h of an `emcy` line is not active")),
+            (false, _) => Err(format!("error {code:04X}h of an `emcy` line is not active").into()),
         }
     }
 

@@ -1,7 +1,7 @@
 //! Objects that a user names: by address, name or glob, with a dictionary or without.
 
 use od_model::values;
-use od_model::{Address, DataType, Dictionary, Entry, Kind, Literal, ObjectCode};
+use od_model::{Address, DataType, Dictionary, Entry, Kind, Literal, ObjectCode, Refused};
 use od_wire::AbortCode;
 
 use crate::fault::Fault;
@@ -25,7 +25,7 @@ pub struct Asked {
 ///
 /// # Errors
 /// A sentence: no value matches.
-pub fn select(dictionary: Dictionary<'_>, text: &str) -> Result<Vec<Asked>, String> {
+pub fn select(dictionary: Dictionary<'_>, text: &str) -> Result<Vec<Asked>, Refused> {
     let of = |entry: Entry, is_one_of_many| Asked {
         address: entry.address,
         entry: Some(entry),
@@ -45,7 +45,7 @@ pub fn select(dictionary: Dictionary<'_>, text: &str) -> Result<Vec<Asked>, Stri
             .map(|entry| of(entry, true))
             .collect();
         return match found.is_empty() {
-            true => Err(format!("no object matches `{text}`")),
+            true => Err(format!("no object matches `{text}`").into()),
             false => Ok(found),
         };
     }
@@ -158,16 +158,16 @@ pub fn type_of(address: Address, bytes: &[u8]) -> DataType {
 ///
 /// # Errors
 /// A sentence: the value cannot be written, or is not of its type or within its limits.
-pub fn encode(entry: &Entry, node: u8, text: &str) -> Result<Vec<u8>, String> {
+pub fn encode(entry: &Entry, node: u8, text: &str) -> Result<Vec<u8>, Refused> {
     if !entry.access.writable() {
-        return Err(format!("it is `{}` and cannot be written", entry.access));
+        return Err(format!("it is `{}` and cannot be written", entry.access).into());
     }
     let bytes = values::parse(entry.data_type, text)?;
     if let Some(size) = entry.data_type.size()
         && size != bytes.len()
     {
         let name = entry.data_type.name();
-        return Err(format!("{name} has {size} bytes, not {}", bytes.len()));
+        return Err(format!("{name} has {size} bytes, not {}", bytes.len()).into());
     }
     let [low, high] = [entry.low, entry.high].map(|limit| number(limit, node));
     if let Some(value) = decimal(entry.data_type, &bytes) {
@@ -180,7 +180,8 @@ pub fn encode(entry: &Entry, node: u8, text: &str) -> Result<Vec<u8>, String> {
                 values::show(entry.data_type, &bytes),
                 shown(low),
                 shown(high)
-            ));
+            )
+            .into());
         }
     }
     Ok(bytes)
@@ -190,7 +191,7 @@ pub fn encode(entry: &Entry, node: u8, text: &str) -> Result<Vec<u8>, String> {
 ///
 /// # Errors
 /// A sentence: the value does not fit.
-pub fn encode_by_size(size: usize, text: &str) -> Result<Vec<u8>, String> {
+pub fn encode_by_size(size: usize, text: &str) -> Result<Vec<u8>, Refused> {
     let text = text.trim();
     if text.starts_with(['[', '"']) {
         return values::parse(DataType::OctetString, text);
@@ -205,10 +206,11 @@ pub fn encode_by_size(size: usize, text: &str) -> Result<Vec<u8>, String> {
     if !(1..=64).contains(&bits) {
         return Err(format!(
             "the object has {size} bytes, so it is not a number; write \"a text\" or [01 02 03]"
-        ));
+        )
+        .into());
     }
     if value < -(1 << (bits - 1)) || value >= 1 << bits {
-        return Err(format!("`{text}` does not fit into {size} bytes"));
+        return Err(format!("`{text}` does not fit into {size} bytes").into());
     }
     Ok(value.to_le_bytes()[..size].to_vec())
 }

@@ -98,7 +98,7 @@ impl Config {
         let mut config: Self = toml::from_str(&text).map_err(|error| wrong(error.to_string()))?;
         let files = config.files.iter().flat_map(|files| files.rules.keys());
         for code in config.rules.keys().chain(files) {
-            parse_allow(code).map_err(&wrong)?;
+            parse_allow(code).map_err(|refused| wrong(refused.into()))?;
         }
         let unknown = config.tools.iter();
         let mut unknown = unknown.filter(|name| *name != "all" && tools::tool(name).is_none());

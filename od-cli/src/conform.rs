@@ -78,7 +78,7 @@ enum Shown {
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let mut cases = built_in().to_vec();
     for folder in &args.cases {
-        cases.extend(in_folder(folder).map_err(Failure::Usage)?);
+        cases.extend(in_folder(folder)?);
     }
     let named = |case: &Case| {
         args.only.is_empty() || args.only.iter().any(|pattern| case.is_named_by(pattern))
@@ -201,7 +201,9 @@ fn tested(args: &Args, cases: &[Case]) -> Result<Report, Failure> {
 
 /// A simulated device that was just switched on.
 pub(crate) fn bench(name: &str, node: Option<NodeId>) -> Result<OnBench<Bus>, Failure> {
-    let device = Source::find(name)?.device(node).map_err(Failure::Failed)?;
+    let device = Source::find(name)?
+        .device(node)
+        .map_err(|why| Failure::Failed(why.into()))?;
     let mut bus = Bus::new();
     let number = bus.add(device);
     bus.start(number);

@@ -174,7 +174,7 @@ fn configure(description: &mut Description, args: &Args) -> Result<(), Failure> 
                 "`--set {setting}` has no value; write `--set 6001h=4096`"
             ))
         })?;
-        dcf::set(description, object.trim(), text.trim()).map_err(Failure::Usage)?;
+        dcf::set(description, object.trim(), text.trim())?;
     }
     Ok(())
 }

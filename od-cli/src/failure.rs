@@ -19,6 +19,12 @@ impl std::fmt::Display for Failure {
     }
 }
 
+impl From<od_model::Refused> for Failure {
+    fn from(refused: od_model::Refused) -> Self {
+        Self::Usage(refused.into())
+    }
+}
+
 impl From<std::io::Error> for Failure {
     fn from(error: std::io::Error) -> Self {
         Self::Failed(error.to_string())

@@ -42,7 +42,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let mut asked: Vec<Vec<Asked>> = Vec::new();
     if let Some(dictionary) = given {
         for text in &args.objects {
-            asked.push(objects::select(dictionary, text).map_err(Failure::Usage)?);
+            asked.push(objects::select(dictionary, text)?);
         }
     }
     let mut bar = Bar::new("reading");
@@ -58,7 +58,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     if given.is_none() {
         for text in &args.objects {
             asked.push(match dictionary {
-                Some(dictionary) => objects::select(dictionary, text).map_err(Failure::Usage)?,
+                Some(dictionary) => objects::select(dictionary, text)?,
                 None => objects::probe(&mut master, text)?,
             });
         }

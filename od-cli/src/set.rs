@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use od_bus::master::Master;
 use od_bus::objects;
 use od_bus::tap::Tap;
-use od_model::{Address, Dictionary, Entry, values};
+use od_model::{Address, Dictionary, Entry, Refused, values};
 use od_runtime::{AbortCode, NodeId};
 
 use crate::bus::value::{self, Shown};
@@ -142,15 +142,14 @@ fn checked(
     pairs: &[(String, Value)],
 ) -> Result<Vec<Ready>, Failure> {
     let ready = pairs.iter().map(|(object, value)| {
-        let wrong = |why: String| Failure::Usage(format!("{object}: {why}"));
-        let entry = values::find(dictionary, object).map_err(Failure::Usage)?;
+        let wrong = |why: Refused| Failure::Usage(format!("{object}: {why}"));
+        let entry = values::find(dictionary, object)?;
         let bytes = match value {
             Value::Text(text) => objects::encode(&entry, node.raw(), text).map_err(wrong)?,
             Value::Bytes(_) if !entry.access.writable() => {
-                return Err(wrong(format!(
-                    "it is `{}` and cannot be written",
-                    entry.access
-                )));
+                return Err(wrong(
+                    format!("it is `{}` and cannot be written", entry.access).into(),
+                ));
             }
             Value::Bytes(bytes) => bytes.clone(),
         };
@@ -170,7 +169,7 @@ fn sized(
 ) -> Result<Vec<Ready>, Failure> {
     let mut ready = Vec::new();
     for (object, value) in pairs {
-        let wrong = |why: String| Failure::Usage(format!("{object}: {why}"));
+        let wrong = |why: Refused| Failure::Usage(format!("{object}: {why}"));
         let address = values::address(object)
             .ok_or_else(|| wrong("it is not an address; add `--eds FILE` for names".into()))?;
         let bytes = match value {

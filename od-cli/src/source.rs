@@ -1,5 +1,6 @@
 //! From a name on the command line to a device description, which is read once.
 
+use od_model::Refused;
 use std::cell::OnceCell;
 use std::fs;
 use std::path::Path;
@@ -300,7 +301,7 @@ impl Source {
 
     /// A device with power off. Errors of a text are reported on standard error; what can
     /// run of it runs all the same, as masters take such files, too.
-    pub(crate) fn device(&self, node_id: Option<NodeId>) -> Result<VirtualDevice, String> {
+    pub(crate) fn device(&self, node_id: Option<NodeId>) -> Result<VirtualDevice, Refused> {
         if let Some(kind) = self.kind {
             return Ok(VirtualDevice::new(kind, node_id.unwrap_or(NodeId::ONE)));
         }
@@ -328,7 +329,8 @@ impl Source {
             }
             _ => Err(format!(
                 "{path} does not define any object with a value; is it an EDS or DCF file?"
-            )),
+            )
+            .into()),
         }
     }
 }

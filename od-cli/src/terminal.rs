@@ -1,5 +1,6 @@
 //! The terminal as the host of a script: devices by name, frames as candump lines.
 
+use od_model::Refused;
 use std::path::{Path, PathBuf};
 
 use od_bench::VirtualDevice;
@@ -54,7 +55,7 @@ impl Host for Terminal<'_> {
         &mut self,
         name: Option<&str>,
         node_id: Option<NodeId>,
-    ) -> Result<VirtualDevice, String> {
+    ) -> Result<VirtualDevice, Refused> {
         let (unnamed, unnamed_id) = self.unnamed;
         let (source, node_id) = match name {
             Some(name) => (Source::find_in(name, &self.folder), node_id),

@@ -6,8 +6,8 @@
 //! reads the file has to judge it.
 
 use alloc::format;
-use alloc::string::String;
 use alloc::vec::Vec;
+use od_model::Refused;
 
 use crate::finding::{Finding, Rule, sort};
 use crate::rules::allow::{i0803, w0801, w0802};
@@ -170,7 +170,7 @@ fn known(code: &str) -> Option<&'static Rule> {
 /// # Errors
 ///
 /// A sentence that names what is wrong.
-pub fn parse_allow(text: &str) -> Result<(&'static str, Option<u16>), String> {
+pub fn parse_allow(text: &str) -> Result<(&'static str, Option<u16>), Refused> {
     let (code, index) = match text.split_once(':') {
         Some((code, index)) => (code, Some(index)),
         None => (text, None),
@@ -190,7 +190,8 @@ pub fn parse_allow(text: &str) -> Result<(&'static str, Option<u16>), String> {
         Ok(index) if !digits.starts_with('+') => Ok((rule.code, Some(index))),
         _ => Err(format!(
             "`{index}` is not an index; write four hexadecimal digits such as `2000`"
-        )),
+        )
+        .into()),
     }
 }
 

@@ -23,6 +23,8 @@ mod index;
 mod needs;
 #[doc(hidden)]
 pub mod real;
+#[cfg(feature = "alloc")]
+mod refused;
 mod restricted;
 #[doc(hidden)]
 pub mod row;
@@ -39,6 +41,8 @@ pub use access::{Access, Group};
 pub use address::Address;
 pub use dictionary::{Dictionary, Entries, Names, Objects};
 pub use entry::{Entry, Missing, Object, Slot};
+#[cfg(feature = "alloc")]
+pub use refused::Refused;
 pub use restricted::is_restricted;
 pub use types::{DataType, Kind, ObjectCode};
 pub use value::{Literal, Range};

@@ -8,6 +8,7 @@ use alloc::vec::Vec;
 use crate::address::Address;
 use crate::dictionary::Dictionary;
 use crate::entry::{Entry, Missing};
+use crate::refused::Refused;
 use crate::typed::Scalar;
 use crate::types::{DataType, Kind};
 
@@ -46,13 +47,14 @@ pub fn hex(bytes: &[u8]) -> String {
 ///
 /// # Errors
 /// A sentence that says what to write instead.
-pub fn parse(data_type: DataType, text: &str) -> Result<Vec<u8>, String> {
+pub fn parse(data_type: DataType, text: &str) -> Result<Vec<u8>, Refused> {
     let text = text.trim();
     if let Some(inner) = text
         .strip_prefix('[')
         .and_then(|rest| rest.strip_suffix(']'))
     {
-        return parse_hex(inner).ok_or_else(|| format!("`{text}` is not a list of hex bytes"));
+        let wrong = || format!("`{text}` is not a list of hex bytes").into();
+        return parse_hex(inner).ok_or_else(wrong);
     }
     let quoted = text
         .strip_prefix('"')
@@ -60,14 +62,12 @@ pub fn parse(data_type: DataType, text: &str) -> Result<Vec<u8>, String> {
     match (data_type.kind(), quoted) {
         (Kind::Text | Kind::Bytes, Some(inner)) => return Ok(inner.as_bytes().to_vec()),
         (Kind::Text | Kind::Bytes | Kind::Record, _) => {
-            return Err(format!(
-                "{data_type} is written as \"text\" or as [01 02 03]"
-            ));
+            return Err(format!("{data_type} is written as \"text\" or as [01 02 03]").into());
         }
         (_, Some(inner)) if data_type.size() == Some(inner.len()) => {
             return Ok(inner.as_bytes().to_vec());
         }
-        (_, Some(_)) => return Err(format!("a text is not {data_type}")),
+        (_, Some(_)) => return Err(format!("a text is not {data_type}").into()),
         _ => {}
     }
     if data_type.kind() == Kind::Real {
@@ -86,7 +86,7 @@ pub fn parse(data_type: DataType, text: &str) -> Result<Vec<u8>, String> {
     };
     let (low, high) = data_type.integer_range().unwrap_or((0, 0));
     if value < low || value > high {
-        return Err(format!("{data_type} goes from {low} to {high}"));
+        return Err(format!("{data_type} goes from {low} to {high}").into());
     }
     let size = data_type.size().unwrap_or(0).min(16);
     Ok(value.to_le_bytes()[..size].to_vec())
@@ -147,12 +147,12 @@ pub fn address(text: &str) -> Option<Address> {
 ///
 /// # Errors
 /// A sentence that says why no entry matches.
-pub fn find(dictionary: Dictionary<'_>, text: &str) -> Result<Entry, String> {
+pub fn find(dictionary: Dictionary<'_>, text: &str) -> Result<Entry, Refused> {
     let text = text.trim();
     if let Some(address) = address(text) {
         return dictionary.find(address).map_err(|missing| match missing {
-            Missing::Object => format!("object {:04X}h does not exist", address.index),
-            Missing::SubIndex => format!("sub-index {address} does not exist"),
+            Missing::Object => format!("object {:04X}h does not exist", address.index).into(),
+            Missing::SubIndex => format!("sub-index {address} does not exist").into(),
         });
     }
     let wanted = text.trim_matches('"');
@@ -165,8 +165,9 @@ pub fn find(dictionary: Dictionary<'_>, text: &str) -> Result<Entry, String> {
         (Some(first), Some(second)) => Err(format!(
             "`{wanted}` is the name of {} and of {}; write the address",
             first.address, second.address
-        )),
-        (None, _) => Err(format!("no object is called `{wanted}`")),
+        )
+        .into()),
+        (None, _) => Err(format!("no object is called `{wanted}`").into()),
     }
 }
 

@@ -143,7 +143,7 @@ pub fn read_line(text: &str, node_id: u8, objects: &Objects) -> JsValue {
 #[wasm_bindgen(js_name = encodeValue)]
 pub fn encode_value(type_name: &str, text: &str) -> Result<Vec<u8>, JsError> {
     let data_type = named(type_name).unwrap_or(DataType::Domain);
-    typed::value(data_type, text, real).map_err(|why| JsError::new(&why))
+    Ok(typed::value(data_type, text, real)?)
 }
 
 /// The value in the bytes of an object of this type.

@@ -165,7 +165,7 @@ impl Bus {
             .journal
             .rig
             .run_script(text, &mut Bare(od_devices::DEVICES));
-        result.map_err(|why| JsError::new(&why))
+        Ok(result?)
     }
 }
 

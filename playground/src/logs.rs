@@ -28,7 +28,7 @@ record! {
 /// Reason why it is not a log.
 #[wasm_bindgen(js_name = readLog, unchecked_return_type = "Log")]
 pub fn read_log(file: &[u8]) -> Result<JsValue, JsError> {
-    let log = read(file).map_err(|why| JsError::new(&why))?;
+    let log = read(file)?;
     let mut batch = Vec::with_capacity(log.records.len() * packed::LEN);
     for line in &log.records {
         packed::push_line(&mut batch, line);

@@ -76,7 +76,7 @@ fn address(device: &VirtualDevice, object: &Bound<'_, PyAny>) -> PyResult<Addres
         return Ok(Address::new(index, 0));
     }
     let text: String = object.str()?.extract()?;
-    let entry = values::find(device.dictionary(), &text).map_err(Fault::Value)?;
+    let entry = values::find(device.dictionary(), &text).map_err(Fault::from)?;
     Ok(entry.address)
 }
 
@@ -236,7 +236,7 @@ impl Device {
         let result = self.act(py, |device, now| {
             device.raise_error(code, register, info, now)
         })?;
-        Ok(result.map_err(Fault::Value)?)
+        Ok(result.map_err(Fault::from)?)
     }
 
     /// Ends an error of `emcy`, or all of them.
@@ -245,7 +245,7 @@ impl Device {
     #[pyo3(signature = (code=0))]
     fn clear_emcy(&self, py: Python<'_>, code: u16) -> PyResult<()> {
         let result = self.act(py, |device, now| device.clear_error(code, now))?;
-        Ok(result.map_err(Fault::Value)?)
+        Ok(result.map_err(Fault::from)?)
     }
 
     /// The rotary switches of the node ID, 0 to 99; 0 leaves it to the EEPROM. The device reads
@@ -293,7 +293,7 @@ impl Device {
         let found = state.bus.with(self.place, |device, now| {
             let address = address(device, object)?;
             let entry =
-                values::find(device.dictionary(), &address.to_string()).map_err(Fault::Value)?;
+                values::find(device.dictionary(), &address.to_string()).map_err(Fault::from)?;
             PyResult::Ok((entry.data_type, device.read(address, now)))
         });
         drop(state);
@@ -315,12 +315,12 @@ impl Device {
         let (address, data_type) = self.look(|device, _| {
             let address = address(device, object)?;
             let entry =
-                values::find(device.dictionary(), &address.to_string()).map_err(Fault::Value)?;
+                values::find(device.dictionary(), &address.to_string()).map_err(Fault::from)?;
             PyResult::Ok((address, entry.data_type))
         })??;
         let bytes = from_python(data_type, value)?;
         let result = self.act(py, |device, now| device.set_value(address, &bytes, now))?;
-        Ok(result.map_err(Fault::Value)?)
+        Ok(result.map_err(Fault::from)?)
     }
 
     /// The bytes of the EEPROM. Bytes that are set take effect at the next start.

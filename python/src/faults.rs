@@ -28,6 +28,12 @@ impl Fault {
     }
 }
 
+impl From<od_model::Refused> for Fault {
+    fn from(refused: od_model::Refused) -> Self {
+        Self::Value(refused.into())
+    }
+}
+
 impl From<String> for Fault {
     fn from(text: String) -> Self {
         Self::Value(text)

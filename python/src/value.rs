@@ -88,5 +88,5 @@ pub(crate) fn from_python(data_type: DataType, value: &Bound<'_, PyAny>) -> PyRe
         Kind::Boolean => text.to_ascii_lowercase(),
         _ => text,
     };
-    Ok(values::parse(data_type, &text).map_err(Fault::Value)?)
+    Ok(values::parse(data_type, &text).map_err(Fault::from)?)
 }

@@ -11,6 +11,7 @@
 mod log;
 mod play;
 
+use od_model::Refused;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::{Arc, Mutex};
@@ -48,7 +49,7 @@ impl Host for Logged {
         &mut self,
         name: Option<&str>,
         node_id: Option<NodeId>,
-    ) -> Result<VirtualDevice, String> {
+    ) -> Result<VirtualDevice, Refused> {
         let read = |file: &str| {
             let path = self.folder.join(file);
             let bytes = std::fs::read(&path).map_err(|e| format!("{}: {e}", path.display()))?;

@@ -25,7 +25,7 @@ use od_bus::conform::session::{Leave, Session};
 use od_bus::learn::{Options, learn};
 use od_bus::master::Master;
 use od_eds::{Description, Document, Tables};
-use od_model::{Address, Entry};
+use od_model::{Address, Entry, Refused};
 use od_wire::NodeId;
 
 fn main() -> ExitCode {
@@ -122,13 +122,13 @@ impl Learned {
     }
 }
 
-fn device(text: &str) -> Result<VirtualDevice, String> {
+fn device(text: &str) -> Result<VirtualDevice, Refused> {
     let options = EdsOptions {
         node_id: Some(NodeId::ONE),
         lenient: true,
     };
     let (device, findings) = VirtualDevice::read_eds(text, options);
-    device.ok_or_else(|| format!("{} findings", findings.len()))
+    device.ok_or_else(|| format!("{} findings", findings.len()).into())
 }
 
 fn bus(text: &str) -> Result<Bus, String> {

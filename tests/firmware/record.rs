@@ -1,6 +1,7 @@
 //! Plays a script or an input of the fuzz target `node` on the bench, and logs the calls of its
 //! devices.
 
+use od_model::Refused;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
 
@@ -32,7 +33,7 @@ impl Host for Twins<'_> {
         &mut self,
         name: Option<&str>,
         node_id: Option<NodeId>,
-    ) -> Result<VirtualDevice, String> {
+    ) -> Result<VirtualDevice, Refused> {
         let name = name.unwrap_or(self.name);
         if name.contains('.') {
             let path = self.folder.join(name);
@@ -43,7 +44,7 @@ impl Host for Twins<'_> {
             };
             self.logs.push(None);
             let device = VirtualDevice::from_eds(&od_eds::decode(&bytes), options);
-            return device.map_err(|findings| format!("{}: {findings:?}", path.display()));
+            return device.map_err(|found| format!("{}: {found:?}", path.display()).into());
         }
         let device = Bare(od_devices::DEVICES).device(Some(name), node_id)?;
         if !name.eq_ignore_ascii_case(self.name) {

@@ -3,6 +3,7 @@
 //! A new case is a new file. `odkit run --echo tests/conformance/…/x.script` shows its frames.
 //! A script with a line `# Devices: a b` and no `device` line is played on each of them.
 
+use od_model::Refused;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -27,7 +28,7 @@ impl Host for Bench<'_> {
         &mut self,
         name: Option<&str>,
         node_id: Option<NodeId>,
-    ) -> Result<VirtualDevice, String> {
+    ) -> Result<VirtualDevice, Refused> {
         let Some(file) = name.filter(|name| name.contains('.')) else {
             return Bare(od_devices::DEVICES).device(name.or(self.device), node_id);
         };
@@ -38,7 +39,7 @@ impl Host for Bench<'_> {
             ..EdsOptions::default()
         };
         VirtualDevice::from_eds(&od_eds::decode(&bytes), options)
-            .map_err(|diagnostics| format!("{}: {:?}", path.display(), diagnostics.first()))
+            .map_err(|found| format!("{}: {:?}", path.display(), found.first()).into())
     }
 
     fn frame(&mut self, at: od_runtime::Instant, origin: Origin, frame: &Frame) {

@@ -113,7 +113,7 @@ pub(crate) fn resolve(
     match (values::find(dictionary, object), values::address(object)) {
         (Ok(entry), _) => Ok((entry.address, Some(entry.data_type))),
         (Err(_), Some(address)) => Ok((address, None)),
-        (Err(why), None) => Err(why),
+        (Err(why), None) => Err(why.into()),
     }
 }
 

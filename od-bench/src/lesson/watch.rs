@@ -1,5 +1,6 @@
 //! A script, or time, while a lesson is watched.
 
+use od_model::Refused;
 use std::prelude::v1::*;
 
 use od_runtime::{Frame, Instant, NodeId};
@@ -22,7 +23,7 @@ impl Host for Watched<'_> {
         &mut self,
         name: Option<&str>,
         node_id: Option<NodeId>,
-    ) -> Result<VirtualDevice, String> {
+    ) -> Result<VirtualDevice, Refused> {
         self.host.device(name, node_id)
     }
 

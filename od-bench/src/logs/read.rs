@@ -1,5 +1,6 @@
 //! From the bytes of a file to records, whatever wrote it.
 
+use od_model::Refused;
 use std::fmt;
 use std::prelude::v1::*;
 
@@ -46,9 +47,9 @@ const BLF: &[u8] = b"LOGG";
 ///
 /// # Errors
 /// Reason why it is not a log, or the first line if no line can be read.
-pub fn read(bytes: &[u8]) -> Result<Log, String> {
+pub fn read(bytes: &[u8]) -> Result<Log, Refused> {
     if let Some(records) = pcapng::read(bytes).or_else(|| pcap::read(bytes)) {
-        return records.map(|records| finish(records, Vec::new()));
+        return Ok(finish(records?, Vec::new()));
     }
     if bytes.starts_with(BLF) {
         return Err(
@@ -75,7 +76,7 @@ pub fn read(bytes: &[u8]) -> Result<Log, String> {
         }
     }
     match skipped.first() {
-        Some(first) if records.is_empty() => Err(first.to_string()),
+        Some(first) if records.is_empty() => Err(first.to_string().into()),
         _ => Ok(finish(records, skipped)),
     }
 }

@@ -3,7 +3,7 @@
 use std::format;
 use std::prelude::v1::*;
 
-use od_model::{Address, values};
+use od_model::{Address, Refused, values};
 use od_wire::emcy::Emcy;
 
 use super::{BYTES, LINES, LONGEST, Recorded, VERSION};
@@ -16,7 +16,7 @@ const START: &str = ";twin ";
 ///
 /// # Errors
 /// A line that is not valid: its number, and what is wrong with it.
-pub fn read(text: &str) -> Result<Option<Recorded>, String> {
+pub fn read(text: &str) -> Result<Option<Recorded>, Refused> {
     let mut recorded: Option<Recorded> = None;
     let mut count = 0;
     for (number, line) in (1..).zip(text.lines()) {
@@ -27,20 +27,19 @@ pub fn read(text: &str) -> Result<Option<Recorded>, String> {
                     "line {number}: version `{}` of a recording is not supported; this odkit reads \
                      version {VERSION}",
                     version.trim()
-                ));
+                )
+                .into());
             }
             recorded.get_or_insert_default();
         } else if let Some(rest) = line.strip_prefix(START) {
             let Some(recorded) = &mut recorded else {
-                return Err(format!(
-                    "line {number}: write `{FIRST}{VERSION}` before `{START}`"
-                ));
+                return Err(
+                    format!("line {number}: write `{FIRST}{VERSION}` before `{START}`").into(),
+                );
             };
             count += 1;
             if count > LINES {
-                return Err(format!(
-                    "line {number}: a recording has at most {LINES} lines"
-                ));
+                return Err(format!("line {number}: a recording has at most {LINES} lines").into());
             }
             one(recorded, rest).map_err(|why| format!("line {number}: {why}"))?;
         }
@@ -230,10 +229,11 @@ mod tests {
             ),
             (";odkit-twin=1\n;twin reply 1ms", "`reply`"),
         ] {
-            let why = read(line).expect_err(line);
+            let why = read(line).expect_err(line).to_string();
             assert!(why.contains(word), "{line}: {why}");
         }
         let many = ";odkit-twin=1\n".to_owned() + &";twin answer 1ms\n".repeat(LINES + 1);
-        assert!(read(&many).expect_err("too many").contains("at most"));
+        let why = read(&many).expect_err("too many").to_string();
+        assert!(why.contains("at most"));
     }
 }

@@ -1,5 +1,6 @@
 //! Lessons and scripts on a rig.
 
+use od_model::Refused;
 use std::prelude::v1::*;
 
 use od_wire::Instant;
@@ -60,7 +61,7 @@ impl Rig {
     ///
     /// # Errors
     /// The line that cannot be read or fails; what the lines before it did stays.
-    pub fn run_script(&mut self, text: &str, host: &mut dyn Host) -> Result<(), String> {
+    pub fn run_script(&mut self, text: &str, host: &mut dyn Host) -> Result<(), Refused> {
         let script = Script::parse(text).map_err(|all| match all.first() {
             Some(problem) => problem.to_string(),
             None => String::new(),
@@ -93,7 +94,7 @@ impl Rig {
         };
         self.bus = bus;
         self.settle();
-        result.map(|_| ()).map_err(|stop| stop.to_string())
+        result.map(|_| ()).map_err(|stop| stop.to_string().into())
     }
 
     /// A frame came through, from outside or from a device. What came over a link is a device's.

@@ -1,6 +1,7 @@
 //! The language of scripts, spoken to a bench that runs already: frames, and the world
 //! outside the bus. Expectations belong to scripts only.
 
+use od_model::Refused;
 use std::collections::VecDeque;
 use std::prelude::v1::*;
 
@@ -119,7 +120,7 @@ impl Console {
     /// sends is handed back; who calls puts it on the bus.
     ///
     /// The error says why a line could not be carried out; those after it still can.
-    pub fn step(&mut self, bench: &mut Bench) -> Option<Result<Option<Frame>, String>> {
+    pub fn step(&mut self, bench: &mut Bench) -> Option<Result<Option<Frame>, Refused>> {
         let now = bench.bus.now();
         self.start.get_or_insert(now);
         self.done.get_or_insert(now);
@@ -135,7 +136,7 @@ impl Console {
         // What did not work is not done again.
         let rest = deed.rest().filter(|_| result.is_ok());
         self.rest = rest.map(|(micros, rest)| (now.plus_micros(micros), rest));
-        Some(result)
+        Some(result.map_err(Refused::from))
     }
 }
 
@@ -171,7 +172,7 @@ mod tests {
                         bench.bus.receive(&frame);
                     }
                     Ok(None) => {}
-                    Err(why) => out.push_str(&why),
+                    Err(why) => out.push_str(&why.to_string()),
                 }
                 while let Some(sent) = bench.bus.poll() {
                     out.push_str(&format!("{:?} {}\n", sent.at, sent.frame));

@@ -1,5 +1,6 @@
 //! Interface of a script to the program that runs it.
 
+use od_model::Refused;
 use std::format;
 use std::prelude::v1::*;
 
@@ -36,7 +37,7 @@ pub trait Host {
         &mut self,
         name: Option<&str>,
         node_id: Option<NodeId>,
-    ) -> Result<VirtualDevice, String>;
+    ) -> Result<VirtualDevice, Refused>;
 
     /// The most that a script may ask for; `None`: no limits.
     fn limits(&self) -> Option<Limits> {
@@ -65,7 +66,7 @@ impl<F: FnMut(Instant, Origin, Frame)> Host for Recorder<'_, F> {
         &mut self,
         name: Option<&str>,
         node_id: Option<NodeId>,
-    ) -> Result<VirtualDevice, String> {
+    ) -> Result<VirtualDevice, Refused> {
         self.host.device(name, node_id)
     }
 
@@ -91,7 +92,7 @@ impl Host for Limited<'_> {
         &mut self,
         name: Option<&str>,
         node_id: Option<NodeId>,
-    ) -> Result<VirtualDevice, String> {
+    ) -> Result<VirtualDevice, Refused> {
         self.0.device(name, node_id)
     }
 
@@ -112,7 +113,7 @@ impl Host for Bare {
         &mut self,
         name: Option<&str>,
         node_id: Option<NodeId>,
-    ) -> Result<VirtualDevice, String> {
+    ) -> Result<VirtualDevice, Refused> {
         let kind = match name {
             Some(name) => self
                 .0
@@ -125,10 +126,7 @@ impl Host for Bare {
             Some(kind) => Ok(VirtualDevice::new(kind, node_id.unwrap_or(NodeId::ONE))),
             None => {
                 let names: Vec<_> = self.0.iter().map(|kind| kind.name).collect();
-                Err(format!(
-                    "device `{name}` does not exist; write {}",
-                    names.join(", ")
-                ))
+                Err(format!("device `{name}` does not exist; write {}", names.join(", ")).into())
             }
         }
     }

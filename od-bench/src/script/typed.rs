@@ -2,7 +2,7 @@
 
 use std::prelude::v1::*;
 
-use od_model::{DataType, Kind, values};
+use od_model::{DataType, Kind, Refused, values};
 use od_wire::{CanId, Frame};
 
 use crate::logs::candump::Error;
@@ -191,7 +191,7 @@ pub fn value(
     data_type: DataType,
     text: &str,
     real: impl Fn(&str) -> Option<f64>,
-) -> Result<Vec<u8>, String> {
+) -> Result<Vec<u8>, Refused> {
     let text = text.trim();
     if text.is_empty() {
         return Err("the value is missing".into());
@@ -202,7 +202,7 @@ pub fn value(
         let content = quoted.unwrap_or(text);
         return match data_type.size() {
             Some(size) if kind != Kind::Text && content.len() > size => {
-                Err(format!("“{content}” is longer than {size} bytes"))
+                Err(format!("“{content}” is longer than {size} bytes").into())
             }
             _ => Ok(content.as_bytes().to_vec()),
         };
@@ -226,7 +226,7 @@ fn quoted(text: &str) -> Option<&str> {
     rest.strip_suffix(['"', '\'', '”'])
 }
 
-fn integer(data_type: DataType, text: &str) -> Result<Vec<u8>, String> {
+fn integer(data_type: DataType, text: &str) -> Result<Vec<u8>, Refused> {
     let is_blank = |c: &char| c.is_whitespace() || matches!(c, ',' | '_');
     let digits: String = text.chars().filter(|c| !is_blank(c)).collect();
     let value = match digits.to_ascii_lowercase().as_str() {
@@ -239,7 +239,7 @@ fn integer(data_type: DataType, text: &str) -> Result<Vec<u8>, String> {
     // All bits may be given, whatever the sign.
     let bits = data_type.bits().unwrap_or(8);
     if value < -(1 << (bits - 1)) || value >= 1 << bits {
-        return Err(format!("{value} does not fit {data_type}"));
+        return Err(format!("{value} does not fit {data_type}").into());
     }
     let size = data_type.size().unwrap_or(1).clamp(1, 16);
     Ok(value.to_le_bytes()[..size].to_vec())
@@ -353,7 +353,7 @@ mod tests {
             (DataType::Real32, "x", "not a number"),
             (DataType::Domain, "1", "hexadecimal"),
         ] {
-            let error = value(data_type, text).expect_err(text);
+            let error = value(data_type, text).expect_err(text).to_string();
             assert!(error.contains(why), "{text}: {error}");
         }
     }

@@ -137,7 +137,7 @@ fn one(
         Some(None) => return unconfigured(maker),
         wanted => wanted.flatten(),
     };
-    let device = (maker.make)(wanted).map_err(Failure::Failed)?;
+    let device = (maker.make)(wanted).map_err(|why| Failure::Failed(why.into()))?;
     let others = others.iter().map(|other| &other.device);
     let others = others.filter(|other| other.is_configured());
     let used: Vec<NodeId> = others.map(VirtualDevice::node_id).collect();
@@ -152,7 +152,7 @@ fn one(
     }
     let mut free = (last..=127).chain(1..last).filter_map(NodeId::new);
     match free.find(|id| !is_used(*id)) {
-        Some(id) => (maker.make)(Some(id)).map_err(Failure::Failed),
+        Some(id) => (maker.make)(Some(id)).map_err(|why| Failure::Failed(why.into())),
         None => Err(Failure::Usage(
             "a bus has 127 node IDs; start another `odkit sim` for the other devices".into(),
         )),
@@ -161,7 +161,7 @@ fn one(
 
 /// A device that LSS gives its node ID.
 fn unconfigured(maker: &Maker<'_>) -> Result<VirtualDevice, Failure> {
-    let device = (maker.make)(None).map_err(Failure::Failed)?;
+    let device = (maker.make)(None).map_err(|why| Failure::Failed(why.into()))?;
     let name = maker.name;
     device
         .without_node_id()

@@ -1,5 +1,6 @@
 //! A device that is to be.
 
+use od_model::Refused;
 use od_runtime::{DeviceKind, NodeId};
 
 use crate::device::VirtualDevice;
@@ -19,4 +20,4 @@ pub struct Maker<'m> {
 /// Makes a device without power, with this node ID or else its own.
 ///
 /// The error is the reason why the device cannot be made.
-pub type Make<'m> = Box<dyn Fn(Option<NodeId>) -> Result<VirtualDevice, String> + 'm>;
+pub type Make<'m> = Box<dyn Fn(Option<NodeId>) -> Result<VirtualDevice, Refused> + 'm>;

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use od_model::values;
+use od_model::{Refused, values};
 use od_runtime::NodeId;
 
 use super::control::place::Place;
@@ -85,7 +85,7 @@ pub struct Choice {
     pub repeats: bool,
     /// The option that cannot be given beside it.
     pub conflicts: Option<&'static str>,
-    set: fn(&mut Options, &str) -> Result<(), String>,
+    set: fn(&mut Options, &str) -> Result<(), Refused>,
 }
 
 impl Choice {
@@ -93,7 +93,7 @@ impl Choice {
     ///
     /// # Errors
     /// The problem of the value.
-    pub fn set(&self, options: &mut Options, value: &str) -> Result<(), String> {
+    pub fn set(&self, options: &mut Options, value: &str) -> Result<(), Refused> {
         (self.set)(options, value)
     }
 }
@@ -166,7 +166,10 @@ pub const CHOICES: [Choice; 17] = [
         help: "Origin of a page that may use a ws link, such as https://example.org; pages of this \
                computer may; may be repeated",
         repeats: true,
-        set: |options, text| web_socket::origin(text).map(|value| options.origins.push(value)),
+        set: |options, text| {
+            options.origins.push(web_socket::origin(text)?);
+            Ok(())
+        },
         ..PLAIN
     },
     Choice {
@@ -255,7 +258,9 @@ pub const CHOICES: [Choice; 17] = [
         value: "FILE",
         help: "Log file of all frames with their times of day: pcapng if the name ends in .pcapng, otherwise candump",
         set: |options, text| {
-            log::format(text.as_ref()).map(|_| options.log = Some(PathBuf::from(text)))
+            log::format(text.as_ref())?;
+            options.log = Some(PathBuf::from(text));
+            Ok(())
         },
         ..PLAIN
     },
@@ -286,20 +291,20 @@ pub const CHOICES: [Choice; 17] = [
 ///
 /// # Errors
 /// It is not 1 to 127.
-pub fn node_id(text: &str) -> Result<NodeId, String> {
+pub fn node_id(text: &str) -> Result<NodeId, Refused> {
     let number = values::integer(text).and_then(|value| u8::try_from(value).ok());
-    number
-        .and_then(NodeId::new)
-        .ok_or_else(|| String::from("write a node ID from 1 to 127"))
+    let node = number.and_then(NodeId::new);
+    node.ok_or_else(|| "write a node ID from 1 to 127".into())
 }
 
-fn position(text: &str) -> Result<u64, String> {
+fn position(text: &str) -> Result<u64, Refused> {
     let value = values::integer(text).and_then(|value| u64::try_from(value).ok());
-    value.ok_or_else(|| String::from("write a number of steps, such as 497042 or 0x79592"))
+    value.ok_or_else(|| "write a number of steps, such as 497042 or 0x79592".into())
 }
 
-fn number<T: std::str::FromStr<Err: std::fmt::Display>>(text: &str) -> Result<T, String> {
-    text.parse().map_err(|error: T::Err| error.to_string())
+fn number<T: std::str::FromStr<Err: std::fmt::Display>>(text: &str) -> Result<T, Refused> {
+    text.parse()
+        .map_err(|error: T::Err| error.to_string().into())
 }
 
 /// Reads the arguments of a program that has these options and no other.

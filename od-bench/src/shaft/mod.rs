@@ -93,12 +93,7 @@ impl Shaft {
             return self.angle_on_ramp(now);
         }
         let turned = rate::turned(self.milli_rpm, now.micros_since(self.since));
-        let turned = Angle::from_fractions(turned);
-        if self.milli_rpm > 0 {
-            self.angle.plus(turned)
-        } else {
-            self.angle.minus(turned)
-        }
+        self.angle.plus(Angle::from_fractions(turned))
     }
 
     fn angle_on_ramp(&self, now: Instant) -> Angle {

@@ -63,12 +63,12 @@ impl Default for Rate {
     }
 }
 
-/// The angle of any time at this speed, without its sign.
+/// The angle in any time at this speed.
 pub(super) fn turned(milli_rpm: i32, micros: u64) -> i64 {
-    let milli_rpm = milli_rpm.unsigned_abs();
-    let way = u128::from(milli_rpm) * u128::from(micros);
+    let way = u128::from(milli_rpm.unsigned_abs()) * u128::from(micros);
     // Revolutions past 2³² do not matter: the angle wraps there.
-    ((way << 32) / u128::from(PER_REVOLUTION)) as i64
+    let turned = ((way << 32) / u128::from(PER_REVOLUTION)) as i64;
+    turned.wrapping_mul(milli_rpm.signum().into())
 }
 
 #[cfg(test)]
@@ -90,7 +90,7 @@ mod tests {
             let begins = ((u128::from(micros) * u128::from(speed)) << 21).div_ceil(ODD.into());
             let begins = (begins * u128::from(ODD)).div_ceil(u128::from(speed) << 21) as u64;
             for micros in [micros, begins.min(MOST - 1), begins - u64::from(begins > 0)] {
-                let exact = turned(milli_rpm, micros).wrapping_mul(milli_rpm.signum().into());
+                let exact = turned(milli_rpm, micros);
                 let rate = Rate::even(milli_rpm);
                 assert_eq!(rate.turned(micros), Some(exact), "{milli_rpm} {micros}");
             }
@@ -101,8 +101,7 @@ mod tests {
     fn a_rate_says_where_it_ends() {
         for milli_rpm in [i32::MIN, -1, 0, 1, 60_000, i32::MAX] {
             let rate = Rate::even(milli_rpm);
-            let exact = turned(milli_rpm, MOST - 1) * i64::from(milli_rpm.signum());
-            assert_eq!(rate.turned(MOST - 1), Some(exact));
+            assert_eq!(rate.turned(MOST - 1), Some(turned(milli_rpm, MOST - 1)));
             assert_eq!(rate.turned(MOST), None);
         }
         assert_eq!(Rate::NONE.turned(0), None);

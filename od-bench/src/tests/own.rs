@@ -1,5 +1,6 @@
 //! Values and errors of a device, told from outside.
 
+use od_model::Refused;
 use std::prelude::v1::*;
 use std::string::ToString;
 
@@ -38,7 +39,7 @@ impl Host for Inputs {
         &mut self,
         name: Option<&str>,
         node_id: Option<NodeId>,
-    ) -> Result<VirtualDevice, String> {
+    ) -> Result<VirtualDevice, Refused> {
         if name.is_some_and(|name| name != "inputs") {
             return Bare(od_devices::DEVICES).device(name, node_id);
         }

@@ -3,13 +3,14 @@
 
 use od_bench::VirtualDevice;
 use od_bench::script::{Host, Origin, Reason, Script, run};
+use od_model::Refused;
 use od_wire::{Frame, Instant, NodeId};
 
 use super::end::{Checked, fail, skip};
 use super::record::Traced;
 
 /// Makes a new simulated device.
-pub type Fresh<'f> = &'f dyn Fn() -> Result<VirtualDevice, String>;
+pub type Fresh<'f> = &'f dyn Fn() -> Result<VirtualDevice, Refused>;
 
 struct Aside<'a> {
     fresh: Fresh<'a>,
@@ -17,12 +18,12 @@ struct Aside<'a> {
 }
 
 impl Host for Aside<'_> {
-    fn device(&mut self, name: Option<&str>, _: Option<NodeId>) -> Result<VirtualDevice, String> {
+    fn device(&mut self, name: Option<&str>, _: Option<NodeId>) -> Result<VirtualDevice, Refused> {
         match name {
             None => (self.fresh)(),
-            Some(name) => Err(format!(
-                "`device {name}`: a case has the device under test only"
-            )),
+            Some(name) => {
+                Err(format!("`device {name}`: a case has the device under test only").into())
+            }
         }
     }
 

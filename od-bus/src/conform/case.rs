@@ -1,5 +1,6 @@
 //! A case as a file: a script with a head of comments.
 
+use od_model::Refused;
 use std::fmt;
 use std::path::Path;
 use std::sync::OnceLock;
@@ -169,7 +170,7 @@ fn is_like(pattern: &[u8], text: &[u8]) -> bool {
 ///
 /// # Errors
 /// The folder or a file cannot be read.
-pub fn in_folder(folder: &Path) -> Result<Vec<Case>, String> {
+pub fn in_folder(folder: &Path) -> Result<Vec<Case>, Refused> {
     let fail = |path: &Path, error: std::io::Error| format!("{}: {error}", path.display());
     let mut found = Vec::new();
     let entries = std::fs::read_dir(folder).map_err(|error| fail(folder, error))?;

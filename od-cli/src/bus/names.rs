@@ -131,7 +131,9 @@ impl Names {
         let any = |file: &&File| file.node.or(file.commissioned).is_none();
         let file = self.0.iter().find(own).or_else(|| self.0.iter().find(any));
         let device = file.map(|file| file.source.device(Some(node)));
-        device.transpose().map_err(Failure::Failed)
+        device
+            .transpose()
+            .map_err(|why| Failure::Failed(why.into()))
     }
 }
 

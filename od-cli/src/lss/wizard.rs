@@ -137,7 +137,7 @@ fn ask(
                     tell(&format!("node ID {} is in use", node.raw()));
                 }
                 Ok(node) => return Ok(Reply::Take(node)),
-                Err(why) => tell(&why),
+                Err(why) => tell(&why.to_string()),
             },
         }
     }

@@ -88,7 +88,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let mut asked: Vec<Asked> = Vec::new();
     for text in &args.objects {
         asked.extend(match dictionary {
-            Some(dictionary) => objects::select(dictionary, text).map_err(Failure::Usage)?,
+            Some(dictionary) => objects::select(dictionary, text)?,
             None => objects::probe(&mut master, text)?,
         });
     }

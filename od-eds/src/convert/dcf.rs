@@ -3,7 +3,7 @@
 use alloc::format;
 use alloc::string::{String, ToString};
 
-use od_model::values;
+use od_model::{Refused, values};
 
 use crate::description::tables::Tables;
 use crate::description::{Description, Value};
@@ -14,12 +14,12 @@ use crate::span::Spanned;
 /// # Errors
 ///
 /// The object does not exist, is not writable, or the value is not valid; in words.
-pub fn set(description: &mut Description, object: &str, text: &str) -> Result<(), String> {
+pub fn set(description: &mut Description, object: &str, text: &str) -> Result<(), Refused> {
     let tables = Tables::new(description);
     let entry = values::find(tables.dictionary(), object)?;
     let (address, data_type) = (entry.address, entry.data_type);
     if !entry.access.writable() {
-        return Err(format!("{object} is `{}` and cannot be set", entry.access));
+        return Err(format!("{object} is `{}` and cannot be set", entry.access).into());
     }
     let bytes = values::parse(data_type, text).map_err(|why| format!("{object}: {why}"))?;
     let value = Value::from_wire(data_type, bytes);
@@ -38,7 +38,8 @@ pub fn set(description: &mut Description, object: &str, text: &str) -> Result<()
                 "{object}: {number} is outside {}..{}",
                 show(low),
                 show(high)
-            ));
+            )
+            .into());
         }
     }
     described.parameter = Some(Spanned::from(value));

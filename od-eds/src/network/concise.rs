@@ -1,10 +1,9 @@
 //! A concise DCF: the writes that configure a node, as 1F22h has them (CiA 302-2).
 
 use alloc::format;
-use alloc::string::String;
 use alloc::vec::Vec;
 
-use od_model::{Address, DataType, Kind};
+use od_model::{Address, DataType, Kind, Refused};
 
 /// One write to an object of a node.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -20,7 +19,7 @@ impl Write {
     ///
     /// # Errors
     /// The number is not one of the type, or the type has no numbers; in words.
-    pub fn new(address: Address, data_type: DataType, number: i128) -> Result<Self, String> {
+    pub fn new(address: Address, data_type: DataType, number: i128) -> Result<Self, Refused> {
         let refused = || format!("{address}: {number} is not a valid {}", data_type.name());
         let data = match (
             data_type.kind(),
@@ -36,7 +35,7 @@ impl Write {
             (_, Some((low, high)), Some(size)) if (low..=high).contains(&number) => {
                 number.to_le_bytes()[..size].to_vec()
             }
-            _ => return Err(refused()),
+            _ => return Err(refused().into()),
         };
         Ok(Self { address, data })
     }

@@ -7,7 +7,7 @@ use alloc::vec::Vec;
 use super::node::Node;
 use super::pdo;
 use super::wanted::PdoConfiguration;
-use od_model::Address;
+use od_model::{Address, Refused};
 
 /// Settings of a project for all nodes.
 #[derive(Clone, PartialEq, Debug)]
@@ -71,7 +71,7 @@ pub fn configure(
     node: &mut Node,
     wanted: &Configuration,
     options: &mut Options,
-) -> Result<(), String> {
+) -> Result<(), Refused> {
     node.revision_number = wanted
         .revision_number
         .unwrap_or_else(|| node.identity("RevisionNumber", 3));
@@ -109,7 +109,7 @@ pub fn configure(
         for (number, pdo) in wanted {
             let index = first + (number - 1).min(0x1FF);
             if !node.has(index) {
-                return Err(format!("{}: object {index:04X}h does not exist", node.name));
+                return Err(format!("{}: object {index:04X}h does not exist", node.name).into());
             }
             pdo::configure(node, index, pdo, &mut options.next)?;
         }

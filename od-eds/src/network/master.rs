@@ -1,12 +1,11 @@
 //! The master of a network as a project has it, and its own concise DCF (CiA 302-2).
 
-use alloc::string::String;
 use alloc::vec;
 use alloc::vec::Vec;
 
 use super::concise::Write;
 use super::node::Node;
-use od_model::Address;
+use od_model::{Address, Refused};
 
 /// Settings of a project for its master.
 #[derive(Clone, PartialEq, Debug)]
@@ -61,7 +60,7 @@ impl Default for Master {
 ///
 /// # Errors
 /// A value is not valid; in words.
-pub fn consume_heartbeats(master: &Master, nodes: &mut [Node]) -> Result<(), String> {
+pub fn consume_heartbeats(master: &Master, nodes: &mut [Node]) -> Result<(), Refused> {
     let time = (f64::from(master.heartbeat_producer) * master.heartbeat_multiplier) as u32;
     for node in nodes {
         let entries = node.members(0x1016).into_iter();

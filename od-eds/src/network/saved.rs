@@ -7,14 +7,14 @@ use alloc::vec::Vec;
 use super::concise::Write;
 use super::node::Node;
 use crate::subject::start_value;
-use od_model::Address;
+use od_model::{Address, Refused};
 
 /// Returns the writes of all values that the DCF of a node sets (ParameterValue), in an order that a
 /// node accepts: a PDO is not valid while its mapping changes.
 ///
 /// # Errors
 /// A value is not valid; in words.
-pub fn saved(node: &Node) -> Result<Vec<Write>, String> {
+pub fn saved(node: &Node) -> Result<Vec<Write>, Refused> {
     let mut writes = Vec::new();
     let mut pdos = BTreeSet::new();
     for (address, entry) in node.description.entries() {

@@ -122,7 +122,7 @@ pub(crate) fn address(
         (_, Some(address)) => Ok(address),
         (Some(known), None) => values::find(known.dictionary(), &text)
             .map(|entry| entry.address)
-            .map_err(PyValueError::new_err),
+            .map_err(|why| crate::faults::Fault::from(why).into()),
         (None, None) => Err(PyValueError::new_err(format!(
             "`{text}` is a name, and the node has no description; give it one: `client.node(5, \"drive.eds\")`"
         ))),

@@ -166,7 +166,7 @@ fn configure(
             Ok(flag) => flag.to_string(),
             Err(_) => value.str()?.extract()?,
         };
-        dcf::set(description, &object, &text).map_err(Fault::Value)?;
+        dcf::set(description, &object, &text).map_err(Fault::from)?;
     }
     Ok(())
 }

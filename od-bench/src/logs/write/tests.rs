@@ -170,7 +170,7 @@ fn what_cannot_be_read_is_named() {
         (b"(0.1) can0 zzz#00\n", "line 1: "),
         (cut, "it ends in the middle of a block"),
     ] {
-        let error = read(bytes).expect_err(why);
+        let error = read(bytes).expect_err(why).to_string();
         assert!(error.starts_with(why), "{error}");
     }
     let text = "(0.1) can0 601#40\n(0.2) can0 601#4\n(0.3) can0 801#00\n(0.4) can0 123##100\n";

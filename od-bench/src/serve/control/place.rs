@@ -1,5 +1,6 @@
 //! Place of the control socket: a path, or a port of this computer.
 
+use od_model::Refused;
 use std::fmt;
 use std::io::{self, Read, Write};
 use std::net::{SocketAddr, TcpStream, ToSocketAddrs};
@@ -24,7 +25,7 @@ impl Place {
     ///
     /// # Errors
     /// The text to write instead.
-    pub fn parse(text: &str) -> Result<Self, String> {
+    pub fn parse(text: &str) -> Result<Self, Refused> {
         let wrong =
             || format!("`{text}` is not a control socket; write unix:PATH or tcp:127.0.0.1:PORT");
         match text.split_once(':') {
@@ -33,14 +34,14 @@ impl Place {
                 let (host, port) = place.rsplit_once(':').unwrap_or(("127.0.0.1", place));
                 let port: u16 = port.parse().map_err(|_| wrong())?;
                 match host.is_empty() {
-                    true => Err(wrong()),
+                    true => Err(wrong().into()),
                     false => Ok(Self::Tcp(format!("{host}:{port}"))),
                 }
             }
             _ if text.contains('/') || !text.is_empty() && !text.contains(':') => {
                 Ok(Self::Unix(text.into()))
             }
-            _ => Err(wrong()),
+            _ => Err(wrong().into()),
         }
     }
 

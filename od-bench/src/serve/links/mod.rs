@@ -15,6 +15,7 @@ mod threads;
 pub(super) mod web_socket;
 
 use super::failure::Failure;
+use od_model::Refused;
 use opened::{Ends, Opened, Protocol};
 use threads::Threads;
 
@@ -55,14 +56,14 @@ impl Link {
     ///
     /// # Errors
     /// The text is not a valid link; the message lists the forms.
-    pub fn parse(text: &str) -> Result<Self, String> {
+    pub fn parse(text: &str) -> Result<Self, Refused> {
         if text == "-" {
             return Ok(Self::Console);
         }
         let unknown = || format!("`{text}` is not a valid link; write {FORMS}");
         let (kind, place) = text.split_once(':').ok_or_else(unknown)?;
         if place.is_empty() {
-            return Err(unknown());
+            return Err(unknown().into());
         }
         match kind {
             "slcan" if place == "pty" => Ok(Self::Pty),
@@ -74,11 +75,11 @@ impl Link {
                 let baud = baud.ok_or_else(|| format!("`{place}` has no bit rate after `@`"))?;
                 Ok(Self::Serial(path.to_owned(), baud))
             }
-            "slcan" => tcp::check(place).map(Self::Slcan),
-            "socketcand" => tcp::check(place).map(Self::Socketcand),
+            "slcan" => Ok(Self::Slcan(tcp::check(place)?)),
+            "socketcand" => Ok(Self::Socketcand(tcp::check(place)?)),
             "socketcan" => Ok(Self::SocketCan(place.to_owned())),
-            "ws" => web_socket::parse(place).map(|(place, token)| Self::WebSocket(place, token)),
-            _ => Err(unknown()),
+            "ws" => Ok(web_socket::parse(place).map(|(at, token)| Self::WebSocket(at, token))?),
+            _ => Err(unknown().into()),
         }
     }
 

@@ -3,6 +3,7 @@
 
 use od_bench::VirtualDevice;
 use od_bench::script::{Bare, Host, Origin, Script, run as run_script};
+use od_model::Refused;
 use od_runtime::{Frame, Instant, NodeId};
 
 use crate::files::files;
@@ -77,7 +78,7 @@ impl Host for Bounded {
         &mut self,
         name: Option<&str>,
         node_id: Option<NodeId>,
-    ) -> Result<VirtualDevice, String> {
+    ) -> Result<VirtualDevice, Refused> {
         self.0 += 1000;
         Bare(od_devices::DEVICES).device(name, node_id)
     }
