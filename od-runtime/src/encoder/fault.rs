@@ -150,7 +150,7 @@ pub struct Report {
 }
 
 impl Report {
-    /// A fault that is seen as long as it is there and says nothing; for `..Report::BASE`.
+    /// A position that is not valid, seen as long as that lasts, which says nothing; for `..Report::BASE`.
     pub const BASE: Self = Self {
         fault: Fault::Position,
         code: 0,

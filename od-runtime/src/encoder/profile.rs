@@ -147,7 +147,6 @@ impl EncoderProfile {
     /// Report of a position that is not valid (CiA 406: bit 0 of 6503h). A sensor that fails is
     /// reported so if the family has no alarm for the fault.
     pub const NO_ANGLE: Report = Report {
-        fault: Fault::Position,
         code: 0x7320,
         register: 0x01,
         alarm: 0x0001,

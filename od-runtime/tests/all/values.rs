@@ -4,7 +4,7 @@ use crate::support::{Bench, Row, rows, unsigned};
 use od_eds::{Description, EntryDescription, ObjectDescription, Spanned, Tables, Value};
 use od_model::{Access, Address, DataType};
 use od_runtime::storage::{Memory, NoStorage, Storage, StorageError};
-use od_runtime::{NoApplication, Node, NodeId, Store, StoreTooSmall, TextTooLong};
+use od_runtime::{AbortCode, Halt, NoApplication, Node, NodeId, Store, StoreTooSmall, TextTooLong};
 
 /// A number with limits at 2010h.
 fn limited(data_type: DataType, low: Value, high: Value) -> Bench {
@@ -213,6 +213,10 @@ fn reasons_are_sentences() {
     assert_eq!(
         StoreTooSmall { needed: 9 }.to_string(),
         "the values of the dictionary need 9 bytes; lend a longer slice"
+    );
+    assert_eq!(
+        Halt::from(AbortCode::UnsupportedAccess).to_string(),
+        "the stream aborts the transfer: 06010000h object cannot be accessed like this"
     );
     use StorageError::{Device, Foreign, Full, NotWritten, OutOfRange, PowerCut};
     let all = [OutOfRange, Full, PowerCut, Device, NotWritten, Foreign];
