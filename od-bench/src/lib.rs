@@ -73,6 +73,7 @@ pub use device::VirtualDevice;
 pub use leds::Led;
 #[cfg(feature = "eds")]
 pub use loaded::EdsOptions;
+pub use od_model::Refused;
 pub use saved::{Saved, is_saved};
 pub use services::Services;
 pub use wire::Line;

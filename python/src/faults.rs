@@ -28,15 +28,9 @@ impl Fault {
     }
 }
 
-impl From<od_model::Refused> for Fault {
-    fn from(refused: od_model::Refused) -> Self {
-        Self::Value(refused.into())
-    }
-}
-
-impl From<String> for Fault {
-    fn from(text: String) -> Self {
-        Self::Value(text)
+impl<T: Into<String>> From<T> for Fault {
+    fn from(text: T) -> Self {
+        Self::Value(text.into())
     }
 }
 

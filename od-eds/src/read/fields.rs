@@ -30,7 +30,10 @@ impl<'a> Fields<'a> {
     pub(crate) fn new(placed: Placed<'a>, address: Address, log: &mut Log) -> Self {
         let mut pairs = placed.pairs;
         let twice = duplicates(&pairs, log);
-        let repeated: Vec<_> = twice.iter().map(|at| pairs[*at].0.value.clone()).collect();
+        let repeated = twice.iter().map(|at| pairs[*at].0.value.clone());
+        let repeated: Vec<_> = repeated
+            .chain(placed.again.into_iter().map(Cow::Owned))
+            .collect();
         let mut twice = twice.into_iter().peekable();
         let mut at = 0;
         pairs.retain(|_| {

@@ -244,14 +244,11 @@ fn placed<'a>(section: &'a Section, place: Place, without: &[&str]) -> Placed<'a
     let name = place.name().unwrap_or_default();
     let is_own = |key: &str| !without.iter().any(|word| key.eq_ignore_ascii_case(word));
     let pairs = section.pairs.iter().filter(|(key, _)| is_own(key));
-    Placed {
-        name: Spanned::new(Cow::Owned(name), section.name.span),
-        pairs: pairs
-            .map(|(key, value)| (borrow(key), borrow(value)))
-            .collect(),
-        header: section.name.span,
-        storage: None,
-    }
+    let pairs = pairs.map(|(key, value)| (borrow(key), borrow(value)));
+    let header = section.name.span;
+    let mut placed = Placed::new(Spanned::new(Cow::Owned(name), header), header);
+    placed.pairs.extend(pairs);
+    placed
 }
 
 fn extension(section: &Section, place: Place, log: &mut Log) -> Option<Extension> {

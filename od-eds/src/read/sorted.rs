@@ -206,9 +206,12 @@ fn twice<'a>(
         false => w0304::finding(first, &second),
     };
     for (key, value) in second.pairs {
-        if let Entry::Vacant(entry) = keys.entry(key.to_ascii_lowercase()) {
-            entry.insert(first.pairs.len());
-            first.pairs.push((key, value));
+        match keys.entry(key.to_ascii_lowercase()) {
+            Entry::Vacant(entry) => {
+                entry.insert(first.pairs.len());
+                first.pairs.push((key, value));
+            }
+            Entry::Occupied(entry) => first.again.push(entry.key().clone()),
         }
     }
     finding

@@ -231,12 +231,8 @@ impl<'a> Scan<'a, '_> {
             (self.fault)(&Fault::NoName(line.span(trimmed)));
         }
         let whole = &trimmed[..trimmed.len() - behind.len()];
-        self.sections.push(Placed {
-            name: line.text(name),
-            header: line.span(whole.trim_end()),
-            pairs: Vec::new(),
-            storage: None,
-        });
+        let header = line.span(whole.trim_end());
+        self.sections.push(Placed::new(line.text(name), header));
     }
 
     fn pair(&mut self, line: &Line<'a>, trimmed: &'a str) {
@@ -271,12 +267,9 @@ impl<'a> Scan<'a, '_> {
                 let start = line.span(&trimmed[..0]);
                 let line = line.span(trimmed);
                 (self.fault)(&Fault::NoSection { line, key });
-                self.sections.push(Placed {
-                    name: Spanned::new(Cow::Borrowed(""), start),
-                    header: start,
-                    pairs: alloc::vec![pair],
-                    storage: None,
-                });
+                let mut section = Placed::new(Spanned::new(Cow::Borrowed(""), start), start);
+                section.pairs.push(pair);
+                self.sections.push(section);
             }
         }
     }

@@ -20,9 +20,22 @@ pub struct Placed<'a> {
     pub header: Span,
     /// The first `;StorageLocation=` comment.
     pub storage: Option<Text<'a>>,
+    /// Keys, in lower case, that later sections of the same name have, too.
+    pub again: Vec<String>,
 }
 
-impl Placed<'_> {
+impl<'a> Placed<'a> {
+    /// A section without keys.
+    pub(crate) const fn new(name: Text<'a>, header: Span) -> Self {
+        Self {
+            name,
+            header,
+            pairs: Vec::new(),
+            storage: None,
+            again: Vec::new(),
+        }
+    }
+
     /// The first value under `key`, in any case.
     pub(crate) fn get(&self, key: &str) -> Option<&Text<'_>> {
         self.pairs

@@ -2,7 +2,6 @@
 
 use alloc::borrow::Cow;
 use alloc::string::String;
-use alloc::vec::Vec;
 
 use crate::scan::placed::Placed;
 use crate::span::{Span, Spanned};
@@ -16,12 +15,7 @@ impl Made {
     /// A section without keys.
     pub(super) fn new(name: impl Into<String>, header: Span) -> Self {
         Self {
-            placed: Placed {
-                name: Spanned::new(Cow::Owned(name.into()), header),
-                pairs: Vec::new(),
-                header,
-                storage: None,
-            },
+            placed: Placed::new(Spanned::new(Cow::Owned(name.into()), header), header),
         }
     }
 
