@@ -82,8 +82,8 @@ pub(crate) enum Check {
     Object(fn(&Object<'_>, &mut Vec<Finding>)),
     /// By looking at the whole description.
     Device(fn(&Description, &mut Vec<Finding>)),
-    /// By those who call the constructor in its file: while the text is read, edits are applied, or a target
-    /// is written that cannot express all.
+    /// By the code that calls the constructor in the rule's file: while odkit reads the text, applies edits, or
+    /// writes a target that cannot express all.
     Elsewhere,
 }
 

@@ -30,7 +30,7 @@ impl Fault {
 
 impl<T: Into<String>> From<T> for Fault {
     fn from(text: T) -> Self {
-        Self::Value(text.into())
+        Self::value(text)
     }
 }
 

@@ -107,7 +107,8 @@ class Sim:
             sleep_after_open=0,
         )
         # python-can does not wait for its channel, which hears nothing until it is open.
-        bus.get_version(PATIENCE)
+        if bus.get_version(PATIENCE) == (None, None):
+            raise AssertionError("the slcan channel did not open")
         network = canopen.Network(bus)
         network.NOTIFIER_CYCLE = 0.05  # how long `disconnect` waits for its thread
         network.connect()

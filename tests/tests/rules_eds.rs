@@ -26,8 +26,9 @@ fn page() -> String {
     let mut page = String::from(
         "# Rules for EDS files\n\n\
          These are the rules of `odkit check`. A code never changes; its letter is its first severity. An error makes generated\n\
-         code unsound or a master fail (the latter *builds*: a device can be made of it); a master can cope with the fault of a\n\
-         warning; a remark is worth knowing. `odkit explain CODE` shows an example before and after.\n\n\
+         code unsound or a master fail; an error marked *builds* is of the second kind, and the macro builds a device all the\n\
+         same. A master can cope with the fault of a warning; a remark is worth knowing. `odkit explain CODE` shows an example\n\
+         before and after.\n\n\
          **Fixes.** `--fix` applies the safe fixes: with them every tool reads what odkit read before.\n\
          `--unsafe-fixes` also applies likely corrections. `--diff` shows both and writes nothing. A fix\n\
          changes no other line and keeps encoding and line ends; a second run changes nothing.\n\n\

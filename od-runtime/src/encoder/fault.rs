@@ -150,7 +150,7 @@ pub struct Report {
 }
 
 impl Report {
-    /// A position that is not valid, seen as long as that lasts, which says nothing; for `..Report::BASE`.
+    /// Report of a position that is not valid, as long as that lasts, without a code; for `..Report::BASE`.
     pub const BASE: Self = Self {
         fault: Fault::Position,
         code: 0,

@@ -183,7 +183,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
         }
     }
 
-    /// As [`send_pdo`](Self::send_pdo), of a plain one.
+    /// As [`send_pdo`](Self::send_pdo), of a plain one with live values.
     #[inline(never)]
     fn send_live(&mut self, device: &mut Lent<'_>, now: Instant, at: usize) -> Option<Frame> {
         let node = &mut self.machines;

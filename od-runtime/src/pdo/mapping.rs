@@ -203,8 +203,8 @@ impl<R: Rooms> Mapping<R> {
         self.plain.first().is_some_and(|plain| plain.is_one)
     }
 
-    /// As [`gather`](Self::gather), with the live values as the application has them at hand: they go into
-    /// the store, too. `None` where it does not have all of them.
+    /// Puts the live values of a [plain](Self::is_plain) mapping into the store, as the application has them at
+    /// hand. `None` if it does not have all of them.
     #[inline(always)]
     pub(super) fn fetch_live(
         &self,
@@ -243,7 +243,7 @@ impl<R: Rooms> Mapping<R> {
         }
     }
 
-    /// As [`gather`](Self::gather), of a single value.
+    /// As [`gather`](Self::gather), of a mapping with one value; `None` if it has more.
     #[inline(always)]
     pub(super) fn single(&self, values: &[u8]) -> Option<u64> {
         let ([place, ..], [unused, ..]) = self.plain.first().map(|it| (&it.places, it.unused))?;
@@ -251,7 +251,8 @@ impl<R: Rooms> Mapping<R> {
         word.filter(|_| self.count == 1).map(u64::from)
     }
 
-    /// Returns the frame's bytes with the values of the store, as a number, if it [is plain](Self::is_plain).
+    /// Returns the frame's bytes with the values of the store, as a number. The mapping is to be
+    /// [plain](Self::is_plain); `None` if a value is one of the last of the store.
     #[inline(always)]
     pub(super) fn gather(&self, values: &[u8]) -> Option<u64> {
         let plain = self.plain.first()?;

@@ -334,15 +334,16 @@ impl<R: Rooms> Tpdo<R> {
         Some(self.sent::<D>(data, now))
     }
 
-    /// As [`send`](Self::send), of one that [is plain](Self::is_plain), if its values are not the last ones
-    /// of the store.
+    /// As [`send`](Self::send), of one that [is plain](Self::is_plain) and has a single value; `None` if it has
+    /// more, or if the value is one of the last of the store.
     #[inline(always)]
     pub(crate) fn send_single<D: Device>(&mut self, values: &[u8], now: Instant) -> Option<Frame> {
         let data = self.mapping.single(values)?;
         Some(self.sent::<D>(data.to_le_bytes(), now))
     }
 
-    /// Puts the live values into the store, if the application has all of them at hand.
+    /// Puts the live values of one that [is plain](Self::is_plain) into the store; `None` if the application
+    /// does not have all of them at hand.
     #[inline(always)]
     pub(crate) fn fetch_live(
         &self,

@@ -39,8 +39,8 @@ pub(super) enum Lane {
     Bus,
     /// Microcontrollers, built and emulated: one processor's work at a time.
     Board,
-    /// Compiled for other computers, in a target directory of its own: one compiler waits for
-    /// another that writes into the same.
+    /// What compiles for other computers or into target directories of its own: one compiler waits for another
+    /// that writes into the same.
     Cross,
 }
 
