@@ -1,4 +1,4 @@
-//! The rooms: who may use whom, and how large each may grow.
+//! The rooms, and which of them may use which.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -8,47 +8,40 @@ pub(crate) struct Room {
     pub(crate) name: &'static str,
     /// Arrows lead from a higher storey to a lower one; `None` is outside the order.
     storey: Option<u8>,
-    /// Lines of `.rs` and `.ts` that it may have, tests not counted.
-    pub(crate) lines: usize,
 }
 
-const fn room(name: &'static str, storey: u8, lines: usize) -> Room {
+const fn room(name: &'static str, storey: u8) -> Room {
     Room {
         name,
         storey: Some(storey),
-        lines,
     }
 }
 
 /// All rooms, from the ground up.
 pub(crate) const ROOMS: [Room; 19] = [
-    room("od-model", 1, 3_000),
-    room("od-wire", 2, 1_600),
-    room("od-eds", 2, 13_400),
-    room("od-client", 3, 1_600),
-    room("od-runtime", 3, 7_300),
-    room("od-macros", 3, 2_400),
-    room("od-lsp", 3, 3_400),
-    room("od-board", 4, 1_200),
-    room("od-bench", 4, 8_700),
-    room("odkit", 5, 200),
-    room("od-bus", 5, 2_500),
-    room("devices", 6, 1_900),
-    room("od-capi", 6, 1_700),
-    room("od-cli", 7, 2_900),
-    room("playground", 7, 6_400),
-    room("python", 7, 2_500),
-    room("firmware", 7, 1_700),
-    room("tests", 7, usize::MAX),
+    room("od-model", 1),
+    room("od-wire", 2),
+    room("od-eds", 2),
+    room("od-client", 3),
+    room("od-runtime", 3),
+    room("od-macros", 3),
+    room("od-lsp", 3),
+    room("od-board", 4),
+    room("od-bench", 4),
+    room("odkit", 5),
+    room("od-bus", 5),
+    room("devices", 6),
+    room("od-capi", 6),
+    room("od-cli", 7),
+    room("playground", 7),
+    room("python", 7),
+    room("firmware", 7),
+    room("tests", 7),
     Room {
         name: "xtask",
         storey: None,
-        lines: 1_900,
     },
 ];
-
-/// Lines that all rooms may have together.
-pub(crate) const ALL: usize = 50_000;
 
 /// The dependencies that lead up, or to the same storey: pairs of rooms. Those of tests may:
 /// a test is above all that it needs.
@@ -77,24 +70,7 @@ pub(crate) fn arrows_up(files: &BTreeMap<String, String>) -> BTreeSet<(&str, &st
     found
 }
 
-/// The lines of each room: those of `.rs` and `.ts` except tests and examples.
-pub(crate) fn lines(files: &BTreeMap<String, String>) -> BTreeMap<&'static str, usize> {
-    let mut found = BTreeMap::new();
-    for room in ROOMS.iter().filter(|room| room.name != "tests") {
-        let own = files.iter().filter(|(path, _)| {
-            let is_test = path.contains("/tests/")
-                || path.contains("/examples/")
-                || path.contains("/package-test/")
-                || path.ends_with("/tests.rs")
-                || path.ends_with(".test.ts");
-            room_of(path) == room.name && is_code(path) && !is_test
-        });
-        found.insert(room.name, own.map(|(_, text)| text.lines().count()).sum());
-    }
-    found
-}
-
-/// Is it a file whose lines count?
+/// Whether the name is that of a source file.
 pub(crate) fn is_code(path: &str) -> bool {
     path.ends_with(".rs") || (path.ends_with(".ts") && !path.ends_with(".d.ts"))
 }
