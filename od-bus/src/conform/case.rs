@@ -1,25 +1,25 @@
-//! A case as a file: a script with a head of comments.
+//! A case: one of the built-in table, or a script with a head of comments.
 
 use od_model::Refused;
 use std::fmt;
 use std::path::Path;
 use std::sync::OnceLock;
 
-use super::check;
+use super::check::{self, BuiltIn, Check, Test};
 
 /// One step of a case.
-#[derive(Clone, PartialEq, Eq, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) enum Step {
     /// `check NAME`: a step that is written in Rust.
-    Check(&'static str),
+    Check(Check),
     /// Lines of a script, from this line of the file on, with `$` not yet replaced.
     Script(u32, String),
 }
 
 /// One case of the conformance test.
-#[derive(Clone, PartialEq, Eq, Debug)]
+#[derive(Clone, Debug)]
 pub struct Case {
-    /// The name of its file without `.script`.
+    /// Its name; that of a script is the name of its file without `.script`.
     pub id: String,
     /// `SDO`, `NMT` …
     pub group: String,
@@ -58,22 +58,49 @@ impl std::error::Error for Mistake {}
 
 const NEEDS: [&str; 3] = ["reset", "store", "power"];
 
+/// The parts of a list with commas.
+fn list(text: &str) -> Vec<String> {
+    let parts = text.split(',').map(|part| part.trim().to_owned());
+    parts.filter(|part| !part.is_empty()).collect()
+}
+
 impl Case {
-    /// Reads a case; `id` is the name of its file.
-    ///
-    /// # Errors
-    /// The first line that cannot be read.
-    pub fn parse(id: &str, text: &str) -> Result<Self, Mistake> {
-        let mut case = Self {
+    fn new(id: &str, group: &str) -> Self {
+        Self {
             id: id.into(),
-            group: id.split('-').next().unwrap_or(id).into(),
+            group: group.into(),
             clause: String::new(),
             title: String::new(),
             applies: Vec::new(),
             devices: Vec::new(),
             needs: Vec::new(),
             steps: Vec::new(),
+        }
+    }
+
+    /// A case of the built-in table.
+    fn built_in(group: &str, case: &BuiltIn) -> Result<Self, Mistake> {
+        let check = match case.test {
+            Test::Script(text) => return Self::parse(case.id, text),
+            Test::Check(check) => check,
         };
+        let (clause, title) = case.rule.split_once(": ").unwrap_or(("", case.rule));
+        Ok(Self {
+            clause: clause.into(),
+            title: title.into(),
+            applies: list(case.applies),
+            needs: list(case.needs),
+            steps: vec![Step::Check(check)],
+            ..Self::new(case.id, group)
+        })
+    }
+
+    /// Reads a script; `id` is the name of its file.
+    ///
+    /// # Errors
+    /// The first line that cannot be read.
+    pub fn parse(id: &str, text: &str) -> Result<Self, Mistake> {
+        let mut case = Self::new(id, id.split('-').next().unwrap_or(id));
         let mut in_head = true;
         for (number, line) in (1..).zip(text.lines()) {
             let wrong = |message: String| Mistake {
@@ -93,10 +120,6 @@ impl Case {
     }
 
     fn head(&mut self, line: &str) -> Result<(), String> {
-        let list = |text: &str| -> Vec<String> {
-            let parts = text.split(',').map(|part| part.trim().to_owned());
-            parts.filter(|part| !part.is_empty()).collect()
-        };
         match line.split_once(": ") {
             Some(("Group", group)) => self.group = group.into(),
             Some(("Applies", all)) => self.applies = list(all),
@@ -130,9 +153,9 @@ impl Case {
     fn step(&mut self, number: u32, line: &str) -> Result<(), String> {
         if let Some(name) = line.strip_prefix("check ") {
             let name = name.split(" #").next().unwrap_or(name).trim();
-            let known = check::NAMES.iter().find(|(known, _)| *known == name);
-            let (name, _) = known.ok_or_else(|| format!("check `{name}` does not exist"))?;
-            self.steps.push(Step::Check(name));
+            let found = check::find(name);
+            let found = found.ok_or_else(|| format!("check `{name}` does not exist"))?;
+            self.steps.push(Step::Check(found));
             return Ok(());
         }
         match self.steps.last_mut() {
@@ -193,9 +216,11 @@ pub fn in_folder(folder: &Path) -> Result<Vec<Case>, Refused> {
 pub fn built_in() -> &'static [Case] {
     static CASES: OnceLock<Vec<Case>> = OnceLock::new();
     CASES.get_or_init(|| {
-        let all = super::case_files::ALL.iter();
-        // A test reads them all, so none of them has a mistake.
-        all.filter_map(|(id, text)| Case::parse(id, text).ok())
-            .collect()
+        let all = check::GROUPS.iter().flat_map(|(group, cases)| {
+            // A test reads the scripts, so none of them has a mistake.
+            let read = cases.iter().map(|case| Case::built_in(group, case));
+            read.filter_map(Result::ok)
+        });
+        all.collect()
     })
 }

@@ -25,18 +25,18 @@
 //!
 //! | file | what it holds |
 //! |---|---|
-//! | `case` | a case as a file: head and steps |
+//! | `case` | a case: head and steps |
 //! | `eds` | what the EDS says of the node: which cases apply |
 //! | `rig` | a link that may also switch the power |
 //! | `dut`, `sdo` | the node under test, and strict transfers with it |
-//! | `check/` | the steps that are written in Rust, a file for each service |
+//! | `check/` | the table of the built-in cases, and their checks in Rust, a file for each service |
+//! | `cases/` | the built-in cases that are scripts |
 //! | `play`, `aside` | the steps that are lines of a script: on any link, or on a bench of their own |
 //! | `session` | one case after the other, and what each changed put back |
 //! | `report/` | the records as text, JSON, JUnit, Markdown, HTML |
 
 pub mod aside;
 pub mod case;
-mod case_files;
 mod check;
 mod deviations;
 pub mod dut;
