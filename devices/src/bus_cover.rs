@@ -1,7 +1,7 @@
 //! Encoders with a bus cover: multivo, magtivo, activo and multivoPlus.
 //!
 //! Source: manual 000, chapters 4.3 (communication), 4.4 (objects) and 7.2 (switches);
-//! `DECISIONS.md`, parts A and E, where it contradicts itself or is silent. The
+//! `docs/MANUALS.md`, where it contradicts itself or is silent. The
 //! dictionary says what the objects are; the two profiles here say what the manual has
 //! the family do differently from CiA 301 and CiA 406. What the eight devices do
 //! differently from each other is in their dictionaries only.

@@ -1,6 +1,6 @@
 //! Magnetic encoders EAM: multiturn, singleturn, and the redundant version.
 //!
-//! Source: manual 001, chapters 4 to 12; `DECISIONS.md`, parts B and E, where it contradicts
+//! Source: manual 001, chapters 4 to 12; `docs/MANUALS.md`, where it contradicts
 //! itself or is silent. The dictionary says what the objects are; the profiles here say what
 //! the manual has the family do differently from CiA 301 and CiA 406.
 //!

@@ -60,7 +60,7 @@ const TEMPERATURE: Report = Report {
     ..warning(Fault::Temperature, 0x4200, 0, Until::Repaired, 0x0008_0020)
 };
 const MEMORY_AT_START: Report = alarm(Fault::Memory, 0x5100, 0x0003, Until::Reboot, 0x0001_0024);
-/// C-EAM-26.
+/// MANUALS.md C-EAM-26.
 const MEMORY: Report = warning(Fault::Memory, 0x5100, 0x0008, Until::Reboot, 0x0008_0024);
 /// Known only after the restart (C-EAM-35).
 const WATCHDOG: Report = Report {

@@ -1,6 +1,6 @@
 //! The optical encoder EN580C: multiturn, electronic gear, endless mode.
 //!
-//! Source: manual 003, chapters 5 to 7; `DECISIONS.md`, parts C and E, where it contradicts
+//! Source: manual 003, chapters 5 to 7; `docs/MANUALS.md`, where it contradicts
 //! itself or is silent. The dictionary says what the objects are; the two profiles here say
 //! what the manual has the device do differently from CiA 301 and CiA 406.
 

@@ -75,7 +75,7 @@ impl VirtualDevice {
     }
 }
 
-/// The LSS slave that an EDS asks for, with the bit rates of its [DeviceInfo] (DECISIONS U-43).
+/// The LSS slave that an EDS asks for, with the bit rates of its [DeviceInfo] (MANUALS.md U-43).
 fn lss(description: &Description) -> Option<LssProfile> {
     let named = description.lss_bit_rates()?;
     let mut lss = LssProfile::CIA305;

@@ -14,7 +14,7 @@ class Device:
 
     name: str
     family: str
-    # Abort code for a value below its limit (DECISIONS U-05).
+    # Abort code for a value below its limit (MANUALS.md U-05).
     too_low: int
     # LSS: which way a master finds a node.
     fastscan: bool

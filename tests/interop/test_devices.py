@@ -61,7 +61,7 @@ class EveryDevice:
     def reads(self, node, variable):
         index, sub = variable.index, variable.subindex
         if index == 0x1003 and sub > 0 and self.device.family != "GX":
-            # An unused entry of the error history (U-10).
+            # An unused entry of the error history (MANUALS.md U-10).
             self.assertAborts(0x08000024, node.sdo.upload, index, sub)
             return
         data = node.sdo.upload(index, sub)

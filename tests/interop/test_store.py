@@ -34,7 +34,7 @@ class Store(BenchCase):
         node.sdo[0x6001].raw = 0x1000
         node.sdo.download(0x1010, 1, b"save")
         node.sdo.download(0x1011, 1, b"load")
-        self.assertEqual(node.sdo[0x6001].raw, 0x2000)  # at once, C-GX-22
+        self.assertEqual(node.sdo[0x6001].raw, 0x2000)  # at once, MANUALS.md C-GX-22
         self.assertEqual(sim.stop(), 0)
         self.assertEqual(self.start().node().sdo[0x6001].raw, 0x2000)
 

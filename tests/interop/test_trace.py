@@ -1,6 +1,6 @@
 """The trace of chapter 6.4 of manual 000, through python-canopen's own socket, byte for byte.
 
-Damaged rows are reconstructed from the command list (DECISIONS C-GX-52); the same trace is
+Damaged rows are reconstructed from the command list (MANUALS.md C-GX-52); the same trace is
 `tests/conformance/bus-cover/trace-6-4.script`.
 """
 

@@ -14,7 +14,7 @@ pub const SOURCES: [&str; 6] = [
     "Manual 003",
     "CiA 301",
     "CiA case",
-    "DECISIONS",
+    "MANUALS.md",
 ];
 
 const DEVICES: &str = "Devices:";

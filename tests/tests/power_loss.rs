@@ -2,7 +2,7 @@
 //! next start has the values that its manual promises, all of them, and never a mixture.
 //!
 //! GX keeps the last complete set; EAM and EN580C say that a cut save gives the factory values
-//! (DECISIONS U-33).
+//! (MANUALS.md U-33).
 
 use std::sync::{Arc, Mutex, PoisonError};
 

@@ -30,6 +30,28 @@ fn link(name: &str) -> String {
     format!("[{short}]({LINKS}{name})")
 }
 
+/// The text with a link from each id to its row in MANUALS.md.
+fn linked(text: &str) -> String {
+    let is_part = |c: char| c.is_ascii_alphanumeric() || c == '-';
+    let text = text.replace("MANUALS.md ", "");
+    let mut out = String::new();
+    let mut rest = text.as_str();
+    while let Some(start) = rest.find(is_part) {
+        let (before, word) = rest.split_at(start);
+        let end = word.find(|c| !is_part(c)).unwrap_or(word.len());
+        let (word, after) = word.split_at(end);
+        out.push_str(before);
+        let is_id = word.starts_with("U-") || word.starts_with("C-");
+        if is_id && word.ends_with(|c: char| c.is_ascii_digit()) {
+            let _ = write!(out, "[{word}](MANUALS.md#{})", word.to_lowercase());
+        } else {
+            out.push_str(word);
+        }
+        rest = after;
+    }
+    out + rest
+}
+
 fn rules() -> String {
     let headers = headers();
     let mut folders: BTreeMap<&str, Vec<_>> = BTreeMap::new();
@@ -40,8 +62,8 @@ fn rules() -> String {
     let mut page = String::from(
         "# Rules\n\n\
          What our devices do, where it is written, and the script that shows it.\n\
-         Manuals are named by the first digits of their file names; C-… and U-… are the\n\
-         decisions on what contradicts itself and on what is left unsaid.\n\n\
+         [MANUALS.md](MANUALS.md) names the manuals 000, 001 and 003, and has the decisions C-… and\n\
+         U-… on their contradictions and gaps.\n\n\
          This page is generated from the first lines of the scripts:\n\
          `ODKIT_ACCEPT=1 cargo test -p od-tests --test rules`.\n",
     );
@@ -51,7 +73,8 @@ fn rules() -> String {
             "\n## {folder}\n\n| source | rule | script |\n|---|---|---|\n"
         );
         for (name, header) in scripts {
-            let (source, rule) = (cell(&header.source), cell(&header.rule));
+            let text = |words| linked(&cell(words));
+            let (source, rule) = (text(&header.source), text(&header.rule));
             let _ = writeln!(page, "| {source} | {rule} | {} |", link(name));
         }
     }

@@ -2,7 +2,7 @@
 
 /// A device by its table cells.
 pub(crate) struct Model {
-    /// 1008h, in capitals (C-GX-09).
+    /// 1008h, in capitals (MANUALS.md C-GX-09).
     pub(crate) name: &'static str,
     pub(crate) family: &'static str,
     /// 1000h: 2 is a multiturn, 1 a singleturn.

@@ -6,7 +6,7 @@ use odkit::{Access, DataType, Group, Literal};
 use crate::models::{MODELS, Model};
 
 /// Index, sub-index, type, access, default, EEPROM. EEPROM: the group of 1010h that saves
-/// it; `F` was written in the factory, which no 1011h takes back (C-GX-10, C-GX-28).
+/// it; `F` was written in the factory, which no 1011h takes back (MANUALS.md C-GX-10, C-GX-28).
 ///
 /// A default in braces is a cell of [`MODELS`], which differs from device to device.
 const OBJECTS: &str = "

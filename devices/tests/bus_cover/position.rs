@@ -8,7 +8,7 @@ use crate::bench::Bench;
 use crate::models::{MODELS, Model};
 
 const SAVE: u32 = u32::from_le_bytes(*b"save");
-/// U-05: above a limit, and below one.
+/// MANUALS.md U-05: above a limit, and below one.
 const TOO_GREAT: Result<(), u32> = Err(0x0609_0031);
 const OUT_OF_RANGE: Result<(), u32> = Err(0x0609_0030);
 

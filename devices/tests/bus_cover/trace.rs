@@ -1,6 +1,6 @@
 //! The trace of manual 000, chapter 6.4: a gxmm with node ID 1 whose sensor rests at 79592h.
 //!
-//! Values that the print lost are restored as DECISIONS.md C-GX-52 has them.
+//! Values that the print lost are restored as MANUALS.md C-GX-52 has them.
 
 use od_bench::shaft;
 use od_devices::find;

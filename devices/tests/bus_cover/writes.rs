@@ -26,7 +26,7 @@ fn listed(listed: bool) -> Result<(), u32> {
     if listed { Ok(()) } else { Err(OUTSIDE) }
 }
 
-/// U-05: below the lower limit 06090030h, above the upper one 06090031h.
+/// MANUALS.md U-05: below the lower limit 06090030h, above the upper one 06090031h.
 fn between(value: u32, low: u32, high: u32) -> Result<(), u32> {
     match value {
         value if value < low => Err(OUTSIDE),

@@ -9,7 +9,7 @@ use odkit::storage::{Memory, image};
 use odkit::{CanId, Event, Frame, Instant, Lent, Node, NodeId};
 
 pub(crate) const SAVE: u32 = u32::from_le_bytes(*b"save");
-/// U-05.
+/// MANUALS.md U-05.
 pub(crate) const OUT_OF_RANGE: Result<(), u32> = Err(0x0609_0030);
 pub(crate) const TOO_GREAT: Result<(), u32> = Err(0x0609_0031);
 pub(crate) const TOO_LITTLE: Result<(), u32> = Err(0x0609_0032);

@@ -78,7 +78,7 @@ fn eam_redundant_has_none() {
 #[test]
 fn en_6002h_is_one_revolution_of_the_output() {
     let mut bench = Bench::new("en580c");
-    assert_eq!(bench.read(0x2001, 1), 0, "C-EN-04");
+    assert_eq!(bench.read(0x2001, 1), 0, "MANUALS.md C-EN-04");
     for (sub, value, expected) in [
         (1, 2, OUT_OF_RANGE),
         (2, 0, TOO_LITTLE),

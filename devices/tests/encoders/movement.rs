@@ -233,7 +233,7 @@ fn en_speed_has_a_source_a_factor_and_16_bits() {
     bench.rpm(180_000);
     bench.wait(100);
     assert_eq!(bench.read16(0x6030, 1), 4000);
-    // Without limits (C-EN-24): a minute is a minute.
+    // Without limits (MANUALS.md C-EN-24): a minute is a minute.
     bench.write(0x6031, 2, 60_000).unwrap();
     bench.wait(30_000);
     bench.rpm(0);

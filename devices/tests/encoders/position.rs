@@ -25,7 +25,7 @@ fn eam_shows_14_of_16_bits_and_counts_to_the_end_of_32() {
     assert_eq!(bench.position(), 0x401);
     bench.turn(-1);
     assert_eq!(bench.position(), 0xFFFF_C401);
-    // Off is the same (U-34), and the other way round is 2^32 less.
+    // Off is the same (MANUALS.md U-34), and the other way round is 2^32 less.
     bench.write(0x6000, 0, 0).unwrap();
     assert_eq!((bench.position(), bench.read(0x6500, 0)), (0xFFFF_C401, 0));
     bench.write(0x6000, 0, 1).unwrap();

@@ -84,7 +84,7 @@ fn eam_has_no_switches() {
     assert_eq!(bench.encoder.bit_rate(), Some(50));
 }
 
-/// U-40: the node tells its host that an NMT reset interrupted a save, and what it loaded.
+/// MANUALS.md U-40: the node tells its host that an NMT reset interrupted a save, and what it loaded.
 #[test]
 fn a_save_that_a_reset_interrupts_is_told() {
     for command in [0x81, 0x82] {

@@ -209,7 +209,7 @@ fn en_positions() {
             offset: 0,
             injected: 0,
         };
-        // 6001h without the gear (U-41).
+        // 6001h without the gear (MANUALS.md U-41).
         let mut own_steps = model.steps;
         // Mode, numerator, denominator.
         let mut gear = [0, 1, 1];

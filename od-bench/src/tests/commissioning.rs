@@ -43,7 +43,7 @@ fn master(bus: &mut Bus, client: &mut Client, task: lss::Task) -> Option<lss::An
     }
 }
 
-/// DECISIONS U-43: slaves without a node ID get one each, one after the other.
+/// MANUALS.md U-43: slaves without a node ID get one each, one after the other.
 #[test]
 fn three_slaves_are_commissioned_by_fastscan() {
     let serials = [0x1268, 7, 0xFFFF_FFFF];

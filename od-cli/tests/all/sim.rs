@@ -203,7 +203,7 @@ fn shafts_start_where_the_seed_says() {
     assert_ne!(position("1"), position("2"));
 }
 
-/// DECISIONS U-43.
+/// MANUALS.md U-43.
 #[test]
 fn an_eds_with_lss_starts_without_a_node_id() {
     let eds = repository("devices/eds/GXMM.eds");
@@ -366,7 +366,7 @@ fn what_cannot_be_is_said_in_one_line() {
 #[test]
 fn a_restore_leads_back_to_the_node_id_of_the_command_line() {
     // Rotary switches rule over what is saved (manual 000, 7.2.1; manual 003, 5.1.10); the EAM has
-    // none. A save and a start take their time (DECISIONS U-39).
+    // none. A save and a start take their time (MANUALS.md U-39).
     for (device, saved, time) in [
         ("gxmm", 5, "1ms"),
         ("eam_mt", 9, "250ms"),

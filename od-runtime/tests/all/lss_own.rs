@@ -1,4 +1,4 @@
-//! LSS slave of a device without objects for node ID and bit rate (CiA 305 in full; DECISIONS U-43).
+//! LSS slave of a device without objects for node ID and bit rate (CiA 305 in full; MANUALS.md U-43).
 
 use crate::support::{Bench, rows, unsigned};
 use od_model::{Access, DataType};

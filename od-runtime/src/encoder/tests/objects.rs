@@ -202,7 +202,7 @@ fn two_timers_are_one() {
     }
 }
 
-/// C-EAM-04: 6003h and 6010h:01 are one value. Here two others are: 6000h and 6200h, which are saved, or
+/// MANUALS.md C-EAM-04: 6003h and 6010h:01 are one value. Here two others are: 6000h and 6200h, which are saved, or
 /// 650Bh, which is not.
 #[test]
 fn of_two_linked_objects_the_one_that_was_stored_rules() {

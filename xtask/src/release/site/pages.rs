@@ -28,7 +28,7 @@ pub(super) struct Page {
 /// Documents and folders of documents by part; those that README.md has sections for are not here.
 #[rustfmt::skip]
 const PARTS: [(&str, &[&str]); 4] = [
-    ("Devices", &["docs/datasheets/"]),
+    ("Devices", &["docs/datasheets/", "docs/MANUALS.md"]),
     ("Device files", &[RULES, "docs/COMPATIBILITY.md", "docs/DIFFERENCES.md", "docs/CORPUS.md"]),
     ("Scripts, lessons, tests", &["od-cli/SCRIPTS.md", "od-cli/LESSONS.md", "od-bus/CASES.md", "docs/RULES.md", "docs/CIA.md"]),
     ("Packages", &["python/README.md", "examples/python-ci/README.md", "playground/README.md", "od-capi/README.md", "editors/README.md"]),

@@ -1,5 +1,5 @@
 //! A family whose cut saves leave the factory values (manual 001, chapter 6.3.3; manual 003,
-//! chapter 5.1.3.1; DECISIONS U-33).
+//! chapter 5.1.3.1; MANUALS.md U-33).
 
 use super::*;
 use crate::profile::{CutSave, SavedCobIds, StoreProfile};

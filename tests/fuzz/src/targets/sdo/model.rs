@@ -335,7 +335,7 @@ impl Model {
         self.check_identifiers();
         let now = self.read(address);
         // With the gear on, resolution and range follow from it: a write is accepted without effect
-        // (DECISIONS U-14).
+        // (MANUALS.md U-14).
         let gear = Address::new(0x2001, 1);
         let default = self.entries.iter().find(|entry| entry.address == gear);
         let default = default.and_then(|entry| entry.default.integer(0));
