@@ -9,8 +9,9 @@ use crate::rooms::{Blank, Room, Rooms};
 use crate::store::Store;
 use od_model::Address;
 
+use crate::sync;
 use od_wire::emcy::Emcy;
-use od_wire::{CobId, Frame, Instant};
+use od_wire::{CanId, CobId, Frame, Instant};
 
 /// Emergency error code of an RPDO that is shorter than its mapping (CiA 301, table 26).
 pub(crate) const PDO_LENGTH: u16 = 0x8210;
@@ -175,13 +176,13 @@ impl<R: Rooms> Producer<R> {
         if self.waiting.is_empty() || now < self.blocked_until {
             return None;
         }
-        let cob_id = cob_id(store);
+        let id = can_id(store);
         let emcy = Room::queue_mut(&mut self.waiting).pop()?;
         if const { may_have::<D>(0x1015, 0x1015, None) } {
             let inhibit = u64::from(store.word(0x1015, 0, 0)) * 100;
             self.blocked_until = now.plus_micros(inhibit);
         }
-        cob_id.map(|cob_id| Frame::full(cob_id.can_id(), emcy.emit()))
+        id.map(|id| Frame::full(id, emcy.emit()))
     }
 
     /// Time when [`poll`](Self::poll) is due, if something waits.
@@ -199,10 +200,11 @@ impl<R: Rooms> Producer<R> {
     }
 }
 
-/// 1014h, if the device has it and it is valid.
-pub(crate) fn cob_id(store: &Store<'_>) -> Option<CobId> {
+/// CAN-ID of EMCY messages: 1014h, if the device has it, it is valid, and no SYNC has it.
+pub(crate) fn can_id(store: &Store<'_>) -> Option<CanId> {
     let cob_id = CobId::new(store.word(0x1014, 0, 1 << 31));
-    cob_id.is_valid().then_some(cob_id)
+    let id = cob_id.usable_id().filter(|_| cob_id.is_valid())?;
+    (sync::can_id(store) != Some(id)).then_some(id)
 }
 
 /// Puts the code on top of 1003h; the oldest entry falls out.

@@ -1,6 +1,6 @@
 //! SYNC producer (CiA 301, chapter 7.2.5, and objects 1005h, 1006h, 1019h).
 
-use od_wire::{CobId, Instant};
+use od_wire::{CanId, CobId, Instant};
 
 use crate::store::Store;
 
@@ -63,6 +63,11 @@ impl Producer {
         };
         Some(Some(self.counter))
     }
+}
+
+/// CAN-ID of SYNC: 1005h, or 080h without it; `None` if no service may have it.
+pub(crate) fn can_id(store: &Store<'_>) -> Option<CanId> {
+    CobId::new(store.word(0x1005, 0, 0x80)).usable_id()
 }
 
 /// Whether 1019h can have the value; 1 and 241 to 255 are reserved.

@@ -101,6 +101,25 @@ impl CobId {
         }
     }
 
+    /// Returns the CAN-ID that a service may use: [`is_consistent`](Self::is_consistent), and not
+    /// [restricted](Self::is_restricted) (CiA 301, table 40). `None`: a service with this COB-ID is not valid,
+    /// whatever its flag bits say.
+    ///
+    /// ```
+    /// use od_wire::{CanId, CobId};
+    ///
+    /// assert_eq!(CobId::new(0x181).usable_id(), Some(CanId::standard(0x181)));
+    /// assert_eq!(CobId::new(0x800).usable_id(), None); // its 11 bits are those of NMT
+    /// assert_eq!(CobId::new(0x601).usable_id(), None); // a request of the default SDO
+    /// ```
+    pub const fn usable_id(self) -> Option<CanId> {
+        if self.is_consistent() && !self.is_restricted() {
+            Some(self.can_id())
+        } else {
+            None
+        }
+    }
+
     /// Returns whether bits 11 to 28, which belong to a 29-bit CAN-ID, are 0 while bit 29 is clear.
     pub const fn is_consistent(self) -> bool {
         self.0 & 1 << 29 != 0 || self.0 & 0x1FFF_F800 == 0

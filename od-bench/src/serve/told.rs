@@ -37,6 +37,10 @@ fn words(event: Event) -> Option<String> {
         Event::BusOn => "back from bus-off".into(),
         Event::Error(error) => format!("error {:04X}h", error.code),
         Event::ErrorCleared(code) => format!("error {code:04X}h cleared"),
+        Event::CobIdRefused(index) => format!(
+            "the CAN-ID in {index:04X}h is restricted, does not fit its frame, or is that of another service; \
+             odkit keeps the service not valid (write another COB-ID)"
+        ),
         Event::BitRate(code) => {
             format!("LSS set bit rate index {code}; the simulated bus has no bit rate")
         }

@@ -2,8 +2,9 @@
 
 use od_model::row::Row;
 use od_wire::nmt::State;
-use od_wire::{CobId, Instant, NodeId};
+use od_wire::{CanId, CobId, Instant, NodeId};
 
+use super::clocks::produced_time_id;
 use super::ear::{Ear, Quick};
 use super::{BusEvent, Event, Machines, Node, Unfit};
 use crate::application::Reset;
@@ -16,7 +17,7 @@ use crate::profile::{CommunicationReset, LssProfile};
 use crate::rooms::Room;
 use crate::storage::image::{self, Loaded};
 use crate::store::StoreTooSmall;
-use crate::{lss, pdo};
+use crate::{emcy, lss, pdo, sync};
 
 impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, PDO, SDO, X> {
     /// Power comes: the values become the saved ones or their defaults, and the node boots up.
@@ -273,11 +274,49 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         self.reset_if_due(objects);
     }
 
+    /// The CAN-IDs by which SYNC, EMCY and TIME are sent, which come before those of SDO servers and TPDOs. That of
+    /// SYNC counts for a consumer, too: what it sends by it is a SYNC for all others.
+    pub(super) fn senders(objects: &Objects<'_, D>) -> [Option<CanId>; 3] {
+        let store = &objects.store;
+        let time = if D::TIME {
+            produced_time_id(store)
+        } else {
+            None
+        };
+        [sync::can_id(store), emcy::can_id(store), time]
+    }
+
+    /// Reports the services of one object whose CAN-ID is refused, once as long as it is.
+    #[inline(never)]
+    fn report_refused(&mut self, objects: &Objects<'_, D>) {
+        let [sync, emcy, time] = Self::senders(objects);
+        let cob_id = |index| CobId::new(objects.store.word(index, 0, 0));
+        let refused = [
+            (0x1005, sync.is_none()),
+            (
+                0x1014,
+                emcy.is_none() && objects.store.word(0x1014, 0, 1 << 31) >> 31 == 0,
+            ),
+            (
+                0x1012,
+                D::TIME && time.is_none() && cob_id(0x1012).produces_time(),
+            ),
+        ];
+        for (at, (index, is_refused)) in refused.into_iter().enumerate() {
+            let before = self.refused;
+            self.refused = before & !(1 << at) | u8::from(is_refused) << at;
+            if is_refused && before & 1 << at == 0 {
+                self.event(Event::CobIdRefused(index));
+            }
+        }
+    }
+
     /// Every service reads its objects again.
     #[inline(never)]
     pub(super) fn configure(&mut self, objects: &mut Objects<'_, D>) {
         self.wanted_changed = true;
-        self.sync_id = CobId::new(objects.store.word(0x1005, 0, 0x80)).can_id();
+        self.sync_id = sync::can_id(&objects.store);
+        self.report_refused(objects);
         if Self::PDOS.is_none() {
             let dictionary = objects.store.dictionary();
             self.tpdo_count = dictionary.tpdos().min(PDO) as u16;
@@ -285,9 +324,30 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         }
         let operates = self.state == State::Operational;
         let fixed = const { &pdo::Fixed::all::<D, PDO>() };
-        for (number, (tpdo, fixed)) in (0..).zip(self.tpdos_mut().iter_mut().zip(fixed)) {
-            if tpdo.configure(objects, number, fixed) && operates {
-                tpdo.start(objects);
+        self.configure_servers(objects);
+        if D::SYNC_PRODUCER || D::TIME {
+            self.configure_clocks(objects);
+        }
+        let others = Self::senders(objects);
+        let count = self.tpdo_count();
+        for (at, fixed) in fixed.iter().enumerate().take(count) {
+            let Some((before, [tpdo, ..])) = self.tpdo.split_at_mut_checked(at) else {
+                break;
+            };
+            let servers = self.extras.servers();
+            let is_taken = |id| {
+                others.contains(&Some(id))
+                    || D::SERVERS && servers.iter().any(|one| one.sent_by() == Some(id))
+                    || before.iter().any(|pdo| pdo.sent_by() == Some(id))
+            };
+            if tpdo.configure(objects, at as u16, fixed, &is_taken) {
+                let (starts, refused) = (operates, tpdo.is_refused());
+                if starts {
+                    tpdo.start(objects);
+                }
+                if refused {
+                    self.event(Event::CobIdRefused(0x1800 + at as u16));
+                }
             }
         }
         if D::CHANGES && objects.profile().pdo.event_on_change {
@@ -299,13 +359,12 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
             (self.watches_changes, self.watches_live) = (changes, live);
         }
         if D::RPDOS {
-            for (number, rpdo) in (0..).zip(self.rpdos_mut()) {
-                rpdo.configure(objects, number);
+            for at in 0..self.rpdo_count() {
+                let rpdo = self.rpdo.all_mut().get_mut(at);
+                if rpdo.is_some_and(|rpdo| rpdo.configure(objects, at as u16)) {
+                    self.event(Event::CobIdRefused(0x1400 + at as u16));
+                }
             }
-        }
-        self.configure_servers(objects);
-        if D::SYNC_PRODUCER || D::TIME {
-            self.configure_clocks(objects);
         }
         self.listen(objects);
     }

@@ -9,6 +9,8 @@ use crate::device::Device;
 use crate::extras::Extras;
 use crate::lent::Lent;
 use crate::objects::Objects;
+use crate::store::Store;
+use crate::{emcy, sync};
 
 impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, PDO, SDO, X> {
     /// Sends a TIME message with what [`Application::time`](crate::Application::time) returns, as
@@ -44,7 +46,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
             let cob_id = objects.store.try_word(0x1012, 0);
             let cob_id = cob_id.map(CobId::new);
             let consumed = cob_id.filter(|cob_id| cob_id.consumes_time());
-            clocks.time_id = consumed.map(CobId::can_id);
+            clocks.time_id = consumed.and_then(CobId::usable_id);
         }
     }
 
@@ -69,9 +71,12 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         if self.mute.is_some() {
             return;
         }
+        let Some(id) = self.sync_id else {
+            return;
+        };
         self.push(match counter {
-            Some(counter) => Frame::of(self.sync_id, &[counter]),
-            None => Frame::of(self.sync_id, &[]),
+            Some(counter) => Frame::of(id, &[counter]),
+            None => Frame::of(id, &[]),
         });
         if self.state == State::Operational {
             self.sync(objects, counter);
@@ -94,11 +99,22 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
 
     /// Sends the application's time.
     pub(super) fn produce_time(&mut self, objects: &mut Objects<'_, D>) -> bool {
-        let cob_id = CobId::new(objects.store.unsigned(0x1012, 0) as u32);
-        if !cob_id.produces_time() || !self.is_communicating() || self.mute.is_some() {
+        if !self.is_communicating() || self.mute.is_some() {
             return false;
         }
+        let Some(id) = produced_time_id(&objects.store) else {
+            return false;
+        };
         let time = objects.application(|application, context| application.time(context));
-        time.is_some_and(|time| self.push(Frame::of(cob_id.can_id(), &time.emit())))
+        time.is_some_and(|time| self.push(Frame::of(id, &time.emit())))
     }
+}
+
+/// CAN-ID of the TIME messages that the device produces: 1012h with bit 30, where SYNC and EMCY have another
+/// one.
+pub(super) fn produced_time_id(store: &Store<'_>) -> Option<CanId> {
+    let cob_id = CobId::new(store.try_word(0x1012, 0)?);
+    let id = cob_id.usable_id().filter(|_| cob_id.produces_time())?;
+    let others = [sync::can_id(store), emcy::can_id(store)];
+    (!others.contains(&Some(id))).then_some(id)
 }

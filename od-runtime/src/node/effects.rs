@@ -166,11 +166,11 @@ fn switches<D: Device>(objects: &Objects<'_, D>, index: u16) -> bool {
         .is_some_and(|(switch, _)| switch == index)
 }
 
-/// Whether it is an object that configures SYNC, TIME, a PDO or a further SDO server.
+/// Whether it is an object that configures SYNC, EMCY, TIME, a PDO or a further SDO server.
 fn is_configuration<D: Device>(objects: &Objects<'_, D>, index: u16) -> bool {
     let repeat = objects.profile().pdo.repeat_counter;
     let sync_only = objects.profile().pdo.sync_only;
-    matches!(index, 0x1005 | 0x1400..=0x1BFF)
+    matches!(index, 0x1005 | 0x1014 | 0x1400..=0x1BFF)
         || D::SYNC_PRODUCER && index == 0x1006
         || D::TIME && index == 0x1012
         || D::SERVERS && matches!(index, 0x1201..=0x127F)

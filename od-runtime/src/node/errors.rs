@@ -101,7 +101,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
     pub(super) fn take_errors(&mut self, objects: &mut Objects<'_, D>) {
         let mut set = 0;
         while let Some(change) = objects.outbox.signals.errors.pop() {
-            let send = self.state != State::Stopped && emcy::cob_id(&objects.store).is_some();
+            let send = self.state != State::Stopped && emcy::can_id(&objects.store).is_some();
             let reset = objects.profile().errors.reset;
             let outcome = self
                 .emcy

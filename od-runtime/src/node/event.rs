@@ -51,6 +51,10 @@ pub enum Event {
     Error(Emcy),
     /// The error with this code went.
     ErrorCleared(u16),
+    /// The service of this object (1005h, 1012h, 1014h, 1201h to 127Fh, 1400h to 15FFh, 1800h to 19FFh) is not
+    /// valid: its CAN-ID does not fit its frame, is restricted (CiA 301, table 40), or is that of another
+    /// service by which the node sends.
+    CobIdRefused(u16),
     /// 16 EMCY messages wait for the inhibit time (1015h), so that of the error that came or went
     /// before this event is dropped. 1001h and 1003h have it.
     EmcyDropped,

@@ -93,7 +93,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
             node.handle_time(objects, frame);
         } else if node.state != State::Operational {
             return;
-        } else if id == node.sync_id {
+        } else if Some(id) == node.sync_id {
             node.handle_sync(objects, frame);
         } else if D::RPDOS {
             node.handle_rpdo(objects, frame);

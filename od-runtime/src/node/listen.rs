@@ -39,7 +39,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
             ear.codes |= self.time_id().filter(|_| D::TIME).map_or(0, code);
         }
         if self.state == State::Operational {
-            ear.sync = self.sync_id;
+            ear.sync = self.sync_id.unwrap_or(NONE);
             for pdo in self.tpdos() {
                 ear.codes |= pdo.requested_by().map_or(0, code);
             }

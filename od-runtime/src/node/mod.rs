@@ -88,6 +88,8 @@ struct Machines<D, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> {
     watches_live: bool,
     /// The CAN-IDs that the node listens to may be others than those that the host knows.
     wanted_changed: bool,
+    /// CAN-IDs of SYNC, EMCY and TIME that were refused.
+    refused: u8,
     /// Last report of the CAN controller, except overruns.
     bus: BusEvent,
     /// Node ID of the first start, where the image keeps it ([`LssProfile::is_own`](crate::LssProfile::is_own)).
@@ -110,7 +112,8 @@ struct Machines<D, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> {
     heartbeat: error_control::Producer,
     /// Nothing is sent or received: LSS activates a bit rate, or the CAN controller is bus-off.
     mute: Option<controller::Mute>,
-    sync_id: CanId,
+    /// `None`: 1005h has a CAN-ID that no service may have.
+    sync_id: Option<CanId>,
     /// The frame before those of `out`, if it is an SDO response: its data as words. Most
     /// frames are, and this way they do not go through memory in pieces.
     answer: [u32; 2],
@@ -224,7 +227,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
             boot_at: Deadline::NEVER,
             tick_at: Deadline::NEVER,
             next: Instant::ZERO,
-            sync_id: CanId::standard(0),
+            sync_id: None,
             ear: ear::Ear::DEAF,
             out: Fifo::new(Room::BLANK),
             answer: [0; 2],
@@ -248,6 +251,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
             watches_changes: false,
             watches_live: false,
             wanted_changed: false,
+            refused: 0,
             extras,
         }
     }

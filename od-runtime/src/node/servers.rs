@@ -3,7 +3,7 @@
 use od_wire::sdo::address;
 use od_wire::{AbortCode, Frame};
 
-use super::Machines;
+use super::{Event, Machines};
 use crate::deadline::Deadline;
 use crate::device::Device;
 use crate::extras::Extras;
@@ -18,9 +18,22 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         if !D::SERVERS {
             return;
         }
-        for (index, one) in (FIRST..).zip(self.extras.servers_mut()) {
-            if one.configure(&objects.store, index) {
+        let others = Self::senders(objects);
+        for at in 0..self.extras.servers().len() {
+            let servers = self.extras.servers_mut();
+            let Some((before, [one, ..])) = servers.split_at_mut_checked(at) else {
+                break;
+            };
+            let is_taken = |id| {
+                others.contains(&Some(id)) || before.iter().any(|one| one.sent_by() == Some(id))
+            };
+            let index = FIRST + at as u16;
+            let configured = one.configure(&objects.store, index, &is_taken);
+            if configured.has_changed {
                 one.server.cut(objects);
+            }
+            if configured.is_refused {
+                self.event(Event::CobIdRefused(index));
             }
         }
     }

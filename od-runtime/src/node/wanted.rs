@@ -30,7 +30,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
             Some(CanId::standard(0)),
             Some(self.node_id.plus(0x600)),
             D::GUARDING.then(|| self.node_id.plus(0x700)),
-            Some(self.sync_id),
+            self.sync_id,
         ];
         let tpdos = self.tpdos().iter();
         let rpdos = self.rpdos().iter();

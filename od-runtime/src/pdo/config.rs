@@ -28,10 +28,12 @@ pub(super) trait Parameters: Device + Sized {
 impl<D: Device> Parameters for D {}
 
 /// Whether a TPDO is sent.
-#[derive(Clone, Copy, PartialEq, Debug)]
+#[derive(Clone, Copy, PartialEq, PartialOrd, Debug)]
 pub(super) enum Validity {
     /// Never.
     Off,
+    /// Never, whatever bit 31 says: no service may have the CAN-ID, or another one sends by it.
+    Refused,
     On,
     /// A remote frame requests it, too.
     Requested,
@@ -73,9 +75,13 @@ impl Config {
         both.fold(0, |bits, (one, other)| bits | one ^ other) == 0
     }
 
-    /// Reads the objects of TPDO `number`, but for its mapping.
+    /// Reads the objects of TPDO `number`, but for its mapping. `is_taken` knows the CAN-IDs by which other services send.
     #[inline(never)]
-    pub(super) fn load<D: Device>(objects: &Objects<'_, D>, number: u16) -> Self {
+    pub(super) fn load<D: Device>(
+        objects: &Objects<'_, D>,
+        number: u16,
+        is_taken: &dyn Fn(CanId) -> bool,
+    ) -> Self {
         let parameter = 0x1800 + number;
         let store = &objects.store;
         let word = |may_be_there, sub| match may_be_there {
@@ -96,10 +102,12 @@ impl Config {
             .is_some_and(|(index, bits)| store.word(index, 0, 0) & bits == bits);
         let allowed = kind <= kind::LAST_CYCLIC || !sync_only;
         Self {
-            validity: match cob_id.is_valid() && allowed {
-                false => Validity::Off,
-                true if cob_id.allows_rtr() => Validity::Requested,
-                true => Validity::On,
+            validity: match cob_id.usable_id() {
+                _ if !(cob_id.is_valid() && allowed) => Validity::Off,
+                None => Validity::Refused,
+                Some(id) if is_taken(id) => Validity::Refused,
+                Some(_) if cob_id.allows_rtr() => Validity::Requested,
+                Some(_) => Validity::On,
             },
             kind,
             repeat: repeat.map_or(0, |index| store.word(index, 0, 0) as u8),

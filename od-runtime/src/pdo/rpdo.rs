@@ -10,6 +10,8 @@ use od_wire::{CanId, CobId, Frame};
 #[derive(Clone, Debug)]
 pub(crate) struct Rpdo<R: Rooms> {
     valid: bool,
+    /// Its objects make it valid, and its CAN-ID does not.
+    refused: bool,
     cob_id: CobId,
     synchronous: bool,
     mapping: Mapping<R>,
@@ -28,6 +30,7 @@ pub(crate) enum Received {
 impl<R: Rooms> Blank for Rpdo<R> {
     const BLANK: Self = Self {
         valid: false,
+        refused: false,
         cob_id: CobId::new(0),
         synchronous: false,
         mapping: Mapping::NONE,
@@ -37,8 +40,8 @@ impl<R: Rooms> Blank for Rpdo<R> {
 
 impl<R: Rooms> Rpdo<R> {
     /// Reads the objects of RPDO `number` again; a frame that waits for SYNC stays where
-    /// they say what they said.
-    pub(crate) fn configure<D: Device>(&mut self, objects: &Objects<'_, D>, number: u16) {
+    /// they say what they said. Returns whether the PDO is refused anew: no service may have its CAN-ID.
+    pub(crate) fn configure<D: Device>(&mut self, objects: &Objects<'_, D>, number: u16) -> bool {
         let parameter = 0x1400 + number;
         let store = &objects.store;
         let cob_id = CobId::new(store.word(parameter, 1, 1 << 31));
@@ -47,8 +50,12 @@ impl<R: Rooms> Rpdo<R> {
         if changed || (cob_id, synchronous) != (self.cob_id, self.synchronous) {
             self.waiting = None;
         }
-        self.valid = cob_id.is_valid() && self.mapping.len() > 0;
+        let is_on = cob_id.is_valid() && self.mapping.len() > 0;
+        let is_usable = cob_id.usable_id().is_some();
+        let is_news = is_on && !is_usable && !(self.refused && cob_id == self.cob_id);
+        (self.valid, self.refused) = (is_on && is_usable, is_on && !is_usable);
         (self.cob_id, self.synchronous) = (cob_id, synchronous);
+        is_news
     }
 
     /// Whether it receives frames with this CAN-ID.

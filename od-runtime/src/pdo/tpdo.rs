@@ -49,14 +49,16 @@ impl<R: Rooms> Tpdo<R> {
     };
 
     /// Reads the objects of TPDO `number` (0 is 1800h and 1A00h) again. Answers whether they say something
-    /// else than before; only then the TPDO restarts. `fixed` is its mapping where none can change.
+    /// else than before; only then the TPDO restarts. `fixed` is its mapping where none can change;
+    /// `is_taken` knows the CAN-IDs by which other services send.
     pub(crate) fn configure<D: Device>(
         &mut self,
         objects: &Objects<'_, D>,
         number: u16,
         fixed: &Fixed,
+        is_taken: &dyn Fn(CanId) -> bool,
     ) -> bool {
-        let mut config = Config::load(objects, number);
+        let mut config = Config::load(objects, number, is_taken);
         let mut changed = match const { is_fixed::<D>() } {
             true => self.mapping.fix(objects, 0x1A00 + number, fixed),
             false => self.mapping.load(objects, 0x1A00 + number),
@@ -80,7 +82,17 @@ impl<R: Rooms> Tpdo<R> {
 
     #[inline(always)]
     fn is_valid(&self) -> bool {
-        self.config.validity != Validity::Off
+        self.config.validity > Validity::Refused
+    }
+
+    /// Whether its objects make it valid, and its CAN-ID does not.
+    pub(crate) fn is_refused(&self) -> bool {
+        self.config.validity == Validity::Refused
+    }
+
+    /// CAN-ID of its frames, while it is valid.
+    pub(crate) fn sent_by(&self) -> Option<CanId> {
+        self.is_valid().then_some(self.config.id)
     }
 
     fn is_cyclic(&self) -> bool {

@@ -16,6 +16,16 @@ pub struct SdoServer<D, const N: usize, R: Rooms = FullRooms> {
     pub(crate) server: Server<D, N, R>,
     /// The two COB-IDs, while both are valid.
     channel: Option<Channel>,
+    /// Both COB-IDs are valid, and their CAN-IDs are not.
+    refused: bool,
+}
+
+/// Result of [`SdoServer::configure`].
+pub(crate) struct Configured {
+    /// Its channel is another one than before: the transfer on the old one has lost its client.
+    pub(crate) has_changed: bool,
+    /// It was not refused before: both COB-IDs are valid, and a CAN-ID is not.
+    pub(crate) is_refused: bool,
 }
 
 /// The COB-IDs of an SDO: from client to server, and back.
@@ -31,6 +41,7 @@ impl<D, const N: usize, R: Rooms> SdoServer<D, N, R> {
         Self {
             server: Server::idle(),
             channel: None,
+            refused: false,
         }
     }
 
@@ -50,18 +61,38 @@ impl<D, const N: usize, R: Rooms> SdoServer<D, N, R> {
         Some(Frame::full(channel.response, data))
     }
 
-    /// Reads its object again. Returns whether its channel is another one than before: the transfer
-    /// on the old one has lost its client.
-    pub(crate) fn configure(&mut self, store: &Store<'_>, index: u16) -> bool {
+    /// The CAN-ID of its responses, while it is valid.
+    pub(crate) fn sent_by(&self) -> Option<CanId> {
+        self.channel.map(|channel| channel.response)
+    }
+
+    /// Reads its object again. `is_taken` knows the CAN-IDs by which other services send.
+    pub(crate) fn configure(
+        &mut self,
+        store: &Store<'_>,
+        index: u16,
+        is_taken: &dyn Fn(CanId) -> bool,
+    ) -> Configured {
         let cob_id = |sub| {
             let cob_id = CobId::new(store.try_word(index, sub)?);
-            cob_id.is_valid().then_some(cob_id.can_id())
+            cob_id.is_valid().then(|| cob_id.usable_id())
         };
-        let channel = match (cob_id(1), cob_id(2)) {
-            (Some(request), Some(response)) => Some(Channel { request, response }),
-            _ => None,
+        let (both, channel) = match (cob_id(1), cob_id(2)) {
+            (Some(request), Some(response)) => {
+                let response = response.filter(|id| !is_taken(*id));
+                let channel = request.zip(response);
+                (
+                    true,
+                    channel.map(|(request, response)| Channel { request, response }),
+                )
+            }
+            _ => (false, None),
         };
-        core::mem::replace(&mut self.channel, channel) != channel
+        let refused = both && channel.is_none();
+        Configured {
+            has_changed: core::mem::replace(&mut self.channel, channel) != channel,
+            is_refused: !core::mem::replace(&mut self.refused, refused) && refused,
+        }
     }
 }
 

@@ -27,8 +27,8 @@ fn all() -> Vec<Row> {
         (0x1029, 0, Unsigned8, Access::Const, false, unsigned(1)),
         (0x1029, 1, Unsigned8, Rw, false, unsigned(0)),
         (0x1201, 0, Unsigned8, Access::Const, false, unsigned(2)),
-        (0x1201, 1, Unsigned32, Rw, false, node_id(0x640)),
-        (0x1201, 2, Unsigned32, Rw, false, node_id(0x5C0)),
+        (0x1201, 1, Unsigned32, Rw, false, node_id(0x69F)),
+        (0x1201, 2, Unsigned32, Rw, false, node_id(0x6BF)),
     ]);
     all
 }
@@ -153,7 +153,7 @@ fn frames_of_an_absent_service_mean_nothing() {
     let guard = "701#R1";
     assert_eq!(answers::<{ on::GUARDING }>(guard), 1);
     assert_eq!(answers::<{ ALL ^ on::GUARDING }>(guard), 0);
-    let server = "641#4000100000000000";
+    let server = "6A0#4000100000000000";
     assert_eq!(answers::<{ on::SERVERS }>(server), 1);
     assert_eq!(answers::<{ ALL ^ on::SERVERS }>(server), 0);
     let identify = "7E5#4C00000000000000";

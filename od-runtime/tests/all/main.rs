@@ -2,6 +2,7 @@
 
 mod absent;
 mod bus;
+mod cob_ids;
 mod emcy;
 mod encoder;
 mod error_behaviour;

@@ -127,7 +127,7 @@ fn bench(types: &[u64], others: u16) -> Bench {
             1,
             Unsigned32,
             Rw,
-            Value::NodeId(0x180 + 0x100 * u32::from(at)),
+            Value::NodeId(0x180 + 0x100 * u32::from(at % 4) + 0x80 * u32::from(at / 4)),
         );
         add(0x1800 + at, 2, Unsigned8, Rw, number(*kind));
         add(0x1800 + at, 5, Unsigned16, Rw, number(10));
