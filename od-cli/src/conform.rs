@@ -16,6 +16,7 @@ use od_wire::NodeId;
 
 use crate::bus;
 use crate::failure::Failure;
+use crate::files;
 use crate::output;
 use crate::report;
 use crate::source::{self, Source};
@@ -97,6 +98,9 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         .iter()
         .map(|path| format_of(path))
         .collect::<Result<_, _>>()?;
+    for path in &args.report {
+        files::claim(path)?;
+    }
     let report = tested(args, &cases)?;
     for (path, format) in args.report.iter().zip(formats) {
         output::write(path, format!("{}\n", report.render(format)).as_bytes())?;

@@ -53,7 +53,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
                 std::io::stdin().read_to_end(&mut bytes)?;
                 bytes
             }
-            false => std::fs::read(path)
+            false => crate::files::read(path)
                 .map_err(|error| Failure::Failed(format!("{shown}: {}", read_error(&error))))?,
         };
         let log = logs::read(&bytes).map_err(|why| Failure::Failed(format!("{shown}: {why}")))?;

@@ -11,7 +11,7 @@ use od_wire::{Duration, NodeId};
 
 use crate::failure::Failure;
 use crate::source;
-use crate::{bus, conform, output};
+use crate::{bus, conform, files, output};
 
 /// Make an EDS from a node on a bus
 ///
@@ -47,6 +47,7 @@ pub(crate) struct Args {
 }
 
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
+    args.output.as_deref().map(files::claim).transpose()?;
     let link = match &args.link {
         Some(link) => link.clone(),
         None => links::found::default()?,

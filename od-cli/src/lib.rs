@@ -19,6 +19,7 @@ mod dump;
 mod explain;
 mod export;
 mod failure;
+mod files;
 mod get;
 mod learn;
 mod lesson;

@@ -14,6 +14,7 @@ use od_eds::{Description, Document, Finding};
 
 use crate::config::Config;
 use crate::failure::{Failure, read_error};
+use crate::files;
 use crate::output;
 use crate::report::{self, Names};
 use content::Network;
@@ -37,7 +38,7 @@ pub(crate) struct Args {
 
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let path = Path::new(&args.file);
-    let bytes = fs::read(path).map_err(|error| {
+    let bytes = files::read(path).map_err(|error| {
         let why = read_error(&error);
         Failure::Failed(format!("{}: {why}", args.file))
     })?;
@@ -69,10 +70,10 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
 
 /// Writes the files and the report of a network, and counts its errors.
 fn one(args: &Args, mut network: Network, folder: Option<&Path>) -> Result<usize, Failure> {
-    let mut files = Vec::new();
+    let mut outputs = Vec::new();
     for node in &network.nodes {
         if !node.writes.is_empty() {
-            files.push((format!("{}.bin", node.name), network::bytes(&node.writes)));
+            outputs.push((format!("{}.bin", node.name), network::bytes(&node.writes)));
         }
     }
     for node in &mut network.nodes {
@@ -88,10 +89,10 @@ fn one(args: &Args, mut network: Network, folder: Option<&Path>) -> Result<usize
     if let Some(master) = &network.master {
         let writes = network::writes(master, &network.nodes);
         if !writes.is_empty() {
-            files.push(("master.bin".into(), network::bytes(&writes)));
+            outputs.push(("master.bin".into(), network::bytes(&writes)));
         }
         let description = network::dcf(master, &network.nodes);
-        files.push((
+        outputs.push((
             "master.dcf".into(),
             od_eds::canonical(&description).into_bytes(),
         ));
@@ -102,13 +103,16 @@ fn one(args: &Args, mut network: Network, folder: Option<&Path>) -> Result<usize
         network.nodes.push(own);
     }
     if let Some(folder) = folder {
-        for (name, bytes) in &files {
+        for (name, _) in &outputs {
             // A name in the file must not lead out of the folder.
             if name.contains(['/', '\\']) {
                 return Err(Failure::Failed(format!(
                     "`{name}` is not valid as the name of a file"
                 )));
             }
+            files::claim(&folder.join(name))?;
+        }
+        for (name, bytes) in &outputs {
             fs::create_dir_all(folder).map_err(|error| {
                 Failure::Failed(format!("{} cannot be written: {error}", folder.display()))
             })?;
@@ -121,7 +125,7 @@ fn one(args: &Args, mut network: Network, folder: Option<&Path>) -> Result<usize
     let colours = output::error_colours();
     let text = report::render(&args.file, "", &findings, &Names::new(), colours);
     output::note_text(&text);
-    output::print(&table::table(&network, bit_rate, sync_period, &files))?;
+    output::print(&table::table(&network, bit_rate, sync_period, &outputs))?;
     Ok(findings
         .iter()
         .filter(|finding| Finding::is_error(finding))
@@ -136,7 +140,7 @@ fn load(folder: &Path, name: &str) -> Result<Description, String> {
     } else {
         PathBuf::from(name)
     };
-    let bytes = fs::read(&path).map_err(|error| read_error(&error))?;
+    let bytes = files::read(&path).map_err(|error| read_error(&error))?;
     let description = od_eds::parse(Document::new(bytes).text()).description;
     match description.objects.is_empty() {
         true => Err("no object is defined; is it an EDS, DCF or XDD file?".into()),

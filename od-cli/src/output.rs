@@ -4,6 +4,7 @@ use std::io::{self, BufWriter, ErrorKind, IsTerminal, Write};
 use std::path::Path;
 
 use crate::failure::Failure;
+use crate::files;
 
 /// Standard output, buffered. A reader that goes away is not a failure.
 pub(crate) struct Output(BufWriter<io::StdoutLock<'static>>);
@@ -47,8 +48,11 @@ pub(crate) fn save(path: Option<&Path>, text: &str) -> Result<(), Failure> {
 }
 
 /// Writes a file.
+///
+/// # Errors
+/// The run uses this file already, or it cannot be written.
 pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
-    std::fs::write(path, bytes).map_err(|error| {
+    files::create(path)?.write_all(bytes).map_err(|error| {
         let shown = path.display();
         Failure::Failed(format!("{shown} cannot be written: {error}"))
     })

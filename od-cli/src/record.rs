@@ -5,6 +5,7 @@ use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 use od_bench::logs::{self, Format, Record, What};
+use od_bench::serve::files::replaces_log;
 use od_bus::fault::Fault;
 use od_bus::link::Link;
 use od_bus::replay;
@@ -12,13 +13,14 @@ use od_wire::{Duration, Instant};
 
 use crate::bus;
 use crate::failure::{Failure, read_error};
+use crate::files;
 use crate::output::{self, note};
 use crate::report::plural;
 
 /// Record the frames of a bus, until Ctrl-C
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// Log to write: candump (.log) or pcapng
+    /// Log to write: candump (.log) or pcapng. It replaces a log of this format; any other file is refused
     #[arg(value_name = "FILE")]
     file: PathBuf,
     /// Stop after this time, in seconds
@@ -72,8 +74,9 @@ impl Recorder {
                 "{name}: write a name that ends in .log (candump) or .pcapng"
             )));
         }
-        let file = File::create(path)
-            .map_err(|error| Failure::Failed(format!("{name} cannot be written: {error}")))?;
+        replaces_log(path, format)
+            .map_err(|refused| Failure::Failed(format!("{name}: {refused}")))?;
+        let file = files::create(path)?;
         let mut recorder = Self {
             file: BufWriter::new(file),
             format,
@@ -148,7 +151,7 @@ pub(crate) fn record(args: &Args) -> Result<(), Failure> {
 
 pub(crate) fn replay(args: &Replay) -> Result<(), Failure> {
     let shown = args.file.display();
-    let bytes = std::fs::read(&args.file)
+    let bytes = files::read(&args.file)
         .map_err(|error| Failure::Failed(format!("{shown}: {}", read_error(&error))))?;
     let log = logs::read(&bytes).map_err(|why| Failure::Failed(format!("{shown}: {why}")))?;
     for problem in &log.skipped {

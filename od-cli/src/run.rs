@@ -1,6 +1,5 @@
 //! `odkit run`: a script on a device in virtual time.
 
-use std::fs;
 use std::io::{self, Read};
 use std::path::Path;
 
@@ -9,6 +8,7 @@ use od_bench::script::{Reason, Script};
 use od_runtime::NodeId;
 
 use crate::failure::{Failure, read_error};
+use crate::files;
 use crate::output::{self, Output, note};
 use crate::terminal::Terminal;
 use crate::{report, source};
@@ -79,7 +79,7 @@ fn read(path: &str) -> Result<String, Failure> {
     let mut bytes = Vec::new();
     let result = match path {
         "-" => io::stdin().lock().read_to_end(&mut bytes).map(|_| ()),
-        path => fs::read(path).map(|read| bytes = read),
+        path => files::read(path).map(|read| bytes = read),
     };
     match result {
         Ok(()) => String::from_utf8(bytes)

@@ -121,7 +121,7 @@ fn pairs(args: &Args) -> Result<Vec<(String, Value)>, Failure> {
             let why = "`--file` has the value of one object; name one";
             return Err(Failure::Usage(why.into()));
         };
-        let bytes = std::fs::read(path).map_err(|error| {
+        let bytes = crate::files::read(path).map_err(|error| {
             Failure::Failed(format!("{}: {}", path.display(), read_error(&error)))
         })?;
         let object = object.strip_suffix('=').unwrap_or(object);

@@ -39,6 +39,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
             makers.push(Maker {
                 name,
                 kind: source.kind,
+                files: source.files(),
                 node_id,
                 make: Box::new(move |node_id| source.device(node_id)),
             });

@@ -3,7 +3,7 @@
 use od_model::Refused;
 use std::cell::OnceCell;
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use od_bench::{EdsOptions, VirtualDevice, recorded};
 use od_devices::DEVICES;
@@ -16,6 +16,7 @@ pub(crate) use od_bench::serve::options::node_id;
 
 use crate::config::Config;
 use crate::failure::{Failure, read_error};
+use crate::files;
 use crate::report::{Names, names};
 use crate::{output, report};
 
@@ -93,7 +94,7 @@ impl Source {
             });
         }
         let path = folder.join(name);
-        match fs::read(&path) {
+        match files::read(&path) {
             Ok(bytes) => {
                 let name = path.display().to_string();
                 Ok(Self::of(name.clone(), Document::new(bytes).named(name)))
@@ -107,6 +108,19 @@ impl Source {
                 }
             }
             Err(error) => Err(unknown(name, &error)),
+        }
+    }
+
+    /// The paths of its files; none for a built-in device.
+    pub(crate) fn files(&self) -> Vec<PathBuf> {
+        match (&self.laid, self.kind) {
+            (Some(laid), _) => {
+                let mut files = laid.base.files();
+                files.push(laid.overlay.0.clone().into());
+                files
+            }
+            (None, Some(_)) => Vec::new(),
+            (None, None) => vec![self.path.clone().into()],
         }
     }
 
@@ -135,7 +149,7 @@ impl Source {
     /// This base with the overlay at a path; it may be an overlaid one itself.
     fn with_overlay(self, path: &Path) -> Result<Self, Failure> {
         let shown = path.display().to_string();
-        let bytes = fs::read(path).map_err(|error| {
+        let bytes = files::read(path).map_err(|error| {
             let why = read_error(&error);
             Failure::Failed(format!("overlay {shown}: {why}"))
         })?;

@@ -104,6 +104,11 @@ pub(super) struct Placed<'t> {
     column: (usize, &'t str),
 }
 
+/// Returns whether a line is one of a log: a time stamp, an interface and a frame.
+pub(super) fn is_record(line: &str) -> bool {
+    logged(line).is_ok_and(|line| line.at.is_some() && line.interface.is_some())
+}
+
 /// Reads a line in any of the three forms, error frames too.
 pub(super) fn logged(line: &str) -> Result<Logged<'_>, Error> {
     let mut rest = Cursor::new(line);

@@ -48,6 +48,30 @@ impl Format {
         text.into_bytes()
     }
 
+    /// The name of the format, for messages.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Candump => "candump",
+            Self::Asc => "ASC",
+            Self::Trc => "TRC",
+            Self::Pcapng => "pcapng",
+        }
+    }
+
+    /// Returns whether the beginning of a file is that of a log as [`add`](Self::add) makes it. In a
+    /// text every complete line has to be a record.
+    pub fn recognises(self, head: &[u8]) -> bool {
+        if self == Self::Pcapng {
+            return head.starts_with(&pcapng::head()[..4]);
+        }
+        let end = head.iter().rposition(|byte| *byte == b'\n').unwrap_or(0);
+        let Ok(text) = std::str::from_utf8(&head[..end]) else {
+            return false;
+        };
+        let mut lines = text.lines().filter(|line| !line.trim().is_empty());
+        self == Self::Candump && !text.is_empty() && lines.all(candump::is_record)
+    }
+
     /// Whether a file of this format can grow record by record.
     pub const fn grows(self) -> bool {
         matches!(self, Self::Candump | Self::Pcapng)

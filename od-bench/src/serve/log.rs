@@ -10,6 +10,7 @@ use std::time::{Duration, Instant as Clock};
 use od_runtime::{Frame, Instant};
 
 use super::failure::Failure;
+use super::files;
 use super::terminal::note;
 use crate::logs::{Format, Record, What};
 use crate::words::plural;
@@ -54,6 +55,7 @@ impl Log {
         let name = path.display().to_string();
         let failed = |why: String| Failure::Failed(format!("--log {name}: {why}"));
         let format = format(path).map_err(failed)?;
+        files::replaces_log(path, format).map_err(|why| failed(why.into()))?;
         // Opening a named pipe waits for its reader.
         if is_pipe(path) {
             return Err(failed("it is a named pipe; give the name of a file".into()));

@@ -1,5 +1,7 @@
 //! A device that is to be.
 
+use std::path::PathBuf;
+
 use od_model::Refused;
 use od_runtime::{DeviceKind, NodeId};
 
@@ -11,6 +13,8 @@ pub struct Maker<'m> {
     pub name: &'m str,
     /// The built-in device; `None`: a file describes it.
     pub kind: Option<&'static DeviceKind>,
+    /// Files that describe it: no output of the bench replaces them.
+    pub files: Vec<PathBuf>,
     /// Its node ID, of a redundant encoder that of the first node, as `--node-id` gives it; `None`: its own.
     pub node_id: Option<NodeId>,
     /// Makes it.

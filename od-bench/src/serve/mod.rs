@@ -10,6 +10,7 @@ mod control;
 mod door;
 mod events;
 mod failure;
+pub mod files;
 mod fleet;
 mod greeting;
 mod hangup;

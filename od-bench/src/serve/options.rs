@@ -256,7 +256,8 @@ pub const CHOICES: [Choice; 17] = [
     Choice {
         name: "log",
         value: "FILE",
-        help: "Log file of all frames with their times of day: pcapng if the name ends in .pcapng, otherwise candump",
+        help: "Log file of all frames with their times of day: pcapng if the name ends in .pcapng, \
+               otherwise candump. It replaces a log of this format; any other file is refused",
         set: |options, text| {
             log::format(text.as_ref())?;
             options.log = Some(PathBuf::from(text));
@@ -268,7 +269,8 @@ pub const CHOICES: [Choice; 17] = [
         name: "ready-file",
         value: "PATH",
         help: "File that is written when everything listens, in JSON: links with their ports and \
-               paths, nodes, control socket; `-`: one line on standard output",
+               paths, nodes, control socket; `-`: one line on standard output. It replaces a ready file of an earlier bench; any other \
+               file is refused",
         set: |options, text| {
             options.ready_file = Some(PathBuf::from(text));
             Ok(())

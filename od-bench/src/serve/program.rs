@@ -48,6 +48,7 @@ fn serve(
     let maker = Maker {
         name,
         kind: None,
+        files: vec![name.into()],
         node_id: None,
         make: Box::new(|node_id| Ok(make(node_id))),
     };

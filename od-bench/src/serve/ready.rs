@@ -8,41 +8,56 @@ use serde::Serialize;
 
 use super::control::place::Place;
 use super::failure::Failure;
+use super::files;
 use super::links::opened::{Opened, Protocol};
 use crate::bus::Bus;
 
 /// A file that is there while the bench can be reached.
-pub(super) struct Ready(PathBuf);
+pub(super) struct Ready {
+    path: PathBuf,
+    /// Content that was written; empty before.
+    written: String,
+}
 
 impl Ready {
     /// Removes what an earlier bench left.
     ///
     /// # Errors
-    /// The path is not one of a file.
+    /// The path is that of something else.
     pub(super) fn at(path: &Path) -> Result<Self, Failure> {
         let failed = |why: &str| Failure::Failed(format!("--ready-file {}: {why}", path.display()));
         match fs::symlink_metadata(path) {
             Ok(there) if !there.is_file() => {
                 return Err(failed("it is not a file; give another path"));
             }
+            Ok(_) if !is_ready_file(path) => {
+                return Err(failed(
+                    "the file exists and is not a ready file of odkit; give another path, or delete \
+                     the file",
+                ));
+            }
             Ok(_) => fs::remove_file(path).map_err(|error| failed(&error.to_string()))?,
             Err(_) => {}
         }
-        Ok(Self(path.to_owned()))
+        Ok(Self {
+            path: path.to_owned(),
+            written: String::new(),
+        })
     }
 
     /// Writes the file whole: it is there with all of its content, or not at all.
     ///
     /// # Errors
     /// It cannot be written.
-    pub(super) fn write(&self, line: &str) -> Result<(), Failure> {
-        let Self(path) = self;
+    pub(super) fn write(&mut self, line: &str) -> Result<(), Failure> {
+        let path = &self.path;
+        self.written = format!("{line}\n");
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         let new = path.with_file_name(format!(".{name}.{}", std::process::id()));
         let _ = fs::remove_file(&new);
         let mut file = fs::OpenOptions::new();
         let file = file.write(true).create_new(true).open(&new);
-        let written = file.and_then(|mut file| file.write_all(format!("{line}\n").as_bytes()));
+        let written = file.and_then(|mut file| file.write_all(self.written.as_bytes()));
         written
             .and_then(|()| fs::rename(&new, path))
             .map_err(|error| {
@@ -54,8 +69,21 @@ impl Ready {
 
 impl Drop for Ready {
     fn drop(&mut self) {
-        let _ = fs::remove_file(&self.0);
+        // Another bench may have put its own there.
+        let is_own = |content: Vec<u8>| content == self.written.as_bytes();
+        if !self.written.is_empty() && fs::read(&self.path).is_ok_and(is_own) {
+            let _ = fs::remove_file(&self.path);
+        }
     }
+}
+
+/// Returns whether a file is empty, or a report of a bench.
+fn is_ready_file(path: &Path) -> bool {
+    let Some(head) = files::head(path) else {
+        return path.metadata().is_ok_and(|file| file.len() == 0);
+    };
+    let head: serde_json::Value = serde_json::from_slice(&head).unwrap_or_default();
+    head["version"].is_u64() && head["pid"].is_u64() && head["links"].is_array()
 }
 
 /// Links with their ports and paths, nodes, control socket.

@@ -4,9 +4,13 @@ use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use od_model::Refused;
+
 use super::clients::Clients;
+use super::control::place::Place;
 use super::events::Events;
 use super::failure::Failure;
+use super::files::Files;
 use super::links::opened::{Opened, Protocol};
 use super::links::{LINKS, Link};
 use super::live::Live;
@@ -27,7 +31,8 @@ pub fn run(makers: &[Maker<'_>], options: &Options) -> Result<(), Failure> {
     if options.quiet {
         terminal::be_quiet();
     }
-    let ready = match &options.ready_file {
+    check_files(makers, options).map_err(|refused| Failure::Usage(refused.into()))?;
+    let mut ready = match &options.ready_file {
         Some(path) if !is_output(path) => Some(Ready::at(path)?),
         _ => None,
     };
@@ -68,13 +73,39 @@ pub fn run(makers: &[Maker<'_>], options: &Options) -> Result<(), Failure> {
         live.add(link)?;
     }
     let _enrolled = running::enrol(&report);
-    match &ready {
+    match &mut ready {
         Some(ready) => ready.write(&report)?,
         None if options.ready_file.is_none() => {}
         None if options.links.contains(&Link::Console) => terminal::note(&report),
         None => terminal::print(&report)?,
     }
     live.run()
+}
+
+/// Refuses an output that is the file of another option or of a device.
+fn check_files(makers: &[Maker<'_>], options: &Options) -> Result<(), Refused> {
+    let mut files = Files::new();
+    for path in makers.iter().flat_map(|maker| &maker.files) {
+        files.read(format!("the device file `{}`", path.display()), path)?;
+    }
+    let control = match &options.control {
+        Some(Place::Unix(path)) => Some(path),
+        _ => None,
+    };
+    let ready_file = options.ready_file.as_ref().filter(|path| !is_output(path));
+    let eeproms = options.eeproms.iter().map(|path| ("eeprom", path));
+    let others = [
+        ("control", control),
+        ("log", options.log.as_ref()),
+        ("ready-file", ready_file),
+    ];
+    let others = others
+        .into_iter()
+        .filter_map(|(option, path)| Some((option, path?)));
+    for (option, path) in eeproms.chain(others) {
+        files.write(format!("`--{option} {}`", path.display()), path)?;
+    }
+    Ok(())
 }
 
 /// Whether a path means standard output.

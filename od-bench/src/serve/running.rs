@@ -14,7 +14,7 @@ const NAME: &str = "odkit-sim-";
 /// file cannot be written.
 pub(super) fn enrol(report: &str) -> Option<Ready> {
     let path = folder().join(format!("{NAME}{}{}.json", user(), std::process::id()));
-    let ready = Ready::at(&path).ok()?;
+    let mut ready = Ready::at(&path).ok()?;
     ready.write(report).ok()?;
     Some(ready)
 }

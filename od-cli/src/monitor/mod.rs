@@ -36,7 +36,8 @@ pub(crate) struct Args {
     /// Frames that are shown: `node:5 sdo`, `185:7FF`, `position`, `!hb`, `(emcy or nmt)`
     #[arg(long, value_name = "FILTER", default_value = "")]
     filter: String,
-    /// File for all frames: candump (.log) or pcapng
+    /// File for all frames: candump (.log) or pcapng. It replaces a log of this format; any other file
+    /// is refused
     #[arg(long, value_name = "FILE")]
     record: Option<PathBuf>,
     /// Stop after this time, in seconds

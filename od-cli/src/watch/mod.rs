@@ -18,6 +18,7 @@ use serde_json::json;
 use self::plot::Plot;
 use crate::bus::{self, Format, value, words};
 use crate::failure::Failure;
+use crate::files;
 use crate::output::{Output, note};
 use crate::{record, source};
 
@@ -115,9 +116,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         .as_ref()
         .is_some_and(|path| path.as_os_str() == "-");
     let mut file = match &args.csv {
-        Some(path) if !to_output => Some(BufWriter::new(File::create(path).map_err(|error| {
-            Failure::Failed(format!("{} cannot be written: {error}", path.display()))
-        })?)),
+        Some(path) if !to_output => Some(BufWriter::new(files::create(path)?)),
         _ => None,
     };
     let is_terminal = std::io::stdout().is_terminal() && !args.plain;

@@ -110,8 +110,8 @@ fn a_file_in_use_is_refused_with_its_process() {
     drop(first);
     assert_eq!(sim("gxmm", &path, &[], "").code, 0);
     let twice = sim("gxmm", &path, &["--device", "gxmm", "--eeprom", name], "");
-    assert_eq!(twice.code, 1, "{}", twice.err);
-    assert!(twice.err.contains("another device"), "{}", twice.err);
+    assert_eq!(twice.code, 2, "{}", twice.err);
+    assert!(twice.err.contains("are the same file"), "{}", twice.err);
 }
 
 #[test]

@@ -25,6 +25,7 @@ mod links;
 mod network;
 mod new;
 mod new_firmware;
+mod outputs;
 mod overlay;
 mod project;
 mod run;

@@ -1,0 +1,224 @@
+//! The files of a run: an output never replaces an input, another output, or a file of the user.
+
+use std::fs;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+
+use od_model::Refused;
+
+use crate::logs::Format;
+
+/// Bytes of an existing file that show what it is.
+const HEAD: u64 = 256 * 1024;
+
+/// The files that a run reads or writes.
+#[derive(Debug, Default)]
+pub struct Files(Vec<Used>);
+
+#[derive(Debug)]
+struct Used {
+    /// The option or the role, with the path as it was given.
+    title: String,
+    path: PathBuf,
+    is_written: bool,
+}
+
+/// What makes two paths the same file.
+#[derive(PartialEq, Eq, Debug)]
+enum Identity {
+    /// Device and inode: hard links are one file.
+    #[cfg(unix)]
+    Inode(u64, u64),
+    /// The path without symlinks: the file does not exist yet, or the system has no inodes.
+    Path(PathBuf),
+}
+
+impl Files {
+    /// No files.
+    pub const fn new() -> Self {
+        Self(Vec::new())
+    }
+
+    /// Adds a file that the run reads; several inputs may be the same file.
+    ///
+    /// # Errors
+    /// The run writes this file.
+    pub fn read(&mut self, title: impl Into<String>, path: &Path) -> Result<(), Refused> {
+        self.add(title.into(), path, false)
+    }
+
+    /// Adds a file that the run writes.
+    ///
+    /// # Errors
+    /// The run reads or writes the same file already.
+    pub fn write(&mut self, title: impl Into<String>, path: &Path) -> Result<(), Refused> {
+        self.add(title.into(), path, true)
+    }
+
+    fn add(&mut self, title: String, path: &Path, is_written: bool) -> Result<(), Refused> {
+        // A file that was made meanwhile has another identity than before.
+        if let Some(own) = identity(path) {
+            let mut others = self.0.iter();
+            let clash = others.find(|other| {
+                (is_written || other.is_written) && identity(&other.path).as_ref() == Some(&own)
+            });
+            if let Some(other) = clash {
+                let other = &other.title;
+                return Err(format!(
+                    "{title} and {other} are the same file; give one of them another name"
+                )
+                .into());
+            }
+        }
+        self.0.push(Used {
+            title,
+            path: path.to_owned(),
+            is_written,
+        });
+        Ok(())
+    }
+}
+
+/// The identity of a regular file, or of a path that may become one. `None`: a device, a pipe or a folder.
+fn identity(path: &Path) -> Option<Identity> {
+    match path.metadata() {
+        Ok(file) if !file.is_file() => None,
+        #[cfg(unix)]
+        Ok(file) => {
+            use std::os::unix::fs::MetadataExt;
+            Some(Identity::Inode(file.dev(), file.ino()))
+        }
+        #[cfg(not(unix))]
+        Ok(_) => path.canonicalize().ok().map(Identity::Path),
+        Err(_) => Some(Identity::Path(target(path))),
+    }
+}
+
+/// The path that a file will have when it is made at `path`: without symlinks, as far as they exist.
+fn target(path: &Path) -> PathBuf {
+    let mut path = path.to_owned();
+    // Linux follows 40 symlinks.
+    for _ in 0..40 {
+        let folder = path.parent().filter(|folder| *folder != Path::new(""));
+        let folder = folder.unwrap_or(Path::new("."));
+        let folder = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
+        match fs::read_link(&path) {
+            Ok(link) => path = folder.join(link),
+            Err(_) => return folder.join(path.file_name().unwrap_or_default()),
+        }
+    }
+    path
+}
+
+/// Checks that a log may be written to a path: the file is new, empty, or a log of this format.
+///
+/// # Errors
+/// The file is something else.
+pub fn replaces_log(path: &Path, format: Format) -> Result<(), Refused> {
+    match head(path) {
+        Some(head) if !format.recognises(&head) => Err(format!(
+            "the file exists and is not a {} log; write another name, or delete the file",
+            format.name()
+        )
+        .into()),
+        _ => Ok(()),
+    }
+}
+
+/// The beginning of a regular file; `None`: it does not exist, is empty, or is a device.
+pub(super) fn head(path: &Path) -> Option<Vec<u8>> {
+    let is_file = path.metadata().is_ok_and(|file| file.is_file());
+    let file = is_file.then(|| fs::File::open(path).ok()).flatten()?;
+    let mut head = Vec::new();
+    // What cannot be read counts as far as it was read: opening it for writing says why.
+    let _ = file.take(HEAD).read_to_end(&mut head);
+    (!head.is_empty()).then_some(head)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn folder(name: &str) -> PathBuf {
+        let folder =
+            std::env::temp_dir().join(format!("odkit-files-{name}-{}", std::process::id()));
+        let _ = fs::remove_dir_all(&folder);
+        fs::create_dir(&folder).unwrap();
+        folder
+    }
+
+    #[test]
+    fn an_output_is_compared_by_the_file_behind_its_path() {
+        let folder = folder("same");
+        let path = |name: &str| folder.join(name);
+        fs::write(path("a.eds"), "text").unwrap();
+        let mut outputs = vec![path("a.eds"), folder.join(".").join("a.eds")];
+        #[cfg(unix)]
+        {
+            fs::hard_link(path("a.eds"), path("hard")).unwrap();
+            std::os::unix::fs::symlink("a.eds", path("soft")).unwrap();
+            outputs.extend([path("hard"), path("soft")]);
+        }
+        for output in outputs {
+            let mut files = Files::new();
+            files.read("the input", &path("a.eds")).unwrap();
+            let refused = files.write("`--log`", &output).unwrap_err();
+            let words = refused.to_string();
+            assert!(words.contains("`--log` and the input"), "{words}");
+        }
+        let mut files = Files::new();
+        files.read("the input", &path("a.eds")).unwrap();
+        files.read("the input again", &path("a.eds")).unwrap();
+        assert!(files.write("other", &path("b.eds")).is_ok());
+        fs::remove_dir_all(folder).unwrap();
+    }
+
+    #[test]
+    fn files_that_do_not_exist_yet_are_compared_by_path() {
+        let folder = folder("new");
+        let mut files = Files::new();
+        files.write("`--eeprom`", &folder.join("x")).unwrap();
+        assert!(files.write("`--log`", &folder.join("./x")).is_err());
+        assert!(files.read("the input", &folder.join("x")).is_err());
+        // It was made meanwhile.
+        fs::write(folder.join("x"), "").unwrap();
+        assert!(files.write("`--log`", &folder.join("x")).is_err());
+        fs::remove_file(folder.join("x")).unwrap();
+        #[cfg(unix)]
+        {
+            std::os::unix::fs::symlink("x", folder.join("soft")).unwrap();
+            assert!(files.write("`--log`", &folder.join("soft")).is_err());
+            std::os::unix::fs::symlink("loop", folder.join("loop")).unwrap();
+            assert!(files.write("`--log`", &folder.join("loop")).is_ok());
+        }
+        assert!(files.write("`--log`", &folder.join("y")).is_ok());
+        fs::remove_dir_all(folder).unwrap();
+    }
+
+    #[test]
+    fn only_a_log_is_replaced_by_a_log() {
+        let folder = folder("log");
+        let path = folder.join("x");
+        for (content, format, is_replaced) in [
+            ("", Format::Candump, true),
+            ("(0.5) can0 701#05\n(0.6) can0 ", Format::Candump, true),
+            (
+                "(0.5) can0 20000008#0000040000000000\n",
+                Format::Candump,
+                true,
+            ),
+            ("(0.5) can0 701#05\n", Format::Pcapng, false),
+            ("\n\r\r\n....", Format::Pcapng, true),
+            ("[FileInfo]\n", Format::Candump, false),
+            ("701#05\n", Format::Candump, false),
+            ("(0.5) can0 701#05\nshaft 3\n", Format::Candump, false),
+            ("text", Format::Candump, false),
+        ] {
+            fs::write(&path, content).unwrap();
+            let is_ok = replaces_log(&path, format).is_ok();
+            assert_eq!(is_ok, is_replaced, "{content:?} {format:?}");
+        }
+        assert!(replaces_log(&folder.join("new"), Format::Candump).is_ok());
+        fs::remove_dir_all(folder).unwrap();
+    }
+}
