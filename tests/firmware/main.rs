@@ -3,7 +3,7 @@
 //! times, states, deadlines, events; at the end of a script all values and the EEPROM, too.
 //!
 //! So is the whole of `odkit conform`, with `--long`, and so are inputs that the fuzz target `node` makes, the same in every run. How many instructions a
-//! frame takes at most is in README.md.
+//! frame takes at most is in docs/PERFORMANCE.md.
 //!
 //! The bench plays the scripts first, and logs calls and answers of each device. The firmware then
 //! receives the same calls. `lacking.txt` lists the scripts whose answers cannot be the same.
@@ -104,7 +104,7 @@ fn play(name: &str, programs: &Path, words: &[String]) -> Result<(Vec<Played>, W
 const CONFORM: &str = "odkit conform";
 const MADE_INPUT: &str = "made input ";
 
-/// Inputs that only `--long` plays do not count for the table in README.md.
+/// Inputs that only `--long` plays do not count for the table in docs/PERFORMANCE.md.
 fn is_long(script: &str) -> bool {
     let number = script.strip_prefix(MADE_INPUT).map(str::parse);
     script == CONFORM || matches!(number, Some(Ok(MADE..)))

@@ -1,11 +1,11 @@
-//! The most instructions that a frame takes, and their table in README.md.
+//! The most instructions that a frame takes, and their table in docs/PERFORMANCE.md.
 
 use std::path::Path;
 
 use crate::emulator::Answers;
 use crate::log::Log;
 
-/// The lines of README.md around the table.
+/// The lines of docs/PERFORMANCE.md around the table.
 const MARKS: (&str, &str) = ("<!-- frames -->\n", "<!-- /frames -->");
 
 /// Kinds of input.
@@ -69,20 +69,20 @@ fn grouped(number: u32) -> String {
     }
 }
 
-/// Compares the table with the one in README.md: nothing takes over 2 % more than it says. With
+/// Compares the table with the one in docs/PERFORMANCE.md: nothing takes over 2 % more than it says. With
 /// `ODKIT_ACCEPT` it is renewed.
 ///
 /// # Errors
 /// A sentence.
 pub(crate) fn check(rows: &[(&str, Worst)]) -> Result<(), String> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../README.md");
-    let text = std::fs::read_to_string(&path).map_err(|e| format!("README.md: {e}"))?;
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/PERFORMANCE.md");
+    let text = std::fs::read_to_string(&path).map_err(|e| format!("docs/PERFORMANCE.md: {e}"))?;
     let parts = text.split_once(MARKS.0).and_then(|(before, rest)| {
         let (listed, after) = rest.split_once(MARKS.1)?;
         Some((before, listed, after))
     });
     let Some((before, listed, after)) = parts else {
-        return Err(format!("README.md lacks {}", MARKS.0.trim_end()));
+        return Err(format!("docs/PERFORMANCE.md lacks {}", MARKS.0.trim_end()));
     };
     let mut table = format!(
         "| | {} |\n|---|{}\n",
@@ -94,7 +94,7 @@ pub(crate) fn check(rows: &[(&str, Worst)]) -> Result<(), String> {
     }
     if std::env::var_os("ODKIT_ACCEPT").is_some() {
         let text = [before, MARKS.0, &table, MARKS.1, after].concat();
-        return std::fs::write(&path, text).map_err(|e| format!("README.md: {e}"));
+        return std::fs::write(&path, text).map_err(|e| format!("docs/PERFORMANCE.md: {e}"));
     }
     let numbers = |text: &str| -> Vec<u64> {
         let cells = text.split('|').map(|cell| cell.trim().replace(',', ""));
@@ -104,7 +104,7 @@ pub(crate) fn check(rows: &[(&str, Worst)]) -> Result<(), String> {
     let mut pairs = was.iter().zip(&now);
     match was.len() != now.len() || pairs.any(|(was, now)| now * 50 > was * 51) {
         true => Err(format!(
-            "more instructions than README.md says; with ODKIT_ACCEPT=1 this test renews the \
+            "more instructions than docs/PERFORMANCE.md says; with ODKIT_ACCEPT=1 this test renews the \
              table:\n{table}"
         )),
         false => Ok(()),

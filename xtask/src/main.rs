@@ -58,7 +58,7 @@ usage: cargo xtask <command> [options]
   size [--format table|json] [--services] [--accept]
         build the programs of firmware/, run them on an emulated Cortex-M3, and print
         what a node costs, or with --services what each service adds to one;
-        --accept renews both tables in README.md
+        --accept renews both tables in docs/PERFORMANCE.md
   dist [--only PART]... [--out DIR]
         make a folder that can be released, dist/ without --out: the command line for
         three systems, packages of crates, for Python, npm and Visual Studio Code, the page with

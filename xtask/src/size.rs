@@ -12,7 +12,7 @@ use crate::error::{Error, Result};
 use crate::repo::Repo;
 
 use measure::{COUNTS, Cost, SMALL, boot, build, play, prepare};
-use text::{grouped, has_grown, readme, row, split};
+use text::{grouped, has_grown, page, row, split};
 
 /// The programs in `firmware/src/bin`, and what each is.
 const PROGRAMS: [(&str, &str); 3] = [
@@ -23,14 +23,14 @@ const PROGRAMS: [(&str, &str); 3] = [
     ("ds301", "every service of CiA 301 but LSS, 170 values"),
     ("gxmm", "an encoder of the bus-cover family, complete"),
 ];
-/// The lines of README.md around the table.
+/// The lines of docs/PERFORMANCE.md around the table.
 const MARKS: (&str, &str) = ("<!-- size -->\n", "<!-- /size -->");
 const HEAD: &str = "| | flash, `s` | flash, `z` | static RAM | stack | power-on | SDO upload | SYNC → TPDO | frame for another | idle timeout |
 |---|--:|--:|--:|--:|--:|--:|--:|--:|--:|
 ";
 
 /// Measures, and prints a table or JSON; `--services` prints what each service costs. `--accept`
-/// renews both tables in README.md.
+/// renews both tables in docs/PERFORMANCE.md.
 pub(crate) fn run(repo: &Repo, args: &[String]) -> Result<()> {
     let args: Vec<&str> = args.iter().flat_map(|arg| arg.split('=')).collect();
     prepare(repo, &Console::terminal())?;
@@ -39,7 +39,7 @@ pub(crate) fn run(repo: &Repo, args: &[String]) -> Result<()> {
         ["--format", "json"] => say(&json(&measure(repo)?)),
         ["--services"] => say(services::table(&services::measure(repo)?).trim_end()),
         ["--accept"] => {
-            let (path, mut text) = readme(repo)?;
+            let (path, mut text) = page(repo)?;
             let tables = [
                 (MARKS, table(&measure(repo)?)),
                 (services::MARKS, services::table(&services::measure(repo)?)),
@@ -59,11 +59,11 @@ pub(crate) fn run(repo: &Repo, args: &[String]) -> Result<()> {
     Ok(())
 }
 
-/// Fails where something has grown by more than 2 % since the tables in README.md were made; the one
+/// Fails where something has grown by more than 2 % since the tables in docs/PERFORMANCE.md were made; the one
 /// by service takes 14 builds, and is checked in a long run.
 pub(crate) fn check(repo: &Repo, console: &Console, long: bool) -> Result<()> {
     prepare(repo, console)?;
-    let (_, text) = readme(repo)?;
+    let (_, text) = page(repo)?;
     let (_, listed, _) = split(&text, MARKS)?;
     let mut rows = grown(listed, &table(&measure(repo)?));
     if long {
@@ -75,7 +75,7 @@ pub(crate) fn check(repo: &Repo, console: &Console, long: bool) -> Result<()> {
     }
     let list = rows.join("\n");
     Err(Error::Failed(format!(
-        "larger than the tables in README.md say; `cargo xtask size --accept` renews them:\n{list}"
+        "larger than the tables in docs/PERFORMANCE.md say; `cargo xtask size --accept` renews them:\n{list}"
     )))
 }
 

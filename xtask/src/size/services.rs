@@ -7,7 +7,7 @@ use super::text::{grouped, has_grown, row};
 use crate::error::Result;
 use crate::repo::Repo;
 
-/// The lines of README.md around the table.
+/// The lines of docs/PERFORMANCE.md around the table.
 pub(super) const MARKS: (&str, &str) = ("<!-- services -->\n", "<!-- /services -->");
 /// The program in `firmware/src/bin`.
 const PROGRAM: &str = "service";

@@ -1,4 +1,4 @@
-//! Tables in README.md: where they are, their numbers, and whether one has grown.
+//! Tables in docs/PERFORMANCE.md: where they are, their numbers, and whether one has grown.
 
 use std::fs;
 use std::path::PathBuf;
@@ -6,16 +6,16 @@ use std::path::PathBuf;
 use crate::error::{Error, Result};
 use crate::repo::Repo;
 
-/// README.md: where it is, and its text.
-pub(super) fn readme(repo: &Repo) -> Result<(PathBuf, String)> {
-    let path = repo.root.join("README.md");
+/// docs/PERFORMANCE.md: its path and its text.
+pub(super) fn page(repo: &Repo) -> Result<(PathBuf, String)> {
+    let path = repo.root.join("docs/PERFORMANCE.md");
     let text = fs::read_to_string(&path).map_err(|e| Error::io("read", &path, &e))?;
     Ok((path, text))
 }
 
 /// Text before the table with these lines around it, the table, and text after it.
 pub(super) fn split<'t>(text: &'t str, marks: (&str, &str)) -> Result<(&'t str, &'t str, &'t str)> {
-    let missing = || Error::Failed(format!("README.md lacks {}", marks.0.trim_end()));
+    let missing = || Error::Failed(format!("docs/PERFORMANCE.md lacks {}", marks.0.trim_end()));
     let start = text.find(marks.0).ok_or_else(missing)? + marks.0.len();
     let end = text[start..].find(marks.1).ok_or_else(missing)? + start;
     Ok((&text[..start], &text[start..end], &text[end..]))

@@ -120,7 +120,7 @@ pub(super) const STAGES: &[Stage] = &[
     stage("browser", Tests, "the page in Chromium", page::browser).beside(Lane::Page),
     stage("interop", Tests, "python-canopen as master of the simulated devices", page::interop).beside(Lane::Bus),
     stage("python", Tests, "the Python package: a bus of python-can with devices in it", python::python).beside(Lane::Bus),
-    stage("size", Check, "no firmware is larger than README.md says, and a boot loader starts a program, on an emulated Cortex-M3", rust::size).beside(Lane::Board),
+    stage("size", Check, "no firmware is larger than docs/PERFORMANCE.md says, and a boot loader starts a program, on an emulated Cortex-M3", rust::size).beside(Lane::Board),
     stage("boards", Check, "the firmware of `odkit new` compiles for its boards, and one runs", boards::boards).beside(Lane::Board),
     stage("no_std", Check, "what runs in a node builds for a bare Cortex-M3 and M0", rust::no_std).beside(Lane::Cross),
     stage("hosts", Check, "the command line compiles for Windows and macOS", rust::hosts).beside(Lane::Cross),

@@ -182,15 +182,20 @@ mod tests {
             "docs/RULES-EDS.md",
             Some("docs/RULES-EDS.html"),
         );
-        check("README.md", "#how-fast", Some("how-fast.html"));
         check(
             "README.md",
-            "#-check-an-eds",
-            Some("how-to/check-an-eds.html"),
+            "#two-commands",
+            Some("index.html#two-commands"),
         );
         check(
             "README.md",
-            "tests/conformance/bus-cover",
+            "docs/how-to/check-an-eds.md",
+            Some("docs/how-to/check-an-eds.html"),
+        );
+        check("docs/MANUALS.md", "#u-37", Some("docs/MANUALS.html#u-37"));
+        check(
+            "docs/DEVICES.md",
+            "../tests/conformance/bus-cover",
             Some("docs/RULES.html#bus-cover"),
         );
         check(
@@ -198,7 +203,11 @@ mod tests {
             "docs/playground.png",
             Some("files/docs/playground.png"),
         );
-        check("README.md", "od-capi/examples/c", None);
+        check(
+            "docs/how-to/node-from-c.md",
+            "../../od-capi/examples/c",
+            None,
+        );
         check(
             "od-cli/LESSONS.md",
             "../playground/lessons",
@@ -225,5 +234,17 @@ mod tests {
             gone.message(),
             "README.md links to docs/gone.md, which is not there"
         );
+    }
+
+    #[test]
+    fn no_link_of_a_document_leads_nowhere() {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+        let pages = all(&root, &[]).expect("the documents can be read");
+        let places = Places::new(&root, &pages);
+        for page in &pages {
+            if let Err(error) = places.rewritten(page) {
+                panic!("{}", error.message());
+            }
+        }
     }
 }

@@ -92,43 +92,7 @@ pub(super) fn with_links<E>(
     Ok(out)
 }
 
-/// A heading and the lines below it, down to the next heading of its level or a higher one.
-#[derive(Debug, PartialEq, Eq)]
-pub(super) struct Section<'a> {
-    /// The heading; empty for what comes before the first.
-    pub(super) title: &'a str,
-    pub(super) body: String,
-}
-
-/// The sections of a level: 2 for `##`.
-pub(super) fn sections(text: &str, level: usize) -> Vec<Section<'_>> {
-    let mark = format!("{} ", "#".repeat(level));
-    let mut found = vec![Section {
-        title: "",
-        body: String::new(),
-    }];
-    let mut open: Option<&str> = None;
-    for line in text.split_inclusive('\n') {
-        match (open, fence(line)) {
-            (None, Some(signs)) => open = Some(signs),
-            (Some(signs), Some(other)) if other.starts_with(signs) => open = None,
-            _ => {}
-        }
-        match line.strip_prefix(&mark) {
-            Some(title) if open.is_none() => found.push(Section {
-                title: title.trim(),
-                body: String::new(),
-            }),
-            _ => found
-                .last_mut()
-                .into_iter()
-                .for_each(|last| last.body.push_str(line)),
-        }
-    }
-    found
-}
-
-/// The name of a heading in an address: `#how-fast`.
+/// The name of a heading in an address: `#speed-and-size`.
 pub(super) fn anchor(title: &str) -> String {
     let kept = |c: &char| c.is_alphanumeric() || " -_".contains(*c);
     let lower = title.to_lowercase();
@@ -142,7 +106,7 @@ pub(super) fn anchor(title: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{anchor, sections, with_links};
+    use super::{anchor, with_links};
 
     fn shouted(text: &str) -> String {
         let place = |address: &str| -> Result<Option<String>, ()> {
@@ -174,21 +138,6 @@ mod tests {
     #[test]
     fn a_link_without_a_place_leaves_its_words() {
         assert_eq!(shouted("in [`a/b`](gone), [c](d)"), "in `a/b`, [c](D)");
-    }
-
-    #[test]
-    fn sections_end_with_the_next_of_their_level() {
-        let text = "# T\nbegin\n## A\na\n### B\n```sh\n## not one\n```\n## C d\n";
-        let found = sections(text, 2);
-        let titles: Vec<&str> = found.iter().map(|section| section.title).collect();
-        assert_eq!(titles, ["", "A", "C d"]);
-        assert_eq!(found[0].body, "# T\nbegin\n");
-        assert_eq!(found[1].body, "a\n### B\n```sh\n## not one\n```\n");
-        let texts: String = found[1..]
-            .iter()
-            .map(|it| format!("## {}\n{}", it.title, it.body))
-            .collect();
-        assert!(text.ends_with(&texts), "nothing is lost");
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::lesson;
-use super::markdown::{self, anchor, sections};
+use super::markdown;
 use crate::error::{Error, Result};
 use crate::files;
 
@@ -25,20 +25,53 @@ pub(super) struct Page {
     pub(super) depth: usize,
 }
 
-/// Documents and folders of documents by part; those that README.md has sections for are not here.
+/// Documents, and folders of documents, by part. README.md is the first page.
 #[rustfmt::skip]
-const PARTS: [(&str, &[&str]); 4] = [
-    ("Devices", &["docs/datasheets/", "docs/MANUALS.md"]),
+const PARTS: [(&str, &[&str]); 9] = [
+    ("Integrate a device", &[
+        "docs/how-to/run-an-encoder.md",
+        "docs/how-to/read-and-write-nodes.md",
+        "docs/how-to/real-bus-in-the-page.md",
+        "docs/how-to/set-up-new-encoders.md",
+        "docs/how-to/test-your-code-in-ci.md",
+        "docs/how-to/check-a-network.md",
+        "docs/how-to/get-an-eds-from-a-device.md",
+    ]),
+    ("Make a device", &[
+        "docs/how-to/check-an-eds.md",
+        "docs/how-to/findings-in-an-editor.md",
+        "docs/how-to/new-device.md",
+        "docs/how-to/new-firmware.md",
+        "docs/how-to/device-in-rust.md",
+        "docs/how-to/node-on-a-board.md",
+        "docs/how-to/node-from-c.md",
+        "docs/how-to/test-a-device.md",
+        "docs/how-to/write-a-test.md",
+        "docs/how-to/convert-a-description.md",
+        "docs/how-to/derive-a-variant.md",
+        "docs/how-to/compare-two-versions.md",
+    ]),
+    ("Learn CANopen", &[
+        "docs/how-to/learn-canopen.md",
+        "docs/how-to/frames-in-the-page.md",
+        "docs/how-to/edit-an-eds-in-the-page.md",
+    ]),
+    ("Lessons", &[LESSONS]),
+    ("Devices", &["docs/DEVICES.md", "docs/datasheets/", "docs/MANUALS.md"]),
     ("Device files", &[RULES, "docs/COMPATIBILITY.md", "docs/DIFFERENCES.md", "docs/CORPUS.md"]),
     ("Scripts, lessons, tests", &["od-cli/SCRIPTS.md", "od-cli/LESSONS.md", "od-bus/CASES.md", "docs/RULES.md", "docs/CIA.md"]),
     ("Packages", &["python/README.md", "examples/python-ci/README.md", "playground/README.md", "od-capi/README.md", "editors/README.md"]),
+    ("Project", &[
+        "docs/PERFORMANCE.md",
+        "tests/bench/README.md",
+        "ARCHITECTURE.md",
+        "docs/how-to/make-a-release.md",
+        "CHANGELOG.md",
+    ]),
 ];
 const README: &str = "README.md";
 pub(super) const RULES: &str = "docs/RULES-EDS.md";
-const LESSONS: &str = "playground/lessons";
-/// Sections of README.md that stay on its first page, and those that its part "How to" is made of.
-const FIRST: [&str; 2] = ["", "Two commands"];
-const HOW_TO: &str = "How to …";
+const LESSONS: &str = "playground/lessons/";
 
 /// Links of the first page beside the documents.
 const LINKS: &str = "\n[Open the playground](playground/index.html)\n\n\
@@ -46,51 +79,63 @@ const LINKS: &str = "\n[Open the playground](playground/index.html)\n\n\
 
 /// All pages; `rules` has the code and the text of each rule.
 pub(super) fn all(root: &Path, rules: &[(String, String)]) -> Result<Vec<Page>> {
-    let mut pages = readme(&files::read(&root.join(README))?);
-    let at_end = pages.iter().position(|page| page.part == Some("odkit"));
-    let about = pages.split_off(at_end.unwrap_or(pages.len()));
-    let mut part = Some("Lessons");
-    for file in files::entries(&root.join(LESSONS))? {
-        let page = lesson::page(&files::read(&file)?, &file).map(|(name, title, text)| Page {
-            part: part.take(),
-            title,
-            source: format!("{LESSONS}/{}", file_name(&file)),
-            section: None,
-            target: format!("lessons/{name}.md"),
-            text,
-            depth: 0,
-        });
-        pages.extend(page);
-    }
+    let mut first = document(root, None, README)?;
+    first.target = String::from("index.md");
+    first.text.push_str(LINKS);
+    let mut pages = vec![first];
     for (part, documents) in PARTS {
         let mut part = Some(part);
         for source in documents.iter().copied() {
-            if let Some(folder) = source.strip_suffix('/') {
-                for file in files::entries(&root.join(folder))? {
-                    let source = format!("{folder}/{}", file_name(&file));
-                    pages.push(document(root, part.take(), &source)?);
+            let Some(folder) = source.strip_suffix('/') else {
+                pages.push(document(root, part.take(), source)?);
+                if source == RULES {
+                    pages.extend(rules.iter().map(|(code, text)| rule(code, text)));
                 }
                 continue;
-            }
-            pages.push(document(root, part.take(), source)?);
-            if source == RULES {
-                pages.extend(rules.iter().map(|(code, text)| Page {
-                    part: None,
-                    title: code.clone(),
-                    source: String::from(RULES),
-                    section: Some(code.clone()),
-                    target: format!("rules/{code}.md"),
-                    text: text.clone(),
-                    depth: 1,
-                }));
+            };
+            for file in files::entries(&root.join(folder))? {
+                let path = format!("{folder}/{}", file_name(&file));
+                if source == LESSONS {
+                    pages.extend(lesson_page(&file, path, &mut part)?);
+                } else {
+                    pages.push(document(root, part.take(), &path)?);
+                }
             }
         }
     }
-    pages.extend(about);
-    for source in ["tests/bench/README.md", "ARCHITECTURE.md", "CHANGELOG.md"] {
-        pages.push(document(root, None, source)?);
-    }
     Ok(pages)
+}
+
+/// The page of a rule for device files.
+fn rule(code: &str, text: &str) -> Page {
+    Page {
+        part: None,
+        title: String::from(code),
+        source: String::from(RULES),
+        section: Some(String::from(code)),
+        target: format!("rules/{code}.md"),
+        text: String::from(text),
+        depth: 1,
+    }
+}
+
+/// The page of a lesson; `None` for a file that is not one.
+fn lesson_page(
+    file: &Path,
+    source: String,
+    part: &mut Option<&'static str>,
+) -> Result<Option<Page>> {
+    let text = files::read(file)?;
+    let page = lesson::page(&text, file).map(|(name, title, text)| Page {
+        part: part.take(),
+        title,
+        source,
+        section: None,
+        target: format!("lessons/{name}.md"),
+        text,
+        depth: 0,
+    });
+    Ok(page)
 }
 
 /// A file of the repository as a page of its own.
@@ -107,68 +152,6 @@ fn document(root: &Path, part: Option<&'static str>, source: &str) -> Result<Pag
         text,
         depth: 0,
     })
-}
-
-/// README.md, a page for each section and for each thing to do.
-fn readme(text: &str) -> Vec<Page> {
-    let page = |part, title: &str, section: &str, target: String, body: &str| Page {
-        part,
-        title: String::from(title),
-        source: String::from(README),
-        section: Some(String::from(section)),
-        target,
-        text: format!("# {title}\n{body}"),
-        depth: 0,
-    };
-    let mut first = String::new();
-    let (mut tasks, mut others) = (Vec::new(), Vec::new());
-    for section in sections(text, 2) {
-        if FIRST.contains(&section.title) {
-            if !section.title.is_empty() {
-                first.push_str(&format!("## {}\n", section.title));
-            }
-            first.push_str(&section.body);
-        } else if section.title == HOW_TO {
-            for task in sections(&section.body, 3)
-                .iter()
-                .filter(|task| !task.title.is_empty())
-            {
-                let part = tasks.is_empty().then_some("How to");
-                let words = task.title.trim_start_matches(['…', ' ']);
-                let target = format!("how-to/{}.md", anchor(words));
-                let title = capital(words);
-                tasks.push(page(part, &title, task.title, target, &task.body));
-            }
-        } else {
-            let part = others.is_empty().then_some("odkit");
-            let target = format!("{}.md", anchor(section.title));
-            others.push(page(
-                part,
-                section.title,
-                section.title,
-                target,
-                &section.body,
-            ));
-        }
-    }
-    let mut pages = vec![Page {
-        part: None,
-        title: String::from("odkit"),
-        source: String::from(README),
-        section: None,
-        target: String::from("index.md"),
-        text: format!("{first}{LINKS}"),
-        depth: 0,
-    }];
-    pages.append(&mut tasks);
-    pages.append(&mut others);
-    pages
-}
-
-fn capital(words: &str) -> String {
-    let mut letters = words.chars();
-    let first = letters.next().map(|c| c.to_ascii_uppercase());
-    first.into_iter().chain(letters).collect()
 }
 
 fn file_name(path: &Path) -> String {
@@ -207,39 +190,35 @@ pub(super) fn find<'a>(pages: &'a [Page], source: &str, heading: Option<&str>) -
 mod tests {
     use std::path::Path;
 
-    use super::{LINKS, Page, all, find, readme, summary};
+    use super::{LINKS, Page, all, find, summary};
     use crate::files;
 
-    const TEXT: &str = "# odkit\nHello.\n## Two commands\nTwo.\n## How to …\n### … run it\nRun.\n\
-                        ### … check an EDS\nCheck.\n## How fast\nFast.\n";
-
     #[test]
-    fn the_readme_is_taken_apart() {
-        let pages = readme(TEXT);
-        let list: Vec<(&str, &str)> = pages
-            .iter()
-            .map(|page| (page.title.as_str(), page.target.as_str()))
-            .collect();
-        let wanted = [
-            ("odkit", "index.md"),
-            ("Run it", "how-to/run-it.md"),
-            ("Check an EDS", "how-to/check-an-eds.md"),
-            ("How fast", "how-fast.md"),
-        ];
-        assert_eq!(list, wanted);
+    fn the_readme_is_the_first_page() {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+        let rules = [(String::from("E0101"), String::from("# E0101\n"))];
+        let pages = all(&root, &rules).expect("the documents can be read");
+        let target = |source, heading| find(&pages, source, heading).map(|page| &*page.target);
+        assert!(pages[0].text.ends_with(LINKS));
+        assert_eq!(target("README.md", None), Some("index.md"));
+        assert_eq!(target("README.md", Some("two-commands")), Some("index.md"));
         assert_eq!(
-            pages[0].text,
-            format!("# odkit\nHello.\n## Two commands\nTwo.\n{LINKS}")
+            target("docs/RULES-EDS.md", Some("e0101")),
+            Some("rules/E0101.md")
         );
-        assert_eq!(pages[2].text, "# Check an EDS\nCheck.\n");
-        let target = |heading| find(&pages, "README.md", heading).map(|page| &*page.target);
-        assert_eq!(target(Some("how-fast")), Some("how-fast.md"));
-        assert_eq!(target(Some("-run-it")), Some("how-to/run-it.md"));
-        assert_eq!(target(Some("two-commands")), Some("index.md"));
-        assert_eq!(target(None), Some("index.md"));
-        assert_eq!(find(&pages, "other.md", None), None);
-        let list = "[odkit](index.md)\n\n# How to\n\n- [Run it](how-to/run-it.md)\n";
+        assert_eq!(target("other.md", None), None);
+        let list = "[odkit](index.md)\n\n# Integrate a device\n\n\
+                    - [Run an encoder for a CANopen master](docs/how-to/run-an-encoder.md)\n";
         assert!(summary(&pages).contains(list), "{}", summary(&pages));
+        assert!(summary(&pages).contains("  - [E0101](rules/E0101.md)\n"));
+    }
+
+    /// A first page that has to be scrolled for long is read by nobody.
+    #[test]
+    fn the_readme_has_at_most_ten_kilobytes() {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+        let text = files::read(&root.join("README.md")).expect("README.md");
+        assert!(text.len() <= 10_000, "README.md has {} bytes", text.len());
     }
 
     #[test]
@@ -249,6 +228,7 @@ mod tests {
         let is_there = |source: &str| pages.iter().any(|page: &Page| page.source == source);
         let folders = [
             "docs",
+            "docs/how-to",
             "docs/datasheets",
             "playground/lessons",
             "od-cli",

@@ -100,9 +100,9 @@ pub(super) fn c(context: &Context<'_>) -> Result<()> {
     context.console.run("scripts", &mut test)
 }
 
-/// Fails where flash or RAM of the example have grown by more than 2 % since README.md was written.
+/// Fails where flash or RAM of the example have grown by more than 2 % since docs/PERFORMANCE.md was written.
 fn size(root: &Path, program: &Path) -> Result<()> {
-    let path = root.join("README.md");
+    let path = root.join("docs/PERFORMANCE.md");
     let text = std::fs::read_to_string(&path).map_err(|e| Error::io("read", &path, &e))?;
     let part = text.split("<!-- size-c -->").nth(1).unwrap_or_default();
     let numbers = part.split(' ').map(|word| word.replace(',', ""));
@@ -125,7 +125,7 @@ fn size(root: &Path, program: &Path) -> Result<()> {
         }
         _ => Err(Error::Failed(format!(
             "the example in C takes {flash} bytes of flash, and its node {ram:?} of RAM; \
-             README.md says {listed:?} between its marks `size-c`"
+             docs/PERFORMANCE.md says {listed:?} between its marks `size-c`"
         ))),
     }
 }
