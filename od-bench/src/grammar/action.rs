@@ -13,7 +13,7 @@ use super::typed::Write;
 
 /// Time when a line acts.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum When {
+pub enum When {
     /// Time when the line before it is done.
     Next,
     /// At a moment.
@@ -24,31 +24,36 @@ pub(crate) enum When {
 
 /// Action of a line.
 #[derive(Clone, PartialEq, Debug)]
-pub(crate) enum Action {
+pub enum Action {
     /// Action that a live bench supports too.
     Deed(Deed),
     /// Puts a device on the bus.
     Device(Added),
     /// A whole SDO upload.
     Read {
+        /// Address or name.
         object: String,
+        /// Expected end.
         outcome: Outcome,
     },
     /// A whole SDO download.
     Write {
+        /// Object and value.
         write: Write,
+        /// Expected end.
         outcome: Outcome,
     },
     /// Such frames do not matter; `None`: all frames matter again.
     Ignore(Option<Pattern>),
     /// Empties the queue of frames.
     Skip,
+    /// Something has to hold.
     Expect(Expect),
 }
 
 /// A device that a line puts on the bus.
 #[derive(Clone, PartialEq, Debug, Default)]
-pub(crate) struct Added {
+pub struct Added {
     /// Of a built-in device or a file; `None`: the one of scripts that name none.
     pub(crate) name: Option<String>,
     /// Of each channel.
@@ -66,28 +71,36 @@ pub(crate) struct Added {
 
 /// Expected end of an SDO transfer.
 #[derive(Clone, PartialEq, Debug)]
-pub(crate) enum Outcome {
+pub enum Outcome {
+    /// It succeeds.
     Done,
+    /// It succeeds with this value.
     Value(String),
+    /// It is aborted with this code.
     Aborts(AbortCode),
 }
 
 /// Condition of an `expect` line.
 #[derive(Clone, PartialEq, Debug)]
-pub(crate) enum Expect {
+pub enum Expect {
+    /// A frame comes.
     Frame {
+        /// The frames that are right.
         frames: Frames,
+        /// How often.
         times: u32,
+        /// When.
         timing: Timing,
     },
     /// No frame comes for this time in microseconds.
     Silence(u64),
+    /// A condition about a device or the bus line holds.
     Fact(Fact),
 }
 
 /// Time when an expected frame has to come.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Timing {
+pub enum Timing {
     /// It is there already.
     Now,
     /// Within this time in microseconds.

@@ -10,7 +10,7 @@ use crate::bench::Bench;
 
 /// A shaft that moves.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub(crate) enum Shaft {
+pub enum Shaft {
     /// To a raw position.
     At(u64),
     /// By revolutions, backwards if negative.
@@ -23,9 +23,10 @@ pub(crate) enum Shaft {
 
 /// A bus line that changes.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Wire {
+pub enum Wire {
     /// Frames can fail.
     Real(bool),
+    /// Number of terminating resistors.
     Terminators(u8),
     /// Bit rate of what is outside in kbit/s; `None`: that of the first device.
     BitRate(Option<u16>),
@@ -35,26 +36,37 @@ pub(crate) enum Wire {
 
 /// Action of a line that waits for nothing.
 #[derive(Clone, PartialEq, Debug)]
-pub(crate) enum Deed {
+pub enum Deed {
+    /// Nothing: the line only lets time pass.
     Wait,
     /// The lines that follow are about this device.
     Use(String),
+    /// Sends a frame.
     Send {
+        /// The frame.
         frame: Typed,
+        /// How often.
         times: u32,
-        /// Microseconds.
+        /// Period in microseconds.
         every: u64,
     },
+    /// Power on or off.
     Power(bool),
     /// Off for this time in microseconds, then on.
     Cycle(u64),
+    /// The shaft moves.
     Shaft(Shaft),
+    /// The rotary switches of the node ID.
     NodeSwitch(u8),
+    /// The DIP switches of the bit rate.
     RateSwitch(u8),
+    /// A fault of the device begins or ends.
     Fault(&'static str, bool),
     /// The device reports an error.
     RaiseError {
+        /// EMCY code.
         code: u16,
+        /// Bits of the error register.
         register: u8,
         /// `None`: the bytes of its family.
         info: Option<[u8; 5]>,
@@ -67,6 +79,7 @@ pub(crate) enum Deed {
     Controller(BusEvent),
     /// Bit rate of what is outside in kbit/s; `None`: it does not matter.
     BusRate(Option<u16>),
+    /// The bus line changes.
     Line(Wire),
 }
 
@@ -103,7 +116,7 @@ impl Deed {
         match self {
             Self::Wait => {}
             Self::Use(name) => bench.current = bench.named(name)?,
-            Self::Send { frame, .. } => return frame.frame(bench.present()?).map(Some),
+            Self::Send { frame, .. } => return frame.of(bench.present()?).map(Some),
             Self::Power(on) => bench.bus.set_power(bench.current, *on),
             Self::Cycle(_) => bench.bus.set_power(bench.current, false),
             Self::Shaft(shaft) => {

@@ -17,17 +17,21 @@ use crate::world::ShaftView;
 
 /// Something about a device or the bus line that holds or does not.
 #[derive(Clone, PartialEq, Debug)]
-pub(crate) enum Fact {
+pub enum Fact {
     /// The current value of an object, by address or name.
     Value(String, Test),
     /// The value after the next start; `None`: the current value.
     Saved(String, Option<Test>),
     /// `None`: the device has no power.
     State(Option<State>),
+    /// The green or the red LED shows this.
     Led {
+        /// Green, otherwise red.
         green: bool,
+        /// What it shows.
         led: Led,
     },
+    /// The node ID of the device.
     NodeId(Test),
     /// In kbit/s.
     BitRate(Test),
@@ -35,6 +39,7 @@ pub(crate) enum Fact {
     Turned(Test),
     /// Revolutions per minute.
     Rpm(Test),
+    /// This fault is active.
     Broken(&'static str),
     /// Resistors at the ends of the bus line.
     Terminators(Test),

@@ -15,13 +15,18 @@ use super::tokens::Tokens;
 use crate::device::VirtualDevice;
 use crate::words;
 
+/// Frames that are waited for.
 #[derive(Clone, PartialEq, Debug)]
-pub(crate) enum Frames {
+pub enum Frames {
+    /// With gaps.
     Pattern(Pattern),
     /// To any node, if it names none.
     Nmt(Command, Option<u8>),
+    /// The boot-up message of any node.
     BootUp,
+    /// An EMCY message; `None`: with any code.
     Emcy(Option<u16>),
+    /// An SDO abort; `None`: with any code.
     Abort(Option<AbortCode>),
     /// An SDO upload of the object was answered.
     Read(Address),
@@ -71,7 +76,8 @@ impl Frames {
         Ok(frames)
     }
 
-    pub(crate) fn matches(&self, frame: &Frame) -> bool {
+    /// Returns whether this is one of the frames.
+    pub fn matches(&self, frame: &Frame) -> bool {
         let id = frame.id().as_standard().unwrap_or(u16::MAX);
         match self {
             Self::Pattern(pattern) => pattern.matches(frame),

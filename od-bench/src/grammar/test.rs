@@ -11,7 +11,7 @@ use super::tokens::Tokens;
 
 /// A comparison with a value, as it is written.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub(crate) struct Test {
+pub struct Test {
     how: How,
     text: String,
 }

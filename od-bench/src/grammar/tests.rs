@@ -9,7 +9,7 @@ use crate::script::Script;
 #[track_caller]
 fn check(text: &str, expected: &str) {
     let shown = match Script::parse(text) {
-        Ok(script) => format!("{} lines", script.lines().count()),
+        Ok(script) => format!("{} lines", script.statements().len()),
         Err(problems) => problems
             .iter()
             .map(ToString::to_string)
@@ -218,7 +218,7 @@ fn a_frame_by_name_is_a_frame_for_the_device() {
 fn typed(text: &str, device: &crate::VirtualDevice) -> Result<String, String> {
     let tokens = super::tokens::Tokens::new(1, text);
     match super::line::line(tokens, &mut None).expect(text).1 {
-        Action::Deed(Deed::Send { frame, .. }) => frame.frame(device).map(|one| one.to_string()),
+        Action::Deed(Deed::Send { frame, .. }) => frame.of(device).map(|one| one.to_string()),
         other => panic!("{text}: {other:?}"),
     }
 }

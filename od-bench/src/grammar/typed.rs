@@ -4,15 +4,18 @@ use std::format;
 use std::prelude::v1::*;
 
 use od_model::{Address, DataType, Dictionary, values};
-use od_runtime::Frame;
+use od_runtime::{Frame, NodeId};
 use od_wire::nmt::{Command, Repr};
 use od_wire::sdo::Request;
 
+use super::problem::Problem;
+use super::tokens::Tokens;
 use crate::device::VirtualDevice;
 
 /// A frame as a line names it; its bytes may depend on the present device.
 #[derive(Clone, PartialEq, Debug)]
-pub(crate) enum Typed {
+pub enum Typed {
+    /// As its identifier and bytes.
     Frame(Frame),
     /// To a node, 0 for all; `None`: to the present device.
     Nmt(Command, Option<u8>),
@@ -26,20 +29,29 @@ pub(crate) enum Typed {
 
 /// A value for an object.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub(crate) struct Write {
-    pub(crate) object: String,
-    pub(crate) value: String,
-    /// `u16` …; `None`: that of the object.
-    pub(crate) type_name: Option<String>,
+pub struct Write {
+    /// Address or name.
+    pub object: String,
+    /// As it is written.
+    pub value: String,
+    /// The type of `as u16` …; `None`: that of the object.
+    pub data_type: Option<DataType>,
 }
 
 impl Typed {
     /// The frame, for this device.
     ///
     /// # Errors
+    /// As [`frame`](Self::frame).
+    pub(crate) fn of(&self, device: &VirtualDevice) -> Result<Frame, String> {
+        self.frame(device.node_id(), device.dictionary())
+    }
+
+    /// The frame, for a node with this dictionary.
+    ///
+    /// # Errors
     /// The object does not exist, or the value is not valid.
-    pub(crate) fn frame(&self, device: &VirtualDevice) -> Result<Frame, String> {
-        let node = device.node_id();
+    pub fn frame(&self, node: NodeId, dictionary: Dictionary<'_>) -> Result<Frame, String> {
         let request = match self {
             Self::Frame(frame) => return Ok(*frame),
             Self::Nmt(command, to) => {
@@ -52,11 +64,11 @@ impl Typed {
                 return frame.ok_or_else(|| "a remote frame has 0 to 8 bytes".into());
             }
             Self::Read(object) => {
-                let (address, _) = resolve(device.dictionary(), object)?;
+                let (address, _) = resolve(dictionary, object)?;
                 Request::InitiateUpload { address }
             }
             Self::Write(write) => {
-                let (address, bytes) = write.bytes(device.dictionary())?;
+                let (address, bytes) = write.bytes(dictionary)?;
                 let len = bytes.len();
                 let mut data = [0; 4];
                 match data.get_mut(..len).filter(|data| !data.is_empty()) {
@@ -95,18 +107,18 @@ impl Write {
     ///
     /// # Errors
     /// Reason why it cannot be written.
-    pub(crate) fn bytes(&self, dictionary: Dictionary<'_>) -> Result<(Address, Vec<u8>), String> {
+    pub fn bytes(&self, dictionary: Dictionary<'_>) -> Result<(Address, Vec<u8>), String> {
         let (address, own) = resolve(dictionary, &self.object)?;
-        let data_type = match &self.type_name {
-            Some(name) => type_named(name)?,
-            None => own.unwrap_or(DataType::Unsigned32),
-        };
+        let data_type = self.data_type.or(own).unwrap_or(DataType::Unsigned32);
         Ok((address, values::parse(data_type, &self.value)?))
     }
 }
 
-/// An object by address, whether the device has it or not, or by name.
-pub(crate) fn resolve(
+/// An object by address, whether the dictionary has it or not, or by name.
+///
+/// # Errors
+/// The object does not exist.
+pub fn resolve(
     dictionary: Dictionary<'_>,
     object: &str,
 ) -> Result<(Address, Option<DataType>), String> {
@@ -118,7 +130,9 @@ pub(crate) fn resolve(
 }
 
 /// `u16`, `i8`, `UNSIGNED16` …
-fn type_named(name: &str) -> Result<DataType, String> {
+pub(super) fn type_named(tokens: &mut Tokens<'_>) -> Result<DataType, Problem> {
+    let here = *tokens;
+    let name = tokens.next();
     let short = |data_type: &DataType| {
         let long = data_type.name();
         let short = long
@@ -127,8 +141,7 @@ fn type_named(name: &str) -> Result<DataType, String> {
             .replace("BOOLEAN", "bool");
         short.eq_ignore_ascii_case(name) || long.eq_ignore_ascii_case(name)
     };
-    DataType::ALL
-        .into_iter()
-        .find(short)
-        .ok_or_else(|| format!("type `{name}` does not exist; write u8, u16, u32, i16 …"))
+    let message = || format!("type `{name}` does not exist");
+    let found = DataType::ALL.into_iter().find(short);
+    found.ok_or_else(|| here.problem(message(), "write u8, u16, u32, i16 …"))
 }

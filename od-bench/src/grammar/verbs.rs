@@ -10,7 +10,7 @@ use super::names::nmt_command;
 use super::pattern::Pattern;
 use super::problem::Problem;
 use super::tokens::Tokens;
-use super::typed::{Typed, Write};
+use super::typed::{Typed, Write, type_named};
 use super::world::{bus, device, emcy, fault, label, power, shaft, switch, wire};
 use crate::logs::candump;
 
@@ -133,19 +133,22 @@ fn write(tokens: &mut Tokens<'_>) -> Result<Write, Problem> {
     if value.is_empty() {
         return Err(tokens.wrong("the value is missing"));
     }
-    let type_name = tokens.take("as").then(|| tokens.next().to_owned());
+    let data_type = match tokens.take("as") {
+        true => Some(type_named(tokens)?),
+        false => None,
+    };
     tokens.end()?;
     Ok(Write {
         object,
         value: value.rest().to_owned(),
-        type_name,
+        data_type,
     })
 }
 
 fn set(tokens: &mut Tokens<'_>) -> Result<Action, Problem> {
     let here = *tokens;
     let write = write(tokens)?;
-    match write.type_name {
+    match write.data_type {
         None => Ok(Action::Deed(Deed::Set(write))),
         Some(_) => Err(here.problem("the dictionary has the type of the value", "remove `as …`")),
     }

@@ -164,7 +164,8 @@ fn every_line_is_needed(
         let Ok(script) = solution.script() else {
             return;
         };
-        for line in script.lines().collect::<Vec<_>>() {
+        for statement in script.statements() {
+            let line = statement.line;
             let place = (line - solution.line) as usize;
             let mut text: Vec<_> = solution.text.lines().collect();
             let Some(left_out) = text.get_mut(place) else {

@@ -27,9 +27,13 @@ pub use host::{Bare, Host, Limited, Origin};
 pub use limits::Limits;
 pub use line::{Known, frame_of};
 pub use outcome::{Reason, Stop, Summary};
-pub use read::{Reader, Script};
+pub use read::{Reader, Script, Statement};
 pub use run::{run, run_on};
 
 pub use crate::bench::Bench;
+pub use crate::grammar::action::{Action, Added, Expect, Outcome, Timing, When};
+pub use crate::grammar::deed::{Deed, Shaft, Wire};
+pub use crate::grammar::frames::Frames;
 pub use crate::grammar::pattern::Pattern;
 pub use crate::grammar::problem::Problem;
+pub use crate::grammar::typed::{Typed, Write, resolve};

@@ -10,11 +10,15 @@ use crate::grammar::tokens::Tokens;
 
 /// One line with its place in the text.
 #[derive(Clone, PartialEq, Debug)]
-pub(super) struct Statement {
-    pub(super) line: u32,
-    pub(super) text: String,
-    pub(super) when: When,
-    pub(super) action: Action,
+pub struct Statement {
+    /// Counted from 1.
+    pub line: u32,
+    /// The line without its comment.
+    pub text: String,
+    /// When it acts.
+    pub when: When,
+    /// What it does.
+    pub action: Action,
 }
 
 /// A script that was read.
@@ -55,9 +59,9 @@ impl Script {
         }
     }
 
-    /// The numbers of the lines that say something.
-    pub fn lines(&self) -> impl Iterator<Item = u32> + '_ {
-        self.statements.iter().map(|statement| statement.line)
+    /// The lines that say something, for a program that plays them itself.
+    pub fn statements(&self) -> &[Statement] {
+        &self.statements
     }
 
     /// Number of `expect` lines, SDO lines included.

@@ -1,11 +1,13 @@
 //! A case: one of the built-in table, or a script with a head of comments.
 
+use od_bench::script::Script;
 use od_model::Refused;
 use std::fmt;
 use std::path::Path;
 use std::sync::OnceLock;
 
 use super::check::{self, BuiltIn, Check, Test};
+use super::play::placed;
 
 /// One step of a case.
 #[derive(Clone, Debug)]
@@ -114,6 +116,18 @@ impl Case {
                     in_head = false;
                     case.step(number, line).map_err(wrong)?;
                 }
+            }
+        }
+        for step in &case.steps {
+            let Step::Script(first_line, text) = step else {
+                continue;
+            };
+            // Any node ID does: the lines are read again when the node under test is known.
+            let script = Script::parse_at(&placed(text, 1), *first_line);
+            if let Some(problem) = script.err().and_then(|all| all.into_iter().next()) {
+                let message = format!("{}; {}", problem.message, problem.help);
+                let (id, line) = (id.into(), problem.line);
+                return Err(Mistake { id, line, message });
             }
         }
         Ok(case)

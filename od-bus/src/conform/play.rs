@@ -1,58 +1,56 @@
 //! Steps that are lines of a script, on any link.
 
-use od_bench::script::{Known, Pattern, frame_of};
-use od_model::{DataType, values};
+use std::collections::VecDeque;
+
+use od_bench::script::{
+    Action, Deed, Expect, Frames, Outcome, Pattern, Script, Statement, Timing, When, Write, resolve,
+};
+use od_model::{Address, DataType, values};
 use od_wire::{AbortCode, Frame};
 
 use super::dut::Dut;
 use super::end::{Checked, End, ensure, fail, lacks, skip};
 use super::sdo::abort_text;
-
-/// Lines that are about a simulated device, not about the bus.
-const WORLD: [&str; 12] = [
-    "device", "use", "shaft", "power", "switch", "fault", "emcy", "set", "bus", "line", "send",
-    "at",
-];
+use crate::link::Heard;
 
 /// Plays the lines, from the first to the last or to the one that does not hold.
-pub(crate) fn play(dut: &mut Dut<'_>, text: &str) -> Checked {
-    let mut ignored = Vec::new();
-    let periodic = Periodic::of(dut, text);
-    for line in text.lines() {
-        let line = placed(line, dut.node.raw());
-        let line = match line.find(" #") {
-            Some(at) => line[..at].trim(),
-            None => line.trim(),
-        };
-        if line.is_empty() || line.starts_with('#') {
-            continue;
+pub(crate) fn play(dut: &mut Dut<'_>, first_line: u32, text: &str) -> Checked {
+    let text = placed(text, dut.node.raw());
+    let script = match Script::parse_at(&text, first_line) {
+        Ok(script) => script,
+        Err(problems) => {
+            return skip(
+                problems
+                    .first()
+                    .map(ToString::to_string)
+                    .unwrap_or_default(),
+            );
         }
-        let (verb, rest) = line.split_once(' ').unwrap_or((line, ""));
-        match verb {
-            "wait" | "after" => {
-                let micros = duration(rest)?;
-                dut.wait(micros)?;
+    };
+    let mut player = Player {
+        periodic: Periodic::of(dut, &text),
+        ignored: Vec::new(),
+        pending: VecDeque::new(),
+    };
+    let start = dut.now();
+    for line in script.statements() {
+        match line.when {
+            When::Next => {}
+            When::After(micros) => player.wait(dut, micros)?,
+            When::At(at) => {
+                let passed = dut.now().micros_since(start);
+                player.wait(dut, at.as_micros().saturating_sub(passed))?;
             }
-            "skip" => dut.drain()?,
-            "ignore" if rest == "nothing" => ignored.clear(),
-            "ignore" => ignored.push(pattern(rest)?),
-            "expect" => expect(dut, rest, &ignored, &periodic)?,
-            "sdo" => transfer(dut, rest)?,
-            _ if WORLD.contains(&verb) => {
-                return skip(format!(
-                    "`{verb}` acts on a simulated device; `odkit run` plays it"
-                ));
-            }
-            _ => send(dut, line)?,
         }
+        player.play(dut, line)?;
     }
     Ok(())
 }
 
-/// The line with `$NODEID` as a number, and `$580` as that CAN-ID plus the node ID.
-fn placed(line: &str, node: u8) -> String {
+/// The text with `$NODEID` as a number, and `$580` as that CAN-ID plus the node ID.
+pub(crate) fn placed(text: &str, node: u8) -> String {
     let mut out = String::new();
-    let mut rest = line;
+    let mut rest = text;
     while let Some((before, after)) = rest.split_once('$') {
         out.push_str(before);
         if let Some(after) = after.strip_prefix("NODEID") {
@@ -77,46 +75,8 @@ fn placed(line: &str, node: u8) -> String {
     out + rest
 }
 
-fn unreadable<T>(line: &str, why: impl std::fmt::Display) -> Checked<T> {
-    skip(format!("`{line}` cannot be read: {why}"))
-}
-
-fn pattern(text: &str) -> Checked<Pattern> {
-    Pattern::parse(text).or_else(|error| unreadable(text, error.message))
-}
-
-/// `500ms`, `1.5s`, `20us`, `2min`, in microseconds.
-fn duration(text: &str) -> Checked<u64> {
-    let text = text.trim();
-    let unit = text
-        .find(|c: char| c.is_ascii_alphabetic())
-        .unwrap_or(text.len());
-    let (number, unit) = text.split_at(unit);
-    let scale = match unit {
-        "us" => 1.0,
-        "ms" => 1e3,
-        "s" => 1e6,
-        "min" => 6e7,
-        _ => return unreadable(text, "write 500ms, 1.5s, 20us or 2min"),
-    };
-    match number.parse::<f64>() {
-        Ok(number) if (0.0..1e9).contains(&number) => Ok((number * scale) as u64),
-        _ => unreadable(text, "write 500ms, 1.5s, 20us or 2min"),
-    }
-}
-
-fn send(dut: &mut Dut<'_>, line: &str) -> Checked {
-    let dictionary = dut.eds.dictionary();
-    let type_of = |address| dictionary.find(address).ok().map(|entry| entry.data_type);
-    let known = Known {
-        node: dut.node,
-        type_of: &type_of,
-        real: &|text| text.parse().ok(),
-    };
-    match frame_of(line, &known) {
-        Ok(frame) => dut.send(frame),
-        Err(problem) => unreadable(line, problem.message),
-    }
+fn unreadable<T>(line: &Statement, why: impl std::fmt::Display) -> Checked<T> {
+    skip(format!("`{}` cannot be read: {why}", line.text))
 }
 
 /// CAN-IDs of the messages that the node sends periodically, whatever a master does: they neither break a
@@ -155,142 +115,211 @@ fn own_sync(dut: &Dut<'_>) -> Option<u16> {
     (raw & 0x4000_0000 != 0).then_some((raw & 0x7FF) as u16)
 }
 
-/// `PATTERN`, `PATTERN within 1s`, `PATTERN after 100ms`, `silence 1s`.
-fn expect(dut: &mut Dut<'_>, text: &str, ignored: &[Pattern], periodic: &Periodic) -> Checked {
-    let is_ignored = |frame: &Frame| ignored.iter().any(|one| one.matches(frame));
-    if let Some(rest) = text.strip_prefix("silence ") {
-        let micros = duration(rest)?;
-        let came = dut.next(micros, |frame| !periodic.has(frame) && !is_ignored(frame))?;
-        return match came {
-            Some(heard) => fail(
-                format!("silence for {rest}"),
-                format!("{} came", heard.frame),
-            ),
-            None => Ok(()),
-        };
-    }
-    let split = |word: &str| text.split_once(word);
-    let (shown, micros, exact) = match (split(" within "), split(" after ")) {
-        (Some((head, time)), _) => (head, duration(time)?, false),
-        (None, Some((head, time))) => (head, duration(time)?, true),
-        // What is on its way counts as there.
-        (None, None) => (text, super::dut::QUIET, false),
-    };
-    let wanted = pattern(shown)?;
-    let from = dut.now();
-    let slack = dut.rig.slack();
-    let came = dut.next(micros, |frame| {
-        (wanted.matches(frame) || !periodic.has(frame)) && !is_ignored(frame)
-    })?;
-    let Some(heard) = came else {
-        return fail(text, "nothing came");
-    };
-    let early = exact && heard.at.micros_since(from) + slack < micros;
-    let got = format!("({:?}) {} came", heard.at, heard.frame);
-    ensure(wanted.matches(&heard.frame) && !early, text, got)
+struct Player {
+    periodic: Periodic,
+    ignored: Vec<Pattern>,
+    /// Frames that came while time passed and no line has expected yet.
+    pending: VecDeque<Heard>,
 }
 
-/// `read 1017h`, `read 1017h = 5`, `write 1017h = 5 as u16`, each with `aborts 06090030h`.
-fn transfer(dut: &mut Dut<'_>, text: &str) -> Checked {
-    let (body, aborts) = match text.split_once(" aborts ") {
-        Some((body, code)) => (body, Some(abort(code)?)),
-        None => (text, None),
-    };
-    let (kind, body) = body.split_once(' ').unwrap_or((body, ""));
-    let (object, value) = match body.split_once('=') {
-        Some((object, value)) => (object.trim(), Some(value.trim())),
-        None => (body.trim(), None),
-    };
-    let dictionary = dut.eds.dictionary();
-    let (address, own) = match (values::find(dictionary, object), values::address(object)) {
-        (Ok(entry), _) => (entry.address, Some(entry.data_type)),
-        (Err(_), Some(address)) => (address, None),
-        (Err(why), None) => return unreadable(text, why),
-    };
-    let bytes = value.map(|value| typed(value, own)).transpose()?;
-    let bounded = bytes
-        .as_ref()
-        .and_then(|bytes| dut.eds.excludes(address, bytes, dut.node));
-    let result = match (kind, bytes) {
-        ("read", wanted) => match (dut.upload(address)?, wanted) {
-            (Ok(is), Some(wanted)) => {
-                let got = format!("{} was read", values::hex(&is));
-                return ensure(
-                    is == wanted,
-                    format!("{object} = {}", values::hex(&wanted)),
-                    got,
-                );
+impl Player {
+    fn play(&mut self, dut: &mut Dut<'_>, line: &Statement) -> Checked {
+        match &line.action {
+            Action::Deed(Deed::Wait) => Ok(()),
+            Action::Deed(Deed::Send {
+                frame,
+                times,
+                every,
+            }) => {
+                let frame = frame.frame(dut.node, dut.eds.dictionary());
+                let frame = frame.or_else(|why| unreadable(line, why))?;
+                for turn in 0..*times {
+                    if turn > 0 {
+                        self.wait(dut, *every)?;
+                    }
+                    dut.send(frame)?;
+                }
+                Ok(())
             }
-            (result, _) => result.map(drop),
-        },
-        ("write", Some(_))
-            if aborts.is_none() && dut.eds.entry(address.index, address.sub).is_none() =>
-        {
+            Action::Read { object, outcome } => read(dut, line, object, outcome),
+            Action::Write { write, outcome } => self::write(dut, line, write, outcome),
+            Action::Ignore(None) => {
+                self.ignored.clear();
+                Ok(())
+            }
+            Action::Ignore(Some(pattern)) => {
+                self.pending.retain(|heard| !pattern.matches(&heard.frame));
+                self.ignored.push(pattern.clone());
+                Ok(())
+            }
+            Action::Skip => {
+                self.pending.clear();
+                dut.drain()
+            }
+            Action::Expect(expect) => self.expect(dut, line, expect),
+            Action::Deed(_) | Action::Device(_) => skip(on_a_bench(line)),
+        }
+    }
+
+    fn is_ignored(&self, frame: &Frame) -> bool {
+        self.ignored.iter().any(|one| one.matches(frame))
+    }
+
+    /// Lets time pass.
+    fn wait(&mut self, dut: &mut Dut<'_>, micros: u64) -> Checked {
+        let until = dut.now().plus_micros(micros);
+        while let Some(heard) = dut.receive(until)? {
+            if !self.is_ignored(&heard.frame) {
+                self.pending.push_back(heard);
+            }
+        }
+        Ok(())
+    }
+
+    /// The next frame that is neither ignored nor sent periodically, within `micros` microseconds. A frame of
+    /// `wanted` counts in any case.
+    fn next(
+        &mut self,
+        dut: &mut Dut<'_>,
+        micros: u64,
+        wanted: Option<&Frames>,
+    ) -> Checked<Option<Heard>> {
+        let counts = |frame: &Frame| {
+            wanted.is_some_and(|wanted| wanted.matches(frame)) || !self.periodic.has(frame)
+        };
+        while let Some(heard) = self.pending.pop_front() {
+            if counts(&heard.frame) {
+                return Ok(Some(heard));
+            }
+        }
+        dut.next(micros, |frame| counts(frame) && !self.is_ignored(frame))
+    }
+
+    fn expect(&mut self, dut: &mut Dut<'_>, line: &Statement, expect: &Expect) -> Checked {
+        let (frames, times, timing) = match expect {
+            Expect::Frame {
+                frames,
+                times,
+                timing,
+            } => (frames, *times, *timing),
+            Expect::Silence(micros) => {
+                return match self.next(dut, *micros, None)? {
+                    Some(heard) => fail(expected(line), format!("{} came", heard.frame)),
+                    None => Ok(()),
+                };
+            }
+            Expect::Fact(_) => return skip(on_a_bench(line)),
+        };
+        let (micros, exact) = match timing {
+            // What is on its way counts as there.
+            Timing::Now => (super::dut::QUIET, false),
+            Timing::Within(micros) => (micros, false),
+            Timing::After(micros) | Timing::Every(micros) => (micros, true),
+        };
+        let slack = dut.rig.slack();
+        for _ in 0..times {
+            let from = dut.now();
+            let Some(heard) = self.next(dut, micros, Some(frames))? else {
+                return fail(expected(line), "nothing came");
+            };
+            let early = exact && heard.at.micros_since(from) + slack < micros;
+            let got = format!("({:?}) {} came", heard.at, heard.frame);
+            ensure(frames.matches(&heard.frame) && !early, expected(line), got)?;
+        }
+        Ok(())
+    }
+}
+
+/// What an `expect` line wants, in its own words.
+fn expected(line: &Statement) -> &str {
+    let (_, expected) = line.text.split_once("expect ").unwrap_or(("", &line.text));
+    expected
+}
+
+fn on_a_bench(line: &Statement) -> String {
+    format!(
+        "`{}` is about a simulated device; `odkit run` plays it",
+        line.text
+    )
+}
+
+/// `sdo read 1017h`, `sdo read 1017h = 5`, each with `aborts 06020000h`.
+fn read(dut: &mut Dut<'_>, line: &Statement, object: &str, outcome: &Outcome) -> Checked {
+    let found = resolve(dut.eds.dictionary(), object);
+    let (address, data_type) = found.or_else(|why| unreadable(line, why))?;
+    let result = dut.upload(address)?;
+    if let (Outcome::Value(value), Ok(is)) = (outcome, &result) {
+        let wanted = values::parse(data_type.unwrap_or(DataType::Domain), value);
+        let wanted = wanted.or_else(|why| unreadable(line, why))?;
+        let shown = format!("{object} = {}", values::hex(&wanted));
+        return ensure(
+            *is == wanted,
+            shown,
+            format!("{} was read", values::hex(is)),
+        );
+    }
+    ended(line, result.map(drop), outcome, false)
+}
+
+/// `sdo write 1017h = 5`, `sdo write 1017h = 5 as u16`, each with `aborts 06090030h`.
+fn write(dut: &mut Dut<'_>, line: &Statement, write: &Write, outcome: &Outcome) -> Checked {
+    let found = write.bytes(dut.eds.dictionary());
+    let (address, bytes) = found.or_else(|why| unreadable(line, why))?;
+    let excluded = dut.eds.excludes(address, &bytes, dut.node);
+    let is_excluded = excluded.is_some();
+    if !matches!(outcome, Outcome::Aborts(_)) {
+        if dut.eds.entry(address.index, address.sub).is_none() {
             return lacks(format!("the EDS does not have {address}"));
         }
-        ("write", Some(bytes)) => {
-            if let (None, Some(why)) = (aborts, &bounded) {
-                return skip(why.as_str());
-            }
-            // What the case changes is put back after it, if it can be read.
-            if aborts.is_none()
-                && !matches!(address.index, 0x1003 | 0x1010 | 0x1011)
-                && let Err(End::Lost(fault)) = dut.keep(address)
-            {
-                return Err(End::Lost(fault));
-            }
-            dut.download(address, &bytes)?
+        if let Some(why) = excluded {
+            return skip(why);
         }
-        _ => return unreadable(text, "write `sdo read 6004h` or `sdo write 6001h = 4096`"),
+        keep(dut, address)?;
+    }
+    let result = dut.download(address, &bytes)?;
+    ended(line, result, outcome, is_excluded)
+}
+
+/// What the case changes is put back after it, if it can be read.
+fn keep(dut: &mut Dut<'_>, address: Address) -> Checked {
+    if matches!(address.index, 0x1003 | 0x1010 | 0x1011) {
+        return Ok(());
+    }
+    match dut.keep(address) {
+        Err(End::Lost(fault)) => Err(End::Lost(fault)),
+        _ => Ok(()),
+    }
+}
+
+/// Compares the end of a transfer with the expected one. `is_excluded`: the EDS has a limit that the value
+/// breaks, so the node may name the limit.
+fn ended(
+    line: &Statement,
+    result: Result<(), u32>,
+    outcome: &Outcome,
+    is_excluded: bool,
+) -> Checked {
+    let Outcome::Aborts(wanted) = outcome else {
+        let came = |code| format!("{} came", abort_text(code));
+        return match result {
+            Ok(()) => Ok(()),
+            Err(code) => fail(format!("{} to succeed", line.text), came(code)),
+        };
     };
-    match (result, aborts) {
-        (Ok(()), None) => Ok(()),
-        (Err(code), Some(wanted)) if code == wanted => Ok(()),
-        // The EDS has the limit, so the node may name it.
-        (Err(code), Some(wanted))
-            if wanted == AbortCode::ValueRange.code()
+    let names_limit = is_excluded && *wanted == AbortCode::ValueRange;
+    match result {
+        Err(code) if code == wanted.code() => Ok(()),
+        Err(code)
+            if names_limit
                 && (code == AbortCode::ValueTooHigh.code()
-                    || code == AbortCode::ValueTooLow.code())
-                && bounded.is_some() =>
+                    || code == AbortCode::ValueTooLow.code()) =>
         {
             Ok(())
         }
-        (result, Some(wanted)) => fail(
-            abort_text(wanted),
-            result.map_or_else(
-                |code| format!("{} came", abort_text(code)),
-                |()| "it succeeded".into(),
-            ),
-        ),
-        (Err(code), None) => fail(
-            format!("sdo {text} to succeed"),
+        Err(code) => fail(
+            abort_text(wanted.code()),
             format!("{} came", abort_text(code)),
         ),
+        Ok(()) => fail(abort_text(wanted.code()), "it succeeded"),
     }
-}
-
-fn abort(text: &str) -> Checked<u32> {
-    let digits = text.trim().trim_end_matches(['h', 'H']);
-    match u32::from_str_radix(digits, 16)
-        .ok()
-        .and_then(AbortCode::from_code)
-    {
-        Some(code) => Ok(code.code()),
-        None => unreadable(text, "write an abort code, such as 06090031h"),
-    }
-}
-
-/// The bytes of a value, by its `as u16` or by the type of the object.
-fn typed(text: &str, own: Option<DataType>) -> Checked<Vec<u8>> {
-    let (value, data_type) = match text.rsplit_once(" as ") {
-        Some((value, name)) => {
-            let long = name.trim().replace('u', "UNSIGNED").replace('i', "INTEGER");
-            let all = DataType::ALL.into_iter();
-            let found = all.clone().find(|one| one.name() == long);
-            (value.trim(), found)
-        }
-        None => (text, own),
-    };
-    let data_type = data_type.unwrap_or(DataType::Unsigned32);
-    values::parse(data_type, value).or_else(|why| unreadable(text, why))
 }

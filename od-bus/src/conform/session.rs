@@ -197,7 +197,7 @@ fn steps(case: &Case, dut: &mut Dut<'_>) -> Checked {
     for step in &case.steps {
         match step {
             Step::Check(check) => check(dut)?,
-            Step::Script(_, text) => play(dut, text)?,
+            Step::Script(line, text) => play(dut, *line, text)?,
         }
     }
     Ok(())

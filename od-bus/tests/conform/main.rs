@@ -5,6 +5,7 @@ mod late;
 mod learn;
 mod mutant;
 mod mutants;
+mod scripts;
 mod simulated;
 mod stopped;
 mod traits;

@@ -23,7 +23,7 @@ pub(super) fn said(deed: &Deed, bench: &Bench) -> String {
         Deed::Wait => return String::from("waited"),
         Deed::Use(_) => return format!("the next lines are about {name} ({})", device.title()),
         Deed::Send { frame, times, .. } => {
-            let frame = frame.frame(device).map(|frame| frame.to_string());
+            let frame = frame.of(device).map(|frame| frame.to_string());
             let frame = frame.unwrap_or_default();
             return match times {
                 1 => format!("{frame} sent"),
