@@ -64,7 +64,10 @@ const PARTS: [(&str, &[&str]); 9] = [
     ("Project", &[
         "docs/PERFORMANCE.md",
         "tests/bench/README.md",
+        "CONTRIBUTING.md",
         "ARCHITECTURE.md",
+        "docs/decisions/",
+        "SECURITY.md",
         "docs/how-to/make-a-release.md",
         "CHANGELOG.md",
     ]),
@@ -229,6 +232,7 @@ mod tests {
         let folders = [
             "docs",
             "docs/how-to",
+            "docs/decisions",
             "docs/datasheets",
             "playground/lessons",
             "od-cli",
