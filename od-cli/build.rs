@@ -74,10 +74,13 @@ fn sources(list: &mut String, root: &Path, folder: &Path) {
     let mut paths: Vec<PathBuf> = entries.map(|entry| entry.path()).collect();
     paths.sort();
     for path in paths {
-        match path.file_stem().is_some_and(|name| name == "tests") {
-            true => {}
-            false if path.is_dir() => sources(list, root, &path),
-            false => add(list, root, &path),
+        if path.file_stem().is_some_and(|name| name == "tests") {
+            continue;
+        }
+        if path.is_dir() {
+            sources(list, root, &path);
+        } else {
+            add(list, root, &path);
         }
     }
 }

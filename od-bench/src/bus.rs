@@ -123,9 +123,10 @@ impl Bus {
     /// Power comes or goes. The channels of one device have one connector, so all of them get
     /// it or lose it.
     pub fn set_power(&mut self, device: usize, on: bool) {
-        let act = match on {
-            true => VirtualDevice::power_on,
-            false => VirtualDevice::power_off,
+        let act = if on {
+            VirtualDevice::power_on
+        } else {
+            VirtualDevice::power_off
         };
         for channel in self.behind_connector(device) {
             self.with(channel, act);

@@ -46,9 +46,10 @@ impl Clock {
         if is_due {
             cx.signals.send_time();
         }
-        self.next = Some(match is_due {
-            true => next.next_period(PERIOD_US, cx.now),
-            false => next,
+        self.next = Some(if is_due {
+            next.next_period(PERIOD_US, cx.now)
+        } else {
+            next
         });
         self.next
     }

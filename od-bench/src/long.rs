@@ -168,9 +168,10 @@ impl Stream for Beside<'_> {
             return Err(AbortCode::TooLong.into());
         }
         self.long.coming(address).extend_from_slice(chunk.bytes);
-        match chunk.last {
-            true => self.keep(cx, address),
-            false => Ok(()),
+        if chunk.last {
+            self.keep(cx, address)
+        } else {
+            Ok(())
         }
     }
 

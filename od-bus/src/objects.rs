@@ -44,9 +44,10 @@ pub fn select(dictionary: Dictionary<'_>, text: &str) -> Result<Vec<Asked>, Refu
             })
             .map(|entry| of(entry, true))
             .collect();
-        return match found.is_empty() {
-            true => Err(format!("no object matches `{text}`").into()),
-            false => Ok(found),
+        return if found.is_empty() {
+            Err(format!("no object matches `{text}`").into())
+        } else {
+            Ok(found)
         };
     }
     let whole = values::address(text).filter(|_| !has_sub(text));
@@ -117,9 +118,10 @@ pub fn probe(master: &mut Master<impl Link>, text: &str) -> Result<Vec<Asked>, F
             found.push(of(address.index, address.sub, true));
         }
     }
-    match found.is_empty() {
-        true => Err(Fault::Node(format!("no object matches `{text}`"))),
-        false => Ok(found),
+    if found.is_empty() {
+        Err(Fault::Node(format!("no object matches `{text}`")))
+    } else {
+        Ok(found)
     }
 }
 

@@ -175,9 +175,10 @@ pub(crate) fn apply(args: &Apply) -> Result<(), Failure> {
     if let Some(Err(code)) = saved {
         return Err(Failure::Failed(format!("1010h:01: {}", value::abort(code))));
     }
-    match is_right {
-        true => Ok(()),
-        false => Err(Failure::Reported(1)),
+    if is_right {
+        Ok(())
+    } else {
+        Err(Failure::Reported(1))
     }
 }
 

@@ -154,9 +154,10 @@ impl Config {
 /// Does a path match a pattern? `*` matches anything but `/`, `**` anything, `?` one character; a
 /// pattern without `/` is about the name of the file.
 fn matches(pattern: &str, path: &str) -> bool {
-    let path = match pattern.contains('/') {
-        true => path,
-        false => path.rsplit('/').next().unwrap_or(path),
+    let path = if pattern.contains('/') {
+        path
+    } else {
+        path.rsplit('/').next().unwrap_or(path)
     };
     is_like(pattern.as_bytes(), path.as_bytes())
 }

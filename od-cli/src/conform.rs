@@ -109,9 +109,10 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         Shown::Text => report.render(Format::Text),
         Shown::Json => report.render(Format::Json),
     })?;
-    match report.is_pass() {
-        true => Ok(()),
-        false => Err(Failure::Reported(1)),
+    if report.is_pass() {
+        Ok(())
+    } else {
+        Err(Failure::Reported(1))
     }
 }
 

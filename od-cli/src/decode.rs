@@ -47,14 +47,13 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let mut read = Vec::new();
     for path in &args.logs {
         let shown = path.display();
-        let bytes = match path.as_os_str() == "-" {
-            true => {
-                let mut bytes = Vec::new();
-                std::io::stdin().read_to_end(&mut bytes)?;
-                bytes
-            }
-            false => crate::files::read(path)
-                .map_err(|error| Failure::Failed(format!("{shown}: {}", read_error(&error))))?,
+        let bytes = if path.as_os_str() == "-" {
+            let mut bytes = Vec::new();
+            std::io::stdin().read_to_end(&mut bytes)?;
+            bytes
+        } else {
+            crate::files::read(path)
+                .map_err(|error| Failure::Failed(format!("{shown}: {}", read_error(&error))))?
         };
         let log = logs::read(&bytes).map_err(|why| Failure::Failed(format!("{shown}: {why}")))?;
         read.push((shown.to_string(), log));

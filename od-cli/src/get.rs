@@ -101,11 +101,12 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         Format::Text => value::lines(&shown),
         Format::Json => value::json(args.node.raw(), &shown),
     })?;
-    match shown
+    if shown
         .iter()
         .any(|one| one.result.is_err() && !one.has_no_data())
     {
-        true => Err(Failure::Reported(1)),
-        false => Ok(()),
+        Err(Failure::Reported(1))
+    } else {
+        Ok(())
     }
 }

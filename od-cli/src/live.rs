@@ -46,9 +46,10 @@ fn argument(choice: &'static Choice) -> Arg {
         .default_value(choice.default)
         .conflicts_with_all(choice.conflicts)
         .value_parser(check);
-    match choice.repeats {
-        true => argument.action(ArgAction::Append),
-        false => argument,
+    if choice.repeats {
+        argument.action(ArgAction::Append)
+    } else {
+        argument
     }
 }
 

@@ -48,9 +48,10 @@ pub(crate) fn run(_: &Args) -> Result<(), Failure> {
     loop {
         // All waiting messages are read before the next step: a cancelled request is not answered, and a
         // file is checked once for all of its changes.
-        let waiting = match is_idle && is_open {
-            true => receiver.recv().map_err(|_| TryRecvError::Disconnected),
-            false => receiver.try_recv(),
+        let waiting = if is_idle && is_open {
+            receiver.recv().map_err(|_| TryRecvError::Disconnected)
+        } else {
+            receiver.try_recv()
         };
         match waiting {
             Ok(Frame::Message(text)) => server.receive(&text),

@@ -48,9 +48,10 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let is_list = path
         .extension()
         .is_some_and(|ending| ending.eq_ignore_ascii_case("cpj"));
-    let networks = match is_list {
-        true => nodelist::read(document.text(), &load),
-        false => project::read(document.text(), &load).map(|network| vec![network]),
+    let networks = if is_list {
+        nodelist::read(document.text(), &load)
+    } else {
+        project::read(document.text(), &load).map(|network| vec![network])
     };
     let networks = networks.map_err(|why| Failure::Failed(format!("{}: {why}", args.file)))?;
     let several = networks.len() > 1;
@@ -142,8 +143,9 @@ fn load(folder: &Path, name: &str) -> Result<Description, String> {
     };
     let bytes = files::read(&path).map_err(|error| read_error(&error))?;
     let description = od_eds::parse(Document::new(bytes).text()).description;
-    match description.objects.is_empty() {
-        true => Err("no object is defined; is it an EDS, DCF or XDD file?".into()),
-        false => Ok(description),
+    if description.objects.is_empty() {
+        Err("no object is defined; is it an EDS, DCF or XDD file?".into())
+    } else {
+        Ok(description)
     }
 }

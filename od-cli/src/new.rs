@@ -117,9 +117,10 @@ fn device(name: &str) -> Result<(DeviceFile, usize), Failure> {
         })?;
     }
     // The macro reads one EDS or DCF. Anything else is written as one.
-    let bytes = match is_sound && source.is_plain() {
-        true => source.document().bytes().to_vec(),
-        false => od_eds::canonical(&description).into_bytes(),
+    let bytes = if is_sound && source.is_plain() {
+        source.document().bytes().to_vec()
+    } else {
+        od_eds::canonical(&description).into_bytes()
     };
     let device = DeviceFile {
         ending,

@@ -21,9 +21,10 @@ pub(crate) fn names(description: &Description, findings: &[Finding]) -> Names {
             Some(entry) if !whole => &entry.name,
             _ => &object.name,
         };
-        let shown = match whole {
-            true => format!("{:04X}h", address.index),
-            false => address.to_string(),
+        let shown = if whole {
+            format!("{:04X}h", address.index)
+        } else {
+            address.to_string()
         };
         let named = !name.is_empty();
         Some((

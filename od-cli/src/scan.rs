@@ -39,9 +39,10 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         listen: args.listen.map_or(times.listen, Duration::from_millis),
         answer: Duration::from_millis(args.answer),
     };
-    let rate = match args.detect {
-        true => Some(detect(args)?),
-        false => None,
+    let rate = if args.detect {
+        Some(detect(args)?)
+    } else {
+        None
     };
     let mut bus = match rate {
         Some(rate) => args.bus.open_at(Some(rate))?,
@@ -54,9 +55,10 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         Format::Json => format!("{:#}", report(&scan, rate, &names)),
     })?;
     let has_conflict = scan.nodes.iter().any(|node| !node.conflict.is_empty());
-    match scan.nodes.is_empty() || has_conflict {
-        true => Err(Failure::Reported(1)),
-        false => Ok(()),
+    if scan.nodes.is_empty() || has_conflict {
+        Err(Failure::Reported(1))
+    } else {
+        Ok(())
     }
 }
 

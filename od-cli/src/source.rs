@@ -60,9 +60,10 @@ impl Lost {
         let objects = self.0.iter().filter_map(|finding| finding.object);
         let objects: Vec<String> = objects.map(|object| object.to_string()).collect();
         let count = report::plural(self.0.len(), "object");
-        let named = match objects.is_empty() {
-            true => String::new(),
-            false => format!(" ({})", objects.join(", ")),
+        let named = if objects.is_empty() {
+            String::new()
+        } else {
+            format!(" ({})", objects.join(", "))
         };
         let is_there = self
             .0
@@ -228,9 +229,10 @@ impl Source {
             description,
             findings,
         } = self.parse()?;
-        let checked = match typed {
-            true => od_eds::check::check(&description),
-            false => Vec::new(),
+        let checked = if typed {
+            od_eds::check::check(&description)
+        } else {
+            Vec::new()
         };
         let mut lost = lost::unread(&findings);
         if typed {

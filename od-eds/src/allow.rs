@@ -64,12 +64,11 @@ impl Allows {
                 allows.close(open, line.number);
                 open = allows.allows.len();
                 let name = inside.split(']').next().unwrap_or(inside).trim();
-                scope = match name.eq_ignore_ascii_case("FileInfo") {
-                    true => Scope::File,
-                    false => {
-                        let index = object_of(name);
-                        Scope::Section(line.number, u32::MAX, index)
-                    }
+                scope = if name.eq_ignore_ascii_case("FileInfo") {
+                    Scope::File
+                } else {
+                    let index = object_of(name);
+                    Scope::Section(line.number, u32::MAX, index)
                 };
             } else if let Some(body) = trimmed.strip_prefix([';', '#']) {
                 let body = body.trim_start();

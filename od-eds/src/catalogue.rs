@@ -207,9 +207,10 @@ impl Blanks<'_> {
             Fact::OneOf(facts) => {
                 let mut all = self.all(facts, form);
                 let last = all.pop().unwrap_or_default();
-                match all.is_empty() {
-                    true => last,
-                    false => format!("{} or {last}", all.join(", ")),
+                if all.is_empty() {
+                    last
+                } else {
+                    format!("{} or {last}", all.join(", "))
                 }
             }
         }

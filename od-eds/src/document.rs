@@ -249,10 +249,11 @@ impl Document {
         let end = self.line_end(at);
         let start = self.next_line(at);
         let mut text = lines.join(end);
-        match start == 0 || self.text[..start].ends_with(['\r', '\n']) {
-            true => text.push_str(end),
+        if start == 0 || self.text[..start].ends_with(['\r', '\n']) {
+            text.push_str(end)
+        } else {
             // The last line has no line end, and the new last line has none either.
-            false => text.insert_str(0, end),
+            text.insert_str(0, end)
         }
         Edit {
             range: start..start,
@@ -271,9 +272,10 @@ struct Place<'a> {
 impl Place<'_> {
     /// The byte that belongs to a place in the text, which lies ahead.
     fn find(&self, text: usize) -> usize {
-        match self.document.is_plain() {
-            true => text + self.document.mark,
-            false => self.byte + self.document.len_of(self.text..text, self.byte),
+        if self.document.is_plain() {
+            text + self.document.mark
+        } else {
+            self.byte + self.document.len_of(self.text..text, self.byte)
         }
     }
 
@@ -293,9 +295,10 @@ impl Place<'_> {
 /// A piece of a line that must come back as it is.
 fn one_line(text: &str, forbidden: &[char]) -> Result<(), EditError> {
     let fits = !text.contains(['\r', '\n']) && !text.contains(forbidden) && text == text.trim();
-    match fits {
-        true => Ok(()),
-        false => Err(EditError::NotOneLine(text.to_owned())),
+    if fits {
+        Ok(())
+    } else {
+        Err(EditError::NotOneLine(text.to_owned()))
     }
 }
 

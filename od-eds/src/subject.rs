@@ -118,9 +118,10 @@ pub(crate) fn is_definition(object: &ObjectDescription) -> bool {
 
 /// An address in a sentence: without sub-index if the object has only one value.
 pub(crate) fn shown(object: &ObjectDescription, address: Address) -> Fact {
-    match !object.code.has_members() && address.sub == 0 {
-        true => Fact::Index(address.index),
-        false => Fact::Object(address),
+    if !object.code.has_members() && address.sub == 0 {
+        Fact::Index(address.index)
+    } else {
+        Fact::Object(address)
     }
 }
 

@@ -182,9 +182,10 @@ fn cases() -> Vec<Case<'static>> {
     let mut known: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
     let mut name = "";
     for line in kinds.lines() {
-        match line.starts_with('%') {
-            true => name = line,
-            false => known.entry(name).or_default().push(line),
+        if line.starts_with('%') {
+            name = line
+        } else {
+            known.entry(name).or_default().push(line)
         }
     }
     let mut found: Vec<Case<'_>> = Vec::new();

@@ -47,9 +47,10 @@ impl CobId {
 
     /// In words: `180h + node ID`.
     pub(crate) fn words(self, address: Address) -> String {
-        let mut words = match self.node_id {
-            true => format!("{:X}h + node ID", self.can_id),
-            false => format!("{:X}h", self.can_id),
+        let mut words = if self.node_id {
+            format!("{:X}h + node ID", self.can_id)
+        } else {
+            format!("{:X}h", self.can_id)
         };
         if self.extended {
             words.push_str(", 29 bits");

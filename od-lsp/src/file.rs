@@ -89,9 +89,10 @@ impl File {
 
     /// The byte order mark that the client left in the text.
     pub(crate) fn mark(&self) -> &str {
-        match self.str().starts_with(MARK) {
-            true => &self.str()[..MARK.len_utf8()],
-            false => "",
+        if self.str().starts_with(MARK) {
+            &self.str()[..MARK.len_utf8()]
+        } else {
+            ""
         }
     }
 
@@ -126,19 +127,19 @@ impl File {
     fn read(&self, host: &dyn Host) -> Seen {
         let mut layout = Layout::default();
         let is_eds = self.kind == Kind::Eds;
-        let parsed = match self.mark().is_empty() {
-            true => self.document().load_with(&mut |sections| {
+        let parsed = if self.mark().is_empty() {
+            self.document().load_with(&mut |sections| {
                 if is_eds {
                     layout = Layout::new(sections);
                 }
-            }),
+            })
+        } else {
             // Places are those of the text with the mark.
-            false => {
-                if is_eds && !od_eds::is_xml(self.str()) {
-                    layout = Layout::of(self.str());
-                }
-                od_eds::load(self.str())
+
+            if is_eds && !od_eds::is_xml(self.str()) {
+                layout = Layout::of(self.str());
             }
+            od_eds::load(self.str())
         };
         let Parsed {
             description,

@@ -40,9 +40,10 @@ pub(crate) fn entry(
     files: Option<&Files>,
 ) -> String {
     let name = escape(&entry.name);
-    let mut text = match member {
-        true => format!("**{address}** {name}"),
-        false => format!("**{:04X}h** {name}", address.index),
+    let mut text = if member {
+        format!("**{address}** {name}")
+    } else {
+        format!("**{:04X}h** {name}", address.index)
     };
     text.push_str(&format!(
         "\n\n{data_type}, `{}`: {}",
@@ -63,9 +64,10 @@ pub(crate) fn entry(
         (None, Some(high)) => text.push_str(&format!(", at most {}", value(high))),
         (None, None) => {}
     }
-    text.push_str(match *entry.mappable {
-        true => ". A PDO can carry it.",
-        false => ". Not for PDOs.",
+    text.push_str(if *entry.mappable {
+        ". A PDO can carry it."
+    } else {
+        ". Not for PDOs."
     });
     match entry.group_at(address) {
         Group::None => {}

@@ -81,14 +81,13 @@ fn about(source: &Source, family: &Family) -> String {
 /// The tokens of what was written here: escaped strings and checked identifiers.
 fn lex(text: &str) -> TokenStream {
     // `proc_macro2` lexes twice, to be safe from input that this is not.
-    let tokens = match proc_macro::is_available() {
-        true => text
-            .parse::<proc_macro::TokenStream>()
+    let tokens = if proc_macro::is_available() {
+        text.parse::<proc_macro::TokenStream>()
             .map(TokenStream::from)
-            .map_err(|error| error.to_string()),
-        false => text
-            .parse::<TokenStream>()
-            .map_err(|error| error.to_string()),
+            .map_err(|error| error.to_string())
+    } else {
+        text.parse::<TokenStream>()
+            .map_err(|error| error.to_string())
     };
     tokens.unwrap_or_else(|error| {
         let message = format!("odkit made code that does not lex, please report this: {error}");
@@ -122,9 +121,10 @@ fn device(out: &mut String, input: &Input, device: &Device, of_variant: Option<&
 }
 
 fn hand_on(from: &str, to: &str) -> String {
-    match from == to {
-        true => from.to_string(),
-        false => format!("{from} as {to}"),
+    if from == to {
+        from.to_string()
+    } else {
+        format!("{from} as {to}")
     }
 }
 
@@ -196,9 +196,10 @@ static ROWS: [Row; {entries}] = rows("
     bytes(out, pool.iter().flat_map(|word| word.to_le_bytes()));
     let _ = write!(out, ");\nstatic NAMES: [[Range; 2]; {entries}] = names(");
     bytes(out, name_words.flat_map(u32::to_le_bytes));
-    let (number, make, kind) = match entries <= SMALL {
-        true => ("u8", "small_buckets", "Bytes"),
-        false => ("u16", "buckets", "Words"),
+    let (number, make, kind) = if entries <= SMALL {
+        ("u8", "small_buckets", "Bytes")
+    } else {
+        ("u16", "buckets", "Words")
     };
     let _ = write!(
         out,
@@ -224,9 +225,10 @@ pub const STORE_LEN: usize = DICTIONARY.store_len();
 fn extras(input: &Input, tables: &Tables) -> Option<usize> {
     let dictionary = tables.dictionary();
     let has = |index, service| dictionary.has(index) && !input.services.lacks(service);
-    let servers = match input.services.lacks("SERVERS") {
-        true => 0,
-        false => dictionary.servers(),
+    let servers = if input.services.lacks("SERVERS") {
+        0
+    } else {
+        dictionary.servers()
     };
     let has_clocks = has(0x1006, "SYNC_PRODUCER") || has(0x1012, "TIME");
     (servers > 0 || has_clocks).then_some(servers)

@@ -186,9 +186,10 @@ impl Findings<'_> {
                 Vec::new()
             };
         }
-        let mut known = match before.objects.is_empty() {
-            true => Vec::new(),
-            false => od_eds::check::check(before),
+        let mut known = if before.objects.is_empty() {
+            Vec::new()
+        } else {
+            od_eds::check::check(before)
         };
         known.retain(Finding::is_unsound);
         let (old, new): (Vec<_>, Vec<_>) = found

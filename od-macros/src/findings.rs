@@ -97,12 +97,13 @@ impl Patch<'_> {
 fn without(edit: &Edit, finding: &Sentence) -> String {
     let target = *edit.target;
     let about = finding.address.map(|address| address.index);
-    match about == Some(target.index) {
-        true => format!("remove the statement `remove {target}`"),
-        false => format!(
+    if about == Some(target.index) {
+        format!("remove the statement `remove {target}`")
+    } else {
+        format!(
             "{}, or remove the statement `remove {target}`",
             finding.help
-        ),
+        )
     }
 }
 

@@ -136,9 +136,10 @@ fn name_items(items: &mut [Item], naming: &Naming<'_>, report: &mut Report) {
             .filter(|item| item.is_module() == modules)
             .map(|item| Wanted {
                 target: Target::object(item.index),
-                derived: match modules {
-                    true => names::module(&item.label, item.index),
-                    false => names::constant(&item.label, item.index, None),
+                derived: if modules {
+                    names::module(&item.label, item.index)
+                } else {
+                    names::constant(&item.label, item.index, None)
                 },
                 kept: kept
                     .get(&item.index)
@@ -146,9 +147,10 @@ fn name_items(items: &mut [Item], naming: &Naming<'_>, report: &mut Report) {
                     .map(|kept| kept.name.clone()),
             })
             .collect();
-        let taken = match modules {
-            true => naming.modules.clone(),
-            false => CONSTANTS.map(String::from).into(),
+        let taken = if modules {
+            naming.modules.clone()
+        } else {
+            CONSTANTS.map(String::from).into()
         };
         let named = assign(&wanted, &taken, &renames, modules, report);
         for item in items.iter_mut() {
@@ -263,10 +265,12 @@ fn miswritten(name: &str, target: Target, modules: bool) -> Option<String> {
             "`{name}` is a keyword\nhelp: `rename {target} = {name}_;`"
         ));
     }
-    let (right, what) = match modules {
-        true => (name.to_ascii_lowercase(), "a RECORD or ARRAY, a module"),
-        false if target.sub.is_some() => (name.to_ascii_uppercase(), "a member, a constant"),
-        false => (name.to_ascii_uppercase(), "a VAR, a constant"),
+    let (right, what) = if modules {
+        (name.to_ascii_lowercase(), "a RECORD or ARRAY, a module")
+    } else if target.sub.is_some() {
+        (name.to_ascii_uppercase(), "a member, a constant")
+    } else {
+        (name.to_ascii_uppercase(), "a VAR, a constant")
     };
     (right != name).then(|| {
         format!(

@@ -84,9 +84,10 @@ fn finish(joined: String, index: u16, sub: Option<u8>) -> String {
         (true, None) => format!("OBJECT_{index:04X}"),
         (true, Some(sub)) => format!("SUB_{sub:02X}"),
     };
-    match joined.starts_with(|c: char| c.is_ascii_digit()) {
-        true => format!("_{joined}"),
-        false => joined,
+    if joined.starts_with(|c: char| c.is_ascii_digit()) {
+        format!("_{joined}")
+    } else {
+        joined
     }
 }
 
@@ -98,10 +99,7 @@ pub(crate) fn constant(name: &str, index: u16, sub: Option<u8>) -> String {
 /// `Identity object` → `identity_object`.
 pub(crate) fn module(name: &str, index: u16) -> String {
     let name = finish(words(name).join("_"), index, None).to_ascii_lowercase();
-    match is_keyword(&name) {
-        true => name + "_",
-        false => name,
-    }
+    if is_keyword(&name) { name + "_" } else { name }
 }
 
 /// Is it one of Rust's keywords?

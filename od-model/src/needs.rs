@@ -78,9 +78,10 @@ impl Dictionary<'_> {
     #[doc(hidden)]
     pub const fn position(&self, key: u32) -> Option<usize> {
         let position = index::first(self.rows(), key);
-        match position < self.len() && self.rows()[position].key() == key {
-            true => Some(position),
-            false => None,
+        if position < self.len() && self.rows()[position].key() == key {
+            Some(position)
+        } else {
+            None
         }
     }
 

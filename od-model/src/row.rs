@@ -85,9 +85,10 @@ const fn unpack(kind: u32, bits: u64, is_text: bool) -> Literal {
         6 => Literal::Real(f64::from_bits(bits)),
         RANGE => {
             let range = Range::new(low, (bits >> 32) as u32);
-            match is_text {
-                true => Literal::Text(range),
-                false => Literal::Bytes(range),
+            if is_text {
+                Literal::Text(range)
+            } else {
+                Literal::Bytes(range)
             }
         }
         _ => Literal::None,
@@ -247,9 +248,10 @@ impl Row {
     #[inline(always)]
     pub const fn data_type(self) -> DataType {
         let number = (self.0[0] >> 3 & 31) as usize;
-        match number < DataType::ALL.len() {
-            true => DataType::ALL[number],
-            false => DataType::Unsigned8,
+        if number < DataType::ALL.len() {
+            DataType::ALL[number]
+        } else {
+            DataType::Unsigned8
         }
     }
 
@@ -314,9 +316,10 @@ impl Row {
     #[inline(always)]
     pub const fn default(self, pool: &[u32], node_id: u8) -> u64 {
         let (kind, at) = (self.0[0] & 7, self.0[2]);
-        match kind < WIDE {
-            true => number(kind, at as u64, node_id),
-            false => wide(pool, at as usize),
+        if kind < WIDE {
+            number(kind, at as u64, node_id)
+        } else {
+            wide(pool, at as usize)
         }
     }
 
@@ -363,9 +366,10 @@ impl Row {
         let [head, _, payload, flags] = self.0;
         let is_text = self.data_type() as u16 == DataType::VisibleString as u16;
         let (kind, at) = (head & 7, payload as usize);
-        let default = match kind < WIDE {
-            true => payload as u64,
-            false => bits(pool, at, kind),
+        let default = if kind < WIDE {
+            payload as u64
+        } else {
+            bits(pool, at, kind)
         };
         let (mut low, mut high) = (Literal::None, Literal::None);
         let limits = (flags >> 14) as usize;

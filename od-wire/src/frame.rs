@@ -182,9 +182,10 @@ impl Frame {
 
     /// The frame as any type of the `embedded-can` ecosystem; `None` if that type refuses it.
     pub fn to_can<F: embedded_can::Frame>(&self) -> Option<F> {
-        match self.remote {
-            true => F::new_remote(Id::from(self.id), self.dlc.into()),
-            false => F::new(Id::from(self.id), self.data()),
+        if self.remote {
+            F::new_remote(Id::from(self.id), self.dlc.into())
+        } else {
+            F::new(Id::from(self.id), self.data())
         }
     }
 

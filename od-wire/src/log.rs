@@ -17,9 +17,10 @@ impl Format for CanId {
 
 impl Format for Frame {
     fn format(&self, f: Formatter<'_>) {
-        match self.is_remote() {
-            true => write!(f, "{}#R{=u8}", self.id(), self.dlc()),
-            false => write!(f, "{}#{=[u8]:02X}", self.id(), self.data()),
+        if self.is_remote() {
+            write!(f, "{}#R{=u8}", self.id(), self.dlc())
+        } else {
+            write!(f, "{}#{=[u8]:02X}", self.id(), self.data())
         }
     }
 }

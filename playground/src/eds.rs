@@ -21,9 +21,10 @@ pub fn check_eds(text: &str) -> Vec<JsValue> {
 #[wasm_bindgen(js_name = fixEds)]
 pub fn fix_eds(text: &str, guess: bool) -> String {
     use od_eds::fix::{Applicability, fix};
-    let level = match guess {
-        true => Applicability::Unsafe,
-        false => Applicability::Safe,
+    let level = if guess {
+        Applicability::Unsafe
+    } else {
+        Applicability::Safe
     };
     let document = od_eds::Document::new(text);
     let fixed = fix(&document, level, |document| document.load().findings);

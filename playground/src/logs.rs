@@ -60,9 +60,10 @@ pub fn write_log(ending: &str, frames: &[u8]) -> Result<Vec<u8>, JsError> {
 }
 
 fn line(bytes: &[u8]) -> Option<Record> {
-    let what = match packed::is_disturbed(bytes) {
-        true => What::Error,
-        false => What::Frame(packed::frame(bytes)?),
+    let what = if packed::is_disturbed(bytes) {
+        What::Error
+    } else {
+        What::Frame(packed::frame(bytes)?)
     };
     Some(Record {
         at: Instant::from_micros(packed::micros(bytes)? as u64),

@@ -19,9 +19,10 @@ pub fn mapped_values(
     bits: u8,
     type_name: &str,
 ) -> Vec<f64> {
-    let id = match extended {
-        true => CanId::extended(id),
-        false => CanId::standard(id as u16),
+    let id = if extended {
+        CanId::extended(id)
+    } else {
+        CanId::standard(id as u16)
     };
     values(frames, Some(Place::Mapped { id, first, bits }), type_name)
 }

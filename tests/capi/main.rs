@@ -168,8 +168,9 @@ fn main() -> ExitCode {
         faults.len(),
         start.elapsed().as_secs_f64()
     );
-    match faults.is_empty() {
-        true => ExitCode::SUCCESS,
-        false => ExitCode::FAILURE,
+    if faults.is_empty() {
+        ExitCode::SUCCESS
+    } else {
+        ExitCode::FAILURE
     }
 }

@@ -40,14 +40,15 @@ pub(crate) fn play(program: Program, folder: &Path, told: &[u8]) -> Result<Vec<u
     let output = command.current_dir(&files).stdin(Stdio::null()).output();
     let output = output.map_err(|e| io(name, e))?;
     let bytes = std::fs::read(&answers).unwrap_or_default();
-    match output.status.success() {
-        true => Ok(bytes),
-        false => Err(format!(
+    if output.status.success() {
+        Ok(bytes)
+    } else {
+        Err(format!(
             "{} after {} bytes of answers: {}",
             output.status,
             bytes.len(),
             String::from_utf8_lossy(&output.stderr)
-        )),
+        ))
     }
 }
 

@@ -102,11 +102,12 @@ pub(crate) fn check(rows: &[(&str, Worst)]) -> Result<(), String> {
     };
     let (was, now) = (numbers(listed), numbers(&table));
     let mut pairs = was.iter().zip(&now);
-    match was.len() != now.len() || pairs.any(|(was, now)| now * 50 > was * 51) {
-        true => Err(format!(
+    if was.len() != now.len() || pairs.any(|(was, now)| now * 50 > was * 51) {
+        Err(format!(
             "more instructions than docs/PERFORMANCE.md says; with ODKIT_ACCEPT=1 this test renews the \
              table:\n{table}"
-        )),
-        false => Ok(()),
+        ))
+    } else {
+        Ok(())
     }
 }

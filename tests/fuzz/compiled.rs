@@ -102,9 +102,10 @@ fn compile(folder: &Path, batch: &[String]) -> Result<(), String> {
         .env("CARGO_TARGET_DIR", folder.join("target"))
         .output()
         .map_err(|error| format!("cargo does not run: {error}"))?;
-    match output.stdout == b"equal\n" {
-        true => Ok(()),
-        false => Err(String::from_utf8_lossy(&output.stderr).into_owned()),
+    if output.stdout == b"equal\n" {
+        Ok(())
+    } else {
+        Err(String::from_utf8_lossy(&output.stderr).into_owned())
     }
 }
 

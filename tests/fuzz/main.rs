@@ -151,9 +151,10 @@ fn names() -> String {
 
 /// The path itself, or from the root of the repository: cargo runs tests in their package.
 fn there(path: &Path) -> PathBuf {
-    match path.exists() {
-        true => path.into(),
-        false => repository("").join(path),
+    if path.exists() {
+        path.into()
+    } else {
+        repository("").join(path)
     }
 }
 

@@ -48,9 +48,10 @@ fn after_the_last_step_comes_the_first() {
         assert_eq!(bench.position(), last, "{}", model.name);
         // A turn less than all: a singleturn does not see it.
         bench.turn(model, -i64::from(model.resolution));
-        let expected = match model.is_multiturn() {
-            true => last - model.resolution,
-            false => last,
+        let expected = if model.is_multiturn() {
+            last - model.resolution
+        } else {
+            last
         };
         assert_eq!(bench.position(), expected, "{}", model.name);
     }
@@ -213,9 +214,10 @@ fn a_multiturn_alone_has_a_battery() {
         bench.encoder.set_fault(Fault::Battery, true);
         bench.with(|node, device, now| node.handle_change(device, now));
         let emcy = Frame::standard(0x81, &[0x00, 0xFF, 0x81, 0, 0, 0x10, 0, 0]);
-        let (sent, warnings) = match model.is_multiturn() {
-            true => (vec![emcy], 0x10),
-            false => (vec![], 0),
+        let (sent, warnings) = if model.is_multiturn() {
+            (vec![emcy], 0x10)
+        } else {
+            (vec![], 0)
         };
         assert_eq!(bench.sent(), sent, "{}", model.name);
         assert_eq!(bench.read(0x6505, 0), warnings, "{}", model.name);

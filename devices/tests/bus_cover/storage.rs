@@ -65,9 +65,10 @@ fn statistics_survive_a_restore() {
         bench.encoder.set_fault(Fault::Position, broken);
         bench.with(|node, device, now| node.handle_change(device, now));
         let emcy = bench.sent();
-        let expected: [u8; 8] = match broken {
-            true => [0x20, 0x73, 0x81, 1, 0, 0, 0, 0],
-            false => [0; 8],
+        let expected: [u8; 8] = if broken {
+            [0x20, 0x73, 0x81, 1, 0, 0, 0, 0]
+        } else {
+            [0; 8]
         };
         assert_eq!(emcy, [Frame::standard(0x81, &expected)]);
     }

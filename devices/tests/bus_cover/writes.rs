@@ -207,9 +207,10 @@ fn every_length() {
             let mask = u32::try_from((1u64 << (8 * bytes)) - 1).unwrap();
             let value = low | (0xA5A5_A5A5 & !mask);
             for (command, size) in [(0x23, 4), (0x27, 3), (0x2B, 2), (0x2F, 1), (0x22, bytes)] {
-                let expected = match size < bytes {
-                    true => Err(GENERAL),
-                    false => rule(low, model),
+                let expected = if size < bytes {
+                    Err(GENERAL)
+                } else {
+                    rule(low, model)
                 };
                 let what = format!("{} {index:04X}h:{sub:02X} {command:X}h", model.name);
                 let given = answer(&mut bench, request(command, index, sub, value));

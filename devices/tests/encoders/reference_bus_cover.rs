@@ -19,9 +19,10 @@ struct Model {
 impl Model {
     /// Steps, range, and the position where counting starts again.
     fn scale(&self) -> (i128, i128, i128) {
-        let (steps, range) = match self.scaling {
-            true => (self.steps, self.range),
-            false => (self.sensor.0, self.sensor.0 * self.sensor.1),
+        let (steps, range) = if self.scaling {
+            (self.steps, self.range)
+        } else {
+            (self.sensor.0, self.sensor.0 * self.sensor.1)
         };
         (steps, range, range.min(steps * self.sensor.1))
     }

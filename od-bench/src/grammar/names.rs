@@ -23,10 +23,12 @@ pub(crate) fn nmt_command(tokens: &mut Tokens<'_>) -> Result<(Command, Option<u8
             ("reset-comm", Command::ResetCommunication),
         ],
     )?;
-    let node = match tokens.is_empty() {
-        true => None,
-        false if tokens.take("all") => Some(0),
-        false => Some(tokens.number(0, 127)? as u8),
+    let node = if tokens.is_empty() {
+        None
+    } else if tokens.take("all") {
+        Some(0)
+    } else {
+        Some(tokens.number(0, 127)? as u8)
     };
     Ok((command, node))
 }

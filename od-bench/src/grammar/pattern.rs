@@ -110,9 +110,10 @@ impl Pattern {
             return frame.id() == self.id && frame.is_remote();
         };
         let data = frame.data();
-        let long_enough = match self.open {
-            true => data.len() >= bytes.len(),
-            false => data.len() == bytes.len(),
+        let long_enough = if self.open {
+            data.len() >= bytes.len()
+        } else {
+            data.len() == bytes.len()
         };
         frame.id() == self.id
             && !frame.is_remote()

@@ -66,11 +66,10 @@ impl Test {
         }
         let here = *tokens;
         let test = Self::value(how.map_or(How::Equal, |(_, how)| *how), tokens)?;
-        match test.text.split("..").all(|part| number(part).is_some()) {
-            true => Ok(test),
-            false => {
-                Err(here.problem(format!("`{}` is not a number", test.text), "write a number"))
-            }
+        if test.text.split("..").all(|part| number(part).is_some()) {
+            Ok(test)
+        } else {
+            Err(here.problem(format!("`{}` is not a number", test.text), "write a number"))
         }
     }
 

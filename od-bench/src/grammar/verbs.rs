@@ -133,9 +133,10 @@ fn write(tokens: &mut Tokens<'_>) -> Result<Write, Problem> {
     if value.is_empty() {
         return Err(tokens.wrong("the value is missing"));
     }
-    let data_type = match tokens.take("as") {
-        true => Some(type_named(tokens)?),
-        false => None,
+    let data_type = if tokens.take("as") {
+        Some(type_named(tokens)?)
+    } else {
+        None
     };
     tokens.end()?;
     Ok(Write {
@@ -158,9 +159,10 @@ fn sdo(tokens: &mut Tokens<'_>) -> Result<Action, Problem> {
     let here = *tokens;
     let kind = tokens.next();
     let mut body = tokens.split_at_word(&["aborts"]);
-    let aborts = match tokens.take("aborts") {
-        true => Some(Outcome::Aborts(frames::abort(tokens)?)),
-        false => None,
+    let aborts = if tokens.take("aborts") {
+        Some(Outcome::Aborts(frames::abort(tokens)?))
+    } else {
+        None
     };
     match kind {
         "write" if body.rest().contains('=') => {

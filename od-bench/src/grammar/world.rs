@@ -205,8 +205,9 @@ pub(super) fn wire(tokens: &mut Tokens<'_>) -> Result<Action, Problem> {
 
 /// In kbit/s, or `any`.
 fn bit_rate(tokens: &mut Tokens<'_>) -> Result<Option<u16>, Problem> {
-    match tokens.take("any") {
-        true => Ok(None),
-        false => Ok(Some(tokens.number(1, 1000)? as u16)),
+    if tokens.take("any") {
+        Ok(None)
+    } else {
+        Ok(Some(tokens.number(1, 1000)? as u16))
     }
 }

@@ -73,9 +73,10 @@ choice! {
 impl Input {
     /// Sends a frame from outside.
     pub fn send(frame: &Frame) -> Self {
-        let data = match frame.is_remote() {
-            true => std::vec![0; frame.dlc().into()],
-            false => frame.data().to_vec(),
+        let data = if frame.is_remote() {
+            std::vec![0; frame.dlc().into()]
+        } else {
+            frame.data().to_vec()
         };
         Self::Send {
             id: frame.id().raw(),
@@ -89,13 +90,15 @@ impl Input {
 /// A frame from its parts; of a remote one only the number of bytes counts. `None` for more than
 /// eight bytes.
 pub fn frame(id: u32, data: &[u8], extended: bool, remote: bool) -> Option<Frame> {
-    let id = match extended {
-        true => CanId::extended(id),
-        false => CanId::standard(id as u16),
+    let id = if extended {
+        CanId::extended(id)
+    } else {
+        CanId::standard(id as u16)
     };
-    match remote {
-        true => Frame::remote(id, u8::try_from(data.len()).ok()?),
-        false => Frame::new(id, data),
+    if remote {
+        Frame::remote(id, u8::try_from(data.len()).ok()?)
+    } else {
+        Frame::new(id, data)
     }
 }
 

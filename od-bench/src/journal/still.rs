@@ -69,9 +69,12 @@ impl Journal {
         });
         each(&switches);
         each(&|node, _| vec![Input::Power { node, on: false }]);
-        each(&|node, one| match one.is_powered {
-            true => vec![Input::Power { node, on: true }],
-            false => Vec::new(),
+        each(&|node, one| {
+            if one.is_powered {
+                vec![Input::Power { node, on: true }]
+            } else {
+                Vec::new()
+            }
         });
         each(&|node, one| {
             vec![Input::Eeprom {
@@ -126,14 +129,14 @@ impl Journal {
 
     fn station(&mut self, node: usize) -> Option<Station> {
         let is_its = |input: &&&Input| matches!(input, Input::Follow { node: one, .. } if usize::from(*one) == node);
-        let profile = match self.rig.moves(node) {
-            true => self
-                .past()
+        let profile = if self.rig.moves(node) {
+            self.past()
                 .iter()
                 .rev()
                 .find(is_its)
-                .map(|input| (*input).clone()),
-            false => None,
+                .map(|input| (*input).clone())
+        } else {
+            None
         };
         self.rig.bus.with(node, |device, now| {
             let shaft = device.shaft(now);

@@ -105,9 +105,10 @@ fn seen(who: Who, tokens: &mut Tokens<'_>) -> Result<(Seen, Option<String>), Pro
     while !tokens.is_empty() {
         if tokens.take("every") {
             let low = tokens.duration()?;
-            let high = match tokens.take("to") {
-                true => tokens.duration()?,
-                false => low,
+            let high = if tokens.take("to") {
+                tokens.duration()?
+            } else {
+                low
             };
             every = Some((low, high));
         } else if tokens.take("within") {

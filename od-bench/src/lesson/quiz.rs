@@ -49,9 +49,10 @@ impl Quiz {
 /// It is neither.
 pub fn judge(answer: &Pattern, given: &str) -> Result<Judgement, Problem> {
     let given = given.trim();
-    let whole = match given.contains('#') {
-        true => given.to_uppercase(),
-        false => std::format!("{}#{given}", answer.id()),
+    let whole = if given.contains('#') {
+        given.to_uppercase()
+    } else {
+        std::format!("{}#{given}", answer.id())
     };
     let frame = candump::parse_frame(&whole).map_err(|error| Problem {
         line: 1,
@@ -66,9 +67,10 @@ pub fn judge(answer: &Pattern, given: &str) -> Result<Judgement, Problem> {
         wrong_bytes: vec![],
     };
     if let Some(bytes) = answer.bytes() {
-        judgement.wrong_length = match answer.is_open() {
-            true => frame.data().len() < bytes.len(),
-            false => frame.data().len() != bytes.len(),
+        judgement.wrong_length = if answer.is_open() {
+            frame.data().len() < bytes.len()
+        } else {
+            frame.data().len() != bytes.len()
         };
         let wrong = |(at, byte): (usize, &Option<u8>)| {
             let given = frame.data().get(at)?;

@@ -42,9 +42,10 @@ pub(super) fn reader<'t>(lines: &[&'t str]) -> Reader<'t> {
         }
         let time = stamp::seconds(first).filter(|_| first.contains('.'));
         let time = time.ok_or("the time stamp is missing")?;
-        last = match is_relative {
-            true => time.saturating_add(last),
-            false => time,
+        last = if is_relative {
+            time.saturating_add(last)
+        } else {
+            time
         };
         record(
             Instant::from_micros(last),

@@ -112,9 +112,10 @@ pub(super) fn is_record(line: &str) -> bool {
 /// Reads a line in any of the three forms, error frames too.
 pub(super) fn logged(line: &str) -> Result<Logged<'_>, Error> {
     let mut rest = Cursor::new(line);
-    let at = match rest.peek().starts_with('(') {
-        true => Some(time_stamp(&mut rest)?),
-        false => None,
+    let at = if rest.peek().starts_with('(') {
+        Some(time_stamp(&mut rest)?)
+    } else {
+        None
     };
     let (column, word) = next_word(&mut rest, FRAME)?;
     let mut logged = Logged {
@@ -135,9 +136,10 @@ pub(super) fn logged(line: &str) -> Result<Logged<'_>, Error> {
     if is_error(word) {
         return Ok(logged);
     }
-    logged.frame.what = What::Frame(match word.contains('#') {
-        true => parse_frame(word).map_err(|error| error.shifted(column - 1))?,
-        false => screen(column, word, &mut rest)?,
+    logged.frame.what = What::Frame(if word.contains('#') {
+        parse_frame(word).map_err(|error| error.shifted(column - 1))?
+    } else {
+        screen(column, word, &mut rest)?
     });
     logged.sent |= end(rest)?;
     Ok(logged)

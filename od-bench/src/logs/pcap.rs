@@ -22,17 +22,19 @@ pub(super) struct File<'b> {
 impl File<'_> {
     pub(super) fn word(&self, at: usize) -> Option<u32> {
         let bytes: [u8; 4] = self.bytes.get(at..at.checked_add(4)?)?.try_into().ok()?;
-        Some(match self.is_little {
-            true => u32::from_le_bytes(bytes),
-            false => u32::from_be_bytes(bytes),
+        Some(if self.is_little {
+            u32::from_le_bytes(bytes)
+        } else {
+            u32::from_be_bytes(bytes)
         })
     }
 
     pub(super) fn half(&self, at: usize) -> Option<u16> {
         let bytes: [u8; 2] = self.bytes.get(at..at.checked_add(2)?)?.try_into().ok()?;
-        Some(match self.is_little {
-            true => u16::from_le_bytes(bytes),
-            false => u16::from_be_bytes(bytes),
+        Some(if self.is_little {
+            u16::from_le_bytes(bytes)
+        } else {
+            u16::from_be_bytes(bytes)
         })
     }
 }
@@ -84,13 +86,15 @@ pub(super) fn socketcan(at: Instant, bytes: &[u8]) -> Option<Record> {
     if raw & ERROR != 0 {
         return Some(Record::error(at));
     }
-    let id = match raw & EXTENDED != 0 {
-        true => CanId::extended(raw & 0x1FFF_FFFF),
-        false => CanId::standard((raw & 0x7FF) as u16),
+    let id = if raw & EXTENDED != 0 {
+        CanId::extended(raw & 0x1FFF_FFFF)
+    } else {
+        CanId::standard((raw & 0x7FF) as u16)
     };
-    let frame = match raw & REMOTE != 0 {
-        true => Frame::remote(id, dlc),
-        false => Frame::new(id, &data[..data.len().min(usize::from(dlc))]),
+    let frame = if raw & REMOTE != 0 {
+        Frame::remote(id, dlc)
+    } else {
+        Frame::new(id, &data[..data.len().min(usize::from(dlc))])
     };
     Some(Record::received(at, frame?))
 }

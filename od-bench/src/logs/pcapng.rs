@@ -63,9 +63,10 @@ fn records(mut file: File<'_>) -> Result<Vec<Record>, String> {
         }
         at = end;
     }
-    match records.is_empty() && others > 0 {
-        true => Err(OTHER_LINK.into()),
-        false => Ok(records),
+    if records.is_empty() && others > 0 {
+        Err(OTHER_LINK.into())
+    } else {
+        Ok(records)
     }
 }
 

@@ -78,9 +78,10 @@ impl Playing {
     pub(crate) fn look(&mut self, state: State, stored: impl Fn(u16, u8) -> Option<u64>) {
         self.paced.clear();
         if let Some(pace) = &mut self.heartbeat {
-            match stored(0x1017, 0) == Some(pace.configured) {
-                true => _ = self.paced.insert(HEARTBEAT),
-                false => pace.forget(),
+            if stored(0x1017, 0) == Some(pace.configured) {
+                _ = self.paced.insert(HEARTBEAT)
+            } else {
+                pace.forget()
             }
         }
         for (tpdo, pace) in &mut self.tpdos {
@@ -89,9 +90,10 @@ impl Playing {
                 && stored(index, 1).is_some_and(|cob_id| cob_id & 0x8000_0000 == 0)
                 && stored(index, 2).is_some_and(|kind| kind >= 254)
                 && stored(index, 5) == Some(pace.configured);
-            match is_paced {
-                true => _ = self.paced.insert(*tpdo),
-                false => pace.forget(),
+            if is_paced {
+                _ = self.paced.insert(*tpdo)
+            } else {
+                pace.forget()
             }
         }
     }
@@ -124,13 +126,15 @@ impl Playing {
     /// A frame of the node. `tpdo` is its number, if it is one.
     pub(crate) fn sent(&mut self, now: Instant, node: NodeId, frame: Frame, tpdo: Option<u16>) {
         let id = frame.id();
-        let frame = match id == node.plus(0x580) {
-            true => self.filled(node, frame),
-            false => frame,
+        let frame = if id == node.plus(0x580) {
+            self.filled(node, frame)
+        } else {
+            frame
         };
-        let at = match id == node.plus(0x580) {
-            true => now.plus_micros(self.recorded.answer),
-            false => now,
+        let at = if id == node.plus(0x580) {
+            now.plus_micros(self.recorded.answer)
+        } else {
+            now
         };
         let pace = match tpdo {
             Some(tpdo) if self.paced.contains(&tpdo) => self.tpdos.get_mut(&tpdo),

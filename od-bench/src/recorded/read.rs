@@ -184,9 +184,10 @@ fn bytes<'t>(words: impl Iterator<Item = &'t str>) -> Result<Vec<u8>, String> {
             return Err(format!("a value has at most {BYTES} bytes"));
         }
     }
-    match bytes.is_empty() {
-        true => Err("bytes such as `12 00` are missing".into()),
-        false => Ok(bytes),
+    if bytes.is_empty() {
+        Err("bytes such as `12 00` are missing".into())
+    } else {
+        Ok(bytes)
     }
 }
 

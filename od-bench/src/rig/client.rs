@@ -94,9 +94,10 @@ impl Asker {
     /// Time when the client is due. One that was asked for nothing is never; the look through all nodes would
     /// take a third of the time that a simulation takes.
     pub(super) fn poll_timeout(&self) -> Option<Instant> {
-        match self.asked.is_empty() {
-            true => None,
-            false => self.client.poll_timeout(),
+        if self.asked.is_empty() {
+            None
+        } else {
+            self.client.poll_timeout()
         }
     }
 

@@ -71,9 +71,10 @@ impl Rig {
 
     /// Switches the power of a device.
     pub fn set_power(&mut self, device: usize, on: bool) {
-        let act = match on {
-            true => VirtualDevice::power_on,
-            false => VirtualDevice::power_off,
+        let act = if on {
+            VirtualDevice::power_on
+        } else {
+            VirtualDevice::power_off
         };
         self.with(device, act);
     }

@@ -28,9 +28,10 @@ impl Rig {
         let mut bus = Bus::new();
         bus.advance(self.bus.now());
         #[cfg(feature = "real")]
-        let set_up = match self.has_port() {
-            true => lesson.describe(bus, host),
-            false => lesson.set_up_on(Bench::new(bus), host),
+        let set_up = if self.has_port() {
+            lesson.describe(bus, host)
+        } else {
+            lesson.set_up_on(Bench::new(bus), host)
         };
         #[cfg(not(feature = "real"))]
         let set_up = lesson.set_up_on(Bench::new(bus), host);

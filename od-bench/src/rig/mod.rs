@@ -174,15 +174,17 @@ impl Rig {
             // A request waits until all else of its moment happened, so that a run which is made
             // again from its requests goes the same way.
             let overdue = self.asker.poll_timeout().filter(|due| *due <= to);
-            let to = match self.asker.has_request() {
-                true => now,
-                false => overdue.unwrap_or(to),
+            let to = if self.asker.has_request() {
+                now
+            } else {
+                overdue.unwrap_or(to)
             };
             let due = self.clockwork.due().filter(|due| *due <= to);
             // An observer acts after each frame; a real line may have more to say between two.
-            let frames = match self.is_watched() || self.bus.line.is_real {
-                true => 1,
-                false => full - self.seen.len(),
+            let frames = if self.is_watched() || self.bus.line.is_real {
+                1
+            } else {
+                full - self.seen.len()
             };
             let until = due.unwrap_or(to).max(now);
             let sent = self.bus.advance_until_full(until, frames);

@@ -64,9 +64,10 @@ impl Rig {
         let Some(port) = &mut self.port else {
             return true;
         };
-        match port.sends {
-            true => port.out.push_back(*frame),
-            false => port.held += 1,
+        if port.sends {
+            port.out.push_back(*frame)
+        } else {
+            port.held += 1
         }
         port.sends
     }

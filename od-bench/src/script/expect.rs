@@ -44,12 +44,13 @@ impl Runner<'_> {
         let found = fact.look(&mut bench.bus, bench.current, None);
         self.collect();
         let found = found.or_else(impossible)?;
-        match found.holds {
-            true => Ok(()),
-            false => failed(
+        if found.holds {
+            Ok(())
+        } else {
+            failed(
                 fact.words(Some(self.device()?), "", false),
                 format!("it is {}", found.now),
-            ),
+            )
         }
     }
 

@@ -42,9 +42,10 @@ pub fn frame_of(text: &str, known: &Known<'_>) -> Result<Frame, Problem> {
         }
         "sync" => {
             words.take("counter");
-            match words.is_empty() {
-                true => Frame::standard(0x80, &[]),
-                false => Frame::standard(0x80, &[words.number(0, 255)? as u8]),
+            if words.is_empty() {
+                Frame::standard(0x80, &[])
+            } else {
+                Frame::standard(0x80, &[words.number(0, 255)? as u8])
             }
         }
         "nmt" => {

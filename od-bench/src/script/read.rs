@@ -53,9 +53,10 @@ impl Script {
                 Err(problem) => problems.push(problem),
             }
         }
-        match problems.is_empty() {
-            true => Ok(script),
-            false => Err(problems),
+        if problems.is_empty() {
+            Ok(script)
+        } else {
+            Err(problems)
         }
     }
 

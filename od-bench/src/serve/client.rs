@@ -171,10 +171,12 @@ impl Client {
         let waiting = self.outbox.len();
         // Half of that is free again before a client counts as reading.
         let reads = waiting <= room / 4;
-        let most = match own {
-            true => room,
-            false if reads || self.deaf.is_none() => room / 2,
-            false => room / 4,
+        let most = if own {
+            room
+        } else if reads || self.deaf.is_none() {
+            room / 2
+        } else {
+            room / 4
         };
         if waiting + lines.len() > most {
             return self.drop_lines(lines);

@@ -144,9 +144,10 @@ impl Clients {
         let clients = self.list.iter().filter_map(Client::deadline);
         let due = clients.chain(self.doors.iter().filter_map(Door::deadline));
         let due = due.min().map(|at| at.saturating_duration_since(now));
-        let patience = match busy {
-            true => Duration::ZERO,
-            false => patience.min(due.unwrap_or(patience)),
+        let patience = if busy {
+            Duration::ZERO
+        } else {
+            patience.min(due.unwrap_or(patience))
         };
         for ready in self.events.wait(patience)? {
             let Some(number) = ready.number else {
@@ -192,9 +193,10 @@ impl Clients {
     fn full(&self, control: bool) -> Option<String> {
         let guests = self.list.iter().filter(|client| client.number >= LINKS);
         let guests = guests.filter(|client| (client.protocol == Protocol::Control) == control);
-        let (max, help) = match control {
-            true => (CONTROLS, "try again when one has left"),
-            false => (self.max, "raise it with `--max-clients`"),
+        let (max, help) = if control {
+            (CONTROLS, "try again when one has left")
+        } else {
+            (self.max, "raise it with `--max-clients`")
         };
         let full = guests.count() >= max;
         full.then(|| format!("the limit is {}; {help}", plural(max, "client")))

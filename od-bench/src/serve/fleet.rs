@@ -110,14 +110,12 @@ fn eeprom(path: &Path, name: &str, device: &VirtualDevice, reset: bool) -> Resul
         identity: &device.identity(),
         device: image::device(&device.dictionary()),
     };
-    let open = match reset {
-        true => File::open_erased,
-        false => File::open,
-    };
+    let open = if reset { File::open_erased } else { File::open };
     let file = open(path, device.storage_needed(), &owner).map_err(|error| {
-        let help = match error.can_be_erased() {
-            true => "; give the device another file, or add `--eeprom-reset` to erase this one",
-            false => "",
+        let help = if error.can_be_erased() {
+            "; give the device another file, or add `--eeprom-reset` to erase this one"
+        } else {
+            ""
         };
         Failure::Failed(format!("{error}{help}"))
     })?;

@@ -55,13 +55,12 @@ pub(super) fn print(
         );
     }
     if let (Some(device), Some(first)) = (bus.devices().first(), first) {
-        match once::is_due(to_error) {
-            true => {
-                for link in links {
-                    help(&mut text, link, first, device, args.bitrate);
-                }
+        if once::is_due(to_error) {
+            for link in links {
+                help(&mut text, link, first, device, args.bitrate);
             }
-            false => text.push_str("the commands to connect are further up in this terminal\n"),
+        } else {
+            text.push_str("the commands to connect are further up in this terminal\n")
         }
         text.push_str("\nPress Ctrl-C to stop.");
     }
@@ -129,18 +128,20 @@ fn text(args: &Options, bus: &Bus, links: &[Opened]) -> String {
 
 /// `node 5`, or `no node ID`.
 pub(super) fn node(device: &VirtualDevice) -> String {
-    match device.is_configured() {
-        true => format!("node {}", device.node_id()),
-        false => String::from("no node ID"),
+    if device.is_configured() {
+        format!("node {}", device.node_id())
+    } else {
+        String::from("no node ID")
     }
 }
 
 /// Services that the EDS of a device turns on, and those that it promises in vain.
 fn services(text: &mut String, device: &VirtualDevice, several: bool) {
     let Services { on, missing } = device.services();
-    let of = match several {
-        true => format!("{}: ", node(device)),
-        false => String::new(),
+    let of = if several {
+        format!("{}: ", node(device))
+    } else {
+        String::new()
     };
     for (label, services) in [("services", on), ("not supported", missing)] {
         if !services.is_empty() {
@@ -183,14 +184,15 @@ fn page(text: &mut String, address: &str) {
 /// Commands that reach the first device over this link.
 fn help(text: &mut String, link: &Opened, maker: &Maker<'_>, device: &VirtualDevice, bitrate: u32) {
     let node = device.node_id().raw();
-    let scan = match device.is_configured() {
-        true => String::new(),
-        false => format!(
+    let scan = if device.is_configured() {
+        String::new()
+    } else {
+        format!(
             "  network.lss.fast_scan()
   network.lss.configure_node_id({node})
   network.lss.store_configuration()
   network.lss.send_switch_state_global(network.lss.WAITING_STATE)\n"
-        ),
+        )
     };
     let (connect, needs) = match link {
         Opened::Listener(Protocol::Socketcand, _, address) => (

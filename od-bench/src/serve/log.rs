@@ -40,9 +40,10 @@ pub(super) struct Log {
 pub(super) fn format(path: &Path) -> Result<Format, String> {
     let ending = path.extension().unwrap_or_default().to_string_lossy();
     let format = Format::of_ending(&ending.to_ascii_lowercase()).unwrap_or(Format::Candump);
-    match format.grows() {
-        true => Ok(format),
-        false => Err("write a name that ends in .log (candump) or .pcapng".into()),
+    if format.grows() {
+        Ok(format)
+    } else {
+        Err("write a name that ends in .log (candump) or .pcapng".into())
     }
 }
 

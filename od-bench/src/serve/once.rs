@@ -5,9 +5,10 @@ use std::io::IsTerminal;
 /// Whether the hint is to be printed: not to a terminal that has seen it, but always to a pipe.
 /// `to_error`: it goes to standard error.
 pub(super) fn is_due(to_error: bool) -> bool {
-    let is_terminal = match to_error {
-        true => std::io::stderr().is_terminal(),
-        false => std::io::stdout().is_terminal(),
+    let is_terminal = if to_error {
+        std::io::stderr().is_terminal()
+    } else {
+        std::io::stdout().is_terminal()
     };
     !is_terminal || begin(stamp().as_deref())
 }

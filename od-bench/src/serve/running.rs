@@ -28,10 +28,11 @@ pub fn links() -> Vec<String> {
         if is_one && is_own(&entry.path()) {
             let text = fs::read_to_string(entry.path()).unwrap_or_default();
             let report: Value = serde_json::from_str(&text).unwrap_or_default();
-            match is_alive(report["pid"].as_u64().unwrap_or(0)) {
-                true => found.extend(link(&report)),
+            if is_alive(report["pid"].as_u64().unwrap_or(0)) {
+                found.extend(link(&report))
+            } else {
                 // It was killed.
-                false => drop(fs::remove_file(entry.path())),
+                drop(fs::remove_file(entry.path()))
             }
         }
     }

@@ -216,9 +216,10 @@ fn dropped(guests: &[Guest<'_>]) -> u64 {
 
 /// `operational`, or `off`.
 fn state(device: &VirtualDevice) -> String {
-    match device.is_powered() {
-        true => device.state().to_string(),
-        false => String::from("off"),
+    if device.is_powered() {
+        device.state().to_string()
+    } else {
+        String::from("off")
     }
 }
 

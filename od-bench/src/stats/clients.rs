@@ -104,9 +104,10 @@ impl Clients {
             self.0.insert(place, new);
             place
         });
-        match id < 0x600 {
-            true => self.0[place].answer(at, frame),
-            false => self.0[place].ask(at, frame),
+        if id < 0x600 {
+            self.0[place].answer(at, frame)
+        } else {
+            self.0[place].ask(at, frame)
         }
     }
 

@@ -156,9 +156,10 @@ fn a_size_holds_for_strings_and_domains_alike() {
         // The text has a default of three bytes.
         for (object, limit) in [(DOMAIN, size), (TEXT, size.max(3))] {
             for len in [limit, limit + 1] {
-                let expected = match len > limit {
-                    true => abort(AbortCode::TooLong),
-                    false => Ok(()),
+                let expected = if len > limit {
+                    abort(AbortCode::TooLong)
+                } else {
+                    Ok(())
                 };
                 assert_eq!(pair.write(object, &pattern(len)), expected, "{len}");
                 assert!(pair.read(object) == pattern(limit));

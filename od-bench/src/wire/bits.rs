@@ -172,9 +172,10 @@ static REMAINDERS: [u16; 256] = {
 /// sent first. Its bits are those that decide, the most significant first.
 pub fn arbitration(frame: &Frame) -> u32 {
     let (raw, remote) = (frame.id().raw(), u32::from(frame.is_remote()));
-    match frame.id().is_extended() {
-        true => (raw >> 18) << 21 | 0b11 << 19 | (raw & 0x3_FFFF) << 1 | remote,
-        false => raw << 21 | remote << 20,
+    if frame.id().is_extended() {
+        (raw >> 18) << 21 | 0b11 << 19 | (raw & 0x3_FFFF) << 1 | remote
+    } else {
+        raw << 21 | remote << 20
     }
 }
 

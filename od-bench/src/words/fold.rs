@@ -117,9 +117,10 @@ impl Folder {
             fold.frames.push(number);
             return Some(first);
         }
-        let belongs = match is_answer {
-            true => answer(open, fold, frame),
-            false => request(open, fold, frame),
+        let belongs = if is_answer {
+            answer(open, fold, frame)
+        } else {
+            request(open, fold, frame)
         };
         if !belongs {
             self.open.remove(node);

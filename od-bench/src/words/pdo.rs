@@ -100,9 +100,10 @@ fn words(
         format!("{name} = {shown}")
     });
     let parts: Vec<String> = parts.collect();
-    let text = match parts.is_empty() {
-        true => format!("{kind}{number} {}", bytes(frame.data().len())),
-        false => format!("{kind}{number} {}", parts.join(", ")),
+    let text = if parts.is_empty() {
+        format!("{kind}{number} {}", bytes(frame.data().len()))
+    } else {
+        format!("{kind}{number} {}", parts.join(", "))
     };
     Words::new(service, node, text)
 }
@@ -116,9 +117,10 @@ pub(super) fn by_identifier(id: u16, frame: &Frame) -> Words {
         _ => (Service::Rpdo, "RPDO"),
     };
     let number = number / 2 + 1;
-    let text = match frame.is_remote() {
-        true => format!("{kind}{number} requested (RTR)"),
-        false => format!("{kind}{number} {}", bytes(frame.data().len())),
+    let text = if frame.is_remote() {
+        format!("{kind}{number} requested (RTR)")
+    } else {
+        format!("{kind}{number} {}", bytes(frame.data().len()))
     };
     Words::new(service, (node != 0).then_some(node), text)
 }

@@ -74,9 +74,10 @@ pub(super) fn explain(
         let text = format!("{}, but an SDO message has 8", bytes(frame.dlc().into()));
         return explainer.words(&text).error();
     }
-    match answer {
-        true => explainer.answer(Response::parse(frame.bytes()), frame),
-        false => explainer.request(Request::parse(frame.bytes()), frame),
+    if answer {
+        explainer.answer(Response::parse(frame.bytes()), frame)
+    } else {
+        explainer.request(Request::parse(frame.bytes()), frame)
     }
 }
 

@@ -70,9 +70,10 @@ fn object(frame: &Frame, is_answer: bool) -> Option<Address> {
     if frame.is_remote() || frame.dlc() < 4 {
         return None;
     }
-    match is_answer {
-        true => answered(&Response::parse(frame.bytes())),
-        false => requested(&Request::parse(frame.bytes())),
+    if is_answer {
+        answered(&Response::parse(frame.bytes()))
+    } else {
+        requested(&Request::parse(frame.bytes()))
     }
 }
 

@@ -231,12 +231,11 @@ impl Dut<'_> {
         if self.undo.is_empty() && self.frames.is_empty() {
             return Ok(());
         }
-        let mut lost = match self.is_off {
-            true => {
-                let from = self.now();
-                self.power(true).and_then(|()| self.booted(from)).err()
-            }
-            false => None,
+        let mut lost = if self.is_off {
+            let from = self.now();
+            self.power(true).and_then(|()| self.booted(from)).err()
+        } else {
+            None
         };
         if lost.is_some() {
             self.notes

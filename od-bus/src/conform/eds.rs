@@ -167,9 +167,10 @@ impl Eds {
             object => {
                 let address = od_model::values::address(object)?;
                 let (index, sub) = (address.index, address.sub);
-                let there = match first.contains(':') {
-                    true => self.entry(index, sub).is_some(),
-                    false => self.has(index),
+                let there = if first.contains(':') {
+                    self.entry(index, sub).is_some()
+                } else {
+                    self.has(index)
                 };
                 match words.next() {
                     None => there,

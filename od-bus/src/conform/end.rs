@@ -49,8 +49,5 @@ pub(crate) fn skip<T>(why: impl Into<String>) -> Checked<T> {
 
 /// Fails unless it holds.
 pub(crate) fn ensure(holds: bool, expected: impl Into<String>, got: impl Into<String>) -> Checked {
-    match holds {
-        true => Ok(()),
-        false => fail(expected, got),
-    }
+    if holds { Ok(()) } else { fail(expected, got) }
 }

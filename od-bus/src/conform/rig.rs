@@ -78,9 +78,10 @@ impl Rig for RealBus {
             return Ok(());
         };
         let line = format!("{command} {}", if on { "on" } else { "off" });
-        let (shell, flag) = match cfg!(windows) {
-            true => ("cmd", "/C"),
-            false => ("sh", "-c"),
+        let (shell, flag) = if cfg!(windows) {
+            ("cmd", "/C")
+        } else {
+            ("sh", "-c")
         };
         let fail = |why: String| Fault::Usage(format!("`{line}`: {why}"));
         let status = Command::new(shell).args([flag, &line]).status();

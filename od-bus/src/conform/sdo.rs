@@ -212,9 +212,10 @@ impl Dut<'_> {
         step: usize,
     ) -> Checked<Transfer<()>> {
         let size = (bytes.len() as u32).to_le_bytes();
-        let first = match sized {
-            true => request(0x21, address, size),
-            false => request(0x20, address, [0; 4]),
+        let first = if sized {
+            request(0x21, address, size)
+        } else {
+            request(0x20, address, [0; 4])
         };
         let answer = self.about(first)?;
         if let Some(code) = abort_of(&answer) {

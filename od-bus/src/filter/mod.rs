@@ -127,9 +127,12 @@ impl<'t> Parser<'t> {
                 }
             }
             ")" => Err(mistake(token.at, "`)` has no `(` before it")),
-            _ => term(token.text, token.at).map(|(term, is_not)| match is_not {
-                true => Rule::Not(Box::new(Rule::Term(term))),
-                false => Rule::Term(term),
+            _ => term(token.text, token.at).map(|(term, is_not)| {
+                if is_not {
+                    Rule::Not(Box::new(Rule::Term(term)))
+                } else {
+                    Rule::Term(term)
+                }
             }),
         }
     }

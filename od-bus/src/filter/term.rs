@@ -128,9 +128,10 @@ fn plain(text: &str, at: usize) -> Result<Term, Mistake> {
                 return Ok(Term::Masked { wanted, mask });
             }
             if let Some((low, high)) = pair(&lower, "..").or_else(|| pair(&lower, "-")) {
-                return match low <= high {
-                    true => Ok(Term::Range { low, high }),
-                    false => Err(mistake(at, "the range ends before it begins")),
+                return if low <= high {
+                    Ok(Term::Range { low, high })
+                } else {
+                    Err(mistake(at, "the range ends before it begins"))
                 };
             }
             // Three digits are a COB-ID, four an object.
@@ -163,10 +164,13 @@ fn field_term(name: &str, value: &str, (at, start): (usize, usize)) -> Result<Te
             node.map(Term::Node)
                 .ok_or_else(|| mistake(at, "a node ID is 1 to 127"))
         }
-        "id" | "cob" | "can.id" | "canopen.cob_id" => match value.contains([':', '-']) {
-            true => plain(value, at),
-            false => identifier(value, at),
-        },
+        "id" | "cob" | "can.id" | "canopen.cob_id" => {
+            if value.contains([':', '-']) {
+                plain(value, at)
+            } else {
+                identifier(value, at)
+            }
+        }
         "data" => {
             let digits: String = value
                 .chars()

@@ -118,8 +118,9 @@ fn default(address: Address, data_type: DataType, bytes: &[u8], node: NodeId) ->
         _ => false,
     };
     let node = u64::from(node.raw());
-    match is_cob_id && raw & 0x7F == node && raw & 0x780 != 0 {
-        true => u32::try_from(raw - node).ok().map(Value::NodeId),
-        false => Some(Value::Unsigned(raw)),
+    if is_cob_id && raw & 0x7F == node && raw & 0x780 != 0 {
+        u32::try_from(raw - node).ok().map(Value::NodeId)
+    } else {
+        Some(Value::Unsigned(raw))
     }
 }

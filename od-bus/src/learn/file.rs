@@ -90,9 +90,10 @@ pub(super) fn sections(
     let lines = [
         format!("Learned by odkit from node {}.", node.raw()),
         "Not known: bit rates, LSS, which values are saved, which objects can be mapped.".into(),
-        match writes {
-            true => "Limits were probed.".into(),
-            false => "Limits were not probed (--allow-writes).".to_owned(),
+        if writes {
+            "Limits were probed.".into()
+        } else {
+            "Limits were not probed (--allow-writes).".to_owned()
         },
     ];
     let mut comments = vec![("Lines", lines.len().to_string())];

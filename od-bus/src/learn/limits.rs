@@ -90,9 +90,10 @@ fn edge(
 ) -> Result<i128, Fault> {
     while good.abs_diff(bad) > 1 {
         let middle = (good + bad).div_euclid(2);
-        match accepts(middle)? {
-            true => good = middle,
-            false => bad = middle,
+        if accepts(middle)? {
+            good = middle
+        } else {
+            bad = middle
         }
     }
     Ok(good)

@@ -79,11 +79,13 @@ impl<L: Link> Probe<L> {
             Err(code) if code == NoSubIndex.code() => return Ok(There::NoSubIndex),
             Err(code) => (None, code == WriteOnly.code()),
         };
-        let writable = match is_write_only {
-            true => Some(true),
+        let writable = if is_write_only {
+            Some(true)
+        } else if address.index == 0x1F50 {
             // A program is erased as soon as a download begins.
-            false if address.index == 0x1F50 => None,
-            false => self.writable(address, bytes.as_deref())?,
+            None
+        } else {
+            self.writable(address, bytes.as_deref())?
         };
         let room = match writable {
             Some(true) if specified(address.index).is_none() => {

@@ -128,19 +128,21 @@ fn by_value(found: &Found) -> Guess {
         2 => {
             let value = i16::from_le_bytes([bytes[0], bytes[1]]);
             // Close to zero from below, or the largest number that a sign leaves.
-            match (-0x2000..-1).contains(&value) || matches!(value, 0x7FFF | -0x7FFF) {
-                true => shown(DataType::Integer16),
-                false => length(DataType::Unsigned16),
+            if (-0x2000..-1).contains(&value) || matches!(value, 0x7FFF | -0x7FFF) {
+                shown(DataType::Integer16)
+            } else {
+                length(DataType::Unsigned16)
             }
         }
         4 => {
             let raw = [bytes[0], bytes[1], bytes[2], bytes[3]];
             let value = i32::from_le_bytes(raw);
-            match (-0x0100_0000..-1).contains(&value) || matches!(value, 0x7FFF_FFFF | -0x7FFF_FFFF)
-            {
-                true => shown(DataType::Integer32),
-                false if is_real(f32::from_le_bytes(raw)) => shown(DataType::Real32),
-                false => length(DataType::Unsigned32),
+            if (-0x0100_0000..-1).contains(&value) || matches!(value, 0x7FFF_FFFF | -0x7FFF_FFFF) {
+                shown(DataType::Integer32)
+            } else if is_real(f32::from_le_bytes(raw)) {
+                shown(DataType::Real32)
+            } else {
+                length(DataType::Unsigned32)
             }
         }
         size => match number(size) {

@@ -17,9 +17,10 @@ pub fn default() -> Result<String, Fault> {
         1 => Ok(running.remove(0)),
         0 => {
             let found = interfaces();
-            let list = match found.is_empty() {
-                true => String::from("no CAN interface or serial port was found"),
-                false => format!("interfaces found: {}", found.join(", ")),
+            let list = if found.is_empty() {
+                String::from("no CAN interface or serial port was found")
+            } else {
+                format!("interfaces found: {}", found.join(", "))
             };
             Err(Fault::Link(format!(
                 "no `odkit sim` runs; start one, or add `--link`, such as `--link socketcan:can0`\n\

@@ -86,11 +86,12 @@ pub fn check(name: &str) -> Result<(), Fault> {
         Some(("socketcan", _)) => true,
         _ => false,
     };
-    match is_right {
-        true => Ok(()),
-        false => Err(Fault::Usage(format!(
+    if is_right {
+        Ok(())
+    } else {
+        Err(Fault::Usage(format!(
             "`{name}` is not a valid link; write {FORMS}"
-        ))),
+        )))
     }
 }
 

@@ -106,9 +106,10 @@ impl Protocol for Socketcand {
 
     fn write(&self, frame: &Frame, out: &mut Vec<u8>) {
         let (id, dlc) = (frame.id(), frame.dlc());
-        let mut text = match frame.is_remote() {
-            true => format!("< sendrtr {id} {dlc} "),
-            false => format!("< send {id} {dlc} "),
+        let mut text = if frame.is_remote() {
+            format!("< sendrtr {id} {dlc} ")
+        } else {
+            format!("< send {id} {dlc} ")
         };
         for byte in frame.data() {
             text.push_str(&format!("{byte:02X} "));

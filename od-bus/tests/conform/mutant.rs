@@ -145,9 +145,10 @@ fn rule(text: &str) -> Rule {
 /// Is a frame, as text without its length of a remote frame, the pattern?
 fn fits(pattern: &str, frame: &Frame) -> bool {
     let text = frame.to_string();
-    let text = match frame.is_remote() {
-        true => text.split('R').next().unwrap_or("").to_owned() + "R",
-        false => text,
+    let text = if frame.is_remote() {
+        text.split('R').next().unwrap_or("").to_owned() + "R"
+    } else {
+        text
     };
     let (pattern, open) = match pattern.strip_suffix('*') {
         Some(pattern) => (pattern, true),

@@ -142,9 +142,10 @@ fn a_lost_link_ends_in_a_report_that_says_what_is_left() {
             // The first frame after 1017h was changed is the last one.
             is_cut |= is_changed;
             is_changed |= frame.starts_with("601#2B17100032");
-            match is_cut {
-                false => Ok(()),
-                true => Err(Fault::Link("the other end has gone".into())),
+            if is_cut {
+                Err(Fault::Link("the other end has gone".into()))
+            } else {
+                Ok(())
             }
         },
     };

@@ -152,9 +152,10 @@ fn changed(changes: &[Change]) -> String {
             .map_or(text.len(), |at| start + at);
         let at = start + text[start..end].find(&format!("{key}=")).expect("a key");
         let line = at..at + text[at..].find('\n').expect("a line") + 1;
-        let now = match value.is_empty() {
-            true => String::new(),
-            false => format!("{key}={value}\n"),
+        let now = if value.is_empty() {
+            String::new()
+        } else {
+            format!("{key}={value}\n")
         };
         text.replace_range(line, &now);
     }

@@ -32,10 +32,10 @@ impl<'f, L: Link> Late<'f, L> {
     /// Delays every SDO response by `millis` ms.
     fn responses(link: L, millis: u64) -> Self {
         let is_response = |frame: &Frame| (0x581..0x600).contains(&frame.id().raw());
-        Self::new(link, move |frame| match is_response(frame) {
-            true => millis,
-            false => 0,
-        })
+        Self::new(
+            link,
+            move |frame| if is_response(frame) { millis } else { 0 },
+        )
     }
 }
 

@@ -154,9 +154,11 @@ pub(crate) fn fit(dictionary: Dictionary<'_>, identity: [Option<u32>; 4]) -> Opt
     };
     let [vendor, product, revision, _] = identity.map(|part| part.map(i128::from));
     let is_product = vendor.is_some() && vendor == default(1) && product == default(2);
-    match is_product {
-        false => None,
-        true if revision.is_some() && revision == default(3) => Some(Fit::Revision),
-        true => Some(Fit::Product),
+    if !is_product {
+        None
+    } else if revision.is_some() && revision == default(3) {
+        Some(Fit::Revision)
+    } else {
+        Some(Fit::Product)
     }
 }

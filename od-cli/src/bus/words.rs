@@ -92,9 +92,10 @@ impl Told {
     pub(crate) fn line(&self) -> String {
         let at = self.at.as_micros();
         let (seconds, micros) = (at / 1_000_000, at % 1_000_000);
-        let data = match self.frame.is_remote() {
-            true => format!("RTR {}", self.frame.dlc()),
-            false => od_model::values::hex(self.frame.data()),
+        let data = if self.frame.is_remote() {
+            format!("RTR {}", self.frame.dlc())
+        } else {
+            od_model::values::hex(self.frame.data())
         };
         let id = self.frame.id().to_string();
         let mark = if self.words.error { "! " } else { "" };
@@ -152,8 +153,9 @@ pub(crate) const CSV: &str = "time,id,data,service,node,object,error,text";
 
 /// A cell of a CSV file (RFC 4180).
 pub(crate) fn quoted(cell: &str) -> String {
-    match cell.contains([',', '"', '\n', '\r']) {
-        true => format!("\"{}\"", cell.replace('"', "\"\"")),
-        false => cell.to_owned(),
+    if cell.contains([',', '"', '\n', '\r']) {
+        format!("\"{}\"", cell.replace('"', "\"\""))
+    } else {
+        cell.to_owned()
     }
 }

@@ -134,9 +134,10 @@ impl Args {
                 return checked;
             }
         };
-        let named = match self.tools.is_empty() {
-            true => &config.tools,
-            false => &self.tools,
+        let named = if self.tools.is_empty() {
+            &config.tools
+        } else {
+            &self.tools
         };
         let (tools, is_table) = table::chosen(named);
         checked.tools.clone_from(&tools);

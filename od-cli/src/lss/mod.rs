@@ -209,9 +209,10 @@ fn scan(args: &bus::Args) -> Result<(), Failure> {
         let report = json!({ "slaves": slaves.collect::<Vec<_>>() });
         output::print(&format!("{report:#}"))?;
     }
-    match found.is_empty() {
-        true => Err(Failure::Reported(1)),
-        false => Ok(()),
+    if found.is_empty() {
+        Err(Failure::Reported(1))
+    } else {
+        Ok(())
     }
 }
 

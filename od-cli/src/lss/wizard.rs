@@ -58,9 +58,10 @@ pub(super) fn run(args: &bus::Args, first: NodeId, yes: bool, store: bool) -> Re
         let Some(proposed) = free(first, &used) else {
             return Err(Failure::Failed("all node IDs are in use".into()));
         };
-        let reply = match yes {
-            true => Reply::Take(proposed),
-            false => ask(&answers, proposed, &used)?,
+        let reply = if yes {
+            Reply::Take(proposed)
+        } else {
+            ask(&answers, proposed, &used)?
         };
         let node = match reply {
             Reply::Take(node) => node,
@@ -71,9 +72,10 @@ pub(super) fn run(args: &bus::Args, first: NodeId, yes: bool, store: bool) -> Re
         used.insert(node);
         set_up.push((*slave, node, has_booted));
         let node = node.raw();
-        tell(&match has_booted {
-            true => format!("node {node} boots"),
-            false => format!("node {node}: no boot-up message came; switch its power off and on"),
+        tell(&if has_booted {
+            format!("node {node} boots")
+        } else {
+            format!("node {node}: no boot-up message came; switch its power off and on")
         });
     }
     report(args.format, &set_up)

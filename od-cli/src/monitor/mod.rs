@@ -64,22 +64,19 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         && args.bus.format == Format::Text
         && std::io::stdout().is_terminal()
         && std::io::stdin().is_terminal();
-    let result = match is_console {
-        true => {
-            let narrator = Narrator::new(names, "")?;
-            let view = screen::View {
-                title: name,
-                rate,
-                by_id: args.by_id,
-                filter,
-                filter_text: args.filter.clone(),
-            };
-            screen::run(bus, narrator, view, &mut recorder, until)
-        }
-        false => {
-            let narrator = Narrator::new(names, &args.filter)?;
-            plain(args, bus, narrator, recorder.as_mut(), (rate, until))
-        }
+    let result = if is_console {
+        let narrator = Narrator::new(names, "")?;
+        let view = screen::View {
+            title: name,
+            rate,
+            by_id: args.by_id,
+            filter,
+            filter_text: args.filter.clone(),
+        };
+        screen::run(bus, narrator, view, &mut recorder, until)
+    } else {
+        let narrator = Narrator::new(names, &args.filter)?;
+        plain(args, bus, narrator, recorder.as_mut(), (rate, until))
     };
     // What came until something went wrong is kept.
     if let Some(recorder) = recorder {

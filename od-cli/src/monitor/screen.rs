@@ -225,14 +225,13 @@ impl Console<'_> {
         let (width, height) = (usize::from(width), usize::from(height));
         let rows = height.saturating_sub(3);
         let mut lines = vec![self.head(now)];
-        let body = match self.view.by_id {
-            true => {
-                let table = self.stats.filtered(&self.view.filter);
-                let head = table.first().cloned();
-                let rest = table.into_iter().skip(1).skip(self.back);
-                head.into_iter().chain(rest).take(rows).collect()
-            }
-            false => self.newest(rows),
+        let body = if self.view.by_id {
+            let table = self.stats.filtered(&self.view.filter);
+            let head = table.first().cloned();
+            let rest = table.into_iter().skip(1).skip(self.back);
+            head.into_iter().chain(rest).take(rows).collect()
+        } else {
+            self.newest(rows)
         };
         lines.extend(body);
         lines.resize(rows + 1, String::new());

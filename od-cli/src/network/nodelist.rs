@@ -28,9 +28,10 @@ pub(super) fn read(
             networks.push(topology(keys, load)?);
         }
     }
-    match networks.is_empty() {
-        true => Err("the section [Topology] is missing".into()),
-        false => Ok(networks),
+    if networks.is_empty() {
+        Err("the section [Topology] is missing".into())
+    } else {
+        Ok(networks)
     }
 }
 

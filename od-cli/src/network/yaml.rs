@@ -132,9 +132,10 @@ impl Tree {
         let (anchor, value) = match event {
             Event::Scalar(text, style, anchor, tag) => {
                 let is_plain = style == ScalarStyle::Plain && tag.is_none();
-                let value = match is_plain {
-                    true => scalar(&text),
-                    false => Yaml::Text(text.into_owned()),
+                let value = if is_plain {
+                    scalar(&text)
+                } else {
+                    Yaml::Text(text.into_owned())
                 };
                 (anchor, value)
             }

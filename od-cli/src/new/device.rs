@@ -58,9 +58,10 @@ impl DeviceFile {
         };
         let boot_up = format!("{:03X}#00", 0x700 + u16::from(node_id));
         let bit_rate = bit_rate(description);
-        let (names, own) = match self.has_lss() {
-            true => ("LssProfile, NodeId, Profile", " + image::OWN_CAPACITY"),
-            false => ("NodeId, Profile", ""),
+        let (names, own) = if self.has_lss() {
+            ("LssProfile, NodeId, Profile", " + image::OWN_CAPACITY")
+        } else {
+            ("NodeId, Profile", "")
         };
         vec![
             ("name", name.to_owned()),
@@ -98,12 +99,13 @@ impl DeviceFile {
         ];
         let missing = services.iter().filter(|(_, has)| !has);
         let missing: Vec<&str> = missing.map(|(name, _)| *name).collect();
-        match missing.is_empty() {
-            true => String::new(),
-            false => format!(
+        if missing.is_empty() {
+            String::new()
+        } else {
+            format!(
                 "        // Services that the file has no object for.\n        without {};\n",
                 missing.join(", ")
-            ),
+            )
         }
     }
 
@@ -113,9 +115,12 @@ impl DeviceFile {
             return String::from("Profile::CIA301");
         }
         let rates = BIT_RATES.iter().enumerate();
-        let rates = rates.map(|(index, rate)| match *rate == bit_rate {
-            true => format!("Some({index})"),
-            false => String::from("None"),
+        let rates = rates.map(|(index, rate)| {
+            if *rate == bit_rate {
+                format!("Some({index})")
+            } else {
+                String::from("None")
+            }
         });
         let rates: Vec<String> = rates.collect();
         format!(

@@ -65,9 +65,12 @@ pub(super) fn of(source: &str) -> Result<String, String> {
     let base = source.split('+').next().unwrap_or(source);
     let stem = Path::new(base).file_stem().unwrap_or_default();
     let stem = stem.to_string_lossy().to_ascii_lowercase();
-    let plain = |c: char| match c.is_ascii_alphanumeric() || c == '_' {
-        true => c,
-        false => '-',
+    let plain = |c: char| {
+        if c.is_ascii_alphanumeric() || c == '_' {
+            c
+        } else {
+            '-'
+        }
     };
     let name: String = stem.chars().map(plain).collect();
     let name = name.trim_matches(['-', '_']);

@@ -169,9 +169,10 @@ fn nohup_outlives_its_terminal() {
     sim.signal("-INT");
     assert_eq!(sim.child.wait().expect("it ends").code(), Some(0));
     // Without nohup the terminal ends it, cleanly. The tests themselves may run under nohup.
-    let plain = match cfg!(target_os = "linux") {
-        true => "exec env --default-signal=HUP \"$@\"",
-        false => "exec \"$@\"",
+    let plain = if cfg!(target_os = "linux") {
+        "exec env --default-signal=HUP \"$@\""
+    } else {
+        "exec \"$@\""
     };
     let mut sim = Sim::start_under(plain, &["gxmm"]);
     sim.signal("-HUP");

@@ -168,9 +168,12 @@ fn all_files(folder: &Path) -> Vec<PathBuf> {
     let entries = fs::read_dir(folder).into_iter().flatten().flatten();
     let paths = entries.map(|entry| entry.path());
     paths
-        .flat_map(|path| match path.is_dir() {
-            true => all_files(&path),
-            false => vec![path],
+        .flat_map(|path| {
+            if path.is_dir() {
+                all_files(&path)
+            } else {
+                vec![path]
+            }
         })
         .collect()
 }

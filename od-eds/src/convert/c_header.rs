@@ -75,16 +75,14 @@ fn stems(description: &Description) -> impl Iterator<Item = (String, Vec<String>
     description.objects.iter().map(move |(&index, object)| {
         let title = macro_name(&object.name.value);
         let stem = unique(&mut names, title, index, None);
-        let entries = object
-            .entries
-            .iter()
-            .map(|(&sub, entry)| match object.code.has_members() {
-                true => {
-                    let member = macro_name(&entry.name);
-                    unique(&mut names, format!("{stem}_{member}"), index, Some(sub))
-                }
-                false => stem.clone(),
-            });
+        let entries = object.entries.iter().map(|(&sub, entry)| {
+            if object.code.has_members() {
+                let member = macro_name(&entry.name);
+                unique(&mut names, format!("{stem}_{member}"), index, Some(sub))
+            } else {
+                stem.clone()
+            }
+        });
         let entries = entries.collect();
         (stem, entries)
     })

@@ -62,9 +62,10 @@ fn row(dictionary: Dictionary<'_>, entry: &Entry, member: bool) -> Cells {
         Group::Manufacturer => "manu",
     };
     let address = entry.address;
-    let (index, indent) = match member {
-        true => (String::new(), "  "),
-        false => (format!("{:04X}h", address.index), ""),
+    let (index, indent) = if member {
+        (String::new(), "  ")
+    } else {
+        (format!("{:04X}h", address.index), "")
     };
     Cells {
         address: Some(address),

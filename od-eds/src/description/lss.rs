@@ -23,9 +23,10 @@ impl Description {
             return None;
         }
         let named = KBIT.map(|kbit| kbit != 0 && self.info_is_set(&format!("BaudRate_{kbit}")));
-        Some(match named.contains(&true) {
-            true => named,
-            false => KBIT.map(|kbit| kbit != 0),
+        Some(if named.contains(&true) {
+            named
+        } else {
+            KBIT.map(|kbit| kbit != 0)
         })
     }
 }

@@ -49,9 +49,10 @@ impl Document {
         if let Some((key, old)) = pairs(&sections, section, key).next() {
             let before = number::before_comment(old);
             let start = old.span.start as usize;
-            let len = match holds_comment(key, before) {
-                true => before.len(),
-                false => old.len(),
+            let len = if holds_comment(key, before) {
+                before.len()
+            } else {
+                old.len()
             };
             return Ok(Edit {
                 range: start..start + len,
@@ -112,9 +113,10 @@ impl Document {
             lines.insert(0, String::new());
         }
         // In the last line, unless that has an end: then behind it.
-        let at = match self.text.ends_with(['\r', '\n']) {
-            true => end,
-            false => self.text.rfind(['\r', '\n']).map_or(0, |at| at + 1),
+        let at = if self.text.ends_with(['\r', '\n']) {
+            end
+        } else {
+            self.text.rfind(['\r', '\n']).map_or(0, |at| at + 1)
         };
         self.lines_behind(at, &lines)
     }

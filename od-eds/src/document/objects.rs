@@ -124,9 +124,10 @@ fn count_edit(section: &Placed<'_>, count: usize, edits: &mut Vec<Edit>) {
     let start = given.span.start as usize;
     edits.push(Edit {
         range: start..start + value.len(),
-        text: match value.starts_with("0x") || value.starts_with("0X") {
-            true => format!("0x{count:X}"),
-            false => count.to_string(),
+        text: if value.starts_with("0x") || value.starts_with("0X") {
+            format!("0x{count:X}")
+        } else {
+            count.to_string()
         },
     });
 }

@@ -217,9 +217,12 @@ fn slaves(made: &mut Description, nodes: &[Node]) {
         let numbers = nodes.iter().map(|node| (node.id, number(node)));
         numbers.filter(|(_, number)| *number != 0).collect()
     };
-    let product = all(&|node| match node.has_entry(0x1018, 2) {
-        true => node.identity("ProductNumber", 2),
-        false => 0,
+    let product = all(&|node| {
+        if node.has_entry(0x1018, 2) {
+            node.identity("ProductNumber", 2)
+        } else {
+            0
+        }
     });
     for (index, name, data_type, access, numbers) in [
         (

@@ -29,9 +29,10 @@ pub struct Frame {
 /// 29 bits, each fourth can be followed by a stuff bit.
 pub const fn frame_bits(is_extended: bool, bytes: u8) -> u32 {
     let data = 8 * bytes as u32;
-    match is_extended {
-        false => data + 47 + (34 + data - 1) / 4,
-        true => data + 67 + (54 + data - 1) / 4,
+    if is_extended {
+        data + 67 + (54 + data - 1) / 4
+    } else {
+        data + 47 + (34 + data - 1) / 4
     }
 }
 

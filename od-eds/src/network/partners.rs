@@ -38,9 +38,10 @@ pub(super) fn pdos(nodes: &[Node], first: u16) -> Vec<Pdo> {
                     Some((value, data_type, name))
                 })
                 .collect();
-            let own = match node.has_entry(index, 1) {
-                true => node.number(index, 1),
-                false => 1 << 31,
+            let own = if node.has_entry(index, 1) {
+                node.number(index, 1)
+            } else {
+                1 << 31
             };
             let partner = node.partners.get(&index).copied();
             let [inhibit_time, event_timer, sync_start, cob_id] = partner.unwrap_or([0, 0, 0, own]);

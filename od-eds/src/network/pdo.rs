@@ -24,9 +24,12 @@ pub(super) fn configure(
 ) -> Result<(), String> {
     let is_tpdo = index >= 0x1800;
     let count = node.number(index, 0);
-    let given = |sub: u8| match count >= u32::from(sub) {
-        true => node.number(index, sub),
-        false => 0,
+    let given = |sub: u8| {
+        if count >= u32::from(sub) {
+            node.number(index, sub)
+        } else {
+            0
+        }
     };
     let has_cob_id = count >= 1 && node.has_entry(index, 1);
     let before = if has_cob_id {
@@ -72,14 +75,15 @@ pub(super) fn configure(
         {
             write(index, 6, start)?;
         }
-        let partner = match is_tpdo {
-            true => [None, wanted.event_deadline, None, Some(cob_id)],
-            false => [
+        let partner = if is_tpdo {
+            [None, wanted.event_deadline, None, Some(cob_id)]
+        } else {
+            [
                 wanted.inhibit_time,
                 wanted.event_timer,
                 wanted.sync_start,
                 Some(cob_id),
-            ],
+            ]
         };
         partners = Some(partner.map(|number| number.unwrap_or(0)));
         if let Some(mapping) = &wanted.mapping {

@@ -61,9 +61,12 @@ fn subs(object: &ObjectDescription) -> String {
     }
     let runs: Vec<String> = runs
         .iter()
-        .map(|(first, last)| match first == last {
-            true => format!("sub{first:X}"),
-            false => format!("sub{first:X}–sub{last:X}"),
+        .map(|(first, last)| {
+            if first == last {
+                format!("sub{first:X}")
+            } else {
+                format!("sub{first:X}–sub{last:X}")
+            }
         })
         .collect();
     runs.join(", ")

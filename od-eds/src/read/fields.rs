@@ -126,9 +126,10 @@ pub(crate) fn duplicates(pairs: &[(Text<'_>, Text<'_>)], log: &mut Log) -> Vec<u
     let mut found = Vec::new();
     let mut report = |(first, same): (&Text<'_>, &Text<'_>), at: usize| {
         let (key, value) = &pairs[at];
-        match value == same {
-            true => log.add(&rules::W0107, || w0107::finding(first.span, key, value)),
-            false => log.add(&rules::E0117, || e0117::finding(first.span, key, value)),
+        if value == same {
+            log.add(&rules::W0107, || w0107::finding(first.span, key, value))
+        } else {
+            log.add(&rules::E0117, || e0117::finding(first.span, key, value))
         }
         found.push(at);
     };

@@ -53,9 +53,10 @@ pub(crate) fn object(
     let code = object_code(&mut reader, &mut fields, &mut unread, has_members);
     let members = sections.members;
     let mistaken = !code.has_members() && has_members;
-    let code = match mistaken {
-        true => contradiction(&mut reader, &fields, code, &members, count.as_ref()),
-        false => code,
+    let code = if mistaken {
+        contradiction(&mut reader, &fields, code, &members, count.as_ref())
+    } else {
+        code
     };
     if !code.has_members() {
         let number = sub_number.and_then(|found| Some(Spanned::new(found.value?, found.span)));
@@ -220,9 +221,10 @@ fn object_code(
     unread: &mut Unread,
     has_members: bool,
 ) -> Spanned<ObjectCode> {
-    let guess = match has_members {
-        true => ObjectCode::Record,
-        false => ObjectCode::Var,
+    let guess = if has_members {
+        ObjectCode::Record
+    } else {
+        ObjectCode::Var
     };
     let read = |reader: &mut Reader<'_>, given: &Text<'_>| reader.object_code(given);
     match reader.keyed(fields, unread, Key::ObjectType, read, e0301::finding) {

@@ -201,9 +201,10 @@ fn twice<'a>(
         let same = same.and_then(|at| first.pairs.get(*at));
         same.is_some_and(|(_, first)| first != value)
     });
-    let finding = match contradict {
-        true => e0303::finding(first, &second),
-        false => w0304::finding(first, &second),
+    let finding = if contradict {
+        e0303::finding(first, &second)
+    } else {
+        w0304::finding(first, &second)
     };
     for (key, value) in second.pairs {
         match keys.entry(key.to_ascii_lowercase()) {

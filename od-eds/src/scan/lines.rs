@@ -67,9 +67,10 @@ impl<'a> Line<'a> {
     pub(crate) fn span(&self, part: &str) -> Span {
         let within = part.as_ptr() as usize - self.text.as_ptr() as usize;
         let before = &self.text[..within];
-        let column = match before.is_ascii() {
-            true => before.len(),
-            false => before.chars().count(),
+        let column = if before.is_ascii() {
+            before.len()
+        } else {
+            before.chars().count()
         };
         Span {
             start: (self.start + within) as u32,

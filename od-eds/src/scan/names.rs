@@ -147,9 +147,10 @@ pub(crate) fn intended(name: &str, describes: bool) -> Option<Place> {
 
 fn hex(digits: &str) -> Option<u32> {
     // from_str_radix would take a sign.
-    match digits.bytes().all(|b| b.is_ascii_hexdigit()) {
-        true => u32::from_str_radix(digits, 16).ok(),
-        false => None,
+    if digits.bytes().all(|b| b.is_ascii_hexdigit()) {
+        u32::from_str_radix(digits, 16).ok()
+    } else {
+        None
     }
 }
 

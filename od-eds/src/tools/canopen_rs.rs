@@ -230,9 +230,10 @@ fn read(input: &Input<'_>) -> Reading {
             mappable: Some(mapping.is_some_and(|(flag, _)| *flag != "0")),
             ..ReadEntry::default()
         };
-        match is_parameter {
-            true => entry.parameter = Some(read),
-            false => entry.default = Some(read),
+        if is_parameter {
+            entry.parameter = Some(read)
+        } else {
+            entry.default = Some(read)
         }
         reading.entries.insert(address, entry);
     }

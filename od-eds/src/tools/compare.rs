@@ -176,9 +176,10 @@ impl Compare<'_> {
         let edit = text.and_then(|text| {
             let written = self.text.get(span.start as usize..span.end as usize)?;
             let (at, name) = key_before(self.text, span)?;
-            let fix = match name.eq_ignore_ascii_case(key.name()) && name != key.name() {
-                true => Fix::safe().replace(at, key.name()),
-                false => Fix::safe(),
+            let fix = if name.eq_ignore_ascii_case(key.name()) && name != key.name() {
+                Fix::safe().replace(at, key.name())
+            } else {
+                Fix::safe()
             };
             let fix = if written == text {
                 fix

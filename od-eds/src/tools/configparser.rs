@@ -72,9 +72,10 @@ pub(crate) struct Ini<'a> {
 }
 
 fn folded(name: Cow<'_, str>, folds: bool) -> Cow<'_, str> {
-    match folds {
-        true => Cow::Owned(name.to_lowercase()),
-        false => name,
+    if folds {
+        Cow::Owned(name.to_lowercase())
+    } else {
+        name
     }
 }
 

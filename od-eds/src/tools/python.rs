@@ -34,9 +34,10 @@ pub(crate) fn int(text: &str, base: u32) -> Option<i128> {
         (base, Some(radix)) if base == radix => (base, &digits[2..], true),
         (base, _) => (base, digits, false),
     };
-    let body = match prefixed {
-        true => digits.strip_prefix('_').unwrap_or(digits),
-        false => digits,
+    let body = if prefixed {
+        digits.strip_prefix('_').unwrap_or(digits)
+    } else {
+        digits
     };
     let mut value: i128 = 0;
     let mut was_digit = false;

@@ -131,9 +131,10 @@ fn denotation(
 fn flags(node: Node<'_, '_>, reader: &Reader<'_>) -> Option<Spanned<String>> {
     let given = reader.attribute(node, "objFlags")?;
     let is_hex = !given.is_empty() && given.bytes().all(|b| b.is_ascii_hexdigit());
-    Some(match is_hex {
-        true => Spanned::new(format!("0x{}", given.value), given.span),
-        false => given,
+    Some(if is_hex {
+        Spanned::new(format!("0x{}", given.value), given.span)
+    } else {
+        given
     })
 }
 
@@ -190,9 +191,10 @@ fn data_type(
 ) -> Option<Spanned<String>> {
     if let Some(given) = reader.attribute(node, "dataType") {
         let digits = !given.is_empty() && given.bytes().all(|b| b.is_ascii_hexdigit());
-        return Some(match digits {
-            true => Spanned::new(format!("0x{}", given.value), given.span),
-            false => given,
+        return Some(if digits {
+            Spanned::new(format!("0x{}", given.value), given.span)
+        } else {
+            given
         });
     }
     let data_type = match found? {

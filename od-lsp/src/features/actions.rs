@@ -99,13 +99,11 @@ fn fixed(file: &File, seen: &Seen, finding: &Finding) -> Option<CodeAction> {
     let diagnostic = diagnostics::one(file, &seen.description, finding);
     let is_safe = fix.applicability == Applicability::Safe;
     let help = od_eds::say(finding, &od_eds::Eds).help;
-    let how = match is_safe {
-        true => "Fix",
-        false => "Unsafe fix of",
-    };
-    let title = match help.is_empty() {
-        true => format!("{how} {}: {}", finding.code(), finding.rule.title),
-        false => format!("{how} {}: {help}", finding.code()),
+    let how = if is_safe { "Fix" } else { "Unsafe fix of" };
+    let title = if help.is_empty() {
+        format!("{how} {}: {}", finding.code(), finding.rule.title)
+    } else {
+        format!("{how} {}: {help}", finding.code())
     };
     Some(CodeAction {
         title,

@@ -34,9 +34,10 @@ pub(crate) fn edits(file: &File, seen: &Seen) -> Result<Vec<TextEdit>, String> {
         return Err("the file has content that its canonical form cannot hold".into());
     }
     let made = Comments::of(file, &seen.layout).into(&plain);
-    let text = match file.str().contains("\r\n") {
-        true => made.replace('\n', "\r\n"),
-        false => made,
+    let text = if file.str().contains("\r\n") {
+        made.replace('\n', "\r\n")
+    } else {
+        made
     };
     Ok(edits::between(file, &format!("{}{text}", file.mark())))
 }
@@ -202,9 +203,10 @@ fn header(line: &str) -> Option<String> {
 }
 
 fn commented(line: &str) -> String {
-    match line.starts_with([';', '#']) {
-        true => line.into(),
-        false => format!(";{line}"),
+    if line.starts_with([';', '#']) {
+        line.into()
+    } else {
+        format!(";{line}")
     }
 }
 

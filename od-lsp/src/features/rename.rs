@@ -105,9 +105,10 @@ fn written(file: &File, mention: Mention, new: u16) -> (Range<usize>, String) {
     };
     let own = file.part(digits.clone());
     let is_lower = own.bytes().any(|b| b.is_ascii_lowercase());
-    let text = match is_lower {
-        true => format!("{new:04x}"),
-        false => format!("{new:04X}"),
+    let text = if is_lower {
+        format!("{new:04x}")
+    } else {
+        format!("{new:04X}")
     };
     (digits, text)
 }
@@ -202,9 +203,10 @@ fn counted(file: &File, section: &Section, count: usize, edits: &mut Vec<(Range<
         .to_ascii_lowercase()
         .starts_with("0x");
     if number(file.str(), pair) != Some(count as i128) {
-        let text = match is_hex {
-            true => format!("0x{count:X}"),
-            false => count.to_string(),
+        let text = if is_hex {
+            format!("0x{count:X}")
+        } else {
+            count.to_string()
         };
         edits.push((bytes, text));
     }

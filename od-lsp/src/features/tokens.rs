@@ -68,9 +68,10 @@ fn of_pair(file: &File, pair: &Pair, tokens: &mut Vec<(Range<usize>, u32)>) {
         ]
         .iter()
         .any(|name| key.eq_ignore_ascii_case(name));
-    let value = match is_name {
-        true => pair.value.clone(),
-        false => plain(file.str(), pair),
+    let value = if is_name {
+        pair.value.clone()
+    } else {
+        plain(file.str(), pair)
     };
     let text = file.part(value.clone());
     let kind = if is_name {

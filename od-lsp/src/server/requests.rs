@@ -214,29 +214,28 @@ impl Server {
         let (number, old) = std::mem::take(&mut open.tokens);
         let is_known = number > 0 && has.is_some_and(|has| has == number.to_string());
         let result_id = (number + 1).to_string();
-        let text = match is_known {
-            false => message::answer(
+        let text = if is_known {
+            let edit = tokens::difference(&old, &new);
+            let edits = edit.map(|(start, delete_count, data)| TokensEdit {
+                start,
+                delete_count,
+                data,
+            });
+            message::answer(
+                id,
+                &TokensDelta {
+                    result_id: &result_id,
+                    edits: edits.into_iter().collect(),
+                },
+            )
+        } else {
+            message::answer(
                 id,
                 &Tokens {
                     result_id: Some(&result_id),
                     data: &new,
                 },
-            ),
-            true => {
-                let edit = tokens::difference(&old, &new);
-                let edits = edit.map(|(start, delete_count, data)| TokensEdit {
-                    start,
-                    delete_count,
-                    data,
-                });
-                message::answer(
-                    id,
-                    &TokensDelta {
-                        result_id: &result_id,
-                        edits: edits.into_iter().collect(),
-                    },
-                )
-            }
+            )
         };
         open.tokens = (number + 1, new);
         Ok(text)

@@ -197,9 +197,10 @@ impl Device {
         let members: Vec<_> = members
             .map(|(sub, entry)| (sub, Unsigned32, "rw", entry.as_str()))
             .collect();
-        let (first, base, kind) = match is_received {
-            true => (0x1400, 0x200, "255"),
-            false => (0x1800, 0x180, "1"),
+        let (first, base, kind) = if is_received {
+            (0x1400, 0x200, "255")
+        } else {
+            (0x1800, 0x180, "1")
         };
         let id = base + 0x100 * number;
         let cob_id = format!("$NODEID+0x{id:X}");

@@ -48,9 +48,12 @@ thread_local! {
 /// Panics of inputs are reported once, when the input is small, and not as they come.
 pub fn quiet_panics() {
     let usual = panic::take_hook();
-    panic::set_hook(Box::new(move |info| match IS_ATTEMPT.get() {
-        true => SAID.set(info.to_string()),
-        false => usual(info),
+    panic::set_hook(Box::new(move |info| {
+        if IS_ATTEMPT.get() {
+            SAID.set(info.to_string())
+        } else {
+            usual(info)
+        }
     }));
 }
 
@@ -78,9 +81,10 @@ fn said(payload: &(dyn Any + Send)) -> String {
             .downcast_ref::<&str>()
             .map(|text| (*text).to_string())
     };
-    match heard.is_empty() {
-        false => heard,
-        true => text().or_else(word).unwrap_or_default(),
+    if heard.is_empty() {
+        text().or_else(word).unwrap_or_default()
+    } else {
+        heard
     }
 }
 

@@ -36,9 +36,10 @@ impl Made {
 
     /// May a PDO to this device, or from it, carry the value as whole bytes?
     pub(crate) fn fits_pdo(&self, is_received: bool) -> bool {
-        let accesses = match is_received {
-            true => ["wo", "rww", "rw"],
-            false => ["ro", "rwr", "rw"],
+        let accesses = if is_received {
+            ["wo", "rww", "rw"]
+        } else {
+            ["ro", "rwr", "rw"]
         };
         let is_whole = self.data_type.size().is_some() && self.data_type != DataType::Boolean;
         self.mappable && is_whole && accesses.contains(&self.access)

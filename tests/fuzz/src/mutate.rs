@@ -40,9 +40,10 @@ pub fn input(target: &Target, seeds: &[Vec<u8>], random: &mut Random) -> Vec<u8>
             .cloned()
             .unwrap_or_default(),
     };
-    let changes = match bytes.is_empty() {
-        true => 1 + random.below(60),
-        false => random.size(6),
+    let changes = if bytes.is_empty() {
+        1 + random.below(60)
+    } else {
+        random.size(6)
     };
     for _ in 0..changes {
         change(&mut bytes, target, seeds, random);

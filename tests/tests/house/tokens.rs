@@ -93,9 +93,10 @@ fn character(text: &str) -> usize {
         return end.map_or(text.len(), |(at, _)| at + 2);
     }
     let first = inside.chars().next().map_or(0, char::len_utf8);
-    match inside[first..].starts_with('\'') {
-        true => first + 2,
-        false => 1,
+    if inside[first..].starts_with('\'') {
+        first + 2
+    } else {
+        1
     }
 }
 

@@ -50,9 +50,10 @@ fn pdo(kind: &DeviceKind, facts: &mut Vec<Vec<String>>) {
     let types = types(pdo.tpdo_types);
     facts.push(fact("TPDOs", format!("2; transmission types {types}")));
     let count = kind.dictionary.entry(0x1A00, 0);
-    let mapping = match count.is_some_and(|entry| entry.access.writable()) {
-        true => "dynamic, up to eight objects",
-        false => "fixed",
+    let mapping = if count.is_some_and(|entry| entry.access.writable()) {
+        "dynamic, up to eight objects"
+    } else {
+        "fixed"
     };
     facts.push(fact("PDO mapping", mapping));
     if let Some(index) = pdo.repeat_counter {
@@ -65,9 +66,12 @@ fn pdo(kind: &DeviceKind, facts: &mut Vec<Vec<String>>) {
 
 /// Ranges of transmission types.
 pub(super) fn types(ranges: &[(u8, u8)]) -> String {
-    let range = |(low, high): &(u8, u8)| match low == high {
-        true => low.to_string(),
-        false => format!("{low}–{high}"),
+    let range = |(low, high): &(u8, u8)| {
+        if low == high {
+            low.to_string()
+        } else {
+            format!("{low}–{high}")
+        }
     };
     ranges.iter().map(range).collect::<Vec<_>>().join(", ")
 }

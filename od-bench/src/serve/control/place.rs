@@ -33,9 +33,10 @@ impl Place {
             Some(("tcp", place)) => {
                 let (host, port) = place.rsplit_once(':').unwrap_or(("127.0.0.1", place));
                 let port: u16 = port.parse().map_err(|_| wrong())?;
-                match host.is_empty() {
-                    true => Err(wrong().into()),
-                    false => Ok(Self::Tcp(format!("{host}:{port}"))),
+                if host.is_empty() {
+                    Err(wrong().into())
+                } else {
+                    Ok(Self::Tcp(format!("{host}:{port}")))
                 }
             }
             _ if text.contains('/') || !text.is_empty() && !text.contains(':') => {
@@ -72,11 +73,12 @@ impl Place {
             Ok(addresses) => addresses.collect(),
             Err(error) => return Err(format!("the host of `{place}` is unknown ({error})")),
         };
-        match addresses.iter().all(|address| address.ip().is_loopback()) {
-            true => Ok(addresses),
-            false => Err(format!(
+        if addresses.iter().all(|address| address.ip().is_loopback()) {
+            Ok(addresses)
+        } else {
+            Err(format!(
                 "`{place}` can be reached from other computers; write tcp:127.0.0.1:PORT"
-            )),
+            ))
         }
     }
 }

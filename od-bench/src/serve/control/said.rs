@@ -15,9 +15,10 @@ pub(super) fn said(deed: &Deed, bench: &Bench) -> String {
     let Ok(device) = bench.present() else {
         return String::from("done");
     };
-    let name = match device.is_configured() {
-        true => format!("node {}", device.node_id()),
-        false => format!("device {}", bench.current + 1),
+    let name = if device.is_configured() {
+        format!("node {}", device.node_id())
+    } else {
+        format!("device {}", bench.current + 1)
     };
     let said = match deed {
         Deed::Wait => return String::from("waited"),

@@ -27,12 +27,13 @@ pub(super) fn parse(place: &str) -> Result<(String, Option<String>), String> {
 fn token(query: &str) -> Result<String, String> {
     let given = query.strip_prefix("token=").unwrap_or_default();
     let is_plain = |byte: u8| byte.is_ascii_alphanumeric() || matches!(byte, b'-' | b'_');
-    match given.len() >= SHORTEST && given.bytes().all(is_plain) {
-        true => Ok(given.to_owned()),
-        false => Err(format!(
+    if given.len() >= SHORTEST && given.bytes().all(is_plain) {
+        Ok(given.to_owned())
+    } else {
+        Err(format!(
             "`?{query}` is not a token; write `?token=` and at least {SHORTEST} letters, digits, - or _, or \
              leave it out for a random one"
-        )),
+        ))
     }
 }
 

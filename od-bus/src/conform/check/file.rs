@@ -87,9 +87,10 @@ pub(super) fn device_info(dut: &mut Dut<'_>) -> Checked {
             format!("{is:X}h was read"),
         )?;
     }
-    match any {
-        true => Ok(()),
-        false => lacks("[DeviceInfo] has no VendorNumber and ProductNumber"),
+    if any {
+        Ok(())
+    } else {
+        lacks("[DeviceInfo] has no VendorNumber and ProductNumber")
     }
 }
 

@@ -187,9 +187,10 @@ fn guarded(dut: &mut Dut<'_>) -> Checked<u8> {
 
 /// Heartbeat and guarding exclude each other, and the heartbeat wins.
 fn without_heartbeat(dut: &mut Dut<'_>) -> Checked {
-    match dut.eds.writes(0x1017, 0) {
-        true => dut.set(PRODUCER, &[0, 0]),
-        false => Ok(()),
+    if dut.eds.writes(0x1017, 0) {
+        dut.set(PRODUCER, &[0, 0])
+    } else {
+        Ok(())
     }
 }
 

@@ -277,9 +277,10 @@ pub(super) fn fastscan(dut: &mut Dut<'_>) -> Checked {
     dut.send(Frame::standard(0, &[0x82, node]))?;
     let id = dut.id(0x700);
     let keeps = dut.next_of(id, 1_000_000)?.is_some();
-    let done = match keeps {
-        true => lacks("the node keeps its node ID"),
-        false => scan(dut, all),
+    let done = if keeps {
+        lacks("the node keeps its node ID")
+    } else {
+        scan(dut, all)
     };
     // Whatever came of it, the node gets its node ID.
     if keeps {

@@ -43,9 +43,10 @@ fn read_all(dut: &mut Dut<'_>, from: u16, to: u16) -> Checked {
             Err(code) => return fail(format!("a value of {name}"), abort_text(code)),
         }
     }
-    match all.is_empty() {
-        true => lacks("the EDS has no such object"),
-        false => Ok(()),
+    if all.is_empty() {
+        lacks("the EDS has no such object")
+    } else {
+        Ok(())
     }
 }
 
@@ -91,9 +92,10 @@ pub(super) fn write_only(dut: &mut Dut<'_>) -> Checked {
             dut.refuses(read, &[UnsupportedAccess, WriteOnly])?;
         }
     }
-    match any {
-        true => Ok(()),
-        false => lacks("no object is write only"),
+    if any {
+        Ok(())
+    } else {
+        lacks("no object is write only")
     }
 }
 
@@ -145,9 +147,10 @@ pub(super) fn limits(dut: &mut Dut<'_>) -> Checked {
             }
         }
     }
-    match any {
-        true => Ok(()),
-        false => lacks("no object that can be written has limits"),
+    if any {
+        Ok(())
+    } else {
+        lacks("no object that can be written has limits")
     }
 }
 

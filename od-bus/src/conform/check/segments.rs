@@ -129,9 +129,10 @@ fn need_not(dut: &Dut<'_>, code: u32) -> Checked {
     let is_long = |entry: &Entry| {
         entry.access.writable() && entry.data_type.size().is_none_or(|size| size > 4)
     };
-    match is_refused && !entries.any(|entry| is_long(&entry)) {
-        true => lacks("the node refuses segmented downloads, and no value needs them"),
-        false => Ok(()),
+    if is_refused && !entries.any(|entry| is_long(&entry)) {
+        lacks("the node refuses segmented downloads, and no value needs them")
+    } else {
+        Ok(())
     }
 }
 

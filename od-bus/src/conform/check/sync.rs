@@ -82,9 +82,10 @@ pub(super) fn producer(dut: &mut Dut<'_>) -> Checked {
             format!("one came after {} us", gap),
         )?;
     }
-    let (len, expected) = match counts {
-        false => (0, "SYNC without data, as 1019h is 0"),
-        true => (1, "SYNC with a counter, as 1019h is not 0"),
+    let (len, expected) = if counts {
+        (1, "SYNC with a counter, as 1019h is not 0")
+    } else {
+        (0, "SYNC without data, as 1019h is 0")
     };
     let wrong = all.iter().find(|heard| heard.frame.dlc() != len);
     match wrong {

@@ -224,10 +224,7 @@ pub(super) fn outside(entry: &Entry, high: bool, node: u8) -> Option<Vec<u8>> {
     if low > top && top.is_some() {
         return None;
     }
-    let value = match high {
-        true => top? + 1,
-        false => low? - 1,
-    };
+    let value = if high { top? + 1 } else { low? - 1 };
     let size = entry.data_type.size()?;
     let fits = (least..=most).contains(&value);
     fits.then(|| value.to_le_bytes()[..size].to_vec())

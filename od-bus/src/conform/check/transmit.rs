@@ -67,17 +67,20 @@ pub(super) fn contradiction(eds: &Eds, all: &[Mapped], transmits: bool) -> Optio
         let Some(entry) = eds.entry(address.index, address.sub) else {
             return Some(format!("{address} is mapped and missing"));
         };
-        let may = match transmits {
-            true => entry.maps_to_tpdo(),
-            false => entry.maps_to_rpdo(),
+        let may = if transmits {
+            entry.maps_to_tpdo()
+        } else {
+            entry.maps_to_rpdo()
         };
         let own = entry.data_type.bits().map_or(0, usize::from);
-        match may {
-            false => Some(format!("{address} cannot be mapped")),
-            true if own != *bits => Some(format!(
+        if !may {
+            Some(format!("{address} cannot be mapped"))
+        } else if own != *bits {
+            Some(format!(
                 "{address} is a {own}-bit value, mapped with length {bits}"
-            )),
-            true => None,
+            ))
+        } else {
+            None
         }
     })
 }
@@ -156,9 +159,10 @@ pub(super) fn none(dut: &mut Dut<'_>, pdo: &Tpdo, micros: u64, expected: &str) -
 }
 
 pub(super) fn sync(dut: &mut Dut<'_>) -> Checked {
-    let raw = match dut.eds.has(0x1005) {
-        true => dut.sync_id,
-        false => 0x80,
+    let raw = if dut.eds.has(0x1005) {
+        dut.sync_id
+    } else {
+        0x80
     };
     let frame = Frame::new(CobId::new(raw).can_id(), &[]);
     frame.map_or(Ok(()), |frame| dut.send(frame))
@@ -176,9 +180,10 @@ pub(super) fn learn_sync(dut: &mut Dut<'_>) -> Checked {
     if raw & PRODUCES == 0 {
         return Ok(());
     }
-    match dut.eds.writes(0x1005, 0) {
-        true => dut.set(Address::new(0x1005, 0), &(raw & !PRODUCES).to_le_bytes()),
-        false => lacks("the node produces SYNC, and 1005h is read only"),
+    if dut.eds.writes(0x1005, 0) {
+        dut.set(Address::new(0x1005, 0), &(raw & !PRODUCES).to_le_bytes())
+    } else {
+        lacks("the node produces SYNC, and 1005h is read only")
     }
 }
 

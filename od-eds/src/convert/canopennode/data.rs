@@ -135,9 +135,10 @@ fn bytes(bytes: &[u8]) -> Data {
 fn text(entry: &EntryDescription, data_type: DataType, kind: Kind, given: &[u8]) -> Data {
     let can_change = entry.access.writable() || given.is_empty();
     let room = entry.capacity.map_or(STRING_CAPACITY, usize::from);
-    let length = match can_change {
-        true => given.len().max(room),
-        false => given.len(),
+    let length = if can_change {
+        given.len().max(room)
+    } else {
+        given.len()
     };
     if kind == Kind::Text {
         let mut texts: Vec<String> = given.iter().copied().map(character).collect();

@@ -23,12 +23,11 @@ pub(super) fn c_name(name: &str) -> String {
         if is_upper(out.bytes().last()) && first.is_ascii_uppercase() {
             out.push('_');
         }
-        match word.len() > 1 {
-            true => {
-                out.push(char::from(first.to_ascii_uppercase()));
-                out.push_str(&word[1..]);
-            }
-            false => out.push_str(word),
+        if word.len() > 1 {
+            out.push(char::from(first.to_ascii_uppercase()));
+            out.push_str(&word[1..]);
+        } else {
+            out.push_str(word)
         }
     }
     match *out.as_bytes() {

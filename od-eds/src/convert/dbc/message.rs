@@ -153,9 +153,10 @@ pub(super) fn message(
             (own(&format!("RPDO{number}")), length, signals)
         }
     };
-    let comment = match used.is_valid {
-        true => String::new(),
-        false => "Not valid by default (bit 31 of its COB-ID)".into(),
+    let comment = if used.is_valid {
+        String::new()
+    } else {
+        "Not valid by default (bit 31 of its COB-ID)".into()
     };
     Some(Message {
         name,

@@ -72,9 +72,10 @@ fn text(description: &Description, node: u8, messages: &[Message]) -> String {
     let mut names = BTreeSet::new();
     for message in messages {
         let id = message.id;
-        let (sender, receiver) = match message.sends {
-            true => (own.as_str(), "Vector__XXX"),
-            false => ("Vector__XXX", own.as_str()),
+        let (sender, receiver) = if message.sends {
+            (own.as_str(), "Vector__XXX")
+        } else {
+            ("Vector__XXX", own.as_str())
         };
         let name = short(&message.name, &mut names);
         let _ = writeln!(out, "BO_ {id} {name}: {} {sender}", message.length);

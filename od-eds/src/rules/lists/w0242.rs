@@ -32,9 +32,10 @@ pub(crate) fn renumbered(list: &Placed<'_>) -> Fix {
     (1i128..)
         .zip(entries)
         .fold(Fix::safe(), |fix, (place, (key, _))| {
-            match number(key) == Some(place) {
-                true => fix,
-                false => fix.replace(key.span, place.to_string()),
+            if number(key) == Some(place) {
+                fix
+            } else {
+                fix.replace(key.span, place.to_string())
             }
         })
 }

@@ -80,9 +80,10 @@ impl CobId<'_> {
 
     /// The CAN-ID in words: `181h`, or `$NODEID+180h`.
     pub(super) fn shown(&self) -> String {
-        match self.formula {
-            true => format!("$NODEID+{:X}h", self.identifier),
-            false => format!("{:03X}h", self.identifier),
+        if self.formula {
+            format!("$NODEID+{:X}h", self.identifier)
+        } else {
+            format!("{:03X}h", self.identifier)
         }
     }
 

@@ -42,9 +42,10 @@ pub(super) fn count(object: &Object<'_>) -> Result<u8, Spanned<u64>> {
 /// The entries of a mapping that its number counts.
 pub(super) fn counted<'a>(object: &Object<'a>) -> impl Iterator<Item = Entry<'a>> + use<'a> {
     let is_mapping = maps_rpdo(object.index).is_some() && object.code.has_members();
-    let count = match is_mapping {
-        true => count(object).unwrap_or(0),
-        false => 0,
+    let count = if is_mapping {
+        count(object).unwrap_or(0)
+    } else {
+        0
     };
     let entries = object.entries();
     entries.filter(move |entry| (1..=count).contains(&entry.address.sub))
@@ -124,9 +125,10 @@ impl<'a> Mapped<'a> {
 
     /// Can the value be mapped, and in this direction?
     pub(super) fn takes(&self, value: &Entry<'_>) -> bool {
-        let direction = match self.rpdo {
-            true => value.access.maps_to_rpdo(),
-            false => value.access.maps_to_tpdo(),
+        let direction = if self.rpdo {
+            value.access.maps_to_rpdo()
+        } else {
+            value.access.maps_to_tpdo()
         };
         *value.mappable && direction
     }

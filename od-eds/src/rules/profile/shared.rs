@@ -83,9 +83,10 @@ pub(crate) fn is_profile_array(object: &Object<'_>) -> bool {
 /// The type that the profile of the device gives a value.
 pub(crate) fn profile_type(description: &Description, address: Address) -> Option<DataType> {
     let standard = of(device_type(description)?.profile, address.index)?;
-    match standard.code.has_members() && address.sub == 0 {
-        true => Some(DataType::Unsigned8),
-        false => standard.data_types.first().copied(),
+    if standard.code.has_members() && address.sub == 0 {
+        Some(DataType::Unsigned8)
+    } else {
+        standard.data_types.first().copied()
     }
 }
 
@@ -163,9 +164,10 @@ pub(super) fn access(
         .filter(|entry| subs.contains(&entry.address.sub))
     {
         let own = *entry.access;
-        let is_wrong = match stops {
-            true => writable && !own.writable() || !writable && own == Access::Wo,
-            false => !writable && own.writable() && own != Access::Wo,
+        let is_wrong = if stops {
+            writable && !own.writable() || !writable && own == Access::Wo
+        } else {
+            !writable && own.writable() && own != Access::Wo
         };
         if is_wrong {
             let right = if writable { Access::Rw } else { Access::Ro };

@@ -53,9 +53,10 @@ fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
         && device(entry.description, profile).is_some()
     {
         let finding = RULE.on(entry, value.span).fact("object", entry.shown());
-        let finding = match what.starts_with("bits") {
-            true => finding.fact("given", alloc::format!("0x{number:X}")),
-            false => finding.fact("given", number),
+        let finding = if what.starts_with("bits") {
+            finding.fact("given", alloc::format!("0x{number:X}"))
+        } else {
+            finding.fact("given", number)
         };
         let finding = finding.fact("reserved", what);
         findings.push(finding.fact("profile", u32::from(profile)));

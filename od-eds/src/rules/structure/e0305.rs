@@ -30,8 +30,9 @@ pub(crate) fn finding(member: Span, code: Spanned<ObjectCode>, compact: bool) ->
         _ => finding.related(member, "this is a sub-object of it"),
     };
     let fix = |right| Fix::unsafe_fix().replace(code.span, right);
-    match compact {
-        true => finding.form(&COMPACT).fix(fix("0x8")),
-        false => finding.fix(fix("0x9")),
+    if compact {
+        finding.form(&COMPACT).fix(fix("0x8"))
+    } else {
+        finding.fix(fix("0x9"))
     }
 }

@@ -18,8 +18,9 @@ pub(crate) static RULE: Rule = Rule {
 /// odkit would read that one if the line were removed, so the finding has no fix.
 pub(crate) fn finding(key: &Text<'_>, is_single: bool) -> Finding {
     let finding = RULE.at(key.span).fact("name", &*key.value);
-    match is_single {
-        true => finding.fix(Fix::safe().remove_line(key.span)),
-        false => finding,
+    if is_single {
+        finding.fix(Fix::safe().remove_line(key.span))
+    } else {
+        finding
     }
 }

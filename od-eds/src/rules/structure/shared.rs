@@ -108,12 +108,11 @@ impl<'a> Count<'a> {
             .fact("highest", self.highest);
         let index = self.entry.address.index;
         let wrong = compact || decimal(object).is_some();
-        match wrong || has_lost(self.entry.description, index) {
-            true => finding,
-            false => {
-                let fix = Fix::unsafe_fix().replace(self.given.span, self.highest.to_string());
-                finding.fix(fix)
-            }
+        if wrong || has_lost(self.entry.description, index) {
+            finding
+        } else {
+            let fix = Fix::unsafe_fix().replace(self.given.span, self.highest.to_string());
+            finding.fix(fix)
         }
     }
 }

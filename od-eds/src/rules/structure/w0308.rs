@@ -27,9 +27,10 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
     if let Some(given) = given.filter(|_| counts(object)) {
         let finding = RULE.on(object, given.span).fact("given", given.value);
         let finding = finding.fact("count", count);
-        findings.push(match has_lost(object.description, object.index) {
-            true => finding,
-            false => finding.fix(Fix::safe().replace(given.span, count.to_string())),
+        findings.push(if has_lost(object.description, object.index) {
+            finding
+        } else {
+            finding.fix(Fix::safe().replace(given.span, count.to_string()))
         });
     }
 }

@@ -45,9 +45,10 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
         let finding = finding.related(right.span, "declared as {right} here");
         let finding = finding.related(object.code.span, "declared as ARRAY here");
         let prescribed = is_standard_array(object.index) || is_profile_array(object);
-        findings.push(match prescribed {
-            true => finding.form(&PRESCRIBED),
-            false => finding.fix(Fix::unsafe_fix().replace(object.code.span, "0x9")),
+        findings.push(if prescribed {
+            finding.form(&PRESCRIBED)
+        } else {
+            finding.fix(Fix::unsafe_fix().replace(object.code.span, "0x9"))
         });
     }
 }

@@ -23,8 +23,9 @@ const MARKED: Form = Form {
 /// The finding about a file that is not ASCII, at its first character that is not.
 pub(crate) fn finding(first: Span, encoding: Encoding, marked: bool) -> Finding {
     let finding = RULE.at(first).fact("encoding", encoding.name());
-    match marked {
-        true => finding.form(&MARKED),
-        false => finding,
+    if marked {
+        finding.form(&MARKED)
+    } else {
+        finding
     }
 }

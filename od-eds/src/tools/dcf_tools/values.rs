@@ -82,8 +82,9 @@ pub(super) fn limits(data_type: i128) -> Option<(i128, i128)> {
         0x1B | 0x11 => (64, false),
         _ => return None,
     };
-    Some(match signed {
-        true => (-(1i128 << (bits - 1)), (1i128 << (bits - 1)) - 1),
-        false => (0, (1i128 << bits) - 1),
+    Some(if signed {
+        (-(1i128 << (bits - 1)), (1i128 << (bits - 1)) - 1)
+    } else {
+        (0, (1i128 << bits) - 1)
     })
 }

@@ -117,9 +117,10 @@ pub(super) fn raw(text: &Given, data_type: i128) -> Result<Option<Read>, ()> {
         Given::Null => 0.0,
     };
     if let Some((bits, signed)) = integer(data_type) {
-        let (low, high) = match signed {
-            true => (-(1i128 << (bits - 1)), (1i128 << (bits - 1)) - 1),
-            false => (0, (1i128 << bits) - 1),
+        let (low, high) = if signed {
+            (-(1i128 << (bits - 1)), (1i128 << (bits - 1)) - 1)
+        } else {
+            (0, (1i128 << bits) - 1)
         };
         let value = match text {
             Given::Text(text) if bits == 64 => big(text).ok_or(())?,
@@ -131,9 +132,10 @@ pub(super) fn raw(text: &Given, data_type: i128) -> Result<Option<Read>, ()> {
                 value as i128
             }
         };
-        return match (low..=high).contains(&value) {
-            true => Ok(Some(Read::Number(value))),
-            false => Err(()),
+        return if (low..=high).contains(&value) {
+            Ok(Some(Read::Number(value)))
+        } else {
+            Err(())
         };
     }
     Ok(match (data_type, text) {

@@ -78,21 +78,20 @@ fn sections(index: u16, name: &str, code: ObjectCode, access: Access) -> String 
         });
         entry
     };
-    let object = match code.has_members() {
-        false => ObjectDescription::var(value(0, &name, true)),
-        true => {
-            let mut object = ObjectDescription::var(value(0, &name, true));
-            object.code = Spanned::from(code);
-            let first = match index {
-                0x1018 => "Vendor-ID",
-                _ => "Entry 1",
-            };
-            object.entries = BTreeMap::from([
-                (0, value(0, "Highest sub-index supported", false)),
-                (1, value(1, first, false)),
-            ]);
-            object
-        }
+    let object = if code.has_members() {
+        let mut object = ObjectDescription::var(value(0, &name, true));
+        object.code = Spanned::from(code);
+        let first = match index {
+            0x1018 => "Vendor-ID",
+            _ => "Entry 1",
+        };
+        object.entries = BTreeMap::from([
+            (0, value(0, "Highest sub-index supported", false)),
+            (1, value(1, first, false)),
+        ]);
+        object
+    } else {
+        ObjectDescription::var(value(0, &name, true))
     };
     let objects = BTreeMap::from([(index, object)]);
     let text = od_eds::write(&Description {

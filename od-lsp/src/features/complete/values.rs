@@ -125,9 +125,10 @@ fn mappable(seen: &Seen, into_tpdo: bool) -> Vec<Choice> {
     let description = &seen.description;
     let entries = description.entries().filter(|(_, entry)| {
         *entry.mappable
-            && match into_tpdo {
-                true => entry.access.maps_to_tpdo(),
-                false => entry.access.maps_to_rpdo(),
+            && if into_tpdo {
+                entry.access.maps_to_tpdo()
+            } else {
+                entry.access.maps_to_rpdo()
             }
     });
     let choices = entries.filter_map(|(at, entry)| {

@@ -123,9 +123,10 @@ fn run(input: &[u8]) {
             .data_type
             .integer_range()
             .is_some_and(|(low, _)| low < 0);
-        let value = match is_signed {
-            true => i128::from((value << (64 - size)) as i64 >> (64 - size)),
-            false => i128::from(value),
+        let value = if is_signed {
+            i128::from((value << (64 - size)) as i64 >> (64 - size))
+        } else {
+            i128::from(value)
         };
         let limit = |literal: od_model::Literal| literal.integer(node.raw());
         let low = limit(entry.low).is_none_or(|low| value >= low);

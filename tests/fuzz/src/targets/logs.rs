@@ -84,9 +84,12 @@ fn capture(is_big: bool) -> Vec<u8> {
     let packet = [1_u32, 500_000, 16, 16];
     let words = head.into_iter().chain(packet);
     let mut bytes: Vec<u8> = words
-        .flat_map(|word| match is_big {
-            true => word.to_be_bytes(),
-            false => word.to_le_bytes(),
+        .flat_map(|word| {
+            if is_big {
+                word.to_be_bytes()
+            } else {
+                word.to_le_bytes()
+            }
         })
         .collect();
     bytes.extend([0, 0, 6, 1, 8, 0, 0, 0, 0x40, 4, 0x60, 0, 0, 0, 0, 0]);

@@ -221,9 +221,10 @@ impl Master {
     }
 
     fn check_read(&mut self, one: &Made, value: &[u8]) {
-        let expected = match one.is_readable() {
-            true => Ok(value.to_vec()),
-            false => Err(0x0601_0001),
+        let expected = if one.is_readable() {
+            Ok(value.to_vec())
+        } else {
+            Err(0x0601_0001)
         };
         assert_eq!(self.read(one.address), expected, "{one:?}");
     }
