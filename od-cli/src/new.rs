@@ -105,6 +105,21 @@ fn device(name: &str) -> Result<(DeviceFile, usize), Failure> {
     let ending = if is_dcf { "dcf" } else { "eds" };
     let mut notes = repair::Notes::default();
     let is_sound = !findings.iter().any(Finding::is_unsound);
+    // Which of the two versions is meant, only the user knows.
+    let marks: Vec<Finding> = findings
+        .iter()
+        .filter(|one| one.code() == "E0118")
+        .cloned()
+        .collect();
+    if !marks.is_empty() {
+        let (names, colours) = (report::names(&description, &marks), output::error_colours());
+        output::note_text(&source.render(&marks, &names, colours));
+        let text = format!(
+            "{} has marks of a merge conflict; resolve the conflict",
+            source.path
+        );
+        return Err(Failure::Failed(text));
+    }
     if !is_sound {
         notes = repair::fix(&mut description).map_err(|left| {
             let text = od_eds::canonical(&description);

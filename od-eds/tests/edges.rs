@@ -146,6 +146,50 @@ fn can_id_100h_is_for_time_messages_even_without_1012h() {
     assert!(said(&text).contains("TIME"), "{}", said(&text));
 }
 
+/// The messages of a rule about `od-eds/tests/faults.eds` with other COB-IDs.
+fn said_of(code: &str, changes: &[(&str, &str)]) -> Vec<String> {
+    let mut text = include_str!("faults.eds").to_owned();
+    for (section, value) in changes {
+        let at = text.find(&format!("[{section}]\n")).expect("a section");
+        let from = at + text[at..].find("DefaultValue=").expect("a default");
+        let to = from + text[from..].find('\n').expect("a line");
+        text.replace_range(from..to, &format!("DefaultValue={value}"));
+    }
+    let findings = Document::new(text.as_str()).load().findings;
+    let all = findings.iter().filter(|one| one.code() == code);
+    all.map(|one| say(one, &Eds).message).collect()
+}
+
+#[test]
+fn a_can_id_is_checked_for_every_node_id() {
+    assert_eq!(
+        said_of("W0522", &[("1800sub1", "$NODEID+0x790")]),
+        ["the CAN-ID of node ID 112 is 800h, which has more than 11 bits; cut off, it is 000h"]
+    );
+    assert_eq!(
+        said_of("W0520", &[("1800sub1", "$NODEID+0x680")]),
+        ["a node with node ID 96 sends with CAN-ID 6E0h, which CiA 301 reserves for later use"]
+    );
+    // The last one that is free for all of them, and one of another range.
+    for free in ["$NODEID+0x500", "$NODEID+0x480", "$NODEID+0x20000680"] {
+        assert!(said_of("W0520", &[("1800sub1", free)]).is_empty(), "{free}");
+        assert!(said_of("W0522", &[("1800sub1", free)]).is_empty(), "{free}");
+    }
+    // Bit 31: the PDO is not in use.
+    assert!(said_of("W0520", &[("1800sub1", "$NODEID+0x80000680")]).is_empty());
+}
+
+#[test]
+fn a_number_may_be_the_can_id_of_a_partner() {
+    // The RPDO of every node listens to the TPDO of node 5, which is another device.
+    assert!(said_of("W0521", &[("1400sub1", "0x185")]).is_empty());
+    // Two that are sent cannot be told apart at node ID 5.
+    assert_eq!(
+        said_of("E0532", &[("1014", "0x185")]),
+        ["1014h has the CAN-ID of 1800h:01, 185h, at node ID 5"]
+    );
+}
+
 #[test]
 fn what_cannot_be_mapped_has_no_wrong_length() {
     let bad = include_str!("../cases/E0504/bad.eds");

@@ -43,7 +43,7 @@ pub use dictionary::{Dictionary, Entries, Names, Objects};
 pub use entry::{Entry, Missing, Object, Slot};
 #[cfg(feature = "alloc")]
 pub use refused::Refused;
-pub use restricted::is_restricted;
+pub use restricted::{CanIdOwner, is_restricted, restricted};
 pub use types::{DataType, Kind, ObjectCode};
 pub use value::{Literal, Range};
 

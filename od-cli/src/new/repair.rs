@@ -145,6 +145,10 @@ fn step(
         {
             unmap(object, sub);
         }
+        ("W0520" | "W0521" | "W0522" | "E0532", 1) => {
+            let entry = object.entries.get_mut(&sub)?;
+            switch_off(index, entry)?;
+        }
         (code, 1) if code.starts_with("E06") => {
             object.entries.get_mut(&sub)?.access = Spanned::from(Access::Ro);
         }
@@ -182,6 +186,24 @@ fn count(object: &mut ObjectDescription) {
     entry.default = Some(Spanned::from(Value::Unsigned(highest.into())));
     object.entries.insert(0, entry);
     object.sub_number = None;
+}
+
+/// A service without a CAN-ID that it may not use: SYNC and TIME get their own, any other is not valid (bit 31).
+fn switch_off(index: u16, entry: &mut EntryDescription) -> Option<()> {
+    let number = |value: &Value| match (index, value) {
+        (0x1005, _) => Some(Value::Unsigned(0x80)),
+        (0x1012, _) => Some(Value::Unsigned(0x100)),
+        (_, Value::Unsigned(_)) => Some(Value::Unsigned(1 << 31)),
+        (_, Value::NodeId(_)) => Some(Value::NodeId(1 << 31)),
+        _ => None,
+    };
+    for value in [&mut entry.default, &mut entry.parameter]
+        .into_iter()
+        .flatten()
+    {
+        *value = Spanned::from(number(&value.value)?);
+    }
+    Some(())
 }
 
 /// A PDO without this entry and those behind it.

@@ -101,6 +101,38 @@ fn a_broken_file_is_fixed_and_each_change_is_listed() {
 }
 
 #[test]
+fn a_cob_id_that_no_device_may_use_is_switched_off() {
+    let text = "[DeviceInfo]\nProductName=Sender\n[1800]\nParameterName=TPDO\nObjectType=0x9\nSubNumber=3\n\
+                [1800sub0]\nParameterName=Count\nDataType=5\nAccessType=const\nDefaultValue=2\n\
+                [1800sub2]\nParameterName=Type\nDataType=5\nAccessType=rw\nDefaultValue=255\n\
+                [1800sub1]\nParameterName=COB-ID\nDataType=7\nAccessType=rw\nDefaultValue=$NODEID+0x790\n";
+    let eds = file("new-cob-id.eds", text).display().to_string();
+    let folder = fresh("new-cob-id");
+    let path = folder.display().to_string();
+    let made = odkit(&["new", &eds, "--name", "sender", "--path", &path], "");
+    assert_eq!(made.code, 0, "{}", made.err);
+    let copy = read(&folder, "sender.eds");
+    assert!(copy.contains("DefaultValue=$NODEID+0x80000000"), "{copy}");
+}
+
+#[test]
+fn a_merge_conflict_is_for_the_user() {
+    let text = "[DeviceInfo]\nProductName=Two\n[2000]\nParameterName=T\nDataType=5\nAccessType=rw\n\
+                <<<<<<< HEAD\nDefaultValue=5\n=======\nDefaultValue=6\n>>>>>>> other\n";
+    let eds = file("new-merge.eds", text).display().to_string();
+    let folder = fresh("new-merge");
+    let path = folder.display().to_string();
+    let made = odkit(&["new", &eds, "--name", "two", "--path", &path], "");
+    assert_eq!(made.code, 1, "{}", made.err);
+    assert!(
+        made.err.contains("E0118") && made.err.contains("resolve the conflict"),
+        "{}",
+        made.err
+    );
+    assert!(!folder.exists());
+}
+
+#[test]
 fn what_the_node_does_not_serve_is_removed_in_the_call() {
     let text = "[DeviceInfo]\nProductName=Master\n[1005]\nParameterName=COB-ID SYNC\nDataType=7\n\
                 AccessType=rw\nDefaultValue=0x40000080\n";

@@ -9,8 +9,8 @@ object_dictionary! {
         add 0x1018 { code = record; name = "Identity object" }
         add 0x1018sub1 { name = "Vendor-ID"; type = u32; default = 0x5F }
         add 0x1201 { code = record; name = "SDO server 2" }
-        add 0x1201sub1 { name = "COB-ID request"; type = u32; access = rw; default = 0x640 }
-        add 0x1201sub2 { name = "COB-ID response"; type = u32; access = rw; default = 0x5C0 }
+        add 0x1201sub1 { name = "COB-ID request"; type = u32; access = rw; default = 0x6A0 }
+        add 0x1201sub2 { name = "COB-ID response"; type = u32; access = rw; default = 0x6B0 }
     }
 }
 

@@ -4,11 +4,10 @@ use alloc::format;
 use alloc::string::String;
 use core::ops::RangeInclusive;
 
-use od_model::Address;
+use od_model::{Address, CanIdOwner};
 
 use crate::description::{Description, Value};
 use crate::finding::{Finding, Rule};
-use crate::rules::pdo::shared::is_communication;
 use crate::span::Span;
 use crate::subject::{Entry, Object, start_value};
 
@@ -26,7 +25,28 @@ pub(super) enum Service {
     EmcyConsumer,
     SdoServer,
     SdoClient,
-    Pdo,
+    Rpdo,
+    Tpdo,
+}
+
+/// What a device does with a CAN-ID.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Direction {
+    Sends,
+    Listens,
+    /// As the COB-ID says, or as other devices do.
+    Both,
+}
+
+impl Direction {
+    /// As a verb before "CAN-ID".
+    pub(super) const fn verb(self) -> &'static str {
+        match self {
+            Self::Sends => "sends with",
+            Self::Listens => "listens to",
+            Self::Both => "uses",
+        }
+    }
 }
 
 /// A COB-ID that is valid.
@@ -44,41 +64,95 @@ pub(super) struct CobId<'a> {
 }
 
 impl CobId<'_> {
-    /// Does the identifier have more bits than bit 29 says?
-    pub(super) const fn is_too_long(&self) -> bool {
-        !self.extended && self.identifier > 0x7FF
-    }
-
-    /// The CAN-IDs that it has: one, or those of all nodes.
-    pub(super) fn can_ids(&self) -> RangeInclusive<u32> {
-        let node = self.entry.description.commissioned_node_id();
-        match (self.formula, node) {
-            (false, _) => self.identifier..=self.identifier,
-            (true, Some(node)) => {
-                let id = self.identifier + u32::from(node);
-                id..=id
-            }
-            (true, None) => self.identifier + 1..=self.identifier + 127,
+    /// The node IDs that the device can have: the one of a DCF, else all.
+    pub(super) fn nodes(&self) -> RangeInclusive<u8> {
+        match self.entry.description.commissioned_node_id() {
+            Some(node) => node..=node,
+            None => 1..=127,
         }
     }
 
-    /// Has it, for every node ID, a CAN-ID that CiA 301 keeps for another service? A client uses the
-    /// default SDO of another device.
-    pub(super) fn is_restricted(&self) -> bool {
-        let own = |id| match self.service {
-            Service::SdoClient => matches!(id, 0x581..=0x5FF | 0x601..=0x67F),
-            _ => false,
+    /// The CAN-ID of a device with this node ID.
+    pub(super) fn can_id(&self, node: u8) -> u32 {
+        match self.formula {
+            true => self.identifier + u32::from(node),
+            false => self.identifier,
+        }
+    }
+
+    /// The first node ID for which the CAN-ID has more bits than bit 29 says.
+    pub(super) fn too_long(&self) -> Option<u8> {
+        self.nodes().find(|node| !self.fits(*node))
+    }
+
+    fn fits(&self, node: u8) -> bool {
+        self.can_id(node) <= if self.extended { 0x1FFF_FFFF } else { 0x7FF }
+    }
+
+    /// The owner of the CAN-ID of a device with this node ID, and the range of CAN-IDs that it has, if CiA 301
+    /// reserves the CAN-ID for another service.
+    pub(super) fn reserved(&self, node: u8) -> Option<(RangeInclusive<u32>, CanIdOwner)> {
+        if self.extended {
+            return None;
+        }
+        // A client uses the default SDO of another device.
+        let client = self.service == Service::SdoClient;
+        od_model::restricted(self.can_id(node)).filter(|(_, owner)| {
+            !client || !matches!(owner, CanIdOwner::SdoRequest | CanIdOwner::SdoResponse)
+        })
+    }
+
+    /// Can a device with this node ID use the CAN-ID, apart from its other services?
+    pub(super) fn is_usable(&self, node: u8) -> bool {
+        self.fits(node) && self.reserved(node).is_none()
+    }
+
+    /// The first node ID with which both have one CAN-ID, which is neither too long nor reserved.
+    ///
+    /// A number that the device listens to is that of a partner, and so is one that a partner listens to: then no
+    /// device has the partner's node ID, and a COB-ID with the node ID does not meet it.
+    pub(super) fn meets(&self, other: &CobId<'_>) -> Option<u8> {
+        let nodes = match (self.formula, other.formula) {
+            _ if self.extended != other.extended => return None,
+            (true, false) => self.node_with(other)?,
+            (false, true) => other.node_with(self)?,
+            _ if self.identifier == other.identifier => self.nodes(),
+            _ => return None,
         };
-        let kept = |id| od_model::is_restricted(id) && !own(id);
-        !self.extended && self.can_ids().all(kept)
+        let is_usable = |node: &u8| self.is_usable(*node) && other.is_usable(*node);
+        nodes.into_iter().find(is_usable)
     }
 
-    /// Is it the COB-ID of a PDO that can be used?
+    /// The node ID with which this formula is the number of the other.
+    fn node_with(&self, number: &CobId<'_>) -> Option<RangeInclusive<u8>> {
+        let node = number.identifier.checked_sub(self.identifier)?;
+        let node = u8::try_from(node).ok()?;
+        let is_partner = self.direction() != number.direction() && self.nodes().count() > 1;
+        (self.nodes().contains(&node) && !is_partner).then_some(node..=node)
+    }
+
+    /// Is it the same number for both, with or without the node ID?
+    pub(super) fn is_same(&self, other: &CobId<'_>) -> bool {
+        let key = |one: &CobId<'_>| (one.formula, one.extended, one.identifier);
+        key(self) == key(other)
+    }
+
+    /// Is it the COB-ID of a PDO?
     pub(super) fn is_pdo(&self) -> bool {
-        self.service == Service::Pdo && !self.is_too_long() && !self.is_restricted()
+        matches!(self.service, Service::Rpdo | Service::Tpdo)
     }
 
-    /// The CAN-ID in words: `181h`, or `$NODEID+180h`.
+    /// What the device does with the CAN-ID.
+    pub(super) const fn direction(&self) -> Direction {
+        match (self.service, self.entry.address.sub) {
+            (Service::Sync | Service::Time, _) => Direction::Both,
+            (Service::Emcy | Service::Tpdo, _) => Direction::Sends,
+            (Service::SdoServer, 2) | (Service::SdoClient, 1) => Direction::Sends,
+            _ => Direction::Listens,
+        }
+    }
+
+    /// The COB-ID in words: `181h`, or `$NODEID+180h`.
     pub(super) fn shown(&self) -> String {
         if self.formula {
             format!("$NODEID+{:X}h", self.identifier)
@@ -102,7 +176,8 @@ const fn service(address: Address) -> Option<Service> {
         (0x1028, 1..=127) => Some(Service::EmcyConsumer),
         (0x1201..=0x127F, 1 | 2) => Some(Service::SdoServer),
         (0x1280..=0x12FF, 1 | 2) => Some(Service::SdoClient),
-        (index, 1) if is_communication(index) => Some(Service::Pdo),
+        (0x1400..=0x15FF, 1) => Some(Service::Rpdo),
+        (0x1800..=0x19FF, 1) => Some(Service::Tpdo),
         _ => None,
     }
 }
@@ -122,8 +197,13 @@ pub(super) fn cob_ids(description: &Description) -> impl Iterator<Item = CobId<'
                 _ => return None,
             };
             let span = value.span.or(entry.span);
-            let shared = matches!(service, Service::Sync | Service::Time);
-            (number & INVALID == 0 || shared).then_some(CobId {
+            let is_valid = match service {
+                Service::Sync => true,
+                // Neither a consumer (bit 31) nor a producer (bit 30) uses it.
+                Service::Time => number >> 30 != 0,
+                _ => number & INVALID == 0,
+            };
+            is_valid.then_some(CobId {
                 entry,
                 span,
                 service,

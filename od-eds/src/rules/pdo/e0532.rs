@@ -1,20 +1,19 @@
-use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
 
 use crate::description::Description;
+use crate::fact::Fact;
 use crate::finding::{Check, Finding, Form, Rule, Severity::Error};
 use crate::rules::pdo::cob_ids::{CobId, Service, cob_ids};
 
 pub(crate) static RULE: Rule = Rule {
     code: "E0532",
     severity: Error,
-    buildable: true,
     title: "two services have the same CAN-ID",
     why: "Two devices send with the same CAN-ID, which ends in bus errors, or a device takes the message of one service for that of the other.",
     source: "CiA 301, COB-ID and predefined connection set",
     says: "{object} has CAN-ID {id}, which is that of {other}",
     help: "write a CAN-ID that no other service has, or set bit 31 (`0x80000000`) if the service is not used",
-    also: &[DEFAULT, SHARED],
+    also: &[ONE, DEFAULT, DEFAULT_ONE, SHARED],
     check: Check::Device(check),
     ..Rule::NEW
 };
@@ -25,6 +24,18 @@ const DEFAULT: Form = Form {
     ..Form::OWN
 };
 
+/// Sentence for a number and a COB-ID with the node ID, which meet for one node ID.
+const ONE: Form = Form {
+    says: "{object} has the CAN-ID of {other}, {can:03X}h, at node ID {node}",
+    ..Form::OWN
+};
+
+/// The same for a CAN-ID of the predefined connection set.
+const DEFAULT_ONE: Form = Form {
+    says: "{object} has CAN-ID {can:03X}h at node ID {node}, which {other} messages have by default",
+    ..Form::OWN
+};
+
 /// Sentence for a COB-ID that all nodes must share.
 const SHARED: Form = Form {
     says: "{object} has CAN-ID {id}, but all nodes share the CAN-ID of SYNC and TIME",
@@ -32,45 +43,70 @@ const SHARED: Form = Form {
 };
 
 fn check(description: &Description, findings: &mut Vec<Finding>) {
-    let sound =
-        |cob_id: &CobId<'_>| !cob_id.extended && !cob_id.is_too_long() && !cob_id.is_restricted();
-    let all: Vec<CobId<'_>> = cob_ids(description).filter(sound).collect();
-    let mut used: BTreeMap<(bool, u32), Vec<&CobId<'_>>> = BTreeMap::new();
-    for cob_id in &all {
-        let same = used.entry((cob_id.formula, cob_id.identifier)).or_default();
-        same.push(cob_id);
-    }
-    let about = |cob_id: &CobId<'_>| {
-        let finding = cob_id.finding(&RULE).fact("object", cob_id.entry.shown());
-        finding.fact("id", cob_id.shown())
-    };
-    for same in used.into_values() {
-        // The one that is where it belongs keeps its CAN-ID.
-        let mut same = same;
-        same.sort_by_key(|cob_id| (!is_default(cob_id), cob_id.service, cob_id.entry.address));
-        for (at, cob_id) in same.iter().enumerate().skip(1) {
-            if let Some(other) = same[..at].iter().find(|other| collide(other, cob_id)) {
-                let finding = about(cob_id).fact("other", other.entry.shown());
-                findings.push(finding.related(other.span, "used here"));
-            }
-        }
-    }
-    let has = |service| all.iter().any(|cob_id| cob_id.service == service);
-    for cob_id in &all {
-        let shared = matches!(cob_id.service, Service::Sync | Service::Time);
-        if cob_id.formula {
-            findings.extend(shared.then(|| about(cob_id).form(&SHARED)));
+    let mut all: Vec<CobId<'_>> = cob_ids(description).collect();
+    // The one that is where it belongs keeps its CAN-ID.
+    all.sort_by_key(|cob_id| (!is_default(cob_id), cob_id.service, cob_id.entry.address));
+    for (number, cob_id) in all.iter().enumerate() {
+        let about = |other: Fact| {
+            let finding = cob_id.finding(&RULE).fact("object", cob_id.entry.shown());
+            finding.fact("other", other)
+        };
+        let at = |finding: Finding, node, form| {
+            let finding = finding.form(form).fact("node", node);
+            finding.fact("can", cob_id.can_id(node))
+        };
+        if cob_id.formula && matches!(cob_id.service, Service::Sync | Service::Time) {
+            let finding = cob_id.finding(&RULE).fact("object", cob_id.entry.shown());
+            findings.push(finding.fact("id", cob_id.shown()).form(&SHARED));
             continue;
         }
-        let by_default = match cob_id.identifier {
-            0x80 if cob_id.service != Service::Sync && !has(Service::Sync) => "SYNC",
-            0x100 if cob_id.service != Service::Time && !has(Service::Time) => "TIME",
+        let before = all[..number].iter().filter(|other| collide(other, cob_id));
+        let mut met = before.filter_map(|other| Some((other, cob_id.meets(other)?)));
+        let same = met.clone().find(|(other, _)| cob_id.is_same(other));
+        let finding = match (same, by_default(cob_id, &all)) {
+            (Some((other, _)), _) => about(other.entry.shown())
+                .fact("id", cob_id.shown())
+                .related(other.span, "used here"),
+            (None, Some((node, service))) if cob_id.formula => {
+                at(about(service.into()), node, &DEFAULT_ONE)
+            }
+            (None, Some((_, service))) => about(service.into())
+                .fact("id", cob_id.shown())
+                .form(&DEFAULT),
+            (None, None) => match met.next() {
+                Some((other, node)) => {
+                    at(about(other.entry.shown()), node, &ONE).related(other.span, "used here")
+                }
+                None => continue,
+            },
+        };
+        findings.push(finding);
+    }
+}
+
+/// The first node ID with which the CAN-ID is one that the predefined connection set gives to another service,
+/// and that service.
+fn by_default(cob_id: &CobId<'_>, all: &[CobId<'_>]) -> Option<(u8, &'static str)> {
+    let has = |service| all.iter().any(|other| other.service == service);
+    if cob_id.extended {
+        return None;
+    }
+    // A client that asks the node's own server.
+    let is_own = |node| [0x580, 0x600].contains(&cob_id.can_id(node).wrapping_sub(u32::from(node)));
+    if cob_id.service == Service::SdoClient && cob_id.nodes().all(is_own) {
+        return Some((*cob_id.nodes().start(), "the node's own SDO"));
+    }
+    let (no_sync, no_time) = (!has(Service::Sync), !has(Service::Time));
+    cob_id.nodes().find_map(|node| {
+        let service = match cob_id.can_id(node) {
+            0x80 if cob_id.service != Service::Sync && no_sync => "SYNC",
+            0x100 if cob_id.service != Service::Time && no_time => "TIME",
             0x81..=0xFF if cob_id.service > Service::EmcyConsumer => "EMCY",
             0x181..=0x57F if cob_id.service < Service::Emcy => "PDO",
-            _ => continue,
+            _ => return None,
         };
-        findings.push(about(cob_id).form(&DEFAULT).fact("other", by_default));
-    }
+        Some((node, service))
+    })
 }
 
 /// Is it the COB-ID that the predefined connection set gives the service?
@@ -90,7 +126,7 @@ const fn is_default(cob_id: &CobId<'_>) -> bool {
 /// Can these two not have one CAN-ID? Two PDOs have a rule of their own, and of two consumers each hears it.
 fn collide(a: &CobId<'_>, b: &CobId<'_>) -> bool {
     let consumes = |cob_id: &CobId<'_>| cob_id.service == Service::EmcyConsumer;
-    let pdos = a.service == Service::Pdo && b.service == Service::Pdo;
+    let pdos = a.is_pdo() && b.is_pdo();
     // An entry of 1028h is the CAN-ID of another device's EMCY, and no device's SYNC or TIME.
     let shared = |cob_id: &CobId<'_>| matches!(cob_id.service, Service::Sync | Service::Time);
     !pdos && (!consumes(a) || shared(b)) && (!consumes(b) || shared(a))

@@ -24,7 +24,7 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
             description.commissioned_node_id().is_none() && cob_id.entry.parameter.is_none();
         let predefined = match index {
             0x1014 => matches!(id, 0x81..=0xFF),
-            0x1400..=0x1403 | 0x1800..=0x1803 => cob_id.is_pdo() && matches!(id, 0x181..=0x57F),
+            0x1400..=0x1403 | 0x1800..=0x1803 => matches!(id, 0x181..=0x57F),
             _ => false,
         };
         if !cob_id.formula && fixed && predefined && !cob_id.extended {

@@ -1,5 +1,4 @@
 use alloc::vec::Vec;
-use core::ops::RangeInclusive;
 
 use crate::description::Description;
 use crate::finding::{Check, Finding, Form, Rule, Severity::Error};
@@ -10,13 +9,12 @@ use od_model::Address;
 pub(crate) static RULE: Rule = Rule {
     code: "W0520",
     severity: Error,
-    buildable: true,
     title: "CAN-ID is reserved for another service",
     why: "A message with a CAN-ID of NMT, SDO, error control or LSS disturbs that service in all devices of the network.",
     source: "CiA 301, restricted CAN-IDs",
     says: "CAN-ID {id} is one of {first:03X}h to {last:03X}h, which CiA 301 reserves for {service}",
     help: "write a CAN-ID that CiA 301 leaves free, such as `0x181` to `0x57F` for PDOs",
-    also: &[WITHOUT_NODE_ID, NMT, SERVICE],
+    also: &[WITHOUT_NODE_ID, NMT, SDO, SERVICE, SOME],
     check: Check::Device(check),
     ..Rule::NEW
 };
@@ -27,7 +25,13 @@ const NMT: Form = Form {
     help: "write a CAN-ID of the service, or set bit 31 (`0x80000000`) if it is not used",
 };
 
-/// The help for another service than PDOs.
+/// The help for another SDO than the default one.
+const SDO: Form = Form {
+    help: "write a CAN-ID that CiA 301 leaves free, such as `0x680` to `0x6DF` for another SDO",
+    ..Form::OWN
+};
+
+/// The help for another service than PDOs and SDOs.
 const SERVICE: Form = Form {
     help: "write the CAN-ID of the service, such as `0x80` for SYNC, `0x100` for TIME and `$NODEID+0x80` for EMCY",
     ..Form::OWN
@@ -39,53 +43,54 @@ const WITHOUT_NODE_ID: Form = Form {
     ..Form::OWN
 };
 
+/// Sentence for a CAN-ID that is free for some node IDs only.
+const SOME: Form = Form {
+    says: "a node with node ID {node} {verb} CAN-ID {can:03X}h, which CiA 301 reserves for {service}",
+    help: "write another number, so that the CAN-ID of node IDs 1 to 127 is free, or set bit 31 (`0x80000000`)",
+};
+
 fn check(description: &Description, findings: &mut Vec<Finding>) {
     for cob_id in cob_ids(description) {
         // 0 of a client, a consumer or a PDO that maps nothing says that it is not used.
         let is_idle = match cob_id.service {
             Service::SdoClient | Service::EmcyConsumer => true,
-            Service::Pdo => maps_nothing(description, cob_id.entry.address.index),
+            Service::Rpdo | Service::Tpdo => maps_nothing(description, cob_id.entry.address.index),
             _ => false,
         };
         let unused = cob_id.identifier == 0 && !cob_id.formula && is_idle;
-        if cob_id.is_restricted() && !cob_id.is_too_long() && !unused {
-            findings.push(finding(&cob_id));
-        }
+        findings.extend(finding(&cob_id).filter(|_| !unused));
     }
 }
 
-fn finding(cob_id: &CobId<'_>) -> Finding {
+fn finding(cob_id: &CobId<'_>) -> Option<Finding> {
+    let reserved = |node| Some((node, cob_id.reserved(node)?));
+    let (node, (range, owner)) = cob_id.nodes().find_map(reserved)?;
     let finding = cob_id.finding(&RULE);
     if cob_id.identifier == 0 && !cob_id.formula {
-        return finding.form(&NMT);
+        return Some(finding.form(&NMT));
     }
-    let (range, service) = reserved(*cob_id.can_ids().start());
-    let finding = finding.fact("id", cob_id.shown()).fact("service", service);
+    let finding = finding.fact("service", owner.name());
+    if !cob_id.nodes().all(|node| cob_id.reserved(node).is_some()) {
+        let finding = finding.form(&SOME).fact("node", node);
+        let finding = finding.fact("can", cob_id.can_id(node));
+        return Some(finding.fact("verb", cob_id.direction().verb()));
+    }
+    let finding = finding.fact("id", cob_id.shown());
     let finding = finding
         .fact("first", *range.start())
         .fact("last", *range.end());
-    match cob_id.identifier {
+    Some(match cob_id.identifier {
         0x180 if !cob_id.formula => finding.form(&WITHOUT_NODE_ID).fact("value", cob_id.value),
-        _ if cob_id.service == Service::Pdo => finding,
+        _ if cob_id.is_pdo() => finding,
+        _ if matches!(cob_id.service, Service::SdoServer | Service::SdoClient) => {
+            finding.form(&SDO)
+        }
         _ => finding.form(&SERVICE),
-    }
+    })
 }
 
 /// Is the mapping of this PDO empty?
 fn maps_nothing(description: &Description, communication: u16) -> bool {
     let count = start_number(description, Address::new(communication + 0x200, 0));
     count.is_none_or(|count| count.value == 0)
-}
-
-/// The range of a restricted CAN-ID (CiA 301, table of restricted CAN-IDs), and its service.
-fn reserved(id: u32) -> (RangeInclusive<u32>, &'static str) {
-    match id {
-        0..=0x07F => (0x001..=0x07F, "later use"),
-        0x101..=0x180 => (0x101..=0x180, "later use"),
-        0x581..=0x5FF => (0x581..=0x5FF, "the default SDO (server to client)"),
-        0x601..=0x67F => (0x601..=0x67F, "the default SDO (client to server)"),
-        0x6E0..=0x6FF => (0x6E0..=0x6FF, "later use"),
-        0x701..=0x77F => (0x701..=0x77F, "NMT error control"),
-        _ => (0x780..=0x7FF, "LSS and later use"),
-    }
 }

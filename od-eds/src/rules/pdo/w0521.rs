@@ -1,37 +1,45 @@
-use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
 
 use crate::description::Description;
-use crate::finding::{Check, Finding, Rule, Severity::Error};
+use crate::finding::{Check, Finding, Form, Rule, Severity::Error};
 use crate::rules::pdo::cob_ids::{CobId, cob_ids};
-use od_model::Address;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0521",
     severity: Error,
-    buildable: true,
     title: "two PDOs have the same COB-ID",
     why: "A receiver cannot tell two PDOs with the same COB-ID apart.",
     source: "CiA 301, PDO communication parameter",
     says: "{object} repeats the COB-ID of {first}",
     help: "write another COB-ID, or set bit 31 (`0x80000000`) to make the PDO not valid",
+    also: &[ONE],
     check: Check::Device(check),
     ..Rule::NEW
 };
 
+/// Sentence for a number and a COB-ID with the node ID, which meet for one node ID.
+const ONE: Form = Form {
+    says: "{object} has the CAN-ID of {first}, {can:03X}h, at node ID {node}",
+    ..Form::OWN
+};
+
 fn check(description: &Description, findings: &mut Vec<Finding>) {
-    let mut used = BTreeMap::new();
-    for cob_id in cob_ids(description).filter(CobId::is_pdo) {
-        let index = cob_id.entry.address.index;
-        match used.get(&(cob_id.formula, cob_id.identifier)) {
-            None => {
-                used.insert((cob_id.formula, cob_id.identifier), (index, cob_id.span));
-            }
-            Some((first, span)) => {
-                let finding = cob_id.finding(&RULE).fact("object", Address::new(index, 1));
-                let finding = finding.fact("first", Address::new(*first, 1));
-                findings.push(finding.related(*span, "first used here"));
-            }
+    let pdos: Vec<CobId<'_>> = cob_ids(description).filter(CobId::is_pdo).collect();
+    for (at, cob_id) in pdos.iter().enumerate() {
+        let before = pdos[..at].iter();
+        let mut met = before.filter_map(|first| Some((first, cob_id.meets(first)?)));
+        let same = met.clone().find(|(first, _)| cob_id.is_same(first));
+        if let Some((first, node)) = same.or_else(|| met.next()) {
+            let finding = cob_id.finding(&RULE).fact("object", cob_id.entry.address);
+            let finding = finding.fact("first", first.entry.address);
+            let finding = match same.is_some() {
+                true => finding,
+                false => finding
+                    .form(&ONE)
+                    .fact("can", cob_id.can_id(node))
+                    .fact("node", node),
+            };
+            findings.push(finding.related(first.span, "first used here"));
         }
     }
 }

@@ -1,24 +1,44 @@
 use alloc::vec::Vec;
 
 use crate::description::Description;
-use crate::finding::{Check, Finding, Rule, Severity::Error};
+use crate::finding::{Check, Finding, Form, Rule, Severity::Error};
 use crate::rules::pdo::cob_ids::{CobId, cob_ids};
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0522",
     severity: Error,
-    buildable: true,
-    title: "CAN-ID is too long for an 11-bit COB-ID",
-    why: "Bit 29 of a COB-ID marks a CAN-ID of 29 bits; without it, bits 11 to 28 must be 0.",
+    title: "CAN-ID is too long for its COB-ID",
+    why: "Bit 29 of a COB-ID marks a CAN-ID of 29 bits; without it, bits 11 to 28 must be 0. Many nodes drop the upper bits: 800h becomes 000h, an NMT command.",
     source: "CiA 301, COB-ID",
     says: "CAN-ID `0x{id:X}` has more than 11 bits, but bit 29 is 0",
     help: "write a CAN-ID up to `0x7FF`, or set bit 29 (`0x20000000`)",
+    also: &[SOME],
     check: Check::Device(check),
     ..Rule::NEW
 };
 
+/// Sentence for a CAN-ID that is too long with the node ID added.
+const SOME: Form = Form {
+    says: "the CAN-ID of node ID {node} is {can:X}h, which has more than {bits} bits; cut off, it is {cut:03X}h",
+    help: "write a lower number, so that the CAN-ID of node IDs 1 to 127 fits into {bits} bits",
+};
+
 fn check(description: &Description, findings: &mut Vec<Finding>) {
-    for cob_id in cob_ids(description).filter(CobId::is_too_long) {
-        findings.push(cob_id.finding(&RULE).fact("id", cob_id.identifier));
+    for cob_id in cob_ids(description) {
+        findings.extend(cob_id.too_long().map(|node| finding(&cob_id, node)));
     }
+}
+
+fn finding(cob_id: &CobId<'_>, node: u8) -> Finding {
+    let finding = cob_id.finding(&RULE);
+    // Too long whatever the node ID is.
+    if !cob_id.extended && cob_id.identifier > 0x7FF {
+        return finding.fact("id", cob_id.identifier);
+    }
+    let bits = if cob_id.extended { 29_u8 } else { 11 };
+    let can_id = cob_id.can_id(node);
+    let finding = finding.form(&SOME).fact("node", node).fact("bits", bits);
+    finding
+        .fact("can", can_id)
+        .fact("cut", can_id & ((1 << bits) - 1))
 }

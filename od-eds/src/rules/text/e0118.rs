@@ -4,7 +4,6 @@ use crate::span::Spanned;
 pub(crate) static RULE: Rule = Rule {
     code: "E0118",
     severity: Error,
-    buildable: true,
     title: "mark of a merge conflict",
     why: "The file has two versions of the lines around the mark, and most tools stop at it. odkit ignores the mark and reads both versions.",
     source: "CiA 306-1, file format; git, merge conflicts",
