@@ -10,7 +10,9 @@ use alloc::vec::Vec;
 use od_model::Refused;
 
 use crate::finding::{Finding, Rule, sort};
-use crate::rules::allow::{i0803, w0801, w0802};
+use crate::rules::allow::{
+    i0803_allow_without_finding, w0801_allow_without_rule, w0802_allow_without_reason,
+};
 use crate::rules::rule;
 use crate::scan::{lines::lines, names::object_of};
 use crate::span::Span;
@@ -99,7 +101,8 @@ impl Allows {
             None => (text, ""),
         };
         if reason.is_empty() {
-            self.findings.push(w0802::finding(codes, span(text)));
+            self.findings
+                .push(w0802_allow_without_reason::finding(codes, span(text)));
             return;
         }
         for given in codes.split(',') {
@@ -110,7 +113,9 @@ impl Allows {
                     scope: scope.clone(),
                     used: false,
                 }),
-                None => self.findings.push(w0801::finding(given, span(given))),
+                None => self
+                    .findings
+                    .push(w0801_allow_without_rule::finding(given, span(given))),
             }
         }
     }
@@ -121,7 +126,8 @@ impl Allows {
         // If a tool is asked at all, its findings come later.
         let unused = self.allows.iter();
         let unused = unused.filter(|allow| !allow.used && !allow.code.starts_with('T'));
-        let unused = unused.map(|allow| i0803::finding(allow.code, allow.span));
+        let unused =
+            unused.map(|allow| i0803_allow_without_finding::finding(allow.code, allow.span));
         self.findings.extend(unused);
         if !self.findings.is_empty() {
             findings.append(&mut self.findings);

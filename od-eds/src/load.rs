@@ -12,7 +12,7 @@ use crate::read::modules;
 use crate::read::parsed::Parsed;
 use crate::read::sorted;
 use crate::rules::lists::W0216;
-use crate::rules::text::{i0111, w0112};
+use crate::rules::text::{i0111_not_ascii, w0112_encoding};
 use crate::scan::encoding::Encoding;
 use crate::scan::lines;
 use crate::scan::placed::Placed;
@@ -121,10 +121,14 @@ fn encoded(document: &Document) -> Vec<Finding> {
     if encoding != Encoding::Ascii && !is_xml(text) {
         let first = text.find(|c: char| !c.is_ascii());
         let first = lines::span(text, first.unwrap_or(0));
-        found.push(i0111::finding(first, encoding, document.has_mark()));
+        found.push(i0111_not_ascii::finding(
+            first,
+            encoding,
+            document.has_mark(),
+        ));
     }
     if let Some(at) = document.first_wrong() {
-        found.push(w0112::finding(lines::span(text, at), encoding));
+        found.push(w0112_encoding::finding(lines::span(text, at), encoding));
     }
     found
 }

@@ -5,7 +5,7 @@ use alloc::collections::btree_map::Entry;
 use alloc::vec::Vec;
 
 use crate::finding::{Finding, Rule};
-use crate::rules::text::w0116;
+use crate::rules::text::w0116_too_many_findings;
 use crate::span::Span;
 
 /// Findings of one rule that are kept.
@@ -75,7 +75,12 @@ impl Log {
     pub(crate) fn finish(mut self) -> Vec<Finding> {
         let counts = self.counts.into_values();
         for count in counts.filter(|count| count.all > KEPT) {
-            let finding = w0116::finding(count.first, count.rule.code, KEPT, count.all - KEPT);
+            let finding = w0116_too_many_findings::finding(
+                count.first,
+                count.rule.code,
+                KEPT,
+                count.all - KEPT,
+            );
             self.findings.push(finding);
         }
         self.findings

@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 
 use crate::description::Description;
 use crate::finding::Finding;
-use crate::rules::values::e0401;
+use crate::rules::values::e0401_data_type_missing;
 use od_model::{Address, Kind};
 
 /// The findings of all objects that were left out while a file was read: what no form has.
@@ -33,7 +33,9 @@ pub fn untyped(description: &Description, findings: &[Finding]) -> Vec<Finding> 
     let others = description
         .entries()
         .filter(|(address, _)| is_lost(*address) == Some(true) && !known.contains(&Some(*address)));
-    lost.extend(others.map(|(address, entry)| e0401::finding(description, address, entry.span)));
+    lost.extend(others.map(|(address, entry)| {
+        e0401_data_type_missing::finding(description, address, entry.span)
+    }));
     crate::finding::sort(&mut lost);
     lost
 }

@@ -8,7 +8,11 @@ use super::{Action, Change, Edit, Raw, Target, missing};
 use crate::description::{Description, EntryDescription, ObjectDescription, Value};
 use crate::fact::Key;
 use crate::finding::Finding;
-use crate::rules::edits::{e0702, e0703, e0704, e0705, e0706, e0707, e0708, e0709, e0710};
+use crate::rules::edits::{
+    e0702_object_exists, e0703_sub_object_without_object, e0704_object_without_sub_objects,
+    e0705_name_missing, e0706_type_missing, e0707_value_not_valid, e0708_value_of_base_not_valid,
+    e0709_sub_object_with_object_code, e0710_value_of_object_with_sub_objects,
+};
 use crate::span::{Span, Spanned};
 use od_model::DataType;
 
@@ -76,9 +80,16 @@ fn modify(description: &mut Description, edit: &Edit, findings: &mut Vec<Finding
         match &change.value {
             Change::Code(code) if whole => object.code = Spanned::new(*code, change.span),
             Change::Name(name) if whole => object.name = Spanned::new(name.clone(), change.span),
-            Change::Code(_) => findings.push(e0709::finding(&edit.target, change.span)),
+            Change::Code(_) => findings.push(e0709_sub_object_with_object_code::finding(
+                &edit.target,
+                change.span,
+            )),
             other if !has_value => {
-                findings.push(e0710::finding(&edit.target, change.span, other.key()));
+                findings.push(e0710_value_of_object_with_sub_objects::finding(
+                    &edit.target,
+                    change.span,
+                    other.key(),
+                ));
             }
             _ => {}
         }
@@ -94,7 +105,7 @@ fn modify(description: &mut Description, edit: &Edit, findings: &mut Vec<Finding
 fn add_object(description: &mut Description, edit: &Edit, findings: &mut Vec<Finding>) {
     let target = *edit.target;
     if description.objects.contains_key(&target.index) {
-        findings.push(e0702::finding(&edit.target));
+        findings.push(e0702_object_exists::finding(&edit.target));
         return;
     }
     let code = edit.changes.iter().find_map(|change| match change.value {
@@ -115,7 +126,11 @@ fn add_object(description: &mut Description, edit: &Edit, findings: &mut Vec<Fin
     if code.has_members() {
         for change in &edit.changes {
             if !matches!(change.value, Change::Code(_) | Change::Name(_)) {
-                findings.push(e0710::finding(&edit.target, change.span, change.key()));
+                findings.push(e0710_value_of_object_with_sub_objects::finding(
+                    &edit.target,
+                    change.span,
+                    change.key(),
+                ));
             }
         }
     } else if let Some(entry) = make(edit, findings) {
@@ -128,20 +143,26 @@ fn add_member(description: &mut Description, edit: &Edit, findings: &mut Vec<Fin
     let target = *edit.target;
     let sub = target.address().sub;
     let Some(object) = description.objects.get_mut(&target.index) else {
-        findings.push(e0703::finding(&edit.target));
+        findings.push(e0703_sub_object_without_object::finding(&edit.target));
         return;
     };
     if !object.code.has_members() {
-        findings.push(e0704::added(&edit.target, *object.code));
+        findings.push(e0704_object_without_sub_objects::added(
+            &edit.target,
+            *object.code,
+        ));
         return;
     }
     if object.entries.contains_key(&sub) {
-        findings.push(e0702::finding(&edit.target));
+        findings.push(e0702_object_exists::finding(&edit.target));
         return;
     }
     for change in &edit.changes {
         if matches!(change.value, Change::Code(_)) {
-            findings.push(e0709::finding(&edit.target, change.span));
+            findings.push(e0709_sub_object_with_object_code::finding(
+                &edit.target,
+                change.span,
+            ));
         }
     }
     if let Some(mut entry) = make(edit, findings) {
@@ -158,7 +179,7 @@ fn name_of(edit: &Edit, findings: &mut Vec<Finding>) -> Spanned<String> {
             return Spanned::new(name.clone(), change.span);
         }
     }
-    findings.push(e0705::finding(&edit.target));
+    findings.push(e0705_name_missing::finding(&edit.target));
     Spanned::new(edit.target.to_string(), edit.target.span)
 }
 
@@ -168,7 +189,7 @@ fn make(edit: &Edit, findings: &mut Vec<Finding>) -> Option<EntryDescription> {
         Change::Type(data_type) => Some(data_type),
         _ => None,
     }) else {
-        findings.push(e0706::finding(&edit.target));
+        findings.push(e0706_type_missing::finding(&edit.target));
         return None;
     };
     let mut entry = EntryDescription::new("", data_type);
@@ -220,7 +241,13 @@ fn fill(entry: &mut EntryDescription, edit: &Edit, findings: &mut Vec<Finding>) 
                 Some(value) => *field = Some(Spanned::new(value, change.span)),
                 None => {
                     let (at, given) = (change.span, raw.to_string());
-                    let finding = e0707::finding(&edit.target, at, change.key(), &given, data_type);
+                    let finding = e0707_value_not_valid::finding(
+                        &edit.target,
+                        at,
+                        change.key(),
+                        &given,
+                        data_type,
+                    );
                     findings.push(finding);
                 }
             },
@@ -245,7 +272,7 @@ fn retype(
     match given.value_for(data_type) {
         Some(value) => *field = Some(Spanned::new(value, old.span)),
         None => {
-            return Some(e0708::finding(
+            return Some(e0708_value_of_base_not_valid::finding(
                 target,
                 at,
                 key,

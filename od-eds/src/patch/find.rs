@@ -7,24 +7,27 @@ use alloc::vec::Vec;
 use crate::description::{Description, ObjectDescription};
 use crate::finding::Finding;
 use crate::patch::target::Target;
-use crate::rules::edits::{e0701, e0704};
+use crate::rules::edits::{e0701_object_missing, e0704_object_without_sub_objects};
 use crate::span::Spanned;
 
 /// The finding that `target` is not in `description`; `None` if it is.
 pub fn missing(description: &Description, target: &Spanned<Target>) -> Option<Finding> {
     let Some(object) = description.objects.get(&target.index) else {
         return Some(match near_index(description, target.value) {
-            Some((meant, name)) => e0701::near(target, meant, name),
-            None if description.objects.is_empty() => e0701::first(target),
-            None => e0701::finding(target),
+            Some((meant, name)) => e0701_object_missing::near(target, meant, name),
+            None if description.objects.is_empty() => e0701_object_missing::first(target),
+            None => e0701_object_missing::finding(target),
         });
     };
     let sub = target.sub?;
     if !object.code.has_members() {
-        return Some(e0704::finding(target, *object.code));
+        return Some(e0704_object_without_sub_objects::finding(
+            target,
+            *object.code,
+        ));
     }
     let missing = !object.entries.contains_key(&sub);
-    missing.then(|| e0701::sub_index(target, &subs(object)))
+    missing.then(|| e0701_object_missing::sub_index(target, &subs(object)))
 }
 
 /// The target whose index differs in one digit, and the name of its object.

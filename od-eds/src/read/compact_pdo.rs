@@ -10,7 +10,7 @@ use alloc::vec::Vec;
 
 use crate::description::{Description, EntryDescription, ObjectDescription, Section, Value};
 use crate::log::Log;
-use crate::rules::pdo::i0515;
+use crate::rules::pdo::i0515_compact_pdo;
 use crate::scan::number::number;
 use crate::span::{Span, Spanned};
 use od_model::{Access, DataType, ObjectCode};
@@ -87,7 +87,7 @@ pub(crate) fn objects(
         }
         if made.len() > before {
             let (word, count) = (direction.word, made.len() - before);
-            log.push(i0515::finding(span, count, word));
+            log.push(i0515_compact_pdo::finding(span, count, word));
         }
     }
     made

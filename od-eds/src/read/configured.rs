@@ -1,7 +1,7 @@
 //! Keys and sections of a DCF in a file that is an EDS.
 
 use crate::log::Log;
-use crate::rules::lists::w0217;
+use crate::rules::lists::w0217_dcf_key_in_eds;
 use crate::scan::names::{Compact, Place, place};
 use crate::scan::placed::Placed;
 
@@ -39,25 +39,26 @@ pub(crate) fn check(sections: &[Placed<'_>], file: Option<&str>, log: &mut Log) 
             let mut keys = section.pairs.iter();
             let last =
                 keys.find(|(key, value)| key.eq_ignore_ascii_case("LastEDS") && !value.is_empty());
-            last.iter().for_each(|(key, _)| log.push(w0217::key(key)));
+            last.iter()
+                .for_each(|(key, _)| log.push(w0217_dcf_key_in_eds::key(key)));
         }
         match place(name) {
             Place::Object(_) | Place::Member(..) => {
                 let own = |key: &str| KEYS.iter().any(|known| known.eq_ignore_ascii_case(key));
                 let keys = section.pairs.iter();
                 for (key, _) in keys.filter(|(key, value)| own(key) && !value.is_empty()) {
-                    log.push(w0217::key(key));
+                    log.push(w0217_dcf_key_in_eds::key(key));
                 }
             }
             Place::Compact(_, Compact::Value | Compact::Denotation) => {
-                log.push(w0217::section(section.header, name));
+                log.push(w0217_dcf_key_in_eds::section(section.header, name));
             }
             Place::Other
                 if SECTIONS
                     .iter()
                     .any(|known| name.eq_ignore_ascii_case(known)) =>
             {
-                log.push(w0217::section(section.header, name));
+                log.push(w0217_dcf_key_in_eds::section(section.header, name));
             }
             _ => {}
         }

@@ -13,9 +13,13 @@ use crate::read::values;
 use crate::read::words;
 use crate::rules;
 use crate::rules::standard::table;
-use crate::rules::structure::{w0315, w0342};
-use crate::rules::text::w0109;
-use crate::rules::values::{e0402, e0405, e0417, shared, w0404, w0406, w0407, w0416, w0426};
+use crate::rules::structure::{w0315_name_missing, w0342_obj_flags_reserved};
+use crate::rules::text::w0109_comment_after_value;
+use crate::rules::values::{
+    e0402_data_type_unknown, e0405_access_type_not_valid, e0417_node_id_not_supported, shared,
+    w0404_access_type_missing, w0406_pdo_mapping_not_valid, w0407_obj_flags_not_a_number,
+    w0416_limit_not_valid, w0426_standard_type_missing,
+};
 use crate::scan::number;
 use crate::scan::number::Note;
 use crate::scan::placed;
@@ -59,7 +63,7 @@ impl Reader<'_> {
         let place = fields.place("ParameterName").unwrap_or(fields.header);
         let name = fields.take("ParameterName").map(placed::owned);
         name.unwrap_or_else(|| {
-            self.report(w0315::finding(place));
+            self.report(w0315_name_missing::finding(place));
             Spanned::from(String::new())
         })
     }
@@ -117,7 +121,7 @@ impl Reader<'_> {
             Assumed::Domain => Some(DataType::Domain),
             Assumed::Standard { sub, is_whole } => {
                 let found = table::data_type(self.address.index, sub, is_whole)?;
-                self.report(w0426::finding(header, found));
+                self.report(w0426_standard_type_missing::finding(header, found));
                 Some(found)
             }
         }
@@ -169,15 +173,21 @@ impl Reader<'_> {
         let read = |reader: &mut Self, given: &Text<'_>| {
             reader.coded(key, given, of, words::data_type, right)
         };
-        let found = self.keyed(fields, unread, key, read, e0402::finding)?;
+        let found = self.keyed(fields, unread, key, read, e0402_data_type_unknown::finding)?;
         Some(Spanned::new(found.value?, found.span))
     }
 
     fn access(&mut self, fields: &mut Fields<'_>, unread: &mut Unread) -> Spanned<Access> {
         let read = |reader: &mut Self, given: &Text<'_>| reader.access_word(given);
         let key = Key::AccessType;
-        let Some(found) = self.keyed(fields, unread, key, read, e0405::finding) else {
-            self.report(w0404::finding(fields.header));
+        let Some(found) = self.keyed(
+            fields,
+            unread,
+            key,
+            read,
+            e0405_access_type_not_valid::finding,
+        ) else {
+            self.report(w0404_access_type_missing::finding(fields.header));
             return Spanned::from(Access::Ro);
         };
         Spanned::new(found.value.unwrap_or(Access::Ro), found.span)
@@ -208,7 +218,13 @@ impl Reader<'_> {
         let read = |reader: &mut Self, given: &Text<'_>| {
             reader.coded(key, given, of, words::mappable, right)
         };
-        match self.keyed(fields, unread, key, read, w0406::finding) {
+        match self.keyed(
+            fields,
+            unread,
+            key,
+            read,
+            w0406_pdo_mapping_not_valid::finding,
+        ) {
             Some(found) => Spanned::new(found.value.unwrap_or(false), found.span),
             None => Spanned::from(false),
         }
@@ -231,12 +247,18 @@ impl Reader<'_> {
         let key = Key::ObjFlags;
         let read = |reader: &mut Self, given: &Text<'_>| {
             let flags = u32::try_from(reader.number(key, given)?).ok()?;
-            if let Some(finding) = w0342::finding(given, flags) {
+            if let Some(finding) = w0342_obj_flags_reserved::finding(given, flags) {
                 reader.report(finding);
             }
             Some(flags)
         };
-        let found = self.keyed(fields, unread, key, read, w0407::finding);
+        let found = self.keyed(
+            fields,
+            unread,
+            key,
+            read,
+            w0407_obj_flags_not_a_number::finding,
+        );
         found.and_then(|found| found.value).unwrap_or(0)
     }
 
@@ -253,7 +275,7 @@ impl Reader<'_> {
             && matches!(data_type.kind(), Kind::Text | Kind::Bytes)
             && matches!(key, Key::LowLimit | Key::HighLimit)
         {
-            self.report(w0416::no_limits(key, &given, data_type));
+            self.report(w0416_limit_not_valid::no_limits(key, &given, data_type));
             unread.push((key.name().into(), given.value.into_owned()));
             return None;
         }
@@ -308,7 +330,7 @@ impl Reader<'_> {
             let rule = match note {
                 Note::Comment => {
                     let value = number::without_comment(given, &mut Vec::new());
-                    self.report(w0109::finding(key, given, value));
+                    self.report(w0109_comment_after_value::finding(key, given, value));
                     continue;
                 }
                 Note::Octal => &rules::I0408,
@@ -330,7 +352,7 @@ impl Reader<'_> {
 fn unfit(key: Key, given: &Text<'_>, data_type: Spanned<DataType>) -> Finding {
     let formula = given.to_ascii_uppercase().contains("$NODEID");
     if formula && !data_type.holds_node_id() {
-        return e0417::finding(key, &*given.value, given.span, data_type);
+        return e0417_node_id_not_supported::finding(key, &*given.value, given.span, data_type);
     }
     let rule = match key {
         Key::DefaultValue => &rules::E0412,
@@ -346,7 +368,7 @@ fn unfit(key: Key, given: &Text<'_>, data_type: Spanned<DataType>) -> Finding {
         None => shared::unfit(rule, key, &*given.value, given.span, data_type),
     };
     match key {
-        Key::LowLimit | Key::HighLimit => w0416::emptied(finding),
+        Key::LowLimit | Key::HighLimit => w0416_limit_not_valid::emptied(finding),
         _ => finding,
     }
 }

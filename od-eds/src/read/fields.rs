@@ -9,8 +9,8 @@ use crate::fact::Key;
 use crate::log::Log;
 use crate::read::other::unknown_object_keys;
 use crate::rules;
-use crate::rules::structure::i0320;
-use crate::rules::text::{e0117, w0107};
+use crate::rules::structure::i0320_empty_value;
+use crate::rules::text::{e0117_duplicate_key_differs, w0107_duplicate_key};
 use crate::scan::number::before_comment;
 use crate::scan::placed::{Placed, Text};
 use crate::span::{Span, Spanned};
@@ -49,7 +49,7 @@ impl<'a> Fields<'a> {
             };
             if before_comment(value).is_empty() && numeric(key) {
                 let is_single = !repeated.iter().any(|other| other.eq_ignore_ascii_case(key));
-                log.push(i0320::finding(key, is_single).about(address));
+                log.push(i0320_empty_value::finding(key, is_single).about(address));
                 value.value = Cow::Borrowed("");
             }
         }
@@ -127,9 +127,13 @@ pub(crate) fn duplicates(pairs: &[(Text<'_>, Text<'_>)], log: &mut Log) -> Vec<u
     let mut report = |(first, same): (&Text<'_>, &Text<'_>), at: usize| {
         let (key, value) = &pairs[at];
         if value == same {
-            log.add(&rules::W0107, || w0107::finding(first.span, key, value))
+            log.add(&rules::W0107, || {
+                w0107_duplicate_key::finding(first.span, key, value)
+            })
         } else {
-            log.add(&rules::E0117, || e0117::finding(first.span, key, value))
+            log.add(&rules::E0117, || {
+                e0117_duplicate_key_differs::finding(first.span, key, value)
+            })
         }
         found.push(at);
     };

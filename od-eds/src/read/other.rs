@@ -6,9 +6,13 @@ use alloc::vec::Vec;
 
 use crate::finding::Finding;
 use crate::log::Log;
-use crate::rules::lists::{i0211, w0213, w0252};
-use crate::rules::standard::{i0610, i0611, w0609};
-use crate::rules::structure::{i0319, w0318};
+use crate::rules::lists::{
+    i0211_unknown_section, w0213_section_misspelled, w0252_bit_rate_unknown,
+};
+use crate::rules::standard::{
+    i0610_date_or_time, i0611_commissioning_spelling, w0609_key_value_not_valid,
+};
+use crate::rules::structure::{i0319_unknown_key, w0318_key_misspelled};
 use crate::scan::known;
 use crate::scan::known::{Form, Known, OBJECT_KEYS};
 use crate::scan::names::List;
@@ -27,13 +31,13 @@ pub(crate) fn check(placed: &Placed<'_>, log: &mut Log) {
         return;
     };
     if known.name == "DeviceCommissioning" {
-        log.push(i0611::finding(placed.header));
+        log.push(i0611_commissioning_spelling::finding(placed.header));
     }
     for (key, value) in &placed.pairs {
         match known::key(known, key) {
             Some((_, form)) => check_value(known, key, value, form, log),
-            None if known.name == "DeviceInfo" && w0252::is_rate(key) => {
-                log.push(w0252::finding(key));
+            None if known.name == "DeviceInfo" && w0252_bit_rate_unknown::is_rate(key) => {
+                log.push(w0252_bit_rate_unknown::finding(key));
             }
             None => log.push(unknown_key(
                 key,
@@ -52,8 +56,8 @@ fn unknown_section(placed: &Placed<'_>, log: &mut Log) {
         .chain(List::ALL.map(List::name));
     let object = object_section(name);
     log.push(match object.as_deref().or(known::near(name, names)) {
-        Some(meant) => w0213::finding(placed, meant),
-        None => i0211::finding(placed),
+        Some(meant) => w0213_section_misspelled::finding(placed, meant),
+        None => i0211_unknown_section::finding(placed),
     });
 }
 
@@ -76,8 +80,8 @@ fn object_section(name: &str) -> Option<String> {
 /// The finding about a key that odkit ignores, with the one that may be meant.
 fn unknown_key<'a>(key: &Text<'_>, value: &str, keys: impl Iterator<Item = &'a str>) -> Finding {
     match known::near(key, keys) {
-        Some(meant) => w0318::finding(key, value, &meant.replace('#', "1")),
-        None => i0319::finding(key),
+        Some(meant) => w0318_key_misspelled::finding(key, value, &meant.replace('#', "1")),
+        None => i0319_unknown_key::finding(key),
     }
 }
 
@@ -109,8 +113,10 @@ fn check_value(known: &Known, key: &str, value: &Text<'_>, form: Form, log: &mut
     };
     if !fits {
         log.push(match form {
-            Form::Date | Form::Time => i0610::finding(key, value, form),
-            _ => w0609::finding(&known.name.replace('#', "1"), key, value, form),
+            Form::Date | Form::Time => i0610_date_or_time::finding(key, value, form),
+            _ => {
+                w0609_key_value_not_valid::finding(&known.name.replace('#', "1"), key, value, form)
+            }
         });
     }
 }

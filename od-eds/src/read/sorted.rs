@@ -13,9 +13,9 @@ use crate::read::fields::duplicates;
 use crate::read::object;
 use crate::read::object::Sections;
 use crate::read::{compact_pdo, configured, faults, lists, other, own_types};
-use crate::rules::lists::{i0212, w0209};
-use crate::rules::structure::{e0303, w0304};
-use crate::rules::text::w0106;
+use crate::rules::lists::{i0212_section_name_spelling, w0209_compact_without_key};
+use crate::rules::structure::{e0303_duplicate_object_differs, w0304_duplicate_object};
+use crate::rules::text::w0106_duplicate_section;
 use crate::scan::names::{List, Place, intended, place};
 use crate::scan::placed::{Placed, owned};
 use crate::scan::{lines, number::number};
@@ -113,7 +113,8 @@ impl<'a, 'l> Sorted<'a, 'l> {
         let (Some(meant), Some(right)) = (meant, meant.and_then(Place::name)) else {
             return exact;
         };
-        self.log.push(i0212::finding(section, &right));
+        self.log
+            .push(i0212_section_name_spelling::finding(section, &right));
         meant
     }
 
@@ -125,7 +126,9 @@ impl<'a, 'l> Sorted<'a, 'l> {
             Entry::Vacant(entry) => {
                 entry.insert(section.header);
             }
-            Entry::Occupied(first) => self.log.push(w0106::finding(&section, *first.get())),
+            Entry::Occupied(first) => self
+                .log
+                .push(w0106_duplicate_section::finding(&section, *first.get())),
         }
         self.others.push(section);
     }
@@ -137,7 +140,8 @@ impl<'a, 'l> Sorted<'a, 'l> {
             let is_compact = sections.own.as_ref().is_some_and(counts_members);
             if !is_compact {
                 for section in core::mem::take(&mut sections.compact).into_values() {
-                    self.log.push(w0209::finding(&section, index));
+                    self.log
+                        .push(w0209_compact_without_key::finding(&section, index));
                     self.others.push(section);
                 }
             }
@@ -202,9 +206,9 @@ fn twice<'a>(
         same.is_some_and(|(_, first)| first != value)
     });
     let finding = if contradict {
-        e0303::finding(first, &second)
+        e0303_duplicate_object_differs::finding(first, &second)
     } else {
-        w0304::finding(first, &second)
+        w0304_duplicate_object::finding(first, &second)
     };
     for (key, value) in second.pairs {
         match keys.entry(key.to_ascii_lowercase()) {

@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 
 use roxmltree::Node;
 
-use crate::rules::text::{e0114, e0115};
+use crate::rules::text::{e0114_xdd_index_not_valid, e0115_xdd_parameter_missing};
 use crate::scan::placed::Placed;
 use crate::span::{Span, Spanned};
 use crate::xdd::made::Made;
@@ -81,7 +81,7 @@ fn hex(
     if let Some(number) = fits.then(|| u16::from_str_radix(text, 16).ok()).flatten() {
         return Some(number);
     }
-    let finding = e0114::finding(header, key, given.as_ref(), digits);
+    let finding = e0114_xdd_index_not_valid::finding(header, key, given.as_ref(), digits);
     reader.log.push(finding);
     None
 }
@@ -101,7 +101,9 @@ fn parameter<'a, 'i>(
         Some(own) => Some(Parameter::new(own, ids)),
         None => {
             let span = reader.attribute(node, "uniqueIDRef")?.span;
-            reader.log.push(e0115::finding(span, id));
+            reader
+                .log
+                .push(e0115_xdd_parameter_missing::finding(span, id));
             None
         }
     }

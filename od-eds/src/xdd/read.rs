@@ -7,7 +7,7 @@ use roxmltree::Document;
 use crate::description::Description;
 use crate::log::Log;
 use crate::read::sorted;
-use crate::rules::text::e0113;
+use crate::rules::text::e0113_xml_not_well_formed;
 use crate::xdd::source::{Places, Reader};
 use crate::xdd::{info, objects};
 
@@ -21,7 +21,7 @@ pub(crate) fn parse(text: &str, log: &mut Log) -> Description {
         Err(error) => {
             let place = error.pos();
             let span = Places::new(text).at(place.row, place.col);
-            log.push(e0113::finding(span, &error.to_string()));
+            log.push(e0113_xml_not_well_formed::finding(span, &error.to_string()));
             return Description::default();
         }
     };

@@ -9,7 +9,7 @@ use super::names::{symbol, unique, unit};
 use crate::description::{Description, EntryDescription, Value};
 use crate::finding::Finding;
 use crate::identifiers::{MappedValue, Service, Used, mapping, number};
-use crate::rules::convert::{w1110, w1111, w1112};
+use crate::rules::convert::{w1110_multiplexed_pdo, w1111_no_room_in_message, w1112_not_a_number};
 use crate::span::Spanned;
 use od_model::{Address, DataType, Kind};
 
@@ -210,7 +210,7 @@ fn pdo(
     found: &mut Vec<Finding>,
 ) -> Option<(u32, Vec<Signal>)> {
     let Some(mapped) = mapping(description, index) else {
-        found.push(w1110::finding(Address::new(index, 0)));
+        found.push(w1110_multiplexed_pdo::finding(Address::new(index, 0)));
         return None;
     };
     let mut names = BTreeSet::new();
@@ -218,7 +218,10 @@ fn pdo(
     for value in mapped {
         let bits = u32::from(value.bits);
         if first + bits > 64 {
-            found.push(w1111::finding(used.address, value.address));
+            found.push(w1111_no_room_in_message::finding(
+                used.address,
+                value.address,
+            ));
             break;
         }
         if !value.is_dummy() && bits > 0 {
@@ -241,7 +244,7 @@ fn signal(
     let data_type = value.data_type(description);
     let kind = data_type.map(DataType::kind);
     if matches!(kind, Some(Kind::Text | Kind::Bytes)) {
-        found.extend(data_type.map(|data_type| w1112::finding(address, data_type)));
+        found.extend(data_type.map(|data_type| w1112_not_a_number::finding(address, data_type)));
     }
     let sign = match kind {
         Some(Kind::Signed) => Sign::Signed,

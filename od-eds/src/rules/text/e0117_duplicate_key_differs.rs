@@ -1,6 +1,6 @@
 use crate::finding::{Finding, Fixability, Rule, Severity::Error};
 use crate::fix::Fix;
-use crate::rules::text::w0106::FIRST;
+use crate::rules::text::w0106_duplicate_section::FIRST;
 use crate::scan::placed::Text;
 use crate::span::Span;
 

@@ -1,5 +1,5 @@
 use crate::finding::{Finding, Rule, Severity::Error};
-use crate::rules::structure::w0304::twice;
+use crate::rules::structure::w0304_duplicate_object::twice;
 use crate::scan::placed::Placed;
 
 pub(crate) static RULE: Rule = Rule {

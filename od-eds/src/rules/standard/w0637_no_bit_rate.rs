@@ -2,7 +2,7 @@ use alloc::vec::Vec;
 
 use crate::description::Description;
 use crate::finding::{Check, Finding, Rule, Severity::Warning};
-use crate::rules::lists::w0252::is_rate;
+use crate::rules::lists::w0252_bit_rate_unknown::is_rate;
 use crate::scan::number::number;
 
 pub(crate) static RULE: Rule = Rule {

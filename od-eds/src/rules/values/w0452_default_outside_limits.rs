@@ -1,7 +1,7 @@
 use alloc::vec::Vec;
 
 use crate::finding::{Check, Finding, Rule, Severity::Warning};
-use crate::rules::values::e0414::fails;
+use crate::rules::values::e0414_parameter_value_outside_limits::fails;
 use crate::rules::values::shared::{ABOVE, BELOW, WITHIN, outside};
 use crate::subject::Entry;
 
