@@ -1,7 +1,6 @@
 """`odkit.to_canopen` against python-canopen's own reader."""
 
 import logging
-import os
 import pathlib
 import sys
 import warnings
@@ -16,9 +15,6 @@ from canopen.objectdictionary import ODArray, ODRecord, ODVariable  # noqa: E402
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tests/interop"))
 import differences  # noqa: E402
-
-#: A folder of device files, with `--long` that of `ODKIT_CORPUS`.
-CORPUS = differences.corpus() if os.environ.get("ODKIT_LONG") else None
 
 
 def files(folder):
@@ -112,10 +108,8 @@ def is_read(path):
         return False
 
 
-@pytest.mark.long
-@pytest.mark.skipif(CORPUS is None, reason="no folder of device files")
 def test_the_corpus_is_equal():
-    for path in files(CORPUS):
+    for path in files(differences.corpus()):
         unknown, _ = compare(path)
         assert unknown == [], path
 

@@ -1,6 +1,6 @@
 """Parse and check a folder of device files: odkit and python-canopen, one after the other.
 
-    python tests/bench/corpus.py [DIR]      (DIR: ODKIT_CORPUS, or shared/corpus beside the workspace)
+    python tests/bench/corpus.py [DIR]      (DIR: the folder that ODKIT_CORPUS names, or tests/corpus)
 
 Needs python-canopen (tests/interop/requirements.txt). Both read texts that are in memory
 already, each file the best of its rounds, and only files that python-canopen reads count.
@@ -51,7 +51,7 @@ def python_canopen(text):
 
 def main():
     given = sys.argv[1] if len(sys.argv) > 1 else os.environ.get("ODKIT_CORPUS")
-    folder = (Path(given) if given else ROOT.parent / "shared" / "corpus").resolve()
+    folder = (Path(given) if given else ROOT / "tests" / "corpus").resolve()
     if not folder.is_dir():
         sys.exit(f"there is no folder {folder}: name one with device files")
     logging.disable(logging.CRITICAL)

@@ -12,6 +12,8 @@ KINDS = {
         "odkit", "An empty field says nothing, and `# VAR` is a comment; python-canopen gives up the file."),
     "file: DataType, AccessType or ParameterName is missing": (
         "odkit", "The value is named as faulty; all others are as good as ever."),
+    "file: [xxxxName] names some members only": (
+        "odkit", "CiA 306-1: [xxxxName] lists the members whose name differs; python-canopen expects all of them."),
     "file: member of an object without its section": (
         "odkit", "The member is kept; python-canopen gives up the file."),
     "object: dummies": (
@@ -70,6 +72,8 @@ KINDS = {
         "both", "odkit keeps the bytes that the bus sees (UTF-16, low byte first), python-canopen the text."),
     "value: time": (
         "odkit", "Days and milliseconds, as Lely writes them; python-canopen reads the digits of both as one number."),
+    "value: real with a comma": (
+        "odkit", "`1,5` is 1.5, as German tools write it; python-canopen drops the value silently."),
     "value: real in hexadecimal or with a suffix": (
         "odkit", "0x40490FDB is the bit pattern of a REAL32, `1.0f` is 1; python-canopen drops the value silently."),
     "value: $NODEID in another case or place": (

@@ -26,10 +26,10 @@ NODE_ID = 1
 
 
 def corpus():
-    """The folder of device files, or None."""
-    given = os.environ.get("ODKIT_CORPUS")
-    folder = Path(given) if given else ROOT.parent / "shared" / "corpus"
-    return folder if folder.is_dir() else None
+    """The folder of device files: `tests/corpus`, or the one that ODKIT_CORPUS names."""
+    folder = Path(os.environ.get("ODKIT_CORPUS") or ROOT / "tests" / "corpus")
+    assert folder.is_dir(), f"ODKIT_CORPUS does not name a folder: {folder}"
+    return folder
 
 
 def odkit_reading(folder):
@@ -120,6 +120,8 @@ def file_kind(error):
         return "file: a line, section or key that stops the INI reader"
     if re.search(r"No option '(Dummy\d+|Line\d+|Lines)'", text):
         return "file: [DummyUsage] or [Comments] lacks a key"
+    if re.search(r"No option '\d+' in section: '[0-9A-F]{4}Name'", text, re.IGNORECASE):
+        return "file: [xxxxName] names some members only"
     if re.search(r"No option '(DataType|AccessType|ParameterName)'", text):
         return "file: DataType, AccessType or ParameterName is missing"
     if isinstance(error, ValueError) and "invalid literal for int" in text:
@@ -252,6 +254,8 @@ def value_kind(data_type, text, theirs, own, counts):
             return "value: followed by a comment"
         if theirs is None and re.match(r"0[xX]|.*[fF]$", text):
             return "value: real in hexadecimal or with a suffix"
+        if theirs is None and re.match(r"[+-]?\d+,\d+$", text):
+            return "value: real with a comma"
         return None
     if "NODEID" in text.upper():
         return "value: $NODEID in another case or place"

@@ -1,4 +1,4 @@
-//! Device files: those of the corpus, and those of a folder.
+//! Device files: those of `tests/corpus`, or of the folder that `ODKIT_CORPUS` names.
 
 use std::env;
 use std::fs;
@@ -12,22 +12,25 @@ pub const TEXTS: &[&str] = &["eds", "dcf"];
 /// Endings of all files that odkit reads.
 pub const ALL: &[&str] = &["eds", "dcf", "xdd", "xdc", "xpd"];
 
-/// The folder of the corpus: `ODKIT_CORPUS`, or `shared/corpus` beside the workspace. `None`, with
-/// a message, if it does not exist.
+/// The corpus of this repository. Each file has one trait of files that are in use; its first lines name
+/// the trait and the codes that odkit reports for it.
+pub fn own() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("corpus")
+}
+
+/// The folder that tests of many files read: the one that `ODKIT_CORPUS` names, otherwise [`own`].
 ///
 /// # Panics
 ///
-/// If `CI` is set and the folder does not exist: a test must not pass without its input.
-pub fn folder() -> Option<PathBuf> {
-    let beside = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/corpus");
-    let folder = env::var_os("ODKIT_CORPUS").map_or(beside, PathBuf::from);
-    if folder.is_dir() {
-        return Some(folder);
-    }
-    let text = "no corpus: set ODKIT_CORPUS to a folder of device files";
-    assert!(env::var_os("CI").is_none(), "{text}");
-    println!("{text}");
-    None
+/// If `ODKIT_CORPUS` names no folder: a test must not pass without its input.
+pub fn folder() -> PathBuf {
+    let folder = env::var_os("ODKIT_CORPUS").map_or_else(own, PathBuf::from);
+    assert!(
+        folder.is_dir(),
+        "ODKIT_CORPUS does not name a folder: {}",
+        folder.display()
+    );
+    folder
 }
 
 /// The files below a folder with one of these endings, in the order of their paths.

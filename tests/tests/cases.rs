@@ -1,10 +1,10 @@
 //! EDS in, diagnostics out: one folder of `tests/cases` is one case.
 //!
 //! `ODKIT_ACCEPT=1` writes what is found into `diagnostics.txt`; read it before
-//! committing it. The corpus is any folder of EDS and DCF files: `ODKIT_CORPUS`,
-//! or `shared/corpus` beside the workspace; without it, only CI fails.
+//! committing it. `tests/corpus` has files with one trait of real files each;
+//! `ODKIT_CORPUS` names another folder to read instead.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::{env, fs};
@@ -48,10 +48,8 @@ fn every_case_comes_back_from_its_own_text() {
 
 #[test]
 fn the_corpus_loads_and_comes_back() {
-    let Some(folder) = corpus::folder() else {
-        return;
-    };
-    let files = corpus::files(&folder, corpus::ALL);
+    let files = corpus::files(&corpus::folder(), corpus::ALL);
+    assert!(files.len() >= 60, "{} files", files.len());
     let mut by_code: BTreeMap<&str, (usize, usize)> = BTreeMap::new();
     for file in &files {
         let bytes = fs::read(file).expect("a file of the corpus is readable");
@@ -77,6 +75,47 @@ fn the_corpus_loads_and_comes_back() {
     for (code, (files, findings)) in by_code {
         println!("{code} {files:4} {findings:6}");
     }
+}
+
+/// The first lines of each file in `tests/corpus` name its trait, and the codes that odkit reports for it.
+#[test]
+fn each_file_of_our_corpus_shows_its_trait() {
+    let mut wrong = Vec::new();
+    let mut traits = BTreeSet::new();
+    for file in corpus::files(&corpus::own(), corpus::ALL) {
+        let bytes = fs::read(&file).expect("a file of the corpus is readable");
+        let document = Document::new(bytes).named(file.display().to_string());
+        let line = |name: &str| {
+            let mut lines = document.text().lines().take(3);
+            let text = lines
+                .find_map(|line| line.split_once(name))
+                .map(|(_, text)| text);
+            text.map(|text| text.trim_end_matches("-->").trim().to_owned())
+        };
+        let name = file.file_name().unwrap_or_default().display().to_string();
+        let (Some(trait_), Some(expected)) = (line("Trait: "), line("Reports: ")) else {
+            wrong.push(format!(
+                "{name}: the first lines lack `Trait: ` or `Reports: `"
+            ));
+            continue;
+        };
+        if !traits.insert(trait_) {
+            wrong.push(format!("{name}: another file has the same trait"));
+        }
+        let loaded = document.load();
+        let codes: BTreeSet<&str> = loaded.findings.iter().map(|found| found.code()).collect();
+        let found = match codes.is_empty() {
+            true => "nothing".to_owned(),
+            false => Vec::from_iter(codes).join(", "),
+        };
+        if expected != found {
+            wrong.push(format!(
+                "{name}: odkit reports {found}, the file says {expected}"
+            ));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+    assert!(traits.len() >= 60, "{} files", traits.len());
 }
 
 /// Flipped bytes, cut and doubled lines: never a panic, and what is read comes back.

@@ -1,8 +1,8 @@
 //! Corrupted device files: never a panic, never a hang, never a silent wrong value.
 //!
-//! Made of the corpus (`ODKIT_CORPUS`, or `shared/corpus` beside the workspace); where
-//! it is missing, of the project's own cases and devices. `ODKIT_ROUNDS` says how many
-//! variants are made; a few hundred without it, 10,000 in `cargo xtask test --long`.
+//! Made of the project's cases and devices, and of the corpus (`tests/corpus`, or the folder that
+//! `ODKIT_CORPUS` names). `ODKIT_ROUNDS` says how many variants are made; 60 without it, 10,000 in
+//! `cargo xtask test --long`.
 
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -16,7 +16,7 @@ use od_tests::corpus;
 const PATIENCE: Duration = Duration::from_secs(20);
 
 #[test]
-fn corrupted_files_are_read_to_the_end() {
+fn corrupted_files_of_the_corpus_are_read_to_the_end() {
     let files = files();
     let mut random = Xorshift(0x2545_F491_4F6C_DD1D);
     for round in 0..rounds(60) {
@@ -48,7 +48,7 @@ fn corrupted_files_are_read_to_the_end() {
 }
 
 #[test]
-fn an_illegal_value_never_goes_unnamed() {
+fn an_illegal_value_in_the_corpus_never_goes_unnamed() {
     let files: Vec<_> = files()
         .into_iter()
         .map(|(name, bytes)| (name, Document::new(bytes).text().to_string()))
@@ -260,11 +260,14 @@ fn rounds(few: usize) -> usize {
     asked.or(long).unwrap_or(few)
 }
 
-/// The corpus, else the project's own files; by name.
+/// Cases, devices and the corpus, by name.
 fn files() -> Vec<(String, Vec<u8>)> {
     let here = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let own = || vec![here.join("cases"), here.join("../devices/eds")];
-    let folders = corpus::folder().map_or_else(own, |folder| vec![folder]);
+    let folders = [
+        here.join("cases"),
+        here.join("../devices/eds"),
+        corpus::folder(),
+    ];
     let paths = folders
         .iter()
         .flat_map(|folder| corpus::files(folder, corpus::ALL));

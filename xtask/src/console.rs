@@ -12,6 +12,9 @@ use std::time::{Duration, Instant};
 use crate::error::{Error, Result};
 use crate::repo::is_ci;
 
+/// The variable that names a folder of device files, which tests read instead of `tests/corpus`.
+pub(crate) const CORPUS: &str = "ODKIT_CORPUS";
+
 /// Writes a line to standard output. A reader that went away is not an error.
 pub(crate) fn say(line: &str) {
     let mut out = std::io::stdout().lock();
@@ -64,8 +67,12 @@ impl Console {
         self.last.borrow().clone()
     }
 
-    /// Runs a program to its end; `what` says for people what it does.
+    /// Runs a program to its end; `what` says for people what it does. The program sees `ODKIT_CORPUS` only
+    /// if the command sets it, so that no other stage depends on files outside the repository.
     pub(crate) fn run(&self, what: &str, command: &mut Command) -> Result<()> {
+        if command.get_envs().all(|(name, _)| name != CORPUS) {
+            command.env_remove(CORPUS);
+        }
         let started = Instant::now();
         let shown = shown(command);
         self.last.replace(shown.clone());

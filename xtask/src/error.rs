@@ -14,13 +14,18 @@ pub(crate) enum Error {
     Failed(String),
     /// A tool or an input is not there. A test stage may be skipped for it.
     Missing(String),
+    /// An input that nobody has to have is not there. A test stage that needs it is left out, also in CI.
+    LeftOut(String),
 }
 
 impl Error {
     /// The text for people.
     pub(crate) fn message(&self) -> &str {
         match self {
-            Error::Usage(text) | Error::Failed(text) | Error::Missing(text) => text,
+            Error::Usage(text)
+            | Error::Failed(text)
+            | Error::Missing(text)
+            | Error::LeftOut(text) => text,
         }
     }
 

@@ -79,7 +79,7 @@ fn main() -> ExitCode {
             eprintln!("error: {message}\n\nTry `cargo xtask --help`.");
             ExitCode::from(2)
         }
-        Err(Error::Failed(message) | Error::Missing(message)) => {
+        Err(Error::Failed(message) | Error::Missing(message) | Error::LeftOut(message)) => {
             eprintln!("error: {message}");
             ExitCode::FAILURE
         }

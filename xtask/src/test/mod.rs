@@ -151,6 +151,7 @@ fn judge(stage: &Stage, result: Result<()>, counts: Counts) -> Outcome {
         Ok(()) if counts.passed > 0 => Outcome::Passed(Some(counts)),
         Ok(()) if stage.kind == Kind::Check => Outcome::Passed(None),
         Ok(()) => Outcome::Failed(counts, String::from("the stage ran no test")),
+        Err(Error::LeftOut(why)) => Outcome::LeftOut(why),
         Err(Error::Missing(why)) if !is_ci() => Outcome::Skipped(why),
         Err(error) => Outcome::Failed(counts, String::from(error.message())),
     }

@@ -21,6 +21,8 @@ pub(super) enum Outcome {
     Failed(Counts, String),
     /// A tool or an input is missing, and this is not CI.
     Skipped(String),
+    /// An optional input is missing; the stage does not count.
+    LeftOut(String),
 }
 
 /// The running totals.
@@ -89,6 +91,7 @@ impl Report {
                 self.totals.skipped += 1;
                 self.skipped.push(name);
             }
+            Outcome::LeftOut(_) => {}
         }
         self.show();
     }
@@ -139,6 +142,7 @@ fn line(name: &str, outcome: &Outcome, took: Duration) -> String {
         }
         Outcome::Failed(..) => ("FAILED", String::from("-")),
         Outcome::Skipped(why) => return format!("  skipped  {name:<12} skipped: {why}"),
+        Outcome::LeftOut(why) => return format!("  left out {name:<12} {why}"),
     };
     format!("  {mark:<8} {name:<12} {what:<34} {:>12}", seconds(took))
 }

@@ -2,8 +2,10 @@
 //! take longest. One cargo at a time writes into `target/debug`: `build` compiles all tests, and those
 //! after it only run theirs, beside the lints.
 
+mod alone;
 mod boards;
 mod c;
+mod corpus;
 mod dist;
 mod editor;
 mod page;
@@ -133,10 +135,12 @@ pub(super) const STAGES: &[Stage] = &[
     stage("conformance", Tests, "frame scripts per CANopen service", |c| rust::outside(c, &["conformance"])).quick().beside(Lane::Outside),
     stage("tests", Tests, "all other tests from outside", rust::other_outside).beside(Lane::Outside),
     stage("fuzz", Tests, "mutated input: SDO frames, node, EEPROM, EDS, scripts, adapters", rust::fuzz).beside(Lane::Outside),
+    stage("corpus", Tests, "device files of others: the tests of tests/corpus on the folder that ODKIT_CORPUS names", corpus::corpus).beside(Lane::Bus),
     stage("clippy", Check, "no warning, with every feature on", rust::clippy).quick().beside(Lane::Lint),
     stage("rustdoc", Check, "the documentation builds without a warning", rust::rustdoc).beside(Lane::Lint),
     stage("doc", Tests, "the examples in the documentation", rust::doc).beside(Lane::Lint),
     stage("unit", Tests, "tests inside the crates", rust::unit).quick(),
+    stage("alone", Check, "a clone in an empty folder passes, with no environment but PATH, HOME and CI=true", alone::alone).long(),
     stage("editor", Check, "a session in Neovim, the extension, hooks and action", editor::editor).long(),
     stage("dist", Tests, "a release is made, and each part of it installed and used in an empty folder", dist::dist).long(),
     stage("bench", Check, "each benchmark compiles and runs once", rust::bench).long(),

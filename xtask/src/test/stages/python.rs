@@ -20,12 +20,7 @@ const METADATA: &str = "Metadata-Version: 2.1\nName: odkit\nVersion: 0.1.0\n";
 /// names that no shared library can export.
 pub(super) fn python(context: &Context<'_>) -> Result<()> {
     let (repo, console) = (context.repo, context.console);
-    let requirements = repo.root.join("tests/interop/requirements.txt");
-    let python = python::environment(repo, console, &requirements)?;
-    let mut build = cargo(&repo.root, &["build", "--package", PYTHON]);
-    console.run("building the module", &mut build)?;
-    let site = repo.cache().join("python");
-    lay(&repo.root.join("python"), &site, &repo.target.join("debug"))?;
+    let (python, site) = package(context)?;
     tests(context, &python, Some(&site))?;
     if !context.long {
         return Ok(());
@@ -41,6 +36,18 @@ pub(super) fn python(context: &Context<'_>) -> Result<()> {
     pip.args(["-m", "pip", "install", "--quiet", "./python[test]"]);
     console.run("pip install ./python", pip.current_dir(&repo.root))?;
     tests(context, &python, None)
+}
+
+/// A Python with what the tests need, and a folder with the package.
+pub(super) fn package(context: &Context<'_>) -> Result<(PathBuf, PathBuf)> {
+    let (repo, console) = (context.repo, context.console);
+    let requirements = repo.root.join("tests/interop/requirements.txt");
+    let python = python::environment(repo, console, &requirements)?;
+    let mut build = cargo(&repo.root, &["build", "--package", PYTHON]);
+    console.run("building the module", &mut build)?;
+    let site = repo.cache().join("python");
+    lay(&repo.root.join("python"), &site, &repo.target.join("debug"))?;
+    Ok((python, site))
 }
 
 /// Lays the package out as pip does.
