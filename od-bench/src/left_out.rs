@@ -33,7 +33,7 @@ pub(super) fn fill(description: &mut Description) {
     }
 }
 
-/// COB-IDs of the predefined connection set (CiA 301, chapter 7.3.5).
+/// COB-IDs of the predefined connection set (CiA 301, chapter 7.3.3).
 fn standard(address: Address) -> Option<Value> {
     Some(match (address.index, address.sub) {
         (0x1005, 0) => Value::Unsigned(0x80),

@@ -1,4 +1,4 @@
-//! Boot-up and heartbeat consumer (CiA 301, chapters 7.2.8.2.2 and 7.2.8.2.3).
+//! Boot-up and heartbeat consumer (CiA 301, 7.2.8.3.2.2 and 7.2.8.3.3).
 
 use core::fmt;
 

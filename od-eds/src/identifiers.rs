@@ -72,7 +72,7 @@ pub fn used(description: &Description, node: u8) -> Vec<Used> {
     for (first, base, sends) in [(0x1800, 0x180, true), (0x1400, 0x200, false)] {
         for (&index, _) in description.objects.range(first..first + 0x200) {
             let pdo = index - first;
-            // The pre-defined connection set (CiA 301, chapter 7.3.5).
+            // The pre-defined connection set (CiA 301, chapter 7.3.3).
             let default = match pdo {
                 0..=3 => base + 0x100 * u32::from(pdo) + u32::from(node),
                 _ => 1 << 31,

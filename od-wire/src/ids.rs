@@ -4,7 +4,7 @@ use core::fmt;
 
 use crate::frame::CanId;
 
-/// A node ID, 1–127 (CiA 301, chapter 6.2). One less is kept: the usual one is all zeros.
+/// A node ID, 1–127 (CiA 301). One less is kept: the usual one is all zeros.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct NodeId(u8);
 

@@ -6,7 +6,7 @@ pub const MASTER: u16 = 0x7E5;
 pub const SLAVE: u16 = 0x7E4;
 
 /// Returns the bit rate in kbit/s at an index of the standard bit timing table; `None` for
-/// index 5, which is reserved, and above 8 (CiA 305, chapter 6.3.3).
+/// index 5, which is reserved, and above 8 (CiA 305, chapter 6.4.3).
 pub const fn kbit(index: u8) -> Option<u16> {
     Some(match index {
         0 => 1000,

@@ -95,8 +95,8 @@ fn cases() -> Vec<Case> {
     let lines = text.lines().filter(|line| !line.starts_with('#'));
     lines
         .map(|line| {
-            let [number, what, reason] = line.split('|').collect::<Vec<_>>()[..] else {
-                panic!("cases.txt: `{line}` is not number | what | reason");
+            let [number, _, what, reason] = line.split('|').collect::<Vec<_>>()[..] else {
+                panic!("cases.txt: `{line}` is not number | clause | what | reason");
             };
             let [number, what, reason] = [number, what, reason].map(|text| text.trim().into());
             Case {

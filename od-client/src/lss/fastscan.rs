@@ -1,4 +1,4 @@
-//! Fastscan: the LSS address of a slave, bit by bit (CiA 305, chapter 6.3.6).
+//! Fastscan: the LSS address of a slave, bit by bit (CiA 305, chapter 6.7).
 
 use od_wire::lss::Request;
 

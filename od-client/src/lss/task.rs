@@ -5,7 +5,7 @@ use core::fmt;
 use od_wire::NodeId;
 use od_wire::lss::{Part, Request};
 
-/// The LSS address: the four numbers of 1018h (CiA 305, chapter 5.3).
+/// The LSS address: the four numbers of 1018h (CiA 305).
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default)]
 pub struct Identity {
     /// 1018h:01, vendor-ID.
@@ -35,7 +35,7 @@ impl Identity {
     }
 }
 
-/// One service of the LSS master (CiA 305, chapter 6.3).
+/// One service of the LSS master (CiA 305, chapter 6).
 ///
 /// Those for a single slave need one in configuration state, and no second.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -168,7 +168,7 @@ pub enum Answer {
 pub enum LssError {
     /// No slave answered in time.
     Silent,
-    /// The slave answers with an error code (CiA 305, chapters 6.3.2 and 6.3.3).
+    /// The slave answers with an error code (CiA 305, chapters 6.4.2 and 6.4.3).
     Refused {
         /// Error code; 255: the manufacturer's own follows.
         error: u8,

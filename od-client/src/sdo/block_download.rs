@@ -1,4 +1,4 @@
-//! Block download: sends the segments, block by block (CiA 301, chapters 7.2.4.3.9 to 7.2.4.3.12).
+//! Block download: sends the segments, block by block (CiA 301, chapters 7.2.4.3.9 to 7.2.4.3.11).
 
 use od_wire::AbortCode;
 use od_wire::sdo::{Request, Response, block_segment, block_segments, crc16, unused};

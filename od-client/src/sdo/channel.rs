@@ -2,7 +2,7 @@
 
 use od_wire::{CanId, NodeId};
 
-/// The CAN-IDs between a client and a server (CiA 301, chapter 7.2.4.1).
+/// The CAN-IDs between a client and a server (CiA 301, chapter 7.2.4).
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub struct Channel {
     /// From client to server: 1200h:01.

@@ -1,4 +1,4 @@
-//! Upload: reads an object, expedited or in segments (CiA 301, chapters 7.2.4.3.5 and 7.2.4.3.6).
+//! Upload: reads an object, expedited or in segments (CiA 301, chapters 7.2.4.3.6 and 7.2.4.3.7).
 
 use od_model::Address;
 use od_wire::sdo::{Request, Response};

@@ -4,7 +4,7 @@ use alloc::format;
 
 use super::Description;
 
-/// kbit/s at each index of the LSS bit timing table (CiA 305, chapter 6.3.3); index 5 is reserved.
+/// kbit/s at each index of the LSS bit timing table (CiA 305, chapter 6.4.3); index 5 is reserved.
 const KBIT: [u16; 9] = [1000, 800, 500, 250, 125, 0, 50, 20, 10];
 
 impl Description {

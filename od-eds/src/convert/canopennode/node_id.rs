@@ -5,7 +5,7 @@ use crate::subject::start_value;
 use od_model::Address;
 
 /// The CAN-ID without node ID to which CANopenNode adds it, at this address; as the standard has
-/// it in the pre-defined connection set (CiA 301, chapter 7.3.5).
+/// it in the pre-defined connection set (CiA 301, chapter 7.3.3).
 pub(super) fn predefined(address: Address) -> Option<u32> {
     let Address { index, sub } = address;
     Some(match (index, sub) {
