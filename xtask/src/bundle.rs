@@ -18,8 +18,8 @@ use crate::repo::{self, Repo};
 use crate::setup::{binaryen, bindgen, node, target};
 use crate::stamp::{Fingerprint, Stamp};
 
-/// The size of the download counts more than the last bit of speed. All modules are of one profile, so
-/// that they share the crates that they have in common, and what runs while those are compiled.
+/// The size of the download matters more than the last bit of speed. All modules have one profile, so
+/// they share compiled dependencies, build scripts and macros.
 pub(crate) const RELEASE: (&str, &str) = ("CARGO_PROFILE_RELEASE_OPT_LEVEL", "s");
 
 /// A WebAssembly module of the page.
@@ -28,7 +28,7 @@ struct Module {
     folder: &'static str,
     /// Its package, and its library.
     package: (&'static str, &'static str),
-    /// Optimisation level of wasm-opt: `-Os` takes three times as long as `-O1` and saves 4 % more.
+    /// Optimisation level of wasm-opt: `-Os` takes three times as long as `-O1` and saves 4 %.
     level: &'static str,
     what: &'static str,
 }
@@ -49,7 +49,7 @@ const CORE: Module = Module {
 
 /// Builds all of the page.
 pub(crate) fn page(repo: &Repo, console: &Console) -> Result<()> {
-    // What cannot be had is said before anything takes time.
+    // Missing tools are reported before the long steps begin.
     node::check()?;
     let web = repo.web();
     let _lock = SetupLock::acquire(repo, console)?;
@@ -80,7 +80,7 @@ fn generate(repo: &Repo, console: &Console, module: &Module) -> Result<PathBuf> 
     let mut build = cargo(&repo.root, &["build", "--lib", "--release"]);
     build.args(["--package", module.package.0, "--target", target::WASM]);
     build.env(RELEASE.0, RELEASE.1);
-    // A page for others does not name the folders of this computer, and is the same from any.
+    // A published page does not contain paths of this computer, and is the same from any computer.
     build.env("CARGO_ENCODED_RUSTFLAGS", without_paths(&repo.root));
     console.run(module.what, &mut build)?;
     let wasm = repo
@@ -114,7 +114,7 @@ fn generate(repo: &Repo, console: &Console, module: &Module) -> Result<PathBuf> 
         "generating JavaScript and types (wasm-bindgen)",
         &mut command,
     )?;
-    // Without wasm-opt the page is larger and works: only a test has to insist.
+    // Without wasm-opt the page is larger but works; only a test fails for it.
     match optimise(repo, console, level, &module) {
         Ok(()) => stamp.set()?,
         Err(error) if repo::is_ci() => return Err(error),
@@ -125,7 +125,7 @@ fn generate(repo: &Repo, console: &Console, module: &Module) -> Result<PathBuf> 
     Ok(out)
 }
 
-/// An empty folder that git ignores and whose JavaScript Node.js takes for modules.
+/// An empty folder that git ignores and whose JavaScript files Node.js treats as modules.
 fn prepare(out: &Path) -> Result<()> {
     if out.exists() {
         fs::remove_dir_all(out).map_err(|e| Error::io("clear", out, &e))?;

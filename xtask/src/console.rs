@@ -15,7 +15,7 @@ use crate::repo::is_ci;
 /// The variable that names a folder of device files, which tests read instead of `tests/corpus`.
 pub(crate) const CORPUS: &str = "ODKIT_CORPUS";
 
-/// Writes a line to standard output. A reader that went away is not an error.
+/// Writes a line to standard output. A closed pipe is not an error.
 pub(crate) fn say(line: &str) {
     let mut out = std::io::stdout().lock();
     let _ = writeln!(out, "{line}");
@@ -27,13 +27,13 @@ pub(crate) fn say(line: &str) {
 pub(crate) struct Console {
     log: Option<File>,
     limit: Duration,
-    /// Whether its programs leave the processors to others.
+    /// Whether its programs run with low priority.
     yields: bool,
     last: RefCell<String>,
 }
 
 impl Console {
-    /// Steps are announced, programs write to the terminal.
+    /// Announces steps; programs write to the terminal.
     pub(crate) fn terminal() -> Console {
         Console {
             log: None,
@@ -43,8 +43,8 @@ impl Console {
         }
     }
 
-    /// Everything goes to `log`; a program that runs longer than `limit` is stopped. With
-    /// `yields`, other programs come first.
+    /// Writes everything to `log`, and stops a program that runs longer than `limit`. With
+    /// `yields`, programs run with low priority.
     pub(crate) fn to_log(log: File, limit: Duration, yields: bool) -> Console {
         Console {
             log: Some(log),
@@ -62,12 +62,12 @@ impl Console {
         }
     }
 
-    /// The last command line that was run, as one would type it.
+    /// The last command line that was run, as a user would type it.
     pub(crate) fn last_command(&self) -> String {
         self.last.borrow().clone()
     }
 
-    /// Runs a program to its end; `what` says for people what it does. The program sees `ODKIT_CORPUS` only
+    /// Runs a program to its end; `what` describes it in messages. The program sees `ODKIT_CORPUS` only
     /// if the command sets it, so that no other stage depends on files outside the repository.
     pub(crate) fn run(&self, what: &str, command: &mut Command) -> Result<()> {
         if command.get_envs().all(|(name, _)| name != CORPUS) {
@@ -129,12 +129,12 @@ fn append(mut log: &File, line: &str) {
     let _ = writeln!(log, "{line}");
 }
 
-/// The standard output of a quiet program, or `None` if it is missing or fails.
+/// Returns the standard output of a program, or `None` if it is missing or fails.
 pub(crate) fn ask(program: impl AsRef<Path>, args: &[&str]) -> Option<String> {
     ask_in(Path::new("."), program, args)
 }
 
-/// [`ask`] in a folder, by which rustup chooses the toolchain.
+/// [`ask`] in a folder; rustup chooses the toolchain by the folder.
 pub(crate) fn ask_in(dir: &Path, program: impl AsRef<Path>, args: &[&str]) -> Option<String> {
     let output = Command::new(program.as_ref())
         .args(args)
@@ -160,7 +160,7 @@ pub(crate) fn cargo(dir: &Path, args: &[&str]) -> Command {
     clean(Path::new("cargo"), dir, args)
 }
 
-/// A program without what the surrounding `cargo run` left in the environment.
+/// A program without the environment variables that `cargo run` has set.
 pub(crate) fn clean(program: &Path, dir: &Path, args: &[&str]) -> Command {
     let mut command = Command::new(program);
     for (name, _) in env::vars_os() {
@@ -170,19 +170,19 @@ pub(crate) fn clean(program: &Path, dir: &Path, args: &[&str]) -> Command {
         }
     }
     if is_ci() {
-        // Nobody edits here and builds again, and a build for that takes longer.
+        // A CI run is not built again after an edit, and incremental files take longer.
         command.env("CARGO_INCREMENTAL", "0");
         command.env("CARGO_PROFILE_DEV_DEBUG", "0");
-        // With this, a workspace of `odkit new` shares macros with those of this repository.
+        // With this flag a workspace of `odkit new` shares compiled macros with this repository.
         command.env("CARGO_PROFILE_RELEASE_DEBUG", "0");
-        // The other lanes have the processors, and each part of a crate has a cost of its own.
+        // The other lanes use the processors, and each codegen unit has a cost.
         command.env("CARGO_PROFILE_DEV_CODEGEN_UNITS", "2");
     }
     command.args(args).current_dir(dir);
     command
 }
 
-/// The same command behind `nice`, where there is one.
+/// Returns the same command behind `nice`, if `nice` exists.
 fn nice(command: &Command) -> Option<Command> {
     let mut nice = Command::new(which("nice")?);
     nice.args(["-n", "5"]).arg(command.get_program());
@@ -211,7 +211,7 @@ pub(crate) fn seconds(duration: Duration) -> String {
 fn shown(command: &Command) -> String {
     let mut line = String::new();
     for (name, value) in command.get_envs() {
-        // PATH and the like would hide the command; the rest is what makes it work.
+        // Variables such as PATH would hide the command; the others are needed to repeat it.
         if let Some(value) = value.filter(|_| name != "PATH") {
             let value = quoted(&value.to_string_lossy());
             let _ = write!(line, "{}={value} ", name.to_string_lossy());

@@ -1,6 +1,6 @@
 //! `cargo xtask corpus DIR`: reads a folder of device files and reports the findings.
 //!
-//! An example of the tests does the work, because xtask has no dependencies; with `--nodes` another one, which
+//! An example of the tests does the work, because xtask has no dependencies. With `--nodes` another example
 //! simulates each file, learns it and tests it.
 
 use std::path::{Path, absolute};

@@ -1,4 +1,4 @@
-//! Errors, as far as the caller acts on the difference.
+//! Errors, divided by what the caller does with them.
 
 use std::path::Path;
 
@@ -10,16 +10,16 @@ pub(crate) type Result<T> = std::result::Result<T, Error>;
 pub(crate) enum Error {
     /// The command line is wrong: exit code 2.
     Usage(String),
-    /// Something was tried and did not work: exit code 1.
+    /// Something was tried and failed: exit code 1.
     Failed(String),
-    /// A tool or an input is not there. A test stage may be skipped for it.
+    /// A tool or an input is missing. A test stage may be skipped for it.
     Missing(String),
-    /// An input that nobody has to have is not there. A test stage that needs it is left out, also in CI.
+    /// An optional input is missing. A test stage that needs it is left out, also in CI.
     LeftOut(String),
 }
 
 impl Error {
-    /// The text for people.
+    /// Returns the text for the user.
     pub(crate) fn message(&self) -> &str {
         match self {
             Error::Usage(text)

@@ -16,14 +16,14 @@ pub(crate) fn write(path: &Path, text: &str) -> Result<()> {
     fs::write(path, text).map_err(|e| Error::io("write", path, &e))
 }
 
-/// Copies a file, and makes the folder that it comes into.
+/// Copies a file, and makes the target folder.
 pub(crate) fn copy(from: &Path, to: &Path) -> Result<()> {
     create(to.parent().unwrap_or(to))?;
     fs::copy(from, to).map_err(|e| Error::io("copy", from, &e))?;
     Ok(())
 }
 
-/// Copies all files of a folder and of those in it.
+/// Copies all files of a folder and its subfolders.
 pub(crate) fn copy_tree(from: &Path, to: &Path) -> Result<()> {
     for name in tree(from)? {
         copy(&from.join(&name), &to.join(&name))?;
@@ -58,7 +58,7 @@ pub(crate) fn entries(dir: &Path) -> Result<Vec<PathBuf>> {
     Ok(paths)
 }
 
-/// The files of a folder and of those in it, by their paths in it; `/` is between the names.
+/// The files of a folder and its subfolders, as relative paths with `/`.
 pub(crate) fn tree(dir: &Path) -> Result<Vec<String>> {
     let mut found = Vec::new();
     let mut folders = vec![dir.to_path_buf()];

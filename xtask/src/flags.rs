@@ -5,7 +5,7 @@ use std::path::Path;
 
 use crate::console::ask_in;
 
-/// Flags, for `CARGO_ENCODED_RUSTFLAGS`, with which the places in messages are the same wherever it is built.
+/// Flags for `CARGO_ENCODED_RUSTFLAGS` that make paths in messages independent of the build folder.
 pub(crate) fn without_paths(root: &Path) -> String {
     let home = |name: &str, place: &str| {
         let path =

@@ -2,7 +2,7 @@
 //!
 //! `cargo test -p od-tests --test fuzz` runs the same targets on the pinned compiler, without
 //! coverage. Inputs that fail go to `tests/fuzz/found/TARGET`, where that test tries them first;
-//! what reaches new code is kept, minimised, in `tests/fuzz/corpus/TARGET`, as far as it is small.
+//! inputs that reach new code are minimised and kept in `tests/fuzz/corpus/TARGET` if they are small.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -60,7 +60,7 @@ pub(crate) fn run(repo: &Repo, console: &Console, options: &Options) -> Result<(
     let work = Folder::new(&repo.cache().join("fuzz").join(target), "new")?;
     let seeds = Folder::new(&repo.cache().join("fuzz").join(target), "seeds")?;
     seeds.clear()?;
-    // This also says whether there is such a target.
+    // This command also fails if the target does not exist.
     let mut write = cargo(&repo.root, &["test", "--quiet", "--package", TESTS]);
     write.args(["--test", "fuzz", "--", "--seeds", target]);
     console.run("the inputs to start from", write.arg(&seeds.0))?;
@@ -116,7 +116,7 @@ pub(crate) fn run(repo: &Repo, console: &Console, options: &Options) -> Result<(
     keep(&least, &corpus)
 }
 
-/// Copies a minimised corpus into the repository, as far as it is small.
+/// Copies the small files of a minimised corpus into the repository.
 fn keep(from: &Folder, to: &Folder) -> Result<()> {
     let mut files: Vec<(u64, PathBuf)> = Vec::new();
     for path in from.files()? {
@@ -142,7 +142,7 @@ fn keep(from: &Folder, to: &Folder) -> Result<()> {
     Ok(())
 }
 
-/// A folder that exists.
+/// Returns the folder if it exists.
 struct Folder(PathBuf);
 
 impl Folder {

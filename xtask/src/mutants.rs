@@ -11,7 +11,7 @@ use crate::error::{Error, Result};
 use crate::packages::MUTATED;
 use crate::repo::{Repo, program};
 
-/// The version that is built. Other versions make other mutants.
+/// The version that is built. Other versions make different mutants.
 const VERSION: &str = "27.1.0";
 
 /// Seconds that the tests of a mutant may take; a change that makes them endless is caught.
@@ -98,7 +98,7 @@ pub(crate) fn run(repo: &Repo, console: &Console, options: &Options) -> Result<(
         let others = tests.iter().flat_map(|(_, names)| names.iter().copied());
         let names = own.iter().map(String::as_str).chain(others);
         let names: Vec<&str> = names.flat_map(|name| ["--test", name]).collect();
-        // Its own look at the code without a change asks only the package that is mutated.
+        // Its check of the unchanged code tests only the package that is mutated.
         let mut before = cargo(&repo.root, &["test", "--quiet", "--lib"]);
         before.args(packages.iter().flat_map(|name| ["--package", name]));
         console.run("the tests without a change", before.args(&names))?;
@@ -107,7 +107,7 @@ pub(crate) fn run(repo: &Repo, console: &Console, options: &Options) -> Result<(
         command.args(["--", "--lib"]).args(&names);
         let result = console.run(&format!("mutants of {package}"), &mut command);
         let out = out.join("mutants.out");
-        // Survivors end it with an error, too: the list has the last word about them.
+        // It also fails if mutants survive; the list decides which of them may.
         if !out.join("outcomes.json").is_file() {
             return result;
         }
@@ -151,14 +151,14 @@ fn read(out: &Path, found: &mut Found) {
         let text = fs::read_to_string(out.join(name)).unwrap_or_default();
         text.lines().map(nameless).collect()
     };
-    // A test that does not end has noticed, too.
+    // A test that does not end has noticed the change, too.
     for name in ["caught.txt", "timeout.txt", "previously_caught.txt"] {
         found.caught += lines(name).len();
     }
     found.survivors.extend(lines("missed.txt"));
 }
 
-/// `a.rs:12:5: replace …` as `a.rs: replace …`: lines move, mutants stay.
+/// Turns `a.rs:12:5: replace …` into `a.rs: replace …`: line numbers change, mutants do not.
 fn nameless(line: &str) -> String {
     let mut parts = line.splitn(4, ':');
     match (parts.next(), parts.next(), parts.next(), parts.next()) {

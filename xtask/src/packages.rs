@@ -1,22 +1,22 @@
-//! Names of packages in command lines; cargo knows the others.
+//! Names of packages that appear in command lines.
 
-/// The command line of odkit, and its program.
+/// The command line of odkit: package and program.
 pub(crate) const CLI: (&str, &str) = ("od-cli", "odkit");
-/// The WebAssembly module, and its library.
+/// The WebAssembly module: package and library.
 pub(crate) const PAGE: (&str, &str) = ("od-playground", "od_playground");
-/// The smaller one that the page begins with: the same sources without features.
+/// The smaller module that the page loads first: the same sources without features.
 pub(crate) const PAGE_CORE: (&str, &str) = ("od-playground-core", "od_playground_core");
-/// The tests from outside.
+/// The integration tests.
 pub(crate) const TESTS: &str = "od-tests";
-/// Those of what compiles and what does not; a package of its own, since trybuild builds all that
-/// such a package needs once more.
+/// The tests of code that must compile or must not compile; a package of its own, since trybuild builds the
+/// dependencies of such a package once more.
 pub(crate) const COMPILE: &str = "od-tests-compile";
-/// The benchmarks with their heavy peers.
+/// The benchmarks, whose peers take long to build.
 pub(crate) const BENCHES: &str = "od-benches";
-/// A peer whose generated code takes as long to compile as all of odkit.
+/// A peer whose generated code takes as long to compile as odkit.
 pub(crate) const PEER: &str = "od-benches-zencan";
 
-/// The fuzz targets, for the tests from outside and for libFuzzer.
+/// The fuzz targets, for the integration tests and for libFuzzer.
 pub(crate) const FUZZ: &str = "od-fuzz";
 
 /// The Python module.
@@ -45,8 +45,8 @@ pub(crate) const MUTATED: [Mutated; 3] = [
     ),
 ];
 
-/// The package, the folder of the changes, and the tests of other packages that have to notice them,
-/// beside its own.
+/// The package, the folder of the changes, and the tests of other packages that must notice them,
+/// in addition to its own.
 pub(crate) type Mutated = (
     &'static str,
     &'static str,

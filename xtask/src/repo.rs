@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use crate::error::{Error, Result};
 
-/// Whether `CI` is set. Then a missing tool is an error and not a reason to skip.
+/// Whether `CI` is set. A missing tool is then an error; otherwise the stage is skipped.
 pub(crate) fn is_ci() -> bool {
     env::var("CI").is_ok_and(|value| value == "true" || value == "1")
 }

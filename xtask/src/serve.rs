@@ -7,7 +7,7 @@ use std::process::{Child, Command, Stdio};
 use crate::error::{Error, Result};
 use crate::repo::Repo;
 
-/// A server that answers; it ends with this value, or with this program.
+/// A running server; it ends when this value is dropped or this program ends.
 #[derive(Debug)]
 pub(crate) struct Server {
     child: Child,
@@ -21,7 +21,7 @@ impl Server {
         let mut command = Command::new("node");
         command.arg("serve.mjs").current_dir(repo.web());
         command.args(port.map(|port| port.to_string()));
-        // The pipe to its standard input breaks when this program ends, however it does.
+        // Its standard input is a pipe that closes when this program ends for any reason.
         command.stdin(Stdio::piped()).stdout(Stdio::piped());
         let mut child = command
             .stderr(Stdio::piped())
@@ -47,7 +47,7 @@ impl Server {
 
     /// Serves until Ctrl+C.
     pub(crate) fn wait(mut self) {
-        // Waiting would close its standard input, and that ends it.
+        // `wait` would close its standard input, which ends the server.
         let input = self.child.stdin.take();
         let _ = self.child.wait();
         drop(input);
@@ -61,7 +61,7 @@ impl Drop for Server {
     }
 }
 
-/// Is the port free? Known before a build that takes minutes, not after it.
+/// Returns whether the port is free. It is checked before the build, which takes minutes.
 pub(crate) fn check(port: u16) -> Result<()> {
     TcpListener::bind((Ipv4Addr::LOCALHOST, port))
         .map(drop)

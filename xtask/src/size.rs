@@ -59,8 +59,8 @@ pub(crate) fn run(repo: &Repo, args: &[String]) -> Result<()> {
     Ok(())
 }
 
-/// Fails where something has grown by more than 2 % since the tables in docs/PERFORMANCE.md were made; the one
-/// by service takes 14 builds, and is checked in a long run.
+/// Fails if a figure is more than 2 % above the tables in docs/PERFORMANCE.md. The table by service takes
+/// 14 builds and is checked in a long run.
 pub(crate) fn check(repo: &Repo, console: &Console, long: bool) -> Result<()> {
     prepare(repo, console)?;
     let (_, text) = page(repo)?;
@@ -79,7 +79,7 @@ pub(crate) fn check(repo: &Repo, console: &Console, long: bool) -> Result<()> {
     )))
 }
 
-/// The rows of which a number is more than 2 % above the listed one, or that are not listed.
+/// The rows with a number more than 2 % above the listed one, and the rows that are not listed.
 fn grown(listed: &str, now: &str) -> Vec<String> {
     let is_grown = |line: &&str| {
         row(line).is_some_and(|(name, now)| {
@@ -151,7 +151,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_growth_past_two_percent_is_told() {
+    fn a_growth_past_two_percent_is_reported() {
         let instructions = [60_000, 300, 500, 200, 200];
         let cost = Cost {
             flash: 46_316,

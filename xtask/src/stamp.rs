@@ -1,11 +1,11 @@
-//! Fingerprints of inputs: a step whose inputs did not change is not repeated.
+//! Fingerprints of inputs: a step is skipped if its inputs did not change.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::error::{Error, Result};
 
-/// 64-bit FNV-1a. Not for security: it only answers "is this what I saw last time?".
+/// 64-bit FNV-1a. It detects changes, and is not for security.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Fingerprint(u64);
 
@@ -15,7 +15,7 @@ impl Fingerprint {
         Fingerprint(0xcbf2_9ce4_8422_2325)
     }
 
-    /// Adds bytes, and their length, so that neighbours cannot run into each other.
+    /// Adds bytes and their length, so that two neighbouring inputs differ from their concatenation.
     pub(crate) fn bytes(mut self, bytes: &[u8]) -> Fingerprint {
         for byte in bytes.iter().chain(&(bytes.len() as u64).to_le_bytes()) {
             self.0 = (self.0 ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3);
@@ -40,7 +40,7 @@ impl Fingerprint {
     }
 }
 
-/// A file that remembers for which inputs a step was done.
+/// A file that records the inputs of the last completed step.
 #[derive(Debug)]
 pub(crate) struct Stamp {
     path: PathBuf,
@@ -54,18 +54,18 @@ impl Stamp {
         Stamp { path, value }
     }
 
-    /// Was the step done for these inputs, and are its `outputs` still there?
+    /// Returns whether the step was done for these inputs and its `outputs` still exist.
     pub(crate) fn is_current(&self, outputs: &[&Path]) -> bool {
         outputs.iter().all(|path| path.exists())
             && fs::read_to_string(&self.path).is_ok_and(|seen| seen == self.value)
     }
 
-    /// Forgets: from now on the step counts as not done, should it stop half-way.
+    /// Removes the record, so that a step that is interrupted counts as not done.
     pub(crate) fn clear(&self) {
         let _ = fs::remove_file(&self.path);
     }
 
-    /// Remembers that the step was done.
+    /// Records that the step was done.
     pub(crate) fn set(&self) -> Result<()> {
         if let Some(dir) = self.path.parent() {
             fs::create_dir_all(dir).map_err(|e| Error::io("create", dir, &e))?;
@@ -79,7 +79,7 @@ mod tests {
     use super::{Fingerprint, Stamp};
 
     #[test]
-    fn neighbours_do_not_run_into_each_other() {
+    fn the_limit_between_two_inputs_counts() {
         let a = Fingerprint::new().text("ab").text("c");
         let b = Fingerprint::new().text("a").text("bc");
         assert_ne!(a.hex(), b.hex());

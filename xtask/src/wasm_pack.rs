@@ -1,7 +1,7 @@
-//! `cargo xtask wasm-pack`: wasm-pack with everything it looks for on PATH.
+//! `cargo xtask wasm-pack`: wasm-pack, with the programs that it needs on PATH.
 //!
-//! wasm-pack looks for `wasm-bindgen` in the locked version and for `wasm-opt`. Folders in
-//! front of PATH give it ours, so the same tools make the page and the package.
+//! wasm-pack needs `wasm-bindgen` in the locked version, and `wasm-opt`. Folders in
+//! front of PATH contain ours, so the page and the package are made with the same tools.
 
 use std::env;
 use std::fs;

@@ -1,7 +1,7 @@
-//! `wasm-bindgen`, as far as `cargo xtask` and `wasm-pack` call it.
+//! `wasm-bindgen` with the options that `cargo xtask` and `wasm-pack` use.
 //!
-//! The official command line brings a test runner and a web server along and takes
-//! minutes to build. The library behind it takes seconds, and Cargo.lock pins it.
+//! The official command line includes a test runner and a web server, and takes
+//! minutes to build. The library below it takes seconds, and Cargo.lock pins it.
 
 use std::path::PathBuf;
 use std::process::ExitCode;

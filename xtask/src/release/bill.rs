@@ -1,4 +1,4 @@
-//! The components of each part: from the lock files, and from lists of what no package manager knows.
+//! The components of each part: from the lock files, and from lists for components that no package manager knows.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
@@ -11,29 +11,29 @@ use crate::files;
 use crate::packages::{CLI, PAGE, PYTHON};
 use crate::setup::{mdbook, target};
 
-/// Components of the programs that cargo does not know, and components of the site.
+/// Components that cargo does not know: of the programs and of the site.
 const OF_PROGRAMS: &str = "xtask/tools/notices.txt";
 const OF_SITE: &str = "docs/site/notices.txt";
 
 /// The place where a component's licence is.
 #[derive(Debug, Default, Clone, PartialEq, Eq)]
 pub(super) enum Licence {
-    /// odkit has its own beside every part.
+    /// odkit's own licence, which is beside every part.
     #[default]
     Own,
-    /// In the files of this folder.
+    /// The licence is in the files of this folder.
     Folder(PathBuf),
     Text(String),
 }
 
-/// A component: what it is fetched as, and what is known of it.
+/// A component: its package and its known facts.
 #[derive(Debug, Default, Clone, PartialEq, Eq)]
 pub(super) struct Component {
     pub(super) name: String,
     pub(super) version: String,
     /// `cargo`, `npm` or `generic`.
     pub(super) registry: &'static str,
-    /// As SPDX writes it.
+    /// Licence as an SPDX expression.
     pub(super) expression: String,
     /// The algorithm and the checksum of the package, if the lock file has it.
     pub(super) hash: Option<(&'static str, String)>,
@@ -41,14 +41,14 @@ pub(super) struct Component {
 }
 
 impl Component {
-    /// Its address as a package URL.
+    /// Package URL.
     pub(super) fn purl(&self) -> String {
         let name = self.name.replace('@', "%40").replace(' ', "%20");
         format!("pkg:{}/{name}@{}", self.registry, self.version)
     }
 }
 
-/// The components of a product, the product first, and who needs whom, by package URL.
+/// The components of a product, the product first, and their dependencies, by package URL.
 #[derive(Debug, Default)]
 pub(super) struct Bill {
     pub(super) components: Vec<Component>,
@@ -98,7 +98,7 @@ impl Bill {
     }
 }
 
-/// The parts that have something of others in them.
+/// The parts that contain components of others.
 pub(super) const PARTS: [&str; 5] = ["bin", "python", "npm", "site", "vscode"];
 
 /// The components of a part.
@@ -126,7 +126,7 @@ pub(super) fn of(dist: &Dist<'_>, part: &str) -> Result<Bill> {
     }
 }
 
-/// The bill of a package of this workspace for these systems, with the standard library.
+/// The bill of a package of this workspace for these systems, including the standard library.
 fn cargo(dist: &Dist<'_>, package: &str, targets: &[&str]) -> Result<Bill> {
     let root = &dist.repo.root;
     let mut tree = vec!["tree", "--locked", "--package", package];
@@ -146,13 +146,13 @@ fn cargo(dist: &Dist<'_>, package: &str, targets: &[&str]) -> Result<Bill> {
         registry: "generic",
         expression: String::from("MIT OR Apache-2.0"),
         hash: None,
-        // `notices` takes it from the toolchain.
+        // `notices` reads these licences from the toolchain.
         licence: Licence::Own,
     });
     Ok(bill)
 }
 
-/// The bill of what `cargo tree` prints with the depth of each line.
+/// The bill of the output of `cargo tree`, in which each line has its depth.
 fn of_cargo(tree: &str, lock: &str, metadata: &str) -> Bill {
     let (hashes, folders) = (hashes(lock), folders(metadata));
     let (mut bill, mut above): (Bill, Vec<String>) = Default::default();
@@ -172,7 +172,7 @@ fn of_cargo(tree: &str, lock: &str, metadata: &str) -> Bill {
             name: String::from(name),
             version: String::from(version),
             registry: "cargo",
-            // An old way to write it; `(*)` marks what was listed before.
+            // Older form of a licence expression; `(*)` marks a component that was listed before.
             expression: expression.trim_end_matches(" (*)").replace('/', " OR "),
             hash: hash.map(|hash| ("SHA-256", String::from(*hash))),
             licence: folder.map_or(Licence::Own, |folder| Licence::Folder(folder.clone())),
@@ -208,11 +208,11 @@ fn hashes(lock: &str) -> BTreeMap<(&str, &str), &str> {
     found
 }
 
-/// The folders of the packages in what `cargo metadata` prints, by name and version.
+/// The folders of the packages in the output of `cargo metadata`, by name and version.
 fn folders(metadata: &str) -> BTreeMap<(&str, &str), PathBuf> {
     let mut found = BTreeMap::new();
     let mut package = None;
-    // Dependencies and targets have a name, too, but no version behind it.
+    // Dependencies and targets have a name, too, but no version after it.
     for piece in metadata.split("{\"name\":\"") {
         if let Some((name, rest)) = piece.split_once("\",\"version\":\"") {
             package = rest.split('"').next().map(|version| (name, version));
@@ -244,7 +244,7 @@ fn npm(dist: &Dist<'_>, package: &str) -> Result<Bill> {
     Ok(bill)
 }
 
-/// The packages of a package-lock.json, as npm lays it out, without those for developers.
+/// The packages of a package-lock.json without those for development, as npm installs them.
 fn of_npm(lock: &str) -> Vec<Component> {
     let mut found = Vec::new();
     let (_, packages) = lock.split_once("\"node_modules/").unwrap_or_default();
@@ -272,7 +272,7 @@ fn of_npm(lock: &str) -> Vec<Component> {
     found
 }
 
-/// Base64 as hexadecimal digits.
+/// Converts Base64 to hexadecimal digits.
 fn hex(base64: &str) -> String {
     let (mut bits, mut number) = (0_u32, 0_u32);
     let mut out = String::new();
@@ -294,7 +294,7 @@ fn hex(base64: &str) -> String {
     out
 }
 
-/// The components of a list: `== NAME VERSION (LICENCE)`, then the text of the licence. `*` is this version.
+/// The components of a list: `== NAME VERSION (LICENCE)`, then the text of the licence. `*` stands for the version of odkit.
 fn of_list(list: &str, this: &str) -> Vec<Component> {
     let mut found = Vec::new();
     for one in format!("\n{list}").split("\n== ").skip(1) {

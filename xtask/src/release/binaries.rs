@@ -1,4 +1,4 @@
-//! The command line for each system, linked with all that it needs.
+//! The command line for each system, statically linked.
 
 use std::path::Path;
 

@@ -1,4 +1,4 @@
-//! Files about the folder: a README, licences and checksums.
+//! Files that describe the release: a README, licences and checksums.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -12,10 +12,10 @@ use crate::files;
 pub(super) const SUMS: &str = "SHA256SUMS";
 const README: &str = "README.md";
 const LICENCES: [&str; 2] = ["LICENSE-APACHE", "LICENSE-MIT"];
-/// Files of a folder that the README names; a folder with more is one line.
+/// Most files of a folder that the README names; a folder with more becomes one line.
 const NAMED: usize = 20;
 
-/// Writes README, licences and checksums for those of the parts, by name and content, that there are.
+/// Writes README, licences and checksums for the existing parts; each part has a name and a content.
 pub(super) fn write(
     dist: &Dist<'_>,
     out: &Path,
@@ -41,7 +41,7 @@ pub(super) fn write(
     names.retain(|name| name != SUMS);
     let names: Vec<&str> = names.iter().map(String::as_str).collect();
     let mut sums = String::new();
-    // A command line has a limit.
+    // A command line has a maximum length.
     for names in names.chunks(500) {
         let lines = ask_in(out, "sha256sum", &[&["--"], names].concat());
         let missing = "`sha256sum` does not run: please install it, on Debian `coreutils` has it";

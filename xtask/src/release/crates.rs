@@ -18,10 +18,10 @@ pub(super) fn make(dist: &Dist<'_>, folder: &Path) -> Result<()> {
     Ok(())
 }
 
-/// Packs every crate that is published; the files.
+/// Packs every published crate and returns the files.
 pub(crate) fn pack(repo: &Repo, console: &Console) -> Result<Vec<PathBuf>> {
     let packed = repo.target.join("package");
-    // What an earlier run has left here would count as packed.
+    // Files of an earlier run would count as packed.
     let _ = fs::remove_dir_all(&packed);
     let mut command = cargo(&repo.root, &["package", "--workspace", "--no-verify"]);
     command.args(["--allow-dirty", "--quiet"]);

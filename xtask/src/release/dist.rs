@@ -8,6 +8,6 @@ pub(super) struct Dist<'a> {
     pub(super) repo: &'a Repo,
     pub(super) console: &'a Console,
     pub(super) version: String,
-    /// Seconds since 1970 that files and archives bear.
+    /// Time of files in archives, in seconds since 1970.
     pub(super) epoch: String,
 }

@@ -1,7 +1,7 @@
 //! `cargo xtask dist`: one folder that can be released.
 //!
-//! Each part has a file here and a folder there. A part takes the same inputs to the same bytes:
-//! its times are those of the commit.
+//! Each part has a file here and a folder there. The same inputs give the same bytes: times of files are
+//! those of the commit.
 
 mod bill;
 mod binaries;
@@ -25,7 +25,7 @@ use crate::files;
 use crate::repo::Repo;
 use dist::Dist;
 
-/// A part of a release: `--only` has its name, and so has its folder.
+/// A part of a release: its name is the value of `--only` and the name of its folder.
 struct Part {
     name: &'static str,
     /// Its content, as a line of the folder's README.
@@ -52,7 +52,7 @@ pub(crate) struct Options {
 }
 
 impl Options {
-    /// All parts, into this folder.
+    /// All parts; they are written into this folder.
     pub(crate) fn whole(out: &Path) -> Options {
         Options {
             only: Vec::new(),
@@ -95,7 +95,7 @@ fn known(name: &str) -> Result<String> {
     Err(Error::Usage(text))
 }
 
-/// Makes the selected parts, then what lists them.
+/// Makes the selected parts, then the lists of their contents.
 pub(crate) fn run(repo: &Repo, console: &Console, options: &Options) -> Result<()> {
     let out = options
         .out
@@ -109,7 +109,7 @@ pub(crate) fn run(repo: &Repo, console: &Console, options: &Options) -> Result<(
         repo,
         console,
         version: repo.locked_version("odkit")?,
-        // The first moment that a zip archive knows.
+        // The earliest time that a zip archive can hold.
         epoch: epoch.unwrap_or_else(|| String::from("315532800")),
     };
     let mut failed = Vec::new();
@@ -138,7 +138,7 @@ pub(crate) fn run(repo: &Repo, console: &Console, options: &Options) -> Result<(
     Ok(())
 }
 
-/// An empty folder for a whole release. A folder with something else in it stays.
+/// Empties the folder of a whole release. A folder that contains other files is an error.
 fn begin(out: &Path, whole: bool) -> Result<()> {
     let is_ours =
         out.join(contents::SUMS).is_file() || PARTS.iter().any(|part| out.join(part.name).is_dir());
@@ -224,7 +224,7 @@ mod tests {
     }
 
     #[test]
-    fn workflows_call_xtask_and_nothing_else() {
+    fn workflows_install_the_compiler_and_call_xtask() {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../.github/workflows");
         let mut steps = 0;
         for file in files::entries(&folder).expect("there are workflows") {
@@ -233,7 +233,9 @@ mod tests {
                 .lines()
                 .filter_map(|line| line.trim().strip_prefix("- "))
             {
-                let is_ours = line.starts_with("run: cargo xtask ");
+                // rustup installs the compiler of rust-toolchain.toml.
+                let is_compiler = line == "run: rustup toolchain install";
+                let is_ours = line.starts_with("run: cargo xtask ") || is_compiler;
                 // A tag can be moved, a commit cannot.
                 let commit = line.strip_prefix("uses: actions/");
                 let commit = commit.and_then(|line| line.split(['@', ' ']).nth(1));
@@ -246,8 +248,9 @@ mod tests {
             assert_eq!(
                 text.matches("run:").count(),
                 text.matches("- run: cargo xtask ").count()
+                    + text.matches("- run: rustup toolchain install").count()
             );
         }
-        assert!(steps >= 3);
+        assert!(steps >= 4);
     }
 }

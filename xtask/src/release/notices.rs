@@ -1,6 +1,6 @@
-//! The licences of what a part has of others: MIT, BSD and the like demand that their texts go along.
+//! The licences of third-party components in a part: MIT, BSD and others require that their texts are included.
 //!
-//! The texts are those in the packages. A component without one stops the release.
+//! The texts come from the packages. A component without a text stops the release.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -11,10 +11,10 @@ use crate::console::ask_in;
 use crate::error::{Error, Result};
 use crate::files;
 
-/// Its name in every package: npm, Python and Visual Studio Code pack what begins with `LICENSE`.
+/// Name of the file in every package: npm, Python and Visual Studio Code include files that begin with `LICENSE`.
 pub(super) const NAME: &str = "LICENSE.THIRD-PARTY.txt";
 
-/// Packages that have no text, and one of the same authors that has it.
+/// Packages without a text, and a package of the same authors that has it.
 const SAME: [(&str, &str); 2] = [
     ("winapi-x86_64-pc-windows-gnu", "winapi"),
     ("@lit-labs/ssr-dom-shim", "lit"),
@@ -23,10 +23,10 @@ const SAME: [(&str, &str); 2] = [
 const HEAD: &str =
     "This product has parts of the packages below. Their authors allow that under these terms.\n";
 
-/// The packages and their terms, by the text.
+/// Packages and licence expressions, by the text.
 type Texts = BTreeMap<String, BTreeSet<String>>;
 
-/// Writes what a part needs into a folder.
+/// Writes the texts that a part needs into a folder.
 pub(super) fn write(dist: &Dist<'_>, part: &str, folder: &Path) -> Result<PathBuf> {
     let bill = bill::of(dist, part)?;
     let mut texts = Texts::new();
@@ -44,7 +44,7 @@ pub(super) fn write(dist: &Dist<'_>, part: &str, folder: &Path) -> Result<PathBu
     Ok(file)
 }
 
-/// Writes the file into the folder that a tool packs, lets it pack, and removes the file.
+/// Writes the file into the folder that a tool packs, runs the tool, and removes the file.
 pub(super) fn within(
     dist: &Dist<'_>,
     part: &str,
@@ -109,7 +109,7 @@ fn is_licence(name: &str) -> bool {
     starts.iter().any(|start| name.starts_with(start)) && !is_code
 }
 
-/// The texts of files: where there is a choice, those of the short licence, which wants less.
+/// The texts of files. If there is a choice of licences, those of the shorter licence.
 fn chosen(files: Vec<(String, String)>) -> Vec<String> {
     let is_short = |name: &str| name.contains("mit") || name.contains("bsd");
     let has_short = files.iter().any(|(name, _)| is_short(name));
@@ -123,13 +123,13 @@ fn chosen(files: Vec<(String, String)>) -> Vec<String> {
     kept.map(|(_, text)| tidy(text)).collect()
 }
 
-/// A text with the line ends of this system, without empty lines around it.
+/// Text with the line ends of this system, without empty lines at its ends.
 fn tidy(text: &str) -> String {
     let lines: Vec<&str> = text.lines().map(str::trim_end).collect();
     String::from(lines.join("\n").trim_matches('\n'))
 }
 
-/// The texts of Rust's standard library and of what is in it, from the toolchain.
+/// The texts of Rust's standard library and its components, from the toolchain.
 fn library(dist: &Dist<'_>, label: &str, texts: &mut Texts) -> Result<()> {
     let sysroot = ask_in(&dist.repo.root, "rustc", &["--print", "sysroot"]).unwrap_or_default();
     let folder = PathBuf::from(sysroot).join("share/doc/rust");
@@ -150,7 +150,7 @@ fn library(dist: &Dist<'_>, label: &str, texts: &mut Texts) -> Result<()> {
     Ok(())
 }
 
-/// The packages that the standard library is made of, with the names and texts of their files.
+/// The packages of the standard library, with the names and texts of their licence files.
 fn within_library(html: &str) -> Vec<(String, Vec<(String, String)>)> {
     let mut found = Vec::new();
     for section in html.split("<h3>📦 ").skip(1) {
@@ -180,7 +180,7 @@ fn between<'a>(text: &'a str, start: &str, end: &str) -> Option<&'a str> {
     Some(text.split_once(start)?.1.split_once(end)?.0)
 }
 
-/// A text of HTML as it is read.
+/// Converts HTML to plain text.
 fn plain(html: &str) -> String {
     let signs = [
         ("#60", "<"),

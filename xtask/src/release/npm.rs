@@ -1,4 +1,4 @@
-//! The npm package, as `<script type="module">` takes it.
+//! The npm package, for `<script type="module">`.
 
 use std::path::Path;
 

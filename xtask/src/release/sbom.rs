@@ -1,6 +1,6 @@
-//! Bills of material of the parts, as CycloneDX 1.5: a file for each.
+//! Bills of material, a CycloneDX 1.5 file for each part.
 //!
-//! The tools that make such a file write into the folders of the crates, or give it a time and a random number.
+//! Existing tools write into the folders of the crates, or add a time and a random number.
 
 use std::path::Path;
 

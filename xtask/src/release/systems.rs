@@ -1,7 +1,7 @@
 //! The systems that the command line is built for.
 
-/// A system, what it is called in file names, and what links its programs if rustc itself cannot:
-/// the linker and Debian's package of it. `rust-lld` comes with rustc.
+/// A system, its name in file names, and the linker of its programs with Debian's package of it, unless rustc
+/// can link them itself: `rust-lld` comes with rustc.
 pub(super) struct System {
     pub(super) triple: &'static str,
     pub(super) ending: &'static str,

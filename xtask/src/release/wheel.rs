@@ -11,7 +11,7 @@ use crate::error::Result;
 use crate::flags::without_paths;
 use crate::setup::python;
 
-/// The builder of wheels, in the version that this was tried with.
+/// The tested version of the builder.
 const REQUIREMENTS: &str = "xtask/tools/wheel.txt";
 
 pub(super) fn make(dist: &Dist<'_>, folder: &Path) -> Result<()> {
@@ -28,7 +28,7 @@ pub(super) fn make(dist: &Dist<'_>, folder: &Path) -> Result<()> {
     let mut wheel = maturin(&["build", "--release", "--locked"]);
     wheel.env("CARGO_ENCODED_RUSTFLAGS", without_paths(&repo.root));
     wheel.arg("--target-dir").arg(repo.target.join("wheel"));
-    // Its own one names the folders of this computer.
+    // A build with its own settings would contain the folders of this computer.
     let bill = repo.cache().join("odkit.cdx.json");
     sbom::write(dist, "python", &bill)?;
     wheel.arg("--sbom-include").arg(&bill);

@@ -1,4 +1,4 @@
-//! Packages of Debian and Ubuntu, where we are allowed to install them.
+//! Installs packages of Debian and Ubuntu where that is allowed.
 
 use std::process::Command;
 use std::sync::{Mutex, PoisonError};
@@ -7,14 +7,14 @@ use crate::console::{Console, ask, which};
 use crate::error::{Error, Result};
 use crate::repo::is_ci;
 
-/// One at a time: stages run beside each other.
+/// One installation at a time: stages run in parallel.
 static ONE: Mutex<()> = Mutex::new(());
 
-/// Installs packages, or says in one line what to install and how.
+/// Installs packages, or returns one line with the command to type.
 pub(crate) fn install(console: &Console, packages: &[&str], why: &str) -> Result<()> {
     let list = packages.join(" ");
     let is_root = ask("id", &["-u"]).as_deref() == Some("0");
-    // A computer of a CI service is there to be changed; those of people are asked by their owners.
+    // A CI computer may be changed; on others the user decides.
     let is_lent = is_ci() && ask("sudo", &["-n", "true"]).is_some();
     if which("apt-get").is_none() || !(is_root || is_lent) {
         return Err(Error::Missing(format!(

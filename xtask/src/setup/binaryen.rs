@@ -20,7 +20,7 @@ pub(crate) const FLAGS: [&str; 6] = [
     "--enable-multivalue",
 ];
 
-/// A `wasm-opt` that optimises a module once: the page and the npm package have the same one.
+/// A `wasm-opt` that optimises each module once: the page and the npm package contain the same module.
 pub(crate) const REMEMBERS: &str = "xtask/tools/wasm-opt.cjs";
 
 /// The folder with `wasm-opt`, after installing the locked version into `.xtask/node`.
@@ -37,7 +37,7 @@ pub(crate) fn get(repo: &Repo, console: &Console) -> Result<PathBuf> {
 
 /// The command that optimises `input` into `output`, with as much effort as `level` says.
 pub(crate) fn command(repo: &Repo, level: &str, input: &Path, output: &Path) -> Command {
-    // A JavaScript program: Windows does not start those by name.
+    // A JavaScript program: Windows does not start it by its name.
     let mut command = Command::new("node");
     command.arg(REMEMBERS).current_dir(&repo.root);
     command

@@ -1,4 +1,4 @@
-//! wasm-bindgen and wasm-pack, built from `xtask/bindgen` in the versions that its lock file has.
+//! Builds wasm-bindgen and wasm-pack from `xtask/bindgen` in the locked versions.
 
 use std::path::PathBuf;
 
@@ -6,7 +6,7 @@ use crate::console::{Console, cargo};
 use crate::error::{Error, Result};
 use crate::repo::{Repo, program};
 
-/// Builds wasm-bindgen, or lets cargo find that it is built; its path.
+/// Builds wasm-bindgen if it is out of date, and returns its path.
 pub(crate) fn get(repo: &Repo, console: &Console) -> Result<PathBuf> {
     check_versions(repo)?;
     build(repo, console, "odkit-wasm-bindgen", "wasm-bindgen")
@@ -33,7 +33,7 @@ fn build(repo: &Repo, console: &Console, package: &str, what: &str) -> Result<Pa
     Ok(tool)
 }
 
-/// The generated JavaScript fits the crate only if both are of one version.
+/// The generated JavaScript needs the same version of the crate.
 fn check_versions(repo: &Repo) -> Result<()> {
     let locked = repo.locked_version("wasm-bindgen")?;
     let path = repo.root.join("xtask/bindgen/Cargo.toml");

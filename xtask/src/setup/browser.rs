@@ -8,10 +8,10 @@ use crate::console::{Console, which};
 use crate::error::{Error, Result};
 use crate::repo::is_ci;
 
-/// Debian's Chromium without a window, in a package of its own: a sixth less work for the tests.
+/// Debian's package of Chromium without a window; the tests need a sixth less processor time with it.
 const SHELL: &str = "chromium-headless-shell";
 
-/// The names that a Chromium goes by.
+/// Program names of Chromium.
 const NAMES: [&str; 5] = [
     SHELL,
     "chromium",
@@ -20,7 +20,7 @@ const NAMES: [&str; 5] = [
     "google-chrome-stable",
 ];
 
-/// The path of a Chromium: `CHROMIUM`, one on PATH, or one of Debian's, which root gets installed.
+/// Path of Chromium: `CHROMIUM`, one on PATH, or Debian's, which is installed if the user is root.
 pub(crate) fn chromium(console: &Console) -> Result<PathBuf> {
     if let Some(path) = env::var_os("CHROMIUM").filter(|path| !path.is_empty()) {
         let path = PathBuf::from(path);
@@ -33,7 +33,7 @@ pub(crate) fn chromium(console: &Console) -> Result<PathBuf> {
     }
     let on_path = || NAMES.iter().find_map(|name| which(name));
     let why = "no Chromium on PATH";
-    // A computer of a CI service gets the one that is faster, if there is such a package.
+    // On a CI computer the faster package is installed, if it exists.
     if which(SHELL).is_none() && (is_ci() || on_path().is_none()) {
         let _ = apt::install(console, &[SHELL, FONTS], why);
     }
@@ -44,7 +44,7 @@ pub(crate) fn chromium(console: &Console) -> Result<PathBuf> {
     on_path().ok_or_else(|| Error::Missing(String::from("apt-get installed no `chromium`")))
 }
 
-/// The package of the fonts that the page falls back to.
+/// Package with the fallback fonts of the page.
 const FONTS: &str = "fonts-liberation";
 
 /// The programs that start Firefox and WebKit for a long run, and Debian's package of each. WebKit's window needs a display.
@@ -54,14 +54,14 @@ const ENGINES: [(&str, &str); 3] = [
     ("xvfb-run", "xvfb"),
 ];
 
-/// Sees to it that the other engines are on PATH.
+/// Makes the other browsers available on PATH.
 pub(crate) fn engines(console: &Console) -> Result<()> {
     let missing = |(name, _): &&(&str, &str)| which(name).is_none();
     let mut packages: Vec<&str> = ENGINES.iter().filter(missing).map(|(_, of)| *of).collect();
     if packages.is_empty() {
         return Ok(());
     }
-    // `xvfb-run` calls it, and does not depend on it.
+    // `xvfb-run` calls it, but its package does not depend on it.
     packages.push("xauth");
     apt::install(console, &packages, "no Firefox or WebKit on PATH")
 }

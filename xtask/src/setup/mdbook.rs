@@ -6,7 +6,7 @@ use crate::console::{Console, cargo};
 use crate::error::{Error, Result};
 use crate::repo::{Repo, program};
 
-/// Last looked at in November 2026: released every few weeks by the Rust project.
+/// Checked in November 2026: released every few weeks by the Rust project.
 pub(crate) const VERSION: &str = "0.5.4";
 
 /// The program, installed if it is missing.
@@ -19,7 +19,7 @@ pub(crate) fn get(repo: &Repo, console: &Console) -> Result<PathBuf> {
     let mut install = cargo(&repo.root, &["install", "--locked", "--quiet", "mdbook"]);
     install.args(["--version", VERSION, "--no-default-features"]);
     install.args(["--features", "search", "--root"]).arg(&place);
-    // Nobody else needs what it is built of.
+    // The build files are not needed afterwards.
     install
         .arg("--target-dir")
         .arg(repo.tools().join("mdbook/target"));

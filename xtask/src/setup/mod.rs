@@ -1,4 +1,4 @@
-//! Getting the tools that odkit's tasks need, without a README to follow.
+//! Installs the tools that odkit's tasks need.
 
 pub(crate) mod apt;
 pub(crate) mod binaryen;

@@ -1,4 +1,4 @@
-//! Node.js and npm: found, not installed.
+//! Finds Node.js and npm; it does not install them.
 
 use std::path::Path;
 use std::process::Command;
@@ -7,13 +7,13 @@ use crate::console::{Console, ask};
 use crate::error::{Error, Result};
 use crate::stamp::{Fingerprint, Stamp};
 
-/// The oldest Node.js that everything here was run with.
+/// The oldest Node.js that was tested.
 const OLDEST: u32 = 20;
 
-/// npm is a script, which Windows starts only by its full name.
+/// npm is a script; Windows starts it only by its full name.
 const NPM: &str = if cfg!(windows) { "npm.cmd" } else { "npm" };
 
-/// Checks that Node.js is there and not too old, and npm with it.
+/// Checks that Node.js and npm exist and that Node.js is new enough.
 pub(crate) fn check() -> Result<()> {
     let how = "please install Node.js 20 or newer with npm (https://nodejs.org)";
     let version = ask("node", &["--version"])
@@ -46,7 +46,7 @@ pub(crate) fn ci(console: &Console, dir: &Path, what: &str) -> Result<()> {
     if stamp.is_current(&[]) {
         return Ok(());
     }
-    // Nothing we use needs an install script, and what does not run cannot harm.
+    // No package here needs an install script, and scripts that do not run do no harm.
     let args = ["ci", "--ignore-scripts", "--no-audit", "--no-fund"];
     console.run(what, &mut npm(dir, &args))?;
     stamp.set()

@@ -1,4 +1,4 @@
-//! Python environments of our own: for the tests against foreign CANopen masters, and to build a wheel.
+//! Python environments for the tests with other CANopen masters, and for building a wheel.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -15,7 +15,7 @@ pub(crate) fn environment(repo: &Repo, console: &Console, requirements: &Path) -
     venv(repo, console, "venv", requirements)
 }
 
-/// The Python of an environment with a name of its own.
+/// The Python of another environment.
 pub(crate) fn venv(
     repo: &Repo,
     console: &Console,
@@ -54,7 +54,7 @@ pub(crate) fn venv(
     Ok(python)
 }
 
-/// A Python 3 that can make environments; Debian splits that off its Python.
+/// A Python 3 with the module `venv`, which Debian has in a package of its own.
 fn base(console: &Console) -> Result<PathBuf> {
     let candidates = ["python3", "python"];
     let complete = |python: &&str| ask(python, &["-c", "import venv, ensurepip"]).is_some();
@@ -63,7 +63,7 @@ fn base(console: &Console) -> Result<PathBuf> {
     }
     let packages = ["python3", "python3-venv"];
     apt::install(console, &packages, "Python 3 with `venv` is missing")?;
-    // The python3 that comes first on PATH may be another one than Debian's.
+    // The first python3 on PATH may not be Debian's.
     ["python3", "/usr/bin/python3"]
         .iter()
         .find(|python| complete(python))

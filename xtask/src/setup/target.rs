@@ -10,19 +10,19 @@ use crate::repo::Repo;
 
 /// The browser.
 pub(crate) const WASM: &str = "wasm32-unknown-unknown";
-/// A microcontroller without an operating system: proof of `no_std`.
+/// A microcontroller without an operating system: shows that a crate is `no_std`.
 pub(crate) const BARE: &str = "thumbv7m-none-eabi";
-/// The smallest microcontroller: no atomic read-modify-write, no division.
+/// The smallest microcontroller: without atomic read-modify-write and division.
 pub(crate) const SMALLEST: &str = "thumbv6m-none-eabi";
-/// A microcontroller with a floating point unit that its calls do not use.
+/// A microcontroller with a floating point unit and a soft-float ABI.
 pub(crate) const FLOAT: &str = "thumbv7em-none-eabi";
 /// The other systems that people develop on.
 pub(crate) const HOSTS: [&str; 2] = ["x86_64-pc-windows-gnu", "aarch64-apple-darwin"];
 
-/// rustup does not wait for another rustup, and stages run beside each other.
+/// rustup does not wait for another rustup, and stages run in parallel.
 static ONE: Mutex<()> = Mutex::new(());
 
-/// Makes sure that the toolchain can build for `target`, or says what to type.
+/// Installs the target if the toolchain lacks it, or returns the command to type.
 pub(crate) fn add(repo: &Repo, console: &Console, target: &str) -> Result<()> {
     let _one = ONE.lock().unwrap_or_else(PoisonError::into_inner);
     if is_there(repo, target)? {
@@ -39,7 +39,7 @@ pub(crate) fn add(repo: &Repo, console: &Console, target: &str) -> Result<()> {
     )))
 }
 
-/// Does the toolchain that rust-toolchain.toml pins have the target's library?
+/// Returns whether the pinned toolchain has the target's library.
 fn is_there(repo: &Repo, target: &str) -> Result<bool> {
     let sysroot = ask_in(&repo.root, "rustc", &["--print", "sysroot"])
         .ok_or_else(|| Error::Missing(String::from("`rustc` does not run; see rustup.rs")))?;

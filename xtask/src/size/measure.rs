@@ -11,7 +11,7 @@ use crate::setup::{apt, target};
 pub(super) const SMALL: &str = "s";
 const EMULATOR: &str = "qemu-system-arm";
 
-/// Report of a program: bytes, and instructions from an input until its last frame is out.
+/// Report of a program: bytes, and instructions from an input until its last frame is sent.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Cost {
     pub(super) flash: u64,
@@ -64,7 +64,7 @@ pub(super) fn build(
     Ok(repo.target.join(target::BARE).join("release"))
 }
 
-/// Has the boot loader receive a program and start it.
+/// Sends a program to the boot loader and starts it.
 pub(super) fn boot(program: &Path) -> Result<()> {
     let text = emulate(program)?;
     match text.lines().any(|line| line == "the program runs") {
@@ -82,8 +82,8 @@ pub(super) fn play(program: &Path) -> Result<Cost> {
     read(&text).ok_or_else(|| failed(program, &text))
 }
 
-/// Runs a program on the emulator, with a clock that counts its instructions. Returns what it
-/// prints.
+/// Runs a program on the emulator, with a clock that counts its instructions. Returns its
+/// output.
 fn emulate(program: &Path) -> Result<String> {
     let folder = program.parent().unwrap_or(Path::new("."));
     let mut command = clean(
@@ -118,7 +118,7 @@ fn read(text: &str) -> Option<Cost> {
         let (_, number) = pairs.find(|(name, _)| *name == wanted)?;
         u64::from_str_radix(number, 16).ok()
     };
-    // 12.8 ticks of the clock are an instruction.
+    // 12.8 ticks of the clock are one instruction.
     let overhead = number("overhead")?;
     let count = |name| Some(((number(name)?.saturating_sub(overhead)) * 10 + 64) / 128);
     let mut instructions = [0; COUNTS.len()];

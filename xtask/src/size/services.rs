@@ -11,7 +11,7 @@ use crate::repo::Repo;
 pub(super) const MARKS: (&str, &str) = ("<!-- services -->\n", "<!-- /services -->");
 /// The program in `firmware/src/bin`.
 const PROGRAM: &str = "service";
-/// A variant that is measured: its name in the table, the feature of the program, and what it is.
+/// A measured variant: its name in the table, the feature of the program, and a description.
 const SERVICES: [(&str, &str, &str); 14] = [
     (BASE, "service", "a node of 19 values without all of these"),
     ("segmented", "segmented", "segmented SDO transfers"),
@@ -55,7 +55,7 @@ pub(super) fn measure(repo: &Repo) -> Result<Costs> {
     SERVICES.into_iter().map(one).collect()
 }
 
-/// The node without services, and what each adds to it.
+/// The node without services, and the cost of each service.
 pub(super) fn table(costs: &Costs) -> String {
     let mut text = String::from("| | flash | static RAM | stack |\n|---|--:|--:|--:|\n");
     let base = costs.first().map_or([0; 3], |(_, bytes)| *bytes);
@@ -74,7 +74,7 @@ pub(super) fn table(costs: &Costs) -> String {
     text
 }
 
-/// The rows in which the node with a service has grown by more than 2 %, or that are not listed.
+/// The rows in which the node with a service has grown by more than 2 %, and the rows that are not listed.
 pub(super) fn grown(listed: &str, costs: &Costs) -> Vec<String> {
     let rows: Vec<_> = listed.lines().filter_map(row).collect();
     let base = rows.first().map_or(&[][..], |(_, numbers)| numbers);
@@ -97,7 +97,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_service_that_has_grown_is_told() {
+    fn a_service_that_has_grown_is_reported() {
         let costs = |block| vec![(BASE, [19_000, 540, 488]), ("segmented", [block, 530, 500])];
         let listed = table(&costs(20_000));
         assert!(listed.contains("| 19,000 | 540 | 488 |"), "{listed}");

@@ -1,4 +1,4 @@
-//! Tables in docs/PERFORMANCE.md: where they are, their numbers, and whether one has grown.
+//! Tables in docs/PERFORMANCE.md: finds them, reads their numbers, and compares them.
 
 use std::fs;
 use std::path::PathBuf;
@@ -37,7 +37,7 @@ pub(super) fn row(line: &str) -> Option<(&str, Vec<i64>)> {
     Some((name, cells.filter_map(|cell| cell.parse().ok()).collect()))
 }
 
-/// Whether one of the numbers is more than 2 % above the one before, or there are others.
+/// Returns whether a number is more than 2 % above the one before, or the numbers differ in count.
 pub(super) fn has_grown(before: &[i64], now: &[i64]) -> bool {
     let mut pairs = now.iter().zip(before);
     now.len() != before.len() || pairs.any(|(now, before)| now * 50 > before * 51)

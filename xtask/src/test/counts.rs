@@ -12,19 +12,19 @@ impl Counts {
     /// Adds up every closing line in the log.
     pub(super) fn read(log: &str) -> Counts {
         let mut sum = Counts::default();
-        // Python says how many ran first, and how many of them failed after that.
+        // Python prints the number of tests first, and the failures after it.
         let mut ran = 0;
         for line in log.lines() {
             let line = without_colours(line);
             let words = words(&line);
             match *words {
                 ["test", "result", ..] => sum.add(&words, -1, ["passed", "failed", "ignored"]),
-                // A file of trybuild's, which cargo counts as one test together.
+                // A file of trybuild, which cargo counts as one test.
                 ["test", .., "rs", "ok"] | ["test", .., "rs", "should", "pass", "ok"] => {
                     sum.passed += 1;
                 }
                 ["test", .., "rs", _] => sum.failed += 1,
-                // Node marks its closing lines, which have one number each.
+                // Node.js marks its closing lines, which have one number each.
                 ["pass" | "fail" | "cancelled" | "skipped" | "todo", _]
                     if line.starts_with(['#', 'ℹ']) =>
                 {
@@ -113,7 +113,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_counts_nothing() {
+    fn an_empty_log_has_no_tests() {
         check("error: could not compile\n# a remark\nOK\n", 0, 0, 0);
         check("Ran 0 tests in 0.000s\n\nNO TESTS RAN\n", 0, 0, 0);
     }

@@ -1,4 +1,4 @@
-//! `cargo xtask test`: every check there is, one line each.
+//! `cargo xtask test`: all checks, one line each.
 
 mod context;
 mod counts;
@@ -72,7 +72,7 @@ fn known(name: &str) -> Result<String> {
     Err(Error::Usage(text))
 }
 
-/// Runs the selected stages, all of them, and says how it went.
+/// Runs all selected stages, and returns the result.
 pub(crate) fn run(repo: &Repo, options: &Options) -> Result<ExitCode> {
     if options.list {
         for stage in STAGES {
@@ -98,7 +98,7 @@ pub(crate) fn run(repo: &Repo, options: &Options) -> Result<ExitCode> {
         });
         for stage in STAGES.iter().filter(|stage| options.selects(stage)) {
             match lanes.iter_mut().find(|(lane, ..)| *lane == stage.lane) {
-                // A worker that failed is joined below, and says why.
+                // A worker that failed is joined below, which reports the reason.
                 Some((_, queue, _)) => drop(queue.send(stage)),
                 None => work(stage)?,
             }
@@ -124,7 +124,7 @@ fn one(
     let report = || report.lock().unwrap_or_else(PoisonError::into_inner);
     let path = logs.join(format!("{}.log", stage.name));
     let log = File::create(&path).map_err(|e| Error::io("create", &path, &e))?;
-    // Tests in a browser or on a bus look at the time; those that only compute wait for them.
+    // Tests in a browser or on a bus depend on time; computing tests wait for them.
     let limit = if options.long { LIMIT * 4 } else { LIMIT };
     let console = Console::to_log(log, limit, !stage.lane.looks_at_the_time());
     let context = Context {
@@ -144,7 +144,7 @@ fn one(
     Ok(())
 }
 
-/// Puts together what a stage returned and what its log counts.
+/// Combines the result of a stage with the counts in its log.
 fn judge(stage: &Stage, result: Result<()>, counts: Counts) -> Outcome {
     match result {
         Ok(()) if counts.failed > 0 => Outcome::Failed(counts, format!("{} failed", counts.failed)),

@@ -63,8 +63,8 @@ impl Report {
         }
     }
 
-    /// Prints one line for a stage that ended. After a failed stage follow its output and the
-    /// commands that repeat it: `log` is its text and place, `command` the last one that ran.
+    /// Prints one line for a stage that ended. A failed stage is followed by its output and the
+    /// commands that repeat it: `log` is its text and path, `command` the last one that ran.
     pub(super) fn finish(
         &mut self,
         name: &'static str,
@@ -81,7 +81,7 @@ impl Report {
                 ..Counts::default()
             })),
             Outcome::Failed(counts, why) => {
-                // Something failed even if no test had the chance to.
+                // The stage failed before its tests began.
                 let failed = counts.failed.max(1);
                 self.totals.join(Counts { failed, ..*counts });
                 self.failed.push(name);

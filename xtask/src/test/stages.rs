@@ -1,6 +1,6 @@
-//! The stages, in the order they start: first what the tests in a browser and on a bus wait for, which
-//! take longest. One cargo at a time writes into `target/debug`: `build` compiles all tests, and those
-//! after it only run theirs, beside the lints.
+//! The stages, in the order they start. The first ones build what the tests in a browser and on a bus need, which
+//! take longest. One cargo at a time writes into `target/debug`: `build` compiles all tests; the stages
+//! after it only run theirs, in parallel with the lints.
 
 mod alone;
 mod boards;
@@ -19,35 +19,35 @@ use crate::error::Result;
 /// The content of a stage.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Kind {
-    /// Tests; none at all is a mistake.
+    /// Tests; a stage without tests is an error.
     Tests,
-    /// One thing that holds or not.
+    /// A single check.
     Check,
 }
 use Kind::{Check, Tests};
 
-/// Stages of one lane run one after another, the lanes beside each other.
+/// Stages of one lane run one after another; the lanes run in parallel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Lane {
     /// cargo, which uses all processors, and the tests inside the crates.
     Cargo,
-    /// The tests from outside.
+    /// The integration tests.
     Outside,
-    /// Lints and documentation, which cargo compiles while tests run.
+    /// Lints and documentation; cargo compiles them while tests run.
     Lint,
     /// The page, from its build to the tests in a browser.
     Page,
-    /// A bus, whose tests mostly wait.
+    /// Tests on a bus, which mostly wait.
     Bus,
-    /// Microcontrollers, built and emulated: one processor's work at a time.
+    /// Microcontrollers, built and emulated; they use one processor.
     Board,
-    /// What compiles for other computers or into target directories of its own: one compiler waits for another
-    /// that writes into the same.
+    /// Code that compiles for other computers or into separate target directories: one compiler waits for another
+    /// that uses the same directory.
     Cross,
 }
 
 impl Lane {
-    /// All but that of cargo itself.
+    /// All lanes except that of cargo.
     pub(super) const BESIDE: [Lane; 6] = [
         Lane::Outside,
         Lane::Lint,
@@ -57,7 +57,7 @@ impl Lane {
         Lane::Cross,
     ];
 
-    /// Whether its tests look at the time, so that those of other lanes have to let them go first.
+    /// Returns whether its tests depend on time; other lanes then run with lower priority.
     pub(super) fn looks_at_the_time(self) -> bool {
         matches!(self, Lane::Page | Lane::Bus | Lane::Board)
     }
@@ -78,7 +78,7 @@ pub(super) struct Stage {
     pub(super) quick: bool,
     /// Whether it runs only with `--long`, or by its name.
     pub(super) long: bool,
-    /// A stage outside [`Lane::Cargo`] starts when those of that lane before it have ended.
+    /// A stage outside [`Lane::Cargo`] starts when the stages of that lane before it have ended.
     pub(super) lane: Lane,
 }
 
@@ -113,7 +113,7 @@ impl Stage {
     }
 }
 
-/// Every stage there is.
+/// All stages.
 #[rustfmt::skip]
 pub(super) const STAGES: &[Stage] = &[
     stage("fmt", Check, "rustfmt has nothing to change", rust::fmt).quick().beside(Lane::Lint),

@@ -1,4 +1,4 @@
-//! `wasm-pack`, from its library: no look for a newer version, no download.
+//! `wasm-pack` from its library: it does not look for a newer version and downloads nothing.
 
 use clap::Parser;
 use wasm_pack::command::run_wasm_pack;

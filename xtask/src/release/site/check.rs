@@ -1,4 +1,4 @@
-//! The links of a site: each leads to a file and a place that there is.
+//! Checks that each link of the site leads to an existing file and anchor.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -7,14 +7,14 @@ use super::links::join;
 use crate::error::{Error, Result};
 use crate::files;
 
-/// Links of a page, and the places in it that can be led to.
+/// Links and anchors of a page.
 #[derive(Debug, Default)]
 struct Found {
     links: Vec<String>,
     places: BTreeSet<String>,
 }
 
-/// Fails with all links of a folder's pages that lead nowhere.
+/// Fails with the list of all broken links of a folder's pages.
 pub(super) fn check(site: &Path) -> Result<()> {
     let names = files::tree(site)?;
     let mut pages = BTreeMap::new();
@@ -62,7 +62,7 @@ fn leads(page: &str, link: &str, names: &[String], pages: &BTreeMap<&str, Found>
                 .is_none_or(|found| found.places.contains(place)))
 }
 
-/// The links and the places of a page.
+/// Reads the links and the anchors of a page.
 fn read(html: &str) -> Found {
     let mut found = Found::default();
     let mut rest = html;
@@ -91,7 +91,7 @@ fn read(html: &str) -> Found {
     found
 }
 
-/// The length of the tag at the start of the text.
+/// Length of the tag at the start of the text.
 fn tag(text: &str) -> usize {
     let mut quote = None;
     for (at, sign) in text.char_indices().skip(1) {

@@ -1,4 +1,4 @@
-//! A lesson as a page: its bench in a frame, its text, and what a learner opens when stuck.
+//! A lesson as a page: its bench in a frame, its text, and hints that the learner opens.
 
 use std::path::Path;
 
@@ -34,10 +34,10 @@ pub(super) fn page(text: &str, file: &Path) -> Option<(String, String, String)> 
     Some((String::from(name), String::from(title), out))
 }
 
-/// The text with hints, answers and solutions closed until somebody opens them.
+/// The text with hints, answers and solutions in closed sections.
 fn folded(text: &str) -> String {
     let mut out = String::new();
-    // Whether something that opens is open, and the fence of the block that one is in.
+    // Whether a closed section has begun, and the fence of the current block.
     let (mut is_open, mut block) = (false, None::<&str>);
     for line in text.lines() {
         let signs = fence(line);

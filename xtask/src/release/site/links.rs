@@ -1,4 +1,4 @@
-//! Links of the repository, as they are on the site.
+//! Converts links of the repository to links of the site.
 
 use std::cell::RefCell;
 use std::collections::BTreeSet;
@@ -20,7 +20,7 @@ const FOLDERS: [(&str, &str); 2] = [
 /// Folder of the site with files that are not pages.
 const FILES: &str = "files";
 
-/// Finds places on the site, and remembers which files it must have for that.
+/// Finds addresses on the site, and collects the files that the site needs for them.
 pub(super) struct Places<'a> {
     root: &'a Path,
     pages: &'a [Page],
@@ -36,7 +36,7 @@ impl<'a> Places<'a> {
 
     /// The text of a page with links that lead to the same things on the site.
     pub(super) fn rewritten(&self, page: &Page) -> Result<String> {
-        // What xtask writes itself is right for the site.
+        // Links that xtask itself wrote are already right.
         let is_own = |address: &str| {
             let starts = ["../rules/", NAME];
             address.contains("playground/index.html")
@@ -51,7 +51,7 @@ impl<'a> Places<'a> {
         })
     }
 
-    /// The path on the site of what an address in a page names; `None` if the site does not have it.
+    /// Returns the path on the site for an address in a page; `None` if the site does not have it.
     fn place(&self, page: &Page, address: &str) -> Result<Option<String>> {
         let (path, heading) = match address.split_once('#') {
             Some((path, heading)) => (path, Some(heading)),
@@ -84,7 +84,7 @@ impl<'a> Places<'a> {
         let is_picture = [".png", ".svg"]
             .iter()
             .any(|ending| source.ends_with(ending));
-        // A server and a browser know what to do with a text. mdBook makes a page's name of `.md` anywhere in a name.
+        // A server and a browser can show a text. mdBook replaces `.md` anywhere in a name.
         let name = match is_picture || source.ends_with(".txt") {
             true => format!("{FILES}/{source}"),
             false => format!("{FILES}/{}.txt", source.trim_end_matches(".md")),
@@ -109,7 +109,7 @@ impl<'a> Places<'a> {
     }
 }
 
-/// The path that a relative one means in a file.
+/// Resolves a relative path in a file.
 pub(super) fn join(file: &str, path: &str) -> String {
     let folder = file.rsplit_once('/').map_or("", |(folder, _)| folder);
     let mut names: Vec<&str> = Vec::new();
@@ -124,7 +124,7 @@ pub(super) fn join(file: &str, path: &str) -> String {
     names.join("/")
 }
 
-/// The way from one file to another.
+/// Returns the relative path from one file to another.
 fn relative(from: &str, to: &str) -> String {
     let (mut from, mut to) = (from, to);
     while let (Some((folder, rest)), Some((other, end))) =

@@ -1,6 +1,6 @@
-//! Markdown as far as the site reads it: code, links, headings.
+//! The parts of Markdown that the site needs: code, links, headings.
 
-/// A stretch of text, and whether it is code: a block between fences, or words between backticks.
+/// A part of a text, and whether it is code: a block between fences, or words between backticks.
 fn stretches(text: &str) -> Vec<(&str, bool)> {
     let mut found = Vec::new();
     let (mut begin, mut at) = (0, 0);
@@ -25,7 +25,7 @@ fn stretches(text: &str) -> Vec<(&str, bool)> {
     found
 }
 
-/// The signs of a fence that a line begins with.
+/// The fence that a line begins with.
 pub(super) fn fence(line: &str) -> Option<&str> {
     let line = line.trim_start_matches(' ');
     let sign = line.chars().next().filter(|sign| "`~".contains(*sign))?;
@@ -47,7 +47,7 @@ fn block(text: &str, fence: &str) -> usize {
     length
 }
 
-/// The length of words between backticks; of only the backticks if nothing closes them.
+/// Length of the words between backticks; only that of the backticks if they are not closed.
 fn words(text: &str) -> usize {
     let ticks = text.len() - text.trim_start_matches('`').len();
     let paragraph = text.find("\n\n").map_or(text, |end| &text[..end]);
@@ -63,8 +63,8 @@ fn words(text: &str) -> usize {
     ticks
 }
 
-/// The text with other links: `place` gets the address of each, and answers with the new one, or
-/// with nothing, and then the words of the link stay.
+/// Replaces links: `place` gets each address and returns the new one, or `None` to keep only the
+/// words of the link.
 pub(super) fn with_links<E>(
     text: &str,
     mut place: impl FnMut(&str) -> Result<Option<String>, E>,
@@ -92,7 +92,7 @@ pub(super) fn with_links<E>(
     Ok(out)
 }
 
-/// The name of a heading in an address: `#speed-and-size`.
+/// Returns the anchor of a heading: `#speed-and-size`.
 pub(super) fn anchor(title: &str) -> String {
     let kept = |c: &char| c.is_alphanumeric() || " -_".contains(*c);
     let lower = title.to_lowercase();

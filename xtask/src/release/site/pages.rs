@@ -1,4 +1,4 @@
-//! The pages in their order: what the repository has, by the path that it has there.
+//! The pages of the site in their order, with their paths in the repository.
 
 use std::path::Path;
 
@@ -76,7 +76,7 @@ const README: &str = "README.md";
 pub(super) const RULES: &str = "docs/RULES-EDS.md";
 const LESSONS: &str = "playground/lessons/";
 
-/// Links of the first page beside the documents.
+/// Links on the first page that do not lead to documents.
 const LINKS: &str = "\n[Open the playground](playground/index.html)\n\n\
                      [Licences of what this site contains](LICENSE.THIRD-PARTY.txt)\n";
 
@@ -216,7 +216,7 @@ mod tests {
         assert!(summary(&pages).contains("  - [E0101](rules/E0101.md)\n"));
     }
 
-    /// A first page that has to be scrolled for long is read by nobody.
+    /// A reader does not scroll through a long first page.
     #[test]
     fn the_readme_has_at_most_ten_kilobytes() {
         let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
@@ -243,7 +243,7 @@ mod tests {
             let mut seen = 0;
             for name in files::tree(&root.join(folder)).into_iter().flatten() {
                 let is_here = !name.contains('/') && name.ends_with(".md");
-                // Of the crates' own READMEs the registry makes pages.
+                // docs.rs and crates.io show the READMEs of the crates.
                 if is_here && (folder == "." || name != "README.md") {
                     let source = format!("{folder}/{name}");
                     let source = source.trim_start_matches("./");

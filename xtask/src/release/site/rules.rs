@@ -1,4 +1,4 @@
-//! A page for each rule, from what `odkit explain` says of it.
+//! A page for each rule, from the output of `odkit explain`.
 
 use crate::console::{ask_in, cargo};
 use crate::error::{Error, Result};
@@ -47,9 +47,9 @@ fn split(texts: &str) -> Vec<(String, String)> {
         });
         match label {
             Some(item) => page.push_str(&item),
-            // A block of code begins behind an empty line.
+            // A block of code begins after an empty line.
             None if ["Before:", "After:"].contains(&line) => page.push_str(&format!("{line}\n\n")),
-            // The rest of an item.
+            // Continuation of a list item.
             None if was_list && !line.is_empty() => page.push_str(&format!("  {}\n", line.trim())),
             None => page.push_str(&format!("{line}\n")),
         }
@@ -66,7 +66,7 @@ fn heading(line: &str) -> Option<(&str, &str, &str)> {
     is_code.then_some((code, severity, title))
 }
 
-/// A table row that begins with a code begins with a link to the rule's page.
+/// Adds a link to the rule's page to a table row that begins with a code.
 pub(super) fn linked(text: &str, codes: &[(String, String)]) -> String {
     let mut out = String::with_capacity(text.len());
     for line in text.split_inclusive('\n') {

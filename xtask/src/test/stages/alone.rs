@@ -1,4 +1,4 @@
-//! The stage that tests a clone in an empty folder, as GitHub's computers and those of strangers have it.
+//! The stage that tests a clone in an empty folder, as CI and other users have it.
 
 use std::env;
 use std::process::Command;
@@ -8,7 +8,7 @@ use crate::error::Result;
 use crate::files;
 use crate::test::context::Context;
 
-/// The stages of an ordinary run that once needed files from outside the repository.
+/// Stages that once needed files from outside the repository.
 const ONCE_RED: &str = "interop,python,tests,fuzz,unit";
 
 /// A clone of the last commit passes `--quick` and the stages that read many device files; with `--long` all of an
@@ -38,6 +38,6 @@ pub(super) fn alone(context: &Context<'_>) -> Result<()> {
         test.env("CI", "true");
         console.run("the tests of the clone", &mut test)?;
     }
-    // It is as large as the target directory here.
+    // It is as large as the target directory of this repository.
     files::remove(&folder)
 }

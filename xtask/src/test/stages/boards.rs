@@ -1,4 +1,4 @@
-//! The stage that makes a firmware for each board and builds it.
+//! The stage that makes and builds a firmware for each board.
 
 use std::fs;
 use std::io::{BufRead, BufReader, Write};
@@ -17,7 +17,7 @@ use crate::setup::{apt, target};
 use crate::test::context::Context;
 
 const EMULATOR: &str = "qemu-system-arm";
-/// Boards, their targets, and whether an ordinary run links them, which takes as long again as to check
+/// Boards, their targets, and whether an ordinary run links them, which takes as long as checking
 /// them.
 const BOARDS: [(&str, &[&str], bool); 4] = [
     ("generic", &[target::BARE, target::SMALLEST], true),
@@ -25,7 +25,7 @@ const BOARDS: [(&str, &[&str], bool); 4] = [
     ("stm32g0", &[target::SMALLEST], false),
     ("stm32f4", &[target::FLOAT], false),
 ];
-/// Beginnings of the names of functions for doubles and atomics.
+/// First letters of the names of functions for doubles and atomics.
 const HELP: [&str; 8] = [
     "__aeabi_dadd",
     "__aeabi_dsub",
@@ -36,18 +36,18 @@ const HELP: [&str; 8] = [
     "__atomic_",
     "__sync_",
 ];
-/// Frames to the firmware of gxmm in the emulator, and the one that answers each, as slcan text.
+/// Frames to the firmware of gxmm in the emulator, and the response to each, as slcan text.
 const DIALOGUE: [(&str, &str); 4] = [
     ("", "t701100"),
-    // An SDO upload of 1000h, and of an object that there is not.
+    // An SDO upload of 1000h, and of an object that does not exist.
     ("t60184000100000000000\r", "t58184300100096010200"),
     ("t601840FF5F0000000000\r", "t581880FF5F0000000206"),
-    // A heartbeat every 100 ms: time goes on.
+    // A heartbeat every 100 ms shows that time passes.
     ("t60182B17100064000000\r", "t58186017100000000000"),
 ];
 
-/// Makes the workspace of `odkit new` for each board and compiles its firmware for its target; that of
-/// `generic` runs in an emulator and answers.
+/// Makes the workspace of `odkit new` for each board and compiles its firmware for its target; the firmware of
+/// `generic` runs in an emulator and responds.
 pub(super) fn boards(context: &Context<'_>) -> Result<()> {
     let (repo, console) = (context.repo, context.console);
     let odkit = odkit(context)?.join(program(CLI.1));
@@ -70,13 +70,13 @@ pub(super) fn boards(context: &Context<'_>) -> Result<()> {
         console.run("formatting", &mut fmt)?;
         for name in targets {
             target::add(repo, console, name)?;
-            // Clippy compiles, and finds what a firmware engineer would be warned of.
+            // Clippy compiles it, and reports what a firmware engineer would see as a warning.
             let firmware = workspace.join("firmware");
             let mut check = cargo(&firmware, &["clippy", "--quiet", "--release", "--target"]);
             check.arg(name).arg("--target-dir").arg(&repo.target);
             check.args(["--", "-D", "warnings"]);
             console.run(&format!("{board} for {name}"), &mut check)?;
-            // What a Cortex-M0 calls for doubles and atomics is seen in what is linked.
+            // Calls for doubles and atomics on a Cortex-M0 are visible only in the linked program.
             if context.long || links && *name == target::SMALLEST {
                 let mut link = cargo(&firmware, &["build", "--quiet", "--release", "--target"]);
                 link.arg(name).arg("--target-dir").arg(&repo.target);
@@ -91,10 +91,10 @@ pub(super) fn boards(context: &Context<'_>) -> Result<()> {
     emulate(context, &folder.join("generic/firmware"))
 }
 
-/// A firmware for a Cortex-M0 has no arithmetic of doubles and no atomics by calls: gxmm has no REAL64.
+/// A firmware for a Cortex-M0 calls no functions for doubles and atomics: gxmm has no REAL64.
 fn needs_no_help(program: &Path) -> Result<()> {
     let bytes = fs::read(program).map_err(|e| Error::io("read", program, &e))?;
-    // A program without symbols would show nothing.
+    // A program without symbols would hide these functions.
     if !has(&bytes, b"__aeabi_") {
         return Err(Error::Failed(format!(
             "{} has no symbols",
@@ -139,7 +139,7 @@ fn emulate(context: &Context<'_>, firmware: &Path) -> Result<()> {
     result
 }
 
-/// The dialogue, and then a heartbeat.
+/// The dialogue, then a heartbeat.
 fn talk(child: &mut Child) -> Result<()> {
     let (Some(mut input), Some(output)) = (child.stdin.take(), child.stdout.take()) else {
         return Err(Error::Failed(String::from(

@@ -17,7 +17,7 @@ const WATCHED: [&str; 3] = [
     "-fsanitize=address,undefined",
     "-fno-sanitize-recover",
 ];
-/// A firmware with nothing but its own files.
+/// A firmware that links no library but its own files.
 const BARE: [&str; 9] = [
     "-Os",
     "-mcpu=cortex-m3",
@@ -29,7 +29,7 @@ const BARE: [&str; 9] = [
     "-Wl,-z,noexecstack",
     "-T",
 ];
-/// Programs, and the packages that have them.
+/// Programs and the packages that contain them.
 const TOOLS: [(&str, &str); 4] = [
     ("gcc", "gcc"),
     ("g++", "g++"),
@@ -55,7 +55,7 @@ pub(super) fn c(context: &Context<'_>) -> Result<()> {
     let programs = context.repo.target.join("capi");
     std::fs::create_dir_all(&programs).map_err(|e| Error::io("create", &programs, &e))?;
     for (name, eds) in DEVICES {
-        // The checks of calls are for a computer.
+        // The checks of calls run on this computer only.
         if name == DEVICES[0].0 {
             let library = library(context, eds, None)?;
             for (compiler, file) in [("gcc", "calls.c"), ("g++", "calls.cpp")] {
@@ -154,7 +154,7 @@ fn library(context: &Context<'_>, eds: &str, target: Option<&str>) -> Result<Pat
     Ok(folder)
 }
 
-/// A compiler that makes `program` with the headers of the library.
+/// A compiler command that builds `program` with the headers of the library.
 fn compile(root: &Path, compiler: &str, library: &Path, program: &Path) -> Command {
     let mut command = clean(Path::new(compiler), root, &WARNINGS);
     if compiler != "g++" {

@@ -1,4 +1,4 @@
-//! The stage that reads device files of others. The repository has none: `tests/corpus` is its own.
+//! The stage that reads a folder of third-party device files. The repository has only its own, in `tests/corpus`.
 
 use std::env;
 use std::path::absolute;
@@ -11,10 +11,10 @@ use crate::error::{Error, Result};
 use crate::repo::program;
 use crate::test::context::Context;
 
-/// Test targets with tests that read a folder of device files; the names of these contain `corpus`.
+/// Test targets with tests that read a folder of device files; the names of these tests contain `corpus`.
 const TARGETS: [&str; 5] = ["cases", "catalogue", "oracle", "mutations", "all"];
 
-/// The tests that other stages run on `tests/corpus`, on the folder that `ODKIT_CORPUS` names.
+/// Runs these tests on the folder that `ODKIT_CORPUS` names.
 pub(super) fn corpus(context: &Context<'_>) -> Result<()> {
     let (repo, console) = (context.repo, context.console);
     let Some(folder) = env::var_os(CORPUS).filter(|folder| !folder.is_empty()) else {

@@ -1,4 +1,4 @@
-//! The stage that makes a release and uses it as somebody who has nothing else. Only with `--long`.
+//! The stage that makes a release and uses it without the repository. Only with `--long`.
 
 use std::env;
 use std::process::Command;
@@ -10,14 +10,14 @@ use crate::setup::browser::chromium;
 use crate::setup::{apt, node};
 use crate::test::context::Context;
 
-/// Emulators for the programs of other systems, and Debian's packages of it. Without them, and where they cannot be
+/// Emulators for the programs of other systems, and their Debian packages. If they cannot be
 /// installed, the tests of these programs are skipped.
 const EMULATORS: [(&str, &[&str]); 2] = [
     ("qemu-aarch64-static", &["qemu-user-static"]),
     ("wine", &["wine", "wine64"]),
 ];
 
-/// Each part of a release, installed from its folder only: of the one that `ODKIT_DIST` names, or of a new one.
+/// Installs and uses each part of a release from its folder only. `ODKIT_DIST` names a release; otherwise it makes one.
 pub(super) fn dist(context: &Context<'_>) -> Result<()> {
     let (repo, console) = (context.repo, context.console);
     node::check()?;
@@ -44,7 +44,7 @@ pub(super) fn dist(context: &Context<'_>) -> Result<()> {
     tests.args(["--test", "--test-reporter=tap"]);
     tests.current_dir(repo.root.join("tests/dist"));
     tests.env("ODKIT_DIST", &folder).env("CHROMIUM", chromium);
-    // The packages are built by the compiler that they were packed with.
+    // The packages are built with the compiler that packed them.
     let rustc = ask_in(&repo.root, "rustup", &["show", "active-toolchain"]);
     if let Some(name) = rustc.as_deref().and_then(|text| text.split(' ').next()) {
         tests.env("RUSTUP_TOOLCHAIN", name);

@@ -1,4 +1,4 @@
-//! The stage that drives Neovim, packages the extension, and tries hooks and action. Only with `--long`.
+//! The stage that drives Neovim, packages the extension, and tests hooks and action. Only with `--long`.
 
 use std::env;
 use std::fs;
@@ -15,7 +15,7 @@ use crate::test::stages::rust::ALL;
 
 /// The recording of the session, as it is in the repository.
 const RECORDING: &str = "docs/NEOVIM.txt";
-/// The version that hooks are tried with.
+/// The version of the hooks in the test.
 const PRE_COMMIT: &str = "pre-commit==4.7.0";
 
 pub(super) fn editor(context: &Context<'_>) -> Result<()> {
@@ -34,7 +34,7 @@ pub(super) fn editor(context: &Context<'_>) -> Result<()> {
     repository(context, &odkit)
 }
 
-/// Plays the session and compares what Neovim showed with the recording.
+/// Plays the session and compares the screen of Neovim with the recording.
 fn neovim(context: &Context<'_>, odkit: &Path) -> Result<()> {
     if which("nvim").is_none() {
         apt::install(context.console, &["neovim"], "Neovim is missing")?;

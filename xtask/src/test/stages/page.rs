@@ -43,7 +43,7 @@ pub(super) fn browser(context: &Context<'_>) -> Result<()> {
     let built = odkit(context)?;
     node::ci(context.console, &tests, "fetching npm packages")?;
     let server = Server::start(context.repo, Some(0))?;
-    // One process: a browser and its pages serve all files.
+    // One process: one browser serves all files with tests.
     let mut command = node_test(context, &tests, &["all.mjs"]);
     command
         .env("ODKIT_URL", &server.url)
@@ -52,13 +52,13 @@ pub(super) fn browser(context: &Context<'_>) -> Result<()> {
     context.console.run("browser tests", &mut command)
 }
 
-/// The module as the page uses it, and the package's tests on it.
+/// The module as the page uses it, and the tests of the package with it.
 pub(super) fn wasm(context: &Context<'_>) -> Result<()> {
     let package = bundle::bindings(context.repo, context.console)?;
     package_tests(context, &package)
 }
 
-/// The packages as npm users get them, the same tests on the one for pages, and the
+/// The packages as npm users get them: the same tests with the package for pages, and the
 /// example of its README from the packed tarballs.
 pub(super) fn wasm_pack(context: &Context<'_>) -> Result<()> {
     let package = context.repo.root.join("playground/pkg");
@@ -108,7 +108,7 @@ pub(super) fn interop(context: &Context<'_>) -> Result<()> {
     context.console.run("python-canopen", &mut command)
 }
 
-/// Arguments with which `tests/interop/test_tools.py` compares odkit's verdicts with other tools than python-canopen.
+/// Arguments with which `tests/interop/test_tools.py` compares odkit's findings with other tools than python-canopen.
 fn other_tools(context: &Context<'_>, python: &Path, command: &mut Command) -> Result<()> {
     let (repo, console) = (context.repo, context.console);
     let mut pip = Command::new(python);

@@ -15,8 +15,8 @@ use crate::test::context::Context;
 const INFO: &str = "odkit-0.1.0.dist-info";
 const METADATA: &str = "Metadata-Version: 2.1\nName: odkit\nVersion: 0.1.0\n";
 
-/// The tests of the Python package, in the environment of the stage `interop`; a long run installs the
-/// package with pip, too. The module has its own features: defmt, which is one of all, gives symbols
+/// The tests of the Python package, in the environment of the stage `interop`; a long run also installs the
+/// package with pip. The module has features of its own: with all features, defmt would give symbols
 /// names that no shared library can export.
 pub(super) fn python(context: &Context<'_>) -> Result<()> {
     let (repo, console) = (context.repo, context.console);
@@ -50,7 +50,7 @@ pub(super) fn package(context: &Context<'_>) -> Result<(PathBuf, PathBuf)> {
     Ok((python, site))
 }
 
-/// Lays the package out as pip does.
+/// Installs the package in the layout of pip.
 fn lay(package: &Path, site: &Path, built: &Path) -> Result<()> {
     let _ = fs::remove_dir_all(site);
     let (code, info) = (site.join("odkit"), site.join(INFO));
@@ -103,7 +103,7 @@ fn write(path: &PathBuf, text: &str) -> Result<()> {
 
 /// pytest, with the package of a folder if it is not installed.
 fn tests(context: &Context<'_>, python: &Path, site: Option<&Path>) -> Result<()> {
-    // Not from `python/`: there is a folder `odkit` without the module.
+    // Not started in `python/`, whose folder `odkit` lacks the module.
     let mut pytest = Command::new(python);
     pytest
         .args(["-m", "pytest", "-q", "-p", "no:cacheprovider"])

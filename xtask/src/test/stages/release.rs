@@ -12,10 +12,10 @@ use crate::test::context::Context;
 /// Files that every package contains.
 const LICENCES: [&str; 2] = ["LICENSE-APACHE", "LICENSE-MIT"];
 
-/// Every crate is packed, has the texts of its licences and no tests, and with `--long` compiles from what was packed.
+/// Every crate is packed with its licences and without tests; with `--long` it compiles from the package.
 ///
-/// `cargo package` would build each crate and all that it depends on; here all of them are
-/// checked together, with the dependencies that clippy has checked already.
+/// `cargo package` would build each crate and its dependencies separately; here all are
+/// checked together, with the dependencies that clippy has already checked.
 pub(super) fn package(context: &Context<'_>) -> Result<()> {
     let (root, packed) = (&context.repo.root, context.repo.target.join("package"));
     let files = crates::pack(context.repo, context.console)?;

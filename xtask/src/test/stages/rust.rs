@@ -12,13 +12,13 @@ use crate::setup::target;
 use crate::size::{self, measure};
 use crate::test::context::Context;
 
-/// All that is built for the host, except the benchmarks with their heavy peers, and sources that another
-/// package has, too. Always these packages with these features: another choice would be a build of its own.
+/// All packages that are built for the host, except the benchmarks with their peers, and sources that another
+/// package also has. Always the same packages and features: another selection would need another build.
 #[rustfmt::skip]
 pub(super) const ALL: [&str; 8] =
     ["--workspace", "--exclude", BENCHES, "--exclude", PEER, "--exclude", PAGE_CORE.0, "--all-features"];
 
-/// Folders of packages whose tests are not those of [`unit`].
+/// Folders of packages whose tests are not in [`unit`].
 const OUTSIDE: [&str; 5] = ["tests", "tests/compile", "tests/bench", "python", "target"];
 
 pub(super) fn fmt(context: &Context<'_>) -> Result<()> {
@@ -47,8 +47,8 @@ pub(super) fn clippy(context: &Context<'_>) -> Result<()> {
         (_, true) => &["--workspace", "--all-features"],
         _ => &ALL,
     };
-    // Tests are compiled by `unit` as well; to look at them here costs half as much again. The
-    // benchmarks' peers are looked at where they are built, in a long run.
+    // `unit` compiles tests as well; checking them here would take half as long again. The
+    // peers of the benchmarks are checked in a long run, where they are built.
     let targets: &[&str] = if context.long {
         &["--all-targets"]
     } else {
@@ -59,8 +59,8 @@ pub(super) fn clippy(context: &Context<'_>) -> Result<()> {
     run(context, "clippy", &args)
 }
 
-/// The folder with `odkit` and the examples that the tests of other languages run. Who comes second
-/// does not ask cargo again, which may be at work on something longer.
+/// The folder with `odkit` and the examples that the tests of other languages run. A second caller
+/// does not call cargo again, which may be busy with a longer build.
 pub(super) fn odkit(context: &Context<'_>) -> Result<PathBuf> {
     static BUILT: Mutex<bool> = Mutex::new(false);
     let mut is_built = BUILT.lock().unwrap_or_else(PoisonError::into_inner);
@@ -75,7 +75,7 @@ pub(super) fn odkit(context: &Context<'_>) -> Result<PathBuf> {
     Ok(context.repo.target.join("debug"))
 }
 
-/// All test programs, in one call of cargo, which compiles side by side what several stages run.
+/// Builds all test programs in one call of cargo, which compiles in parallel what several stages run.
 pub(super) fn build(context: &Context<'_>) -> Result<()> {
     odkit(context)?;
     let what = ["--lib", "--bins", "--examples", "--tests"];
@@ -83,8 +83,8 @@ pub(super) fn build(context: &Context<'_>) -> Result<()> {
     run(context, "test programs", &args)
 }
 
-/// The tests of all packages but those from outside; in a quick run only those inside the sources. Without
-/// the packages of the others, some would have fewer features, and be built once more for that.
+/// The tests of all packages except the integration tests; in a quick run only those inside the sources. Without
+/// the packages of the other stages, some would have fewer features and would be built again.
 pub(super) fn unit(context: &Context<'_>) -> Result<()> {
     let names = match context.quick {
         true => Vec::new(),
@@ -112,13 +112,13 @@ fn beside_sources(context: &Context<'_>) -> Result<Vec<String>> {
     Ok(names)
 }
 
-/// Some of the test targets from outside.
+/// Some of the integration tests.
 pub(super) fn outside(context: &Context<'_>, names: &[&str]) -> Result<()> {
     let names: Vec<String> = names.iter().copied().map(String::from).collect();
     test(context, &names.join(", "), &ALL, &names)
 }
 
-/// The test targets from outside that have no stage of their own.
+/// The integration tests that have no stage of their own.
 pub(super) fn other_outside(context: &Context<'_>) -> Result<()> {
     let mut names = targets(&context.repo.root.join("tests/tests"))?;
     names.retain(|name| !["conformance", "mutations"].contains(&name.as_str()));
@@ -144,8 +144,8 @@ fn folder(dir: &Path) -> Result<Vec<PathBuf>> {
     Ok(paths)
 }
 
-/// Mutated input: about a second for each target, a minute with `--long`, and then in a build
-/// that is fast and still checks everything.
+/// Mutated input: about a second for each target; with `--long` a minute, in an optimised build
+/// with all checks.
 pub(super) fn fuzz(context: &Context<'_>) -> Result<()> {
     let profile: &[&str] = if context.long {
         &["--profile", "fuzz"]
@@ -169,18 +169,18 @@ pub(super) fn rustdoc(context: &Context<'_>) -> Result<()> {
 
 pub(super) fn no_std(context: &Context<'_>) -> Result<()> {
     target::add(context.repo, context.console, target::BARE)?;
-    // The firmware that other stages build has the code, too; here is only to see what it needs.
+    // Other stages build the code of this firmware, too; here only its dependencies matter.
     for package in NO_STD {
         let args = ["check", "--package", package, "--no-default-features"];
         let what = format!("{package} without the standard library");
         cross(context, &what, &[target::BARE], &args)?;
     }
-    // It has a lock file of its own, so it builds all of odkit's compile-time half once more.
+    // It has a lock file of its own, so it builds the macros and their dependencies again.
     if context.long {
         let args = ["check", "--manifest-path", "firmware/rtic/Cargo.toml"];
         cross(context, "a node in RTIC", &[target::BARE], &args)?;
     }
-    // The last one brings the others along.
+    // The last package depends on the others.
     target::add(context.repo, context.console, target::SMALLEST)?;
     let both = ["--package", "od-devices", "--package", "od-capi"];
     let args = [&["check", "--no-default-features"], &both[..]].concat();
@@ -225,7 +225,7 @@ pub(super) fn hosts(context: &Context<'_>) -> Result<()> {
     )
 }
 
-/// cargo for other computers, in the target directory of [`Lane::Cross`](super::Lane::Cross).
+/// cargo for other targets, in the target directory of [`Lane::Cross`](super::Lane::Cross).
 fn cross(context: &Context<'_>, what: &str, targets: &[&str], args: &[&str]) -> Result<()> {
     let mut command = cargo(&context.repo.root, args);
     command.args(targets.iter().flat_map(|target| ["--target", target]));
@@ -234,7 +234,7 @@ fn cross(context: &Context<'_>, what: &str, targets: &[&str], args: &[&str]) -> 
     context.console.run(what, &mut command)
 }
 
-/// The profile for tests is enough to see that they work.
+/// The profile for tests is enough to check that they work.
 pub(super) fn bench(context: &Context<'_>) -> Result<()> {
     let args = ["test", "--package", BENCHES, "--tests", "--benches"];
     run(context, "benchmarks", &args)
@@ -253,7 +253,7 @@ fn test(context: &Context<'_>, what: &str, args: &[&str], names: &[String]) -> R
     context.console.run(what, &mut command)
 }
 
-/// Tests look at `ODKIT_LONG`.
+/// Tests read `ODKIT_LONG`.
 pub(super) fn long(context: &Context<'_>, command: &mut Command) {
     if context.long {
         command.env("ODKIT_LONG", "1");

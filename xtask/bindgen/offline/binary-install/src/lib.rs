@@ -1,4 +1,4 @@
-//! The part of `binary-install` that wasm-pack names. It fetches nothing.
+//! The items of `binary-install` that wasm-pack imports. They download nothing.
 
 use std::env;
 use std::path::{Path, PathBuf};
@@ -24,7 +24,7 @@ impl Cache {
         self.0.join(path)
     }
 
-    /// `None` if downloads are not allowed, or else an error.
+    /// Returns `None` if downloads are not allowed, otherwise an error.
     pub fn download(
         &self,
         allowed: bool,
@@ -48,7 +48,7 @@ impl Download {
         Download(PathBuf::from(path))
     }
 
-    /// The path of a program, which has to be there.
+    /// Returns the path of a program; an error if it is missing.
     pub fn binary(&self, name: &str) -> Result<PathBuf> {
         let path = self.0.join(format!("{name}{}", env::consts::EXE_SUFFIX));
         if !path.is_file() {

@@ -1,1 +1,1 @@
-//! Nothing: only the `main.rs` of wasm-pack uses `human-panic`.
+//! Empty: only the `main.rs` of wasm-pack uses `human-panic`.

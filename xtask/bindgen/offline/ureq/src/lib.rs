@@ -1,4 +1,4 @@
-//! The part of `ureq` that wasm-pack names. Every request fails.
+//! The items of `ureq` that wasm-pack imports. Every request fails.
 
 use std::fmt;
 use std::io;
@@ -48,7 +48,7 @@ impl Request {
     }
 }
 
-/// An answer, which never comes.
+/// A response. No request gets one.
 pub enum Response {}
 
 impl Response {
@@ -61,7 +61,7 @@ impl Response {
     }
 }
 
-/// Names the address that was not asked.
+/// Names the address of the request that was not sent.
 #[derive(Debug)]
 pub struct Error(String);
 
