@@ -50,6 +50,7 @@ pub mod rig;
 mod roomy;
 mod saved;
 pub mod script;
+mod sdo;
 #[cfg(feature = "serve")]
 pub mod serve;
 mod services;

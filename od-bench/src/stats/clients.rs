@@ -6,18 +6,7 @@ use od_wire::sdo::{Request, Response};
 use od_wire::{Frame, Instant};
 
 use super::{Sum, Times};
-
-/// The first byte of an abort, of a client as of a server.
-const ABORT: u8 = 0x80;
-
-/// Phase of a block transfer: its segments have no command specifier.
-#[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
-enum Block {
-    #[default]
-    None,
-    Download,
-    Upload,
-}
+use crate::sdo::{Message, Observer, default_sdo};
 
 /// The requests to one node, and its answers.
 #[derive(Clone, Debug, Default)]
@@ -33,7 +22,7 @@ pub struct Client {
     times: Sum,
     /// Time when the last request came, while it waits for its answer.
     asked: Option<Instant>,
-    block: Block,
+    observer: Observer,
 }
 
 impl Client {
@@ -42,44 +31,32 @@ impl Client {
         self.times.times()
     }
 
-    fn ask(&mut self, at: Instant, frame: &Frame) {
-        let request = Request::parse(frame.bytes());
-        if frame.bytes()[0] == ABORT {
-            self.aborts += 1;
-            self.unanswered += u32::from(self.asked.take().is_some());
-            self.block = Block::None;
-        } else if self.block == Block::Download {
-            // The answer comes after the last segment of a block.
-            self.asked = Some(at);
-        } else if request == Request::EndBlockUpload {
-            self.block = Block::None;
-        } else {
-            if self.asked.replace(at).is_some() {
-                self.unanswered += 1;
-                self.block = Block::None;
+    fn take(&mut self, at: Instant, message: Message<'_>, is_response: bool) {
+        let is_abort = matches!(
+            message,
+            Message::Request(Request::Abort { .. }) | Message::Response(Response::Abort { .. })
+        );
+        self.aborts += u32::from(is_abort);
+        if is_response {
+            if let Some(asked) = self.asked.take() {
+                self.times.add(at.micros_since(asked));
             }
-            self.requests += 1;
-        }
-    }
-
-    fn answer(&mut self, at: Instant, frame: &Frame) {
-        if let Some(asked) = self.asked.take() {
-            self.times.add(at.micros_since(asked));
-        }
-        if frame.bytes()[0] == ABORT {
-            self.aborts += 1;
-            self.block = Block::None;
             return;
         }
-        if self.block == Block::Upload {
-            return;
+        match message {
+            Message::Request(Request::Abort { .. }) => {
+                self.unanswered += u32::from(self.asked.take().is_some());
+            }
+            // The answer comes after the last segment of a block.
+            Message::Segment { .. } | Message::Request(Request::EndBlockDownload { .. }) => {
+                self.asked = Some(at);
+            }
+            Message::Request(Request::EndBlockUpload) => {}
+            _ => {
+                self.unanswered += u32::from(self.asked.replace(at).is_some());
+                self.requests += 1;
+            }
         }
-        self.block = match Response::parse(frame.bytes()) {
-            Response::InitiateBlockDownload { .. } => Block::Download,
-            Response::InitiateBlockUpload { .. } => Block::Upload,
-            Response::EndBlockDownload => Block::None,
-            _ => self.block,
-        };
     }
 }
 
@@ -90,11 +67,9 @@ pub struct Clients(Vec<Client>);
 impl Clients {
     /// Takes the next frame; others than those of a default SDO change nothing.
     pub fn take(&mut self, at: Instant, frame: &Frame) {
-        let id = frame.id().as_standard().filter(|_| !frame.is_remote());
-        let Some(id @ (0x581..=0x5FF | 0x601..=0x67F)) = id else {
+        let Some((node, is_response)) = default_sdo(frame) else {
             return;
         };
-        let node = (id & 0x7F) as u8;
         let place = self.0.binary_search_by_key(&node, |client| client.node);
         let place = place.unwrap_or_else(|place| {
             let new = Client {
@@ -104,10 +79,9 @@ impl Clients {
             self.0.insert(place, new);
             place
         });
-        if id < 0x600 {
-            self.0[place].answer(at, frame)
-        } else {
-            self.0[place].ask(at, frame)
+        let client = &mut self.0[place];
+        if let Some(message) = client.observer.read(is_response, frame) {
+            client.take(at, message, is_response);
         }
     }
 

@@ -7,6 +7,7 @@ use od_wire::Frame;
 use od_wire::sdo::{Request, Response};
 
 use super::sorted::Sorted;
+use crate::sdo::{Message, Observer, default_sdo};
 
 /// A segmented or block transfer, as far as its frames have been seen.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -36,27 +37,15 @@ pub enum State {
     Aborted,
 }
 
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-enum Phase {
-    /// Nothing but its request was seen.
-    Request {
-        is_segmented: bool,
-    },
-    Upload,
-    Download {
-        is_last: bool,
-    },
-    BlockUpload,
-    BlockUploadEnd,
-    BlockDownload {
-        is_last: bool,
-    },
-}
-
 #[derive(Debug)]
 struct Open {
     first: u32,
-    phase: Phase,
+    /// The request says that the value is in segments, or in blocks.
+    is_long: bool,
+    /// The server responded to the request.
+    is_answered: bool,
+    /// The last segment of a download was sent.
+    is_last: bool,
 }
 
 /// Most bytes that are kept of a transfer.
@@ -65,6 +54,7 @@ const MOST: usize = 1 << 20;
 /// Puts the frames of each transfer together.
 #[derive(Debug, Default)]
 pub struct Folder {
+    observers: Sorted<u8, Observer>,
     open: Sorted<u8, Open>,
     /// By the number of the first frame.
     folds: Sorted<u32, Fold>,
@@ -90,63 +80,52 @@ impl Folder {
     /// Takes the next frame. Returns the number of the first frame of the transfer that it
     /// belongs to; `None` if it has a row of its own, as the first frame of a transfer has.
     pub fn take(&mut self, frame: &Frame, number: u32) -> Option<u32> {
-        let id = frame.id().as_standard().filter(|_| !frame.is_remote())?;
-        let is_answer = match id {
-            0x581..=0x5FF => true,
-            0x601..=0x67F => false,
-            _ => return None,
-        };
-        let node = (id & 0x7F) as u8;
-        if !is_answer && self.begin(frame, number, node) {
+        let (node, is_response) = default_sdo(frame)?;
+        let message = self
+            .observers
+            .get_or_default(node)
+            .read(is_response, frame)?;
+        if let Message::Request(request) = message
+            && self.begin(request, number, node)
+        {
             return None;
         }
         let open = self.open.get_mut(node)?;
         let first = open.first;
-        let is_request = matches!(open.phase, Phase::Request { .. });
-        if is_request && !is_answer {
+        if !open.is_answered && !is_response {
             return None;
         }
         let fold = self.folds.get_mut(first)?;
-        if frame.bytes()[0] == 0x80 {
-            self.open.remove(node);
-            if is_request {
-                self.folds.remove(first);
-                return None;
+        let belongs = open.is_answered || starts(open.is_long, fold.is_write, message);
+        let state = match message {
+            Message::Request(Request::Abort { .. }) | Message::Response(Response::Abort { .. }) => {
+                State::Aborted
             }
-            fold.state = State::Aborted;
-            fold.frames.push(number);
-            return Some(first);
-        }
-        let belongs = if is_answer {
-            answer(open, fold, frame)
-        } else {
-            request(open, fold, frame)
+            _ => follow(open, fold, message),
         };
         if !belongs {
             self.open.remove(node);
             self.folds.remove(first);
             return None;
         }
-        if fold.state != State::UnderWay {
+        open.is_answered = true;
+        fold.state = state;
+        fold.frames.push(number);
+        if state != State::UnderWay {
             self.open.remove(node);
         }
-        fold.frames.push(number);
         Some(first)
     }
 
     /// Does a request start a transfer? Segments and confirmations do not.
-    fn begin(&mut self, frame: &Frame, number: u32, node: u8) -> bool {
-        let phase = self.open.get(node).map(|open| open.phase);
-        if matches!(phase, Some(Phase::BlockDownload { .. })) {
-            return false;
-        }
-        let (object, is_write, is_segmented) = match Request::parse(frame.bytes()) {
+    fn begin(&mut self, request: Request, number: u32, node: u8) -> bool {
+        let (object, is_write, is_long) = match request {
             Request::InitiateUpload { address } => (address, false, true),
             Request::InitiateDownload {
                 address, expedited, ..
             } => (address, true, expedited.is_none()),
-            Request::InitiateBlockUpload { address, .. } => (address, false, false),
-            Request::InitiateBlockDownload { address, .. } => (address, true, false),
+            Request::InitiateBlockUpload { address, .. } => (address, false, true),
+            Request::InitiateBlockDownload { address, .. } => (address, true, true),
             _ => return false,
         };
         let fold = Fold {
@@ -157,13 +136,14 @@ impl Folder {
             bytes: Vec::new(),
             state: State::UnderWay,
         };
-        let phase = Phase::Request { is_segmented };
         let open = Open {
             first: number,
-            phase,
+            is_long,
+            is_answered: false,
+            is_last: false,
         };
         if let Some(before) = self.open.insert(node, open)
-            && matches!(before.phase, Phase::Request { .. })
+            && !before.is_answered
         {
             self.folds.remove(before.first);
         }
@@ -172,79 +152,44 @@ impl Folder {
     }
 }
 
-/// Whether an answer belongs to the transfer.
-fn answer(open: &mut Open, fold: &mut Fold, frame: &Frame) -> bool {
-    let response = Response::parse(frame.bytes());
-    match open.phase {
-        Phase::Request { is_segmented } => {
-            open.phase = match response {
-                Response::InitiateDownload { .. } if fold.is_write && is_segmented => {
-                    Phase::Download { is_last: false }
-                }
-                Response::InitiateBlockDownload { .. } if fold.is_write => {
-                    Phase::BlockDownload { is_last: false }
-                }
-                Response::InitiateUpload {
-                    expedited: None, ..
-                } if !fold.is_write => Phase::Upload,
-                Response::InitiateBlockUpload { .. } if !fold.is_write => Phase::BlockUpload,
-                _ => return false,
-            };
-        }
-        Phase::Upload => {
-            if let Response::UploadSegment(segment) = response {
-                keep(fold, segment.bytes());
-                if segment.last {
-                    fold.state = State::Done;
-                }
-            }
-        }
-        Phase::BlockUpload => match response {
-            Response::EndBlockUpload { unused, .. } if !fold.bytes.is_empty() => {
-                cut(fold, unused);
-                open.phase = Phase::BlockUploadEnd;
-            }
-            _ => keep(fold, &frame.bytes()[1..]),
-        },
-        Phase::Download { is_last } => {
-            if is_last {
-                fold.state = State::Done;
-            }
-        }
-        Phase::BlockDownload { .. } => {
-            if matches!(response, Response::EndBlockDownload) {
-                fold.state = State::Done;
-            }
-        }
-        Phase::BlockUploadEnd => {}
+/// Whether this response to the request starts a transfer of several frames.
+fn starts(is_long: bool, is_write: bool, message: Message<'_>) -> bool {
+    let Message::Response(response) = message else {
+        return false;
+    };
+    match response {
+        Response::InitiateDownload { .. } => is_write && is_long,
+        Response::InitiateBlockDownload { .. } => is_write,
+        Response::InitiateUpload { expedited, .. } => !is_write && expedited.is_none(),
+        Response::InitiateBlockUpload { .. } => !is_write,
+        _ => false,
     }
-    true
 }
 
-/// Whether a request belongs to the transfer.
-fn request(open: &mut Open, fold: &mut Fold, frame: &Frame) -> bool {
-    let request = Request::parse(frame.bytes());
-    match open.phase {
-        Phase::Download { .. } => {
-            if let Request::DownloadSegment(segment) = request {
-                keep(fold, segment.bytes());
-                open.phase = Phase::Download {
-                    is_last: segment.last,
-                };
+/// Takes what a frame of the transfer brings.
+fn follow(open: &mut Open, fold: &mut Fold, message: Message<'_>) -> State {
+    match message {
+        Message::Request(Request::DownloadSegment(segment)) => {
+            keep(fold, segment.bytes());
+            open.is_last = segment.last;
+        }
+        Message::Response(Response::UploadSegment(segment)) => {
+            keep(fold, segment.bytes());
+            if segment.last {
+                return State::Done;
             }
         }
-        Phase::BlockDownload { is_last } => match request {
-            Request::EndBlockDownload { unused, .. } if is_last => cut(fold, unused),
-            _ => {
-                keep(fold, &frame.bytes()[1..]);
-                let is_last = is_last || frame.bytes()[0] & 0x80 != 0;
-                open.phase = Phase::BlockDownload { is_last };
-            }
-        },
-        Phase::BlockUploadEnd => fold.state = State::Done,
+        Message::Response(Response::DownloadSegment { .. }) if open.is_last => return State::Done,
+        Message::Segment { data, .. } => keep(fold, data),
+        Message::Request(Request::EndBlockDownload { unused, .. })
+        | Message::Response(Response::EndBlockUpload { unused, .. }) => cut(fold, unused),
+        Message::Request(Request::EndBlockUpload)
+        | Message::Response(Response::EndBlockDownload) => {
+            return State::Done;
+        }
         _ => {}
     }
-    true
+    State::UnderWay
 }
 
 fn keep(fold: &mut Fold, bytes: &[u8]) {

@@ -3,30 +3,20 @@
 use std::format;
 use std::prelude::v1::*;
 
-use od_model::Address;
+use od_model::{Address, values};
 use od_runtime::{AbortCode, Frame};
 use od_wire::sdo::{Request, Response};
 
 use super::said::{Service, Words, bytes};
 use crate::device::VirtualDevice;
-use od_model::values;
+use crate::sdo::{Message, Observer};
 
 /// State of a transfer, from the frames so far.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Transfer {
-    address: Option<Address>,
+    observer: Observer,
+    /// The bytes of its segments.
     data: Vec<u8>,
-    /// Segments of a block are under way: from the server, or from the client.
-    block: Option<Block>,
-    block_size: u8,
-    /// The number of the last segment of all, once it went by.
-    last: Option<u8>,
-}
-
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-enum Block {
-    Upload,
-    Download,
 }
 
 /// Longest value that is assembled from segments.
@@ -60,31 +50,38 @@ pub(super) fn explain(
     if frame.is_remote() || frame.dlc() == 0 {
         return explainer.words("not an SDO message");
     }
-    let segments = match explainer.transfer.block {
-        Some(Block::Upload) => answer,
-        Some(Block::Download) => !answer,
-        None => false,
-    };
-    // A block segment has no command, except that nobody may send segment 0.
-    if segments && frame.bytes()[0] & 0x7F != 0 && frame.bytes()[0] != 0x80 {
-        return explainer.segment_of_block(frame);
+    let message = explainer.transfer.observer.read(answer, frame);
+    let is_in_segments = matches!(
+        message,
+        None | Some(
+            Message::Request(Request::DownloadSegment(_) | Request::UploadSegment { .. })
+                | Message::Response(Response::UploadSegment(_) | Response::DownloadSegment { .. })
+        )
+    );
+    if !is_in_segments {
+        explainer.transfer.data.clear();
     }
-    // Without index and sub-index there is nothing to say about an object.
-    if frame.dlc() < 4 {
-        let text = format!("{}, but an SDO message has 8", bytes(frame.dlc().into()));
-        return explainer.words(&text).error();
-    }
-    if answer {
-        explainer.answer(Response::parse(frame.bytes()), frame)
-    } else {
-        explainer.request(Request::parse(frame.bytes()), frame)
+    match message {
+        Some(Message::Request(request)) => explainer.request(request, frame),
+        Some(Message::Response(response)) => explainer.answer(response, frame),
+        Some(Message::Segment {
+            number, is_last, ..
+        }) => {
+            let which = if is_last { "last segment" } else { "segment" };
+            let name = explainer.current();
+            explainer.words(format!("{which} {number} of a block of {name}"))
+        }
+        None => {
+            let text = format!("{}, but an SDO message has 8", bytes(frame.dlc().into()));
+            explainer.words(&text).error()
+        }
     }
 }
 
 impl Explainer<'_> {
     fn words(&self, text: impl Into<String>) -> Words {
         let words = Words::new(self.service, Some(self.node), text);
-        match self.transfer.address {
+        match self.transfer.observer.object {
             Some(address) => words.about(address),
             None => words,
         }
@@ -99,34 +96,27 @@ impl Explainer<'_> {
 
     fn current(&self) -> String {
         self.transfer
-            .address
+            .observer
+            .object
             .map_or_else(|| "a transfer".into(), |address| self.name(address))
     }
 
     fn show(&self, data: &[u8]) -> String {
         // The signatures of 1010h and 1011h are numbers that spell a word.
-        let index = self.transfer.address.map(|address| address.index);
+        let index = self.transfer.observer.object.map(|address| address.index);
         if matches!(index, Some(0x1010 | 0x1011)) && data.iter().all(u8::is_ascii_lowercase) {
             return format!("\"{}\"", String::from_utf8_lossy(data));
         }
         let find = |address| self.device?.dictionary().find(address).ok();
-        match self.transfer.address.and_then(find) {
+        match self.transfer.observer.object.and_then(find) {
             Some(entry) => values::show(entry.data_type, data),
             None => values::hex(data),
         }
     }
 
-    fn begin(&mut self, address: Address) {
-        *self.transfer = Transfer {
-            address: Some(address),
-            ..Transfer::default()
-        };
-    }
-
     fn request(&mut self, request: Request, frame: &Frame) -> Words {
         match request {
             Request::InitiateUpload { address } => {
-                self.begin(address);
                 self.words(format!("read {}", self.name(address)))
             }
             Request::InitiateDownload {
@@ -134,7 +124,6 @@ impl Explainer<'_> {
                 size,
                 expedited,
             } => {
-                self.begin(address);
                 let name = self.name(address);
                 match (expedited, size) {
                     (Some(data), size) => {
@@ -164,30 +153,19 @@ impl Explainer<'_> {
                 address,
                 block_size,
                 ..
-            } => {
-                self.begin(address);
-                self.transfer.block_size = block_size;
-                self.words(format!(
-                    "read {} in blocks of {block_size}",
-                    self.name(address)
-                ))
-            }
-            Request::StartBlockUpload => {
-                self.transfer.block = Some(Block::Upload);
-                self.words(format!("start blocks of {}", self.current()))
-            }
-            Request::BlockUploadResponse { ack, block_size } => {
-                self.block_taken(Block::Upload, ack, block_size)
-            }
+            } => self.words(format!(
+                "read {} in blocks of {block_size}",
+                self.name(address)
+            )),
+            Request::StartBlockUpload => self.words(format!("start blocks of {}", self.current())),
+            Request::BlockUploadResponse { ack, .. } => self.block_taken(ack),
             Request::EndBlockUpload => self.words(format!("{} is complete", self.current())),
             Request::InitiateBlockDownload { address, size, .. } => {
-                self.begin(address);
                 let size =
                     size.map_or_else(String::new, |size| format!(", {}", bytes(size as usize)));
                 self.words(format!("write {} in blocks{size}", self.name(address)))
             }
             Request::EndBlockDownload { crc, .. } => {
-                self.transfer.block = None;
                 self.words(format!("{} is complete, CRC {crc:04X}h", self.current()))
             }
             Request::Unknown => self
@@ -203,7 +181,6 @@ impl Explainer<'_> {
                 size,
                 expedited,
             } => {
-                self.begin(address);
                 let name = self.name(address);
                 match (expedited, size) {
                     (Some(data), size) => {
@@ -217,9 +194,6 @@ impl Explainer<'_> {
                 }
             }
             Response::InitiateDownload { address } => {
-                if self.transfer.address != Some(address) {
-                    self.begin(address);
-                }
                 self.words(format!("write of {} confirmed", self.name(address)))
             }
             Response::UploadSegment(segment) => self.segment(segment.bytes(), segment.last),
@@ -232,30 +206,20 @@ impl Explainer<'_> {
                 block_size,
                 ..
             } => {
-                self.begin(address);
-                self.transfer.block = Some(Block::Download);
-                self.transfer.block_size = block_size;
                 let name = self.name(address);
                 self.words(format!(
                     "write of {name} accepted in blocks of {block_size}"
                 ))
             }
-            Response::BlockDownloadResponse { ack, block_size } => {
-                self.block_taken(Block::Download, ack, block_size)
-            }
+            Response::BlockDownloadResponse { ack, .. } => self.block_taken(ack),
             Response::EndBlockDownload => {
-                self.transfer.block = None;
                 self.words(format!("write of {} confirmed", self.current()))
             }
             Response::InitiateBlockUpload { address, size, .. } => {
-                let block_size = self.transfer.block_size;
-                self.begin(address);
-                self.transfer.block_size = block_size;
                 let size = size.map_or_else(|| "data".into(), |size| bytes(size as usize));
                 self.words(format!("{} has {size}, in blocks", self.name(address)))
             }
             Response::EndBlockUpload { crc, .. } => {
-                self.transfer.block = None;
                 self.words(format!("end of {}, CRC {crc:04X}h", self.current()))
             }
             Response::Unknown => self
@@ -284,36 +248,19 @@ impl Explainer<'_> {
         ))
     }
 
-    fn segment_of_block(&mut self, frame: &Frame) -> Words {
-        let number = frame.bytes()[0] & 0x7F;
-        let last = frame.bytes()[0] & 0x80 != 0;
-        if last || number >= self.transfer.block_size {
-            // The block is over: what comes now has a command again.
-            self.transfer.block = None;
-        }
-        self.transfer.last = last.then_some(number);
-        let which = if last { "last segment" } else { "segment" };
-        self.words(format!("{which} {number} of a block of {}", self.current()))
-    }
-
-    /// More segments follow, unless the last one of all was taken.
-    fn block_taken(&mut self, block: Block, ack: u8, block_size: u8) -> Words {
-        let more = self.transfer.last != Some(ack);
-        self.transfer.block = more.then_some(block);
-        self.transfer.block_size = block_size;
+    fn block_taken(&self, ack: u8) -> Words {
         let name = self.current();
         self.words(format!("block of {name} confirmed up to segment {ack}"))
     }
 
     fn abort(&mut self, address: Address, code: u32) -> Words {
-        self.begin(address);
         let known = AbortCode::from_code(code);
         let why = known.map_or_else(|| format!("{code:08X}h"), |code| code.to_string());
         let reason = known.map_or("unknown abort code", AbortCode::text);
         let name = self.name(address);
         let mut words = self.words(format!("{name} aborted: {why}")).error();
+        words.address = Some(address);
         words.reason_first = Some(format!("{reason} ({code:08X}h): {name} aborted"));
-        *self.transfer = Transfer::default();
         words
     }
 }
