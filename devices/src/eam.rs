@@ -249,7 +249,7 @@ const BASE: EncoderProfile = EncoderProfile {
     // C-EAM-33.
     options: Some(Options {
         index: 0x2110,
-        ignore_sense: 1 << 0,
+        ignore_code_sequence: 1 << 0,
         ..Options::NONE
     }),
     bit_rates: &[10, 20, 50, 100, 125, 250, 500, 800, 1000],

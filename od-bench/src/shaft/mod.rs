@@ -219,13 +219,6 @@ impl Motion for Shaft {
     }
 
     #[inline]
-    fn glance(&self, now: Instant) -> Option<Angle> {
-        let turned = self.rate.turned(now.micros_since(self.since))?;
-        let angle = self.angle.fractions().wrapping_add(turned);
-        Some(Angle::from_fractions(angle).minus(self.unseen.angle()))
-    }
-
-    #[inline]
     fn speed(&self, now: Instant, interval: u32, gain: Gain) -> Option<i64> {
         let from = before(now, interval);
         if let Some(milli_rpm) = self.even_since(from) {
@@ -250,11 +243,6 @@ impl Motion for Shaft {
         };
         let change = speed(now) - speed(from) + turned;
         Some(exact(change * 50, 3 * FINE * interval, gain))
-    }
-
-    #[inline]
-    fn steady(&self, from: Instant) -> Option<i32> {
-        self.even_since(from)
     }
 
     fn look_back(&mut self, interval: u32) {

@@ -1,24 +1,20 @@
 //! The encoder as the [`Application`] behind a node.
 
-use od_model::typed::{Ro, Var};
 use od_model::{Address, Kind};
 
-use super::angle::Angle;
 use super::configure::STEPS;
-use super::family::Family;
 use super::faults::{self, Faults};
-use super::motion::Motion;
-use super::object::Role;
-use super::profile::Options;
+use super::motion::{Angle, Motion};
+use super::profile::{Family, Options, Role};
 use super::state::Encoder;
 use super::timer::{EVENT_TIMER, TIMER};
 use crate::application::{Application, Context, Reset};
-use crate::device::ROOMY;
 use crate::number::number_in;
 use crate::store::Store;
 use od_wire::{AbortCode, Instant, NodeId};
 
-const POSITION: u16 = 0x6004;
+/// Position value (CiA 406).
+const POSITION: Address = Address::new(0x6004, 0);
 
 impl<M: Motion, F: Family> Application for Encoder<M, F> {
     fn reset(&mut self, cx: &mut Context<'_, '_>, reset: Reset) {
@@ -31,9 +27,8 @@ impl<M: Motion, F: Family> Application for Encoder<M, F> {
                 cx.store.set_unsigned(address, serial_number.into());
             }
         }
-        self.position = position_handle(cx.store);
         self.agree_on_links(cx.store);
-        // What 6001h is without the gear was loaded.
+        // The load has replaced the value that the gear showed in 6001h.
         self.output = None;
         self.configure(cx.store);
         if starts {
@@ -54,32 +49,20 @@ impl<M: Motion, F: Family> Application for Encoder<M, F> {
     }
 
     fn is_live(&self, address: Address) -> bool {
-        address.index == POSITION || self.profile().role(address).is_some_and(Role::is_live)
+        address == POSITION || self.profile().role(address).is_some_and(Role::is_live)
     }
 
-    #[inline]
     fn refresh(&mut self, cx: &mut Context<'_, '_>, address: Address) -> Result<(), AbortCode> {
-        if address.index == POSITION {
-            match self.glance(cx.now) {
-                Some((handle, position)) if ROOMY => cx.store.set(handle, position),
-                _ => self.show_position(cx),
-            }
-        } else if let Some((shown, value)) = self.kept_movement(cx.now, address) {
-            shown.show(cx.store, value);
-        } else {
-            self.refresh_other(cx, address);
+        if address == POSITION {
+            let angle = self.read_angle(cx);
+            let position = self.scale.position(angle);
+            cx.store.set_unsigned(POSITION, position.into());
+        } else if let Some(role) = self.profile().role(address)
+            && role.is_live()
+        {
+            self.show(cx, address, role);
         }
         Ok(())
-    }
-
-    fn number(&mut self, now: Instant, address: Address) -> Option<u32> {
-        if address.index != POSITION {
-            return self.kept_number(now, address);
-        }
-        match address.sub {
-            0 if ROOMY => Some(self.glance(now)?.1),
-            _ => None,
-        }
     }
 
     fn validate(
@@ -132,31 +115,32 @@ impl<M: Motion, F: Family> Application for Encoder<M, F> {
             cx.store.set_unsigned(first, value);
         }
         self.show_link(cx.store, first);
-        self.forget_movements(cx, |movement| {
-            Self::is_movement_parameter(movement, address)
+        self.restart_movements(cx, |movement| {
+            movement.selector == Some(address) || movement.interval == address
         });
         match first.index {
             0x6000 => self.configure(cx.store),
-            // The gear takes its own value back.
+            // The gear shows its own value again (MANUALS.md U-14).
             0x6001 if self.computes_resolution(cx.store) => self.configure(cx.store),
-            0x6001 | 0x6002 => self.take_new_resolution(cx),
+            0x6001 | 0x6002 => self.change_resolution(cx),
             0x6003 => {
                 let preset = cx.store.unsigned(0x6003, 0) as u32;
-                let angle = self.sense(cx);
-                self.set_offset(cx.store, self.offset_for(angle, preset));
+                let angle = self.read_angle(cx);
+                let offset = self.offset_for(angle, preset);
+                self.set_offset(cx.store, offset);
                 self.configure(cx.store);
             }
-            index if self.is_acting_gear(cx.store, index) => self.take_new_resolution(cx),
+            index if self.is_acting_gear(cx.store, index) => self.change_resolution(cx),
             index if first == TIMER || self.profile().options.is_some_and(|o| o.index == index) => {
                 self.timer_to_event_timer(cx);
             }
             _ if first == EVENT_TIMER => self.event_timer_to_timer(cx),
-            _ => self.take_injection(cx, address),
+            _ => self.inject(cx, address),
         }
     }
 
     fn saving(&mut self, cx: &mut Context<'_, '_>, begins: bool) {
-        if self.engaged().is_some() {
+        if self.output.is_some() {
             cx.store.set_unsigned(STEPS, self.own_steps);
             if !begins {
                 self.configure(cx.store);
@@ -174,7 +158,7 @@ impl<M: Motion, F: Family> Application for Encoder<M, F> {
 
     fn tick(&mut self, cx: &mut Context<'_, '_>) -> Option<Instant> {
         if self.shaft.due().is_some() {
-            self.sense(cx);
+            self.read_angle(cx);
         }
         self.faults.report(cx, self.profile());
         let deadlines = [self.keep_time(cx), self.shaft.due()];
@@ -183,56 +167,19 @@ impl<M: Motion, F: Family> Application for Encoder<M, F> {
 }
 
 impl<M: Motion, F: Family> Encoder<M, F> {
-    /// Brings a value that is neither the position nor a movement that is kept up to date, if it is live.
-    #[cfg_attr(target_os = "none", inline(always))]
-    #[cfg_attr(not(target_os = "none"), inline(never))]
-    fn refresh_other(&mut self, cx: &mut Context<'_, '_>, address: Address) {
-        if let Some(role) = self.profile().role(address)
-            && role.is_live()
-        {
-            self.show(cx, address, role);
-        }
-    }
-
-    /// Brings the position up to date.
-    #[cfg_attr(target_os = "none", inline(always))]
-    #[cfg_attr(not(target_os = "none"), inline(never))]
-    fn show_position(&mut self, cx: &mut Context<'_, '_>) {
-        if let Some(handle) = self.position {
-            let angle = self.sense(cx);
-            let count = self.count(angle);
-            cx.store.set(handle, self.scale.shown(count));
-        }
-    }
-
-    /// The position, where a glance at the shaft tells it, and its scale needs no division.
-    #[inline(always)]
-    fn glance(&mut self, now: Instant) -> Option<(Var<u32, Ro>, u32)> {
-        let handle = self.position?;
-        let angle = self.shaft.glance(now)?;
-        let position = self.scale.quick_position(angle)?;
-        if self.faults.is_blind() {
-            return None;
-        }
-        self.angle = angle;
-        Some((handle, position))
-    }
-
-    /// Returns the angle now; while the sensor cannot tell, the last one.
-    #[inline]
-    fn sense(&mut self, cx: &mut Context<'_, '_>) -> Angle {
-        let sensed = self.shaft.angle(cx.now);
-        if self.faults.sensed(sensed.err(), self.profile().reports) {
+    /// Reads the sensor. Returns its angle; the last one if the sensor fails.
+    fn read_angle(&mut self, cx: &mut Context<'_, '_>) -> Angle {
+        let read = self.shaft.angle(cx.now);
+        if self.faults.sensed(read.err(), self.profile().reports) {
             cx.signals.wake();
         }
-        if let Ok(angle) = sensed {
+        if let Ok(angle) = read {
             self.angle = angle;
         }
         self.angle
     }
 
-    /// Brings a live value that is not the position up to date.
-    #[inline(never)]
+    /// Updates a live value that is not the position.
     pub(super) fn show(&mut self, cx: &mut Context<'_, '_>, address: Address, role: &Role) {
         let value = match role {
             Role::Seconds => self.seconds_at(cx.now).into(),
@@ -240,8 +187,8 @@ impl<M: Motion, F: Family> Encoder<M, F> {
             Role::SecondsSinceStart => self.seconds_since_start(cx.now).into(),
             Role::TenthHoursSinceStart => (self.seconds_since_start(cx.now) / 360).into(),
             Role::TimeStamp if Self::PARTS.time_stamp => self.micros(cx.now),
-            // Modulo 2³², as the object holds it.
-            Role::RawPosition if Self::PARTS.raw_position => self.sensor.raw(self.sense(cx)),
+            // The object holds it modulo 2³² (MANUALS.md U-13).
+            Role::RawPosition if Self::PARTS.raw_position => self.sensor.raw(self.read_angle(cx)),
             Role::Diagnosis(mirrors) if Self::PARTS.diagnosis => {
                 mirrors.iter().fold(0, |bits, mirror| {
                     let of = cx.store.unsigned(mirror.from, 0);
@@ -256,16 +203,17 @@ impl<M: Motion, F: Family> Encoder<M, F> {
         cx.store.set_unsigned(address, value);
     }
 
-    /// The resolution or the range is a new one, and with it the offset means nothing.
-    fn take_new_resolution(&mut self, cx: &mut Context<'_, '_>) {
+    /// Applies a new resolution or range: the offset becomes 0 unless an option keeps it
+    /// (MANUALS.md C-X-23, U-11).
+    fn change_resolution(&mut self, cx: &mut Context<'_, '_>) {
         if !self.has_option(cx.store, |options| options.keep_offset) {
             self.set_offset(cx.store, 0);
         }
         self.configure(cx.store);
     }
 
-    /// A test fakes something.
-    fn take_injection(&mut self, cx: &mut Context<'_, '_>, address: Address) {
+    /// Applies an error or an offset that a test injects (manual 001, object 2116h).
+    fn inject(&mut self, cx: &mut Context<'_, '_>, address: Address) {
         match self.profile().role(address) {
             Some(Role::InjectedError) if Self::PARTS.injected_error => {
                 let code = cx.store.unsigned(address.index, address.sub) as u32;
@@ -277,7 +225,7 @@ impl<M: Motion, F: Family> Encoder<M, F> {
         }
     }
 
-    /// Is one of these bits of the manufacturer options set?
+    /// Returns whether one of these bits of the manufacturer options is set.
     pub(super) fn has_option(&self, store: &Store<'_>, bits: impl Fn(&Options) -> u32) -> bool {
         let Some(options) = &self.profile().options else {
             return false;
@@ -286,23 +234,16 @@ impl<M: Motion, F: Family> Encoder<M, F> {
     }
 }
 
-/// A value of a list, else 06090030h.
+/// Accepts a number of a list; others abort with 06090030h.
 fn in_list(mut list: impl Iterator<Item = u8>, number: u64) -> Result<(), AbortCode> {
     only(list.any(|known| u64::from(known) == number))
 }
 
-/// A value that is known, else 06090030h.
+/// Accepts a value that is known; others abort with 06090030h.
 fn only(is_known: bool) -> Result<(), AbortCode> {
     if is_known {
         Ok(())
     } else {
         Err(AbortCode::ValueRange)
     }
-}
-
-/// The handle of 6004h, whatever its width; it lies in the store where it lies.
-fn position_handle(store: &Store<'_>) -> Option<Var<u32, Ro>> {
-    let row = store.dictionary().row_at(Address::new(POSITION, 0))?;
-    let is_integer = matches!(row.data_type().kind(), Kind::Unsigned | Kind::Signed);
-    is_integer.then(|| Var::new(row.address(), row.slot(&[]), row.bits()))
 }

@@ -1,20 +1,18 @@
-//! Configuration of the position: its objects, and the gear, become a [`Scale`].
+//! Configuration of the position: its objects and the gear give a [`Scale`].
 
 use od_model::{Address, Group};
 
-use super::angle::Angle;
-use super::family::Family;
-use super::motion::{Gain, Motion};
-use super::object::Role;
+use super::arithmetic::at_least_1;
+use super::motion::{Angle, Gain, Motion};
 use super::position::Scale;
-use super::position::ratio::at_least_1;
-use super::profile::{Counter, Gear, GearKind, RangeRule, Total};
-use super::rate::KEPT;
+use super::profile::{Counter, Family, Gear, GearKind, RangeRule, Role, Total};
 use super::state::Encoder;
 use crate::store::Store;
 use od_wire::AbortCode;
 
+/// Measuring units per revolution (CiA 406).
 pub(super) const STEPS: Address = Address::new(0x6001, 0);
+/// Offset value (CiA 406).
 pub(super) const OFFSET: Address = Address::new(0x6509, 0);
 
 /// Bit 0 of 6000h: the position value increases counter-clockwise.
@@ -22,7 +20,7 @@ pub const REVERSED: u64 = 1 << 0;
 /// Bit 2 of 6000h: 6001h and 6002h scale the position value.
 pub const SCALING: u64 = 1 << 2;
 
-/// Objects of a gear, as they are or with a new value in one of them.
+/// Values of the objects of a gear.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 struct Factor {
     is_on: bool,
@@ -31,6 +29,7 @@ struct Factor {
 }
 
 impl Factor {
+    /// Reads the objects; `new` replaces the value of one sub-index.
     fn load(store: &Store<'_>, gear: Gear, new: Option<(u8, u64)>) -> Self {
         let number = |sub| match new {
             Some((changed, value)) if changed == sub => value,
@@ -43,7 +42,7 @@ impl Factor {
         }
     }
 
-    /// The factor, if it is on and one can divide by it.
+    /// Returns numerator and denominator if the gear is on and neither is 0.
     fn ratio(self) -> Option<(u64, u64)> {
         let is_ratio = self.is_on && self.numerator > 0 && self.denominator > 0;
         is_ratio.then_some((self.numerator.into(), self.denominator.into()))
@@ -51,48 +50,30 @@ impl Factor {
 }
 
 impl<M: Motion, F: Family> Encoder<M, F> {
-    /// The gear that acts when it is written, if it is on.
-    fn output_gear(&self, store: &Store<'_>) -> Option<(u64, u64)> {
-        let gear = self
-            .profile()
-            .gear
-            .filter(|gear| gear.kind == GearKind::Output)?;
+    /// Returns numerator and denominator of the gear in the store, if it is of this kind and on.
+    fn gear_in(&self, store: &Store<'_>, kind: GearKind) -> Option<(u64, u64)> {
+        let gear = self.profile().gear.filter(|gear| gear.kind == kind)?;
         Factor::load(store, gear, None).ratio()
     }
 
-    /// The gear that acts at once, as it acts.
-    pub(super) fn engaged(&self) -> Option<(u64, u64)> {
-        self.output.filter(|_| Self::PARTS.gear)
-    }
-
-    /// The position at an angle, as it would be with offset 0.
-    #[inline]
-    pub(super) fn count(&self, angle: Angle) -> u64 {
-        self.scale.count(angle, Self::PARTS.gear)
-    }
-
-    /// A start: the gear that storage held acts from now on.
+    /// Reads a [`GearKind::Position`], which a start engages (manual 001, 4.4.6).
     pub(super) fn engage_gear(&mut self, store: &Store<'_>) {
-        let gear = self
-            .profile()
-            .gear
-            .filter(|gear| gear.kind == GearKind::Position);
-        self.gear = gear.and_then(|gear| Factor::load(store, gear, None).ratio());
+        self.gear = self.gear_in(store, GearKind::Position);
     }
 
-    /// Does 6001h show what the gear makes of it?
+    /// Returns whether 6001h shows the quotient of an output gear (MANUALS.md U-14).
     pub(super) fn computes_resolution(&self, store: &Store<'_>) -> bool {
-        self.output_gear(store).is_some()
+        self.gear_in(store, GearKind::Output).is_some()
     }
 
-    /// Does a write to this index change a gear that acts, or acted before it?
+    /// Returns whether a write to this index changed a gear that is on, or was on before.
     pub(super) fn is_acting_gear(&self, store: &Store<'_>, index: u16) -> bool {
         let gear = self.profile().gear;
         let is_gear = gear.is_some_and(|gear| gear.index == index);
-        is_gear && (self.engaged().is_some() || self.output_gear(store).is_some())
+        is_gear && (self.output.is_some() || self.computes_resolution(store))
     }
 
-    /// 6001h; without any the sensor's own, 1 or more.
+    /// Returns 6001h; the resolution of the sensor if 6001h is 0 or missing. 1 or more.
     fn resolution(&self, store: &Store<'_>) -> u32 {
         match store.unsigned(0x6001, 0) {
             0 => self.sensor.steps.max(1),
@@ -100,7 +81,7 @@ impl<M: Motion, F: Family> Encoder<M, F> {
         }
     }
 
-    /// The range that a value of 6002h means.
+    /// Returns the range that a value of 6002h means.
     fn range(&self, value: Option<u64>) -> u64 {
         match value {
             Some(0) if self.profile().zero_is_full => 1 << 32,
@@ -109,16 +90,16 @@ impl<M: Motion, F: Family> Encoder<M, F> {
         }
     }
 
-    /// The rule of the objects for the position; also 6500h, which shows 6000h, and what
-    /// shows quotients of others.
+    /// Applies the objects for the position (CiA 406, objects 6000h to 6002h, 6509h), and updates
+    /// those that follow them: 6500h shows bits of 6000h, 6001h the quotient of an output gear, 6502h
+    /// the revolutions that are shown (MANUALS.md C-EAM-17).
     pub(super) fn configure(&mut self, store: &mut Store<'_>) {
         let number = |index| store.try_unsigned(index, 0);
         self.sensor = self.profile().sensor_by(number);
-        self.rates = [None; KEPT];
         let operating = store.try_unsigned(0x6000, 0).unwrap_or(SCALING);
         let range = self.range(store.try_unsigned(0x6002, 0));
-        let output = self.output_gear(store);
-        match (self.engaged(), output) {
+        let output = self.gear_in(store, GearKind::Output);
+        match (self.output, output) {
             (None, Some(_)) => self.own_steps = store.unsigned(STEPS.index, STEPS.sub),
             (Some(_), None) => {
                 store.set_unsigned(STEPS, self.own_steps);
@@ -128,7 +109,7 @@ impl<M: Motion, F: Family> Encoder<M, F> {
         self.output = output;
         if let Some((numerator, denominator)) = output {
             let steps = range.saturating_mul(denominator) / at_least_1(numerator);
-            // The object takes nothing less than 1.
+            // 6001h is 1 or more.
             let steps = steps.clamp(1, u32::MAX.into());
             store.set_unsigned(STEPS, steps);
         }
@@ -140,7 +121,7 @@ impl<M: Motion, F: Family> Encoder<M, F> {
         let scale = if operating & SCALING == 0 {
             self.unscaled()
         } else if let Some((numerator, denominator)) = output {
-            // A 6002h of 32 bits times a factor of 32 bits; a sensor's steps are less.
+            // The range has 33 bits at most, the denominator and the steps of a sensor 32.
             self.gain = Gain::ratio(range.saturating_mul(denominator), numerator);
             Scale::new(self.sensor, self.sensor.steps, range).with_gear(
                 range.saturating_mul(denominator),
@@ -150,25 +131,20 @@ impl<M: Motion, F: Family> Encoder<M, F> {
             self.gain = Gain::steps(steps);
             Scale::new(self.sensor, steps, range)
         };
-        let scale = match (
-            self.gear.filter(|_| Self::PARTS.gear),
-            self.profile().counter,
-        ) {
-            (Some((numerator, denominator)), _) => scale.with_gear(denominator, numerator),
-            (None, Counter::Sensor) => scale,
-            (None, Counter::Kept { .. } | Counter::Volatile) if output.is_none() => {
-                scale.counting_on()
-            }
-            _ => scale,
+        let scale = match self.gear {
+            Some((numerator, denominator)) => scale.with_gear(denominator, numerator),
+            // An output gear that scales counts on already.
+            None if output.is_some() || self.profile().counter == Counter::Sensor => scale,
+            None => scale.counting_on(),
         };
         self.scale = scale
-            .with_sense(operating & REVERSED != 0)
+            .with_code_sequence(operating & REVERSED != 0)
             .with_offset(self.offset(store) + self.injected_offset(store));
         let shown = operating & u64::from(self.profile().operating_bits);
         store.set_unsigned(Address::new(0x6500, 0), shown);
     }
 
-    /// The scale with scaling off.
+    /// Returns the scale with scaling off (6000h, bit 2).
     fn unscaled(&mut self) -> Scale {
         let steps = self.profile().unscaled_steps.unwrap_or(self.sensor.steps);
         self.gain = Gain::steps(steps);
@@ -176,47 +152,47 @@ impl<M: Motion, F: Family> Encoder<M, F> {
         Scale::new(self.sensor, steps, range.min(1 << 32))
     }
 
-    /// 6509h.
+    /// Returns 6509h (CiA 406: INTEGER32; MANUALS.md C-X-13).
     fn offset(&self, store: &Store<'_>) -> i64 {
         let offset = store.unsigned(OFFSET.index, OFFSET.sub) as u32;
         if self.profile().signed_offset {
-            // An INTEGER32 comes as its 32 bits or with its sign.
+            // The store gives the bits of an INTEGER32.
             i64::from(offset as i32)
         } else {
             i64::from(offset)
         }
     }
 
-    /// Steps that a test adds to the position.
+    /// Returns the steps that a test adds to the position.
     fn injected_offset(&self, store: &Store<'_>) -> i64 {
         let at = self.profile().object(Role::InjectedOffset);
-        let at = at.filter(|_| Self::PARTS.injected_offset);
         at.map_or(0, |at| i64::from(store.unsigned(at.index, at.sub) as u32))
     }
 
-    /// Sets 6509h and the object that shows it.
+    /// Sets 6509h and the object that is linked with it.
     pub(super) fn set_offset(&self, store: &mut Store<'_>, offset: i64) {
         store.set_unsigned(OFFSET, offset as u64);
         self.show_link(store, OFFSET);
     }
 
-    /// The offset with which the position at an angle is `preset`.
+    /// Returns the offset with which the position at an angle is `preset` (CiA 406, object 6003h;
+    /// MANUALS.md U-07).
     pub(super) fn offset_for(&self, angle: Angle, preset: u32) -> i64 {
         if !self.profile().signed_offset {
-            return self.scale.offset_from(self.count(angle), preset).into();
+            return self.scale.offset_for(angle, preset).into();
         }
-        // The difference as it is, unless an INTEGER32 cannot hold it.
+        // The difference itself, unless it is outside the range of an INTEGER32.
         let range = self.scale.range() as i64;
-        match i64::from(preset) - self.count(angle) as i64 {
+        match i64::from(preset) - self.scale.without_offset(angle) as i64 {
             above if above > i64::from(i32::MAX) => above - range,
             below if below < i64::from(i32::MIN) => below + range,
             offset => offset,
         }
     }
 
-    /// May 6002h have this value?
+    /// Checks a new value of 6002h (CiA 406, total measuring range) by the rule of the family.
     pub(super) fn check_range(&self, store: &Store<'_>, value: u64) -> Result<(), AbortCode> {
-        if let Some((numerator, denominator)) = self.output_gear(store) {
+        if let Some((numerator, denominator)) = self.gear_in(store, GearKind::Output) {
             return self.check_output(value, numerator, denominator);
         }
         let steps = u64::from(self.resolution(store));
@@ -237,8 +213,8 @@ impl<M: Motion, F: Family> Encoder<M, F> {
         }
     }
 
-    /// May an object of the gear have this value? A gear that divides nothing cannot be
-    /// switched on, nor one whose 6001h the sensor does not have.
+    /// Checks a new value of an object of the gear: numerator and denominator are 1 or more, and the
+    /// sensor has the resolution (6001h) of an output gear that is on.
     pub(super) fn check_gear(
         &self,
         store: &Store<'_>,
@@ -261,7 +237,7 @@ impl<M: Motion, F: Family> Encoder<M, F> {
         }
     }
 
-    /// 6001h as an output gear makes it is one that the sensor has.
+    /// Checks that the sensor has the resolution (6001h) of an output gear.
     fn check_output(&self, range: u64, numerator: u64, denominator: u64) -> Result<(), AbortCode> {
         let steps = range.saturating_mul(denominator);
         if range > 0 && steps <= u64::from(self.sensor.steps).saturating_mul(numerator) {
@@ -271,6 +247,7 @@ impl<M: Motion, F: Family> Encoder<M, F> {
         }
     }
 
+    /// Checks a number against limits; below `low` the abort code is that of the family.
     pub(super) fn between(&self, number: u64, low: u64, high: u64) -> Result<(), AbortCode> {
         if number > high {
             Err(AbortCode::ValueTooHigh)
@@ -281,14 +258,14 @@ impl<M: Motion, F: Family> Encoder<M, F> {
         }
     }
 
-    /// The first of two linked objects that an address is one of; else the address.
+    /// Returns the first object of the link that an address belongs to; without a link, the address.
     pub(super) fn link(&self, address: Address) -> Address {
         let mut links = self.profile().links.iter();
         let link = links.find(|(_, other)| *other == address);
         link.map_or(address, |(first, _)| *first)
     }
 
-    /// The second of two linked objects shows the first.
+    /// Copies the first of two linked objects to the second.
     pub(super) fn show_link(&self, store: &mut Store<'_>, first: Address) {
         for (from, to) in self.profile().links {
             if *from == first {
@@ -298,8 +275,8 @@ impl<M: Motion, F: Family> Encoder<M, F> {
         }
     }
 
-    /// A reset: the one of two linked objects that is saved rules; of two, the one that
-    /// storage held.
+    /// Makes linked objects equal after a reset: the one that is saved applies, and of two that are
+    /// saved the one that has another value than its default (MANUALS.md C-EAM-28).
     pub(super) fn agree_on_links(&self, store: &mut Store<'_>) {
         let is_saved = |store: &Store<'_>, at: Address| match store.dictionary().row_at(at) {
             Some(row) => row.group() != Group::None,

@@ -1,63 +1,225 @@
-//! Active faults, and their way into 6503h, 6505h, 1001h, 1003h and an EMCY message.
+//! Faults of an encoder: what a family reports of them, as const data, and their way into 6503h,
+//! 6505h, 1001h, 1003h and an EMCY message.
+
+use core::fmt;
 
 use od_model::Address;
 
-use super::fault::{Appears, Fault, Report, Until};
 use super::profile::EncoderProfile;
 use crate::application::Context;
 use crate::store::Store;
 use od_wire::emcy::Emcy;
 
+/// Fault of an encoder: a defect, or a condition outside its limits.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[non_exhaustive]
+pub enum Fault {
+    /// The position of the sensor is not valid.
+    Position,
+    /// The battery of the multiturn counter is nearly empty.
+    Battery,
+    /// The watchdog reset the device; seen after the next reset.
+    Watchdog,
+    /// The non-volatile memory failed.
+    Memory,
+    /// The electronics cannot reach the sensor.
+    Internal,
+    /// The battery of the multiturn counter is empty.
+    BatteryEmpty,
+    /// The temperature is out of its range.
+    Temperature,
+    /// The multiturn sensor saw its magnetic fields in a wrong order.
+    MultiturnSequence,
+    /// The magnetic field at the multiturn sensor is too weak.
+    MultiturnStrength,
+    /// The electronics cannot reach the multiturn sensor.
+    MultiturnCommunication,
+    /// The shaft turned faster than the encoder can follow.
+    Speed,
+    /// The magnetic field at the singleturn sensor is out of its range.
+    SingleturnStrength,
+    /// Singleturn and multiturn sensor do not agree.
+    Supervision,
+    /// The multiturn counter lost its power and started again.
+    MultiturnReset,
+}
+
+impl Fault {
+    /// All faults and their names in scripts and on pages. A name never changes.
+    pub const NAMES: [(Self, &'static str); 14] = [
+        (Self::Position, "position-error"),
+        (Self::Battery, "battery-low"),
+        (Self::Watchdog, "watchdog"),
+        (Self::Memory, "eeprom"),
+        (Self::Internal, "internal"),
+        (Self::BatteryEmpty, "battery-empty"),
+        (Self::Temperature, "temperature"),
+        (Self::MultiturnSequence, "multiturn-sequence"),
+        (Self::MultiturnStrength, "multiturn-strength"),
+        (Self::MultiturnCommunication, "multiturn-communication"),
+        (Self::Speed, "overspeed"),
+        (Self::SingleturnStrength, "singleturn-strength"),
+        (Self::Supervision, "supervision"),
+        (Self::MultiturnReset, "multiturn-reset"),
+    ];
+
+    /// Returns the name in kebab-case.
+    pub fn name(self) -> &'static str {
+        let named = Self::NAMES.iter().find(|(fault, _)| *fault == self);
+        // Every fault is in the list, which a test checks.
+        named.map_or("", |(_, name)| name)
+    }
+
+    /// Returns the fault with this name.
+    pub fn from_name(name: &str) -> Option<Self> {
+        let named = Self::NAMES.iter().find(|(_, known)| *known == name);
+        named.map(|(fault, _)| *fault)
+    }
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Position => "the position of the sensor is not valid",
+            Self::Battery => "the battery of the multiturn counter is nearly empty",
+            Self::Watchdog => "the watchdog reset the device",
+            Self::Memory => "the non-volatile memory failed",
+            Self::Internal => "the electronics cannot reach the sensor",
+            Self::BatteryEmpty => "the battery of the multiturn counter is empty",
+            Self::Temperature => "the temperature is out of its range",
+            Self::MultiturnSequence => {
+                "the magnetic fields of the multiturn sensor came in a wrong order"
+            }
+            Self::MultiturnStrength => "the magnetic field at the multiturn sensor is too weak",
+            Self::MultiturnCommunication => "the electronics cannot reach the multiturn sensor",
+            Self::Speed => "the shaft turned faster than the encoder can follow",
+            Self::SingleturnStrength => {
+                "the magnetic field at the singleturn sensor is out of its range"
+            }
+            Self::Supervision => "singleturn and multiturn sensor do not agree",
+            Self::MultiturnReset => "the multiturn counter lost its power and started again",
+        })
+    }
+}
+
+impl core::error::Error for Fault {}
+
+/// Phase in which a report detects its fault.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Appears {
+    /// At any time, while the fault lasts.
+    Always,
+    /// By the check at the start: a fault that is present then.
+    Startup,
+    /// While the device runs: a fault that appeared since the start. A fault that was present
+    /// before is detected, too, unless another report of the same fault detects it at the start.
+    Runtime,
+    /// Never by itself: only a test injects it.
+    Injected,
+}
+
+/// Event that ends a report.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Until {
+    /// End of the fault.
+    Repaired,
+    /// Next start (power-on, NMT reset node) without the fault.
+    Reboot,
+    /// None: neither a start nor the end of the fault ends the report.
+    Ever,
+}
+
+/// Report of a fault in a family. A fault can have several reports, each with its own errors.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Report {
+    /// Fault that it reports.
+    pub fault: Fault,
+    /// EMCY code.
+    pub code: u16,
+    /// Bits of 1001h.
+    pub register: u8,
+    /// Bits of 6503h.
+    pub alarm: u16,
+    /// Bits of 6505h.
+    pub warning: u16,
+    /// Object that counts how often the fault appeared.
+    pub counter: Option<Address>,
+    /// Phase in which it detects the fault.
+    pub appears: Appears,
+    /// Event that ends the report.
+    pub until: Until,
+    /// With [`Appears::Startup`]: time without power, in milliseconds, that the check at a start
+    /// needs (a battery is tested meanwhile; MANUALS.md C-EAM-37). 0: every start checks.
+    pub off_ms: u32,
+    /// Code that injects the fault ([`Role::InjectedError`](super::Role::InjectedError)).
+    pub injection: Option<u32>,
+}
+
+impl Report {
+    /// Report of [`Fault::Position`] without code and bits, for `..Report::BASE`.
+    pub const BASE: Self = Self {
+        fault: Fault::Position,
+        code: 0,
+        register: 0,
+        alarm: 0,
+        warning: 0,
+        counter: None,
+        appears: Appears::Always,
+        until: Until::Repaired,
+        off_ms: 0,
+        injection: None,
+    };
+}
+
 const ALARMS: Address = Address::new(0x6503, 0);
 const WARNINGS: Address = Address::new(0x6505, 0);
 
-/// The sensor does not tell the angle, and the family has no alarm for the reason: the row of
-/// [`EncoderProfile::NO_ANGLE`], and a bit beside those of faults.
+/// Bit of the row [`EncoderProfile::NO_ANGLE`], and a bit beside those of faults: the sensor does
+/// not deliver the angle, and the family has no alarm for the reason.
 const NO_ANGLE: u32 = 1 << 31;
 
-/// Bytes 3–7 of an EMCY: 6503h, 6505h, nothing (manual 000, chapter 4.3.5).
+/// Returns bytes 3 to 7 of an EMCY message: 6503h, 6505h, and 0 (manual 000, 4.3.5).
 pub(super) fn info(store: &Store<'_>) -> [u8; 5] {
     let [alarm_low, alarm_high] = (store.unsigned(ALARMS.index, 0) as u16).to_le_bytes();
     let [low, high] = (store.unsigned(WARNINGS.index, 0) as u16).to_le_bytes();
     [alarm_low, alarm_high, low, high, 0]
 }
 
-/// Sets of [`Fault`]s and of rows of [`EncoderProfile::reports`], a bit each.
+/// State of the faults: sets of [`Fault`]s and of rows of [`EncoderProfile::reports`], a bit each.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Faults {
-    /// Something changed that [`report`](Self::report) has not seen.
+    /// A set changed since the last [`report`](Self::report).
     changed: bool,
     /// Faults that the host set.
     broken: u32,
-    /// Reason why the sensor does not deliver the angle; see [`seen`].
+    /// Reason why the sensor does not deliver the angle; see [`sensed_bits`].
     sensed: u32,
     /// Faults at the last start.
     at_start: u32,
     /// The last reset was by the watchdog.
     watchdog: bool,
-    /// The last start found the memory damaged: [`Fault::Memory`] until it holds something
-    /// sound again.
+    /// The storage holds damaged values: [`Fault::Memory`] until a save replaces them.
     damaged: bool,
-    /// Number of times that each came; kept without power.
+    /// How often each fault appeared; kept without power.
     counts: [u32; Fault::NAMES.len()],
     /// Rows that the check at the last start found.
     found: u32,
-    /// Rows that were there and last longer than their fault.
+    /// Rows that were active and last longer than their fault.
     latched: u32,
-    /// Rows that 2116h injected.
+    /// Rows that a test injected.
     injected: u32,
-    /// Rows that the device knows of.
+    /// Rows that objects and EMCY messages have reported.
     shown: u32,
 }
 
 /// Time without power, for [`Faults::reset`].
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Off {
-    /// There was power all the time.
+    /// Power was always on: NMT reset node.
     Never,
     /// Power was off for this many microseconds.
     For(u64),
-    /// There never was any before.
+    /// Power was never on before.
     Always,
 }
 
@@ -78,6 +240,7 @@ impl Faults {
         }
     }
 
+    /// Sets or ends a fault that the host reports.
     pub(super) fn set(&mut self, fault: Fault, broken: bool) {
         self.changed = true;
         if broken {
@@ -89,47 +252,40 @@ impl Faults {
         }
     }
 
-    /// Does the memory hold something damaged?
+    /// Receives whether the storage holds damaged values.
     pub(super) fn set_damaged(&mut self, damaged: bool) {
         self.changed = true;
         self.damaged = damaged;
     }
 
-    /// Whether the sensor could not tell the angle when it was asked last.
-    #[inline(always)]
-    pub(super) const fn is_blind(&self) -> bool {
-        self.sensed != 0
-    }
-
-    /// Takes what the sensor said when it was asked for the angle. Answers whether that is
-    /// news.
-    #[inline]
+    /// Receives the result of reading the sensor. Returns whether it differs from the one before.
     pub(super) fn sensed(&mut self, fault: Option<Fault>, reports: &[Report]) -> bool {
-        let sensed = fault.map_or(0, |fault| seen(fault, reports));
-        let is_news = self.sensed != sensed;
-        if is_news {
+        let sensed = fault.map_or(0, |fault| sensed_bits(fault, reports));
+        let is_new = self.sensed != sensed;
+        if is_new {
             self.sensed = sensed;
             self.changed = true;
         }
-        is_news
+        is_new
     }
 
-    /// Faults that the device can find now: those of the host, the sensor and the memory.
-    fn found(&self) -> u32 {
+    /// Returns the faults of host, sensor and storage.
+    fn present(&self) -> u32 {
         self.broken | self.sensed | if self.damaged { bit(Fault::Memory) } else { 0 }
     }
 
+    /// Returns whether the host has set this fault.
     pub(super) fn is_set(&self, fault: Fault) -> bool {
         self.broken & bit(fault) != 0 || (fault == Fault::Watchdog && self.watchdog)
     }
 
-    /// The device starts: it knows how often what came, and whether its watchdog bit it, and
-    /// checks what can be checked then.
+    /// Starts the device: loads the counters, detects a watchdog reset (MANUALS.md C-EAM-35), and
+    /// checks for faults that are reported at a start.
     pub(super) fn reset(&mut self, cx: &mut Context<'_, '_>, reports: &[Report], off: Off) {
         self.changed = true;
         self.watchdog = self.broken & bit(Fault::Watchdog) != 0;
         self.broken &= !bit(Fault::Watchdog);
-        self.at_start = self.found();
+        self.at_start = self.present();
         self.shown = 0;
         self.found = 0;
         let mut lasting = 0;
@@ -159,12 +315,13 @@ impl Faults {
         self.injected &= lasting;
     }
 
-    /// A code of 2116h; `false` where the table does not have it.
+    /// Returns whether an injected code is 0 or in the table.
     pub(super) fn knows(reports: &[Report], code: u32) -> bool {
         code == 0 || reports.iter().any(|report| report.injection == Some(code))
     }
 
-    /// 2116h takes a code that it [`knows`](Self::knows): the codes add up, and 0 ends them.
+    /// Injects the fault with a code that it [`knows`](Self::knows), besides those injected before;
+    /// 0 ends them all (manual 001, 9.4).
     pub(super) fn inject(&mut self, reports: &[Report], code: u32) {
         self.changed = true;
         if code == 0 {
@@ -178,18 +335,19 @@ impl Faults {
         }
     }
 
-    /// Brings objects and errors up to date where something changed.
+    /// Reports faults that appeared or ended since the last call: in 6503h, 6505h, and by the
+    /// EMCY service.
     pub(super) fn report(&mut self, cx: &mut Context<'_, '_>, profile: &EncoderProfile) {
         if !core::mem::take(&mut self.changed) {
             return;
         }
         let reports = profile.reports;
         for (row, report) in rows(reports) {
-            let there = self.is_there(row, report, reports);
-            if there && report.until != Until::Repaired {
+            let detected = self.is_detected(row, report, reports);
+            if detected && report.until != Until::Repaired {
                 self.latched |= row;
             }
-            let active = there || (self.latched | self.injected) & row != 0;
+            let active = detected || (self.latched | self.injected) & row != 0;
             let known = self.shown & row != 0;
             if active == known || (profile.by_support && !is_supported(cx, report)) {
                 continue;
@@ -198,20 +356,20 @@ impl Faults {
         }
     }
 
-    /// Is the fault of a row there, so that the row sees it?
-    fn is_there(&self, row: u32, report: &Report, reports: &[Report]) -> bool {
+    /// Returns whether the fault of a row is present in the phase in which the row detects it.
+    fn is_detected(&self, row: u32, report: &Report, reports: &[Report]) -> bool {
         if row == NO_ANGLE {
             return self.sensed & NO_ANGLE != 0;
         }
-        let is_broken = match report.fault {
-            // What the host set is for the next start.
+        let is_present = match report.fault {
+            // The host sets it for the next start.
             Fault::Watchdog => self.watchdog,
-            fault => self.found() & bit(fault) != 0,
+            fault => self.present() & bit(fault) != 0,
         };
-        if !is_broken {
+        if !is_present {
             return false;
         }
-        let found_otherwise = |other: &Report| {
+        let at_start_by = |other: &Report| {
             other.fault == report.fault
                 && other.appears == Appears::Startup
                 && self.at_start & bit(report.fault) != 0
@@ -219,12 +377,12 @@ impl Faults {
         match report.appears {
             Appears::Always => true,
             Appears::Startup => self.found & row != 0 && self.at_start & bit(report.fault) != 0,
-            Appears::Runtime => !reports.iter().any(found_otherwise),
+            Appears::Runtime => !reports.iter().any(at_start_by),
             Appears::Injected => false,
         }
     }
 
-    /// A row comes or goes.
+    /// Reports that a row became active or ended: alarms (6503h), warnings (6505h), EMCY message.
     fn change(&mut self, cx: &mut Context<'_, '_>, row: u32, report: &Report, reports: &[Report]) {
         self.shown ^= row;
         let comes = self.shown & row != 0;
@@ -240,7 +398,7 @@ impl Faults {
             cx.store.set_unsigned(address, others | u64::from(new));
         }
         let info = info(cx.store);
-        // Two rows that say the same are one error for the bus.
+        // Rows with the same code and the same bits of 1001h are one error for the EMCY service.
         let same = |other: &&Report| other.code == report.code && other.register == report.register;
         let others = self.shown_rows(reports).filter(same).count() - usize::from(comes);
         if comes {
@@ -259,19 +417,20 @@ impl Faults {
         }
     }
 
+    /// Returns the reports that are active.
     fn shown_rows<'r>(&self, reports: &'r [Report]) -> impl Iterator<Item = &'r Report> {
         let shown = self.shown;
         rows(reports).filter_map(move |(row, report)| (shown & row != 0).then_some(report))
     }
 }
 
-/// The rows of a table, each with its bit, and the one of [`NO_ANGLE`].
+/// Returns the rows of a table, each with its bit, and the row of [`NO_ANGLE`].
 fn rows(reports: &[Report]) -> impl Iterator<Item = (u32, &Report)> {
     let of_table = (0..31).map(|row| 1 << row).zip(reports);
     of_table.chain([(NO_ANGLE, &EncoderProfile::NO_ANGLE)])
 }
 
-/// Can this device have the fault? 6504h and 6506h say so, where they are.
+/// Returns whether the device supports a report: 6504h and 6506h, where they exist, have its bits.
 fn is_supported(cx: &Context<'_, '_>, report: &Report) -> bool {
     let has = |index, bits: u16| match cx.store.try_unsigned(index, 0) {
         Some(supported) => supported & u64::from(bits) == u64::from(bits),
@@ -280,10 +439,9 @@ fn is_supported(cx: &Context<'_, '_>, report: &Report) -> bool {
     has(0x6504, report.alarm) && has(0x6506, report.warning)
 }
 
-/// The bit of a fault that keeps the sensor silent; also [`NO_ANGLE`], unless the family has
-/// an alarm for it while the device runs.
-#[cold]
-fn seen(fault: Fault, reports: &[Report]) -> u32 {
+/// Returns the bit of a fault that keeps the sensor from delivering the angle, and [`NO_ANGLE`]
+/// unless the family has an alarm for the fault while the device runs.
+fn sensed_bits(fault: Fault, reports: &[Report]) -> u32 {
     let is_alarm = |report: &Report| {
         let at_run_time = matches!(report.appears, Appears::Always | Appears::Runtime);
         report.fault == fault && report.alarm != 0 && at_run_time
@@ -292,6 +450,37 @@ fn seen(fault: Fault, reports: &[Report]) -> u32 {
     bit(fault) | if unknown { NO_ANGLE } else { 0 }
 }
 
+/// Returns the bit of a fault.
 const fn bit(fault: Fault) -> u32 {
     1 << fault as u32
+}
+
+#[cfg(test)]
+mod tests {
+    use std::string::ToString;
+
+    use super::*;
+
+    #[test]
+    fn every_fault_has_a_name_of_its_own() {
+        for (at, (fault, name)) in Fault::NAMES.into_iter().enumerate() {
+            // Bits and counters go by the number of a fault.
+            assert_eq!(fault as usize, at);
+            assert_eq!((fault.name(), Fault::from_name(name)), (name, Some(fault)));
+            let kebab = |c: char| c.is_ascii_lowercase() || c == '-';
+            assert!(name.chars().all(kebab), "{name}");
+            let others = Fault::NAMES.iter().filter(|(other, _)| *other != fault);
+            let text = fault.to_string();
+            assert!(
+                text.starts_with("the ") || fault == Fault::Supervision,
+                "{text}"
+            );
+            assert!(
+                others
+                    .map(|(other, _)| other.to_string())
+                    .all(|other| other != text)
+            );
+        }
+        assert_eq!(Fault::from_name(""), None);
+    }
 }

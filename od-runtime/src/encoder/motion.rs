@@ -1,10 +1,48 @@
 //! Interface between an encoder and the shaft that it sits on.
 
-use super::angle::Angle;
-use super::fault::Fault;
+use super::faults::Fault;
 use super::position::Sensor;
 use super::profile::Counter;
 use od_wire::Instant;
+
+/// Angle of a shaft in 2⁻³² revolutions, from the zero of the sensor; it counts whole revolutions,
+/// too.
+///
+/// Whole revolutions are the upper half, −2³¹ to 2³¹−1; past the ends it wraps.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Default, Debug)]
+pub struct Angle(i64);
+
+impl Angle {
+    /// Zero of the sensor.
+    pub const ZERO: Self = Self(0);
+
+    /// Angle of `fractions` 2⁻³² revolutions.
+    pub const fn from_fractions(fractions: i64) -> Self {
+        Self(fractions)
+    }
+
+    /// Returns the angle in 2⁻³² revolutions.
+    pub const fn fractions(self) -> i64 {
+        self.0
+    }
+
+    /// Returns the sum of two angles.
+    #[must_use]
+    pub const fn plus(self, other: Self) -> Self {
+        Self(self.0.wrapping_add(other.0))
+    }
+
+    /// Returns the difference of two angles.
+    #[must_use]
+    pub const fn minus(self, other: Self) -> Self {
+        Self(self.0.wrapping_sub(other.0))
+    }
+
+    /// Returns whole revolutions, rounded down, and the rest in 2⁻³² revolutions.
+    pub const fn split(self) -> (i64, u32) {
+        (self.0 >> 32, self.0 as u32)
+    }
+}
 
 /// Angle, speed and acceleration of a shaft.
 ///
@@ -15,66 +53,48 @@ pub trait Motion {
     /// Returns the angle at `now`, whole revolutions included.
     ///
     /// # Errors
-    /// The fault that keeps the sensor from telling. Until a call succeeds the encoder reports
-    /// an alarm (6503h, EMCY) and shows the last angle.
+    /// The fault that keeps the sensor from measuring. Until a call succeeds, the encoder reports
+    /// an alarm (6503h, EMCY) and shows the position of the last angle.
     fn angle(&mut self, now: Instant) -> Result<Angle, Fault>;
 
-    /// Returns the angle at `now`, where a glance tells it: nothing keeps the sensor from it, and nothing
-    /// else changes. `None`: [`angle`](Self::angle) is to be asked. It makes a simulation faster.
-    #[inline]
-    fn glance(&self, now: Instant) -> Option<Angle> {
-        let _ = now;
-        None
-    }
-
     /// Returns the mean speed over the `interval` in microseconds before `now`: revolutions per
-    /// second, times `gain`, rounded towards zero. `None`: it is not known that far back.
+    /// second, times `gain`, rounded towards zero. `None`: the movement is not known that far back.
     fn speed(&self, now: Instant, interval: u32, gain: Gain) -> Option<i64>;
 
-    /// Returns the mean acceleration, in revolutions per second squared; else as
+    /// Returns the mean acceleration in revolutions per second squared; all else is as in
     /// [`speed`](Self::speed).
     fn acceleration(&self, now: Instant, interval: u32, gain: Gain) -> Option<i64>;
 
-    /// Returns a number that identifies the speed, if it did not change since `from`, and a glance shows
-    /// that: what [`speed`](Self::speed) and [`acceleration`](Self::acceleration) returned for the same
-    /// number, interval and gain, they would return again. `None`: they are to be asked.
-    #[inline]
-    fn steady(&self, from: Instant) -> Option<i32> {
-        let _ = from;
-        None
-    }
-
-    /// Tells the longest interval, in microseconds, that the encoder will ask for.
+    /// Receives the longest interval, in microseconds, for which the encoder will ask.
     fn look_back(&mut self, interval: u32) {
         let _ = interval;
     }
 
-    /// Returns the time of the next call of [`angle`](Self::angle) that is needed even if nobody
-    /// reads the position. `None`: none is needed.
+    /// Returns when [`angle`](Self::angle) has to be called even if no master reads the position.
+    /// `None`: such a call is not needed.
     fn due(&self) -> Option<Instant> {
         None
     }
 
-    /// The electronics start: power came, or NMT reset node. A [`Counter::Volatile`] begins
+    /// Starts the electronics: at power-on and NMT reset node. A [`Counter::Volatile`] starts
     /// within the first revolution.
     fn start(&mut self, now: Instant, counter: Counter, sensor: Sensor) {
         let _ = (now, counter, sensor);
     }
 
-    /// Power goes. Only a simulation outlives this.
+    /// Switches the power off. Only a simulation continues after this.
     fn power_off(&mut self, now: Instant) {
         let _ = now;
     }
 }
 
-/// Factor from revolutions to the units of an object.
-///
-/// `steps / revolutions × multiplier / divider`; a 0 below a line counts as 1.
+/// Factor from revolutions to the units of an object:
+/// `steps / revolutions × multiplier / divider`. A `revolutions` or `divider` of 0 counts as 1.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Gain {
-    /// Steps in as many revolutions; at most 2³² per revolution.
+    /// Steps in [`revolutions`](Self::revolutions); at most 2³² per revolution.
     pub steps: u64,
-    /// Revolutions.
+    /// Number of revolutions that have these steps.
     pub revolutions: u64,
     /// Numerator of the object's own factor.
     pub multiplier: u32,
@@ -88,7 +108,7 @@ impl Gain {
         Self::ratio(steps as u64, 1)
     }
 
-    /// Gain of `steps` in as many `revolutions`.
+    /// Gain of `steps` in a number of `revolutions`.
     pub const fn ratio(steps: u64, revolutions: u64) -> Self {
         Self {
             steps,

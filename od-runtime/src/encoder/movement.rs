@@ -1,19 +1,17 @@
-//! Speed and acceleration: the movement of the shaft in the units of an object.
+//! Speed and acceleration (CiA 406, objects 6030h and 6040h): the movement of the shaft in the
+//! units of an object.
 
-use od_model::Address;
+use od_model::{Address, Kind};
 
-use super::family::Family;
 use super::motion::{Gain, Motion};
-use super::object::{Movement, Source};
-use super::rate::{KEPT, Rate, Shown};
+use super::profile::{Family, Movement, Quantity, Source};
 use super::state::Encoder;
 use crate::application::Context;
 use crate::store::Store;
 use od_wire::Instant;
 
 impl<M: Motion, F: Family> Encoder<M, F> {
-    /// The movements of the family.
-    #[inline]
+    /// Returns the speeds and accelerations of the family.
     pub(super) fn movements(
         &self,
     ) -> impl Iterator<Item = (Address, &'static Movement)> + use<M, F> {
@@ -21,14 +19,13 @@ impl<M: Motion, F: Family> Encoder<M, F> {
         movements.into_iter().flatten()
     }
 
-    /// Starts movements again after a start, or after a change of source or interval: for a
-    /// whole interval they are not known.
-    pub(super) fn forget_movements(
+    /// Starts movements again, after a start or a change of source or interval: their values are 0
+    /// until a whole interval has passed.
+    pub(super) fn restart_movements(
         &mut self,
         cx: &Context<'_, '_>,
         which: impl Fn(&Movement) -> bool,
     ) {
-        self.rates = [None; KEPT];
         let mut longest = 0;
         let movements = self.movements();
         for (since, (_, movement)) in self.measured_since.iter_mut().zip(movements) {
@@ -40,73 +37,64 @@ impl<M: Motion, F: Family> Encoder<M, F> {
         self.shaft.look_back(longest);
     }
 
-    /// Does the object have a part in a movement: as selector or interval?
-    pub(super) fn is_movement_parameter(movement: &Movement, address: Address) -> bool {
-        movement.selector == Some(address) || movement.interval == address
-    }
-
-    /// The movement at an address with its handle, if its rate is kept.
-    #[inline]
-    pub(super) fn kept_movement(&mut self, now: Instant, address: Address) -> Option<(Shown, i64)> {
-        let mut kept = self.rates.iter_mut().flatten();
-        let rate = kept.find(|rate| rate.value.address() == address)?;
-        let value = rate.kept(&self.shaft, now);
-        Some((rate.value, value))
-    }
-
-    /// The same as the low bytes of a number.
-    #[inline(never)]
-    pub(super) fn kept_number(&mut self, now: Instant, address: Address) -> Option<u32> {
-        let (shown, value) = self.kept_movement(now, address)?;
-        Some(shown.limited(value) as u32)
-    }
-
-    /// Brings the movement at an address up to date; it is 0 while it is not known.
+    /// Updates the object of a movement: the value saturates at the limits of the object's type
+    /// (MANUALS.md U-15).
     pub(super) fn show_movement(
-        &mut self,
+        &self,
         cx: &mut Context<'_, '_>,
         address: Address,
         movement: &Movement,
     ) {
-        let Some(rate) = self.rate(cx.store, address, movement) else {
+        let Some(row) = cx.store.dictionary().row_at(address) else {
             return;
         };
-        let value = rate.of(&self.shaft, cx.now);
-        rate.value.show(cx.store, value.unwrap_or(0));
-        if let Some(room) = self.rates.iter_mut().find(|rate| rate.is_none()) {
-            *room = Some(rate);
+        if !matches!(row.data_type().kind(), Kind::Unsigned | Kind::Signed) {
+            return;
         }
+        let value = self.movement(cx.store, cx.now, address, movement);
+        let most = (1 << (row.bits().clamp(8, 32) - 1)) - 1;
+        let value = value.unwrap_or(0).clamp(-most - 1, most);
+        cx.store.set_unsigned(address, value as u64);
     }
 
-    /// Reads the objects of a movement.
-    fn rate(&self, store: &Store<'_>, address: Address, movement: &Movement) -> Option<Rate> {
+    /// Returns a movement in the units of its object; `None` while it is not known, or if its
+    /// selector has a value without a source.
+    fn movement(
+        &self,
+        store: &Store<'_>,
+        now: Instant,
+        address: Address,
+        movement: &Movement,
+    ) -> Option<i64> {
         let mut known = self.measured_since.iter().zip(self.movements());
         let (since, _) = known.find(|(_, (at, _))| *at == address)?;
+        let interval = interval(movement, store);
+        if now.micros_since(*since) < interval.into() {
+            return None;
+        }
         let number = |at: Address| store.unsigned(at.index, at.sub);
-        let source = self.source(movement, movement.selector.map(number));
-        let gain = source.map(|(gain, _)| match movement.factor {
-            Some((multiplier, divider)) => Gain {
-                multiplier: number(multiplier) as u32,
-                divider: number(divider) as u32,
-                ..gain
-            },
-            None => gain,
-        });
-        Some(Rate {
-            quantity: movement.quantity,
-            interval: interval(movement, store),
-            since: *since,
-            gain,
-            is_turned: source.is_some_and(|(_, has_sense)| has_sense)
-                && self.scale.is_reversed()
-                && !self.has_option(store, |options| options.ignore_sense),
-            value: Shown::find(store, address)?,
-            last: None,
+        let (mut gain, follows_code_sequence) =
+            self.source(movement, movement.selector.map(number))?;
+        if let Some((multiplier, divider)) = movement.factor {
+            gain.multiplier = number(multiplier) as u32;
+            gain.divider = number(divider) as u32;
+        }
+        let value = match movement.quantity {
+            Quantity::Speed => self.shaft.speed(now, interval, gain)?,
+            Quantity::Acceleration => self.shaft.acceleration(now, interval, gain)?,
+        };
+        let is_reversed = follows_code_sequence
+            && self.scale.is_reversed()
+            && !self.has_option(store, |options| options.ignore_code_sequence);
+        Some(if is_reversed {
+            value.saturating_neg()
+        } else {
+            value
         })
     }
 
-    /// Steps per revolution of what a movement is made of, and whether the sense of rotation
-    /// counts. `None`: the selector has a value without a source.
+    /// Returns the units per revolution of a movement's source, and whether the code sequence
+    /// applies to it. `None`: the selector has a value without a source.
     fn source(&self, movement: &Movement, selected: Option<u64>) -> Option<(Gain, bool)> {
         let mut sources = movement.sources.iter();
         let (_, source) = match selected {
@@ -126,6 +114,6 @@ impl<M: Motion, F: Family> Encoder<M, F> {
 /// Returns the interval of a movement in microseconds, 1 ms to 65.535 s.
 fn interval(movement: &Movement, store: &Store<'_>) -> u32 {
     let at = movement.interval;
-    // The range leaves no more than 16 bits.
+    // The limits leave 16 bits at most.
     store.unsigned(at.index, at.sub).clamp(1, u16::MAX.into()) as u32 * 1000
 }

@@ -1,11 +1,10 @@
-//! Power comes and goes: operating time and power-on cycles.
+//! Power-on, power-off and NMT reset node: operating time, power-on cycles, bit rate.
 
 use od_model::Address;
 
-use super::family::Family;
 use super::faults::Off;
 use super::motion::Motion;
-use super::object::Role;
+use super::profile::{Family, Role};
 use super::state::Encoder;
 use crate::application::{Context, Reset};
 use crate::store::Store;
@@ -15,7 +14,7 @@ use od_wire::Instant;
 const SIX_MINUTES: u64 = 360_000_000;
 
 impl<M: Motion, F: Family> Encoder<M, F> {
-    /// Power goes; the shaft may turn on. Only a simulation outlives this.
+    /// Switches the power off; the shaft may continue to turn. Only a simulation continues after this.
     pub fn power_off(&mut self, now: Instant) {
         self.seconds = self.seconds_at(now);
         self.started = None;
@@ -23,7 +22,7 @@ impl<M: Motion, F: Family> Encoder<M, F> {
         self.shaft.power_off(now);
     }
 
-    /// The device starts: power came, or NMT reset node.
+    /// Starts the device: at power-on and NMT reset node.
     pub(super) fn start(&mut self, cx: &mut Context<'_, '_>, reset: Reset) {
         let [seconds, cycles] = [Role::Seconds, Role::Cycles].map(|of| self.profile().object(of));
         let number = |at: Option<Address>| match at {
@@ -49,26 +48,26 @@ impl<M: Motion, F: Family> Encoder<M, F> {
             }
             cx.store.set_unsigned(cycles, self.cycles.into());
         }
-        self.forget_movements(cx, |_| true);
+        self.restart_movements(cx, |_| true);
         self.engage_gear(cx.store);
     }
 
-    /// Seconds of operation, up to `now`.
+    /// Returns the operating time at `now`, in seconds (MANUALS.md C-GX-27).
     pub(super) fn seconds_at(&self, now: Instant) -> u32 {
         self.seconds.saturating_add(self.seconds_since_start(now))
     }
 
-    /// Microseconds since the last start.
+    /// Returns the microseconds since the last start.
     pub(super) fn micros(&self, now: Instant) -> u64 {
         self.started.map_or(0, |started| now.micros_since(started))
     }
 
-    /// Seconds since the last start.
+    /// Returns the seconds since the last start.
     pub(super) fn seconds_since_start(&self, now: Instant) -> u32 {
         u32::try_from(self.micros(now) / 1_000_000).unwrap_or(u32::MAX)
     }
 
-    /// Brings the objects that show time up to date.
+    /// Updates the objects that show an operating time.
     pub(super) fn show_time(&mut self, cx: &mut Context<'_, '_>) {
         let times = self.profile().objects.iter().filter(|(_, of)| of.is_time());
         for (address, role) in times {
@@ -76,9 +75,8 @@ impl<M: Motion, F: Family> Encoder<M, F> {
         }
     }
 
-    /// Saves the record of the device's life every six minutes. Answers when it is due.
+    /// Saves the operating time every six minutes. Returns the time of the next save.
     pub(super) fn keep_time(&mut self, cx: &mut Context<'_, '_>) -> Option<Instant> {
-        // A host ticks on other occasions, too.
         if let Some(at) = self.keep_at.filter(|at| *at <= cx.now) {
             self.keep_at = Some(at.next_period(SIX_MINUTES, cx.now));
             self.show_time(cx);
@@ -87,7 +85,8 @@ impl<M: Motion, F: Family> Encoder<M, F> {
         self.keep_at
     }
 
-    /// Switches rule the bit rate where they rule the node ID, unless their position has none.
+    /// Returns the bit rate of a start in kbit/s: that of the DIP switches if the rotary switches set
+    /// the node ID and their position has a bit rate (MANUALS.md C-GX-35), else that of the object.
     fn starting_bit_rate(&self, store: &Store<'_>) -> Option<u16> {
         let profile = self.profile();
         let by_switch = match self.switches.node_id {

@@ -1,34 +1,29 @@
-//! Speed and acceleration of a shaft whose angle a sensor tells, a sample at a time.
+//! Shaft whose angle a sensor samples: speed and acceleration are differences of samples.
 
-mod float;
-mod track;
-
-use super::angle::Angle;
-use super::fault::Fault;
-use super::motion::{Gain, Motion};
+use super::arithmetic::{Float, fraction, scaled};
+use super::faults::Fault;
+use super::motion::{Angle, Gain, Motion};
 use super::position::Sensor;
 use super::profile::Counter;
-use float::Float;
 use od_wire::{Duration, Instant};
-use track::Track;
 
-/// Sensor that tells the angle of a shaft.
+/// Sensor that samples the angle of a shaft.
 ///
-/// A closure `FnMut(Instant) -> Result<Angle, Fault>` is one, and so is an [`Angle`] that the
-/// host sets. It is asked once for each moment.
+/// A closure `FnMut(Instant) -> Result<Angle, Fault>` is a source, and so is an [`Angle`] that the
+/// host sets. The encoder takes one sample for each moment.
 pub trait PositionSource {
-    /// Revolutions after which the sensor starts again at 0, as a power of two: 0 for a
-    /// singleturn, 12 for 4096 revolutions. 32: it never does.
+    /// Number of bits of the sensor's revolution counter: 0 for a singleturn, 12 for 4096
+    /// revolutions, after which the sensor starts again at 0. 32: it never starts again.
     ///
-    /// The encoder counts on past them. Between two samples the shaft must not turn by half of
-    /// them or more.
+    /// The encoder counts on past the end of the sensor. Between two samples the shaft must turn by
+    /// less than half of the sensor's revolutions.
     const TURN_BITS: u32 = 32;
 
     /// Returns the angle of the shaft at `now`, whole revolutions included.
     ///
     /// # Errors
-    /// The fault that keeps the sensor from telling. It is reported as the family does, and in
-    /// any case as an alarm (6503h), until a sample succeeds.
+    /// The fault that keeps the sensor from measuring. Until a sample succeeds, the encoder reports it
+    /// as its family does, and in any case as an alarm (6503h).
     fn sample(&mut self, now: Instant) -> Result<Angle, Fault>;
 }
 
@@ -47,19 +42,19 @@ impl PositionSource for Angle {
 
 /// Shaft whose angle is sampled.
 ///
-/// It samples the position at least every `every`, for which the node asks in its `poll_timeout`,
+/// It takes a sample at least every `every` (the `poll_timeout` of the node includes this time),
 /// and whenever the position is read. A speed is the difference of two angles over the integration
 /// time before the newest sample; an acceleration is the difference of the mean speeds in the
-/// two halves of it. `N`, 3 to 255, is how many samples are remembered, 12 bytes each. Where
-/// `N − 2` times `every` is less than the longest integration time, samples are left out, and
-/// the angle changes evenly between two that are remembered. With 0 samples, for an encoder that shows
-/// neither, speed and acceleration are never known.
+/// two halves of that time. `N`, 3 to 255, is the number of samples that are kept, 12 bytes each. If
+/// `N − 2` times `every` is less than the longest integration time, some samples are not kept, and
+/// the angle is interpolated between two that are. With an `N` of 0, for an encoder without speed
+/// and acceleration, both are never known.
 ///
 /// ```
 /// use od_runtime::encoder::{Angle, Encoder, EncoderProfile, Fault, PositionSource, Sampled};
 /// use od_runtime::{Duration, Instant};
 ///
-/// /// A singleturn of 12 bits; its driver gives `None` if the checksum is wrong.
+/// /// Singleturn of 12 bits; its driver returns `None` if the checksum is wrong.
 /// struct Sensor {
 ///     read: fn() -> Option<u16>,
 /// }
@@ -86,21 +81,21 @@ pub struct Sampled<P, const N: usize = 16> {
     pub source: P,
     /// Microseconds between two samples, 1 or more.
     every: u32,
-    /// Time when the sensor was asked last.
+    /// Time of the last sample, also of one that failed.
     asked: Option<Instant>,
-    /// Reason why it did not deliver a position then.
+    /// Reason why that sample failed.
     fault: Option<Fault>,
-    /// Whole revolutions that a volatile counter forgot.
+    /// Whole revolutions that a volatile counter lost.
     forgotten: i64,
-    /// The next sample is within the first revolution.
+    /// The next sample starts within the first revolution.
     forgets: bool,
-    /// The angle of the last sample, counted on; `None`: the next one says where the shaft is.
+    /// Angle of the last sample, counted on; `None`: counting starts with the next sample.
     angle: Option<i64>,
     track: Track<N>,
 }
 
 impl<P: PositionSource, const N: usize> Sampled<P, N> {
-    /// A shaft that this sensor looks at, at least `every` so often (1 µs to 71 minutes).
+    /// Shaft with this sensor, sampled at least every `every` (1 µs to 71 minutes).
     pub const fn new(source: P, every: Duration) -> Self {
         let micros = every.as_secs().saturating_mul(1_000_000);
         let micros = micros.saturating_add(every.subsec_micros() as u64);
@@ -120,8 +115,9 @@ impl<P: PositionSource, const N: usize> Sampled<P, N> {
         }
     }
 
-    /// Takes a sample of the sensor; it may have started again at 0 since the last one.
-    fn take(&mut self, now: Instant, sample: Angle) -> Angle {
+    /// Adds a sample; the sensor may have started again at 0 since the last one. Returns the angle,
+    /// counted on.
+    fn add(&mut self, now: Instant, sample: Angle) -> Angle {
         let sample = sample.fractions();
         if core::mem::take(&mut self.forgets) {
             self.forgotten = sample & !0xFFFF_FFFF;
@@ -154,7 +150,7 @@ impl<P: PositionSource, const N: usize> Motion for Sampled<P, N> {
                 (None, None) => {}
             }
         }
-        // The track knows times modulo 71 minutes.
+        // Times of the track are modulo 71 minutes.
         let pause = self.asked.map_or(0, |asked| now.micros_since(asked));
         if pause > 1 << 30 || self.track.age(micros(now)) > 1 << 30 {
             self.track.clear();
@@ -162,7 +158,7 @@ impl<P: PositionSource, const N: usize> Motion for Sampled<P, N> {
         self.asked = Some(now);
         let sample = self.source.sample(now);
         self.fault = sample.err();
-        Ok(self.take(now, sample?))
+        Ok(self.add(now, sample?))
     }
 
     fn speed(&self, now: Instant, interval: u32, gain: Gain) -> Option<i64> {
@@ -209,26 +205,137 @@ impl<P: PositionSource, const N: usize> Motion for Sampled<P, N> {
     }
 }
 
-/// A moment as the track keeps it.
+/// Ring of the last samples, which reaches back over the longest integration time.
+///
+/// Times are microseconds modulo 2³². While the newest sample is less than `spacing` later than the
+/// one before it, the next sample replaces it, so that `N` samples are enough for any time. With an
+/// `N` of 0 the ring is always empty.
+#[derive(Clone, Debug)]
+struct Track<const N: usize> {
+    at: [u32; N],
+    angle: [i64; N],
+    /// Least time between two samples but the newest.
+    spacing: u32,
+    /// Index of the newest sample.
+    newest: u8,
+    len: u8,
+}
+
+impl<const N: usize> Track<N> {
+    const fn new() -> Self {
+        const {
+            assert!(
+                N == 0 || N > 2 && N < 256,
+                "a track has 3 to 255 samples, or none"
+            )
+        };
+        Self {
+            at: [0; N],
+            angle: [0; N],
+            spacing: 0,
+            newest: 0,
+            len: 0,
+        }
+    }
+
+    /// Removes all samples.
+    fn clear(&mut self) {
+        self.len = 0;
+    }
+
+    /// Spaces the samples so that they reach back this many microseconds.
+    fn reach(&mut self, micros: u32) {
+        self.spacing = micros.div_ceil((N as u32).saturating_sub(2).max(1));
+    }
+
+    /// Returns the sample `back` places before the newest.
+    fn sample(&self, back: u8) -> Option<(u32, i64)> {
+        if N == 0 || back >= self.len {
+            return None;
+        }
+        let (newest, back) = (usize::from(self.newest), usize::from(back));
+        let index = if back > newest {
+            newest + N - back
+        } else {
+            newest - back
+        };
+        Some((*self.at.get(index)?, *self.angle.get(index)?))
+    }
+
+    /// Adds a sample; one of the same time as the newest replaces it.
+    fn add(&mut self, at: u32, angle: i64) {
+        if N == 0 {
+            return;
+        }
+        let gap = match (self.sample(0), self.sample(1)) {
+            (Some((newest, _)), Some((before, _))) => newest.wrapping_sub(before),
+            // The first two are always kept.
+            _ => u32::MAX,
+        };
+        let is_same = self.sample(0).is_some_and(|(newest, _)| newest == at);
+        if gap >= self.spacing && !is_same {
+            self.newest = match usize::from(self.newest) + 1 {
+                index if index < N && self.len > 0 => index as u8,
+                _ => 0,
+            };
+            if usize::from(self.len) < N {
+                self.len += 1;
+            }
+        }
+        let index = usize::from(self.newest);
+        if let (Some(time), Some(place)) = (self.at.get_mut(index), self.angle.get_mut(index)) {
+            (*time, *place) = (at, angle);
+        }
+    }
+
+    /// Returns the microseconds since the newest sample; 0 without samples.
+    fn age(&self, now: u32) -> u32 {
+        self.sample(0).map_or(0, |(at, _)| now.wrapping_sub(at))
+    }
+
+    /// Returns the angle `micros` microseconds before the newest sample, interpolated between two
+    /// samples; `None` if that is before the oldest.
+    fn back(&self, micros: u32) -> Option<i64> {
+        let (newest, angle) = self.sample(0)?;
+        let mut later = (0, angle);
+        for back in 0..self.len {
+            let (at, angle) = self.sample(back)?;
+            let age = newest.wrapping_sub(at);
+            if age == micros {
+                return Some(angle);
+            }
+            if age > micros {
+                let way = later.1.wrapping_sub(angle);
+                let part = fraction(age - micros, age - later.0);
+                return Some(angle.wrapping_add(scaled(way, part)));
+            }
+            later = (age, angle);
+        }
+        None
+    }
+}
+
+/// Returns a time as the track keeps it: microseconds modulo 2³².
 const fn micros(at: Instant) -> u32 {
     at.as_micros() as u32
 }
 
-/// Steps per revolution, and what else an object multiplies with.
+/// Returns the value of a gain.
 fn factor(gain: Gain) -> Float {
     let factor = Float::new(gain.steps).times(Float::new(gain.multiplier.into()));
     let factor = factor.over(Float::new(gain.divider.into()));
     factor.over(Float::new(gain.revolutions))
 }
 
-/// Amount per second, from the amount in `micros` microseconds.
+/// Returns the amount per second, from the amount in `micros` microseconds.
 fn per_second(amount: Float, micros: u32) -> Float {
     amount
         .times(Float::new(1_000_000))
         .over(Float::new(micros.into()))
 }
 
-/// Result of a computation with fractions of a revolution, rounded towards zero.
+/// Computes with the magnitude of an angle in 2⁻³² revolutions. Returns the result with the sign of
+/// the angle, rounded towards zero.
 fn signed(fractions: i64, compute: impl Fn(Float) -> Float) -> i64 {
     let whole = compute(Float::new(fractions.unsigned_abs()).shifted(-32)).whole();
     if fractions < 0 { -whole } else { whole }

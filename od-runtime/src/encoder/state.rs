@@ -1,19 +1,13 @@
-//! The encoder: its state and what a host can do to it.
+//! The encoder: its state, and what a host can do with it.
 
 use core::marker::PhantomData;
 
-use od_model::typed::{Ro, Var};
 use od_model::{Address, Dictionary};
 
-use super::angle::Angle;
-use super::family::{AnyFamily, Family, Parts};
-use super::fault::Fault;
-use super::faults::Faults;
-use super::motion::{Gain, Motion};
-use super::object::Role;
+use super::faults::{Fault, Faults};
+use super::motion::{Angle, Gain, Motion};
 use super::position::{Scale, Sensor};
-use super::profile::{EncoderProfile, MOVEMENTS, Total};
-use super::rate::{KEPT, Rate};
+use super::profile::{AnyFamily, EncoderProfile, Family, MOVEMENTS, Parts, Role, Total};
 use od_wire::Instant;
 
 /// Rotary and DIP switches in the cover.
@@ -25,64 +19,62 @@ pub struct Switches {
     pub bit_rate: u8,
 }
 
-/// The device behind an encoder's dictionary.
+/// Behaviour behind the dictionary of an encoder.
 ///
 /// The host sets switches and reports faults between calls of the node; after a change of
 /// faults it calls [`Node::handle_change`](crate::Node::handle_change).
 ///
-/// `F` is what the compiler knows of its family: with a [`Family`] of its own it has no code for what
-/// the family does not have.
+/// `F` is what the compiler knows of the family: an encoder of a [`Family`] has no code for roles
+/// of objects that the family does not have.
 #[derive(Clone, Debug)]
 pub struct Encoder<M, F = AnyFamily> {
     family: PhantomData<F>,
     profile: &'static EncoderProfile,
-    /// The shaft that it sits on.
+    /// Shaft that the encoder sits on.
     pub shaft: M,
     pub(super) switches: Switches,
     pub(super) serial_number: Option<u32>,
     pub(super) faults: Faults,
     pub(super) sensor: Sensor,
     pub(super) scale: Scale,
-    /// 6004h in the store.
-    pub(super) position: Option<Var<u32, Ro>>,
     /// Steps of 6004h per revolution, without a gear that divides the position.
     pub(super) gain: Gain,
-    /// Numerator and denominator of the gear that the last start found.
+    /// Numerator and denominator of a [`GearKind::Position`](super::GearKind::Position), from the
+    /// last start.
     pub(super) gear: Option<(u64, u64)>,
-    /// The same of the gear that acts at once, as it acts.
+    /// Numerator and denominator of a [`GearKind::Output`](super::GearKind::Output) that is on.
     pub(super) output: Option<(u64, u64)>,
-    /// 6001h as it was when `output` was engaged; the object shows what the gear makes of it.
+    /// 6001h as it was when `output` was switched on; the object shows the value of the gear.
     pub(super) own_steps: u64,
-    /// The last angle that the sensor told.
+    /// Last angle that the sensor delivered.
     pub(super) angle: Angle,
-    /// Time when power went.
+    /// Time of the last power-off.
     pub(super) off: Option<Instant>,
-    /// The last reset; `None` without power.
+    /// Time of the last start; `None` without power.
     pub(super) started: Option<Instant>,
-    /// Time when the record of the device's life is saved next, where there is one.
+    /// Time of the next save of the operating time; `None`: the family does not save it.
     pub(super) keep_at: Option<Instant>,
     /// Seconds of operation before `started`.
     pub(super) seconds: u32,
-    /// Number of times that power came.
+    /// Number of power-on cycles.
     pub(super) cycles: u32,
-    /// Since when a movement of the profile can be measured.
+    /// Start of the measurement of each movement of the profile.
     pub(super) measured_since: [Instant; MOVEMENTS],
-    /// Movements that were read since an object changed.
-    pub(super) rates: [Option<Rate>; KEPT],
-    /// 6200h as it was when it last agreed with 1800h:05.
+    /// 6200h when it last agreed with 1800h:05.
     pub(super) timer: u64,
     pub(super) bit_rate: Option<u16>,
 }
 
 impl<M: Motion> Encoder<M> {
-    /// An encoder on a shaft: nothing broken, switches at 0.
+    /// Encoder on a shaft, without faults, switches at 0.
     pub const fn new(profile: &'static EncoderProfile, shaft: M) -> Self {
         Self::with_profile(profile, shaft)
     }
 }
 
 impl<M: Motion, F: Family> Encoder<M, F> {
-    /// As [`new`](Encoder::new), of a family whose profile the compiler knows; others do not compile.
+    /// As [`new`](Encoder::new), of a family whose profile is known at compile time; any other
+    /// family does not compile.
     pub const fn of_family(shaft: M) -> Self {
         Self::with_profile(
             const { F::PROFILE.expect("the family has no PROFILE") },
@@ -111,7 +103,6 @@ impl<M: Motion, F: Family> Encoder<M, F> {
             gear: None,
             output: None,
             own_steps: 0,
-            position: None,
             angle: Angle::ZERO,
             off: None,
             started: None,
@@ -119,22 +110,20 @@ impl<M: Motion, F: Family> Encoder<M, F> {
             seconds: 0,
             cycles: 0,
             measured_since: [Instant::ZERO; MOVEMENTS],
-            rates: [None; KEPT],
             timer: 0,
             bit_rate: None,
         }
     }
 
-    /// With the sensor that a dictionary's defaults describe, where the profile has none:
-    /// [`sensor`](Self::sensor) is known before the first power-on then.
+    /// Sets the sensor that the profile or the default values of a dictionary describe, so that
+    /// [`sensor`](Self::sensor) is known before the first power-on.
     #[must_use]
     pub fn with_sensor_of(mut self, dictionary: Dictionary<'_>) -> Self {
         self.sensor = self.profile().sensor_of(dictionary);
         self
     }
 
-    /// Returns the properties of its family.
-    #[inline(always)]
+    /// Returns the properties of the family.
     pub const fn profile(&self) -> &'static EncoderProfile {
         match F::PROFILE {
             Some(profile) => profile,
@@ -142,10 +131,10 @@ impl<M: Motion, F: Family> Encoder<M, F> {
         }
     }
 
-    /// The properties that the family may have.
+    /// Roles that objects of the family may have.
     pub(super) const PARTS: Parts = Parts::of::<F>();
 
-    /// With this serial number in 1018h:04 and 650Bh from the next reset on.
+    /// Sets the serial number, which 1018h:04 and 650Bh show from the next reset on (CiA 301, CiA 406).
     #[must_use]
     pub const fn with_serial_number(mut self, serial_number: u32) -> Self {
         self.serial_number = Some(serial_number);
@@ -157,18 +146,18 @@ impl<M: Motion, F: Family> Encoder<M, F> {
         self.serial_number
     }
 
-    /// Returns resolution and range of its sensor, known after [`with_sensor_of`](Self::with_sensor_of) or the
-    /// first power-on.
+    /// Returns resolution and range of the sensor, known after
+    /// [`with_sensor_of`](Self::with_sensor_of) or the first power-on.
     pub const fn sensor(&self) -> Sensor {
         self.sensor
     }
 
-    /// Returns the present scaling of its position.
+    /// Returns the present scaling of the position.
     pub const fn scale(&self) -> Scale {
         self.scale
     }
 
-    /// The switches; a family that has none ignores them.
+    /// Returns the switches; a family without switches ignores them.
     pub const fn switches(&self) -> Switches {
         self.switches
     }
@@ -178,7 +167,7 @@ impl<M: Motion, F: Family> Encoder<M, F> {
         self.switches = switches;
     }
 
-    /// Breaks something, or repairs it. [`Fault::Watchdog`] is seen after the next reset.
+    /// Sets a fault, or ends it. [`Fault::Watchdog`] is reported after the next reset.
     pub fn set_fault(&mut self, fault: Fault, broken: bool) {
         self.faults.set(fault, broken);
     }
@@ -188,8 +177,8 @@ impl<M: Motion, F: Family> Encoder<M, F> {
         self.faults.is_set(fault)
     }
 
-    /// Returns whether the encoder computes the value of an object, from its shaft, its time, its
-    /// errors or other objects.
+    /// Returns whether the encoder computes the value of an object from shaft, time, faults or
+    /// other objects.
     pub fn computes(&self, address: Address) -> bool {
         let profile = self.profile();
         let role = profile.role(address);
@@ -200,7 +189,7 @@ impl<M: Motion, F: Family> Encoder<M, F> {
             || counters.any(|counter| counter == address)
     }
 
-    /// The bit rate since the last start, in kbit/s, if the device has one of its own.
+    /// Returns the bit rate since the last start, in kbit/s; `None`: switches and objects give none.
     pub const fn bit_rate(&self) -> Option<u16> {
         self.bit_rate
     }

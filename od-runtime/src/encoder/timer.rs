@@ -1,18 +1,21 @@
-//! 6200h and 1800h:05, two objects for one timer.
+//! Cyclic timer (CiA 406, object 6200h) and event timer of TPDO1 (1800h:05): two objects with one
+//! value (MANUALS.md C-GX-26).
 
 use od_model::Address;
 
-use super::family::Family;
 use super::motion::Motion;
+use super::profile::Family;
 use super::state::Encoder;
 use crate::application::Context;
 use crate::store::Store;
 
+/// Cyclic timer (CiA 406), in milliseconds.
 pub(super) const TIMER: Address = Address::new(0x6200, 0);
+/// Event timer of TPDO1 (CiA 301), in milliseconds.
 pub(super) const EVENT_TIMER: Address = Address::new(0x1800, 5);
 
 impl<M: Motion, F: Family> Encoder<M, F> {
-    /// Delay of 1800h:05 against 6200h, in milliseconds.
+    /// Returns by how many milliseconds 1800h:05 is longer than 6200h (MANUALS.md C-GX-26).
     fn delay(&self, store: &Store<'_>) -> u64 {
         match &self.profile().options {
             Some(options) if self.has_option(store, |options| options.delay_timer) => {
@@ -22,7 +25,7 @@ impl<M: Motion, F: Family> Encoder<M, F> {
         }
     }
 
-    /// The event timer for a value of 6200h. 0 is off in both.
+    /// Returns 1800h:05 for a value of 6200h; 0 is off in both.
     fn event_timer(&self, store: &Store<'_>, timer: u64) -> u64 {
         match timer {
             0 => 0,
@@ -30,7 +33,7 @@ impl<M: Motion, F: Family> Encoder<M, F> {
         }
     }
 
-    /// 6200h rules: 1800h:05 follows.
+    /// Sets 1800h:05 from 6200h.
     pub(super) fn timer_to_event_timer(&mut self, cx: &mut Context<'_, '_>) {
         let Some(timer) = cx.store.try_unsigned(TIMER.index, TIMER.sub) else {
             return;
@@ -44,7 +47,7 @@ impl<M: Motion, F: Family> Encoder<M, F> {
         }
     }
 
-    /// 1800h:05 rules: 6200h follows.
+    /// Sets 6200h from 1800h:05.
     pub(super) fn event_timer_to_timer(&mut self, cx: &mut Context<'_, '_>) {
         if let Some(event_timer) = cx.store.try_unsigned(EVENT_TIMER.index, EVENT_TIMER.sub) {
             self.timer = event_timer.saturating_sub(self.delay(cx.store));
@@ -52,8 +55,8 @@ impl<M: Motion, F: Family> Encoder<M, F> {
         }
     }
 
-    /// After a reset the two timers may say different things. What changed rules: where the
-    /// reset took both back, what storage held; else, what it took back.
+    /// Makes the two objects equal after a reset. Of the two, the one that changed applies: if the
+    /// reset loaded both, the one that storage held; else the one that was loaded.
     pub(super) fn agree_on_timer(&mut self, cx: &mut Context<'_, '_>, starts: bool) {
         if cx.store.dictionary().row_at(TIMER).is_none() {
             return;

@@ -238,7 +238,7 @@ fn options(kind: &DeviceKind, facts: &mut Vec<Vec<String>>) {
         add(at(options.keep_offset), "a new resolution keeps the offset");
         add(at(options.delay_timer), "1800h:05 is 6200h plus a delay");
         add(
-            at(options.ignore_sense),
+            at(options.ignore_code_sequence),
             "speed and acceleration without a sign",
         );
     }

@@ -1,7 +1,7 @@
 //! Tests of a profile's encoder: roles, offsets, ranges.
 
 use super::*;
-use crate::encoder::family::Parts;
+use crate::encoder::profile::Parts;
 
 /// A family with one object of this role, or with none.
 macro_rules! family {
@@ -40,26 +40,9 @@ family!(Moving, Role::Movement(SPEED));
 family!(Faked, Role::InjectedError);
 family!(Shifted, Role::InjectedOffset);
 
-struct Geared;
-
-impl Family for Geared {
-    const PROFILE: Option<&'static EncoderProfile> = {
-        static OF: EncoderProfile = EncoderProfile {
-            gear: Some(Gear {
-                index: 0x2001,
-                on: 1,
-                kind: GearKind::Output,
-            }),
-            objects: &[],
-            ..EncoderProfile::CIA406
-        };
-        Some(&OF)
-    };
-}
-
 #[test]
 fn the_compiler_knows_the_parts_of_a_family() {
-    fn parts<F: Family>() -> [bool; 7] {
+    fn parts<F: Family>() -> [bool; 6] {
         let parts = Parts::of::<F>();
         [
             parts.time_stamp,
@@ -68,7 +51,6 @@ fn the_compiler_knows_the_parts_of_a_family() {
             parts.movement,
             parts.injected_error,
             parts.injected_offset,
-            parts.gear,
         ]
     }
     let all = [
@@ -78,13 +60,12 @@ fn the_compiler_knows_the_parts_of_a_family() {
         parts::<Moving>(),
         parts::<Faked>(),
         parts::<Shifted>(),
-        parts::<Geared>(),
     ];
     for (at, parts) in all.iter().enumerate() {
         assert_eq!(*parts, core::array::from_fn(|of| of == at), "{at}");
     }
-    assert_eq!(parts::<Plain>(), [false; 7]);
-    assert_eq!(parts::<AnyFamily>(), [true; 7]);
+    assert_eq!(parts::<Plain>(), [false; 6]);
+    assert_eq!(parts::<AnyFamily>(), [true; 6]);
 }
 
 #[test]

@@ -44,7 +44,7 @@ fn a_new_resolution_clears_the_offset_unless_an_option_keeps_it() {
 }
 
 #[test]
-fn sense_and_scaling_keep_the_offset() {
+fn code_sequence_and_scaling_keep_the_offset() {
     let mut bench = Bench::new(0x2000_0000);
     bench.at(1000);
     bench.write(0x6003, 0, 5).unwrap();
