@@ -48,7 +48,7 @@ impl VirtualDevice {
         let product = description
             .section("DeviceInfo")
             .and_then(|info| info.get("ProductName"));
-        let title = product.map(|name| name.value.trim().to_owned());
+        let title = product.map(|name| od_model::Visible(name.value.trim()).line().into_owned());
         let tables = Tables::new(description);
         let behaviour = Behaviour::of(tables.dictionary());
         let title = title

@@ -7,6 +7,7 @@ use od_bus::learn::record::{Watch, record};
 use od_bus::learn::{Options, learn};
 use od_bus::link::Link;
 use od_bus::links;
+use od_model::Visible;
 use od_wire::{Duration, NodeId};
 
 use crate::failure::Failure;
@@ -91,5 +92,5 @@ fn learned(args: &Args, mut link: Box<dyn Link>) -> Result<(), Failure> {
             output::note!("the twin does not have {lacking}");
         }
     }
-    output::save(args.output.as_deref(), &text)
+    output::save(args.output.as_deref(), &Visible(&text).lines())
 }

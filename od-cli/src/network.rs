@@ -11,6 +11,7 @@ use std::path::{Path, PathBuf};
 
 use od_eds::network::{self, Node};
 use od_eds::{Description, Document, Finding};
+use od_model::{Visible, is_hidden};
 
 use crate::config::Config;
 use crate::failure::{Failure, read_error};
@@ -106,7 +107,8 @@ fn one(args: &Args, mut network: Network, folder: Option<&Path>) -> Result<usize
     if let Some(folder) = folder {
         for (name, _) in &outputs {
             // A name in the file must not lead out of the folder.
-            if name.contains(['/', '\\']) {
+            if name.contains(['/', '\\']) || name.contains(is_hidden) {
+                let name = Visible(name);
                 return Err(Failure::Failed(format!(
                     "`{name}` is not valid as the name of a file"
                 )));
@@ -125,7 +127,7 @@ fn one(args: &Args, mut network: Network, folder: Option<&Path>) -> Result<usize
     Config::of(&args.file)?.apply(&args.file, &mut findings);
     let colours = output::error_colours();
     let text = report::render(&args.file, "", &findings, &Names::new(), colours);
-    output::note_text(&text);
+    output::note_coloured(&text);
     output::print(&table::table(&network, bit_rate, sync_period, &outputs))?;
     Ok(findings
         .iter()

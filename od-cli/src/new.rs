@@ -124,7 +124,7 @@ fn device(name: &str) -> Result<(DeviceFile, usize), Failure> {
         notes = repair::fix(&mut description).map_err(|left| {
             let text = od_eds::canonical(&description);
             let (names, colours) = (report::names(&description, &left), output::error_colours());
-            output::note_text(&report::render(&source.path, &text, &left, &names, colours));
+            output::note_coloured(&report::render(&source.path, &text, &left, &names, colours));
             Failure::Failed(format!(
                 "{} has errors that odkit cannot fix; correct them (`odkit check` shows all findings)",
                 source.path

@@ -1,10 +1,40 @@
 //! Output to a terminal, a file, or a pipe that may close.
 
+use std::borrow::Cow;
 use std::io::{self, BufWriter, ErrorKind, IsTerminal, Write};
 use std::path::Path;
 
+use od_model::Visible;
+
 use crate::failure::Failure;
 use crate::files;
+
+/// A text of ours with the texts of others in it, as it may go to a terminal: hidden characters are
+/// escaped. JSON stays JSON with the same strings.
+fn shown(text: &str) -> Cow<'_, str> {
+    let lines = Visible(text).lines();
+    let is_json = |text| serde_json::from_str::<serde::de::IgnoredAny>(text).is_ok();
+    match lines {
+        Cow::Owned(_) if text.starts_with(['{', '[']) && is_json(text) => Visible(text).json(),
+        lines => lines,
+    }
+}
+
+/// As [`shown`], with the colours of a report: `ESC [ 1 ; 3 1 m`.
+fn coloured(text: &str) -> String {
+    let mut pieces = text.split("\x1b[");
+    let mut out = shown(pieces.next().unwrap_or_default()).into_owned();
+    for piece in pieces {
+        let end = piece.find(|c: char| !c.is_ascii_digit() && c != ';');
+        let begin = match end {
+            Some(end) if piece[end..].starts_with('m') => "\x1b[",
+            _ => "\\u{1b}[",
+        };
+        out.push_str(begin);
+        out.push_str(&shown(piece));
+    }
+    out
+}
 
 /// Standard output, buffered. A reader that goes away is not a failure.
 pub(crate) struct Output(BufWriter<io::StdoutLock<'static>>);
@@ -16,7 +46,15 @@ impl Output {
 
     /// Writes a line. Returns whether the reader is still there.
     pub(crate) fn line(&mut self, line: &str) -> Result<bool, Failure> {
-        open(writeln!(self.0, "{line}"))
+        open(writeln!(self.0, "{}", shown(line)))
+    }
+
+    /// As [`line`](Self::line), for a text with our colours.
+    pub(crate) fn coloured(&mut self, text: &str) -> Result<bool, Failure> {
+        match colours() {
+            true => open(writeln!(self.0, "{}", coloured(text))),
+            false => self.line(text),
+        }
     }
 
     /// Whatever is left goes out.
@@ -87,7 +125,15 @@ pub(crate) use note;
 
 /// Text on standard error.
 pub(crate) fn note_text(text: &str) {
-    let _ = io::stderr().write_all(text.as_bytes());
+    let _ = io::stderr().write_all(shown(text).as_bytes());
+}
+
+/// As [`note_text`], for a text with our colours.
+pub(crate) fn note_coloured(text: &str) {
+    match error_colours() {
+        true => drop(io::stderr().write_all(coloured(text).as_bytes())),
+        false => note_text(text),
+    }
 }
 
 /// May what goes to standard output be coloured?
@@ -180,5 +226,22 @@ impl Bar {
 impl Drop for Bar {
     fn drop(&mut self) {
         self.clear();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn json_stays_json_and_colours_stay() {
+        assert_eq!(shown("a\x1b\nb"), "a\\u{1b}\nb");
+        assert_eq!(shown("{\"a\": \"\u{9b}\"}"), "{\"a\": \"\\u009b\"}");
+        assert_eq!(shown("{\u{9b}"), "{\\u{9b}");
+        assert_eq!(coloured("\x1b[1;31mred\x1b[0m"), "\x1b[1;31mred\x1b[0m");
+        assert_eq!(
+            coloured("\x1b[2J\x1b]0;x\x07"),
+            "\\u{1b}[2J\\u{1b}]0;x\\u{7}"
+        );
     }
 }

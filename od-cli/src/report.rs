@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use annotate_snippets::renderer::DecorStyle;
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 use od_eds::{Description, Eds, Finding, Label, Sentence, Severity, Span, say};
-use od_model::Address;
+use od_model::{Address, Visible};
 
 /// Objects and sub-objects in words: `2001h "Temperature"`.
 pub(crate) type Names = BTreeMap<Address, String>;
@@ -30,7 +30,7 @@ pub(crate) fn names(description: &Description, findings: &[Finding]) -> Names {
         Some((
             address,
             if named {
-                format!("{shown} \"{}\"", name.value)
+                format!("{shown} \"{}\"", Visible(&name.value))
             } else {
                 shown
             },

@@ -2,6 +2,7 @@
 
 use od_bus::link::Link;
 use od_bus::scan::{self, Found, Options, Scan};
+use od_model::Visible;
 use od_wire::Duration;
 use serde_json::{Value, json};
 
@@ -147,7 +148,12 @@ fn state(one: &Found) -> String {
 fn title(one: &Found) -> String {
     let mut parts: Vec<String> = Vec::new();
     let [name, hardware, software] = &one.texts;
-    parts.extend(name.clone().filter(|name| !name.is_empty()));
+    let is_shown = |text: &&String| !text.is_empty();
+    parts.extend(
+        name.as_ref()
+            .filter(is_shown)
+            .map(|name| Visible(name).to_string()),
+    );
     if let Some(device_type) = one.device_type {
         parts.push(match device_type & 0xFFFF {
             0 => "no device profile".into(),
@@ -155,8 +161,8 @@ fn title(one: &Found) -> String {
         });
     }
     for (what, text) in [("hardware", hardware), ("software", software)] {
-        if let Some(text) = text.as_ref().filter(|text| !text.is_empty()) {
-            parts.push(format!("{what} {text}"));
+        if let Some(text) = text.as_ref().filter(is_shown) {
+            parts.push(format!("{what} {}", Visible(text)));
         }
     }
     if !one.answers {

@@ -267,7 +267,7 @@ impl Source {
 
     /// Shows findings on standard error.
     fn note(&self, findings: &[Finding], names: &Names) {
-        output::note_text(&self.render(findings, names, output::error_colours()));
+        output::note_coloured(&self.render(findings, names, output::error_colours()));
     }
 
     /// Findings of the text with line and caret, each in the file that it is about.

@@ -16,7 +16,7 @@ use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
-use od_model::{Address, DataType, Kind};
+use od_model::{Address, DataType, Kind, Visible};
 
 use crate::fact::{Fact, Key, shown};
 use crate::finding::{Finding, Severity};
@@ -202,7 +202,7 @@ impl Blanks<'_> {
             Fact::Object(address) => address.to_string(),
             Fact::Section(index, sub) => self.words.section(*index, *sub),
             Fact::Key(key) => self.words.key(*key).into(),
-            Fact::Text(text) => text.clone(),
+            Fact::Text(text) => Visible(text).line().into_owned(),
             Fact::List(facts) => self.all(facts, form).join(", "),
             Fact::OneOf(facts) => {
                 let mut all = self.all(facts, form);

@@ -1,7 +1,7 @@
 //! Values of an EDS in words.
 
 use od_eds::{Description, EntryDescription, Value};
-use od_model::{Access, Address, DataType, ObjectCode};
+use od_model::{Access, Address, DataType, ObjectCode, Visible};
 
 use crate::cob_ids::{self, CobId};
 use crate::mentions::{Mapped, is_mapping};
@@ -190,7 +190,10 @@ pub(crate) fn escaped(text: &str) -> String {
         if "\\`*_{}[]<>#|~&!".contains(c) {
             out.push('\\');
         }
-        out.push(if c.is_control() { ' ' } else { c });
+        match od_model::is_hidden(c) {
+            true => out.push_str(&Visible(c.encode_utf8(&mut [0; 4])).line()),
+            false => out.push(c),
+        }
     }
     out
 }

@@ -36,6 +36,8 @@ mod value;
 pub mod values;
 #[doc(hidden)]
 pub mod varying;
+#[cfg(feature = "alloc")]
+mod visible;
 
 pub use access::{Access, Group};
 pub use address::Address;
@@ -46,6 +48,8 @@ pub use refused::Refused;
 pub use restricted::{CanIdOwner, is_restricted, restricted};
 pub use types::{DataType, Kind, ObjectCode};
 pub use value::{Literal, Range};
+#[cfg(feature = "alloc")]
+pub use visible::{Visible, is_hidden};
 
 /// Parts that owned tables are built with by `od-eds`; not an API.
 #[doc(hidden)]

@@ -1,7 +1,7 @@
 //! The EDS of the node: its objects, and the cases that apply.
 
 use od_eds::{Description, Finding, Tables};
-use od_model::{Access, Address, Dictionary, Entry, Kind, Literal, values};
+use od_model::{Access, Address, Dictionary, Entry, Kind, Literal, Visible, values};
 use od_wire::NodeId;
 
 /// An EDS, read for a conformance test.
@@ -68,7 +68,7 @@ impl Eds {
     pub fn title(&self) -> String {
         let key = |key| {
             let section = self.description.section("DeviceInfo")?;
-            let text = section.get(key)?.value.trim().to_owned();
+            let text = Visible(section.get(key)?.value.trim()).line().into_owned();
             (!text.is_empty()).then_some(text)
         };
         key("ProductName").unwrap_or_else(|| "unnamed device".into())

@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use od_bench::VirtualDevice;
 use od_bench::words::{self, Decoder, Field, Words, tag};
 use od_bus::filter::{Filter, Seen};
+use od_model::Visible;
 use od_runtime::NodeId;
 use od_wire::{Frame, Instant};
 use serde_json::{Value, json};
@@ -144,18 +145,9 @@ impl Told {
             words.error.to_string(),
             words.text.clone(),
         ];
-        cells.map(|cell| quoted(&cell)).join(",")
+        cells.map(|cell| Visible(&cell).csv()).join(",")
     }
 }
 
 /// The first line of a CSV file of frames.
 pub(crate) const CSV: &str = "time,id,data,service,node,object,error,text";
-
-/// A cell of a CSV file (RFC 4180).
-pub(crate) fn quoted(cell: &str) -> String {
-    if cell.contains([',', '"', '\n', '\r']) {
-        format!("\"{}\"", cell.replace('"', "\"\""))
-    } else {
-        cell.to_owned()
-    }
-}

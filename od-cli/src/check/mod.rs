@@ -247,7 +247,12 @@ fn text(
 ) -> Result<(), Failure> {
     let apart = args.output_format != Format::Concise;
     for file in checked.iter().filter(|file| !file.shown.is_empty()) {
-        if !output.line(file.shown.trim_end())? || apart && !output.line("")? {
+        let shown = file.shown.trim_end();
+        let goes_on = match args.output_format {
+            Format::Full if !args.diff => output.coloured(shown)?,
+            _ => output.line(shown)?,
+        };
+        if !goes_on || apart && !output.line("")? {
             return Ok(());
         }
     }

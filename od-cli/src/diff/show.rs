@@ -2,6 +2,8 @@
 
 use od_eds::diff::{Difference, Field, Impact};
 
+use od_model::Visible;
+
 use crate::failure::Failure;
 use crate::{output, report};
 
@@ -57,7 +59,7 @@ fn text(titles: &[String; 2], found: &[Difference]) -> String {
             Impact::Compatible => ' ',
         };
         let place = difference.place();
-        let name = &difference.name;
+        let name = Visible(&difference.name);
         lines.push(format!(
             "{mark}{sign} {place:<width$}  {name}: {}",
             difference.change()
@@ -65,15 +67,15 @@ fn text(titles: &[String; 2], found: &[Difference]) -> String {
     }
     lines.push(format!(
         "{} -> {}: {}",
-        titles[0],
-        titles[1],
+        Visible(&titles[0]),
+        Visible(&titles[1]),
         summary(found)
     ));
     lines.join("\n")
 }
 
 fn markdown(titles: &[String; 2], found: &[Difference]) -> String {
-    let cell = |text: &str| text.replace('|', "\\|").replace('\n', " ");
+    let cell = |text: &str| Visible(text).markdown();
     let mut lines = vec![
         format!("## {} → {}", cell(&titles[0]), cell(&titles[1])),
         String::new(),

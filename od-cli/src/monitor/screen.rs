@@ -13,6 +13,7 @@ use od_bench::words::Service;
 use od_bus::fault::Fault;
 use od_bus::filter::{Filter, Seen};
 use od_bus::link::Link;
+use od_model::Visible;
 use od_wire::Instant;
 
 use super::stats::Stats;
@@ -238,7 +239,7 @@ impl Console<'_> {
         lines.push(self.emcy.clone().unwrap_or_default());
         lines.push(self.foot());
         for (y, line) in (0_u16..).zip(lines.iter().take(height)) {
-            let shown: String = line.chars().take(width).collect();
+            let shown: String = Visible(line).line().chars().take(width).collect();
             queue!(
                 out,
                 cursor::MoveTo(0, y),

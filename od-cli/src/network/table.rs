@@ -5,6 +5,8 @@ use std::fmt::Write;
 use od_eds::identifiers::Service;
 use od_eds::network::{self, BIT_RATES, Frame};
 
+use od_model::Visible;
+
 use super::content::Network;
 use crate::report::plural;
 
@@ -18,7 +20,7 @@ pub(super) fn table(
     let mut out = String::new();
     let named = match network.name.as_str() {
         "" => String::new(),
-        name => format!(" `{name}`"),
+        name => format!(" `{}`", Visible(name)),
     };
     let rate = bit_rate.map_or(String::new(), |rate| format!(", {rate} kbit/s"));
     let count = plural(network.nodes.len(), "node");
@@ -35,7 +37,7 @@ pub(super) fn table(
         let file = own.map_or(String::new(), |(name, bytes)| {
             format!("{name}, {}", plural(bytes.len(), "byte"))
         });
-        let (id, name, writes) = (node.id, &node.name, node.writes.len());
+        let (id, name, writes) = (node.id, Visible(&node.name), node.writes.len());
         let line = format!("{id:>4}  {name:<24} {writes:>6}  {file}");
         let _ = writeln!(out, "{}", line.trim_end());
     }
@@ -47,7 +49,7 @@ pub(super) fn table(
         "CAN-ID", "service", "from", "bytes"
     );
     for frame in &frames {
-        let from = &network.nodes[frame.node].name;
+        let from = Visible(&network.nodes[frame.node].name);
         let (id, service) = (format!("{:03X}h", frame.id), service(frame.service));
         let line = format!(
             "{id:>8}  {service:<12} {from:<24} {:>5}  {}",

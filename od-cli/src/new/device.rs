@@ -187,7 +187,7 @@ fn title(description: &Description, name: &str) -> String {
         .section("DeviceInfo")
         .and_then(|info| info.get("ProductName"))
         .map(|product| product.value.trim().to_owned());
-    let plain = |c: char| !c.is_control() && !matches!(c, '"' | '\\' | '{' | '}');
+    let plain = |c: char| !od_model::is_hidden(c) && !matches!(c, '"' | '\\' | '{' | '}');
     match product {
         Some(product) if !product.is_empty() => product.chars().filter(|c| plain(*c)).collect(),
         _ => name.to_owned(),

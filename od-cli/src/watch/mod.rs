@@ -10,13 +10,13 @@ use od_bus::fault::Fault;
 use od_bus::master::Master;
 use od_bus::objects::{self, Asked};
 use od_bus::watch::{self, By, Sample, Source};
-use od_model::{DataType, values};
+use od_model::{DataType, Visible, values};
 use od_runtime::NodeId;
 use od_wire::Duration;
 use serde_json::json;
 
 use self::plot::Plot;
-use crate::bus::{self, Format, value, words};
+use crate::bus::{self, Format, value};
 use crate::failure::Failure;
 use crate::files;
 use crate::output::{Output, note};
@@ -194,7 +194,7 @@ fn show(
             None => String::new(),
         };
         let cells = [&at, &one.place, &one.name, &value];
-        cells.map(|cell| words::quoted(cell)).join(",")
+        cells.map(|cell| Visible(cell).csv()).join(",")
     };
     if let Some(file) = file {
         writeln!(file, "{}", row())?;

@@ -2,6 +2,7 @@
 
 use std::collections::VecDeque;
 
+use od_model::Visible;
 use od_wire::Instant;
 
 use crate::output;
@@ -65,7 +66,7 @@ impl Plot {
         let rows = (ROWS / self.series.len().max(1)).max(1);
         let mut picture = Vec::new();
         for one in &self.series {
-            picture.push(format!("{}  {}", one.title, one.text));
+            picture.push(format!("{}  {}", Visible(&one.title), Visible(&one.text)));
             picture.extend(draw(one.values.iter().copied().collect(), rows));
         }
         let mut text = String::new();

@@ -19,6 +19,7 @@ mod diff;
 mod eeprom;
 mod export;
 mod files;
+mod foreign;
 mod guests;
 mod lesson;
 mod links;

@@ -8,7 +8,7 @@ use core::fmt::Write;
 
 use crate::description::tables::fitting;
 use crate::description::{Description, EntryDescription, Value};
-use od_model::{DataType, Kind};
+use od_model::{DataType, Kind, Visible};
 
 /// Returns the header's text.
 ///
@@ -168,8 +168,10 @@ fn c_string(text: &str) -> String {
 
 /// The text as one line of a C comment.
 pub(super) fn comment(text: &str) -> String {
-    let one_line = text.replace(['\n', '\r'], " ");
-    one_line.replace("*/", "* /").replace("/*", "/ *")
+    Visible(text)
+        .line()
+        .replace("*/", "* /")
+        .replace("/*", "/ *")
 }
 
 /// `Position value (raw)` is `POSITION_VALUE_RAW`.

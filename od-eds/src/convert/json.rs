@@ -14,7 +14,7 @@ use crate::scan::names::List;
 use crate::scan::number::number;
 use crate::span::Spanned;
 use crate::subject::start_value;
-use od_model::{Address, Group};
+use od_model::{Address, Group, Visible};
 
 /// The format's name; its number counts changes that break its readers.
 const FORMAT: &str = "odkit-dictionary/2";
@@ -29,7 +29,8 @@ pub fn write(description: &Description, source: &str) -> String {
         source,
     };
     // A String takes all, and no map here has a key that is not a text.
-    serde_json::to_string_pretty(&whole).unwrap_or_default()
+    let text = serde_json::to_string_pretty(&whole).unwrap_or_default();
+    Visible(&text).json().into_owned()
 }
 
 struct Whole<'a> {

@@ -5,7 +5,7 @@ use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
-use od_model::{Address, Dictionary, Entry, Group, Kind, Literal, values};
+use od_model::{Address, Dictionary, Entry, Group, Kind, Literal, Visible, values};
 
 /// The columns.
 pub const HEAD: [&str; 9] = [
@@ -181,16 +181,5 @@ pub fn fact(name: &str, value: impl Into<String>) -> Vec<String> {
 
 /// Returns a text that Markdown shows as it is.
 pub fn escape(text: &str) -> String {
-    let mut escaped = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            '*' | '_' | '[' | ']' | '<' | '>' | '`' | '\\' | '|' => {
-                escaped.push('\\');
-                escaped.push(c);
-            }
-            '\r' | '\n' => escaped.push(' '),
-            c => escaped.push(c),
-        }
-    }
-    escaped
+    Visible(text).markdown()
 }

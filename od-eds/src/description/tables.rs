@@ -7,6 +7,7 @@ use alloc::vec::Vec;
 
 use crate::description::{Description, EntryDescription, Value};
 use crate::span::Spanned;
+use od_model::Visible;
 use od_model::owned::{Buckets, EMPTY, bucket_count, fill};
 use od_model::real::Reals;
 use od_model::row::{Row, literal, words};
@@ -53,8 +54,16 @@ impl Tables {
                 let address = Address::new(index, sub);
                 if let Some(made) = tables.entry(address, entry, &mut texts, &mut offset) {
                     entries.push((made, object.code.value));
-                    let own = intern(&mut tables.names_text, &entry.name, &mut names);
-                    let objects = intern(&mut tables.names_text, &object.name, &mut names);
+                    let own = intern(
+                        &mut tables.names_text,
+                        &Visible(&entry.name).line(),
+                        &mut names,
+                    );
+                    let objects = intern(
+                        &mut tables.names_text,
+                        &Visible(&object.name).line(),
+                        &mut names,
+                    );
                     tables.names.push([own, objects]);
                 }
             }

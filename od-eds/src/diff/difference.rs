@@ -1,9 +1,8 @@
 //! One difference between two dictionaries, as data.
 
-use alloc::borrow::ToOwned;
 use alloc::string::{String, ToString};
 
-use od_model::Address;
+use od_model::{Address, Visible};
 
 /// Would a master that was set up for the first device work with the second?
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
@@ -107,7 +106,7 @@ impl Difference {
     pub fn change(&self) -> String {
         let shown = |text: &str| match text {
             "" => String::from("nothing"),
-            text => text.to_owned(),
+            text => Visible(text).line().into_owned(),
         };
         let (before, after) = (shown(&self.before), shown(&self.after));
         match self.field {

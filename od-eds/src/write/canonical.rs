@@ -5,10 +5,13 @@
 //! `DeviceComissioning`; CANopenEditor for the standard's capitals and dates, and for
 //! `[FileInfo]` and `[DeviceInfo]`.
 
+use alloc::borrow::Cow;
 use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
+
+use od_model::Visible;
 
 use crate::description::{Description, Section};
 use crate::scan::known;
@@ -18,9 +21,17 @@ use crate::span::Spanned;
 use crate::write::describe::section;
 
 /// The text of a description as other readers take it: [`write`](crate::write()) of what
-/// [`complete`] makes of it.
+/// [`complete`] makes of it. Control characters of names and texts are escaped.
 pub fn canonical(description: &Description) -> String {
-    crate::write::eds::write(&complete(description))
+    let text = crate::write::eds::write(&complete(description));
+    match Visible(&text).lines() {
+        Cow::Borrowed(_) => text,
+        // Escaped names have other places in the order of keys.
+        Cow::Owned(visible) => {
+            let description = crate::parse(&visible).description;
+            crate::write::eds::write(&complete(&description))
+        }
+    }
 }
 
 /// The description with all that a generated file needs, in the form that every reader takes.

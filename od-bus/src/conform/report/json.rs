@@ -1,5 +1,6 @@
 //! The report as one JSON object.
 
+use od_model::Visible;
 use serde_json::{Value, json};
 
 use super::run::Report;
@@ -33,7 +34,7 @@ pub(super) fn render(report: &Report) -> String {
         "timings": timings,
         "cases": report.records.iter().map(case).collect::<Vec<_>>(),
     });
-    format!("{value:#}")
+    Visible(&format!("{value:#}")).json().into_owned()
 }
 
 fn case(record: &Record) -> Value {

@@ -1,5 +1,7 @@
 //! The report as JUnit XML, a test suite for each group.
 
+use od_model::{Visible, is_hidden};
+
 use super::run::{self, Report, groups};
 use crate::conform::record::{Record, Verdict};
 
@@ -69,7 +71,7 @@ pub(super) fn render(report: &Report) -> String {
     lines.join("\n")
 }
 
-/// Text in XML and HTML, also inside quotes; what XML cannot carry is left out.
+/// Text in XML and HTML, also inside quotes; what a reader would not see is escaped.
 pub(super) fn escape(text: &str) -> String {
     let mut out = String::new();
     for c in text.chars() {
@@ -79,7 +81,7 @@ pub(super) fn escape(text: &str) -> String {
             '>' => out.push_str("&gt;"),
             '"' => out.push_str("&quot;"),
             '\n' | '\t' => out.push(c),
-            c if c.is_control() => {}
+            c if is_hidden(c) => out.push_str(&Visible(c.encode_utf8(&mut [0; 4])).line()),
             c => out.push(c),
         }
     }

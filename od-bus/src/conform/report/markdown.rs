@@ -1,10 +1,12 @@
 //! The report as Markdown: a table for each group, then what failed.
 
+use od_model::Visible;
+
 use super::run::{self, Report, groups, millis};
 use crate::conform::record::Verdict;
 
 pub(super) fn render(report: &Report) -> String {
-    let cell = |text: &str| text.replace('|', "\\|").replace('\n', " ");
+    let cell = |text: &str| Visible(text).markdown();
     let mut lines = vec![
         format!("# Conformance test of {}", cell(&report.device)),
         String::new(),

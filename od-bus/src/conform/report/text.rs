@@ -1,5 +1,7 @@
 //! The report as text, a line a case, with the frames of what failed.
 
+use od_model::Visible;
+
 use super::run::{self, Report, millis};
 use crate::conform::record::{Record, Verdict};
 
@@ -41,7 +43,7 @@ pub(super) fn render(report: &Report) -> String {
         lines.push(format!("the run ended early: {why}"));
     }
     lines.push(report.summary());
-    lines.join("\n")
+    Visible(&lines.join("\n")).lines().into_owned()
 }
 
 fn details(record: &Record, lines: &mut Vec<String>) {

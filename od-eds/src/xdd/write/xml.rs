@@ -4,6 +4,8 @@ use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
 
+use od_model::{Visible, is_hidden};
+
 /// Names and values; an empty value is left out.
 pub(super) type Attributes = Vec<(&'static str, String)>;
 
@@ -80,7 +82,8 @@ impl Xml {
     }
 }
 
-/// Characters that XML keeps for itself. Those that it has no way to write become blanks.
+/// Characters that XML keeps for itself. Those that it has no way to write, and hidden ones, are
+/// escaped.
 pub(super) fn escape(text: &str) -> String {
     let mut out = String::new();
     for character in text.chars() {
@@ -91,7 +94,8 @@ pub(super) fn escape(text: &str) -> String {
             '"' => out.push_str("&quot;"),
             '\t' | '\n' | '\r' => out.push_str(&format!("&#{};", character as u32)),
             '\u{FFFE}' | '\u{FFFF}' => out.push(' '),
-            c if c < ' ' => out.push(' '),
+            c if c < ' ' => out.push_str(&Visible(c.encode_utf8(&mut [0; 4])).line()),
+            c if is_hidden(c) => out.push_str(&format!("&#{};", c as u32)),
             c => out.push(c),
         }
     }

@@ -12,7 +12,9 @@ export function csv(columns: readonly { name: string; series: Series }[]): strin
       rows.set(time, row);
     }),
   );
-  const quoted = (text: string): string => `"${text.replaceAll('"', '""')}"`;
+  // A spreadsheet computes a cell that begins as a formula.
+  const plain = (text: string): string => (/^[=+\-@]/.test(text) ? `'${text}` : text);
+  const quoted = (text: string): string => `"${plain(text).replaceAll('"', '""')}"`;
   const head = ['time in s', ...columns.map(({ name }) => quoted(name))].join(',');
   const lines = [...rows].sort(([a], [b]) => a - b).map(([time, row]) => [+time.toFixed(6), ...row.map((value) => value ?? '')].join(','));
   return `${[head, ...lines].join('\n')}\n`;
