@@ -2,6 +2,7 @@
 //!
 //! | module | who speaks it |
 //! |---|---|
+//! | `address` | where a link leads: the values of `--link`; feature `serve` |
 //! | [`adapter`] | the client's side of slcan |
 //! | [`slcan`] | serial adapters, `slcand`, python-can's `slcan` |
 //! | [`socketcand`] | the daemon of that name, python-can's `socketcand`, Kayak |
@@ -10,6 +11,8 @@
 //! | [`lines`] | standard input and output of `odkit sim --link -` |
 
 pub mod adapter;
+#[cfg(feature = "serve")]
+pub mod address;
 pub mod can_frame;
 pub mod codec;
 pub mod lines;

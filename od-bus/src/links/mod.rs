@@ -8,6 +8,8 @@ mod socketcan;
 mod socketcand;
 mod stream;
 
+use od_bench::links::address::Address;
+
 use self::slcan::Slcan;
 use self::socketcand::Socketcand;
 use self::stream::Stream;
@@ -17,8 +19,6 @@ use crate::link::Link;
 /// Forms of a link's name, for messages.
 const FORMS: &str = "`slcan:HOST:PORT`, `slcan:DEVICE[@BAUD]`, `socketcan:INTERFACE` or \
                      `socketcand:HOST:PORT[/BUS]`";
-/// The rate of a serial line if none is given, in bit/s.
-const BAUD: u32 = 115_200;
 
 /// Opens a link by its name: `slcan:HOST:PORT`, `slcan:DEVICE[@BAUD]`, `socketcan:INTERFACE` or
 /// `socketcand:HOST:PORT[/BUS]`.
@@ -42,31 +42,28 @@ pub fn open_at(name: &str, kbit: Option<u16>) -> Result<Box<dyn Link>, Fault> {
 /// # Errors
 /// As [`open_at`].
 pub fn open_between_threads(name: &str, kbit: Option<u16>) -> Result<Box<dyn Link + Send>, Fault> {
-    check(name)?;
-    let (kind, place) = name.split_once(':').unwrap_or((name, ""));
-    if let (Some(kbit), "socketcan" | "socketcand") = (kbit, kind) {
+    let (address, bus) = parse(name)?;
+    if let (Some(kbit), Address::SocketCan(_) | Address::Socketcand(_)) = (kbit, &address) {
         return Err(Fault::Usage(format!(
             "{name} cannot set the bit rate; its computer does: `sudo ip link set can0 type can \
              bitrate {kbit}000`"
         )));
     }
-    match kind {
-        "slcan" if is_device(place) => {
-            let (path, baud) = device(place)?;
+    match address {
+        Address::Serial(path, baud) => {
             let name = format!("slcan:{path}");
-            let port = ports::serial(path, baud)?;
+            let port = ports::serial(&path, baud)?;
             Ok(Box::new(Stream::open(port, Slcan::new(kbit), name)?))
         }
-        "slcan" => {
-            let (stream, name) = ports::connect(kind, place)?;
+        Address::Slcan(place) => {
+            let (stream, name) = ports::connect("slcan", &place)?;
             Ok(Box::new(Stream::open(stream, Slcan::new(kbit), name)?))
         }
-        "socketcand" => {
-            let (place, bus) = place.split_once('/').unwrap_or((place, "can0"));
-            let (stream, name) = ports::connect(kind, place)?;
+        Address::Socketcand(place) => {
+            let (stream, name) = ports::connect("socketcand", &place)?;
             Ok(Box::new(Stream::open(stream, Socketcand::new(bus), name)?))
         }
-        _ => interface(place),
+        Address::SocketCan(name) => interface(&name),
     }
 }
 
@@ -75,49 +72,23 @@ pub fn open_between_threads(name: &str, kbit: Option<u16>) -> Result<Box<dyn Lin
 /// # Errors
 /// [`Fault::Usage`]: what to write instead.
 pub fn check(name: &str) -> Result<(), Fault> {
-    let is_right = match name.split_once(':') {
-        Some((_, "")) => false,
-        Some(("slcan", place)) if is_device(place) => device(place).is_ok(),
-        Some(("slcan", place)) => is_address(place),
-        Some(("socketcand", place)) => {
-            let (place, bus) = place.split_once('/').unwrap_or((place, "can0"));
-            is_address(place) && !bus.is_empty() && !bus.contains([' ', '<', '>'])
-        }
-        Some(("socketcan", _)) => true,
-        _ => false,
+    parse(name).map(drop)
+}
+
+/// The address, and the bus behind a socketcand.
+fn parse(name: &str) -> Result<(Address, &str), Fault> {
+    let (address, bus) = match name.split_once('/') {
+        Some((address, bus)) if name.starts_with("socketcand:") => (address, bus),
+        _ => (name, "can0"),
     };
-    if is_right {
-        Ok(())
-    } else {
-        Err(Fault::Usage(format!(
+    if bus.is_empty() || bus.contains([' ', '<', '>']) {
+        return Err(Fault::Usage(format!(
             "`{name}` is not a valid link; write {FORMS}"
-        )))
+        )));
     }
-}
-
-/// A path, or a port of Windows.
-fn is_device(place: &str) -> bool {
-    place.starts_with(['/', '.']) || place.to_ascii_uppercase().starts_with("COM")
-}
-
-/// A path and a baud rate.
-fn device(place: &str) -> Result<(&str, u32), Fault> {
-    let Some((path, baud)) = place.rsplit_once('@') else {
-        return Ok((place, BAUD));
-    };
-    match baud.parse() {
-        Ok(baud) if baud > 0 => Ok((path, baud)),
-        _ => Err(Fault::Usage(format!(
-            "`{baud}` is not a valid baud rate; write `slcan:{path}@{BAUD}`"
-        ))),
-    }
-}
-
-/// `HOST:PORT`, or a port.
-fn is_address(place: &str) -> bool {
-    match place.rsplit_once(':') {
-        Some((host, port)) => !host.is_empty() && port.parse::<u16>().is_ok(),
-        None => place.parse::<u16>().is_ok(),
+    match Address::parse(address, FORMS) {
+        Ok(address) => Ok((address, bus)),
+        Err(refused) => Err(Fault::Usage(refused.to_string())),
     }
 }
 
@@ -139,32 +110,15 @@ mod tests {
     use super::check;
 
     #[test]
-    fn a_link_has_a_kind_and_a_place() {
+    fn a_socketcand_may_have_a_bus() {
         for name in [
-            "slcan:29536",
-            "slcan:localhost:1",
-            "slcan:[::1]:1",
-            "slcan:/dev/ttyUSB0",
-            "slcan:COM3@9600",
-            "socketcan:can0",
             "socketcand:127.0.0.1:28600",
             "socketcand:127.0.0.1:28600/vcan1",
+            "slcan:/dev/ttyUSB0",
         ] {
             assert_eq!(check(name), Ok(()), "{name}");
         }
-        for name in [
-            "",
-            "can0",
-            "slcan",
-            "slcan:",
-            "slcan:host",
-            "slcan::1",
-            "slcan:a:99999",
-            "slcan:/dev/x@0",
-            "socketcan:",
-            "socketcand:1/",
-            "udp:1",
-        ] {
+        for name in ["", "slcan:host", "socketcand:1/", "socketcand:1/a b"] {
             assert!(check(name).is_err(), "{name}");
         }
     }

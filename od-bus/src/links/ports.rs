@@ -14,13 +14,8 @@ const CONNECT: Duration = Duration::from_secs(5);
 /// Longest time for the other side to take bytes.
 const WRITE: Duration = Duration::from_secs(2);
 
-/// Connects to `HOST:PORT`, or to a port of this computer.
+/// Connects to `HOST:PORT`.
 pub(super) fn connect(kind: &str, place: &str) -> Result<(TcpStream, String), Fault> {
-    // A port without a host is a port of this computer.
-    let place = match place.parse::<u16>() {
-        Ok(port) => format!("127.0.0.1:{port}"),
-        Err(_) => place.to_owned(),
-    };
     let name = format!("{kind}:{place}");
     let addresses = place.to_socket_addrs().map_err(|error| {
         Fault::Usage(format!(

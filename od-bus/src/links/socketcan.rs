@@ -38,7 +38,7 @@ impl Interface {
             name: name.to_owned(),
             start: time::Instant::now(),
         };
-        match is_up(name) {
+        match can_frame::is_up(name) {
             Some(false) => Err(interface.lost(&io::Error::from_raw_os_error(ENETDOWN))),
             _ => Ok(interface),
         }
@@ -130,12 +130,4 @@ fn advice(name: &str, error: &io::Error) -> String {
         ),
         _ => format!("{name}: {error}; `ip -details link show {name}` shows its configuration"),
     }
-}
-
-/// Whether an interface is up; `None`: the system does not say.
-pub(super) fn is_up(name: &str) -> Option<bool> {
-    const IFF_UP: u32 = 1;
-    let flags = std::fs::read_to_string(format!("/sys/class/net/{name}/flags")).ok()?;
-    let flags = u32::from_str_radix(flags.trim().strip_prefix("0x")?, 16).ok()?;
-    Some(flags & IFF_UP != 0)
 }

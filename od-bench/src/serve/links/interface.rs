@@ -13,7 +13,7 @@ use nix::sys::socket::{ControlMessageOwned, MsgFlags, recvmsg, setsockopt, socko
 use socketcan::{CanSocket, Socket};
 
 use super::port::{BOTH, Port};
-use crate::links::can_frame::SIZE;
+use crate::links::can_frame::{SIZE, is_up};
 use crate::serve::terminal::note;
 use crate::words::plural;
 
@@ -189,12 +189,4 @@ impl Port for Interface {
             note(&format!("{} is up again", self.name));
         }
     }
-}
-
-/// Is the interface up? An interface that comes up later works.
-fn is_up(name: &str) -> Option<bool> {
-    const IFF_UP: u32 = 1;
-    let flags = std::fs::read_to_string(format!("/sys/class/net/{name}/flags")).ok()?;
-    let flags = u32::from_str_radix(flags.trim().strip_prefix("0x")?, 16).ok()?;
-    Some(flags & IFF_UP != 0)
 }

@@ -6,9 +6,6 @@ use super::opened::{Ends, Opened, Protocol};
 use super::threads::Threads;
 use crate::serve::failure::Failure;
 
-/// The rate that a serial line has where none is asked for.
-pub(super) const BAUD: u32 = 115_200;
-
 /// Opens a serial port.
 pub(super) fn open(path: &str, baud: u32) -> Result<Opened, Failure> {
     let failed = |error: std::io::Error| {

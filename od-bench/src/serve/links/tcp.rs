@@ -12,28 +12,6 @@ use crate::serve::failure::Failure;
 #[cfg(unix)]
 const QUEUE: usize = 64 * 1024;
 
-/// Reads `HOST:PORT`, or a port of this computer, and returns it as `HOST:PORT`.
-///
-/// # Errors
-/// The problem of the address.
-pub(super) fn check(place: &str) -> Result<String, String> {
-    let (host, port) = place.rsplit_once(':').unwrap_or(("127.0.0.1", place));
-    let wrong = |what: String| format!("{what}; write HOST:PORT, such as 127.0.0.1:29536");
-    if host.is_empty() {
-        return Err(wrong(format!("`{place}` is not a valid address")));
-    }
-    if port.is_empty() || !port.bytes().all(|byte| byte.is_ascii_digit()) {
-        return Err(wrong(format!("`{place}` is not a valid address")));
-    }
-    match port.parse::<u16>() {
-        Ok(port) => Ok(format!("{host}:{port}")),
-        Err(_) => {
-            let why = format!("port {port} of `{place}` is outside the range 0 to 65535");
-            Err(wrong(why))
-        }
-    }
-}
-
 /// Listens at `HOST:PORT`.
 pub(super) fn listen(protocol: Protocol, full: &str) -> Result<Opened, Failure> {
     let option = match protocol {
@@ -77,26 +55,4 @@ pub(super) fn refuse(mut stream: TcpStream, protocol: Protocol, why: &str) {
     // Who does not hear it sees the end of the connection.
     let _ = stream.write_all(protocol.refusal(why).as_bytes());
     let _ = stream.shutdown(std::net::Shutdown::Write);
-}
-
-#[cfg(test)]
-mod tests {
-    use super::check;
-
-    #[test]
-    fn an_address_has_a_host_and_a_port() {
-        for (place, full) in [
-            ("29536", "127.0.0.1:29536"),
-            ("localhost:0", "localhost:0"),
-            ("[::1]:65535", "[::1]:65535"),
-        ] {
-            assert_eq!(check(place).as_deref(), Ok(full));
-        }
-        for place in ["", ":1", "nowhere", "127.0.0.1:", "127.0.0.1:+1"] {
-            let why = check(place).expect_err(place);
-            assert!(why.contains("not a valid address"), "{why}");
-        }
-        let why = check("127.0.0.1:99999").expect_err("a port");
-        assert!(why.contains("port 99999"), "{why}");
-    }
 }

@@ -2,8 +2,10 @@
 
 use super::opened::{Opened, Protocol};
 use super::tcp;
+use crate::links::address;
 use crate::links::web_socket::Gate;
 use crate::serve::failure::Failure;
+use od_model::Refused;
 
 /// Fewest characters of a token that is chosen.
 const SHORTEST: usize = 16;
@@ -12,7 +14,7 @@ const SHORTEST: usize = 16;
 ///
 /// # Errors
 /// The problem of the address or of the token.
-pub(super) fn parse(place: &str) -> Result<(String, Option<String>), String> {
+pub(super) fn parse(place: &str) -> Result<(String, Option<String>), Refused> {
     let (place, query) = match place.split_once('?') {
         Some((place, query)) => (place, Some(query)),
         None => (place, None),
@@ -21,7 +23,7 @@ pub(super) fn parse(place: &str) -> Result<(String, Option<String>), String> {
         Some(query) => Some(token(query)?),
         None => None,
     };
-    Ok((tcp::check(place)?, token))
+    Ok((address::tcp(place)?, token))
 }
 
 fn token(query: &str) -> Result<String, String> {

@@ -179,9 +179,15 @@ fn a_link_that_goes_or_talks_garbage_is_an_error_in_words() {
     assert!(gone.contains("odkit sim"), "{gone}");
     let nowhere = fails(1, &["scan", "--link", "slcan:/dev/odkit-is-not-here"]);
     assert!(nowhere.contains("does not exist"), "{nowhere}");
-    for wrong in ["can0", "slcan:", "udp:1:2", "slcan:/dev/x@fast"] {
+    for (wrong, right) in [
+        ("can0", "socketcan:INTERFACE"),
+        ("slcan:", "socketcan:INTERFACE"),
+        ("udp:1:2", "socketcan:INTERFACE"),
+        ("slcan:/dev/x@fast", "slcan:/dev/x@115200"),
+        ("slcan:host", "HOST:PORT, such as 127.0.0.1:29536"),
+    ] {
         let said = odkit(&["scan", "--link", wrong], "");
         assert_eq!(said.code, 2, "{wrong}: {}", said.err);
-        assert!(said.err.contains("socketcan:INTERFACE"), "{}", said.err);
+        assert!(said.err.contains(right), "{}", said.err);
     }
 }
