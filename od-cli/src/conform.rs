@@ -182,7 +182,7 @@ fn tested(args: &Args, cases: &[Case]) -> Result<Report, Failure> {
         let mut rig = bench(simulated, args.node_id)?;
         let node = rig.0.devices()[0].node_id();
         let source = Source::find(simulated)?;
-        let fresh = || source.device(args.node_id);
+        let fresh = |node: Option<NodeId>| source.device(node.or(args.node_id));
         let mut session = Session::new(&mut rig, &parsed, node, Leave::ALL);
         session.simulates(simulated, &fresh);
         let records = all(&mut session, cases, false);

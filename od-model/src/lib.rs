@@ -17,6 +17,7 @@ extern crate std;
 
 mod access;
 mod address;
+mod cob_ids;
 mod dictionary;
 mod entry;
 mod index;
@@ -41,6 +42,7 @@ mod visible;
 
 pub use access::{Access, Group};
 pub use address::Address;
+pub use cob_ids::CobIdService;
 pub use dictionary::{Dictionary, Entries, Names, Objects};
 pub use entry::{Entry, Missing, Object, Slot};
 #[cfg(feature = "alloc")]

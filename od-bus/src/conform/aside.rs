@@ -9,8 +9,8 @@ use od_wire::{Frame, Instant, NodeId};
 use super::end::{Checked, fail, skip};
 use super::record::Traced;
 
-/// Makes a new simulated device.
-pub type Fresh<'f> = &'f dyn Fn() -> Result<VirtualDevice, Refused>;
+/// Makes a new simulated device, with another node ID than its own if one is given.
+pub type Fresh<'f> = &'f dyn Fn(Option<NodeId>) -> Result<VirtualDevice, Refused>;
 
 struct Aside<'a> {
     fresh: Fresh<'a>,
@@ -20,7 +20,7 @@ struct Aside<'a> {
 impl Host for Aside<'_> {
     fn device(&mut self, name: Option<&str>, _: Option<NodeId>) -> Result<VirtualDevice, Refused> {
         match name {
-            None => (self.fresh)(),
+            None => (self.fresh)(None),
             Some(name) => {
                 Err(format!("`device {name}`: a case has the device under test only").into())
             }

@@ -4,6 +4,7 @@ use od_model::Address;
 use od_wire::nmt::{Command, Repr};
 use od_wire::{Frame, Instant, NodeId};
 
+use super::aside::Fresh;
 use super::eds::Eds;
 use super::end::{Checked, End, fail, lacks};
 use super::record::{Times, Traced};
@@ -33,6 +34,8 @@ pub struct Dut<'d> {
     pub(crate) may_reset: bool,
     /// The COB-ID of SYNC, as last learned.
     pub(crate) sync_id: u32,
+    /// Makes the device once more, if it is simulated.
+    pub(crate) fresh: Option<Fresh<'d>>,
     /// Whether the case switched the power off.
     pub(crate) is_off: bool,
 }

@@ -86,6 +86,7 @@ impl<'s> Session<'s> {
             notes: Vec::new(),
             may_reset: self.leave.reset,
             sync_id: 0x80,
+            fresh: self.simulated.map(|(_, fresh)| fresh),
             is_off: false,
         };
         let mut result = match &self.lost {

@@ -79,7 +79,17 @@ const TRAITS: &[(&str, &[Change], &[&str])] = &[
     (
         "the COB-ID of the TPDO is that of node 0, which CiA 301 restricts",
         &[("1800sub1", "DefaultValue", "0x180")],
-        &["eds-no-errors"],
+        &["eds-no-errors", "cob-ids", "cob-ids-127"],
+    ),
+    (
+        "the CAN-ID of the TPDO is restricted from node ID 96 on",
+        &[("1800sub1", "DefaultValue", "$NODEID+0x680")],
+        &["eds-no-errors", "cob-ids-127"],
+    ),
+    (
+        "the CAN-ID of the TPDO has 12 bits at node ID 127",
+        &[("1800sub1", "DefaultValue", "$NODEID+0x781")],
+        &["eds-no-errors", "cob-ids", "cob-ids-127"],
     ),
     (
         "the node produces SYNC with a counter",
@@ -172,7 +182,12 @@ fn failed(text: &str) -> Vec<(&'static str, String)> {
     let node = device.node_id();
     let eds = Eds::read(text);
     let mut rig = OnBench(alone(device));
+    let fresh = |node_id| {
+        let options = EdsOptions { node_id, ..options };
+        Ok(VirtualDevice::from_eds(text, options).expect("a device"))
+    };
     let mut session = Session::new(&mut rig, &eds, node, Leave::ALL);
+    session.simulates("plain", &fresh);
     let mut failed = Vec::new();
     for case in built_in() {
         if let Verdict::Fail { expected, got } = session.run(case).verdict {

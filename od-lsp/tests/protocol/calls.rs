@@ -19,7 +19,15 @@ fn calls_of_the_macro_know_the_objects_of_their_file() {
         .iter()
         .map(|one| (one["code"].as_str().unwrap(), covered(text, &one["range"])))
         .collect();
-    assert_eq!(said, [("E0707", "300"), ("E0701", "0x7777")]);
+    // Two PDOs of the file have one COB-ID.
+    assert_eq!(
+        said,
+        [
+            ("W0521", "../eds/a.eds"),
+            ("E0707", "300"),
+            ("E0701", "0x7777")
+        ]
+    );
     let at = |client: &mut Client, method: &str, mark: &str| {
         client.request(
             method,

@@ -21,7 +21,7 @@ fn address(dut: &mut Dut<'_>) -> Checked<[u32; 4]> {
 }
 
 /// Sends a request; the answer, if one comes.
-fn ask(dut: &mut Dut<'_>, request: Request) -> Checked<Option<[u8; 8]>> {
+pub(super) fn ask(dut: &mut Dut<'_>, request: Request) -> Checked<Option<[u8; 8]>> {
     raw(dut, request.emit())
 }
 
@@ -60,7 +60,7 @@ fn stays_silent(dut: &mut Dut<'_>, data: [u8; 8], why: &str) -> Checked {
     }
 }
 
-fn waiting(dut: &mut Dut<'_>) -> Checked {
+pub(super) fn waiting(dut: &mut Dut<'_>) -> Checked {
     dut.send(Frame::standard(
         MASTER,
         &Request::SwitchGlobal {
@@ -92,7 +92,7 @@ fn select(dut: &mut Dut<'_>, all: [u32; 4]) -> Checked<Option<[u8; 8]>> {
 }
 
 /// In the configuration state; returns the LSS address.
-fn configured(dut: &mut Dut<'_>) -> Checked<[u32; 4]> {
+pub(super) fn configured(dut: &mut Dut<'_>) -> Checked<[u32; 4]> {
     let all = begin(dut)?;
     match select(dut, all)? {
         Some([0x44, ..]) => Ok(all),

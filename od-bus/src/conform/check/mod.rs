@@ -1,6 +1,7 @@
 //! The built-in cases, and their checks in Rust, a file for each service.
 
 mod block;
+mod cob_ids;
 mod emergency;
 mod encoder;
 mod file;
@@ -400,6 +401,12 @@ pub(super) const GROUPS: &[(&str, &[BuiltIn])] = &[
             "CiA 305 6.7: A node without a node ID is found bit by bit.").applies("lss").needs("reset"),
         check("lss-store", lss::store,
             "CiA 305 6.4.5: The node stores its configuration.").applies("lss").needs("store"),
+    ]),
+    ("COB-ID", &[
+        check("cob-ids", cob_ids::here,
+            "CiA 301 7.3.5: No service has a CAN-ID that is restricted, too long, or that of another service."),
+        check("cob-ids-127", cob_ids::highest,
+            "CiA 301 7.3.5: The same with node ID 127, which LSS sets.").needs("reset"),
     ]),
     ("error behaviour", &[
         check("error-behaviour-pre-operational", emergency::behaviour_pre_operational,

@@ -4,30 +4,16 @@ use alloc::format;
 use alloc::string::String;
 use core::ops::RangeInclusive;
 
-use od_model::{Address, CanIdOwner};
+use od_model::CanIdOwner;
+pub(super) use od_model::CobIdService as Service;
 
 use crate::description::{Description, Value};
 use crate::finding::{Finding, Rule};
 use crate::span::Span;
 use crate::subject::{Entry, Object, start_value};
 
-/// The bit of a COB-ID that says "not valid"; of 1005h and 1012h it says "producer".
-const INVALID: u32 = 1 << 31;
 /// The bit that says 29-bit identifier.
 const EXTENDED: u32 = 1 << 29;
-
-/// The service of a COB-ID; of two that collide, the later one gives way.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Service {
-    Sync,
-    Time,
-    Emcy,
-    EmcyConsumer,
-    SdoServer,
-    SdoClient,
-    Rpdo,
-    Tpdo,
-}
 
 /// What a device does with a CAN-ID.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -167,21 +153,6 @@ impl CobId<'_> {
     }
 }
 
-/// The service of the COB-ID at an address. The default SDO has a rule of its own.
-const fn service(address: Address) -> Option<Service> {
-    match (address.index, address.sub) {
-        (0x1005, 0) => Some(Service::Sync),
-        (0x1012, 0) => Some(Service::Time),
-        (0x1014, 0) => Some(Service::Emcy),
-        (0x1028, 1..=127) => Some(Service::EmcyConsumer),
-        (0x1201..=0x127F, 1 | 2) => Some(Service::SdoServer),
-        (0x1280..=0x12FF, 1 | 2) => Some(Service::SdoClient),
-        (0x1400..=0x15FF, 1) => Some(Service::Rpdo),
-        (0x1800..=0x19FF, 1) => Some(Service::Tpdo),
-        _ => None,
-    }
-}
-
 /// The valid COB-IDs of all services, in order.
 pub(super) fn cob_ids(description: &Description) -> impl Iterator<Item = CobId<'_>> {
     let indices = description.objects.range(0x1005..=0x19FF);
@@ -189,7 +160,7 @@ pub(super) fn cob_ids(description: &Description) -> impl Iterator<Item = CobId<'
     objects
         .flat_map(|object| object.entries())
         .filter_map(|entry| {
-            let service = service(entry.address)?;
+            let service = Service::at(entry.address)?;
             let value = start_value(entry.entry)?;
             let (number, formula) = match value.value {
                 Value::Unsigned(number) => (u32::try_from(number).ok()?, false),
@@ -197,12 +168,8 @@ pub(super) fn cob_ids(description: &Description) -> impl Iterator<Item = CobId<'
                 _ => return None,
             };
             let span = value.span.or(entry.span);
-            let is_valid = match service {
-                Service::Sync => true,
-                // Neither a consumer (bit 31) nor a producer (bit 30) uses it.
-                Service::Time => number >> 30 != 0,
-                _ => number & INVALID == 0,
-            };
+            // The default SDO has rules of its own.
+            let is_valid = service.is_used(number) && entry.address.index != 0x1200;
             is_valid.then_some(CobId {
                 entry,
                 span,

@@ -1,0 +1,80 @@
+//! The objects that hold COB-IDs, and the services that they belong to (CiA 301, chapter 7.5.2).
+
+use crate::address::Address;
+
+/// A service with a COB-ID of its own. Of two that collide, the later one in this order gives way.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub enum CobIdService {
+    /// SYNC, 1005h.
+    Sync,
+    /// TIME, 1012h.
+    Time,
+    /// EMCY messages that the device sends, 1014h.
+    Emcy,
+    /// EMCY messages of another device, 1028h.
+    EmcyConsumer,
+    /// SDO server, 1200h–127Fh: sub-index 1 requests, 2 responses.
+    SdoServer,
+    /// SDO client, 1280h–12FFh: sub-index 1 requests, 2 responses.
+    SdoClient,
+    /// PDO that the device receives, 1400h–15FFh.
+    Rpdo,
+    /// PDO that the device sends, 1800h–19FFh.
+    Tpdo,
+}
+
+impl CobIdService {
+    /// Returns the service of the COB-ID at an address; `None` if no COB-ID is there.
+    pub const fn at(address: Address) -> Option<Self> {
+        Some(match (address.index, address.sub) {
+            (0x1005, 0) => Self::Sync,
+            (0x1012, 0) => Self::Time,
+            (0x1014, 0) => Self::Emcy,
+            (0x1028, 1..=127) => Self::EmcyConsumer,
+            (0x1200..=0x127F, 1 | 2) => Self::SdoServer,
+            (0x1280..=0x12FF, 1 | 2) => Self::SdoClient,
+            (0x1400..=0x15FF, 1) => Self::Rpdo,
+            (0x1800..=0x19FF, 1) => Self::Tpdo,
+            _ => return None,
+        })
+    }
+
+    /// Returns whether a COB-ID of the service is in use. Bit 31 says that it is not, except of SYNC, which always
+    /// is, and of TIME, where bits 31 and 30 say that the device consumes and produces it.
+    pub const fn is_used(self, cob_id: u32) -> bool {
+        match self {
+            Self::Sync => true,
+            Self::Time => cob_id >> 30 != 0,
+            _ => cob_id >> 31 == 0,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::CobIdService::{self, Sync, Time, Tpdo};
+    use crate::address::Address;
+
+    #[test]
+    fn only_cob_ids_belong_to_a_service() {
+        let at = |index, sub| CobIdService::at(Address::new(index, sub));
+        assert_eq!((at(0x1005, 0), at(0x19FF, 1)), (Some(Sync), Some(Tpdo)));
+        for other in [
+            (0x1006, 0),
+            (0x1028, 0),
+            (0x1200, 3),
+            (0x1400, 2),
+            (0x1A00, 1),
+        ] {
+            assert_eq!(at(other.0, other.1), None, "{other:X?}");
+        }
+    }
+
+    #[test]
+    fn time_is_used_by_a_consumer_or_a_producer() {
+        assert!(!Time.is_used(0x100) && Time.is_used(0x8000_0100) && Time.is_used(0x4000_0100));
+        assert!(
+            !Tpdo.is_used(0x8000_0181) && Tpdo.is_used(0x4000_0181) && Sync.is_used(0x8000_0080)
+        );
+    }
+}
