@@ -1,14 +1,14 @@
-//! Embeds the sources of the crates that a device of `odkit new` needs, so that this program builds
-//! it without other files.
+//! Embeds the sources of the crates that a device of `odkit new` needs, so that the device builds
+//! without other files.
 //!
-//! They are there in a checkout. A packaged `od-cli` lacks them, and needs none: it was built with
-//! the published crates, and so is a device. Then the list is empty.
+//! A checkout has these sources. A packaged `od-cli` lacks them and does not need them: it was built with
+//! the published crates, and so is a device. The list is then empty.
 
 use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Folders of the crates that go along, if they exist.
+/// Folders of the embedded crates, if they exist.
 const CRATES: [&str; 9] = [
     "od-bench",
     "od-board",
@@ -38,7 +38,7 @@ fn main() {
             let text = fs::read_to_string(manifest).unwrap_or_default();
             let text = without_tests(&text);
             let _ = writeln!(list, "(\"{name}/Cargo.toml\", {text:?}.as_bytes()),");
-            // The documentation of a crate may have its README.
+            // The documentation of a crate may include its README.
             add(&mut list, &root, &folder.join("README.md"));
             println!("cargo::rerun-if-changed={}", folder.join("src").display());
             sources(&mut list, &root, &folder.join("src"));
@@ -68,7 +68,7 @@ fn add(list: &mut String, root: &Path, file: &Path) {
     }
 }
 
-/// Lists all files of a folder but those of its tests.
+/// Lists all files of a folder except those of its tests.
 fn sources(list: &mut String, root: &Path, folder: &Path) {
     let entries = fs::read_dir(folder).into_iter().flatten().flatten();
     let mut paths: Vec<PathBuf> = entries.map(|entry| entry.path()).collect();
@@ -85,7 +85,7 @@ fn sources(list: &mut String, root: &Path, folder: &Path) {
     }
 }
 
-/// The manifest of a crate without what does not come along: tests, examples, and what they need.
+/// The manifest of a crate without the parts that are not embedded: tests, examples, and their dependencies.
 fn without_tests(manifest: &str) -> String {
     let mut keep = true;
     let is_kept = |line: &&str| {
@@ -100,14 +100,14 @@ fn without_tests(manifest: &str) -> String {
     lines.join("\n") + "\n"
 }
 
-/// The manifest of the vendored crates: a workspace with the versions of this one, whose crates
-/// give no warnings, since nobody is to edit them.
+/// The manifest of the vendored crates: a workspace with the versions of this one. Its crates
+/// give no warnings, since they are not edited.
 fn workspace(root: &str, crates: &[&str]) -> String {
     let tables = root
         .find("[workspace.package]")
         .zip(root.find("[workspace.lints"));
     let tables = tables.map_or("", |(start, end)| &root[start..end]);
-    // Other crates of the workspace do not come along.
+    // Other crates of the workspace are not embedded.
     let path = |line: &str| {
         line.split_once("path = \"")
             .map(|(_, rest)| rest.to_owned())

@@ -85,7 +85,7 @@ pub(crate) fn backup(args: &Args) -> Result<(), Failure> {
         match (read, entry(&mut description, address)) {
             (Ok(bytes), Some((entry, data_type))) => {
                 let value = Value::from_wire(data_type, bytes);
-                // What follows the node ID does so on the next node, too.
+                // A value that depends on the node ID does so on the next node, too.
                 let follows = entry.default.as_ref().filter(|default| {
                     let is_relative = matches!(default.value, Value::NodeId(_));
                     let number = value.integer(args.node.raw());
@@ -95,7 +95,7 @@ pub(crate) fn backup(args: &Args) -> Result<(), Failure> {
                 entry.parameter = Some(follows.unwrap_or(value).into());
                 count += 1;
             }
-            // An error history without errors.
+            // An empty error history.
             (Err(code), _) if code == AbortCode::NoData.code() => {}
             (Err(code), _) => missing.push((address, code)),
             (Ok(_), None) => {}
@@ -182,12 +182,12 @@ pub(crate) fn apply(args: &Apply) -> Result<(), Failure> {
     }
 }
 
-/// The ParameterValues of what can be written.
+/// The ParameterValues of all objects that can be written.
 fn settings(description: &Description, dictionary: Dictionary<'_>, node: NodeId) -> Vec<Setting> {
     let own = configure::addresses(dictionary);
     let own = own.into_iter().filter_map(|address| {
         description.entry(address)?.parameter.as_ref()?;
-        // A ParameterValue is the default of the tables.
+        // The tables have a ParameterValue as the default value.
         let entry = dictionary.find(address).ok()?;
         let bytes = match entry.default.integer(node.raw()) {
             Some(number) => {
@@ -207,7 +207,7 @@ fn settings(description: &Description, dictionary: Dictionary<'_>, node: NodeId)
     own.collect()
 }
 
-/// Checks that the file is of such a device.
+/// Checks that the file describes such a device.
 fn fits(
     master: &mut Master<bus::Bus>,
     dictionary: Dictionary<'_>,

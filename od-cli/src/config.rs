@@ -1,4 +1,4 @@
-//! `odkit.toml`: what a project thinks of the rules.
+//! `odkit.toml`: the settings of a project for the rules.
 //!
 //! ```toml
 //! strict = true               # warnings count as errors
@@ -30,30 +30,30 @@ const NAME: &str = "odkit.toml";
 /// The file of `--config`.
 static GIVEN: OnceLock<PathBuf> = OnceLock::new();
 
-/// Takes this file for every path.
+/// Uses this file for every path.
 pub(crate) fn use_file(path: PathBuf) {
-    // The command line is read once.
+    // The command line is parsed once.
     let _ = GIVEN.set(path);
 }
 
-/// Settings of a project; empty without a file.
+/// Settings of a project; empty if there is no file.
 #[derive(Default, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 pub(crate) struct Config {
-    /// Do warnings count as errors?
+    /// Whether warnings count as errors.
     pub(crate) strict: bool,
-    /// Are remarks shown?
+    /// Whether remarks are shown.
     pub(crate) remarks: bool,
-    /// The tools that are to read the files, as `--for` takes them.
+    /// The tools that read the files of the project, as for `--for`.
     pub(crate) tools: Vec<String>,
     rules: BTreeMap<String, Setting>,
     files: Vec<Files>,
-    /// Folder from which patterns are read.
+    /// Folder to which patterns are relative.
     #[serde(skip)]
     root: PathBuf,
 }
 
-/// Settings for some of the files.
+/// Settings for the files that match a pattern.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Files {
@@ -72,7 +72,7 @@ enum Setting {
 }
 
 impl Config {
-    /// The configuration for a file: of `--config`, else of the nearest `odkit.toml` in its folder or above.
+    /// The configuration for a file: `--config`, else the nearest `odkit.toml` in its folder or a folder above.
     ///
     /// # Errors
     /// The file cannot be read, or has a key or a value that is not valid.
@@ -80,7 +80,7 @@ impl Config {
         if let Some(given) = GIVEN.get() {
             return Self::read(given);
         }
-        // Of a base with an overlay, the base.
+        // For a base with an overlay, the path of the base.
         let base = path.split('+').next().unwrap_or(path);
         let file = std::path::absolute(base).unwrap_or_else(|_| base.into());
         let folders = file.ancestors().skip(1);
@@ -114,7 +114,7 @@ impl Config {
         Ok(config)
     }
 
-    /// Removes findings of rules that are off, and gives the others their severity.
+    /// Removes findings of rules that are off, and sets the severity of the others.
     pub(crate) fn apply(&self, path: &str, findings: &mut Vec<Finding>) {
         let file = std::path::absolute(path).unwrap_or_else(|_| path.into());
         let own = file.strip_prefix(&self.root).unwrap_or(&file);
@@ -151,8 +151,8 @@ impl Config {
     }
 }
 
-/// Does a path match a pattern? `*` matches anything but `/`, `**` anything, `?` one character; a
-/// pattern without `/` is about the name of the file.
+/// Returns whether a path matches a pattern. `*` matches anything but `/`, `**` anything, `?` one character; a
+/// pattern without `/` matches the file name.
 fn matches(pattern: &str, path: &str) -> bool {
     let path = if pattern.contains('/') {
         path
@@ -184,7 +184,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn patterns() {
+    fn patterns_match_paths() {
         for (pattern, path, expected) in [
             ("*.eds", "vendor/a.eds", true),
             ("vendor/*.eds", "vendor/a.eds", true),

@@ -1,4 +1,4 @@
-//! `odkit convert`: a device description in another form.
+//! `odkit convert`: a device description in another format.
 
 use std::path::{Path, PathBuf};
 
@@ -61,7 +61,7 @@ enum Form {
 }
 
 impl Form {
-    /// The format that a file's extension names.
+    /// The format for a file extension.
     fn of(path: &Path) -> Option<Self> {
         let ending = path.extension()?.to_str()?.to_ascii_lowercase();
         match ending.as_str() {
@@ -118,7 +118,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
             let stem = stem.and_then(|stem| stem.to_str()).unwrap_or("device");
             c_header::write(&description, stem, &args.input)
         }
-        // Written above: two files.
+        // Written above, as two files.
         Form::CanopenNode => return Ok(()),
         Form::Dbc => {
             let commissioned = description.commissioned_node_id();
@@ -133,7 +133,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     lost.judge(args.lossy)
 }
 
-/// Writes the two files of CANopenNode: that of `-o`, and the one beside it.
+/// Writes the two files of CANopenNode: the file of `-o`, and the header beside it.
 fn canopen_node(
     args: &Args,
     source: &Source,
@@ -156,7 +156,7 @@ fn canopen_node(
     lost.judge(args.lossy)
 }
 
-/// Node ID, bit rate and the values of the arguments. A value of the file stays if none is given.
+/// Node ID, bit rate and values of the arguments. Without an argument the value of the file stays.
 fn configure(description: &mut Description, args: &Args) -> Result<(), Failure> {
     if let Some(node_id) = args.node_id {
         description.commission("NodeID", &node_id.raw().to_string());

@@ -1,4 +1,4 @@
-//! `odkit ctl`: lines for a bench of `odkit sim` that runs already.
+//! `odkit ctl`: sends lines to a running bench of `odkit sim`.
 
 use std::io::{BufRead, BufReader, ErrorKind, Write};
 
@@ -54,7 +54,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         };
         let stream = connection.get_mut();
         let written = stream.write_all(format!("{sent}\n").as_bytes());
-        // A bench that refuses the connection says why.
+        // A bench that refuses the connection gives the reason.
         let written = written.and_then(|()| stream.flush());
         loop {
             let mut answer = String::new();

@@ -65,7 +65,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         output.line(CSV)?;
     }
     for (path, log) in read {
-        // Transfers do not go on from one log to the next.
+        // A transfer does not continue in the next log.
         let mut narrator = Narrator::new(Names::read(&args.eds)?, &args.filter)?;
         for problem in &log.skipped {
             note!("{path}: {problem}");

@@ -65,7 +65,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
             let found = device::compare(before.dictionary(), &mut client, args.values)?;
             (found, format!("node {} on {link}", args.node_id.raw()))
         }
-        // The argument parser asks for one of them.
+        // The argument parser requires one of them.
         (None, None) => (Vec::new(), String::new()),
     };
     let titles = [args.before.clone(), second];

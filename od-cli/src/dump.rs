@@ -42,7 +42,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     })
 }
 
-/// The name that a file gives its device.
+/// The name of the device in its file.
 fn product(description: &Description) -> Option<&str> {
     let info = description.section("DeviceInfo")?;
     let name = info.get("ProductName")?.trim();

@@ -45,7 +45,7 @@ const fn word(severity: Severity) -> &'static str {
 }
 
 fn unknown(code: &str) -> Failure {
-    // The digits identify a rule of odkit; only the letter may be wrong.
+    // The digits identify a rule; only the letter may be wrong.
     let digits = code.trim_start_matches(|c: char| c.is_ascii_alphabetic());
     let near = all().find(|rule| &rule.code[1..] == digits);
     Failure::Usage(match near {
@@ -99,7 +99,7 @@ fn text(rule: &Rule) -> String {
     text
 }
 
-/// Words in lines of about this width.
+/// Wraps words at about this width.
 fn wrapped(text: &str, width: usize) -> String {
     let mut out = String::new();
     let mut column = 0;
@@ -130,7 +130,7 @@ mod tests {
                 page.starts_with(rule.code) && page.contains(rule.source),
                 "{page}"
             );
-            // Our words are wrapped; examples are lines of files, and stay as long as they are.
+            // Our words are wrapped; examples are lines of files and keep their length.
             let own = page.lines().filter(|line| !line.starts_with("    "));
             assert!(
                 own.clone().all(|line| line.chars().count() <= 130),
@@ -142,7 +142,7 @@ mod tests {
     }
 
     #[test]
-    fn words_wrap_between_words() {
+    fn text_is_wrapped_between_words() {
         assert_eq!(wrapped("a bb ccc dddd", 6), "a bb\nccc\ndddd");
     }
 }

@@ -1,4 +1,4 @@
-//! `odkit export`: the EDS of a device.
+//! `odkit export`: the EDS of a built-in device.
 
 use std::path::PathBuf;
 

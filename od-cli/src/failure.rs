@@ -2,11 +2,11 @@
 
 /// Reason why a subcommand did not do its work.
 pub(crate) enum Failure {
-    /// It was asked for something that cannot be: exit code 2.
+    /// The request is not valid: exit code 2.
     Usage(String),
-    /// It tried and could not, or what it looked at is not as it should be: exit code 1.
+    /// The work failed, or its result is negative: exit code 1.
     Failed(String),
-    /// The message is printed already; this is the exit code.
+    /// The message was printed already; this is the exit code.
     Reported(u8),
 }
 

@@ -12,7 +12,7 @@ use crate::failure::Failure;
 /// The files that were read and written so far.
 static FILES: Mutex<Files> = Mutex::new(Files::new());
 
-/// Outputs that are claimed and not yet made.
+/// Outputs that are reserved and not yet created.
 static CLAIMED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
 fn lock<T>(mutex: &'static Mutex<T>) -> MutexGuard<'static, T> {

@@ -37,7 +37,7 @@ pub(crate) struct Args {
 
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let names = args.bus.names()?;
-    // What can be wrong is said before anything is sent.
+    // Wrong arguments are reported before anything is sent.
     let given = names.given(args.node).map(|known| known.dictionary);
     let mut asked: Vec<Vec<Asked>> = Vec::new();
     if let Some(dictionary) = given {

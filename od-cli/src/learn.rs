@@ -1,4 +1,4 @@
-//! `odkit learn`: an EDS from a device.
+//! `odkit learn`: makes an EDS from a device.
 
 use std::path::PathBuf;
 

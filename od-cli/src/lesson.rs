@@ -1,4 +1,4 @@
-//! `odkit lesson`: lessons without a page: list, read, take and check them.
+//! `odkit lesson`: lists, shows, runs and checks lessons without the page.
 
 mod builtin;
 mod check;

@@ -1,9 +1,9 @@
 //! `odkit`: CANopen devices from EDS files, on the command line.
 //!
-//! The library is the program; nothing else of it than [`main`] is meant to be called.
+//! The library is the program; only [`main`] is meant to be called.
 //!
-//! One file for each subcommand. What they share: `source` finds a device, `output`
-//! writes to a pipe that may close, `report` shows findings.
+//! There is a file for each subcommand. They share `source`, which finds a device, `output`, which
+//! writes to a pipe that may close, and `report`, which shows findings.
 
 mod backup;
 mod bridge;
@@ -101,7 +101,7 @@ enum Command {
     Decode(decode::Args),
 }
 
-/// Commands by what they are about, as `--help` lists them; those that are missing here come last.
+/// Commands in groups, as `--help` lists them; commands that are missing here come last.
 const GROUPS: [(&str, &[&str]); 4] = [
     (
         "Simulate and learn",
@@ -123,7 +123,7 @@ const GROUPS: [(&str, &[&str]); 4] = [
     ("Frames", &["monitor", "record", "replay", "decode"]),
 ];
 
-/// The list of commands in groups, for `--help`.
+/// The grouped list of commands, for `--help`.
 fn groups(command: &clap::Command) -> String {
     let named = |name: &str| GROUPS.iter().any(|(_, names)| names.contains(&name));
     let all = || command.get_subcommands().filter(|one| !one.is_hide_set());
@@ -148,7 +148,7 @@ fn groups(command: &clap::Command) -> String {
     text
 }
 
-/// The program `odkit`: reads the command line, does it, answers with the exit code.
+/// The program `odkit`: parses the command line, runs the command, returns the exit code.
 pub fn main() -> ExitCode {
     let command = Cli::command().after_help(source::device_list());
     let groups = groups(&command);
@@ -158,7 +158,7 @@ pub fn main() -> ExitCode {
     let command = command.help_template(template);
     let matches = match command.try_get_matches() {
         Ok(matches) => matches,
-        // `--help` and `--version` come this way too, with exit code 0; a mistake has 2.
+        // `--help` and `--version` arrive here too, with exit code 0; an error has 2.
         Err(error) => {
             output::print_or_ignore(&error);
             return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2));
@@ -209,7 +209,7 @@ pub fn main() -> ExitCode {
     exit(result)
 }
 
-/// Says what went wrong, if anything did.
+/// Prints the error, if there is one.
 fn exit(result: Result<(), Failure>) -> ExitCode {
     let (message, code) = match result {
         Ok(()) => return ExitCode::SUCCESS,

@@ -1,9 +1,9 @@
-//! The options of a live bench, as clap reads them.
+//! The options of a live bench, for clap.
 
 use clap::{Arg, ArgAction, ArgMatches, Command};
 use od_bench::serve::options::{CHOICES, Choice, Options};
 
-/// Options about links, not about devices.
+/// Options about links.
 const WIRE: [&str; 6] = [
     "link",
     "origin",
@@ -13,7 +13,7 @@ const WIRE: [&str; 6] = [
     "quiet",
 ];
 
-/// The options of the bench, as clap reads them; without `DEVICES` only those of links.
+/// The options of the bench, for clap; without `DEVICES` only those about links.
 pub(crate) struct Live<const DEVICES: bool>(pub(crate) Options);
 
 fn choices(devices: bool) -> impl Iterator<Item = &'static Choice> {

@@ -30,7 +30,7 @@ pub(crate) struct Args {
 
 pub(crate) fn run(_: &Args) -> Result<(), Failure> {
     let (sender, receiver) = mpsc::channel();
-    // It ends with its input, or with the process.
+    // The thread ends with its input, or with the process.
     thread::spawn(move || {
         let mut input = io::stdin().lock();
         loop {
@@ -46,8 +46,8 @@ pub(crate) fn run(_: &Args) -> Result<(), Failure> {
     let mut is_open = true;
     let mut is_idle = false;
     loop {
-        // All waiting messages are read before the next step: a cancelled request is not answered, and a
-        // file is checked once for all of its changes.
+        // All waiting messages are read before the next step: a cancelled request gets no answer, and a
+        // file is checked once for all its changes.
         let waiting = if is_idle && is_open {
             receiver.recv().map_err(|_| TryRecvError::Disconnected)
         } else {
@@ -81,7 +81,7 @@ fn ended(code: u8) -> Result<(), Failure> {
     }
 }
 
-/// Writes what the server has to say.
+/// Writes the messages of the server.
 fn write(server: &mut Server, output: &mut StdoutLock<'_>) -> Result<(), Failure> {
     let mut wrote = false;
     while let Some(text) = server.poll() {

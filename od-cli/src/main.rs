@@ -1,4 +1,4 @@
-//! `odkit`, the program; see the library beside it.
+//! The program `odkit`; its code is in the library of this package.
 
 fn main() -> std::process::ExitCode {
     od_cli::main()

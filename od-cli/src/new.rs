@@ -90,7 +90,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     ))
 }
 
-/// The file unchanged if it has no errors; else a fixed copy, and the number of objects that it
+/// The file unchanged if it has no errors, otherwise a fixed copy and the number of objects that it
 /// lacks.
 fn device(name: &str) -> Result<(DeviceFile, usize), Failure> {
     let source = Source::find(name)?;
@@ -105,7 +105,7 @@ fn device(name: &str) -> Result<(DeviceFile, usize), Failure> {
     let ending = if is_dcf { "dcf" } else { "eds" };
     let mut notes = repair::Notes::default();
     let is_sound = !findings.iter().any(Finding::is_unsound);
-    // Which of the two versions is meant, only the user knows.
+    // Only the user knows which of the two versions is right.
     let marks: Vec<Finding> = findings
         .iter()
         .filter(|one| one.code() == "E0118")
@@ -131,7 +131,7 @@ fn device(name: &str) -> Result<(DeviceFile, usize), Failure> {
             ))
         })?;
     }
-    // The macro reads one EDS or DCF. Anything else is written as one.
+    // The macro reads one EDS or DCF, so anything else is written as one.
     let bytes = if is_sound && source.is_plain() {
         source.document().bytes().to_vec()
     } else {

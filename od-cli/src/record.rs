@@ -1,4 +1,4 @@
-//! `odkit record` and `odkit replay`: the frames of a bus into a log, and a log onto a bus.
+//! `odkit record` and `odkit replay`: frames from a bus into a log, and from a log to a bus.
 
 use std::fs::File;
 use std::io::{BufWriter, Write};
@@ -55,12 +55,12 @@ fn speed(text: &str) -> Result<f64, String> {
         .ok_or_else(|| "write a factor such as 1, 0.5 or 10".into())
 }
 
-/// A log file that grows.
+/// An open log file.
 pub(crate) struct Recorder {
     file: BufWriter<File>,
     format: Format,
     name: String,
-    /// Frames that were written.
+    /// Number of frames written.
     pub(crate) count: usize,
 }
 
@@ -104,7 +104,7 @@ impl Recorder {
         written.map_err(|error| Failure::Failed(format!("{}: {error}", self.name)))
     }
 
-    /// Whatever is left goes out; says what was written.
+    /// Writes the rest of the buffer, and prints a summary.
     pub(crate) fn finish(self) -> Result<String, Failure> {
         let (name, count) = (self.name.clone(), self.count);
         self.flush()?;
@@ -117,7 +117,7 @@ impl Recorder {
     }
 }
 
-/// The end of a command that runs until the user stops it.
+/// The end time of a command that runs until the user stops it.
 pub(crate) fn end(link: &impl Link, seconds: Option<f64>) -> Instant {
     match seconds.map(Duration::try_from_secs_f64) {
         Some(Ok(time)) => link.now() + time,
@@ -138,7 +138,7 @@ pub(crate) fn record(args: &Args) -> Result<(), Failure> {
         match bus.receive(until) {
             Ok(Some(heard)) => recorder.add(heard.at, &heard.frame)?,
             Ok(None) | Err(Fault::Interrupted) => break Ok(()),
-            // What came until then is kept.
+            // Frames received before the error are kept.
             Err(fault) => break Err(fault.into()),
         }
     };

@@ -11,7 +11,7 @@ use od_model::{Address, Visible};
 /// Objects and sub-objects in words: `2001h "Temperature"`.
 pub(crate) type Names = BTreeMap<Address, String>;
 
-/// The objects that findings are about, in words; a VAR has no sub-index.
+/// The objects of findings, in words; a VAR is named without sub-index.
 pub(crate) fn names(description: &Description, findings: &[Finding]) -> Names {
     let addresses = findings.iter().filter_map(|finding| finding.object);
     let named = addresses.filter_map(|address| {
@@ -51,7 +51,7 @@ fn note(finding: &Finding, names: &Names) -> String {
     }
 }
 
-/// A file's findings as text, an empty line behind each.
+/// The findings of a file as text, each followed by an empty line.
 pub(crate) fn render(
     path: &str,
     text: &str,
@@ -95,7 +95,7 @@ fn group<'a>(path: &'a str, text: &'a str, sentence: &'a Sentence, note: &'a str
     group
 }
 
-/// Both ends of a message that quotes something very long.
+/// The two ends of a message that quotes a very long text.
 fn short(message: &str) -> Cow<'_, str> {
     const HEAD: usize = 200;
     const TAIL: usize = 80;
@@ -110,10 +110,10 @@ fn short(message: &str) -> Cow<'_, str> {
     }
 }
 
-/// Bytes between two places that are shown in one piece.
+/// Maximum distance in bytes of two places that are shown as one excerpt.
 const FAR: u32 = 1 << 14;
 
-/// The lines that the finding is about, and no more of the file.
+/// The lines of the file that the finding is about.
 fn snippets<'a>(
     path: &'a str,
     text: &'a str,
@@ -134,7 +134,7 @@ fn snippets<'a>(
     own.into_iter().chain(others).collect()
 }
 
-/// The lines from the first of these places to the last.
+/// The lines from the first to the last of these places.
 fn snippet<'a>(
     path: &'a str,
     text: &'a str,
@@ -171,7 +171,7 @@ fn snippet<'a>(
     })))
 }
 
-/// `1 error, 3 warnings`; `None` where there is nothing to say.
+/// `1 error, 3 warnings`; `None` if there are none.
 pub(crate) fn count<'d>(findings: impl Iterator<Item = &'d Finding>) -> Option<String> {
     let mut counts = [0usize; 3];
     for finding in findings {

@@ -10,10 +10,10 @@ use crate::bus::{self, Format, value};
 use crate::failure::Failure;
 use crate::{output, source};
 
-/// Longest time that a node may take to write its memory.
+/// Maximum time that a node may need to write its memory.
 pub(crate) const PATIENCE: Duration = Duration::from_secs(10);
 
-/// Arguments of both.
+/// Arguments of both commands.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// Node ID

@@ -135,12 +135,12 @@ fn text(scan: &Scan, rate: Option<u16>, names: &Names) -> String {
     lines.join("\n")
 }
 
-/// The state, as far as it is known.
+/// The state, if it is known.
 fn state(one: &Found) -> String {
     match (one.state, one.has_booted, one.answers) {
         (Some(state), _, _) => state.to_string(),
         (None, true, _) => "booted".into(),
-        // Stopped would not answer.
+        // A node in Stopped would not respond.
         (None, false, _) => "no heartbeat".into(),
     }
 }

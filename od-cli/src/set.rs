@@ -37,7 +37,7 @@ pub(crate) struct Args {
     bus: bus::Args,
 }
 
-/// A value that is ready to be sent.
+/// A value that is ready to send.
 struct Ready {
     address: Address,
     entry: Option<Entry>,
@@ -114,7 +114,7 @@ enum Value {
     Bytes(Vec<u8>),
 }
 
-/// Objects and their values as they were given.
+/// Objects with their values, as given.
 fn pairs(args: &Args) -> Result<Vec<(String, Value)>, Failure> {
     if let Some(path) = &args.file {
         let [object] = args.values.as_slice() else {
@@ -162,7 +162,7 @@ fn checked(
     ready.collect()
 }
 
-/// Values for a node without a dictionary: of the size that the objects have.
+/// Values for a node without a dictionary: with the sizes that the node reports.
 fn sized(
     master: &mut Master<impl od_bus::link::Link>,
     pairs: &[(String, Value)],

@@ -1,4 +1,4 @@
-//! From a name on the command line to a device description, which is read once.
+//! Finds a device description by its name on the command line, and reads it once.
 
 use od_model::Refused;
 use std::cell::OnceCell;
@@ -23,16 +23,16 @@ use crate::{output, report};
 /// A built-in device, or a file, or a base with an overlay.
 #[derive(Default)]
 pub(crate) struct Source {
-    /// The name of the device, or the path; of base and overlay, with `+` between them.
+    /// The name of the device, or the path; base and overlay are joined by `+`.
     pub(crate) path: String,
     /// The built-in device, if it is one.
     pub(crate) kind: Option<&'static DeviceKind>,
-    /// The file as it is; of a built-in device its EDS, made on demand.
+    /// The text of the file; for a built-in device its EDS, made on demand.
     document: OnceCell<Document>,
     laid: Option<Box<Laid>>,
 }
 
-/// Parts of an overlaid text.
+/// Parts of a text with overlays.
 struct Laid {
     base: Source,
     /// Path and file.
@@ -40,14 +40,14 @@ struct Laid {
     made: Overlaid,
 }
 
-/// One file of a source, and the findings about it.
+/// One file of a source, and its findings.
 pub(crate) struct Part<'a> {
     pub(crate) path: &'a str,
     pub(crate) document: &'a Document,
     pub(crate) findings: Vec<Finding>,
 }
 
-/// Findings of the objects that a target lacks, or does not express as they are.
+/// Findings about objects that the target lacks or changes.
 pub(crate) struct Lost(Vec<Finding>);
 
 impl Lost {
@@ -76,7 +76,7 @@ impl Lost {
     }
 }
 
-/// Limit of the errors that are shown when a device is made from a file.
+/// Maximum number of errors that are shown when a device is made from a file.
 const SHOWN: usize = 5;
 
 impl Source {
@@ -85,7 +85,7 @@ impl Source {
         Self::find_in(name, Path::new(""))
     }
 
-    /// As [`find`](Self::find), with paths from `folder` on.
+    /// Like [`find`](Self::find), with paths relative to `folder`.
     pub(crate) fn find_in(name: &str, folder: &Path) -> Result<Self, Failure> {
         if let Some(kind) = od_devices::find(name) {
             return Ok(Self {
@@ -112,7 +112,7 @@ impl Source {
         }
     }
 
-    /// The paths of its files; none for a built-in device.
+    /// The paths of its files; empty for a built-in device.
     pub(crate) fn files(&self) -> Vec<PathBuf> {
         match (&self.laid, self.kind) {
             (Some(laid), _) => {
@@ -147,7 +147,7 @@ impl Source {
         }
     }
 
-    /// This base with the overlay at a path; it may be an overlaid one itself.
+    /// This base with the overlay at a path; the base may have an overlay itself.
     fn with_overlay(self, path: &Path) -> Result<Self, Failure> {
         let shown = path.display().to_string();
         let bytes = files::read(path).map_err(|error| {
@@ -175,7 +175,7 @@ impl Source {
         Ok(laid)
     }
 
-    /// Is it made of two files?
+    /// Returns whether it consists of two files.
     pub(crate) fn is_overlaid(&self) -> bool {
         self.laid.is_some()
     }
@@ -186,7 +186,7 @@ impl Source {
         self.document.get_or_init(|| Document::new(text()))
     }
 
-    /// Another file in the place of this one.
+    /// Replaces the file.
     pub(crate) fn replace(&mut self, document: Document) {
         self.document = document.into();
     }
@@ -196,7 +196,7 @@ impl Source {
         self.document().text()
     }
 
-    /// One file that any reader of an EDS takes? An overlaid one and an XDD are not.
+    /// Returns whether it is one file that any EDS parser accepts: not a text with an overlay, not an XDD.
     pub(crate) fn is_plain(&self) -> bool {
         !self.is_overlaid() && !od_eds::is_xml(self.text())
     }
@@ -206,7 +206,7 @@ impl Source {
         self.described(od_eds::parse(self.text()))
     }
 
-    /// As [`parse`](Self::parse), with the findings of the rules.
+    /// Like [`parse`](Self::parse), with the findings of the rules.
     pub(crate) fn load(&self) -> Result<Parsed, Failure> {
         self.described(od_eds::load(self.text()))
     }
@@ -221,9 +221,9 @@ impl Source {
         Ok(parsed)
     }
 
-    /// Returns the description for a target that has to be complete. Prints errors on standard
-    /// error, and the findings of objects that the target lacks; `typed` if it leaves out what has
-    /// no type.
+    /// Returns the description for a target that must be complete. Prints errors to standard
+    /// error, and findings about objects that the target lacks; with `typed` also about values without a
+    /// type.
     pub(crate) fn complete(&self, typed: bool) -> Result<(Description, Lost), Failure> {
         let Parsed {
             description,
@@ -251,7 +251,7 @@ impl Source {
         Ok((description, Lost(lost)))
     }
 
-    /// Prints what a target cannot express on standard error; all but remarks are lost.
+    /// Prints what a target cannot express to standard error; everything except remarks is lost.
     pub(crate) fn unexpressed(
         &self,
         description: &Description,
@@ -290,7 +290,7 @@ impl Source {
         }
     }
 
-    /// The files that it is made of, each with the findings that are about it.
+    /// Its files, each with the findings about it.
     pub(crate) fn parts(&self, findings: Vec<Finding>) -> Vec<Part<'_>> {
         let Some(laid) = &self.laid else {
             return vec![Part {
@@ -315,8 +315,8 @@ impl Source {
         parts
     }
 
-    /// A device with power off. Errors of a text are reported on standard error; what can
-    /// run of it runs all the same, as masters take such files, too.
+    /// A device with power off. Errors of a text are printed to standard error; the device runs
+    /// with the valid rest, since masters accept such files, too.
     pub(crate) fn device(&self, node_id: Option<NodeId>) -> Result<VirtualDevice, Refused> {
         if let Some(kind) = self.kind {
             return Ok(VirtualDevice::new(kind, node_id.unwrap_or(NodeId::ONE)));
@@ -362,7 +362,7 @@ fn unknown(name: &str, error: &std::io::Error) -> Failure {
     ))
 }
 
-/// The built-in devices, for the end of `--help`.
+/// The list of built-in devices, for the end of `--help`.
 pub(crate) fn device_list() -> String {
     let mut list = String::from("Built-in devices:\n");
     for kind in DEVICES {

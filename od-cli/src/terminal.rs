@@ -1,4 +1,4 @@
-//! The terminal as the host of a script: devices by name, frames as candump lines.
+//! The terminal as the host of a script: finds devices by name, prints frames as candump lines.
 
 use od_model::Refused;
 use std::path::{Path, PathBuf};
@@ -15,18 +15,18 @@ use crate::source::Source;
 /// Makes devices, with EDS files beside the script, and shows frames.
 pub(crate) struct Terminal<'a> {
     folder: PathBuf,
-    /// Device and node ID for a script that names none.
+    /// Device and node ID for a script without a `device` line.
     unnamed: (&'a str, Option<NodeId>),
-    /// Output for frames; `None` shows none.
+    /// Output for frames; `None`: frames are not shown.
     pub(crate) output: Option<Output>,
-    /// Frames of the script, too.
+    /// Whether frames of the script are shown, too.
     pub(crate) echo: bool,
-    /// Reason why no frame is shown any more.
+    /// Reason why frames are no longer shown.
     pub(crate) broken: Option<Failure>,
 }
 
 impl<'a> Terminal<'a> {
-    /// Shows nothing yet.
+    /// A host that shows nothing.
     pub(crate) fn beside(script: &Path, unnamed: (&'a str, Option<NodeId>)) -> Self {
         Self {
             folder: script.parent().map(Path::to_path_buf).unwrap_or_default(),
@@ -37,7 +37,7 @@ impl<'a> Terminal<'a> {
         }
     }
 
-    /// Shows a line. Who runs a script without reading what comes gets an exit code all the same.
+    /// Prints a line. If the pipe is closed, the script still runs and gives its exit code.
     pub(crate) fn line(&mut self, line: &str) {
         let Some(output) = self.output.as_mut().filter(|_| self.broken.is_none()) else {
             return;

@@ -1,7 +1,7 @@
-//! A flood of one client does not disturb another, and costs no memory.
+//! A flood of one client does not disturb another, and uses no extra memory.
 //!
 //! `ODKIT_LONG=600 cargo test -p od-cli --test fair -- --nocapture` runs ten minutes with the limits
-//! of the real thing and prints a table; `ODKIT` names another binary to measure.
+//! of a release and prints a table; `ODKIT` names another binary to measure.
 
 mod support;
 
@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 use support::crowd::{Measured, measure};
 use support::sim::Sim;
 
-/// Runs a crowd for as long as `enough` lets it.
+/// Runs a crowd until `enough` returns true.
 fn crowd(silent: usize, enough: impl FnMut(usize) -> bool) -> Measured {
     let measured = measure(&Sim::start(&["gxmm"]), silent, enough);
     println!("{}", measured.row(silent));
@@ -18,8 +18,8 @@ fn crowd(silent: usize, enough: impl FnMut(usize) -> bool) -> Measured {
 }
 
 #[test]
-fn a_polite_client_is_answered_beside_a_flood() {
-    // Every request gets its answer, before the time limit of the client at that.
+fn a_polite_client_is_served_beside_a_flood() {
+    // Every request gets its response, within the time limit of the client.
     let measured = crowd(60, |answers| answers == 100);
     assert_eq!(measured.answers.len(), 100);
     if let Some(memory) = measured.memory {
@@ -28,7 +28,7 @@ fn a_polite_client_is_answered_beside_a_flood() {
     }
 }
 
-/// `--long` makes it a soak of ten minutes; a number says how many seconds.
+/// `--long` makes it a test of ten minutes; a number sets the seconds.
 #[test]
 fn a_soak_stays_within_its_limits() {
     let Some(long) = std::env::var_os("ODKIT_LONG") else {
@@ -38,7 +38,7 @@ fn a_soak_stays_within_its_limits() {
     let seconds = long.to_str().and_then(|text| text.parse().ok());
     let seconds = seconds.filter(|seconds| *seconds > 1).unwrap_or(600);
     let half = Duration::from_secs(seconds) / 2;
-    // A build with all its checks is ten times slower than a release.
+    // A debug build is ten times slower than a release.
     let slow = if cfg!(debug_assertions) { 10 } else { 1 };
     let crowds = [0, 500].map(|silent| {
         let start = Instant::now();

@@ -1,4 +1,4 @@
-//! The common part of all commands on a bus: the link, the names, Ctrl-C.
+//! Options and actions of all commands on a bus: the link, the names, Ctrl-C.
 
 pub(crate) mod names;
 pub(crate) mod value;
@@ -45,7 +45,7 @@ pub(crate) enum Format {
     Json,
 }
 
-/// A link that Ctrl-C ends.
+/// A link whose waits end with Ctrl-C.
 pub(crate) type Bus = Interruptible<Box<dyn Link>>;
 
 impl Args {
@@ -54,12 +54,12 @@ impl Args {
         Names::read(&self.eds)
     }
 
-    /// Opens the link. Until it goes, Ctrl-C ends each wait on it.
+    /// Opens the link. Ctrl-C ends each wait on it.
     pub(crate) fn open(&self) -> Result<Bus, Failure> {
         self.open_at(self.bit_rate)
     }
 
-    /// As [`open`](Self::open), at another bit rate.
+    /// Like [`open`](Self::open), at another bit rate.
     pub(crate) fn open_at(&self, kbit: Option<u16>) -> Result<Bus, Failure> {
         let name = self.name()?;
         let link = links::open_at(&name, kbit)?;
@@ -78,12 +78,12 @@ impl Args {
 /// Set by Ctrl-C.
 static STOP: OnceLock<Arc<AtomicBool>> = OnceLock::new();
 
-/// Set by Ctrl-C, which does nothing else from now on.
+/// Set by Ctrl-C, which has no other effect from now on.
 pub(crate) fn stop() -> Result<Arc<AtomicBool>, Failure> {
     let stop = STOP.get_or_init(Arc::default);
     let handler = Arc::clone(stop);
     match ctrlc::set_handler(move || handler.store(true, Ordering::Relaxed)) {
-        // A command that opens a second link.
+        // A command opened a second link.
         Ok(()) | Err(ctrlc::Error::MultipleHandlers) => Ok(Arc::clone(stop)),
         Err(error) => Err(Failure::Failed(format!("cannot handle Ctrl-C: {error}"))),
     }

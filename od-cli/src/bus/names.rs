@@ -16,7 +16,7 @@ use crate::source::{self, Source};
 pub(crate) struct Names(Vec<File>);
 
 struct File {
-    /// The node that it is of; `None`: any that it fits.
+    /// The node ID that the file was given for; `None`: any node that matches.
     node: Option<NodeId>,
     /// The node ID in a DCF.
     commissioned: Option<NodeId>,
@@ -36,7 +36,7 @@ pub(crate) struct Known<'n> {
 pub(crate) enum Fit {
     /// Vendor-ID and product code.
     Product,
-    /// The revision number, too.
+    /// The revision number as well.
     Revision,
 }
 
@@ -64,7 +64,7 @@ impl Names {
         Ok(Self(files))
     }
 
-    /// The dictionary that is known without asking the node: the file of its ID, or the only file.
+    /// Returns the dictionary that is known without asking the node: the file for its ID, or the only file.
     pub(crate) fn given(&self, node: NodeId) -> Option<Known<'_>> {
         let own = self.0.iter().find(|file| file.node == Some(node));
         let only = || match self.0.as_slice() {
@@ -74,15 +74,15 @@ impl Names {
         own.or_else(only).map(File::known)
     }
 
-    /// The dictionary of a node: the file given for it, else the file or built-in device that its
-    /// identity (1018h) fits.
+    /// Returns the dictionary of a node: the file for its ID, else the file or built-in device that matches its
+    /// identity (1018h).
     pub(crate) fn of<L: Link>(&self, master: &mut Master<L>) -> Result<Option<Known<'_>>, Fault> {
         if let Some(known) = self.given(master.node()) {
             return Ok(Some(known));
         }
         let mut identity = [None; 4];
         for (part, sub) in identity.iter_mut().zip(1..=3) {
-            // A node without 1018h has no names, and one that is silent says so with the first.
+            // A node without 1018h has no names. A silent node is reported at the first read.
             let read = master.upload(Address::new(0x1018, sub))?;
             let bytes = read.ok().and_then(|bytes| bytes.as_slice().try_into().ok());
             *part = bytes.map(u32::from_le_bytes);
@@ -93,8 +93,8 @@ impl Names {
         Ok(self.fitting(Some(master.node()), identity))
     }
 
-    /// The dictionary that fits an identity best. Files for another node ID do not count; without one, those for
-    /// any node ID do not.
+    /// The dictionary that matches an identity best. Files for another node ID are ignored; if there is no identity, so are
+    /// files for any node ID.
     pub(crate) fn fitting(
         &self,
         node: Option<NodeId>,
@@ -118,14 +118,14 @@ impl Names {
 }
 
 impl Names {
-    /// The nodes that files were given for, by their ID or as a DCF.
+    /// The nodes that files were given for, by their node ID or as a DCF.
     pub(crate) fn nodes(&self) -> impl Iterator<Item = NodeId> {
         self.0
             .iter()
             .filter_map(|file| file.node.or(file.commissioned))
     }
 
-    /// A device without a bus, with the names of a node: of the file for it, or for any.
+    /// A device without a bus that supplies the names of a node: from the file for this node, or for any.
     pub(crate) fn device(&self, node: NodeId) -> Result<Option<VirtualDevice>, Failure> {
         let own = |file: &&File| file.node.or(file.commissioned) == Some(node);
         let any = |file: &&File| file.node.or(file.commissioned).is_none();
@@ -146,7 +146,7 @@ impl File {
     }
 }
 
-/// Quality of a match; `None`: the dictionary does not fit.
+/// Quality of a match; `None`: the dictionary does not match.
 pub(crate) fn fit(dictionary: Dictionary<'_>, identity: [Option<u32>; 4]) -> Option<Fit> {
     let default = |sub| {
         let entry = dictionary.entry(0x1018, sub)?;

@@ -34,7 +34,7 @@ impl Shown {
         }
     }
 
-    /// Whether the object holds no value at the moment, such as an empty error history.
+    /// Returns whether the object has no value at the moment, such as an empty error history.
     pub(crate) fn has_no_data(&self) -> bool {
         self.result.as_ref().err() == Some(&AbortCode::NoData.code())
     }
@@ -73,7 +73,7 @@ impl Shown {
     }
 }
 
-/// A value as JSON has it: a number, a truth value or a text; bytes as hex.
+/// A value in JSON: a number, a boolean or a text; bytes in hexadecimal digits.
 pub(crate) fn plain(data_type: DataType, bytes: &[u8]) -> Value {
     if data_type.size().is_some_and(|size| size != bytes.len()) {
         return json!(values::hex(bytes));
@@ -103,7 +103,7 @@ pub(crate) fn abort(code: u32) -> String {
     }
 }
 
-/// Values under each other: place, name, value.
+/// A table of values: place, name, value.
 pub(crate) fn lines(values: &[Shown]) -> String {
     let width = |text: fn(&Shown) -> &str| {
         let widths = values.iter().map(|value| text(value).chars().count());

@@ -1,4 +1,4 @@
-//! Frames in words, with the names of the files that were given.
+//! Frames in words, with names from the given files.
 
 use std::collections::BTreeSet;
 
@@ -16,15 +16,15 @@ use crate::failure::Failure;
 /// Explains the frames of a bus, in order.
 pub(crate) struct Narrator {
     names: Names,
-    /// Devices without a bus, which give names and mappings.
+    /// Devices without a bus, which supply names and mappings.
     devices: Vec<VirtualDevice>,
-    /// Nodes that were heard.
+    /// Nodes of which a frame was received.
     seen: BTreeSet<u8>,
     decoder: Decoder,
     filter: Filter,
 }
 
-/// A frame, and what it means.
+/// A frame and its meaning.
 pub(crate) struct Told {
     pub(crate) at: Instant,
     pub(crate) frame: Frame,
@@ -50,11 +50,11 @@ impl Narrator {
         Ok(narrator)
     }
 
-    /// Explains the next frame; `None`: the filter holds it back.
+    /// Explains the next frame; `None`: the filter excludes it.
     pub(crate) fn tell(&mut self, at: Instant, frame: Frame, sent: bool) -> Option<Told> {
         let node = tag(&frame).node;
         if let Some(node) = NodeId::new(node).filter(|node| !self.seen.contains(&node.raw())) {
-            // A file that makes no device makes no names; it was read before.
+            // A file that describes no device has no names; its errors were reported when it was read.
             let _ = self.meet(node);
         }
         let words = self.decoder.explain(&self.devices, &frame);
@@ -73,7 +73,7 @@ impl Narrator {
         })
     }
 
-    /// The values in a frame.
+    /// The values that a frame contains.
     pub(crate) fn fields(&self, frame: &Frame) -> Vec<Field> {
         words::fields(&self.devices, frame)
     }

@@ -27,7 +27,7 @@ pub(super) struct Checked {
     pub(super) misused: Option<String>,
     /// The tools of `--for`.
     pub(super) tools: Vec<&'static Tool>,
-    /// Do warnings of this file count as errors?
+    /// Whether warnings of this file count as errors.
     pub(super) strict: bool,
 }
 
@@ -48,7 +48,7 @@ impl Checked {
 }
 
 impl Checked {
-    /// The files that it is about: of base and overlay, each with its own findings.
+    /// The files of the findings: base and overlay, each with its own findings.
     pub(super) fn parts(&self) -> Vec<Part<'_>> {
         self.file.parts(self.findings.clone())
     }
@@ -60,7 +60,7 @@ impl Checked {
     }
 }
 
-/// The message, with the object that it is about before it.
+/// The message, after the object that it is about.
 pub(super) fn about(finding: &Sentence) -> String {
     match finding.address {
         Some(address) => format!("object {address}: {}", finding.message),

@@ -1,11 +1,11 @@
-//! Search for files, and work on many of them at once.
+//! Finds files, and works on many of them in parallel.
 
 use std::path::Path;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
-/// The files that were named, and those of the folders that were named, by name.
+/// The named files, and the files of the named folders, sorted by name.
 pub(super) fn find(named: &[String]) -> Vec<String> {
     let mut found = Vec::new();
     for path in named {
@@ -14,7 +14,7 @@ pub(super) fn find(named: &[String]) -> Vec<String> {
             folder(Path::new(path), &mut found);
         }
         if found.len() == before {
-            // A file; if it does not exist, reading it reports that.
+            // A file. A missing file is reported when it is read.
             found.push(path.clone());
         }
     }
@@ -29,7 +29,7 @@ fn folder(path: &Path, found: &mut Vec<String>) {
     entries.sort_by_key(std::fs::DirEntry::file_name);
     for entry in entries {
         let path = entry.path();
-        // Links to folders are not followed: they may lead back.
+        // Links to folders are not followed: they may form a circle.
         if entry.file_type().is_ok_and(|kind| kind.is_dir()) {
             folder(&path, found);
         } else if is_description(&path) && path.is_file() {
@@ -45,7 +45,7 @@ fn is_description(path: &Path) -> bool {
         .any(|known| extension.eq_ignore_ascii_case(known))
 }
 
-/// Results of `check` for each path, in order; as many at once as there are processors.
+/// Results of `check` for each path, in order; one thread for each processor.
 pub(super) fn at_once<T: Send>(paths: &[String], check: impl Fn(&str) -> T + Sync) -> Vec<T> {
     let workers = thread::available_parallelism().map_or(1, usize::from);
     let next = AtomicUsize::new(0);
@@ -56,7 +56,7 @@ pub(super) fn at_once<T: Send>(paths: &[String], check: impl Fn(&str) -> T + Syn
             paths.get(at).map(|path| (at, path))
         } {
             let result = check(path);
-            // A poisoned lock means that another file panicked; this one is sound.
+            // A poisoned lock means that a thread panicked at another file; this result is valid.
             let mut done = done.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
             done.push((at, result));
         }

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use similar::TextDiff;
 
-/// A unified diff between two texts; empty where they are the same.
+/// A unified diff between two texts; empty if they are equal.
 pub(super) fn difference(path: &str, before: &str, after: &str) -> String {
     let diff = TextDiff::from_lines(before, after);
     let shown = diff
@@ -13,14 +13,14 @@ pub(super) fn difference(path: &str, before: &str, after: &str) -> String {
         .context_radius(3)
         .header(path, path)
         .to_string();
-    // A carriage return would send a terminal's cursor back.
+    // A carriage return would move the cursor of a terminal back.
     shown.replace('\r', "")
 }
 
-/// Writes a file all at once: other programs see the old file or the new one.
+/// Replaces a file in one step: other programs see the old file or the new one.
 pub(super) fn write(path: &str, bytes: &[u8]) -> Result<(), String> {
     let failed = |error: std::io::Error| format!("it cannot be written: {error}");
-    // Through a link, to the file that is meant.
+    // A link leads to the file to replace.
     let path = fs::canonicalize(path).map_err(failed)?;
     if fs::metadata(&path).is_ok_and(|meta| meta.permissions().readonly()) {
         return Err("it cannot be written: it is read only".to_owned());
@@ -35,7 +35,7 @@ pub(super) fn write(path: &str, bytes: &[u8]) -> Result<(), String> {
         })
         .and_then(|()| fs::rename(&beside, &path));
     if written.is_err() {
-        // Nothing more can be done about it if that fails, too.
+        // If this fails, too, nothing more can be done.
         let _ = fs::remove_file(&beside);
     }
     written.map_err(failed)

@@ -1,4 +1,4 @@
-//! The report as one JSON object; `version` counts changes that break its readers.
+//! The report as one JSON object; `version` increases with each incompatible change.
 
 use od_eds::fix::{self, Applicability, TextEdit};
 use od_eds::tools::verdict;
@@ -20,18 +20,18 @@ struct File<'a> {
     path: &'a str,
     failed: Option<&'a str>,
     fixed: usize,
-    /// The tools of `--for`, and what each makes of the file.
+    /// The tools of `--for`, with the result of each.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     tools: Vec<Outcome>,
     /// Fixes that were not applied.
     held: Vec<Held>,
-    /// The name that readers of version 1 know.
+    /// Name of the field in version 1.
     #[serde(rename = "diagnostics")]
     findings: Vec<Reported>,
 }
 
-/// Bytes are counted from 0 in the file as it is on the disk, lines and columns from 1; columns
-/// are characters.
+/// Offsets count bytes of the file on the disk from 0, lines and columns count from 1; columns
+/// count characters.
 #[derive(Serialize)]
 struct Reported {
     code: &'static str,
@@ -77,12 +77,12 @@ pub(super) fn report(checked: &[Checked], summary: &Summary) -> String {
         files: checked.iter().flat_map(files).collect(),
         summary,
     };
-    // Keys in the order of the alphabet. None of these types can fail.
+    // Keys in alphabetical order. None of these types can fail.
     let value = serde_json::to_value(report).unwrap_or_default();
     format!("{value:#}")
 }
 
-/// The files of a check; the fixes and failures are in the first.
+/// The files of a check; fixes and failures belong to the first.
 fn files(checked: &Checked) -> Vec<File<'_>> {
     let parts = checked.parts().into_iter();
     let files = parts.enumerate().map(|(at, part)| {
@@ -119,7 +119,7 @@ fn outcomes(checked: &Checked, is_first: bool) -> Vec<Outcome> {
     outcomes.collect()
 }
 
-/// Edits of the text as edits of the file.
+/// Converts edits of the text to edits of the file.
 fn on_disk(mut edits: Vec<TextEdit>, offsets: &Offsets<'_>) -> Vec<TextEdit> {
     for edit in &mut edits {
         edit.start = offsets.byte(edit.start as usize) as u32;

@@ -5,7 +5,7 @@ use od_eds::{Eds, Finding, Severity, say};
 use super::checked::Checked;
 use crate::report::plural;
 
-/// The severity as the reports for people write it.
+/// The severity as the text reports show it.
 const fn word(severity: Severity) -> &'static str {
     match severity {
         Severity::Error => "error",
@@ -28,7 +28,7 @@ fn line(checked: &Checked, finding: &Finding) -> String {
     } else {
         ""
     };
-    // What a file quotes may have line ends of its own kind.
+    // Quoted text of a file may contain other line ends.
     let message = sentence.message.replace(['\r', '\n'], " ");
     let object = object.unwrap_or_default();
     format!("{level}[{}]{fixable} {object}{message}", sentence.code)
@@ -53,7 +53,7 @@ pub(super) fn concise(checked: &Checked, findings: Vec<Finding>) -> String {
     out
 }
 
-/// The path on a line of its own, with the number of findings.
+/// The path on its own line, with the number of findings.
 pub(super) fn grouped(checked: &Checked, findings: Vec<Finding>) -> String {
     let mut out = String::new();
     for part in checked.file.parts(findings) {

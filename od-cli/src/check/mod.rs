@@ -120,7 +120,7 @@ impl Args {
         parsed
     }
 
-    /// Reads, checks and fixes one file. An overlaid file is not fixed: odkit cannot know which of
+    /// Reads, checks and fixes one file. A file with an overlay is not fixed: odkit cannot know which of
     /// the two files to change.
     fn check(&self, path: &str) -> Checked {
         let mut checked = match Source::file(path) {
@@ -236,7 +236,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Fixes that are held back, of which the text report gives the reason.
+/// Fixes that are held back; the text report gives the reasons.
 const HELD: usize = 20;
 
 fn text(
@@ -269,7 +269,7 @@ fn text(
         let how = if args.diff { " as shown" } else { "" };
         line = format!("{line}{sign} {places} fixed{how}");
     }
-    // Only a file that was read has fixes.
+    // Only a file that could be read has fixes.
     let unwritten = |file: &&Checked| file.failed.is_some() && file.fixed > 0;
     let unwritten = checked.iter().filter(unwritten).count();
     for (count, what) in [(summary.failed - unwritten, "read"), (unwritten, "written")] {

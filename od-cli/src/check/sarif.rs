@@ -1,4 +1,4 @@
-//! SARIF 2.1.0: what code scanning services read.
+//! SARIF 2.1.0, the format of code scanning services.
 
 use od_eds::check::all;
 use od_eds::fix::TextEdit;
@@ -76,11 +76,11 @@ const fn level(severity: Severity) -> &'static str {
 struct Places<'a> {
     file: &'a Part<'a>,
     offsets: Offsets<'a>,
-    /// Characters before every [`STEP`] bytes of the text.
+    /// Characters before each block of [`STEP`] bytes of the text.
     characters: Vec<usize>,
 }
 
-/// Bytes of text between two places whose characters are counted.
+/// Bytes of a block.
 const STEP: usize = 512;
 
 impl<'a> Places<'a> {
@@ -100,7 +100,7 @@ impl<'a> Places<'a> {
         }
     }
 
-    /// The characters before a byte of the text.
+    /// Number of characters before a byte of the text.
     fn characters(&self, at: usize) -> usize {
         let text = self.file.document.text().as_bytes();
         let at = at.min(text.len());
@@ -110,14 +110,14 @@ impl<'a> Places<'a> {
         known + rest.iter().filter(|byte| is_start(**byte)).count()
     }
 
-    /// The bytes of the file between two bytes of the text.
+    /// The bytes of the file for a range of bytes of the text.
     fn bytes(&self, start: u32, end: u32) -> (usize, usize) {
         let [start, end] = [start, end].map(|at| self.offsets.byte(at as usize));
         (start, end - start)
     }
 }
 
-/// Does a character of UTF-8 begin with this byte?
+/// Returns whether a UTF-8 character begins with this byte.
 const fn is_start(byte: u8) -> bool {
     byte & 0xC0 != 0x80
 }
@@ -178,7 +178,7 @@ fn location(file: &Places<'_>, span: Option<Span>, what: Option<&str>) -> Value 
     location
 }
 
-/// An edit by characters behind a byte order mark, as SARIF counts them, and by bytes of the file.
+/// An edit: in characters after a byte order mark, as SARIF counts them, and in bytes of the file.
 fn replacement(file: &Places<'_>, edit: &TextEdit) -> Value {
     let [start, end] = [edit.start, edit.end].map(|at| file.characters(at as usize));
     let (byte, length) = file.bytes(edit.start, edit.end);

@@ -74,7 +74,7 @@ pub(super) fn text(checked: &[Checked]) -> String {
 
 /// The same as JSON.
 pub(super) fn json(checked: &[Checked]) -> String {
-    // Numbers and texts cannot fail.
+    // Numbers and texts cannot fail to serialise.
     let value = serde_json::to_value(counts(checked)).unwrap_or_default();
     format!("{value:#}")
 }

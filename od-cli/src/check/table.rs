@@ -31,7 +31,7 @@ pub(super) fn chosen(names: &[String]) -> (Vec<&'static Tool>, bool) {
     (chosen, false)
 }
 
-/// The path, and a line for odkit and each tool: name, verdict, first finding.
+/// The path, then a line for odkit and each tool: name, verdict, first finding.
 pub(super) fn of(checked: &Checked) -> String {
     let is_own = |finding: &&Finding| !finding.code().starts_with('T');
     let own: Vec<Finding> = checked.findings.iter().filter(is_own).cloned().collect();
@@ -68,7 +68,7 @@ pub(super) fn of(checked: &Checked) -> String {
     out
 }
 
-/// The gravest findings in short, such as `17: the line is not valid (and 2 more)`.
+/// The most severe findings in short, such as `17: the line is not valid (and 2 more)`.
 fn first(findings: &[Finding], tool: &Tool) -> String {
     let gravest = findings.iter().map(Finding::severity).max();
     let of_rank = || findings.iter().filter(|it| Some(it.severity()) == gravest);

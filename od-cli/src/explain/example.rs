@@ -4,15 +4,15 @@ use od_eds::Document;
 use od_eds::check::Pair;
 use similar::{Algorithm, DiffOp, capture_diff_slices};
 
-/// Lines shown above and below a line that differs.
+/// Lines shown above and below a different line.
 const CONTEXT: usize = 2;
-/// An example shows at most this many lines.
+/// Maximum number of lines of an example.
 const LONGEST: usize = 24;
 
-/// Lines of a section, its name first.
+/// Lines of a section; its name is the first.
 type Section<'a> = Vec<&'a str>;
 
-/// The lines of both files, as they break the rule and as they are fixed.
+/// The lines of both files: with the error, and fixed.
 pub(super) fn lines(pair: &Pair) -> (String, String) {
     let (bad, fixed) = (Document::new(pair.bad), Document::new(pair.fixed));
     let (bad, fixed) = (sections(bad.text()), sections(fixed.text()));
@@ -28,7 +28,7 @@ pub(super) fn lines(pair: &Pair) -> (String, String) {
     (shown(&before), shown(&after))
 }
 
-/// The text taken apart before each `[`; an XDD stays whole.
+/// Splits the text before each `[`; an XDD is not split.
 fn sections(text: &str) -> Vec<Section<'_>> {
     let mut sections: Vec<Section<'_>> = vec![Vec::new()];
     for line in text.lines().map(str::trim_end) {
@@ -48,7 +48,7 @@ fn sections(text: &str) -> Vec<Section<'_>> {
     sections
 }
 
-/// The lines that the other file's section of this name has not, with those around them; the
+/// The lines that the same section of the other file lacks, with the lines around them; the
 /// whole section if the other file lacks it.
 fn excerpt<'a>(section: &Section<'a>, others: &[Section<'_>]) -> Vec<&'a str> {
     let Some(other) = others.iter().find(|other| other[0] == section[0]) else {
@@ -85,7 +85,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_differs_is_shown_with_its_section() {
+    fn different_lines_are_shown_with_their_section() {
         let pair = Pair {
             code: "E0000",
             bad: b"[a]\n1=1\n\n[b]\n1=1\n2=2\n3=3\n4=4\n5=5\n6=6\n",

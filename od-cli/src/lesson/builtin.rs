@@ -1,6 +1,6 @@
-//! The lessons that come with odkit, so that they are there where its repository is not.
+//! The embedded lessons; they are available without the repository.
 
-/// Name and text of each, in their order.
+/// Name and text of each lesson, in order.
 pub(super) const LESSONS: &[(&str, &str)] = &[
     (
         "boot-up-and-heartbeat",
@@ -50,7 +50,7 @@ pub(super) const LESSONS: &[(&str, &str)] = &[
     ("bus-at-95", include_str!("../../lessons/22-bus-at-95.md")),
 ];
 
-/// The text of the one with this name.
+/// Returns the text of the lesson with this name.
 pub(super) fn find(name: &str) -> Option<&'static str> {
     let (_, text) = LESSONS.iter().find(|(known, _)| *known == name)?;
     Some(text)
@@ -61,7 +61,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_lesson_of_the_repository_is_here() {
+    fn every_lesson_of_the_repository_is_embedded() {
         let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../playground/lessons");
         let files = std::fs::read_dir(folder).expect("the lessons are there");
         for file in files {

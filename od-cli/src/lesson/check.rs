@@ -42,7 +42,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Files that the text links to and that are not there.
+/// Linked files that do not exist.
 fn dead_links(lesson: &Lesson, path: &Path) -> Vec<Problem> {
     let folder = path.parent().unwrap_or(Path::new(""));
     let dead = |(_, file): &(u32, &str)| !folder.join(file).exists();

@@ -10,7 +10,7 @@ use crate::failure::{Failure, read_error};
 use crate::output::note;
 use crate::report;
 
-/// A file with its lesson, or what is wrong with it.
+/// A file with its lesson, or with its errors.
 pub(super) struct File {
     pub(super) path: String,
     pub(super) lesson: Result<Lesson, Vec<Problem>>,
@@ -34,7 +34,7 @@ impl File {
         })
     }
 
-    /// The lesson; its mistakes are shown where it has some.
+    /// Returns the lesson, or prints its mistakes.
     pub(super) fn usable(self) -> Result<Lesson, Failure> {
         self.lesson.map_err(|problems| {
             show_problems(&self.path, &problems);
@@ -50,7 +50,7 @@ pub(super) fn show_problems(path: &str, problems: &[Problem]) {
     }
 }
 
-/// The lessons of files and folders, in order; of a folder those that end in `.md`.
+/// The lessons of files and folders, in order; in a folder the files that end in `.md`.
 pub(super) fn files(paths: &[PathBuf]) -> Result<Vec<File>, Failure> {
     let mut all = Vec::new();
     for path in paths {

@@ -48,7 +48,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     };
     if args.solution {
         for solution in solutions {
-            // It was read with the lesson.
+            // It was parsed with the lesson.
             if let Ok(script) = solution.script() {
                 take.play(&script, &path.to_string());
             }
@@ -73,7 +73,7 @@ struct Take {
 }
 
 impl Take {
-    /// Plays lines; one that does not work is reported, and the next one has its turn.
+    /// Plays lines; a line that fails is reported, and the next one follows.
     fn play(&mut self, script: &Script, name: &str) {
         let mut watched = Watched {
             host: &mut self.host,
@@ -95,7 +95,7 @@ impl Take {
         }
     }
 
-    /// Says what is open, and how to go on.
+    /// Prints the open step and how to continue.
     fn end(mut self, args: &Args) -> Result<(), Failure> {
         let mut lines = Vec::new();
         let lesson = self.progress.lesson();

@@ -1,4 +1,4 @@
-//! `odkit lesson progress`: the codes that learners export from the page, as a table for a class.
+//! `odkit lesson progress`: a table for a class, from the codes that learners export from the page.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -10,7 +10,7 @@ use crate::failure::{Failure, read_error};
 use crate::output::{self, note};
 use crate::report;
 
-/// First word of a code; its last one is `sum=`, FNV-1a over the words before it.
+/// First word of a code; the last one is `sum=`, the FNV-1a hash of the words before it.
 const BEGIN: &str = "odkit-progress/1";
 
 #[derive(clap::Args)]
@@ -71,11 +71,11 @@ fn read(path: &Path) -> Result<String, Failure> {
     Ok(String::from_utf8_lossy(&bytes).into_owned())
 }
 
-/// The codes of a text, each on one line; a mail may have broken them into several.
+/// The codes in a text, each as one line; a mail program may have wrapped them.
 fn codes(text: &str) -> impl Iterator<Item = String> {
     text.split(BEGIN).skip(1).map(|rest| {
         let mut code = String::from(BEGIN);
-        // A mail that is answered begins its lines with `>`.
+        // The lines of an answered mail begin with `>`.
         let words = rest
             .split_whitespace()
             .map(|word| word.trim_start_matches('>'));
@@ -91,7 +91,7 @@ fn codes(text: &str) -> impl Iterator<Item = String> {
     })
 }
 
-/// Learner and lessons; `None` if the code is cut or changed.
+/// Learner and lessons; `None` if the code is truncated or changed.
 fn parse(code: &str) -> Option<(String, Lessons)> {
     let (body, sum) = code.rsplit_once(" sum=")?;
     if u32::from_str_radix(sum, 16).ok()? != fnv(body.as_bytes()) {
@@ -114,7 +114,7 @@ fn fnv(bytes: &[u8]) -> u32 {
     bytes.iter().fold(0x811C_9DC5, step)
 }
 
-/// `%20` and the like as characters; control characters are left out, they would draw on a terminal.
+/// Decodes `%20` and others; control characters are left out, since a terminal would interpret them.
 fn decoded(word: &str) -> Option<String> {
     let mut bytes = Vec::with_capacity(word.len());
     let mut rest = word.bytes();
@@ -131,7 +131,7 @@ fn decoded(word: &str) -> Option<String> {
     Some(text.chars().filter(|one| !one.is_control()).collect())
 }
 
-/// A row for each learner, a column for each lesson, and below what the columns are.
+/// A row for each learner, a column for each lesson, and a legend of the columns.
 fn table(learners: &BTreeMap<String, Lessons>) -> String {
     let mut names: Vec<&str> = LESSONS.iter().map(|(name, _)| *name).collect();
     let builtin = names.len();

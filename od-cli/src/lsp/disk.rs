@@ -1,4 +1,4 @@
-//! The files of the disk and the settings of a project, for the language server.
+//! Files of the disk and project settings, for the language server.
 
 use std::fs;
 use std::path::Path;
@@ -8,7 +8,7 @@ use od_lsp::Host;
 
 use crate::config::Config;
 
-/// The disk.
+/// Reads files from the disk.
 pub(super) struct Disk;
 
 impl Host for Disk {

@@ -1,4 +1,4 @@
-//! The frames of the Language Server Protocol: headers, an empty line, and a text of that many bytes.
+//! The frames of the Language Server Protocol: headers, an empty line, and a text of the given length.
 
 use std::io::{self, BufRead, Read};
 
@@ -7,14 +7,14 @@ const LINE: u64 = 4096;
 /// Longest text, in bytes: a file of 100 MB with every character escaped.
 const TEXT: u64 = 256 << 20;
 
-/// A message from the input, or its end.
+/// A message from the input, or the end of the input.
 #[derive(PartialEq, Eq, Debug)]
 pub(super) enum Frame {
     /// A text.
     Message(String),
-    /// Something else; the next frame may be sound.
+    /// Not a valid frame; the next one may be valid.
     Broken(String),
-    /// Nothing more will come.
+    /// The input has ended.
     End,
 }
 
@@ -77,7 +77,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn frames_come_in_their_order_whatever_is_between() {
+    fn frames_are_read_in_order_between_other_bytes() {
         let long = format!("X: {}\r\nContent-Length: 1\r\n\r\nc", "x".repeat(9000));
         let input = [
             "Content-Length: 2\r\n\r\n{}",
@@ -104,7 +104,7 @@ mod tests {
     }
 
     #[test]
-    fn a_length_is_not_believed() {
+    fn a_length_that_is_too_large_is_refused() {
         let mut input = &b"Content-Length: 18446744073709551615\r\n\r\nabc"[..];
         assert!(matches!(read(&mut input).unwrap(), Frame::Broken(_)));
         assert_eq!(read(&mut input).unwrap(), Frame::End);

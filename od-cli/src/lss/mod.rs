@@ -78,7 +78,7 @@ enum What {
     },
 }
 
-/// The slave that a service is for.
+/// The slave that a service addresses.
 #[derive(clap::Args)]
 struct Slave {
     /// The slave that has this node ID
@@ -106,7 +106,7 @@ fn address(text: &str) -> Result<Identity, String> {
 }
 
 impl Slave {
-    /// Finds it; `None`: none was named.
+    /// Finds it; `None` if no slave was named.
     fn find(&self, bus: &mut Bus) -> Result<Option<Identity>, Failure> {
         if let Some(node) = self.of {
             let mut master = Master::new(bus, node);
@@ -188,7 +188,7 @@ fn scan(args: &bus::Args) -> Result<(), Failure> {
     let is_text = args.format == Format::Text;
     let found = lss.scan(|one| {
         if is_text {
-            // Each takes seconds, so it is said at once.
+            // Each search takes seconds, so each slave is printed at once.
             let _ = output::print(&title(one, &names));
         }
     })?;
@@ -267,7 +267,7 @@ fn bit_rate(
 ) -> Result<(), Failure> {
     let mut link = args.open()?;
     let slaves = slave.slaves(&mut link)?;
-    // Slaves that change over hear nothing at the old bit rate any more.
+    // Slaves that change the bit rate no longer receive frames at the old one.
     Lss::new(link).set_bit_rate(slaves, kbit, store, activate)?;
     let who = who(slaves);
     say(

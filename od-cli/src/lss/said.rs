@@ -1,4 +1,4 @@
-//! Words of the commands and the wizard about a slave.
+//! Texts of the commands and the wizard about a slave.
 
 use od_client::lss::Identity;
 
@@ -15,7 +15,7 @@ pub(super) fn title(one: &Identity, names: &Names) -> String {
 }
 
 pub(super) fn fits<'n>(one: &Identity, names: &'n Names) -> Option<&'n str> {
-    // A file for a node ID does not say what a slave without one is.
+    // A file for a node ID does not describe a slave without one.
     let identity = one.parts().map(Some);
     names.fitting(None, identity).map(|known| known.name)
 }

@@ -1,4 +1,4 @@
-//! The wizard: new encoders, one after the other.
+//! The wizard sets up new encoders one after the other.
 
 use std::collections::BTreeSet;
 use std::io::{self, IsTerminal};
@@ -20,7 +20,7 @@ use crate::output::{self, Bar};
 use crate::report::plural;
 use crate::source;
 
-/// Answer to a proposal.
+/// Answer of the user to a proposal.
 enum Reply {
     Take(NodeId),
     Skip,
@@ -81,19 +81,19 @@ pub(super) fn run(args: &bus::Args, first: NodeId, yes: bool, store: bool) -> Re
     report(args.format, &set_up)
 }
 
-/// The first free node ID from `first` on.
+/// The lowest free node ID from `first`.
 fn free(first: NodeId, used: &BTreeSet<NodeId>) -> Option<NodeId> {
     let ids = (first.raw()..=127).chain(1..first.raw());
     ids.filter_map(NodeId::new)
         .find(|node| !used.contains(node))
 }
 
-/// The lines of standard input, read by a thread: Ctrl-C does not end a read.
+/// The lines of standard input, read by a thread: Ctrl-C does not interrupt a read.
 fn answers() -> Receiver<String> {
     let (send, answers) = channel();
     std::thread::spawn(move || {
         let lines = io::stdin().lines().map_while(Result::ok);
-        // Nobody takes them when the wizard is done.
+        // The wizard may end before all lines are read.
         let _ = lines.map(|line| send.send(line)).all(|sent| sent.is_ok());
     });
     answers

@@ -1,4 +1,4 @@
-//! `odkit monitor`: the frames of a bus as they come.
+//! `odkit monitor`: shows the frames of a bus as they are received.
 
 mod screen;
 mod stats;
@@ -18,7 +18,7 @@ use crate::failure::Failure;
 use crate::output::{self, Output};
 use crate::record::{self, Recorder};
 
-/// Bit rate in kbit/s that the load is computed with if none is given.
+/// Bit rate in kbit/s for the bus load if none is given.
 const RATE: u16 = 500;
 
 /// Show the frames of a bus in words, until Ctrl-C
@@ -78,7 +78,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         let narrator = Narrator::new(names, &args.filter)?;
         plain(args, bus, narrator, recorder.as_mut(), (rate, until))
     };
-    // What came until something went wrong is kept.
+    // Frames received before an error are kept.
     if let Some(recorder) = recorder {
         output::note!("{}", recorder.finish()?);
     }

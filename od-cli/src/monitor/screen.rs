@@ -22,14 +22,14 @@ use crate::bus::words::{Narrator, Told};
 use crate::failure::Failure;
 use crate::record::Recorder;
 
-/// Frames that can be scrolled back to.
+/// Maximum number of frames in the history.
 const KEPT: usize = 5000;
-/// Time between two pictures, in ms.
+/// Time between two refreshes, in ms.
 const PAUSE: u64 = 100;
-/// Longest wait for a frame before keys are looked at, in ms.
+/// Maximum wait for a frame before keys are read, in ms.
 const KEYS: u64 = 20;
 
-/// Settings of the picture.
+/// Settings of the display.
 pub(super) struct View {
     pub(super) title: String,
     /// In kbit/s.
@@ -39,7 +39,7 @@ pub(super) struct View {
     pub(super) filter_text: String,
 }
 
-/// A terminal in raw mode, as it was when this goes.
+/// A terminal in raw mode; its mode is restored when this is dropped.
 struct Screen(Stdout);
 
 impl Screen {
@@ -53,7 +53,7 @@ impl Screen {
 
 impl Drop for Screen {
     fn drop(&mut self) {
-        // If the terminal is gone, there is nothing to put back.
+        // If the terminal is gone, nothing can be restored.
         let _ = execute!(self.0, cursor::Show, LeaveAlternateScreen);
         let _ = terminal::disable_raw_mode();
     }
@@ -67,9 +67,9 @@ struct Console<'r> {
     /// The last EMCY message in words.
     emcy: Option<String>,
     is_paused: bool,
-    /// Frames that the picture is scrolled back.
+    /// Number of frames that the display is scrolled back.
     back: usize,
-    /// The filter that is being written.
+    /// The filter that is being typed.
     typed: Option<String>,
     /// A message for the last line.
     said: Option<String>,
@@ -146,7 +146,7 @@ impl Console<'_> {
         }
     }
 
-    /// A key. Answers whether it ends the console.
+    /// Handles a key. Returns whether it ends the console.
     fn key(&mut self, key: KeyEvent) -> bool {
         let is_control = key.modifiers.contains(KeyModifiers::CONTROL);
         if is_control && matches!(key.code, KeyCode::Char('c' | 'd')) {
@@ -203,12 +203,12 @@ impl Console<'_> {
         }
     }
 
-    /// Begins a recording, or ends it.
+    /// Starts or stops a recording.
     fn record(&mut self) {
         let done = match self.recorder.take() {
             Some(recorder) => recorder.finish(),
             None => {
-                // A name that is free.
+                // A file name that is free.
                 let names = (1..).map(|number| format!("monitor-{number}.log"));
                 let name = names.into_iter().find(|name| !Path::new(name).exists());
                 let name = name.unwrap_or_default();

@@ -1,4 +1,4 @@
-//! Figures of each COB-ID, and the load of the bus.
+//! Figures for each COB-ID, and the bus load.
 
 use std::collections::{BTreeMap, VecDeque};
 
@@ -11,10 +11,10 @@ use serde_json::{Value, json};
 
 use crate::bus::words::Told;
 
-/// The load is that of the last second, in microseconds.
+/// Interval of the load, in microseconds.
 const WINDOW: u64 = 1_000_000;
 
-/// Frames so far.
+/// Number of frames.
 #[derive(Default)]
 pub(super) struct Stats {
     ids: Ids,
@@ -35,7 +35,7 @@ fn jitter(row: &Row) -> Option<f64> {
     row.jitter().map(|micros| micros as f64 / 1e3)
 }
 
-/// The mean distance of the last frames, in ms.
+/// The mean period of the last frames, in ms.
 fn period(row: &Row) -> Option<f64> {
     row.recent_period().map(|micros| micros / 1e3)
 }
@@ -51,7 +51,7 @@ impl Stats {
             .insert(key(told.frame.id()), told.words.to_string());
     }
 
-    /// The words of the last frame of a row.
+    /// The text of the last frame of a row.
     fn words(&self, row: &Row) -> &str {
         self.words
             .get(&key(row.frame.id()))
@@ -68,20 +68,20 @@ impl Stats {
         }
     }
 
-    /// The share of the last second in which the bus was busy, in percent.
+    /// Percentage of the last second in which the bus was busy.
     pub(super) fn load(&mut self, now: Instant, kbit: u16) -> f64 {
         self.forget(now);
         let bits: u64 = self.recent.iter().map(|(_, bits)| bits).sum();
-        // Of the bits that fit into a second.
+        // Relative to the bits of a second.
         bits as f64 / (f64::from(kbit.max(1)) * 1e3) * 100.0
     }
 
-    /// A line for each COB-ID, under a head: frames per second, jitter in ms.
+    /// A line for each COB-ID below a heading: frames per second, jitter in ms.
     pub(super) fn table(&self) -> Vec<String> {
         self.filtered(&Filter::default())
     }
 
-    /// As [`table`](Self::table), of the COB-IDs whose last frame passes.
+    /// Like [`table`](Self::table), for the COB-IDs whose last frame passes the filter.
     pub(super) fn filtered(&self, filter: &Filter) -> Vec<String> {
         let mut lines = vec![format!(
             "{:>8} {:>7} {:>7} {:>7}  {:<16}  last frame",

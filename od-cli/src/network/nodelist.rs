@@ -14,7 +14,7 @@ pub(super) fn read(
     text: &str,
     load: &dyn Fn(&str) -> Result<Description, String>,
 ) -> Result<Vec<Network>, String> {
-    // A backslash in a path does not escape.
+    // A backslash in a path is not an escape.
     let options = ParseOption {
         enabled_escape: false,
         enabled_quote: false,
@@ -35,7 +35,7 @@ pub(super) fn read(
     }
 }
 
-/// The value of a key, in any case.
+/// The value of a key, ignoring case.
 fn get<'a>(keys: &'a Properties, wanted: &str) -> Option<&'a str> {
     let mut keys = keys.iter();
     let found =
@@ -52,7 +52,7 @@ fn topology(
         ..Network::default()
     };
     for id in 1..=127_u8 {
-        // The number is decimal; some tools write it with hexadecimal digits.
+        // The number is decimal; some tools write hexadecimal digits.
         let key = |what: &str| {
             let decimal = get(keys, &format!("Node{id}{what}"));
             decimal.or_else(|| get(keys, &format!("Node0x{id:02X}{what}")))

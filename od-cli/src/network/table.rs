@@ -10,7 +10,7 @@ use od_model::Visible;
 use super::content::Network;
 use crate::report::plural;
 
-/// The tables of a network, and the files that it has.
+/// The tables of a network, and the files that were written.
 pub(super) fn table(
     network: &Network,
     bit_rate: Option<u32>,
@@ -24,7 +24,7 @@ pub(super) fn table(
     };
     let rate = bit_rate.map_or(String::new(), |rate| format!(", {rate} kbit/s"));
     let count = plural(network.nodes.len(), "node");
-    // Writing to a String cannot fail, here and below.
+    // Writing to a String cannot fail.
     let _ = writeln!(out, "Network{named}: {count}{rate}\n");
     let _ = writeln!(
         out,

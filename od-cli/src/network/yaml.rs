@@ -1,10 +1,10 @@
-//! A YAML text as a tree, with the scalars of YAML 1.1, as PyYAML and so dcfgen read them.
+//! A YAML text as a tree, with the scalars of YAML 1.1, as PyYAML and therefore dcfgen read them.
 
 use std::collections::BTreeMap;
 
 use saphyr_parser::{Event, Parser, ScalarStyle};
 
-/// Values that a text may have, those that aliases repeat included.
+/// Maximum number of values of a text, including those that aliases repeat.
 const LIMIT: usize = 100_000;
 
 /// A value.
@@ -46,7 +46,7 @@ impl Yaml {
             .map(|(_, value)| value)
     }
 
-    /// Keys and values; none if it is not a mapping.
+    /// Keys and values; empty if this is not a mapping.
     pub(super) fn entries(&self) -> &[(Self, Self)] {
         match self {
             Self::Map(entries) => entries,
@@ -54,7 +54,7 @@ impl Yaml {
         }
     }
 
-    /// As Python's `str` shows it.
+    /// Converted as by Python's `str`.
     pub(super) fn text(&self) -> String {
         match self {
             Self::Null => "None".into(),
@@ -67,7 +67,7 @@ impl Yaml {
         }
     }
 
-    /// As Python's `int` takes it: a real without its fraction, a text of decimal digits.
+    /// Converted as by Python's `int`: a real without its fraction, a text of decimal digits.
     pub(super) fn integer(&self) -> Option<i128> {
         match self {
             Self::Bool(flag) => Some((*flag).into()),
@@ -78,7 +78,7 @@ impl Yaml {
         }
     }
 
-    /// As Python's `float` takes it.
+    /// Converted as by Python's `float`.
     pub(super) fn real(&self) -> Option<f64> {
         match self {
             Self::Real(number) => Some(*number),
@@ -87,7 +87,7 @@ impl Yaml {
         }
     }
 
-    /// As Python's `bool` takes it: a text that is not empty is true.
+    /// Converted as by Python's `bool`: a text that is not empty is true.
     pub(super) fn is_true(&self) -> bool {
         match self {
             Self::Null => false,
@@ -112,7 +112,7 @@ impl Yaml {
     }
 }
 
-/// A list or mapping that is not complete.
+/// A list or mapping that is not complete yet.
 struct Open {
     is_map: bool,
     anchor: usize,
@@ -127,7 +127,7 @@ struct Tree {
 }
 
 impl Tree {
-    /// Takes the next event; answers with the whole when it is complete.
+    /// Handles the next event; returns the whole value when it is complete.
     fn take(&mut self, event: Event<'_>) -> Result<Option<Yaml>, String> {
         let (anchor, value) = match event {
             Event::Scalar(text, style, anchor, tag) => {
@@ -177,8 +177,8 @@ impl Tree {
     }
 }
 
-/// A mapping of keys and values in turn: the last of equal keys counts, and `<<` brings the entries of
-/// others that it lacks.
+/// A mapping from alternating keys and values: of equal keys the last counts, and `<<` adds missing
+/// entries of other mappings.
 fn map(values: Vec<Yaml>) -> Result<Yaml, String> {
     let mut entries: Vec<(Yaml, Yaml)> = Vec::new();
     let mut merged = Vec::new();
@@ -198,7 +198,7 @@ fn map(values: Vec<Yaml>) -> Result<Yaml, String> {
             entries.push((key, value));
         }
     }
-    // What is merged comes first, as PyYAML has it.
+    // Merged entries come first, as in PyYAML.
     let own = std::mem::take(&mut entries);
     for (key, value) in merged {
         if !entries.iter().any(|(known, _)| *known == key) {
@@ -268,7 +268,7 @@ fn real(text: &str) -> Option<f64> {
         ".inf" if lower.starts_with('-') => return Some(f64::NEG_INFINITY),
         ".inf" => return Some(f64::INFINITY),
         ".nan" => return Some(f64::NAN),
-        // A real has a point, and its exponent a sign.
+        // A real has a point, and its exponent has a sign.
         digits
             if !digits.contains('.')
                 || !digits.starts_with(|c: char| c.is_ascii_digit() || c == '.') =>

@@ -1,4 +1,4 @@
-//! Facts about the device of a file, as the templates need them.
+//! Facts about the device of a file, for the templates.
 
 use std::ops::RangeInclusive;
 
@@ -20,7 +20,7 @@ pub(super) struct DeviceFile {
     pub(super) notes: Vec<String>,
 }
 
-/// Bit rates of CiA 301 in kbit/s, by their indices in the LSS table; 0 where it has none.
+/// Bit rates of CiA 301 in kbit/s, by their index in the LSS table; 0 if the index has none.
 const BIT_RATES: [u16; 9] = [1000, 800, 500, 250, 125, 0, 50, 20, 10];
 
 impl DeviceFile {
@@ -42,7 +42,7 @@ impl DeviceFile {
         is_set(&self.description, "LSS_Supported")
     }
 
-    /// The gaps of the templates and what fills them.
+    /// The gaps of the templates and their contents.
     pub(super) fn gaps(&self, name: &str) -> Vec<Gap> {
         let description = &self.description;
         let node_id = description.commissioned_node_id().unwrap_or(1);
@@ -131,7 +131,7 @@ impl DeviceFile {
         )
     }
 
-    /// For README: the changes in the crate's copy.
+    /// The changes in the crate's copy, for its README.
     fn fixed(&self) -> String {
         if self.notes.is_empty() {
             return String::new();
@@ -146,7 +146,7 @@ impl DeviceFile {
     }
 }
 
-/// Returns whether a key of [DeviceInfo] is there and not 0.
+/// Returns whether a key of [DeviceInfo] exists and is not 0.
 fn is_set(description: &Description, key: &str) -> bool {
     let info = description.section("DeviceInfo");
     let value = info.and_then(|info| info.get(key));
@@ -155,7 +155,7 @@ fn is_set(description: &Description, key: &str) -> bool {
         .is_some_and(|number| number != 0)
 }
 
-/// Bit rate in kbit/s: that of a DCF, or 500 if the file supports it or names none, else the
+/// Bit rate in kbit/s: that of a DCF; otherwise 500 if the file supports it or names none, else the
 /// highest one of the file.
 fn bit_rate(description: &Description) -> u16 {
     let given = description.commissioning().and_then(|node| node.bit_rate);
@@ -165,7 +165,7 @@ fn bit_rate(description: &Description) -> u16 {
     given.filter(known).or(supported).unwrap_or(500)
 }
 
-/// Lines of the macro call that remove what a node does not serve: without them the crate does not
+/// Lines of the macro call that remove objects that a node does not serve: with them the crate would not
 /// compile.
 fn edits(dictionary: Dictionary<'_>) -> String {
     let mut lines = String::new();
@@ -181,7 +181,7 @@ fn edits(dictionary: Dictionary<'_>) -> String {
     lines
 }
 
-/// A name to show, as the file gives it; without what would end a Rust string or a line.
+/// The name in the file, without characters that would end a Rust string or a line.
 fn title(description: &Description, name: &str) -> String {
     let product = description
         .section("DeviceInfo")
@@ -194,8 +194,8 @@ fn title(description: &Description, name: &str) -> String {
     }
 }
 
-/// Script lines that read what the device is: numbers of the communication area that nobody
-/// can have changed.
+/// Script lines that read constant values of the communication area, which no master can
+/// change.
 fn reads(tables: &Tables, node_id: u8) -> String {
     let dictionary = tables.dictionary();
     let mut lines = String::new();

@@ -68,14 +68,14 @@ const FILES: [Template; 13] = [
 ];
 const TESTS: &str = "//! The scripts of this package are in `scripts`; `scripts.rs` runs them.\n";
 
-/// Parts that differ between boards.
+/// Differences between the boards.
 struct Parts {
-    /// Name to show.
+    /// Name to display.
     title: &'static str,
     target: &'static str,
     /// Command with which `cargo run` flashes the board.
     runner: &'static str,
-    /// Linker scripts after that of `cortex-m-rt`.
+    /// Linker scripts in addition to that of `cortex-m-rt`.
     link: &'static str,
     dependencies: &'static str,
     main: &'static str,

@@ -1,4 +1,4 @@
-//! Writing the files of a new crate: all of them, or none.
+//! Writes the files of a new crate: all of them, or none.
 
 use std::fs;
 use std::io;
@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use crate::failure::Failure;
 use crate::output;
 
-/// Checks that a folder can be made, or is empty.
+/// Checks that a folder can be created, or is empty.
 pub(super) fn check(folder: &Path) -> Result<(), Failure> {
     let shown = folder.display();
     match fs::read_dir(folder).map(|mut entries| entries.next().is_some()) {
@@ -37,7 +37,7 @@ pub(super) fn write(folder: &Path, files: &[(String, Vec<u8>)]) -> Result<(), Fa
     Ok(())
 }
 
-/// Files and folders in the order in which they were made; dropped, it removes them again.
+/// Files and folders in the order in which they were created; when this is dropped, it removes them.
 struct Made(Vec<PathBuf>);
 
 impl Made {
@@ -58,7 +58,7 @@ impl Made {
 impl Drop for Made {
     fn drop(&mut self) {
         for path in self.0.iter().rev() {
-            // What cannot be removed either stays; the message is about the first failure.
+            // A file that cannot be removed stays; the message is about the first failure.
             let _ = if path.is_dir() {
                 fs::remove_dir(path)
             } else {
@@ -73,7 +73,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_failure_leaves_nothing() {
+    fn a_failure_leaves_no_file() {
         let parent = std::env::temp_dir().join(format!("odkit-folder-{}", std::process::id()));
         let folder = parent.join("new");
         let file = |path: &str| (path.to_owned(), b"text".to_vec());

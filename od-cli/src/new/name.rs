@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-/// Words that cannot name a crate or its program, or have another meaning in code that uses the crate.
+/// Names that a crate or its program cannot have, or that have another meaning in code that uses the crate.
 const TAKEN: [&str; 24] = [
     "test",
     "core",
@@ -36,11 +36,11 @@ const FAMILIES: [&str; 2] = ["od_", "embassy_"];
 /// Checks that a crate can have this name.
 ///
 /// # Errors
-/// A sentence that says why not.
+/// A sentence with the reason.
 pub(super) fn check(name: &str) -> Result<(), String> {
     let starts = name.starts_with(|c: char| c.is_ascii_alphabetic());
     let fits = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
-    // The library has it in lower case.
+    // The library has the name in lower case.
     let identifier = name.replace('-', "_").to_ascii_lowercase();
     if !starts || !name.chars().all(fits) || name.len() > 64 {
         return Err(format!(
@@ -78,7 +78,7 @@ pub(super) fn of(source: &str) -> Result<String, String> {
     Ok(name.to_owned())
 }
 
-/// Returns whether Rust has the word for itself.
+/// Returns whether Rust reserves the word.
 fn is_keyword(word: &str) -> bool {
     const WORDS: &str = "abstract as async await become box break const continue crate do dyn else enum \
         extern false final fn for gen if impl in let loop macro match mod move mut override priv \
@@ -92,14 +92,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn names_are_ones_that_cargo_takes() {
+    fn names_are_those_that_cargo_accepts() {
         for name in ["my-device", "a", "Enc_58"] {
             assert_eq!(check(name), Ok(()), "{name}");
         }
         for name in ["", "5x", "-a", "a b", "ü", "test", "fn", "od-model", "a/b"] {
             assert!(check(name).is_err(), "{name}");
         }
-        // In lower case a keyword; a module and a crate of the firmware.
+        // In lower case the name is a keyword, a module or a crate of the firmware.
         for name in ["Self", "Fn", "board", "Sensor", "embassy-time", "od-new"] {
             assert!(check(name).is_err(), "{name}");
         }

@@ -1,28 +1,28 @@
-//! Source of odkit for a new crate.
+//! Source of odkit's crates for a new crate.
 
 use std::path::{Component, Path, PathBuf};
 
 use crate::failure::Failure;
 
-/// Paths and contents of the crates that this program brings along; none if it was built from the
+/// Paths and contents of the embedded crates; empty if this program was built from the
 /// registry.
 const VENDORED: &[(&str, &[u8])] = include!(concat!(env!("OUT_DIR"), "/vendored.rs"));
 
-/// Folder of the vendored crates in a new one.
+/// Folder of the vendored crates in the new crate.
 const VENDOR: &str = "vendor";
 
-/// Place of odkit's crates.
+/// Origin of odkit's crates.
 pub(super) enum Origin {
     /// Copies in the folder `vendor` of the new crate.
     Vendor,
     /// The published crates of this version.
     Registry,
-    /// A checkout, by its path as the new crate sees it.
+    /// A checkout, by its path relative to the new crate.
     Checkout(String),
 }
 
 impl Origin {
-    /// The published crates, a checkout for a crate in `folder`, or else copies if this program has
+    /// The published crates, a checkout for a crate in `folder`, or otherwise copies if this program has
     /// them.
     ///
     /// # Errors
@@ -56,7 +56,7 @@ impl Origin {
         Ok(Self::Checkout(path))
     }
 
-    /// The value of a dependency in a manifest of the root folder; `features` is empty, or what
+    /// The value of a dependency in a manifest of the root folder; `features` is empty, or the text that
     /// follows the version.
     pub(super) fn dependency(&self, name: &str, features: &str) -> String {
         let path = match self {
@@ -88,7 +88,7 @@ impl Origin {
         }
     }
 
-    /// A sentence for README.
+    /// A sentence for the README.
     pub(super) fn about(&self) -> String {
         let version = env!("CARGO_PKG_VERSION");
         match self {
@@ -101,7 +101,7 @@ impl Origin {
     }
 }
 
-/// A literal string of TOML holds any path without an apostrophe.
+/// A literal string of TOML can hold any path without an apostrophe.
 fn toml(text: &str) -> String {
     if text.contains('\'') {
         format!("{text:?}")
@@ -110,11 +110,11 @@ fn toml(text: &str) -> String {
     }
 }
 
-/// The relative path from a folder, which need not exist, to one that does; on another drive the
-/// absolute one.
+/// The relative path from a folder, which need not exist, to an existing one; the absolute path if it is on
+/// another drive.
 fn from_to(folder: &Path, to: &Path) -> Result<PathBuf, Failure> {
     let absolute = std::path::absolute(folder)?;
-    // Only what exists has a canonical form. What is missing keeps its names.
+    // Only an existing path has a canonical form. Missing folders keep their names.
     let mut from = PathBuf::new();
     for ancestor in absolute.ancestors() {
         if let Ok(known) = ancestor.canonicalize() {
@@ -126,7 +126,7 @@ fn from_to(folder: &Path, to: &Path) -> Result<PathBuf, Failure> {
     Ok(relative(&from, &to).unwrap_or(to))
 }
 
-/// The way from one absolute path to another, if they have a root in common.
+/// The relative path from one absolute path to another, if they have a common root.
 fn relative(from: &Path, to: &Path) -> Option<PathBuf> {
     let common = from.components().zip(to.components());
     let common = common.take_while(|(one, other)| one == other).count();
@@ -142,7 +142,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_checkout_is_named_by_the_way_to_it() {
+    fn a_checkout_is_named_by_its_relative_path() {
         let way = |from: &str, to: &str| relative(Path::new(from), Path::new(to));
         let path = |text: &str| Some(PathBuf::from(text));
         assert_eq!(way("/home/me/gate", "/home/me/odkit"), path("../odkit"));
@@ -153,7 +153,7 @@ mod tests {
     }
 
     #[test]
-    fn all_that_a_crate_needs_is_there() {
+    fn all_crates_that_a_device_needs_are_embedded() {
         for path in [
             "Cargo.toml",
             "LICENSE-MIT",

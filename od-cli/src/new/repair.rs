@@ -17,20 +17,20 @@ pub(super) struct Notes {
 impl Notes {
     fn removed(&mut self, object: String, why: &str) {
         self.all.push(format!("{object}: removed{why}"));
-        // With a whole object go its sub-objects.
+        // The sub-objects of an object are removed with it.
         let members = format!("{object}:");
         self.removed.retain(|other| !other.starts_with(&members));
         self.removed.insert(object);
     }
 }
 
-/// Limit of rounds; each removes something, and a file has some thousand entries.
+/// Maximum number of rounds; each removes something, and a file has a few thousand entries.
 const ROUNDS: usize = 100;
 
-/// Changes as little as it can until nothing is an error any more.
+/// Makes the fewest changes until there is no error.
 ///
 /// # Errors
-/// The findings that are left where nothing can be done.
+/// The findings that remain if nothing more can be changed.
 pub(super) fn fix(description: &mut Description) -> Result<Notes, Vec<Finding>> {
     let mut notes = Notes::default();
     drop_unreadable(description, &mut notes);
@@ -106,7 +106,7 @@ fn drop_unreadable(description: &mut Description, notes: &mut Notes) {
     });
 }
 
-/// One change for one error; `None` where nothing is left to change.
+/// One change for one error; `None` if nothing more can be changed.
 fn step(
     description: &mut Description,
     error: &Finding,
@@ -172,7 +172,7 @@ fn step(
     Some(())
 }
 
-/// Sub-index 0 says the highest sub-index.
+/// Sub-index 0 is the highest sub-index.
 fn count(object: &mut ObjectDescription) {
     let highest = object.entries.keys().copied().max().unwrap_or(0);
     let name = match object.entries.get(&0) {
@@ -206,7 +206,7 @@ fn switch_off(index: u16, entry: &mut EntryDescription) -> Option<()> {
     Some(())
 }
 
-/// A PDO without this entry and those behind it.
+/// A PDO without this mapping entry and the entries after it.
 fn unmap(object: &mut ObjectDescription, sub: u8) {
     for (at, entry) in &mut object.entries {
         if *at >= sub.max(1) {
@@ -220,7 +220,7 @@ fn unmap(object: &mut ObjectDescription, sub: u8) {
     }
 }
 
-/// The three objects that every device has (CiA 301, chapter 7.5.1), in their plainest form.
+/// The three mandatory objects (CiA 301, 7.5.1), in their simplest form.
 fn standard(index: u16) -> Option<ObjectDescription> {
     let number = |name: &str, data_type, value| EntryDescription {
         default: Some(Spanned::from(Value::Unsigned(value))),

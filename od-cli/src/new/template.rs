@@ -3,16 +3,16 @@
 /// Path and text of a file, both with gaps.
 pub(super) type Template = (&'static str, &'static str);
 
-/// Name of a gap, and what fills it.
+/// Name of a gap and its content.
 pub(super) type Gap = (&'static str, String);
 
-/// Files made of templates.
+/// Fills the gaps of files.
 pub(super) fn fill(templates: &[Template], gaps: &[Gap]) -> Vec<(String, Vec<u8>)> {
     let file = |(path, content): &Template| (text(path, gaps), text(content, gaps).into_bytes());
     templates.iter().map(file).collect()
 }
 
-/// A text made of a template. What fills a gap is not searched for gaps.
+/// Fills the gaps of a text. The content of a gap is not searched for gaps.
 pub(super) fn text(template: &str, gaps: &[Gap]) -> String {
     let mut filled = String::new();
     let mut rest = template;

@@ -61,7 +61,7 @@ enum Sink {
     Csv(Output),
 }
 
-/// A value that is watched, as it is shown.
+/// A watched value and its display.
 struct Shown {
     place: String,
     name: String,
@@ -165,7 +165,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     }
 }
 
-/// Shows a value. Returns whether the reader is still there.
+/// Shows a value. Returns whether the pipe is still open.
 fn show(
     sink: &mut Sink,
     file: Option<&mut BufWriter<File>>,

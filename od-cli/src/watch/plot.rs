@@ -11,14 +11,14 @@ use crate::output;
 const WIDTH: usize = 64;
 /// Rows of all plots together.
 const ROWS: usize = 16;
-/// Shortest time between two pictures, in ms.
+/// Minimum time between two refreshes, in ms.
 const PAUSE: u64 = 100;
 const BARS: [char; 9] = [' ', '▁', '▂', '▃', '▄', '▅', '▆', '▇', '█'];
 
 /// A plot for each value.
 pub(super) struct Plot {
     series: Vec<Series>,
-    /// Lines of the picture that is there.
+    /// Number of lines of the current display.
     lines: usize,
     drawn: Option<Instant>,
 }
@@ -43,8 +43,8 @@ impl Plot {
         }
     }
 
-    /// Adds a value, and draws if the last picture is old enough. A value that is not a number has none
-    /// in its plot.
+    /// Adds a value, and draws if the last refresh is long enough ago. A value that is not a number is not
+    /// drawn.
     pub(super) fn add(&mut self, series: usize, at: Instant, text: String, value: Option<f64>) {
         if let Some(one) = self.series.get_mut(series) {
             one.text = text;
@@ -71,7 +71,7 @@ impl Plot {
         }
         let mut text = String::new();
         if self.lines > 0 {
-            // Up to the first line of the picture before.
+            // Moves the cursor to the first line of the last display.
             text.push_str(&format!("\x1b[{}A", self.lines));
         }
         for line in &picture {
@@ -82,7 +82,7 @@ impl Plot {
     }
 }
 
-/// Bars from the lowest to the highest value, with both beside them.
+/// Bars between the lowest and the highest value, with both printed beside them.
 fn draw(values: Vec<f64>, rows: usize) -> Vec<String> {
     let low = values.iter().copied().fold(f64::INFINITY, f64::min);
     let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);

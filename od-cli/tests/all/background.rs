@@ -1,4 +1,4 @@
-//! `odkit sim` in the background: its log, its ready file, and how little it says.
+//! `odkit sim` in the background: its log, its ready file, and its output.
 
 use std::fs;
 use std::io::{BufRead, BufReader, Read};
@@ -12,7 +12,7 @@ use crate::support::{command, odkit};
 use od_bench::logs;
 use serde_json::Value;
 
-/// The frames of a log that can be read, with the times of day.
+/// The readable frames of a log, with their time of day.
 fn logged(path: &Path) -> Vec<String> {
     let bytes = fs::read(path).unwrap_or_default();
     let Ok(log) = logs::read(&bytes) else {
@@ -59,7 +59,7 @@ fn a_log_outlives_a_kill() {
 }
 
 #[test]
-fn a_log_that_cannot_be_written_stops_no_bus() {
+fn a_log_that_cannot_be_written_does_not_stop_the_bus() {
     if cfg!(target_os = "linux") {
         let mut sim = Sim::start(&["gxmm", "--log", "/dev/full"]);
         let mut client = sim.client();
@@ -94,9 +94,9 @@ fn a_log_that_cannot_be_written_stops_no_bus() {
 }
 
 #[test]
-fn a_ready_file_is_there_while_everything_listens() {
+fn a_ready_file_exists_while_all_links_listen() {
     let ready = path("ready");
-    // A bench that was killed left it.
+    // A killed bench left this file.
     let old = r#"{"version":1,"pid":1,"links":[],"nodes":[],"control":null}"#;
     fs::write(&ready, old).expect("a file");
     let args = [
@@ -135,7 +135,7 @@ fn a_ready_file_is_there_while_everything_listens() {
     assert!(kill.expect("kill").success());
     assert!(child.wait().expect("it ends").success());
     assert!(!ready.exists());
-    // It said nothing.
+    // It printed nothing.
     let mut said = String::new();
     let mut out = child.stdout.take().expect("a pipe");
     out.read_to_string(&mut said).expect("UTF-8");
@@ -174,7 +174,7 @@ fn the_hint_is_printed_once_in_a_terminal() {
         second.contains("GXMM") && !second.contains("python-canopen"),
         "{second}"
     );
-    // Where nothing can be noted it is printed.
+    // If it cannot be recorded that the hint was shown, it is printed again.
     fs::remove_dir_all(&folder).expect("it is there");
     assert!(greeting().contains("python-canopen"));
     assert!(greeting().contains("python-canopen"));

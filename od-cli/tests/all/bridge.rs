@@ -9,7 +9,7 @@ use crate::support::quiet::Sim;
 
 const TOKEN: &str = "0123456789abcdef";
 
-/// A page, as far as bytes go, that shows `token`.
+/// A minimal page that sends `token`.
 fn page(place: &str, token: &str, origin: &str) -> TcpStream {
     let mut stream = TcpStream::connect(place).expect("it listens");
     let patience = Some(Duration::from_secs(10));
@@ -23,7 +23,7 @@ fn page(place: &str, token: &str, origin: &str) -> TcpStream {
     stream
 }
 
-/// Reads up to `end`, and returns what came.
+/// Reads up to `end`, and returns the bytes.
 #[track_caller]
 fn read_to(stream: &mut TcpStream, end: &[u8]) -> Vec<u8> {
     let mut bytes = Vec::new();
@@ -37,7 +37,7 @@ fn read_to(stream: &mut TcpStream, end: &[u8]) -> Vec<u8> {
     bytes
 }
 
-/// Sends a message with a mask that changes nothing.
+/// Sends a message with a mask of zeros.
 fn send(stream: &mut TcpStream, text: &str) {
     let mut bytes = vec![0x81, 0x80 | u8::try_from(text.len()).expect("short")];
     bytes.extend([0; 4]);
@@ -45,7 +45,7 @@ fn send(stream: &mut TcpStream, text: &str) {
     stream.write_all(&bytes).expect("it reads");
 }
 
-/// The place of a link, of what `--ready-file` says.
+/// The address of a link in the ready file.
 fn place(sim: &Sim, link: usize) -> String {
     let link = &sim.ready["links"][link];
     let url = link["url"].as_str().map(|url| {
@@ -82,7 +82,7 @@ fn a_bridge_has_no_node_and_frames_go_both_ways() {
 }
 
 #[test]
-fn a_page_reaches_a_node_and_nobody_without_the_token_does() {
+fn a_page_needs_the_token_to_reach_a_node() {
     let ws = format!("ws:127.0.0.1:0?token={TOKEN}");
     let sim = Sim::start(&["gxmm", "--link", &ws]);
     let place = place(&sim, 1);
@@ -92,7 +92,7 @@ fn a_page_reaches_a_node_and_nobody_without_the_token_does() {
     ] {
         let mut stranger = page(&place, token, origin);
         let mut said = String::new();
-        // It hears why, and the connection ends.
+        // It receives the reason, and the connection ends.
         stranger.read_to_string(&mut said).expect("an end");
         assert!(said.starts_with("HTTP/1.1 403"), "{said}");
     }

@@ -23,7 +23,7 @@ fn folder(name: &str) -> PathBuf {
     folder
 }
 
-/// The values of a node that was built from an EDS, as print.c prints them; `None` without a compiler.
+/// The values of a node that was built from an EDS, as print.c prints them; `None` if there is no compiler.
 fn printed(name: &str, eds: &str, node: &[&str]) -> Option<String> {
     let folder = folder(name);
     let output = folder.join("OD.c").display().to_string();
@@ -47,7 +47,7 @@ fn printed(name: &str, eds: &str, node: &[&str]) -> Option<String> {
     Some(String::from_utf8(run.stdout).expect("ASCII"))
 }
 
-/// The attributes of a value by CANopenNode's numbers.
+/// The attributes of a value, by the numbers of CANopenNode.
 fn attribute(entry: &Entry, is_text: bool) -> u8 {
     let access = entry.access;
     let flags = [
@@ -65,14 +65,14 @@ fn attribute(entry: &Entry, is_text: bool) -> u8 {
         .sum()
 }
 
-/// The line of a value: what a node of odkit has.
+/// The expected line of a value: the value in a node of odkit.
 fn line(dictionary: Dictionary<'_>, entry: &Entry) -> String {
     let (address, size) = (entry.address, entry.data_type.size());
     let mut bytes = match (entry.default, size) {
         (Literal::None, Some(size)) => vec![0; size],
         (Literal::Real(real), Some(4)) => (real as f32).to_le_bytes().to_vec(),
         (Literal::Real(real), _) => real.to_le_bytes().to_vec(),
-        // The node adds its node ID itself.
+        // The node adds its node ID.
         (literal, Some(size)) => match literal.integer(0) {
             Some(number) => number.to_le_bytes()[..size].to_vec(),
             None => dictionary.literal_bytes(literal).to_vec(),
@@ -115,7 +115,7 @@ fn a_node_has_each_value_of_the_eds() {
 
 /// `ODKIT_ACCEPT=1` writes the expected files.
 #[test]
-fn the_files_are_those_of_before() {
+fn the_files_are_as_expected() {
     let eds = own("every.eds").display().to_string();
     let folder = folder("bytes");
     let output = folder.join("OD.c").display().to_string();
@@ -134,7 +134,7 @@ fn the_files_are_those_of_before() {
     }
 }
 
-/// All that CANopenNode cannot express, in one file.
+/// A file with everything that CANopenNode cannot express.
 const ODD: &str = "[1000]\nParameterName=Device type\nDataType=7\nAccessType=ro\n\
     [1402]\nParameterName=RPDO\nObjectType=9\nSubNumber=2\n\
     [1402sub0]\nParameterName=n\nDataType=5\nAccessType=ro\nDefaultValue=1\n\
@@ -146,7 +146,7 @@ const ODD: &str = "[1000]\nParameterName=Device type\nDataType=7\nAccessType=ro\
     [2001]\nParameterName=Image\nObjectType=2\nDataType=15\nAccessType=rw\n";
 
 #[test]
-fn what_cannot_be_expressed_is_said() {
+fn content_that_is_lost_is_reported() {
     let path = file("odd.eds", ODD).display().to_string();
     let output = folder("odd").join("OD.c").display().to_string();
     let arguments = ["convert", &path, "-o", &output, "--to", "canopennode"];
@@ -182,7 +182,7 @@ fn the_arguments_are_checked() {
     let made = odkit(&gxmm, "");
     assert_eq!(made.code, 2);
     assert!(made.err.contains("add `-o OD.c`"), "{}", made.err);
-    // The name of the dictionary is that of the file.
+    // The name of the dictionary is the name of the file.
     let output = folder("name").join("my-od.c").display().to_string();
     let made = odkit(&[&gxmm[..], &["-o", &output]].concat(), "");
     assert_eq!(made.code, 0, "{}", made.err);

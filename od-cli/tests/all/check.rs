@@ -5,7 +5,7 @@ use std::path::Path;
 
 use crate::support::{file, odkit, repository};
 
-/// A safe fix, an unsafe one, a remark, and two line ends and an encoding to keep.
+/// A safe fix, an unsafe fix, a remark, two kinds of line ends, and an encoding to keep.
 const ODD: &[u8] =
     b"; \xB5 is Windows-1252\r\n[2000]\r\nParameterName=Gr\xF6\xDFe\r\nDataType:0x5\r\n\
     AccessType=rw\r\n; kept\r\nDefaultValue=010\r\nObjFlags=maybe\r\n";
@@ -17,7 +17,7 @@ fn odd(name: &str) -> String {
 }
 
 #[test]
-fn fix_keeps_every_other_byte_and_has_nothing_to_do_twice() {
+fn a_fix_keeps_every_other_byte_and_is_done_once() {
     let path = odd("fix.eds");
     let run = odkit(&["check", "--fix", &path], "");
     assert_eq!(run.code, 1, "errors are left: {}", run.out);
@@ -46,7 +46,7 @@ fn replaced(bytes: &[u8], pairs: &[(&[u8], &[u8])]) -> Vec<u8> {
 }
 
 #[test]
-fn diff_shows_and_writes_nothing() {
+fn diff_writes_no_file() {
     let path = odd("diff.eds");
     let run = odkit(&["check", "--diff", &path], "");
     assert_eq!(run.code, 1);
@@ -105,7 +105,7 @@ fn codes_are_allowed_by_file_and_by_object() {
 }
 
 #[test]
-fn folders_and_several_files_in_one_report() {
+fn several_folders_and_files_have_one_report() {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("tree/of/files");
     fs::create_dir_all(&folder).expect("a folder for test files");
     for name in ["b.eds", "a.DCF", "notes.txt"] {
@@ -134,7 +134,7 @@ fn folders_and_several_files_in_one_report() {
     assert_eq!(edit["text"], "8");
 }
 
-/// The bytes of a text in an encoding, behind its mark.
+/// The bytes of a text in an encoding, after its byte order mark.
 fn encoded(text: &str, encoding: &str) -> Vec<u8> {
     let units = || text.encode_utf16();
     match encoding {
@@ -154,7 +154,7 @@ fn encoded(text: &str, encoding: &str) -> Vec<u8> {
     }
 }
 
-/// Every place that a report names is a place of the file as it is on the disk.
+/// Every place in a report is a place of the file on the disk.
 #[test]
 fn offsets_are_bytes_of_the_file() {
     let text: String = ODD.iter().map(|byte| char::from(*byte)).collect();
@@ -235,7 +235,7 @@ fn sarif_and_github_point_at_the_place() {
 }
 
 #[test]
-fn strict_makes_warnings_count() {
+fn with_strict_warnings_are_errors() {
     let path = file("warned.eds", &format!("{}\n[Tool]\nstray\n", clean()));
     let path = path.display().to_string();
     assert_eq!(odkit(&["check", &path], "").code, 0);

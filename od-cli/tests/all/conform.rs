@@ -3,7 +3,7 @@
 use crate::support::{file, odkit, repository};
 
 #[test]
-fn a_simulated_device_passes_and_is_reported() {
+fn a_simulated_device_passes_all_cases() {
     let report = file("conform.json", "").display().to_string();
     let done = odkit(&["conform", "gxmm", "--report", &report], "");
     assert_eq!(done.code, 0, "{}{}", done.out, done.err);
@@ -44,7 +44,7 @@ fn every_report_has_every_case() {
     for name in &names {
         let text = std::fs::read_to_string(name).expect("a report");
         assert!(text.contains("nmt-boot-up-first"), "{name}: {text}");
-        // Every frame is behind its case, but in what is a line a case.
+        // Reports show the frames below each case, except those with one line per case.
         let has_frames = text.contains("000#8101");
         assert_eq!(
             has_frames,
@@ -73,7 +73,7 @@ fn the_scripts_of_the_official_cases_are_cases() {
     assert_eq!(done.code, 0, "{}{}", done.out, done.err);
     assert!(done.out.contains("  pass     sdo-01 "), "{}", done.out);
     assert!(done.out.contains("  n/a      sdo-08 "), "{}", done.out);
-    // It has its battery to be low, which only a bench can do.
+    // This case needs a low battery, which only a bench can simulate.
     assert!(
         done.out.contains("  pass     emergency-04 "),
         "{}",
@@ -121,7 +121,7 @@ fn a_case_of_a_vendor_is_a_file() {
 }
 
 #[test]
-fn a_device_that_is_not_as_its_eds_fails() {
+fn a_device_that_differs_from_its_eds_fails() {
     let text = std::fs::read_to_string(repository("devices/eds/GXMM.eds")).expect("an EDS");
     let wrong = text.replacen("DefaultValue=0x20196", "DefaultValue=0x20197", 1);
     let other = file("other.eds", &wrong).display().to_string();

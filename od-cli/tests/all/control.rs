@@ -12,7 +12,7 @@ use crate::support::{file, odkit};
 use serde_json::Value;
 
 #[test]
-fn lines_act_while_it_runs_and_are_answered() {
+fn lines_act_on_a_running_bench_and_are_answered() {
     let eds = "[DeviceInfo]\nProductName=Inputs\n\
         [1000]\nParameterName=Device type\nDataType=7\nAccessType=const\nDefaultValue=0x191\n\
         [1001]\nParameterName=Error register\nDataType=5\nAccessType=ro\n\
@@ -47,7 +47,7 @@ fn lines_act_while_it_runs_and_are_answered() {
          node 5: power off for 20ms, then on\n"
     );
     say(&mut client, "", "t185107\rt08580042090000000000\rt705100\r");
-    // Each client has lines about a device of its own.
+    // Each client selects a device for its lines.
     let done = sim.ctl(&[
         "use 2",
         "switch node 12",
@@ -156,14 +156,14 @@ fn a_control_socket_has_one_owner() {
         "{}",
         second.err
     );
-    // What a process left that was killed is nobody's; an orderly end leaves nothing.
+    // The socket of a killed process can be replaced; an orderly end removes it.
     sim.end("-KILL");
     assert!(socket.exists());
     let mut sim = Sim::start(&["gxmm", "--control", &control]);
     assert_eq!(sim.ctl(&["power off"]).code, 0);
     sim.end("-TERM");
     assert!(!socket.exists());
-    // A control socket is not a link: without the last link the bench ends.
+    // A control socket is not a link: when the last link is lost, the bench ends.
     let done = odkit(
         &["sim", "gxmm", "--link", "-", "--control", &control],
         "power off\n",
@@ -196,7 +196,7 @@ fn tcp_is_for_this_computer_and_not_for_browsers() {
     let request = b"POST / HTTP/1.1\r\nHost: x\r\n\r\npower on\n";
     browser.write_all(request).expect("it reads");
     let mut answer = String::new();
-    // A connection that is reset has no answer, either.
+    // A connection that is reset gets no answer, either.
     let _ = browser.read_to_string(&mut answer);
     assert_eq!(answer, "");
     let text = sim.ctl(&["stats"]).out;
@@ -232,7 +232,7 @@ fn no_client_of_the_control_socket_harms_another() {
     noise.read_exact(&mut answer).expect("an answer");
     assert_eq!(&answer, b"wrong ");
     let _ = noise.write_all(&[b'x'; 100_000]);
-    // More lines than can wait end the connection.
+    // Too many waiting lines end the connection.
     let mut flood = connect();
     let lines = format!("wait 1min\n{}", "nmt start\n".repeat(5000));
     let _ = flood.write_all(lines.as_bytes());
@@ -241,7 +241,7 @@ fn no_client_of_the_control_socket_harms_another() {
     assert_eq!(rest, b"");
     let text = sim.ctl(&["stats"]).out;
     assert!(text.contains("node 1: Pre-operational"), "{text}");
-    // Answers that waited come all.
+    // All waiting answers are sent.
     let mut many = connect();
     many.write_all(format!("wait 10ms\n{}", "stats\n".repeat(900)).as_bytes())
         .expect("it reads");
@@ -254,7 +254,7 @@ fn no_client_of_the_control_socket_harms_another() {
             .find(ends)
             .expect("an answer");
     }
-    // Power that a line took comes back, though who sent it has left.
+    // Power that a line switched off returns, although its sender has disconnected.
     let mut client = sim.client();
     say(&mut client, "O\r", "\r");
     let mut leaver = connect();
@@ -266,7 +266,7 @@ fn no_client_of_the_control_socket_harms_another() {
     drop(noise);
     let mut guests: Vec<_> = (0..16).map(|_| connect()).collect();
     let refused = until("a refusal", || {
-        // A client that has just left may have had the place of one of them.
+        // A client that has just disconnected may have used one of these places.
         guests.push(connect());
         let done = sim.ctl(&["stats"]);
         (done.code == 1).then_some(done.err)

@@ -6,7 +6,7 @@ use std::process::{Command, Stdio};
 use crate::support::{file, odkit, repository};
 
 #[test]
-fn an_eds_of_a_device_is_the_device() {
+fn an_exported_eds_describes_the_same_device() {
     let text = odkit(&["convert", "gcmm", "--to", "eds"], "");
     assert_eq!(text.code, 0, "{}", text.err);
     let path = file("gcmm.eds", &text.out).display().to_string();
@@ -15,7 +15,7 @@ fn an_eds_of_a_device_is_the_device() {
 }
 
 #[test]
-fn a_dcf_is_one_device_with_its_values() {
+fn a_dcf_has_the_values_of_one_device() {
     let dcf = [
         "convert",
         "gxmm",
@@ -49,7 +49,7 @@ fn a_dcf_is_one_device_with_its_values() {
 }
 
 #[test]
-fn an_xdd_of_a_device_is_the_device() {
+fn an_xdd_describes_the_same_device() {
     for device in ["gxmm", "eam_mt", "en580c"] {
         let text = odkit(&["convert", device, "--to", "xdd"], "");
         assert_eq!(text.code, 0, "{}", text.err);
@@ -70,7 +70,7 @@ fn markdown_has_the_objects() {
 }
 
 #[test]
-fn what_cannot_be_set_is_said() {
+fn values_that_cannot_be_set_are_reported() {
     for (arguments, said) in [
         (&["--to", "dcf"][..], "--node-id 5"),
         (
@@ -114,9 +114,9 @@ fn json_has_every_entry() {
     );
 }
 
-/// The header is C: a compiler takes it, with a use of what it defines.
+/// A C compiler accepts the header, and code that uses its definitions.
 #[test]
-fn a_c_compiler_takes_the_header() {
+fn a_c_compiler_accepts_the_header() {
     let eds = repository("devices/eds/GXMM.eds");
     let header = odkit(&["convert", &eds, "--to", "c"], "");
     assert_eq!(header.code, 0, "{}", header.err);
@@ -156,7 +156,7 @@ fn a_c_compiler_takes_the_header() {
     assert!(compiler.wait().expect("it ends").success(), "{program}");
 }
 
-/// One object of an unknown type, one without a type, and two to which CiA 301 gives it.
+/// One object of an unknown type, one without a type, and two with a type in CiA 301.
 const TYPES: &str = "[FileInfo]\nFileName=types.eds\n[DeviceInfo]\nVendorName=A & B\n\
     VendorNumber=0x5F\nProductName=P\nProductNumber=16\nRevisionNumber=2\n\
     BaudRate_125=1\nBaudRate_250=0\n[MandatoryObjects]\nSupportedObjects=1\n1=0x1018\n\
@@ -171,7 +171,7 @@ const TYPES: &str = "[FileInfo]\nFileName=types.eds\n[DeviceInfo]\nVendorName=A 
     [2002]\nParameterName=Sound\nDataType=3\nAccessType=rw\nDefaultValue=-5\nLowLimit=-9\nHighLimit=9\n";
 
 #[test]
-fn what_a_target_can_hold_is_kept() {
+fn a_target_keeps_what_it_can_hold() {
     let path = file("types.eds", TYPES).display().to_string();
     let json = odkit(&["convert", &path, "--to", "json"], "");
     assert_eq!(json.code, 0, "{}", json.err);
@@ -216,7 +216,7 @@ fn what_a_target_can_hold_is_kept() {
             .display()
             .to_string();
         let found = odkit(&["check", &path, "--format", "json"], "").out;
-        // The types that CiA 301 gives are written now; that which no type has is as it was.
+        // The types of CiA 301 are written; the value of an unknown type is unchanged.
         assert!(
             !found.contains("W0426") && found.contains("`0x0099` is not a data type"),
             "{found}"
@@ -225,7 +225,7 @@ fn what_a_target_can_hold_is_kept() {
 }
 
 #[test]
-fn what_a_target_lacks_is_said() {
+fn content_that_a_target_lacks_is_reported() {
     let path = file("lacking.eds", TYPES).display().to_string();
     let page = odkit(&["convert", &path, "--to", "md"], "");
     assert_eq!(page.code, 1);

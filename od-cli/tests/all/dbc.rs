@@ -1,4 +1,4 @@
-//! `odkit convert --to dbc`. tests/interop/test_dbc.py has cantools read it.
+//! `odkit convert --to dbc`. In tests/interop/test_dbc.py cantools reads the result.
 
 use std::collections::BTreeMap;
 
@@ -87,7 +87,7 @@ fn signals_are_the_fields_of_the_mapping() {
 }
 
 #[test]
-fn texts_are_those_of_the_format() {
+fn texts_follow_the_format() {
     let path = repository("tests/interop/mapped.eds");
     let made = odkit(&["convert", &path, "--to", "dbc"], "");
     for line in [
@@ -120,7 +120,7 @@ const ODD: &str = "[2000]\nParameterName=Text\nDataType=9\nAccessType=ro\nPDOMap
     [1A02]\nParameterName=a\nObjectType=9\n[1A02sub0]\nParameterName=n\nDataType=5\nAccessType=rw\nDefaultValue=254\n";
 
 #[test]
-fn what_a_dbc_cannot_express_is_said() {
+fn content_that_a_dbc_cannot_express_is_reported() {
     let path = file("odd-dbc.eds", ODD).display().to_string();
     let made = odkit(&["convert", &path, "--to", "dbc"], "");
     assert_eq!(made.code, 1, "{}", made.err);

@@ -6,7 +6,7 @@ use std::process::{Child, Stdio};
 use crate::support::{command, file, odkit, repository};
 
 #[test]
-fn a_device_is_the_file_that_it_was_made_from() {
+fn a_device_equals_its_own_file() {
     let eds = repository("devices/eds/GXMM.eds");
     let diff = odkit(&["diff", "gxmm", &eds, "--fail-on", "any"], "");
     assert_eq!(diff.code, 0, "{}{}", diff.out, diff.err);
@@ -14,7 +14,7 @@ fn a_device_is_the_file_that_it_was_made_from() {
 }
 
 #[test]
-fn what_breaks_a_master_is_marked_and_fails_on_demand() {
+fn breaking_differences_are_marked_and_can_fail() {
     let diff = odkit(&["diff", "gxmm", "gxam"], "");
     assert_eq!(diff.code, 0, "{}", diff.err);
     let first = diff.out.lines().next().unwrap_or_default();
@@ -48,7 +48,7 @@ fn added_objects_are_compatible_and_removed_ones_are_not() {
 }
 
 #[test]
-fn json_and_markdown_say_the_same() {
+fn json_and_markdown_have_the_same_content() {
     let json = odkit(&["diff", "gxmm", "gcmm", "--format", "json"], "");
     let value: serde_json::Value = serde_json::from_str(&json.out).expect("JSON");
     let found = value["differences"].as_array().expect("a list");
@@ -117,7 +117,7 @@ fn a_live_device_is_read_object_by_object() {
 }
 
 #[test]
-fn what_cannot_be_compared_is_said() {
+fn values_that_cannot_be_compared_are_reported() {
     assert_eq!(odkit(&["diff", "gxmm"], "").code, 2);
     let link = odkit(&["diff", "gxmm", "--live", "can0"], "");
     assert_eq!(link.code, 2);

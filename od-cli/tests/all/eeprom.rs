@@ -1,4 +1,4 @@
-//! EEPROM files of `odkit sim`: whose they are, who uses them, and what a start says of them.
+//! EEPROM files of `odkit sim`: their device, their user, and the messages at the start.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use crate::support::sim::Sim;
 use crate::support::{Done, file, odkit};
 
-/// Saves all values of node 1, and waits for the answer of a slow family.
+/// Saves all values of node 1, and waits for the response of a slow family.
 const SAVE: &str = "601#2B17100064000000\nwait 20ms\n601#2310100173617665\nwait 700ms\n";
 /// Bytes before those of the EEPROM.
 const HEADER: usize = 512;
@@ -24,7 +24,7 @@ fn sim(device: &str, path: &Path, more: &[&str], input: &str) -> Done {
     odkit(&[&args[..], more].concat(), input)
 }
 
-/// The heartbeat time that a start loads, from its answer.
+/// The heartbeat time after a start, from the response.
 fn heartbeat(done: &Done) -> String {
     let answer = done
         .out
@@ -38,7 +38,7 @@ fn heartbeat(done: &Done) -> String {
 const READ: &str = "601#4017100000000000\nwait 20ms\n";
 
 #[test]
-fn another_device_is_refused_with_both_names_until_the_file_is_reset() {
+fn the_file_of_another_device_is_refused_until_it_is_reset() {
     let path = path("of-gxmm.bin");
     assert_eq!(sim("gxmm", &path, &[], SAVE).code, 0);
     let whole = fs::read(&path).expect("a file");
@@ -68,7 +68,7 @@ fn another_device_is_refused_with_both_names_until_the_file_is_reset() {
 }
 
 #[test]
-fn an_eds_of_the_same_identity_and_another_layout_is_another_device() {
+fn the_same_identity_with_another_layout_is_another_device() {
     let text = odkit(&["export", "gxmm"], "").out;
     let one = file("one.eds", &text).display().to_string();
     // 2300h:01 gets another type.
@@ -97,7 +97,7 @@ fn an_eds_of_the_same_identity_and_another_layout_is_another_device() {
 }
 
 #[test]
-fn a_file_in_use_is_refused_with_its_process() {
+fn a_file_in_use_is_refused_with_the_process_that_uses_it() {
     let path = path("in-use.bin");
     let name = path.to_str().expect("UTF-8");
     let first = Sim::start(&["gxmm", "--eeprom", name]);
@@ -115,7 +115,7 @@ fn a_file_in_use_is_refused_with_its_process() {
 }
 
 #[test]
-fn a_file_of_an_older_odkit_says_so_and_stays() {
+fn a_file_of_an_older_odkit_is_refused_and_kept() {
     let mut bytes = b"odkit EEPROM 1\r\n\x69odk\x01\0\0\0".to_vec();
     bytes.resize(16 + 614, 0xFF);
     let path = path("older.bin");
@@ -128,7 +128,7 @@ fn a_file_of_an_older_odkit_says_so_and_stays() {
 }
 
 #[test]
-fn a_start_says_which_set_it_loaded() {
+fn a_start_reports_which_set_it_loaded() {
     let path = path("damaged.bin");
     let other = SAVE.replace("6400", "C800");
     assert_eq!(sim("gxmm", &path, &[], &format!("{SAVE}{other}")).code, 0);
@@ -136,11 +136,11 @@ fn a_start_says_which_set_it_loaded() {
     let newest = HEADER + (whole.len() - HEADER) / 2;
     for (places, said, value) in [
         (&[][..], "", "C800"),
-        // The length of the records, of the newest and of the older set.
+        // Length of the records, of the newest and of the older set.
         (&[newest + 6], "the older one before it", "6400"),
         (&[HEADER + 6], "the last save, which is whole", "C800"),
         (&[newest + 6, HEADER + 6], "loaded defaults", "0000"),
-        // Commit word, the end of the bank, and the header of the file.
+        // Commit word, end of the bank, and header of the file.
         (&[newest], "the last save, which is whole", "C800"),
         (&[whole.len() - 1], "the last save, which is whole", "C800"),
         (&[20], "the header was damaged", "C800"),

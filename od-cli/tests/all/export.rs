@@ -3,7 +3,7 @@
 use crate::support::{file, odkit};
 
 #[test]
-fn an_exported_device_is_clean_and_exports_to_itself() {
+fn an_exported_device_has_no_findings_and_exports_to_itself() {
     for device in od_devices::DEVICES {
         let export = odkit(&["export", device.name], "");
         assert_eq!((export.code, export.err.as_str()), (0, ""));
@@ -19,7 +19,7 @@ fn an_exported_device_is_clean_and_exports_to_itself() {
 }
 
 #[test]
-fn what_cannot_be_read_keeps_its_text() {
+fn values_that_cannot_be_read_keep_their_text() {
     let text = "[2000]\nParameterName=Gain\nDataType=0x0005\nAccessType=rw\nDefaultValue=red\n";
     let path = file("red.eds", text).display().to_string();
     let export = odkit(&["export", &path], "");
@@ -29,7 +29,7 @@ fn what_cannot_be_read_keeps_its_text() {
 }
 
 #[test]
-fn a_file_is_written_or_it_is_said_why_not() {
+fn a_file_is_written_or_the_reason_is_reported() {
     let path = file("out.eds", "").display().to_string();
     let export = odkit(&["export", "gxam", "--output", &path], "");
     assert_eq!((export.code, export.out.as_str()), (0, ""));

@@ -18,7 +18,7 @@ PDOMapping=0
 ";
 
 #[test]
-fn help_and_version_are_friendly() {
+fn help_and_version_have_exit_code_zero() {
     let help = odkit(&["--help"], "");
     assert_eq!(help.code, 0);
     for word in [
@@ -45,7 +45,7 @@ fn help_and_version_are_friendly() {
 }
 
 #[test]
-fn wrong_usage_is_two() {
+fn wrong_usage_has_exit_code_two() {
     let typo = odkit(&["chekc"], "");
     assert_eq!(typo.code, 2);
     assert!(typo.err.contains("'check'"), "{}", typo.err);
@@ -80,7 +80,7 @@ fn check_shows_the_line_and_a_caret() {
 }
 
 #[test]
-fn check_counts_over_all_files() {
+fn check_counts_findings_of_all_files() {
     let good = repository("devices/eds/GXMM.eds");
     let check = odkit(&["check", &good], "");
     assert_eq!(
@@ -99,7 +99,7 @@ fn check_counts_over_all_files() {
 }
 
 #[test]
-fn crlf_files_look_like_others() {
+fn crlf_files_are_shown_like_others() {
     let path = file("crlf.eds", &BROKEN.replace('\n', "\r\n"))
         .display()
         .to_string();
@@ -155,7 +155,7 @@ fn dump_is_an_aligned_table() {
 }
 
 #[test]
-fn dump_says_what_is_no_device() {
+fn dump_refuses_what_is_not_a_device() {
     let missing = odkit(&["dump", "gxmx"], "");
     assert_eq!(missing.code, 1);
     assert!(
@@ -175,7 +175,7 @@ fn dump_says_what_is_no_device() {
 }
 
 #[test]
-fn a_file_with_errors_runs_as_far_as_it_goes() {
+fn a_file_with_errors_runs_with_its_valid_rest() {
     let path = file("runs.eds", BROKEN).display().to_string();
     let run = odkit(
         &["run", "-", "--device", &path],
@@ -191,7 +191,7 @@ fn a_file_with_errors_runs_as_far_as_it_goes() {
 }
 
 #[test]
-fn closed_pipes_are_no_panic() {
+fn closed_pipes_do_not_panic() {
     use std::process::Stdio;
     for args in [
         &["check", "no-such.eds"][..],
@@ -213,7 +213,7 @@ fn closed_pipes_are_no_panic() {
 }
 
 #[test]
-fn check_does_not_echo_long_lines_whole() {
+fn check_does_not_print_long_lines_in_full() {
     let text = format!("{BROKEN}{}\n", "ä".repeat(100_000));
     let path = file("long.eds", &text).display().to_string();
     let check = odkit(&["check", &path], "");

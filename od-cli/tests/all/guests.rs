@@ -1,4 +1,4 @@
-//! Clients of `odkit sim` that are let in or refused, and refusals of the system.
+//! Clients that `odkit sim` accepts or refuses, and refusals of the system.
 
 use std::io::{ErrorKind, Read, Write};
 use std::net::TcpStream;
@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use crate::support::sim::{Sim, say};
 
-/// All that is left to read; a connection that was cut is at its end.
+/// Reads the rest of a connection; a reset counts as its end.
 fn rest(client: &mut TcpStream) -> String {
     let mut text = Vec::new();
     match client.read_to_end(&mut text) {
@@ -15,7 +15,7 @@ fn rest(client: &mut TcpStream) -> String {
     }
 }
 
-/// A web page can make a browser send these lines to any port of the computer.
+/// A web page can make a browser send these bytes to any port of the computer.
 #[test]
 fn a_browser_cannot_drive_the_bus() {
     let mut sim = Sim::start_heard(&["gxmm", "--link", "socketcand:127.0.0.1:0"]);
@@ -31,13 +31,13 @@ fn a_browser_cannot_drive_the_bus() {
             let request = format!("{method} / HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n{body}");
             let (first, second) = request.split_at(2);
             browser.write_all(first.as_bytes()).expect("it reads");
-            // The second half may find the connection cut.
+            // The connection may be reset before the second half is sent.
             let _ = browser.write_all(second.as_bytes());
             assert!(!rest(&mut browser).contains("581"), "{method}");
             sim.told("it sent an HTTP request");
         }
     }
-    // The bus has seen nothing of it, and 1017h is what it was.
+    // No frame reached the bus, and 1017h has its earlier value.
     say(
         &mut witness,
         "t60184017100000000000\r",
@@ -63,11 +63,11 @@ fn one_client_too_many_is_refused() {
     let refusal = "the limit is 2 clients; raise it with `--max-clients`";
     assert_eq!(rest(&mut sim.client()), format!("\x07odkit: {refusal}\r"));
     sim.told(&format!("was refused: {refusal}"));
-    // Both links count.
+    // The clients of both links count.
     sim.port = socketcand;
     assert_eq!(rest(&mut sim.client()), format!("< error {refusal} >"));
     sim.told(&format!("was refused: {refusal}"));
-    // Who leaves makes room.
+    // A client that disconnects makes room.
     drop(clients);
     sim.told(" left");
     sim.told(" left");
@@ -76,7 +76,7 @@ fn one_client_too_many_is_refused() {
 }
 
 #[test]
-fn who_has_left_makes_room_at_once() {
+fn a_disconnected_client_makes_room_at_once() {
     let sim = Sim::start(&["gxmm", "--max-clients", "1"]);
     for _ in 0..50 {
         let mut client = sim.client();
@@ -87,7 +87,7 @@ fn who_has_left_makes_room_at_once() {
 
 #[cfg(unix)]
 #[test]
-fn a_client_for_whom_no_file_is_left_is_refused() {
+fn a_client_is_refused_if_the_system_has_no_file_handle() {
     let mut sim = Sim::start_under("ulimit -n 40; exec \"$@\"", &["gxmm"]);
     let mut clients: Vec<TcpStream> = Vec::new();
     let refused = loop {
@@ -105,14 +105,14 @@ fn a_client_for_whom_no_file_is_left_is_refused() {
     assert!(refused.contains("too many open files"), "{refused}");
     sim.told("was refused: too many open files");
     assert!(clients.len() > 10, "{}", clients.len());
-    // The others work on, and who leaves makes room.
+    // The others continue, and a client that disconnects makes room.
     say(&mut clients[0], "V\r", "V1013\r");
     drop(clients.pop());
     sim.told(" left");
     say(&mut sim.client(), "V\r", "V1013\r");
 }
 
-/// A PDO every millisecond on the bus of this client, and no other frame.
+/// Configures a PDO every millisecond on the bus of this client, and no other frame.
 #[cfg(unix)]
 fn pdos(client: &mut TcpStream) -> impl FnMut(usize) + '_ {
     say(client, "O\r", "\r");
@@ -133,22 +133,22 @@ fn pdos(client: &mut TcpStream) -> impl FnMut(usize) + '_ {
 
 #[cfg(unix)]
 #[test]
-fn what_a_suspended_bench_missed_is_not_sent() {
+fn frames_missed_by_a_suspended_bench_are_not_sent() {
     let mut sim = Sim::start_heard(&["gxmm"]);
     let mut client = sim.client();
     let mut wait_for = pdos(&mut client);
     wait_for(20);
     sim.signal("-STOP");
-    // It does not run for this time; the test waits for nothing else.
+    // The bench is stopped for this time; the test waits for nothing else.
     std::thread::sleep(Duration::from_millis(600));
-    // Before it goes on: on a busy computer the signal's sender may end long after the signal came.
+    // Taken before it continues: on a busy computer `kill` may return long after the signal arrived.
     let start = Instant::now();
     sim.signal("-CONT");
-    // A tenth of them may have been on their way, or within the 50 ms that are made up for.
+    // A tenth of the frames may have been in transit, or within the 50 ms that are made up for.
     wait_for(400);
     let took = start.elapsed();
     assert!(took > Duration::from_millis(250), "{took:?}");
-    // A busy computer may have been late before, but never that much.
+    // A busy computer may have been late before, but not by this much.
     let mut late = 0;
     while late < 500 {
         let line = sim.told("the bus goes on from now");
@@ -157,10 +157,10 @@ fn what_a_suspended_bench_missed_is_not_sent() {
     }
 }
 
-/// `nohup` ignores SIGHUP, redirects nothing that is a pipe, and expects its program to go on.
+/// `nohup` ignores SIGHUP, does not redirect a pipe, and expects that its program continues.
 #[cfg(unix)]
 #[test]
-fn nohup_outlives_its_terminal() {
+fn nohup_keeps_it_running_without_a_terminal() {
     let mut sim = Sim::start_under("exec nohup \"$@\"", &["gxmm"]);
     sim.signal("-HUP");
     say(&mut sim.client(), "V\r", "V1013\r");
@@ -168,7 +168,7 @@ fn nohup_outlives_its_terminal() {
     say(&mut sim.client(), "V\r", "V1013\r");
     sim.signal("-INT");
     assert_eq!(sim.child.wait().expect("it ends").code(), Some(0));
-    // Without nohup the terminal ends it, cleanly. The tests themselves may run under nohup.
+    // Without nohup it ends cleanly with the terminal. The tests themselves may run under nohup.
     let plain = if cfg!(target_os = "linux") {
         "exec env --default-signal=HUP \"$@\""
     } else {

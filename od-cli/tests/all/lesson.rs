@@ -1,4 +1,4 @@
-//! `odkit lesson`: lists, shows, takes and checks lessons; exit codes.
+//! `odkit lesson`: lists, shows, runs and checks lessons; exit codes.
 
 use crate::support::{file, odkit, repository};
 
@@ -7,7 +7,7 @@ fn lesson(name: &str) -> String {
 }
 
 #[test]
-fn the_lessons_of_the_repository_are_listed_and_proved() {
+fn the_lessons_of_the_repository_are_listed_and_checked() {
     let folder = repository("playground/lessons");
     let list = odkit(&["lesson", "list", &folder], "");
     assert_eq!(list.code, 0, "{}", list.err);
@@ -35,7 +35,7 @@ fn the_lessons_of_the_repository_are_listed_and_proved() {
 }
 
 #[test]
-fn a_lesson_is_shown_without_giving_it_away() {
+fn a_lesson_is_shown_without_its_solution() {
     let path = lesson("01-boot-up-and-heartbeat");
     let plain = odkit(&["lesson", "show", &path], "");
     assert_eq!(plain.code, 0, "{}", plain.err);
@@ -70,7 +70,7 @@ fn a_lesson_is_shown_without_giving_it_away() {
 }
 
 #[test]
-fn a_lesson_that_is_taken_says_what_is_missing() {
+fn a_lesson_run_reports_open_conditions() {
     let path = lesson("01-boot-up-and-heartbeat");
     let lines = "power on\nsdo write 1017h = 500\nhello\nwait 600ms\n";
     let taken = odkit(&["lesson", "run", &path, "--hints", "2"], lines);
@@ -98,7 +98,7 @@ fn a_lesson_that_is_taken_says_what_is_missing() {
 }
 
 #[test]
-fn a_solution_does_it_all_and_a_line_that_fails_is_told() {
+fn a_solution_does_every_step_and_a_failing_line_is_reported() {
     for name in ["02-nmt", "10-lss", "14-find-terminator"] {
         let solved = odkit(&["lesson", "run", &lesson(name), "--solution"], "");
         assert_eq!(solved.code, 0, "{}{}", solved.out, solved.err);
@@ -120,7 +120,7 @@ fn a_solution_does_it_all_and_a_line_that_fails_is_told() {
 }
 
 #[test]
-fn mistakes_have_a_line_and_a_remedy() {
+fn mistakes_have_a_line_and_a_help() {
     let bad = file(
         "bad-lesson.md",
         "+++\ntitle = \"Bad\"\nlevel = 1\nminutes = 5\n+++\n```set-up\ndevice gxmm\n```\n\
@@ -167,7 +167,7 @@ fn mistakes_have_a_line_and_a_remedy() {
     );
 }
 
-/// The page writes the first one in playground/web/src/lessons/kept.test.ts.
+/// The first code is written by the page in playground/web/src/lessons/kept.test.ts.
 const CODES: &str = "From Ann:
 > odkit-progress/1 learner=Ann%20%C3%9C. nmt=5/5@2026-11-22
 > sdo=2/6@2026-11-23 sum=1AD6B914
@@ -175,7 +175,7 @@ odkit-progress/1 learner=Bob sdo=6/6@2026-11-24 sum=CE8B1035 Regards
 ";
 
 #[test]
-fn codes_of_learners_become_a_table_and_a_cut_one_is_told() {
+fn codes_of_learners_become_a_table_and_a_truncated_one_is_reported() {
     let table = odkit(&["lesson", "progress", "-"], &CODES.replace("> ", ""));
     assert_eq!(table.code, 0, "{}", table.err);
     assert_eq!(

@@ -9,14 +9,14 @@ use crate::support::sim::{Sim, say};
 use crate::support::{command, odkit};
 
 #[test]
-fn socketcand_speaks_to_clients_that_compare_what_they_read() {
+fn socketcand_clients_get_the_exact_responses() {
     let mut sim = Sim::start(&["gxmm", "--link", "socketcand:127.0.0.1:0"]);
     let slcan = sim.port;
     sim.port = sim.port_of("socketcand on 127.0.0.1:");
     let mut client = sim.client();
     say(&mut client, "", "< hi >");
     say(&mut client, "< open can0 >", "< ok >");
-    // What follows the answer comes in a message of its own.
+    // The frame after the response is a message of its own.
     client
         .write_all(b"< rawmode >< send 601 8 40 0 10 0 0 0 0 0 >")
         .expect("it reads");
@@ -50,7 +50,7 @@ fn a_pseudo_terminal_is_an_adapter() {
             .open(&path)
             .expect("it is there")
     };
-    // A host comes, goes, and comes again.
+    // A host connects, disconnects, and connects again.
     for _ in 0..2 {
         let mut host = open();
         host.write_all(b"C\rO\rt60184000100000000000\r")
@@ -64,10 +64,10 @@ fn a_pseudo_terminal_is_an_adapter() {
     }
 }
 
-/// The end of a serial line is a pseudo-terminal here, which goes with its owner.
+/// A pseudo-terminal stands for a serial line here; it disappears with its owner.
 #[cfg(unix)]
 #[test]
-fn a_link_that_dies_is_told_and_the_last_one_ends_the_bench() {
+fn a_lost_link_is_reported_and_the_last_one_ends_the_bench() {
     let mut other = Sim::start(&["gxmm", "--link", "slcan:pty"]);
     let path = other.greeting.split("slcan on /").nth(1).expect("a path");
     let path = format!("/{}", path.split([',', '\n', ' ']).next().expect("a path"));
@@ -87,7 +87,7 @@ fn a_link_that_dies_is_told_and_the_last_one_ends_the_bench() {
     assert_eq!(ended.status.code(), Some(1), "{said}");
     assert!(said.contains(&format!("{path} is lost: ")), "{said}");
     assert!(said.contains("the last link is lost"), "{said}");
-    // One that can still be reached goes on.
+    // A link that still works continues.
     first.told(&format!("{path} is lost: "));
     say(&mut first.client(), "V\r", "V1013\r");
 }
@@ -104,7 +104,7 @@ fn standard_output_that_fails_is_a_lost_link() {
             .stderr(Stdio::piped())
             .spawn()
             .expect("odkit starts");
-        // The boot-up message finds no room, whether the input is still open or at its end.
+        // The boot-up message cannot be written, whether the input is open or at its end.
         let open = sim.stdin.take();
         let ended = sim.wait_with_output().expect("it ends");
         drop(open);
@@ -116,7 +116,7 @@ fn standard_output_that_fails_is_a_lost_link() {
 }
 
 #[test]
-fn the_end_of_standard_input_ends_nothing_beside_a_server() {
+fn the_end_of_standard_input_does_not_end_a_server() {
     let mut child = command()
         .args(["sim", "gxmm", "--link", "-", "--slcan", "127.0.0.1:0"])
         .stdin(Stdio::null())
@@ -134,7 +134,7 @@ fn the_end_of_standard_input_ends_nothing_beside_a_server() {
     let port: u16 = digits
         .and_then(|text| text.trim().parse().ok())
         .expect("a port");
-    // The frames on standard output go on, too.
+    // Standard output still gets frames.
     let mut frames = BufReader::new(child.stdout.take().expect("a pipe")).lines();
     for frame in ["701#00", "601#4000100000000000", "581#4300100096010200"] {
         let line = frames.next().expect("a frame").expect("UTF-8");
@@ -151,7 +151,7 @@ fn the_end_of_standard_input_ends_nothing_beside_a_server() {
 }
 
 #[test]
-fn a_port_in_use_is_said_with_what_to_do() {
+fn a_port_in_use_is_reported_with_a_help() {
     let sim = Sim::start(&["gxmm"]);
     let address = format!("127.0.0.1:{}", sim.port);
     let second = odkit(&["sim", "gxmm", "--slcan", &address], "");
@@ -183,7 +183,7 @@ fn a_flood_reaches_every_client_in_order() {
     }
     let mut talker = sim.client();
     say(&mut talker, "O\r", "\r");
-    // Each acknowledgement comes before the response to its frame.
+    // Each acknowledgement is sent before the response to its frame.
     let sent = format!("{REQUEST}V\r").repeat(1000);
     say(
         &mut talker,
@@ -196,7 +196,7 @@ fn a_flood_reaches_every_client_in_order() {
 }
 
 #[test]
-fn who_has_said_all_still_gets_the_answers() {
+fn a_client_that_closes_its_half_still_gets_responses() {
     let sim = Sim::start(&["gxmm"]);
     let mut client = sim.client();
     client
@@ -233,7 +233,7 @@ fn ctrl_c_ends_it_under_a_flood() {
     sim.signal("-INT");
     let asked = std::time::Instant::now();
     assert_eq!(sim.child.wait().expect("it ends").code(), Some(0));
-    // A busy computer takes seconds; one that answers the flood first would never end.
+    // A busy computer takes seconds; a bench that answers the flood first would never end.
     assert!(asked.elapsed() < Duration::from_secs(20));
     for flood in floods {
         flood.join().expect("no panic");

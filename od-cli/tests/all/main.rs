@@ -1,4 +1,4 @@
-//! The command line from outside, one module a subcommand or a promise. One program, since each costs a link.
+//! The command line from outside: a module for each subcommand. One program, since each takes time to link.
 
 #[path = "../support/mod.rs"]
 mod support;

@@ -1,11 +1,11 @@
-//! `odkit network`: projects of dcfgen, node lists, and what they report.
+//! `odkit network`: projects of dcfgen, node lists, and their reports.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::support::{Done, odkit, repository};
 
-/// A folder of this test run, without files.
+/// An empty folder of this test run.
 fn folder(name: &str) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("network-{name}"));
     let _ = fs::remove_dir_all(&folder);
@@ -13,7 +13,7 @@ fn folder(name: &str) -> PathBuf {
     folder
 }
 
-/// Runs a project or node list of this text.
+/// Runs a project or node list with this text.
 fn network(name: &str, file: &str, text: &str) -> (Done, PathBuf) {
     let folder = folder(name);
     let path = folder.join(file);
@@ -45,7 +45,7 @@ fn concise_dcfs_are_those_of_dcfgen() {
         let value = entry.parameter.as_ref().or(entry.default.as_ref());
         value.and_then(|value| value.integer(1)).expect("a number")
     };
-    // Three TPDOs of the nodes and the one that is not enabled; heartbeats of 8 ms, watched for 20 ms.
+    // Three TPDOs of the nodes and one that is not enabled; heartbeats of 8 ms, monitored for 20 ms.
     for (index, sub, expected) in [
         (0x1006, 0, 10_000),
         (0x1016, 1, 0x10_0014),
@@ -82,7 +82,7 @@ fn node(name: &str, id: u8, keys: &str) -> String {
 }
 
 #[test]
-fn what_does_not_fit_together_is_said() {
+fn contradictions_between_nodes_are_reported() {
     let fast = "  tpdo: {1: {transmission: 255, event_timer: 1}, 2: {transmission: 255, event_timer: 1}}\n";
     let text = [
         "master: {node_id: 9, baudrate: 125}\n".into(),
@@ -128,7 +128,7 @@ fn what_does_not_fit_together_is_said() {
 }
 
 #[test]
-fn what_is_not_a_project_is_said() {
+fn a_text_that_is_not_a_project_is_refused() {
     for (name, text, said) in [
         ("none", "a: 1\n", "the section `master` is missing"),
         ("yaml", "a: [1\n", "none.yml"),
@@ -170,7 +170,7 @@ fn what_is_not_a_project_is_said() {
 }
 
 #[test]
-fn a_node_list_is_its_dcfs() {
+fn a_node_list_has_the_dcfs_of_its_nodes() {
     let folder = folder("list");
     let eds = repository("devices/eds/GXMM.eds");
     for (id, rest) in [
@@ -197,7 +197,7 @@ fn a_node_list_is_its_dcfs() {
     let out = folder.join("out");
     let paths = [list.display().to_string(), out.display().to_string()];
     let run = odkit(&["network", &paths[0], "-o", &paths[1]], "");
-    // Two encoders wait for SYNC only if a PDO is synchronous, and nobody produces it.
+    // Two encoders consume SYNC only if a PDO is synchronous, and no node produces it.
     assert_eq!(run.code, 0, "{}", run.err);
     assert!(
         run.out

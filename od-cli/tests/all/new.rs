@@ -1,14 +1,14 @@
-//! `odkit new`: what it writes. That it builds and runs is a matter of `cargo xtask test --long`.
+//! The output of `odkit new`. `cargo xtask test --long` checks that it builds and runs.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::support::{file, odkit, repository};
 
-/// A folder of this test that is not there yet.
+/// A folder of this test that does not exist yet.
 fn fresh(name: &str) -> PathBuf {
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
-    // It may be left from an earlier run, or not.
+    // It may exist from an earlier run.
     let _ = fs::remove_dir_all(&path);
     path
 }
@@ -18,7 +18,7 @@ fn read(folder: &Path, name: &str) -> String {
 }
 
 #[test]
-fn a_sound_file_goes_into_the_crate_as_it_is() {
+fn a_file_without_errors_is_copied_unchanged() {
     let eds = repository("devices/eds/GXMM.eds");
     let folder = fresh("new-encoder");
     let path = folder.display().to_string();
@@ -101,7 +101,7 @@ fn a_broken_file_is_fixed_and_each_change_is_listed() {
 }
 
 #[test]
-fn a_cob_id_that_no_device_may_use_is_switched_off() {
+fn a_cob_id_that_no_device_may_use_is_made_not_valid() {
     let text = "[DeviceInfo]\nProductName=Sender\n[1800]\nParameterName=TPDO\nObjectType=0x9\nSubNumber=3\n\
                 [1800sub0]\nParameterName=Count\nDataType=5\nAccessType=const\nDefaultValue=2\n\
                 [1800sub2]\nParameterName=Type\nDataType=5\nAccessType=rw\nDefaultValue=255\n\
@@ -116,7 +116,7 @@ fn a_cob_id_that_no_device_may_use_is_switched_off() {
 }
 
 #[test]
-fn a_merge_conflict_is_for_the_user() {
+fn a_merge_conflict_is_left_to_the_user() {
     let text = "[DeviceInfo]\nProductName=Two\n[2000]\nParameterName=T\nDataType=5\nAccessType=rw\n\
                 <<<<<<< HEAD\nDefaultValue=5\n=======\nDefaultValue=6\n>>>>>>> other\n";
     let eds = file("new-merge.eds", text).display().to_string();
@@ -133,7 +133,7 @@ fn a_merge_conflict_is_for_the_user() {
 }
 
 #[test]
-fn what_the_node_does_not_serve_is_removed_in_the_call() {
+fn objects_that_the_node_does_not_serve_are_removed_in_the_call() {
     let text = "[DeviceInfo]\nProductName=Master\n[1005]\nParameterName=COB-ID SYNC\nDataType=7\n\
                 AccessType=rw\nDefaultValue=0x40000080\n";
     let eds = file("new-unserved.eds", text).display().to_string();
@@ -147,7 +147,7 @@ fn what_the_node_does_not_serve_is_removed_in_the_call() {
 }
 
 #[test]
-fn what_cannot_be_is_said() {
+fn impossible_arguments_are_reported() {
     let eds = repository("devices/eds/GXMM.eds");
     for name in ["5x", "fn", "a b", "od-model"] {
         let run = odkit(&["new", &eds, "--name", name], "");
@@ -156,7 +156,7 @@ fn what_cannot_be_is_said() {
     }
     let empty = file("empty-new.eds", "").display().to_string();
     assert_eq!(odkit(&["new", &empty, "--name", "x1"], "").code, 1);
-    // A folder that cannot be: nothing of it is made.
+    // A folder that cannot be created: nothing is created.
     let path = format!("{empty}/x1");
     let run = odkit(&["new", &eds, "--path", &path], "");
     assert_eq!(run.code, 1);
@@ -202,7 +202,7 @@ fn all_files(folder: &Path) -> Vec<PathBuf> {
         .collect()
 }
 
-/// A crate has all that it needs, or names versions, or leads to a checkout from where it is.
+/// A crate contains all that it needs, or depends on versions, or finds a checkout by a relative path.
 #[test]
 fn a_crate_finds_odkit_wherever_it_is() {
     let eds = repository("devices/eds/GXMM.eds");
@@ -214,7 +214,7 @@ fn a_crate_finds_odkit_wherever_it_is() {
         let arguments = [&["new", &eds, "--path", &path], more].concat();
         let made = odkit(&arguments, "");
         assert_eq!(made.code, 0, "{}", made.err);
-        // No file says where this test ran, and the name is that of the file.
+        // No file contains the path of this test, and the name is that of the file.
         for file in all_files(&folder) {
             let text = String::from_utf8_lossy(&fs::read(&file).expect("a file")).into_owned();
             assert!(!text.contains(&root.display().to_string()), "{file:?}");
@@ -251,7 +251,7 @@ fn a_crate_finds_odkit_wherever_it_is() {
     assert!(!Path::new(&path).exists());
 }
 
-/// Every file that ships makes a crate whose EDS has no error left with which no device can be built.
+/// Every shipped file makes a crate whose EDS has no error that prevents a device.
 #[test]
 fn the_corpus_makes_crates() {
     let all = fresh("new-corpus");
@@ -285,7 +285,7 @@ fn the_corpus_makes_crates() {
     {
         let code = finding["code"].as_str().expect("a code");
         let rule = od_eds::check::rule(code).expect("a rule");
-        // What only a master fails at stays: it is what the vendor says.
+        // Errors that only concern a master stay: the vendor wrote them.
         assert!(
             finding["severity"] != "error" || rule.buildable,
             "{finding}"
@@ -293,7 +293,7 @@ fn the_corpus_makes_crates() {
     }
 }
 
-/// A new crate depends on no command line, and on nothing that only one needs.
+/// A new crate does not depend on the command line, or on dependencies of it alone.
 #[test]
 fn a_new_crate_does_not_depend_on_the_command_line() {
     let folder = fresh("new-tree");
@@ -317,8 +317,8 @@ fn a_new_crate_does_not_depend_on_the_command_line() {
     }
 }
 
-/// Makes a crate, with the versions that this checkout was tested with and that are downloaded
-/// already.
+/// Creates a crate with the versions that this checkout was tested with and that are already
+/// downloaded.
 fn make(from: &str, name: &str, folder: &Path, more: &[&str]) {
     let to = folder.display().to_string();
     let arguments = [&["new", from, "--name", name, "--path", &to], more].concat();
@@ -327,7 +327,7 @@ fn make(from: &str, name: &str, folder: &Path, more: &[&str]) {
     fs::copy(repository("Cargo.lock"), folder.join("Cargo.lock")).expect("a lock file");
 }
 
-/// Output of cargo in a crate; it succeeds.
+/// Output of a successful cargo call in a crate.
 fn cargo(folder: &Path, arguments: &[&str]) -> String {
     let cargo = std::process::Command::new(env!("CARGO"))
         .args(arguments)
@@ -342,14 +342,14 @@ fn cargo(folder: &Path, arguments: &[&str]) -> String {
     out.into_owned()
 }
 
-/// The folder that new crates are built in: that of this workspace, whose dependencies are there.
+/// Target folder for new crates: that of this workspace, which has the dependencies.
 fn target() -> &'static Path {
     let temporary = Path::new(env!("CARGO_TARGET_TMPDIR"));
     temporary.parent().unwrap_or(temporary)
 }
 
-/// Lays a crate in the place of another, whose copies of odkit it uses: these are not built once more then,
-/// as cargo tells packages apart by where they are in a workspace.
+/// Puts a crate in the place of another and uses its copies of odkit: they are then not built again,
+/// since cargo identifies packages of a workspace by their path.
 fn replace(place: &Path, folder: &Path) {
     for name in ["src", "tests"] {
         fs::remove_dir_all(place.join(name)).expect("a folder of the one before");
@@ -365,7 +365,7 @@ fn replace(place: &Path, folder: &Path) {
     fs::write(manifest, inside).expect("it is ours");
 }
 
-/// The text of an EDS that wants of a node what it does not serve, SYNC, and of few nodes, a second SDO server.
+/// The text of an EDS with SYNC, which the node does not serve, and a second SDO server, which few nodes have.
 fn producer(eds: &Path) -> String {
     let text = fs::read_to_string(eds).expect("the file");
     let produces = text.replacen("DefaultValue=0x80\n", "DefaultValue=0x40000080\n", 1);
@@ -375,8 +375,8 @@ fn producer(eds: &Path) -> String {
            [1201sub0]\nParameterName=Highest sub-index\nDataType=5\nAccessType=ro\nDefaultValue=2\n"
 }
 
-/// `cargo test` passes in a new crate: for our own file, and in a long run for twenty files of the corpus
-/// and in the workspace of a firmware, too.
+/// `cargo test` passes in a new crate: for our own file, and in a long run also for twenty files of the corpus
+/// and in the workspace of a firmware.
 #[test]
 fn a_new_crate_builds_and_its_tests_pass() {
     if !is_long() && std::env::var_os("CI").is_none() {
@@ -407,7 +407,7 @@ fn a_new_crate_builds_and_its_tests_pass() {
     if !is_long() {
         return;
     }
-    // The simulation and the tests of a firmware; the lock file has the versions of all boards.
+    // The simulation and the tests of a firmware; the lock file has the versions for all boards.
     let folder = all.join("workspace");
     let more = ["--firmware", "generic", "--odkit", &vendor];
     make("gxmm", "workspace", &folder, &more);

@@ -1,11 +1,11 @@
-//! `odkit new --firmware`: what it writes. `cargo xtask test --only boards` builds it.
+//! The output of `odkit new --firmware`. `cargo xtask test --only boards` builds it.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::support::{file, odkit, repository};
 
-/// Boards, and what is in the files of each.
+/// Boards, and texts that the files of each contain.
 const BOARDS: [(&str, &str, &str); 4] = [
     ("stm32g0", "embassy-stm32", "thumbv6m-none-eabi"),
     ("stm32f4", "embassy-stm32", "thumbv7em-none-eabi"),
@@ -15,7 +15,7 @@ const BOARDS: [(&str, &str, &str); 4] = [
 
 fn fresh(name: &str) -> PathBuf {
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
-    // It may be left from an earlier run, or not.
+    // It may exist from an earlier run.
     let _ = fs::remove_dir_all(&path);
     path
 }
@@ -24,7 +24,7 @@ fn read(folder: &Path, name: &str) -> String {
     fs::read_to_string(folder.join(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
 }
 
-/// Makes a workspace with the name of its folder.
+/// Creates a workspace with the name of its folder.
 fn make(eds: &str, board: &str, name: &str) -> PathBuf {
     let folder = fresh(name);
     let path = folder.display().to_string();
@@ -60,7 +60,7 @@ fn a_workspace_has_device_firmware_simulation_and_tests() {
             read(&folder, &format!("device/board-{number}.eds")),
             fs::read_to_string(&eds).expect("the file")
         );
-        // The same node in both, with the sizes of its dictionary.
+        // Both have the same node, with the sizes of its dictionary.
         assert!(read(&folder, "firmware/src/main.rs").contains("dictionary::Board::new(NODE_ID"));
         assert!(read(&folder, "sim/src/lib.rs").contains("dictionary::Node::new(node_id"));
         let script = read(&folder, "tests/scripts/boot-up.script");
@@ -73,7 +73,7 @@ fn a_workspace_has_device_firmware_simulation_and_tests() {
 }
 
 #[test]
-fn the_device_has_what_its_file_asks_for() {
+fn the_device_has_the_services_of_its_file() {
     let text = "[DeviceInfo]\nProductName=Gate\nLSS_Supported=1\nBaudRate_125=1\nBaudRate_250=1\n\
                 [1000]\nParameterName=Device type\nDataType=7\nAccessType=ro\nDefaultValue=0\n\
                 [1001]\nParameterName=Error register\nDataType=5\nAccessType=ro\n\
@@ -100,7 +100,7 @@ fn the_device_has_what_its_file_asks_for() {
 }
 
 #[test]
-fn what_cannot_be_made_leaves_nothing() {
+fn a_workspace_that_cannot_be_made_leaves_no_file() {
     let eds = repository("devices/eds/GXMM.eds");
     let folder = fresh("board-not");
     let path = folder.display().to_string();
@@ -115,7 +115,7 @@ fn what_cannot_be_made_leaves_nothing() {
         "",
     );
     assert_eq!(reserved.code, 2, "{}", reserved.err);
-    // One lacks an object, the other one all.
+    // One lacks an object, the other has all.
     let register = "[1001]\nParameterName=Error register\nDataType=5\nAccessType=ro\n";
     for (name, objects, said) in [("lacks", register, "--lossy"), ("empty", "", "E0210")] {
         let text = format!("{objects}[2001]\nParameterName=Nothing\nAccessType=rw\n");

@@ -41,7 +41,7 @@ impl Folder {
         files
     }
 
-    /// Runs a command with `$` for the folder; it is refused with these words, and every file is as it was.
+    /// Runs a command with `$` for the folder; it is refused with these words, and no file has changed.
     #[track_caller]
     fn refuses(&self, line: &str, words: &str) {
         let before = self.content();

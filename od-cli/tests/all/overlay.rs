@@ -18,7 +18,7 @@ DefaultValue=1
 ";
 
 #[test]
-fn a_variant_is_a_file_of_what_is_different() {
+fn a_variant_is_a_file_of_differences() {
     let variant = file("variant.overlay", VARIANT).display().to_string();
     let name = format!("gxmm+{variant}");
     let diff = odkit(&["diff", "gxmm", &name], "");
@@ -43,7 +43,7 @@ fn a_variant_is_a_file_of_what_is_different() {
 }
 
 #[test]
-fn findings_stand_in_the_file_that_they_are_about() {
+fn findings_are_in_the_file_that_they_are_about() {
     let base = repository("devices/eds/GXMM.eds");
     let wrong = file(
         "wrong.overlay",

@@ -1,4 +1,4 @@
-//! `odkit.toml`, forms of the report of `odkit check`, and findings of base and overlay.
+//! `odkit.toml`, formats of the report of `odkit check`, and findings of base and overlay.
 
 use std::fs;
 use std::path::PathBuf;
@@ -26,7 +26,7 @@ fn check(folder: &std::path::Path, args: &[&str]) -> Done {
 }
 
 #[test]
-fn a_project_has_its_own_severities() {
+fn a_project_sets_its_own_severities() {
     let settings = "[rules]\nE0412 = \"warning\"\nW0108 = \"off\"\n\"I0410:2000\" = \"error\"\n\
         [[files]]\npattern = \"vendor/**\"\nrules = { W0108 = \"on\", E0412 = \"off\" }\n";
     let files = [
@@ -60,7 +60,7 @@ fn a_project_has_its_own_severities() {
         "{}",
         run.out
     );
-    // --config takes another file, for every command.
+    // --config selects another file, for every command.
     let other = folder.join("other.toml");
     fs::write(&other, "strict = true\nremarks = true\n").expect("written");
     let other = other.display().to_string();
@@ -71,7 +71,7 @@ fn a_project_has_its_own_severities() {
 }
 
 #[test]
-fn what_is_wrong_with_the_settings_is_said() {
+fn errors_in_the_settings_are_reported() {
     for (name, settings, expected) in [
         ("key", "ruls = 1\n", "unknown field `ruls`"),
         (
@@ -121,7 +121,7 @@ fn what_is_wrong_with_the_settings_is_said() {
 }
 
 #[test]
-fn forms_of_the_report() {
+fn every_format_of_the_report_has_its_form() {
     let folder = folder("forms", &[("a.eds", FILE)]);
     let path = folder.join("a.eds");
     let full = check(&folder, &[]);
@@ -186,7 +186,7 @@ fn findings_of_an_overlay_have_the_lines_of_their_file() {
     );
 }
 
-/// Messages of a client as the language server reads them.
+/// Messages of a client, in the format that the language server reads.
 fn framed(messages: &[&str]) -> String {
     let frame = |text: &&str| format!("Content-Length: {}\r\n\r\n{text}", text.len());
     messages.iter().map(frame).collect()
@@ -204,7 +204,7 @@ fn an_editor_sees_what_check_reports() {
     let start = r#"{"jsonrpc":"2.0","id":1,"method":"initialize","params":{"capabilities":{}}}"#;
     let stop = r#"{"jsonrpc":"2.0","id":2,"method":"shutdown"}"#;
     let exit = r#"{"jsonrpc":"2.0","method":"exit"}"#;
-    // What nobody can read is answered, and the next message is read.
+    // An unreadable message gets an answer, and the next message is read.
     let broken = "Content-Length: x\r\n\r\n";
     let input = framed(&[start]) + broken + &framed(&["{", &open]);
     let run = odkit(&["lsp"], &input);

@@ -1,4 +1,4 @@
-//! `odkit run`: exit codes, output, and what it says of a script that does not hold.
+//! `odkit run`: exit codes, output, and messages about failed expectations.
 
 use crate::support::{file, odkit, repository};
 
@@ -21,7 +21,7 @@ fn candump_lines_in_and_candump_lines_out() {
 }
 
 #[test]
-fn same_input_same_bytes() {
+fn the_same_input_gives_the_same_bytes() {
     let trace = repository("tests/conformance/bus-cover/trace-6-4.script");
     let (first, second) = (odkit(&["run", &trace], ""), odkit(&["run", &trace], ""));
     assert_eq!((first.code, &first.out), (0, &second.out));
@@ -29,7 +29,7 @@ fn same_input_same_bytes() {
 }
 
 #[test]
-fn what_does_not_hold_is_shown_with_what_came_instead() {
+fn a_failed_expectation_shows_what_came_instead() {
     let script = "expect 701#00\n601#40 00 20 00\nexpect 581#43 *\n";
     let run = odkit(&["run", "-"], script);
     assert_eq!(run.code, 1);
@@ -43,7 +43,7 @@ fn what_does_not_hold_is_shown_with_what_came_instead() {
 }
 
 #[test]
-fn what_does_not_come_is_looked_for() {
+fn a_missing_frame_is_waited_for() {
     let run = odkit(
         &["run", "-"],
         "expect 701#00\nnmt start\nexpect 181#* within 500ms\n",
@@ -100,7 +100,7 @@ fn a_line_that_cannot_be_carried_out_is_a_mistake_of_the_script() {
 }
 
 #[test]
-fn long_lines_are_not_echoed_whole() {
+fn long_lines_are_not_printed_in_full() {
     let long = "x".repeat(1_000_000);
     for (script, code) in [
         (format!("{long}\n"), 2),
@@ -128,7 +128,7 @@ fn long_lines_are_not_echoed_whole() {
 }
 
 #[test]
-fn time_has_an_end() {
+fn virtual_time_has_a_limit() {
     for line in [
         "at 18446744073709.551615s nmt start",
         "wait 18446744073709.551615s",
@@ -163,7 +163,7 @@ fn eds_files_are_devices_too() {
 }
 
 #[test]
-fn a_reader_that_goes_away_is_no_panic() {
+fn a_closed_pipe_does_not_panic() {
     let mut child = crate::support::command()
         .args(["run", "-"])
         .stdin(std::process::Stdio::piped())

@@ -1,10 +1,10 @@
-//! `odkit sim` as a process: its greeting, its devices, its console, what it refuses.
+//! `odkit sim` as a process: its greeting, its devices, its console, its refusals.
 
 use crate::support::sim::{Sim, say};
 use crate::support::{file, odkit, repository};
 
 #[test]
-fn it_says_how_to_connect_and_answers() {
+fn it_prints_how_to_connect_and_responds() {
     let sim = Sim::start(&["gxmm", "--node-id", "5", "--position", "0x79592"]);
     for line in [
         "node 5",
@@ -72,7 +72,7 @@ fn a_domain_takes_what_the_option_says() {
             assert!(sim.out.contains(frame), "{frame}\n{}", sim.out);
         }
     }
-    // Strings, too; and a size that is announced too large is refused at once.
+    // Strings as well; a size that is announced too large is aborted at once.
     let text = "607#2101200001040000\n";
     assert!(console(&[&eds], text).out.contains("587#6001200000000000"));
     let sim = console(&[&eds, "--domain-size", "1KiB"], &format!("{input}{text}"));
@@ -140,13 +140,13 @@ fn a_redundant_encoder_is_two_nodes_on_one_shaft() {
     );
 }
 
-/// Runs `odkit sim … --link -` on these lines.
+/// Runs `odkit sim … --link -` with these lines.
 fn console(args: &[&str], lines: &str) -> crate::support::Done {
     odkit(&[&["sim"], args, &["--link", "-"]].concat(), lines)
 }
 
 #[test]
-fn standard_input_takes_frames_and_the_world_outside() {
+fn standard_input_takes_frames_and_actions() {
     let lines = "601#4000100000000000\nnmt stop\npower cycle 20ms\n# a remark\nuse 2\n\
                  602#4000100000000000\nexpect 701#00\nhello\nnmt reset 2";
     let sim = console(&["gxmm", "gxmm"], lines);
@@ -185,7 +185,7 @@ fn standard_input_takes_frames_and_the_world_outside() {
 }
 
 #[test]
-fn shafts_start_where_the_seed_says() {
+fn the_seed_sets_the_start_of_the_shafts() {
     let position = |seed: &str| {
         let sim = console(&["gxmm", "--seed", seed], "601#4004600000000000\n");
         let answer = sim
@@ -276,7 +276,7 @@ fn two_devices_with_one_node_id_get_a_warning() {
     assert!(!sim.err.contains("have node ID 6"), "{}", sim.err);
 }
 
-/// Opening a FIFO waits until another program opens its other end.
+/// Opening a FIFO blocks until another program opens its other end.
 #[cfg(unix)]
 #[test]
 fn a_fifo_is_not_an_eeprom() {
@@ -293,7 +293,7 @@ fn a_fifo_is_not_an_eeprom() {
 }
 
 #[test]
-fn what_cannot_be_is_said_in_one_line() {
+fn wrong_usage_is_reported_in_one_line() {
     for (args, code, why) in [
         (&["sim", "gxmx"][..], 1, "no built-in device or file"),
         (
@@ -364,8 +364,8 @@ fn what_cannot_be_is_said_in_one_line() {
 }
 
 #[test]
-fn a_restore_leads_back_to_the_node_id_of_the_command_line() {
-    // Rotary switches rule over what is saved (manual 000, 7.2.1; manual 003, 5.1.10); the EAM has
+fn a_restore_keeps_the_node_id_of_the_command_line() {
+    // The rotary switches take precedence over saved values (manual 000, 7.2.1; manual 003, 5.1.10); the EAM has
     // none. A save and a start take their time (MANUALS.md U-39).
     for (device, saved, time) in [
         ("gxmm", 5, "1ms"),

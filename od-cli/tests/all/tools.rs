@@ -1,14 +1,14 @@
-//! `odkit check --for`: what other tools make of a file.
+//! `odkit check --for`: how other tools read a file.
 
 use std::fs;
 use std::path::PathBuf;
 
 use crate::support::{Done, odkit};
 
-/// Read by python-canopen with another default and without the mapping; nothing in it stops it.
+/// python-canopen reads it with another default and without the mapping; nothing stops it.
 const DIFFERS: &str = "[2000]\nParameterName=Gain\nObjectType=7\nDataType=0x5\nAccessType=rw\n\
     DefaultValue=010\nPdoMapping=1\n";
-/// It stops python-canopen, which needs numbers.
+/// It stops python-canopen, which expects numbers.
 const STOPS: &str = "[DeviceInfo]\nVendorNumber=\n";
 
 /// A folder of this test run with these files.
@@ -136,7 +136,7 @@ fn a_rule_of_a_tool_is_explained_and_can_be_allowed_in_the_file() {
         "{}",
         run.out
     );
-    // Without the tool, the comment is not reported as idle.
+    // Without the tool, the comment is not reported as unused.
     let run = check(&file, &["--remarks"]);
     assert!(!run.out.contains("T0112"), "{}", run.out);
 }

@@ -1,5 +1,5 @@
-//! Clients that do not spare a bench: one that floods it, some that never read, and a polite one that
-//! measures what is left for it.
+//! Clients that load a bench: one that floods it, some that never read, and a polite one that
+//! measures its response time.
 
 use std::io::{Read, Write};
 use std::net::TcpStream;
@@ -10,9 +10,9 @@ use std::time::{Duration, Instant};
 
 use super::sim::{Sim, say};
 
-/// An upload of 1000h, which the device answers.
+/// An upload of 1000h, to which the device responds.
 const FLOOD: &str = "t60184000100000000000\r";
-/// The polite client asks for 1018h:01, which nobody else does.
+/// The polite client reads 1018h:01; no other client does.
 const REQUEST: &[u8] = b"t60184018100100000000\r";
 const ANSWER: &[u8] = b"t581843181001";
 
@@ -22,11 +22,11 @@ pub(crate) struct Measured {
     pub(crate) flood: f64,
     /// Time from request to answer, the shortest first.
     pub(crate) answers: Vec<Duration>,
-    /// Largest memory and number of threads of the bench; `None`: the system does not say.
+    /// Maximum memory and number of threads of the bench; `None` if the system does not tell.
     pub(crate) memory: Option<Memory>,
 }
 
-/// The bench, as the system sees it.
+/// The process of the bench, as the system shows it.
 #[derive(Clone, Copy)]
 pub(crate) struct Memory {
     /// Largest resident set so far, in kB.
@@ -58,7 +58,7 @@ impl Measured {
     }
 }
 
-/// A flooder, `silent` clients, and a polite client that asks until `enough` says so.
+/// A flooder, `silent` clients, and a polite client that sends requests until `enough` returns true.
 pub(crate) fn measure(sim: &Sim, silent: usize, mut enough: impl FnMut(usize) -> bool) -> Measured {
     let mut deaf: Vec<TcpStream> = (0..silent).map(|_| sim.client()).collect();
     for client in &mut deaf {
@@ -78,7 +78,7 @@ pub(crate) fn measure(sim: &Sim, silent: usize, mut enough: impl FnMut(usize) ->
     let mut answers = Vec::new();
     while !enough(answers.len()) {
         answers.push(ask(&mut polite));
-        // A pause, as a master has it; frames of the flood wait for it.
+        // A pause, as a master makes it; meanwhile frames of the flood queue up.
         thread::sleep(Duration::from_millis(1));
     }
     let frames = (sent.load(Ordering::Relaxed) - before) as f64;
@@ -96,7 +96,7 @@ pub(crate) fn measure(sim: &Sim, silent: usize, mut enough: impl FnMut(usize) ->
     }
 }
 
-/// Time from a request to its answer.
+/// Time from a request to its response.
 fn ask(polite: &mut TcpStream) -> Duration {
     let start = Instant::now();
     polite.write_all(REQUEST).expect("it reads");
@@ -113,7 +113,7 @@ fn ask(polite: &mut TcpStream) -> Duration {
     }
 }
 
-/// One thread writes, as fast as it can, the other reads.
+/// One thread writes as fast as possible, the other reads.
 fn flood(
     mut client: TcpStream,
     ends: &Arc<AtomicBool>,
@@ -136,7 +136,7 @@ fn flood(
     [writer, reader]
 }
 
-/// Linux tells it in a file.
+/// Linux has it in a file.
 fn memory(process: u32) -> Option<Memory> {
     let status = std::fs::read_to_string(format!("/proc/{process}/status")).ok()?;
     let number = |name: &str| {

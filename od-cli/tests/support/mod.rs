@@ -20,7 +20,7 @@ pub(crate) struct Done {
     pub(crate) err: String,
 }
 
-/// The binary under test, or the one that `ODKIT` names, without colours whatever the terminal.
+/// The binary under test, or the one that `ODKIT` names; always without colours.
 pub(crate) fn command() -> Command {
     let built = || env!("CARGO_BIN_EXE_odkit").into();
     let mut command = Command::new(std::env::var_os("ODKIT").unwrap_or_else(built));

@@ -1,4 +1,4 @@
-//! A quiet `odkit sim`, for tests of what goes on in the background.
+//! A quiet `odkit sim`, for tests of runs in the background.
 
 use std::fs;
 use std::io::{BufRead, BufReader, Read};
@@ -11,7 +11,7 @@ use serde_json::Value;
 
 use super::{Done, command, odkit};
 
-/// A quiet `odkit sim` on an slcan port of its own; it ends with this value.
+/// A quiet `odkit sim` on an slcan port of its own; it ends when this is dropped.
 pub(crate) struct Sim {
     pub(crate) child: Child,
     /// Its line on standard output.
@@ -55,7 +55,7 @@ impl Sim {
         odkit(&[&["ctl", self.control()], lines].concat(), "")
     }
 
-    /// Ends it with a signal, and returns what it said on standard error.
+    /// Ends it with a signal, and returns its standard error.
     pub(crate) fn end(&mut self, signal: &str) -> String {
         let pid = self.child.id().to_string();
         let kill = std::process::Command::new("kill")
@@ -77,7 +77,7 @@ impl Drop for Sim {
     }
 }
 
-/// A path of this test; a path of a socket is short.
+/// A path for this test; the path of a socket has a small maximum length.
 pub(crate) fn path(name: &str) -> PathBuf {
     let path = std::env::temp_dir().join(format!("odkit-{}-{name}", std::process::id()));
     let _ = fs::remove_file(&path);
@@ -88,7 +88,7 @@ pub(crate) fn unix(path: &Path) -> String {
     format!("unix:{}", path.display())
 }
 
-/// Waits until there is something.
+/// Waits until the closure returns a value.
 #[track_caller]
 pub(crate) fn until<T>(what: &str, mut look: impl FnMut() -> Option<T>) -> T {
     let start = Instant::now();

@@ -7,13 +7,13 @@ use std::time::Duration;
 
 use super::command;
 
-/// `odkit sim` on an slcan port of its own; it ends with this value.
+/// `odkit sim` on an slcan port of its own; it ends when this is dropped.
 pub(crate) struct Sim {
     pub(crate) child: Child,
     /// Its greeting.
     pub(crate) greeting: String,
     pub(crate) port: u16,
-    /// Its standard error, unless nobody listens.
+    /// Its standard error, unless it is not captured.
     errors: Option<BufReader<ChildStderr>>,
 }
 
@@ -22,12 +22,12 @@ impl Sim {
         Self::spawn(command(), args, Stdio::null())
     }
 
-    /// One whose messages a test [waits for](Self::told).
+    /// A bench whose messages a test [waits for](Self::told).
     pub(crate) fn start_heard(args: &[&str]) -> Self {
         Self::spawn(command(), args, Stdio::piped())
     }
 
-    /// One that `sh` starts with this script, as `"$@"`.
+    /// A bench that `sh` starts with this script, as `"$@"`.
     #[cfg(unix)]
     pub(crate) fn start_under(script: &str, args: &[&str]) -> Self {
         let mut shell = Command::new("sh");
@@ -115,7 +115,7 @@ impl Drop for Sim {
     }
 }
 
-/// Sends, and expects this answer.
+/// Sends a line, and expects this answer.
 #[track_caller]
 pub(crate) fn say(client: &mut TcpStream, sent: &str, expected: &str) {
     client.write_all(sent.as_bytes()).expect("it reads");

@@ -13,7 +13,7 @@ use crate::support::file;
 #[cfg(unix)]
 use crate::support::sim::Sim;
 
-/// A test over slcan that waits for what happens to it: standard output and error, and the exit code.
+/// A test over slcan that is disturbed while it runs: standard output and error, and the exit code.
 #[cfg(unix)]
 struct Run {
     child: Child,
@@ -22,7 +22,7 @@ struct Run {
 
 #[cfg(unix)]
 impl Run {
-    /// Begins all cases, and waits until some are done.
+    /// Starts all cases, and waits until some are done.
     fn begin(sim: &Sim, name: &str) -> Self {
         let report = file(name, "").display().to_string();
         let link = format!("slcan:127.0.0.1:{}", sim.port);
@@ -44,10 +44,10 @@ impl Run {
         Self { child, report }
     }
 
-    /// It ends with exit code 1, and this text in output and report.
+    /// It ends with exit code 1, and this text is in the output and in the report.
     #[track_caller]
     fn ends(mut self, why: &str) {
-        // It would not wait for a reader.
+        // It would not wait for a reader of its output.
         let mut errors = self.child.stderr.take().expect("a pipe");
         let reader = std::thread::spawn(move || std::io::copy(&mut errors, &mut std::io::sink()));
         let output = self.child.wait_with_output().expect("odkit ends");
@@ -87,7 +87,7 @@ fn ctrl_c_ends_in_a_report() {
 #[test]
 fn a_command_switches_the_power() {
     let socket = Path::new(env!("CARGO_TARGET_TMPDIR")).join("power.sock");
-    // One that a run left that was ended.
+    // A file of an earlier run that was killed.
     let _ = std::fs::remove_file(&socket);
     let place = format!("unix:{}", socket.display());
     let sim = Sim::start(&["gxmm", "--control", &place]);
@@ -109,7 +109,7 @@ fn a_command_switches_the_power() {
 }
 
 #[test]
-fn a_twin_is_an_eds_that_other_commands_take() {
+fn other_commands_accept_the_eds_of_a_twin() {
     let path = file("twin.eds", "").display().to_string();
     let args = ["learn", "1", "--link", "bench:gxmm", "-o", &path];
     done(&[&args[..], &["--twin", "--allow-reset", "--seconds", "1"]].concat());
@@ -135,7 +135,7 @@ fn a_twin_is_an_eds_that_other_commands_take() {
     let told = fails(1, &["conform", &path, "--only", "eds-*"]);
     let expected = format!("twin-wrong.eds, line {line}: `reply` is not valid");
     assert!(told.contains(&expected), "{told}");
-    // What is not recorded has no use for the options of a recording.
+    // The options of a recording are refused if nothing is recorded.
     fails(2, &[&args[..], &["--seconds", "1"]].concat());
     fails(2, &[&args[..], &["--allow-reset"]].concat());
 }

@@ -86,7 +86,7 @@ fn values_are_checked_then_written() {
         [&["set", "5"], values, at].concat()
     }
     done(&set(&["6001h=0x1000", "Producer heartbeat time=100"], &at));
-    // The first is right, the second is not: none is sent.
+    // The first value is valid, the second is not: neither is sent.
     let said = fails(2, &set(&["6001h=2048", "6000h=65536"], &at));
     assert!(said.contains("6000h"), "{said}");
     assert!(fails(2, &set(&["6004h=1"], &at)).contains("cannot be written"));
@@ -140,7 +140,7 @@ fn without_a_file_types_come_from_sizes() {
     assert!(fails(2, &[&["set", "5", "2001h=70000"], &at[..]].concat()).contains("2 bytes"));
     assert!(fails(2, &[&["set", "5", "2002h=1"], &at[..]].concat()).contains("cannot be read"));
     done(&[&["set", "5", "2002h=[01 00]"], &at[..]].concat());
-    // A DOMAIN goes there by block transfer, and comes back.
+    // A DOMAIN is written and read by block transfer.
     let image: Vec<u8> = (0..20_000_u32).map(|byte| (byte * 7) as u8).collect();
     let (there, back) = (
         path.replace("bus-sizes.eds", "bus-there.bin"),

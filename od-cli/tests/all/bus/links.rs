@@ -1,4 +1,4 @@
-//! Each kind of link, as a client; and what happens when it goes.
+//! Each kind of link, as a client; and what happens if the link is lost.
 
 use std::io::{Read, Write};
 use std::net::TcpListener;
@@ -36,7 +36,7 @@ fn each_link_reads_the_same_value() {
         let got = done(&["get", "1", "1000h", "--link", link]);
         assert!(got.contains("131478 (20196h)"), "{link}: {got}");
     }
-    // The adapter's channel is closed behind each of them, and opened again.
+    // The channel of the adapter is closed after each command, and opened again.
     done(&[
         "get",
         "1",
@@ -117,12 +117,12 @@ fn the_default_is_the_running_sim() {
     );
     sim.kill().expect("it runs");
     sim.wait().expect("it ends");
-    // It was killed, so its file is still there.
+    // The bench was killed, so its file still exists.
     assert_eq!(get().status.code(), Some(1));
     std::fs::remove_dir_all(&folder).expect("a folder");
 }
 
-/// A server that answers the first bytes of a client with these, and then leaves.
+/// A server that responds to the first bytes of a client, and then disconnects.
 fn server(answer: &'static [u8]) -> String {
     let listener = TcpListener::bind("127.0.0.1:0").expect("a port");
     let port = listener.local_addr().expect("an address").port();
@@ -131,14 +131,14 @@ fn server(answer: &'static [u8]) -> String {
         let mut bytes = [0; 64];
         let _ = client.read(&mut bytes);
         let _ = client.write_all(answer);
-        // Until it has sent a request.
+        // Waits until it has sent a request.
         let _ = client.read(&mut bytes);
     });
     port.to_string()
 }
 
 #[test]
-fn a_link_that_goes_or_talks_garbage_is_an_error_in_words() {
+fn a_lost_link_or_garbage_on_it_is_an_error_message() {
     for (kind, answer, words) in [
         ("slcan", &b"\r\r\r"[..], "closed the connection"),
         ("slcan", b"\r\r\rhello\r", "unexpected line `hello`"),
@@ -154,7 +154,7 @@ fn a_link_that_goes_or_talks_garbage_is_an_error_in_words() {
     ] {
         let link = format!("{kind}:{}", server(answer));
         let said = match kind {
-            // It speaks first.
+            // This server sends first.
             "socketcand" => {
                 let listener = TcpListener::bind("127.0.0.1:0").expect("a port");
                 let port = listener.local_addr().expect("an address").port();

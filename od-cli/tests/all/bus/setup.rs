@@ -13,9 +13,9 @@ fn the_wizard_sets_up_new_encoders_one_after_the_other() {
     let sim = Sim::start(&[&[new.as_str(), &new, "gdam"], &ids[..], &serials].concat());
     let link = link(&sim);
     let at = ["--link", &link];
-    // The first keeps the proposal, which is not 5; 5 is in use, so 9 comes after it.
+    // The first slave gets the proposed node ID, which is not 5; 5 is in use, so 9 is proposed next.
     let wizard = [&["lss", "set", "--first", "5"], &at[..]].concat();
-    // Fastscan takes seconds in real time, so there is one; the others are in od-bus.
+    // Fastscan takes seconds in real time, so only one is tested here; the others are in od-bus.
     let set_up = odkit(&wizard, "\n5\n9\n");
     assert_eq!(set_up.code, 0, "{}", set_up.err);
     assert!(
@@ -61,7 +61,7 @@ fn a_backup_is_applied_to_a_node_that_was_changed() {
     done(&[&["set", "5", "1017h=250", "6001h=1000"], &at[..]].concat());
     let said = done(&[&["backup", "5", "-o", &path], &at[..]].concat());
     assert!(said.contains("values"), "{said}");
-    // It is a DCF that odkit itself finds nothing wrong with, and a simulation of it is the node.
+    // odkit itself finds no error in the DCF, and a simulation of it equals the node.
     let check = odkit(&["check", &path], "");
     assert_eq!(check.code, 0, "{}", check.out);
     done(
@@ -86,7 +86,7 @@ fn a_backup_is_applied_to_a_node_that_was_changed() {
         .concat(),
     );
     assert!(again.contains("\"written\": 0"), "{again}");
-    // A COB-ID that follows the node ID does so on another node, too; one of its own does not.
+    // A COB-ID that depends on the node ID follows that of another node; a constant one does not.
     let dcf = std::fs::read_to_string(&path).expect("a DCF");
     assert!(dcf.contains("ParameterValue=$NODEID+0x180"), "{dcf}");
     let own = dcf.replace("ParameterValue=$NODEID+0x180", "ParameterValue=0x181");
@@ -96,7 +96,7 @@ fn a_backup_is_applied_to_a_node_that_was_changed() {
         said.contains("of node 5") && said.contains("1800h:01"),
         "{said}"
     );
-    // A file of another device is not written.
+    // A file of another device is refused.
     let dcf = std::fs::read_to_string(&path).expect("a DCF");
     let dcf = dcf.replace("DefaultValue=0x70\n", "DefaultValue=0x71\n");
     let other = file("bus-other.dcf", &dcf);

@@ -14,7 +14,7 @@ const LOG: &str = "(0.100000) can0 000#0105\n(0.110000) can0 185#929507000000000
                    (0.131000) can0 585#4300100096010200\n(0.200000) can0 705#05\n";
 
 #[test]
-fn a_log_of_any_format_is_told_in_words() {
+fn a_log_of_any_format_is_shown_in_words() {
     let log = file("bus-a.log", LOG).display().to_string();
     let text = done(&["decode", &log, "--eds", "5=gxmm"]);
     assert!(text.contains("TPDO1 Position value = 497042"), "{text}");
@@ -22,7 +22,7 @@ fn a_log_of_any_format_is_told_in_words() {
         text.contains("! EMCY node 5: 8130h life guard or heartbeat error"),
         "{text}"
     );
-    // A file without an ID gives its names to all nodes.
+    // A file without a node ID supplies names for all nodes.
     assert_eq!(done(&["decode", &log, "--eds", "gxmm"]), text);
     let plain = done(&["decode", &log]);
     assert!(
@@ -126,7 +126,7 @@ fn a_bus_is_recorded_replayed_and_monitored() {
         );
     }
     fails(2, &[&["record", "bus.asc"], &at[..]].concat());
-    // What is replayed arrives: an NMT command, then SYNCs.
+    // Replayed frames are received: an NMT command, then SYNC messages.
     let log = file("bus-start.log", "(1.0) can0 000#0105\n(1.05) can0 080#\n")
         .display()
         .to_string();
@@ -186,9 +186,9 @@ fn values_are_watched_by_tpdo_and_by_polls() {
     assert_eq!(value["value"], 4);
 }
 
-/// Ctrl-C ends a command that would run for ever, and is not a failure of it.
+/// Ctrl-C ends a command that runs without an end, with exit code 0.
 #[test]
-fn ctrl_c_ends_what_runs_until_then() {
+fn ctrl_c_ends_endless_commands_without_an_error() {
     let mut sim = Sim::start(&["gxmm", "--node-id", "5"]);
     let link = link(&sim);
     done(&["set", "5", "1017h=20", "--link", &link]);
@@ -210,7 +210,7 @@ fn ctrl_c_ends_what_runs_until_then() {
         .status()
         .expect("kill");
     assert_eq!(monitor.wait().expect("it ends").code(), Some(0));
-    // A bus that goes away is one.
+    // A lost bus is an error.
     let mut monitor = command();
     monitor.args(["monitor", "--plain", "--link", &link]);
     let mut monitor = monitor
@@ -282,6 +282,6 @@ fn the_console_works_on_a_terminal() {
     sees("filter: sdo");
     keys.write_all(b"q").expect("keys");
     assert_eq!(monitor.wait().expect("it ends").code(), Some(0));
-    // The terminal is as it was.
+    // The terminal has its earlier mode.
     sees("\u{1b}[?1049l");
 }
