@@ -6,7 +6,7 @@ import { inline, policy } from './policy.mjs';
 
 const watch = process.argv.includes('--watch');
 const out = new URL('dist/', import.meta.url);
-// The page begins with the small module; the whole one is fetched for EDS texts and lessons.
+// The page loads the small module first; the whole one is fetched for EDS texts and lessons.
 const modules = { 'core.wasm': 'src/wasm/core/od_playground_bg.wasm', 'whole.wasm': 'src/wasm/od_playground_bg.wasm' };
 
 for (const path of Object.values(modules)) {
@@ -46,14 +46,14 @@ if (watch) {
   await serviceWorker();
 }
 
-/** The page carries its policy, for servers that send none. There a lesson may come from another server. */
+/** The page contains its policy, for servers that send none. On them a lesson may come from another server. */
 async function index() {
   const html = await readFile(new URL('src/index.html', import.meta.url), 'utf8');
   const meta = `<meta http-equiv="Content-Security-Policy" content="${policy(inline(html), "'self' https:")}">`;
   await writeFile(new URL('index.html', out), html.replace('<meta charset="utf-8">', `<meta charset="utf-8">\n  ${meta}`));
 }
 
-/** Each lesson is a file that the page fetches when it is opened, with a list of them all. */
+/** Each lesson is a file that the page fetches when it is opened; a list names them all. */
 async function lessons() {
   const folder = new URL('../lessons/', import.meta.url);
   const list = [];
@@ -68,7 +68,7 @@ async function lessons() {
   await writeFile(new URL('lessons.json', out), JSON.stringify(list));
 }
 
-/** The service worker knows every file of the page by its content. */
+/** The service worker knows the hash of each file of the page. */
 async function serviceWorker() {
   const hash = async (name) => createHash('sha256').update(await readFile(new URL(name, out))).digest('base64url').slice(0, 12);
   const files = await Promise.all((await readdir(out)).sort().map(async (name) => [name, await hash(name)]));

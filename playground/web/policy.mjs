@@ -1,21 +1,21 @@
 // The Content-Security-Policy of the page, for the header of `serve.mjs` and for the page itself:
-// its own files, WebAssembly, and styles in attributes (meters, fading bytes). Markup and scripts
-// by address go through Trusted Types.
+// its own files, WebAssembly, and styles in attributes (meters, fading bytes). HTML and script
+// addresses pass through Trusted Types.
 import { createHash } from 'node:crypto';
 
-/** The policies of lit and DOMPurify, and the page's own for its workers (`src/trusted.ts`). */
+/** The policies of lit and DOMPurify, and that of the page for its workers (`src/trusted.ts`). */
 const TYPES = 'lit-html dompurify odkit';
 
-/** A bus that odkit serves on this computer. A policy cannot name [::1]; localhost leads there, too. */
+/** A bus that odkit serves on this computer. A policy cannot name [::1]; localhost also reaches it. */
 const BUS = 'ws://127.0.0.1:* ws://localhost:*';
 
-/** `scripts`: hashes of the scripts inside an HTML file, as `inline` gives them; `connect`: where lessons may come from. */
+/** `scripts`: hashes of the scripts inside an HTML file, from `inline`; `connect`: origins of lessons. */
 export const policy = (scripts, connect = "'self'") =>
   `default-src 'none'; script-src 'self' 'wasm-unsafe-eval'${scripts}; style-src 'self'; style-src-attr 'unsafe-inline'; ` +
   `img-src 'self'; connect-src ${connect} ${BUS}; ` + "worker-src 'self'; manifest-src 'self'; base-uri 'none'; form-action 'none'; " +
   `require-trusted-types-for 'script'; trusted-types ${TYPES}`;
 
-/** The hashes of the scripts inside an HTML file, as a policy names them. */
+/** The hashes of the scripts inside an HTML file, in the form of a policy. */
 export const inline = (html) =>
   [...html.toString().matchAll(/<script>(.*?)<\/script>/gs)]
     .map(([, text]) => ` 'sha256-${createHash('sha256').update(text).digest('base64')}'`)

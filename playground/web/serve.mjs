@@ -1,5 +1,5 @@
 // Serves the bundled page on 127.0.0.1: `node serve.mjs [port]`, else on 8080 or the next free port.
-// Prints the address. Ends with its standard input, so that nothing outlives its starter.
+// Prints the address. Ends when its standard input closes, so that it does not outlive its starter.
 import { readFile } from 'node:fs/promises';
 import { createServer } from 'node:http';
 import { extname, join } from 'node:path';
@@ -23,11 +23,11 @@ export async function serve(folder, port) {
   const server = createServer(async (request, response) => {
     const { port: own } = server.address();
     const end = (status, text) => response.writeHead(status, { 'content-type': 'text/plain' }).end(text);
-    // A name that somebody else made lead to this computer is not ours.
+    // A host name that another site has pointed to this computer is refused.
     if (![`127.0.0.1:${own}`, `localhost:${own}`].includes(request.headers.host)) return end(421, 'unknown host\n');
     if (!['GET', 'HEAD'].includes(request.method)) return end(405, 'read only\n');
     try {
-      // A URL has no `..` left in it; what is encoded stays below the root all the same.
+      // A URL has no `..` left in it; an encoded one stays below the root.
       const path = decodeURIComponent(new URL(request.url, 'http://localhost').pathname).replace(/\/$/, '/index.html');
       const file = join(root, path);
       if (!file.startsWith(root)) return end(404, 'not found\n');

@@ -1,4 +1,4 @@
-// What the first visit downloads, gzipped, against the budget; and what comes later.
+// Compares the gzipped size of the first visit with its budget, and prints the parts that are loaded later.
 import { readdir, readFile } from 'node:fs/promises';
 import { gzipSync } from 'node:zlib';
 
@@ -6,7 +6,7 @@ const BUDGET = 250;
 const dist = new URL('dist/', import.meta.url);
 const read = (name) => readFile(new URL(name, dist));
 
-// Scripts bring along what they import from the start, not what they import when asked.
+// Scripts include their static imports, not their dynamic ones.
 const first = new Set(['index.html', 'icon.svg', 'style.css', 'core.wasm']);
 const scripts = ['main.js', 'worker.js'];
 while (scripts.length) {

@@ -1,4 +1,4 @@
-// Runs src/**/*.test.ts: bundled, then handed to Node's own test runner.
+// Bundles src/**/*.test.ts and runs them with Node's test runner.
 import { spawnSync } from 'node:child_process';
 import { mkdtemp, readdir, rm } from 'node:fs/promises';
 import { tmpdir } from 'node:os';

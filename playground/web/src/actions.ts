@@ -1,4 +1,4 @@
-// Everything a person can do, in one place.
+// All actions of a user.
 
 import type { Input, Source } from './sim/api';
 import { readLine, type ReadLine, type Typed } from './codec';
@@ -12,7 +12,7 @@ export function sendFrame(frame: Typed): void {
   act({ op: 'send', id, data, extended, remote });
 }
 
-/** What a line says, for the selected node. Only an object (`6004`, `1018:4`, its name) is read. */
+/** The meaning of a line, for the selected node. An object alone (`6004`, `1018:4`, its name) is read. */
 export function readTyped(text: string): ReadLine {
   const read = (line: string): ReadLine => readLine(line, state.nodeId.value, (index, sub) => state.objectsByKey.value.get(state.keyOf(index, sub)));
   const parsed = read(text);
@@ -24,19 +24,19 @@ export function readTyped(text: string): ReadLine {
   return read(`read ${hex(where.index).padStart(4, '0')}:${hex(where.sub).padStart(2, '0')}`);
 }
 
-/** Sends the frame that a line says, for the selected node: `nmt start`, `601#40 04 60 00`. */
+/** Sends the frame of a line, for the selected node: `nmt start`, `601#40 04 60 00`. */
 export function sendLine(line: string): void {
   const parsed = readTyped(line);
   if ('frame' in parsed) sendFrame(parsed.frame);
 }
 
-/** Is it a line of a script about what is outside the bus: `power off`, `set 6000h:01 = 5`? */
+/** Returns whether a line is an action outside the bus: `power off`, `set 6000h:01 = 5`. */
 export const isDeed = (line: string): boolean => !state.real.value && /^\s*(power|shaft|switch|fault|bus|line|set|emcy)\s/.test(line);
 
-/** Carries out such a line on the selected device. */
+/** Does such an action on the selected device. */
 export async function doLine(line: string): Promise<void> {
   const { diagnostics } = await add({ op: 'script', text: `use ${state.selectedNode.value + 1}\n${line}` });
-  // Without the place in a script of two lines.
+  // Without the line number, which counts in a script of two lines.
   if (diagnostics[0]) state.toast.value = { text: diagnostics[0].message.replace(/^line 2 [^\n]*\n\s*|^2:\d+: /, ''), tone: 'error' };
 }
 
@@ -64,7 +64,7 @@ export function setSpeed(factor: number): void {
   send({ op: 'speed', factor });
 }
 
-/** Lets this time pass, or with `frames` as much as this number of frames needs. */
+/** Lets this time pass; with `frames`, the time that this number of frames needs. */
 export function step(micros: number, frames = 0): void {
   setRunning(false);
   send({ op: 'step', micros, frames });
@@ -90,7 +90,7 @@ export function clearConsole(): void {
   state.cleared.value += 1;
 }
 
-/** Saves the capture as other tools read it. */
+/** Saves the capture in a format of other tools. */
 export async function saveLog(format: string): Promise<void> {
   const { ring } = state;
   if (ring.first === ring.end) {
@@ -101,7 +101,7 @@ export async function saveLog(format: string): Promise<void> {
   if ('value' in file) download(file.value as Uint8Array<ArrayBuffer>, `odkit-${state.device.value?.name ?? 'capture'}.${format}`);
 }
 
-/** Hands a file to the person. */
+/** Downloads a file. */
 export function download(content: string | Uint8Array<ArrayBuffer>, name: string): void {
   const url = URL.createObjectURL(new Blob([content], { type: typeof content === 'string' ? 'text/plain' : 'application/octet-stream' }));
   const link = document.createElement('a');
@@ -112,8 +112,8 @@ export function download(content: string | Uint8Array<ArrayBuffer>, name: string
 }
 
 /**
- * Puts a device on the bus, in the place of another or in a new one; null when its file cannot be used, and why if that
- * is not in the file. It says so where it took the place of another, unless it is not to be `told`.
+ * Puts a device on the bus, in the place of another or in a new one. Returns its number; null and the reason if its file
+ * cannot be used (no reason if the file itself shows it). Reports that it replaced a device, unless `told` is false.
  */
 export async function openDevice(source: Source, nodeId: number, place: number | 'new' = state.selectedNode.value, told = true): Promise<{ node: number | null; why: string }> {
   const before = place === 'new' ? undefined : state.devices.value[place];
@@ -130,7 +130,7 @@ export async function openDevice(source: Source, nodeId: number, place: number |
   return { node, why: '' };
 }
 
-/** The bench goes back to the moment before a device took the place of another. */
+/** Restores the bench to the moment before a device was replaced. */
 export async function undoReplace(): Promise<void> {
   const before = state.replaced.value;
   state.report.value = null;
@@ -152,7 +152,7 @@ function remember(): void {
   if (state.real.value) return;
   const parts = new URLSearchParams();
   for (const { source, nodeId, name } of state.devices.value) {
-    // The further channels of an encoder come with its first one.
+    // The further channels of an encoder are added with its first one.
     if (source.kind !== 'builtin' || name !== source.name) continue;
     parts.append('device', source.name);
     parts.append('node', String(nodeId));
@@ -160,7 +160,7 @@ function remember(): void {
   history.replaceState(null, '', parts.size ? `#${parts}` : location.pathname + location.search);
 }
 
-/** The devices of the address; one gxmm where it names none. */
+/** The devices of the address; one gxmm if it names none. */
 export function recall(): { source: Source; nodeId: number }[] {
   const parts = new URLSearchParams(location.hash.slice(1));
   const nodes = parts.getAll('node').map(Number);
@@ -188,8 +188,8 @@ export async function begin(wanted: { source: Source; nodeId: number }[]): Promi
 }
 
 /**
- * Begins a lesson on a bench of its own, at the step behind these solutions; false, with `lessonFailed`, where it is
- * wrong.
+ * Starts a lesson on a bench of its own, at the step after these solutions. Returns false, with `lessonFailed`, if it is not
+ * valid.
  */
 export async function openLesson(name: string, text: string, solutions: string[] = []): Promise<boolean> {
   const { node, diagnostics } = await add({ op: 'lesson', text });
@@ -209,7 +209,7 @@ export async function openLesson(name: string, text: string, solutions: string[]
   return true;
 }
 
-/** Plays lines of a script, such as the solution of a step. */
+/** Plays script lines, such as the solution of a step. */
 export async function playScript(text: string): Promise<void> {
   const { diagnostics } = await add({ op: 'script', text });
   if (diagnostics[0]) state.toast.value = { text: diagnostics[0].message, tone: 'error' };

@@ -1,4 +1,4 @@
-// The console's views of the capture, and what a person chose in them.
+// The views of the capture in the console, and the choices of the user in them.
 
 import { effect, signal } from '@preact/signals-core';
 import { parseFilter } from './trace/filter';
@@ -9,18 +9,18 @@ import * as state from './state';
 export const trace = new Trace(state.ring);
 trace.words = knownWords;
 
-/** Changes when all rows were made again. */
+/** Changes when all rows were computed again. */
 export const refiltered = signal(0);
-/** In order, one row for each identifier, or no frames but values over time. */
+/** In order, one row for each CAN-ID, or a plot of values instead of frames. */
 export const view = signal<'order' | 'ids' | 'plot'>('order');
 export const filterText = signal('');
-/** What is wrong with the filter, and where. */
+/** Message and place of an error in the filter. */
 export const filterError = signal<{ error: string; at: number } | null>(null);
-/** What the second time column shows. */
+/** Content of the second time column. */
 export const gap = signal<'delta' | 'cycle'>('delta');
 export const folds = signal(true);
 
-/** Frames whose words a filter asks for at a time. */
+/** Number of frames for which a filter requests the text at once. */
 const PORTION = 4000;
 let isLearning = false;
 
@@ -48,7 +48,7 @@ function refilter(): void {
   refiltered.value = refiltered.peek() + 1;
 }
 
-/** A filter that looks at words learns those of all frames, portion by portion. */
+/** A filter on texts gets those of all frames, in portions. */
 async function learn(): Promise<void> {
   if (isLearning) return;
   isLearning = true;
@@ -76,7 +76,7 @@ export function toggleBookmark(number: number): void {
   state.bookmarks.value = marks;
 }
 
-/** The next marked frame after the chosen one, or before it; round the ends. */
+/** The next or previous marked frame relative to the selected one, wrapping around at the ends. */
 export function nextBookmark(direction: 1 | -1): void {
   const marks = [...state.bookmarks.value].filter((number) => number >= state.ring.first).sort((a, b) => a - b);
   if (marks.length === 0) return;
@@ -85,16 +85,16 @@ export function nextBookmark(direction: 1 | -1): void {
   reveal(next ?? (direction > 0 ? marks[0]! : marks.at(-1)!));
 }
 
-/** Chooses a frame and asks the view to show it. */
+/** Selects a frame and scrolls the view to it. */
 export function reveal(number: number): void {
   state.chosenFrame.value = number;
   revealed.value = { number };
 }
 
-/** A frame that should be on screen. */
+/** The frame to scroll to. */
 export const revealed = signal<{ number: number } | null>(null);
 
-/** Chooses the next frame that passes a filter's text; answers what is wrong, or whether there is one. */
+/** Selects the next frame that passes the filter; returns the error, or whether there is one. */
 export async function find(text: string, direction: 1 | -1): Promise<string | boolean> {
   const parsed = parseFilter(text);
   if ('error' in parsed) return parsed.error;

@@ -1,4 +1,4 @@
-// The page's own instance of the WebAssembly module: what views ask at once, without the bench.
+// The page's own instance of the WebAssembly module, for questions that views ask synchronously.
 
 import { signal } from '@preact/signals-core';
 import { decodeValue, encodeValue, frameTemplates, initSync, readLine as read, tagNames, tags as tagsOf, typeRange, type LineResult } from './wasm/core/od_playground';
@@ -8,11 +8,11 @@ import { grouped } from './format';
 
 export { checkRun, frameBits, mappedValues, readInput, readValues, Statistics, Transfers } from './wasm/core/od_playground';
 
-/** Before the worker has sent the module there is nothing to ask. */
+/** False until the worker has sent the module. */
 const isReady = signal(false);
 
 let arrived: () => void;
-/** Resolves when there is something to ask. */
+/** Resolves when the module can be used. */
 export const loaded = new Promise<void>((resolve) => (arrived = resolve));
 
 export function begin(module: WebAssembly.Module): void {
@@ -23,22 +23,22 @@ export function begin(module: WebAssembly.Module): void {
 
 export interface Tag {
   service: string;
-  /** What the console shows: `PDO1`, `SDO`, … */
+  /** Names in the console: `PDO1`, `SDO`, … */
   text: string;
 }
 
-/** A frame that was disturbed on the wire. */
+/** A frame that was disturbed on the bus line. */
 export const ERROR: Tag = { service: 'ERR', text: 'ERR' };
 
 let known: Tag[] = [];
 
-/** The services, in the order of the numbers that `tags` answers with. */
+/** The services, in the order of their numbers in `tags`. */
 export function tagAt(place: number): Tag {
   if (known.length === 0) known = tagNames().map((text) => ({ text, service: text.replace(/^R?(PDO)\d$/, '$1') }));
   return known[place]!;
 }
 
-/** For each packed frame the numbers that TAG reads: service, node and whether there is an object; the object. */
+/** For each packed frame the numbers that TAG reads: service, node, whether there is an object, the object. */
 export const tags = (frames: Uint8Array): Uint32Array => tagsOf(frames);
 
 /** A frame that a user typed. */
@@ -46,25 +46,25 @@ export interface Typed {
   id: number;
   extended: boolean;
   remote: boolean;
-  /** Of a remote frame as many zeros as it asks for. */
+  /** A remote frame has as many zeros as bytes it requests. */
   data: Uint8Array;
 }
 
 export type ReadLine = { frame: Typed } | { error: string; at: number };
 
-/** Reads a frame or a line that is one, for a node with these objects. */
+/** Parses a frame, or a line that means one, for a node with these objects. */
 export function readLine(text: string, nodeId: number, find: (index: number, sub: number) => ObjectRecord | undefined): ReadLine {
   if (!isReady.value || text.trim() === '') return { error: T.typed.frame, at: 0 };
   const result: LineResult = read(text, nodeId, { typeOf: (index, sub) => find(index, sub)?.type });
   return result.error === undefined ? { frame: result } : { error: result.error, at: result.at };
 }
 
-/** Frames to begin with, for a node. */
+/** Example frames for a node. */
 export const templates = (nodeId: number): FrameTemplate[] => (isReady.value ? frameTemplates(nodeId) : []);
 
 export type Encoded = { bytes: Uint8Array; note: string } | { error: string };
 
-/** The bytes of a value that was typed for an object, and a word about it. */
+/** The bytes of a typed value for an object, and its description. */
 export function encode(text: string, object: ObjectRecord): Encoded {
   try {
     const bytes = encodeValue(object.type, text);
@@ -83,7 +83,7 @@ function noteOn(bytes: Uint8Array, object: ObjectRecord): string {
   return value < limits.low || value > limits.high ? T.typed.outside(grouped(limits.low), grouped(limits.high)) : object.type;
 }
 
-/** The value in the bytes of an object. */
+/** The value that the bytes of an object encode. */
 export const decode = (bytes: Uint8Array, object: ObjectRecord): Value => decodeValue(object.type, bytes);
 
 /** Lowest and highest value: the object's own limits, or those of its type. */

@@ -1,4 +1,4 @@
-// Numbers, bytes, addresses and frames as the page writes them.
+// How the page writes numbers, bytes, addresses and frames.
 
 import type { ObjectRecord, Value } from './sim/api';
 import type { Packed } from './sim/packed';
@@ -8,14 +8,14 @@ export const grouped = (value: number | bigint): string => value.toLocaleString(
 
 export const hexIndex = (index: number): string => `${index.toString(16).toUpperCase().padStart(4, '0')}h`;
 
-/** `6004h`, or `1018h:02` where there is more than sub-index 0. */
+/** `6004h`, or `1018h:02` if the object has more than sub-index 0. */
 export function address(index: number, sub: number, always = false): string {
   return sub === 0 && !always ? hexIndex(index) : `${hexIndex(index)}:${sub.toString(16).toUpperCase().padStart(2, '0')}`;
 }
 
 const isFloat = (object: ObjectRecord): boolean => object.type.startsWith('REAL');
 
-/** A value for people: integers grouped, with hexadecimal where that is how it is read. */
+/** A value to show: integers grouped, codes and bits in hexadecimal. */
 export function showValue(value: Value, object: ObjectRecord): string {
   if (value === null) return '–';
   if (typeof value === 'string') return `“${value}”`;
@@ -27,7 +27,7 @@ export function showValue(value: Value, object: ObjectRecord): string {
   return isFlags(object) ? hexValue(value, object.bits) : grouped(value);
 }
 
-/** Is the value of this object a code or a set of bits, better read in hexadecimal? */
+/** Returns whether the value is a code or a set of bits, which is shown in hexadecimal. */
 function isFlags(object: ObjectRecord): boolean {
   return /COB|identifier|\btype\b|mapp|\bbits?\b|register|alarm|warning|vendor|product|revision|version|options|parameters?$|status|content|field|entry|store|save|restore/i.test(object.name) && object.sub !== 0
     ? true
@@ -40,7 +40,7 @@ export function hexValue(value: number | bigint, bits: number): string {
   return `${masked.toString(16).toUpperCase().padStart(width, '0')}h`;
 }
 
-/** The other spelling of a number, for the detail line. */
+/** The other notation of a number, for the detail line. */
 export function otherSpelling(value: Value, object: ObjectRecord): string {
   if (typeof value !== 'number' && typeof value !== 'bigint') return '';
   if (isFloat(object)) return '';
@@ -69,7 +69,7 @@ export function hexBytes(data: Uint8Array): string {
 export const hexId = (id: number, extended: boolean): string =>
   id.toString(16).toUpperCase().padStart(extended ? 8 : 3, '0');
 
-/** A frame as one would type it: `601#40 04 60 00`. */
+/** A frame as a user would type it: `601#40 04 60 00`. */
 export function typedForm(frame: Pick<Packed, 'id' | 'extended' | 'remote' | 'data'> & { dlc?: number }): string {
   const body = frame.remote ? `R${(frame.dlc ?? frame.data.length) || ''}` : hexBytes(frame.data);
   return `${hexId(frame.id, frame.extended)}#${body}`;

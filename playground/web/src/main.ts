@@ -12,7 +12,7 @@ window.addEventListener('hashchange', () => {
   void open();
 });
 
-/** The bench or the lesson that the address names, or a fresh one with its devices. */
+/** Opens the bench or the lesson in the address, or a new bench with its devices. */
 async function open(): Promise<void> {
   const { hash } = location;
   if (hash.startsWith('#bench=')) {
@@ -38,11 +38,11 @@ async function open(): Promise<void> {
     };
     if ((await openNamed(lesson, meanwhile)) || isThere) return;
   }
-  // A real bus that is shown stays.
+  // A connected real bus stays connected.
   if (!state.real.value) await begin(recall());
 }
 
-/** Decodes an address; one that is not well encoded is read as it is written. */
+/** Decodes an address; one with an invalid encoding is used as it is. */
 function plain(text: string): string {
   try {
     return decodeURIComponent(text);
@@ -51,7 +51,7 @@ function plain(text: string): string {
   }
 }
 
-/** What can wait until the bench runs. A frame in another page keeps nothing. */
+/** Tasks that can wait until the bench runs. A frame in another page stores nothing. */
 async function settle(): Promise<void> {
   const { start: record } = await import('./seeing/tracks');
   record();

@@ -1,4 +1,4 @@
-// What the unit tests need of Node.js, typed by hand: the page itself has no Node types.
+// The functions of Node.js that the unit tests need, declared here: the page has no Node types.
 
 interface Assert {
   ok(value: unknown, message?: string): asserts value;

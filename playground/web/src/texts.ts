@@ -1,6 +1,6 @@
-// Every text of the page, in one place (`texts/`), so that another language can follow: `German satisfies
-// Texts` beside `en` is all it takes. What the simulation says (frames in words, faults of EDS
-// files) comes from Rust in English.
+// All texts of the page, in `texts/`, so that another language can be added: `German satisfies
+// Texts` beside `en` is all it takes. Texts of the simulation (frames in words, faults of EDS
+// files) come from Rust in English.
 
 import { bench } from './texts/bench';
 import { bus } from './texts/bus';

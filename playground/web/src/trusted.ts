@@ -1,4 +1,4 @@
-// Scripts by address: Trusted Types let only those that are named here through.
+// Script addresses: Trusted Types accept only those that are listed here.
 
 const NAMES: ReadonlySet<string> = new Set(['worker.js', 'editor.js', 'sw.js']);
 
@@ -16,5 +16,5 @@ interface Policy {
 const { trustedTypes } = globalThis as { trustedTypes?: { createPolicy(name: string, rules: Policy): Policy } };
 const policy = trustedTypes?.createPolicy('odkit', { createScriptURL: own });
 
-/** The address of a worker, as a browser with Trusted Types wants it. */
+/** The address of a worker, as browsers with Trusted Types require it. */
 export const trusted = (name: 'worker.js' | 'editor.js' | 'sw.js'): string => (policy ? policy.createScriptURL(name) : own(name));

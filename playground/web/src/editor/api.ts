@@ -1,4 +1,4 @@
-// What crosses between the page and the worker with the language server.
+// The types that page and language-server worker exchange.
 
 import type { Difference } from '../wasm/od_playground';
 import type { Range } from './protocol';
@@ -7,7 +7,7 @@ export type { Difference };
 
 export type Severity = 'error' | 'warning' | 'info';
 
-/** In the order in which they are listed. */
+/** In the order of the list. */
 export const SEVERITIES = ['error', 'warning', 'info'] as const satisfies Severity[];
 
 /** A finding as a list shows it. */
@@ -16,51 +16,51 @@ export interface Finding {
   severity: Severity;
   code: string;
   message: string;
-  /** What to do; may be empty. */
+  /** Advice; may be empty. */
   help: string;
-  /** The line that it is about, where the text is as it was opened. */
+  /** The line of the finding, if the text is unchanged since it was opened. */
   source: string;
 }
 
 /** The findings of a rule. */
 export interface Group {
   code: string;
-  /** The class of fault in a few words. */
+  /** The class of fault, in a few words. */
   title: string;
   severity: Severity;
   count: number;
 }
 
-/** What is found in a text: enough to mark it and to list the rules. */
+/** The findings of a text: for marks in the text, and for the list of rules. */
 export interface Found {
   version: number;
   counts: Record<Severity, number>;
   /** Errors first. */
   groups: Group[];
-  /** Of each finding line and character of its start and its end, and its rank among `SEVERITIES`; by place. */
+  /** For each finding line and character of its start and end, and its index in `SEVERITIES`; sorted by place. */
   places: Uint32Array;
 }
 
-/** Numbers of a finding in `places`. */
+/** Indices of the findings in `places`. */
 export const PLACE = 5;
 
-/** What a text comes from: a device of ours, a text, the bytes of a file. */
+/** Origin of a text: a built-in device, a text, or the bytes of a file. */
 export type Origin = { name: string } | { text: string } | { bytes: Uint8Array };
 
 /** The sections of a text. */
 export interface Outline {
-  /** One name a line. */
+  /** One name for each line. */
   names: string;
   lines: Uint32Array;
   /** 1 below an object. */
   depths: Uint8Array;
 }
 
-/** What the page asks; each has an answer. */
+/** Requests of the page; each has an answer. */
 export interface Requests {
-  /** Opens a text under this URI; answers with it. */
+  /** Opens a text with this URI; returns the URI. */
   open(uri: string, origin: Origin): string;
-  /** Findings of a version from one to before another, in the order of the groups; none of an older version. */
+  /** Findings of a version in a range, in the order of the groups; empty for an older version. */
   rows(uri: string, version: number, from: number, to: number): Finding[];
   /** A request of the protocol. */
   request(method: string, params: object): unknown;

@@ -1,4 +1,4 @@
-// The page's end of the worker with the language server. It starts with the first question.
+// The page's side of the language-server worker, which starts with the first request.
 
 import { trusted } from '../trusted';
 import type { Command, Found, Report, Requests } from './api';
@@ -26,18 +26,18 @@ function started(): Worker {
     worker = null;
     for (const { reject } of waiting.values()) reject(new Error(event.message));
     waiting.clear();
-    // Every view with an open text opens it again.
+    // Each view with an open text opens it again.
     for (const again of restarted) again();
   };
   return (worker = own);
 }
 
-/** Called when the worker broke: the next question starts a fresh one, without texts. */
+/** Called when the worker has crashed: the next request starts a new one, without texts. */
 export const restarted = new Set<() => void>();
 
 export const send = (command: Command): void => started().postMessage(command);
 
-/** Asks the worker. Rejects where it cannot answer. */
+/** Sends a request to the worker. Rejects if it cannot answer. */
 export function ask<K extends keyof Requests>(op: K, ...args: Parameters<Requests[K]>): Promise<ReturnType<Requests[K]>> {
   return new Promise((resolve, reject) => {
     ticket += 1;
@@ -46,12 +46,12 @@ export function ask<K extends keyof Requests>(op: K, ...args: Parameters<Request
   });
 }
 
-/** Calls `listener` with what is found in a text, after each change. */
+/** Calls `listener` with the findings of a text after each change. */
 export function listen(uri: string, listener: (found: Found) => void): () => void {
   listeners.set(uri, listener);
   return () => listeners.delete(uri);
 }
 
 let opened = 0;
-/** A URI that no other text has; the server reads the kind of the file in its name. */
+/** A unique URI; the server reads the kind of the file from its name. */
 export const uriOf = (name: string): string => `page:${(opened += 1)}/${name}`;

@@ -1,4 +1,4 @@
-// The text of an EDS in CodeMirror, joined to the language server. It has a root of its own: there
+// The text of an EDS in CodeMirror, connected to the language server. It has a shadow root: there
 // its style sheets are objects, which the page's policy allows, and not elements.
 
 import { autocompletion, type CompletionContext, type CompletionResult } from '@codemirror/autocomplete';
@@ -25,11 +25,11 @@ export class Code {
   readonly view: EditorView;
   /** The end of a line in the file. */
   private readonly lineEnd: string;
-  /** Both kinds of line ends are in the file: it is saved with one. */
+  /** The file has both kinds of line ends: it is saved with one. */
   readonly isMixed: boolean;
   private readonly first: Text;
   private version = 1;
-  /** Versions that are being checked, and what changed since each. */
+  /** Versions that are being checked, and the changes since each. */
   private unchecked: { version: number; doc: Text; since: ChangeSet | null }[];
   private readonly unlisten: () => void;
 
@@ -90,7 +90,7 @@ export class Code {
     this.view.destroy();
   }
 
-  /** The text as a file has it. */
+  /** The text with the line ends of the file. */
   get text(): string {
     return this.view.state.doc.sliceString(0, undefined, this.lineEnd);
   }
@@ -99,17 +99,17 @@ export class Code {
     return !this.view.state.doc.eq(this.first);
   }
 
-  /** How a line ends in the file that is saved. */
+  /** Line end of the file that is saved. */
   get ending(): string {
     return this.lineEnd === '\n' ? 'LF' : 'CRLF';
   }
 
-  /** Another text in its place, as if it were typed. */
+  /** Replaces the text as if the user had typed it. */
   replace(text: string): void {
     this.view.dispatch({ changes: { from: 0, to: this.view.state.doc.length, insert: text } });
   }
 
-  /** Takes the findings of a text that was opened again. */
+  /** Sets the findings of a text that was opened again. */
   reopened(): void {
     this.version = 1;
     this.unchecked = [{ version: 1, doc: this.view.state.doc, since: null }];
@@ -136,7 +136,7 @@ export class Code {
     const before = update.startState.doc;
     const changes: { range: Range; text: string }[] = [];
     update.changes.iterChanges((from, to, _, __, text) =>
-      // Each is about the text before, so the last comes first.
+      // Each position refers to the text before, so the last change is applied first.
       changes.unshift({ range: { start: this.position(from, before), end: this.position(to, before) }, text: text.sliceString(0, undefined, this.lineEnd) }),
     );
     for (const one of this.unchecked) one.since = one.since ? one.since.compose(update.changes) : update.changes;
@@ -152,14 +152,14 @@ export class Code {
     this.on.found(found);
   }
 
-  /** Puts the cursor somewhere, and shows it. */
+  /** Moves the cursor, and scrolls to it. */
   go(place: Position, isFocused = true): void {
     const at = this.offset(place);
     this.view.dispatch({ selection: EditorSelection.cursor(at), effects: EditorView.scrollIntoView(at, { y: 'center' }) });
     if (isFocused) this.view.focus();
   }
 
-  /** To the next finding, or the one before. */
+  /** Moves to the next or previous finding. */
   next(by: 1 | -1): boolean {
     const places = this.view.state.field(marks)?.places;
     if (!places?.length) return true;
@@ -175,14 +175,14 @@ export class Code {
     openSearchPanel(this.view);
   }
 
-  /** From a mapping, a list or a header to the object; false without an object. */
+  /** Jumps from a mapping, a list or a header to the object; false if there is none. */
   async jump(): Promise<boolean> {
     const [to] = ((await ask('request', 'textDocument/definition', this.here())) ?? []) as Location[];
     if (to) this.go(to.range.start);
     return to !== undefined;
   }
 
-  /** What can be done about the findings of a line. */
+  /** Fixes for the findings of a line. */
   async actions(range: Range, code: string): Promise<Action[]> {
     const found = await this.ask('quickfix', range);
     return found.filter(({ diagnostics }) => diagnostics?.some((one) => one.code === code)).map((one) => ({ title: one.title, edits: this.edits(one) }));
@@ -227,7 +227,7 @@ export class Code {
       boost: -i / list.items.length,
       apply: (view: EditorView, _: unknown, start: number, end: number) => {
         const { newText } = item.textEdit;
-        // What is behind the cursor and would be replaced, too.
+        // Includes the text after the cursor that would be replaced.
         const behind = Math.max(end, this.offset(item.textEdit.range.end) + (view.state.selection.main.head - context.pos));
         const insert = view.state.toText(newText);
         view.dispatch({ changes: { from: start, to: behind, insert }, selection: { anchor: start + insert.length }, userEvent: 'input.complete' });

@@ -1,5 +1,5 @@
-// The editor of an EDS: the text, beside it what odkit finds in it, its sections, and what a master
-// would notice of the changes.
+// The editor of an EDS: the text, and beside it the findings, the sections, and the differences for
+// a master.
 
 import { html, nothing } from 'lit';
 import { effect } from '@preact/signals-core';
@@ -18,24 +18,24 @@ import { styled } from './styled';
 
 const SIDES = ['findings', 'outline', 'changes'] as const;
 type Side = (typeof SIDES)[number];
-/** Differences that are in the page; the rest is counted. */
+/** Number of differences that are shown; the others are counted. */
 const MOST_CHANGES = 300;
 
 class Editor extends View {
   static override properties = { side: { state: true }, found: { state: true }, note: { state: true }, changes: { state: true }, ran: { state: true } };
   declare side: Side;
   declare found: Found | null;
-  /** What came of the last act. */
+  /** Result of the last action. */
   declare note: { text: string; isBad: boolean };
   declare changes: Difference[] | null;
   declare ran: boolean;
   private code: Code | undefined;
   private list: FindingList | undefined;
-  /** What is edited, the text that it began with, and where it came from. */
+  /** The edited text, its initial content, and its origin. */
   private device: state.OpenedDevice | null = null;
   private original = '';
   private origin: Origin = { text: '' };
-  /** The text that runs, and the texts of other devices that were left with changes. */
+  /** The text that runs, and edited texts of other devices. */
   private running = '';
   private readonly drafts = new Map<string, { since: string[]; text: string }>();
   private key = '';
@@ -104,14 +104,14 @@ class Editor extends View {
     if (this.code.isMixed) this.note = { text: E.editor.mixed(this.code.ending), isBad: false };
     const draft = this.drafts.get(this.key);
     this.drafts.delete(this.key);
-    // Of the same text; what another file of this name had is not wanted here.
+    // Only changes of the same text; those of another file with this name are ignored.
     if (draft?.since.includes(this.original)) {
       this.code.replace(draft.text);
       this.note = { text: E.editor.draft, isBad: false };
     }
   }
 
-  /** The worker broke: the text as it is goes to a fresh one. */
+  /** The worker crashed: the current text is opened in a new one. */
   private async again(): Promise<void> {
     const { code } = this;
     if (!code) return;
@@ -154,7 +154,7 @@ class Editor extends View {
     this.list?.redraw();
   }
 
-  /** The fixes of the finding that is chosen. */
+  /** The fixes of the selected finding. */
   private offered(finding: Finding) {
     const { fixes } = this;
     if (fixes?.finding !== finding) return nothing;
@@ -173,7 +173,7 @@ class Editor extends View {
     if (!(await this.code?.jump())) this.note = { text: E.editor.noTarget, isBad: true };
   }
 
-  /** Boots the device with the text; where it cannot, the cursor goes to the first error. */
+  /** Boots the device with the text; if that is not possible, the cursor moves to the first error. */
   private async run(lenient = false): Promise<void> {
     const { code, device } = this;
     if (!code || !device) return;

@@ -1,4 +1,4 @@
-// The findings of a text as a list shows them: errors first, then by their rules.
+// The findings of a text in the order of a list: errors first, then by rule.
 
 import { PLACE, SEVERITIES, type Finding, type Group, type Severity } from './api';
 import type { Diagnostic } from './protocol';
@@ -8,7 +8,7 @@ const rank = (one: Diagnostic): number => Math.min(Math.max(one.severity - 1, 0)
 export class Findings {
   readonly groups: Group[];
   readonly counts: Record<Severity, number> = { error: 0, warning: 0, info: 0 };
-  /** In the order of the groups, those of one by place. */
+  /** In the order of the groups; inside a group by place. */
   private readonly sorted: Diagnostic[];
 
   constructor(all: Diagnostic[], titles: Record<string, string>) {
@@ -33,7 +33,7 @@ export class Findings {
     return this.sorted.slice(from, to);
   }
 
-  /** Where all are, for marks in the text. */
+  /** All places, for marks in the text. */
   readonly places = (): Uint32Array<ArrayBuffer> => {
     const all = [...this.sorted].sort(byPlace);
     const places = new Uint32Array(all.length * PLACE);
@@ -47,7 +47,7 @@ export class Findings {
 
 const byPlace = (a: Diagnostic, b: Diagnostic): number => a.range.start.line - b.range.start.line || a.range.start.character - b.range.start.character;
 
-/** A finding for a row; its help is behind its message. */
+/** A finding as a row; the help follows the message. */
 export function finding(one: Diagnostic, lines: string[] | null): Finding {
   const [message = '', ...help] = one.message.split('\nhelp: ');
   const { range, code } = one;

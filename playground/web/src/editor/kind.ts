@@ -1,10 +1,10 @@
-// What a file is that is not an EDS: by its first bytes, as `file` tells, or by its text.
+// Recognises files that are not an EDS, by their first bytes or their text.
 
 import type { Log } from '../sim/api';
 import { use } from '../sim/link';
 import { E } from '../texts/editor';
 
-/** What it is, and what to do with it; a log can be shown. */
+/** Description of the file, and what to do with it; a log can be shown. */
 export interface Kind {
   what: string;
   next?: string;
@@ -13,7 +13,7 @@ export interface Kind {
 
 const k = E.kinds;
 
-/** First bytes, as text where each is a character of its own. */
+/** First bytes, as a text with one character for each byte. */
 const MAGIC: [RegExp, Kind][] = [
   [/^\x89PNG\r\n/, { what: k.picture('PNG') }],
   [/^\xff\xd8\xff/, { what: k.picture('JPEG') }],
@@ -30,10 +30,10 @@ const MAGIC: [RegExp, Kind][] = [
   [/^\0asm/, { what: k.program }],
 ];
 const HEAD = 4096;
-/** A section, a comment or a key with a value: a line of an EDS. */
+/** A line of an EDS: a section, a comment or a key with a value. */
 const SECTION = /^[ \t]*\[[^\]\r\n]+\]/m;
 
-/** What a file is, or the text of one that may be an EDS, a DCF or an XDD. */
+/** Kind of the file, or the text of a file that may be an EDS, a DCF or an XDD. */
 export async function kindOf(bytes: Uint8Array): Promise<Kind | string> {
   if (bytes.length === 0) return { what: k.empty };
   const head = Array.from(bytes.subarray(0, HEAD), (byte) => String.fromCharCode(byte)).join('');
@@ -47,7 +47,7 @@ export async function kindOf(bytes: Uint8Array): Promise<Kind | string> {
   if (/\0/.test(text)) return { what: k.binary };
   if (/^\s*<(!doctype html|html)/i.test(text)) return { what: k.webPage };
   if (/^\s*<\?xml|^\s*<[a-z]/i.test(text)) return /ISO15745Profile/.test(text) ? text : { what: k.xml };
-  // A section can be an array of JSON, too.
+  // An array of JSON looks like a section.
   if (/^\s*[[{]/.test(text) && isJson(text)) return { what: k.json };
   return SECTION.test(text) ? text : { what: k.text };
 }

@@ -1,4 +1,4 @@
-// A long list of findings by their rules. Only what is in sight is in the page.
+// A long list of findings by rule. Only visible rows are in the page.
 
 import { html, nothing, render, type TemplateResult } from 'lit';
 import type { Finding, Found, Group } from './api';
@@ -6,16 +6,16 @@ import { ask } from './client';
 import { E } from '../texts/editor';
 import { icons } from '../views/icons';
 
-/** Groups of at most this many findings are unfolded from the start, and all groups if the sum is not higher. */
+/** Groups of at most this many findings are open at the start, and all groups if the sum is not higher. */
 const FEW = 100;
-/** Findings that are fetched at a time. */
+/** Number of findings that are fetched at once. */
 const PORTION = 50;
-/** Pixels of a row before it was drawn. */
+/** Assumed height in pixels of a row that was not drawn yet. */
 const GUESS = { group: 34, finding: 60 };
-/** Pixels above and below the visible part that are drawn, too. */
+/** Distance in pixels outside the visible part in which rows are drawn, too. */
 const SPARE = 120;
 
-/** A line of the list: the head of a group, or a finding by its number. */
+/** A line of the list: the heading of a group, or a finding by its number. */
 interface Line {
   group: Group;
   finding: number | null;
@@ -30,13 +30,13 @@ export class FindingList {
   private readonly sizes = new ResizeObserver(() => this.redraw());
   private lines: Line[] = [];
   private heights = new Float64Array(0);
-  /** Top of each line, and behind the last. */
+  /** Top of each line, and the end of the last. */
   private tops = new Float64Array(1);
   private portions = new Map<number, Promise<Finding[]> | Finding[]>();
   private readonly toggled = new Set<string>();
   private found: Found | null = null;
   private scheduled = 0;
-  /** Number of the finding that is chosen. */
+  /** Number of the selected finding. */
   private chosen: number | null = null;
 
   constructor(
@@ -44,7 +44,7 @@ export class FindingList {
     private readonly uri: string,
     /** Called with the finding that the user chose. */
     private readonly choose: (finding: Finding) => void,
-    /** What is below the chosen one. */
+    /** Content below the selected finding. */
     private readonly below: (finding: Finding) => unknown = () => nothing,
   ) {
     this.spacer.className = 'found-spacer';
@@ -68,7 +68,7 @@ export class FindingList {
     this.layOut();
   }
 
-  /** Chooses a finding by its number, as a click on it does. */
+  /** Selects a finding by its number, like a click on it. */
   async pick(number: number): Promise<Finding | undefined> {
     this.get(number);
     const start = number - (number % PORTION);
@@ -100,7 +100,7 @@ export class FindingList {
     this.redraw();
   }
 
-  /** Tops of the lines behind the first `from`. */
+  /** Computes the tops of the lines after the first `from`. */
   private measure(from: number): void {
     const { heights } = this;
     if (this.tops.length !== heights.length + 1) {
@@ -146,7 +146,7 @@ export class FindingList {
     if (changed >= 0) this.measure(changed);
   }
 
-  /** Heads, and the findings below each as a list. */
+  /** Headings, and below each its findings as a list. */
   private parts(lines: Line[]): TemplateResult[] {
     const parts: TemplateResult[] = [];
     for (let at = 0; at < lines.length; ) {
@@ -189,7 +189,7 @@ export class FindingList {
     </li>`;
   }
 
-  /** A finding, if it is there; else it is fetched. */
+  /** Returns a finding if it was fetched; otherwise fetches it. */
   private get(number: number): Finding | undefined {
     const start = number - (number % PORTION);
     const portion = this.portions.get(start);

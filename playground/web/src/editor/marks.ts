@@ -1,10 +1,10 @@
-// Findings in a text that is edited: they are those of a version, and move with its changes.
+// Findings in an edited text: they belong to a version, and move with later changes.
 
 import { StateEffect, StateField, type ChangeDesc, type Range as Marked, type Text } from '@codemirror/state';
 import { Decoration, gutter, GutterMarker, ViewPlugin, type DecorationSet, type EditorView, type ViewUpdate } from '@codemirror/view';
 import { PLACE, SEVERITIES } from './api';
 
-/** Places of the findings of a text, and what changed since. */
+/** Places of the findings of a text, and the changes since. */
 interface Marks {
   places: Uint32Array;
   doc: Text;
@@ -23,7 +23,7 @@ export const marks = StateField.define<Marks | null>({
   },
 });
 
-/** Calls `see` with each finding that touches what is between two places of the text as it is now. */
+/** Calls `see` with each finding that overlaps a range of the current text. */
 function each({ places, doc, since }: Marks, from: number, to: number, see: (from: number, to: number, rank: number) => void): void {
   const back = since?.invertedDesc;
   const first = doc.lineAt(Math.min(doc.length, back ? back.mapPos(from, -1) : from)).number - 1;
@@ -47,7 +47,7 @@ function each({ places, doc, since }: Marks, from: number, to: number, see: (fro
 const LINE = /^(\s*)(?:(\[[^\]]*\]?)|([;#].*)|([^=]+?)(\s*=\s*)([^;]*)(;.*)?)/;
 const style = Object.fromEntries(['section', 'comment', 'key', 'value', ...SEVERITIES].map((name) => [name, Decoration.mark({ class: `od-${name}` })]));
 
-/** Colours of what is in sight, and the findings in it. */
+/** Colours of the visible text, and its findings. */
 export const colours = ViewPlugin.fromClass(
   class {
     decorations: DecorationSet;
@@ -92,7 +92,7 @@ const dots = SEVERITIES.map(
     })(),
 );
 
-/** A dot beside each line with findings: the colour of the worst. */
+/** A dot beside each line with findings, in the colour of the most severe. */
 export const dotted = gutter({
   class: 'od-dots',
   lineMarker(view, { from, to }) {

@@ -1,4 +1,4 @@
-// A file that may be an EDS: to the bus, and a report of what odkit finds in it.
+// Opens a file that may be an EDS: puts it on the bus, and reports its findings.
 
 import { openDevice } from '../actions';
 import { opened } from '../seeing/log';
@@ -6,7 +6,7 @@ import * as state from '../state';
 import { E } from '../texts/editor';
 import { kindOf } from './kind';
 
-/** Opens the bytes of a file; false where it is not on the bus. */
+/** Opens the bytes of a file; false if it is not on the bus. */
 export async function openBytes(name: string, bytes: Uint8Array, nodeId: number, place: number | 'new'): Promise<boolean> {
   const kind = await kindOf(bytes);
   if (typeof kind !== 'string') {
@@ -18,7 +18,7 @@ export async function openBytes(name: string, bytes: Uint8Array, nodeId: number,
   return openText({ name, text: kind, bytes, nodeId, place }, false);
 }
 
-/** Runs an EDS text; a lenient try leaves out what is wrong with it. */
+/** Runs an EDS text; a lenient attempt leaves out its errors. */
 export async function openText(device: state.OpenedDevice, lenient: boolean): Promise<boolean> {
   const { name, text, nodeId, place } = device;
   const { node, why } = await openDevice({ kind: 'eds', name, text, lenient }, nodeId, place, false);
@@ -30,7 +30,7 @@ export async function openText(device: state.OpenedDevice, lenient: boolean): Pr
 
 function report(about: state.Opened): void {
   state.deviceDialog.value = null;
-  // Its text waits behind the report.
+  // Its text is open behind the report.
   state.editing.value = null;
   state.report.value = about;
 }

@@ -1,4 +1,4 @@
-// The sections of a text as a list with a search.
+// The sections of a text as a list that can be searched.
 
 import { html } from 'lit';
 import { ask } from './client';
@@ -6,7 +6,7 @@ import { E } from '../texts/editor';
 import { Rows, setText } from '../views/rows';
 import { View } from '../views/view';
 
-/** Milliseconds without a change before the list is made again. */
+/** Delay in ms after a change before the list is updated. */
 const REST = 400;
 
 class Outline extends View {
@@ -26,7 +26,7 @@ class Outline extends View {
     this.query = '';
   }
 
-  /** The text is another one, or changed. */
+  /** The text was replaced or changed. */
   refresh(): void {
     clearTimeout(this.timer);
     this.timer = window.setTimeout(() => void this.load(), this.names.length ? REST : 0);

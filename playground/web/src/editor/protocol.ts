@@ -1,4 +1,4 @@
-// The Language Server Protocol by its own types, with what our server always says.
+// The types of the Language Server Protocol, reduced to what our server sends.
 
 import type * as lsp from 'vscode-languageserver-types';
 

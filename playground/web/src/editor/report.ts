@@ -1,4 +1,4 @@
-// The report of a file that was opened: what came of it, and its findings, errors first.
+// The report of an opened file: what happened to it, and its findings, errors first.
 
 import { html, nothing, type PropertyValues } from 'lit';
 import { effect } from '@preact/signals-core';
@@ -39,7 +39,7 @@ class Report extends View {
     this.unfollow?.();
   }
 
-  /** Another file: its findings come from the language server. */
+  /** Sets another file; its findings come from the language server. */
   private follow(opened: state.Opened | null): void {
     if (this.uri) send({ op: 'close', uri: this.uri });
     this.list?.dispose();

@@ -1,4 +1,4 @@
-// How the text looks: with the colours of the page.
+// The colours of the text.
 
 import { EditorView } from '@codemirror/view';
 

@@ -1,4 +1,4 @@
-// The worker of the editor: the language server of `odkit lsp`, so that typing waits for nothing.
+// The worker of the editor: the language server of `odkit lsp`, outside the page's thread.
 
 import init, { compareEds, decodeEds, deviceEds, encodeEds, LanguageServer, ruleTitles } from '../wasm/od_playground';
 import type { Command, Finding, Found, Origin, Outline, Report, Requests } from './api';
@@ -9,7 +9,7 @@ const post = (report: Report, transfer: Transferable[] = []): void => (self as u
 
 /** An open text. */
 interface Open {
-  /** Lines as they were opened; none once the text changed. */
+  /** The lines of the opened text; empty after a change. */
   lines: string[] | null;
   version: number;
   found: Findings;
@@ -19,7 +19,7 @@ let server: LanguageServer;
 let titles: Record<string, string> = {};
 const texts = new Map<string, Open>();
 const early: Command[] = [];
-/** Requests of the protocol that are under way. */
+/** Requests of the protocol without an answer yet. */
 const waiting = new Map<number, (value: unknown) => unknown>();
 let isWorking = false;
 
@@ -27,7 +27,7 @@ const textOf = (origin: Origin): string => ('text' in origin ? origin.text : 'by
 
 const tell = (method: string, params: object): void => server.receive(JSON.stringify({ jsonrpc: '2.0', method, params }));
 
-/** Asks the server; `read` makes of its answer what the page gets. */
+/** Sends a request to the server; `read` converts its answer for the page. */
 function ask(ticket: number, method: string, params: object, read: (value: unknown) => unknown = (value) => value): void {
   waiting.set(ticket, read);
   server.receive(JSON.stringify({ jsonrpc: '2.0', id: ticket, method, params }));
@@ -88,7 +88,7 @@ function take(command: Command): void {
   }
 }
 
-/** What the server says goes to the page. */
+/** Messages of the server are sent to the page. */
 function flush(): void {
   for (let text = server.poll(); text !== undefined; text = server.poll()) {
     const message = JSON.parse(text) as { id?: number; method?: string; result?: unknown; error?: { message: string }; params: Diagnostics };
@@ -111,7 +111,7 @@ function published({ uri, version, diagnostics }: Diagnostics): void {
   post({ op: 'found', uri, found }, [found.places.buffer]);
 }
 
-/** Steps of the server; messages of the page come in between. */
+/** Runs steps of the server; messages of the page are handled in between. */
 function work(): void {
   isWorking = server.step();
   flush();
@@ -126,7 +126,7 @@ self.onmessage = ({ data }: MessageEvent<Command>) => {
   setTimeout(work);
 };
 
-// What throws outside reaches the page as an error of the worker, and starts it again there.
+// An exception reaches the page as an error of the worker, and the page starts a new one.
 void init({ module_or_path: new URL('whole.wasm', import.meta.url) }).then(
   () => {
     titles = ruleTitles();

@@ -1,4 +1,4 @@
-// What was done of the lessons in this browser, and the code that tells a trainer of it. Nothing is sent anywhere.
+// The progress in lessons, kept in this browser, and the code with which a learner reports it. Nothing is sent.
 
 /** Steps done, all steps, and the day of the last one. */
 export type Done = [done: number, all: number, day: string];
@@ -19,7 +19,7 @@ const read = <T>(key: string, none: T): T => {
 const isDone = (value: unknown): value is Done =>
   Array.isArray(value) && value.length === 3 && value.slice(0, 2).every((count) => Number.isSafeInteger(count) && count >= 0) && /^\d{4}-\d\d-\d\d$/.test(String(value[2]));
 
-/** Other content of the storage is left out. */
+/** Other content of the storage is ignored. */
 export const progress = (): Progress => {
   const known: unknown = read(KEY, {});
   return Object.fromEntries(Object.entries(known ?? {}).filter((one): one is [string, Done] => isDone(one[1])));
@@ -33,7 +33,7 @@ const old = (): string[] => {
 export const finished = (): Set<string> =>
   new Set([...old(), ...Object.entries(progress()).filter(([, [done, all]]) => done >= all).map(([name]) => name)]);
 
-/** Records the number of steps of a lesson that are done; a lesson that is repeated loses nothing. */
+/** Records the number of completed steps; repeating a lesson does not reduce it. */
 export function reached(name: string, done: number, all: number): void {
   const known = progress();
   const [before = 0, of] = Object.hasOwn(known, name) ? known[name]! : [];
@@ -41,11 +41,11 @@ export function reached(name: string, done: number, all: number): void {
   try {
     localStorage.setItem(KEY, JSON.stringify({ ...known, [name]: [done, all, new Date().toISOString().slice(0, 10)] }));
   } catch {
-    // Storage is off: nothing is kept.
+    // Storage is not allowed: nothing is kept.
   }
 }
 
-/** FNV-1a of 32 bits, which detects a code that was cut or retyped. */
+/** FNV-1a of 32 bits, which detects a truncated or mistyped code. */
 function sum(text: string): string {
   let hash = 0x811c9dc5;
   for (const byte of new TextEncoder().encode(text)) hash = Math.imul(hash ^ byte, 0x01000193) >>> 0;

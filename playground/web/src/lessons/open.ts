@@ -1,10 +1,10 @@
-// A lesson by its name, from an address, or from a file.
+// Opens a lesson by its name, from an address, or from a file.
 
 import { openLesson } from '../actions';
 import * as state from '../state';
 import { T } from '../texts';
 
-/** One of the lessons that come with odkit. */
+/** A built-in lesson. */
 export interface Listed {
   name: string;
   title: string;
@@ -13,21 +13,21 @@ export interface Listed {
   minutes: number;
 }
 
-/** Longest text that is worth a try, in bytes. */
+/** Maximum size of a text in bytes. */
 const LONGEST = 1_000_000;
 
-/** Milliseconds that a server has for a lesson. */
+/** Milliseconds that a server has to send a lesson. */
 const PATIENCE = 10_000;
 
-/** Milliseconds after which there is a bench without the lesson that is to come. */
+/** Milliseconds after which an empty bench is shown while a lesson loads. */
 const SLOW = 1500;
 
 let list: Promise<Listed[]> | null = null;
 
-/** The lessons that come with odkit; they are fetched once. */
+/** The built-in lessons; they are fetched once. */
 export function lessons(): Promise<Listed[]> {
   list ??= load('lessons.json').then((text) => JSON.parse(text) as Listed[]);
-  // Another try may find the network again.
+  // The next attempt may succeed.
   list.catch(() => (list = null));
   return list;
 }
@@ -48,8 +48,8 @@ function unreachable(name: string, error: unknown): false {
 }
 
 /**
- * Opens one of ours, or the text at an address; false where that does not work. A server that is slow
- * leaves time to make a bench `meanwhile`, which the lesson takes the place of.
+ * Opens a built-in lesson, or the text at an address; false if that fails. While a slow server
+ * loads, `meanwhile` makes a bench, which the lesson replaces.
  */
 export async function openNamed(name: string, meanwhile?: () => Promise<void>): Promise<boolean> {
   let made: Promise<void> | undefined;
@@ -69,11 +69,11 @@ export async function openNamed(name: string, meanwhile?: () => Promise<void>): 
   }
 }
 
-/** Opens a file of the learner's own; false where that does not work. */
+/** Opens a file of the user; false if that fails. */
 export async function openFile(file: File): Promise<boolean> {
   if (file.size > LONGEST) return unreachable(file.name, T.lessons.tooLarge);
   const isOpen = await tried(file.name, await file.text());
-  // No address brings a file back.
+  // A file has no address to reload it from.
   if (isOpen) history.replaceState(null, '', location.pathname);
   return isOpen;
 }
@@ -83,13 +83,13 @@ let last = '';
 /** Restarts the lesson in progress. */
 export const again = (): Promise<boolean> => tried(state.lessonRun.value.name, last);
 
-/** Begins a step of it again, with those before it done as their solutions do them. */
+/** Starts one of its steps again; the steps before it are done with their solutions. */
 export async function backTo(step: number): Promise<void> {
   const steps = state.lesson.value?.steps ?? [];
   await openLesson(state.lessonRun.value.name, last, steps.slice(0, step).map(({ solution }) => solution));
 }
 
-/** Opens a lesson; its problems are shown where lessons are chosen. */
+/** Opens a lesson; its errors are shown in the list of lessons. */
 async function tried(name: string, text: string): Promise<boolean> {
   const isOpen = await openLesson(name, text);
   if (isOpen) last = text;

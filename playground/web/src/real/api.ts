@@ -1,33 +1,33 @@
-// What page and worker tell each other about a real bus.
+// The messages about a real bus between page and worker.
 
 import type { Input, Source } from '../wasm/od_playground';
 
-/** Where the bus is: behind a WebSocket, or behind an adapter whose port the page has opened. */
+/** Location of the bus: behind a WebSocket, or behind an adapter whose port the page has opened. */
 export type Target = { kind: 'ws'; address: string; name: string } | { kind: 'serial'; rate: number | null; name: string };
 
-/** Reason why no connection was made. `said`: the other side gives it in words. */
+/** Reason why no connection was made. `said`: in the words of the other side. */
 export type Why = { kind: 'refused' | 'denied' | 'slow' | 'silent' | 'closed' | 'gone' } | { kind: 'said'; text: string };
 
 export type RealCommand =
-  /** Answers with `Why`, or null once the bus is open. `devices`: virtual ones that go on it. */
+  /** Returns `Why`, or null when the bus is open. `devices`: virtual devices to put on it. */
   | { is: 'connect'; ticket: number; to: Target; devices: { source: Source; nodeId: number }[] }
   | { is: 'leave' }
   | { is: 'sending'; on: boolean }
-  /** Tries again now. */
+  /** Tries again at once. */
   | { is: 'again' }
-  /** Puts the description of a node beside the devices. */
+  /** Adds the description of a node to the devices. */
   | { is: 'describe'; ticket: number; input: Input }
-  /** Which built-in device has this identity. */
+  /** The built-in device with this identity. */
   | { is: 'identify'; ticket: number; vendor: number; product: number }
-  /** The port of the page: bytes came, it was pulled out, these had no room in it. */
+  /** Events of the page's port: bytes received, unplugged, bytes that were not accepted. */
   | { is: 'bytes'; bytes: Uint8Array }
   | { is: 'gone' }
   | { is: 'unsent'; bytes: Uint8Array };
 
 export type RealReport =
-  /** The real bus is shown, or the virtual bench again. */
+  /** Whether the real bus or the virtual bench is shown. */
   | { tells: 'begun' | 'left' }
-  /** For the port of the page. */
+  /** Data for the page's port. */
   | { tells: 'bytes'; bytes: Uint8Array };
 
 /** State of a link. */
@@ -35,21 +35,21 @@ export interface RealState {
   name: string;
   kind: Target['kind'];
   status: 'open' | 'lost';
-  /** Why it was lost. */
+  /** Reason why it was lost. */
   why: Why | null;
   sending: boolean;
   /** Frames that were held back because sending is off. */
   held: number;
-  /** Frames that were dropped because the page was slow. */
+  /** Frames that were dropped because the page was too slow. */
   dropped: number;
-  /** Frames that did not go out because the link was slow. */
+  /** Frames that were not sent because the link was too slow. */
   unsent: number;
   /** Frames that the adapter did not send. */
   refused: number;
-  /** Lines that were none of slcan. */
+  /** Lines that are not valid slcan. */
   noise: number;
-  /** Frames that came. */
+  /** Received frames. */
   frames: number;
-  /** Node IDs that were heard. */
+  /** Node IDs that sent a frame. */
   nodes: number[];
 }

@@ -1,5 +1,5 @@
-// The page's end of a real bus: it begins and ends one, keeps what the virtual bench showed, and
-// holds the serial port.
+// The page's side of a real bus: it opens and closes one, keeps the content of the virtual bench, and
+// owns the serial port.
 
 import { ask, dropFrames, hooks, select, send, use } from '../sim/link';
 import * as state from '../state';
@@ -11,7 +11,7 @@ import type { RealCommand, RealReport, Target, Why } from './api';
 
 const tell = (what: RealCommand): void => send({ op: 'real', what });
 
-/** What is remembered of the last connection. */
+/** Stored settings of the last connection. */
 export interface Last {
   address: string;
   rate: number;
@@ -34,7 +34,7 @@ function remember(change: Partial<Last>): void {
   try {
     localStorage.setItem(KEPT, JSON.stringify({ ...last(), ...change }));
   } catch {
-    // Storage is off: it is typed again.
+    // Storage is not allowed: the user types it again.
   }
 }
 
@@ -42,7 +42,7 @@ function remember(change: Partial<Last>): void {
 export const problem = signal('');
 export const isConnecting = signal(false);
 
-/** The address as a WebSocket wants it: from what is printed, from `--link`, from `HOST:PORT`. */
+/** The address as a WebSocket URL, from what odkit prints, from `--link`, or from `HOST:PORT`. */
 export function addressOf(text: string): { address: string; name: string } | { error: string } {
   const trimmed = text.trim();
   if (trimmed === '') return { error: R.bad.empty };
@@ -52,7 +52,7 @@ export function addressOf(text: string): { address: string; name: string } | { e
   } catch {
     return { error: R.bad.wrong };
   }
-  // A policy cannot name the address of IPv6.
+  // A policy cannot name the IPv6 address.
   if (url.hostname === '[::1]') url.hostname = 'localhost';
   if (!['127.0.0.1', 'localhost'].includes(url.hostname)) return { error: /^[\d.]+$|\./.test(url.hostname) || url.port ? R.bad.far : R.bad.wrong };
   if (!url.searchParams.get('token')) return { error: R.bad.noToken };
@@ -82,7 +82,7 @@ async function connect(to: Target, along: boolean): Promise<boolean> {
   return false;
 }
 
-/** Ends an attempt, or the connection: the virtual bench goes on. */
+/** Ends an attempt or the connection; the virtual bench continues. */
 export function leave(): void {
   tell({ is: 'leave' });
   void closePort();
@@ -98,7 +98,7 @@ export async function again(): Promise<void> {
 export const identify = (vendor: number, product: number): Promise<string | null> =>
   ask((ticket) => ({ op: 'real', what: { is: 'identify', ticket, vendor, product } }), null);
 
-// ---- What the virtual bench showed ----
+// ---- Content of the virtual bench ----
 
 const all = (ring: Ring): Uint8Array => ring.slice(ring.first, ring.end);
 
@@ -168,7 +168,7 @@ interface Serial extends EventTarget {
 const serial = (): Serial | undefined => (navigator as Navigator & { serial?: Serial }).serial;
 export const hasSerial = (): boolean => serial() !== undefined;
 
-/** Bytes that may wait for a port. */
+/** Maximum number of bytes that wait for a port. */
 const MOST_WAITING = 256 * 1024;
 
 let port: SerialPort | null = null;
@@ -177,7 +177,7 @@ let reader: ReadableStreamDefaultReader<Uint8Array> | null = null;
 let writer: WritableStreamDefaultWriter<Uint8Array> | null = null;
 let waiting = 0;
 
-/** Lets the person choose an adapter, and opens its bus. */
+/** Lets the user choose an adapter, and opens its bus. */
 export async function connectAdapter(rate: number, speed: number, along: boolean): Promise<boolean> {
   remember({ rate, baud: speed, along });
   problem.value = '';
@@ -188,7 +188,7 @@ export async function connectAdapter(rate: number, speed: number, along: boolean
     baud = speed;
     await openPort();
   } catch (error) {
-    // The person closed the list of ports.
+    // The user closed the list of ports.
     if (error instanceof DOMException && error.name === 'NotFoundError') return false;
     problem.value = R.bad.port(error instanceof Error ? error.message : String(error));
     return false;
@@ -203,13 +203,13 @@ async function openPort(): Promise<void> {
   await own.open({ baudRate: baud });
   waiting = 0;
   writer = own.writable!.getWriter();
-  // A port that was pulled out ends both; the reader says so.
+  // An unplugged port ends both; the reader reports it.
   writer.closed.catch(() => undefined);
   void read(own);
 }
 
 async function read(own: SerialPort): Promise<void> {
-  // After an overrun or a wrong parity bit the port has another stream.
+  // After an overrun or a parity error the port has a new stream.
   while (own === port && own.readable) {
     const mine = own.readable.getReader();
     reader = mine;
@@ -231,7 +231,7 @@ async function read(own: SerialPort): Promise<void> {
   if (own === port && writer) gone();
 }
 
-/** The adapter was pulled out. */
+/** The adapter was unplugged. */
 function gone(): void {
   writer?.releaseLock();
   reader = writer = null;
@@ -267,7 +267,7 @@ async function reopen(): Promise<boolean> {
   }
 }
 
-// An adapter that is plugged in again goes on.
+// An adapter that is plugged in again continues.
 serial()?.addEventListener('connect', () => {
   if (state.real.peek()?.status === 'lost') void again();
 });
@@ -275,7 +275,7 @@ serial()?.addEventListener('disconnect', ({ target }) => {
   if (target === port && writer) gone();
 });
 
-// The tab says it, too.
+// The title of the tab shows it, too.
 effect(() => {
   const isReal = state.real.value !== null;
   void state.devices.value;

@@ -1,4 +1,4 @@
-// Dialog that connects to a real bus, and shows the state of the connection.
+// The dialog that connects to a real bus and shows the state of the connection.
 
 import { html, nothing, type PropertyValues } from 'lit';
 import { effect } from '@preact/signals-core';
@@ -13,7 +13,7 @@ import './mark';
 import { styled } from './styled';
 import './panel';
 
-/** Bit rates of slcan in kbit/s; 0: the adapter keeps its own. */
+/** Bit rates of slcan in kbit/s; 0: that of the adapter. */
 const RATES = [0, 10, 20, 50, 100, 125, 250, 500, 800, 1000];
 const BAUDS = [9600, 57_600, 115_200, 230_400, 460_800, 500_000, 921_600, 1_000_000, 2_000_000, 3_000_000];
 
@@ -50,7 +50,7 @@ class Connect extends View {
     state.realDialog.value = false;
   }
 
-  /** Opens what an address of the page names. */
+  /** Opens the bus in the address of the page. */
   async go(address: string): Promise<void> {
     this.address = address;
     state.realDialog.value = true;

@@ -1,4 +1,4 @@
-// The red mark: this is a real bus. Beside it the switch for sending.
+// The red mark of a real bus, with the switch for sending.
 
 import { html } from 'lit';
 import * as state from '../state';

@@ -1,4 +1,4 @@
-// The nodes of a real bus: who is heard, who answers, and what describes them.
+// The nodes of a real bus: nodes that send, nodes that respond, and their descriptions.
 
 import { signal } from '@preact/signals-core';
 import type { Outcome, Source } from '../sim/api';
@@ -7,17 +7,17 @@ import * as state from '../state';
 import { R } from '../texts/real';
 import { identify } from './connect';
 
-/** SDO requests that are under way at a time while nodes are searched for. */
+/** Number of SDO requests at the same time during a search for nodes. */
 const AT_ONCE = 32;
 /** Node IDs of CANopen. */
 const ALL = 127;
 
 const SILENT: Outcome = { job: 0, kind: 'silent', bytes: null, words: '', wantsPdoOff: false };
 
-/** What is going on, in words. */
+/** The current action, in words. */
 export const doing = signal('');
 export const isBusy = signal(false);
-/** Node IDs that answered a search. */
+/** Node IDs that responded to a search. */
 export const answered = signal<ReadonlySet<number>>(new Set());
 
 let isWanted = true;
@@ -29,7 +29,7 @@ const read = (node: number, index: number, sub: number): Promise<Outcome> =>
 const number = ({ bytes }: Outcome): number | null =>
   bytes && bytes.length <= 4 && bytes.length > 0 ? [...bytes].reduceRight((value, byte) => value * 256 + byte, 0) : null;
 
-/** Only one thing at a time, and only where something may be sent. */
+/** Only one action at a time, and only if sending is on. */
 async function alone(work: () => Promise<string>): Promise<void> {
   if (isBusy.peek()) return;
   if (!maySend()) return hooks.held();
@@ -38,7 +38,7 @@ async function alone(work: () => Promise<string>): Promise<void> {
   isBusy.value = false;
 }
 
-/** Asks every node ID for 1000h. */
+/** Reads 1000h of every node ID. */
 export const search = (): Promise<void> =>
   alone(async () => {
     const found = new Set<number>();
@@ -48,7 +48,7 @@ export const search = (): Promise<void> =>
         const node = next++;
         doing.value = R.scanning(node);
         const { kind } = await read(node, 0x1000, 0);
-        // An abort is an answer, too.
+        // An abort is a response, too.
         if (kind !== 'silent') answered.value = found.add(node) && new Set(found);
       }
     };
@@ -56,13 +56,13 @@ export const search = (): Promise<void> =>
     return R.found(found.size);
   });
 
-/** The little that every node has. */
+/** The mandatory objects of every node. */
 async function plain(name: string): Promise<Source> {
   const text = await use('plainEds', name);
   return { kind: 'eds', name, text: 'value' in text ? text.value : '', lenient: true };
 }
 
-/** Puts the description of a node among the devices: one of ours that has its identity, else the little that every node has. */
+/** Adds the description of a node: the built-in device with its identity, else the mandatory objects. */
 export async function show(node: number): Promise<void> {
   let source = await plain(R.node(node));
   if (maySend() && !isBusy.peek()) {
@@ -84,7 +84,7 @@ export async function show(node: number): Promise<void> {
   if (added.node !== null) select(added.node);
 }
 
-/** Reads every object of the node that is shown. */
+/** Reads all objects of the selected node. */
 export const readAll = (): Promise<void> =>
   alone(async () => {
     const node = state.nodeId.peek();

@@ -1,4 +1,4 @@
-// In the place of the virtual encoder: the real node that is shown, and the nodes of its bus.
+// Shown in place of the virtual encoder: the selected real node, and the nodes of its bus.
 
 import { html, nothing } from 'lit';
 import { effect } from '@preact/signals-core';
@@ -39,7 +39,7 @@ class Node extends View {
   }
 }
 
-/** Who is on the bus. */
+/** The nodes on the bus. */
 class Nodes extends View {
   protected override render() {
     const shown = new Map(state.statuses.value.map(({ nodeId }, number) => [nodeId, number]));
@@ -61,7 +61,7 @@ class Nodes extends View {
   }
 }
 
-/** In the dialog for a device: what it is. */
+/** In the device dialog: the kind of the device. */
 class Kind extends View {
   protected override render() {
     const choice = (describes: boolean, text: string) => html`<label class="choice"><input type="radio" name="real-kind" .checked=${state.describes.value === describes} @change=${() => (state.describes.value = describes)}> <span>${text}</span></label>`;
@@ -71,7 +71,7 @@ class Kind extends View {
 
 customElements.define('od-real-kind', Kind);
 
-// What only a virtual device has is not there.
+// Controls of virtual devices are hidden.
 effect(() => {
   document.documentElement.toggleAttribute('data-real-node', state.real.value !== null && state.status.value?.real !== false);
 });

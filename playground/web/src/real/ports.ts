@@ -1,4 +1,4 @@
-// Carriers of bytes to a bus: a WebSocket of the worker, or a port that the page has opened.
+// Byte streams to a bus: a WebSocket of the worker, or a port that the page has opened.
 
 import type { RealReport, Why } from './api';
 
@@ -8,14 +8,14 @@ export interface Port {
   close(): void;
 }
 
-/** What a port tells. */
+/** Events of a port. */
 export interface Ears {
   opened(): void;
   came(bytes: Uint8Array): void;
   ended(why: Why): void;
 }
 
-/** Bytes that may wait in a socket. */
+/** Maximum number of bytes that wait in a socket. */
 const MOST_WAITING = 256 * 1024;
 
 export function socket(address: string, ears: Ears): Port {
@@ -50,10 +50,10 @@ export function socket(address: string, ears: Ears): Port {
   };
 }
 
-/** Milliseconds for the reason. */
+/** Milliseconds to wait for the reason. */
 const PATIENCE = 2000;
 
-/** A page is not told why a WebSocket was refused. With `why` odkit opens one and closes it with the reason. */
+/** A browser does not report why a WebSocket was refused. With `why` odkit opens it and closes it with the reason. */
 function reason(address: string): Promise<Why> {
   return new Promise((resolve) => {
     const own = new WebSocket(`${address}&why`);
@@ -78,7 +78,7 @@ export function ofPage(tell: (what: RealReport) => void): Port {
       return true;
     },
     close() {
-      // It belongs to the page.
+      // The port belongs to the page.
     },
   };
 }

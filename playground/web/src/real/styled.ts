@@ -1,6 +1,6 @@
-// The style sheet of a real bus, which the first visit does not need.
+// The style sheet for a real bus; the first visit does not load it.
 
-/** Resolves when it acts. */
+/** Resolves when the style sheet is active. */
 export const styled = new Promise<void>((resolve) => {
   const link = document.createElement('link');
   link.rel = 'stylesheet';

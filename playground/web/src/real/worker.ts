@@ -1,10 +1,10 @@
-// What the page asks about a real bus, in the worker.
+// Handles the page's requests about a real bus, in the worker.
 
 import type { Engine } from '../sim/engine';
 import type { RealCommand } from './api';
 import { Real } from './world';
 
-/** The link that is there, or comes. */
+/** The link that exists or is being opened. */
 let real: Real | null = null;
 
 export async function handle(engine: Engine, what: RealCommand): Promise<void> {
@@ -14,7 +14,7 @@ export async function handle(engine: Engine, what: RealCommand): Promise<void> {
       leave(engine);
       const own = new Real(engine.virtual, await engine.virtual.modules.whole(), what.to, (report) => engine.report({ op: 'real', what: report }));
       real = own;
-      // Other work continues during that.
+      // Other work continues meanwhile.
       void own.open().then(async (why) => {
         if (why === null) {
           for (const { source, nodeId } of what.devices) await own.act({ op: 'add', source, nodeId });
@@ -54,7 +54,7 @@ export async function handle(engine: Engine, what: RealCommand): Promise<void> {
   }
 }
 
-/** Back to the virtual bench. */
+/** Returns to the virtual bench. */
 function leave(engine: Engine): void {
   if (!real) return;
   real.close();

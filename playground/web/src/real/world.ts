@@ -1,5 +1,5 @@
-// A real bus in the worker: a bench in real time whose outside is a link. Frames of the link are
-// on the bus, and what is sent here goes out.
+// A real bus in the worker: a bench in real time that is connected to a link. Frames of the link are
+// received by the bench, and frames of the page are sent.
 
 import type { Added, Command, Input } from '../sim/api';
 import type { Adapter } from '../wasm/od_playground';
@@ -7,13 +7,13 @@ import { World, type Module } from '../sim/world';
 import type { RealReport, RealState, Target, Why } from './api';
 import { ofPage, socket, type Port } from './ports';
 
-/** Milliseconds for a connection, and for the answers of an adapter. */
+/** Milliseconds for a connection, and for responses of an adapter. */
 const PATIENCE = 5000;
 const ANSWER = 2000;
-/** Milliseconds between two tries to get a lost link back, the first and the longest. */
+/** Milliseconds between two attempts to restore a lost link: the first, and the maximum. */
 const FIRST_PAUSE = 500;
 const LONGEST_PAUSE = 5000;
-/** More frames than ever come in one slice. */
+/** More frames than a slice ever receives. */
 const ALL = 1_000_000;
 
 export class Real extends World {
@@ -26,7 +26,7 @@ export class Real extends World {
   private unsent = 0;
   private timer: ReturnType<typeof setTimeout> | undefined;
   private pause = FIRST_PAUSE;
-  /** Who waits for the first connection. */
+  /** Callers that wait for the first connection. */
   private first: ((why: Why | null) => void) | null = null;
 
   constructor(
@@ -45,7 +45,7 @@ export class Real extends World {
     return bus;
   }
 
-  /** Opens the link; null once the bus is open. */
+  /** Opens the link; null when the bus is open. */
   open(): Promise<Why | null> {
     return new Promise((resolve) => {
       this.first = resolve;
@@ -53,7 +53,7 @@ export class Real extends World {
     });
   }
 
-  /** Tries again, where there is nothing. */
+  /** Tries again if the link is lost. */
   retry(): void {
     if (this.status === 'lost') this.attempt();
   }
@@ -80,7 +80,7 @@ export class Real extends World {
     if (this.to.kind === 'serial') ears.opened();
   }
 
-  /** The port of the page says it through these. */
+  /** Called for events of the page's port. */
   ears: { came(bytes: Uint8Array): void; ended(why: Why): void } | null = null;
 
   private wait(millis: number, why: Why): void {
@@ -116,7 +116,7 @@ export class Real extends World {
   private ended(why: Why): void {
     this.drop();
     this.why = why;
-    // A link that comes back sends nothing before the user allows it again.
+    // After a reconnection nothing is sent before the user allows it.
     this.setSending(false);
     if (this.first) {
       this.first(why);
@@ -141,7 +141,7 @@ export class Real extends World {
     this.first = null;
   }
 
-  /** Time goes on to the present. */
+  /** Advances time to the present. */
   private pass(): void {
     const now = (performance.now() - this.start) * 1000;
     this.bus.advance(Math.max(0, Math.floor(now - this.bus.now())), ALL);
@@ -152,13 +152,13 @@ export class Real extends World {
     this.flush();
   }
 
-  /** What is sent here goes out. */
+  /** Sends the frames of the page. */
   private flush(): void {
     const lines = this.adapter.outgoing(this.bus);
     if (lines.length > 0 && !this.port?.write(lines)) this.miss(lines);
   }
 
-  /** Lines did not go out. */
+  /** Some lines could not be sent. */
   miss(lines: Uint8Array): void {
     for (const byte of lines) if (byte === 13) this.unsent += 1;
   }

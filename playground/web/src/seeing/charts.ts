@@ -5,7 +5,7 @@ import type { Series } from './series';
 
 export interface Line {
   series: Series;
-  /** An element that has the colour of the line as its background. */
+  /** An element with the colour of the line as its background. */
   swatch: HTMLElement;
 }
 
@@ -20,14 +20,14 @@ export class Charts {
   private built = '';
 
   constructor(
-    /** The virtual seconds that are drawn. */
+    /** Range of virtual seconds that is drawn. */
     private readonly span: () => [number, number],
     private readonly cursors: () => Cursors,
-    /** A moment was chosen. */
+    /** The user chose a moment. */
     private readonly choose: (seconds: number) => void,
   ) {}
 
-  /** Makes the charts again where `name` changed: one for each area, with these lines. */
+  /** Creates the charts again when `name` changes: one for each area, with these lines. */
   build(name: string, areas: HTMLElement[], lines: Line[][]): void {
     this.lines = lines;
     if (name === this.built) return;
@@ -38,7 +38,7 @@ export class Charts {
   }
 
   private chart(area: HTMLElement, lines: Line[]): uPlot {
-    // The colours follow the theme: they are asked for at every drawing.
+    // The colours follow the theme, so they are read at each drawing.
     const style = getComputedStyle(area);
     const axis = { stroke: () => style.borderTopColor, grid: { stroke: () => style.outlineColor, width: 1 }, ticks: { show: false }, font: `11px ${style.fontFamily}` };
     const plot = new uPlot(

@@ -1,4 +1,4 @@
-// What a trigger waits for: a frame that passes a filter, or an object that has a value:
+// Condition of a trigger: a frame that passes a filter, or an object with a value:
 // `6004 > 1000`, `node:2 6041:0 = 0x37`, `6004 changes`.
 
 import { address } from '../format';
@@ -21,7 +21,7 @@ export interface ObjectCondition {
   sub: number;
   /** In words: `6004h > 1000`. */
   text: string;
-  /** Does it hold for a value, after the value before? */
+  /** Returns whether it holds for a value, given the value before. */
   holds(value: number, before: number | null): boolean;
 }
 
@@ -36,7 +36,7 @@ function numberOf(text: string): number | null {
   return /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i.test(text) ? Number(text) : null;
 }
 
-/** Reads a condition; what is wrong with it, and where. */
+/** Parses a condition; returns the error and its place if it is not valid. */
 export function parseCondition(text: string): Condition | { error: string; at: number } {
   const match = OBJECT.exec(text);
   if (!match) {

@@ -2,7 +2,7 @@
 
 import type { Series } from './series';
 
-/** A line for each moment: seconds, then a column for each value; empty where it had none at that moment. */
+/** A line for each moment: seconds, then a column for each value; empty if it has no value at that moment. */
 export function csv(columns: readonly { name: string; series: Series }[]): string {
   const rows = new Map<number, (number | null)[]>();
   columns.forEach(({ series }, column) =>
@@ -20,16 +20,16 @@ export function csv(columns: readonly { name: string; series: Series }[]): strin
   return `${[head, ...lines].join('\n')}\n`;
 }
 
-/** Height of a caption over its chart. */
+/** Height of a caption above its chart. */
 const CAPTION = 24;
 
 export interface Panel {
   canvas: HTMLCanvasElement;
-  /** What is in it, each with its colour. */
+  /** The lines, each with its colour. */
   captions: { text: string; colour: string }[];
 }
 
-/** One picture of all charts, on the ground that they have on the page. */
+/** One picture of all charts, on the background colour of the page. */
 export async function png(panels: readonly Panel[], style: CSSStyleDeclaration, ground: string): Promise<Uint8Array<ArrayBuffer>> {
   const scale = devicePixelRatio;
   const picture = document.createElement('canvas');

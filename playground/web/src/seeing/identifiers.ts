@@ -1,5 +1,5 @@
-// The figures of the capture: one row for each CAN-ID (how often it came, in what rhythm, what it
-// said last) and one for each SDO client (how long it waited for answers, what was aborted).
+// The figures of the capture: one row for each CAN-ID (count, periods, last data)
+// and one for each SDO client (response times, aborts).
 
 import { html, nothing } from 'lit';
 import { effect } from '@preact/signals-core';
@@ -13,7 +13,7 @@ import { View } from '../views/view';
 import './style';
 import { S } from './texts';
 
-/** Milliseconds between two drawings. */
+/** Milliseconds between two refreshes. */
 const PERIOD = 100;
 /** The rows of a table of `Statistics`, each with `width` numbers. */
 function* rowsOf(figures: Float64Array, width: number): Generator<number[]> {
@@ -28,7 +28,7 @@ const head = (names: string[], titles: string[]) =>
 class Identifiers extends View {
   private timer = 0;
   private stopEffect: (() => void) | undefined;
-  /** When a byte of an identifier changed last, by key and place. */
+  /** Time of the last change of each byte, by CAN-ID and position. */
   private readonly changedAt = new Map<number, { last: number; at: number[] }>();
 
   override connectedCallback(): void {
@@ -76,7 +76,7 @@ class Identifiers extends View {
     </tr>`;
   }
 
-  /** A click leads to the frames of a client. */
+  /** A click shows the frames of a client. */
   private clients() {
     const rows = [...rowsOf(trace.statistics.clients(), 7)];
     if (rows.length === 0) return nothing;
@@ -91,7 +91,7 @@ class Identifiers extends View {
     </table>`;
   }
 
-  /** The bytes; those that changed are highlighted for a while. */
+  /** The bytes; changed ones are highlighted for a moment. */
   private bytes(key: number, last: number, data: Uint8Array, before: Uint8Array | undefined) {
     const now = performance.now();
     const known = this.changedAt.get(key) ?? { last: -1, at: [] };

@@ -1,4 +1,4 @@
-// A log that was read comes to the console: beside the capture, or in its place.
+// Shows an opened log in the console: beside the capture, or in its place.
 
 import { clearConsole, saveLog, setRunning } from '../actions';
 import type { Log } from '../sim/api';
@@ -9,10 +9,10 @@ import { close, putBeside, showLive } from './shelf';
 import './shelf-tabs';
 import { S } from './texts';
 
-/** The end of the capture while it is a log, and nothing came since. */
+/** The end of the capture while a log is shown and no frame has followed. */
 let onlyLog: { cleared: number; end: number } | null = null;
 
-/** Shows a log. A capture is not replaced without a question. */
+/** Shows a log. The user is asked before a capture is replaced. */
 export function opened(name: string, log: Log): void {
   const { ring } = state.live;
   const isFree = ring.end === ring.first || (onlyLog?.end === ring.end && onlyLog.cleared === state.cleared.value);
@@ -47,7 +47,7 @@ function beside(name: string, log: Log): void {
   tell(name, log, true);
 }
 
-/** Time is paused, so that nothing mixes with it; that of a real bus is not to be paused. */
+/** Pauses time, so that no frames mix with the log; a real bus cannot be paused. */
 function replace(name: string, log: Log): void {
   close();
   clearConsole();

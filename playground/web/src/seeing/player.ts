@@ -1,4 +1,4 @@
-// A log as it runs again: onto the bus, where devices respond to it, or only in the console.
+// Plays a log: onto the bus, where devices respond, or only in the console.
 
 import { html, nothing } from 'lit';
 import { signal } from '@preact/signals-core';
@@ -19,31 +19,31 @@ type Way = keyof typeof S.player.ways;
 const way = signal<Way>('bus');
 const speed = signal(1);
 const phase = signal<'ready' | 'runs' | 'held'>('ready');
-/** Frames that were sent, or are shown. */
+/** Number of frames that were sent or shown. */
 const place = signal(0);
 
-/** Milliseconds between two looks at the clock. */
+/** Milliseconds between two checks of the clock. */
 const TICK = 30;
 let timer = 0;
-/** The moment of the log that a log to look at has reached, in microseconds. */
+/** Current moment of a log in the console, in microseconds. */
 let at = 0;
-/** The worker has the frames: what it tells is about them. */
+/** The worker has the frames, and reports its progress. */
 let isUnderWay = false;
 
 const timeOf = (number: number): number => unpack(state.log.peek()!.frames, number * FRAME_BYTES).time;
 
-/** Where the log is: beside the capture, or in its place. */
+/** Location of the log: beside the capture, or in its place. */
 function ring(): Ring {
   const log = beside.peek();
   return log && !log.isShown ? log.ring : state.ring;
 }
 
-/** Begins at the first frame, or before it where it is held. */
+/** Starts at the first frame, or before it if it is paused. */
 export function start(where: Way, isHeld = false): void {
   const log = state.log.peek();
   if (!log?.count) return;
   end();
-  // Nothing of a log goes onto a real bus.
+  // A log is never sent to a real bus.
   if (state.real.peek()) where = 'look';
   way.value = where;
   place.value = 0;
@@ -79,7 +79,7 @@ function step(): void {
   else if (place.peek() < state.log.peek()!.count) fill(place.peek() + 1);
 }
 
-/** Shows the frames up to before this number. */
+/** Shows the frames up to this number, excluding it. */
 function fill(to: number): void {
   const { frames, count } = state.log.peek()!;
   ring().append(frames.subarray(place.peek() * FRAME_BYTES, to * FRAME_BYTES));
@@ -102,7 +102,7 @@ function tick(): void {
   }, TICK);
 }
 
-/** What was to come is not sent; a log to look at is shown whole again. */
+/** Stops: the remaining frames are not sent; a log in the console is shown completely. */
 function end(): void {
   clearTimeout(timer);
   if (phase.peek() !== 'ready' && way.peek() === 'bus') send({ op: 'player', ends: true });
@@ -110,7 +110,7 @@ function end(): void {
   phase.value = 'ready';
 }
 
-/** Another log, or none, takes the place of this one. */
+/** Replaces the log by another one, or by none. */
 export function forget(): void {
   clearTimeout(timer);
   if (phase.peek() !== 'ready' && way.peek() === 'bus') send({ op: 'player', ends: true });

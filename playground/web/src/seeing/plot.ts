@@ -1,5 +1,5 @@
-// Values over virtual time: objects as the frames of the capture carry them, and objects as the
-// simulation has them. A plot puts nothing on the bus.
+// Values over virtual time: objects in the frames of the capture, and objects of the simulation. A plot
+// sends nothing.
 
 import { html, nothing } from 'lit';
 import { effect, signal } from '@preact/signals-core';
@@ -15,12 +15,12 @@ import './style';
 import { S } from './texts';
 import { follow, inFull, plotted } from './tracks';
 
-/** More would be too flat to read. */
+/** Maximum number of areas; more would be too flat to read. */
 const MOST = 6;
-/** Milliseconds between two drawings. */
+/** Milliseconds between two refreshes. */
 const PERIOD = 50;
 
-// What a person chose stays when the plot is closed.
+// The choices of the user stay when the plot is closed.
 const seconds = signal(10);
 const isShared = signal(false);
 const cursors = signal<Cursors>({ a: null, b: null });
@@ -56,13 +56,13 @@ class Plot extends View {
     this.charts.drop();
   }
 
-  /** What is plotted and can be: the devices may have changed. */
+  /** The plotted and the available values: the devices may have changed. */
   private shown(): Plottable[] {
     const all = new Map([...live(), ...mapped.value].map((one) => [one.key, one]));
     return plotted.value.flatMap((key) => all.get(key) ?? []).slice(0, MOST);
   }
 
-  /** The virtual seconds that are drawn. A console that is paused holds the plot, too. */
+  /** Range of virtual seconds that is drawn. A paused console pauses the plot, too. */
   private window(): [number, number] {
     const { ring } = state;
     const all = this.shown().map(follow);
@@ -74,7 +74,7 @@ class Plot extends View {
     return [from, Math.max(last, from + 0.001)];
   }
 
-  /** The first moment that is chosen is A, the second B; then the nearer one moves. */
+  /** The first click sets cursor A, the second B; later clicks move the nearer one. */
   private choose(at: number): void {
     const { a, b } = cursors.value;
     const isA = a === null || (b !== null && Math.abs(at - a) <= Math.abs(at - b));

@@ -5,12 +5,12 @@ test('values become numbers, or gaps', () => {
   assert.deepEqual([5, 5n, true, null, 'text', new Uint8Array(2), undefined].map(numeric), [5, 5, 1, null, null, null, null]);
 });
 
-test('a step back cuts what came after', () => {
+test('a step back removes later values', () => {
   const series = new Series();
   for (const time of [1, 2, 3]) series.push(time, time * 10);
   series.push(1.5, 7);
   assert.deepEqual([series.times, series.values], [[1, 1.5], [10, 7]]);
-  // Two values of one moment, as two frames may have it.
+  // Two values at one moment, as two frames can give.
   series.push(1.5, 8);
   assert.deepEqual(series.times, [1, 1.5, 1.5]);
 });
@@ -24,7 +24,7 @@ test('a value holds until the next one', () => {
   assert.ok(series.range(1.5, 2.5).least > series.range(1.5, 2.5).most, 'nothing there');
 });
 
-test('memory is bounded, and a peak stays whatever its age', () => {
+test('memory is limited, and peaks stay', () => {
   const series = new Series(1000);
   for (let i = 0; i < 100_000; i++) series.push(i, i === 777 ? 5000 : i === 1234 ? -5000 : i % 10);
   assert.ok(series.times.length <= 1000);

@@ -1,5 +1,5 @@
-// One value over virtual time. Its number of points is limited: older ones become coarser, and
-// their lowest and highest values stay.
+// One value over virtual time. The number of points is limited: older points are thinned out, and
+// their minimum and maximum stay.
 
 import type { Value } from '../sim/api';
 
@@ -13,7 +13,7 @@ export function numeric(value: Value | undefined): number | null {
 }
 
 export class Series {
-  /** Virtual seconds, not falling. */
+  /** Virtual seconds, in ascending order. */
   times: number[] = [];
   values: (number | null)[] = [];
 
@@ -24,7 +24,7 @@ export class Series {
     this.values = [];
   }
 
-  /** Adds a value. A time that is before the last was reached by a step back: what came after it goes. */
+  /** Adds a value. A time before the last one follows a step back: later values are removed. */
   push(time: number, value: number | null): void {
     let end = this.times.length;
     while (end > 0 && this.times[end - 1]! > time) end -= 1;
@@ -35,7 +35,7 @@ export class Series {
     if (this.times.length > this.most) this.coarsen();
   }
 
-  /** Of each four points of the older half, the lowest and the highest stay. */
+  /** Of each four points in the older half the minimum and the maximum stay. */
   private coarsen(): void {
     const half = this.most >> 1;
     const times: number[] = [];
@@ -44,7 +44,7 @@ export class Series {
       const group = this.values.slice(from, Math.min(half, from + 4));
       const known = group.filter((value) => value !== null);
       const [low, high] = [group.indexOf(Math.min(...known)), group.lastIndexOf(Math.max(...known))];
-      // A gap stays a gap, and the first moment the first.
+      // A gap stays, and so does the first moment.
       const kept = new Set([from === 0 ? 0 : low, low, high, group.indexOf(null)]);
       for (const place of [...kept].filter((place) => place >= 0).sort((a, b) => a - b)) {
         times.push(this.times[from + place]!);
@@ -55,7 +55,7 @@ export class Series {
     this.values = values.concat(this.values.slice(half));
   }
 
-  /** The last place whose time is not after this one; -1 without one. */
+  /** The last index whose time is not after this one; -1 if there is none. */
   placeAt(time: number): number {
     let [low, high] = [0, this.times.length];
     while (low < high) {
@@ -66,12 +66,12 @@ export class Series {
     return low - 1;
   }
 
-  /** The value that held at a moment: the last one that came before. */
+  /** The value at a moment: the last one before it. */
   at(time: number): number | null {
     return this.values[this.placeAt(time)] ?? null;
   }
 
-  /** The lowest and the highest value between two moments; the lowest is above the highest if none lies between them. */
+  /** Minimum and maximum between two moments; the minimum is above the maximum if there is no value. */
   range(from: number, to: number): { least: number; most: number } {
     let [least, most] = [Infinity, -Infinity];
     for (let place = this.placeAt(to); place >= 0 && this.times[place]! >= from; place--) {

@@ -1,10 +1,10 @@
-// A log that was opened beside the capture: one of the two is shown, and the other is on the shelf.
+// A log that is open beside the capture: one of the two is shown, the shelf has the other.
 
 import { batch, signal } from '@preact/signals-core';
 import * as state from '../state';
 import type { Ring } from '../trace/ring';
 
-/** The log beside the capture, and which of them is shown. Its ring holds what is not shown. */
+/** The log beside the capture, and which of them is shown. Its ring has the one that is hidden. */
 export const beside = signal<{ name: string; ring: Ring; isShown: boolean } | null>(null);
 
 /** Shows the log, or the capture. */
@@ -24,14 +24,14 @@ export function show(isShown: boolean): void {
 
 export const showLive = (): void => show(false);
 
-/** Puts a log beside the capture, and shows it; one that was there goes. */
+/** Opens a log beside the capture, and shows it; it replaces an earlier log. */
 export function putBeside(name: string, ring: Ring): void {
   showLive();
   beside.value = { name, ring, isShown: false };
   show(true);
 }
 
-/** Takes the log away. */
+/** Closes the log. */
 export function close(): void {
   showLive();
   beside.value = null;

@@ -1,5 +1,5 @@
-// What can be plotted: objects as PDOs carry them, taken from the frames of the capture by the mapping
-// that is valid now, and objects as the simulation has them, without a frame on the bus.
+// Values that can be plotted: objects in PDOs, decoded from the frames of the capture with the
+// current mapping, and objects of the simulation, which need no frame.
 
 import { signal } from '@preact/signals-core';
 import * as state from '../state';
@@ -10,7 +10,7 @@ import type { ObjectRecord, Pdo } from '../sim/api';
 import { standIn } from '../views/object-search';
 import { S } from './texts';
 
-/** Place of a mapped object in the frames of its PDO. */
+/** Position of a mapped object in the frames of its PDO. */
 export interface Place {
   id: number;
   extended: boolean;
@@ -18,24 +18,24 @@ export interface Place {
   bits: number;
 }
 
-/** Something that has a value over time. */
+/** A value over time. */
 export interface Plottable {
-  /** Of an object of the simulation its `keyOf`; of a mapped one its node, PDO and object. */
+  /** Key: `keyOf` for an object of the simulation; node, PDO and object for a mapped one. */
   key: string;
   name: string;
   object: ObjectRecord;
-  /** Null: the simulation is asked. */
+  /** Null for a value of the simulation. */
   place: Place | null;
 }
 
-/** The real motion of the shaft; not every encoder has an object for it. A dictionary has no value with index 0. */
+/** The motion of the shaft, for which not every encoder has an object. No object has index 0. */
 const SHAFT = standIn({ index: 0, sub: 0, name: S.plot.shaft, type: 'REAL64', bits: 64 });
 
 const isNumeric = (object: ObjectRecord): boolean => /^(UNSIGNED|INTEGER|REAL|BOOLEAN)/.test(object.type) && object.access !== 'wo';
 
 const titleOf = (object: ObjectRecord): string => `${address(object.index, object.sub)} ${object.name}`;
 
-/** The objects of the selected device that the simulation can be asked for. */
+/** The objects of the selected device that the simulation can read. */
 export const live = (): Plottable[] =>
   [SHAFT, ...(state.device.value?.objects ?? [])]
     .filter(isNumeric)
@@ -46,7 +46,7 @@ export const mapped = signal<Plottable[]>([]);
 
 const EXTENDED = 1 << 29;
 
-/** Of one PDO. A dummy entry fills a gap, and has no value. */
+/** The objects in one PDO. A dummy entry has no value. */
 function ofPdo(node: number, device: number, { transmits, number, cobId, entries }: Pdo): Plottable[] {
   if (!cobId?.valid) return [];
   const known = new Map(state.devices.peek()[device]?.objects.map((object) => [state.keyOf(object.index, object.sub), object]));
@@ -61,22 +61,22 @@ function ofPdo(node: number, device: number, { transmits, number, cobId, entries
   });
 }
 
-/** Asks the devices for their PDOs. */
+/** Reads the PDOs of the devices. */
 export async function learn(): Promise<void> {
   const nodes = state.devices.peek().map((device, number) => state.statuses.peek()[number]?.nodeId ?? device.nodeId);
   const pdos = await askEach('pdos', nodes.map((_, number) => [number]));
   const found = pdos.flatMap((list, number) => (list ?? []).flatMap((pdo) => ofPdo(nodes[number]!, number, pdo)));
-  // Without power a device has no mapping; the last one that was known still decodes what is captured.
+  // A device without power has no mapping; the last known one still decodes the capture.
   const isSilent = (one: Plottable): boolean => nodes.some((node, number) => one.key.startsWith(`${node} `) && !state.statuses.peek()[number]?.powered);
   const kept = mapped.peek().filter((one) => isSilent(one) && !found.some(({ key }) => key === one.key));
   const next = [...found, ...kept];
   if (JSON.stringify(next) !== JSON.stringify(mapped.peek())) mapped.value = next;
 }
 
-/** Milliseconds after which a changed mapping is known. */
+/** Milliseconds after which a changed mapping is read. */
 const LEARNED = 1000;
 
-/** Repeats the reading while the view is open. */
+/** Reads again while the view is open. */
 export function keepLearning(): () => void {
   void learn();
   const timer = window.setInterval(() => void learn(), LEARNED);

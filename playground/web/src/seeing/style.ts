@@ -1,4 +1,4 @@
-// The styles of what comes when it is asked for: there before anything is drawn with them.
+// The style sheet of views that are loaded on request.
 
 const link = Object.assign(document.createElement('link'), { rel: 'stylesheet', href: new URL('seeing.css', import.meta.url).href });
 await new Promise((resolve) => {

@@ -1,4 +1,4 @@
-// Texts of what comes when it is asked for: statistics, plots, trigger, replay.
+// Texts of views that are loaded on request: statistics, plots, trigger, replay.
 
 const seconds = (micros: number): string => `${(micros / 1e6).toFixed(6)} s`;
 

@@ -1,5 +1,5 @@
-// The values that plots show. They live longer than a plot: those of frames come from the whole
-// capture, those of the simulation are recorded from the start of the page.
+// The values of plots. They stay when a plot is closed: values in frames come from the whole
+// capture, values of the simulation are recorded from the start of the page.
 
 import { effect, signal } from '@preact/signals-core';
 import * as state from '../state';
@@ -11,22 +11,22 @@ import { live, valuesOf, type Plottable } from './signals';
 /** Position, the shaft, and speed of CiA 406. */
 const FIRST = [String(state.keyOf(0x6004, 0)), '0', String(state.keyOf(0x6030, 1))];
 
-/** Keys of what is plotted; the same objects of the next device, where it has them. */
+/** Keys of the plotted values; the next device uses the same objects, if it has them. */
 export const plotted = signal<readonly string[]>(FIRST);
 
 /** Values of the simulation, by device and key. */
 const recorded = new Map<string, Series>();
-/** Values of frames, as far as the capture was looked at. */
+/** Values in frames, as far as the capture was decoded. */
 const decoded = new Map<string, { place: string; cleared: number; next: number; series: Series }>();
 
 let asked: Plottable[] = [];
 
-/** Records what is plotted at first, and what was chosen. */
+/** Records the default values and the chosen ones. */
 export function start(): void {
   effect(() => {
     const keys = new Set([...FIRST, ...plotted.value]);
     asked = live().filter(({ key }) => keys.has(key));
-    // A worker that was started again knows nothing of it.
+    // A restarted worker does not have the list.
     if (state.health.value === 'running') send({ op: 'plot', addresses: asked.map(({ object: { index, sub } }) => ({ index, sub })) });
   });
   effect(() => {
@@ -57,7 +57,7 @@ function take({ now, nodes, plot }: Snapshot): void {
   });
 }
 
-/** All values of something, up to now. */
+/** All values of a source, up to now. */
 export function follow(what: Plottable): Series {
   if (!what.place) return seriesOf(state.selectedNode.peek(), what.key);
   const { ring } = state;
@@ -78,7 +78,7 @@ function fill(series: Series, what: Plottable, from: number): void {
   for (let at = 0; at < found.length; at += 3) series.push(found[at + 1]! / 1e6, found[at + 2]!);
 }
 
-/** As `follow`, with each value of the capture: nothing is left out for its age. */
+/** Like `follow`, with each value of the capture: old values are not thinned out. */
 export function inFull(what: Plottable): Series {
   if (!what.place) return follow(what);
   const series = new Series(Infinity);

@@ -1,4 +1,4 @@
-// The line in which a trigger is set, and what has become of it.
+// The line in which the user sets a trigger, and its state.
 
 import { html, nothing } from 'lit';
 import { signal } from '@preact/signals-core';
@@ -8,7 +8,7 @@ import './style';
 import { S } from './texts';
 import { arm, disarm, type Settings } from './trigger';
 
-/** What a person typed stays when the line is closed. */
+/** The typed text stays when the line is closed. */
 const settings = signal<Settings>({ text: '', before: null, after: 100 });
 
 class TriggerBar extends View {

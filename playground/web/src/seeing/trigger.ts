@@ -1,4 +1,4 @@
-// A trigger waits for a frame or for a value, lets the capture go on for a while, and stops it.
+// A trigger waits for a frame or a value, lets the capture continue for a while, and stops it.
 
 import { effect } from '@preact/signals-core';
 import * as state from '../state';
@@ -14,7 +14,7 @@ import { S } from './texts';
 
 export interface Settings {
   text: string;
-  /** Milliseconds before the frame that stay in the capture; null: all. */
+  /** Milliseconds of the capture before the frame; null: all. */
   before: number | null;
   /** Milliseconds after it. */
   after: number;
@@ -23,11 +23,11 @@ export interface Settings {
 interface Wait {
   settings: Settings;
   condition: Condition;
-  /** The next frame that is to be looked at. */
+  /** The next frame to check. */
   next: number;
-  /** The frame that it waited for, and its moment. */
+  /** The frame that triggered, and its time. */
   fired: { number: number; time: number } | null;
-  /** The value before, by its source. */
+  /** The previous value of each source. */
   values: Map<string, number>;
 }
 
@@ -35,7 +35,7 @@ let wait: Wait | null = null;
 let isLooking = false;
 let stopLearning = (): void => {};
 
-/** Begins to wait; what is wrong with the condition, and where. */
+/** Starts to wait; returns the error and its place if the condition is not valid. */
 export function arm(settings: Settings): { error: string; at: number } | null {
   const condition = parseCondition(settings.text);
   if ('error' in condition) return condition;
@@ -47,7 +47,7 @@ export function arm(settings: Settings): { error: string; at: number } | null {
   return null;
 }
 
-/** Waits no longer; a capture that was stopped goes on. */
+/** Stops waiting; a stopped capture continues. */
 export function disarm(): void {
   stopLearning();
   stopLearning = () => {};
@@ -67,7 +67,7 @@ function tell(): void {
 
 listen(({ now }) => void look(now));
 
-// A step back takes frames back; another bench begins without a trigger.
+// A step back removes frames; another bench starts without a trigger.
 effect(() => {
   void state.cleared.value;
   if (!wait || !state.trigger.peek() || !state.capturing.peek()) return;
@@ -80,7 +80,7 @@ effect(() => {
   if (state.trigger.value === null && wait) disarm();
 });
 
-/** Looks at the frames that came; one look at a time, since words have to be asked for. */
+/** Checks new frames, one batch at a time, since texts are requested from the worker. */
 async function look(now: number): Promise<void> {
   if (isLooking || !wait || !state.capturing.peek()) return;
   isLooking = true;
@@ -113,7 +113,7 @@ async function passing(filter: Filter, from: number, to: number): Promise<number
   return null;
 }
 
-/** The first frame that has a value for which the condition holds: in a PDO, or in the answer to an SDO. */
+/** The first frame with a value for which the condition holds: in a PDO, or in an SDO response. */
 function holding({ values }: Wait, wanted: ObjectCondition, from: number, to: number): number | null {
   const frames = state.live.ring.slice(from, to);
   const found: { source: string; at: number; value: number }[] = [];
@@ -139,7 +139,7 @@ function holding({ values }: Wait, wanted: ObjectCondition, from: number, to: nu
   return null;
 }
 
-/** The capture ends here: what came later and what is too old goes, the frame is marked and shown. */
+/** Ends the capture: later and too old frames are removed, the frame is marked and shown. */
 function stop({ settings }: Wait, { number, time }: { number: number; time: number }): void {
   showLive();
   const { ring } = state.live;

@@ -29,13 +29,13 @@ function fault(text: string): string {
   return '';
 }
 
-test('a bench comes back as it went', async () => {
+test('a bench is read as it was written', async () => {
   const packed = await pack(write(bench));
   assert.match(packed, /^[A-Za-z0-9_-]+$/);
   assert.deepEqual(read(await unpack(packed)), bench);
 });
 
-test('every cut of a text is refused', () => {
+test('every truncated text is refused', () => {
   const text = write(bench);
   for (let length = 0; length < text.length; length++) assert.ok(fault(text.slice(0, length)), `${length}`);
 });
@@ -58,7 +58,7 @@ test('every field is checked', () => {
   assert.equal(fault(JSON.stringify({ ...whole, entries: [[5, { op: 'seed', seed: 1 }], [4, { op: 'seed', seed: 1 }]] })), 'cut');
 });
 
-test('a run beyond its limits is refused before any of it happens', () => {
+test('a run beyond its limits is refused before it starts', () => {
   const add = { op: 'add', source: { kind: 'builtin', name: 'gxmm' }, nodeId: 5 };
   const run = (entries: unknown[], now: number): string => fault(JSON.stringify({ ...(JSON.parse(write(bench)) as object), entries, now }));
   assert.equal(run([[0, add]], 86_400e6), '');
@@ -67,7 +67,7 @@ test('a run beyond its limits is refused before any of it happens', () => {
   assert.equal(run([[0, { op: 'repeat', key: 1, id: 128, data: '', extended: false, remote: false, micros: 100 }]], 86_400e6), 'frames');
 });
 
-test('damaged addresses are refused, not thrown at the page', async () => {
+test('damaged addresses are refused without an exception', async () => {
   const packed = await pack(write(bench));
   for (const wrong of ['', '%', 'AAAA', packed.slice(0, 20), packed.slice(0, -4), `x${packed}`]) {
     let message = '';

@@ -1,5 +1,5 @@
-// A bench as text: everything that was done to it, with its moments. One form for links,
-// files and the autosave; what comes in is checked to the last field, for it comes from outside.
+// A bench as text: all its inputs with their times. Links, files and the autosave have
+// the same format. Every field is checked when it is read, since anybody can write it.
 
 import type { Entry, Input } from '../sim/api';
 import { checkRun, readInput } from '../codec';
@@ -7,25 +7,25 @@ import { checkRun, readInput } from '../codec';
 export const VERSION = 1;
 
 export interface Bench {
-  /** With the frames of the run so far. */
+  /** With the frames so far. */
   trace: boolean;
-  /** The moment to go on from, in virtual microseconds. */
+  /** The moment to continue from, in virtual microseconds. */
   now: number;
   speed: number;
   running: boolean;
-  /** The device that the panels show. */
+  /** The selected device. */
   node: number;
   entries: Entry[];
 }
 
-/** Reason why a text is not a bench. */
+/** Reason why a text is not a valid bench. */
 export class NoBench extends Error {}
 
-/** Inputs of one bench; more would take minutes to make again. */
+/** Maximum number of inputs; more would take minutes to repeat. */
 const MOST_ENTRIES = 200_000;
-/** Fields of inputs that are bytes. */
+/** Fields of inputs that contain bytes. */
 const BYTES: ReadonlySet<string> = new Set(['data', 'bytes']);
-/** Latest moment that is a number of this format: a year. How long a run may be says `checkRun`. */
+/** Maximum time of this format: a year. `checkRun` limits the length of a run. */
 const LATEST = 366 * 86_400e6;
 
 export function write(bench: Bench): string {
@@ -34,7 +34,7 @@ export function write(bench: Bench): string {
   return JSON.stringify({ odkit: VERSION, ...rest, entries: entries.map(({ at, input }) => [at, input]) }, bytes);
 }
 
-/** Reads the text of `write`, which may have been changed. */
+/** Parses the text of `write`, which may have been changed. */
 export function read(text: string): Bench {
   let all: unknown;
   try {
@@ -64,7 +64,7 @@ export function read(text: string): Bench {
   };
 }
 
-/** The module knows the inputs, and what is allowed in their fields. */
+/** The module knows the inputs and the valid values of their fields. */
 const checked = (value: unknown): Input => checkedBy(() => readInput(value));
 
 function checkedBy<T>(check: () => T): T {

@@ -1,4 +1,4 @@
-// The last bench, kept in this browser: closing a tab loses no work.
+// Keeps the last bench in this browser, so that closing a tab loses no work.
 
 import { effect } from '@preact/signals-core';
 import { createStore, del, entries, set } from 'idb-keyval';
@@ -7,14 +7,14 @@ import { T } from '../texts';
 import { write } from './bench';
 import { now, openText } from './make';
 
-/** Milliseconds between two savings. */
+/** Milliseconds between two saves. */
 const PAUSE = 2000;
-/** Beyond these, a run takes long to make again, and is kept without its past. */
+/** A longer run takes long to repeat, and is kept without its history. */
 const MOST_ENTRIES = 5000;
 const LONGEST_RUN = 3600e6;
 
 interface Kept {
-  /** When, in wall-clock milliseconds. */
+  /** Time in wall-clock milliseconds. */
   at: number;
   /** Names of the devices. */
   names: string[];
@@ -23,20 +23,20 @@ interface Kept {
 
 const store = createStore('odkit', 'kept');
 
-/** Each visit keeps its bench under a name of its own, so that two tabs do not overwrite each other's. */
+/** Each visit stores its bench under a name of its own, so that two tabs do not overwrite each other. */
 const own = crypto.randomUUID?.() ?? `${Date.now()} ${Math.random()}`;
-/** Number of benches that are kept; the oldest are dropped. */
+/** Maximum number of stored benches; the oldest are removed. */
 const MOST_KEPT = 8;
-/** Milliseconds between two looks for a tab that closes. */
+/** Milliseconds between two checks for a tab that closes. */
 const LOOK = 250;
 
-/** The benches that no open tab works on, newest first. */
+/** The stored benches that no open tab uses, newest first. */
 async function left(patience = 0): Promise<{ key: IDBValidKey; kept: Kept }[]> {
   const all = await entries<IDBValidKey, Kept>(store);
   const held = await navigator.locks?.query().then(({ held: locks }) => locks, () => []);
   const open = new Set(held?.map(({ name }) => name));
   const isOther = all.some(([key]) => key !== own && open.has(lockOf(key)));
-  // The page before this one in the same tab lets go of its lock a moment after it is gone.
+  // The previous page of the same tab releases its lock a moment after it is closed.
   if (isOther && patience > 0) {
     await new Promise((resolve) => setTimeout(resolve, LOOK));
     return left(patience - 1);
@@ -49,18 +49,18 @@ async function left(patience = 0): Promise<{ key: IDBValidKey; kept: Kept }[]> {
 
 const lockOf = (key: IDBValidKey): string => `odkit bench ${String(key)}`;
 
-/** Has anything been done but putting devices on the bus? */
+/** Returns whether anything was done except putting devices on the bus. */
 const isWorth = (): boolean => state.journal.entries.some(({ input }) => input.op !== 'add');
 
-/** Begins to keep the bench, and offers the one that was kept before. */
+/** Starts to store the bench, and offers the previous one. */
 export async function start(): Promise<void> {
-  // Held as long as this tab is open.
+  // The lock is held while this tab is open.
   void navigator.locks?.request(lockOf(own), () => new Promise(() => undefined));
   let last: Kept | undefined;
   try {
     last = (await left(4))[0]?.kept;
   } catch {
-    // Storage is off: nothing is kept.
+    // Storage is not allowed: nothing is kept.
     return;
   }
   if (last) offer(last);
@@ -94,7 +94,7 @@ function offer(kept: Kept): void {
   ];
 }
 
-/** The bench that was kept before this visit. */
+/** The bench that was stored before this visit. */
 export const before = (): Promise<Kept | undefined> => left().then((all) => all[0]?.kept, () => undefined);
 
 export const when = (at: number): string =>

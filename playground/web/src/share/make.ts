@@ -1,4 +1,4 @@
-// The bench as it is now, and a bench made of what came in.
+// The current bench as text, and a bench from a text.
 
 import { effect } from '@preact/signals-core';
 import { setRunning, setSpeed } from '../actions';
@@ -12,7 +12,7 @@ import { pack, unpack } from './pack';
 /** The key of a bench in an address: `#bench=…`. */
 const KEY = 'bench=';
 
-/** With its frames the run is made again; without them only what came of it. */
+/** With its frames the run is repeated; without them only its result is restored. */
 export async function now(trace: boolean): Promise<Bench> {
   const bench = {
     trace,
@@ -32,7 +32,7 @@ export function open(bench: Bench): void {
   restore(entries, trace ? bench.now : 0, !trace);
   setSpeed(bench.speed);
   setRunning(bench.running);
-  // It can be shown when it is there.
+  // It can be shown now.
   const stop = effect(() => {
     if (state.devices.value.length <= node || state.replaying.value) return;
     queueMicrotask(() => {
@@ -58,7 +58,7 @@ export async function openText(text: string, name: string): Promise<boolean> {
 
 async function tried(action: () => void | Promise<void>, message: (why: string) => string): Promise<boolean> {
   try {
-    // The module checks what comes in.
+    // The module checks the text.
     await loaded;
     await action();
     return true;

@@ -1,4 +1,4 @@
-// The page without a network: a service worker keeps its files, and tells of new ones.
+// The page without a network: a service worker keeps its files, and reports new ones.
 
 import * as state from '../state';
 import { T } from '../texts';
@@ -7,19 +7,19 @@ import { trusted } from '../trusted';
 declare const OFFLINE: boolean;
 
 export async function register(): Promise<void> {
-  // While the page is worked on, old files would only be in the way.
+  // During development old files would be confusing.
   if (!OFFLINE || !('serviceWorker' in navigator)) return;
   const { serviceWorker } = navigator;
   let registration: ServiceWorkerRegistration;
   try {
     registration = await serviceWorker.register(trusted('sw.js'));
   } catch {
-    // Private windows and file: addresses have none.
+    // Private windows and file: addresses have no service worker.
     return;
   }
   const watch = (worker: ServiceWorker | null): void => {
     const tell = (): void => {
-      // The first one replaces nothing.
+      // The first installation replaces nothing.
       if (worker?.state === 'installed' && serviceWorker.controller) offer(worker);
     };
     worker?.addEventListener('statechange', tell);

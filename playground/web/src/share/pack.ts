@@ -1,8 +1,8 @@
-// Text in the part of an address behind `#`: deflated, in base64url.
+// Text in the part of an address after `#`: deflated, in base64url.
 
 import { fromBase64, NoBench, toBase64 } from './bench';
 
-/** Longest text that a link may unpack to. */
+/** Maximum length of the text in a link. */
 const LONGEST = 20_000_000;
 
 export async function pack(text: string): Promise<string> {

@@ -1,5 +1,5 @@
-// The seam between the page and the simulation: what a bus can do, and the messages
-// that cross between the page and the worker. Only numbers, strings and plain records.
+// The interface between page and simulation: functions of a bus, and the messages
+// between page and worker. Only numbers, strings and plain records.
 
 import type { RealCommand, RealReport, RealState } from '../real/api';
 import type { Builtin, Bus, Chain, decodeEds, DeviceInfo, Entry, Input, JournalNews, judgeAnswer, Lesson, LessonState, LineStatus, plainEds, readLog, Status, Value, writeLog } from '../wasm/od_playground';
@@ -11,10 +11,10 @@ export interface Address {
   sub: number;
 }
 
-/** What the page asks of the bus: it changes nothing. */
+/** Questions of the page to the bus; they change nothing. */
 export type Questions = Pick<Bus, 'describeAll' | 'fields' | 'mappingSteps' | 'pdos' | 'read'>;
 
-/** What the whole module does without a bus. */
+/** Functions of the whole module that need no bus. */
 export interface Tools {
   decodeEds: typeof decodeEds;
   judgeAnswer: typeof judgeAnswer;
@@ -23,42 +23,42 @@ export interface Tools {
   writeLog: typeof writeLog;
 }
 
-/** What the page asks of the worker. */
+/** Requests of the page to the worker. */
 export type Command =
   | { op: 'do'; input: Input; ticket?: number }
-  /** `quiet`: what is sent at the first moment is not shown; `waits`: what comes next waits until it is there. */
+  /** `quiet`: frames of the first moment are not shown; `waits`: later commands wait until it is done. */
   | { op: 'restore'; entries: Entry[]; until: number; quiet: boolean; waits?: boolean }
   | { op: 'still'; ticket: number }
   | { op: 'dcf'; ticket: number; node: number }
   | { op: 'run'; running: boolean }
   | { op: 'speed'; factor: number }
   | { op: 'step'; micros: number; frames: number }
-  /** To a moment, what came after comes again; or to the one before an entry of the journal, for good. */
+  /** To a moment, whose later inputs are repeated; or to the moment before a journal entry, which removes the later inputs. */
   | { op: 'back'; to: number }
   | { op: 'back'; to: null; entry: number; ticket: number }
   | { op: 'select'; node: number }
-  /** `chosen`: the one whose saved value is wanted, too. */
+  /** `chosen`: the object whose saved value is read, too. */
   | { op: 'watch'; addresses: Address[]; chosen: Address | null }
   | { op: 'plot'; addresses: Address[] }
   | { op: 'look'; eeprom: boolean }
-  /** Reads an object over the bus, or writes it where there are bytes. */
+  /** Reads an object over the bus, or writes it if there are bytes. */
   | { op: 'transfer'; ticket: number; node: number; index: number; sub: number; bytes: Uint8Array | null }
   /** Each call has its own arguments. */
   | { op: 'ask'; ticket: number; name: keyof Questions; calls: unknown[][] }
   | { op: 'tool'; ticket: number; name: keyof Tools; args: unknown[] }
   | { op: 'replay'; ticket: number; frames: Uint8Array; speed: number; paused: boolean }
-  /** Of the log that is sent: another speed, a pause or its end, the next frame now, or no more. */
+  /** For the log that is sent: another speed, pause or continue, the next frame now, or stop. */
   | { op: 'player'; speed?: number; paused?: boolean; steps?: boolean; ends?: boolean }
   /** About a real bus. */
   | { op: 'real'; what: RealCommand }
   | { op: 'drawn' }
-  /** Answered at once, whatever else there is to do. */
+  /** Answered at once, before other work. */
   | { op: 'ping' };
 
-/** What the worker tells the page. */
+/** Reports of the worker to the page. */
 export type Report =
   | { op: 'ready'; builtins: Builtin[]; module: WebAssembly.Module }
-  /** What came of a command with this ticket. */
+  /** Result of the command with this ticket. */
   | { op: 'answer'; ticket: number; value: unknown }
   | { op: 'devices'; devices: DeviceInfo[]; lesson: Lesson | null }
   | { op: 'rewound'; to: number }
@@ -67,13 +67,13 @@ export type Report =
   | { op: 'snapshot'; snapshot: Snapshot }
   | { op: 'crashed'; message: string };
 
-/** The state of everything at one virtual moment. */
+/** The state of all devices at one virtual moment. */
 export interface Snapshot {
   now: number;
   running: boolean;
-  /** It makes a run again and is not there yet. */
+  /** A run is being repeated. */
   replaying: boolean;
-  /** Frames of a log that are still to be sent. */
+  /** Frames of a log that are not sent yet. */
   toSend: number;
   /** The link to a real bus; null on the virtual bench. */
   real: RealState | null;
@@ -81,26 +81,26 @@ export interface Snapshot {
   rate: number;
   nodes: Status[];
   line: LineStatus;
-  /** How far the lesson is. */
+  /** Progress of the lesson. */
   lesson: LessonState | null;
   /** New frames, packed. */
   frames: Uint8Array;
-  /** The words of the last frames of the batch. */
+  /** The texts of the last frames of the batch. */
   words: string[];
-  /** What happened to EEPROMs: damage, saves that were cut. */
+  /** Events of EEPROMs: damage, interrupted saves. */
   notices: string[];
-  /** The journal from here on has changed. */
+  /** The changed end of the journal. */
   journal: JournalNews | null;
-  /** Of the selected node: from the raw position to the position value; null without a shaft. */
+  /** For the selected node: the steps from the raw position to the position value; null without a shaft. */
   chain: Chain | null;
-  /** Of the selected node: values of the watched objects, when they were read again. */
+  /** For the selected node: values of the watched objects, if they were read again. */
   values: Value[] | null;
-  /** Of the selected node: what the EEPROM holds for the chosen object; with the values. */
+  /** For the selected node: the saved value of the chosen object; sent with the values. */
   saved: Value;
-  /** Of the selected node: objects that are not saved as they are, as `index * 256 + sub`; with the values. */
+  /** For the selected node: objects whose saved value differs, as `index * 256 + sub`; sent with the values. */
   unsaved: Uint32Array | null;
-  /** Of the selected node: the bytes of its EEPROM, while they are shown. */
+  /** For the selected node: the bytes of its EEPROM, while they are shown. */
   eeprom: Uint8Array | null;
-  /** Values of the plotted objects, and whose they are: others may be wanted by now. */
+  /** Values of the plotted objects, and their device: the selection may have changed. */
   plot: { node: number; addresses: Address[]; values: Value[] } | null;
 }

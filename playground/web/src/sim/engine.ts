@@ -1,5 +1,5 @@
-// The clock of the simulation. It advances the bench in slices that never take longer
-// than a budget, and hands the page one snapshot per drawn picture.
+// The clock of the simulation. It advances the bench in slices with a time budget,
+// and sends the page one snapshot for each refresh.
 
 import type { Address, Command, Input, Report, Value } from './api';
 import { FRAME_BYTES } from './packed';
@@ -7,34 +7,34 @@ import { Replay } from './replay';
 import type { RealState } from '../real/api';
 import type { World } from './world';
 
-/** Longest time a slice may compute, in milliseconds. */
+/** Maximum computing time of a slice, in milliseconds. */
 const BUDGET = 8;
-/** Rest between slices, in milliseconds. */
+/** Pause between slices, in milliseconds. */
 const REST = 4;
-/** Longest wall time that one slice makes up for: a sleeping tab does not catch up. */
+/** Maximum wall time that one slice makes up for: a tab that was asleep does not catch up. */
 const LONGEST_GAP = 100;
-/** Frames in one batch; the rest waits in virtual time. */
+/** Maximum number of frames in a batch; the others wait in virtual time. */
 const MOST_FRAMES = 2000;
-/** Virtual microseconds between two looks at the budget. */
+/** Virtual microseconds between two checks of the budget. */
 const SLICE = 50_000;
-/** Pictures that may be under way to the page. */
+/** Maximum number of snapshots that the page has not confirmed. */
 const MOST_UNDRAWN = 2;
-/** Frames at the end of a batch that come with their words. */
+/** Number of frames at the end of a batch that have their texts. */
 const WITH_WORDS = 48;
-/** Milliseconds between two pictures of a bench on which nothing happens but that time passes. */
+/** Milliseconds between two snapshots of an idle bench. */
 const QUIET = 50;
 /** Milliseconds between two readings of the watched objects. */
 const WATCH_PERIOD = 200;
-/** Inputs that change what is on the bus. */
+/** Inputs that change the devices on the bus. */
 const TELLING: ReadonlySet<Input['op']> = new Set<Input['op']>(['add', 'remove', 'lesson', 'leave']);
-/** What only a simulation can do. */
+/** Functions that only a simulation has. */
 const NOT_REAL: ReadonlySet<Command['op']> = new Set<Command['op']>(['run', 'speed', 'step', 'back', 'replay']);
-/** Farthest that one step goes in search of a frame, in microseconds. */
+/** Maximum step in search of a frame, in microseconds. */
 const FARTHEST = 60_000_000;
 
-/** A world whose time is that of a real bus. */
+/** A bench whose time is that of a real bus. */
 export interface Live extends World {
-  /** Goes on to the present moment. */
+  /** Advances to the present. */
   follow(): void;
   link(): RealState;
 }
@@ -45,7 +45,7 @@ export class Engine {
   private last = performance.now();
   private undrawn = 0;
   private changed = true;
-  /** Of the last picture: its moment, where the shafts were, and whether one turned. */
+  /** The last snapshot: its time, the shaft positions, and whether a shaft turned. */
   private shownAt = 0;
   private turns = '';
   private isTurning = false;
@@ -58,11 +58,11 @@ export class Engine {
   private looksAtEeprom = false;
   private rate = 0;
   private rateFrom = { wall: performance.now(), virtual: 0 };
-  /** A run that is made again goes at full speed to this moment. */
+  /** A repeated run goes at full speed to this moment. */
   private until: number | null = null;
   private isBusy = false;
   private replay: Replay | null = null;
-  /** The real bus that is shown, in place of the virtual bench. */
+  /** The real bus that is shown instead of the virtual bench. */
   private live: Live | null = null;
   private home: World;
   /** Ends the link to the real bus. */
@@ -76,7 +76,7 @@ export class Engine {
     this.schedule();
   }
 
-  /** Shows a real bus, or the virtual bench again, which was paused during that. */
+  /** Shows a real bus, or returns to the virtual bench, which was paused meanwhile. */
   show(live: Live | null): void {
     this.live = live;
     this.world = live ?? this.home;
@@ -99,7 +99,7 @@ export class Engine {
   async handle(command: Command): Promise<void> {
     if (this.live) {
       if (NOT_REAL.has(command.op)) return 'ticket' in command ? this.answer(command.ticket ?? 0, null) : undefined;
-      // Another bench is a virtual one.
+      // Another bench is always virtual.
       if (command.op === 'restore') this.leave?.();
     }
     const { world } = this;
@@ -241,9 +241,9 @@ export class Engine {
       this.pass(wall, this.until - world.bus.now());
       if (world.bus.now() >= this.until) {
         this.until = null;
-        // Inputs of that very moment are part of it.
+        // Inputs of this moment are part of it.
         world.bus.advance(0, MOST_FRAMES);
-        // Goals of a run that is made again were reached before.
+        // Goals of a repeated run were reached before.
         world.reachedGoal();
         this.tellDevices();
       }
@@ -255,14 +255,14 @@ export class Engine {
     if (this.isDue(wall)) this.snapshot(wall);
   }
 
-  /** Is there something to show? Where only time passes, a picture now and then does. */
+  /** Returns whether there is something to show. While only time passes, an occasional snapshot is enough. */
   private isDue(wall: number): boolean {
     if (this.undrawn >= MOST_UNDRAWN) return false;
     const isRunning = this.running || this.live !== null;
     return this.changed || (isRunning && (this.isTurning || this.world.bus.pending() > 0 || wall - this.shownAt >= QUIET));
   }
 
-  /** What was missed at the end of the budget is missed: time is slower, not late. */
+  /** Time beyond the budget is skipped: virtual time is slower, not late. */
   private pass(wall: number, micros: number): void {
     const { world } = this;
     let left = micros;
@@ -279,7 +279,7 @@ export class Engine {
     if (world.bus.deviceCount() !== known) this.tellDevices();
   }
 
-  /** A checkpoint that is reached stops time: there is something to read. */
+  /** A reached checkpoint pauses time: the learner reads. */
   private pauseAtGoal(): boolean {
     const isReached = this.world.reachedGoal() && !this.live;
     if (isReached) {
@@ -289,13 +289,13 @@ export class Engine {
     return isReached;
   }
 
-  /** Time that is paused goes on until the frame that the user sent is transmitted: its answer comes with the next step. */
+  /** Paused time continues until a frame of the user is transmitted; the response comes with the next step. */
   private sendOut(): void {
     const { bus } = this.world;
     for (let left = MOST_FRAMES; left > 0 && bus.isSending(); left--) bus.advance(SLICE, 1);
   }
 
-  /** The next frame of a log; what it answers is the bench's business. */
+  /** Sends the next frame of a log; the bench responds as usual. */
   private sendNext(replay: Replay): void {
     const input = replay.take(this.world.bus.now());
     if (input) void this.world.act(input);

@@ -1,5 +1,5 @@
-// The worker: messages in, reports out, and an end when something throws, so that the
-// page can start a fresh one.
+// The worker: messages in, reports out. An exception ends it, so that the
+// page can start a new one.
 
 import type { Command, Report } from './api';
 import { Engine } from './engine';
@@ -19,7 +19,7 @@ export async function host(modules: Modules): Promise<void> {
     event.preventDefault();
     crash(event.reason);
   });
-  // One command after the other, in their order, though some have to load something.
+  // Commands are done one after the other, although some have to load something.
   const waiting: Command[] = [];
   let engine: Engine | undefined;
   let isWorking = false;

@@ -1,4 +1,4 @@
-// The page's end of the worker. It starts it, starts it again after a crash, and
+// The page's side of the worker. It starts it, restarts it after a crash, and
 // turns its reports into state.
 
 import { batch } from '@preact/signals-core';
@@ -12,11 +12,11 @@ import { Ring } from '../trace/ring';
 import { trusted } from '../trusted';
 import { FRAME_BYTES } from './packed';
 
-/** Crashes in a row after which the page stops trying. */
+/** Number of crashes in a row after which the page stops trying. */
 const MOST_CRASHES = 3;
-/** Milliseconds between two questions whether the worker is still there. */
+/** Milliseconds between two checks whether the worker responds. */
 const LOOK = 250;
-/** Questions without an answer after which it hangs: two seconds. */
+/** Checks without an answer after which the worker counts as hung: two seconds. */
 const MOST_UNANSWERED = 8;
 
 /** Virtual microseconds over which the load is measured, and between two measurements. */
@@ -24,26 +24,26 @@ const LOAD_WINDOW = 1_000_000;
 const LOAD_STEP = 50_000;
 
 let worker: Worker | null = null;
-/** Questions since its last report; while the page itself was held up it asked none. */
+/** Checks since its last report; a page that was itself blocked sends none. */
 let unanswered = 0;
 let watchdog = 0;
 let lookedAt = 0;
 let crashes = 0;
 let ticket = 0;
-/** Who waits for an answer, and what they get if the worker ends before. */
+/** Callers that wait for an answer, and the answer that they get if the worker ends first. */
 const waiting = new Map<number, { resolve(value: unknown): void; otherwise: unknown }>();
-/** Who wants to see the frames as they come. */
+/** Listeners for new frames. */
 const listeners = new Set<(snapshot: Snapshot, first: number) => void>();
 
-/** What the page does about a real bus, as soon as that is loaded. */
+/** Handler of a real bus, once it is loaded. */
 export const hooks = {
   real(_: RealReport): void {},
   crashed(): void {},
-  /** Something was to be sent while sending is off. */
+  /** Called when something was to be sent while sending is off. */
   held(): void {},
 };
 
-/** May something be sent? Not to a real bus before the user switched sending on. */
+/** Returns whether sending is allowed: on a real bus only after the user switched it on. */
 export const maySend = (): boolean => state.real.peek()?.sending !== false;
 
 export function start(): void {
@@ -51,7 +51,7 @@ export function start(): void {
   watchdog ||= window.setInterval(look, LOOK);
   const own = new Worker(trusted('worker.js'), { type: 'module', name: 'odkit simulation' });
   worker = own;
-  // One that was ended has nothing to say any more, even if it is on its way.
+  // Late messages of a worker that was ended are ignored.
   own.onmessage = ({ data }: MessageEvent<Report>) => {
     if (own === worker) receive(data);
   };
@@ -65,13 +65,13 @@ export function send(command: Command): void {
   worker?.postMessage(command);
 }
 
-/** Something happens on the bench. */
+/** Sends an input to the bench. */
 export function act(input: Input): void {
   if (!maySend() && (input.op === 'send' || (input.op === 'repeat' && input.micros > 0))) return hooks.held();
   send({ op: 'do', input });
 }
 
-/** Asks the worker for something; `otherwise` is the answer when it ends before. */
+/** Sends a request to the worker; `otherwise` is the answer if it ends first. */
 export function ask<T>(make: (ticket: number) => Command, otherwise: T): Promise<T> {
   return new Promise((resolve) => {
     ticket += 1;
@@ -80,54 +80,54 @@ export function ask<T>(make: (ticket: number) => Command, otherwise: T): Promise
   });
 }
 
-/** Puts a device on the bus, begins a lesson, plays a script; what was there stays when it cannot be. */
+/** Adds a device, starts a lesson, plays a script; if that fails, the bench stays as it is. */
 export const add = (input: Extract<Input, { op: 'add' | 'lesson' | 'script' }>): Promise<Added & { entry?: number }> =>
   ask((ticket) => ({ op: 'do', input, ticket }), { node: null, diagnostics: [] });
 
-/** Goes back to the moment before an entry of the journal, and forgets what was done since. */
+/** Goes back to the moment before a journal entry, and removes the later entries. */
 export const takeBack = (entry: number): Promise<null> => ask((ticket) => ({ op: 'back', to: null, entry, ticket }), null);
 
-/** Puts the description of a real node among the devices. */
+/** Adds the description of a real node to the devices. */
 export const describe = (input: Input): Promise<Added & { entry?: number }> => ask((ticket) => ({ op: 'real', what: { is: 'describe', ticket, input } }), { node: null, diagnostics: [] });
 
-/** Makes a run again, from nothing; a quiet one does not show what is sent at its first moment. */
+/** Repeats a run from the start; a quiet one does not show the frames of its first moment. */
 export function restore(entries: Entry[], until: number, quiet = false, waits = false): void {
   state.journal.entries = [];
   dropFrames();
   send({ op: 'restore', entries, until, quiet, waits });
 }
 
-/** What makes an empty bench as this one is, without its past; null if nothing does. */
+/** The inputs that make this bench without its history; null if there are none. */
 export const still = (): Promise<Entry[] | null> => ask((ticket) => ({ op: 'still', ticket }), null);
 
-/** A DCF of a device as it is set up. */
+/** A DCF of a device with its current configuration. */
 export const exportDcf = (node: number): Promise<string | null> => ask((ticket) => ({ op: 'dcf', ticket, node }), null);
 
-/** Asks the bus the same of several things. */
+/** Asks the bus the same question about several things. */
 export const askEach = <K extends keyof Questions>(name: K, calls: Parameters<Questions[K]>[]): Promise<ReturnType<Questions[K]>[]> =>
   ask((ticket) => ({ op: 'ask', ticket, name, calls }), []);
 
-/** Asks the bus; null where it ends before it answers. */
+/** Asks the bus; null if it ends before it answers. */
 export const askBus = async <K extends keyof Questions>(name: K, ...args: Parameters<Questions[K]>): Promise<ReturnType<Questions[K]> | null> =>
   (await askEach(name, [args]))[0] ?? null;
 
-/** Uses the whole module: what it says, or why it cannot. */
+/** Calls the whole module; returns the result, or the reason why it failed. */
 export const use = <K extends keyof Tools>(name: K, ...args: Parameters<Tools[K]>): Promise<{ value: ReturnType<Tools[K]> } | { error: string }> =>
   ask((ticket) => ({ op: 'tool', ticket, name, args }), { error: T.app.unloaded });
 
-/** Calls `listener` with every snapshot, and the number of its first frame. */
+/** Calls `listener` with every snapshot and the number of its first frame. */
 export function listen(listener: (snapshot: Snapshot, first: number) => void): () => void {
   listeners.add(listener);
   return () => listeners.delete(listener);
 }
 
-/** Ends a worker that hangs. One that is still loading cannot answer yet. */
+/** Ends a worker that hangs. A worker that is still loading cannot answer yet. */
 function look(): void {
   if (state.health.peek() !== 'running') return;
   const at = performance.now();
   const isLate = at - lookedAt > LOOK * 1.6;
   lookedAt = at;
-  // Where the page itself is held up, the worker may be, too.
+  // If the page itself is blocked, the worker may be, too.
   if (isLate) return;
   if (unanswered >= MOST_UNANSWERED) return crashed(null);
   unanswered += 1;
@@ -164,7 +164,7 @@ function receive(report: Report): void {
   }
 }
 
-/** Null: no answer will come any more. */
+/** Null: no answer will follow. */
 function resolve(ticket: number, value: unknown): void {
   const asked = waiting.get(ticket);
   asked?.resolve(value ?? asked.otherwise);
@@ -172,7 +172,7 @@ function resolve(ticket: number, value: unknown): void {
 }
 
 function devices(list: DeviceInfo[], lesson: Lesson | null): void {
-  // The same bench at another moment: what is shown of it stays.
+  // The same bench at another moment: what is shown stays.
   const known = state.devices.peek();
   const isBack = list.length > 0 && list.length === known.length && list.every(({ name, nodeId }, i) => name === known[i]!.name && nodeId === known[i]!.nodeId);
   batch(() => {
@@ -220,7 +220,7 @@ function rewound(to: number): void {
   });
 }
 
-/** What comes is of another bench. */
+/** Later snapshots are of another bench. */
 export function dropFrames(): void {
   showLive();
   state.ring.clear();
@@ -264,7 +264,7 @@ function apply(snapshot: Snapshot): void {
   for (const listener of listeners) listener(snapshot, first);
 }
 
-/** Frames while the capture is stopped: the last PDO is known all the same. */
+/** Handles frames while the capture is stopped: the last PDO is still known. */
 const passing = new Ring();
 
 function frames(snapshot: Snapshot): void {
@@ -274,17 +274,17 @@ function frames(snapshot: Snapshot): void {
   if (ring === state.ring) state.captured.value = ring.end;
 }
 
-/** Keeps a frame that is PDO1 of the device that is shown. */
+/** Keeps a frame that is PDO1 of the selected device. */
 function notePdo(number: number, ring: Ring): void {
   const frame = ring.get(number);
   const isOurs = frame?.tag.text === 'PDO1' && frame.node === state.nodeId.value && !frame.fromPage;
   if (isOurs) state.lastPdo.value = { time: frame.time, data: frame.data };
 }
 
-/** How long the line was busy, at moments of the last second. */
+/** Busy time of the bus line, at moments of the last second. */
 let busy: { at: number; micros: number }[] = [];
 
-/** Works out the load of a line that takes time: a frame that is on it counts whole. */
+/** Computes the load of a line with bit times: a frame in transmission counts completely. */
 function note(at: number, micros: number): void {
   if (busy.length > 0 && (at < busy.at(-1)!.at || micros < busy.at(-1)!.micros)) busy = [];
   if (at - (busy.at(-1)?.at ?? -Infinity) >= LOAD_STEP) busy.push({ at, micros });
@@ -313,9 +313,9 @@ function watchedValues(snapshot: Snapshot): void {
 }
 
 /**
- * A Rust panic ends the worker, and so does one that hangs (`why` is null), not the page. A fresh
- * one makes the run again up to the last moment that came through: what broke it never did. If
- * that breaks it once more, only the devices come back.
+ * A Rust panic, or a worker that hangs (`why` is null), ends the worker, not the page. A new
+ * one repeats the run up to the last moment that the page received, which excludes the cause. If
+ * it fails once more, only the devices are restored.
  */
 function crashed(why: string | null): void {
   worker?.terminate();
@@ -340,7 +340,7 @@ function crashed(why: string | null): void {
     restore([...state.journal.entries], at, false, true);
   } else {
     state.journal.entries = [];
-    // From the moment it stopped, so that time on the page does not run backwards.
+    // Continues at the moment when it stopped, so that time on the page does not run backwards.
     const entries = state.devices.peek().map(({ source, nodeId }): Entry => ({ at, input: { op: 'add', source, nodeId } }));
     send({ op: 'restore', entries, until: at, quiet: false });
   }

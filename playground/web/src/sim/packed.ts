@@ -1,5 +1,5 @@
-// Frames in bulk, little endian, so that thousands cross from the worker in one transfer and the
-// ring needs no object per frame. Where what is in one says layout.ts.
+// Packed frames, little endian: thousands are transferred from the worker at once, and the
+// ring needs no object for each. layout.ts has their layout.
 
 import { AT, DISTURBED, EXTENDED, FRAME_BYTES, FROM_PAGE, REMOTE } from './layout';
 
@@ -12,9 +12,9 @@ export interface Packed {
   id: number;
   extended: boolean;
   remote: boolean;
-  /** Sent from the page, not by a device. */
+  /** Sent by the page, not by a device. */
   fromPage: boolean;
-  /** Disturbed on the wire. The data says what happened: why, attempts, came through, sender went bus-off, its counter. */
+  /** Disturbed on the bus line. The data has: reason, attempts, transmitted, sender went bus-off, its counter. */
   disturbed: boolean;
   /** Number of the device that sent it, from 1; 0 for the page. */
   device: number;

@@ -19,7 +19,7 @@ test('frames keep their distances, at any speed', () => {
   assert.equal(replay.due, -Infinity);
 });
 
-test('a pause and another speed keep the rest of the way', () => {
+test('a pause or another speed keeps the remaining distance', () => {
   const replay = new Replay(log(0, 1000), 0, 1);
   replay.take(0);
   replay.set(400, { paused: true });
@@ -30,7 +30,7 @@ test('a pause and another speed keep the rest of the way', () => {
   assert.equal(replay.due, 6100);
 });
 
-test('one by one, and on from there', () => {
+test('frames are sent one by one, and then continue', () => {
   const replay = new Replay(log(0, 1000, 3000), 0, 1);
   replay.set(0, { paused: true });
   assert.deepEqual([replay.take(50)?.id, replay.take(60)?.id, replay.left], [0x100, 0x101, 1]);

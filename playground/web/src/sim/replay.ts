@@ -1,4 +1,4 @@
-// A log that is sent again: its frames, each as long after the first as they were, at any speed,
+// Replays a log: its frames with their original distances, at any speed,
 // with pauses, and one by one.
 
 import type { Input } from './api';
@@ -6,7 +6,7 @@ import { FRAME_BYTES, unpack, type Packed } from './packed';
 
 export class Replay {
   private place = 0;
-  /** This moment of the log is that of the bench. */
+  /** This moment of the log corresponds to the current moment of the bench. */
   private log: number;
   private isPaused = false;
 
@@ -27,14 +27,14 @@ export class Replay {
     return this.left > 0 ? unpack(this.frames, this.place * FRAME_BYTES) : null;
   }
 
-  /** When the next frame is due. */
+  /** Time when the next frame is due. */
   get due(): number {
     const { next } = this;
     if (!next) return -Infinity;
     return this.isPaused ? Infinity : Math.round(this.bench + Math.max(0, next.time - this.log) / this.speed);
   }
 
-  /** Another speed, a pause or its end: the rest of the way to the next frame is the same. */
+  /** Sets the speed, pauses or continues: the remaining distance to the next frame stays. */
   set(now: number, { speed = this.speed, paused = this.isPaused }: { speed?: number | undefined; paused?: boolean | undefined }): void {
     if (!this.isPaused) this.log = Math.min(this.next?.time ?? Infinity, this.log + Math.max(0, now - this.bench) * this.speed);
     this.bench = now;
@@ -42,7 +42,7 @@ export class Replay {
     this.isPaused = paused;
   }
 
-  /** The next frame as an input; null: it was disturbed on the wire it was recorded from, or the log has ended. */
+  /** The next frame as an input; null if it was disturbed on the recorded bus line, or the log has ended. */
   take(now: number): Extract<Input, { op: 'send' }> | null {
     const frame = this.next;
     if (!frame) return null;

@@ -1,4 +1,4 @@
-// Objects read and written over the bus, and what came of it in words.
+// Reads and writes objects over the bus, and describes the result in words.
 
 import { decode } from '../codec';
 import { address, otherSpelling, showValue } from '../format';
@@ -9,10 +9,10 @@ import { ask, hooks, maySend } from './link';
 
 export type Said = { tone: '' | 'error' | 'good'; text: string };
 
-/** No node answered. */
+/** No node responded. */
 const SILENT: Outcome = { job: 0, kind: 'silent', bytes: null, words: '', wantsPdoOff: false };
 
-/** Reads an object of the selected node over the bus, or with bytes writes it. */
+/** Reads an object of the selected node over the bus, or writes it if there are bytes. */
 export const transfer = ({ index, sub }: Address, bytes: Uint8Array | null): Promise<Outcome> =>
   maySend() ? ask((ticket) => ({ op: 'transfer', ticket, node: nodeId.value, index, sub, bytes }), SILENT) : (hooks.held(), Promise.resolve({ ...SILENT, words: T.sdo.held }));
 

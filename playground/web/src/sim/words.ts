@@ -1,5 +1,5 @@
-// Plain words of the frames on screen. The last frames of a batch arrive with theirs;
-// for older ones the worker is asked when they come into view.
+// The texts of the visible frames. The last frames of a batch include theirs;
+// those of older frames are requested from the worker when they become visible.
 
 import { effect, signal } from '@preact/signals-core';
 import { cleared, devices, ring } from '../state';
@@ -7,25 +7,25 @@ import { askBus, listen } from './link';
 import { T } from '../texts';
 import { FRAME_BYTES, type Packed } from './packed';
 
-/** As many as frames are kept, while a filter looks at all of them. */
+/** As many as the capture has frames, while a filter checks all of them. */
 const MOST_KEPT = 220_000;
 
 const known = new Map<number, string>();
 const asked = new Set<number>();
 
-/** Changes when words arrived late. */
+/** Changes when texts arrived later. */
 export const wordsArrived = signal(0);
 
 listen(({ words, frames }, first) => {
   if (known.size > MOST_KEPT) known.clear();
   const end = first + frames.length / FRAME_BYTES;
-  // Others are not shown, or not captured.
+  // The others are not shown, or not captured.
   if (end !== ring.end) return;
   const from = end - words.length;
   words.forEach((text, i) => known.set(from + i, text));
 });
 
-/** The words of these frames, as far as they are known; asks for the others. */
+/** The texts of these frames, as far as they are known; requests the others. */
 export function wordsOf(numbers: number[]): (string | undefined)[] {
   const missing = numbers.filter((number) => !known.has(number) && !asked.has(number) && number >= ring.first);
   if (missing.length > 0) void ask(missing);
@@ -35,13 +35,13 @@ export function wordsOf(numbers: number[]): (string | undefined)[] {
   });
 }
 
-/** The words of a frame, where they are known already. */
+/** The text of a frame, if it is known. */
 export const knownWords = (number: number): string | undefined => {
   const frame = ring.get(number);
   return frame?.disturbed ? troubleWords(frame) : known.get(number);
 };
 
-/** Learns the words of all kept frames, newest first; answers whether there was something to learn. */
+/** Requests the texts of all kept frames, newest first; returns whether any was missing. */
 export async function learnWords(most: number): Promise<boolean> {
   const missing: number[] = [];
   for (let number = ring.end - 1; number >= ring.first && missing.length < most; number--) {
@@ -51,7 +51,7 @@ export async function learnWords(most: number): Promise<boolean> {
   return missing.length > 0;
 }
 
-// Another device changes what the bytes mean, and numbers come again after a step back.
+// Another device gives bytes another meaning, and frame numbers repeat after a step back.
 effect(() => {
   void devices.value;
   void cleared.value;
@@ -73,7 +73,7 @@ async function ask(numbers: number[]): Promise<void> {
   wordsArrived.value += 1;
 }
 
-/** What became of a frame that was disturbed on the wire. */
+/** What happened to a frame that was disturbed on the bus line. */
 export function troubleWords({ data }: Packed): string {
   const [why = 0, attempts = 0, delivered = 0, busOff = 0] = data;
   return T.trouble.text(T.trouble.why[why] ?? '', attempts, delivered !== 0, busOff !== 0);

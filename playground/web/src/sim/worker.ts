@@ -1,4 +1,4 @@
-// The worker that ships: the simulation in WebAssembly. It begins with the small module;
+// The worker of the page: the simulation in WebAssembly. It starts with the small module;
 // the whole one is fetched when the user opens an EDS text.
 
 import init, * as core from '../wasm/core/od_playground';
@@ -11,7 +11,7 @@ void host({
   compiled: () => compiled,
   async core() {
     const answer = await fetch(new URL('core.wasm', import.meta.url));
-    // A server that does not know the type must not be an error.
+    // A server that does not know the MIME type must not cause an error.
     const isKnown = answer.headers.get('content-type') === 'application/wasm';
     compiled = isKnown ? await WebAssembly.compileStreaming(answer) : await WebAssembly.compile(await answer.arrayBuffer());
     await init({ module_or_path: compiled });

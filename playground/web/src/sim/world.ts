@@ -1,33 +1,33 @@
-// The simulated bench. It begins in the small module, and goes on in the whole one when something
-// needs that: its journal makes it again.
+// The simulated bench. It starts in the small module, and continues in the whole one if that
+// is needed: its journal is repeated there.
 
 import type { Added, Builtin, Command, Entry, Input, Lesson, LessonState, Outcome, Tools } from './api';
 import type { Adapter, Bus as Simulation } from '../wasm/od_playground';
 
-/** One of the two WebAssembly modules; the small one knows no EDS texts and no lessons. */
+/** One of the two WebAssembly modules; the small one lacks EDS texts and lessons. */
 export interface Module extends Partial<Tools> {
   Bus: new (micros?: number) => Simulation;
   builtinDevices(): Builtin[];
-  /** The conversation with an adapter; in the whole module. */
+  /** The protocol of an adapter; in the whole module. */
   Adapter?: new () => Adapter;
   identify?(vendor: number, product: number): string | null;
-  /** Can it run an EDS text, and a lesson? */
+  /** Whether it can run EDS texts and lessons. */
   whole: boolean;
 }
 
 export interface Modules {
-  /** The small module, for others to use once it is there. */
+  /** The small module, which others can use once it is loaded. */
   compiled(): WebAssembly.Module;
   core(): Promise<Module>;
   whole(): Promise<Module>;
 }
 
-/** Longest time without an ear for the page, in milliseconds. */
+/** Maximum time without handling messages of the page, in milliseconds. */
 const BUDGET = 50;
-/** Virtual microseconds and frames between two looks at the budget. */
+/** Virtual microseconds and frames between two checks of the budget. */
 const SLICE = 1_000_000;
 const MOST_FRAMES = 2000;
-/** A checkpoint or a full batch can stop time once; a run that is stopped again and again ends. */
+/** A checkpoint or a full batch can stop time once; a run that stops again and again ends. */
 const MOST_STUCK = 1000;
 
 const WHOLE: ReadonlySet<Input['op']> = new Set<Input['op']>(['lesson', 'leave', 'script']);
@@ -35,7 +35,7 @@ const needsWhole = (input: Input): boolean => WHOLE.has(input.op) || (input.op =
 
 export class World {
   bus: Simulation;
-  /** Who waits for the ends of transfers, by their numbers. */
+  /** Callers that wait for the end of transfers, by transfer number. */
   private readonly tickets = new Map<number, number>();
   private unseen: Uint8Array = new Uint8Array(0);
 
@@ -46,7 +46,7 @@ export class World {
     this.bus = this.fresh();
   }
 
-  /** An empty bench on a real wire. */
+  /** An empty bench on a real line. */
   protected fresh(): Simulation {
     const bus = new this.module.Bus();
     bus.restore([], false);
@@ -57,12 +57,12 @@ export class World {
     return this.module.builtinDevices();
   }
 
-  /** Something happens now. */
+  /** Sends an input to the bench. */
   async act(input: Input): Promise<Added & { entry?: number }> {
     if (needsWhole(input)) await this.enlarge();
     const { bus } = this;
     if (input.op === 'add') {
-      // The findings of a file are for the report, which asks the language server.
+      // The report gets the findings of a file from the language server.
       const entry = input.place == null ? undefined : bus.entries().length - bus.toCome();
       const { node, diagnostics } = bus.act(input);
       return { node, diagnostics: diagnostics.filter(({ code }) => !code), ...(entry !== undefined && { entry }) };
@@ -72,18 +72,18 @@ export class World {
     return added;
   }
 
-  /** A bench without anything, and a run that is to be made again. */
+  /** An empty bench, and a run to repeat. */
   async restore(entries: Entry[], quiet: boolean): Promise<void> {
     if (entries.some(({ input }) => needsWhole(input))) await this.enlarge();
     this.bus.restore(entries, quiet);
   }
 
-  /** Reads or writes an object over the bus, for the one with this ticket. */
+  /** Reads or writes an object over the bus, for the command with this ticket. */
   transfer({ ticket, node, index, sub, bytes }: Extract<Command, { op: 'transfer' }>): void {
     this.tickets.set(this.bus.transfer(node, index, sub, bytes), ticket);
   }
 
-  /** The transfers that are over, each with its ticket. */
+  /** The completed transfers, each with its ticket. */
   outcomes(): [number, Outcome | null][] {
     return this.bus.outcomes().map((outcome) => {
       const ticket = this.tickets.get(outcome.job) ?? 0;
@@ -92,12 +92,12 @@ export class World {
     });
   }
 
-  /** The whole module, for what has nothing to do with the bench: that stays in the small one. */
+  /** The whole module, for functions without the bench, which stays in the small one. */
   async tools(): Promise<Module> {
     return this.module.whole ? this.module : this.modules.whole();
   }
 
-  /** What a tool says, or why it cannot. */
+  /** The result of a function, or the reason why it failed. */
   async use(name: keyof Tools, args: unknown[]): Promise<{ value: unknown } | { error: string }> {
     const tool = (await this.tools())[name] as (...args: unknown[]) => unknown;
     try {
@@ -107,7 +107,7 @@ export class World {
     }
   }
 
-  /** A DCF of a device as it is set up. */
+  /** A DCF of a device with its current configuration. */
   async dcf(node: number): Promise<string | null> {
     await this.enlarge();
     try {
@@ -117,25 +117,25 @@ export class World {
     }
   }
 
-  /** The bench goes on in the whole module. */
+  /** Moves the bench to the whole module. */
   private async enlarge(): Promise<void> {
     if (this.module.whole) return;
     const { bus } = this;
     this.module = await this.modules.whole();
     this.bus = this.fresh();
     await this.again(bus.entries(), bus.now());
-    // What the page has not seen yet was sent by the bench before; it is reported first.
+    // Frames that the page has not received yet were sent by the earlier bench; they are reported first.
     this.unseen = bus.drain();
     bus.free();
   }
 
-  /** Goes back to a moment; what came after comes again. */
+  /** Goes back to a moment; later inputs are repeated when time reaches them. */
   async rewind(to: number): Promise<void> {
     this.unseen = new Uint8Array(0);
     await this.again(this.bus.entries(), to);
   }
 
-  /** Goes back to the moment before an entry of the journal; what came after is forgotten. */
+  /** Goes back to the moment before a journal entry; later inputs are removed. */
   async takeBack(entry: number): Promise<void> {
     const entries = this.bus.entries();
     const at = entries[entry]?.at;
@@ -143,7 +143,7 @@ export class World {
     if (at !== undefined) await this.again(entries.slice(0, entry), at);
   }
 
-  /** Repeats a run up to a moment, unseen, and stays responsive during that. */
+  /** Repeats a run up to a moment without showing it, and stays responsive. */
   private async again(entries: Entry[], to: number): Promise<void> {
     const { bus } = this;
     bus.restore(entries, false);
@@ -155,7 +155,7 @@ export class World {
       const passed = bus.advance(Math.max(0, Math.min(left, SLICE)), MOST_FRAMES);
       bus.drain();
       const isDone = bus.toCome() !== before;
-      // Inputs of that very moment are part of it.
+      // Inputs of this moment are part of it.
       if (left <= 0 && !isDone) break;
       stuck = passed > 0 || isDone ? 0 : stuck + 1;
       if (performance.now() - since > BUDGET) {
@@ -163,7 +163,7 @@ export class World {
         since = performance.now();
       }
     }
-    // The past is not news.
+    // Events of the past are not reported again.
     bus.notices();
   }
 
@@ -186,9 +186,9 @@ export class World {
     return this.module.whole ? this.bus.lesson() : null;
   }
 
-  /** Was a checkpoint reached since the last call? */
+  /** Returns whether a checkpoint was reached since the last call. */
   reachedGoal(): boolean {
-    // Looking comes first: a switch that was moved counts, too.
+    // Checked before time advances: a switch that was moved counts, too.
     return this.lessonState() !== null && this.bus.lessonEvents().length > 0;
   }
 }

@@ -1,4 +1,4 @@
-// The page around them: files, links, lessons, help.
+// The rest of the page: files, links, lessons, help.
 
 export const page = {
   close: 'Close',

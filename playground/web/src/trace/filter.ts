@@ -1,16 +1,16 @@
 // The filter of the console: `node:5 sdo`, `185:7FF`, `position`, `!hb`, `(emcy or err) tx`.
-// Terms side by side all have to hold; `or` and parentheses do what they say.
+// Terms side by side must all hold; `or` and parentheses combine them.
 
 import { hexBytes } from '../format';
 import { T } from '../texts';
 import type { Frame } from './ring';
 
-/** Does a frame pass? Without its words, terms that need them let it pass. */
+/** Returns whether a frame passes. If its text is not known, terms that need it let it pass. */
 export type Test = (frame: Frame, words: string | undefined) => boolean;
 
 export interface Filter {
   test: Test;
-  /** It looks at the words of a frame. */
+  /** Whether the filter checks the texts of frames. */
   needsWords: boolean;
 }
 
@@ -49,7 +49,7 @@ export function parseFilter(text: string): ParsedFilter {
 }
 
 function tokens(text: string): Token[] {
-  // Wireshark's spelling may have blanks around its operators.
+  // Wireshark allows blanks around its operators.
   const list: Token[] = [];
   const pattern = /\s*([()!|]|-(?=\S)|[^\s()!|"]*"[^"]*("?)|[a-z_]+\.[a-z_]+\s*(?:==|!=)\s*[^\s()|]+|[^\s()|]+)/giy;
   while (pattern.lastIndex < text.trimEnd().length) {
@@ -168,7 +168,7 @@ class Parser {
       case 'canopen.node_id': {
         const node = /^0x/i.test(value) ? hex(value) : /^\d+$/.test(value) ? Number(value) : null;
         if (node === null || node < 1 || node > 127) throw new Failure(T.filter.node, at);
-        // An NMT command may be for all.
+        // An NMT command may address all nodes.
         return (frame) => frame.node === node || (frame.tag.service === 'NMT' && frame.node === 0);
       }
       case 'id':
@@ -203,7 +203,7 @@ class Parser {
     return (frame) => frame.id === id;
   }
 
-  /** SDO frames about an object, and whatever names it. */
+  /** SDO frames about an object, and frames whose text names it. */
   private object(text: string, at: number): Test {
     const match = /^(?:0x)?([0-9a-f]{4})h?(?:[:.](?:0x)?([0-9a-f]{1,2})h?)?$/i.exec(text);
     if (!match) throw new Failure(T.filter.object, at);

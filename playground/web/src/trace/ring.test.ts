@@ -26,7 +26,7 @@ test('every frame keeps its number', () => {
   assert.equal(ring.get(ring.end), undefined);
 });
 
-test('clearing keeps counting', () => {
+test('clearing continues the numbers', () => {
   const ring = new Ring();
   ring.append(frames(0, 10));
   ring.clear();
@@ -36,7 +36,7 @@ test('clearing keeps counting', () => {
   assert.equal(ring.get(5009)?.time, 5009);
 });
 
-test('a batch larger than the ring leaves its end', () => {
+test('of a batch larger than the ring the end stays', () => {
   const ring = new Ring();
   ring.append(frames(0, CAPACITY + 10));
   assert.equal(ring.first, 10);
@@ -44,7 +44,7 @@ test('a batch larger than the ring leaves its end', () => {
   assert.equal(ring.get(10)?.time, 10);
 });
 
-test('old frames are forgotten, and two captures change places', () => {
+test('old frames are removed, and two captures can be swapped', () => {
   const [one, other] = [new Ring(), new Ring()];
   one.append(frames(0, 5000));
   one.forgetBefore(100);

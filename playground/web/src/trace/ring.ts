@@ -1,5 +1,5 @@
 // The capture: the last frames in one flat buffer. Every frame has a number that
-// never changes, so a view can hold its place while old frames fall out.
+// never changes, so a view keeps its place while old frames are removed.
 
 import { ERROR, tagAt, tags, type Tag } from '../codec';
 import { TAG } from '../sim/layout';
@@ -7,10 +7,10 @@ import { AT, DISTURBED, FRAME_BYTES, unpack, type Packed } from '../sim/packed';
 
 export const CAPACITY = 200_000;
 
-/** A captured frame, with what its identifier and its bytes say. */
+/** A captured frame, with the facts from its CAN-ID and its bytes. */
 export interface Frame extends Packed {
   tag: Tag;
-  /** The node that it is from or for; 0: none, or all. */
+  /** The node that sends or receives it; 0: none, or all. */
   node: number;
   /** The object that an SDO frame names, as `keyOf`. */
   object: number | null;
@@ -18,7 +18,7 @@ export interface Frame extends Packed {
 
 export class Ring {
   private bytes = new Uint8Array(4096 * FRAME_BYTES);
-  /** The numbers of each frame, as `tags` gives them. */
+  /** The numbers of each frame, from `tags`. */
   private marks = new Uint32Array(4096 * TAG.length);
   /** Number of the oldest frame that is kept. */
   first = 0;
@@ -68,24 +68,24 @@ export class Ring {
     this.first = this.end;
   }
 
-  /** Forgets the newest frames, from this number on. */
+  /** Removes the newest frames, from this number on. */
   truncate(end: number): void {
     if (end < this.end) this.end = Math.max(end, this.first);
   }
 
-  /** Forgets the oldest frames, up to before this number. */
+  /** Removes the oldest frames, up to this number, excluding it. */
   forgetBefore(number: number): void {
     this.first = Math.max(this.first, Math.min(number, this.end));
   }
 
-  /** Takes what another one has, and gives it what was here. */
+  /** Swaps the content with another ring. */
   exchange(other: Ring): void {
     const { bytes, marks, first, end } = this;
     Object.assign(this, { bytes: other.bytes, marks: other.marks, first: other.first, end: other.end });
     Object.assign(other, { bytes, marks, first, end });
   }
 
-  /** The frame with this number, if it is still there. */
+  /** The frame with this number, if it is still kept. */
   get(number: number): Frame | undefined {
     if (number < this.first || number >= this.end) return undefined;
     const at = number % this.room;
@@ -97,7 +97,7 @@ export class Ring {
     return frame;
   }
 
-  /** Is it an SDO frame? Quicker than to ask the frame. */
+  /** Returns whether it is an SDO frame, without reading the frame. */
   isSdo(number: number): boolean {
     const at = number % this.room;
     return (this.bytes[at * FRAME_BYTES + AT.flags]! & DISTURBED) === 0 && tagAt(this.marks[at * TAG.length]! & TAG.mask).service === 'SDO';
@@ -109,7 +109,7 @@ export class Ring {
     return this.bytes.subarray(at, at + FRAME_BYTES);
   }
 
-  /** The packed bytes of all frames from one number to before another. */
+  /** The packed bytes of the frames in a range of numbers. */
   slice(from: number, to: number): Uint8Array {
     const out = new Uint8Array((to - from) * FRAME_BYTES);
     for (let number = from; number < to; number++) out.set(this.raw(number), (number - from) * FRAME_BYTES);

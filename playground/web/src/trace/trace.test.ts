@@ -12,7 +12,7 @@ const filter = (text: string): Filter | null => {
   return 'filter' in parsed ? parsed.filter : null;
 };
 
-test('rows, identifiers and rhythm', () => {
+test('rows, CAN-IDs and periods', () => {
   const ring = new Ring();
   const trace = new Trace(ring);
   for (let i = 0; i < 10; i++) {
@@ -38,7 +38,7 @@ test('rows, identifiers and rhythm', () => {
   assert.equal(trace.numberAt(trace.rowOf(4)), 4);
 });
 
-test('what falls out of the store falls out of the rows', () => {
+test('frames that leave the store leave the rows', () => {
   const ring = new Ring();
   const trace = new Trace(ring);
   const batch = new Uint8Array(24 * 150_000);
@@ -50,7 +50,7 @@ test('what falls out of the store falls out of the rows', () => {
   assert.equal(trace.numberAt(0), 100_000);
 });
 
-test('a capture that was cut is looked at again', () => {
+test('a capture that was cut is read again', () => {
   const ring = new Ring();
   const trace = new Trace(ring);
   for (let i = 0; i < 6; i++) send(ring, i, 0x181, [i]);

@@ -1,5 +1,5 @@
-// The views of the capture: its rows in order (filtered, folded), its identifiers with
-// their figures, and the load of the bus. All of them follow one store.
+// The views of the capture: its rows in order (filtered, folded), its CAN-IDs with
+// their figures, and the bus load. All of them follow one store.
 
 import { Statistics, Transfers } from '../codec';
 import { AT, EXTENDED, FRAME_BYTES, DISTURBED, REMOTE } from '../sim/packed';
@@ -7,14 +7,14 @@ import type { Transfer } from '../sim/api';
 import type { Filter } from './filter';
 import { CAPACITY, type Frame, type Ring } from './ring';
 
-/** One identifier, and the number of its latest frame. */
+/** A CAN-ID, and the number of its latest frame. */
 export interface Identifier {
   id: number;
   extended: boolean;
   last: number;
 }
 
-/** Bits on the wire, with the average of stuff bits. */
+/** Bits on the bus line, with the average number of stuff bits. */
 const bitsOf = (flags: number, dlc: number): number => {
   const body = (flags & EXTENDED ? 67 : 47) + (flags & REMOTE ? 0 : 8 * dlc);
   return body * 1.1;
@@ -24,24 +24,24 @@ const bitsOf = (flags: number, dlc: number): number => {
 const WINDOW = 1_000_000;
 
 export class Trace {
-  /** Numbers of the first frames of all rows; those before `head` fell out of the store. */
+  /** Numbers of the first frames of all rows; those before `head` left the store. */
   private rows: number[] = [];
   private head = 0;
-  /** The next frame that is to be looked at. */
+  /** The next frame to read. */
   private next = 0;
   private made: Transfers | undefined;
   private figures: Statistics | undefined;
-  /** Numbers of the first frames of transfers that have several. */
+  /** Numbers of the first frames of transfers with several frames. */
   private readonly folded = new Set<number>();
-  /** For each kept frame, the one before with its identifier; by number modulo capacity. */
+  /** For each kept frame the previous one with its CAN-ID; by number modulo capacity. */
   private readonly previous = new Int32Array(CAPACITY).fill(-1);
-  /** By CAN-ID, plus 2³² where it has 29 bits. */
+  /** By CAN-ID, plus 2³² if it has 29 bits. */
   readonly identifiers = new Map<number, Identifier>();
   private recent: { time: number; bits: number; frames: number }[] = [];
   errors = 0;
   filter: Filter | null = null;
   folds = true;
-  /** Words of frames, as far as they are known; terms of the filter may need them. */
+  /** Texts of frames, as far as they are known; terms of the filter may need them. */
   words: (number: number) => string | undefined = () => undefined;
 
   constructor(private readonly ring: Ring) {}
@@ -56,7 +56,7 @@ export class Trace {
     return this.rows[this.head + row] ?? -1;
   }
 
-  /** Made when the first frame is there: by then the module is, too. */
+  /** Created with the first frame; the module is loaded then. */
   private get transfers(): Transfers {
     return (this.made ??= new Transfers());
   }
@@ -71,7 +71,7 @@ export class Trace {
     return this.folded.has(number) ? this.transfers.transfer(number) : null;
   }
 
-  /** How many rows begin with a frame before this one. */
+  /** Number of rows that begin before this frame. */
   rowsBefore(number: number): number {
     let [low, high] = [this.head, this.rows.length];
     while (low < high) {
@@ -82,18 +82,18 @@ export class Trace {
     return low - this.head;
   }
 
-  /** The row that shows a frame, or the one that would. */
+  /** The row that shows a frame, or would show it. */
   rowOf(number: number): number {
     return Math.max(0, this.rowsBefore(number + 1) - 1);
   }
 
-  /** The frame before with the same identifier. */
+  /** The previous frame with the same CAN-ID. */
   before(number: number): Frame | undefined {
     const previous = this.previous[number % CAPACITY] ?? -1;
     return previous < 0 ? undefined : this.ring.get(previous);
   }
 
-  /** Looks at the frames that came since the last call; answers how many rows fell out at the top. */
+  /** Reads the frames since the last call; returns how many rows were removed at the top. */
   follow(): number {
     const { ring } = this;
     if (this.next > ring.end) this.restart();
@@ -128,7 +128,7 @@ export class Trace {
     this.place(number);
   }
 
-  /** Gives a frame a row, unless it belongs to that of another or the filter hides it. */
+  /** Gives a frame a row, unless it belongs to the row of another frame or the filter hides it. */
   private place(number: number): void {
     const { ring, filter } = this;
     const first = this.folds && ring.isSdo(number) ? this.transfers.take(ring.raw(number), number) : undefined;
@@ -167,7 +167,7 @@ export class Trace {
     return { frames, bits };
   }
 
-  /** Another filter, or other folds: all rows are made again, statistics stay. */
+  /** Sets another filter or other folds: all rows are computed again, statistics stay. */
   refilter(): void {
     this.rows = [];
     this.head = 0;
@@ -177,7 +177,7 @@ export class Trace {
     for (let number = ring.first; number < this.next && number < ring.end; number++) this.place(number);
   }
 
-  /** The capture was cleared or cut: everything is computed again from the rest. */
+  /** The capture was cleared or cut: everything is computed again. */
   restart(): void {
     this.rows = [];
     this.head = 0;

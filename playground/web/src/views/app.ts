@@ -1,4 +1,4 @@
-// The page: bar, three panels, and on a phone one of them at a time.
+// The page: bar and three panels; on a phone one panel at a time.
 
 import { html, nothing, type TemplateResult } from 'lit';
 import { effect } from '@preact/signals-core';
@@ -19,7 +19,7 @@ import './offer';
 
 const TABS = ['encoder', 'console', 'objects', 'lesson'] as const satisfies state.Tab[];
 
-/** The parts of the page, in the order in which F6 goes through them. */
+/** The parts of the page, in the order of F6. */
 const PARTS = ['.dial', 'od-encoder .switch', '.object-rows', '.lesson', '.frames', '#raw-frame', '.topbar .device-button'];
 
 /** Milliseconds that a message without a fault stays. */
@@ -48,7 +48,7 @@ class App extends View {
       this.isDropping = false;
       void openFile(file, state.nodeId.value, state.deviceDialog.value ?? state.selectedNode.value);
     });
-    // Most visits do not open a lesson.
+    // Most visits open no lesson.
     effect(() => {
       if (state.lesson.value) void import('./lesson');
     });
@@ -66,16 +66,16 @@ class App extends View {
     });
     effect(() => {
       const { value } = state.toast;
-      // What went wrong stays until the user closes it.
+      // An error message stays until the user closes it.
       if (value?.tone === 'info') setTimeout(() => state.toast.value === value && (state.toast.value = null), READ);
     });
   }
 
-  /** Puts the focus on the next part of the page that can be seen. */
+  /** Moves the focus to the next visible part of the page. */
   private goOn(by: number): void {
     const home = (part: Element | null): Element | null => part?.closest('.panel, od-send, od-topbar') ?? null;
     const seen = PARTS.flatMap((part) => [...this.querySelectorAll<HTMLElement>(part)].slice(0, 1)).filter((part) => part.checkVisibility());
-    // Of each part its first control that is there: a device may have no shaft.
+    // The first existing control of each part: a device may have no shaft.
     const parts = seen.filter((part, i) => seen.findIndex((other) => home(other) === home(part)) === i);
     const at = parts.findIndex((part) => home(part) === home(document.activeElement));
     parts[at < 0 ? 0 : (at + by + parts.length) % parts.length]?.focus();

@@ -1,5 +1,5 @@
-// The chosen frame on the wire: level over time, its fields by name, stuff bits marked.
-// Which bits there are is asked of the bench; this only draws them.
+// The selected frame on the bus line: level over time, its fields by name, stuff bits marked.
+// The bench supplies the bits; this view only draws them.
 
 import { html, svg } from 'lit';
 import { frameBits } from '../codec';
@@ -9,7 +9,7 @@ import * as state from '../state';
 import { T } from '../texts';
 import { View } from './view';
 
-/** Pixels of a bit, and of the two levels. */
+/** Width of a bit and height of the two levels, in pixels. */
 const WIDE = 8;
 const HIGH = 6;
 const LOW = 28;
@@ -43,7 +43,7 @@ class Bits extends View {
   static override properties = { frame: { attribute: false }, lit: { attribute: false }, shown: { state: true } };
   /** The packed frame. */
   declare frame: Uint8Array;
-  /** Bytes that are marked elsewhere: from, to. */
+  /** Range of bytes that another view marks. */
   declare lit: [number, number] | null;
   /** The field under the pointer. */
   declare shown: number | null;

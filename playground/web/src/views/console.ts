@@ -1,4 +1,4 @@
-// The frame console: filter and views, the frames, the chosen one, and how busy the bus is.
+// The frame console: filter and views, the frames, the selected frame, and the bus load.
 
 import { html, nothing } from 'lit';
 import { effect } from '@preact/signals-core';
@@ -122,7 +122,7 @@ class Console extends View {
   }
 }
 
-/** A view that comes when it is asked for. */
+/** A view that is loaded on request. */
 function show(name: 'ids' | 'plot', part: () => Promise<unknown>): void {
   view.value = name;
   load(part);
@@ -132,13 +132,13 @@ function load(part: () => Promise<unknown>): void {
   part().catch(() => (state.toast.value = { text: T.frames.unloaded, tone: 'error' }));
 }
 
-/** The part of a text that is wrong, and what follows. */
+/** The invalid part of a text, and the rest. */
 const caret = (text: string, at: number) => (at < text.length ? html`<code>${text.slice(at, at + 16)}</code>:` : nothing);
 
-/** Per cent from which the line has no room for frames of low priority. */
+/** Percentage from which frames of low priority have no room on the line. */
 const FULL = 98;
 
-/** How busy the bus is, four times a second. */
+/** The bus load, four times a second. */
 class BusStatus extends View {
   private timer = 0;
   private stopEffect: (() => void) | undefined;

@@ -1,4 +1,4 @@
-// Choosing what is on the bus: one of ours, or any EDS file.
+// The dialog that chooses a device: a built-in one, or any EDS file.
 
 import { html, nothing, type PropertyValues } from 'lit';
 import { effect } from '@preact/signals-core';
@@ -46,7 +46,7 @@ class DeviceDialog extends View {
     return Number.isInteger(node) && node >= 1 && node <= 127 ? node : null;
   }
 
-  /** The first node ID that no device has. */
+  /** The lowest node ID that no device has. */
   private free(): number {
     const taken = new Set(state.statuses.peek().map((one) => one.nodeId));
     let node = 1;

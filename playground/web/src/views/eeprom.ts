@@ -1,5 +1,5 @@
-// What the device keeps without power: the bytes, what is not among them, and a power cut
-// in the middle of a save.
+// The saved data of a device: the bytes, objects that are not saved, and a power cut
+// during a save.
 
 import { html, nothing } from 'lit';
 import * as state from '../state';

@@ -1,4 +1,4 @@
-// The encoder: shaft, power, state, lamps, and the way from angle to PDO.
+// The encoder: shaft, power, state, LEDs, and the steps from angle to PDO.
 
 import { html, nothing, type TemplateResult } from 'lit';
 import * as state from '../state';
@@ -21,7 +21,7 @@ type Part = keyof typeof T.encoder.tabs;
 class Encoder extends View {
   static override properties = { shown: { state: true }, own: { state: true } };
   declare shown: Part;
-  /** What was typed for a profile of one's own; null while another is chosen. */
+  /** The text for a custom profile; null while another profile is selected. */
   declare own: string | null;
 
   constructor() {
@@ -62,7 +62,7 @@ class Encoder extends View {
     return status !== null && waitsFor(status);
   }
 
-  /** Something on the hardware page deserves a look. */
+  /** Whether the hardware page shows something unusual. */
   private isOdd(): boolean {
     const status = state.status.value;
     return status !== null && (status.faults.length > 0 || status.controller !== 'error active' || !status.plugged);
@@ -109,7 +109,7 @@ class Encoder extends View {
       const value = Number(text);
       if (Number.isFinite(value)) setRpm(Math.max(-FASTEST, Math.min(FASTEST, value)));
     };
-    // Around standstill the slider is fine, at its ends coarse.
+    // The slider is fine around standstill, and coarse at its ends.
     const toSlider = (value: number): number => Math.sign(value) * Math.cbrt(Math.abs(value) / FASTEST) * 100;
     const fromSlider = (value: number): number => Math.round((Math.abs(value) < 6 ? 0 : (value / 100) ** 3) * FASTEST);
     return html`<div class="rpm">
@@ -122,7 +122,7 @@ class Encoder extends View {
   }
 }
 
-/** Turns and angle. */
+/** Revolutions and angle. */
 class Angle extends View {
   protected override render() {
     const turns = state.shaft.value?.turns ?? 0;
@@ -136,11 +136,11 @@ class Angle extends View {
   }
 }
 
-/** The dual lamp at the back of the bus cover (manual, chapter 7.3). */
+/** The dual LED on the bus cover (manual 000, 7.3). */
 class Lamps extends View {
   protected override render() {
     const { green, red } = state.status.value?.leds ?? { green: 'off', red: 'off' };
-    // 200 ms on, 200 ms off, in virtual time as long as an eye can follow it.
+    // 200 ms on, 200 ms off, in virtual time unless that would be too fast to see.
     const isFast = state.running.value && state.speed.value > 2;
     const isLit = Math.floor(isFast ? performance.now() / 200 : state.now.value / 200_000) % 2 === 0;
     const shown = (lamp: Lamp): boolean => lamp === 'on' || (lamp === 'flashing' && isLit);

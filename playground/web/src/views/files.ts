@@ -4,14 +4,14 @@ import { use } from '../sim/link';
 import * as state from '../state';
 import { T } from '../texts';
 
-/** What is a log of a bus, by its name. */
+/** Recognises a bus log by its name. */
 const LOG = /\.(log|asc|trc|pcap|pcapng|candump|dump)$/i;
 const LONGEST_LOG = 100_000_000;
 
-/** Longest file that is worth a try: the largest known EDS files have about 2 MB. */
+/** Maximum size of a file: the largest known EDS files have about 2 MB. */
 const LONGEST = 8_000_000;
 
-/** Opens a log of another tool; a capture that it would replace is not thrown away unasked. */
+/** Opens a log of another tool; asks before it replaces a capture. */
 async function openLog(name: string, bytes: Uint8Array): Promise<void> {
   const [read, { opened }] = await Promise.all([use('readLog', bytes), import('../seeing/log')]);
   if ('error' in read) state.toast.value = { text: T.frames.unreadable(name, read.error), tone: 'error' };

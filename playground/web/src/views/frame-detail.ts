@@ -1,4 +1,4 @@
-// The chosen frame in full: its meaning, its bytes with what they are, and ways to use it again.
+// The selected frame in detail: its meaning, the meaning of its bytes, and actions with it.
 
 import { html, nothing } from 'lit';
 import { effect } from '@preact/signals-core';
@@ -16,11 +16,11 @@ import { View } from './view';
 
 class FrameDetail extends View {
   static override properties = { fields: { state: true }, lit: { state: true }, hasBits: { state: true } };
-  /** The fields of the chosen frame. */
+  /** The fields of the selected frame. */
   declare fields: Field[];
   /** The field under the pointer. */
   declare lit: Field | null;
-  /** The bits are shown below. */
+  /** Whether the bits are shown below. */
   declare hasBits: boolean;
   private stopEffect: (() => void) | undefined;
 
@@ -31,13 +31,13 @@ class FrameDetail extends View {
     this.hasBits = false;
   }
 
-  /** The view of the bits comes when it is asked for. */
+  /** The view of the bits is loaded on request. */
   private showBits(): void {
     this.hasBits = !this.hasBits;
     import('./bits').catch(() => (state.toast.value = { text: T.bits.unloaded, tone: 'error' }));
   }
 
-  /** Marks the field of a byte, or the byte where no field is known. */
+  /** Marks the field of a byte, or the byte if no field is known. */
   private mark(byte: number | null): void {
     const bare: Field | null = byte === null ? null : { from: byte, to: byte + 1, name: '', value: '', object: null };
     this.lit = this.fields.find((field) => byte !== null && byte >= field.from && byte < field.to) ?? bare;

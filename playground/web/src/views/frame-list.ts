@@ -1,4 +1,4 @@
-// The frames in their order, in plain words: as many as fit on screen are drawn.
+// The frames in order, in words; only visible rows are drawn.
 
 import { html, nothing } from 'lit';
 import { effect } from '@preact/signals-core';
@@ -17,7 +17,7 @@ import { icons } from './icons';
 import { cells, Rows, setText } from './rows';
 import { View } from './view';
 
-/** Characters from which a meaning takes two small lines. */
+/** Number of characters from which a text takes two small lines. */
 const LONG = 44;
 
 const COLUMNS = ['time', 'delta', 'dir', 'id', 'tag', 'dlc', 'data', 'words'] as const;
@@ -25,7 +25,7 @@ const COLUMNS = ['time', 'delta', 'dir', 'id', 'tag', 'dlc', 'data', 'words'] as
 class FrameList extends View {
   private rows: Rows | undefined;
   private follows = true;
-  /** Counts what changes rows that are on screen already. */
+  /** Counts changes of rows that are already visible. */
   private stale = 0;
   private ownScroll = -1;
   private disposers: (() => void)[] = [];
@@ -37,7 +37,7 @@ class FrameList extends View {
     this.behind = false;
   }
 
-  /** Rows that are shown; a paused view has those of its moment. */
+  /** Number of rows; a paused view keeps those of its moment. */
   private count(): number {
     const paused = state.pausedAt.value;
     return paused === null ? trace.count : trace.rowsBefore(paused);
@@ -63,7 +63,7 @@ class FrameList extends View {
       filled: (from, to) => this.fillWords(from, to),
     });
     this.rows = rows;
-    // Only a person's hand stops the console from following; a resize does not.
+    // Only the user stops the console from following; a resize does not.
     const hold = (): void => {
       this.follows = false;
       this.behind = true;
@@ -77,7 +77,7 @@ class FrameList extends View {
         this.behind = false;
       });
     };
-    // Upwards it stops at once: until the browser has scrolled, the list is at its end, and a busy one would stay there.
+    // Scrolling up stops it at once: until the browser has scrolled, the list is still at its end, and a busy one would stay there.
     const release = (isUp: boolean): void => (isUp && viewport.scrollTop > 0 ? hold() : look(true));
     viewport.addEventListener('wheel', (event) => release(event.deltaY < 0 && !event.ctrlKey), { passive: true });
     let touched = 0;
@@ -96,7 +96,7 @@ class FrameList extends View {
     viewport.addEventListener('scroll', () => {
       const isUp = viewport.scrollTop < top;
       top = viewport.scrollTop;
-      // A smooth way up begins at the end.
+      // Smooth scrolling up begins at the end.
       if (Math.abs(top - this.ownScroll) > 2) look(!isUp);
     }, { passive: true });
     this.disposers.push(
@@ -136,13 +136,13 @@ class FrameList extends View {
         this.settle(viewport, rows);
       }),
       effect(() => {
-        // A panel that was hidden has no height until its tab is chosen.
+        // A hidden panel has no height until its tab is selected.
         if (state.tab.value === 'console') requestAnimationFrame(() => this.settle(viewport, rows));
       }),
     );
   }
 
-  /** Arrow keys go from frame to frame once one is chosen; Enter chooses the newest. */
+  /** Arrow keys move the selection; Enter selects the newest frame. */
   private moveChoice(event: KeyboardEvent): boolean {
     const { chosenFrame } = state;
     const last = this.count() - 1;
@@ -167,7 +167,7 @@ class FrameList extends View {
 
   private settleScheduled = 0;
 
-  /** Goes to the end, or stays with the frames that are being read while old ones fall out. */
+  /** Scrolls to the end, or keeps the visible frames in place while old ones are removed. */
   private settle(viewport: HTMLElement, rows: Rows): void {
     this.settleScheduled ||= requestAnimationFrame(() => {
       this.settleScheduled = 0;
@@ -181,7 +181,7 @@ class FrameList extends View {
   private fill(row: HTMLElement, number: number): void {
     row.toggleAttribute('data-chosen', state.chosenFrame.peek() === number);
     const fold = trace.fold(number);
-    // A fold grows while its transfer runs; everything else stays as it was drawn.
+    // The row of a running transfer grows; all others stay as they were drawn.
     const version = `${number} ${this.stale} ${fold?.frames.length ?? 0}`;
     if (row.dataset['version'] === version) return;
     const frame = state.ring.get(number);
@@ -211,7 +211,7 @@ class FrameList extends View {
     const last = Math.min(to, this.count());
     const numbers = Array.from({ length: Math.max(0, last - from) }, (_, i) => trace.numberAt(from + i));
     const folds = numbers.map((number) => trace.fold(number));
-    // Of an aborted transfer the last frame tells why.
+    // The last frame of an aborted transfer has the reason.
     const words = wordsOf(numbers.map((number, i) => (folds[i]?.state === 'aborted' ? folds[i]!.frames.at(-1)! : number)));
     const byNumber = new Map(numbers.map((number, i) => [String(number), foldWords(folds[i], words[i])]));
     for (const row of this.querySelectorAll<HTMLElement>('.frame:not([hidden])')) {
@@ -225,7 +225,7 @@ class FrameList extends View {
     }
   }
 
-  /** What to try on a bus where hardly anything happened yet. */
+  /** Suggestions for a bus with hardly any frames. */
   private hints() {
     const node = state.nodeId.value;
     const has = (index: number): boolean => state.objectsByKey.value.has(state.keyOf(index, 0));
@@ -277,7 +277,7 @@ class FrameList extends View {
   }
 }
 
-/** The bytes; those that differ from the frame before with this identifier are highlighted. */
+/** The bytes; those that differ from the previous frame with this CAN-ID are highlighted. */
 function fillData(cell: Element, frame: Frame, fold: Transfer | null | undefined, before: Frame | undefined): void {
   if (frame.disturbed || frame.remote || fold) {
     setText(cell, frame.disturbed ? '' : fold ? T.frames.fold(fold.frames.length, fold.bytes.length) : T.frames.remote);
@@ -296,7 +296,7 @@ function fillData(cell: Element, frame: Frame, fold: Transfer | null | undefined
   });
 }
 
-/** A folded transfer in words: what was read or written, and its value. */
+/** A folded transfer in words: the object that was read or written, and its value. */
 function foldWords(fold: Transfer | null | undefined, words: string | undefined): string {
   if (!fold) return words ?? '';
   const device = state.devices.peek().find((_, number) => state.statuses.peek()[number]?.nodeId === fold.node);
@@ -307,7 +307,7 @@ function foldWords(fold: Transfer | null | undefined, words: string | undefined)
   return `${fold.isWrite ? T.frames.write : T.frames.read} ${name}${fold.state === 'done' ? ` = ${value}` : ' …'}`;
 }
 
-/** A time difference in as few characters as it takes. */
+/** A time difference in as few characters as possible. */
 export function delta(micros: number): string {
   if (micros < 1000) return `${Math.round(micros)} µs`;
   if (micros < 1e6) return `${(micros / 1000).toFixed(micros < 1e5 ? 2 : 1)} ms`;

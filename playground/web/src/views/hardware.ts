@@ -1,5 +1,5 @@
-// What a hand can reach at a device beside its shaft: switches, what breaks, its CAN
-// controller, and the wire that all share.
+// The hardware controls of a device beside its shaft: switches, faults, its CAN
+// controller, and the shared bus line.
 
 import { html, nothing } from 'lit';
 import * as state from '../state';
@@ -12,10 +12,10 @@ import { View } from './view';
 
 const RATES = [10, 20, 50, 100, 125, 250, 500, 800, 1000];
 
-/** Bit rates of the DIP switches in kbit/s, by their number (manual of the bus covers, chapter 4). */
+/** Bit rates of the DIP switches in kbit/s, by their number (manual 000, 7.2.2). */
 const DIP_RATES = [10, 20, 50, 125, 250, 500, 800, 1000];
 
-/** Do the switches say something else than what the device runs with? */
+/** Returns whether the switches differ from the values in use. */
 export const waitsFor = (status: Status): boolean =>
   status.powered && status.shaft !== null && status.nodeSwitch !== 0 && (status.nodeSwitch !== status.nodeId || (status.rate !== null && DIP_RATES[status.rateSwitch] !== status.rate));
 
@@ -95,7 +95,7 @@ class Hardware extends View {
   }
 }
 
-/** A controller: its state, its counters, in or out. */
+/** A controller: its state, its counters, connected or not. */
 function counters(key: string, one: Pick<Status, 'controller' | 'transmitErrors' | 'receiveErrors' | 'plugged'>, station: number) {
   const tone = one.controller === 'bus-off' ? 'bad' : one.controller === 'error passive' ? 'amber' : 'good';
   return html`<div class="controller" data-controller=${key}>

@@ -1,4 +1,4 @@
-// The sheet of keys.
+// The list of keys.
 
 import { html } from 'lit';
 import { effect } from '@preact/signals-core';

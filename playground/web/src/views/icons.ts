@@ -1,4 +1,4 @@
-// Line icons on a 20 × 20 grid, drawn here.
+// Line icons on a 20 × 20 grid.
 
 import { svg, html, type TemplateResult } from 'lit';
 

@@ -1,5 +1,5 @@
-// The lesson beside the bench: what to do, what is done and what is missing, hints one by
-// one, and what just happened.
+// The lesson beside the bench: the task, completed and open conditions, hints one by
+// one, and the explanation.
 
 import { html, nothing, type TemplateResult } from 'lit';
 import { keyed } from 'lit/directives/keyed.js';
@@ -16,7 +16,7 @@ import { markdown } from './markdown';
 import './quiz';
 import { View } from './view';
 
-/** Height of a window in which a lesson shows its introduction in full. */
+/** Minimum height of a window in which a lesson shows its introduction in full. */
 const TALL = 900;
 
 type Step = Lesson['steps'][number];
@@ -25,10 +25,10 @@ const choose = (): void => void (state.lessonDialog.value = true);
 
 class LessonPanel extends View {
   static override properties = { seen: { state: true }, hints: { state: true } };
-  /** The step that is shown: one that was just done stays until the learner goes on. */
+  /** The step that is shown: a completed step stays until the learner continues. */
   declare seen: number;
   declare hints: number;
-  /** The solution was played for this step. */
+  /** Whether the solution was played for this step. */
   private isShown = false;
   private unfollow: (() => void) | undefined;
 
@@ -70,7 +70,7 @@ class LessonPanel extends View {
     });
   }
 
-  /** A step that is done: what happened first, what was asked for behind it. */
+  /** A completed step: the explanation first, then the task. */
   private done(step: Step, isLast: boolean): TemplateResult {
     const t = T.lessons;
     return html`<div class="happened" role="status"><h4>${icons.tick} ${t.happened}</h4><div class="prose">${markdown(step.happened)}</div></div>
@@ -86,14 +86,14 @@ class LessonPanel extends View {
           ${state.running.value ? nothing : html`<span class="still">${icons.pause} ${t.still}</span>`}</div>`;
   }
 
-  /** The bench as the step found it; hints that were taken stay. */
+  /** Restores the bench as the step found it; shown hints stay. */
   private async back(number: number): Promise<void> {
     const { hints } = this;
     await backTo(number);
     this.hints = hints;
   }
 
-  /** Plays the solution: on a bench made again, if this one has no way to it. */
+  /** Plays the solution, on a repeated bench if this one cannot reach it. */
   private async show(step: Step, number: number, isLost: boolean): Promise<void> {
     if (isLost || this.isShown) await this.back(number);
     this.isShown = true;
@@ -120,12 +120,12 @@ class LessonPanel extends View {
     if (!lesson || !progress) return nothing;
     const t = T.lessons;
     const all = lesson.steps.length;
-    // A step back in time may lead to an earlier one.
+    // A step back in time may lead to an earlier step.
     const shown = Math.min(this.seen, progress.step, all - 1);
     const step = lesson.steps[shown]!;
     const isDone = progress.step > shown;
     const isLast = shown === all - 1;
-    // Why it matters comes first; the rest can be opened where a window is low.
+    // The reason comes first; the rest can be opened if the window is low.
     const [why, ...more] = lesson.intro.trim().split(/\n\s*\n/);
     reached(state.lessonRun.value.name, progress.step, all);
     return html`

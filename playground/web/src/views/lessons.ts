@@ -1,4 +1,4 @@
-// The list of lessons, and one's own from a file.
+// The list of lessons, and a file of the user.
 
 import { html, nothing, type PropertyValues } from 'lit';
 import { effect } from '@preact/signals-core';
@@ -13,7 +13,7 @@ class Lessons extends View {
   static override properties = { list: { state: true }, learner: { state: true }, isCopied: { state: true } };
   /** Null: it could not be loaded. */
   declare list: Listed[] | null;
-  /** A name for the code; it is kept nowhere. */
+  /** A name for the code; it is not stored. */
   declare learner: string;
   declare isCopied: boolean;
   private unopen: (() => void) | undefined;
@@ -55,7 +55,7 @@ class Lessons extends View {
     </section>`;
   }
 
-  /** One's own progress as a code, for a trainer. */
+  /** The progress as a code, for a trainer. */
   private code() {
     const known = progress();
     if (Object.keys(known).length === 0) return nothing;
@@ -92,7 +92,7 @@ class Lessons extends View {
             const input = event.target as HTMLInputElement;
             const file = input.files?.[0];
             if (file) void openFile(file);
-            // The same file can be chosen again when it was corrected.
+            // The same file can be selected again after a correction.
             input.value = '';
           }}></label>
       </div>

@@ -1,5 +1,5 @@
-// What a PDO carries, and the frames that change it: shown before they are sent, and what
-// the device said to each.
+// The content of a PDO, and the frames that change it: shown before they are sent, with
+// the response of the device to each.
 
 import { html, nothing, type PropertyValues } from 'lit';
 import { effect } from '@preact/signals-core';
@@ -15,14 +15,14 @@ import { View } from './view';
 
 type Said = { tone: 'good' | 'error' | 'busy'; text: string };
 
-/** Bits of a PDO at most. */
+/** Maximum number of bits in a PDO. */
 const MOST_BITS = 64;
 
 class Mapping extends View {
   static override properties = {
     pdos: { state: true }, pdo: { state: true }, entries: { state: true }, isOff: { state: true }, steps: { state: true }, said: { state: true }, isBusy: { state: true }, hint: { state: true },
   };
-  /** The PDOs of the device as they were when they were read. */
+  /** The PDOs of the device when they were read. */
   declare pdos: Pdo[];
   declare pdo: Pdo | null;
   declare entries: Mapped[];
@@ -65,7 +65,7 @@ class Mapping extends View {
     this.unopen?.();
   }
 
-  /** What this PDO may carry. */
+  /** The objects that this PDO may contain. */
   private candidates({ transmits }: Pdo): ObjectRecord[] {
     return (state.device.value?.objects ?? []).filter(({ fitsTpdo, fitsRpdo }) => (transmits ? fitsTpdo : fitsRpdo));
   }
@@ -84,7 +84,7 @@ class Mapping extends View {
     void this.plan();
   }
 
-  /** The frames that lead to these entries, with their words. */
+  /** The frames that set these entries, with their texts. */
   private async plan(): Promise<void> {
     const { pdo, entries, isOff } = this;
     this.steps = [];

@@ -1,4 +1,4 @@
-// Markdown of lessons: read by marked, and nothing but harmless markup is left by DOMPurify. HTML in
+// Markdown of lessons: marked parses it, and DOMPurify removes everything except harmless markup. HTML in
 // a lesson is text.
 
 import { html, type TemplateResult } from 'lit';
@@ -11,7 +11,7 @@ const CODES: Record<string, string> = { '&': '&amp;', '<': '&lt;', '>': '&gt;' }
 const reader = new Marked({
   async: false,
   renderer: { html: ({ text }) => text.replace(/[&<>]/g, (char) => CODES[char]!) },
-  // Headings of a text are below those of the page.
+  // Headings of a text are one level below those of the page.
   walkTokens: (token) => {
     if (token.type === 'heading') token.depth = 4;
   },
@@ -25,7 +25,7 @@ DOMPurify.addHook('afterSanitizeAttributes', (node) => {
 
 const known = new Map<string, TemplateResult>();
 
-/** A text as a template; the same text is read once. */
+/** A text as a template; each text is parsed once. */
 export function markdown(text: string): TemplateResult {
   const made = known.get(text) ?? html`${unsafeHTML(DOMPurify.sanitize(reader.parse(text) as string, { FORBID_TAGS: ['style', 'form', 'input', 'button'], FORBID_ATTR: ['style'] }))}`;
   known.set(text, made);

@@ -1,11 +1,11 @@
-// Profiles that a shaft can follow: pairs of rpm and milliseconds.
+// Motion profiles for a shaft: pairs of rpm and milliseconds.
 
 import { act } from '../sim/link';
 import { T } from '../texts';
 
 const STEP = 50;
 
-/** A speed curve over one period, in steps. */
+/** A speed curve over one period, as steps. */
 const curve = (seconds: number, rpm: (phase: number) => number): number[] => {
   const count = Math.round((seconds * 1000) / STEP);
   return Array.from({ length: count }, (_, i) => [Math.round(rpm((i + 0.5) / count) * 100) / 100, STEP]).flat();
@@ -22,10 +22,10 @@ export const PROFILES = [
 
 const chosen = new Map<number, string>();
 
-/** Which profile a device follows. */
+/** The profile that a device follows. */
 export const motionOf = (node: number): string => chosen.get(node) ?? '';
 
-/** Steps of a text such as `60 2, 0 1`; the part that is not valid, if any. */
+/** The steps of a text such as `60 2, 0 1`; or the part that is not valid. */
 export function parseMotion(text: string): number[] | string {
   const steps: number[] = [];
   for (const part of text.split(/[,;\n]/).map((one) => one.trim())) {
@@ -37,7 +37,7 @@ export function parseMotion(text: string): number[] | string {
   return steps;
 }
 
-/** Lets a shaft follow a profile; none stops it. */
+/** Sets the profile of a shaft; none stops it. */
 export function choose(node: number, key: string, text = ''): void {
   const parsed = key === 'own' ? parseMotion(text) : (PROFILES.find((one) => one.key === key)?.steps ?? []);
   if (typeof parsed === 'string') return;

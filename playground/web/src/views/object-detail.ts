@@ -1,4 +1,4 @@
-// The chosen object: what its EDS says, what it is and was saved as, and a line to write it.
+// The selected object: its EDS entry, its current and saved value, and a line to write it.
 
 import { html, nothing } from 'lit';
 import { effect } from '@preact/signals-core';
@@ -13,7 +13,7 @@ import { T } from '../texts';
 import { icons } from './icons';
 import { View } from './view';
 
-/** The editor comes when it is asked for. */
+/** The editor is loaded on request. */
 export const openMapping = (index: number): void => void import('./mapping').then(() => (state.mappingDialog.value = index));
 
 class ObjectDetail extends View {
@@ -102,7 +102,7 @@ class ObjectDetail extends View {
   }
 }
 
-/** The SDO transfers about an object, and the PDOs that carry it. */
+/** The SDO transfers of an object, and the PDOs that contain it. */
 async function showFrames({ index, sub, parent, mappable }: ObjectRecord): Promise<void> {
   const hex = (value: number, width: number): string => value.toString(16).toUpperCase().padStart(width, '0');
   const terms = [`node:${state.nodeId.peek()} object:${hex(index, 4)}${parent === null ? '' : `:${hex(sub, 2)}`}`];

@@ -1,4 +1,4 @@
-// Finding objects by what people type: an index, a sub-index, parts of a name.
+// Finds objects by typed text: an index, a sub-index, parts of a name.
 
 import type { Address, ObjectRecord } from '../sim/api';
 
@@ -9,7 +9,7 @@ export function parseAddress(text: string): Address | null {
   return { index: Number.parseInt(match[1], 16), sub: Number.parseInt(match[2] ?? '0', 16) };
 }
 
-/** Objects that the text can mean, in the dictionary's order; all words have to be there. */
+/** Objects that match the text, in the order of the dictionary; all words must match. */
 export function findObjects(objects: readonly ObjectRecord[], text: string): ObjectRecord[] {
   const words = text.toLowerCase().split(/\s+/).filter(Boolean);
   if (words.length === 0) return [...objects];
@@ -27,7 +27,7 @@ export function findObjects(objects: readonly ObjectRecord[], text: string): Obj
   });
 }
 
-/** An object that is not in the dictionary, as far as something is known of it. */
+/** An object outside the dictionary, as far as it is known. */
 export const standIn = (known: Pick<ObjectRecord, 'index' | 'sub' | 'name' | 'type' | 'bits'> & Partial<ObjectRecord>): ObjectRecord => ({
   parent: null, access: 'rw', mappable: false, fitsTpdo: false, fitsRpdo: false, isMapping: false, isSaved: false, default: null, low: null, high: null, ...known,
 });

@@ -1,4 +1,4 @@
-// The object dictionary with live values. Reading them puts nothing on the bus.
+// The object dictionary with live values, which are read without using the bus.
 
 import { html } from 'lit';
 import { effect } from '@preact/signals-core';
@@ -15,10 +15,10 @@ import { cells, Rows, setText } from './rows';
 import { openMapping } from './object-detail';
 import { View } from './view';
 
-/** Characters from which a name takes two small lines. */
+/** Number of characters from which a name takes two small lines. */
 const LONG = 17;
 
-/** What the list shows. */
+/** Which objects the list shows. */
 type Show = 'all' | 'changed' | 'unsaved';
 
 /** A row is an object, or the heading of a record. */
@@ -28,7 +28,7 @@ class Objects extends View {
   static override properties = { query: { state: true }, show: { state: true } };
   declare query: string;
   declare show: Show;
-  /** Objects that differ from the factory's, when they were last all looked at. */
+  /** Objects that differ from the factory values, at the last check. */
   private changed: ReadonlySet<number> = new Set();
   private timer = 0;
   private lines: Line[] = [];
@@ -131,7 +131,7 @@ class Objects extends View {
     row.setAttribute('aria-selected', String(state.selected.peek() === object));
   }
 
-  /** Only what is on screen is read again and again. */
+  /** Only visible values are read repeatedly. */
   private watchLines(from: number, to: number): void {
     const objects = this.lines.slice(from, to).flatMap((line) => (line.heading ? [] : [line.object]));
     const chosen = state.selected.peek();
@@ -173,7 +173,7 @@ class Objects extends View {
     this.rebuild();
   }
 
-  /** Which objects are not the factory's: all are read, once a second while that is asked for. */
+  /** Objects that differ from the factory values: all are read once a second while the list shows only these. */
   private async lookAtAll(): Promise<void> {
     const objects = (state.device.peek()?.objects ?? []).filter((object) => object.access.startsWith('rw') && object.default !== null);
     const node = state.selectedNode.peek();
@@ -225,12 +225,12 @@ class Objects extends View {
   }
 }
 
-/** Whether a master changed the object: changes by the device itself are not marked. */
+/** Returns whether a master changed the object: changes by the device itself are not marked. */
 function isChanged(object: ObjectRecord, live: Value): boolean {
   return object.access.startsWith('rw') && object.default !== null && live !== null && !sameValue(live, object.default);
 }
 
-/** Where a value that differs is: only in RAM, saved as well, or not among what is saved. */
+/** Where a changed value is: only in RAM, saved as well, or not saved by this device. */
 function markOf(object: ObjectRecord, live: Value): '' | 'ram' | 'eeprom' | 'set' {
   if (state.unsaved.peek().has(state.keyOf(object.index, object.sub))) return 'ram';
   if (!isChanged(object, live)) return '';

@@ -1,4 +1,4 @@
-// What the page offers once: the bench of last time, a new version of itself.
+// Offers that the page shows once: the bench of the last visit, a new version of the page.
 
 import { html } from 'lit';
 import * as state from '../state';

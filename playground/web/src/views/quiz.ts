@@ -1,4 +1,4 @@
-// Predict a frame, then see it.
+// The quiz of a step: predict a frame, then see it.
 
 import { html, nothing } from 'lit';
 import type { Judgement, Lesson } from '../sim/api';
@@ -9,7 +9,7 @@ import { View } from './view';
 
 type Asked = NonNullable<Lesson['steps'][number]['quiz']>;
 
-/** What to look at again. */
+/** Bytes to check again. */
 function wrongParts(found: Judgement): string {
   const t = T.lessons;
   const bytes = found.wrongBytes.map((at) => at + 1).join(', ');

@@ -1,14 +1,14 @@
-// Long lists with few elements: a handful of rows is drawn, and used again while the
-// list scrolls under them.
+// Long lists with few elements: a few rows are drawn, and reused while the
+// list scrolls.
 
 export interface RowSource {
   /** Number of rows. */
   count(): number;
-  /** Makes an empty row. */
+  /** Creates an empty row. */
   make(): HTMLElement;
   /** Fills a row; called again for each redraw. */
   fill(row: HTMLElement, index: number): void;
-  /** After all visible rows were filled. */
+  /** Called after all visible rows were filled. */
   filled?(from: number, to: number): void;
 }
 
@@ -54,7 +54,7 @@ export class Rows {
     this.redraw();
   }
 
-  /** Draws before the next picture. */
+  /** Draws before the next refresh. */
   redraw(): void {
     this.scheduled ||= requestAnimationFrame(() => {
       this.scheduled = 0;
@@ -63,8 +63,8 @@ export class Rows {
   }
 
   /**
-   * Draws now, scrolled to `top` if that is given; answers with where it is. Rows first,
-   * then the place: so the browser lays the page out once.
+   * Draws now, scrolled to `top` if that is given; returns the scroll position. Rows first,
+   * then the position: so the browser computes the layout once.
    */
   draw(top?: number): number {
     const count = this.source.count();
@@ -86,7 +86,7 @@ export class Rows {
       this.spacer.append(row);
       this.pool.push(row);
     }
-    // A row keeps its element while it stays on screen: selections and hovers hold.
+    // A row keeps its element while it is visible: selections and hovers stay.
     const size = this.pool.length;
     for (let i = 0; i < size; i++) {
       const index = size ? from + ((((i - from) % size) + size) % size) : 0;
@@ -100,7 +100,7 @@ export class Rows {
     this.source.filled?.(from, to);
   }
 
-  /** Brings a row into view. */
+  /** Scrolls to a row. */
   reveal(index: number): void {
     const top = index * this.height;
     const { scrollTop, clientHeight } = this.viewport;
@@ -114,7 +114,7 @@ export class Rows {
   }
 }
 
-/** Sets text only where it changed. */
+/** Sets a text only if it changed. */
 export function setText(element: Element | null | undefined, text: string): void {
   if (element && element.textContent !== text) element.textContent = text;
 }

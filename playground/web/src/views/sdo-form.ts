@@ -1,4 +1,4 @@
-// Reading and writing an object by its name or index, over the bus.
+// Reads and writes an object by name or index, over the bus.
 
 import { html, nothing } from 'lit';
 import { effect } from '@preact/signals-core';
@@ -40,7 +40,7 @@ class SdoForm extends View {
         const object = state.selected.value;
         if (object) this.choose(object);
       }),
-      // What a device said is not said by another one, nor at another moment.
+      // A response belongs to one device and one moment.
       effect(() => {
         void state.device.value;
         this.result = null;
@@ -61,7 +61,7 @@ class SdoForm extends View {
     this.typed = '';
   }
 
-  /** The object that the text names; one outside the dictionary has 32 bits. */
+  /** The object that the text names; an object outside the dictionary has 32 bits. */
   private target(): ObjectRecord | null {
     const where = parseAddress(this.text);
     if (where) {
@@ -93,7 +93,7 @@ class SdoForm extends View {
       const object = offered[this.active] ?? (this.target() ? undefined : offered[0]);
       event.preventDefault();
       if (object) this.choose(object);
-      // The object field reads; the value field writes.
+      // Enter in the object field reads; in the value field it writes.
       if (!object || this.active < 0) void this.read();
     }
   }

@@ -1,4 +1,4 @@
-// Frames that are sent again and again: by a click, or in a rhythm. The list is kept.
+// Frames to send repeatedly: by a click, or cyclically. The list is stored.
 
 import { html, nothing } from 'lit';
 import { effect, signal } from '@preact/signals-core';
@@ -12,7 +12,7 @@ import { View } from './view';
 interface Item {
   key: number;
   text: string;
-  /** Milliseconds of its rhythm. */
+  /** Its period in milliseconds. */
   every: number;
   isOn: boolean;
 }
@@ -37,11 +37,11 @@ function change(next: Item[]): void {
   try {
     localStorage.setItem(KEPT, JSON.stringify(next.map(({ text, every }) => ({ text, every }))));
   } catch {
-    // Storage is off: the list lasts as long as the page.
+    // Storage is not allowed: the list exists as long as the page.
   }
 }
 
-/** Puts a frame on the list. */
+/** Adds a frame to the list. */
 export function addToList(text: string): void {
   if (items.value.length >= MOST) return;
   const key = Math.max(-1, ...items.value.map((item) => item.key)) + 1;
@@ -56,7 +56,7 @@ function send(item: Item): void {
   act({ op: 'send', id, data, extended, remote });
 }
 
-/** Starts or ends the rhythm of a row. */
+/** Starts or stops the cyclic transmission of a row. */
 function repeat(item: Item, isOn: boolean): void {
   const parsed = readTyped(item.text);
   const frame = 'frame' in parsed ? parsed.frame : null;
@@ -72,7 +72,7 @@ function set(item: Item, change_: Partial<Item>): void {
   change(items.value.map((one) => (one.key === item.key ? { ...one, ...change_ } : one)));
 }
 
-// A log that was opened has its place here.
+// An opened log is listed here.
 effect(() => {
   if (state.log.value) isShown.value = true;
 });

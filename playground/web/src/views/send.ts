@@ -1,4 +1,4 @@
-// The dock under the frames: a raw frame, an SDO by name, and the NMT commands.
+// The area below the frames: a raw frame, an SDO by name, and the NMT commands.
 
 import { html } from 'lit';
 import { effect } from '@preact/signals-core';
@@ -41,7 +41,7 @@ class Send extends View {
   }
 }
 
-/** The line for a frame in hexadecimal, with its meaning as it is typed. */
+/** The line for a frame in hexadecimal, with its meaning while it is typed. */
 class RawFrame extends View {
   static override properties = { text: { state: true }, meaning: { state: true }, isTouched: { state: true } };
   declare text: string;

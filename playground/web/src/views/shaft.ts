@@ -1,5 +1,5 @@
-// The flange seen from the front, with a shaft to turn: by pointer as far round as
-// one likes, and by keys.
+// The flange seen from the front, with a shaft to turn: by pointer any number of
+// revolutions, and by keys.
 
 import { html, svg, type TemplateResult } from 'lit';
 import * as state from '../state';
@@ -7,7 +7,7 @@ import { turnTo } from '../actions';
 import { T } from '../texts';
 import { View } from './view';
 
-/** Degrees of an arrow key, and with Shift. */
+/** Degrees for an arrow key, without and with Shift. */
 const COARSE = 5;
 const FINE = 0.1;
 
@@ -70,7 +70,7 @@ class ShaftDial extends View {
   }
 
   private onKey(event: KeyboardEvent): void {
-    // Keys come faster than pictures: the next one goes on from where the last one led.
+    // Key presses are faster than snapshots: each one continues from the last target.
     const turns = performance.now() - this.keyedAt < 250 ? this.keyedTo : (state.shaft.value?.turns ?? 0);
     const step = (event.shiftKey ? FINE : COARSE) / 360;
     const to: Record<string, number> = {
@@ -90,7 +90,7 @@ class ShaftDial extends View {
     turnTo(target);
   }
 
-  /** Where the shaft is drawn; with reduced motion a running one moves twice a second. */
+  /** The drawn position; with reduced motion a running shaft moves twice a second. */
   private drawnTurns(): number {
     const shaft = state.shaft.value;
     if (!shaft) return 0;

@@ -1,4 +1,4 @@
-// The bench to pass on: a link, a file, a frame in another page.
+// Shares the bench: a link, a file, a frame in another page.
 
 import { html, nothing, type PropertyValues } from 'lit';
 import { effect } from '@preact/signals-core';
@@ -10,9 +10,9 @@ import { hashOf, now, openText } from '../share/make';
 import { icons } from './icons';
 import { View } from './view';
 
-/** Characters of an address that every mail program and chat leaves whole. */
+/** Maximum length of an address that every mail program and chat transmits completely. */
 const LONG = 8000;
-/** Longest file that is worth a try. */
+/** Maximum size of a file. */
 const LONGEST = 20_000_000;
 
 class Share extends View {
@@ -74,7 +74,7 @@ class Share extends View {
       await navigator.clipboard.writeText(field.value);
       this.copied = what;
     } catch {
-      // Not allowed to: it is marked, so that the keyboard can.
+      // The browser does not allow copying: the text is selected, so that the user can copy it.
       field.select();
     }
   }

@@ -1,4 +1,4 @@
-// What is on the bus, and virtual time.
+// The devices on the bus, and virtual time.
 
 import { html, nothing } from 'lit';
 import * as state from '../state';
@@ -10,15 +10,15 @@ import { View } from './view';
 
 const SPEEDS = [0.01, 0.1, 0.5, 1, 2, 10, 100, 1000];
 
-/** The dialog comes when it is asked for. */
+/** The dialog is loaded on request. */
 const openShare = (): void => void import('./share').then(() => (state.shareDialog.value = true));
 
-/** To a real bus; the mark comes with it. */
+/** Opens a real bus; its mark is loaded with it. */
 const openConnect = (): void => void import('../real/dialog').then(() => (state.realDialog.value = true));
 
 const openLessons = (): void => void (state.lessonDialog.value = true);
 
-/** From a frame to a tab of its own, with the bench as it is now. */
+/** Opens this bench in a tab of its own. */
 async function openFull(event: Event): Promise<void> {
   event.preventDefault();
   const { hashOf, now } = await import('../share/make');
@@ -37,12 +37,12 @@ class Topbar extends View {
     try {
       localStorage.setItem('odkit.theme', theme);
     } catch {
-      // Storage is off: the choice lasts as long as the page.
+      // Storage is not allowed: the choice exists as long as the page.
     }
     this.requestUpdate();
   }
 
-  /** One button for each device; the chosen one leads to the dialog. */
+  /** One button for each device; that of the selected device opens the dialog. */
   private nodes() {
     const { value: devices } = state.devices;
     const { value: chosen } = state.selectedNode;
@@ -105,7 +105,7 @@ class Topbar extends View {
   }
 }
 
-/** The virtual time on its own: it changes with every picture. */
+/** The virtual time, separate because it changes with every snapshot. */
 class Clock extends View {
   protected override render() {
     const seconds = state.now.value / 1e6;

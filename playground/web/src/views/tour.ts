@@ -11,7 +11,7 @@ import { View } from './view';
 
 const LESSON = 'boot-up-and-heartbeat';
 
-/** What a step asks for was done, with the button or another way. */
+/** Called when the user has done a step, with the button or in another way. */
 const DONE = [
   () => state.nmt.value === 'operational',
   () => state.nmt.value === 'operational' && state.shaft.value !== null && (state.shaft.value.rpm !== 0 || Math.abs(state.shaft.value.turns - from) > 0.02),

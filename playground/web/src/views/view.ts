@@ -1,5 +1,5 @@
-// The base of all views: a custom element in the page's own DOM that draws itself
-// again whenever a signal changes that its last drawing read.
+// The base of all views: a custom element without a shadow root that draws itself
+// again when a signal changes that its last drawing read.
 
 import { LitElement } from 'lit';
 import { effect } from '@preact/signals-core';
