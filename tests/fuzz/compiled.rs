@@ -1,8 +1,8 @@
 //! Made devices through the macro: a crate of them is compiled, and each compiled dictionary has
 //! to be the one that the reader makes of the same EDS at run time.
 //!
-//! A compiler takes seconds where a target takes microseconds, so this is not one: it runs with
-//! `--long`, or by its name.
+//! A compiler takes seconds where a target takes microseconds, so this is not one of them:
+//! `cargo test -p od-tests --test compiled`, and `cargo xtask test --long`.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -10,14 +10,13 @@ use std::process::Command;
 use std::time::Instant;
 
 use od_fuzz::choices::Choices;
-use od_fuzz::files::repository;
-use od_fuzz::found;
+use od_fuzz::files::{self, repository};
 use od_fuzz::generate::Device;
-use od_fuzz::plan::Plan;
+use od_fuzz::harness;
 use od_fuzz::random::Random;
 
-/// Its name in commands, and the folder of its findings.
-pub(crate) const NAME: &str = "compiled";
+/// The folder of its findings.
+const NAME: &str = "compiled";
 
 /// Devices of one crate.
 const BATCH: u64 = 100;
@@ -42,31 +41,28 @@ fn equal(path: &str, compiled: od_model::Dictionary<'_>, file: &[u8]) {
 
 "#;
 
-/// Compiles batches until the time of the plan is over.
-///
-/// # Errors
-/// The output of the compiler or of the comparison, and the file that has the EDS now.
-pub(crate) fn run(plan: &Plan) -> Result<u64, String> {
-    let start = Instant::now();
+#[test]
+fn a_compiled_dictionary_is_that_of_the_reader() {
+    let (start, seed) = (Instant::now(), harness::seed());
+    println!("ODKIT_FUZZ_SEED={seed} makes the same devices");
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(NAME);
-    let known = found::load(&plan.found, NAME);
-    let known = known
-        .iter()
-        .map(|text| String::from_utf8_lossy(text).into_owned());
-    let new = (plan.seed.first..).map(|number| {
-        let mut random = Random::of(plan.seed.number, number);
+    let known = files::inputs("found", NAME).into_iter();
+    let known = known.map(|text| String::from_utf8_lossy(&text).into_owned());
+    let new = (0..).map(|number| {
+        let mut random = Random::of(seed, number);
         let bytes: Vec<u8> = (0..random.size(10)).map(|_| random.next() as u8).collect();
         Device::of(&mut Choices(&bytes)).text
     });
-    let (mut devices, mut count) = (known.chain(new), 0);
-    while count == 0 || start.elapsed() < plan.time {
+    let mut devices = known.chain(new);
+    loop {
         let batch: Vec<String> = devices.by_ref().take(BATCH as usize).collect();
         if let Err(output) = compile(&folder, &batch) {
-            return Err(blamed(plan, &batch, &output));
+            panic!("{}", blamed(&batch, &output));
         }
-        count += BATCH;
+        if start.elapsed() >= harness::time() {
+            return;
+        }
     }
-    Ok(count)
 }
 
 /// Builds and runs a crate with these files.
@@ -110,12 +106,13 @@ fn compile(folder: &Path, batch: &[String]) -> Result<(), String> {
 }
 
 /// Keeps the first file that the output names.
-fn blamed(plan: &Plan, batch: &[String], output: &str) -> String {
+fn blamed(batch: &[String], output: &str) -> String {
     let shown: Vec<&str> = output.lines().take(30).collect();
     let is_named = |number: &usize| output.contains(&format!("/{number}.eds"));
     let kept = match (0..batch.len()).find(is_named) {
-        Some(number) => found::keep(&plan.found, NAME, batch[number].as_bytes())
-            .map_or_else(|error| error.to_string(), |path| path.display().to_string()),
+        Some(number) => {
+            files::keep(NAME, batch[number].as_bytes()).unwrap_or_else(|error| error.to_string())
+        }
         None => "no file is named".to_string(),
     };
     format!("{}\n  kept, commit it: {kept}", shown.join("\n  "))

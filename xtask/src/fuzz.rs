@@ -48,7 +48,7 @@ impl Options {
         match target {
             Some(target) => Ok(Options { target, minutes }),
             None => Err(Error::Usage(String::from(
-                "fuzz needs a target: `cargo test -p od-tests --test fuzz` names them",
+                "fuzz needs a target: `cargo test -p od-tests --test fuzz -- --list` names them",
             ))),
         }
     }
@@ -60,10 +60,15 @@ pub(crate) fn run(repo: &Repo, console: &Console, options: &Options) -> Result<(
     let work = Folder::new(&repo.cache().join("fuzz").join(target), "new")?;
     let seeds = Folder::new(&repo.cache().join("fuzz").join(target), "seeds")?;
     seeds.clear()?;
-    // This command also fails if the target does not exist.
     let mut write = cargo(&repo.root, &["test", "--quiet", "--package", TESTS]);
-    write.args(["--test", "fuzz", "--", "--seeds", target]);
-    console.run("the inputs to start from", write.arg(&seeds.0))?;
+    write.args(["--test", "fuzz", "--", "--exact", target]);
+    write.env("ODKIT_FUZZ_SEEDS", &seeds.0);
+    console.run("the inputs to start from", &mut write)?;
+    if seeds.files()?.is_empty() {
+        return Err(Error::Usage(format!(
+            "fuzz has no target `{target}`; `cargo test -p {TESTS} --test fuzz -- --list` names them"
+        )));
+    }
 
     let (tool, host) = install(repo, console)?;
     let built = repo.target.join("cargo-fuzz");
@@ -100,7 +105,7 @@ pub(crate) fn run(repo: &Repo, console: &Console, options: &Options) -> Result<(
     for file in after.iter().filter(|file| !before.contains(file)) {
         let shown = file.strip_prefix(&repo.root).unwrap_or(file).display();
         say(&format!(
-            "  failed: {shown}\n  again: cargo test -p {TESTS} --test fuzz -- --replay {shown}"
+            "  failed: {shown}\n  again: ODKIT_FUZZ_INPUT={shown} cargo test -p {TESTS} --test fuzz -- --exact {target} --nocapture"
         ));
     }
     run?;

@@ -126,35 +126,3 @@ fn number(bytes: &mut Vec<u8>, at: usize, random: &mut Random) {
         .count();
     bytes.splice(start..start + len, random.pick(NUMBERS).bytes());
 }
-
-/// Smaller inputs that may still fail: without one piece after the other, large ones first.
-/// Pieces of `unit` bytes stay whole.
-pub fn shrink(input: &[u8], unit: usize, mut fails: impl FnMut(&[u8]) -> bool) -> Vec<u8> {
-    let mut best = input.to_vec();
-    let mut pieces = best.len().div_ceil(2 * unit);
-    while pieces > 0 {
-        let piece = pieces * unit;
-        let mut at = 0;
-        while at < best.len() {
-            let mut shorter = best.clone();
-            shorter.drain(at..(at + piece).min(best.len()));
-            if fails(&shorter) {
-                best = shorter;
-            } else {
-                at += piece;
-            }
-        }
-        pieces /= 2;
-    }
-    best
-}
-
-/// An input for people, as far as it is short.
-pub fn shown(input: &[u8]) -> String {
-    const SHOWN: usize = 400;
-    let mut text: String = input[..input.len().min(SHOWN)].escape_ascii().to_string();
-    if input.len() > SHOWN {
-        text.push_str(&format!("… {} bytes", input.len()));
-    }
-    text
-}

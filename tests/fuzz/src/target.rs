@@ -2,8 +2,6 @@
 
 use std::panic::resume_unwind;
 
-use crate::files::repository;
-use crate::found;
 use crate::random::Random;
 
 /// One thing that takes input from outside.
@@ -23,10 +21,6 @@ pub struct Target {
     pub is_text: bool,
     /// Inputs are cut here.
     pub longest: usize,
-    /// Size of the pieces that inputs consist of, in bytes.
-    pub unit: usize,
-    /// Frames of an input. A target with this runs for a number of frames instead of a time.
-    pub frames: Option<fn(&[u8]) -> u64>,
 }
 
 impl Target {
@@ -39,29 +33,7 @@ impl Target {
         words: &[],
         is_text: false,
         longest: 4096,
-        unit: 1,
-        frames: None,
     };
-
-    /// Inputs to start from, those that coverage found among them (`tests/fuzz/corpus`).
-    pub fn all_seeds(&self) -> Vec<Vec<u8>> {
-        let mut seeds = (self.seeds)();
-        seeds.extend(found::load(&repository("tests/fuzz/corpus"), self.name));
-        seeds
-    }
-
-    /// Number of inputs, or of frames, that an input counts for.
-    pub fn weight(&self, input: &[u8]) -> u64 {
-        self.frames.map_or(1, |frames| frames(input))
-    }
-
-    /// The unit of [`weight`](Self::weight).
-    pub(crate) const fn unit_name(&self) -> &'static str {
-        match self.frames {
-            Some(_) => "frames",
-            None => "inputs",
-        }
-    }
 }
 
 /// A run that a target gives up without a verdict.

@@ -7,15 +7,14 @@ use od_runtime::{Frame, Instant};
 use od_wire::nmt::State;
 
 use super::bench::{self, Act, STEP};
+use crate::harness::trace;
 use crate::random::Random;
 use crate::target::Target;
-use crate::trace::trace;
 
 pub(super) const TARGET: Target = Target {
     name: "node",
     run,
     make: Some(make),
-    unit: STEP,
     ..Target::PLAIN
 };
 

@@ -6,24 +6,16 @@ mod input;
 mod model;
 
 use super::bench::{self, Act, STEP};
+use crate::harness::trace;
 use crate::target::Target;
-use crate::trace::trace;
 use model::Model;
 
 pub(super) const TARGET: Target = Target {
     name: "sdo",
     run,
     make: Some(input::make),
-    frames: Some(frames_of),
-    unit: STEP,
     ..Target::PLAIN
 };
-
-/// Number of frames in an input.
-fn frames_of(input: &[u8]) -> u64 {
-    let steps = input.chunks_exact(STEP).skip(1);
-    steps.filter(|step| step[0] % 40 < 31).count() as u64
-}
 
 fn run(input: &[u8]) {
     let mut steps = input.chunks_exact(STEP);

@@ -10,10 +10,10 @@ use od_runtime::Frame;
 use super::eds;
 use crate::choices::Choices;
 use crate::generate::Device;
+use crate::harness::trace;
 use crate::made::{Made, NODE, integer};
 use crate::random::Random;
 use crate::target::Target;
-use crate::trace::trace;
 
 pub(super) const TARGET: Target = Target {
     name: "structure",

@@ -152,7 +152,8 @@ pub(super) fn fuzz(context: &Context<'_>) -> Result<()> {
     } else {
         &[]
     };
-    let names = ["fuzz", "mutations"].map(String::from);
+    let mut names = ["fuzz", "mutations"].map(String::from).to_vec();
+    names.extend(context.long.then(|| String::from("compiled")));
     test(context, "fuzz targets", &[profile, &ALL].concat(), &names)
 }
 

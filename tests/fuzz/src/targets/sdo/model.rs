@@ -14,8 +14,8 @@ use od_wire::nmt::State;
 use super::super::bench;
 use super::changes;
 use super::input::LIVE;
+use crate::harness::trace;
 use crate::target::Enough;
-use crate::trace::trace;
 
 /// An upload in segments that is under way.
 #[derive(Default)]
