@@ -1,10 +1,10 @@
 //! Encoders with a bus cover: multivo, magtivo, activo and multivoPlus.
 //!
 //! Source: manual 000, chapters 4.3 (communication), 4.4 (objects) and 7.2 (switches);
-//! `docs/MANUALS.md`, where it contradicts itself or is silent. The
-//! dictionary says what the objects are; the two profiles here say what the manual has
-//! the family do differently from CiA 301 and CiA 406. What the eight devices do
-//! differently from each other is in their dictionaries only.
+//! `docs/MANUALS.md` if it contradicts itself or does not say. The
+//! dictionary defines the objects; the two profiles here define the differences of the
+//! family from CiA 301 and CiA 406. Differences between the eight devices are in their
+//! dictionaries only.
 
 use odkit::encoder::{EncoderProfile, Fault, Options, Report, Role, Total};
 use odkit::{
@@ -58,8 +58,8 @@ odkit::object_dictionary! {
             modify 0x6506 { default = 0x0004 }
         }
 
-        /// `GDMM`, activo multiturn: 18 bits a revolution, 13 bits of revolutions. All but
-        /// its name is that of the multivoPlus, its product code too (C-GX-30).
+        /// `GDMM`, activo multiturn: 18 bits a revolution, 13 bits of revolutions. Everything but
+        /// its name is that of the multivoPlus, including the product code (C-GX-30).
         variant gdmm {
             modify 0x1008 { default = "GDMM" }
             modify 0x1018sub2 { default = 0x0E }
@@ -128,19 +128,19 @@ pub(crate) const fn kind(
 /// Deviations of the services from CiA 301: chapters 4.3.3 to 4.3.6, objects 1010h to 2801h.
 pub static PROFILE: Profile = Profile {
     sdo: SdoProfile {
-        // Requests without their unused bytes are answered too (C-GX-15).
+        // Requests without their unused bytes get a response, too (C-GX-15).
         min_dlc: 4,
         length: LengthRule {
-            // The list of abort codes has none for lengths: too much data counts with its
-            // low bytes (C-GX-13, C-GX-14), too little is a general error.
+            // The list of abort codes has no code for lengths: of too many bytes the node uses the
+            // low ones (C-GX-13, C-GX-14), too few are a general error.
             too_long: None,
             too_short: AbortCode::General,
         },
-        // The list of commands has the expedited ones only.
+        // The list of commands has only expedited ones.
         segmented_upload: false,
         segmented_download: false,
         block: false,
-        // Of the two codes for values, the one that is not "too great" (U-05).
+        // Of the two abort codes for values, the one that is not "too great" (U-05).
         below_limit: AbortCode::ValueRange,
         // An entry of 1003h without an error reads 0 (U-10).
         unused_error: None,
@@ -148,10 +148,10 @@ pub static PROFILE: Profile = Profile {
         mapping_in_use: AbortCode::UnsupportedAccess,
     },
     pdo: PdoProfile {
-        // 1800h:02: every n-th SYNC, or cyclic by the event timer.
+        // 1800h:02: every n-th SYNC, or cyclic with the event timer.
         tpdo_types: &[(1, 240), (254, 254)],
         event_on_change: false,
-        // A new COB-ID acts at once (U-18).
+        // A new COB-ID takes effect at once (U-18).
         direct_cob_id: true,
         repeat_counter: Some(0x2800),
         // 2110h bit 7, together with bit 6.
@@ -165,9 +165,9 @@ pub static PROFILE: Profile = Profile {
         duration_us: 0,
         // U-33.
         cut: CutSave::LastSet,
-        // A user's value stays absolute (U-04).
+        // A written value stays absolute (U-04).
         cob_ids: SavedCobIds::Absolute,
-        // 6200h is 1800h:05 (C-GX-26), whichever group is saved or restored.
+        // 6200h equals 1800h:05 (C-GX-26), whichever group is saved or restored.
         twins: &[[Address::new(0x1800, 5), Address::new(0x6200, 0)]],
         ..Profile::CIA301.store
     },
@@ -191,10 +191,10 @@ pub static PROFILE: Profile = Profile {
         non_configured: false,
         fastscan: false,
         inquire_node_id: false,
-        // Silence for the delay, the new rate afterwards (C-GX-57).
+        // Silent during the delay, then at the new bit rate (C-GX-57).
         second_delay: false,
     }),
-    // 2110h bit 5: node guarding takes the place of heartbeat.
+    // 2110h bit 5: node guarding replaces heartbeat.
     guarding_switch: Some((0x2110, 1 << 5)),
     nmt: NmtProfile {
         // The manual gives no durations (C-X-20).
@@ -202,19 +202,19 @@ pub static PROFILE: Profile = Profile {
         reset_communication_us: 0,
         reset_communication: CommunicationReset::Communication,
         self_start: None,
-        // 2110h bit 10: reset node restarts the NMT state only.
+        // 2110h bit 10: reset node resets the NMT state only.
         reset_node_light: Some((0x2110, 1 << 10)),
     },
     errors: ERRORS,
 };
 
-/// Errors that the node finds itself: chapter 4.3.5 and object 1029h; bits of 1001h: U-08.
+/// Errors that the node detects: chapter 4.3.5 and object 1029h; bits of 1001h: U-08.
 pub(crate) const ERRORS: ErrorProfile = ErrorProfile {
     lost: Notice {
         code: 0x8130,
         register: 0x11,
     },
-    // The list of codes has none for the CAN controller's states; 1001h names overrun
+    // The list of codes has none for states of the CAN controller; 1001h includes overrun
     // (U-38).
     bus_warning: None,
     bus_passive: None,
@@ -244,10 +244,10 @@ pub static ENCODER: EncoderProfile = EncoderProfile {
     // 6509h is 0 to the current range − 1 (C-GX-53, U-07).
     signed_offset: false,
     zero_is_full: false,
-    // 6000h: sense of rotation and scaling.
+    // 6000h: code sequence and scaling.
     operating_bits: 0x0005,
     objects: &[
-        // What happens after a communication error (C-GX-23).
+        // Reaction to a communication error (C-GX-23).
         (Address::new(0x1029, 1), Role::OneOf(&[0, 1, 2, 3])),
         (Address::new(0x2100, 0), Role::BitRate),
         (Address::new(0x2101, 0), Role::NodeId),
@@ -263,7 +263,7 @@ pub static ENCODER: EncoderProfile = EncoderProfile {
         ..Options::NONE
     }),
     bit_rates: &[10, 20, 50, 100, 125, 250, 500, 800, 1000],
-    // Chapter 7.2.2: not the codes of 2100h; 100 kbit/s is not supported (C-GX-35).
+    // Chapter 7.2.2: other codes than in 2100h; 100 kbit/s is not supported (C-GX-35).
     switch_rates: &[10, 20, 50, 125, 250, 500, 800, 1000],
     // Bits of 1001h: U-08.
     reports: &[

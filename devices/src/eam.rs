@@ -1,11 +1,11 @@
 //! Magnetic encoders EAM: multiturn, singleturn, and the redundant version.
 //!
-//! Source: manual 001, chapters 4 to 12; `docs/MANUALS.md`, where it contradicts
-//! itself or is silent. The dictionary says what the objects are; the profiles here say what
-//! the manual has the family do differently from CiA 301 and CiA 406.
+//! Source: manual 001, chapters 4 to 12; `docs/MANUALS.md` if it contradicts
+//! itself or does not say. The dictionary defines the objects; the profiles here define the
+//! differences of the family from CiA 301 and CiA 406.
 //!
 //! The redundant version is two channels on one shaft, behind one connector: two nodes, each
-//! with electronics, battery, memory and serial number of its own (chapter 4.5).
+//! with its own electronics, battery, memory and serial number (chapter 4.5).
 
 use odkit::encoder::{
     Counter, EncoderProfile, Gear, GearKind, Movement, Options, Quantity, RangeRule, Role, Sensor,
@@ -22,7 +22,7 @@ use crate::eam_diagnosis;
 use odkit::DeviceKind;
 
 odkit::object_dictionary! {
-    /// `EAMxxx MT`, multiturn: 16 bits a revolution, of which 14 show by default, and 18 bits
+    /// `EAMxxx MT`, multiturn: 16 bits a revolution, of which 14 are used by default, and 18 bits
     /// of revolutions.
     ///
     /// 1018h:04 and 650Bh, the serial number, are 1 unless the host gives another one
@@ -40,8 +40,8 @@ odkit::object_dictionary! {
             modify 0x6502 { default = 1 }
         }
 
-        /// One channel of the redundant `EAMxxx MT`: without electronic gear, which is for
-        /// encoders that are not redundant.
+        /// One channel of the redundant `EAMxxx MT`: without electronic gear, which only encoders
+        /// that are not redundant have.
         variant eam_red {
             remove 0x2001;
         }
@@ -60,7 +60,7 @@ pub(crate) const fn kind(
         name,
         title,
         family: "eam",
-        // Manual 001 knows no LED.
+        // Manual 001 describes no LED.
         leds: false,
         dictionary,
         profile: &PROFILE,
@@ -74,16 +74,16 @@ pub static PROFILE: Profile = Profile {
     sdo: SdoProfile {
         // U-37.
         min_dlc: 4,
-        // The list of abort codes has none for lengths; CiA's general one (U-16).
+        // The list of abort codes has no code for lengths: the general one of CiA 301 (U-16).
         length: LengthRule {
             too_long: Some(AbortCode::Length),
             too_short: AbortCode::Length,
         },
-        // Segmented for reading (chapter 6.1).
+        // Segmented upload (chapter 6.1).
         segmented_upload: true,
         segmented_download: false,
         block: false,
-        // Of the two codes for values, the one that is not "too great" (U-05).
+        // Of the two abort codes for values, the one that is not "too great" (U-05).
         below_limit: AbortCode::ValueRange,
         // U-10.
         unused_error: Some(AbortCode::NoData),
@@ -94,7 +94,7 @@ pub static PROFILE: Profile = Profile {
         // Chapter 7.2.
         tpdo_types: &[(1, 240), (253, 255)],
         event_on_change: false,
-        // A new COB-ID acts at once (chapter 7.3).
+        // A new COB-ID takes effect at once (chapter 7.3).
         direct_cob_id: true,
         repeat_counter: None,
         sync_only: None,
@@ -103,7 +103,7 @@ pub static PROFILE: Profile = Profile {
         // Chapter 6.3.2.
         restore: Restore::AfterReset,
         failed: AbortCode::LocalControl,
-        // Chapter 6.3.1; the manual gives no duration, this is one of an EEPROM.
+        // Chapter 6.3.1; the manual gives no duration, this is typical of an EEPROM.
         answer: SaveAnswer::AfterStoring,
         duration_us: 50_000,
         // Chapter 6.3.3 (U-33).
@@ -134,15 +134,15 @@ pub static PROFILE: Profile = Profile {
         non_configured: true,
         fastscan: true,
         inquire_node_id: true,
-        // As CiA 305 has it.
+        // As in CiA 305.
         second_delay: true,
     }),
     guarding_switch: None,
     nmt: NmtProfile {
-        // Chapters 5.1.1 and 5.1.2: at most so long.
+        // Chapters 5.1.1 and 5.1.2: maximum durations.
         reset_node_us: 170_000,
         reset_communication_us: 5_000,
-        // Chapter 5.1.2: what was not saved is lost, whatever object it is.
+        // Chapter 5.1.2: every value that was not saved is lost.
         reset_communication: CommunicationReset::Everything,
         // C-EAM-34.
         self_start: Some((0x1F80, 1 << 3)),
@@ -150,7 +150,7 @@ pub static PROFILE: Profile = Profile {
     },
     // Chapters 8.4, 9.3 and 9.5.
     errors: ErrorProfile {
-        // The row has no bit (C-EAM-20).
+        // The row has no bit of 1001h (C-EAM-20).
         lost: Notice {
             code: 0x8130,
             register: 0,
@@ -166,7 +166,7 @@ pub static PROFILE: Profile = Profile {
         bus_off: 1 << 4,
         // C-EAM-41.
         bus_recovered: None,
-        // The row has no bit; chapter 8.4.1 has one (C-EAM-20).
+        // The row has no bit of 1001h; chapter 8.4.1 has one (C-EAM-20).
         overrun: Some(Notice {
             code: 0x8110,
             register: 1 << 4,
@@ -194,9 +194,9 @@ const BASE: EncoderProfile = EncoderProfile {
     // U-34.
     unscaled_steps: Some(0x4000),
     // With 4 steps per revolution the range has 2^30 revolutions; half of them are the limit
-    // that chapter 4.4.6 names for turning without power.
+    // in chapter 4.4.6 for turning without power.
     counter: Counter::Kept { turns: 1 << 30 },
-    // 6502h follows 6001h and 6002h (C-EAM-17), and 6002h goes by powers of two (C-EAM-18).
+    // 6502h follows 6001h and 6002h (C-EAM-17), and 6002h is 6001h times a power of two (C-EAM-18).
     total: Total::Shown,
     range_rule: RangeRule::PowerOfTwo,
     signed_offset: true,
@@ -256,7 +256,7 @@ const BASE: EncoderProfile = EncoderProfile {
     // The device has no switches.
     switch_rates: &[],
     reports: eam_diagnosis::SINGLE,
-    // 6504h and 6506h do not have all the bits that chapter 9.5 sets (C-EAM-09, C-EAM-10).
+    // 6504h and 6506h lack some bits that chapter 9.5 sets (C-EAM-09, C-EAM-10).
     by_support: false,
 };
 
@@ -274,8 +274,8 @@ const fn speed(sources: &'static [(u8, Source)]) -> Role {
 /// Encoder profile of the multiturn encoder: chapters 4.4, 9 and 12.3.
 pub static ENCODER: EncoderProfile = BASE;
 
-/// Encoder profile of the singleturn encoder: it counts revolutions as long as it has power, and the
-/// gear with them (chapter 4.4.6).
+/// Encoder profile of the singleturn encoder: it counts revolutions while it has power, and the
+/// gear uses them (chapter 4.4.6).
 pub static SINGLETURN: EncoderProfile = EncoderProfile {
     sensor: Some(Sensor { turns: 1, ..SENSOR }),
     counter: Counter::Volatile,

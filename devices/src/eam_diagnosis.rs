@@ -1,12 +1,12 @@
 //! Self-diagnosis of the EAM: manual 001, chapter 9.5.
 //!
-//! The two designs see different things: a redundant channel watches its multiturn sensor
-//! more closely, and looks at its battery only while power is off (chapter 4.5). The codes
+//! The two designs detect different errors: a redundant channel monitors its multiturn sensor
+//! more closely, and tests its battery only while power is off (chapter 4.5). The codes
 //! are those of object 2116h:01; the rows are in the order of the manual's table.
 
 use odkit::encoder::{Appears, Fault, Mirror, Report, Role, Until};
 
-/// 2117h: the warnings and alarms once more, with what else 1001h tells.
+/// 2117h: the warnings and alarms again, with other conditions of 1001h.
 pub(crate) const DIAGNOSIS: Role = Role::Diagnosis(&[
     shows(0x6505, 0, 0),
     shows(0x6505, 2, 1),

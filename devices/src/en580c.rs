@@ -1,8 +1,8 @@
 //! The optical encoder EN580C: multiturn, electronic gear, endless mode.
 //!
-//! Source: manual 003, chapters 5 to 7; `docs/MANUALS.md`, where it contradicts
-//! itself or is silent. The dictionary says what the objects are; the two profiles here say
-//! what the manual has the device do differently from CiA 301 and CiA 406.
+//! Source: manual 003, chapters 5 to 7; `docs/MANUALS.md` if it contradicts
+//! itself or does not say. The dictionary defines the objects; the two profiles here define
+//! the differences of the device from CiA 301 and CiA 406.
 
 use odkit::Address;
 use odkit::encoder::{
@@ -17,7 +17,7 @@ use odkit::{
 use odkit::DeviceKind;
 
 odkit::object_dictionary! {
-    /// `EN580C_M`: 24 bits a revolution, of which 6001h takes 21, and 16 bits of revolutions.
+    /// `EN580C_M`: 24 bits a revolution, of which 6001h allows 21, and 16 bits of revolutions.
     ///
     /// 1018h:04 and 650Bh, the serial number, are 1 unless the host gives another one
     /// (`Encoder::with_serial_number`).
@@ -33,7 +33,7 @@ pub(crate) const fn kind(name: &'static str, title: &'static str) -> DeviceKind 
         name,
         title,
         family: "en580c",
-        // Manual 003 knows no LED.
+        // Manual 003 describes no LED.
         leds: false,
         dictionary: en580c::DICTIONARY,
         profile: &PROFILE,
@@ -47,12 +47,12 @@ pub static PROFILE: Profile = Profile {
     sdo: SdoProfile {
         // U-37.
         min_dlc: 4,
-        // The list of abort codes has one for both (C-X-17).
+        // The list of abort codes has one code for both (C-X-17).
         length: LengthRule {
             too_long: Some(AbortCode::Length),
             too_short: AbortCode::Length,
         },
-        // Segmented for reading (chapter 5.1.3).
+        // Segmented upload (chapter 5.1.3).
         segmented_upload: true,
         segmented_download: false,
         block: false,
@@ -109,16 +109,16 @@ pub static PROFILE: Profile = Profile {
     }),
     guarding_switch: None,
     nmt: NmtProfile {
-        // Chapters 5.1.5.1 and 5.1.5.2 say less than a second of both.
+        // Chapters 5.1.5.1 and 5.1.5.2: less than a second for both.
         reset_node_us: 500_000,
         reset_communication_us: 500_000,
-        // Both chapters: what was not saved is lost, whatever object it is.
+        // Both chapters: every value that was not saved is lost.
         reset_communication: CommunicationReset::Everything,
         // C-EAM-34.
         self_start: Some((0x1F80, 1 << 3)),
         reset_node_light: None,
     },
-    // Chapter 5.2; codes and bits as the bus cover's (U-08, U-09, U-38).
+    // Chapter 5.2; codes and bits of the bus cover (U-08, U-09, U-38).
     errors: crate::bus_cover::ERRORS,
 };
 
@@ -129,7 +129,7 @@ pub static ENCODER: EncoderProfile = EncoderProfile {
         steps: 0x20_0000,
         turns: 0x1_0000,
     }),
-    // Chapter 6.11: half of 16 bits of revolutions either way without power.
+    // Chapter 6.11: half of 16 bits of revolutions in either direction without power.
     counter: Counter::Kept { turns: 0x1_0000 },
     total: Total::Revolutions,
     range_rule: RangeRule::Turns,
@@ -176,13 +176,13 @@ pub static ENCODER: EncoderProfile = EncoderProfile {
                 factor: Some((Address::new(0x6041, 3), Address::new(0x6041, 4))),
             }),
         ),
-        // The scope is not said (C-X-09); CiA 406 has it count over the life of the encoder.
+        // The manual does not say since when (C-X-09); CiA 406 counts over the life of the encoder.
         (Address::new(0x6508, 0), Role::TenthHours),
     ],
     below_limit: AbortCode::ValueTooLow,
     options: None,
     bit_rates: &[0, 0, 50, 100, 125, 250, 500, 800, 1000],
-    // C-EN-29: the table of the bus cover, without what the device does not have.
+    // C-EN-29: the table of the bus cover, without bit rates that the device does not support.
     switch_rates: &[0, 0, 50, 125, 250, 500, 800, 1000],
     // Codes and bits of the bus cover (U-09, U-08).
     reports: &[
@@ -222,5 +222,5 @@ pub static ENCODER: EncoderProfile = EncoderProfile {
     ..EncoderProfile::CIA406
 };
 
-/// Sources that 6031h:01 and 6041h:01 select.
+/// Sources for 6031h:01 and 6041h:01.
 const SOURCES: &[(u8, Source)] = &[(1, Source::Position), (2, Source::Raw)];

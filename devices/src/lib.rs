@@ -1,7 +1,7 @@
-//! Virtual CANopen absolute encoders: dictionaries and what their families do differently.
+//! Virtual CANopen absolute encoders: their dictionaries, and the differences of their families.
 //!
-//! Each family is one module, made from one EDS file; [`DEVICES`] lists what there is.
-//! Everything here is `const` data for `od-runtime` to work with.
+//! Each family is one module, made from one EDS file; [`DEVICES`] lists all devices.
+//! Everything here is `const` data for `od-runtime`.
 //!
 //! ```
 //! use od_devices::find;

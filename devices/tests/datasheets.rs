@@ -1,4 +1,4 @@
-//! The pages under docs/datasheets are what the devices say of themselves.
+//! The pages under docs/datasheets agree with the devices.
 //!
 //! `ODKIT_ACCEPT=1 cargo test -p od-devices --all-features --test datasheets` writes them again.
 #![cfg(feature = "text")]
@@ -15,7 +15,7 @@ fn folder() -> PathBuf {
 }
 
 #[test]
-fn every_page_is_current_and_there_is_no_other() {
+fn every_page_is_current_and_no_page_is_left_over() {
     let accept = std::env::var_os("ODKIT_ACCEPT").is_some();
     for kind in DEVICES {
         let path = folder().join(format!("{}.md", kind.name));
@@ -43,7 +43,7 @@ fn every_page_is_current_and_there_is_no_other() {
 }
 
 #[test]
-fn a_page_has_every_value_and_what_is_particular_to_the_device() {
+fn a_page_has_every_value_and_the_special_features() {
     for kind in DEVICES {
         let page = datasheet::page(kind);
         let rows = page.lines().filter(|line| line.contains(" | r")).count();
@@ -74,7 +74,7 @@ fn a_page_has_every_value_and_what_is_particular_to_the_device() {
 }
 
 #[test]
-fn names_of_a_file_cannot_break_the_table() {
+fn names_in_a_file_cannot_break_the_table() {
     let text = "[DeviceInfo]\nProductName=a|b\n[2000]\nParameterName=x | *y*\nDataType=0x0005\n";
     let tables = od_eds::Tables::new(&od_eds::parse(text).description);
     let page = od_eds::convert::markdown::page("a|b", tables.dictionary());

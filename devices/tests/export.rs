@@ -1,11 +1,11 @@
-//! The EDS that a device writes is the device.
+//! The exported EDS describes the same device.
 #![cfg(feature = "text")]
 
 use od_devices::DEVICES;
 use od_eds::{Tables, check};
 
 #[test]
-fn an_exported_eds_gives_the_same_dictionary_and_nothing_to_report() {
+fn an_exported_eds_gives_the_same_dictionary_without_findings() {
     for kind in DEVICES {
         let text = od_devices::text::eds(kind);
         let loaded = od_eds::load(&text);
@@ -18,7 +18,7 @@ fn an_exported_eds_gives_the_same_dictionary_and_nothing_to_report() {
 }
 
 #[test]
-fn what_is_said_of_the_device_is_what_its_objects_say() {
+fn facts_about_the_device_agree_with_its_objects() {
     for kind in DEVICES {
         let description = od_eds::parse(&od_devices::text::eds(kind)).description;
         let info = description.section("DeviceInfo").unwrap();
@@ -43,14 +43,14 @@ fn what_is_said_of_the_device_is_what_its_objects_say() {
         assert_eq!(value("NrOfRXPDO"), "0");
         assert_eq!(value("LSS_Supported"), "1");
         assert_eq!(value("SimpleBootUpSlave"), "1");
-        // 10 kbit/s is code 0 of 2100h, which an EN580C does not have.
+        // 10 kbit/s is code 0 of 2100h, which the EN580C does not support.
         let slow = if kind.name == "en580c" { "0" } else { "1" };
         assert_eq!(value("BaudRate_10"), slow, "{}", kind.name);
     }
 }
 
 #[test]
-fn the_files_of_the_project_say_what_an_export_says() {
+fn the_files_of_the_project_equal_their_exports() {
     for (name, text) in [
         ("gxmm", include_str!("../eds/GXMM.eds")),
         ("eam_mt", include_str!("../eds/EAM_MT.eds")),

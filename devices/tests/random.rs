@@ -1,7 +1,7 @@
-//! Any frame, any news of the CAN controller, power that goes at any moment: on every device no
-//! panic, no answer to frames for others, no value outside its limits, no clock that stops.
+//! Random frames, CAN controller events and power cuts: no device panics, answers frames for
+//! others, has a value outside its limits, or stops its clock.
 //!
-//! `OD_RANDOM_FRAMES=10000000` plays this number of frames in all.
+//! `OD_RANDOM_FRAMES=10000000` sets the total number of frames.
 
 use od_bench::shaft::{self, Shaft};
 use od_devices::DEVICES;
@@ -12,7 +12,7 @@ use odkit::nmt::State;
 use odkit::storage::{Memory, image};
 use odkit::{BusEvent, CanId, Frame, Instant, Lent, Node, NodeId, Store};
 
-/// xorshift64*: the same frames on every run.
+/// xorshift64*: the same frames in every run.
 struct Random(u64);
 
 impl Random {
@@ -43,7 +43,7 @@ struct Bench {
     encoder: Encoder<Shaft>,
     node: Node,
     now: Instant,
-    /// SDO requests to this node that were not answered yet.
+    /// SDO requests to this node without a response yet.
     open: usize,
 }
 
@@ -81,7 +81,7 @@ impl Bench {
         self.drain();
     }
 
-    /// Checks that each frame that is sent is allowed.
+    /// Checks that each sent frame is allowed.
     fn drain(&mut self) {
         let node_id = u32::from(self.node.node_id().raw());
         while let Some(frame) = self.with(|node, device, now| node.poll_transmit(device, now)) {
@@ -113,7 +113,7 @@ impl Bench {
             self.with(|node, device, now| node.handle_timeout(device, now));
             self.drain();
             turns += 1;
-            // Two PDOs, a heartbeat and the rest, each at most once a millisecond.
+            // Two PDOs, a heartbeat and others, each at most once a millisecond.
             assert!(turns <= 8 * (millis + 1), "time stops at {:?}", self.now);
         }
         self.now = end;
@@ -146,7 +146,7 @@ impl Bench {
         }
     }
 
-    /// A frame that means something more often than chance would have it.
+    /// A frame that is valid more often than a random one.
     fn frame(&mut self, random: &mut Random) -> Frame {
         let node_id = u16::from(self.node.node_id().raw());
         let sdo = 0x600 + node_id;

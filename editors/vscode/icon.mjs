@@ -1,4 +1,4 @@
-// icon.svg as the PNG that the marketplace wants: `npm run icon`.
+// Makes the PNG of icon.svg that the marketplace requires: `npm run icon`.
 
 import { readFile, writeFile } from "node:fs/promises";
 import { Resvg } from "@resvg/resvg-js";

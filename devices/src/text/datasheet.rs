@@ -1,7 +1,7 @@
-//! A device on one page, made of what it is compiled from.
+//! The datasheet of a device, from its dictionary and profiles.
 //!
-//! The texts are ours; the facts come from the dictionary and the profiles, so a page cannot say
-//! what the device does not do.
+//! The texts are ours; the facts come from dictionary and profiles, so a page agrees with
+//! the behaviour of the device.
 
 mod encoder;
 mod notes;

@@ -1,11 +1,11 @@
-//! A compiled device as an EDS, for masters and tools that want a file.
+//! A compiled device as an EDS, for masters and tools that need a file.
 
 use std::format;
 use std::prelude::v1::*;
 
 use odkit::DeviceKind;
 
-/// The day of the facts; the texts of a device do not change by being written.
+/// Date of the facts; it does not change when a file is written.
 const DATE: &str = "11-21-2026";
 
 const COMMENTS: &[&str] = &[
@@ -13,12 +13,12 @@ const COMMENTS: &[&str] = &[
     "StorageLocation comments name the group of 1010h that saves a value.",
 ];
 
-/// Name of its EDS file: its own in capitals.
+/// Name of its EDS file: its name in capitals.
 pub fn eds_name(kind: &DeviceKind) -> String {
     format!("{}.eds", kind.name.to_uppercase())
 }
 
-/// Its EDS. Read again it gives the same dictionary.
+/// Its EDS. Parsing it gives the same dictionary.
 ///
 /// ```
 /// let gcam = od_devices::find("gcam").unwrap();

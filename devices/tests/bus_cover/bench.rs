@@ -1,4 +1,4 @@
-//! A whole device with node ID 1, switches at 0 and an empty EEPROM, talked to in frames.
+//! A device with node ID 1, switches at 0 and an empty EEPROM, used by frames.
 
 use od_bench::shaft::{self, Shaft};
 use od_devices::find;
@@ -50,7 +50,7 @@ impl Bench {
         call(&mut self.node, &mut device, self.now)
     }
 
-    /// Everything that the device sends now, in its order.
+    /// All frames that the device sends now, in order.
     pub(crate) fn sent(&mut self) -> Vec<Frame> {
         let frames: Vec<Frame> = self.with(|node, device, now| {
             std::iter::from_fn(|| node.poll_transmit(device, now)).collect()
@@ -68,7 +68,7 @@ impl Bench {
         self.sent();
     }
 
-    /// Puts the shaft where the sensor begins to say `raw`.
+    /// Moves the shaft to where the sensor value becomes `raw`.
     pub(crate) fn set_raw(&mut self, raw: u64) {
         let sensor = self.encoder.sensor();
         self.encoder.shaft.set_raw(self.now, sensor, raw);
@@ -87,7 +87,7 @@ impl Bench {
         self.sent()
     }
 
-    /// An expedited download; the abort code if there was one.
+    /// An expedited download; returns the abort code, if any.
     pub(crate) fn write(&mut self, index: u16, sub: u8, value: u32) -> Result<(), u32> {
         let [low, high] = index.to_le_bytes();
         let [a, b, c, d] = value.to_le_bytes();

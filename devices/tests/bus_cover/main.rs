@@ -1,4 +1,4 @@
-//! The bus-cover family as manual 000 has it, device by device and frame by frame.
+//! The bus-cover family as in manual 000, device by device and frame by frame.
 
 mod bench;
 mod models;

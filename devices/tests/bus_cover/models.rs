@@ -1,18 +1,18 @@
 //! Differences between the eight devices, from manual 000.
 
-/// A device by its table cells.
+/// A device, by its cells in the tables.
 pub(crate) struct Model {
     /// 1008h, in capitals (MANUALS.md C-GX-09).
     pub(crate) name: &'static str,
     pub(crate) family: &'static str,
-    /// 1000h: 2 is a multiturn, 1 a singleturn.
+    /// 1000h: 2 for a multiturn, 1 for a singleturn.
     pub(crate) device_type: u32,
     /// 1018h:02 (C-GX-30).
     pub(crate) product_code: u32,
-    /// 6501h; also what 6001h is at first, and at most.
+    /// 6501h; also default and maximum of 6001h.
     pub(crate) resolution: u32,
-    /// 6502h; also what 6002h is at first, and at most. In decimal, as chapter 4.4.2 gives
-    /// it beside a hex number of which some have lost a digit (C-GX-02 to C-GX-04).
+    /// 6502h; also default and maximum of 6002h. In decimal, as in chapter 4.4.2, since some of
+    /// the hexadecimal numbers beside it have lost a digit (C-GX-02 to C-GX-04).
     pub(crate) range: u32,
     /// 6502h / 6501h (C-GX-31).
     pub(crate) turns: u32,

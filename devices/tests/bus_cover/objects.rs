@@ -1,4 +1,4 @@
-//! The tables of manual 000, chapters 4.4.1 and 4.4.2, against the dictionaries.
+//! Compares the dictionaries with the tables of manual 000, chapters 4.4.1 and 4.4.2.
 
 use od_devices::{DEVICES, find};
 use odkit::{Access, DataType, Group, Literal};
@@ -6,9 +6,9 @@ use odkit::{Access, DataType, Group, Literal};
 use crate::models::{MODELS, Model};
 
 /// Index, sub-index, type, access, default, EEPROM. EEPROM: the group of 1010h that saves
-/// it; `F` was written in the factory, which no 1011h takes back (MANUALS.md C-GX-10, C-GX-28).
+/// it; `F` is factory data, which 1011h does not change (MANUALS.md C-GX-10, C-GX-28).
 ///
-/// A default in braces is a cell of [`MODELS`], which differs from device to device.
+/// A default in braces is a field of [`MODELS`], which differs between devices.
 const OBJECTS: &str = "
 1000 00 U32 ro {device_type} -
 1001 00 U8  ro 00                -
@@ -169,7 +169,7 @@ fn every_object_of_the_table_and_no_other() {
 }
 
 #[test]
-fn limits_are_those_of_the_values() {
+fn limits_are_those_of_the_tables() {
     for model in &MODELS {
         let dictionary = find(&model.id()).unwrap().dictionary;
         let limits: Vec<_> = dictionary
@@ -196,7 +196,7 @@ fn limits_are_those_of_the_values() {
 }
 
 #[test]
-fn the_sensor_is_what_6501h_and_6502h_say() {
+fn the_sensor_matches_6501h_and_6502h() {
     for model in &MODELS {
         let kind = find(&model.id()).unwrap();
         assert_eq!(kind.title, format!("{}, {}", model.name, model.family));
@@ -210,9 +210,9 @@ fn the_sensor_is_what_6501h_and_6502h_say() {
     }
 }
 
-/// C-GX-30: nothing but the name tells an activo from a multivoPlus.
+/// C-GX-30: only the name distinguishes an activo from a multivoPlus.
 #[test]
-fn an_activo_is_a_multivo_plus_by_another_name() {
+fn an_activo_differs_from_a_multivo_plus_in_its_name_only() {
     for (activo, plus) in [("gdmm", "gbmm"), ("gdam", "gbam")] {
         let [activo, plus] = [activo, plus].map(|name| find(name).unwrap().dictionary);
         for (one, other) in activo.entries().iter().zip(plus.entries()) {

@@ -1,4 +1,4 @@
-//! The position of each device where its range ends (manual 000, objects 6000h to 6004h,
+//! The position of each device at the ends of its range (manual 000, objects 6000h to 6004h,
 //! 6501h, 6502h, 6509h), in frames.
 
 use odkit::Frame;
@@ -17,7 +17,7 @@ impl Bench {
         self.set_raw(raw.into());
     }
 
-    /// Turns by this number of steps of the sensor, also past its ends.
+    /// Turns the shaft by this number of sensor steps, also past the ends of the range.
     fn turn(&mut self, model: &Model, steps: i64) {
         let step = (1 << 32) / i64::from(model.resolution);
         let by = Angle::from_fractions(steps * step);
@@ -29,7 +29,7 @@ impl Bench {
     }
 }
 
-/// A device, and the name for what goes wrong with it.
+/// A device, and its name for messages of failures.
 fn all() -> impl Iterator<Item = (&'static Model, Bench)> {
     MODELS.iter().map(|model| (model, Bench::new(&model.id())))
 }
@@ -46,7 +46,7 @@ fn after_the_last_step_comes_the_first() {
         assert_eq!(bench.position(), last, "{}", model.name);
         bench.turn(model, i64::from(model.range));
         assert_eq!(bench.position(), last, "{}", model.name);
-        // A turn less than all: a singleturn does not see it.
+        // One revolution less than all: a singleturn does not count revolutions.
         bench.turn(model, -i64::from(model.resolution));
         let expected = if model.is_multiturn() {
             last - model.resolution
@@ -58,7 +58,7 @@ fn after_the_last_step_comes_the_first() {
 }
 
 #[test]
-fn the_pdo_carries_all_bits() {
+fn the_pdo_contains_all_bits() {
     for (model, mut bench) in all() {
         bench.put(model.range - 1);
         assert_eq!(bench.send(0x000, &[1, 1]), []);
@@ -86,20 +86,20 @@ fn resolution_and_range_have_their_limits() {
             }
         }
         assert_eq!(bench.position(), model.range - 1);
-        // What the sensor is does not follow.
+        // The objects of the sensor do not follow.
         bench.write(0x6001, 0, 1).unwrap();
         let sensor = (bench.read(0x6501, 0), bench.read(0x6502, 0));
         assert_eq!(sensor, (model.resolution, model.range));
-        // One step a revolution: the range is more than the sensor has turns (U-12).
+        // One step per revolution: the range has more revolutions than the sensor (U-12).
         assert_eq!(bench.position(), model.turns - 1, "{}", model.name);
         bench.turn(model, 1);
         assert_eq!(bench.position(), 0, "{}", model.name);
     }
 }
 
-/// Offsets and what they make of the position, against the same in 128 bits.
+/// Offsets and positions, compared with a calculation in 128 bits.
 #[test]
-fn a_preset_holds_wherever_the_shaft_is() {
+fn a_preset_works_at_any_position() {
     for (model, mut bench) in all() {
         for range in [model.range, model.range - 1, model.range / 2 + 1, 1000, 1] {
             bench.write(0x6002, 0, range).unwrap();
@@ -121,7 +121,7 @@ fn a_preset_holds_wherever_the_shaft_is() {
                     let next = (raw % i128::from(range) + offset) % i128::from(range);
                     assert_eq!(i128::from(bench.position()), next, "{what}, a step on");
                 }
-                // Refused ones leave all as it was.
+                // Refused downloads change nothing.
                 let before = [0x6003, 0x6004, 0x6509].map(|index| bench.read(index, 0));
                 for refused in [range, u32::MAX] {
                     assert_eq!(bench.write(0x6003, 0, refused), TOO_GREAT, "{}", model.name);
@@ -151,7 +151,7 @@ fn counter_clockwise_it_counts_down_from_the_range() {
 }
 
 #[test]
-fn a_range_that_is_no_power_of_two() {
+fn a_range_that_is_not_a_power_of_two() {
     for (model, mut bench) in all() {
         let (resolution, range) = (model.resolution / 4 * 3, model.range / 4 * 3);
         bench.write(0x6001, 0, resolution).unwrap();
@@ -167,7 +167,7 @@ fn a_range_that_is_no_power_of_two() {
         }
         bench.turn(model, -1);
         assert_eq!(bench.position(), range - 1, "{}", model.name);
-        // Without scaling it is the sensor's own position, and back.
+        // Without scaling it is the raw position of the sensor.
         bench.write(0x6000, 0, 0).unwrap();
         assert_eq!(bench.position(), model.range - 1, "{}", model.name);
         bench.write(0x6000, 0, 4).unwrap();
@@ -197,7 +197,7 @@ fn sdo_and_lss_name_the_same_product() {
         assert_eq!(bench.read(0x1000, 0), model.device_type);
         assert_eq!(bench.read(0x1008, 0).to_le_bytes(), model.name.as_bytes());
         assert_eq!(bench.read(0x1018, 2), model.product_code);
-        // Stopped, switched on for all, product code inquired (chapter 4.3.7).
+        // In Stopped: switch state global, inquire product code (chapter 4.3.7).
         assert_eq!(bench.send(0x000, &[2, 1]), []);
         bench.send(0x7E5, &[0x04, 1, 0, 0, 0, 0, 0, 0]);
         let answer = bench.send(0x7E5, &[0x5B, 0, 0, 0, 0, 0, 0, 0]);
@@ -209,7 +209,7 @@ fn sdo_and_lss_name_the_same_product() {
 
 /// 6505h and 6506h: a singleturn has no battery.
 #[test]
-fn a_multiturn_alone_has_a_battery() {
+fn only_a_multiturn_has_a_battery() {
     for (model, mut bench) in all() {
         bench.encoder.set_fault(Fault::Battery, true);
         bench.with(|node, device, now| node.handle_change(device, now));

@@ -1,4 +1,4 @@
-//! Save, restore and power cycles of a whole gxmm (manual 000, objects 1010h and 1011h,
+//! Save, restore and power cycles of a gxmm (manual 000, objects 1010h and 1011h,
 //! chapter 7.2.1).
 
 use od_bench::shaft;
@@ -12,7 +12,7 @@ const SAVE: u32 = u32::from_le_bytes(*b"save");
 const LOAD: u32 = u32::from_le_bytes(*b"load");
 
 #[test]
-fn what_is_saved_is_there_after_a_power_cycle() {
+fn saved_values_are_loaded_after_a_power_cycle() {
     let mut bench = Bench::new("gxmm");
     bench.set_raw(0x7_9592);
     bench.write(0x6003, 0, 1000).unwrap();
@@ -37,7 +37,7 @@ fn what_is_saved_is_there_after_a_power_cycle() {
 }
 
 #[test]
-fn the_node_id_acts_at_the_next_start() {
+fn the_node_id_takes_effect_at_the_next_start() {
     let mut bench = Bench::new("gxmm");
     assert_eq!(bench.booted, 1);
     bench.write(0x2101, 0, 2).unwrap();
@@ -82,7 +82,7 @@ fn statistics_survive_a_restore() {
 }
 
 #[test]
-fn a_save_that_power_cuts_leaves_the_set_before() {
+fn an_interrupted_save_leaves_the_set_before() {
     let mut bench = Bench::new("gxmm");
     bench.write(0x6001, 0, 1000).unwrap();
     bench.write(0x6002, 0, 5000).unwrap();
@@ -104,7 +104,7 @@ fn a_save_that_power_cuts_leaves_the_set_before() {
 }
 
 /// Chapter 4.3.5: 5530h, EEPROM error. The node uses the factory values, and the error lasts until a
-/// save or a restore leaves something sound.
+/// save or a restore writes a valid set.
 #[test]
 fn a_damaged_eeprom_is_an_error() {
     let mut bench = Bench::new("gxmm");

@@ -1,13 +1,13 @@
 //! The trace of manual 000, chapter 6.4: a gxmm with node ID 1 whose sensor rests at 79592h.
 //!
-//! Values that the print lost are restored as MANUALS.md C-GX-52 has them.
+//! Values that the print has lost are restored as in MANUALS.md C-GX-52.
 
 use od_bench::shaft;
 use od_devices::find;
 use odkit::storage::{Memory, image};
 use odkit::{CanId, Frame, Instant, Lent, Node, NodeId};
 
-/// Frames of the bus in their order: identifier, data, and `<` where the encoder sends it.
+/// Frames of the bus in order: CAN-ID, data, and `<` if the encoder sends it.
 const TRACE: &str = "
 701 < 00
 601 > 40026000          581 < 4302600000000020
@@ -36,7 +36,7 @@ const TRACE: &str = "
 ";
 
 #[test]
-fn every_answer_is_the_printed_one() {
+fn every_response_is_the_printed_one() {
     let kind = find("gxmm").unwrap();
     let mut values = vec![0; kind.dictionary.store_len()];
     let mut storage = Memory::new(vec![0xFF; image::capacity_needed(&kind.dictionary)]);
@@ -70,7 +70,7 @@ fn every_answer_is_the_printed_one() {
             node.handle_frame(&mut device, now, &frame);
             continue;
         }
-        // A PDO comes when its time has come.
+        // A PDO is sent when its time has come.
         let sent = loop {
             match (node.poll_transmit(&mut device, now), node.poll_timeout()) {
                 (Some(sent), _) => break sent,

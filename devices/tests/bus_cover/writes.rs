@@ -1,4 +1,4 @@
-//! Access of writes: the edges of every value, every length, every command byte.
+//! Downloads: the limits of every value, every length, every command byte.
 
 use od_devices::find;
 use odkit::Access;
@@ -15,7 +15,7 @@ const TOO_GREAT: u32 = 0x0609_0031;
 const GENERAL: u32 = 0x0800_0000;
 const SIGNATURE: u32 = 0x0800_0020;
 
-/// A writable object: index, sub-index, bytes, and what becomes of a value.
+/// A writable object: index, sub-index, bytes, and the effect of a value.
 type Rule = (u16, u8, usize, fn(u32, &Model) -> Result<(), u32>);
 
 fn any(_: u32, _: &Model) -> Result<(), u32> {
@@ -43,8 +43,8 @@ fn transmission_type(value: u32, _: &Model) -> Result<(), u32> {
     listed(matches!(value, 1..=240 | 254))
 }
 
-/// An identifier of 11 bits has only 0 beside it, and is not one that CiA 301 (table 40) reserves;
-/// with bit 31 it may be any.
+/// A CAN-ID of 11 bits has 0 in its other bits, and is not one that CiA 301 (table 40) restricts;
+/// with bit 31 set it may be any.
 fn cob_id(value: u32, has_valid_bit: bool) -> Result<(), u32> {
     let id = value & 0x1FFF_FFFF;
     let is_extended = value & 1 << 29 != 0;
@@ -56,7 +56,7 @@ fn cob_id(value: u32, has_valid_bit: bool) -> Result<(), u32> {
     listed(is_extended || (id < 1 << 11 && (is_off || !is_kept)))
 }
 
-/// Every writable object of manual 000. 6003h comes after 6002h, which takes its upper limit.
+/// Every writable object of manual 000. 6003h follows 6002h, which is its upper limit.
 const RULES: &[Rule] = &[
     (0x1003, 0, 1, |value, _| listed(value == 0)),
     // U-21: no SYNC producer.
@@ -107,7 +107,7 @@ const RULES: &[Rule] = &[
     (0x6200, 0, 2, any),
 ];
 
-/// All values of one byte, the edges of longer ones.
+/// All values of one byte, and the limits of longer ones.
 fn values(bytes: usize, model: &Model) -> Vec<u32> {
     if bytes == 1 {
         return (0..=0xFF).collect();
@@ -130,13 +130,13 @@ fn values(bytes: usize, model: &Model) -> Vec<u32> {
             0x2000_0000,
             0x8000_0601,
         ]);
-        // The range as it was is what the values after it rely on.
+        // Later values rely on the original range.
         values.push(model.range);
     }
     values
 }
 
-/// Returns the device's answer to a frame of eight bytes; `None`: nothing.
+/// Returns the response to a frame of eight bytes; `None` if there is none.
 fn answer(bench: &mut Bench, request: [u8; 8]) -> Option<Result<(), u32>> {
     let answers = bench.send(0x601, &request);
     let [answer] = &answers[..] else {
@@ -172,15 +172,15 @@ fn every_writable_object_has_a_rule() {
             .collect();
         let rules: Vec<_> = RULES.iter().map(|rule| (rule.0, rule.1, rule.2)).collect();
         assert_eq!(writable, rules, "{}", model.name);
-        // The manual has nothing that can only be written.
+        // The manual has no write-only object.
         assert!(entries.iter().all(|entry| entry.access != Access::Wo));
     }
 }
 
-/// One below, the lowest, the highest and one above, with the codes of U-05; a value that was
-/// refused is not there, one that was taken is.
+/// The values below, at and above both limits, with the codes of U-05; a refused value
+/// is not stored, an accepted one is.
 #[test]
-fn the_edges_of_every_value() {
+fn the_limits_of_every_value() {
     for model in &MODELS {
         let mut bench = Bench::new(&model.id());
         for &(index, sub, bytes, rule) in RULES {
@@ -196,8 +196,8 @@ fn the_edges_of_every_value() {
     }
 }
 
-/// 23h, 27h, 2Bh, 2Fh say 4 to 1 bytes: fewer than the object has are a general error, of more
-/// the low ones count (C-GX-13). 22h leaves it to the object (C-GX-12).
+/// 23h, 27h, 2Bh, 2Fh indicate 4 to 1 bytes: fewer than the object has are a general error, of more
+/// the low ones are used (C-GX-13). 22h indicates none, and the object decides (C-GX-12).
 #[test]
 fn every_length() {
     for model in &MODELS {
@@ -221,7 +221,7 @@ fn every_length() {
     }
 }
 
-/// Frames of 4 to 8 bytes are requests (C-GX-15); what they do not carry was not given.
+/// Frames of 4 to 8 bytes are requests (C-GX-15); missing bytes are not data.
 #[test]
 fn every_dlc() {
     let model = &MODELS[0];
@@ -251,7 +251,7 @@ fn every_dlc() {
 }
 
 #[test]
-fn nothing_that_is_read_only_can_be_written() {
+fn no_read_only_value_can_be_written() {
     for model in &MODELS {
         let mut bench = Bench::new(&model.id());
         let entries = find(&model.id()).unwrap().dictionary.entries();
@@ -269,9 +269,9 @@ fn nothing_that_is_read_only_can_be_written() {
     }
 }
 
-/// All indices, all sub-indices: what the tables do not have is 06020000h and 06090011h.
+/// All indices and sub-indices: 06020000h and 06090011h for those outside the tables.
 #[test]
-fn what_is_not_there() {
+fn objects_that_do_not_exist() {
     let mut bench = Bench::new("gxmm");
     let dictionary = find("gxmm").unwrap().dictionary;
     for index in 0..=u16::MAX {
@@ -294,7 +294,7 @@ fn what_is_not_there() {
 }
 
 /// All 256 command bytes, to 6003h with four bytes of data. The list of the manual has 22h,
-/// 23h, 2Bh, 2Fh, 40h and 80h; CiA 301 says which bits of them mean nothing.
+/// 23h, 2Bh, 2Fh, 40h and 80h; by CiA 301 some bits of them have no meaning.
 #[test]
 fn every_command_byte() {
     const VALUE: u32 = 0x0304;
@@ -304,12 +304,12 @@ fn every_command_byte() {
             bench.write(0x6003, 0, 7).unwrap();
             let given = answer(&mut bench, request(command, 0x6003, 0, VALUE));
             let (expected, after) = match (command >> 5, command & 3, command >> 2 & 3) {
-                // Download: expedited only, with a size that suffices.
+                // Download: expedited only, with a sufficient size.
                 (1, 3, 1..) => (Some(Err(GENERAL)), 7),
                 (1, 2 | 3, _) => (Some(Ok(())), VALUE),
                 // Upload.
                 (2, _, _) => (Some(Ok(())), 7),
-                // The abort of a client.
+                // Abort of a client.
                 (4, _, _) => (None, 7),
                 _ => (Some(Err(INVALID_COMMAND)), 7),
             };

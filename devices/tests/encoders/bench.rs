@@ -1,4 +1,4 @@
-//! A whole device with node ID 1 and an empty EEPROM, talked to in frames of eight bytes.
+//! A device with node ID 1 and an empty EEPROM, used by frames of eight bytes.
 
 use od_bench::shaft::Shaft;
 use od_devices::find;
@@ -23,7 +23,7 @@ pub(crate) struct Bench<M: Motion = Shaft> {
     pub(crate) encoder: Encoder<M>,
     node: Node,
     pub(crate) now: Instant,
-    /// Frames that were not requested, in their order.
+    /// Frames that were not requested, in order.
     pub(crate) heard: Vec<Frame>,
 }
 
@@ -102,13 +102,13 @@ impl<M: Motion> Bench<M> {
     }
 
     pub(crate) fn power_off(&mut self) {
-        // A save that goes on in the background is not what is tested here.
+        // This test is not about a save in the background.
         self.wait(2_000);
         self.encoder.power_off(self.now);
         self.node.power_off();
     }
 
-    /// Lets time pass; everything that is due is done at its time.
+    /// Lets time pass, and handles all deadlines at their time.
     pub(crate) fn wait(&mut self, ms: u64) {
         let until = self.now.plus_millis(ms);
         while let Some(at) = self.node.poll_timeout().filter(|at| *at <= until) {
@@ -119,7 +119,7 @@ impl<M: Motion> Bench<M> {
         self.now = until;
     }
 
-    /// An NMT command to all, and the time that a reset takes.
+    /// An NMT command to all nodes, and the time of a reset.
     pub(crate) fn nmt(&mut self, command: u8) {
         self.send(0, &[command, 0]);
         self.wait(1000);
@@ -134,7 +134,7 @@ impl<M: Motion> Bench<M> {
         self.node.state()
     }
 
-    /// Something in the world changed.
+    /// An input of the application has changed.
     pub(crate) fn change(&mut self, act: impl FnOnce(&mut Encoder<M>, Instant)) {
         act(&mut self.encoder, self.now);
         self.with(|node, device, now| node.handle_change(device, now));
@@ -152,7 +152,7 @@ impl<M: Motion> Bench<M> {
         self.send(0x601, &data);
         let is_answer = |frame: &Frame| frame.id() == CanId::standard(0x581);
         for _ in 0..1000 {
-            // A save is answered when it is done.
+            // A save is confirmed when it is complete.
             if self.heard.iter().any(is_answer) {
                 break;
             }
@@ -166,7 +166,7 @@ impl<M: Motion> Bench<M> {
         answer[0].data().try_into().unwrap()
     }
 
-    /// An expedited download; the abort code if there was one.
+    /// An expedited download; returns the abort code, if any.
     pub(crate) fn write(&mut self, index: u16, sub: u8, value: u32) -> Result<(), u32> {
         let [low, high] = index.to_le_bytes();
         let [a, b, c, d] = value.to_le_bytes();
@@ -194,7 +194,7 @@ impl<M: Motion> Bench<M> {
         self.read(0x6004, 0)
     }
 
-    /// The EMCYs since the last question: code, 1001h, 6503h, 6505h.
+    /// The EMCY messages since the last call: code, 1001h, 6503h, 6505h.
     pub(crate) fn emcys(&mut self) -> Vec<(u16, u8, u16, u16)> {
         let heard = std::mem::take(&mut self.heard);
         let emcys = heard

@@ -1,11 +1,11 @@
-//! The diagnostic sources of manual 001, chapter 9.5, injected and real.
+//! The sources of errors in manual 001, chapter 9.5, injected and real.
 
 use odkit::encoder::Fault;
 use odkit::nmt::State;
 
 use crate::bench::{Bench, OUT_OF_RANGE, SAVE};
 
-/// Code of 2116h, EMCY code, 1001h, 6503h, 6505h, 2117h; whether it outlasts a start.
+/// Code of 2116h, EMCY code, 1001h, 6503h, 6505h, 2117h; whether it lasts over a restart.
 type Row = (u32, u16, u8, u16, u16, u16, bool);
 
 const COMMON: [Row; 9] = [
@@ -45,7 +45,7 @@ fn shown(bench: &mut Bench) -> [u32; 4] {
 }
 
 #[test]
-fn each_code_says_what_its_row_says() {
+fn each_code_has_the_effects_of_its_row() {
     for (name, own, others) in [
         ("eam_mt", &SINGLE[..], &REDUNDANT[..]),
         ("eam_st", &SINGLE[..], &REDUNDANT[..]),
@@ -128,7 +128,7 @@ fn codes_add_up_and_zero_ends_them_all() {
     bench.write(0x2116, 1, 0).unwrap();
     assert_eq!(bench.emcys(), [(0, 0, 0, 0)], "once, when no error is left");
     assert_eq!(shown(&mut bench), [0; 4]);
-    // All of them at once: more than any queue of theirs must lose.
+    // All at once: no queue may lose one.
     let mut bench = Bench::new("eam_red");
     for row in COMMON.iter().chain(&REDUNDANT) {
         bench.write(0x2116, 1, row.0).unwrap();
@@ -139,13 +139,13 @@ fn codes_add_up_and_zero_ends_them_all() {
 }
 
 #[test]
-fn the_temperature_comes_and_goes() {
+fn a_temperature_warning_begins_and_ends() {
     let mut bench = Bench::new("eam_mt");
     bench.emcys();
     bench.change(|encoder, _| encoder.set_fault(Fault::Temperature, true));
     bench.change(|encoder, _| encoder.set_fault(Fault::Temperature, false));
     assert_eq!(bench.emcys(), [(0x4200, 0x09, 0, 0), (0, 0, 0, 0)]);
-    // What was there before the start is seen as well.
+    // A condition from before the start is detected, too.
     bench.change(|encoder, _| encoder.set_fault(Fault::Temperature, true));
     bench.nmt(0x81);
     let hot = (0x4200, 0x09, 0, 0);
@@ -153,7 +153,7 @@ fn the_temperature_comes_and_goes() {
 }
 
 #[test]
-fn memory_fails_at_the_start_or_later() {
+fn a_memory_error_at_the_start_or_later() {
     let mut bench = Bench::new("eam_mt");
     bench.emcys();
     bench.change(|encoder, _| encoder.set_fault(Fault::Memory, true));
@@ -170,7 +170,7 @@ fn memory_fails_at_the_start_or_later() {
 }
 
 #[test]
-fn the_watchdog_is_told_of_after_the_boot_up() {
+fn the_watchdog_is_reported_after_the_boot_up() {
     let mut bench = Bench::new("eam_mt");
     bench.change(|encoder, _| encoder.set_fault(Fault::Watchdog, true));
     bench.emcys();
@@ -213,7 +213,7 @@ fn a_redundant_battery_is_tested_while_power_is_off() {
 }
 
 #[test]
-fn the_battery_of_one_that_is_not_redundant_is_watched_all_the_time() {
+fn the_battery_of_an_encoder_that_is_not_redundant_is_monitored_always() {
     let mut bench = Bench::new("eam_mt");
     bench.emcys();
     bench.change(|encoder, _| encoder.set_fault(Fault::Battery, true));
@@ -250,7 +250,7 @@ fn the_error_behaviour_follows_an_injected_error() {
 }
 
 #[test]
-fn what_is_injected_is_not_saved() {
+fn injected_errors_are_not_saved() {
     let mut bench = Bench::new("eam_mt");
     bench.write(0x2116, 1, 0x0001_0009).unwrap();
     bench.write(0x1010, 1, SAVE).unwrap();

@@ -1,9 +1,9 @@
-//! The electronic gear in both dialects: manual 001 chapter 4.4.6, manual 003 chapter 6.6.
+//! The electronic gear of both manuals: manual 001, chapter 4.4.6; manual 003, chapter 6.6.
 
 use crate::bench::{Bench, INCOMPATIBLE, OUT_OF_RANGE, SAVE, TOO_GREAT, TOO_LITTLE};
 
 #[test]
-fn eam_acts_when_it_was_saved_and_the_encoder_restarted() {
+fn the_eam_gear_takes_effect_after_save_and_restart() {
     let mut bench = Bench::new("eam_mt");
     bench.turn(25);
     assert_eq!(bench.position(), 409_600);
@@ -15,7 +15,7 @@ fn eam_acts_when_it_was_saved_and_the_encoder_restarted() {
         (3, 0, OUT_OF_RANGE),
         (3, 32_768, TOO_GREAT),
         (2, 32_767, Ok(())),
-        // i = 6.25, the manual's gear box.
+        // i = 6.25, the gear box in the manual.
         (2, 625, Ok(())),
         (3, 100, Ok(())),
         (1, 2, Ok(())),
@@ -33,7 +33,7 @@ fn eam_acts_when_it_was_saved_and_the_encoder_restarted() {
     );
     bench.nmt(0x81);
     assert_eq!(bench.position(), 65_536);
-    // Off is off at the next start, too.
+    // Switching off also takes effect with the next start.
     bench.write(0x2001, 1, 1).unwrap();
     assert_eq!(bench.position(), 65_536);
     bench.power_cycle(100, 0);
@@ -45,7 +45,7 @@ fn eam_acts_when_it_was_saved_and_the_encoder_restarted() {
 }
 
 #[test]
-fn eam_is_exact_over_many_revolutions_and_without_power() {
+fn the_eam_gear_is_exact_over_many_revolutions_and_without_power() {
     let mut bench = Bench::new("eam_mt");
     for (sub, value) in [(2, 17), (3, 8), (1, 2)] {
         bench.write(0x2001, sub, value).unwrap();
@@ -70,7 +70,7 @@ fn eam_is_exact_over_many_revolutions_and_without_power() {
 }
 
 #[test]
-fn eam_redundant_has_none() {
+fn the_redundant_eam_has_no_gear() {
     let mut bench = Bench::new("eam_red");
     assert_eq!(bench.write(0x2001, 1, 2), Err(0x0602_0000));
 }
@@ -121,7 +121,7 @@ fn en_6001h_is_computed_and_has_its_limit() {
         (1333, 5),
         "without effect"
     );
-    // 200000h steps per revolution are the most: 2^21 × 7.5.
+    // The maximum is 200000h steps per revolution: 2^21 × 7.5.
     assert_eq!(bench.write(0x6002, 0, 15_728_641), INCOMPATIBLE);
     bench.write(0x6002, 0, 15_728_640).unwrap();
     assert_eq!(bench.read(0x6001, 0), 0x20_0000);

@@ -1,5 +1,5 @@
-//! EAM and EN580C as manuals 001 and 003 have their encoders, in SDO frames; and the positions
-//! of every family against a second calculation.
+//! EAM and EN580C as in manuals 001 and 003, in SDO frames; and the positions
+//! of every family compared with a second calculation.
 
 mod bench;
 mod diagnosis;

@@ -20,12 +20,12 @@ fn eam_speed_in_steps_and_in_revolutions() {
     assert_eq!(speeds(&mut bench), (1000, 60));
     bench.write(0x6000, 0, 5).unwrap();
     assert_eq!(speeds(&mut bench), (-1000, -60));
-    // 2110h bit 0: speed does not follow 6000h bit 0.
+    // 2110h bit 0: the speed ignores bit 0 of 6000h.
     bench.write(0x2110, 0, 9).unwrap();
     assert_eq!(speeds(&mut bench), (1000, 60));
     bench.write(0x6000, 0, 1).unwrap();
     assert_eq!(speeds(&mut bench), (0x4000, 60), "scaling off");
-    // Half of the interval at twice the speed.
+    // Half of the interval, at twice the speed.
     bench.rpm(120_000);
     bench.wait(25);
     assert_eq!(speeds(&mut bench), (0x6000, 90));
@@ -33,7 +33,7 @@ fn eam_speed_in_steps_and_in_revolutions() {
     assert_eq!(speeds(&mut bench), (0x8000, 120));
     bench.rpm(-1);
     bench.wait(50);
-    // 16384 / 60000 of a step a second, towards 0.
+    // 16384 / 60000 of a step per second, rounded towards 0.
     assert_eq!(speeds(&mut bench), (0, 0));
     bench.rpm(-1_999_999);
     bench.wait(50);
@@ -41,7 +41,7 @@ fn eam_speed_in_steps_and_in_revolutions() {
 }
 
 #[test]
-fn eam_speed_is_held_at_both_ends() {
+fn eam_speed_is_limited_at_both_ends() {
     let mut bench = Bench::new("eam_mt");
     bench.write(0x6001, 0, 0x1_0000).unwrap();
     for (milli_rpm, steps, revolutions) in [
@@ -63,7 +63,7 @@ fn eam_speed_is_held_at_both_ends() {
 }
 
 #[test]
-fn eam_interval_and_what_starts_it_anew() {
+fn eam_speed_starts_again_after_a_change_of_the_interval() {
     let mut bench = Bench::new("eam_mt");
     for (value, expected) in [
         (0, OUT_OF_RANGE),
@@ -90,7 +90,7 @@ fn eam_interval_and_what_starts_it_anew() {
 }
 
 #[test]
-fn nothing_that_moves_the_position_makes_a_speed() {
+fn a_change_of_the_position_value_is_no_speed() {
     for (name, speed) in [("eam_mt", 0x4000), ("en580c", 0x2000)] {
         let mut bench = Bench::new(name);
         bench.rpm(60_000);
@@ -106,9 +106,9 @@ fn nothing_that_moves_the_position_makes_a_speed() {
 }
 
 /// 6000 revolutions a minute in one second are 100 revolutions a second squared, 100 × 2^16
-/// steps of the 16 bits.
+/// steps of 16 bits.
 #[test]
-fn eam_the_worked_example() {
+fn eam_the_example_of_the_manual() {
     let mut bench = Bench::new("eam_mt");
     let parameters = [1, 2, 3, 4].map(|sub| bench.read(0x6041, sub));
     assert_eq!(parameters, [2, 200, 1, 1092]);
@@ -122,7 +122,7 @@ fn eam_the_worked_example() {
         };
         assert_eq!(bench.read16(0x6040, 1), expected);
     }
-    // 0.8 s: speed is the mean of the last 50 ms.
+    // 0.8 s: the speed is the mean of the last 50 ms.
     assert_eq!(bench.read16(0x2118, 0), 4650);
     bench.wait(200);
     assert_eq!(bench.read16(0x6040, 1), 6001);
@@ -137,7 +137,7 @@ fn eam_the_worked_example() {
         (bench.read16(0x6040, 1), bench.read16(0x2118, 0)),
         (0, 6000)
     );
-    // Half a revolution a second more each second for a second, and 1000 revolutions before.
+    // Half a revolution per second more each second for a second, after 1000 revolutions.
     assert_eq!(bench.encoder.shaft.at(bench.now).fractions(), 70i64 << 32);
     bench.change(|encoder, now| encoder.shaft.ramp_to(now, 0, 500_000));
     bench.wait(400);
@@ -174,7 +174,7 @@ fn eam_acceleration_of_the_scaled_position() {
     }
     bench.write(0x6001, 0, 1000).unwrap();
     bench.wait(500);
-    // Steps of speed, 60 revolutions a minute each 100 ms: 10 revolutions a second squared.
+    // Steps of the speed, 60 revolutions per minute each 100 ms: 10 revolutions per second squared.
     for step in 1..=8 {
         bench.rpm(step * 60_000);
         if step >= 5 {
@@ -214,7 +214,7 @@ fn en_speed_has_a_source_a_factor_and_16_bits() {
     bench.rpm(-60_000);
     bench.wait(100);
     assert_eq!(bench.read16(0x6030, 1), i16::MAX);
-    // 2^21 raw steps per second, and 6000h does not affect them.
+    // 2^21 raw steps per second, and 6000h has no effect on them.
     bench.write(0x6031, 1, 2).unwrap();
     bench.write(0x6031, 4, 1024).unwrap();
     bench.write(0x6031, 3, 1).unwrap();
@@ -222,7 +222,7 @@ fn en_speed_has_a_source_a_factor_and_16_bits() {
     assert_eq!(bench.read16(0x6030, 1), 0, "another source starts again");
     bench.wait(1);
     assert_eq!(bench.read16(0x6030, 1), -2048);
-    // With the gear a revolution of the encoder is 1333 and a third steps.
+    // With the gear a revolution of the encoder is 1333 1/3 steps.
     bench.write(0x6000, 0, 4).unwrap();
     bench.write(0x6002, 0, 10_000).unwrap();
     for (sub, value) in [(2, 75), (3, 10), (1, 1)] {
@@ -233,7 +233,7 @@ fn en_speed_has_a_source_a_factor_and_16_bits() {
     bench.rpm(180_000);
     bench.wait(100);
     assert_eq!(bench.read16(0x6030, 1), 4000);
-    // Without limits (MANUALS.md C-EN-24): a minute is a minute.
+    // There are no limits (MANUALS.md C-EN-24): a minute is accepted.
     bench.write(0x6031, 2, 60_000).unwrap();
     bench.wait(30_000);
     bench.rpm(0);

@@ -7,14 +7,14 @@ use crate::bench::{Bench, OUT_OF_RANGE, SAVE, TOO_GREAT, TOO_LITTLE};
 const SIXTEENTH: i64 = 1 << 28;
 
 #[test]
-fn eam_shows_14_of_16_bits_and_counts_to_the_end_of_32() {
+fn eam_uses_14_of_16_bits_and_counts_to_the_end_of_32() {
     let mut bench = Bench::new("eam_mt");
     let objects = [0x6001, 0x6002, 0x6501, 0x6502, 0x6509, 0x6500];
     let values = objects.map(|index| bench.read(index, 0));
     assert_eq!(values, [0x4000, 0, 0x4000, 0x4_0000, 0, 4]);
     bench.turn_fractions(SIXTEENTH);
     assert_eq!(bench.position(), 0x400);
-    // One step of the sensor is a quarter of one that is shown.
+    // One step of the sensor is a quarter of a shown step.
     bench.turn_fractions(3 << 16);
     assert_eq!(bench.position(), 0x400);
     bench.turn_fractions(1 << 16);
@@ -25,7 +25,7 @@ fn eam_shows_14_of_16_bits_and_counts_to_the_end_of_32() {
     assert_eq!(bench.position(), 0x401);
     bench.turn(-1);
     assert_eq!(bench.position(), 0xFFFF_C401);
-    // Off is the same (MANUALS.md U-34), and the other way round is 2^32 less.
+    // Scaling off gives the same (MANUALS.md U-34), and the other direction 2^32 minus it.
     bench.write(0x6000, 0, 0).unwrap();
     assert_eq!((bench.position(), bench.read(0x6500, 0)), (0xFFFF_C401, 0));
     bench.write(0x6000, 0, 1).unwrap();
@@ -37,7 +37,7 @@ fn eam_shows_14_of_16_bits_and_counts_to_the_end_of_32() {
 }
 
 #[test]
-fn eam_6502h_follows_whatever_is_written() {
+fn eam_6502h_follows_every_write() {
     let mut bench = Bench::new("eam_mt");
     bench.write(0x6001, 0, 3600).unwrap();
     assert_eq!(
@@ -59,7 +59,7 @@ fn eam_6502h_follows_whatever_is_written() {
     ] {
         assert_eq!(bench.write(0x6002, 0, value), expected, "{value}");
     }
-    // What is written to 6001h need not divide 6002h (C-EAM-18).
+    // 6001h need not divide 6002h (C-EAM-18).
     for (value, expected) in [
         (3, OUT_OF_RANGE),
         (4, Ok(())),
@@ -94,7 +94,7 @@ fn eam_range_of_four_steps_a_revolution_has_two_to_the_thirty_revolutions() {
 }
 
 #[test]
-fn eam_preset_stands_in_two_objects_and_its_offset_in_two_more() {
+fn eam_preset_and_offset_are_each_in_two_objects() {
     let mut bench = Bench::new("eam_mt");
     bench.turn_fractions(SIXTEENTH);
     bench.write(0x6003, 0, 10).unwrap();
@@ -107,7 +107,7 @@ fn eam_preset_stands_in_two_objects_and_its_offset_in_two_more() {
         (bench.position(), bench.read(0x6003, 0)),
         (0xFFFF_FFFF, 0xFFFF_FFFF)
     );
-    // C-EAM-28: one value, and it is saved.
+    // C-EAM-28: one saved value.
     bench.write(0x6003, 0, 5).unwrap();
     bench.write(0x1010, 1, SAVE).unwrap();
     bench.power_cycle(100, 1);
@@ -127,7 +127,7 @@ fn eam_preset_stands_in_two_objects_and_its_offset_in_two_more() {
 }
 
 #[test]
-fn eam_offset_holds_in_a_range_that_is_no_power_of_two() {
+fn eam_offset_is_right_in_a_range_that_is_not_a_power_of_two() {
     let mut bench = Bench::new("eam_mt");
     bench.write(0x6001, 0, 0xC000).unwrap();
     bench.write(0x6002, 0, 0xC000_0000).unwrap();
@@ -160,7 +160,7 @@ fn eam_singleturn_counts_revolutions_while_it_has_power() {
 }
 
 #[test]
-fn eam_a_test_adds_to_the_position_and_a_restart_ends_it() {
+fn eam_an_injected_offset_ends_with_a_restart() {
     let mut bench = Bench::new("eam_mt");
     bench.write(0x6002, 0, 0x10_0000).unwrap();
     bench.turn_fractions(SIXTEENTH);
@@ -176,7 +176,7 @@ fn eam_a_test_adds_to_the_position_and_a_restart_ends_it() {
 }
 
 #[test]
-fn en_takes_21_bits_and_65536_revolutions() {
+fn en_accepts_21_bits_and_65536_revolutions() {
     let mut bench = Bench::new("en580c");
     let objects = [0x6001, 0x6002, 0x6501, 0x6502];
     let values = objects.map(|index| bench.read(index, 0));
@@ -190,7 +190,7 @@ fn en_takes_21_bits_and_65536_revolutions() {
         (0x6002, 0x8000_0001, TOO_GREAT),
         (0x6002, 0x8000_0000, Ok(())),
         (0x6001, 0x2000, Ok(())),
-        // 65,536 revolutions and no more; 6001h first always works.
+        // 65,536 revolutions are the maximum; writing 6001h first always works.
         (0x6002, 0x2000_0001, TOO_GREAT),
         (0x6002, 0x2000_0000, Ok(())),
         (0x6001, 5000, Ok(())),
@@ -226,7 +226,7 @@ fn en_raw_is_the_sensor_modulo_32_bits() {
     assert_eq!(bench.read(0x600C, 0), raw);
     bench.write(0x6000, 0, 0).unwrap();
     assert_eq!(bench.position(), raw);
-    // U-13: what was written stays to be read.
+    // U-13: the written values can be read.
     assert_eq!(
         (bench.read(0x6001, 0), bench.read(0x6002, 0)),
         (0x2000, 0x2000)
@@ -234,7 +234,7 @@ fn en_raw_is_the_sensor_modulo_32_bits() {
 }
 
 #[test]
-fn en_endless_mode_goes_on_past_the_counter_and_without_power() {
+fn en_endless_mode_continues_past_the_counter_and_without_power() {
     let mut bench = Bench::new("en580c");
     bench.write(0x6001, 0, 5000).unwrap();
     bench.write(0x6002, 0, 15_000).unwrap();
@@ -253,7 +253,7 @@ fn en_endless_mode_goes_on_past_the_counter_and_without_power() {
         bench.power_cycle(100, off);
         assert_eq!(bench.position(), total % 3 * 5000 + step, "{off}");
     }
-    // One revolution too many: 65,536 revolutions are lost, and 65,536 is not a multiple of 3.
+    // One revolution too many: 65,536 revolutions are lost, which is not a multiple of 3.
     bench.power_cycle(100, 32_769);
     let wrong = (98_304 + 32_769 - 65_536) % 3 * 5000 + step;
     assert_eq!(bench.position(), wrong);
@@ -263,7 +263,7 @@ fn en_endless_mode_goes_on_past_the_counter_and_without_power() {
 }
 
 #[test]
-fn en_a_power_of_two_does_not_mind_how_far_it_turns_without_power() {
+fn en_a_power_of_two_is_right_after_any_motion_without_power() {
     let mut bench = Bench::new("en580c");
     bench.write(0x6001, 0, 5000).unwrap();
     bench.write(0x6002, 0, 20_000).unwrap();

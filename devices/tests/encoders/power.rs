@@ -6,7 +6,7 @@ use odkit::encoder::Switches;
 use crate::bench::{Bench, SAVE};
 
 #[test]
-fn eam_stamps_time_and_counts_no_hours() {
+fn eam_has_a_time_stamp_and_no_operating_time() {
     let mut bench = Bench::new("eam_mt");
     assert_eq!(bench.read(0x6508, 0), 0xFFFF_FFFF);
     bench.wait(65);
@@ -30,7 +30,7 @@ fn en_counts_seconds_tenths_of_hours_and_starts() {
     bench.wait(1);
     assert_eq!(life(&mut bench), [720, 720, 1, 2]);
     bench.power_cycle(600_000, 0);
-    // Power went two seconds later.
+    // Power was switched off two seconds later.
     assert_eq!(life(&mut bench), [0, 722, 2, 2]);
     bench.wait(10_000);
     bench.nmt(0x81);
@@ -49,7 +49,7 @@ fn en_counts_seconds_tenths_of_hours_and_starts() {
 }
 
 #[test]
-fn en_switches_rule_and_those_without_a_rate_do_not() {
+fn en_switches_take_precedence_if_their_bit_rate_exists() {
     let mut bench = Bench::new("en580c");
     for (node_id, bit_rate, expected) in [
         (0, 7, 250),
@@ -86,7 +86,7 @@ fn eam_has_no_switches() {
 
 /// MANUALS.md U-40: the node tells its host that an NMT reset interrupted a save, and what it loaded.
 #[test]
-fn a_save_that_a_reset_interrupts_is_told() {
+fn a_save_that_a_reset_interrupts_is_reported() {
     for command in [0x81, 0x82] {
         let mut bench = Bench::new("en580c");
         bench.write(0x2300, 1, 11).unwrap();

@@ -1,11 +1,11 @@
-//! Positions and speeds against a second calculation in 128 bits that shares nothing with the
-//! first: it keeps the whole way of the shaft and divides once.
+//! Positions and speeds compared with a second, independent calculation in 128 bits: it keeps
+//! the whole path of the shaft and divides once.
 
 use odkit::encoder::Angle;
 
 use crate::bench::{Bench, SAVE};
 
-/// xorshift: the same numbers each time.
+/// xorshift: the same numbers in each run.
 pub(crate) struct Random(pub(crate) u64);
 
 impl Random {
@@ -20,7 +20,7 @@ impl Random {
         self.next() % end
     }
 
-    /// Any magnitude is as likely as another.
+    /// All magnitudes are equally likely.
     pub(crate) fn magnitude(&mut self, bits: u64) -> u64 {
         self.next() >> (64 - 1 - self.below(bits))
     }
@@ -35,7 +35,7 @@ struct Model {
     scaling: bool,
     steps: i128,
     range: i128,
-    /// Numerator and denominator as they act.
+    /// Numerator and denominator in effect.
     gear: Option<(i128, i128)>,
     offset: i128,
     injected: i128,
@@ -90,7 +90,7 @@ impl Bench {
     }
 }
 
-/// Some way in either direction, in 2⁻³² revolutions.
+/// A motion in either direction, in 2⁻³² revolutions.
 pub(crate) fn turns(random: &mut Random) -> i64 {
     let by = random.magnitude(55) as i64;
     if random.next() & 1 == 0 { by } else { -by }
@@ -184,7 +184,7 @@ fn eam_positions() {
                 _ => bench.put(&mut model, turns(&mut random)),
             }
             assert_eq!(bench.position(), model.position());
-            // The angle of the simulation has 2^31 revolutions either way.
+            // The simulated angle covers 2^31 revolutions in either direction.
             if model.angle.abs() > 1 << 60 {
                 let back = -model.angle as i64;
                 bench.put(&mut model, back);
@@ -264,7 +264,7 @@ fn en_positions() {
                     let written = bench.write(0x2001, sub as u8, value as u32);
                     assert_eq!(written.is_ok(), expected, "{wanted:?} {}", model.range);
                     if expected {
-                        // A gear that is off does not touch the position.
+                        // A gear that is off has no effect on the position.
                         let acts = gear[0] == 1 || wanted[0] == 1;
                         model.offset = if acts { 0 } else { model.offset };
                         gear = wanted;
@@ -281,7 +281,7 @@ fn en_positions() {
             model.gear = (gear[0] == 1).then(|| (gear[1], gear[2]));
             model.steps = own_steps;
             if let Some((numerator, denominator)) = model.gear {
-                // The object takes nothing less than 1.
+                // The minimum of the object is 1.
                 model.steps = (model.range * denominator / numerator).max(1);
             }
             assert_eq!(i128::from(bench.read(0x6001, 0)), model.steps);
@@ -296,7 +296,7 @@ fn en_positions() {
     }
 }
 
-/// The mean speed over the last `interval`, by every change that ever was, in thousandths of
+/// The mean speed over the last `interval`, from all changes so far, in thousandths of
 /// a revolution per minute times microseconds.
 fn way(changes: &[(u64, i32)], from: u64, to: u64) -> i128 {
     let mut way = 0;
@@ -344,7 +344,7 @@ fn en_speeds_and_accelerations() {
             let [speed, acceleration] = parameters;
             let time = i128::from(interval) * 1000;
             let expected = way(&changes, from, now) * i128::from(steps) * speed[0];
-            // Rounded towards zero, as a division is.
+            // Rounded towards zero, like a division.
             let expected = expected / (60_000 * time * speed[1]);
             let held = |value: i128| value.clamp(-0x8000, 0x7FFF) as i16;
             assert_eq!(bench.read16(0x6030, 1), held(expected));

@@ -1,5 +1,5 @@
-//! Positions of the bus-cover family against a second calculation in 128 bits: the sensor, the
-//! two ranges that wrap, and the revolution counter that misses what happens without power.
+//! Positions of the bus-cover family compared with a second calculation in 128 bits: the sensor, the
+//! two ranges that wrap, and the revolution counter that misses motion without power.
 
 use crate::bench::{Bench, SAVE};
 use crate::reference::{Random, turns};
@@ -7,7 +7,7 @@ use crate::reference::{Random, turns};
 struct Model {
     /// Steps per revolution and revolutions of the sensor.
     sensor: (i128, i128),
-    /// In 2⁻³² revolutions, as the counter knows it.
+    /// In 2⁻³² revolutions, as counted.
     angle: i128,
     reversed: bool,
     scaling: bool,
@@ -106,7 +106,7 @@ fn bus_cover_positions() {
                     bench.write(0x1010, 1, SAVE).unwrap();
                     let by = i128::from(turns(&mut random) >> 32);
                     bench.power_cycle(100, by as i64);
-                    // A crossing of the counter's zero is not seen.
+                    // The counter does not see that its zero was crossed.
                     let (laps, on) = (model.sensor.1 << 32, model.angle + (by << 32));
                     let unseen = on.div_euclid(laps) - model.angle.div_euclid(laps);
                     model.angle = on - unseen * laps;

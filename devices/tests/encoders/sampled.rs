@@ -1,4 +1,4 @@
-//! A host that has nothing but positions: what it sets, the device samples.
+//! A host that only sets positions, which the device samples.
 
 use od_bench::VirtualDevice;
 use od_devices::DEVICES;
@@ -8,7 +8,7 @@ use odkit::{DeviceKind, Duration, Instant, NodeId};
 
 use crate::bench::Bench;
 
-/// A sensor that says what the host sets, in steps of its own, or fails.
+/// A sensor that returns what the host sets, in its own steps, or fails.
 struct Set {
     steps: u32,
     raw: Result<i64, Fault>,
@@ -23,7 +23,7 @@ impl PositionSource for Set {
 
 type Shaft = Sampled<Set, 255>;
 
-/// A device that looks at its shaft every millisecond.
+/// A device that samples its shaft every millisecond.
 fn bench(kind: &DeviceKind) -> Bench<Shaft> {
     let steps = kind.sensor().steps;
     let sensor = Set { steps, raw: Ok(0) };
@@ -58,12 +58,12 @@ impl Bench<Shaft> {
 }
 
 #[test]
-fn positions_of_a_host_are_a_speed() {
+fn positions_set_by_a_host_give_a_speed() {
     let mut names = Vec::new();
     for (kind, interval) in with_speed() {
         names.push(kind.name);
         let mut bench = bench(kind);
-        // 6001h is what the sensor has, so that a step of it is a step of the position.
+        // 6001h equals the resolution of the sensor, so their steps are equal.
         bench
             .write(0x6001, 0, bench.encoder.sensor().steps)
             .unwrap();
@@ -80,7 +80,7 @@ fn positions_of_a_host_are_a_speed() {
             let expected = if ms < interval { 0 } else { 100_000 / divider };
             assert_eq!(bench.speed(), expected, "{} {ms}", kind.name);
         }
-        // It stops, and begins to turn the other way.
+        // It stops, and turns in the other direction.
         bench.wait(interval);
         assert_eq!(bench.speed(), 0, "{}", kind.name);
         for ms in 1..=interval {
@@ -92,9 +92,9 @@ fn positions_of_a_host_are_a_speed() {
     assert_eq!(names, ["eam_mt", "eam_st", "eam_red", "en580c"]);
 }
 
-/// The bench's own shaft, which a host puts somewhere every millisecond and never turns.
+/// The bench's shaft, which a host moves every millisecond without a speed.
 #[test]
-fn positions_set_on_the_bench_are_a_speed() {
+fn positions_set_on_the_bench_give_a_speed() {
     for (kind, interval) in with_speed() {
         let mut device = VirtualDevice::new(kind, NodeId::ONE);
         device.power_on(Instant::ZERO);
@@ -173,7 +173,7 @@ fn an_acceleration_comes_from_the_samples() {
         let steps = f64::from(bench.encoder.sensor().steps);
         bench.write(0x6001, 0, 0x1_0000).unwrap();
         bench.write(0x6041, 4, 1092).unwrap();
-        // 6000 revolutions per minute in a second, as in the worked example of the manuals.
+        // 6000 revolutions per minute more in a second, as in the example of the manuals.
         for ms in 1..=400 {
             let turns = 50.0 * (ms as f64 / 1000.0).powi(2);
             bench.set_position((turns * steps) as i64);
@@ -201,7 +201,7 @@ fn a_sensor_fault_is_an_alarm_until_a_sample_succeeds() {
         bench.encoder.shaft.source.raw = Err(Fault::Position);
         bench.wait(1);
         let emcys = bench.emcys();
-        // Every family has bit 0 for a position that is not to be trusted.
+        // Every family has bit 0 for a position that is not reliable.
         assert!(matches!(emcys[..], [(0x7320, _, 1, 0)]), "{emcys:X?}");
         assert_eq!(bench.read(0x6503, 0), 1, "{}", kind.name);
         assert_eq!(bench.position(), position, "{}: the last one", kind.name);
@@ -215,7 +215,7 @@ fn a_sensor_fault_is_an_alarm_until_a_sample_succeeds() {
 }
 
 #[test]
-fn a_fault_that_a_family_only_warns_of_is_an_alarm_without_a_position() {
+fn a_fault_that_is_a_warning_is_an_alarm_if_there_is_no_position() {
     let mut bench = bench(od_devices::find("eam_mt").unwrap());
     bench.encoder.shaft.source.raw = Err(Fault::SingleturnStrength);
     bench.wait(1);

@@ -1,4 +1,4 @@
-// The grammar on a few lines: each piece of text has its scope.
+// Tests the grammar with a few lines: each token has its scope.
 
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";

@@ -11,7 +11,7 @@ sys.path.insert(0, os.path.dirname(HERE))
 
 from position import Axis  # noqa: E402
 
-# Write the path of your EDS file; this one is of the encoder that comes with odkit.
+# Write the path of your EDS file; this is the file of an encoder of odkit.
 EDS = os.path.join(HERE, "../../../devices/eds/GXMM.eds")
 
 

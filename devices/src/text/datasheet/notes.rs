@@ -1,4 +1,4 @@
-//! The note of the datasheet on one value.
+//! The note of the datasheet about one value.
 
 use std::format;
 use std::prelude::v1::*;
@@ -48,7 +48,7 @@ pub(super) fn note(kind: &DeviceKind, address: Address) -> String {
     }
 }
 
-/// The note on what the encoder does for an object.
+/// The note about the effect of an object on the encoder.
 fn note_of(role: &Role, encoder: &EncoderProfile) -> Option<String> {
     Some(match role {
         Role::OneOf(list) => takes(list.iter()),
@@ -69,7 +69,7 @@ fn note_of(role: &Role, encoder: &EncoderProfile) -> Option<String> {
     })
 }
 
-/// The values that an object takes.
+/// The values that an object accepts.
 fn takes(numbers: impl Iterator<Item = impl ToString>) -> String {
     let numbers: Vec<String> = numbers.map(|number| number.to_string()).collect();
     format!("accepts {}", numbers.join(", "))

@@ -216,7 +216,7 @@ fn errors(kind: &DeviceKind, facts: &mut Vec<Vec<String>>) {
     ));
 }
 
-/// Meaning of the bits of the manufacturer's options.
+/// Meaning of the bits of the manufacturer-specific options.
 fn options(kind: &DeviceKind, facts: &mut Vec<Vec<String>>) {
     let profile = kind.profile;
     let mut bits: Vec<(u16, u32, &str)> = Vec::new();
