@@ -1,4 +1,4 @@
-//! Acts of a person at the bench: power, shafts, switches, faults, EEPROMs, the wire.
+//! Actions of a user at the bench: power, shafts, switches, faults, EEPROMs, bus line.
 
 use od_bench::journal::frame;
 use wasm_bindgen::prelude::*;
@@ -13,7 +13,7 @@ impl Bus {
         self.journal.rig.set_power(device, on);
     }
 
-    /// Lets the shaft run.
+    /// Turns the shaft at a speed.
     #[wasm_bindgen(js_name = setRpm)]
     pub fn set_rpm(&mut self, device: usize, rpm: f64) {
         self.journal
@@ -21,7 +21,7 @@ impl Bus {
             .with(device, |device, now| device.set_rpm(rpm, now));
     }
 
-    /// Brings the shaft to a number of revolutions from the sensor's zero point, at once.
+    /// Moves the shaft to a number of revolutions from the sensor's zero point, at once.
     #[wasm_bindgen(js_name = turnTo)]
     pub fn turn_to(&mut self, device: usize, turns: f64) {
         self.journal
@@ -39,7 +39,7 @@ impl Bus {
         });
     }
 
-    /// Sets or clears a fault; answers whether this device has such a fault.
+    /// Sets or clears a fault; returns whether this device has such a fault.
     #[wasm_bindgen(js_name = setFault)]
     pub fn set_fault(&mut self, device: usize, name: &str, broken: bool) -> bool {
         let found = self
@@ -49,13 +49,13 @@ impl Bus {
         found.unwrap_or_default()
     }
 
-    /// Lets a shaft follow a profile from now on: pairs of rpm and milliseconds. An empty one
+    /// Lets a shaft follow a profile from now on: pairs of rpm and milliseconds. An empty profile
     /// leaves the shaft as it is.
     pub fn follow(&mut self, device: usize, steps: &[f64], repeats: bool) {
         self.journal.rig.follow(device, steps, repeats);
     }
 
-    /// Sends a frame every `micros` from now on; 0 ends it. `key` tells rhythms apart.
+    /// Sends a frame every `micros` from now on; 0 ends it. `key` identifies the cyclic frame.
     pub fn repeat(
         &mut self,
         key: u32,
@@ -70,7 +70,7 @@ impl Bus {
         }
     }
 
-    /// The bytes that the EEPROM would hold if everything were saved as it is now.
+    /// The bytes that the EEPROM would contain after a save now.
     pub fn image(&mut self, device: usize) -> Vec<u8> {
         self.journal
             .rig
@@ -78,7 +78,7 @@ impl Bus {
             .unwrap_or_default()
     }
 
-    /// Hands a frame to only one device, past the bus; its response goes on the bus.
+    /// Gives a frame to one device only, without the bus; its response is sent on the bus.
     pub fn deliver(&mut self, device: usize, id: u32, data: &[u8]) {
         let Some(frame) = frame(id, data, false, false) else {
             return;
@@ -88,7 +88,7 @@ impl Bus {
             .with(device, |device, now| device.handle_frame(now, &frame));
     }
 
-    /// Puts bytes into a device's EEPROM; they act at the next start.
+    /// Writes bytes to a device's EEPROM; they take effect at the next start.
     #[wasm_bindgen(js_name = setEeprom)]
     pub fn set_eeprom(&mut self, device: usize, bytes: &[u8]) {
         self.journal
@@ -104,7 +104,7 @@ impl Bus {
             .with(device, |device, _| device.cut_power_after(bytes));
     }
 
-    /// Sets the bus line: real or ideal, its terminators, the bit rate of the outside in kbit/s
+    /// Sets the bus line: real or ideal, its terminators, the bit rate of the program side in kbit/s
     /// (none: that of the first device).
     #[wasm_bindgen(js_name = setLine)]
     pub fn set_line(&mut self, real: bool, terminators: u8, rate: Option<u16>) {
@@ -113,19 +113,19 @@ impl Bus {
         (line.terminators, line.bit_rate) = (terminators, rate);
     }
 
-    /// Begins a new row of chances for what disturbs the wire; the same seed, the same row.
+    /// Seeds the random disturbances of the bus line. The same seed gives the same sequence.
     #[wasm_bindgen(js_name = setSeed)]
     pub fn set_seed(&mut self, seed: u32) {
         self.journal.rig.bus.line.set_seed(seed.into());
     }
 
-    /// Plugs a station in or out: 0 is the outside, devices count from 1.
+    /// Connects or disconnects a participant: 0 is the program, devices count from 1.
     #[wasm_bindgen(js_name = setPlugged)]
     pub fn set_plugged(&mut self, station: usize, plugged: bool) {
         self.journal.rig.bus.line.set_plugged(station, plugged);
     }
 
-    /// Starts the CAN controller of a station again after bus-off.
+    /// Restarts the CAN controller of a participant after bus-off.
     #[wasm_bindgen(js_name = restartController)]
     pub fn restart_controller(&mut self, station: usize) {
         self.journal.rig.bus.restart_controller(station);

@@ -1,4 +1,4 @@
-//! The bus, and time on it.
+//! The bus, and its time.
 
 use od_bench::VirtualDevice;
 use od_bench::journal::Journal;
@@ -24,30 +24,30 @@ impl Bus {
         Bus { journal }
     }
 
-    /// Does a frame from outside wait for the line, or is it on it?
+    /// Returns whether a frame of the program waits for the line or is being transmitted.
     #[wasm_bindgen(js_name = isSending)]
     pub fn is_sending(&self) -> bool {
         self.journal.rig.bus.is_sending(0)
     }
 
-    /// Lets `micros` pass, or less if `max_frames` are sent before; answers with what passed.
-    /// The inputs of the journal for that time happen again.
+    /// Lets `micros` pass, or less if `max_frames` are sent before; returns the time that passed.
+    /// Repeats the inputs of the journal for that time.
     pub fn advance(&mut self, micros: f64, max_frames: usize) -> f64 {
         let micros = micros.max(0.0) as u64;
         self.journal.advance(micros, max_frames.max(1)) as f64
     }
 
-    /// Virtual microseconds.
+    /// Virtual time in microseconds.
     pub fn now(&self) -> f64 {
         self.journal.rig.bus.now().as_micros() as f64
     }
 
-    /// Number of frames that wait to be drained.
+    /// Number of frames that were not drained yet.
     pub fn pending(&self) -> usize {
         self.journal.rig.pending()
     }
 
-    /// All frames since the last call, own and others', 24 bytes each.
+    /// All frames since the last call, of devices and of this side, 24 bytes each.
     pub fn drain(&mut self) -> Vec<u8> {
         let rig = &mut self.journal.rig;
         let mut batch = Vec::with_capacity(rig.pending() * packed::LEN);

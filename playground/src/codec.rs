@@ -1,4 +1,4 @@
-//! Answers that need no bench: frames as people type them, values as bytes and back,
+//! Functions without a bench: typed frames, values as bytes and back,
 //! services, and transfers of several frames.
 
 use od_bench::script::{Known, frame_of, typed};
@@ -15,7 +15,7 @@ use crate::{packed, values};
 
 #[wasm_bindgen]
 extern "C" {
-    /// Answers with the type of an object.
+    /// Returns the type of an object.
     #[wasm_bindgen(typescript_type = "{ typeOf(index: number, sub: number): string | undefined }")]
     pub type Objects;
 
@@ -24,7 +24,7 @@ extern "C" {
 }
 
 choice! {
-    /// A frame that was typed, or what is wrong with it.
+    /// A typed frame, or the error in it.
     LineResult {
         TypedFrame,
         TypingError,
@@ -36,7 +36,7 @@ record! {
         id: u32,
         extended: bool,
         remote: bool,
-        /// Of a remote frame as many zeros as it asks for.
+        /// A remote frame has as many zeros as bytes it requests.
         data: Bytes,
         error: Absent,
     }
@@ -82,8 +82,8 @@ pub(crate) const TAG_NODE: u32 = 8;
 /// Bits below the one that says whether there is an object.
 pub(crate) const TAG_OBJECT: u32 = 16;
 
-/// Of each packed frame two numbers: its place in `tagNames`, its node ID (0: none, or all) and whether it
-/// names an object; and that object as `index * 256 + sub`.
+/// For each packed frame two numbers: its place in `tagNames`, its node ID (0: none, or all) and whether it
+/// names an object; and this object as `index * 256 + sub`.
 #[wasm_bindgen]
 pub fn tags(frames: &[u8]) -> Vec<u32> {
     let of = |packed: &[u8]| {
@@ -99,8 +99,8 @@ pub fn tags(frames: &[u8]) -> Vec<u32> {
     frames.chunks_exact(packed::LEN).flat_map(of).collect()
 }
 
-/// Reads a frame as people type it, or a line of a script or a log that is one frame.
-/// `objects` knows the types of the objects of the node.
+/// Parses a typed frame, or a line of a script or a log that is one frame.
+/// `objects` gives the types of the objects of the node.
 #[wasm_bindgen(js_name = readLine, unchecked_return_type = "LineResult")]
 pub fn read_line(text: &str, node_id: u8, objects: &Objects) -> JsValue {
     let known = Known {
@@ -139,7 +139,7 @@ pub fn read_line(text: &str, node_id: u8, objects: &Objects) -> JsValue {
 /// The bytes of a value that a user typed for an object of this type, such as `UNSIGNED32`.
 ///
 /// # Errors
-/// The problem of the text.
+/// The error in the text.
 #[wasm_bindgen(js_name = encodeValue)]
 pub fn encode_value(type_name: &str, text: &str) -> Result<Vec<u8>, JsError> {
     let data_type = named(type_name).unwrap_or(DataType::Domain);
@@ -155,7 +155,7 @@ pub fn decode_value(type_name: &str, raw: &[u8]) -> JsValue {
     }
 }
 
-/// The lowest and the highest value of an integer type; empty for others.
+/// The minimum and the maximum of an integer type; empty for others.
 #[wasm_bindgen(js_name = typeRange, unchecked_return_type = "Value[]")]
 pub fn type_range(type_name: &str) -> Vec<JsValue> {
     let range = named(type_name).and_then(DataType::integer_range);
@@ -177,26 +177,26 @@ pub(crate) fn named(name: &str) -> Option<DataType> {
     DataType::ALL.into_iter().find(|one| one.name() == name)
 }
 
-/// SDO transfers of several frames, put together.
+/// Joins SDO transfers of several frames.
 #[wasm_bindgen]
 #[derive(Default)]
 pub struct Transfers(Folder);
 
 #[wasm_bindgen]
 impl Transfers {
-    /// Nothing was seen so far.
+    /// No frame was seen yet.
     #[wasm_bindgen(constructor)]
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// Takes the next packed frame; the number of the first frame of the transfer that it
-    /// belongs to, or nothing if it has a row of its own.
+    /// Adds the next packed frame; returns the number of the first frame of its transfer,
+    /// or nothing if it has a row of its own.
     pub fn take(&mut self, frame: &[u8], number: u32) -> Option<u32> {
         self.0.take(&packed::frame(frame)?, number)
     }
 
-    /// The transfer that starts with this frame; `null` if it has this one only.
+    /// The transfer that starts with this frame; `null` if it has only this one.
     #[wasm_bindgen(unchecked_return_type = "Transfer | null")]
     pub fn transfer(&self, first: u32) -> JsValue {
         let transfer = self.0.fold(first).map(|fold| Transfer {
@@ -215,26 +215,26 @@ impl Transfers {
         transfer.value()
     }
 
-    /// Forgets transfers that start before this frame.
+    /// Removes transfers that start before this frame.
     #[wasm_bindgen(js_name = forgetBefore)]
     pub fn forget_before(&mut self, number: u32) {
         self.0.forget_before(number);
     }
 
-    /// Forgets everything.
+    /// Removes everything.
     pub fn clear(&mut self) {
         self.0.clear();
     }
 }
 
-/// Flag of a bit in [`frame_bits`].
+/// Flags of a bit in [`frame_bits`].
 pub(crate) const RECESSIVE: u8 = 0x80;
 pub(crate) const STUFFED: u8 = 0x40;
 /// Numbers of two of its fields.
 pub(crate) const CRC: u8 = 8;
 pub(crate) const DATA: u8 = 16;
 
-/// The bits of a packed frame on the wire, a byte each: 128 if it is recessive, 64 if it was stuffed, and the number of
+/// The bits of a packed frame on the bus line, a byte each: 128 if it is recessive, 64 if it was stuffed, and the number of
 /// its field: 0 start of frame, 1 identifier, 2 SRR, 3 IDE, 4 identifier extension, 5 RTR, 6 reserved, 7 DLC, 8 CRC,
 /// 9 CRC delimiter, 10 acknowledge slot, 11 acknowledge delimiter, 12 end of frame, 16 and more a data byte.
 #[wasm_bindgen(js_name = frameBits)]

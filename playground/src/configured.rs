@@ -1,4 +1,4 @@
-//! A device as it is set up, as a file.
+//! A configured device as a file.
 
 use od_bench::journal::Source;
 use wasm_bindgen::prelude::*;
@@ -7,9 +7,9 @@ use crate::bus::Bus;
 
 #[wasm_bindgen]
 impl Bus {
-    /// A DCF (CiA 306-1) of a device: what it is, with its node ID, its bit rate and every
-    /// value that is not the factory's. `name` says which of ours it is, `text` what EDS or
-    /// DCF text it was made of; none of the two: what the journal says.
+    /// A DCF (CiA 306-1) of a device, with its node ID, its bit rate and every
+    /// value that differs from the factory value. `name` is a built-in device, `text` an EDS or
+    /// DCF text; without both, the journal has the device.
     ///
     /// # Errors
     /// The device does not exist.

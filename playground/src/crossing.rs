@@ -1,6 +1,6 @@
-//! Types that cross to JavaScript, each written once: a [`record!`] is the Rust type, the plain object that is made
+//! Types that are passed to JavaScript, each written once: a [`record!`] is the Rust type, the plain object that is made
 //! of it, and its declaration in TypeScript. wasm-bindgen writes the declarations into `od_playground.d.ts`; they are
-//! put together at compile time, so a module carries none of them.
+//! put together at compile time, so no module contains them.
 
 use std::marker::PhantomData;
 
@@ -8,14 +8,14 @@ use wasm_bindgen::JsValue;
 
 use crate::record::{Record, bytes, list};
 
-/// A type whose values cross to JavaScript.
+/// A type whose values are passed to JavaScript.
 pub(crate) trait Crosses: Sized {
-    /// `?` behind the name of a field that may be missing.
+    /// `?` after the name of a field that may be missing.
     const MARK: &'static str = "";
     /// The type in TypeScript.
     const TYPE: &'static str;
 
-    /// The value as JavaScript has it.
+    /// The value in JavaScript.
     fn value(self) -> JsValue;
 
     /// Adds the value to a record.
@@ -58,7 +58,7 @@ impl From<&[u8]> for Bytes {
     }
 }
 
-/// A value of JavaScript that was made as `T` says.
+/// A JavaScript value with the type that `T` declares.
 #[derive(Clone)]
 pub(crate) struct Made<T>(JsValue, PhantomData<T>);
 
@@ -69,7 +69,7 @@ impl<T> Made<T> {
 }
 
 impl<T: Crosses> Made<Vec<T>> {
-    /// A list of which no value is kept here.
+    /// A list that only exists in JavaScript.
     pub(crate) fn list(values: impl Iterator<Item = T>) -> Self {
         Self::of(list(values.map(Crosses::value)))
     }
@@ -84,7 +84,7 @@ impl<T: Crosses> Crosses for Made<T> {
     }
 }
 
-/// A field that is there only with a value.
+/// A field that exists only if it has a value.
 #[cfg(feature = "lessons")]
 pub(crate) struct Maybe<T>(pub(crate) Option<T>);
 
@@ -104,7 +104,7 @@ impl<T: Crosses> Crosses for Maybe<T> {
     }
 }
 
-/// A field that another record of the same choice has, and this one has not.
+/// A field that only other records of the same choice have.
 pub(crate) struct Absent;
 
 impl Crosses for Absent {
@@ -118,7 +118,7 @@ impl Crosses for Absent {
     fn put(self, _: &str, _: &Record) {}
 }
 
-/// Names of types that are made of another one.
+/// Names of types that are derived from another one.
 struct Of<T>(PhantomData<T>);
 
 impl<T: Crosses> Of<T> {
@@ -159,7 +159,7 @@ impl Name {
     }
 }
 
-/// Length of texts that are joined.
+/// Length of the joined texts.
 pub(crate) const fn length(mut parts: &[&str]) -> usize {
     let mut length = 0;
     while let [first, rest @ ..] = parts {
@@ -169,7 +169,7 @@ pub(crate) const fn length(mut parts: &[&str]) -> usize {
     length
 }
 
-/// Texts one behind the other; it does not compile where they are longer than `N`.
+/// Joins texts; does not compile if they are longer than `N`.
 pub(crate) const fn joined<const N: usize>(mut parts: &[&str]) -> [u8; N] {
     let (mut bytes, mut at) = ([0; N], 0);
     while let [first, rest @ ..] = parts {
@@ -184,7 +184,7 @@ pub(crate) const fn joined<const N: usize>(mut parts: &[&str]) -> [u8; N] {
     bytes
 }
 
-/// The text that [`joined`] made.
+/// The result of [`joined`].
 pub(crate) const fn text(bytes: &[u8]) -> &str {
     match str::from_utf8(bytes) {
         Ok(text) => text,
@@ -192,7 +192,7 @@ pub(crate) const fn text(bytes: &[u8]) -> &str {
     }
 }
 
-/// Texts that go into the file of declarations.
+/// Texts of the file of declarations.
 macro_rules! declaration {
     ($first:expr, $($part:expr),+ $(,)?) => {
         $crate::crossing::declaration!(&[$first, $($part),+]);
@@ -202,7 +202,7 @@ macro_rules! declaration {
             const PARTS: &[&str] = $parts;
             const BYTES: [u8; $crate::crossing::length(PARTS)] = $crate::crossing::joined(PARTS);
 
-            // Everywhere, so that a build for the computer itself finds what is wrong with it.
+            // Compiled everywhere, so that a build for the computer itself finds errors.
             const _: &str = $crate::crossing::text(&BYTES);
 
             #[wasm_bindgen::prelude::wasm_bindgen(typescript_custom_section)]
@@ -212,7 +212,7 @@ macro_rules! declaration {
 }
 pub(crate) use declaration;
 
-/// A doc comment as TypeScript has it.
+/// A doc comment in TypeScript.
 macro_rules! about {
     ($indent:literal) => { "" };
     ($indent:literal $($line:literal)+) => { concat!($indent, "/**", $($line,)+ " */\n") };
@@ -230,7 +230,7 @@ macro_rules! key {
 }
 pub(crate) use key;
 
-/// Records. A field has a name of its own in JavaScript where that is not the one of the Rust field.
+/// Records. A field can have another name in JavaScript than in Rust.
 macro_rules! record {
     ($($(#[doc = $about:literal])* $name:ident {
         $($(#[doc = $doc:literal])* $($key:literal)? $field:ident: $kind:ty,)*
@@ -271,7 +271,7 @@ macro_rules! record {
 }
 pub(crate) use record;
 
-/// Words, each one of a few.
+/// A type that is one of a few words.
 macro_rules! words {
     ($($(#[doc = $about:literal])* $name:ident { $($word:ident = $text:expr,)* })*) => {
         $(
@@ -328,7 +328,7 @@ macro_rules! choice {
 }
 pub(crate) use choice;
 
-/// An enum of another crate, by its names.
+/// An enum of another crate, by the names of its variants.
 macro_rules! names {
     ($($(#[doc = $about:literal])* $name:ident: $kind:ty { $($word:ident,)* })*) => {
         $(
@@ -336,7 +336,7 @@ macro_rules! names {
                 const TYPE: &'static str = stringify!($name);
 
                 fn value(self) -> wasm_bindgen::JsValue {
-                    // All of them are declared.
+                    // All variants are declared.
                     match self { $(Self::$word => {})* }
                     self.name().into()
                 }

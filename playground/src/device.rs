@@ -23,7 +23,7 @@ impl Bus {
     }
 }
 
-/// The devices that `Bus.addDevice` knows.
+/// The built-in devices, for `Bus.addDevice`.
 #[wasm_bindgen(js_name = builtinDevices, unchecked_return_type = "Builtin[]")]
 pub fn builtin_devices() -> Vec<JsValue> {
     let builtin = |kind: &DeviceKind| Builtin {

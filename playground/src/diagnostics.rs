@@ -18,15 +18,15 @@ words! {
 }
 
 record! {
-    /// Something to say about an EDS text.
+    /// A finding in an EDS text.
     Diagnostic {
         /// Stable, such as `E0412`.
         code: &'static str,
         severity: Severity,
         message: String,
-        /// The way to fix it; empty if the message says so.
+        /// Help; empty if the message contains it.
         help: String,
-        /// Counted from 1; 0 where something is missing altogether.
+        /// Counted from 1; 0 if something is missing.
         line: u32,
         column: u32,
         /// The object it is about, such as `6004h`, or empty.

@@ -1,4 +1,4 @@
-//! Devices and frames past the journal, for a page that needs none.
+//! Adds devices and sends frames without the journal, for a page that needs none.
 
 #[cfg(feature = "eds")]
 use od_bench::VirtualDevice;
@@ -18,7 +18,7 @@ use crate::{packed, values};
 record! {
     /// Result of loading an EDS text.
     EdsResult {
-        /// The number of the device, or null where it cannot run.
+        /// The number of the device, or null if it cannot run.
         device: Option<usize>,
         diagnostics: Vec<Diagnostic>,
     }
@@ -26,9 +26,9 @@ record! {
 
 #[wasm_bindgen]
 impl Bus {
-    /// Puts a device of ours on the bus and gives it power; answers with its number.
+    /// Puts a built-in device on the bus and switches it on; returns its number.
     /// `builtinDevices` lists the names. With a `place` it takes the place of the device
-    /// with that number. A redundant encoder puts its further channels behind all devices.
+    /// with that number. The further channels of a redundant encoder get the last numbers.
     ///
     /// # Errors
     /// The device does not exist, or the node ID is not 1 to 127.
@@ -45,9 +45,9 @@ impl Bus {
         Ok(self.journal.rig.put_kind(kind, node_id, place))
     }
 
-    /// Puts the device that an EDS or DCF text describes on the bus and gives it power.
-    /// The answer has its number, or `null` and what is wrong with the text. A lenient bus
-    /// runs what can be run of a text with errors.
+    /// Puts the device of an EDS or DCF text on the bus and switches it on.
+    /// Returns its number, or `null` and the errors of the text. A lenient bus
+    /// runs the valid part of a text with errors.
     ///
     /// # Errors
     /// The node ID is not 1 to 127.
@@ -74,13 +74,13 @@ impl Bus {
         .value())
     }
 
-    /// Takes a device off the bus; the numbers of those behind it go down by one.
+    /// Takes a device off the bus; the numbers of later devices go down by one.
     #[wasm_bindgen(js_name = removeDevice)]
     pub fn remove_device(&mut self, device: usize) {
         self.journal.rig.remove(device);
     }
 
-    /// A name for people.
+    /// A name to show.
     pub fn title(&self, device: usize) -> String {
         self.device(device)
             .map(|device| device.title().into())
@@ -94,8 +94,8 @@ impl Bus {
             .map_or(0, |device| device.node_id().raw())
     }
 
-    /// Sends a frame from outside at the present moment. Of a remote frame only the
-    /// number of bytes counts.
+    /// Sends a frame at the present moment. Only the number of bytes of a remote
+    /// frame counts.
     pub fn send(&mut self, id: u32, data: &[u8], extended: bool, remote: bool) {
         if let Some(frame) = frame(id, data, extended, remote) {
             self.journal.rig.send(&frame);
@@ -107,7 +107,7 @@ impl Bus {
         self.words(frame)
     }
 
-    /// The objects in a packed PDO by its current mapping, three numbers each:
+    /// The objects in a packed PDO by the current mapping, three numbers each:
     /// `index * 256 + sub`, first bit, number of bits. Empty for other frames.
     pub fn layout(&self, frame: &[u8]) -> Vec<u32> {
         packed::frame(frame)

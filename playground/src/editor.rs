@@ -1,4 +1,4 @@
-//! The language server in a page, and what an editor asks beside it.
+//! The language server in a page, and other functions of an editor.
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -13,19 +13,19 @@ use crate::crossing::{Crosses, record};
 use crate::record::Record;
 
 record! {
-    /// Difference that a master notices between a device and its replacement.
+    /// A difference between a device and its replacement that a master notices.
     Difference {
         /// `6001h`, or `1018h:02`.
         place: String,
         name: String,
         /// `default 0 -> 5`.
         change: String,
-        /// A master that was set up for the first device may fail.
+        /// Whether a master that was configured for the first device may fail.
         breaking: bool,
     }
 }
 
-/// Files that the page has; no project settings.
+/// Files of the page; there are no project settings.
 #[derive(Clone, Default)]
 struct Files(Rc<RefCell<BTreeMap<String, Vec<u8>>>>);
 
@@ -43,8 +43,8 @@ impl Host for Files {
     }
 }
 
-/// The server of `odkit lsp`: messages of the Language Server Protocol 3.17 in, messages out, each
-/// the JSON text without its headers.
+/// The server of `odkit lsp`: Language Server Protocol 3.17, each message is
+/// a JSON text without headers.
 #[wasm_bindgen]
 pub struct LanguageServer {
     server: Server,
@@ -64,19 +64,19 @@ impl LanguageServer {
         }
     }
 
-    /// Gives the server the bytes of a file as they are on a disk: it reports an encoding that the
+    /// Gives the server the bytes of a file on the disk: it reports an encoding that the
     /// text in the editor does not show. `path` is the one of the file's URI.
     pub fn put(&mut self, path: String, bytes: Vec<u8>) {
         self.files.0.borrow_mut().insert(path, bytes);
     }
 
-    /// Takes a message. Messages that wait are answered by [`step`](Self::step), and a file is
-    /// checked once for all changes among them.
+    /// Handles a message. Waiting messages are answered by [`step`](Self::step), and a file is
+    /// checked once for all changes in them.
     pub fn receive(&mut self, message: &str) {
         self.server.receive(message);
     }
 
-    /// Does one thing that is due; `false` if there is nothing to do.
+    /// Does one pending step; returns `false` if there is none.
     pub fn step(&mut self) -> bool {
         self.server.step()
     }
@@ -87,14 +87,14 @@ impl LanguageServer {
     }
 }
 
-/// Returns the EDS of a device that `Bus.addDevice` knows; `undefined` of another.
+/// Returns the EDS of a built-in device; `undefined` if there is none.
 #[wasm_bindgen(js_name = deviceEds)]
 pub fn device_eds(name: &str) -> Option<String> {
     od_devices::find(name).map(od_devices::text::eds)
 }
 
-/// Returns what a master notices when the device of one EDS text takes the place of the device of
-/// another, as `odkit diff` lists it.
+/// Returns the differences that a master notices if the device of one EDS text replaces the device of
+/// another, like `odkit diff`.
 #[wasm_bindgen(js_name = compareEds, unchecked_return_type = "Difference[]")]
 pub fn compare_eds(before: &str, after: &str) -> Vec<JsValue> {
     let tables = |text| Tables::new(&od_eds::load(text).description);
@@ -109,7 +109,7 @@ pub fn compare_eds(before: &str, after: &str) -> Vec<JsValue> {
     found.map(Crosses::value).collect()
 }
 
-/// Returns the bytes of a file with another text, in the encoding of the file.
+/// Returns the bytes of a file with a new text, in the encoding of the file.
 #[wasm_bindgen(js_name = encodeEds)]
 pub fn encode_eds(file: &[u8], text: &str) -> Vec<u8> {
     let mut document = Document::new(file);
@@ -119,12 +119,12 @@ pub fn encode_eds(file: &[u8], text: &str) -> Vec<u8> {
     };
     match document.apply(&[edit]) {
         Ok(()) => document.bytes().into(),
-        // A character that the encoding lacks.
+        // A character that the encoding does not have.
         Err(_) => text.into(),
     }
 }
 
-/// Returns the titles of all rules by their codes.
+/// Returns the titles of all rules by code.
 #[wasm_bindgen(js_name = ruleTitles, unchecked_return_type = "Record<string, string>")]
 pub fn rule_titles() -> JsValue {
     let titles = Record::new();

@@ -1,4 +1,4 @@
-//! EDS and DCF texts, and what odkit finds in them.
+//! EDS and DCF texts, and their findings.
 
 use wasm_bindgen::prelude::*;
 
@@ -17,7 +17,7 @@ pub fn check_eds(text: &str) -> Vec<JsValue> {
         .collect()
 }
 
-/// The text after its safe fixes, or after the unsafe ones too.
+/// The text after its safe fixes, or also after unsafe fixes.
 #[wasm_bindgen(js_name = fixEds)]
 pub fn fix_eds(text: &str, guess: bool) -> String {
     use od_eds::fix::{Applicability, fix};

@@ -25,14 +25,14 @@ record! {
 
 #[wasm_bindgen]
 impl Bus {
-    /// Each of these packed frames in plain words.
+    /// The text of each of these packed frames.
     #[wasm_bindgen(js_name = describeAll)]
     pub fn describe_all(&self, frames: &[u8]) -> Vec<String> {
         let frames = frames.chunks_exact(packed::LEN);
         frames.map(|frame| self.words(frame)).collect()
     }
 
-    /// The fields of a packed frame, one after the other; none for a frame that was disturbed.
+    /// The fields of a packed frame in order; empty for a disturbed frame.
     #[wasm_bindgen(unchecked_return_type = "Field[]")]
     pub fn fields(&self, frame: &[u8]) -> Vec<JsValue> {
         let known = packed::frame(frame).filter(|_| !packed::is_disturbed(frame));
@@ -51,7 +51,7 @@ impl Bus {
 }
 
 impl Bus {
-    /// A packed frame in plain words.
+    /// The text of a packed frame.
     pub(crate) fn words(&self, frame: &[u8]) -> String {
         packed::frame(frame)
             .map(|frame| sentence(words::explain(self.journal.rig.bus.devices(), &frame)))
@@ -59,7 +59,7 @@ impl Bus {
     }
 }
 
-/// Words of a frame, with its node if the CAN-ID does not tell it.
+/// The text of a frame, with its node if the CAN-ID does not tell it.
 pub(crate) fn sentence(words: Words) -> String {
     let mut text = match (words.service, words.node) {
         (Service::Nmt, Some(node)) => format!("{} node {node}", words.text),

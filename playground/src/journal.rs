@@ -1,4 +1,4 @@
-//! Inputs of a bench, kept so that the bench can be made again.
+//! The inputs of a bench, kept so that the run can be repeated.
 
 use od_bench::VirtualDevice;
 use od_bench::journal::{self, Fault, Fields, Input, Placed, Source, Trouble, Value, check};
@@ -39,28 +39,28 @@ record! {
     DeviceInfo {
         /// Short name: `gxmm`, or the file's product name.
         name: String,
-        /// One line for people.
+        /// One line of description.
         title: String,
-        /// The node ID that it was put on the bus with.
+        /// The node ID that it was added with.
         "nodeId" node_id: u8,
         source: Source,
         objects: Made<Vec<ObjectRecord>>,
     }
 
-    /// An input and its virtual moment in microseconds.
+    /// An input and its virtual time in microseconds.
     Entry {
         at: f64,
         input: Input,
     }
 
-    /// Result of an input that puts a device on the bus, begins a lesson, or plays a script.
+    /// Result of an input that adds a device, starts a lesson, or plays a script.
     Added {
-        /// Its number, or null where it cannot run.
+        /// Its number, or null if it cannot run.
         node: Option<usize>,
         diagnostics: Vec<Diagnostic>,
     }
 
-    /// Entries that are new, and how many are before them.
+    /// New entries, and the number of entries before them.
     JournalNews {
         from: usize,
         entries: Made<Vec<Entry>>,
@@ -69,11 +69,11 @@ record! {
 
 #[wasm_bindgen]
 impl Bus {
-    /// Does something to the bench and keeps it in the journal. What was still to come of a run
-    /// that is made again does not come any more. A lesson takes the place of all that was there.
+    /// Applies an input to the bench and adds it to the journal. Remaining inputs of a repeated run
+    /// are dropped. A lesson replaces everything on the bench.
     ///
     /// # Errors
-    /// Reason why this is not an input.
+    /// Reason why this is not a valid input.
     #[wasm_bindgen(unchecked_return_type = "Added")]
     pub fn act(
         &mut self,
@@ -85,11 +85,11 @@ impl Bus {
         Ok(outcome(added, &text).value())
     }
 
-    /// Makes an empty bench on a real bus line, and a run that is made again as time passes. A
-    /// quiet one does not show what happens at its first moment.
+    /// Creates an empty bench on a real bus line, and a run that is repeated as time passes. A
+    /// quiet one does not show the frames of its first moment.
     ///
     /// # Errors
-    /// Reason why an entry is not one.
+    /// Reason why an entry is not valid.
     pub fn restore(
         &mut self,
         #[wasm_bindgen(unchecked_param_type = "Entry[]")] entries: Vec<JsValue>,
@@ -100,7 +100,7 @@ impl Bus {
         Ok(())
     }
 
-    /// Makes the bench as it was at `to`, in microseconds; what came after comes again.
+    /// Restores the bench at the time `to`, in microseconds; later inputs are repeated.
     pub fn rewind(&mut self, to: f64) {
         self.journal
             .rewind(Instant::from_micros(to.max(0.0) as u64));
@@ -122,20 +122,20 @@ impl Bus {
         news.value()
     }
 
-    /// Returns the number of entries still to come of a run that is made again.
+    /// Returns the number of remaining inputs of a repeated run.
     #[wasm_bindgen(js_name = toCome)]
     pub fn to_come(&self) -> usize {
         self.journal.to_come()
     }
 
-    /// Returns inputs that bring an empty bench to the state of this one, without its past; `null` if none do.
+    /// Returns the inputs that bring an empty bench to this state, without its history; `null` if there are none.
     #[wasm_bindgen(unchecked_return_type = "Entry[] | null")]
     pub fn still(&mut self) -> JsValue {
         let entries = self.journal.still();
         entries.map_or(JsValue::NULL, |all| list(all.iter().map(record)))
     }
 
-    /// The devices that the journal put on the bus.
+    /// The devices that the journal added.
     #[wasm_bindgen(unchecked_return_type = "DeviceInfo[]")]
     pub fn devices(&self) -> Vec<JsValue> {
         let all = self
@@ -157,11 +157,11 @@ impl Bus {
     }
 }
 
-/// Checks an input that comes from outside, such as from a link: all its fields, and no others.
+/// Checks an untrusted input, such as from a link: all its fields, and no others.
 ///
 /// # Errors
-/// `cut` if a field is missing or has a value that is not allowed, `newer` for an input or a
-/// source that only a later version knows.
+/// `cut` if a field is missing or has a value that is not valid, `newer` for an input or a
+/// source that only a later version supports.
 #[wasm_bindgen(js_name = readInput, unchecked_return_type = "Input")]
 pub fn read_input(
     #[wasm_bindgen(unchecked_param_type = "unknown")] input: &JsValue,
@@ -169,8 +169,8 @@ pub fn read_input(
     read(input).map(Crosses::value).map_err(error)
 }
 
-/// Checks a run that is to be made again to the moment `until`, in microseconds, before any of it
-/// happens.
+/// Checks a run that is to be repeated to the time `until`, in microseconds, before it
+/// starts.
 ///
 /// # Errors
 /// `devices`, `time` or `frames`: the limit that it exceeds.
@@ -184,7 +184,7 @@ pub fn check_run(
     check(&entries.map_err(error)?, until).map_err(|excess| JsError::new(excess.name()))
 }
 
-/// The result of an input, and of the text of its device.
+/// The result of an input, with the findings of its text.
 pub(crate) fn outcome(added: journal::Added, text: &str) -> Added {
     let diagnostics = match added.trouble {
         Trouble::Message(message) => vec![diagnostics::message(&message)],

@@ -1,4 +1,4 @@
-//! The numbers by which bytes of this module are read, for TypeScript: `playground/web/src/sim/layout.ts`.
+//! The layout of packed bytes, as numbers for TypeScript: `playground/web/src/sim/layout.ts`.
 
 use std::{env, fs};
 
@@ -50,7 +50,7 @@ fn written() -> String {
 }
 
 #[test]
-fn the_page_reads_bytes_by_the_numbers_of_this_module() -> std::io::Result<()> {
+fn the_page_has_the_layout_of_this_module() -> std::io::Result<()> {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/web/src/sim/layout.ts");
     let written = written();
     if env::var_os("ODKIT_ACCEPT").is_some() {

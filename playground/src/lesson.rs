@@ -9,7 +9,7 @@ use crate::bus::Bus;
 use crate::crossing::{Crosses, Maybe, record};
 
 record! {
-    /// A problem in the text of a lesson.
+    /// An error in the text of a lesson.
     LessonProblem {
         /// Counted from 1.
         line: u32,
@@ -19,7 +19,7 @@ record! {
         help: String,
     }
 
-    /// A lesson as it was written; texts are Markdown.
+    /// A lesson; texts are Markdown.
     Lesson {
         title: String,
         /// Summary in a sentence; may be empty.
@@ -36,19 +36,19 @@ record! {
     LessonStep {
         title: String,
         text: String,
-        /// Each tells a bit more than the one before.
+        /// Each hint tells more than the one before.
         hints: Vec<String>,
-        /// Explanation, to be shown once the checkpoint is reached.
+        /// Explanation, shown after the checkpoint is reached.
         happened: String,
         quiz: Option<LessonQuiz>,
         /// Lines for `Bus.runScript`.
         solution: String,
     }
 
-    /// Predict a frame, then see it.
+    /// A question: predict a frame, then see it.
     LessonQuiz {
         question: String,
-        /// For `judgeAnswer`, and to be shown; `..` and `*` are bytes that do not matter.
+        /// For `judgeAnswer`, and to show; `..` and `*` are bytes that do not matter.
         answer: String,
         reveal: String,
     }
@@ -58,17 +58,17 @@ record! {
         problems: Vec<LessonProblem>,
     }
 
-    /// One thing that the present step asks for.
+    /// A condition of the current step.
     LessonRequirement {
         holds: bool,
         /// The condition in words, with its current state.
         text: String,
-        /// It held since the step began, and no longer does.
+        /// It held since the step began, but no longer holds.
         lost: Maybe<bool>,
     }
 
     LessonState {
-        /// The present step, counted from 0; the number of steps when all is done.
+        /// The current step, counted from 0; the number of steps when all are done.
         step: usize,
         done: bool,
         /// Virtual microseconds at which each checkpoint was reached.
@@ -76,7 +76,7 @@ record! {
         requirements: Vec<LessonRequirement>,
     }
 
-    /// Judgement of an answer, by its parts.
+    /// Result for an answer, by its parts.
     Judgement {
         right: bool,
         "wrongIdentifier" wrong_identifier: bool,
@@ -88,11 +88,11 @@ record! {
 
 #[wasm_bindgen]
 impl Bus {
-    /// Begins a lesson: its set-up takes the place of all that is on the bus, and time goes on.
-    /// From then on `advance` returns early when a checkpoint is reached.
+    /// Starts a lesson: its set-up replaces everything on the bus, and time continues.
+    /// From now on `advance` returns early when a checkpoint is reached.
     ///
     /// # Errors
-    /// The problems of the text, or of its set-up.
+    /// The errors of the text, or of its set-up.
     #[wasm_bindgen(js_name = startLesson)]
     pub fn start_lesson(&mut self, text: &str) -> Result<(), JsError> {
         let started = self
@@ -102,7 +102,7 @@ impl Bus {
         started.map(|_| ()).map_err(|all| error(all.first()))
     }
 
-    /// The lesson of the journal; `null` without one.
+    /// The lesson in the journal; `null` if there is none.
     #[wasm_bindgen(js_name = takenLesson, unchecked_return_type = "Lesson | null")]
     pub fn taken_lesson(&self) -> JsValue {
         self.journal.lesson().map(content).value()
@@ -140,7 +140,7 @@ impl Bus {
         std::iter::from_fn(|| progress.poll().map(|step| step as u32)).collect()
     }
 
-    /// Goes to a step, as if those before it had just been done; also to begin it again.
+    /// Goes to a step as if the steps before it had just been done; also to start it again.
     #[wasm_bindgen(js_name = beginStep)]
     pub fn begin_step(&mut self, step: usize) {
         if let Some((progress, bus)) = self.journal.rig.lesson() {
@@ -148,17 +148,17 @@ impl Bus {
         }
     }
 
-    /// Ends the lesson; what is on the bus stays.
+    /// Ends the lesson; the devices stay on the bus.
     #[wasm_bindgen(js_name = endLesson)]
     pub fn end_lesson(&mut self) {
         self.journal.rig.end_lesson();
     }
 
-    /// Plays lines of a script, such as the solution of a step; time passes where it says so.
-    /// The first device is the one that lines are about, until `use` names another one.
+    /// Plays script lines, such as the solution of a step; time passes as the lines say.
+    /// Lines act on the first device, until `use` selects another one.
     ///
     /// # Errors
-    /// The line that cannot be read, or does not work; what the lines before it did stays done.
+    /// The line that cannot be parsed or fails; the effect of earlier lines stays.
     #[wasm_bindgen(js_name = runScript)]
     pub fn run_script(&mut self, text: &str) -> Result<(), JsError> {
         let result = self
@@ -169,7 +169,7 @@ impl Bus {
     }
 }
 
-/// Reads a lesson: what it says, or everything that is wrong with it.
+/// Parses a lesson; returns it, or all its errors.
 #[wasm_bindgen(js_name = parseLesson, unchecked_return_type = "LessonResult")]
 pub fn parse_lesson(text: &str) -> JsValue {
     let (lesson, problems) = match lesson::Lesson::parse(text) {
@@ -187,7 +187,7 @@ pub fn parse_lesson(text: &str) -> JsValue {
 }
 
 /// Judges an answer to a question: a frame such as `585#43 00 10 00`, or only its bytes.
-/// `answer` is what the question has.
+/// `answer` is that of the question.
 ///
 /// # Errors
 /// The text is not a frame.

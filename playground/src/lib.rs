@@ -11,9 +11,9 @@
 //! for (const frame of frames(bus.drain())) console.log(frame);
 //! ```
 //!
-//! Only numbers, strings, byte arrays and plain records cross the boundary; frames
-//! cross in bulk, packed. Nothing here reads a clock: time passes when
-//! [`Bus::advance`] says so.
+//! Only numbers, strings, byte arrays and plain records are passed; frames
+//! are passed packed, many at once. Nothing here reads a clock: time passes when
+//! [`Bus::advance`] is called.
 
 #![deny(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 

@@ -1,4 +1,4 @@
-//! Logs of other tools, read and written.
+//! Reads and writes logs of other tools.
 
 use od_bench::logs::{Format, Record, What, read};
 use od_runtime::Instant;
@@ -8,14 +8,14 @@ use crate::crossing::{Bytes, Crosses, record};
 use crate::packed;
 
 record! {
-    /// A log that was read.
+    /// A parsed log.
     Log {
-        /// Packed.
+        /// Packed frames.
         frames: Bytes,
         count: usize,
         /// Number of lines that could not be read.
         skipped: usize,
-        /// The first of them; 0 without any.
+        /// The first of these lines; 0 if there is none.
         line: u32,
         /// Reason why it could not be read.
         why: String,

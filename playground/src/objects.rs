@@ -9,7 +9,7 @@ use crate::values;
 
 #[wasm_bindgen]
 impl Bus {
-    /// The value of an object as a master would read it now, without a frame on the bus;
+    /// The current value of an object as a master would read it, without a frame on the bus;
     /// `null` if the object does not exist.
     #[wasm_bindgen(unchecked_return_type = "Value")]
     pub fn read(&mut self, device: usize, index: u16, sub: u8) -> JsValue {
@@ -22,8 +22,8 @@ impl Bus {
         value.flatten().unwrap_or(JsValue::NULL)
     }
 
-    /// The objects that would have another value after a power cycle, each as
-    /// `index * 256 + sub`; with `saved`, those that are saved as they are.
+    /// The objects whose value a power cycle would change, each as
+    /// `index * 256 + sub`; with `saved`, those that are saved with their current value.
     pub fn unsaved(&mut self, device: usize, saved: bool) -> Vec<u32> {
         let look = |device: &mut VirtualDevice| {
             if !device.is_powered() || is_described(device) {
@@ -43,7 +43,7 @@ impl Bus {
             .unwrap_or_default()
     }
 
-    /// Returns the value of an object that the EEPROM would bring back at the next start: its saved value, or
+    /// Returns the value that an object will have at the next start: its saved value, or
     /// its default; `null` if the object is not saved.
     #[wasm_bindgen(js_name = savedValue, unchecked_return_type = "Value")]
     pub fn saved_value(&mut self, device: usize, index: u16, sub: u8) -> JsValue {
@@ -64,7 +64,7 @@ impl Bus {
     }
 }
 
-/// Does it only describe a node of a real bus?
+/// Returns whether it describes a node of a real bus.
 pub(crate) fn is_described(device: &VirtualDevice) -> bool {
     #[cfg(feature = "real")]
     return device.is_described();
@@ -75,7 +75,7 @@ pub(crate) fn is_described(device: &VirtualDevice) -> bool {
     }
 }
 
-/// Is the value at this address the device's own, not one of its file?
+/// Returns whether the value at this address comes from the device, not from its file.
 fn is_known(device: &VirtualDevice, address: Address) -> bool {
     #[cfg(feature = "real")]
     return device.is_known(address);

@@ -1,4 +1,4 @@
-//! Frames in bulk: 24 bytes each, little endian, so that thousands cross in one call.
+//! Packed frames: 24 bytes each, little endian, so that thousands are passed in one call.
 //!
 //! | offset | what |
 //! |---|---|
@@ -10,8 +10,8 @@
 //! | 15 | `u8`, reserved |
 //! | 16 | eight bytes of data, the unused ones 0 |
 //!
-//! A frame that was disturbed on the wire has other data: why (1 no acknowledge, 2 another
-//! bit rate, 3 reflections), failed attempts, 1 if it came through in the end, 1 if its
+//! A frame that was disturbed on the bus line has other data: reason (1 no acknowledge, 2 another
+//! bit rate, 3 reflections), failed attempts, 1 if it was transmitted in the end, 1 if its
 //! sender went bus-off, and the sender's transmit error counter in two bytes.
 
 use od_bench::journal;
@@ -37,7 +37,7 @@ pub(crate) mod at {
     pub(crate) const DATA: usize = DEVICE + 2;
 }
 
-/// Adds a frame; `device` is `None` for one that was sent from outside.
+/// Adds a frame; `device` is `None` if a program sent it.
 pub(crate) fn push(batch: &mut Vec<u8>, at: Instant, device: Option<usize>, frame: &Frame) {
     let id = frame.id();
     let mut flags = if device.is_none() { OWN } else { 0 };
@@ -57,7 +57,7 @@ pub(crate) fn push(batch: &mut Vec<u8>, at: Instant, device: Option<usize>, fram
     batch.extend_from_slice(&packed);
 }
 
-/// Adds what happened on the bus line.
+/// Adds an event of the bus line.
 pub(crate) fn push_seen(batch: &mut Vec<u8>, seen: &Seen) {
     let (one, counter) = match seen {
         Seen::Frame { at, device, frame } => return push(batch, *at, *device, frame),
@@ -111,23 +111,23 @@ fn flags(packed: &[u8]) -> u8 {
     packed.get(at::FLAGS).copied().unwrap_or_default()
 }
 
-/// Was this frame disturbed on the line?
+/// Returns whether this frame was disturbed on the line.
 pub(crate) fn is_disturbed(packed: &[u8]) -> bool {
     flags(packed) & DISTURBED != 0
 }
 
-/// Was it sent from outside?
+/// Returns whether a program sent it.
 #[cfg(feature = "logs")]
 pub(crate) fn is_own(packed: &[u8]) -> bool {
     flags(packed) & OWN != 0
 }
 
-/// Its virtual microseconds.
+/// Its time in virtual microseconds.
 pub(crate) fn micros(packed: &[u8]) -> Option<f64> {
     Some(f64::from_le_bytes(packed.get(..8)?.try_into().ok()?))
 }
 
-/// The frame in these bytes; `None` where there are too few.
+/// The frame in these bytes; `None` if there are too few.
 pub(crate) fn frame(packed: &[u8]) -> Option<Frame> {
     let packed: &[u8; LEN] = packed.get(..LEN)?.try_into().ok()?;
     let raw = u32::from_le_bytes(packed[at::ID..at::FLAGS].try_into().ok()?);
@@ -145,7 +145,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_frame_comes_back() -> Result<(), &'static str> {
+    fn a_frame_is_unpacked_as_it_was_packed() -> Result<(), &'static str> {
         for sent in [
             journal::frame(0x601, &[0x40, 4, 0x60, 0], false, false),
             journal::frame(0x701, &[0; 3], false, true),

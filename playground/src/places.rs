@@ -1,12 +1,12 @@
-//! Places of a text as JavaScript counts them, in UTF-16 units; the edits of a fix by them.
+//! Positions in a text in UTF-16 units, as in JavaScript; the edits of a fix with such positions.
 
 use crate::fixes::{Fix, TextEdit};
 use od_eds::fix;
 
-/// Map from the bytes of a text to the string that JavaScript has.
+/// Maps bytes of a text to units of the JavaScript string.
 pub(crate) struct Places<'a> {
     text: &'a str,
-    /// Units before each byte; empty where all is ASCII and the two are the same.
+    /// Units before each byte; empty if the text is ASCII.
     units: Vec<u32>,
 }
 
@@ -47,7 +47,7 @@ mod tests {
     use super::Places;
 
     #[test]
-    fn units_are_those_of_javascript() {
+    fn positions_are_those_of_javascript() {
         let places = Places::of("aµ😀b");
         assert_eq!(
             [0, 1, 3, 7, 8].map(|byte| places.unit(byte)),

@@ -1,11 +1,11 @@
-//! The description of a node without an EDS: what CiA 301 lets every node have.
+//! The description of a node without an EDS: the objects of CiA 301 that any node may have.
 
 use std::fmt::Write;
 
 use od_model::DataType;
 use wasm_bindgen::prelude::*;
 
-/// Returns an EDS of a node of which nothing is known: what every node may have, with four PDOs each way.
+/// Returns an EDS for an unknown node: objects that any node may have, with four PDOs each way.
 #[wasm_bindgen(js_name = plainEds)]
 pub fn plain_eds(name: &str) -> String {
     let mut objects = Vec::new();
@@ -44,7 +44,7 @@ impl Object {
         Self { index, text }
     }
 
-    /// A record, whose members follow from sub-index 0 on.
+    /// A record; its sub-objects are counted from sub-index 0.
     fn record(index: u16, name: &str, members: &[(String, DataType, &str, String)]) -> Self {
         let count = members.len();
         let mut text =
@@ -146,7 +146,7 @@ const fn is_mandatory(index: u16) -> bool {
     matches!(index, 0x1000 | 0x1001 | 0x1018)
 }
 
-/// A list of objects, as CiA 306 counts them.
+/// A list of objects in the format of CiA 306.
 fn list(name: &str, objects: &[Object], belongs: impl Fn(u16) -> bool) -> String {
     let indices = objects.iter().map(|object| object.index);
     let indices: Vec<_> = indices.filter(|index| belongs(*index)).collect();
@@ -164,9 +164,9 @@ mod tests {
     use super::plain_eds;
 
     #[test]
-    fn a_node_of_which_nothing_is_known_has_a_sound_description() {
+    fn an_unknown_node_has_a_valid_description() {
         let parsed = od_eds::load(&plain_eds("A\nname"));
-        // Of the device itself nothing is known: the keys of [DeviceInfo] and [FileInfo] are missing.
+        // Nothing is known of the device: the keys of [DeviceInfo] and [FileInfo] are missing.
         let errors = parsed.findings.iter();
         let errors: Vec<_> = errors
             .filter(|one| one.rule.severity == Severity::Error)

@@ -1,4 +1,4 @@
-//! A real bus behind a link: what an adapter says goes on the bus, and what is sent here goes out.
+//! A real bus behind a link: frames of the adapter are received by the bench, and frames of this side are sent.
 
 use od_bench::VirtualDevice;
 use od_bench::links::adapter::{self, Said};
@@ -14,14 +14,14 @@ use crate::journal::{error, outcome, read, text_of};
 
 #[wasm_bindgen]
 impl Bus {
-    /// Puts the bench on a real bus: its journal keeps nothing any more, and nothing is sent until
+    /// Connects the bench to a real bus: its journal records no more inputs, and nothing is sent until
     /// [`setSending`](Self::set_sending).
     #[wasm_bindgen(js_name = goLive)]
     pub fn go_live(&mut self) {
         self.journal.go_live();
     }
 
-    /// Lets frames of this side go out, or holds them back: those of the page and of every device.
+    /// Allows or holds back the frames of this side: those of the page and of every device.
     #[wasm_bindgen(js_name = setSending)]
     pub fn set_sending(&mut self, on: bool) {
         self.journal.rig.set_sending(on);
@@ -30,7 +30,7 @@ impl Bus {
     /// Adds the description of a node of the real bus, as the input `add` adds a device.
     ///
     /// # Errors
-    /// Reason why this is not an input.
+    /// Reason why this is not a valid input.
     #[wasm_bindgen(js_name = addDescription, unchecked_return_type = "Added")]
     pub fn add_description(
         &mut self,
@@ -41,7 +41,7 @@ impl Bus {
         Ok(outcome(added, &text_of(&input)).value())
     }
 
-    /// Keeps a value that a node has said: the description shows it from now on.
+    /// Stores a value that a node has sent: its description shows it from now on.
     pub fn learn(&mut self, device: usize, index: u16, sub: u8, bytes: &[u8]) {
         let learn = |one: &mut VirtualDevice, _| one.learn(Address::new(index, sub), bytes);
         self.journal.rig.with(device, learn);
@@ -52,13 +52,13 @@ impl Bus {
         self.journal.rig.held() as f64
     }
 
-    /// Number of frames that were dropped because nobody drained them.
+    /// Number of frames that were dropped because they were not drained in time.
     pub fn dropped(&self) -> f64 {
         self.journal.rig.dropped() as f64
     }
 }
 
-/// The built-in device with this vendor-ID and product code (1018h); `null` for others.
+/// The built-in device with this vendor-ID and product code (1018h); `null` if there is none.
 #[wasm_bindgen(unchecked_return_type = "string | null")]
 pub fn identify(vendor: u32, product: u32) -> JsValue {
     known_as(vendor, product).map_or(JsValue::NULL, JsValue::from)
@@ -77,12 +77,12 @@ fn known_as(vendor: u32, product: u32) -> Option<&'static str> {
     Some(found.name)
 }
 
-/// The conversation with an slcan adapter, or with `odkit sim`.
+/// The protocol of an slcan adapter, or of `odkit sim`.
 #[wasm_bindgen]
 #[derive(Default)]
 pub struct Adapter {
     adapter: adapter::Adapter,
-    /// One bit for each node ID that sent a heartbeat or an SDO response.
+    /// One bit for each node ID from which a heartbeat or an SDO response was received.
     nodes: u128,
     is_open: bool,
     is_closed: bool,
@@ -93,25 +93,25 @@ pub struct Adapter {
 
 #[wasm_bindgen]
 impl Adapter {
-    /// Nothing was said so far.
+    /// No bytes were received yet.
     #[wasm_bindgen(constructor)]
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// The bytes that open the channel at a bit rate in kbit/s, or at the one that the adapter has;
-    /// none where slcan does not have this rate.
+    /// The bytes that open the channel at a bit rate in kbit/s, or at that of the adapter;
+    /// empty if slcan does not have this rate.
     pub fn begin(&mut self, rate: Option<u16>) -> Vec<u8> {
         (self.is_open, self.is_closed) = (false, false);
         self.adapter.begin(rate, false).unwrap_or_default()
     }
 
-    /// Takes bytes of the adapter; their frames are on the bus now.
+    /// Handles bytes of the adapter; their frames are on the bus then.
     pub fn hear(&mut self, bus: &mut Bus, bytes: &[u8]) {
         let mut adapter = std::mem::take(&mut self.adapter);
         adapter.receive(bytes, |said| match said {
             Said::Frame(frame) => {
-                // Some adapters never answer; one whose frames come is open.
+                // Some adapters never confirm; if frames arrive, the channel is open.
                 self.is_open = true;
                 self.frames = self.frames.saturating_add(1);
                 let node = watch::parse(&frame).map(|(node, _)| node.raw());
@@ -130,7 +130,7 @@ impl Adapter {
         bus.journal.send_requests();
     }
 
-    /// The lines that go out now.
+    /// The lines to send now.
     pub fn outgoing(&self, bus: &mut Bus) -> Vec<u8> {
         let mut lines = Vec::new();
         while let Some(frame) = bus.journal.rig.outgoing() {
@@ -140,19 +140,19 @@ impl Adapter {
         lines
     }
 
-    /// Has the adapter opened the channel, or sent a frame?
+    /// Returns whether the adapter has opened the channel, or sent a frame.
     #[wasm_bindgen(js_name = isOpen)]
     pub fn is_open(&self) -> bool {
         self.is_open
     }
 
-    /// Has the adapter refused to open the channel?
+    /// Returns whether the adapter has refused to open the channel.
     #[wasm_bindgen(js_name = isClosed)]
     pub fn is_closed(&self) -> bool {
         self.is_closed
     }
 
-    /// Number of frames that came.
+    /// Number of received frames.
     pub fn frames(&self) -> u32 {
         self.frames
     }
@@ -167,7 +167,7 @@ impl Adapter {
         self.noise
     }
 
-    /// The node IDs that were heard, in order.
+    /// The node IDs of received frames, in order.
     pub fn nodes(&self) -> Vec<u8> {
         (1..=127)
             .filter(|node| self.nodes >> node & 1 != 0)
@@ -216,7 +216,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_goes_out_until_sending_is_on_and_nothing_is_kept() {
+    fn no_frame_is_sent_until_sending_is_on_and_the_journal_stays_empty() {
         let (mut bus, adapter) = live();
         bus.journal.act(input(1));
         send(&mut bus, 0, &[1, 0]);
@@ -255,7 +255,7 @@ mod tests {
     }
 
     #[test]
-    fn a_description_shows_what_was_seen_and_sends_nothing() {
+    fn a_description_shows_received_values_and_sends_nothing() {
         let (mut bus, mut adapter) = live();
         bus.set_sending(true);
         assert_eq!(bus.journal.describe(&input(5)).node, Some(0));
@@ -269,14 +269,14 @@ mod tests {
         assert_eq!(bus.nmt(0), "unknown");
         adapter.hear(&mut bus, b"t705100\r");
         assert_eq!(bus.nmt(0), "pre-operational");
-        // Another master reads 1017h; the node answers.
+        // Another master reads 1017h; the node responds.
         adapter.hear(&mut bus, b"t60584017100000000000\rt58584B171000F4010000\r");
         assert_eq!(known(&bus, 0x1017), Some(true));
         assert_eq!(
             bus.device(0).and_then(|one| one.stored(0x1017, 0)),
             Some(500)
         );
-        // PDO1 carries the position value, and only an operational node sends it.
+        // PDO1 contains the position value, and only an operational node sends it.
         adapter.hear(&mut bus, b"t1854D2040000\r");
         assert_eq!(bus.nmt(0), "operational");
         assert_eq!(
@@ -311,7 +311,7 @@ mod tests {
     }
 
     #[test]
-    fn a_slow_page_loses_the_oldest_and_is_told() {
+    fn a_slow_page_loses_the_oldest_frames_and_is_told_how_many() {
         let (mut bus, mut adapter) = live();
         for _ in 0..50_000 {
             adapter.hear(&mut bus, b"t0800\r");
@@ -332,7 +332,7 @@ mod tests {
     }
 
     #[test]
-    fn a_lesson_of_frames_and_objects_is_taken_on_a_real_node() -> Result<(), String> {
+    fn a_lesson_about_frames_and_objects_works_with_a_real_node() -> Result<(), String> {
         let (mut bus, mut adapter) = live();
         bus.set_sending(true);
         begin(&mut bus, include_str!("../lessons/04-aborts.md"))?;
@@ -344,7 +344,7 @@ mod tests {
                 .lesson()
                 .map(|(progress, _)| progress.step())
         };
-        // Only the frame of the node is an answer, not the page's own.
+        // Only the frame of the node is a response, not the one of the page.
         send(&mut bus, 0x601, &[0x2F, 0, 0x10, 0, 1, 0, 0, 0]);
         assert_eq!(step(&mut bus), Some(0));
         adapter.hear(&mut bus, b"t58188000100002000106\r");
@@ -353,7 +353,7 @@ mod tests {
     }
 
     #[test]
-    fn a_lesson_that_needs_more_than_frames_says_what() {
+    fn a_lesson_that_needs_a_simulation_is_refused_with_the_reason() {
         let (mut bus, _) = live();
         bus.journal.describe(&input(5));
         for (text, why) in [
@@ -379,7 +379,7 @@ mod tests {
     }
 
     #[test]
-    fn built_in_devices_are_known_by_their_identity() {
+    fn built_in_devices_are_found_by_their_identity() {
         let found = |name: &str| {
             let kind = od_devices::DEVICES.iter().find(|kind| kind.name == name)?;
             known_as(number(kind, 1)?, number(kind, 2)?)

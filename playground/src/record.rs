@@ -63,7 +63,7 @@ impl Record {
     }
 
     /// Adds a field.
-    // Called for every field of every record: what is in line here is a kilobyte of the module.
+    // Called for every field of every record: inlined code here adds a kilobyte to the module.
     #[inline(never)]
     pub(crate) fn set(&self, key: &str, value: JsValue) {
         self.0.set(key, &value);
@@ -74,7 +74,7 @@ impl Record {
     }
 }
 
-/// A field of an input, as it comes from JavaScript.
+/// A field of an input, from JavaScript.
 pub(crate) fn value(found: &JsValue) -> Value {
     if found.is_undefined() {
         Value::Missing
@@ -93,7 +93,7 @@ pub(crate) fn value(found: &JsValue) -> Value {
     }
 }
 
-/// A field of an input goes to JavaScript. One of a field is named `source.name`.
+/// Converts a field of an input for JavaScript. A nested field is named `source.name`.
 impl Sink for Record {
     fn put(&mut self, key: &str, value: Value) {
         let value = match value {
@@ -128,10 +128,10 @@ pub(crate) fn bytes(bytes: &[u8]) -> JsValue {
     Bytes::copy_of(bytes).into()
 }
 
-/// The largest integer up to which every one is a JavaScript number.
+/// The largest integer below which all integers are exact JavaScript numbers.
 const SAFE: i128 = (1 << 53) - 1;
 
-/// An integer: a number where that is exact, else a bigint.
+/// An integer: a number if that is exact, otherwise a bigint.
 pub(crate) fn integer(value: i128) -> JsValue {
     if value.abs() <= SAFE {
         JsValue::from_f64(value as f64)

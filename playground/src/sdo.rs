@@ -1,4 +1,4 @@
-//! Objects read and written over the bus, and PDO mappings.
+//! Reads and writes objects over the bus; PDO mappings.
 
 use od_bench::rig;
 use od_bench::{pdos, words};
@@ -32,15 +32,15 @@ words! {
 }
 
 record! {
-    /// A transfer of `Bus.transfer` that is over.
+    /// A completed transfer of `Bus.transfer`.
     Outcome {
         job: u32,
         kind: OutcomeKind,
         /// The value that was read; empty after a write, null after an error.
         bytes: Option<Bytes>,
-        /// Reason why it failed; empty if nobody answered.
+        /// Reason why it failed; empty if the node did not respond.
         words: String,
-        /// The abort may come from a mapping that changes while its PDO is valid.
+        /// The abort may be due to a mapping change while the PDO is valid.
         "wantsPdoOff" wants_pdo_off: bool,
     }
 
@@ -50,14 +50,14 @@ record! {
         bits: u8,
     }
 
-    /// Value of a COB-ID object of a PDO, and what it says.
+    /// Value of a COB-ID object of a PDO, with its meaning.
     PdoCobId {
         raw: u32,
         id: u32,
         valid: bool,
     }
 
-    /// A PDO as it is now.
+    /// The current state of a PDO.
     Pdo {
         /// Index of its mapping parameter.
         mapping: u16,
@@ -66,11 +66,11 @@ record! {
         transmits: bool,
         /// Counted from 1.
         number: u16,
-        /// Value of its COB-ID object; null without power.
+        /// Value of its COB-ID object; null if the device has no power.
         "cobId" cob_id: Option<PdoCobId>,
-        /// Mapping entries that fit.
+        /// Maximum number of mapping entries.
         room: u8,
-        /// The mapping cannot be written.
+        /// Whether the mapping is read only.
         "isFixed" is_fixed: bool,
         entries: Made<Vec<Mapped>>,
     }
@@ -89,9 +89,9 @@ record! {
 
 #[wasm_bindgen]
 impl Bus {
-    /// Starts to read an object over the bus as an SDO client, or with bytes to write it; the
-    /// number comes back in an [`Outcome`](Self::outcomes). The node has 500 ms of virtual time
-    /// for each answer.
+    /// Starts to read an object over the bus as an SDO client, or to write it if there are bytes; the
+    /// number is returned by an [`Outcome`](Self::outcomes). The node has 500 ms of virtual time
+    /// for each response.
     ///
     /// # Errors
     /// The node ID is not 1 to 127.
@@ -112,7 +112,7 @@ impl Bus {
         Ok(job)
     }
 
-    /// The transfers that ended since the last call.
+    /// The transfers that were completed since the last call.
     #[wasm_bindgen(unchecked_return_type = "Outcome[]")]
     pub fn outcomes(&mut self) -> Vec<JsValue> {
         let mut all = Vec::new();
@@ -122,7 +122,7 @@ impl Bus {
         all
     }
 
-    /// The PDOs of a device as they are now, TPDOs first.
+    /// The current PDOs of a device, TPDOs first.
     #[wasm_bindgen(unchecked_return_type = "Pdo[]")]
     pub fn pdos(&self, device: usize) -> Vec<JsValue> {
         let device = self.device(device);
@@ -172,7 +172,7 @@ impl Bus {
                 let text = sentence(words::explain(self.journal.rig.bus.devices(), &frame));
                 (OutcomeKind::Aborted, None, text, code)
             }
-            // A `Response` in words would be a lot of code for what no node does.
+            // The words of a `Response` would be much code for something that no node does.
             Err(SdoError::OutOfTurn { expected, .. }) => {
                 let text = format!("{expected} was expected");
                 (OutcomeKind::Failed, None, text, 0)

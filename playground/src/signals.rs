@@ -8,7 +8,7 @@ use wasm_bindgen::prelude::*;
 use crate::codec::named;
 use crate::packed;
 
-/// The values of a mapped object in packed frames: three numbers each, place of the frame in the batch, microseconds,
+/// The values of a mapped object in packed frames: three numbers each, index of the frame in the batch, microseconds,
 /// value.
 #[wasm_bindgen(js_name = mappedValues)]
 pub fn mapped_values(
@@ -27,7 +27,7 @@ pub fn mapped_values(
     values(frames, Some(Place::Mapped { id, first, bits }), type_name)
 }
 
-/// The values of an object in SDO answers among packed frames, as [`mapped_values`] has them.
+/// The values of an object in SDO responses among packed frames, as in [`mapped_values`].
 #[wasm_bindgen(js_name = readValues)]
 pub fn read_values(frames: &[u8], node: u8, index: u16, sub: u8, type_name: &str) -> Vec<f64> {
     let address = Address::new(index, sub);

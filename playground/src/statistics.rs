@@ -6,7 +6,7 @@ use wasm_bindgen::prelude::*;
 
 use crate::packed;
 
-/// Figures of each CAN-ID and of each SDO client, from the frames that it took. Times are in microseconds.
+/// Figures of each CAN-ID and of each SDO client, from the frames that were added. Times are in microseconds.
 #[wasm_bindgen]
 #[derive(Default)]
 pub struct Statistics {
@@ -22,7 +22,7 @@ impl Statistics {
         Self::default()
     }
 
-    /// Takes the next packed frames; one that was disturbed does not count.
+    /// Adds the next packed frames; disturbed ones are ignored.
     pub fn take(&mut self, frames: &[u8]) {
         for one in frames.chunks_exact(packed::LEN) {
             let frame = packed::frame(one).filter(|_| !packed::is_disturbed(one));
@@ -35,7 +35,7 @@ impl Statistics {
     }
 
     /// Eight numbers for each CAN-ID, those of 11 bits first: CAN-ID (plus 2³² if it has 29 bits), frames; the last
-    /// period, the shortest, mean and longest; jitter; moment of the last change of its data. NaN: not known.
+    /// period, the shortest, mean and longest; jitter; time of the last change of its data. NaN: not known.
     pub fn ids(&self) -> Vec<f64> {
         let mut all = Vec::new();
         for row in self.ids.rows() {
@@ -57,8 +57,8 @@ impl Statistics {
         all
     }
 
-    /// Seven numbers for each SDO client: node ID of its server, requests; shortest, mean and longest time to answer;
-    /// aborts; requests without an answer. NaN: not known.
+    /// Seven numbers for each SDO client: node ID of its server, requests; shortest, mean and longest response time;
+    /// aborts; requests without a response. NaN: not known.
     pub fn clients(&self) -> Vec<f64> {
         let mut all = Vec::new();
         for client in self.clients.all() {
@@ -69,7 +69,7 @@ impl Statistics {
         all
     }
 
-    /// Forgets everything.
+    /// Removes everything.
     pub fn clear(&mut self) {
         *self = Self::default();
     }

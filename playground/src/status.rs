@@ -1,4 +1,4 @@
-//! State of a device as seen from outside.
+//! Visible state of a device.
 
 use std::iter;
 
@@ -47,7 +47,7 @@ record! {
         raw: f64,
     }
 
-    /// From the raw position to the position value; null where it cannot be read.
+    /// The steps from the raw position to the position value; null if it cannot be read.
     Chain {
         reversed: Option<bool>,
         /// Measuring units per revolution; null without scaling.
@@ -66,29 +66,29 @@ record! {
         "nodeSwitch" node_switch: u8,
         /// DIP switches, 0 to 7.
         "rateSwitch" rate_switch: u8,
-        /// Bit rate in kbit/s since the last start; null where it adapts itself.
+        /// Bit rate in kbit/s since the last start; null if it follows the bus.
         rate: Option<u16>,
-        /// Names of what can break.
+        /// Names of the faults that it can have.
         "canBreak" can_break: Made<Vec<&'static str>>,
-        /// Names of what is broken.
+        /// Names of its current faults.
         faults: Made<Vec<&'static str>>,
         "transmitErrors" transmit_errors: u16,
         "receiveErrors" receive_errors: u16,
         controller: Condition,
-        /// Is it connected to the line?
+        /// Whether it is connected to the line.
         plugged: bool,
         /// The shaft follows a profile.
         moves: bool,
-        /// Describes a node of a real bus.
+        /// Whether it describes a node of a real bus.
         real: bool,
     }
 
-    /// The wire, and the controller of the outside.
+    /// The bus line, and the CAN controller of the program side.
     LineStatus {
         real: bool,
-        /// Frames take the time of their bits.
+        /// Whether frames take the time of their bits.
         timed: bool,
-        /// Microseconds that they took so far.
+        /// Microseconds of all frames so far.
         busy: f64,
         terminators: u8,
         "fixedRate" fixed_rate: Option<u16>,
@@ -150,19 +150,19 @@ impl Bus {
         self.leds_of(device).value()
     }
 
-    /// Is there power?
+    /// Returns whether it has power.
     pub fn powered(&self, device: usize) -> bool {
         self.device(device).is_some_and(VirtualDevice::is_powered)
     }
 
-    /// Returns the position of the shaft; `null` without one.
+    /// Returns the position of the shaft; `null` if there is no shaft.
     #[wasm_bindgen(unchecked_return_type = "Shaft | null")]
     pub fn shaft(&mut self, device: usize) -> JsValue {
         self.shaft_of(device).value()
     }
 
-    /// Returns the steps from the raw position: direction, scaling, position value (6004h); `null`
-    /// without a shaft.
+    /// Returns the steps from the raw position: code sequence, scaling, position value (6004h); `null`
+    /// if there is no shaft.
     #[wasm_bindgen(unchecked_return_type = "Chain | null")]
     pub fn chain(&mut self, device: usize) -> JsValue {
         let read = |device: &mut VirtualDevice, now| {
@@ -190,7 +190,7 @@ impl Bus {
         chain.value()
     }
 
-    /// Everything that can be seen of a device from outside.
+    /// The visible state of a device.
     #[wasm_bindgen(unchecked_return_type = "Status")]
     pub fn status(&mut self, device: usize) -> JsValue {
         let shaft = self.shaft_of(device);
@@ -231,8 +231,8 @@ impl Bus {
             .unwrap_or_default()
     }
 
-    /// Returns what happened to the EEPROMs since the last call, a sentence each, and why inputs of
-    /// a run that is made again could not be carried out; nothing of a save that succeeded.
+    /// Returns the events of EEPROMs since the last call, a sentence each, and why inputs of
+    /// a repeated run failed; successful saves are not included.
     pub fn notices(&mut self) -> Vec<String> {
         let mut notices = self.journal.refused();
         for device in 0..self.device_count() {

@@ -1,4 +1,4 @@
-//! Frames that are hard to keep in mind.
+//! Example frames that are hard to remember.
 
 use od_client::nmt;
 use od_runtime::{CanId, Frame, Instant, NodeId};
@@ -17,7 +17,7 @@ record! {
     }
 }
 
-/// Frames to begin with, for a node.
+/// Example frames for a node.
 #[wasm_bindgen(js_name = frameTemplates, unchecked_return_type = "FrameTemplate[]")]
 pub fn frame_templates(node_id: u8) -> Vec<JsValue> {
     let node = NodeId::new(node_id).unwrap_or(NodeId::ONE);

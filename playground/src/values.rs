@@ -29,28 +29,28 @@ names! {
 }
 
 record! {
-    /// One value of the object dictionary.
+    /// A row of the object dictionary: one value.
     ObjectRecord {
         index: u16,
         sub: u8,
-        /// The name of the object, or of the member of a record or array.
+        /// The name of the object, or of the sub-object of a record or array.
         name: Made<String>,
-        /// The name of the record or array, for its members.
+        /// The name of the record or array, for its sub-objects.
         parent: Made<Option<String>>,
         /// `UNSIGNED32`, `VISIBLE_STRING`, as in CiA 301.
         "type" data_type: &'static str,
-        /// Length in bits; 0 where it varies.
+        /// Length in bits; 0 if it varies.
         bits: u16,
         access: od_model::Access,
-        /// May be mapped into a PDO.
+        /// Whether it may be mapped into a PDO.
         mappable: bool,
-        /// May be mapped into a TPDO, as far as access and length go.
+        /// Whether it may be mapped into a TPDO, by access and length.
         "fitsTpdo" fits_tpdo: bool,
-        /// May be mapped into an RPDO, as far as access and length go.
+        /// Whether it may be mapped into an RPDO, by access and length.
         "fitsRpdo" fits_rpdo: bool,
-        /// Belongs to a PDO mapping parameter.
+        /// Whether it belongs to a PDO mapping parameter.
         "isMapping" is_mapping: bool,
-        /// Is among what 1010h saves.
+        /// Whether 1010h saves it.
         "isSaved" is_saved: bool,
         default: Value,
         low: Value,
@@ -58,7 +58,7 @@ record! {
     }
 }
 
-/// A stored value by its type; anything of an unexpected length as bytes.
+/// A stored value by its type; a value of an unexpected length as bytes.
 pub(crate) fn value(data_type: DataType, raw: &[u8]) -> JsValue {
     if data_type.size().is_some_and(|size| size != raw.len()) {
         return bytes(raw);
@@ -90,7 +90,7 @@ fn literal(dictionary: Dictionary<'_>, entry: &Entry, literal: Literal, node_id:
     }
 }
 
-/// Every entry of a dictionary, in order.
+/// Every value of a dictionary, in order.
 pub(crate) fn dictionary(dictionary: Dictionary<'_>, node_id: u8) -> Vec<JsValue> {
     let mut rows = Vec::with_capacity(dictionary.entries().len());
     for object in dictionary.objects() {
