@@ -26,6 +26,8 @@ pub struct Master<L> {
     client: Client,
     /// Longest time to an answer.
     timeout: Duration,
+    /// Longest time of a whole transfer.
+    whole: Option<Duration>,
 }
 
 impl<L: Link> Master<L> {
@@ -43,7 +45,16 @@ impl<L: Link> Master<L> {
             node,
             client: Client::with(options, lss::Options::DEFAULT),
             timeout,
+            whole: None,
         }
+    }
+
+    /// Limits the time of each whole transfer: a node that sends segments without end is left after
+    /// this time.
+    #[must_use]
+    pub fn within(mut self, whole: Duration) -> Self {
+        self.whole = Some(whole);
+        self
     }
 
     /// Returns the node ID.
@@ -91,10 +102,11 @@ impl<L: Link> Master<L> {
     }
 
     /// Waits for the client's next event; only for a client with a job, which ends with one. If the
-    /// program is to stop, the node hears that the transfer is over.
+    /// program is to stop or the time is over, the node hears that the transfer is over.
     fn event(&mut self, job: Job) -> Result<Event, Fault> {
-        let event = self.wait();
-        if matches!(event, Err(Fault::Interrupted)) {
+        let until = self.whole.map(|whole| self.link.now() + whole);
+        let event = self.wait(until);
+        if matches!(event, Err(Fault::Interrupted | Fault::Node(_))) {
             let now = self.link.now();
             self.client.cancel(now, job);
             while let Some(frame) = self.client.poll_transmit(now) {
@@ -104,11 +116,19 @@ impl<L: Link> Master<L> {
         event
     }
 
-    fn wait(&mut self) -> Result<Event, Fault> {
+    fn wait(&mut self, end: Option<Instant>) -> Result<Event, Fault> {
         loop {
             self.send()?;
             if let Some(event) = self.client.poll_event() {
                 return Ok(event);
+            }
+            if let Some(whole) = self.whole
+                && end.is_some_and(|end| self.link.now() > end)
+            {
+                let (node, seconds) = (self.node, whole.as_secs_f32());
+                return Err(Fault::Node(format!(
+                    "node {node} does not come to the end of a transfer within {seconds} s"
+                )));
             }
             let until = self.client.poll_timeout().unwrap_or(Instant::ZERO);
             match self.link.receive(until)? {

@@ -16,6 +16,8 @@ use crate::master::Master;
 const AT_ONCE: usize = 16;
 /// So long a scan waits for nodes that answered before.
 const LATE: Duration = Duration::from_millis(800);
+/// Longest time to read one text of a node: some 1,000 segments.
+const TEXT: Duration = Duration::from_secs(1);
 /// Number of waiting frames that are read at once: they came in time and were not looked at yet.
 const WAITING: usize = 4096;
 const DEVICE_TYPE: Address = Address::new(0x1000, 0);
@@ -167,15 +169,20 @@ impl Found {
 
     /// Reads who it is.
     fn read(&mut self, link: &mut impl Link) -> Result<(), Fault> {
-        let mut master = Master::new(link, self.node);
+        let mut master = Master::new(link, self.node).within(TEXT);
         for (part, sub) in self.identity.iter_mut().zip(1..=3) {
             *part = optional(master.upload(Address::new(0x1018, sub)))?.and_then(|bytes| {
                 let bytes = bytes.as_slice().try_into().ok()?;
                 Some(u32::from_le_bytes(bytes))
             });
         }
+        let until = master.link().now() + TEXT;
         for (text, index) in self.texts.iter_mut().zip(0x1008..) {
             let bytes = optional(master.upload(Address::new(index, 0)))?;
+            if bytes.is_none() && master.link().now() > until {
+                // It would take this time for each.
+                break;
+            }
             *text = bytes.map(|bytes| {
                 let text = String::from_utf8_lossy(&bytes);
                 text.trim_end_matches(['\0', ' ']).to_owned()

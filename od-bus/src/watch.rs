@@ -128,8 +128,8 @@ fn mapped(frame: &Frame, first: u8, bits: u8) -> Option<Vec<u8>> {
     Some(value.to_le_bytes()[..usize::from(bits).div_ceil(8)].to_vec())
 }
 
-/// Tells each value as it comes, those that are polled `every` so long, until `tell` returns `false`.
-/// A node that does not answer is asked again.
+/// Tells each value as it comes, those that are polled `every` so long, until `tell` returns `false`
+/// or the time is `until`. A node that does not answer is asked again.
 ///
 /// # Errors
 /// The link is lost, or the user stops it.
@@ -138,14 +138,45 @@ pub fn watch(
     node: NodeId,
     sources: &[Source],
     every: Duration,
+    until: Instant,
     mut tell: impl FnMut(Sample) -> bool,
 ) -> Result<(), Fault> {
     let mut client = Client::new();
+    let mut jobs: Vec<(Job, usize)> = Vec::new();
+    let times = (every, until);
+    let ended = follow(
+        link,
+        (&mut client, &mut jobs),
+        node,
+        sources,
+        times,
+        &mut tell,
+    );
+    // The node hears that transfers are over.
+    for (job, _) in jobs {
+        client.cancel(link.now(), job);
+    }
+    while let Some(frame) = client.poll_transmit(link.now()) {
+        link.send(&frame)?;
+    }
+    ended
+}
+
+fn follow(
+    link: &mut impl Link,
+    (client, jobs): (&mut Client, &mut Vec<(Job, usize)>),
+    node: NodeId,
+    sources: &[Source],
+    (every, until): (Duration, Instant),
+    tell: &mut impl FnMut(Sample) -> bool,
+) -> Result<(), Fault> {
     // When the value is asked for; `None`: it is on its way.
     let mut due = vec![Some(link.now()); sources.len()];
-    let mut jobs: Vec<(Job, usize)> = Vec::new();
     loop {
         let now = link.now();
+        if now > until {
+            return Ok(());
+        }
         for (at, source) in sources.iter().enumerate() {
             if due[at].is_some_and(|due| due <= now) {
                 due[at] = None;
@@ -180,7 +211,9 @@ pub fn watch(
             .copied()
             .chain(client.poll_timeout())
             .min();
-        let Some(heard) = link.receive(next.unwrap_or(now))? else {
+        // A moment later than the end, so that its end is seen.
+        let next = next.unwrap_or(now).min(until + Duration::from_micros(1));
+        let Some(heard) = link.receive(next)? else {
             client.handle_timeout(link.now());
             continue;
         };

@@ -5,7 +5,7 @@ use std::io::{self, Cursor, ErrorKind, Read, Write};
 use std::net::SocketAddr;
 use std::prelude::v1::*;
 
-use od_runtime::{Frame, Instant};
+use od_runtime::{Duration, Frame, Instant};
 use tungstenite::error::ProtocolError;
 use tungstenite::handshake::machine::TryParse;
 use tungstenite::handshake::server::{Request, create_response, write_response};
@@ -20,6 +20,8 @@ use super::slcan::Channel;
 
 /// Longest head of a request, in bytes.
 const HEAD: usize = 8 * 1024;
+/// Time that a client has for the head of its request.
+const HANDSHAKE: Duration = Duration::from_secs(10);
 /// Longest message of a page, in bytes; one holds many frames.
 const MESSAGE: usize = 64 * 1024;
 
@@ -87,6 +89,8 @@ pub struct WebSocket<'g> {
     open: Option<WebSocketContext>,
     channel: Channel,
     is_over: bool,
+    /// End of the time for the request; `None`: its time has not begun.
+    until: Option<Instant>,
 }
 
 /// Bytes that came in and were not read, and bytes to send.
@@ -123,6 +127,7 @@ impl<'g> WebSocket<'g> {
             open: None,
             channel: Channel::default(),
             is_over: false,
+            until: None,
         }
     }
 
@@ -238,6 +243,21 @@ impl Codec for WebSocket<'_> {
                 return steps.push(Step::Leave);
             }
             self.messages(&rest, now, steps);
+        }
+    }
+
+    fn deadline(&self) -> Option<Instant> {
+        let waits = self.open.is_none() && !self.is_over;
+        waits.then(|| self.until.unwrap_or(Instant::ZERO))
+    }
+
+    fn wake(&mut self, now: Instant, _: u64, steps: &mut Vec<Step>) {
+        if self.open.is_some() || self.is_over {
+            return;
+        }
+        let until = *self.until.get_or_insert(now + HANDSHAKE);
+        if now >= until {
+            self.leave(steps);
         }
     }
 

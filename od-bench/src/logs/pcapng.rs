@@ -113,6 +113,19 @@ pub(super) fn head() -> Vec<u8> {
     out
 }
 
+/// Number of the bytes that are whole blocks.
+pub(super) fn whole(bytes: &[u8]) -> usize {
+    let mut at = 0;
+    while let Some(length) = bytes.get(at + 4..at + 8) {
+        let length = u32::from_le_bytes([length[0], length[1], length[2], length[3]]);
+        match at.checked_add(length as usize) {
+            Some(end) if length > 0 && end <= bytes.len() => at = end,
+            _ => break,
+        }
+    }
+    at
+}
+
 /// A record behind those before it.
 pub(super) fn add(out: &mut Vec<u8>, record: &Record) {
     block(out, PACKET, |out| packet_body(out, record));

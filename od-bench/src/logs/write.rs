@@ -85,6 +85,17 @@ impl Format {
         }
     }
 
+    /// Number of the bytes that are whole records, of bytes that begin with a record.
+    pub fn whole(self, bytes: &[u8]) -> usize {
+        match self {
+            Self::Pcapng => pcapng::whole(bytes),
+            _ => bytes
+                .iter()
+                .rposition(|byte| *byte == b'\n')
+                .map_or(0, |at| at + 1),
+        }
+    }
+
     /// Adds a record to a file that [grows](Self::grows).
     pub fn add(self, out: &mut Vec<u8>, record: &Record) {
         let at = record.at;

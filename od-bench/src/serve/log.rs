@@ -1,7 +1,7 @@
 //! A log file of the bus, on a thread of its own: no disk stops the bus.
 
 use std::fs::{File, OpenOptions};
-use std::io::Write;
+use std::io::{Seek, Write};
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, TrySendError, sync_channel};
 use std::thread;
@@ -141,12 +141,7 @@ fn write(mut file: File, format: Format, records: &Receiver<Record>) -> std::io:
     loop {
         let now = Clock::now();
         if bytes.len() >= PIECE || due.is_some_and(|due| due <= now) {
-            if let Err(error) = file.write_all(&bytes) {
-                // What is there remains a log that can be read.
-                let _ = file.set_len(written);
-                return Err(error);
-            }
-            written += bytes.len() as u64;
+            write_whole(&mut file, format, &bytes, &mut written)?;
             bytes.clear();
             due = None;
         }
@@ -157,9 +152,30 @@ fn write(mut file: File, format: Format, records: &Receiver<Record>) -> std::io:
                 due.get_or_insert(now + PATIENCE);
             }
             Err(RecvTimeoutError::Timeout) => {}
-            Err(RecvTimeoutError::Disconnected) => return file.write_all(&bytes),
+            Err(RecvTimeoutError::Disconnected) => {
+                return write_whole(&mut file, format, &bytes, &mut written);
+            }
         }
     }
+}
+
+/// Writes records behind the first `written` bytes. If there is room for a part of them only, the file
+/// ends with the last whole record.
+fn write_whole(
+    file: &mut File,
+    format: Format,
+    bytes: &[u8],
+    written: &mut u64,
+) -> std::io::Result<()> {
+    if let Err(error) = file.write_all(bytes) {
+        let end = file.stream_position().unwrap_or(*written);
+        let room = usize::try_from(end.saturating_sub(*written)).unwrap_or(0);
+        let whole = format.whole(&bytes[..room.min(bytes.len())]);
+        let _ = file.set_len(*written + whole as u64);
+        return Err(error);
+    }
+    *written += bytes.len() as u64;
+    Ok(())
 }
 
 #[cfg(test)]

@@ -23,6 +23,7 @@ mod once;
 pub mod options;
 mod outbox;
 mod pace;
+mod process;
 mod program;
 mod ready;
 mod run;

@@ -268,8 +268,9 @@ pub const CHOICES: [Choice; 17] = [
     Choice {
         name: "ready-file",
         value: "PATH",
-        help: "File that is written when everything listens, in JSON: links with their ports and \
-               paths, nodes, control socket; `-`: one line on standard output. It replaces a ready file of an earlier bench; any other \
+        help: "File of this user that is written when everything listens, in JSON: process and its start, \
+               links with their ports and paths, nodes, control socket; `-`: one line on standard output, \
+               with the token of a ws link, which the file does not have. It replaces a ready file of an earlier bench; any other \
                file is refused",
         set: |options, text| {
             options.ready_file = Some(PathBuf::from(text));

@@ -10,6 +10,7 @@ use super::control::place::Place;
 use super::failure::Failure;
 use super::files;
 use super::links::opened::{Opened, Protocol};
+use super::process;
 use crate::bus::Bus;
 
 /// A file that is there while the bench can be reached.
@@ -56,7 +57,11 @@ impl Ready {
         let new = path.with_file_name(format!(".{name}.{}", std::process::id()));
         let _ = fs::remove_file(&new);
         let mut file = fs::OpenOptions::new();
-        let file = file.write(true).create_new(true).open(&new);
+        let file = file.write(true).create_new(true);
+        // Other users have no business with the ports of this one.
+        #[cfg(unix)]
+        std::os::unix::fs::OpenOptionsExt::mode(file, 0o600);
+        let file = file.open(&new);
         let written = file.and_then(|mut file| file.write_all(self.written.as_bytes()));
         written
             .and_then(|()| fs::rename(&new, path))
@@ -91,6 +96,8 @@ fn is_ready_file(path: &Path) -> bool {
 struct Report<'b> {
     version: u8,
     pid: u32,
+    /// Start of the process: with its number it names one process for good.
+    started: u64,
     links: Vec<Link>,
     nodes: Vec<Node<'b>>,
     control: Option<String>,
@@ -122,8 +129,13 @@ struct Node<'b> {
     serial: u32,
 }
 
-/// The line for programs.
-pub(super) fn report(links: &[Opened], bus: &Bus, control: Option<&Place>) -> String {
+/// The line for programs. Only the one that started the bench gets the tokens of its links: `with_tokens`.
+pub(super) fn report(
+    links: &[Opened],
+    bus: &Bus,
+    control: Option<&Place>,
+    with_tokens: bool,
+) -> String {
     let nodes = (1..).zip(bus.devices()).map(|(number, device)| Node {
         number,
         title: device.title(),
@@ -133,16 +145,21 @@ pub(super) fn report(links: &[Opened], bus: &Bus, control: Option<&Place>) -> St
     line(&Report {
         version: 1,
         pid: std::process::id(),
-        links: links.iter().map(link).collect(),
+        started: process::started(std::process::id()).unwrap_or(0),
+        links: links.iter().map(|one| link(one, with_tokens)).collect(),
         nodes: nodes.collect(),
         control: control.map(Place::to_string),
     })
 }
 
-fn link(link: &Opened) -> Link {
+fn link(link: &Opened, with_tokens: bool) -> Link {
     let (link, place) = match link {
         Opened::Listener(Protocol::WebSocket(gate), _, address) => {
-            ("ws", Reached::Url(gate.address(*address)))
+            let url = match with_tokens {
+                true => gate.address(*address),
+                false => format!("ws://{address}/"),
+            };
+            ("ws", Reached::Url(url))
         }
         Opened::Listener(protocol, _, address) => {
             (protocol.name(), Reached::Address(address.to_string()))

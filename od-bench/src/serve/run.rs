@@ -19,7 +19,7 @@ use super::maker::Maker;
 use super::options::Options;
 use super::ready::{self, Ready};
 use super::stats::Stats;
-use super::{control, fleet, greeting, hangup, running, terminal};
+use super::{control, fleet, greeting, hangup, process, running, terminal};
 
 /// Puts the devices on a bus and runs it until Ctrl-C, or until its last link has ended.
 ///
@@ -28,6 +28,7 @@ use super::{control, fleet, greeting, hangup, running, terminal};
 pub fn run(makers: &[Maker<'_>], options: &Options) -> Result<(), Failure> {
     // Before any thread: threads take it over.
     hangup::respect();
+    process::survive_file_limit();
     if options.quiet {
         terminal::be_quiet();
     }
@@ -61,7 +62,8 @@ pub fn run(makers: &[Maker<'_>], options: &Options) -> Result<(), Failure> {
     let stats = Stats::new(options.bitrate);
     let mut live = Live::new(devices, clients, stats, stopped);
     live.log = log;
-    let report = ready::report(&opened, &live.bench.bus, place.as_ref());
+    let report = |with_tokens| ready::report(&opened, &live.bench.bus, place.as_ref(), with_tokens);
+    let (open, secret) = (report(false), report(true));
     greeting::print(
         makers.first(),
         options,
@@ -72,12 +74,12 @@ pub fn run(makers: &[Maker<'_>], options: &Options) -> Result<(), Failure> {
     for link in opened {
         live.add(link)?;
     }
-    let _enrolled = running::enrol(&report);
+    let _enrolled = running::enrol(&open);
     match &mut ready {
-        Some(ready) => ready.write(&report)?,
+        Some(ready) => ready.write(&open)?,
         None if options.ready_file.is_none() => {}
-        None if options.links.contains(&Link::Console) => terminal::note(&report),
-        None => terminal::print(&report)?,
+        None if options.links.contains(&Link::Console) => terminal::note(&secret),
+        None => terminal::print(&secret)?,
     }
     live.run()
 }

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
+use super::process;
 use super::ready::Ready;
 
 /// Beginning of the files' names.
@@ -28,7 +29,8 @@ pub fn links() -> Vec<String> {
         if is_one && is_own(&entry.path()) {
             let text = fs::read_to_string(entry.path()).unwrap_or_default();
             let report: Value = serde_json::from_str(&text).unwrap_or_default();
-            if is_alive(report["pid"].as_u64().unwrap_or(0)) {
+            let number = |key: &str| report[key].as_u64().unwrap_or(0);
+            if process::runs(number("pid"), number("started")) {
                 found.extend(link(&report))
             } else {
                 // It was killed.
@@ -84,17 +86,5 @@ fn is_own(path: &Path) -> bool {
 
 #[cfg(not(unix))]
 fn is_own(_: &Path) -> bool {
-    true
-}
-
-#[cfg(unix)]
-fn is_alive(process: u64) -> bool {
-    let process = i32::try_from(process).ok().filter(|process| *process > 0);
-    // No signal: only whether one could be sent.
-    process.is_some_and(|id| nix::sys::signal::kill(nix::unistd::Pid::from_raw(id), None).is_ok())
-}
-
-#[cfg(not(unix))]
-fn is_alive(_: u64) -> bool {
     true
 }

@@ -6,6 +6,7 @@ mod lss;
 mod master;
 mod objects;
 mod scan;
+mod strange;
 mod time;
 
 use od_bench::VirtualDevice;

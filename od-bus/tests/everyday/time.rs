@@ -13,6 +13,7 @@ use od_wire::{Duration, Frame, Instant};
 
 use crate::{bus, id};
 
+const NEVER: Instant = Instant::from_micros(u64::MAX);
 const POSITION: Address = Address::new(0x6004, 0);
 const OPERATING: Address = Address::new(0x6000, 0);
 
@@ -47,7 +48,7 @@ fn samples(bus: &mut Bus, millis: u64) -> Vec<Sample> {
     let until = link.now().plus_millis(millis);
     let mut all = Vec::new();
     let every = Duration::from_millis(200);
-    let done = watch(&mut link, id(5), &sources, every, |sample| {
+    let done = watch(&mut link, id(5), &sources, every, NEVER, |sample| {
         let goes_on = sample.at <= until;
         all.extend(goes_on.then_some(sample));
         goes_on
@@ -106,6 +107,7 @@ fn a_silent_node_is_told_and_asked_again() {
         id(9),
         &[source],
         Duration::from_millis(200),
+        NEVER,
         |sample| {
             assert_eq!(sample.value, Err(od_client::sdo::SdoError::Silent));
             count += 1;

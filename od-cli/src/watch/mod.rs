@@ -53,6 +53,9 @@ pub(crate) struct Args {
     bus: bus::Args,
 }
 
+/// Longest time to read one object before the watch begins.
+const WHOLE: Duration = Duration::from_secs(2);
+
 /// Destination of values.
 enum Sink {
     Plot(Plot),
@@ -84,7 +87,7 @@ impl Shown {
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let names = args.bus.names()?;
     let mut bus = args.bus.open()?;
-    let mut master = Master::new(&mut bus, args.node);
+    let mut master = Master::new(&mut bus, args.node).within(WHOLE);
     let dictionary = names.of(&mut master)?.map(|known| known.dictionary);
     let mut asked: Vec<Asked> = Vec::new();
     for text in &args.objects {
@@ -148,7 +151,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         Ok(goes_on && args.count.is_none_or(|count| told < count))
     };
     let every = Duration::from_millis(args.every.max(1));
-    let watched = watch::watch(&mut bus, args.node, &sources, every, |sample| {
+    let watched = watch::watch(&mut bus, args.node, &sources, every, until, |sample| {
         tell(&sample).unwrap_or_else(|failure| {
             failed = Some(failure);
             false

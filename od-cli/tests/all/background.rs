@@ -1,8 +1,9 @@
 //! `odkit sim` in the background: its log, its ready file, and its output.
 
 use std::fs;
-use std::io::{BufRead, BufReader, Read};
+use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
+use std::os::unix::fs::PermissionsExt;
 use std::path::Path;
 use std::process::Stdio;
 
@@ -123,6 +124,9 @@ fn a_ready_file_exists_while_all_links_listen() {
     let report: Value = serde_json::from_str(&text).expect("JSON, whole");
     assert_eq!(report["pid"], child.id());
     assert_eq!(report["control"], Value::Null);
+    assert!(report["started"].is_u64());
+    let mode = fs::metadata(&ready).expect("a file").permissions().mode();
+    assert_eq!(mode & 0o777, 0o600);
     let address = report["links"][0]["address"].as_str().expect("a port");
     let mut client = TcpStream::connect(address).expect("it listens");
     say(&mut client, "O\r", "\r");
@@ -142,6 +146,115 @@ fn a_ready_file_exists_while_all_links_listen() {
     let mut error = child.stderr.take().expect("a pipe");
     error.read_to_string(&mut said).expect("UTF-8");
     assert_eq!(said, "");
+}
+
+#[test]
+fn a_token_is_in_no_file() {
+    let (folder, ready) = (path("tokens"), path("tokens-ready"));
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir(&folder).expect("a folder");
+    // A bench that was killed, whose number another process has now.
+    let user = nix::unistd::Uid::effective();
+    let stale = folder.join(format!("odkit-sim-{user}-{}.json", std::process::id()));
+    let own = std::process::id();
+    let link = r#"[{"link":"slcan","address":"127.0.0.1:1"}]"#;
+    let text = format!("{{\"version\":1,\"pid\":{own},\"started\":1,\"links\":{link}}}");
+    fs::write(&stale, text).expect("a file");
+    let args = [
+        "--link",
+        "ws:127.0.0.1:0?token=0123456789abcdef",
+        "--slcan",
+        "127.0.0.1:0",
+    ];
+    let mut child = command()
+        .args(["sim", "gxmm", "--quiet", "--ready-file"])
+        .arg(&ready)
+        .args(args)
+        .env("XDG_RUNTIME_DIR", &folder)
+        .spawn()
+        .expect("odkit starts");
+    until("a ready file", || fs::metadata(&ready).ok());
+    let name = format!("odkit-sim-{user}-{}.json", child.id());
+    for path in [&ready, &folder.join(name)] {
+        let text = fs::read_to_string(path).expect("a file");
+        assert!(text.contains("ws://") && !text.contains("token"), "{text}");
+        let mode = fs::metadata(path).expect("a file").permissions().mode();
+        assert_eq!(mode & 0o777, 0o600);
+    }
+    let get = ["get", "1", "1000h"];
+    let done = command()
+        .args(get)
+        .env("XDG_RUNTIME_DIR", &folder)
+        .output()
+        .expect("it ends");
+    let _ = child.kill();
+    let _ = child.wait();
+    // The only bench that runs is the default.
+    let said = String::from_utf8_lossy(&done.stderr);
+    assert!(done.status.success(), "{said}");
+    assert!(!stale.exists());
+    fs::remove_dir_all(&folder).expect("it is there");
+    fs::remove_file(&ready).expect("it was killed");
+}
+
+#[test]
+fn a_file_limit_ends_the_log_and_not_the_bench() {
+    for name in ["limit.log", "limit.pcapng"] {
+        let log = path(name);
+        let mut child = std::process::Command::new("sh");
+        let mut child = child
+            .args(["-c", "ulimit -f 8; exec \"$@\"", "sh"])
+            .arg(command().get_program())
+            .args([
+                "sim",
+                "gxmm",
+                "--slcan",
+                "127.0.0.1:0",
+                "--quiet",
+                "--ready-file",
+                "-",
+                "--log",
+            ])
+            .arg(&log)
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .expect("odkit starts");
+        let mut line = String::new();
+        let mut out = BufReader::new(child.stdout.take().expect("a pipe"));
+        out.read_line(&mut line).expect("a line");
+        let ready: Value = serde_json::from_str(&line).expect("JSON");
+        let address = ready["links"][0]["address"].as_str().expect("a port");
+        let mut client = TcpStream::connect(address).expect("it listens");
+        say(&mut client, "O\r", "\r");
+        // Each request and its answer are some 80 bytes of a log.
+        for _ in 0..300 {
+            client
+                .write_all(b"t60184000100000000000\r")
+                .expect("it reads");
+        }
+        let mut said = String::new();
+        let mut errors = BufReader::new(child.stderr.take().expect("a pipe"));
+        errors.read_line(&mut said).expect("a message");
+        assert!(
+            said.contains("the log ends here, the bus goes on"),
+            "{said}"
+        );
+        let frames = logged(&log).len();
+        assert!(
+            frames > 50,
+            "{frames} of {} bytes",
+            fs::metadata(&log).expect("a log").len()
+        );
+        assert!(
+            child.try_wait().expect("a state").is_none(),
+            "the bench has ended"
+        );
+        TcpStream::connect(address).expect("it listens");
+        let _ = child.kill();
+        let _ = child.wait();
+        fs::remove_file(&log).expect("a log");
+    }
 }
 
 #[test]

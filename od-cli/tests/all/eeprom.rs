@@ -158,6 +158,15 @@ fn a_start_reports_which_set_it_loaded() {
         let says_something = says_something || again.err.contains("bits of the EEPROM");
         assert_eq!(says_something, !said.is_empty(), "{}", again.err);
     }
+    for len in [0, 1, 15, 16, 100, 500, 511, 512] {
+        fs::write(&path, &whole[..len]).expect("a file");
+        let again = sim("gxmm", &path, &[], READ);
+        assert!(
+            again.err.contains("no saved values"),
+            "{len}: {}",
+            again.err
+        );
+    }
     fs::write(&path, &whole[..newest + 30]).expect("a file");
     let again = sim("gxmm", &path, &[], READ);
     assert!(again.err.contains("bytes were missing"), "{}", again.err);

@@ -75,6 +75,7 @@ impl File {
         let fail = |error| OpenError::Io(path.into(), error);
         let mut options = OpenOptions::new();
         options.read(true).write(true).create(true).truncate(false);
+        let was_there = path.exists();
         let mut file = options.open(path).map_err(fail)?;
         let metadata = file.metadata().map_err(fail)?;
         if !metadata.is_file() {
@@ -101,6 +102,12 @@ impl File {
             path: path.into(),
             of,
             device: [owner.name.into(), identity.clone()],
+        };
+        // Bytes of the file that was made.
+        let whole = match &seen {
+            Seen::Whole(header) => LEN + header.capacity,
+            Seen::Version(_) => 0,
+            _ => LEN + capacity,
         };
         let is_blank = |bytes: &[u8]| bytes.iter().all(|byte| *byte == ERASED);
         let is_fresh = match seen {
@@ -130,6 +137,12 @@ impl File {
         };
         if is_fresh {
             opened.capacity = capacity;
+            let has = header.len() + rest.len();
+            if was_there && !erased && has < whole {
+                opened.repaired = Some(std::format!(
+                    "the file has {has} of {whole} bytes, and no saved values; the device starts with its defaults"
+                ));
+            }
         } else if opened.capacity < capacity {
             return Err(OpenError::TooSmall {
                 path: path.into(),

@@ -171,3 +171,24 @@ fn a_page_that_asks_why_it_is_refused_is_told_in_a_close_frame() {
         assert_eq!(say(&mut codec, &message("O\rt1230\r")), [], "{path}");
     }
 }
+
+#[test]
+fn a_request_has_ten_seconds() {
+    let gate = gate();
+    let begin = Instant::from_micros(5_000_000);
+    for (bytes, ends) in [
+        (String::new(), true),
+        (String::from("GET / HTTP/1.1\r\nHost: a\r\n"), true),
+        (request(&format!("/?token={TOKEN}"), ""), false),
+    ] {
+        let mut codec = WebSocket::new(&gate);
+        assert_eq!(codec.deadline(), Some(Instant::ZERO), "at once");
+        let mut steps = Vec::new();
+        codec.wake(begin, 0, &mut steps);
+        assert_eq!(codec.deadline(), Some(begin + HANDSHAKE));
+        say(&mut codec, bytes.as_bytes());
+        codec.wake(begin + HANDSHAKE, 0, &mut steps);
+        assert_eq!(steps == [Step::Leave], ends, "{bytes}");
+        assert_eq!(codec.deadline(), None);
+    }
+}

@@ -78,7 +78,7 @@ fn a_file_of_somebody_else_is_left_alone() {
 }
 
 #[test]
-fn a_file_that_was_not_finished_is_new() {
+fn a_file_that_was_not_finished_is_new_and_says_so() {
     let path = path("unfinished");
     let whole = {
         drop(File::open(&path, 8, &OWNER).unwrap());
@@ -87,7 +87,11 @@ fn a_file_that_was_not_finished_is_new() {
     assert_eq!(whole.len(), LEN + 8);
     for len in (0..whole.len()).filter(|len| len % 31 < 2 || *len > LEN - 2) {
         fs::write(&path, &whole[..len]).unwrap();
-        assert_eq!(File::open(&path, 8, &OWNER).unwrap().capacity(), 8);
+        let file = File::open(&path, 8, &OWNER).unwrap();
+        assert_eq!(file.capacity(), 8);
+        let said = file.repaired().unwrap_or_default();
+        assert!(said.contains("no saved values"), "{len}: {said}");
+        drop(file);
         assert_eq!(fs::read(&path).unwrap(), whole, "{len}");
     }
     fs::remove_file(path).unwrap();
