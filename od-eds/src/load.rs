@@ -1,7 +1,5 @@
 //! Reading and checking. Only this file asks if a text is an EDS or XML.
 
-use alloc::vec::Vec;
-
 use crate::allow::Allows;
 use crate::check::run;
 use crate::description::Description;
@@ -9,7 +7,6 @@ use crate::document::Document;
 use crate::finding::{Finding, sort};
 use crate::log::Log;
 use crate::read::modules;
-use crate::read::parsed::Parsed;
 use crate::read::sorted;
 use crate::rules::lists::W0216;
 use crate::rules::text::{i0111_not_ascii, w0112_encoding};
@@ -18,6 +15,7 @@ use crate::scan::lines;
 use crate::scan::placed::Placed;
 #[cfg(feature = "xdd")]
 use crate::xdd;
+use alloc::vec::Vec;
 
 /// Returns if a text is XML, so an XDD or an XDC, not an EDS.
 pub fn is_xml(text: &str) -> bool {
@@ -131,4 +129,13 @@ fn encoded(document: &Document) -> Vec<Finding> {
         found.push(w0112_encoding::finding(lines::span(text, at), encoding));
     }
     found
+}
+
+/// A description, and the findings about its text.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct Parsed {
+    /// All that odkit understood.
+    pub description: Description,
+    /// All that it did not, in file order.
+    pub findings: Vec<Finding>,
 }

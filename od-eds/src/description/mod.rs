@@ -4,16 +4,14 @@
 //! patches produce, what the checks read, and what the writer writes. The
 //! dictionary that runs is made from it by [`Tables`](crate::Tables).
 
-pub(crate) mod commission;
-mod lss;
-pub(crate) mod tables;
-
+use crate::span::{Span, Spanned};
 use alloc::collections::BTreeMap;
+use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
-
-use crate::span::{Span, Spanned};
 use od_model::{Access, Address, DataType, Group, Kind, ObjectCode};
+
+pub(crate) mod tables;
 
 /// A default, a limit or a configured value, owned.
 #[derive(Clone, PartialEq, Debug)]
@@ -345,6 +343,98 @@ pub struct Commissioning<'a> {
     pub is_manager: Option<bool>,
     /// LSS_SerialNumber.
     pub serial_number: Option<u32>,
+}
+
+/// kbit/s at each index of the LSS bit timing table (CiA 305, chapter 6.4.3); index 5 is reserved.
+const KBIT: [u16; 9] = [1000, 800, 500, 250, 125, 0, 50, 20, 10];
+
+impl Description {
+    /// Returns whether a key of `[DeviceInfo]` is there and not 0.
+    pub fn info_is_set(&self, key: &str) -> bool {
+        let info = self.section("DeviceInfo");
+        let value = info.and_then(|info| info.get(key));
+        let number = value.and_then(|value| od_model::values::integer(value.value.trim()));
+        number.is_some_and(|number| number != 0)
+    }
+
+    /// Returns the bit rates that LSS can set, by their index in the bit timing table; all of the
+    /// table if the file names none. `None`: the file lacks `LSS_Supported=1` (CiA 306-1).
+    pub fn lss_bit_rates(&self) -> Option<[bool; 9]> {
+        if !self.info_is_set("LSS_Supported") {
+            return None;
+        }
+        let named = KBIT.map(|kbit| kbit != 0 && self.info_is_set(&format!("BaudRate_{kbit}")));
+        Some(if named.contains(&true) {
+            named
+        } else {
+            KBIT.map(|kbit| kbit != 0)
+        })
+    }
+}
+
+const COMMISSIONING: &str = "DeviceComissioning";
+
+impl Description {
+    /// Sets a key of `[DeviceComissioning]`, whichever spelling the file has.
+    ///
+    /// ```
+    /// let mut description = od_eds::Description::default();
+    /// description.commission("NodeID", "5");
+    /// assert_eq!(description.commissioned_node_id(), Some(5));
+    /// ```
+    pub fn commission(&mut self, key: &str, value: &str) {
+        let is_it = |section: &Section| {
+            let name = &section.name.value;
+            name.eq_ignore_ascii_case(COMMISSIONING)
+                || name.eq_ignore_ascii_case("DeviceCommissioning")
+        };
+        let at = match self.sections.iter().position(is_it) {
+            Some(at) => at,
+            None => {
+                self.sections.push(Section {
+                    name: Spanned::from(String::from(COMMISSIONING)),
+                    pairs: Vec::new(),
+                });
+                self.sections.len() - 1
+            }
+        };
+        let pairs = &mut self.sections[at].pairs;
+        let value = Spanned::from(String::from(value));
+        match pairs.iter_mut().find(|(k, _)| k.eq_ignore_ascii_case(key)) {
+            Some((_, old)) => *old = value,
+            None => pairs.push((Spanned::from(String::from(key)), value)),
+        }
+    }
+}
+
+impl Value {
+    /// A value as it goes over the bus, as a description has it.
+    ///
+    /// ```
+    /// use od_eds::Value;
+    /// use od_model::DataType;
+    ///
+    /// assert_eq!(Value::from_wire(DataType::Integer8, vec![0xFF]), Value::Signed(-1));
+    /// ```
+    pub fn from_wire(data_type: DataType, bytes: Vec<u8>) -> Self {
+        let mut wide = [0; 8];
+        let size = bytes.len().min(8);
+        wide[..size].copy_from_slice(&bytes[..size]);
+        match data_type.kind() {
+            Kind::Text => Self::Text(String::from_utf8_lossy(&bytes).into_owned()),
+            Kind::Bytes | Kind::Record => Self::Bytes(bytes),
+            Kind::Boolean | Kind::Unsigned => Self::Unsigned(u64::from_le_bytes(wide)),
+            Kind::Signed => {
+                let unused = 64 - 8 * size.max(1) as u32;
+                Self::Signed(i64::from_le_bytes(wide) << unused >> unused)
+            }
+            Kind::Real if size == 4 => {
+                let [a, b, c, d, ..] = wide;
+                Self::Real(f64::from(f32::from_le_bytes([a, b, c, d])))
+            }
+            Kind::Real => Self::Real(f64::from_le_bytes(wide)),
+        }
+    }
 }
 
 #[cfg(test)]

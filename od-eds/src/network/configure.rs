@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 
 use super::node::Node;
 use super::pdo;
-use super::wanted::PdoConfiguration;
+use super::pdo::PdoConfiguration;
 use od_model::{Address, Refused};
 
 /// Settings of a project for all nodes.

@@ -15,7 +15,6 @@ mod partners;
 mod pdo;
 mod report;
 mod saved;
-mod wanted;
 mod write;
 
 pub use concise::{Write, bytes};
@@ -24,6 +23,6 @@ pub use dcf::dcf;
 pub use load::{BIT_RATES, Frame, frame_bits, frames, load};
 pub use master::{Master, consume_heartbeats, writes};
 pub use node::Node;
+pub use pdo::PdoConfiguration;
 pub use report::check;
 pub use saved::saved;
-pub use wanted::PdoConfiguration;

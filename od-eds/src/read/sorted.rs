@@ -1,25 +1,34 @@
 //! Sections sorted by what they are about, and the description that they make.
 
-use alloc::collections::BTreeMap;
-use alloc::collections::btree_map::Entry;
-use alloc::format;
-use alloc::string::String;
-use alloc::vec::Vec;
-
 use crate::description::{Description, Section};
 use crate::finding::Finding;
 use crate::log::Log;
 use crate::read::fields::duplicates;
 use crate::read::object;
 use crate::read::object::Sections;
-use crate::read::{compact_pdo, configured, faults, lists, other, own_types};
+use crate::read::{compact_pdo, configured, lists, other, own_types};
+use crate::rules;
 use crate::rules::lists::{i0212_section_name_spelling, w0209_compact_without_key};
 use crate::rules::structure::{e0303_duplicate_object_differs, w0304_duplicate_object};
+use crate::rules::text::e0118_merge_conflict;
+use crate::rules::text::w0101_unknown_line;
+use crate::rules::text::w0102_no_key;
+use crate::rules::text::w0103_no_closing_bracket;
+use crate::rules::text::w0104_text_after_header;
+use crate::rules::text::w0105_key_before_section;
 use crate::rules::text::w0106_duplicate_section;
+use crate::rules::text::w0108_colon;
+use crate::rules::text::w0110_header_without_name;
+use crate::scan::lines::Fault;
 use crate::scan::names::{List, Place, intended, place};
 use crate::scan::placed::{Placed, owned};
 use crate::scan::{lines, number::number};
 use crate::span::Span;
+use alloc::collections::BTreeMap;
+use alloc::collections::btree_map::Entry;
+use alloc::format;
+use alloc::string::String;
+use alloc::vec::Vec;
 use od_model::Address;
 
 /// Reads an EDS or a DCF; `file` is its name on the disk, if it has one, and `see` gets the sections.
@@ -29,7 +38,7 @@ pub(crate) fn eds(
     see: &mut dyn FnMut(&[Placed<'_>]),
     log: &mut Log,
 ) -> Description {
-    let sections = lines::scan(text, &mut |fault| faults::report(fault, log));
+    let sections = lines::scan(text, &mut |fault| report(fault, log));
     see(&sections);
     configured::check(&sections, file, log);
     let mut sorted = Sorted::of(sections, log);
@@ -222,12 +231,37 @@ fn twice<'a>(
     finding
 }
 
+/// Reports a fault.
+pub(crate) fn report(fault: &Fault<'_>, log: &mut Log) {
+    match *fault {
+        Fault::Conflict(line) => log.add(&rules::E0118, || e0118_merge_conflict::finding(line)),
+        Fault::NoPair(line) => log.add(&rules::W0101, || w0101_unknown_line::finding(line)),
+        Fault::NoSign { at, key, value } => {
+            log.add(&rules::W0101, || {
+                w0101_unknown_line::no_sign(at, key, value)
+            });
+        }
+        Fault::NoKey(line) => log.add(&rules::W0102, || w0102_no_key::finding(line)),
+        Fault::Open { line, name } => log.add(&rules::W0103, || {
+            w0103_no_closing_bracket::finding(line, name)
+        }),
+        Fault::Behind { name, text } => log.add(&rules::W0104, || {
+            w0104_text_after_header::finding(name, text)
+        }),
+        Fault::NoName(line) => log.add(&rules::W0110, || w0110_header_without_name::finding(line)),
+        Fault::NoSection { line, key } => log.push(w0105_key_before_section::finding(line, key)),
+        Fault::Colon { at, key, value } => {
+            log.add(&rules::W0108, || w0108_colon::finding(at, key, value));
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::description::Value;
+    use crate::load::Parsed;
     use crate::load::parse;
-    use crate::read::parsed::Parsed;
     use od_model::{DataType, Group, ObjectCode};
 
     fn codes(parsed: &Parsed) -> Vec<&'static str> {

@@ -11,7 +11,7 @@ pub fn rule(code: &str) -> Option<&'static Rule> {
 pub fn all() -> impl Iterator<Item = &'static Rule> {
     let rules = RULES.iter().copied();
     #[cfg(feature = "tools")]
-    let rules = rules.chain(crate::tools::list::rules());
+    let rules = rules.chain(crate::tools::rules());
     rules
 }
 

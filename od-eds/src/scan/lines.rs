@@ -8,7 +8,7 @@ use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
 
-use crate::scan::find::either;
+use crate::scan::either;
 use crate::scan::known::OBJECT_KEYS;
 use crate::scan::placed::{Placed, Text};
 use crate::span::{Span, Spanned};

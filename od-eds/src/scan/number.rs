@@ -3,7 +3,7 @@
 use alloc::string::String;
 use alloc::vec::Vec;
 
-use crate::scan::find::either;
+use crate::scan::either;
 
 /// Peculiarity of a value that is understood all the same.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

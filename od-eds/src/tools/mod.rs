@@ -13,18 +13,18 @@
 //! assert_eq!(tools::verdict(&findings), tools::Verdict::Differs);
 //! ```
 
-use alloc::collections::BTreeSet;
-use alloc::format;
-use alloc::string::String;
-use alloc::vec::Vec;
-
 use crate::allow::Allows;
 use crate::description::Description;
 use crate::document::Document;
+use crate::finding::Rule;
 use crate::finding::{Finding, Place, Severity, sort};
 use crate::load::is_xml;
 use crate::tools::compare::Compare;
 use crate::tools::tool::Input;
+use alloc::collections::BTreeSet;
+use alloc::format;
+use alloc::string::String;
+use alloc::vec::Vec;
 
 mod canopen_rs;
 mod canopennode_editor;
@@ -32,7 +32,6 @@ mod codesys;
 mod compare;
 mod configparser;
 mod dcf_tools;
-pub(crate) mod list;
 mod npm_canopen;
 mod python;
 mod python_canopen;
@@ -40,7 +39,6 @@ mod shared;
 mod tool;
 mod twincat;
 
-pub use list::{TOOLS, rules, tool, tool_of};
 pub use tool::{Read, ReadEntry, Reading, Tool};
 
 /// Result of a tool for a file.
@@ -148,6 +146,34 @@ pub fn check(
     Allows::of(document.text()).filter(&mut found);
     sort(&mut found);
     found
+}
+
+/// Every tool, those that were tried first.
+pub static TOOLS: &[&Tool] = &[
+    &python_canopen::TOOL,
+    &dcf_tools::TOOL,
+    &npm_canopen::TOOL,
+    &canopen_rs::TOOL,
+    &canopennode_editor::TOOL,
+    &codesys::TOOL,
+    &twincat::TOOL,
+];
+
+/// The tool of this name, in any case.
+pub fn tool(name: &str) -> Option<&'static Tool> {
+    let mut tools = TOOLS.iter().copied();
+    tools.find(|tool| tool.name.eq_ignore_ascii_case(name))
+}
+
+/// The rules of all tools.
+pub fn rules() -> impl Iterator<Item = &'static Rule> {
+    TOOLS.iter().flat_map(|tool| tool.rules.iter().copied())
+}
+
+/// The tool whose rule has this code.
+pub fn tool_of(code: &str) -> Option<&'static Tool> {
+    let mut tools = TOOLS.iter().copied();
+    tools.find(|tool| tool.rules.iter().any(|rule| rule.code == code))
 }
 
 #[cfg(test)]

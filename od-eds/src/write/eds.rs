@@ -6,7 +6,7 @@ use core::fmt::Write;
 
 use crate::description::{Description, EntryDescription, ObjectDescription, Value};
 use crate::read::{fields, values};
-use crate::scan::find::either;
+use crate::scan::either;
 use crate::scan::names::List;
 use crate::span::Spanned;
 

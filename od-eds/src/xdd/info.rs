@@ -9,7 +9,7 @@ use roxmltree::Node;
 use crate::scan::known;
 use crate::scan::placed::Placed;
 use crate::span::{Span, Spanned};
-use crate::xdd::made::Made;
+use crate::xdd::source::Made;
 use crate::xdd::source::{Reader, below, children};
 
 /// Name of the characteristic that holds the lines of `[Comments]`.

@@ -9,17 +9,45 @@
 //! Elements are known by their local names, so the namespaces of CiA 311 1.0 and 1.1
 //! are the same, and so are project files (`.xpd`) that hold one device.
 
+use crate::description::Description;
+use crate::log::Log;
+use crate::read::sorted;
+use crate::rules::text::e0113_xml_not_well_formed;
+use crate::xdd::source::Places;
+use crate::xdd::source::Reader;
+use alloc::string::ToString;
+use roxmltree::Document;
+
 mod info;
-mod made;
 mod objects;
 mod parameters;
-mod read;
 mod source;
 mod types;
 mod write;
 
-pub(crate) use read::parse;
 pub use write::write;
+
+/// Reads an XDD or an XDC.
+///
+/// Never fails, never panics. A text that is not well-formed XML gives an empty
+/// description and the place where it breaks.
+pub(crate) fn parse(text: &str, log: &mut Log) -> Description {
+    let xml = match Document::parse(text) {
+        Ok(xml) => xml,
+        Err(error) => {
+            let place = error.pos();
+            let span = Places::new(text).at(place.row, place.col);
+            log.push(e0113_xml_not_well_formed::finding(span, &error.to_string()));
+            return Description::default();
+        }
+    };
+    let mut reader = Reader::new(text);
+    let root = xml.root();
+    let mut sections = info::sections(root, &mut reader);
+    sections.append(&mut objects::sections(root, &mut reader));
+    log.append(reader.log);
+    sorted::objects(sections, log)
+}
 
 #[cfg(test)]
 mod tests;

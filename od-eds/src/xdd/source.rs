@@ -1,13 +1,13 @@
 //! The XML behind a reader: elements, attributes and texts with their places.
 
+use crate::log::Log;
+use crate::scan::placed::Placed;
+use crate::span::{Span, Spanned};
+use alloc::borrow::Cow;
 use alloc::collections::BTreeMap;
 use alloc::string::String;
 use alloc::vec::Vec;
-
 use roxmltree::Node;
-
-use crate::log::Log;
-use crate::span::{Span, Spanned};
 
 /// Shared by the parts of this module: places and findings.
 pub(super) struct Reader<'a> {
@@ -140,5 +140,30 @@ impl<'a, 'i> Ids<'a, 'i> {
 
     pub(super) fn get(&self, id: &str) -> Option<Node<'a, 'i>> {
         self.0.get(id).copied()
+    }
+}
+
+/// A section in the making.
+pub(super) struct Made {
+    pub(super) placed: Placed<'static>,
+}
+
+impl Made {
+    /// A section without keys.
+    pub(super) fn new(name: impl Into<String>, header: Span) -> Self {
+        Self {
+            placed: Placed::new(Spanned::new(Cow::Owned(name.into()), header), header),
+        }
+    }
+
+    /// Adds a key, if there is a value for it and the key is not there yet.
+    pub(super) fn put(&mut self, key: &str, value: Option<Spanned<String>>) {
+        if let Some(value) = value
+            && self.placed.get(key).is_none()
+        {
+            let key = Spanned::new(Cow::Owned(key.into()), value.span);
+            let value = Spanned::new(Cow::Owned(value.value), value.span);
+            self.placed.pairs.push((key, value));
+        }
     }
 }

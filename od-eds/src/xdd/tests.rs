@@ -5,8 +5,8 @@ use alloc::string::String;
 use alloc::vec::Vec;
 
 use crate::description::Value;
+use crate::load::Parsed;
 use crate::load::parse;
-use crate::read::parsed::Parsed;
 use od_model::{Access, Address, DataType, Group, ObjectCode};
 
 fn file(device: &str, network: &str) -> String {
