@@ -1,4 +1,4 @@
-// One browser, and for each test a page that knows nothing of the tests before.
+// One browser, and for each test a page without state of earlier tests.
 import assert from 'node:assert/strict';
 import { after, afterEach, before, test } from 'node:test';
 import { blank, launch, opened, URL_OF_PAGE, visit } from './harness.mjs';
@@ -8,17 +8,17 @@ export let browser;
 before(async () => (browser = await launch()));
 after(() => browser?.close());
 
-/** Pages whose tests are over: a tab that goes on costs half of what a new one does. */
+/** Pages of completed tests: reusing a tab takes half the time of a new one. */
 const idle = [];
 
-/** Pages of the test that runs; those of one that failed would go on. */
+/** Pages of the current test; those of a failed test are closed. */
 const inUse = new Set();
 afterEach(async () => {
   for (const page of inUse) await page.context().close();
   inUse.clear();
 });
 
-/** A tab as if nobody had been there, but for the service worker. */
+/** A tab without stored data, except for the service worker. */
 async function forget(page) {
   await page.mouse.move(0, 0);
   await page.goto('about:blank');
@@ -27,7 +27,7 @@ async function forget(page) {
   await client.detach();
 }
 
-/** Opens the page in the browser of this file. What needs more than a size gets a context of its `own`. */
+/** Opens the page in the browser of this file. A test that sets more than a size gets a context of its `own`. */
 export async function open({ width = 1280, height = 800, hash, own = false, ...context } = {}) {
   const isOwn = own || Object.keys(context).length > 0;
   const page = (isOwn ? null : idle.pop()) ?? (await blank(browser, { width, height, ...context }));
@@ -45,7 +45,7 @@ export async function open({ width = 1280, height = 800, hash, own = false, ...c
 }
 
 /**
- * Makes `check(name, [options,] body)`: a test with a page of its own, which must not complain on
+ * Makes `check(name, [options,] body)`: a test with a page of its own, which must print nothing to
  * its console. `ready` waits for what each test of the file needs first.
  */
 export const checks = (ready = () => {}) => (name, options, body) => {

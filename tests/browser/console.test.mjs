@@ -1,4 +1,4 @@
-// The frame console: filters, views, folds, finding, marks, the send list, logs.
+// The frame console: filters, views, folds, search, marks, the send list, logs.
 import assert from 'node:assert/strict';
 import { readFile } from 'node:fs/promises';
 import { becomes, booted, captured, nmt, row, rows, sdo, sdoNote, sendRaw, stays, until } from './bench.mjs';
@@ -31,7 +31,7 @@ check('the filter shows what passes, by service, node, identifier, object and wo
     await becomes(`what passes “${text}”`, () => ids(page), expected);
   }
   await page.getByRole('button', { name: 'Clear' }).click();
-  // The last filter let NMT frames pass, too; there are none since.
+  // The last filter lets NMT frames pass, too; none were sent since.
   await becomes('what passes after Clear', () => ids(page), '181');
   await filter(page, '');
   await row(page, 'all frames', (one) => one.id === '701');
@@ -94,7 +94,7 @@ async function drop(page, name, bytes) {
 check('a transfer of many frames is one row, and opens', {}, async (page) => {
   await drop(page, 'long.eds', LONG);
   await becomes('the device', () => page.locator('.device-button').textContent(), /Long/);
-  // The list has rows in sight alone, and the report of the file is above it.
+  // The list has only visible rows, and the report of the file is above it.
   await page.getByRole('button', { name: 'Close the report' }).click();
   await sdo(page, 'Label');
   await row(page, 'the folded transfer', (one) => /Read 2001h Label = “Pump room, second floor”/.test(one.words) && /10 frames, 23 bytes/.test(one.data));
@@ -211,7 +211,7 @@ check('the bits of the chosen frame: fields by name, stuff bits, CRC; a byte mar
   await page.locator('.frame:not([hidden])').filter({ hasText: '40 04 60 00' }).first().click();
   await page.getByRole('button', { name: 'Bits', exact: true }).click();
   const bits = page.locator('od-bits');
-  // 111 bits by hand, stuff bits included: those of `wire::bits` are held by its own tests.
+  // 111 bits counted by hand, stuff bits included; `wire::bits` has tests of its own.
   await becomes('the sum', () => bits.locator('.bits-words').textContent(), /^\d{3} bits, \d+ stuff bits, CRC [0-9A-F]{4}h, \d\.\d{3} ms$/);
   const [, all, stuffed] = /^(\d+) bits, (\d+) stuff/.exec(await bits.locator('.bits-words').textContent());
   assert.equal(Number(all) - Number(stuffed), 44 + 64, 'without stuff bits');

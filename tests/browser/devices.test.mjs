@@ -67,7 +67,7 @@ DefaultValue=Pump room, second floor
 PDOMapping=0
 `;
 
-/** Drops a text, or bytes, as a file on the page. */
+/** Drops a text or bytes on the page as a file. */
 async function drop(page, name, content) {
   const transfer = await page.evaluateHandle(
     ([name, bytes]) => {
@@ -99,7 +99,7 @@ check('an EDS file that is dropped runs', {}, async (page) => {
   await row(page, 'the object by its name', (one) => /Lamp brightness/.test(one.words));
 });
 
-// Windows saves with umlauts in one byte, or in UTF-16 with a mark in front.
+// Windows saves umlauts in one byte each, or in UTF-16 with a byte order mark.
 const UMLAUTS = GOOD.replace('Lamp brightness', 'Türöffner').replace('Little node', 'Kleines Gerät');
 for (const [coding, encode] of [
   ['latin1', (text) => Buffer.from(text, 'latin1')],
@@ -174,11 +174,11 @@ check('a crash of the simulation is not one of the page', {}, async (page) => {
   const break_ = () => page.workers()[0].evaluate(() => void setTimeout(() => { throw new Error('injected'); }));
   await break_();
   await becomes('a word about it', () => page.locator('.toasts').textContent(), /started again/);
-  // The run is made again up to the last moment that came through.
+  // The run is repeated up to the last moment that the page received.
   await sendRaw(page, '601#4001600000000000');
   await row(page, 'what was written before the crash', (one) => one.id === '581' && one.data.startsWith('43 01 60 00 E8 03'));
   assert.equal((await rows(page)).filter((one) => one.id === '701').length, 1);
-  // What breaks again at once comes back with its devices only.
+  // If it crashes again at once, only the devices are restored.
   await break_();
   await becomes('boot-ups', async () => (await rows(page)).filter((one) => one.id === '701').length, 2);
   await sendRaw(page, '601#4000100000000000');
@@ -187,14 +187,14 @@ check('a crash of the simulation is not one of the page', {}, async (page) => {
 
 check('a save that a reset cuts is reported in words', { hash: '#device=en580c&node=1' }, async (page) => {
   await row(page, 'the boot-up', (one) => one.id === '701');
-  // The save takes half a second; the reset comes at the same moment.
+  // The save takes half a second; the reset is sent at the same moment.
   await page.getByRole('button', { name: 'Pause time' }).click();
   await sendRaw(page, '601#2310100173617665');
   await sendRaw(page, '000#8101');
   await becomes('what came of it', () => page.locator('.toasts').textContent(), /Node 1: a save was interrupted; the device loaded its factory values/);
 });
 
-/** Everything has room: nothing is wider than its container. */
+/** Checks that no element is wider than its container. */
 const fits = (page) => becomes('what has no room', () => overflow(page), []);
 const overflow = (page) =>
   page.evaluate(() => [...document.querySelectorAll('html, body, main, .panel, .panel-head, .topbar')].filter((e) => e.scrollWidth > e.clientWidth + 1).map((e) => e.textContent.trim().slice(0, 40)));

@@ -1,4 +1,4 @@
-// The object dictionary at work: marks, writing, the frames of an object, the mapping of PDOs, a DCF.
+// The object dictionary: marks, writing, the frames of an object, the mapping of PDOs, a DCF.
 import assert from 'node:assert/strict';
 import { readFile, writeFile } from 'node:fs/promises';
 import { tmpdir } from 'node:os';
@@ -46,7 +46,7 @@ check('what is changed and what is saved is marked, and can be listed', async (p
   await note(page, /1010h:01 written/);
   await becomes('changed and saved', () => mark.textContent(), 'EE');
   await sdo(page, '6001', '8192');
-  // The default again, but something else is saved.
+  // The value is the default again, but another one is saved.
   await becomes('not saved', () => mark.textContent(), 'RAM');
   await search(page, '');
   await page.getByRole('radio', { name: 'Not saved' }).check();
@@ -64,7 +64,7 @@ check('from an object to its frames', async (page) => {
   await search(page, '6004');
   await object(page, '6004h').click();
   await page.getByRole('button', { name: 'Its frames' }).click();
-  // SDO transfers about it, and the PDOs that carry it.
+  // SDO transfers about it, and the PDOs that contain it.
   await until('only its frames', async () => {
     const list = await rows(page);
     return list.length > 0 && list.every((one) => ['601', '581', '181', '281'].includes(one.id) && !/ 01 60 00/.test(one.data));
@@ -104,7 +104,7 @@ check('a mapping that does not fit is refused in words, at its step', { hash: '#
   await dialog.getByRole('button', { name: /^Send/ }).click();
   await becomes('an abort', () => dialog.locator('.mapping-steps').textContent(), /0604004[12]/);
   await becomes('steps that failed', () => dialog.locator('.mapping-steps li[data-tone=error]').count(), 1);
-  // With the PDO off meanwhile there are two more frames.
+  // Disabling the PDO during the change needs two more frames.
   await dialog.getByRole('checkbox', { name: /Disable the PDO/ }).check();
   await becomes('the frames', async () => (await dialog.locator('.mapping-steps code span').allTextContents()).join(), /^23 00 18 01 81 01 00 [C8]0,.*,23 00 18 01 81 01 00 [04]0$/);
 });
@@ -128,7 +128,7 @@ check('the state as a DCF, of ours and of a dropped EDS', async (page) => {
   assert.equal(first.name, 'gxmm-node1.dcf');
   assert.match(first.text, /NodeID=1\n/);
   assert.match(first.text, /\[6001\][^[]*ParameterValue=0x800\n/);
-  // The DCF on the page again, with another value: what the file says otherwise stays.
+  // The DCF is opened again with another value: the rest of the file is unchanged.
   const path = join(tmpdir(), `odkit-${process.pid}.dcf`);
   await writeFile(path, `; a comment\n${first.text.replace('[6001]', '[Vendor]\nKey=kept\n\n[6001]')}`);
   await page.locator('.device-button').click();

@@ -1,4 +1,4 @@
-// The editor of EDS files, the report of a file that is opened, and the way back to the device before.
+// The editor of EDS files, the report of an opened file, and undoing a replacement.
 import assert from 'node:assert/strict';
 import { flawless } from './axe.mjs';
 import { becomes, booted, nmt, sdo, sdoNote, state, until } from './bench.mjs';
@@ -6,14 +6,14 @@ import { checks } from './check.mjs';
 
 const check = checks(booted);
 
-/** Opens the editor with the device that is shown. */
+/** Opens the editor with the selected device. */
 async function edit(page) {
   await page.locator('.device-button').click();
   await page.getByRole('button', { name: /^Edit the EDS of/ }).click();
   await page.locator('.cm-line').first().waitFor();
 }
 
-/** Puts the cursor at the end of a key's line in a section. */
+/** Moves the cursor to the end of a key's line in a section. */
 async function to(page, section, key) {
   await page.getByRole('button', { name: 'Outline' }).click();
   await page.getByRole('searchbox', { name: 'Search the sections' }).fill(section);
@@ -28,7 +28,7 @@ const findings = (page) => page.locator('.editor-side .finding');
 const note = (page) => page.locator('.editor-note').textContent();
 const line = (page) => page.locator('.cm-activeLine').textContent();
 
-/** Drops a file whose text or bytes an expression in the page makes. */
+/** Drops a file whose text or bytes are computed by an expression in the page. */
 const drop = (page, name, content) =>
   page.evaluate(
     ([name, content]) => {
@@ -80,7 +80,7 @@ check('hover, completion, jumps and fixes are those of the language server', asy
   await page.keyboard.insertText('\n[2999]\n');
   await page.keyboard.type('AccessT');
   const list = page.locator('.cm-tooltip-autocomplete');
-  // A key that follows at once is not meant for a list that has just opened, and so ends the line.
+  // A key pressed at once is not for the list that has just opened, and ends the line.
   await list.getByRole('option').filter({ hasText: 'AccessType' }).first().click();
   await becomes('the key', () => line(page), /^AccessType/);
   await page.keyboard.press('Control+Home');
@@ -110,11 +110,11 @@ check('the editor leaves Tab and Escape alone, keeps what was typed, and axe fin
   await page.keyboard.press('Shift+Tab');
   await page.keyboard.press('Escape');
   await page.getByRole('dialog', { name: /gxmm\.eds/ }).waitFor({ state: 'hidden' });
-  // What was typed is still there.
+  // The typed text is still there.
   await edit(page);
   await becomes('the line', () => line(page), 'DefaultValue=0z');
   await page.keyboard.press('Escape');
-  // Another file in between takes nothing away.
+  // Opening another file in between loses nothing.
   await drop(page, 'mixed.eds', "'[FileInfo]\\r\\nFileName=x.eds\\n[2000]\\nParameterName=Lamp\\n'");
   await page.getByRole('alert', { name: 'Findings in the file' }).getByRole('button', { name: 'Open in the editor' }).click();
   await becomes('a word about its line ends', () => note(page), /lines that end with CRLF and lines that end with LF[^]*saved with LF/);
@@ -160,6 +160,6 @@ check('a file that is no EDS says what it is, and the bench stays', async (page)
   await becomes('the device', () => page.locator('.device-button strong').textContent(), 'gxmm');
   await drop(page, 'trace.txt', "'(1.0) can0 701#00\\n(1.1) can0 181#0011\\n'");
   await report.getByRole('button', { name: 'Open it as a log' }).click();
-  // What is captured is not thrown away unasked.
+  // The user is asked before a capture is replaced.
   await becomes('the offer', () => page.getByRole('region', { name: 'Offers' }).textContent(), /trace\.txt/);
 });

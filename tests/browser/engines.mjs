@@ -1,4 +1,4 @@
-// Three engines behind the same two words: go to an address, and evaluate an expression in the page.
+// Three browser engines with the same two functions: go to an address, and evaluate an expression in the page.
 // Chromium by Playwright; Firefox by WebDriver BiDi; WebKit by WebDriver.
 import { spawn } from 'node:child_process';
 import { mkdtemp, rm } from 'node:fs/promises';
@@ -7,10 +7,10 @@ import { join } from 'node:path';
 import WebSocket from 'ws';
 import { launch } from './harness.mjs';
 
-/** Milliseconds that an engine has to start. */
+/** Milliseconds for the start of an engine. */
 const PATIENCE = 60_000;
 
-/** Starts a program and answers with the match in what it says; `stop` ends it with its children. */
+/** Starts a program and returns the match in its output; `stop` ends it with its children. */
 async function started(command, args, pattern, env = {}) {
   const child = spawn(command, args, { detached: true, stdio: ['ignore', 'pipe', 'pipe'], env: { ...process.env, ...env } });
   const stop = () => {

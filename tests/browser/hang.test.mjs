@@ -1,4 +1,4 @@
-// What would hang the page: a worker that does not answer, a script without end, a slow server.
+// Causes of a hanging page: a worker that does not respond, an endless script, a slow server.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { becomes, booted, captured, position, row, sendRaw, state, until } from './bench.mjs';
@@ -7,7 +7,7 @@ import { URL_OF_PAGE } from './harness.mjs';
 
 const check = checks(booted);
 
-/** A page whose worker hangs when the fault `name` is set, `times` times over. */
+/** A page whose worker hangs when the fault `name` is set, `times` times. */
 async function hangs(times) {
   const context = await browser.newContext({ serviceWorkers: 'block' });
   const page = await context.newPage();
@@ -53,7 +53,7 @@ check('a line that would take for ever is refused with its limit', async (page) 
   }
 });
 
-test('a slow lesson leaves a bench to work with, and opens when it is there', async () => {
+test('a slow lesson leaves an empty bench, and opens when it has loaded', async () => {
   const context = await browser.newContext({ serviceWorkers: 'block' });
   const page = await context.newPage();
   let go;

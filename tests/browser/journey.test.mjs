@@ -1,12 +1,12 @@
 // One journey through the page, in each engine: boot, start, turn, SDO, lesson 1, share, reload.
-// An ordinary run takes Chromium; a long one Firefox and WebKit, too.
+// An ordinary run uses Chromium; a long one also Firefox and WebKit.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { becomes, until } from './bench.mjs';
 import { ENGINES } from './engines.mjs';
 import { URL_OF_PAGE } from './harness.mjs';
 
-/** What the page is asked and told, in its own words: no engine has more than this. */
+/** The two functions of the page that every engine supports. */
 const TOOLS = `
   const all = (selector) => [...document.querySelectorAll(selector)].filter((it) => it.checkVisibility());
   const named = (selector, name) => all(selector).find((it) => (it.getAttribute('aria-label') ?? it.textContent).replaceAll(/\\s+/g, ' ').trim() === name);

@@ -1,4 +1,4 @@
-// Lessons at the page: taken by clicks, keys and the send line, and a trainer's own files.
+// Lessons in the page: done by clicks, keys and the send line; and lessons from a file.
 import assert from 'node:assert/strict';
 import { readdir, readFile } from 'node:fs/promises';
 import { test } from 'node:test';
@@ -16,13 +16,13 @@ const part = (page, name) => page.getByRole('group', { name: 'Encoder views' }).
 const power = (page) => page.getByRole('switch', { name: 'Power' }).click();
 const devices = (page) => page.getByRole('group', { name: 'Devices on the bus' }).getByRole('button', { name: /node \d/ });
 
-/** Waits until so much of the bench's time has passed, or a goal has stopped it. */
+/** Waits until this much of the bench's time has passed, or a goal has stopped it. */
 async function pass(page, milliseconds) {
   const from = await clock(page);
   await until(`${milliseconds} ms to pass`, async () => (await clock(page)) - from >= milliseconds || (await page.getByRole('button', { name: 'Run time' }).isVisible()));
 }
 
-/** Does one line of a solution, as a person does it. */
+/** Does one line of a solution as a user would. */
 async function act(page, line, labels) {
   const [word, ...rest] = line.split(/\s+/);
   switch (word) {
@@ -97,7 +97,7 @@ for (const name of BY_HAND) {
   });
 }
 
-/** Takes hint after hint, until none is left and the solution is offered. */
+/** Opens all hints, until the solution is offered. */
 async function takeHints(lesson) {
   const hint = lesson.getByRole('button', { name: /hint$/ });
   const solution = lesson.getByRole('button', { name: 'Show me' });
@@ -109,7 +109,7 @@ async function takeHints(lesson) {
 }
 
 const nameOf = (file) => file.replace(/^\d+-|\.md$/g, '');
-/** `cargo test -p od-tests --test lessons` proves them all; a long run clicks through the later ones as well. */
+/** `cargo test -p od-tests --test lessons` checks all of them; a long run also clicks through the later ones. */
 const BY_CLICKS = files.filter((file) => process.env.ODKIT_LONG || file < '16').map(nameOf).filter((name) => !BY_HAND.includes(name));
 for (const name of BY_CLICKS) {
   test(`the lesson ${name} is gone through by clicks, hints first`, async () => {
@@ -167,8 +167,8 @@ test('a lesson is chosen from the list, asks, gives hints one by one, stops time
   await lesson.getByRole('button', { name: 'Continue' }).click();
   await page.getByRole('button', { name: 'Pause time' }).waitFor();
 
-  // A requirement is ticked as soon as it holds, though others are open: time runs slowly
-  // here, so that the heartbeat does not come before one has looked.
+  // A condition is ticked as soon as it holds, although others are open: time runs slowly
+  // here, so that the heartbeat does not come before the test has looked.
   const speed = page.getByRole('combobox', { name: 'Speed', exact: true });
   await speed.selectOption('0.01');
   await sdo(page, '1017', '500');
@@ -177,7 +177,7 @@ test('a lesson is chosen from the list, asks, gives hints one by one, stops time
   await speed.selectOption('1');
   await lesson.getByText('What just happened').waitFor();
 
-  // From here on it is shown how: the hints end with that.
+  // The solution is shown from here on: the hints end.
   for (let step = 3; step <= 5; step++) {
     await lesson.getByRole('button', { name: 'Continue' }).click();
     await becomes('the step', () => lesson.locator('.lesson-step h3 .num').textContent(), String(step));
@@ -259,7 +259,7 @@ test("a trainer's own lesson is opened from a file; a wrong one says in which li
   await close();
 });
 
-test('a lesson comes from an address; one that is not there leaves a bench to work with', async () => {
+test('a lesson comes from an address; if it does not exist, an empty bench remains', async () => {
   const context = await browser.newContext({ serviceWorkers: 'block' });
   const page = await context.newPage();
   await page.route('**/course/one.md', (route) => route.fulfill({ body: OWN, contentType: 'text/markdown' }));
@@ -271,7 +271,7 @@ test('a lesson comes from an address; one that is not there leaves a bench to wo
   await context.close();
 });
 
-test('a check that can no longer hold offers the way back, and "Show me" finds it by itself', async () => {
+test('a check that can no longer hold offers to go back, and "Show me" does so', async () => {
   const { page, faults, close } = await open({ hash: '#lesson=aborts' });
   const lesson = page.locator('od-lesson');
   const step = (number) => becomes('the step', () => lesson.locator('.lesson-step h3 .num').textContent(), String(number));
@@ -282,7 +282,7 @@ test('a check that can no longer hold offers the way back, and "Show me" finds i
     await lesson.getByRole('button', { name: 'Continue' }).click();
   }
   await step(5);
-  // 1000 with four bytes is legal: 6001h is no longer 8192, as the step wants it.
+  // 1000 with four bytes is valid: 6001h is no longer 8192, which the step requires.
   const spoil = async () => {
     await sdo(page, '6001', '1000');
     await lesson.getByText('A condition held when this step began and no longer does').waitFor();
@@ -297,14 +297,14 @@ test('a check that can no longer hold offers the way back, and "Show me" finds i
   await lesson.getByText('You did it').waitFor();
   assert.deepEqual(faults, []);
 
-  // What was done is a code that a trainer reads; nothing is sent.
+  // The progress is a code for a trainer; nothing is sent.
   await lesson.getByRole('button', { name: 'Other lessons' }).last().click();
   await page.getByRole('textbox', { name: 'Your name' }).fill('Ann');
   await becomes('the code', () => page.getByRole('textbox', { name: 'Code' }).inputValue(), /^odkit-progress\/1 learner=Ann aborts=5\/5@\d{4}-\d\d-\d\d sum=[0-9A-F]{8}$/);
   await close();
 });
 
-test('a wrong answer names its parts and never prints the right one', async () => {
+test('a wrong answer names its wrong parts and does not print the right ones', async () => {
   const { page, close } = await open({ hash: '#lesson=boot-up-and-heartbeat' });
   const quiz = page.locator('od-quiz');
   const answer = quiz.getByRole('textbox', { name: 'Your frame' });

@@ -1,5 +1,5 @@
-// What the page promises, measured: `cargo xtask play --no-serve`, then `node measure.mjs`.
-// It serves the bundle itself and prints a Markdown table; what misses its aim ends it with 1.
+// Measures the page: `cargo xtask play --no-serve`, then `node measure.mjs`.
+// It serves the bundle itself and prints a Markdown table; a missed aim gives exit code 1.
 import { execFileSync } from 'node:child_process';
 import { readFile } from 'node:fs/promises';
 import { cpus, loadavg } from 'node:os';
@@ -25,7 +25,7 @@ function firstLoad() {
   try {
     text = execFileSync(process.execPath, ['size.mjs'], { cwd: WEB, encoding: 'utf8' });
   } catch (error) {
-    // Over the budget it ends with 1, and has said how much it is.
+    // Over the budget it ends with 1, after printing the size.
     text = String(error.stdout);
   }
   const size = Number(/first load\s+([\d.]+) kB/.exec(text)?.[1]);
@@ -34,7 +34,7 @@ function firstLoad() {
 
 const context = async (browser) => browser.newContext({ viewport: { width: 1280, height: 800 }, serviceWorkers: 'block' });
 
-/** From the start of the navigation to the boot-up message in the console, cold, five times. */
+/** From the start of the navigation to the boot-up message in the console, with empty caches, five times. */
 async function interactive(browser) {
   const times = [];
   for (let run = 0; run < 5; run++) {
@@ -55,7 +55,7 @@ async function interactive(browser) {
   row('Interactive after a cold local load (median of 5)', round(median), 'ms', 'under 1,000 ms', median < 1000);
 }
 
-/** Virtual seconds in a second, without a page around; `period` of the PDO in milliseconds. */
+/** Virtual seconds per second, without a page; `period` of the PDO in milliseconds. */
 async function simulation(browser, period, aim) {
   const own = await context(browser);
   const page = await own.newPage();
@@ -83,7 +83,7 @@ async function simulation(browser, period, aim) {
   row(`One moving node, a PDO every ${period} ms: virtual seconds per second`, round(rate), '×', aim ? `at least ${round(aim)} ×` : '–', rate >= aim);
 }
 
-/** A PDO every 2 virtual milliseconds at ten times the speed: 5,000 frames a second. */
+/** A PDO every 2 virtual milliseconds at ten times the speed: 5,000 frames per second. */
 async function throughput(browser) {
   const own = await context(browser);
   const page = await own.newPage();
@@ -108,7 +108,7 @@ async function throughput(browser) {
           const passed = performance.now() - from;
           if (passed < 8000) return requestAnimationFrame(next);
           const rates = { frames: ((captured() - before) * 1000) / passed, pictures: (pictures * 1000) / passed };
-          // The observer has the last long task a little later.
+          // The observer reports the last long task a little later.
           return setTimeout(() => resolve({ longest, ...rates }), 200);
         };
         next();
@@ -121,14 +121,14 @@ async function throughput(browser) {
   const times = [...log.matchAll(/^\((\d+\.\d+)\) \S+ 181#/gm)].map(([, time]) => Number(time));
   let dropped = 0;
   for (let i = 1; i < times.length; i++) dropped += Math.max(0, Math.round((times[i] - times[i - 1]) / 0.002) - 1);
-  // Whole pictures are counted, so a second may have some frames less.
+  // Whole refreshes are counted, so a second may have a few frames less.
   row('Frames per second through the console', round(seen.frames), '', 'at least 5,000', seen.frames >= 4950);
   row(`Frames dropped of ${round(times.length)}`, dropped, '', 'none', dropped === 0 && times.length > 20_000);
   row('Longest task during that', seen.longest ? round(seen.longest) : 'under 50', 'ms', 'at most 100 ms', seen.longest <= 100);
   row('Rendered frames per second during that', round(seen.pictures), '', 'at least 50', seen.pictures >= 50);
 }
 
-/** 5,000 frames a second of a real bus: another client of `odkit sim` sends them, the page shows them. */
+/** 5,000 frames per second of a real bus: another client of `odkit sim` sends them, the page shows them. */
 async function real(browser) {
   const bus = await simulated(['gxmm']);
   const own = await context(browser);
@@ -167,7 +167,7 @@ async function real(browser) {
   await bus.stop();
 }
 
-/** The longest task on the page while somebody types in an EDS of 560 kB with 700 findings. */
+/** The longest task of the page while a user types in an EDS of 560 kB with 700 findings. */
 async function typing(browser) {
   const own = await context(browser);
   const page = await own.newPage();
@@ -201,7 +201,7 @@ try {
   await interactive(browser);
   await simulation(browser, 100, 5000);
   await simulation(browser, 10, 5000);
-  // No aim: how far the busiest set-up goes.
+  // Without an aim: the speed of the busiest bench.
   await simulation(browser, 1, 0);
   await throughput(browser);
   await real(browser);

@@ -1,4 +1,4 @@
-// The bench: several nodes, their switches, faults, EEPROMs and shafts, the wire, and time.
+// The bench: several nodes, their switches, faults, EEPROMs and shafts, the bus line, and time.
 import assert from 'node:assert/strict';
 import { becomes, booted, captured, clock, nmt, number, position, row, rows, sdo, sdoNote, sendRaw, state, stays, stopTime, until } from './bench.mjs';
 import { checks } from './check.mjs';
@@ -89,7 +89,7 @@ check('another bit rate makes a stranger on the bus, and bus-off of who talks', 
   await page.getByRole('switch', { name: 'DIP 1' }).click();
   await cycle(page);
   await row(page, 'a destroyed boot-up, and bus-off', (one) => one.tag === 'ERR' && one.id === '702' && /another bit rate.*bus-off/.test(one.words));
-  // Bus-off ends when the bus was recessive for long enough.
+  // Bus-off ends when the bus has been recessive for long enough.
   await becomes('the controller', () => page.locator('[data-controller=node]').textContent(), /error active/);
   await sdo(page, '1000');
   await note(page, /No response/);
@@ -202,7 +202,7 @@ check('one frame moves exactly one frame, request and answer apart; stepping bac
   await page.getByRole('button', { name: 'Step to the next frame' }).click();
   await becomes('the next frame', () => captured(page), count + 2);
   const next = await row(page, 'the response', (one) => one.number === count + 1);
-  // 116 bits at 50 kbit/s, behind the time to make it.
+  // 116 bits at 50 kbit/s, after the processing time.
   assert.ok(next.time - request.time >= 0.0015, `${request.time} to ${next.time}`);
   await page.getByRole('button', { name: 'Step back one frame' }).click();
   await page.getByRole('button', { name: 'Step back one frame' }).click();

@@ -1,4 +1,4 @@
-// The object dictionary: by name over the bus, and live beside it.
+// The object dictionary: read by name over the bus, and live values beside it.
 import assert from 'node:assert/strict';
 import { becomes, booted, captured, row, sdo, sdoNote, until } from './bench.mjs';
 import { checks } from './check.mjs';

@@ -1,11 +1,11 @@
-// The program `odkit`, for tests of the page on a bus of its own.
+// Starts the program `odkit`, for tests of the page with a bus of its own.
 import { spawn } from 'node:child_process';
 import { createInterface } from 'node:readline';
 import { fileURLToPath } from 'node:url';
 
 const PROGRAM = process.env.ODKIT ?? fileURLToPath(new URL('../../target/debug/odkit', import.meta.url));
 
-/** Starts it; `found` is what the pattern finds in what it prints. Ends with `stop`. */
+/** Starts it; `found` is the match of the pattern in its output. Ends with `stop`. */
 export async function odkit(args, pattern) {
   const child = spawn(PROGRAM, args, { stdio: ['pipe', 'pipe', 'pipe'] });
   let said = '';

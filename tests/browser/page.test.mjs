@@ -1,4 +1,4 @@
-// The page as a person uses it.
+// The page, used like a user would.
 import assert from 'node:assert/strict';
 import { readFile } from 'node:fs/promises';
 import { get } from 'node:http';
@@ -241,7 +241,7 @@ check('scrolling up holds the place, one button goes back to the end', async (pa
   await page.locator('.frames').hover();
   await page.mouse.wheel(0, -600);
   await until('the way back', () => page.getByRole('button', { name: 'Latest frames' }).isVisible());
-  // 400 milliseconds of a person's time, at this speed.
+  // 400 milliseconds of real time, at this speed.
   const first = await stays(page, 'the first row', async () => (await rows(page))[0].number, 40_000);
   await page.getByRole('button', { name: 'Latest frames' }).click();
   await until('the newest rows', async () => (await rows(page)).at(-1).number > first + 60);
@@ -290,7 +290,7 @@ check('dark where the system is dark', { colorScheme: 'dark' }, async (page) => 
   });
 });
 
-/** The status of the page, and its headers, under this name of the computer. */
+/** The status of the page and its headers, under this host name. */
 const head = (host, path = '') =>
   new Promise((resolve, reject) => {
     const request = get(new URL(path, URL_OF_PAGE), { headers: { host } }, (response) => {
@@ -300,7 +300,7 @@ const head = (host, path = '') =>
     request.on('error', reject);
   });
 
-test('the server answers to its own names only, and says what the page may do', async () => {
+test('the server answers to its own names only, and sends the policy of the page', async () => {
   const { port } = new URL(URL_OF_PAGE);
   for (const name of ['127.0.0.1', 'localhost']) {
     const [status, headers] = await head(`${name}:${port}`);

@@ -1,5 +1,5 @@
-// How fast the page is: frames through the console, pictures a second, answers to input,
-// with a PDO every virtual millisecond at rising speeds.
+// Measures the page: frames through the console, refreshes per second, response to input,
+// with a PDO every virtual millisecond at increasing speeds.
 import { launch, open } from './harness.mjs';
 import { booted, nmt, rows, sdo, until, sdoNote } from './bench.mjs';
 

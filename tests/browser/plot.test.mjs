@@ -4,7 +4,7 @@ import { test } from 'node:test';
 import { becomes, booted, captured, number, until } from './bench.mjs';
 import { open } from './check.mjs';
 
-/** Pixels of a chart that have the colour of its line, from its left to its right. */
+/** Number of pixels of a chart with the colour of its line, from left to right. */
 const columns = (page, n) =>
   page.locator('.plot-area').nth(n).evaluate((area) => {
     const canvas = area.querySelector('canvas');

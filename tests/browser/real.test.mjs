@@ -7,7 +7,7 @@ import { withAdapter } from './adapter.mjs';
 import { browser, open } from './check.mjs';
 import { adapted, simulated } from './odkit.mjs';
 
-/** The programs of the test that runs. */
+/** The programs of the current test. */
 const running = [];
 const started = async (starting) => {
   const one = await starting;
@@ -32,14 +32,14 @@ async function connect(page, address) {
   await mark(page).waitFor();
 }
 
-/** The page holds frames back until the worker has said that sending is on. */
+/** The page holds frames back until the worker has confirmed that sending is on. */
 async function turnOn(page) {
   const sending = page.getByRole('switch', { name: 'Sending' });
   await sending.click();
   await becomes('sending', () => sending.getAttribute('aria-checked'), 'true');
 }
 
-/** A test with a page of its own. Its console may say that a connection failed: the browser does. */
+/** A test with a page of its own. Its console may report a failed connection, since the browser does. */
 const on = (name, body, options) =>
   test(name, async () => {
     const { page, faults, close } = await open(options);
@@ -199,7 +199,7 @@ on('a search finds the nodes; one of ours has its dictionary, and its values are
   await page.getByText(/^(\d+) of \1 read$/).waitFor();
 });
 
-test('an adapter over Web Serial: its bus is shown, and a cable that was pulled out and plugged in again goes on', async () => {
+test('an adapter over Web Serial: its bus is shown, and it continues after the cable was unplugged', async () => {
   const bus = await started(adapted(['gxmm', '--node-id', '7']));
   const { page, plug, pull, close } = await withAdapter(browser);
   try {

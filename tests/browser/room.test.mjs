@@ -1,4 +1,4 @@
-// Room: in every window each list has four rows, no text is cut, nothing lies over something else.
+// Layout: in every window each list has four rows, no text is cut, and no element covers another.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { becomes, booted, nmt, row, sdo, sdoNote, sendRaw, until } from './bench.mjs';
@@ -8,7 +8,7 @@ import { URL_OF_PAGE } from './harness.mjs';
 const SIZES = [[1920, 1080], [1366, 625], [1280, 800], [1024, 768], [720, 450], [640, 400], [390, 844]];
 const EMBEDDED = [['', 900, 600], ['encoder', 420, 520], ['console', 700, 500], ['objects', 420, 420]];
 
-/** What is too small, cut or covered, in words; what is not in sight is scrolled to. */
+/** Elements that are too small, cut or covered, in words; hidden ones are scrolled to first. */
 const cramped = (page) =>
   page.evaluate(() => {
     const faults = [];
@@ -26,7 +26,7 @@ const cramped = (page) =>
       const cuts = style.overflowX === 'hidden' || style.overflowX === 'clip' || style.textOverflow === 'ellipsis';
       if (cuts && !it.matches('.rows-spacer, .plot-area, select') && it.scrollWidth > it.clientWidth + 1 && it.textContent.trim()) faults.push(`${nameOf(it)} is cut: ${it.clientWidth} of ${it.scrollWidth} pixels`);
       const isControl = it.matches('button, a, select, input:not(.segment input), summary');
-      // A label that is larger than its button comes out of it.
+      // A label that is larger than its button overflows it.
       if (it.matches('button, summary, .segment span') && (it.scrollWidth > it.clientWidth + 1 || it.scrollHeight > it.clientHeight + 1)) faults.push(`${nameOf(it)} has no room for its label`);
       const isText = [...it.childNodes].some((node) => node.nodeType === Node.TEXT_NODE && node.data.trim());
       if (!isControl && !isText) continue;
@@ -61,7 +61,7 @@ async function everyPart(page, what, rest = () => {}) {
   }
 }
 
-/** A bench with something to read in every list. */
+/** A bench with content in every list. */
 async function busy() {
   const { page, faults, close } = await open({ width: 1280, height: 800 });
   await booted(page);
@@ -87,7 +87,7 @@ test('every list has four rows, and no text is cut or covered, in every window',
     };
     await everyPart(page, `${width} × ${height}`, part);
     if (width < 1024) await page.getByRole('tab', { name: 'Bus' }).click();
-    // By its key: a row that is clicked may have moved on.
+    // By its key: a clicked row may have moved.
     await page.locator('.frames').press('Enter');
     await page.locator('.frame-detail').waitFor();
     await roomy(page, `${width}, a frame`);
@@ -103,7 +103,7 @@ test('every list has four rows, and no text is cut or covered, in every window',
   await close();
 });
 
-test('a lesson shows its step, its checks and what goes on without a scroll, beside a bench with room', async () => {
+test('a lesson shows its step, its checks and the bus without scrolling, beside a bench that is large enough', async () => {
   const { page, faults, close } = await open({ width: 1366, height: 625, hash: '#lesson=sdo' });
   const lesson = page.locator('od-lesson');
   await lesson.locator('.checks').waitFor();
@@ -122,7 +122,7 @@ test('a lesson shows its step, its checks and what goes on without a scroll, bes
   await close();
 });
 
-test('at 200 % zoom, and in each embedded view, there is room, too', async () => {
+test('the layout also holds at 200 % zoom and in each embedded view', async () => {
   const { page, faults, close } = await open({ width: 640, height: 400, deviceScaleFactor: 2, hash: '?embed' });
   for (const [view, width, height] of EMBEDDED) {
     await page.setViewportSize({ width, height });

@@ -1,4 +1,4 @@
-// Seeing: figures of each CAN-ID and SDO client, plots of the whole capture.
+// Figures of each CAN-ID and SDO client, and plots of the whole capture.
 import assert from 'node:assert/strict';
 import { readFile } from 'node:fs/promises';
 import { becomes, booted, captured, nmt, row, rows, sdo, sdoNote, stays, stopTime, until } from './bench.mjs';
@@ -25,15 +25,15 @@ check('statistics: period, jitter and last change of a CAN-ID; time to answer an
   const [, , count, , least, mean, most, jitter, changed] = await cells('701');
   const [low, middle, high] = [least, mean, most].map(milliseconds);
   assert.ok(low <= middle && middle <= high && Math.abs(low - 100) < 5, `${least} ${mean} ${most}`);
-  // The way from the boot-up message to the first heartbeat is a period, too.
-  // The three have three or four digits each: 1.06 s may be 5 ms more.
+  // The time from the boot-up message to the first heartbeat is a period, too.
+  // The three figures have three or four digits: 1.06 s may be 5 ms more.
   assert.ok(milliseconds(jitter) <= high - low + 0.1 + high / 200, `${jitter} of ${least} to ${most}`);
   assert.ok(Number(changed) > 0 && Number(count) > 10, changed);
   assert.match((await cells('601'))[8], /^\d+\.\d{3}$/);
   const client = await page.getByRole('table', { name: 'SDO clients' }).getByRole('row').nth(1).getByRole('cell').allTextContents();
   assert.deepEqual([client[0], client[1], client[5], client[6]], ['1', '2', '1', '0']);
   assert.ok(milliseconds(client[2]) > 0 && milliseconds(client[2]) <= milliseconds(client[4]), client.join());
-  // The status bar is below the table, and nothing lies over it.
+  // The status bar is below the table, and nothing covers it.
   const bar = await page.locator('.bus-status').boundingBox();
   const box = await page.locator('.ids').boundingBox();
   assert.ok(bar.y >= box.y + box.height - 1, 'the status bar is below');
@@ -181,7 +181,7 @@ check('a log never throws the capture away unasked: beside it, after it is saved
   assert.equal(await ids(page), '701 601 581', 'nothing is thrown away');
   await offer.getByRole('button', { name: 'Open beside it' }).click();
   await becomes('the log', () => ids(page), '601 705 601 705');
-  // What comes meanwhile goes to the capture.
+  // Frames received meanwhile go to the capture.
   await sdo(page, '1000');
   await becomes('the answer', () => sdoNote(page), /1000h = /);
   assert.equal(await ids(page), '601 705 601 705');
@@ -195,7 +195,7 @@ check('a log never throws the capture away unasked: beside it, after it is saved
   const [download] = await Promise.all([page.waitForEvent('download'), offer.getByRole('button', { name: 'Save the capture, then replace it' }).click()]);
   assert.equal(String(await readFile(await download.path())).trim().split('\n').length, 5);
   await becomes('the log in its place', () => ids(page), '601 705 601 705');
-  // A log that nobody added to is replaced at once.
+  // A log without added frames is replaced without a question.
   await openLog(page, 'next.log', LOG.split('\n')[0]);
   await becomes('the next log', () => ids(page), '601');
 });
@@ -207,14 +207,14 @@ check('a log in the send list runs onto the bus and only to be looked at, at any
   assert.equal(await page.locator('.send-list').getByRole('group').count(), 1, 'it has its place in the send list');
   const button = (name) => log.getByRole('button', { name, exact: true });
   const place = () => log.getByRole('progressbar').evaluate((bar) => bar.value);
-  // Frame by frame onto the bus: one request, one answer.
+  // Frame by frame onto the bus: one request, one response.
   await button('Next frame of the log').click();
   await becomes('frames on the bus', () => ids(page), '701 601 581');
   await becomes('the progress', place, 1);
   await log.getByText('1 of 4 frames, 0.000 s').waitFor();
   await button('Next frame of the log').click();
   await becomes('frames on the bus', () => ids(page), '701 601 581 705');
-  // On from there, ten times as fast.
+  // Then it continues, ten times as fast.
   await log.getByRole('spinbutton', { name: 'Speed of the log' }).fill('10');
   await page.keyboard.press('Tab');
   await button('Continue the log').click();
@@ -223,7 +223,7 @@ check('a log in the send list runs onto the bus and only to be looked at, at any
   await becomes('the progress', place, 4);
   const [asked, , last] = (await rows(page)).slice(-3).map(({ time }) => time);
   assert.ok(Math.abs(last - asked - 0.02) < 0.005, `0.2 s of the log in ${last - asked} s`);
-  // Only to look at: nothing is sent, and the log is filled again. Its last frame is far away.
+  // In the console only: nothing is sent, and the log is shown again. Its last frame is much later.
   await button('Remove the log from the send list').click();
   await openLog(page, 'other.log', ['(1.0) can0 705#05', '(1.1) can0 705#7F', '(900.0) can0 705#04'].join('\n'));
   await page.getByRole('button', { name: 'Open beside it' }).click();

@@ -1,4 +1,4 @@
-// A bench passed on: by link, by file, by leaving and coming back; without a network; in a frame.
+// Sharing a bench: by link, by file, after closing the page; without a network; in a frame.
 import assert from 'node:assert/strict';
 import { createHash } from 'node:crypto';
 import { readFile, writeFile } from 'node:fs/promises';
@@ -15,7 +15,7 @@ const check = checks();
 
 const note = (page, pattern) => becomes('the note under the SDO line', () => sdoNote(page), pattern);
 
-/** Changes something of every kind: values, saved and not, the shaft, the NMT state. */
+/** Changes state of every kind: values, saved and not, the shaft, the NMT state. */
 async function use(page) {
   await booted(page);
   await sdo(page, '6001', '1000');
@@ -30,13 +30,13 @@ async function use(page) {
   await becomes('the state', () => state(page), 'Operational');
 }
 
-/** The value of an object as the SDO line shows it. */
+/** The value of an object in the SDO line. */
 const read = async (page, object) => {
   await sdo(page, object);
   return (await becomes(`the value of ${object}`, () => sdoNote(page), /= ./)).split('= ')[1];
 };
 
-/** When this browser last kept a bench, in wall-clock milliseconds; 0 before that. */
+/** Time when this browser last stored a bench, in wall-clock milliseconds; 0 if never. */
 const keptAt = (page) =>
   page.evaluate(async () => {
     const answer = (request) => new Promise((resolve, reject) => Object.assign(request, { onsuccess: () => resolve(request.result), onerror: () => reject(request.error) }));
@@ -57,7 +57,7 @@ async function isUsed(page, at) {
   await becomes('the position', () => position(page), at);
   assert.match(await read(page, '6001'), /^1\u2009?000/);
   assert.match(await read(page, '2300:01'), /^77/);
-  // What was not saved goes with the power, what was saved stays.
+  // Values that were not saved are lost without power, saved ones stay.
   const power = page.getByRole('switch', { name: 'Power' });
   await power.click();
   await becomes('the state', () => state(page), 'Off');
@@ -154,7 +154,7 @@ check('a dropped EDS, its node and its values go along', async (page) => {
   }
 });
 
-test('bad links get a message and a fresh bench', async () => {
+test('bad links show a message and a new bench', async () => {
   for (const hash of ['#bench=', '#bench=%%%', '#bench=AAAA', '#bench=q1bKz1ayUtJRykvMTVWyUsooKSmw0tcvLy_XSyvNS9dLzs8FAA', '#device=nonsense&node=900', `#${'device=gxam&'.repeat(2000)}`, '#bus=%']) {
     const { page, faults, close } = await open({ hash });
     await booted(page);
@@ -168,7 +168,7 @@ test('bad links get a message and a fresh bench', async () => {
   }
 });
 
-test('a link with too much of anything gets a message and a fresh bench', async () => {
+test('a link that exceeds a limit shows a message and a new bench', async () => {
   const bench = (entries, now = 0) => `#bench=${deflateRawSync(JSON.stringify({ odkit: 1, trace: true, now, speed: 1, running: true, node: 0, entries })).toString('base64url')}`;
   const add = { op: 'add', source: { kind: 'builtin', name: 'gxmm' }, nodeId: 1 };
   for (const [hash, message] of [
@@ -211,7 +211,7 @@ check('a file is saved and opened again', async (page) => {
 check('a bench is kept, and offered at the next visit', async (page) => {
   await use(page);
   const at = await position(page);
-  // What is done next is kept together with all that was done before.
+  // Later actions are stored together with all earlier ones.
   const used = Date.now();
   await read(page, '1000');
   await until('the bench to be kept', async () => (await keptAt(page)) >= used);
@@ -221,7 +221,7 @@ check('a bench is kept, and offered at the next visit', async (page) => {
   await page.getByRole('button', { name: 'Continue with it' }).click();
   await isUsed(page, at);
   await becomes('what is offered', () => page.getByRole('button', { name: 'Continue with it' }).count(), 0);
-  // Over the hints of a lesson there is no place for it.
+  // It is hidden while hints of a lesson are shown.
   await page.reload();
   await page.getByRole('button', { name: 'Continue with it' }).waitFor();
   await page.evaluate(() => (location.hash = '#lesson=sdo'));
@@ -251,7 +251,7 @@ test('it loads without a network after the first visit', async () => {
   await booted(page);
   await sendRaw(page, '601#4000100000000000');
   await row(page, 'an answer', (one) => one.id === '581');
-  // Even what is fetched later: the module that reads EDS texts.
+  // This includes files that are loaded on request: the module that reads EDS texts.
   const eds = join(tmpdir(), `odkit-offline-${process.pid}.eds`);
   await writeFile(eds, '[FileInfo]\nFileName=x.eds\n[DeviceInfo]\nProductName=Offline\n[1000]\nParameterName=Device type\nObjectType=7\nDataType=0x0007\nAccessType=ro\nDefaultValue=0\nPDOMapping=0\n');
   await page.locator('.device-button').click();
@@ -262,7 +262,7 @@ test('it loads without a network after the first visit', async () => {
   await close();
 });
 
-/** Serves the page as it is, or as `change` makes its files; answers with the address. */
+/** Serves the page as it is, or with files that `change` makes; returns the address. */
 async function changed(change) {
   const server = createServer(async (request, response) => {
     const name = new URL(request.url, URL_OF_PAGE).pathname.slice(1);
@@ -282,8 +282,8 @@ async function changed(change) {
 const newIcon = (body) => Buffer.from(body.toString().replace('<svg', '<svg data-new=""'));
 const hashOf = (body) => createHash('sha256').update(body).digest('base64url').slice(0, 12);
 
-test('a new version is offered, and comes when it is wanted; one that is deployed by half never does', async () => {
-  // The page as it is, and then with another icon: first its list of files is new, then the file.
+test('a new version is offered and installed on request; one that is deployed incompletely never is', async () => {
+  // The page as it is, and then with another icon: first the list of files is new, then the file.
   const icon = await (await fetch(new URL('icon.svg', URL_OF_PAGE))).arrayBuffer().then(Buffer.from);
   const [listed, there] = [new Set(), new Set()];
   const server = await changed((name, body) => {
@@ -292,7 +292,7 @@ test('a new version is offered, and comes when it is wanted; one that is deploye
   });
   const page = await browser.newPage();
   const shown = () => page.evaluate(async () => (await fetch('icon.svg')).text());
-  /** Looks for a new version, to the end of it. */
+  /** Checks for a new version until the check ends. */
   const look = () =>
     page.evaluate(async () => {
       const registration = await navigator.serviceWorker.ready;
@@ -312,8 +312,8 @@ test('a new version is offered, and comes when it is wanted; one that is deploye
     await booted(page);
     assert.ok(!(await shown()).includes('data-new'), 'the page is whole');
     there.add('new');
-    // Chromium looks for a new version when it has nothing better to do. A page that draws
-    // pictures on a busy machine leaves it no such moment for a minute.
+    // Chromium checks for a new version when it is idle. A page that draws continuously on a busy
+    // machine may keep it from that for a minute.
     await stopTime(page);
     assert.equal(await look(), 'installed');
     const load = page.getByRole('button', { name: 'Load it' });
@@ -329,7 +329,7 @@ test('a new version is offered, and comes when it is wanted; one that is deploye
   }
 });
 
-test('two tabs keep a bench each', async () => {
+test('two tabs store a bench each', async () => {
   const context = await browser.newContext();
   const visit = async () => {
     const page = await context.newPage();
@@ -360,7 +360,7 @@ test('two tabs keep a bench each', async () => {
   }
 });
 
-test('in a frame of another page there is less around it', async () => {
+test('in a frame of another page it has fewer elements', async () => {
   const host = createServer((_, response) => {
     response.setHeader('content-type', 'text/html');
     response.end(`<!doctype html><title>Course</title><iframe src="${URL_OF_PAGE}?embed&view=console&theme=dark" width="700" height="600" title="Encoder"></iframe>`);

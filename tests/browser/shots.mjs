@@ -1,4 +1,4 @@
-// Pictures of the page for people to look at: target/shots/*.png.
+// Makes screenshots for reviews: target/shots/*.png.
 import { mkdir } from 'node:fs/promises';
 import { launch, open, URL_OF_PAGE } from './harness.mjs';
 import { booted, nmt, sdo, sendRaw, until, captured } from './bench.mjs';

@@ -1,11 +1,11 @@
-// Small things that were wrong once.
+// Regression tests for small faults.
 import assert from 'node:assert/strict';
 import { becomes, booted, nmt, row, sdo, until } from './bench.mjs';
 import { checks } from './check.mjs';
 
 const check = checks();
 
-/** Is a control where it seems to be, with nothing over it? */
+/** Returns whether a control is where it is drawn, and nothing covers it. */
 const isFree = (control) =>
   control.evaluate((it) => {
     it.scrollIntoView({ block: 'center' });

@@ -1,5 +1,5 @@
-//! Calls of a device of the bench, as `od-capi/examples/c/virtual.c` reads them, and the
-//! answers of the device.
+//! Calls of a device of the bench, in the format that `od-capi/examples/c/virtual.c` reads, and the
+//! responses of the device.
 
 use std::sync::{Arc, Mutex};
 
@@ -12,7 +12,7 @@ use od_runtime::{BusEvent, Event, Frame, Instant};
 /// Frame as it is written: CAN-ID with flags, length, data.
 pub(crate) type Bytes = [u8; 13];
 
-/// A row of calls, and what the bench's device made of it.
+/// A sequence of calls, and the responses of the bench's device.
 #[derive(Default)]
 pub(crate) struct Log {
     calls: Vec<u8>,
@@ -30,7 +30,7 @@ pub(crate) struct Log {
     node_id: Option<u8>,
 }
 
-/// The twin of a device: it writes a log, which somebody else has, too.
+/// The twin of a device: it writes a log, which the caller also has.
 pub(crate) struct Writer(pub Arc<Mutex<Log>>);
 
 impl Twin for Writer {
@@ -118,7 +118,7 @@ impl Log {
         }
     }
 
-    /// Ends the log: the device shows its values and its EEPROM.
+    /// Ends the log with the values and the EEPROM of the device.
     pub(crate) fn end(&mut self, device: &mut VirtualDevice, now: Instant) {
         if device.is_powered() {
             let entries = device.dictionary().entries();
@@ -146,7 +146,7 @@ fn content(storage: &mut dyn Storage) -> Vec<u8> {
     bytes
 }
 
-/// A frame as it is written.
+/// A frame in the format of the log.
 fn bytes(frame: &Frame) -> Bytes {
     let id = frame.id().raw()
         | u32::from(frame.id().is_extended()) << 31
@@ -155,7 +155,7 @@ fn bytes(frame: &Frame) -> Bytes {
     all.try_into().expect("4, 1 and 8 bytes")
 }
 
-/// A frame and its time, for people.
+/// A frame and its time, to display.
 pub(crate) fn shown(frame: Option<&(u64, Bytes)>) -> String {
     let Some((at, [a, b, c, d, len, data @ ..])) = frame else {
         return String::from("nothing");

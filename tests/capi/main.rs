@@ -1,7 +1,7 @@
 //! A firmware in C (`od-capi/examples/c`) receives the calls that a device of the bench receives while
-//! a script runs, and answers the same: frames, their times, bit rates, all values, the EEPROM.
+//! a script runs, and must respond equally: frames, their times, bit rates, all values, the EEPROM.
 //!
-//! It runs on this computer, watched by sanitizers, and on an emulated Cortex-M3.
+//! It runs on this computer with sanitizers, and on an emulated Cortex-M3.
 //!
 //! ```text
 //! cargo xtask test --only c                                     builds the programs and plays all
@@ -25,14 +25,14 @@ use od_tests::scripts;
 use crate::log::{Log, Writer};
 use crate::play::{Answers, Program};
 
-/// The programs, and the file that a script of theirs has in its `device` line.
+/// The programs, and the file in the `device` line of their scripts.
 const PROGRAMS: [(Program, &str); 3] = [
     (Program::Host("host"), "ds301.eds+all.overlay"),
     (Program::Emulated("ds301.elf"), "ds301.eds+all.overlay"),
     (Program::Emulated("strings.elf"), "strings.eds"),
 ];
 
-/// Scripts that a compiled device cannot answer as a file does, and why.
+/// Scripts for which a compiled device responds differently from a file, with the reason.
 const LACKING: [(&str, &str); 1] = [(
     "cia301/domain-size.script",
     "a DOMAIN of a file has the size that the script gives it, a compiled one its own",
@@ -95,8 +95,8 @@ fn record(path: &Path, text: &str) -> Result<Vec<Log>, String> {
         .collect())
 }
 
-/// Plays all scripts of a program whose names contain one of the words; returns their number, and
-/// what is not the same.
+/// Plays all scripts of a program whose names contain one of the words; returns their number and
+/// the differences.
 fn play(
     program: Program,
     eds: &str,

@@ -1,11 +1,11 @@
-//! Runs a program, and compares its answers.
+//! Runs a program, and compares its responses.
 
 use std::path::Path;
 use std::process::{Command, Stdio};
 
 use crate::log::{Bytes, Log, shown};
 
-/// A program and where it runs.
+/// A program and its platform.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Program {
     /// On this computer.
@@ -14,7 +14,7 @@ pub(crate) enum Program {
     Emulated(&'static str),
 }
 
-/// Lets a program answer.
+/// Runs a program.
 ///
 /// # Errors
 /// Reason, and the output of the program.
@@ -52,8 +52,8 @@ pub(crate) fn play(program: Program, folder: &Path, told: &[u8]) -> Result<Vec<u
     }
 }
 
-/// Whether two frames with their times are the same, but for the size of the blocks that an SDO server
-/// asks for: that is as large as its buffer, and the bench's is larger.
+/// Returns whether two frames with their times are equal, except for the block size that an SDO server
+/// requests: it depends on the buffer, and that of the bench is larger.
 fn alike(a: Option<&(u64, Bytes)>, b: Option<&(u64, Bytes)>) -> bool {
     let [a, b] = [a, b].map(|frame| {
         let (at, mut bytes) = *frame?;
@@ -68,18 +68,18 @@ fn alike(a: Option<&(u64, Bytes)>, b: Option<&(u64, Bytes)>) -> bool {
     a == b
 }
 
-/// Answers that have not been compared yet.
+/// Responses that have not been compared yet.
 pub(crate) struct Answers<'b> {
     rest: &'b [u8],
 }
 
 impl<'b> Answers<'b> {
-    /// All answers of a program.
+    /// All responses of a program.
     pub(crate) const fn read(bytes: &'b [u8]) -> Self {
         Self { rest: bytes }
     }
 
-    /// Whether all are compared.
+    /// Returns whether all are compared.
     pub(crate) const fn is_empty(&self) -> bool {
         self.rest.is_empty()
     }
@@ -94,10 +94,10 @@ impl<'b> Answers<'b> {
         Ok(bytes.fold(0, |number, byte| number << 8 | u64::from(*byte)))
     }
 
-    /// Compares the answers to a log; returns the first difference.
+    /// Compares the responses with a log; returns the first difference.
     ///
     /// # Errors
-    /// Reason why the answers make no sense.
+    /// Reason why the responses are not valid.
     pub(crate) fn next(&mut self, log: &Log) -> Result<Option<String>, String> {
         let mut frames: Vec<(u64, Bytes)> = Vec::new();
         let (mut rates, mut values) = (Vec::new(), Vec::new());

@@ -1,4 +1,4 @@
-// What the registries of Rust, Python, npm and Visual Studio Code would get, installed from the folder alone.
+// The packages for the registries of Rust, Python, npm and Visual Studio Code, installed from the folder only.
 import assert from 'node:assert/strict';
 import { appendFileSync, chmodSync, copyFileSync, mkdirSync, readFileSync, readdirSync, writeFileSync } from 'node:fs';
 import { homedir } from 'node:os';
@@ -62,7 +62,7 @@ console.log(bus.pending(), bus.read(device, 0x6004, 0), bus.nmt(device));
   assert.equal(run('node', ['boot.js']).trim(), '1 12288 pre-operational');
 });
 
-// What an extension may ask its editor for when it is loaded: classes, functions and values of any name.
+// Everything that an extension may use of its editor when it is loaded: classes, functions and values of any name.
 const EDITOR = `
 const Module = require('node:module');
 const any = () => new Proxy(class {}, { get: (own, key) => (key in own || typeof key === 'symbol' ? own[key] : (own[key] = any())) });
@@ -114,7 +114,7 @@ test('each bill of materials lists what its parts need', () => {
   }
 });
 
-test('the licences of what each part has of others are in it', () => {
+test('each part contains the licences of its third-party components', () => {
   const { dir, run } = room('licences');
   const name = 'LICENSE.THIRD-PARTY.txt';
   const unzip = (archive, inner) => {

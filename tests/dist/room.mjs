@@ -1,4 +1,4 @@
-// A release in a place of its own: a copy of it, and an empty folder for each test, from which no checkout is in reach.
+// A copy of the release, and an empty folder for each test, from which no checkout can be reached.
 import { spawnSync } from 'node:child_process';
 import { cpSync, existsSync, mkdirSync, mkdtempSync, readdirSync, realpathSync, rmSync, symlinkSync } from 'node:fs';
 import { homedir, tmpdir } from 'node:os';
@@ -15,20 +15,20 @@ after(() => rmSync(root, { recursive: true, force: true }));
 export const dist = join(root, 'dist');
 cpSync(given, dist, { recursive: true });
 
-/** The only file of a part whose name fits. */
+/** The only file of a part with a matching name. */
 export function file(part, pattern) {
   const found = readdirSync(join(dist, part)).filter((name) => pattern.test(name));
   if (found.length !== 1) throw new Error(`${part} has ${found.length} files for ${pattern}`);
   return join(dist, part, found[0]);
 }
 
-/** An empty folder with a home of its own; `run` runs a program in it and gives back what it printed. */
+/** An empty folder with a home directory; `run` runs a program in it and returns its output. */
 export function room(name) {
   const dir = join(root, name);
   const home = join(dir, '.home');
   const cargo = join(home, '.cargo');
   mkdirSync(cargo, { recursive: true });
-  // What was fetched once need not be fetched again; it has nothing of the checkout.
+  // Downloads are cached; the cache contains nothing of the checkout.
   const registry = join(process.env.CARGO_HOME ?? join(homedir(), '.cargo'), 'registry');
   if (existsSync(registry)) symlinkSync(registry, join(cargo, 'registry'));
   const kept = ['PATH', 'LANG', 'PIP_CERT', 'SSL_CERT_FILE', 'RUSTUP_TOOLCHAIN'];
@@ -44,5 +44,5 @@ export function room(name) {
   return { dir, env, run };
 }
 
-/** Is there a program of this name? */
+/** Returns whether a program of this name exists. */
 export const has = (program) => spawnSync('which', [program]).status === 0;

@@ -1,4 +1,4 @@
-// Page and documents as any web server sends them: from any folder of it, and without any other server.
+// Page and documents on a simple web server: in a subfolder, and without access to other servers.
 import assert from 'node:assert/strict';
 import { readFile } from 'node:fs/promises';
 import { createServer } from 'node:http';
@@ -9,7 +9,7 @@ import { dist } from './room.mjs';
 
 const TYPES = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.json': 'application/json', '.svg': 'image/svg+xml', '.wasm': 'application/wasm', '.txt': 'text/plain', '.md': 'text/plain', '.png': 'image/png', '.woff2': 'font/woff2' };
 
-// A folder that is somewhere on a server.
+// A subfolder of the server.
 const FOLDER = '/team/odkit/';
 // A request to another server fails.
 const NOWHERE = { server: 'http://127.0.0.1:9', bypass: '127.0.0.1' };
@@ -18,7 +18,7 @@ let server, browser, url;
 before(async () => {
   server = createServer(async (request, response) => {
     const path = decodeURIComponent(new URL(request.url, 'http://localhost').pathname).replace(/\/$/, '/index.html');
-    // A browser asks for the icon of a text, too.
+    // A browser requests an icon for a text file, too.
     if (path === '/favicon.ico') return response.writeHead(204).end();
     const file = path.startsWith(FOLDER) && join(dist, 'site', path.slice(FOLDER.length));
     const body = file && (await readFile(file).catch(() => null));
@@ -34,7 +34,7 @@ after(async () => {
   server?.closeAllConnections();
 });
 
-/** Opens a page of the site; at the end nothing may have gone wrong in it. */
+/** Opens a page of the site; it must have no errors. */
 async function visit(path, look) {
   const { page, faults, close } = await open(browser, { hash: new URL(path, url).href, proxy: NOWHERE });
   await look(page);

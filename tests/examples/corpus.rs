@@ -63,14 +63,14 @@ fn main() -> ExitCode {
             format!("{}\n\n{}", lines.join("\n"), sums(&files))
         }
     };
-    // A reader may stop early, as `head` does.
+    // A reader such as `head` may stop early.
     let _ = std::io::stdout().write_all(text.as_bytes());
     ExitCode::SUCCESS
 }
 
-/// A file with what was read of it.
+/// A file with its results.
 struct File {
-    /// Path from the corpus.
+    /// Path relative to the corpus.
     name: String,
     bytes: usize,
     document: Document,
@@ -237,7 +237,7 @@ fn docs(files: &[File]) -> String {
     text
 }
 
-/// Every value, one a line: file, index, sub-index, object code, type code, access,
+/// Every value, one per line: file, index, sub-index, object code, type code, access,
 /// mappable, default, low, high, configured value, name.
 fn entries(files: &[File]) -> String {
     let mut text = String::new();
@@ -290,7 +290,7 @@ fn time(files: &[File]) -> String {
     let mut each = vec![f64::INFINITY; contents.len()];
     let end = Instant::now() + Duration::from_secs(2);
     let mut rounds = 0;
-    // On a busy machine two seconds are one interrupted round.
+    // On a busy machine two seconds may be one interrupted round.
     while rounds < 10 || Instant::now() < end {
         rounds += 1;
         let round = Instant::now();

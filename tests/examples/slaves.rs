@@ -1,7 +1,7 @@
 //! Runs the commands on a bus on a folder of device files: `cargo xtask corpus DIR --nodes`.
 //!
-//! Each file is simulated, learned and tested in virtual time. A line a file says how many values were learned
-//! as the file has them, and the cases that fail follow it.
+//! Each file is simulated, learned and tested in virtual time. For each file a line says how many values were learned
+//! as in the file, followed by the cases that fail.
 //!
 //! ```text
 //! slaves DIR            learn, check, compare, play the twin; then the conformance test
@@ -86,10 +86,10 @@ fn main() -> ExitCode {
 #[derive(Default)]
 struct Learned {
     values: usize,
-    /// Values that are missing, or whose access or length is another one, or whose type is another
-    /// one without a mark.
+    /// Values that are missing, or have another access or length, or another type without
+    /// a mark.
     wrong: Vec<String>,
-    /// Values whose type is another one of the same length, and marked as a guess.
+    /// Values with another type of the same length that are marked as a guess.
     marked: usize,
     /// Errors that `odkit check` finds in the learned file.
     errors: usize,
@@ -200,7 +200,7 @@ fn is_marked(made: &Description, right: &Entry, got: &Entry) -> bool {
         && entry.is_some_and(|entry| entry.extra.iter().any(mark))
 }
 
-/// The cases that fail, and why.
+/// The cases that fail, with the reasons.
 fn failed(text: &str) -> Vec<String> {
     let Ok(bus) = bus(text) else {
         return Vec::new();

@@ -1,4 +1,4 @@
-//! Expectations of odkit about the tools that read device files, for comparisons with the tools themselves.
+//! Prints what odkit expects of the tools that read device files, for comparison with the tools.
 //!
 //! ```text
 //! tools mutants DIR OUT COUNT SEED    COUNT changed copies of the EDS and DCF files below DIR, in OUT
@@ -46,7 +46,7 @@ fn main() -> ExitCode {
     }
 }
 
-/// Most mutants have a few changes of one file, some a piece of another.
+/// Most mutants have a few changes of one file, some a part of another.
 fn mutants(from: &Path, to: &Path, count: &str, seed: &str) -> io::Result<()> {
     let wrong = |_| io::Error::other("COUNT and SEED are numbers");
     let count: u64 = count.parse().map_err(wrong)?;

@@ -8,7 +8,7 @@ use crate::log::{Answer, HEAD, Log};
 /// Answers of the program, each with the instructions that it took.
 pub(crate) type Answers = Vec<(Answer, u32)>;
 
-/// Lets a program answer to the logs, in a folder for its files.
+/// Runs a program on the logs, in a folder for its files.
 ///
 /// # Errors
 /// A sentence, and the output of the emulator.
@@ -22,7 +22,7 @@ pub(crate) fn play(program: &Path, folder: &Path, logs: &[&Log]) -> Result<Vec<A
     std::fs::write(folder.join("calls"), calls).map_err(|e| io("calls", e))?;
     let answers = folder.join("answers");
     let _ = std::fs::remove_file(&answers);
-    // The clock of the program counts instructions: 12.8 of its ticks are one.
+    // The clock of the program counts instructions: 12.8 ticks are one.
     let arguments = [
         "-M lm3s6965evb -nographic -monitor none -serial none",
         "-icount shift=10,sleep=off -semihosting-config enable=on,target=native -kernel",

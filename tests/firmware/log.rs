@@ -1,5 +1,5 @@
 //! Log of the calls of a device on the bench, in the bytes that the firmware reads, and of its
-//! answers.
+//! responses.
 //!
 //! `firmware/twin/src/twin.rs` describes the bytes.
 
@@ -13,30 +13,30 @@ use od_runtime::encoder::{Angle, Encoder, Fault, Motion, Role};
 use od_runtime::storage::Storage;
 use od_runtime::{BusEvent, Event, Frame, Instant};
 
-/// Between two calls the shaft is sampled every millisecond, but no more often than this.
+/// Between two calls the shaft is sampled every millisecond, at most this number of times.
 const SAMPLES: u64 = 2000;
 
-/// Microseconds between two positions of one movement, at most.
+/// Maximum time in microseconds between two positions of one movement.
 const MOVEMENT: u64 = 20_000;
 
 /// Bytes of an answer before its frames: state, node ID, hash of the events, next deadline.
 pub(crate) const HEAD: usize = 14;
 
-/// A frame, as it is written: CAN-ID, DLC, data.
+/// A frame in the log: CAN-ID, DLC, data.
 pub(crate) type Bytes = [u8; 13];
 
-/// An answer, without the time that it took.
+/// A response, without the time that it took.
 #[derive(Clone, PartialEq, Eq, Default, Debug)]
 pub(crate) struct Answer {
     /// State, node ID, events, deadline.
     pub(crate) head: [u8; HEAD],
     /// Frames that were sent.
     pub(crate) frames: Vec<Bytes>,
-    /// A hash of each value, and the EEPROM, if they were asked for.
+    /// A hash of each value, and the EEPROM, if they were requested.
     pub(crate) rest: Vec<u8>,
 }
 
-/// A row of calls, and the answers of the bench's device.
+/// A sequence of calls, and the responses of the bench's device.
 #[derive(Default)]
 pub(crate) struct Log {
     /// All calls, one after another.
@@ -50,12 +50,12 @@ pub(crate) struct Log {
     /// Frames and events since the last call.
     sent: Vec<Bytes>,
     events: String,
-    /// Switches and faults as they were logged.
+    /// Switches and faults as last logged.
     world: Option<[u8; 4]>,
-    /// The EEPROM when power went.
+    /// The EEPROM when power was switched off.
     eeprom: Vec<u8>,
-    /// Values in `rest` that need not agree: speeds and accelerations at the end of the log, which
-    /// nobody asked for.
+    /// Values in `rest` that may differ: speeds and accelerations at the end of the log, which
+    /// no frame read.
     pub(crate) loose: Vec<usize>,
 }
 
@@ -64,12 +64,12 @@ struct Last {
     at: Instant,
     shaft: Shaft,
     sample: Angle,
-    /// Time when it was put elsewhere.
+    /// Time when it was moved without a speed.
     jumped: Option<Instant>,
     powered: bool,
 }
 
-/// The twin of a device: it writes a log, which somebody else has, too.
+/// The twin of a device: it writes a log, which the caller also has.
 pub(crate) struct Writer(pub Arc<Mutex<Log>>);
 
 impl Twin for Writer {
@@ -177,7 +177,7 @@ impl Log {
         }
     }
 
-    /// Adds switches, faults and a sample of the shaft, if they changed.
+    /// Adds changes of switches, faults and shaft.
     fn look_around(
         &mut self,
         encoder: &Encoder<Shaft>,
@@ -197,7 +197,7 @@ impl Log {
         }
         let mut shaft = encoder.shaft.clone();
         if let Call::PowerOn = call {
-            // Revolutions that nobody counted are lost by now.
+            // Revolutions that were not counted are lost.
             shaft.start(now, encoder.profile().counter, encoder.sensor());
         }
         let sample = shaft.seen(now);
@@ -214,7 +214,7 @@ impl Log {
                 self.sample(&last, now);
             }
             if turned != sample {
-                // A hand that moves the shaft again and again turns it.
+                // A shaft that is moved again and again turns.
                 let moves = |at: Instant| at < now && now.micros_since(at) <= MOVEMENT;
                 letter = Some(if jumped.is_some_and(moves) {
                     b'S'
@@ -252,7 +252,7 @@ impl Log {
         }
     }
 
-    /// Adds the values of the device and its EEPROM to the last answer, that to
+    /// Adds the values of the device and its EEPROM to the last response, that to
     /// [`Call::End`].
     pub(crate) fn end(&mut self, device: &mut VirtualDevice, now: Instant) {
         let addresses: Vec<_> = (device.dictionary().entries().iter())
@@ -274,7 +274,7 @@ impl Log {
         }
     }
 
-    /// Whether an answer of the firmware is that of the bench.
+    /// Returns whether a response of the firmware equals that of the bench.
     pub(crate) fn agrees(&self, own: &Answer, its: &Answer) -> bool {
         let (heads, frames) = (own.head == its.head, own.frames == its.frames);
         let mut pairs = own.rest.iter().zip(&its.rest).enumerate();
@@ -312,7 +312,7 @@ fn hash(bytes: &[u8]) -> [u8; 4] {
     bytes.iter().fold(0x811C_9DC5, add).to_le_bytes()
 }
 
-/// A frame as it is written.
+/// A frame in the format of the log.
 fn bytes(frame: &Frame) -> Bytes {
     let id = frame.id().raw() | u32::from(frame.id().is_extended()) << 31;
     let dlc = frame.dlc() | u8::from(frame.is_remote()) << 7;
@@ -320,7 +320,7 @@ fn bytes(frame: &Frame) -> Bytes {
     all.try_into().expect("4, 1 and 8 bytes")
 }
 
-/// A frame for people.
+/// A frame, to display.
 pub(crate) fn shown(bytes: &Bytes) -> String {
     let [a, b, c, d, dlc, data @ ..] = bytes;
     let id = u32::from_le_bytes([*a, *b, *c, *d]);

@@ -1,12 +1,12 @@
-//! Every conformance script of three devices is played against their firmware on an emulated
-//! Cortex-M3 (`firmware/twin`), and every answer is that of the bench, byte for byte: frames, their
-//! times, states, deadlines, events; at the end of a script all values and the EEPROM, too.
+//! Plays every conformance script of three devices against their firmware on an emulated
+//! Cortex-M3 (`firmware/twin`). Every response must equal that of the bench, byte for byte: frames, their
+//! times, states, deadlines, events; at the end of a script also all values and the EEPROM.
 //!
-//! So is the whole of `odkit conform`, with `--long`, and so are inputs that the fuzz target `node` makes, the same in every run. How many instructions a
-//! frame takes at most is in docs/PERFORMANCE.md.
+//! With `--long` it also plays the whole of `odkit conform`. Inputs that the fuzz target `node` makes are the same in every run. docs/PERFORMANCE.md has the
+//! maximum number of instructions for a frame.
 //!
 //! The bench plays the scripts first, and logs calls and answers of each device. The firmware then
-//! receives the same calls. `lacking.txt` lists the scripts whose answers cannot be the same.
+//! receives the same calls. `lacking.txt` lists the scripts whose responses cannot be equal.
 //!
 //! ```text
 //! cargo xtask test --only firmware                        builds the firmware and plays all
@@ -29,7 +29,7 @@ use od_tests::scripts;
 use crate::log::{Answer, Log, shown};
 use crate::table::Worst;
 
-/// The devices that have a program, `twin_` and the name.
+/// The devices with a program, which is named `twin_` and the device.
 const DEVICES: [&str; 3] = ["gxmm", "eam_mt", "en580c"];
 
 /// Inputs of the fuzz target `node` for each device, and with `--long`.
@@ -104,13 +104,13 @@ fn play(name: &str, programs: &Path, words: &[String]) -> Result<(Vec<Played>, W
 const CONFORM: &str = "odkit conform";
 const MADE_INPUT: &str = "made input ";
 
-/// Inputs that only `--long` plays do not count for the table in docs/PERFORMANCE.md.
+/// Returns whether only `--long` plays this input; it does not count for the table in docs/PERFORMANCE.md.
 fn is_long(script: &str) -> bool {
     let number = script.strip_prefix(MADE_INPUT).map(str::parse);
     script == CONFORM || matches!(number, Some(Ok(MADE..)))
 }
 
-/// An answer for people.
+/// A response, to display.
 fn words_of(answer: &Answer) -> String {
     let head = &answer.head;
     let hex = |bytes: &[u8]| bytes.iter().map(|b| format!("{b:02X}")).collect::<String>();

@@ -20,7 +20,7 @@ use od_tests::scripts::Header;
 
 use crate::log::{Log, Writer};
 
-/// The devices of a script; those of one name have twins.
+/// The devices of a script; those with this name have twins.
 struct Twins<'a> {
     folder: PathBuf,
     name: &'a str,
@@ -57,7 +57,7 @@ impl Host for Twins<'_> {
     }
 }
 
-/// Is the script one of this device?
+/// Returns whether the script is for this device.
 pub(crate) fn is_of(text: &str, name: &str) -> bool {
     let header = Header::parse(text).unwrap_or_default();
     let mut named = text.lines().filter_map(|line| line.strip_prefix("device "));
@@ -90,7 +90,7 @@ pub(crate) fn record(path: &Path, text: &str, name: &str) -> Result<Vec<Log>, St
         .collect())
 }
 
-/// Ends a log: the device shows its values and its EEPROM.
+/// Ends a log with the values and the EEPROM of the device.
 fn end(log: &Mutex<Log>, device: &mut VirtualDevice, now: Instant) {
     device.forward(now, Call::End);
     log.lock().expect("nobody panicked").end(device, now);
@@ -118,9 +118,9 @@ pub(crate) fn conform(name: &str) -> Result<Log, String> {
     Ok(std::mem::take(&mut *log.lock().expect("nobody panicked")))
 }
 
-/// The log of a made input: frames that mean something more often than not, time, power, switches
-/// and faults. The shaft rests, since only the bench knows a speed exactly, and nothing breaks that
-/// is broken, since the bench does not tell such news.
+/// The log of a made input: frames that are valid more often than not, time, power, switches
+/// and faults. The shaft does not turn, since only the bench knows a speed exactly, and no fault is set
+/// twice, since the bench does not report it again.
 pub(crate) fn made(number: u64, name: &str) -> Log {
     const STEP: usize = 10;
     let make = targets::of("node").and_then(|target| target.make);

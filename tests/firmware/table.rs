@@ -1,4 +1,4 @@
-//! The most instructions that a frame takes, and their table in docs/PERFORMANCE.md.
+//! The maximum number of instructions for a frame, and its table in docs/PERFORMANCE.md.
 
 use std::path::Path;
 
@@ -24,7 +24,7 @@ pub(crate) struct Worst {
 }
 
 impl Worst {
-    /// Looks at the calls of a script.
+    /// Adds the calls of a script.
     pub(crate) fn look(&mut self, script: &str, log: &Log, answers: &Answers) {
         self.calls += answers.len();
         for (call, ((_, took), start)) in answers.iter().zip(&log.calls).enumerate() {
@@ -69,8 +69,8 @@ fn grouped(number: u32) -> String {
     }
 }
 
-/// Compares the table with the one in docs/PERFORMANCE.md: nothing takes over 2 % more than it says. With
-/// `ODKIT_ACCEPT` it is renewed.
+/// Compares with the table in docs/PERFORMANCE.md: no number may be more than 2 % above it. With
+/// `ODKIT_ACCEPT` the table is written again.
 ///
 /// # Errors
 /// A sentence.

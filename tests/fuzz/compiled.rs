@@ -1,5 +1,5 @@
-//! Made devices through the macro: a crate of them is compiled, and each compiled dictionary has
-//! to be the one that the reader makes of the same EDS at run time.
+//! Made devices through the macro: a crate of them is compiled, and each compiled dictionary must
+//! equal the one that is loaded from the same EDS at run time.
 //!
 //! A compiler takes seconds where a target takes microseconds, so this is not one of them:
 //! `cargo test -p od-tests --test compiled`, and `cargo xtask test --long`.

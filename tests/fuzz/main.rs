@@ -1,6 +1,6 @@
-//! Fuzzing: an input must not panic, compute without end, or break a promise that its target checks.
+//! Fuzzing: an input must not panic, compute without end, or break a property that its target checks.
 //! `tests/fuzz/src/targets` has the targets, and `cargo xtask fuzz TARGET` runs the same ones with
-//! libFuzzer, which coverage steers. Here they run on a stable compiler, with mutated seeds.
+//! libFuzzer, guided by coverage. Here they run on a stable compiler, with mutated seeds.
 //!
 //! ```text
 //! cargo test -p od-tests --test fuzz                      a second for each target
@@ -40,7 +40,7 @@ targets! {
     sdo node eeprom structure eds xdd overlay fix script lesson console slcan socketcand candump logs
 }
 
-/// An input that fails is a failure of the test.
+/// An input that fails makes the test fail.
 #[test]
 fn a_broken_promise_is_found() {
     use od_fuzz::target::Target;

@@ -14,7 +14,7 @@ from pathlib import Path
 import can
 import canopen
 
-# A machine that does other things meanwhile is slow, not wrong.
+# A busy machine is slow, not wrong.
 PATIENCE = 30.0
 canopen.sdo.SdoClient.RESPONSE_TIMEOUT = PATIENCE
 
@@ -106,7 +106,7 @@ class Sim:
             bitrate=500000,
             sleep_after_open=0,
         )
-        # python-can does not wait for its channel, which hears nothing until it is open.
+        # python-can does not wait for its channel, which receives nothing until it is open.
         if bus.get_version(PATIENCE) == (None, None):
             raise AssertionError("the slcan channel did not open")
         network = canopen.Network(bus)

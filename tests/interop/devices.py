@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from bench import exported
 
-# Objects without a default: commands, and live values.
+# Objects without a default: commands and live values.
 COMMANDS = {0x1010, 0x1011}
 
 
@@ -16,14 +16,14 @@ class Device:
     family: str
     # Abort code for a value below its limit (MANUALS.md U-05).
     too_low: int
-    # LSS: which way a master finds a node.
+    # LSS: the way in which a master finds a node.
     fastscan: bool
     vendor: int
-    # Restored values are there at once, or after a reset (C-X-02).
+    # Restored values are active at once, or after a reset (C-X-02).
     restores_at_once: bool
     # Abort code for a mapping entry that is written while its PDO has entries (U-19).
     mapping_in_use: int
-    # A fault of this name makes an EMCY with this code.
+    # A fault of this name causes an EMCY with this code.
     fault: tuple
 
     @property

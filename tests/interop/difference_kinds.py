@@ -1,6 +1,6 @@
 """The kinds of differences between odkit's reading and python-canopen's: who is right, and why."""
 
-# Kind: who is right, and why.
+# Kind: which side is right, and why.
 KINDS = {
     "file: text that is not UTF-8": (
         "odkit", "python-canopen opens every file as UTF-8; the vendor wrote Windows-1252."),

@@ -12,10 +12,10 @@ from canopen.objectdictionary import datatypes
 from bench import PATIENCE, BenchCase, Listener
 from devices import COMMANDS, DEVICES
 
-# Objects that tell of the device's life, or do something when they are written.
+# Objects that depend on time, or act when they are written.
 LIVE = {0x1003, 0x2116, 0x2117, 0x2120, 0x2122, 0x2201, 0x2A00, 0x2A01, 0x6004, 0x600C, 0x6030,
         0x6040, 0x6503, 0x6505, 0x6508}
-# Lists of values, masks and identifiers: no range says what is allowed.
+# Lists of values, masks and CAN-IDs: no range describes the valid values.
 CHOSEN = {0x1005, 0x1014, 0x1016, 0x1029, 0x1800, 0x1801, 0x1A00, 0x1A01, 0x1F80, 0x2001, 0x2100,
           0x2101, 0x2110, 0x2116, 0x6000, 0x6031, 0x6041}
 
@@ -97,7 +97,7 @@ class EveryDevice:
                     try:
                         node.sdo.download(index, sub, variable.encode_raw(limit))
                     except canopen.SdoAbortedError as refused:
-                        # The whole range ends where the number of turns does, which depends
+                        # The whole range ends with the number of revolutions, which depends
                         # on the resolution.
                         self.assertEqual((index, refused.code), (0x6002, 0x06090031))
                         continue
@@ -216,7 +216,7 @@ class EveryDevice:
         node.sdo[0x2300][1].raw = 0x1234
         node.sdo.download(0x1010, 1, b"save")
         node.sdo[0x2300][1].raw = 0x5678
-        # A family that answers first wants power for another second (C-X-03).
+        # A family that responds first needs power for another second (C-X-03).
         self.cycle(node, "wait 1500ms")
         self.assertEqual(node.sdo[0x2300][1].raw, 0x1234)
         self.assertEqual(node.sdo[0x6003].raw, 0x123)
@@ -241,7 +241,7 @@ class EveryDevice:
         identity = [node.sdo[0x1018][sub].raw for sub in (1, 2, 3, 4)]
         self.assertEqual(identity[0], self.device.vendor)
         network.lss.RESPONSE_TIMEOUT = PATIENCE
-        # The second channel of a redundant encoder is a node of its own: only one is asked.
+        # The second channel of a redundant encoder is a node of its own: only one is read.
         node.nmt.state = "STOPPED"
         network.lss.send_switch_state_global(network.lss.CONFIGURATION_STATE)
         for sub, inquire in enumerate(
@@ -251,9 +251,9 @@ class EveryDevice:
             self.assertEqual(network.lss.inquire_lss_address(inquire), identity[sub])
         network.lss.send_switch_state_global(network.lss.WAITING_STATE)
         if self.device.fastscan:
-            # Silence is an answer, too: on a busy machine it takes longer to be sure of it.
+            # No response counts, too: on a busy machine it takes longer to be sure.
             for patience in (0.1, 0.5, 2):
-                # A slave that confirmed late is found already.
+                # A slave that confirmed late was already found.
                 network.lss.send_switch_state_global(network.lss.WAITING_STATE)
                 network.lss.RESPONSE_TIMEOUT = patience
                 found, address = network.lss.fast_scan()
@@ -264,7 +264,7 @@ class EveryDevice:
             self.assertEqual(list(address), identity)
             network.lss.send_switch_state_global(network.lss.WAITING_STATE)
         else:
-            # Manual 000 has the older way instead (C-X-18).
+            # Manual 000 has the older service instead (C-X-18).
             answers = Listener(network, 0x7E4)
             network.lss.send_identify_remote_slave(
                 identity[0], identity[1], identity[2], identity[2], identity[3], identity[3]
@@ -276,7 +276,7 @@ class EveryDevice:
         network.lss.store_configuration()
         network.lss.send_switch_state_global(network.lss.WAITING_STATE)
         booted = Listener(network, 0x709)
-        # What is stored in the background has its time before the node is reset.
+        # A save in the background gets its time before the node is reset.
         self.running.world("wait 1500ms")
         self.running.world("000#81 01")
         self.eventually(lambda: b"\0" in booted.frames)

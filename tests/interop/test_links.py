@@ -11,7 +11,7 @@ import canopen
 
 from bench import EDS, PATIENCE, BenchCase, Listener, needs, receive
 
-# A SocketCAN interface for the test of that link: few machines have one.
+# A SocketCAN interface for the test of that link; few machines have one.
 INTERFACE = os.environ.get("ODKIT_CAN")
 
 
@@ -55,7 +55,7 @@ class Links(BenchCase):
         self.assertEqual(receive(client, 6), b"< hi >")
         client.sendall(b"< open can0 >")
         self.assertEqual(receive(client, 6), b"< ok >")
-        # In the mode that it starts in, a client hears what it subscribes to.
+        # In the initial mode a client receives the CAN-IDs that it subscribes to.
         client.sendall(b"< subscribe 0 0 581 >< add 0 50000 601 8 40 0 10 0 0 0 0 0 >")
         answers = Listener(sim.network(), 0x581)
         answers.wait(3)
@@ -75,7 +75,7 @@ class Links(BenchCase):
     def socketcan(self):
         sim = self.sim("gxmm", "--position", "77", "--link", f"socketcan:{INTERFACE}")
         self.works(self.master(interface="socketcan", channel=INTERFACE))
-        # can-utils hears the same, and what comes over another link goes there, too.
+        # can-utils receives the same frames, including those of other links.
         dump = subprocess.Popen(
             ["candump", "-L", "-n", "2", f"{INTERFACE},581:7FF,601:7FF"],
             stdout=subprocess.PIPE,
@@ -83,7 +83,7 @@ class Links(BenchCase):
         )
         self.addCleanup(dump.kill)
         node = sim.node()
-        # candump says nothing when it is ready.
+        # candump prints nothing when it is ready.
         while dump.poll() is None:
             self.assertEqual(node.sdo[0x1000].raw, 0x00020196)
         heard = [line.split()[2] for line in dump.stdout]

@@ -33,7 +33,7 @@ FAMILIES = {
     "gbam": family("GBAM", SINGLE, 0x0F, 1 << 18, 1 << 18, 0x04),
 }
 
-# Commands and what lives: their value is not a default.
+# Commands and live values: their value is not a default.
 COMMANDS = {0x1010, 0x1011}
 LIVE = {(0x6004, 0), (0x6508, 0), (0x2201, 2)}
 
@@ -88,7 +88,7 @@ class Objects(BenchCase):
         built_in, file = self.sim("gxmm").node(), self.sim(EDS).node()
         for variable in variables(built_in.object_dictionary):
             address = (variable.index, variable.subindex)
-            # An entry without an error reads 0 in this family, and aborts after CiA 301.
+            # An entry without an error reads 0 in this family; CiA 301 aborts.
             if address not in LIVE and variable.index != 0x1003:
                 self.assertEqual(built_in.sdo.upload(*address), file.sdo.upload(*address))
 

@@ -8,7 +8,7 @@ import canopen
 from bench import EDS, BenchCase, odkit
 from test_objects import variables
 
-# What moves on between two reads.
+# Values that change between two reads.
 LIVE = {(0x2201, 1), (0x2201, 2)}
 
 

@@ -26,7 +26,7 @@ class Writes(BenchCase):
         self.assertAborts(0x06090030, download, 0x6001, 0, bytes(4))
         self.assertAborts(0x06090031, download, 0x6001, 0, (0x2001).to_bytes(4, "little"))
         self.assertAborts(0x08000020, download, 0x1010, 1, b"evas")
-        # The manual's list of commands has the expedited ones alone.
+        # The manual's list of commands has only expedited ones.
         self.assertAborts(0x05040001, download, 0x2300, 1, bytes(5))
 
 

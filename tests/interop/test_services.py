@@ -11,7 +11,7 @@ class Nmt(BenchCase):
         node.sdo[0x1017].raw = 20
         for state in ["OPERATIONAL", "STOPPED", "PRE-OPERATIONAL"]:
             node.nmt.state = state
-            # One of the state before may still be on its way.
+            # A heartbeat of the earlier state may still be in transit.
             self.eventually(lambda: node.nmt.wait_for_heartbeat(PATIENCE) == state)
 
     def test_boot_up(self):
@@ -35,7 +35,7 @@ class Nmt(BenchCase):
         node.sdo[0x1017].raw = 50
         beats.wait(21)
         passed = time.monotonic() - start
-        # A simulator that had no processor for a while makes up for it: some may come too soon.
+        # A simulator that got no processor time catches up: some frames may be early.
         self.assertGreater(passed, 21 * 0.050 * 0.7)
         self.assertLess(passed, PATIENCE)
 

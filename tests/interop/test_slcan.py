@@ -24,7 +24,7 @@ class Lines(BenchCase):
         self.say(client, b"V\r", b"V1013\r")
         self.say(client, b"F\r", b"F00\r")
         self.say(client, b"T000006010\r", b"Z\r")
-        # Node guarding is off: the next frame is the answer to the next request.
+        # Node guarding is off: the next frame is the response to the next request.
         self.say(client, b"r7018\r" + READ, b"z\rz\r" + ANSWER)
         self.hears_nothing(client)
 
@@ -53,12 +53,12 @@ class Lines(BenchCase):
         self.say(witness, b"O\r", b"\r")
         for closed in (b"", b"C\r"):
             self.say(client, closed + READ, closed[1:] + b"\x07")
-            # No frame of the client went over the bus, and it hears none.
+            # No frame of the client was sent on the bus, and it receives none.
             self.say(witness, READ, b"z\r" + ANSWER)
             self.hears_nothing(client)
         self.say(client, b"O\r" + READ, b"\rz\r" + ANSWER)
         self.assertEqual(receive(witness, len(READ + ANSWER)), READ + ANSWER)
-        # Listening only, it hears and cannot send.
+        # In listen-only mode it receives and cannot send.
         self.say(client, b"C\rL\r" + READ, b"\r\r\x07")
         self.say(witness, READ, b"z\r" + ANSWER)
         self.assertEqual(receive(client, len(READ + ANSWER)), READ + ANSWER)
@@ -129,7 +129,7 @@ class Clients(BenchCase):
         self.eventually(lambda: any("does not read" in line for line in sim.errors))
         talker.sendall(READ)
         self.assertEqual(receive(talker, 24), b"z\r" + ANSWER)
-        # When it reads again, it gets whole lines, and after those the newest ones.
+        # When it reads again, it gets whole lines, and after them the newest ones.
         last = b"t7770\r"
         data = b""
         while not data.endswith(last):

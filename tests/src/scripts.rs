@@ -1,4 +1,4 @@
-//! The conformance scripts: where they are, and what their first lines say.
+//! Finds the conformance scripts and parses their first lines.
 //!
 //! A script begins with a comment: its source, a colon and a blank, and its rule; the rule
 //! goes on to the end of the comment. One more comment line, `# Devices: gxmm eam_mt`, names
@@ -28,7 +28,7 @@ pub fn root() -> PathBuf {
 /// One script.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub struct File {
-    /// From the folder of all scripts on, with `/`.
+    /// Path relative to the folder of all scripts, with `/`.
     pub name: String,
     /// Path of the script.
     pub path: PathBuf,
@@ -67,14 +67,14 @@ fn collect(folder: &Path, prefix: &str, found: &mut Vec<File>) {
     }
 }
 
-/// The first lines of a script.
+/// The first lines of a script, parsed.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Header {
     /// The manual and the place in it.
     pub source: String,
     /// The rule that the script shows.
     pub rule: String,
-    /// The devices that it is played on; none if it has a `device` line.
+    /// The devices that it is played on; empty if it has a `device` line.
     pub devices: Vec<String>,
 }
 
@@ -118,7 +118,7 @@ pub fn cell(text: &str) -> String {
     text.replace('|', "\\|").replace('<', "&lt;")
 }
 
-/// Compares a generated page of `docs/` with the one that is there, or writes it.
+/// Compares a generated page of `docs/` with the existing one, or writes it.
 ///
 /// # Errors
 /// The first line that differs, and the command that writes the page again.

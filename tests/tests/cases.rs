@@ -1,6 +1,6 @@
 //! EDS in, diagnostics out: one folder of `tests/cases` is one case.
 //!
-//! `ODKIT_ACCEPT=1` writes what is found into `diagnostics.txt`; read it before
+//! `ODKIT_ACCEPT=1` writes the findings into `diagnostics.txt`; read it before
 //! committing it. `tests/corpus` has files with one trait of real files each;
 //! `ODKIT_CORPUS` names another folder to read instead.
 
@@ -38,7 +38,7 @@ fn diagnostics_are_as_accepted() {
 }
 
 #[test]
-fn every_case_comes_back_from_its_own_text() {
+fn every_case_is_read_again_from_its_own_text() {
     for case in cases() {
         if let Err(fault) = round_trip(&case.document) {
             panic!("{}: {fault}", case.name);
@@ -47,7 +47,7 @@ fn every_case_comes_back_from_its_own_text() {
 }
 
 #[test]
-fn the_corpus_loads_and_comes_back() {
+fn the_corpus_is_read_and_written_again() {
     let files = corpus::files(&corpus::folder(), corpus::ALL);
     assert!(files.len() >= 60, "{} files", files.len());
     let mut by_code: BTreeMap<&str, (usize, usize)> = BTreeMap::new();
@@ -118,8 +118,8 @@ fn each_file_of_our_corpus_shows_its_trait() {
     assert!(traits.len() >= 60, "{} files", traits.len());
 }
 
-/// Flipped bytes, cut and doubled lines: never a panic, and what is read comes back.
-/// `ODKIT_ROUNDS` makes it as long as you like.
+/// Flipped bytes, cut and doubled lines: never a panic, and a written text reads the same.
+/// `ODKIT_ROUNDS` sets the number of rounds.
 #[test]
 fn broken_texts_are_read_too() {
     let texts: Vec<String> = cases()
@@ -140,7 +140,7 @@ fn broken_texts_are_read_too() {
     }
 }
 
-/// Bytes that mean something to some reader of such files.
+/// Bytes with a meaning for some parser of such files.
 const ODD: &[u8] = b"=[];#\\:$-+0x19AF\r\n \"\xFF";
 
 fn mutate(bytes: &mut Vec<u8>, texts: &[String], random: &mut Xorshift) {
@@ -192,7 +192,7 @@ impl Xorshift {
     }
 }
 
-/// Reads, writes and reads again; looks at everything that must hold of any text.
+/// Reads, writes and reads again; checks all properties of any text.
 fn round_trip(document: &Document) -> Result<Parsed, String> {
     let text = document.text();
     let loaded = document.load();

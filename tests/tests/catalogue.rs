@@ -1,6 +1,6 @@
-//! Every rule has a pair of files: one that breaks it, and the same one fixed.
+//! Every rule has a pair of files: one with the error, and the same one fixed.
 //!
-//! `od-eds/cases/CODE/bad.eds` gets the finding, `fixed.eds` gets none at all; for rules about
+//! `od-eds/cases/CODE/bad.eds` has the finding, `fixed.eds` has none; for rules about
 //! XDD they end in `.xdd`. `odkit explain CODE` shows the lines in which the two differ. Rules
 //! about edits of a macro call have their cases in `compile/ui`.
 
@@ -90,9 +90,9 @@ fn find(document: &Document) -> Vec<Finding> {
     document.load().findings
 }
 
-/// A rule says what can be done about its findings, and that is what can be done.
+/// A rule says whether its findings have fixes, and they do.
 #[test]
-fn fixes_do_what_they_say() {
+fn fixes_are_those_that_the_rule_announces() {
     let mut faults = Vec::new();
     for rule in of_files() {
         let bad = file(rule, "bad");
@@ -132,15 +132,15 @@ fn fixes_do_what_they_say() {
     all(&faults);
 }
 
-/// Safe fixes change no object, and no fix is of another mind the second time.
+/// Safe fixes change no object, and a second run of fixes changes nothing.
 #[test]
-fn fixes_of_the_corpus_keep_what_was_read() {
+fn fixes_of_the_corpus_keep_the_objects() {
     let mut files = corpus::files(&folder().join(".."), corpus::TEXTS);
     files.extend(corpus::files(&corpus::folder(), corpus::TEXTS));
     assert!(files.len() >= 150);
     corpus::each(&files, |path| {
         let name = path.display();
-        // Without optimisation the large ones take minutes, and show nothing that others do not.
+        // Without optimisation the large ones take minutes, and test nothing else.
         let large = fs::metadata(path).is_ok_and(|meta| meta.len() > 40_000);
         if cfg!(debug_assertions) && large {
             return;

@@ -1,4 +1,4 @@
-//! Every script under `tests/conformance` runs, and everything it expects holds.
+//! Runs every script under `tests/conformance`; all its expectations must hold.
 //!
 //! A new case is a new file. `odkit run --echo tests/conformance/…/x.script` shows its frames.
 //! A script with a line `# Devices: a b` and no `device` line is played on each of them.
@@ -49,7 +49,7 @@ impl Host for Bench<'_> {
     }
 }
 
-/// Runs a script on each of its devices; the answer is its trace, or what is wrong with it.
+/// Runs a script on each of its devices; returns its trace, or its errors.
 fn check(path: &Path, text: &str) -> Result<String, String> {
     let script = Script::parse(text).map_err(|problems| {
         problems

@@ -1,4 +1,4 @@
-//! Fixes that do harm are held back, one by one; all others are applied.
+//! Fixes that do harm are held back one by one; all others are applied.
 
 use od_eds::fix::{Applicability, Fixed, Why, fix};
 use od_eds::{Document, Finding, Severity};
@@ -7,7 +7,7 @@ fn find(document: &Document) -> Vec<Finding> {
     document.load().findings
 }
 
-/// Fixed twice: the second time there is nothing to do.
+/// Fixes a text twice: the second run must change nothing.
 #[track_caller]
 fn fixed(bytes: &[u8], level: Applicability) -> Fixed {
     let fixed = fix(&Document::new(bytes), level, find);
@@ -20,7 +20,7 @@ fn fixed(bytes: &[u8], level: Applicability) -> Fixed {
 
 #[test]
 fn fixes_that_undo_each_other_leave_the_text_as_it_was() {
-    // The type of sub-index 1 and that of sub-index 2 are one line here.
+    // The types of sub-index 1 and sub-index 2 are in one line here.
     for text in [
         "[1280]\nDataType=0x1A\nCompactSubObj=0xFFFFFFFFFFFFFFFF\n",
         "[1280]\nObjectType=9\nAccessType=rw\nDataType=0x5\nCompactSubObj=3\n",
@@ -46,7 +46,7 @@ fn one_fix_that_adds_an_error_holds_back_no_other() {
     for index in 0x2000..0x2200 {
         text += &format!("[{index:04X}]\nParameterName=a\nDataType:7\nAccessType=rw\n");
     }
-    // The checks find an error once the line of one object is written with `=`.
+    // The checks find an error once the line of one object contains `=`.
     let harm = |document: &Document| {
         let mut found = find(document);
         let text = document.text();
@@ -87,7 +87,7 @@ fn one_fix_that_adds_an_error_holds_back_no_other() {
 
 #[test]
 fn a_character_that_the_file_lacks_holds_back_its_own_fix() {
-    // As above: a fix that wants a character is made up, the others are real.
+    // As above: the fix that adds a character is made up, the others are real.
     let document = Document::new(&b"[2000]\nParameterName=\xB5\nDataType:7\nAccessType:rw\n"[..]);
     let odd = |document: &Document| {
         let mut found = find(document);
@@ -111,7 +111,7 @@ fn a_character_that_the_file_lacks_holds_back_its_own_fix() {
 }
 
 #[test]
-fn the_vendor_is_not_contradicted() {
+fn the_values_of_the_vendor_are_kept() {
     let text =
         "[2000]\nParameterName=a\nDataType=5\nAccessType=rww\nPDOMapping=0\nDefaultValue=1\n";
     let done = fixed(text.as_bytes(), Applicability::Unsafe);

@@ -1,4 +1,4 @@
-//! The lessons of the playground: each is proved, and hangs together with the others.
+//! The lessons of the playground: each is checked, and the links between them.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -35,7 +35,7 @@ fn read(name: &str, text: &str) -> Lesson {
 }
 
 #[test]
-fn every_solution_passes_and_nothing_passes_without_it() {
+fn every_solution_passes_and_no_step_passes_without_it() {
     let mut found = Vec::new();
     for (name, text) in lessons() {
         let lesson = read(&name, &text);
@@ -46,7 +46,7 @@ fn every_solution_passes_and_nothing_passes_without_it() {
 }
 
 #[test]
-fn every_lesson_helps() {
+fn every_lesson_has_hints() {
     for (name, text) in lessons() {
         let lesson = read(&name, &text);
         for step in &lesson.steps {
@@ -85,7 +85,7 @@ fn every_link_leads_to_a_file() {
 
 /// The text before an answer does not contain it, and a wrong answer is explained by its parts.
 #[test]
-fn no_question_tells_its_answer() {
+fn no_question_contains_its_answer() {
     let plain = |text: &str| text.replace([' ', '`'], "").to_uppercase();
     for (name, text) in lessons() {
         for step in read(&name, &text).steps {

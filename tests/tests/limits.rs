@@ -1,4 +1,4 @@
-//! Texts that are made to be slow or large: what is read of them grows with their length only.
+//! Texts that are made to be slow or large: memory and time grow with their length only.
 
 use od_eds::{Parsed, load, parse};
 
@@ -19,7 +19,7 @@ fn lines(head: &str, count: usize, line: impl Fn(usize) -> String) -> String {
 const VAR: &str = "[2000]\nParameterName=a\nDataType=7\nAccessType=rw\n";
 
 #[test]
-fn findings_of_one_rule_are_counted_not_kept() {
+fn findings_of_one_rule_are_counted_and_not_stored() {
     for (head, line, code) in [
         ("", "junk", "W0101"),
         ("", "=1", "W0102"),

@@ -1,4 +1,4 @@
-//! Content of the binary, and changes that make it again.
+//! Content of the binary, and changes that cause a new build.
 
 use std::path::Path;
 use std::process::Command;
@@ -17,10 +17,10 @@ fn contains(bytes: &[u8], text: &str) -> bool {
         .any(|part| part == text.as_bytes())
 }
 
-/// The names are there, so the search finds what there is; the file's text is not.
+/// The names are found, so the search works; the text of the file is not in the binary.
 #[test]
 fn no_text_of_the_file_is_in_the_binary() {
-    // Backwards, or this test would find itself.
+    // Reversed, or this test would find itself.
     let backwards = |text: &str| text.chars().rev().collect::<String>();
     let comment = backwards("YRANIB EHT HCAER TON TSUM TNEMMOC SIHT");
     let key = backwards("sde.llams=emaNeliF");
@@ -35,13 +35,13 @@ fn no_text_of_the_file_is_in_the_binary() {
     assert!(!contains(&binary, &key));
 }
 
-/// Builds a crate twice with another default in its EDS: the second build sees it.
+/// Builds a crate twice with different defaults in its EDS: the second build contains the new one.
 #[test]
 fn a_change_of_the_file_rebuilds() {
     let package = Path::new(env!("CARGO_MANIFEST_DIR"));
     let workspace = package.parent().unwrap();
     let scratch = Path::new(env!("CARGO_TARGET_TMPDIR")).join("rebuild");
-    // What trybuild has built for its cases is not built again.
+    // Crates that trybuild has already built are not built again.
     let target = Path::new(env!("CARGO_TARGET_TMPDIR")).join("../tests/trybuild");
     std::fs::create_dir_all(scratch.join("src")).unwrap();
     std::fs::create_dir_all(scratch.join("eds")).unwrap();

@@ -1,5 +1,5 @@
-//! The macro makes of a file at compile time the same as `od-model` makes of the
-//! same text at run time, object by object; for every EDS file that we have.
+//! The macro makes of a file at compile time the same dictionary as `od-model` makes of the
+//! same text at run time, object by object; for all EDS files of the project.
 //!
 //! A file without a line below fails [`no_file_is_forgotten`].
 

@@ -53,7 +53,7 @@ fn handles_are_typed_and_named() {
 }
 
 #[test]
-fn the_rows_say_all_there_is() {
+fn the_rows_contain_all_objects() {
     let d = bench::DICTIONARY;
     let identity = d.object(0x1018).unwrap();
     assert_eq!(identity.code, ObjectCode::Record);
@@ -87,7 +87,7 @@ fn the_rows_say_all_there_is() {
 }
 
 #[test]
-fn a_handle_points_at_the_slot_of_its_entry() {
+fn a_handle_points_to_the_slot_of_its_entry() {
     let d = bench::DICTIONARY;
     assert_eq!(
         d.find(bench::POSITION.address()).unwrap().slot,
@@ -123,7 +123,7 @@ fn a_capacity_is_room_in_the_store_and_0_is_a_stream() {
         !bench::DICTIONARY.has_streams(),
         "a `const` text is not a stream"
     );
-    // A block of 127 segments, where the longest value of the store has 300 bytes.
+    // A block of 127 segments, if the longest value of the store has 300 bytes.
     type Rooms = odkit::Only<odkit::rooms!(logger::Device)>;
     let _: logger::Node = odkit::Node::<logger::Device, 0, 889, Rooms>::new(odkit::NodeId::ONE);
     const { assert!(<logger::Device as odkit::Device>::STREAMS) }

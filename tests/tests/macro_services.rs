@@ -1,5 +1,5 @@
-//! `without` and `behaves`: a node has code for what its device uses, and the profile that the
-//! compiler knows counts.
+//! `without` and `behaves`: a node has code for the services of its device only, and the profile that the
+//! compiler knows is used.
 
 use odkit::storage::Memory;
 use odkit::{Frame, Instant, Lent, NoApplication, NodeId, PdoProfile, Profile, SdoProfile};
@@ -42,14 +42,14 @@ device!(lean, without lss, segmented, block, events; behaves = PROFILE;);
 device!(few, errors = 2;);
 
 #[test]
-fn a_service_that_is_off_takes_no_ram() {
+fn a_service_that_is_off_uses_no_ram() {
     use core::mem::size_of;
-    // An error takes 8 bytes while it is active, and 10 until the node knows of it.
+    // An error takes 8 bytes while it is active, and 10 until the node has handled it.
     assert!(size_of::<full::Node>() - size_of::<few::Node>() >= 30 * 18);
     assert!(size_of::<full::Node>() - size_of::<lean::Node>() > 150);
 }
 
-/// The answers of a node to each request, and whether it had an event for its host.
+/// The responses of a node to each request, and whether it had an event for its host.
 macro_rules! answers {
     ($module:path, $requests:expr) => {{
         use $module as device;
@@ -85,7 +85,7 @@ const REQUESTS: [&[u8]; 5] = [
 ];
 
 #[test]
-fn a_service_that_is_off_is_answered_as_one_that_the_family_lacks() {
+fn a_service_that_is_off_responds_like_a_missing_one() {
     let (full, has_events) = answers!(full, REQUESTS);
     assert_eq!(full[0], "581#410020000E000000");
     assert_eq!(full[1], "581#C60020000E000000");
@@ -97,7 +97,7 @@ fn a_service_that_is_off_is_answered_as_one_that_the_family_lacks() {
     assert_eq!(lean[0], "581#8000200000000106", "06010000h");
     assert_eq!(lean[1], "581#8000200001000405", "05040001h");
     assert_eq!(lean[2], "581#8000200001000405", "05040001h");
-    // The profile that the compiler knows counts, and not the one that was lent.
+    // The profile that the compiler knows is used, not the lent one.
     assert_eq!(lean[3..], ["581#4300100000000000", "581#4300100000000000"]);
     assert!(!has_events);
     assert_eq!(answers!(lean::small, REQUESTS).0, lean);

@@ -1,4 +1,4 @@
-//! A family: what its variants have, and which handles they share.
+//! A family: the objects of its variants, and the handles that they share.
 
 use od_model::Literal;
 use od_model::typed::{Ro, Rw, Var};
@@ -47,7 +47,7 @@ fn a_variant_is_its_base_with_the_edits() {
 }
 
 #[test]
-fn a_handle_of_the_family_is_good_for_every_variant() {
+fn a_handle_of_the_family_works_for_every_variant() {
     for d in [
         family::DICTIONARY,
         family::single::DICTIONARY,
@@ -62,7 +62,7 @@ fn a_handle_of_the_family_is_good_for_every_variant() {
 }
 
 #[test]
-fn a_handle_of_another_type_is_the_variants_own() {
+fn a_handle_of_another_type_belongs_to_the_variant() {
     let _: Var<u16, Rw> = family::TORQUE;
     let _: Var<u32, Rw> = family::wide::TORQUE;
     let _: Var<u32, Ro> = family::wide::identity::VENDOR;

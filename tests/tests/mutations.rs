@@ -1,7 +1,7 @@
-//! Corrupted device files: never a panic, never a hang, never a silent wrong value.
+//! Corrupted device files: no panic, no hang, no wrong value without a finding.
 //!
-//! Made of the project's cases and devices, and of the corpus (`tests/corpus`, or the folder that
-//! `ODKIT_CORPUS` names). `ODKIT_ROUNDS` says how many variants are made; 60 without it, 10,000 in
+//! Made from the project's cases and devices, and from the corpus (`tests/corpus`, or the folder that
+//! `ODKIT_CORPUS` names). `ODKIT_ROUNDS` sets the number of variants; 60 without it, 10,000 in
 //! `cargo xtask test --long`.
 
 use std::path::{Path, PathBuf};
@@ -12,7 +12,7 @@ use od_eds::Document;
 use od_eds::Tables;
 use od_tests::corpus;
 
-/// A device file of half a megabyte takes a tenth of this in a build without optimization.
+/// A device file of half a megabyte takes a tenth of this in a build without optimisation.
 const PATIENCE: Duration = Duration::from_secs(20);
 
 #[test]
@@ -48,7 +48,7 @@ fn corrupted_files_of_the_corpus_are_read_to_the_end() {
 }
 
 #[test]
-fn an_illegal_value_in_the_corpus_never_goes_unnamed() {
+fn an_invalid_value_in_the_corpus_is_always_reported() {
     let files: Vec<_> = files()
         .into_iter()
         .map(|(name, bytes)| (name, Document::new(bytes).text().to_string()))
@@ -112,7 +112,7 @@ fn illegal(lines: &[&str], at: usize, random: &mut Xorshift) -> Option<String> {
         "subnumber" if is_object => pick(random, &["x", "0x1G", "-1", "70000000000"]),
         "objflags" if is_object => pick(random, &["x", "0x1FFFFFFFF", "-1"]),
         "defaultvalue" | "parametervalue" | "lowlimit" | "highlimit" if is_object => {
-            // Only where the type says what is legal, and the section has no members.
+            // Only if the type defines the valid values, and the section has no sub-objects.
             match data_type()? {
                 0x05 => pick(
                     random,
@@ -143,7 +143,7 @@ fn illegal(lines: &[&str], at: usize, random: &mut Xorshift) -> Option<String> {
         }
         _ => return None,
     };
-    // Sub-objects of an object with another object code may not be read at all.
+    // Sub-objects of an object with another object code may be ignored.
     let own = lines[section.start - 1].trim();
     let is_whole = is_object && !own.to_ascii_lowercase().contains("sub");
     let has_members = keys().any(|(key, value)| {
@@ -151,7 +151,7 @@ fn illegal(lines: &[&str], at: usize, random: &mut Xorshift) -> Option<String> {
         (key.eq_ignore_ascii_case("SubNumber") || key.eq_ignore_ascii_case("CompactSubObj"))
             && !matches!(value.trim(), "" | "0")
     }) || keys().any(|(key, value)| {
-        // An ARRAY or a RECORD has no value of its own, with members or without.
+        // An ARRAY or a RECORD has no value of its own, with or without sub-objects.
         let code = value.split([';', '#']).next().unwrap_or("").trim();
         key.trim().eq_ignore_ascii_case("ObjectType")
             && ["6", "8", "9"]
@@ -173,7 +173,7 @@ fn section(lines: &[&str], at: usize) -> Option<std::ops::Range<usize>> {
     Some(start..end.map_or(lines.len(), |end| at + end))
 }
 
-/// Bytes that mean something to some reader of such files.
+/// Bytes with a meaning for some parser of such files.
 const ODD: &[u8] = b"=[];#\\:$-+0x19AF\r\n <>&\"\xFF\0";
 
 fn corrupt(bytes: &mut Vec<u8>, random: &mut Xorshift) {
@@ -200,7 +200,7 @@ fn corrupt(bytes: &mut Vec<u8>, random: &mut Xorshift) {
             bytes.drain(at..end);
         }
         6 => bytes.insert(at, ODD[random.below(ODD.len())]),
-        // Two values change places.
+        // Two values are swapped.
         7 => {
             let (a, b) = (value(bytes, at), value(bytes, other));
             let (first, second) = if a.start <= b.start { (a, b) } else { (b, a) };
@@ -228,7 +228,7 @@ fn line(bytes: &[u8], at: usize) -> std::ops::Range<usize> {
     start.map_or(0, |s| s + 1)..end.map_or(bytes.len(), |e| at + e + 1)
 }
 
-/// The text behind the `=` of the line at a byte.
+/// The text after the `=` of the line at a byte.
 fn value(bytes: &[u8], at: usize) -> std::ops::Range<usize> {
     let line = line(bytes, at);
     let text = &bytes[line.clone()];

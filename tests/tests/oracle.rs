@@ -1,8 +1,8 @@
-//! An independent reader against ours: rust-ini reads every section of every case file and of
+//! An independent parser against ours: rust-ini reads every section of every case file and of
 //! the corpus, and finds the same keys and values.
 //!
-//! A section is read by rust-ini as it is written. Where a line of it is not plain INI the two may
-//! differ, but then one of our findings is about that section; nothing else is passed over.
+//! rust-ini reads a section as it is written. If a line of it is not plain INI the two may
+//! differ, but then a finding of odkit is about this section; nothing else is skipped.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -18,7 +18,7 @@ const NOT_PLAIN: [&str; 8] = [
     "W0101", "W0102", "W0103", "E0118", "W0104", "W0105", "W0108", "W0110",
 ];
 
-/// Before every name: what no section of CiA 306 is called, nor nearly.
+/// Prefix of every name: no section of CiA 306 has it.
 const MARK: &str = "a section that describes no object, whatever it is called: ";
 
 /// Keys and values in their order.

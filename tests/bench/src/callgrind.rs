@@ -1,4 +1,4 @@
-//! Instructions per operation: what a noisy machine cannot blur.
+//! Instructions per operation, which do not depend on the load of the machine.
 
 use std::env;
 use std::process::Command;
@@ -8,7 +8,7 @@ use crate::discipline::Discipline;
 /// Operations in the shorter of the two runs.
 const COUNT: u64 = 2_000;
 
-/// Whether valgrind can be called.
+/// Returns whether valgrind can be called.
 pub fn available() -> bool {
     Command::new("valgrind").arg("--version").output().is_ok()
 }

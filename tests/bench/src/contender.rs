@@ -6,56 +6,56 @@ use crate::objects::{self, Random};
 
 /// A node that answers SDO uploads.
 pub trait Upload {
-    /// Knows sub-index 0 of a record from a U32; the loop without a node does not.
+    /// Whether it distinguishes sub-index 0 of a record from a U32; the loop without a node does not.
     const HAS_RECORDS: bool = true;
 
-    /// Takes the payload of a request to 601h, returns that of the answer on 581h.
+    /// Accepts the payload of a request to 601h, returns that of the response on 581h.
     fn upload(&mut self, request: &[u8; 8]) -> [u8; 8];
 }
 
-/// A node in the state operational, with one TPDO on every SYNC.
+/// A node in Operational with one TPDO on every SYNC.
 pub trait Pdo {
-    /// Takes a SYNC, returns the TPDO: its COB-ID and its four bytes.
+    /// Accepts a SYNC, returns the TPDO: its COB-ID and its four bytes.
     fn sync(&mut self) -> (u16, [u8; 4]);
 }
 
 /// The request for an address.
 ///
-/// Written as one word: put together from bytes, reading it would have to wait until
+/// Written as one word: if it were put together from bytes, reading it would have to wait until
 /// the processor has stored them one by one, for every contender.
 #[inline]
 pub fn request((index, sub): (u16, u8)) -> [u8; 8] {
     (0x40 | u64::from(index) << 8 | u64::from(sub) << 24).to_le_bytes()
 }
 
-/// The one right answer to [`request`]: expedited, size indicated, four bytes.
+/// The only right response to [`request`]: expedited, size indicated, four bytes.
 pub fn answer((index, sub): (u16, u8)) -> [u8; 8] {
     let [low, high] = index.to_le_bytes();
     let [a, b, c, d] = objects::value(index, sub).to_le_bytes();
     [0x43, low, high, sub, a, b, c, d]
 }
 
-/// The one right answer for sub-index 0 of a record: expedited, one byte.
+/// The only right response for sub-index 0 of a record: expedited, one byte.
 fn count(index: u16) -> [u8; 8] {
     let [low, high] = index.to_le_bytes();
     [0x4F, low, high, 0, objects::MEMBERS, 0, 0, 0]
 }
 
-/// The one right answer to a SYNC, from a dictionary of `size` objects.
+/// The only right response to a SYNC, from a dictionary of `size` objects.
 pub fn tpdo(size: usize) -> (u16, [u8; 4]) {
     let value = objects::value(objects::mapped(size), 0);
     (0x180 + u16::from(objects::NODE_ID), value.to_le_bytes())
 }
 
-/// Something that does one operation many times.
+/// A subject that does one operation many times.
 pub trait Subject {
-    /// Panics unless the operation is done right.
+    /// Panics if the result of the operation is wrong.
     fn verify(&mut self);
     /// Does the operation `count` times.
     fn run(&mut self, count: u64);
 }
 
-/// A contender under the load of uploads from all over its dictionary.
+/// A contender that gets uploads from its whole dictionary.
 #[derive(Debug)]
 pub struct Uploads<C> {
     contender: C,
@@ -103,7 +103,7 @@ impl<C: Upload> Subject for Uploads<C> {
     }
 }
 
-/// A contender under the load of SYNC.
+/// A contender that gets SYNC messages.
 #[derive(Debug)]
 pub struct Cycles<C>(pub C);
 
@@ -121,9 +121,9 @@ impl<C: Pdo> Subject for Cycles<C> {
     }
 }
 
-/// The loop itself: draws the index, builds the request, looks nothing up.
+/// The loop itself: draws the index and builds the request, without a lookup.
 ///
-/// Not a contender, but what is in every number of the others.
+/// It is not a contender; its time is included in the numbers of the others.
 #[derive(Debug)]
 pub struct Nothing;
 

@@ -1,4 +1,4 @@
-//! Disciplines and their sizes.
+//! Disciplines (what is measured) and their sizes.
 
 use std::fmt;
 use std::num::ParseIntError;
@@ -9,11 +9,11 @@ use crate::objects::SIZES;
 /// A measured operation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Discipline {
-    /// One expedited SDO upload from a dictionary of this many objects.
+    /// One expedited SDO upload from a dictionary of this size.
     Upload(usize),
     /// One SYNC in, one TPDO out.
     Pdo,
-    /// One SDO upload of a position that is computed for it.
+    /// One SDO upload of a position that is computed at that moment.
     Live,
     /// One SYNC in, one TPDO with such a position out.
     LivePdo,
@@ -21,12 +21,12 @@ pub enum Discipline {
     Simulation(Simulated),
 }
 
-/// A device in virtual time, and what its PDO carries.
+/// A device in virtual time, and the content of its PDO.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Simulated {
-    /// The device's name, as `odkit sim` knows it.
+    /// The device's name, as for `odkit sim`.
     pub device: &'static str,
-    /// Speed and acceleration behind the position?
+    /// Whether speed and acceleration follow the position.
     pub is_moving: bool,
 }
 
@@ -36,7 +36,7 @@ impl Simulated {
     }
 }
 
-/// One device of each manual, and those that have a speed once more with it.
+/// One device of each manual; those with a speed also with it.
 pub const SIMULATED: [Simulated; 5] = [
     Simulated::new("gxmm", false),
     Simulated::new("eam_mt", false),

@@ -1,7 +1,7 @@
 //! odkit and its peers under the same load: one SDO upload through the whole
 //! node, one PDO cycle, simulated seconds per second.
 //!
-//! `README.md` beside this crate says how to run it and how to read it. A new
+//! `README.md` beside this crate describes how to run it and how to read the result. A new
 //! contender implements [`contender::Upload`] (and [`contender::Pdo`]) and gets
 //! a line in [`roster`].
 

@@ -1,4 +1,4 @@
-//! Computation of an application at each reading: the position of a shaft that turns.
+//! An application that computes a value at each reading: the position of a turning shaft.
 
 use std::hint::black_box;
 

@@ -1,12 +1,12 @@
-//! The dictionaries every contender serves, and the order in which they are read.
+//! The dictionaries of all contenders, and the order in which they are read.
 //!
-//! The build scripts include this file too, so that what is generated and what
-//! is measured cannot drift apart.
+//! The build scripts include this file too, so that generated and measured objects
+//! are the same.
 
 /// The dictionary sizes, in application objects.
 ///
 /// Every fourth is a record, so there are more than twice as many values. The objects
-/// a stack brings along itself (1000h, 1001h, 1017h, 1018h, PDO parameters) come on top.
+/// that a stack has itself (1000h, 1001h, 1017h, 1018h, PDO parameters) are added.
 pub const SIZES: [usize; 4] = [16, 120, 1_000, 5_000];
 
 /// The dictionary size of the PDO benchmark.
@@ -29,7 +29,7 @@ pub const MEMBERS: u8 = 5;
 pub struct Object {
     /// Index of the object.
     pub index: u16,
-    /// A VAR of type U32, or a record of [`MEMBERS`] of them?
+    /// Whether it is a record of [`MEMBERS`] U32 values or a VAR of type U32.
     pub is_record: bool,
 }
 
@@ -42,9 +42,9 @@ impl Object {
 
 /// The `size` application objects, ascending.
 ///
-/// Neighbours are 1 to 3 apart: dense enough for a jump table, as real
-/// dictionaries are, and too uneven for an index computed from the address.
-/// zencan-node keeps 5000h for itself, so the last one stays below.
+/// Neighbours are 1 to 3 apart: dense enough for a jump table, like real
+/// dictionaries, and too uneven for an index computed from the address.
+/// zencan-node reserves 5000h, so the last index is below.
 pub fn objects(size: usize) -> Vec<Object> {
     let mut random = Random::new(2_024);
     let mut next = FIRST;
@@ -71,13 +71,13 @@ pub const fn values(size: usize) -> usize {
     size + records(size) * (MEMBERS as usize - 1)
 }
 
-/// Number of records among `size` objects; each has its sub-index 0 besides its values.
+/// Number of records among `size` objects; each has a sub-index 0 in addition to its values.
 pub const fn records(size: usize) -> usize {
     size / RECORD_EVERY
 }
 
-/// The value at an address: four bytes that follow from it, so that an answer from
-/// the wrong place is seen.
+/// The value at an address: four bytes derived from it, so that a response from
+/// another place is detected.
 pub fn value(index: u16, sub: u8) -> u32 {
     (u32::from(index) << 8 | u32::from(sub)).wrapping_mul(0x9E37_79B1) ^ 0x5A5A_5A5A
 }
@@ -91,8 +91,8 @@ pub fn mapped(size: usize) -> u16 {
 }
 
 /// A fixed pseudo-random sequence (a 64-bit LCG, upper half used).
-///
-/// It is drawn while measuring, not before: a table of requests that repeats is
+/// It is drawn during the measurement, not before: the branch predictor would learn a
+/// repeated table of requests, and the lookup would not be measured.
 /// soon known to the branch predictor, and the lookup is then not measured.
 #[derive(Clone, Debug)]
 pub struct Random(u64);

@@ -1,4 +1,4 @@
-//! We: a node over tables made at run time, as `odkit sim` makes them of an EDS file.
+//! odkit: a node with tables made at run time, as `odkit sim` makes them from an EDS file.
 
 use od_eds::{Description, EntryDescription, ObjectDescription, Spanned, Tables, Value};
 use od_model::{Access, DataType, Dictionary, ObjectCode};
@@ -9,7 +9,7 @@ use crate::contender::{Pdo, Subject, Upload};
 use crate::discipline::Simulated;
 use crate::objects;
 
-/// A node and its device, put together once, as the `main` of a firmware does it.
+/// A node and its device, created once, as in the `main` of a firmware.
 #[allow(missing_debug_implementations)] // nobody looks into it
 pub struct Odkit {
     node: Node,
@@ -40,8 +40,8 @@ impl Odkit {
 }
 
 impl Odkit {
-    /// A gxmm that has turned at 60 revolutions per minute for 250 ms, in the state operational, with its
-    /// position in a TPDO on each SYNC. Time does not pass from now on.
+    /// A gxmm in Operational that has turned at 60 revolutions per minute for 250 ms, with its
+    /// position in a TPDO on each SYNC. Time stops from now on.
     pub fn turning() -> Self {
         let device = od_devices::find("gxmm").expect("one of the devices");
         let mut encoder = od_bench::shaft::encoder(device);
@@ -90,7 +90,7 @@ impl Odkit {
         assert_eq!(answer[0], 0x60, "{index:04X}h:{sub:02X}: {answer:02X?}");
     }
 
-    /// Sends a frame and leaves what comes back.
+    /// Sends a frame and ignores the response.
     fn tell(&mut self, id: u16, data: &[u8]) {
         let Self { node, device, now } = self;
         node.handle_frame(
@@ -101,8 +101,8 @@ impl Odkit {
         while node.poll_transmit(device, *now).is_some() {}
     }
 
-    /// A frame in, what the host reads of the node's answer out, and no frame after it;
-    /// no time passes.
+    /// Sends a frame and returns the response as the host reads it; no frame follows,
+    /// and no time passes.
     #[inline(always)]
     fn exchange<R>(&mut self, frame: &Frame, read: impl FnOnce(&Frame) -> R) -> R {
         let Self { node, device, now } = self;
@@ -115,7 +115,7 @@ impl Odkit {
     }
 }
 
-/// Makes a static, as a firmware has.
+/// Makes a static variable, as in a firmware.
 fn leak<T>(value: T) -> &'static mut T {
     Box::leak(Box::new(value))
 }
@@ -193,7 +193,7 @@ fn add(
 pub struct Seconds(Odkit);
 
 impl Seconds {
-    /// A device at 60 rpm, in the state operational, whose TPDO 1 is cyclic with 1 ms and
+    /// A device at 60 rpm in Operational whose TPDO 1 is cyclic with 1 ms and
     /// whose TPDO 2 is off.
     pub fn new(Simulated { device, is_moving }: Simulated) -> Self {
         let device = od_devices::find(device).expect("one of the devices");

@@ -11,29 +11,29 @@ use crate::peers::zencan::Zencan;
 
 /// The loop without a node.
 pub const NOTHING: &str = "(loop only)";
-/// The floor.
+/// The minimum.
 pub const CANOPEN_SDO: &str = "canopen-sdo";
 /// A peer.
 pub const CANOPEN_RS: &str = "canopen-rs";
-/// A peer, with a critical section that costs nothing.
+/// A peer, with an empty critical section.
 pub const ZENCAN: &str = "zencan-node";
 /// The same peer with its default features: feature `zencan-std`.
 pub const ZENCAN_STD: &str = "zencan-node (std)";
-/// We.
+/// odkit.
 pub const ODKIT: &str = "odkit";
 
 /// All contenders, in the order of the table.
 pub const NAMES: [&str; 6] = [ODKIT, CANOPEN_RS, ZENCAN, ZENCAN_STD, CANOPEN_SDO, NOTHING];
 
-/// Name of the zencan-node that was built: the two cannot be in one program.
+/// Name of the zencan-node that was built: a program cannot contain both.
 const ZENCAN_BUILT: &str = if cfg!(feature = "zencan-std") {
     ZENCAN_STD
 } else {
     ZENCAN
 };
 
-/// The contender of that name, ready to be measured and found to answer right;
-/// none if it does not take part.
+/// The contender of that name, checked for right results;
+/// `None` if it does not take part.
 pub fn subject(name: &str, discipline: Discipline) -> Option<Box<dyn Subject>> {
     let mut subject = match discipline {
         Discipline::Upload(size) => upload(name, size)?,

@@ -1,15 +1,15 @@
-//! Time per operation on a machine that others use too.
+//! Time per operation on a machine with other load.
 //!
-//! All contenders of a discipline take turns, in short rounds: a slow second of
-//! the machine then hits all of them, and the ratios hold. The result is what a
-//! tenth of the rounds stay below: those that nobody interrupted.
+//! All contenders of a discipline take turns in short rounds: a slow second of
+//! the machine then affects all of them, and the ratios are right. The result is the
+//! tenth percentile of the rounds, which are those without interruption.
 
 use std::time::{Duration, Instant};
 
 use crate::contender::Subject;
 
-/// Duration of a round of one contender: shorter than the slices in which a system
-/// with more to do than processors hands them out.
+/// Duration of a round of one contender: shorter than the time slices of a loaded
+/// system.
 const ROUND: Duration = Duration::from_micros(500);
 
 /// Nanoseconds per operation of each subject, undisturbed, from this number of rounds.
@@ -18,7 +18,7 @@ pub fn race(subjects: &mut [Box<dyn Subject>], rounds: usize) -> Vec<f64> {
     let mut times = vec![Vec::with_capacity(rounds); subjects.len()];
     for _ in 0..rounds {
         for ((subject, &count), times) in subjects.iter_mut().zip(&counts).zip(&mut times) {
-            // The others have used the caches in between.
+            // The other contenders have used the caches in between.
             subject.run(count / 2);
             times.push(time(subject.as_mut(), count).as_secs_f64() * 1e9 / count as f64);
         }
@@ -30,7 +30,7 @@ pub fn race(subjects: &mut [Box<dyn Subject>], rounds: usize) -> Vec<f64> {
 fn calibrate(subject: &mut dyn Subject) -> u64 {
     let mut count = 16;
     loop {
-        // A single time may be that of an interruption.
+        // A single time may include an interruption.
         let tries = [(); 5].map(|()| time(subject, count));
         let taken = tries.into_iter().min().unwrap_or_default();
         if taken >= ROUND / 4 {

@@ -1,4 +1,4 @@
-//! The results as Markdown, ready for a README.
+//! The results as Markdown, for docs/PERFORMANCE.md.
 
 use std::fmt::Write as _;
 
@@ -12,7 +12,7 @@ pub const COMPARED: Discipline = Discipline::Upload(120);
 /// The smallest and the largest size of the mark on growth.
 pub const GROWTH: (Discipline, Discipline) = (COMPARED, Discipline::Upload(5_000));
 
-/// Two tables: what was measured, and the marks.
+/// Two tables: the measurements, and the bounds.
 pub fn render(results: &Results) -> String {
     let mut text = measured(results);
     text.push('\n');
@@ -67,7 +67,7 @@ fn measured(results: &Results) -> String {
     text
 }
 
-/// One row per mark that the project set itself.
+/// One row per bound of the project.
 pub fn marks(results: &Results) -> String {
     let time = |discipline, name| results.get(Unit::Nanoseconds, discipline, name);
     let ours = time(COMPARED, ODKIT);
@@ -112,7 +112,7 @@ pub fn marks(results: &Results) -> String {
     text
 }
 
-/// The good side of a mark.
+/// Whether a bound is an upper or a lower one.
 enum Wanted {
     AtLeast(f64),
     AtMost(f64),

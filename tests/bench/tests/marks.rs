@@ -7,7 +7,7 @@ use od_benches::roster::{CANOPEN_RS, CANOPEN_SDO, ODKIT, ZENCAN};
 use od_benches::table::{COMPARED, GROWTH, marks};
 
 #[test]
-fn marks_are_judged_on_the_right_side() {
+fn bounds_are_checked_on_the_right_side() {
     let mut results = Results::load(Path::new("a missing directory"));
     for (name, time) in [
         (ODKIT, 30.0),

@@ -19,7 +19,7 @@ fn main() {
     println!("cargo::rerun-if-changed=../src/objects.rs");
     let out = env::var_os("OUT_DIR").expect("Cargo sets OUT_DIR");
     let out = Path::new(&out);
-    // The large ones cost a minute of rustc: only for builds that measure.
+    // The large ones take a minute of rustc: only for builds that measure.
     println!("cargo::rustc-check-cfg=cfg(large)");
     let large = env::var("PROFILE").is_ok_and(|profile| profile == "release");
     if large {

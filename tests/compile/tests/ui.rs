@@ -1,8 +1,8 @@
 //! Calls that do not compile, and the messages of rustc for them: the words in `ui/*.stderr`.
 //!
-//! One mistake per file; the file's first line says which. After a change of words,
+//! One mistake per file; the file's first line describes it. After a change of messages,
 //! `TRYBUILD=overwrite cargo test -p od-tests-compile --test ui` writes them again: read them
-//! as somebody who made that mistake before you commit them. Calls that compile are in `ui/pass`.
+//! like somebody who made that mistake before you commit them. Calls that compile are in `ui/pass`.
 
 #[test]
 fn mistakes_are_told_in_words_that_help() {

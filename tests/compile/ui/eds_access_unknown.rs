@@ -1,4 +1,4 @@
-//! An object with an access type that there is not.
+//! An object with an unknown access type.
 
 use odkit::object_dictionary;
 

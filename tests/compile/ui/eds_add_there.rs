@@ -1,4 +1,4 @@
-//! An addition of what the file has.
+//! An addition of an object that the file already has.
 
 use odkit::object_dictionary;
 

@@ -1,4 +1,4 @@
-//! More faults than are shown.
+//! More errors than are shown.
 
 use odkit::object_dictionary;
 

@@ -1,4 +1,4 @@
-//! A dummy in a PDO that is sent.
+//! A dummy entry in a TPDO.
 
 use odkit::object_dictionary;
 

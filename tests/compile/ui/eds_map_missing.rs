@@ -1,4 +1,4 @@
-//! A mapping of an object that is not there.
+//! A mapping of an object that does not exist.
 
 use odkit::object_dictionary;
 

@@ -1,4 +1,4 @@
-//! A mapping of an object that no PDO can carry.
+//! A mapping of an object that cannot be mapped.
 
 use odkit::object_dictionary;
 

@@ -1,4 +1,4 @@
-//! A change that makes a sound file unsound.
+//! A change that adds an error to a valid file.
 
 use odkit::object_dictionary;
 

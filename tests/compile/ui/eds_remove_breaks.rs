@@ -1,4 +1,4 @@
-//! A removal that makes a sound file unsound.
+//! A removal that adds an error to a valid file.
 
 use odkit::object_dictionary;
 

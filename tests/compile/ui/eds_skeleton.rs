@@ -1,4 +1,4 @@
-//! Valid parts are made in spite of the error: their use is not a second error.
+//! Valid parts exist in spite of the error: using them is not a second error.
 
 use odkit::object_dictionary;
 

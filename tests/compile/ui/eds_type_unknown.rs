@@ -1,4 +1,4 @@
-//! An object with a data type that there is not.
+//! An object with an unknown data type.
 
 use odkit::object_dictionary;
 

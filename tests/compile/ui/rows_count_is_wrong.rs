@@ -1,4 +1,4 @@
-//! Sub-index 0 that says something else than the members.
+//! Sub-index 0 that is not the highest sub-index.
 
 use odkit::object_dictionary;
 

@@ -1,4 +1,4 @@
-//! A change of what no row adds.
+//! A change of an object that no row adds.
 
 use odkit::object_dictionary;
 

@@ -1,4 +1,4 @@
-//! A call that begins with something else than a module.
+//! A call that does not begin with a module.
 
 use odkit::object_dictionary;
 

@@ -1,4 +1,4 @@
-//! A member of an object that is not there.
+//! A sub-object of an object that does not exist.
 
 use odkit::object_dictionary;
 

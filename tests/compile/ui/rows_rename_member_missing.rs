@@ -1,4 +1,4 @@
-//! A new name for a member that is not there.
+//! A new name for a sub-object that does not exist.
 
 use odkit::object_dictionary;
 

@@ -1,4 +1,4 @@
-//! A new name for nothing.
+//! A new name for an object that does not exist.
 
 use odkit::object_dictionary;
 

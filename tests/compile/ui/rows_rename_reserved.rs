@@ -1,4 +1,4 @@
-//! A new name that the module needs itself.
+//! A new name that the module uses itself.
 
 use odkit::object_dictionary;
 

@@ -1,4 +1,4 @@
-//! An access type that there is not.
+//! An unknown access type.
 
 use odkit::object_dictionary;
 

@@ -1,4 +1,4 @@
-//! An object code that there is not.
+//! An unknown object code.
 
 use odkit::object_dictionary;
 

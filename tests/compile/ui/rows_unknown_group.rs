@@ -1,4 +1,4 @@
-//! A parameter group that there is not.
+//! An unknown parameter group.
 
 use odkit::object_dictionary;
 

@@ -1,4 +1,4 @@
-//! A statement that there is not.
+//! An unknown statement.
 
 use odkit::object_dictionary;
 

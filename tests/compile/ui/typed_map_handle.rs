@@ -1,4 +1,4 @@
-//! A handle where its mapping is wanted.
+//! A handle in place of its mapping.
 
 use odkit::object_dictionary;
 use od_model::typed::{Mapping, pdo};

@@ -1,4 +1,4 @@
-//! A whole record where one value is wanted.
+//! A whole record in place of one value.
 
 use odkit::object_dictionary;
 use od_runtime::Store;

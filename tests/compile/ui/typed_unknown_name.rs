@@ -1,4 +1,4 @@
-//! A name that the dictionary has not.
+//! A name that the dictionary does not have.
 
 use odkit::object_dictionary;
 use od_runtime::Store;

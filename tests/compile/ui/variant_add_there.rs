@@ -1,4 +1,4 @@
-//! An addition of what is there.
+//! An addition of an object that already exists.
 
 use odkit::object_dictionary;
 

@@ -1,4 +1,4 @@
-//! A removal of what a PDO maps.
+//! A removal of an object that a PDO maps.
 
 use odkit::object_dictionary;
 

@@ -1,4 +1,4 @@
-//! An object code on a member.
+//! An object code on a sub-object.
 
 use odkit::object_dictionary;
 

@@ -1,4 +1,4 @@
-//! Sub-index 0 that promises more than there is.
+//! Sub-index 0 that is higher than the highest sub-index.
 
 use odkit::object_dictionary;
 

@@ -1,4 +1,4 @@
-//! A change of a member that the base lacks.
+//! A change of a sub-object that the base lacks.
 
 use odkit::object_dictionary;
 

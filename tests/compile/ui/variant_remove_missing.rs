@@ -1,4 +1,4 @@
-//! A removal of what is not there.
+//! A removal of an object that does not exist.
 
 use odkit::object_dictionary;
 

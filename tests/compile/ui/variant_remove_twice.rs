@@ -1,4 +1,4 @@
-//! A removal of what the variant removed already.
+//! A removal of an object that the variant has already removed.
 
 use odkit::object_dictionary;
 

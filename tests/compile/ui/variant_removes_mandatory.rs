@@ -1,4 +1,4 @@
-//! A variant without an object that every device has.
+//! A variant without a mandatory object.
 
 use odkit::object_dictionary;
 

@@ -1,4 +1,4 @@
-//! A new name that the variant has already.
+//! A new name that the variant already has.
 
 use odkit::object_dictionary;
 

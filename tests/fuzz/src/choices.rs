@@ -1,6 +1,6 @@
-//! The bytes of an input as a row of choices.
+//! The bytes of an input as a sequence of choices.
 
-/// Bytes as a row of choices; 0 when they are over, so that short inputs make small devices.
+/// Bytes as a sequence of choices; 0 after the end, so that short inputs make small devices.
 #[derive(Clone, Copy, Debug)]
 pub struct Choices<'a>(pub &'a [u8]);
 

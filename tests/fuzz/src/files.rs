@@ -57,7 +57,7 @@ pub fn files(folder: &str, endings: &[&str], longest: usize) -> Vec<Vec<u8>> {
             }
         }
     }
-    // The order of a folder is not the same everywhere.
+    // The order of folder entries differs between systems.
     found.sort();
     let short = found.into_iter().map(|(_, bytes)| bytes);
     short.filter(|bytes| bytes.len() <= longest).collect()

@@ -1,4 +1,4 @@
-//! Device descriptions made of choices, and what their devices have to answer.
+//! Device descriptions made from choices, and the expected responses of their devices.
 
 use std::fmt::Write as _;
 
@@ -12,9 +12,9 @@ use crate::made::{Made, NODE, value};
 pub struct Pdo {
     /// Its CAN-ID.
     pub id: u16,
-    /// Received by the device.
+    /// Whether the device receives it.
     pub is_received: bool,
-    /// The values that it carries, by their place in [`Device::values`].
+    /// The mapped values, by their index in [`Device::values`].
     pub mapped: Vec<usize>,
 }
 
@@ -23,16 +23,16 @@ pub struct Pdo {
 pub struct Device {
     /// The EDS.
     pub text: String,
-    /// Its values that no service gives a meaning.
+    /// Its values without a meaning for a service.
     pub values: Vec<Made>,
-    /// Its PDOs, synchronous from the device and event-driven to it.
+    /// Its PDOs: TPDOs are synchronous, RPDOs event-driven.
     pub pdos: Vec<Pdo>,
     sections: String,
     lists: [Vec<u16>; 3],
 }
 
 impl Device {
-    /// The device that these choices make.
+    /// The device that these choices describe.
     pub fn of(choices: &mut Choices<'_>) -> Self {
         let mut device = Self::default();
         device.fixed();
@@ -49,7 +49,7 @@ impl Device {
         device
     }
 
-    /// The objects of every device.
+    /// The mandatory objects.
     fn fixed(&mut self) {
         use DataType::{Unsigned8, Unsigned16, Unsigned32};
         self.var(0x1000, Unsigned32, "const", "0");
@@ -101,7 +101,7 @@ impl Device {
         let highest = members.last().map_or(0, |member| member.0);
         let _ = writeln!(self.sections, "SubNumber={}", members.len() + 1);
         self.sub(index, 0);
-        // Of a mapping it can be written.
+        // Only a mapping entry can be written.
         let access = if index & 0xFA00 == 0x1200 {
             "rw"
         } else {
@@ -114,7 +114,7 @@ impl Device {
         }
     }
 
-    /// An object of the manufacturer.
+    /// A manufacturer-specific object.
     fn object(&mut self, index: u16, choices: &mut Choices<'_>) {
         let kind = choices.below(4);
         if kind < 2 {
@@ -171,7 +171,7 @@ impl Device {
     fn pdo(&mut self, number: u16, is_received: bool, choices: &mut Choices<'_>) {
         use DataType::{Unsigned8, Unsigned32};
         let fits = |(at, made): (usize, &Made)| {
-            // What is out of its limits is not taken from a PDO.
+            // A value outside its limits is not accepted from a PDO.
             let is_free = !is_received || made.limits.is_none();
             (made.fits_pdo(is_received) && is_free).then_some(at)
         };
@@ -182,7 +182,7 @@ impl Device {
             let Some(at) = all.get(choices.below(all.len().max(1))).copied() else {
                 return;
             };
-            // Two values in one place would have to agree.
+            // Two values in one place would have to be equal.
             if size(at) <= room && !mapped.contains(&at) {
                 room -= size(at);
                 mapped.push(at);

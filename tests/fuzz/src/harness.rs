@@ -1,5 +1,5 @@
-//! Runs inputs on a stable compiler: those that failed once, the seeds, then mutated seeds until the time
-//! is over. `tests/fuzz/coverage` gives the same targets to libFuzzer, which coverage steers.
+//! Runs inputs on a stable compiler: earlier failures, the seeds, then mutated seeds until the time
+//! is over. `tests/fuzz/coverage` runs the same targets with libFuzzer, guided by coverage.
 
 use std::env;
 use std::hash::{BuildHasher, RandomState};
@@ -14,7 +14,7 @@ use crate::mutate;
 use crate::random::Random;
 use crate::target::{Enough, Target};
 
-/// The longest time that one input may take.
+/// Maximum time for one input.
 const PATIENCE: Duration = Duration::from_secs(60);
 
 /// A number from the environment.
@@ -37,7 +37,7 @@ pub fn time() -> Duration {
     Duration::from_secs(number("ODKIT_FUZZ_SECONDS").unwrap_or(usual))
 }
 
-/// The seed of all chance: `ODKIT_FUZZ_SEED`, else one that no run had before.
+/// The seed of the random generator: `ODKIT_FUZZ_SEED`, else a new one.
 pub fn seed() -> u64 {
     // Short enough to be typed: 2^40 runs differ.
     number("ODKIT_FUZZ_SEED").unwrap_or_else(|| RandomState::new().hash_one(0) >> 24)
@@ -103,7 +103,7 @@ pub fn test(target: &'static Target) {
             if let Some((begun, input)) = &*current
                 && begun.elapsed() > PATIENCE
             {
-                // A thread cannot be stopped from outside; the program can.
+                // A thread cannot be stopped from outside; the process can.
                 eprintln!("{} takes longer than {PATIENCE:?}", target.name);
                 eprintln!("{}", kept_as(target, input));
                 std::process::exit(101);
@@ -115,7 +115,7 @@ pub fn test(target: &'static Target) {
     });
 }
 
-/// The input that runs, and when it began.
+/// The running input, and its start time.
 type Current = Mutex<Option<(Instant, Vec<u8>)>>;
 
 fn set(current: &Current, input: Option<(Instant, Vec<u8>)>) {
@@ -135,7 +135,7 @@ pub fn attempt(target: &Target, input: &[u8]) {
     }
 }
 
-/// Keeps an input that failed. Returns what to do with it.
+/// Stores an input that failed. Returns the advice for the user.
 fn kept_as(target: &Target, input: &[u8]) -> String {
     match files::keep(target.name, input) {
         Ok(path) => format!(

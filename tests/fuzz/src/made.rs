@@ -24,17 +24,17 @@ pub struct Made {
 }
 
 impl Made {
-    /// May a master read it?
+    /// Returns whether a master may read it.
     pub fn is_readable(&self) -> bool {
         self.access != "wo"
     }
 
-    /// May a master write it?
+    /// Returns whether a master may write it.
     pub fn is_writable(&self) -> bool {
         !["ro", "const"].contains(&self.access)
     }
 
-    /// May a PDO to this device, or from it, carry the value as whole bytes?
+    /// Returns whether a TPDO or RPDO may contain the value as whole bytes.
     pub(crate) fn fits_pdo(&self, is_received: bool) -> bool {
         let accesses = if is_received {
             ["wo", "rww", "rw"]
@@ -75,7 +75,7 @@ const TYPES: [DataType; 20] = {
 /// The node ID of every device here.
 pub const NODE: u8 = 1;
 
-/// A value that its type and its limits allow.
+/// A value that is valid for its type and limits.
 pub(crate) fn value(
     address: Address,
     data_type: Option<DataType>,
@@ -148,7 +148,7 @@ fn plain(address: Address, data_type: DataType, choices: &mut Choices<'_>) -> Ma
     }
 }
 
-/// A number from `low` to `high`, the ends more often than others.
+/// A number from `low` to `high`; the ends are more likely than others.
 pub fn integer(low: i128, high: i128, choices: &mut Choices<'_>) -> i128 {
     match choices.below(6) {
         0 => 0.clamp(low, high),

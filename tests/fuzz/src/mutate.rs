@@ -1,9 +1,9 @@
-//! From one input to the next.
+//! Makes a new input from an earlier one.
 
 use crate::random::Random;
 use crate::target::Target;
 
-/// Numbers where things change.
+/// Numbers at which behaviour changes.
 const NUMBERS: &[&str] = &[
     "0",
     "1",
@@ -31,7 +31,7 @@ const NUMBERS: &[&str] = &[
     "0.0000001",
 ];
 
-/// A new input: a seed with some changes, now and then nothing but words and chance.
+/// A new input: a seed with some changes, sometimes only words and random bytes.
 pub fn input(target: &Target, seeds: &[Vec<u8>], random: &mut Random) -> Vec<u8> {
     let mut bytes = match random.below(20) {
         0 => Vec::new(),
@@ -69,7 +69,7 @@ fn change(bytes: &mut Vec<u8>, target: &Target, seeds: &[Vec<u8>], random: &mut 
             insert(bytes, at, &noise);
         }
         5 => {
-            // A piece of another seed.
+            // A part of another seed.
             let other = seeds
                 .get(random.below(seeds.len()))
                 .map_or(&[][..], |seed| seed);
@@ -78,7 +78,7 @@ fn change(bytes: &mut Vec<u8>, target: &Target, seeds: &[Vec<u8>], random: &mut 
             insert(bytes, at, &other[from..to]);
         }
         7 => {
-            // A line elsewhere, or once more.
+            // Moves or repeats a line.
             let line = line_at(bytes, at).to_vec();
             let to = line_start(bytes, random.below(bytes.len() + 1));
             insert(bytes, to, &line);
@@ -106,14 +106,14 @@ fn line_start(bytes: &[u8], at: usize) -> usize {
     before.map_or(0, |end| end + 1)
 }
 
-/// The line around a place, with its end.
+/// The line around a place, including its end.
 fn line_at(bytes: &[u8], at: usize) -> &[u8] {
     let rest = &bytes[line_start(bytes, at)..];
     let end = rest.iter().position(|byte| *byte == b'\n');
     &rest[..end.map_or(rest.len(), |end| end + 1)]
 }
 
-/// The next number becomes another one.
+/// Replaces the next number.
 fn number(bytes: &mut Vec<u8>, at: usize, random: &mut Random) {
     let is_digit = |byte: &u8| byte.is_ascii_hexdigit();
     let Some(start) = bytes[at..].iter().position(u8::is_ascii_digit) else {

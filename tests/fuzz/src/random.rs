@@ -1,11 +1,11 @@
-//! Chance that repeats itself.
+//! A random generator with repeatable results.
 
 /// xorshift64*: the same numbers for the same seed, on every machine.
 #[derive(Clone, Debug)]
 pub struct Random(u64);
 
 impl Random {
-    /// Chance that begins here.
+    /// A generator with this seed.
     pub fn new(seed: u64) -> Self {
         // Small seeds differ in few bits; SplitMix64's last step spreads them.
         let mut bits = seed.wrapping_add(0x9E37_79B9_7F4A_7C15);
@@ -14,7 +14,7 @@ impl Random {
         Self((bits ^ bits >> 31) | 1)
     }
 
-    /// The chance of one input of a seed.
+    /// The generator for one input of a seed.
     pub fn of(seed: u64, input: u64) -> Self {
         Self::new(Self::new(seed).0 ^ input.wrapping_mul(0x9E37_79B9_7F4A_7C15))
     }
@@ -28,7 +28,7 @@ impl Random {
         self.0.wrapping_mul(0x2545_F491_4F6C_DD1D) >> 16
     }
 
-    /// A number below `end`; 0 where that is 0.
+    /// A number below `end`; 0 if `end` is 0.
     pub fn below(&mut self, end: usize) -> usize {
         match end {
             0 => 0,
@@ -36,7 +36,7 @@ impl Random {
         }
     }
 
-    /// A size from 1 to 2 to the power of `bits`, small ones as likely as large ones.
+    /// A size from 1 to 2 to the power of `bits`; small sizes are as likely as large ones.
     pub fn size(&mut self, bits: usize) -> usize {
         let bits = self.below(bits);
         1 + self.below(1 << bits)

@@ -1,30 +1,30 @@
-//! One thing that is fuzzed, as the harness sees it.
+//! A fuzz target, as the harness uses it.
 
 use std::panic::resume_unwind;
 
 use crate::random::Random;
 
-/// One thing that takes input from outside.
+/// Code that accepts untrusted input.
 #[derive(Clone, Copy)]
 pub struct Target {
     /// Its name in commands and folders.
     pub name: &'static str,
-    /// Panics where something does not hold.
+    /// Panics if a property does not hold.
     pub run: fn(&[u8]),
     /// Inputs to start from.
     pub seeds: fn() -> Vec<Vec<u8>>,
-    /// Makes an input without a seed, if random bytes are meaningful.
+    /// Makes an input without a seed, if random bytes are useful.
     pub make: Option<fn(&mut Random) -> Vec<u8>>,
     /// Words of the input's language.
     pub words: &'static [&'static str],
-    /// Does it consist of lines?
+    /// Whether the input consists of lines.
     pub is_text: bool,
-    /// Inputs are cut here.
+    /// Maximum length of an input.
     pub longest: usize,
 }
 
 impl Target {
-    /// Defaults for what a target does not set.
+    /// Default values of the other fields.
     pub const PLAIN: Self = Self {
         name: "",
         run: |_| {},
@@ -36,11 +36,11 @@ impl Target {
     };
 }
 
-/// A run that a target gives up without a verdict.
+/// A run that a target ends without a result.
 pub struct Enough;
 
 impl Enough {
-    /// Gives up the run. No panic hook hears of it.
+    /// Ends the run without a result. The panic hook is not called.
     pub fn give_up() -> ! {
         resume_unwind(Box::new(Self))
     }

@@ -7,14 +7,14 @@ use std::collections::{BTreeMap, BTreeSet};
 pub(crate) struct Arrows(BTreeMap<String, BTreeSet<String>>);
 
 impl Arrows {
-    /// Says that `from` names something of `to`.
+    /// Adds that `from` uses something of `to`.
     pub(crate) fn add(&mut self, from: &str, to: &str) {
         if from != to {
             self.0.entry(from.into()).or_default().insert(to.into());
         }
     }
 
-    /// The arrows from which a way leads back.
+    /// The arrows that are part of a circle.
     pub(crate) fn circles(&self) -> BTreeSet<(&str, &str)> {
         let mut found = BTreeSet::new();
         for (from, all) in &self.0 {

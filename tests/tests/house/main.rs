@@ -27,7 +27,7 @@ fn the_house_is_in_order() {
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
 
-/// All that is not in order, each with its correction.
+/// All violations, each with its correction.
 fn faults(files: &BTreeMap<String, String>) -> Vec<String> {
     let modules = Modules::of(files);
     let mut arrows = Arrows::default();

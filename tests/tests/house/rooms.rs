@@ -1,4 +1,4 @@
-//! The rooms, and which of them may use which.
+//! The rooms, and which room may use which.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 pub(crate) struct Room {
     /// The folder.
     pub(crate) name: &'static str,
-    /// Arrows lead from a higher storey to a lower one; `None` is outside the order.
+    /// Arrows lead from a higher storey to a lower one; `None` is exempt.
     storey: Option<u8>,
 }
 
@@ -17,7 +17,7 @@ const fn room(name: &'static str, storey: u8) -> Room {
     }
 }
 
-/// All rooms, from the ground up.
+/// All rooms, from the lowest storey up.
 pub(crate) const ROOMS: [Room; 19] = [
     room("od-model", 1),
     room("od-wire", 2),

@@ -1,8 +1,8 @@
 //! Imports between Rust files: `use`, and paths in the code.
 //!
-//! Modules are found by where their files are, so no macro has to be expanded. An arrow leads to
-//! the file that defines a name, also where another file exports it. A file that only exports
-//! names of the modules below it needs none of them: that is a shop window, and no arrow.
+//! Modules are found by the paths of their files, so no macro has to be expanded. An arrow leads to
+//! the file that defines a name, even if another file re-exports it. A file that only re-exports
+//! names of the modules below it uses none of them: this is no arrow.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -62,7 +62,7 @@ impl<'t> Modules<'t> {
         modules
     }
 
-    /// Adds an arrow for each file that names something of another.
+    /// Adds an arrow for each file that uses something of another.
     pub(crate) fn arrows(&self, arrows: &mut Arrows) {
         for module in &self.all {
             for path in module.needed() {
@@ -73,7 +73,7 @@ impl<'t> Modules<'t> {
         }
     }
 
-    /// The files that take a name from the root of their crate which another file defines.
+    /// The files that import a name from the root of their crate although another file defines it.
     pub(crate) fn through_the_root(&self) -> BTreeSet<&str> {
         let mut found = BTreeSet::new();
         for module in &self.all {
@@ -155,7 +155,7 @@ impl<'t> Modules<'t> {
         Some(base)
     }
 
-    /// The module that a path leads into, and how many of its names that takes.
+    /// The module that a path leads into, and the number of names that belong to it.
     fn deepest(&self, root: &str, path: &[String]) -> Option<(usize, usize)> {
         (0..=path.len()).rev().find_map(|length| {
             let place = (root.to_owned(), path[..length].to_vec());
@@ -239,7 +239,7 @@ fn place(file: &str, files: &BTreeMap<String, String>) -> Option<Place> {
     Some((root.to_owned(), names))
 }
 
-/// Does a `use` behind these tokens say `pub` or `pub(…)`?
+/// Returns whether the `use` after these tokens is `pub` or `pub(…)`.
 fn is_public(before: &[Token<'_>]) -> bool {
     let before = match before {
         [.., Token::Mark(')')] => {
@@ -251,7 +251,7 @@ fn is_public(before: &[Token<'_>]) -> bool {
     before.last() == Some(&Token::Word("pub"))
 }
 
-/// Reads a tree of `use`: each path with the name that it gets. Returns how many tokens it took.
+/// Parses a tree of `use`: each path with the name that it gets. Returns the number of tokens.
 fn tree(tokens: &[Token<'_>], prefix: &[String], found: &mut Vec<(Vec<String>, String)>) -> usize {
     let mut path = prefix.to_vec();
     let mut name = None;
@@ -359,7 +359,7 @@ mod tests {
     }
 
     #[test]
-    fn a_name_taken_from_the_shop_window_is_found() {
+    fn a_name_imported_from_a_re_export_is_found() {
         let files = files(&[
             (
                 "x/src/lib.rs",

@@ -1,4 +1,4 @@
-//! Rust text as tokens: no comments, no literals, and nothing that only a test run compiles.
+//! Rust text as tokens: no comments, no literals, and no code that only a test run compiles.
 
 /// One token; operators are single characters, except `::`.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -100,7 +100,7 @@ fn character(text: &str) -> usize {
     }
 }
 
-/// Drops each item behind `#[cfg(test)]`.
+/// Removes each item after `#[cfg(test)]`.
 fn without_tests(all: Vec<Token<'_>>) -> Vec<Token<'_>> {
     use Token::{Mark, Word};
     const TEST: [Token<'_>; 7] = [

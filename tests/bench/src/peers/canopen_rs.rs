@@ -72,7 +72,7 @@ impl<const N: usize> Upload for CanopenRs<N> {
     }
 }
 
-/// `on_frame` does not know SYNC: the caller tells it apart and asks for the
+/// `on_frame` does not handle SYNC: the caller recognises it and requests the
 /// synchronous TPDOs.
 impl<const N: usize> Pdo for CanopenRs<N> {
     #[inline]

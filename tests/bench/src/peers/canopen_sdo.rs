@@ -1,4 +1,4 @@
-//! canopen-sdo over a hand-written `match`: an SDO server and nothing around it.
+//! canopen-sdo with a hand-written `match`: an SDO server alone.
 
 use ::canopen_sdo::{ObjectDictionary, SdoAbortCode, SdoFrame, SdoServer, ServerConfig};
 
@@ -60,8 +60,8 @@ where
 }
 
 /// The server with its values.
-///
-/// Its transfer buffer holds eight bytes, enough for every object here: the
+/// Its transfer buffer has eight bytes, enough for every object here: the
+/// server clears it for every request, so more would only make it slower.
 /// server clears it for every request, so more would only slow it down.
 #[allow(missing_debug_implementations)] // canopen-sdo's server has none
 pub struct CanopenSdo<const N: usize> {

@@ -1,4 +1,4 @@
-//! zencan-node: generated statics, a mailbox in front and `process` behind.
+//! zencan-node: generated statics, a mailbox, and `process`.
 
 use zencan_node::common::NodeId;
 use zencan_node::common::messages::{CanId, CanMessage, SYNC_ID};
@@ -34,7 +34,7 @@ impl Zencan {
         Some(Self { mailbox, node })
     }
 
-    /// A frame in, the node's answer out; no time passes.
+    /// Sends a frame and returns the response; no time passes.
     #[inline]
     fn exchange(&mut self, id: CanId, data: &[u8]) -> CanMessage {
         let taken = self.mailbox.store_message(CanMessage::new(id, data));
@@ -62,8 +62,8 @@ impl Pdo for Zencan {
     }
 }
 
-/// Outside feature `zencan-std`: one thread and no interrupts, so a critical
-/// section has nothing to do.
+/// Without feature `zencan-std`: one thread and no interrupts, so a critical
+/// section need not do anything.
 #[cfg(not(feature = "zencan-std"))]
 #[allow(unsafe_code)] // `critical_section::Impl` is an unsafe trait
 mod one_thread {
@@ -72,7 +72,7 @@ mod one_thread {
 
     // SAFETY: neither the benches nor `od-benches-count` start a second thread.
     unsafe impl critical_section::Impl for OneThread {
-        // Its type is that of a feature, which another package may turn on.
+        // Its type belongs to a feature, which another package may turn on.
         unsafe fn acquire() -> critical_section::RawRestoreState {
             Default::default()
         }

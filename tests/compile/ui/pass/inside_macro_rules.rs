@@ -1,4 +1,4 @@
-//! The call as part of another macro, where `$` is not to be had.
+//! The call as part of another macro, where `$` cannot be used.
 
 use odkit::object_dictionary;
 

@@ -1,4 +1,4 @@
-//! Names that Rust cannot take as they are.
+//! Names that are not valid in Rust.
 
 use odkit::object_dictionary;
 

@@ -1,5 +1,5 @@
-//! Bytes as what happens to a device: frames that mean something more often than chance would
-//! have it, time, power, and the world outside.
+//! Bytes as events of a device: frames that are valid more often than random ones,
+//! time, power, and inputs of the application.
 
 use od_bench::{EdsOptions, VirtualDevice};
 use od_devices::DEVICES;
@@ -14,7 +14,7 @@ pub(super) fn kinds() -> usize {
     DEVICES.len() + FILES.len()
 }
 
-/// Devices of CiA 301 to the letter: block transfers, RPDOs, strings and domains.
+/// Devices of CiA 301: block transfers, RPDOs, strings and DOMAINs.
 const FILES: [&str; 2] = [
     include_str!("../../../interop/strings.eds"),
     include_str!("../../../eds/small.eds"),
@@ -52,7 +52,7 @@ pub(super) enum Act {
     Frame(Frame),
     /// Time passes, in microseconds.
     Time(u64),
-    /// Without power for a time, in microseconds.
+    /// Switches power off for a time, in microseconds.
     Power(u64),
     Position(u64),
     Rpm(f64),
@@ -62,19 +62,19 @@ pub(super) enum Act {
     Fault(usize, bool),
 }
 
-/// The act that these ten bytes encode; the entries are those of its dictionary.
+/// The action that these ten bytes encode; the entries are those of its dictionary.
 pub(super) fn act(step: &[u8; STEP], entries: &[Entry], node: u8) -> Act {
     let [op, a, b, c, rest @ ..] = *step;
     let own = u16::from(node);
     let number = u32::from_le_bytes([rest[0], rest[1], rest[2], rest[3]]);
     match op % 40 {
-        // Transfers that a master would begin, on objects that are there.
+        // Transfers that a master would begin, on existing objects.
         0..=7 => Act::Frame(download(step, entries, node)),
         8..=13 => {
             let entry = &entries[usize::from(u16::from_le_bytes([b, c])) % entries.len()];
             Act::Frame(request(node, 0x40, entry.address, [0; 4]))
         }
-        // Any command on an object that is there.
+        // Any command on an existing object.
         14..=19 => {
             const COMMANDS: [u8; 24] = [
                 0x22, 0x23, 0x27, 0x2B, 0x2F, 0x21, 0x20, 0x40, 0x60, 0x70, 0x00, 0x10, 0x01, 0x11,
@@ -84,7 +84,7 @@ pub(super) fn act(step: &[u8; STEP], entries: &[Entry], node: u8) -> Act {
             let command = COMMANDS[usize::from(a) % COMMANDS.len()];
             Act::Frame(request(node, command, entry.address, number.to_le_bytes()))
         }
-        // Segments, and whatever else.
+        // Segments and other frames.
         20..=23 => {
             let data = [a, b, c, rest[0], rest[1], rest[2], rest[3], rest[4]];
             let dlc = if rest[5] < 200 { 8 } else { rest[5] % 9 };
@@ -131,7 +131,7 @@ pub(super) fn act(step: &[u8; STEP], entries: &[Entry], node: u8) -> Act {
         }
         29 => Act::Frame(Frame::standard(0x601 + own, &[0x40, a, b, c, 0, 0, 0, 0])),
         30 => {
-            // Some are those of the RPDOs.
+            // Some are CAN-IDs of the RPDOs.
             let rpdo = 0x200 + 0x100 * u16::from(a >> 6) + own;
             let id = match a % 4 {
                 0 | 2 => CanId::standard(number as u16),
@@ -161,7 +161,7 @@ fn request(node: u8, command: u8, address: od_model::Address, data: [u8; 4]) -> 
     )
 }
 
-/// An expedited download with the length of the object, of a value that may well fit.
+/// An expedited download with the length of the object and a value that is likely to be valid.
 fn download(step: &[u8; STEP], entries: &[Entry], node: u8) -> Frame {
     let [_, a, b, c, rest @ ..] = *step;
     let entry = &entries[usize::from(u16::from_le_bytes([b, c])) % entries.len()];

@@ -1,4 +1,4 @@
-//! candump text: what is read as a frame is written as one that reads the same, and an error
+//! candump text: a parsed frame that is written again parses to the same frame, and an error
 //! points into the line.
 
 use od_bench::logs::candump::{format_line, parse_frame, parse_line};

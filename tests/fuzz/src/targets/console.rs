@@ -1,4 +1,4 @@
-//! Lines for a bench that runs already: carried out or refused, and none of them stops the
+//! Lines for a running bench: each is carried out or refused, and none stops the
 //! others.
 
 use od_bench::Bus;

@@ -1,5 +1,5 @@
-//! EDS and DCF text: it is read whatever it is, written so that it reads the same, and runs as
-//! far as it goes.
+//! EDS and DCF text: any text is read, a written text reads the same, and its valid part runs
+//! as a device.
 
 use od_bench::{Bus, EdsOptions, VirtualDevice};
 use od_eds::{Description, Finding, Tables};
@@ -116,7 +116,7 @@ fn run(input: &[u8]) {
     bus.with(number, VirtualDevice::power_off);
 }
 
-/// A description that is written reads the same, and is written the same again.
+/// A written description reads the same, and is written the same again.
 pub(super) fn written_again(description: &Description) {
     let written = od_eds::write(description);
     let again = od_eds::parse(&written).description;
@@ -128,7 +128,7 @@ pub(super) fn written_again(description: &Description) {
     );
 }
 
-/// As [`same`], without what could not be read as a value and stayed text.
+/// Like [`same`], without values that could not be parsed and stayed text.
 pub(super) fn same_values(before: &Description, after: &Description, written: &str) {
     let valid = |description: &Description| {
         let mut valid = description.clone();
@@ -144,7 +144,7 @@ pub(super) fn same_values(before: &Description, after: &Description, written: &s
     same(&valid(before), &valid(after), written);
 }
 
-/// Both have the same objects. A writer counts members that were not counted.
+/// Both have the same objects. A writer counts sub-objects that were not counted.
 pub(super) fn same(before: &Description, after: &Description, written: &str) {
     for (index, object) in &before.objects {
         let again = after.objects.get(index);
@@ -164,7 +164,7 @@ pub(super) fn same(before: &Description, after: &Description, written: &str) {
     );
 }
 
-/// Every finding has a sentence.
+/// Every finding has a message.
 pub(super) fn said(findings: &[Finding]) {
     for finding in findings {
         assert!(!od_eds::say(finding, &od_eds::Eds).message.is_empty());

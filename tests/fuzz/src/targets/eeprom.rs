@@ -1,5 +1,5 @@
-//! A stored image of any bytes: the device starts, its values keep to their limits, and what it
-//! saves then comes back.
+//! A stored image of any bytes: the device starts, its values stay within their limits, and values that it
+//! saves then are loaded again.
 
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -19,7 +19,7 @@ pub(super) const TARGET: Target = Target {
     ..Target::PLAIN
 };
 
-/// Bytes that outlive the device which has them as its EEPROM.
+/// Bytes that outlive the device that uses them as EEPROM.
 #[derive(Clone)]
 struct Shared(Arc<Mutex<Memory<Vec<u8>>>>);
 
@@ -43,7 +43,7 @@ impl Storage for Shared {
     }
 }
 
-/// A device on this memory, powered for two seconds.
+/// A device with this memory, powered for two seconds.
 fn start(number: usize, memory: &Shared) -> Bus {
     let mut bus = Bus::new();
     bus.add(bench::device(number).with_storage(Box::new(memory.clone())));
@@ -60,7 +60,7 @@ fn send(bus: &mut Bus, data: &[u8; 8]) {
 
 const SAVE: [u8; 8] = [0x23, 0x10, 0x10, 1, b's', b'a', b'v', b'e'];
 
-/// The images that a device leaves behind: an empty memory, one save, and a second one after writes.
+/// The images that a device writes: an empty memory, one save, and a second one after writes.
 fn images(number: usize) -> Vec<Vec<u8>> {
     let memory = Shared(Arc::new(Mutex::new(Memory::new(vec![
         0xFF;
@@ -117,7 +117,7 @@ fn run(input: &[u8]) {
         ) else {
             continue;
         };
-        // Signed values are compared as what they are, and not as their bits.
+        // Signed values are compared as numbers, not as bits.
         let size = entry.data_type.size().unwrap_or(8) as u32 * 8;
         let is_signed = entry
             .data_type
@@ -137,7 +137,7 @@ fn run(input: &[u8]) {
             entry.address
         );
     }
-    // It still says what it is, and takes a save that comes back.
+    // Its identity is unchanged, and a save is loaded again.
     send(&mut bus, &SAVE);
     let before: Vec<_> = kept(&mut bus, &entries);
     bus.with(0, VirtualDevice::power_off);

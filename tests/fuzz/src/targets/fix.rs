@@ -1,5 +1,5 @@
-//! Fixes: they end, never add an error, leave nothing for a second run, and safe ones do not
-//! change what a file says.
+//! Fixes: they end, never add an error, leave nothing to fix for a second run, and safe ones do not
+//! change the meaning of a file.
 
 use od_eds::Document;
 use od_eds::fix::{Applicability, fix};

@@ -1,5 +1,5 @@
-//! Lessons: every text is read or refused with lines in it, and what is read sets up a bench,
-//! asks for something, and judges any answer.
+//! Lessons: every text is read, or refused with line numbers; a valid lesson sets up a bench,
+//! asks questions, and judges any answer.
 
 use od_bench::lesson::{Lesson, Progress, pass};
 

@@ -1,5 +1,5 @@
-//! Logs of other tools: candump, ASC, TRC, pcap, pcapng. What is read is in the order of time,
-//! and written in any format it reads the same.
+//! Logs of other tools: candump, ASC, TRC, pcap, pcapng. Records are read in the order of time,
+//! and a log written in any format reads the same.
 
 use od_bench::logs::{Format, Log, Record, What, read};
 use od_runtime::{CanId, Frame, Instant};
@@ -111,7 +111,7 @@ fn run(input: &[u8]) {
         let is_there = (1..=lines).contains(&problem.line);
         assert!(is_there && !problem.why.is_empty(), "{problem}");
     }
-    // The readers of TRC and pcapng compute with 53 bits.
+    // The readers of TRC and pcapng use 53 bits.
     let last = log.records.last().map_or(0, |record| record.at.as_micros());
     if last > 1_000_000 << 31 {
         return;
@@ -120,7 +120,7 @@ fn run(input: &[u8]) {
         let bytes = format.write(&log.records);
         let shown = || String::from_utf8_lossy(&bytes).into_owned();
         if log.records.is_empty() {
-            // A log without a record does not show what it is.
+            // The format of a log without a record cannot be recognised.
             let _ = read(&bytes);
             continue;
         }
@@ -131,7 +131,7 @@ fn run(input: &[u8]) {
     }
 }
 
-/// The records as a format keeps them: candump and pcapng have no direction.
+/// The records that a format can keep: candump and pcapng have no direction.
 fn kept(format: Format, log: &Log) -> Vec<Record> {
     let has_direction = !matches!(format, Format::Candump | Format::Pcapng);
     let kept = log.records.iter().map(|record| Record {

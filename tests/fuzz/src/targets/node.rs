@@ -1,5 +1,5 @@
 //! A whole device: frames, time, power, shaft, switches and faults in any order. It never
-//! panics, never floods the bus, keeps silent when it is stopped, and is itself again after it
+//! panics, never floods the bus, sends nothing in Stopped that is not allowed, and works again after it
 //! was repaired and power-cycled.
 
 use od_bench::{Bus, VirtualDevice};
@@ -42,8 +42,8 @@ fn run(input: &[u8]) {
     recovers(&mut bus, &faults);
 }
 
-/// Does with a device what the steps of an input say; its first step names the device, and does not
-/// count here.
+/// Carries out the steps of an input on a device; the first step selects the device and is
+/// not counted.
 pub fn play(input: &[u8], device: VirtualDevice) -> Bus {
     let entries = device.dictionary().entries().collect::<Vec<_>>();
     let faults: Vec<&str> = device.faults();
@@ -82,17 +82,17 @@ pub fn play(input: &[u8], device: VirtualDevice) -> Bus {
                 }
             }
         }
-        // What the world outside caused is not the answer to the next frame.
+        // Frames caused by inputs of the application are not the response to the next frame.
         quiet(&mut bus, None, before);
         let device = &bus.devices()[0];
-        // Whatever is shown has to be there at any moment.
+        // The visible state must exist at any moment.
         let _ = (device.leds(), device.shaft(bus.now()), device.bit_rate());
     }
     bus
 }
 
-/// One frame, or one change outside, is answered with a few frames; in the state Stopped with
-/// none of SDO, PDO or EMCY.
+/// One frame or input is followed by a few frames; in Stopped by
+/// no SDO, PDO or EMCY.
 fn quiet(bus: &mut Bus, frame: Option<&Frame>, before: State) {
     let after = bus.devices()[0].state();
     let cause = || frame.map_or("a change outside".to_string(), Frame::to_string);
@@ -110,7 +110,7 @@ fn quiet(bus: &mut Bus, frame: Option<&Frame>, before: State) {
             );
         }
     }
-    // A block of 127 segments is the longest answer there is.
+    // A block of 127 segments is the longest response.
     assert!(count <= 140, "{count} answers to {}", cause());
 }
 
@@ -154,7 +154,7 @@ fn recovers(bus: &mut Bus, faults: &[&str]) {
         boots += usize::from(sent.frame == boot);
     }
     let state = bus.devices()[0].state();
-    // Without a node ID it waits for LSS; a node that starts without a master is operational.
+    // Without a node ID it waits for LSS; a node that starts without a master is Operational.
     if state == State::Initialising {
         return;
     }
@@ -162,7 +162,7 @@ fn recovers(bus: &mut Bus, faults: &[&str]) {
         boots, 1,
         "boot-up messages of node {node} after a power cycle, {state}"
     );
-    // What a master saved may put the device into any state at its start; ask in this one.
+    // Saved values may put the device into any state at its start; the test requests this one.
     bus.receive(&Frame::standard(0, &[0x80, node as u8]));
     while bus.poll().is_some() {}
     bus.receive(&Frame::standard(

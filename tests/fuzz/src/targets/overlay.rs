@@ -1,5 +1,5 @@
-//! An EDS and an overlay: what one makes of the other is read as any EDS, every finding has its
-//! place in one of the two files, and what cannot be laid over has a line of the overlay.
+//! An EDS and an overlay: the result is read like any EDS, every finding has a
+//! place in one of the two files, and an invalid line of the overlay is reported.
 
 use od_eds::{Origin, Place};
 
@@ -7,7 +7,7 @@ use super::eds;
 use crate::files::files;
 use crate::target::Target;
 
-/// Between the two files of an input.
+/// Separates the two files of an input.
 const SEAM: &str = "\n%%\n";
 
 pub(super) const TARGET: Target = Target {
@@ -18,7 +18,7 @@ pub(super) const TARGET: Target = Target {
         assert!(overlays.len() > 2, "where are the overlays?");
         let bases = eds::seeds();
         let pairs = bases.iter().enumerate().map(|(at, base)| {
-            // The own one, another's, or a whole EDS.
+            // Its own overlay, that of another file, or a whole EDS.
             let over = overlays.get(at % (overlays.len() + 1)).unwrap_or(base);
             [base, SEAM.as_bytes(), over].concat()
         });

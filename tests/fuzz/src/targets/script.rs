@@ -1,5 +1,5 @@
-//! Scripts of `odkit run`: every text is read or refused with a place in it, and what is read
-//! runs to its end or to a line that says why not.
+//! Scripts of `odkit run`: every text is read, or refused with a place in it, and a valid script
+//! runs to its end or to a line with an error.
 
 use od_bench::VirtualDevice;
 use od_bench::script::{Bare, Host, Origin, Script, run as run_script};
@@ -70,7 +70,7 @@ pub(super) const WORDS: &[&str] = &[
     "18446744073709551615",
 ];
 
-/// The built-in devices, and an end to what only takes long.
+/// The built-in devices, and limits for slow scripts.
 pub(super) struct Bounded(pub(super) u32);
 
 impl Host for Bounded {
@@ -118,7 +118,7 @@ fn run(input: &[u8]) {
     }
 }
 
-/// Hours of a simulated bus are minutes of ours.
+/// Hours of a simulated bus take minutes.
 pub(super) fn is_short(text: &str) -> bool {
     let words = text.split([' ', '\n', '\t', '(', ')', '\r']);
     words.into_iter().all(|word| {

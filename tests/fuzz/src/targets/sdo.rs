@@ -1,5 +1,5 @@
-//! The SDO server against any sequence of frames: it answers what it must and nothing else, and
-//! what it acknowledged is what is read.
+//! The SDO server with any sequence of frames: it sends the required responses and no others, and
+//! a confirmed value is read back.
 
 mod changes;
 mod input;

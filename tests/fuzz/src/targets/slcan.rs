@@ -1,4 +1,4 @@
-//! slcan: what comes in pieces means the same, and every frame goes out as it came in.
+//! slcan: the same bytes in several parts mean the same, and every frame is written as it was read.
 
 use od_bench::links::{Codec, Step, slcan};
 use od_runtime::Instant;

@@ -1,5 +1,5 @@
-//! socketcand: what comes in pieces means the same, time cannot make it loop, and every frame
-//! goes out as it came in.
+//! socketcand: the same bytes in several parts mean the same, no time value causes a loop, and every frame
+//! is written as it was read.
 
 use od_bench::links::socketcand::Session;
 use od_bench::links::{Codec, Step};

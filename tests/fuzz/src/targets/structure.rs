@@ -1,5 +1,5 @@
-//! A made device from end to end: EDS, description, tables, node, frames. What the EDS says is
-//! what the master reads, writes and gets in PDOs; a damaged EDS only must not do harm.
+//! A made device from end to end: EDS, description, tables, node, frames. The content of the EDS is
+//! what a master reads, writes and receives in PDOs; a damaged EDS must only do no harm.
 
 use od_bench::{Bus, EdsOptions, VirtualDevice};
 use od_eds::{Finding, Tables};
@@ -59,7 +59,7 @@ fn run(input: &[u8]) {
     }
 }
 
-/// Takes a line away, or writes one twice, or another number in it.
+/// Removes a line, or repeats it, or replaces a number in it.
 fn damage(text: &mut String, choices: &mut Choices<'_>) {
     let mut lines: Vec<&str> = text.lines().collect();
     let at = choices.below(lines.len());
@@ -79,7 +79,7 @@ fn damage(text: &mut String, choices: &mut Choices<'_>) {
     *text = lines.join("\n");
 }
 
-/// The rows that the macro writes into a binary are read there as the same tables.
+/// The rows that the macro writes into a binary are read back as the same tables.
 fn rows(tables: &Tables) {
     let dictionary = tables.dictionary();
     for (row, entry) in tables.parts().0.iter().zip(dictionary.entries()) {
@@ -92,7 +92,7 @@ fn rows(tables: &Tables) {
     }
 }
 
-/// A master and the only device on its bus.
+/// A master, and the only device on its bus.
 struct Master(Bus);
 
 impl Master {
@@ -104,7 +104,7 @@ impl Master {
         Self(bus)
     }
 
-    /// The answers to a frame.
+    /// The responses to a frame.
     fn send(&mut self, id: u16, data: &[u8]) -> Vec<Frame> {
         let mut bytes = [0; 8];
         bytes[..data.len()].copy_from_slice(data);
@@ -184,7 +184,7 @@ impl Master {
         }
     }
 
-    /// Everything that the description promises.
+    /// Checks everything that the description promises.
     fn check(&mut self, made: &Device, choices: &mut Choices<'_>) {
         let mut values: Vec<Vec<u8>> = Vec::new();
         for one in &made.values {
@@ -251,7 +251,7 @@ impl Master {
         self.check_read(one, value);
     }
 
-    /// Reads and writes what there is.
+    /// Reads and writes all objects.
     fn look_around(&mut self) {
         let entries = self.0.devices()[0]
             .dictionary()

@@ -1,4 +1,4 @@
-//! XDD and XDC text: it is read whatever it is, and written as XDD or as EDS it reads the same.
+//! XDD and XDC text: any text is read, and reads the same after it was written as XDD or EDS.
 
 use od_eds::Tables;
 
@@ -12,7 +12,7 @@ pub(super) const TARGET: Target = Target {
     seeds: || {
         let mut seeds = files("tests/cases", &["input.xdd"], 16_384);
         seeds.extend(files("od-eds/cases", &[".xdd"], 16_384));
-        // The project has few of its own; those that it makes of an EDS are others.
+        // The project has few; others are made from EDS files.
         seeds.extend(eds::seeds().iter().map(|bytes| {
             let parsed = od_eds::parse(&od_eds::decode(bytes));
             od_eds::xdd::write(&parsed.description).into_bytes()

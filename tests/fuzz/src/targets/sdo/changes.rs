@@ -1,4 +1,4 @@
-//! Objects that may change: by a frame other than an SDO request, and together with others.
+//! Objects that may change: by a frame that is not an SDO request, and together with others.
 
 use od_bench::VirtualDevice;
 use od_runtime::Frame;
@@ -6,7 +6,7 @@ use od_wire::lss;
 
 use super::input::COUPLED;
 
-/// The objects, and those that move with them.
+/// The objects, and those that change with them.
 pub(super) fn coupled(objects: &[u16]) -> Vec<u16> {
     let is_touched = |group: &&&[u16]| objects.iter().any(|index| group.contains(index));
     let others = COUPLED.iter().filter(is_touched);
@@ -25,7 +25,7 @@ const RPDOS: u16 = 16;
 pub(super) fn by_frame(device: &VirtualDevice, frame: &Frame) -> Option<Vec<u16>> {
     let id = frame.id().as_standard()?;
     if id == lss::MASTER {
-        // What it stores are the node ID and the bit rate, wherever they have an object.
+        // It stores the node ID and the bit rate, in the objects that contain them.
         let stores = frame.data().first() == Some(&LSS_STORE);
         return Some(if stores { vec![0x2100, 0x2101] } else { vec![] });
     }
@@ -34,7 +34,7 @@ pub(super) fn by_frame(device: &VirtualDevice, frame: &Frame) -> Option<Vec<u16>
     }
     let stored = |index: u16, sub: u8| device.stored(index, sub);
     let is_sync = stored(0x1005, 0).is_some_and(|value| value & 0x7FF == u64::from(id));
-    // An RPDO changes what it maps; a synchronous one does so with the next SYNC.
+    // An RPDO changes its mapped objects; a synchronous one does so with the next SYNC.
     let rpdos = (0..RPDOS).filter(|number| {
         stored(0x1400 + number, 1).is_some_and(|cob_id| {
             cob_id & 0x8000_0000 == 0 && (is_sync || cob_id & 0x7FF == u64::from(id))

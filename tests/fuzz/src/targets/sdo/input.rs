@@ -1,14 +1,14 @@
-//! The frames to send, and the objects that change without a write.
+//! The frames to send, and the objects that change without a download.
 
 use super::super::bench::{self, STEP};
 use crate::random::Random;
 
-/// Steps of an input: a device lives so long.
+/// Maximum number of steps of a device.
 const STEPS: usize = 2000;
 
-/// A device, and what happens to it.
+/// A device and its events.
 pub(super) fn make(random: &mut Random) -> Vec<u8> {
-    // One of each manual most of the time, the others, and files now and then.
+    // Mostly one device of each manual, sometimes the others or files.
     let device = match random.below(8) {
         0 | 1 => bench::number_of("gxmm"),
         2 | 3 => bench::number_of("eam_mt"),
@@ -25,7 +25,7 @@ pub(super) fn make(random: &mut Random) -> Vec<u8> {
             bytes[0], bytes[1], bytes[2], bytes[3], bytes[4], more[0], more[1], more[2], more[3],
             more[4],
         ];
-        // The world outside belongs to another target; here it only spoils the comparison.
+        // Inputs of the application belong to another target; here they would only prevent the comparison.
         if step[0] % 40 >= 35 {
             step[0] = 31;
         }
@@ -34,13 +34,13 @@ pub(super) fn make(random: &mut Random) -> Vec<u8> {
     input
 }
 
-/// Objects whose value is not what was last written, by nature.
+/// Objects whose value need not be the last written one.
 pub(super) const LIVE: &[u16] = &[
     0x1001, 0x1003, 0x1010, 0x1011, 0x2116, 0x2117, 0x2120, 0x2122, 0x2201, 0x2A00, 0x2A01, 0x6004,
     0x600C, 0x6030, 0x6040, 0x6503, 0x6504, 0x6505, 0x6506, 0x6508,
 ];
 
-/// Objects of which one moves the others.
+/// Objects that change each other.
 pub(super) const COUPLED: &[&[u16]] = &[
     // Scaling, ranges, gear, preset and offset.
     &[
@@ -49,7 +49,7 @@ pub(super) const COUPLED: &[&[u16]] = &[
     ],
     // The event timer and its mirror, with the 2 ms of 2110h bit 8.
     &[0x1800, 0x2110, 0x6200],
-    // Node ID and bit rate, which other objects may follow.
+    // Node ID and bit rate, on which other objects may depend.
     &[0x2100, 0x2101],
     // A mapping and its length.
     &[0x1A00],

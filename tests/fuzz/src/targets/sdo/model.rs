@@ -1,8 +1,8 @@
-//! The shadow dictionary that goes along.
+//! A model of the dictionary.
 //!
-//! It learns a value from an acknowledged download, and from a reset or a restore, which
-//! take values back; besides that, no frame may change anything but the objects that the
-//! manual couples with the one that was written.
+//! It learns a value from a confirmed download, and from a reset or a restore, which
+//! reset values; no other frame may change anything except the objects that the
+//! manual links with the written one.
 
 use std::collections::{BTreeMap, VecDeque};
 
@@ -17,25 +17,25 @@ use super::input::LIVE;
 use crate::harness::trace;
 use crate::target::Enough;
 
-/// An upload in segments that is under way.
+/// A segmented upload in progress.
 #[derive(Default)]
 struct Upload {
     address: Option<Address>,
     bytes: Vec<u8>,
 }
 
-/// A download in segments that is under way.
+/// A segmented download in progress.
 struct Download {
     address: Address,
     bytes: Vec<u8>,
 }
 
-/// A write to 1010h.
+/// A download to 1010h.
 fn is_save(request: &[u8; 8]) -> bool {
     request[1..3] == [0x10, 0x10] && request[0] >> 5 == 1
 }
 
-/// The device, and what it has to answer.
+/// The device, and its expected responses.
 pub(super) struct Model {
     bus: Bus,
     pub(super) entries: Vec<Entry>,
@@ -44,13 +44,13 @@ pub(super) struct Model {
     download: Option<Download>,
     /// The download that a block transfer is about.
     block: Option<Address>,
-    /// Requests that an answer may still come for, oldest first.
+    /// Requests that may still get a response, oldest first.
     requests: VecDeque<[u8; 8]>,
-    /// A save takes its time; until its end answers come later than their requests.
+    /// A save takes time; until its end responses are later than their requests.
     is_saving: bool,
     /// The first of the requests is that of the save, not one that waits for its end.
     is_awaited: bool,
-    /// Segments of a block that may still come.
+    /// Segments of a block that may still be sent.
     segments: u32,
     block_upload: bool,
     min_dlc: u8,
@@ -114,7 +114,7 @@ impl Model {
     pub(super) fn send(&mut self, frame: &Frame) {
         let own = Frame::standard(0x600 + u16::from(self.node()), &[]).id();
         let talks = matches!(self.state(), State::PreOperational | State::Operational);
-        // While a block comes in, every command but 80h is one of its segments.
+        // During a block download every command except 80h is a segment.
         let is_abort = match self.block {
             Some(_) if !self.is_saving => frame.bytes()[0] == 0x80,
             _ => frame.bytes()[0] >> 5 == 4,
@@ -123,7 +123,7 @@ impl Model {
             frame.id() == own && !frame.is_remote() && frame.dlc() >= self.min_dlc && talks;
         let is_request = is_heard && !is_abort;
         if is_request {
-            // While a device saves, the newest request waits in place of the one before.
+            // While a device saves, the newest request replaces the waiting one.
             self.requests.truncate(usize::from(self.is_awaited));
             self.requests.push_back(*frame.bytes());
             self.segments = if frame.bytes()[0] >> 5 == 5 { 127 } else { 0 };
@@ -148,7 +148,7 @@ impl Model {
         }
     }
 
-    /// No transfer is under way.
+    /// No transfer is in progress.
     fn forget(&mut self) {
         self.upload = Upload::default();
         self.download = None;
@@ -164,7 +164,7 @@ impl Model {
         match saves {
             0 => {}
             1 => self.settle(),
-            // The one that waited has ended, too.
+            // The waiting request has ended, too.
             _ => {
                 self.requests.clear();
                 self.settle();
@@ -172,7 +172,7 @@ impl Model {
         }
     }
 
-    /// No save is under way, but what was not answered may have begun one.
+    /// No save is in progress, but a request without a response may have started one.
     fn settle(&mut self) {
         self.is_saving = self.requests.back().is_some_and(is_save);
         self.is_awaited = self.is_saving;
@@ -181,7 +181,7 @@ impl Model {
         }
     }
 
-    /// Looks at everything that was sent.
+    /// Checks all sent frames.
     fn answers(&mut self, may_answer: bool, cause: &str) {
         let mut count = 0;
         while let Some(sent) = self.bus.poll() {
@@ -200,14 +200,14 @@ impl Model {
         }
     }
 
-    /// The request that this answers. Those before it were given up for it.
+    /// The request of this response. Earlier requests were given up for it.
     fn take_request(&mut self, answer: &[u8; 8], cause: &str) -> [u8; 8] {
         let about = |request: &[u8; 8]| request[1..4] == answer[1..4];
         let fits = |request: &[u8; 8]| match (answer[0], request[0] >> 5) {
             (0x80, _) => true,
             (0x40..=0x4F, 2) | (0x60, 1) => about(request),
             (0x00..=0x1F, 3) | (0x20 | 0x30, 0) => true,
-            // A segment of a block may look like any request.
+            // A segment of a block may have the bytes of any request.
             (0xA0..=0xDF, _) => true,
             _ => false,
         };
@@ -219,8 +219,8 @@ impl Model {
         request
     }
 
-    /// A master may give a PDO or EMCY the identifier of the answers; from then on nobody can
-    /// tell them apart, and the input is over.
+    /// A master may give a PDO or EMCY the CAN-ID of the responses; from then on they cannot be
+    /// distinguished, and the input ends.
     fn check_identifiers(&self) {
         let device = &self.bus.devices()[0];
         let own = 0x580 + u64::from(device.node_id().raw());
@@ -237,7 +237,7 @@ impl Model {
     }
 
     fn answer(&mut self, data: [u8; 8], cause: &str) {
-        // Segments of a block may look like anything.
+        // Segments of a block may have any bytes.
         let asks_for_block = |request: &[u8; 8]| request[0] >> 5 == 5 && request[0] & 2 != 0;
         if self.block_upload && self.requests.back().is_some_and(asks_for_block) {
             assert!(
@@ -330,11 +330,11 @@ impl Model {
         }
     }
 
-    /// A download was acknowledged: the object has that value now, and the others theirs.
+    /// A download was confirmed: the object has this value now, and linked objects have theirs.
     fn wrote(&mut self, address: Address, bytes: Option<&[u8]>) {
         self.check_identifiers();
         let now = self.read(address);
-        // With the gear on, resolution and range follow from it: a write is accepted without effect
+        // With the gear on, resolution and range are computed: a download is accepted without effect
         // (MANUALS.md U-14).
         let gear = Address::new(0x2001, 1);
         let default = self.entries.iter().find(|entry| entry.address == gear);
@@ -349,7 +349,7 @@ impl Model {
                 "{address} was acknowledged and is something else"
             );
         }
-        // What was held back while the device saved may have been done by now, too.
+        // Requests that were held back during the save may have been carried out now.
         let held = self.requests.iter();
         let held = held.map(|data| u16::from_le_bytes([data[1], data[2]]));
         let written: Vec<u16> = held.chain([address.index]).collect();
@@ -359,7 +359,7 @@ impl Model {
         );
     }
 
-    /// Nothing but these objects may have changed.
+    /// Only these objects may have changed.
     pub(super) fn compare(&mut self, cause: &str, but: &[u16]) {
         let known: Vec<Address> = self.shadow.keys().copied().collect();
         for address in known {
@@ -372,7 +372,7 @@ impl Model {
         }
     }
 
-    /// A reset and a restore take values back. Returns how many saves have ended.
+    /// A reset and a restore reset values. Returns the number of saves that have ended.
     fn events(&mut self) -> usize {
         let events = self.bus.with(0, |device, _| {
             std::iter::from_fn(|| device.poll_event()).collect::<Vec<_>>()

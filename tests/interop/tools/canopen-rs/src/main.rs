@@ -1,4 +1,4 @@
-//! Values that canopen-rs reads of files: their names come on standard input, their folder is the argument.
+//! Prints the values that canopen-rs reads from files: their names come on standard input, their folder is the argument.
 
 use canopen_host::eds::Eds;
 use canopen_rs::datatypes::{DataType, Value};
