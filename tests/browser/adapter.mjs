@@ -1,16 +1,16 @@
-// A stand-in for Web Serial: the page's port leads to a terminal, as that of a USB adapter would.
+// A replacement for Web Serial: the page's port is a terminal, like that of a USB adapter.
 import { constants, openSync } from 'node:fs';
 import { ReadStream } from 'node:tty';
 import { opened, URL_OF_PAGE } from './harness.mjs';
 
-/** A terminal, byte by byte, as a browser opens it. */
+/** A terminal, read and written in bytes, as a browser opens it. */
 const terminal = (path) => new ReadStream(openSync(path, constants.O_RDWR | constants.O_NOCTTY)).setRawMode(true);
 
-/** Opens the page with an adapter; `plug` leads its port to a terminal, or to nobody, `pull` pulls it out. */
+/** Opens the page with an adapter; `plug` connects its port to a terminal or to none, `pull` unplugs it. */
 export async function withAdapter(browser) {
   const context = await browser.newContext({ viewport: { width: 1366, height: 625 } });
   const page = await context.newPage();
-  // A test that waits in vain shows what is on it.
+  // A failing test shows the content of the page.
   opened.set(page, []);
   page.on('close', () => opened.delete(page));
   let line = null;
@@ -43,7 +43,7 @@ export async function withAdapter(browser) {
     async plug(path) {
       if (path) {
         line = terminal(path);
-        // A terminal whose other end is gone says so by an error.
+        // A terminal whose other end is closed reports an error.
         line.on('error', () => undefined);
         line.on('data', (bytes) => void page.evaluate((text) => globalThis.fromAdapter(text), bytes.toString('latin1')).catch(() => undefined));
       }

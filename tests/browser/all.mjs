@@ -1,4 +1,4 @@
-// All tests in one process: one browser, and few pages, for all of them.
+// Runs all tests in one process, with one browser and few pages.
 import { readdir } from 'node:fs/promises';
 
 const files = (await readdir(new URL('.', import.meta.url))).filter((name) => name.endsWith('.test.mjs'));

@@ -1,4 +1,4 @@
-// What axe finds in the page: https://github.com/dequelabs/axe-core.
+// Runs axe in the page: https://github.com/dequelabs/axe-core.
 import { readFile } from 'node:fs/promises';
 import { createRequire } from 'node:module';
 import { becomes } from './bench.mjs';
@@ -6,12 +6,12 @@ import { becomes } from './bench.mjs';
 const axe = await readFile(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
 
 async function faults(page, part) {
-  // The page itself may load no script but its own.
+  // The policy of the page allows only its own scripts.
   if (!(await page.evaluate(() => 'axe' in globalThis))) await page.evaluate(axe);
   // What holds needs no address.
   const { violations } = await page.evaluate((part) => globalThis.axe.run(part, { resultTypes: ['violations'] }), part);
   return violations.map((one) => `${one.id}: ${one.nodes.map((node) => node.target).join(', ')}`);
 }
 
-/** What axe finds in the page, or in a part of it, where the rest was looked at before. */
+/** The findings of axe in the page, or in a part of it if the rest was checked before. */
 export const flawless = (page, where, part = 'html') => becomes(`what axe finds: ${where}`, () => faults(page, part), []);

@@ -1,12 +1,12 @@
-// What the tests do over and over, in the words of a person at the page.
+// Common steps of the tests, named as a user would name them.
 import assert from 'node:assert/strict';
 import { inspect, isDeepStrictEqual } from 'node:util';
 import { opened } from './harness.mjs';
 
-/** Milliseconds that a machine with other work may take. */
+/** Milliseconds that a busy machine may need. */
 const PATIENCE = 60_000;
 
-/** The errors and the content of the open pages, for a test that waited in vain. */
+/** The errors and the content of the open pages, for a failing test. */
 async function seen() {
   const looks = [...opened].map(async ([page, faults]) => {
     const looked = page.evaluate(() => `${document.visibilityState}: ${document.body.innerText.replaceAll(/\s+/g, ' ').slice(0, 3000)}`).catch(String);
@@ -16,7 +16,7 @@ async function seen() {
   return (await Promise.all(looks)).join('');
 }
 
-/** Waits until `holds` accepts what `probe` answers, and answers with that; `fail` gets the last one, and what is seen. */
+/** Waits until `holds` accepts the result of `probe`, and returns it; `fail` gets the last result and the content of the pages. */
 async function poll(probe, holds, fail) {
   const end = Date.now() + PATIENCE;
   for (;;) {
@@ -27,16 +27,16 @@ async function poll(probe, holds, fail) {
   }
 }
 
-/** Waits until `probe` answers with something true; says what was expected if it never does. */
+/** Waits until `probe` returns a true value; otherwise fails with the expectation. */
 export const until = (what, probe) => poll(probe, Boolean, (_, there) => assert.fail(`expected ${what}${there}`));
 
-/** Waits until `probe` answers `expected`, or a text that fits this pattern: what an action leads to comes later. */
+/** Waits until `probe` returns `expected`, or a text that matches this pattern. */
 export function becomes(what, probe, expected) {
   if (expected instanceof RegExp) return poll(probe, (value) => expected.test(value), (value, there) => assert.match(value, expected, `${what}: ${value}${there}`));
   return poll(probe, (value) => isDeepStrictEqual(value, expected), (value, there) => assert.deepEqual(value, expected, `${what}: ${inspect(value)}${there}`));
 }
 
-/** Waits until `probe` answers the same for so many milliseconds of the bench's time; answers with that. */
+/** Waits until `probe` returns the same value for this time of the bench in milliseconds; returns it. */
 export async function stays(page, what, probe, milliseconds) {
   let since = await clock(page);
   let value = await probe();
@@ -52,19 +52,19 @@ export async function stays(page, what, probe, milliseconds) {
   ).then((found) => found.value);
 }
 
-/** The bench's time in milliseconds. */
+/** Virtual time in milliseconds. */
 export async function clock(page) {
   const text = await page.getByRole('timer').textContent();
   return Math.round(text.split(':').reduce((sum, part) => sum * 60 + Number(part), 0) * 1000);
 }
 
-/** Waits until so many milliseconds of the bench's time have passed. */
+/** Waits until this much virtual time has passed, in milliseconds. */
 export async function pass(page, milliseconds) {
   const from = await clock(page);
   await until(`${milliseconds} ms to pass`, async () => (await clock(page)) - from >= milliseconds);
 }
 
-/** Stops time. Pictures that are under way still come, so it is stopped when the clock has not moved for half a second. */
+/** Pauses time. Snapshots in transit still arrive, so time counts as paused when the clock has not changed for half a second. */
 export async function stopTime(page) {
   await page.getByRole('button', { name: 'Pause time' }).click();
   let [at, since] = [-1, 0];
@@ -76,7 +76,7 @@ export async function stopTime(page) {
   await page.getByRole('button', { name: 'Run time' }).waitFor();
 }
 
-/** The rows on screen, oldest first. */
+/** The visible rows, oldest first. */
 export const rows = (page) =>
   page.$$eval('.frame:not([hidden])', (elements) =>
     elements
@@ -95,7 +95,7 @@ export const rows = (page) =>
       .sort((a, b) => a.number - b.number),
   );
 
-/** Waits for a row; answers with it. */
+/** Waits for a row, and returns it. */
 export const row = (page, what, test) => until(`a row in the console: ${what}`, async () => (await rows(page)).find(test));
 
 export const booted = (page) => row(page, 'the boot-up of node 1', (one) => one.id === '701' && one.data === '00');
@@ -110,7 +110,7 @@ export const nmt = (page, name) => page.getByRole('button', { name: `NMT ${name}
 
 export const state = (page) => page.getByLabel('NMT state').textContent();
 
-/** The number in a readout, without its thin spaces. */
+/** The number in a display, without its thin spaces. */
 export async function number(page, label) {
   const text = await page.getByLabel(label, { exact: true }).textContent();
   return Number(text.replace(/[\s\u2007\u2009°]/g, ''));

@@ -26,7 +26,7 @@ type Pairs = Vec<(String, String)>;
 
 /// A section as it is written.
 struct Chunk {
-    /// Its first line, counted from 1, and the one behind its last.
+    /// Its first line, counted from 1, and the line after its last.
     lines: std::ops::Range<u32>,
     text: String,
 }
@@ -66,7 +66,7 @@ fn rust_ini_reads_the_same_in_the_corpus() {
 }
 
 #[test]
-fn rust_ini_reads_the_same_of_all_kinds_of_lines() {
+fn rust_ini_reads_all_kinds_of_lines_equally() {
     let plain = [
         "[a]",
         "[]",
@@ -116,7 +116,7 @@ fn compare(name: &str, text: &str, sums: &mut Sums) {
         return;
     }
     let chunks = chunks(text);
-    // No section of this name describes an object, so a description keeps all of it.
+    // No section of this name describes an object, so a description keeps it completely.
     let marked: Vec<&str> = chunks.iter().map(|chunk| chunk.text.as_str()).collect();
     let parsed = parse(&marked.concat());
     let mut ours: BTreeMap<u32, (String, Pairs)> = BTreeMap::new();
@@ -147,7 +147,7 @@ fn compare(name: &str, text: &str, sums: &mut Sums) {
     }
 }
 
-/// The sections of a text, each with a mark in its name. What is before the first comes first.
+/// The sections of a text, each with a prefix in its name; the lines before the first section come first.
 fn chunks(text: &str) -> Vec<Chunk> {
     let text = text.replace("\r\n", "\n").replace('\r', "\n");
     let mut chunks = Vec::new();
@@ -176,9 +176,9 @@ fn chunks(text: &str) -> Vec<Chunk> {
     chunks
 }
 
-/// The section as rust-ini reads it; `None` without one.
+/// The section as rust-ini reads it; `None` if it does not exist.
 fn by_rust_ini(text: &str) -> Result<Option<(String, Pairs)>, String> {
-    // Quotes and backslashes mean nothing in an EDS.
+    // Quotes and backslashes have no meaning in an EDS.
     let option = ParseOption {
         enabled_quote: false,
         enabled_escape: false,

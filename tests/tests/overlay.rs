@@ -1,4 +1,4 @@
-//! A device of an EDS and an overlay, made by the macro, is what the two give at run time.
+//! A device of an EDS and an overlay that the macro makes equals the one made at run time.
 
 use od_eds::Tables;
 use odkit::object_dictionary;

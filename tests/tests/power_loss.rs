@@ -1,7 +1,7 @@
-//! Power goes at every byte of a save, on every device, and in every step of one on NOR flash: the
-//! next start has the values that its manual promises, all of them, and never a mixture.
+//! Power is cut at every byte of a save, on every device, and in every step of one on NOR flash: the
+//! next start has all values that the manual promises, and never a mixture.
 //!
-//! GX keeps the last complete set; EAM and EN580C say that a cut save gives the factory values
+//! GX keeps the last complete set; on EAM and EN580C a cut save gives the factory values
 //! (MANUALS.md U-33).
 
 use std::sync::{Arc, Mutex, PoisonError};
@@ -77,7 +77,7 @@ impl Bench {
         while self.bus.poll().is_some() {}
     }
 
-    /// The values that a master can save.
+    /// The values that 1010h saves.
     fn values(&mut self) -> Values {
         let entries = self.kind.dictionary.entries().iter();
         let saved = entries.filter(|entry| entry.access.writable() && entry.group != Group::None);
@@ -106,7 +106,7 @@ impl Bench {
         self.wait(1);
     }
 
-    /// Values all over the dictionary, that depend on `with`.
+    /// Values for the whole dictionary that depend on `with`.
     fn change(&mut self, with: u32) {
         self.write(0x1017, 0, 100 + with);
         self.write(0x1800, 2, 1 + with);
@@ -120,7 +120,7 @@ impl Bench {
         self.wait(10);
     }
 
-    /// Saves all groups, and takes as long as the slowest family needs.
+    /// Saves all groups, and waits as long as the slowest family needs.
     fn save(&mut self) {
         self.send(0x23, 0x1010, 1, u32::from_le_bytes(*b"save"));
         self.wait(1500);
@@ -137,7 +137,7 @@ fn difference(a: &Values, b: &Values) -> Vec<Address> {
     pairs.map(|(a, _)| a.0).collect()
 }
 
-/// A memory whose power is cut in the step behind this number of others.
+/// A memory whose power is cut in the step after this number of steps.
 trait Cut: Storage + Clone + Send + 'static {
     fn cut_after(&mut self, steps: usize);
     fn is_cut(&self) -> bool;
@@ -175,7 +175,7 @@ impl Cut for Nor {
 fn cut_everywhere<S: Cut>(kind: &'static DeviceKind, erased: S, least: usize) {
     let name = kind.name;
     let factory = values_of(kind, erased.clone());
-    // A device that has been saved once before.
+    // A device that has already been saved once.
     let (mut bench, memory) = Bench::start(kind, erased);
     bench.change(1);
     bench.save();
@@ -215,7 +215,7 @@ fn cut_everywhere<S: Cut>(kind: &'static DeviceKind, erased: S, least: usize) {
             break;
         }
         cuts += 1;
-        // Before its first step a save has not begun, and behind its last one it is complete.
+        // Before its first step a save has not begun, and after its last one it is complete.
         let untouched = cut == 0 && now == before;
         let complete = now == after;
         assert!(
@@ -231,7 +231,7 @@ fn cut_everywhere<S: Cut>(kind: &'static DeviceKind, erased: S, least: usize) {
 }
 
 #[test]
-fn power_can_go_at_any_byte_or_word_of_a_save() {
+fn a_power_cut_at_any_byte_or_word_of_a_save() {
     std::thread::scope(|scope| {
         for kind in DEVICES {
             let thread = std::thread::Builder::new().name(kind.name.into());

@@ -1,4 +1,4 @@
-//! The tables of docs/RULES.md and docs/CIA.md are what the scripts say of themselves.
+//! The tables of docs/RULES.md and docs/CIA.md agree with the first lines of the scripts.
 //!
 //! `ODKIT_ACCEPT=1 cargo test -p od-tests --test rules` writes them again.
 

@@ -1,4 +1,4 @@
-//! docs/RULES-EDS.md is what the catalogue says.
+//! docs/RULES-EDS.md agrees with the catalogue of rules.
 //!
 //! `ODKIT_ACCEPT=1 cargo test -p od-tests --test rules_eds` writes it again.
 
@@ -77,7 +77,7 @@ fn the_page_is_current() {
 }
 
 #[test]
-fn every_rule_has_its_place() {
+fn every_rule_is_on_the_page() {
     for rule in RULES {
         assert!(
             FOLDERS
@@ -90,7 +90,7 @@ fn every_rule_has_its_place() {
     assert!(RULES.len() >= 60);
 }
 
-/// The page about other tools names each of them, and each of their rules.
+/// The page about other tools contains each of them, and each of their rules.
 #[test]
 fn the_page_about_tools_is_complete() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/COMPATIBILITY.md");
