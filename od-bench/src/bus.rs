@@ -1,6 +1,5 @@
 //! Several devices on one bus, in virtual time.
 
-mod copy;
 mod run;
 mod traffic;
 
@@ -393,5 +392,20 @@ impl Bus {
                 carry.push_back((device, frame));
             }
         }
+    }
+}
+
+impl Bus {
+    /// Returns a copy that goes on as this bus would. `None` if a device [cannot be
+    /// copied](crate::VirtualDevice::copy).
+    pub fn copy(&self) -> Option<Self> {
+        let devices = self.devices.iter().map(|device| device.copy());
+        Some(Self {
+            devices: devices.collect::<Option<Vec<_>>>()?,
+            wiring: self.wiring.clone(),
+            line: self.line.clone(),
+            now: self.now,
+            sent: self.sent.clone(),
+        })
     }
 }

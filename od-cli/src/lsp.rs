@@ -1,17 +1,18 @@
 //! `odkit lsp`: findings, fixes and explanations in an editor, over standard input and output.
 
-use std::io::{self, StdoutLock, Write};
-use std::sync::mpsc::{self, TryRecvError};
-use std::thread;
-
-use od_lsp::Server;
-
-use crate::failure::Failure;
-use disk::Disk;
-use frames::Frame;
-
-mod disk;
 mod frames;
+
+use std::io::{self, StdoutLock, Write};
+use std::path::Path;
+use std::sync::mpsc::{self, TryRecvError};
+use std::{fs, thread};
+
+use od_eds::Finding;
+use od_lsp::{Host, Server};
+
+use crate::config::Config;
+use crate::failure::Failure;
+use frames::Frame;
 
 /// Language server for EDS, DCF and XDD files; an editor starts it (Language Server Protocol 3.17)
 ///
@@ -92,4 +93,31 @@ fn write(server: &mut Server, output: &mut StdoutLock<'_>) -> Result<(), Failure
         output.flush()?;
     }
     Ok(())
+}
+
+/// Reads files from the disk.
+struct Disk;
+
+impl Host for Disk {
+    fn read(&self, path: &str) -> Option<Vec<u8>> {
+        fs::read(path).ok()
+    }
+
+    fn beside(&self, path: &str) -> Vec<String> {
+        let Some(folder) = Path::new(path).parent() else {
+            return Vec::new();
+        };
+        let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+        let mut paths: Vec<String> = entries
+            .map(|entry| entry.path().display().to_string())
+            .collect();
+        paths.sort();
+        paths
+    }
+
+    fn judge(&self, path: &str, findings: &mut Vec<Finding>) -> Result<(), String> {
+        let config = Config::of(path).map_err(|failure| failure.to_string())?;
+        config.apply(path, findings);
+        Ok(())
+    }
 }

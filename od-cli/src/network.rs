@@ -1,6 +1,5 @@
 //! `odkit network`: a project or a node list, its files and its report.
 
-mod content;
 mod nodelist;
 mod project;
 mod table;
@@ -9,16 +8,14 @@ mod yaml;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use od_eds::network::{self, Node};
+use od_eds::network::{self, Master, Node};
 use od_eds::{Description, Document, Finding};
 use od_model::{Visible, is_hidden};
 
 use crate::config::Config;
 use crate::failure::{Failure, read_error};
-use crate::files;
-use crate::output;
 use crate::report::{self, Names};
-use content::Network;
+use crate::{files, output};
 
 /// Check a network: concise DCF of each node, DCF of the master, clashes, bus load
 #[derive(clap::Args)]
@@ -150,4 +147,16 @@ fn load(folder: &Path, name: &str) -> Result<Description, String> {
     } else {
         Ok(description)
     }
+}
+
+/// A network that was read.
+#[derive(Default)]
+struct Network {
+    /// Name; empty if it has none.
+    name: String,
+    /// The master of a project; in a node list the master is a node.
+    master: Option<Master>,
+    /// Bit rate in kbit/s, if the file of a node has one.
+    bit_rate: Option<u32>,
+    nodes: Vec<Node>,
 }

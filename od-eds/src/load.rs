@@ -1,13 +1,14 @@
 //! Reading and checking. Only this file asks if a text is an EDS or XML.
 
+use alloc::vec::Vec;
+
 use crate::allow::Allows;
 use crate::check::run;
 use crate::description::Description;
 use crate::document::Document;
 use crate::finding::{Finding, sort};
 use crate::log::Log;
-use crate::read::modules;
-use crate::read::sorted;
+use crate::read::{modules, sorted};
 use crate::rules::lists::W0216;
 use crate::rules::text::{i0111_not_ascii, w0112_encoding};
 use crate::scan::encoding::Encoding;
@@ -15,7 +16,6 @@ use crate::scan::lines;
 use crate::scan::placed::Placed;
 #[cfg(feature = "xdd")]
 use crate::xdd;
-use alloc::vec::Vec;
 
 /// Returns if a text is XML, so an XDD or an XDC, not an EDS.
 pub fn is_xml(text: &str) -> bool {

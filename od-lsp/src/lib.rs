@@ -15,7 +15,6 @@
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
 mod cob_ids;
-mod edits;
 mod features;
 mod file;
 mod host;

@@ -1,11 +1,10 @@
 //! Lessons and scripts on a rig.
 
-use od_model::Refused;
 use std::prelude::v1::*;
 
+use od_model::Refused;
 use od_wire::Instant;
 
-use super::taken::Taken;
 use super::{Rig, Seen};
 use crate::bench::Bench;
 use crate::bus::Bus;
@@ -139,4 +138,11 @@ impl Rig {
         let taken = self.taken.as_ref();
         taken.map_or(0, |taken| taken.progress.reached().len())
     }
+}
+
+/// A lesson in progress, and the names that its set-up gave the devices.
+pub(super) struct Taken {
+    pub(super) progress: Progress,
+    /// Without its bus, which is the rig's.
+    pub(super) names: Bench,
 }

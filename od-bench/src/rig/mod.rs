@@ -7,11 +7,7 @@ mod devices;
 #[cfg(feature = "lessons")]
 mod lesson;
 #[cfg(feature = "real")]
-mod port;
-#[cfg(feature = "real")]
 mod real;
-#[cfg(feature = "lessons")]
-mod taken;
 
 use std::collections::VecDeque;
 use std::prelude::v1::*;
@@ -66,10 +62,10 @@ pub struct Rig {
     pub(crate) describes: bool,
     /// The link to a real bus.
     #[cfg(feature = "real")]
-    port: Option<port::Port>,
+    port: Option<real::Port>,
     /// The lesson in progress.
     #[cfg(feature = "lessons")]
-    taken: Option<taken::Taken>,
+    taken: Option<lesson::Taken>,
 }
 
 impl Rig {

@@ -1,12 +1,13 @@
 //! The filter language of the playground's console: `node:5 sdo`, `185:7FF`, `position`, `!hb`,
 //! `(emcy or nmt) tx`. Terms side by side all have to hold; `or` and parentheses do what they say.
 
-mod seen;
 mod term;
 mod tokens;
 
-use self::seen::mistake;
-pub use self::seen::{Mistake, Seen};
+use std::fmt;
+
+use od_wire::Frame;
+
 use self::term::{Term, term};
 use self::tokens::{Token, tokens};
 
@@ -136,6 +137,37 @@ impl<'t> Parser<'t> {
             }),
         }
     }
+}
+
+/// A frame as a filter looks at it.
+#[derive(Clone, Copy, Debug)]
+pub struct Seen<'f> {
+    /// The frame.
+    pub frame: &'f Frame,
+    /// It was sent from here.
+    pub sent: bool,
+    /// Its meaning in words.
+    pub words: &'f str,
+}
+
+/// A mistake in the text of a filter.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Mistake {
+    /// Its place, in bytes from the start.
+    pub at: usize,
+    /// The mistake in words.
+    pub what: String,
+}
+
+impl fmt::Display for Mistake {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} (at character {})", self.what, self.at + 1)
+    }
+}
+
+fn mistake(at: usize, what: impl Into<String>) -> Mistake {
+    let what = what.into();
+    Mistake { at, what }
 }
 
 #[cfg(test)]

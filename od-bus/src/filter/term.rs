@@ -3,7 +3,7 @@
 use od_bench::words::{TAGS, tag};
 use od_model::{Address, values};
 
-use super::seen::{Mistake, Seen, mistake};
+use super::{Mistake, Seen, mistake};
 
 /// A condition for a frame.
 #[derive(Clone, PartialEq, Debug)]

@@ -1,6 +1,6 @@
 //! A filter's text in pieces.
 
-use super::seen::{Mistake, mistake};
+use super::{Mistake, mistake};
 
 /// A piece, and where it begins.
 #[derive(Clone, Copy, Debug)]

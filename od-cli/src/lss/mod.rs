@@ -1,6 +1,5 @@
 //! `odkit lss`: node IDs and bit rates by the layer setting services (CiA 305).
 
-mod said;
 mod wizard;
 
 use od_bus::lss::{Lss, Slaves};
@@ -10,12 +9,12 @@ use od_model::{Address, values};
 use od_runtime::NodeId;
 use serde_json::json;
 
+use crate::bus::names::Names;
 use crate::bus::{self, Bus, Format};
 use crate::failure::Failure;
-use crate::output;
+use crate::output::{self, note};
 use crate::report::plural;
 use crate::source;
-use said::{fits, title};
 
 /// Find, number and set up LSS slaves: node IDs and bit rates
 #[derive(clap::Args)]
@@ -294,4 +293,24 @@ fn say(format: Format, text: &str) -> Result<(), Failure> {
         Format::Text => text.to_owned(),
         Format::Json => format!("{:#}", json!({ "done": true, "message": text })),
     })
+}
+
+/// A slave in one line.
+fn title(one: &Identity, names: &Names) -> String {
+    let known = fits(one, names).map_or(String::new(), |name| format!("  {name}"));
+    format!(
+        "serial number {:<10}  vendor-ID {:X}h, product code {:X}h, revision {:X}h{known}",
+        one.serial, one.vendor, one.product, one.revision
+    )
+}
+
+fn fits<'n>(one: &Identity, names: &'n Names) -> Option<&'n str> {
+    // A file for a node ID does not describe a slave without one.
+    let identity = one.parts().map(Some);
+    names.fitting(None, identity).map(|known| known.name)
+}
+
+/// A line of the wizard.
+fn tell(text: &str) {
+    note!("{text}");
 }

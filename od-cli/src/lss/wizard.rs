@@ -13,7 +13,7 @@ use od_client::lss::Identity;
 use od_runtime::NodeId;
 use serde_json::json;
 
-use super::said::{tell, title};
+use super::{tell, title};
 use crate::bus::{self, Format};
 use crate::failure::Failure;
 use crate::output::{self, Bar};

@@ -4,8 +4,8 @@ use od_model::Address;
 use od_wire::sdo::{Request, Response, Segment};
 use od_wire::{AbortCode, Frame, Instant};
 
+use super::Channel;
 use super::block_download::Blocks;
-use super::channel::Channel;
 use super::error::{Expected, SdoError};
 use super::line::{Line, parse};
 use super::options::Options;

@@ -4,8 +4,8 @@ use od_model::Address;
 use od_wire::sdo::{Request, Response};
 use od_wire::{AbortCode, Frame, Instant};
 
+use super::Channel;
 use super::buffer::Buffer;
-use super::channel::Channel;
 use super::error::{Expected, SdoError};
 use super::options::Options;
 

@@ -4,9 +4,9 @@ use od_model::Address;
 use od_wire::sdo::{Request, Response};
 use od_wire::{AbortCode, Frame, Instant};
 
+use super::Channel;
 use super::block_upload::Blocks;
 use super::buffer::Buffer;
-use super::channel::Channel;
 use super::error::{Expected, SdoError};
 use super::line::{Line, parse};
 use super::options::Options;

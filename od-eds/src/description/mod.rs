@@ -4,14 +4,16 @@
 //! patches produce, what the checks read, and what the writer writes. The
 //! dictionary that runs is made from it by [`Tables`](crate::Tables).
 
-use crate::span::{Span, Spanned};
+pub(crate) mod tables;
+
 use alloc::collections::BTreeMap;
 use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
+
 use od_model::{Access, Address, DataType, Group, Kind, ObjectCode};
 
-pub(crate) mod tables;
+use crate::span::{Span, Spanned};
 
 /// A default, a limit or a configured value, owned.
 #[derive(Clone, PartialEq, Debug)]

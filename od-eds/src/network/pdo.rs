@@ -1,11 +1,13 @@
 //! The configuration of one PDO.
 
-use super::concise::Write;
-use super::node::Node;
 use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
+
 use od_model::Address;
+
+use super::concise::Write;
+use super::node::Node;
 
 /// A PDO that is not valid (bit 31 of its COB-ID).
 const INVALID: u32 = 1 << 31;

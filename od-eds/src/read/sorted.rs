@@ -1,35 +1,32 @@
 //! Sections sorted by what they are about, and the description that they make.
 
-use crate::description::{Description, Section};
-use crate::finding::Finding;
-use crate::log::Log;
-use crate::read::fields::duplicates;
-use crate::read::object;
-use crate::read::object::Sections;
-use crate::read::{compact_pdo, configured, lists, other, own_types};
-use crate::rules;
-use crate::rules::lists::{i0212_section_name_spelling, w0209_compact_without_key};
-use crate::rules::structure::{e0303_duplicate_object_differs, w0304_duplicate_object};
-use crate::rules::text::e0118_merge_conflict;
-use crate::rules::text::w0101_unknown_line;
-use crate::rules::text::w0102_no_key;
-use crate::rules::text::w0103_no_closing_bracket;
-use crate::rules::text::w0104_text_after_header;
-use crate::rules::text::w0105_key_before_section;
-use crate::rules::text::w0106_duplicate_section;
-use crate::rules::text::w0108_colon;
-use crate::rules::text::w0110_header_without_name;
-use crate::scan::lines::Fault;
-use crate::scan::names::{List, Place, intended, place};
-use crate::scan::placed::{Placed, owned};
-use crate::scan::{lines, number::number};
-use crate::span::Span;
 use alloc::collections::BTreeMap;
 use alloc::collections::btree_map::Entry;
 use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
+
 use od_model::Address;
+
+use crate::description::{Description, Section};
+use crate::finding::Finding;
+use crate::log::Log;
+use crate::read::fields::duplicates;
+use crate::read::object::{self, Sections};
+use crate::read::{compact_pdo, configured, lists, other, own_types};
+use crate::rules;
+use crate::rules::lists::{i0212_section_name_spelling, w0209_compact_without_key};
+use crate::rules::structure::{e0303_duplicate_object_differs, w0304_duplicate_object};
+use crate::rules::text::{
+    e0118_merge_conflict, w0101_unknown_line, w0102_no_key, w0103_no_closing_bracket,
+    w0104_text_after_header, w0105_key_before_section, w0106_duplicate_section, w0108_colon,
+    w0110_header_without_name,
+};
+use crate::scan::lines::{self, Fault};
+use crate::scan::names::{List, Place, intended, place};
+use crate::scan::number::number;
+use crate::scan::placed::{Placed, owned};
+use crate::span::Span;
 
 /// Reads an EDS or a DCF; `file` is its name on the disk, if it has one, and `see` gets the sections.
 pub(crate) fn eds(

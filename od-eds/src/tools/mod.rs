@@ -13,19 +13,6 @@
 //! assert_eq!(tools::verdict(&findings), tools::Verdict::Differs);
 //! ```
 
-use crate::allow::Allows;
-use crate::description::Description;
-use crate::document::Document;
-use crate::finding::Rule;
-use crate::finding::{Finding, Place, Severity, sort};
-use crate::load::is_xml;
-use crate::tools::compare::Compare;
-use crate::tools::tool::Input;
-use alloc::collections::BTreeSet;
-use alloc::format;
-use alloc::string::String;
-use alloc::vec::Vec;
-
 mod canopen_rs;
 mod canopennode_editor;
 mod codesys;
@@ -38,6 +25,19 @@ mod python_canopen;
 mod shared;
 mod tool;
 mod twincat;
+
+use alloc::collections::BTreeSet;
+use alloc::format;
+use alloc::string::String;
+use alloc::vec::Vec;
+
+use crate::allow::Allows;
+use crate::description::Description;
+use crate::document::Document;
+use crate::finding::{Finding, Place, Rule, Severity, sort};
+use crate::load::is_xml;
+use crate::tools::compare::Compare;
+use crate::tools::tool::Input;
 
 pub use tool::{Read, ReadEntry, Reading, Tool};
 

@@ -9,21 +9,22 @@
 //! Elements are known by their local names, so the namespaces of CiA 311 1.0 and 1.1
 //! are the same, and so are project files (`.xpd`) that hold one device.
 
-use crate::description::Description;
-use crate::log::Log;
-use crate::read::sorted;
-use crate::rules::text::e0113_xml_not_well_formed;
-use crate::xdd::source::Places;
-use crate::xdd::source::Reader;
-use alloc::string::ToString;
-use roxmltree::Document;
-
 mod info;
 mod objects;
 mod parameters;
 mod source;
 mod types;
 mod write;
+
+use alloc::string::ToString;
+
+use roxmltree::Document;
+
+use crate::description::Description;
+use crate::log::Log;
+use crate::read::sorted;
+use crate::rules::text::e0113_xml_not_well_formed;
+use crate::xdd::source::{Places, Reader};
 
 pub use write::write;
 

@@ -1,13 +1,15 @@
 //! The XML behind a reader: elements, attributes and texts with their places.
 
-use crate::log::Log;
-use crate::scan::placed::Placed;
-use crate::span::{Span, Spanned};
 use alloc::borrow::Cow;
 use alloc::collections::BTreeMap;
 use alloc::string::String;
 use alloc::vec::Vec;
+
 use roxmltree::Node;
+
+use crate::log::Log;
+use crate::scan::placed::Placed;
+use crate::span::{Span, Spanned};
 
 /// Shared by the parts of this module: places and findings.
 pub(super) struct Reader<'a> {

@@ -5,9 +5,8 @@ use std::ops::Range;
 use od_eds::fix::{self, Applicability};
 use od_eds::{Document, Finding};
 
-use crate::edits;
 use crate::features::diagnostics;
-use crate::file::{File, Kind, Seen};
+use crate::file::{self, File, Kind, Seen};
 use crate::host::Host;
 use crate::layout::bytes;
 use crate::types::{CodeAction, TextEdit, WorkspaceEdit};
@@ -79,7 +78,7 @@ pub(crate) fn fix_all(file: &File, host: &dyn Host) -> WorkspaceEdit {
     let edits = match file.kind {
         Kind::Eds => {
             let done = fix::fix(&file.document(), Applicability::Safe, find);
-            edits::between(file, &format!("{}{}", file.mark(), done.document.text()))
+            file::edits(file, &format!("{}{}", file.mark(), done.document.text()))
         }
         Kind::Xdd | Kind::Overlay | Kind::Rust => Vec::new(),
     };

@@ -9,8 +9,7 @@ use od_eds::convert::lost;
 use od_eds::outline;
 use od_eds::{Parsed, canonical, complete};
 
-use crate::edits;
-use crate::file::{File, Kind, Seen};
+use crate::file::{self, File, Kind, Seen};
 use crate::layout::{Layout, Section};
 use crate::mentions::plain;
 use crate::types::TextEdit;
@@ -39,7 +38,7 @@ pub(crate) fn edits(file: &File, seen: &Seen) -> Result<Vec<TextEdit>, String> {
     } else {
         made
     };
-    Ok(edits::between(file, &format!("{}{text}", file.mark())))
+    Ok(file::edits(file, &format!("{}{text}", file.mark())))
 }
 
 /// Name of a section as it is in the canonical form, in lower case.

@@ -1,6 +1,6 @@
 //! Objects of CiA 402: drives and motion control.
 
-use crate::standard::row::Row;
+use crate::standard::Row;
 
 /// By ascending index.
 #[rustfmt::skip]

@@ -1,6 +1,6 @@
 //! Objects of CiA 401: input and output modules.
 
-use crate::standard::row::Row;
+use crate::standard::Row;
 
 /// By ascending index.
 #[rustfmt::skip]

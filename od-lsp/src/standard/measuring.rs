@@ -1,6 +1,6 @@
 //! Objects of CiA 404: measuring devices and closed-loop controllers.
 
-use crate::standard::row::Row;
+use crate::standard::Row;
 
 /// By ascending index.
 #[rustfmt::skip]

@@ -1,16 +1,13 @@
 //! Names of objects in the standards, for those that look at an index.
 
-use od_eds::Description;
-use od_eds::outline::specified;
-use od_model::Address;
-
-use crate::standard::row::Row;
-
 mod drive;
 mod encoder;
 mod io;
 mod measuring;
-mod row;
+
+use od_eds::Description;
+use od_eds::outline::specified;
+use od_model::Address;
 
 /// Number of the device profile in 1000h; `None` without a profile.
 pub(crate) fn profile(description: &Description) -> Option<u16> {
@@ -70,6 +67,9 @@ pub(crate) const fn area(index: u16) -> &'static str {
         _ => "reserved",
     }
 }
+
+/// An index, or the first and last one of a range, and the name of the objects there.
+type Row = (u16, u16, &'static str);
 
 #[cfg(test)]
 mod tests {
