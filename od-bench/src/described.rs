@@ -7,7 +7,7 @@ use od_client::watch;
 use od_model::Address;
 use od_runtime::{Frame, Store};
 use od_wire::nmt::{self, Command, State};
-use od_wire::sdo::{Request, Response};
+use od_wire::sdo::{self, Request, Response};
 
 use crate::device::VirtualDevice;
 use crate::knowledge::{Described, Tpdo};
@@ -174,6 +174,8 @@ impl VirtualDevice {
 
     /// A frame of an SDO transfer with the node, from any client.
     fn sdo(&mut self, frame: &Frame, is_answer: bool) {
+        let entry = self.dictionary().find(sdo::address(frame.bytes())).ok();
+        let own = entry.and_then(|entry| entry.data_type.size());
         let Some(described) = &mut self.described else {
             return;
         };
@@ -191,10 +193,8 @@ impl VirtualDevice {
         if frame.data().len() < 8 {
             return;
         }
-        let value = |bytes: [u8; 4], size: Option<u32>| {
-            let size = size.map_or(4, |size| size.min(4) as usize);
-            bytes[..size].to_vec()
-        };
+        let value =
+            |bytes: [u8; 4], size: Option<u32>| bytes[..sdo::expedited_len(size, own)].to_vec();
         if !is_answer {
             described.folder.forget_before(number);
             described.written = match Request::parse(frame.bytes()) {

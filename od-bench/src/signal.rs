@@ -2,7 +2,7 @@
 
 use od_client::pdo;
 use od_model::{Address, DataType, Kind};
-use od_wire::sdo::Response;
+use od_wire::sdo::{Response, expedited_len};
 use od_wire::{CanId, Frame, NodeId};
 
 /// Place of a value in frames.
@@ -69,8 +69,7 @@ impl Signal {
         else {
             return None;
         };
-        let own = self.data_type.size().unwrap_or(4);
-        let len = size.map_or(own, |size| size as usize).clamp(1, 4);
+        let len = expedited_len(size, self.data_type.size()).max(1);
         let bits = 8 * len as u8;
         let value = pdo::bits(&data, 0, bits).filter(|_| about == address)?;
         Some((value, bits))

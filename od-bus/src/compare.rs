@@ -22,6 +22,7 @@ pub fn compare(
     values: bool,
 ) -> Result<Vec<Difference>, Fault> {
     let node = client.node();
+    client.know(dictionary);
     let mut found = Vec::new();
     for object in dictionary.objects() {
         for entry in dictionary.members(&object) {

@@ -1,8 +1,11 @@
 //! A master on a link: it sends what its client has to send, and waits for answers.
 
+use std::collections::BTreeMap;
+
 use od_client::sdo::{Options, SdoError};
 use od_client::{Client, Event, Job, lss};
-use od_model::Address;
+use od_eds::outline;
+use od_model::{Address, DataType, Dictionary};
 use od_wire::{Duration, Instant, NodeId};
 
 use crate::fault::Fault;
@@ -26,8 +29,16 @@ pub struct Master<L> {
     client: Client,
     /// Longest time to an answer.
     timeout: Duration,
+    /// Data types of the node's objects, as far as they are known.
+    types: BTreeMap<Address, DataType>,
     /// Longest time of a whole transfer.
     whole: Option<Duration>,
+}
+
+/// Returns whether an address is that of a VAR of the standard.
+fn is_var(address: Address) -> bool {
+    let known = outline::specified(address.index);
+    address.sub == 0 && known.is_some_and(|known| !known.code.has_members())
 }
 
 impl<L: Link> Master<L> {
@@ -45,8 +56,18 @@ impl<L: Link> Master<L> {
             node,
             client: Client::with(options, lss::Options::DEFAULT),
             timeout,
+            types: BTreeMap::new(),
             whole: None,
         }
+    }
+
+    /// Tells the master the data types of the node's objects: of a value whose response names no size
+    /// the type says it, and a DOMAIN is read in blocks.
+    pub fn know(&mut self, dictionary: Dictionary<'_>) {
+        let entries = dictionary.entries();
+        self.types = entries
+            .map(|entry| (entry.address, entry.data_type))
+            .collect();
     }
 
     /// Limits the time of each whole transfer: a node that sends segments without end is left after
@@ -74,7 +95,12 @@ impl<L: Link> Master<L> {
     pub fn upload(&mut self, address: Address) -> Result<Result<Vec<u8>, u32>, Fault> {
         let mut tries = TRIES;
         loop {
-            let job = self.client.read(self.node, address);
+            let standard = || outline::data_type(address.index, address.sub, is_var(address));
+            let data_type = self.types.get(&address).copied().or_else(standard);
+            let job = match data_type {
+                Some(data_type) => self.client.read_as(self.node, address, data_type),
+                None => self.client.read(self.node, address),
+            };
             let result = loop {
                 if let Event::Read(_, result) = self.event(job)? {
                     break result;

@@ -2,8 +2,8 @@
 
 use od_client::sdo::SdoError;
 use od_client::{Client, Event, Job, pdo};
-use od_model::Address;
 use od_model::typed::MapEntry;
+use od_model::{Address, DataType};
 use od_wire::{AbortCode, CanId, Duration, Frame, Instant, NodeId};
 
 use crate::fault::Fault;
@@ -41,6 +41,8 @@ pub struct Source {
     pub address: Address,
     /// Its origin.
     pub by: By,
+    /// Its data type, if it is known: of a response without a size the type says it.
+    pub data_type: Option<DataType>,
 }
 
 /// A value at a moment.
@@ -65,6 +67,7 @@ pub fn sources(
     let polled = |address: &Address| Source {
         address: *address,
         by: By::Poll,
+        data_type: None,
     };
     let mut found: Vec<Source> = addresses.iter().map(polled).collect();
     for (number, index) in (1..).zip(0x1800..=0x19FF_u16) {
@@ -180,7 +183,11 @@ fn follow(
         for (at, source) in sources.iter().enumerate() {
             if due[at].is_some_and(|due| due <= now) {
                 due[at] = None;
-                jobs.push((client.read(node, source.address), at));
+                let job = match source.data_type {
+                    Some(data_type) => client.read_as(node, source.address, data_type),
+                    None => client.read(node, source.address),
+                };
+                jobs.push((job, at));
             }
         }
         while let Some(frame) = client.poll_transmit(link.now()) {

@@ -65,6 +65,7 @@ pub(crate) fn backup(args: &Args) -> Result<(), Failure> {
         )));
     };
     let mut description = Source::find(known.name)?.parse()?.description;
+    master.know(known.dictionary);
     let mut bar = Bar::new("reading");
     let addresses = configure::addresses(known.dictionary);
     let found = configure::read(&mut master, &addresses, |percent| bar.show(percent))?;
@@ -161,6 +162,7 @@ pub(crate) fn apply(args: &Apply) -> Result<(), Failure> {
     if !args.force {
         fits(&mut master, dictionary, file)?;
     }
+    master.know(dictionary);
     let mut bar = Bar::new("applying");
     let applied = configure::apply(&mut master, &settings, |percent| bar.show(percent))?;
     bar.clear();

@@ -55,6 +55,9 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     });
     let mut master = Master::new(link, args.node);
     let dictionary = names.of(&mut master)?.map(|known| known.dictionary);
+    if let Some(dictionary) = dictionary {
+        master.know(dictionary);
+    }
     if given.is_none() {
         for text in &args.objects {
             asked.push(match dictionary {

@@ -29,6 +29,7 @@ fn rig(options: Options) -> Rig {
 fn blocks(block_size: u8) -> Options {
     let mut options = Options::DEFAULT;
     options.block_from = Some(0);
+    options.block_upload = true;
     options.block_size = block_size;
     options
 }

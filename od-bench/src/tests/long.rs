@@ -104,6 +104,7 @@ impl Pair {
 fn blocks() -> Options {
     let mut options = Options::DEFAULT;
     options.block_from = Some(0);
+    options.block_upload = true;
     options
 }
 

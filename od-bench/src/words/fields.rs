@@ -6,7 +6,7 @@ use std::string::ToString;
 use od_client::pdo;
 use od_model::{Address, values};
 use od_wire::nmt::State;
-use od_wire::sdo::{Request, Response};
+use od_wire::sdo::{Request, Response, expedited_len};
 use od_wire::{Frame, emcy, nmt};
 
 use super::pdo::layout;
@@ -216,8 +216,7 @@ fn sdo(fields: &mut Fields, device: Option<&VirtualDevice>, frame: &Frame) {
         let code = number(&frame.bytes()[4..], 4);
         fields.add(4, 8, "Abort code", format!("{code:08X}h"));
     } else if let Some(data) = expedited {
-        let own = entry.and_then(|entry| entry.data_type.size()).unwrap_or(4);
-        let len = size.map_or(own.min(4), |size| (size as usize).min(4));
+        let len = expedited_len(size, entry.and_then(|entry| entry.data_type.size()));
         let value = match entry {
             Some(entry) => values::show(entry.data_type, &data[..len]),
             None => values::hex(&data[..len]),

@@ -5,7 +5,7 @@ use std::prelude::v1::*;
 
 use od_model::{Address, values};
 use od_runtime::{AbortCode, Frame};
-use od_wire::sdo::{Request, Response};
+use od_wire::sdo::{Request, Response, expedited_len};
 
 use super::said::{Service, Words, bytes};
 use crate::device::VirtualDevice;
@@ -94,6 +94,11 @@ impl Explainer<'_> {
         }
     }
 
+    fn type_size(&self, address: Address) -> Option<usize> {
+        let entry = self.device?.dictionary().find(address).ok()?;
+        entry.data_type.size()
+    }
+
     fn current(&self) -> String {
         self.transfer
             .observer
@@ -129,10 +134,7 @@ impl Explainer<'_> {
                     (Some(data), size) => {
                         let sent = frame.data().len().saturating_sub(4);
                         let len = size.map_or(sent, |size| size as usize).min(4);
-                        let find = |device: &VirtualDevice| {
-                            device.dictionary().find(address).ok()?.data_type.size()
-                        };
-                        let own = self.device.and_then(find);
+                        let own = self.type_size(address);
                         let len = own.map_or(len, |own| if own < len { own } else { len });
                         let text = format!("write {name} = {}", self.show(&data[..len]));
                         self.words(text)
@@ -184,7 +186,7 @@ impl Explainer<'_> {
                 let name = self.name(address);
                 match (expedited, size) {
                     (Some(data), size) => {
-                        let len = size.map_or(4, |size| size as usize).min(4);
+                        let len = expedited_len(size, self.type_size(address));
                         self.words(format!("{name} is {}", self.show(&data[..len])))
                     }
                     (None, Some(size)) => {

@@ -111,7 +111,10 @@ impl Dut<'_> {
         let (command, data) = (answer[0], &answer[4..]);
         if command & 0xE2 == 0x42 {
             let unused = usize::from(command >> 2 & 3);
-            let len = if command & 1 == 1 { 4 - unused } else { 4 };
+            let size = (command & 1 == 1).then_some(4 - unused as u32);
+            let entry = self.eds.dictionary().find(address).ok();
+            let own = entry.and_then(|entry| entry.data_type.size());
+            let len = sdo::expedited_len(size, own);
             return Ok(Ok(data[..len].to_vec()));
         }
         if command & 0xE2 != 0x40 {

@@ -97,6 +97,7 @@ fn a_watch_ends_when_it_said_it_would() {
     let source = Source {
         address: Address::new(0x1008, 0),
         by: By::Poll,
+        data_type: None,
     };
     let until = Instant::ZERO.plus_millis(2000);
     let every = Duration::from_millis(200);
@@ -119,4 +120,89 @@ fn a_read_with_a_time_limit_names_it() {
     };
     assert!(why.contains("within 2 s"), "{why}");
     assert_eq!(slave.heard.last().map(|request| request[0]), Some(0x80));
+}
+
+/// A server that never names the size of an expedited value: 2001h is 1000, an UNSIGNED16.
+fn without_size(request: &[u8; 8]) -> Option<[u8; 8]> {
+    let command = if request[0] >> 5 == 2 { 0x42 } else { 0x60 };
+    Some(about(request, command, [0xE8, 3, 0, 0]))
+}
+
+#[test]
+fn a_value_without_a_size_is_read_by_its_type() {
+    const EDS: &str = "[MandatoryObjects]\nSupportedObjects=1\n1=0x1000\n[1000]\nParameterName=Type\n\
+        DataType=7\nAccessType=ro\n[ManufacturerObjects]\nSupportedObjects=1\n1=0x2001\n[2001]\n\
+        ParameterName=Gain\nDataType=6\nAccessType=rw\n";
+    let tables = od_eds::Tables::new(&od_eds::parse(EDS).description);
+    let gain = Address::new(0x2001, 0);
+    let mut slave = Slave::new(without_size);
+    let mut master = Master::new(&mut slave, id(5));
+    assert_eq!(master.upload(gain), Ok(Ok(vec![0xE8, 3, 0, 0])));
+    // The standard gives the type of 1017h.
+    assert_eq!(
+        master.upload(Address::new(0x1017, 0)),
+        Ok(Ok(vec![0xE8, 3]))
+    );
+    master.know(tables.dictionary());
+    assert_eq!(master.upload(gain), Ok(Ok(vec![0xE8, 3])));
+    let found = od_bus::compare::compare(tables.dictionary(), &mut master, false);
+    assert_eq!(found, Ok(Vec::new()));
+    let setting = od_bus::configure::Setting {
+        address: gain,
+        bytes: vec![0xE8, 3],
+    };
+    let applied = od_bus::configure::apply(&mut master, &[setting], |_| {}).expect("a node");
+    assert_eq!(
+        (applied.equal, applied.written, applied.wrong.len()),
+        (1, 0, 0)
+    );
+    drop(master);
+    let source = Source {
+        address: gain,
+        by: By::Poll,
+        data_type: Some(od_model::DataType::Unsigned16),
+    };
+    let mut value = None;
+    let until = slave.now.plus_millis(50);
+    let every = Duration::from_millis(200);
+    watch(&mut slave, id(5), &[source], every, until, |sample| {
+        value = sample.value.ok();
+        false
+    })
+    .expect("a link");
+    assert_eq!(value, Some(vec![0xE8, 3]));
+}
+
+#[test]
+fn a_long_value_is_one_transfer() {
+    let text = b"a text that is so long that a client could think of a block transfer for it, though it asked";
+    let mut left: Vec<u8> = Vec::new();
+    let mut slave = Slave::new(move |request| match request[0] >> 5 {
+        2 => {
+            left = text.to_vec();
+            Some(about(request, 0x41, (text.len() as u32).to_le_bytes()))
+        }
+        3 => {
+            let rest = left.split_off(left.len().min(7));
+            let last = u8::from(rest.is_empty());
+            let mut answer = [0; 8];
+            answer[0] = request[0] & 0x10 | ((7 - left.len() as u8) << 1) | last;
+            answer[1..=left.len()].copy_from_slice(&left);
+            left = rest;
+            Some(answer)
+        }
+        _ => None,
+    });
+    let mut master = Master::new(&mut slave, id(5));
+    assert_eq!(
+        master.upload(Address::new(0x1008, 0)),
+        Ok(Ok(text.to_vec()))
+    );
+    drop(master);
+    let begins: Vec<u8> = slave.heard.iter().map(|request| request[0] >> 5).collect();
+    assert_eq!(
+        begins.iter().filter(|command| **command != 3).count(),
+        1,
+        "{begins:?}"
+    );
 }

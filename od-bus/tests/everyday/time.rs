@@ -100,6 +100,7 @@ fn a_silent_node_is_told_and_asked_again() {
     let source = od_bus::watch::Source {
         address: OPERATING,
         by: By::Poll,
+        data_type: None,
     };
     let mut count = 0;
     let done = watch(

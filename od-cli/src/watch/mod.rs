@@ -89,6 +89,9 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let mut bus = args.bus.open()?;
     let mut master = Master::new(&mut bus, args.node).within(WHOLE);
     let dictionary = names.of(&mut master)?.map(|known| known.dictionary);
+    if let Some(dictionary) = dictionary {
+        master.know(dictionary);
+    }
     let mut asked: Vec<Asked> = Vec::new();
     for text in &args.objects {
         asked.extend(match dictionary {
@@ -97,7 +100,10 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         });
     }
     let addresses: Vec<_> = asked.iter().map(|one| one.address).collect();
-    let sources = watch::sources(&mut master, &addresses)?;
+    let mut sources = watch::sources(&mut master, &addresses)?;
+    for (source, one) in sources.iter_mut().zip(&asked) {
+        source.data_type = one.entry.map(|entry| entry.data_type);
+    }
     drop(master);
     let shown: Vec<Shown> = asked
         .iter()

@@ -144,6 +144,7 @@ impl Lane {
         let mut options = next.options;
         if self.has_no_block {
             options.block_from = None;
+            options.block_upload = false;
         }
         let (channel, object) = (Channel::of(self.node), next.object);
         let transfer = match next.bytes {

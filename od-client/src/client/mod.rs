@@ -7,7 +7,7 @@ mod tasks;
 use alloc::collections::VecDeque;
 use alloc::vec::Vec;
 
-use od_model::Address;
+use od_model::{Address, DataType};
 use od_wire::nmt::{Command, State};
 use od_wire::{Duration, Frame, Instant, NodeId};
 
@@ -75,12 +75,21 @@ impl Client {
 
     /// Reads an object; ends with [`Event::Read`].
     pub fn read(&mut self, node: NodeId, object: Address) -> Job {
-        self.transfer(node, object, None)
+        self.transfer(node, object, None, self.options)
+    }
+
+    /// As [`read`](Self::read), of an object whose data type is known: an answer without a size has the
+    /// bytes of the type, and a DOMAIN comes in blocks.
+    pub fn read_as(&mut self, node: NodeId, object: Address, data_type: DataType) -> Job {
+        let mut options = self.options;
+        options.type_size = data_type.size();
+        options.block_upload |= data_type == DataType::Domain;
+        self.transfer(node, object, None, options)
     }
 
     /// Writes an object; ends with [`Event::Written`].
     pub fn write(&mut self, node: NodeId, object: Address, bytes: &[u8]) -> Job {
-        self.transfer(node, object, Some(bytes.to_vec()))
+        self.transfer(node, object, Some(bytes.to_vec()), self.options)
     }
 
     /// Runs an LSS service after those that wait; ends with [`Event::Lss`].
@@ -197,14 +206,20 @@ impl Client {
         Job::new(self.jobs)
     }
 
-    fn transfer(&mut self, node: NodeId, object: Address, bytes: Option<Vec<u8>>) -> Job {
+    fn transfer(
+        &mut self,
+        node: NodeId,
+        object: Address,
+        bytes: Option<Vec<u8>>,
+        options: Options,
+    ) -> Job {
         let job = self.job();
         let at = self.lanes.iter().position(|lane| lane.node() == node);
         let at = at.unwrap_or(self.lanes.len());
         if at == self.lanes.len() {
             self.lanes.push(Lane::new(node));
         }
-        self.lanes[at].push(job, object, bytes, self.options);
+        self.lanes[at].push(job, object, bytes, options);
         job
     }
 

@@ -27,8 +27,8 @@ pub(super) struct Line {
     channel: Channel,
     pub(super) address: Address,
     pub(super) options: Options,
-    /// Frames that wait; two only where an abort comes before another request.
-    out: [Option<[u8; 8]>; 2],
+    /// The frame that waits.
+    out: Option<[u8; 8]>,
     deadline: Option<Instant>,
     outcome: Option<Result<(), SdoError>>,
     /// A request was sent. What comes before it answers something else.
@@ -41,7 +41,7 @@ impl Line {
             channel,
             address,
             options,
-            out: [None; 2],
+            out: None,
             deadline: None,
             outcome: None,
             is_open: false,
@@ -73,16 +73,12 @@ impl Line {
     /// Queues a request; the time for its answer starts when the host takes it.
     pub(super) fn send(&mut self, request: Request) {
         self.deadline = None;
-        if let Some(free) = self.out.iter_mut().find(|slot| slot.is_none()) {
-            *free = Some(request.emit());
-        }
+        self.out = Some(request.emit());
     }
 
     /// The next queued frame.
     pub(super) fn pull(&mut self, now: Instant) -> Option<Frame> {
-        let [first, second] = self.out;
-        let data = first?;
-        self.out = [second, None];
+        let data = self.out.take()?;
         self.is_open = true;
         if self.outcome.is_none() {
             self.wait(now);
@@ -100,7 +96,7 @@ impl Line {
     pub(super) fn receive(&self, frame: &Frame) -> Option<[u8; 8]> {
         let data = *frame.bytes();
         let is_ours = frame.id() == self.channel.response && !frame.data().is_empty();
-        let is_due = self.out[0].is_none() || data[0] == ABORT;
+        let is_due = self.out.is_none() || data[0] == ABORT;
         (self.outcome.is_none() && self.is_open && is_ours && is_due).then_some(data)
     }
 
@@ -114,7 +110,7 @@ impl Line {
         if self.outcome.is_some() {
             return;
         }
-        self.out = [None; 2];
+        self.out = None;
         if self.is_open {
             self.send(Request::Abort {
                 address: self.address,
@@ -130,7 +126,7 @@ impl Line {
     pub(super) fn refuse(&mut self, code: AbortCode, expected: Expected, got: Response) {
         match got {
             Response::Abort { address, code } if self.is_about(address) => {
-                self.out = [None; 2];
+                self.out = None;
                 self.deadline = None;
                 self.outcome = Some(Err(SdoError::Abort(code)));
             }

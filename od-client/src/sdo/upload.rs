@@ -1,7 +1,7 @@
 //! Upload: reads an object, expedited or in segments (CiA 301, chapters 7.2.4.3.6 and 7.2.4.3.7).
 
 use od_model::Address;
-use od_wire::sdo::{Request, Response};
+use od_wire::sdo::{self, Request, Response};
 use od_wire::{AbortCode, Frame, Instant};
 
 use super::Channel;
@@ -13,8 +13,8 @@ use super::options::Options;
 
 #[derive(Debug)]
 enum State {
-    /// Initiate upload is on its way; `block`: a block upload may take its place.
-    Initiate { block: bool },
+    /// Initiate upload is on its way.
+    Initiate,
     /// The segment with this toggle bit is due.
     Segment { toggle: bool, size: Option<u32> },
     /// Initiate block upload is on its way.
@@ -38,11 +38,25 @@ impl<B: Buffer> Upload<B> {
     pub fn new(channel: Channel, object: Address, mut buffer: B, options: Options) -> Self {
         buffer.clear();
         let mut line = Line::new(channel, object, options);
-        line.send(Request::InitiateUpload { address: object });
+        let state = match options.block_upload {
+            true => {
+                line.send(Request::InitiateBlockUpload {
+                    address: object,
+                    crc: true,
+                    block_size: options.segments(),
+                    threshold: 0,
+                });
+                State::InitiateBlock
+            }
+            false => {
+                line.send(Request::InitiateUpload { address: object });
+                State::Initiate
+            }
+        };
         Self {
             line,
             buffer,
-            state: State::Initiate { block: true },
+            state,
             refused_block: false,
         }
     }
@@ -59,10 +73,7 @@ impl<B: Buffer> Upload<B> {
             State::Blocks(blocks) => {
                 blocks.end(&mut self.line, &mut self.buffer, parse(&data));
             }
-            State::Initiate { block } => {
-                let block = *block;
-                self.initiated(parse(&data), Expected::Upload, block);
-            }
+            State::Initiate => self.initiated(parse(&data), Expected::Upload),
             State::InitiateBlock => self.block_initiated(parse(&data)),
             State::Segment { toggle, size } => {
                 let (toggle, size) = (*toggle, *size);
@@ -117,7 +128,7 @@ impl<B: Buffer> Upload<B> {
         self.buffer
     }
 
-    fn initiated(&mut self, response: Response, expected: Expected, block: bool) {
+    fn initiated(&mut self, response: Response, expected: Expected) {
         let (size, expedited) = match response {
             Response::InitiateUpload {
                 address,
@@ -130,7 +141,7 @@ impl<B: Buffer> Upload<B> {
             }
         };
         if let Some(data) = expedited {
-            let len = size.map_or(4, |size| size.min(4) as usize);
+            let len = sdo::expedited_len(size, self.line.options.type_size);
             if self.line.keep(&mut self.buffer, &data[..len], None) {
                 self.line.finish();
             }
@@ -139,22 +150,7 @@ impl<B: Buffer> Upload<B> {
         if !self.line.check_size(&self.buffer, size) {
             return;
         }
-        if block && self.line.options.blocks(size) {
-            let address = self.line.address;
-            self.line.send(Request::Abort {
-                address,
-                code: AbortCode::General.code(),
-            });
-            self.line.send(Request::InitiateBlockUpload {
-                address,
-                crc: true,
-                block_size: self.line.options.segments(),
-                threshold: 0,
-            });
-            self.state = State::InitiateBlock;
-        } else {
-            self.ask(false, size);
-        }
+        self.ask(false, size);
     }
 
     /// Asks for the segment with this toggle bit.
@@ -205,10 +201,10 @@ impl<B: Buffer> Upload<B> {
                 self.refused_block = true;
                 let address = self.line.address;
                 self.line.send(Request::InitiateUpload { address });
-                self.state = State::Initiate { block: false };
+                self.state = State::Initiate;
             }
             // A server may change over to the other protocol.
-            other => self.initiated(other, Expected::BlockUpload, false),
+            other => self.initiated(other, Expected::BlockUpload),
         }
     }
 }

@@ -32,6 +32,7 @@ fn client(options: Options) -> Client {
 fn blocks(size: u8) -> Options {
     let mut options = Options::DEFAULT;
     options.block_from = Some(0);
+    options.block_upload = true;
     options.block_size = size;
     options
 }
@@ -71,7 +72,7 @@ fn all_sizes_in_segments() {
 fn one_mebibyte_in_blocks_both_ways() {
     const LONG: Address = Address::new(0x2004, 0);
     let value = pattern(1 << 20);
-    let mut bus = Bus::one(client(Options::DEFAULT));
+    let mut bus = Bus::one(client(blocks(127)));
     let written = bus.client.write(NodeId::ONE, LONG, &value);
     let read = bus.client.read(NodeId::ONE, LONG);
     let events = bus.run();
@@ -91,7 +92,7 @@ fn one_mebibyte_in_blocks_both_ways() {
 }
 
 #[test]
-fn all_sizes_in_blocks_where_it_pays() {
+fn long_downloads_go_in_blocks_and_an_upload_is_one_transfer() {
     let mut bus = Bus::one(client(Options::DEFAULT));
     round_trips(&mut bus);
     let begun = |head: &str| {
@@ -102,7 +103,8 @@ fn all_sizes_in_blocks_where_it_pays() {
     };
     let long = SIZES.iter().filter(|size| **size >= 64).count();
     assert_eq!(begun("601#C6032000"), long, "block downloads");
-    assert_eq!(begun("601#A4032000"), long, "block uploads");
+    assert_eq!(begun("601#A4032000"), 0, "block uploads");
+    assert_eq!(begun("601#80"), 0, "aborts");
     assert_eq!(begun("601#40032000"), SIZES.len(), "uploads");
 }
 
@@ -149,7 +151,7 @@ fn a_node_without_block_transfers_gets_segments_and_is_asked_once() {
 fn an_upload_finds_out_too_that_a_node_has_no_block_transfers() {
     let mut peer = Peer::new(1, [1, 2, 3, 4]);
     peer.profile.sdo.block = false;
-    let mut bus = Bus::new(client(Options::DEFAULT), vec![peer]);
+    let mut bus = Bus::new(client(blocks(127)), vec![peer]);
     for _ in 0..2 {
         let job = bus.client.read(NodeId::ONE, OBJECT);
         assert_eq!(bus.run(), [Event::Read(job, Ok(vec![0; 8192]))]);

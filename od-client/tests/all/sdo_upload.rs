@@ -339,3 +339,25 @@ fn a_buffer_is_emptied_first() {
     upload.talk(&[("", ASK), ("4F03200001", "-")]);
     assert_eq!(upload.into_buffer(), [1]);
 }
+
+#[test]
+fn a_value_without_a_size_has_that_of_its_type() {
+    for (type_size, len) in [
+        (Some(1), 1),
+        (Some(2), 2),
+        (Some(4), 4),
+        (Some(8), 4),
+        (None, 4),
+    ] {
+        let mut options = Options::DEFAULT;
+        options.type_size = type_size;
+        let mut unsized_value = upload(options);
+        unsized_value.talk(&[("", "40032000"), ("42032000F4010203", "-")]);
+        assert_eq!(unsized_value.outcome(), Some(Ok(())));
+        assert_eq!(unsized_value.bytes(), &[0xF4, 1, 2, 3][..len]);
+        // A size that is named is believed.
+        let mut sized = upload(options);
+        sized.talk(&[("", "40032000"), ("47032000F4010203", "-")]);
+        assert_eq!(sized.bytes(), [0xF4, 1, 2]);
+    }
+}

@@ -9,7 +9,7 @@ mod segment;
 pub use crc::{crc16, crc16_after};
 pub use fields::{address, end, number, toggle, wants_crc};
 pub use request::Request;
-pub use response::{Response, expedited_upload, upload_command};
+pub use response::{Response, expedited_len, expedited_upload, upload_command};
 pub use segment::{Segment, block_segment, block_segments, segment, unused};
 
 #[cfg(test)]

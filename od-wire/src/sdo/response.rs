@@ -133,6 +133,13 @@ impl Response {
     }
 }
 
+/// Returns the number of bytes of an expedited value: `size` as the frame names it; else the bytes of the
+/// object's data type, at most 4; else 4 (CiA 301, 7.2.4.3.6: e = 1, s = 0).
+pub fn expedited_len(size: Option<u32>, type_size: Option<usize>) -> usize {
+    let size = size.and_then(|size| usize::try_from(size).ok());
+    size.or(type_size).unwrap_or(4).min(4)
+}
+
 /// The frame of an expedited upload: `len` bytes, 1–4, of `value`. It is what
 /// [`Response::InitiateUpload`] emits, for the one answer that masters ask for all day.
 #[inline]

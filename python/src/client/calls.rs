@@ -131,8 +131,10 @@ impl Client {
         let node = id_of(node_id)?;
         let known = self.known(py, node_id)?;
         let address = address(known.as_deref(), object, sub)?;
-        let (result, timeout) =
-            self.with(py, |core| Ok((core.upload(node, address)?, core.timeout)))?;
+        let data_type = known.as_ref().and_then(|known| known.type_of(address));
+        let (result, timeout) = self.with(py, |core| {
+            Ok((core.upload(node, address, data_type)?, core.timeout))
+        })?;
         let bytes =
             result.map_err(|error| of_transfer(py, node, address, error, timeout.as_secs_f32()))?;
         match known.and_then(|known| known.type_of(address)) {

@@ -8,7 +8,7 @@ use od_bus::link::{Heard, Link};
 use od_client::emcy::Emcy;
 use od_client::sdo::{Options, SdoError};
 use od_client::{Client, Event, Job, lss, nmt, watch};
-use od_model::Address;
+use od_model::{Address, DataType};
 use od_wire::nmt::{Command, State};
 use od_wire::{Duration, Instant, NodeId};
 
@@ -61,13 +61,17 @@ impl Core {
         }
     }
 
-    /// Reads an object.
+    /// Reads an object; the type says the size of a value whose response names none.
     pub(crate) fn upload(
         &mut self,
         node: NodeId,
         address: Address,
+        data_type: Option<DataType>,
     ) -> Result<Result<Vec<u8>, SdoError>, Fault> {
-        let job = self.client.read(node, address);
+        let job = match data_type {
+            Some(data_type) => self.client.read_as(node, address, data_type),
+            None => self.client.read(node, address),
+        };
         loop {
             if let Event::Read(_, result) = self.end(job)? {
                 return Ok(result);
@@ -138,7 +142,7 @@ impl Core {
         node: NodeId,
         address: Address,
     ) -> Result<Result<Option<u32>, (Address, SdoError)>, Fault> {
-        Ok(match self.upload(node, address)? {
+        Ok(match self.upload(node, address, None)? {
             Ok(bytes) if bytes.len() <= 4 => {
                 let bytes = bytes.iter().rev();
                 Ok(Some(

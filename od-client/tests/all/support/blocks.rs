@@ -8,10 +8,11 @@ use super::{Machine, frame};
 pub(crate) const COMMAND: &str = "01000405";
 pub(crate) const SEQUENCE: &str = "03000405";
 
-/// Blocks of `size` segments from 8 bytes on.
+/// Blocks of `size` segments, for uploads and for downloads from 8 bytes on.
 pub(crate) fn options(size: u8) -> Options {
     let mut options = Options::DEFAULT;
     options.block_from = Some(8);
+    options.block_upload = true;
     options.block_size = size;
     options
 }
