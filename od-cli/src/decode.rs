@@ -70,6 +70,9 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         for problem in &log.skipped {
             note!("{path}: {problem}");
         }
+        if log.lacks_times {
+            note!("{path}: the log has no times; `candump -ta` or `candump -L` writes them");
+        }
         skipped += log.skipped.len();
         for record in &log.records {
             let What::Frame(frame) = record.what else {

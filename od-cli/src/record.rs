@@ -157,6 +157,11 @@ pub(crate) fn replay(args: &Replay) -> Result<(), Failure> {
     for problem in &log.skipped {
         note!("{shown}: {problem}");
     }
+    if log.lacks_times {
+        note!(
+            "{shown}: the log has no times, so all frames are sent at once; `candump -L` writes times"
+        );
+    }
     let frames = log.records.iter().filter_map(|record| match record.what {
         What::Frame(frame) => Some((record.at, frame)),
         What::Error => None,

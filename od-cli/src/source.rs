@@ -79,6 +79,16 @@ impl Lost {
 /// Maximum number of errors that are shown when a device is made from a file.
 const SHOWN: usize = 5;
 
+/// Returns the document, unless it is a device file of another fieldbus.
+fn canopen(document: Document) -> Result<Document, String> {
+    match od_eds::foreign(document.text()) {
+        Some(name) => Err(format!(
+            "it is {name}, not of CANopen; odkit reads EDS, DCF, XDD and XDC files of CANopen"
+        )),
+        None => Ok(document),
+    }
+}
+
 impl Source {
     /// A name of a built-in device, or the path of an EDS or DCF file.
     pub(crate) fn find(name: &str) -> Result<Self, Failure> {
@@ -98,7 +108,9 @@ impl Source {
         match files::read(&path) {
             Ok(bytes) => {
                 let name = path.display().to_string();
-                Ok(Self::of(name.clone(), Document::new(bytes).named(name)))
+                let document = canopen(Document::new(bytes).named(name.clone()))
+                    .map_err(|why| Failure::Failed(format!("{name}: {why}")))?;
+                Ok(Self::of(name, document))
             }
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
                 match name.rsplit_once('+') {
@@ -131,7 +143,10 @@ impl Source {
     /// Reason why it cannot be read.
     pub(crate) fn file(path: &str) -> Result<Self, String> {
         match fs::read(path) {
-            Ok(bytes) => Ok(Self::of(path.into(), Document::new(bytes).named(path))),
+            Ok(bytes) => {
+                let document = canopen(Document::new(bytes).named(path))?;
+                Ok(Self::of(path.into(), document))
+            }
             Err(error) if error.kind() == std::io::ErrorKind::NotFound && path.contains('+') => {
                 Self::find(path).map_err(|failure| failure.to_string())
             }

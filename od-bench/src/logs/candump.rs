@@ -109,6 +109,11 @@ pub(super) fn is_record(line: &str) -> bool {
     logged(line).is_ok_and(|line| line.at.is_some() && line.interface.is_some())
 }
 
+/// Returns whether a line is a frame with its interface and without a time stamp.
+pub(super) fn is_untimed(line: &str) -> bool {
+    logged(line).is_ok_and(|line| line.at.is_none() && line.interface.is_some())
+}
+
 /// Reads a line in any of the three forms, error frames too.
 pub(super) fn logged(line: &str) -> Result<Logged<'_>, Error> {
     let mut rest = Cursor::new(line);

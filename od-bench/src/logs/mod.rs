@@ -4,6 +4,7 @@
 
 mod asc;
 pub mod candump;
+mod foreign;
 mod pcap;
 mod pcapng;
 mod read;

@@ -7,7 +7,7 @@ use std::prelude::v1::*;
 use od_wire::Instant;
 
 use super::record::{Reader, Record};
-use super::{asc, candump, pcap, pcapng, stamp, trc};
+use super::{asc, candump, foreign, pcap, pcapng, stamp, trc};
 use crate::cursor::Cursor;
 
 /// A log that was read.
@@ -17,6 +17,8 @@ pub struct Log {
     pub records: Vec<Record>,
     /// Lines that could not be read.
     pub skipped: Vec<Problem>,
+    /// Whether the log has no times, as `candump` prints it without `-t`. All records then have time 0.
+    pub lacks_times: bool,
 }
 
 /// A line that could not be read.
@@ -40,9 +42,6 @@ const WALL_CLOCK: u64 = 1_000_000_000_000;
 /// Lines in which a text has to show what it is.
 const HEAD: usize = 200;
 
-/// A file of Vector's binary logging format begins with it.
-const BLF: &[u8] = b"LOGG";
-
 /// Reads a log: candump, ASC, TRC (1.0 to 2.1), pcap or pcapng.
 ///
 /// # Errors
@@ -51,17 +50,14 @@ pub fn read(bytes: &[u8]) -> Result<Log, Refused> {
     if let Some(records) = pcapng::read(bytes).or_else(|| pcap::read(bytes)) {
         return Ok(finish(records?, Vec::new()));
     }
-    if bytes.starts_with(BLF) {
-        return Err(
-            "it is a BLF log, which odkit does not read; `can_logconvert` of python-can turns it \
-             into a candump log (`can_logconvert FILE.blf FILE.log`)"
-                .into(),
-        );
-    }
     let text = String::from_utf8_lossy(bytes);
     let lines: Vec<&str> = lines(text.trim_start_matches('\u{feff}')).collect();
-    let Some(mut reader) = choose(&lines) else {
-        return Err("it is not a candump log, ASC, TRC, pcap or pcapng".into());
+    let lacks_times = is_untimed(&lines);
+    let Some(mut reader) = choose(&lines, lacks_times) else {
+        let known = foreign::name(bytes);
+        let why =
+            known.unwrap_or_else(|| "it is not a candump log, ASC, TRC, pcap or pcapng".into());
+        return Err(why.into());
     };
     let mut records = Vec::new();
     let mut skipped = Vec::new();
@@ -77,7 +73,10 @@ pub fn read(bytes: &[u8]) -> Result<Log, Refused> {
     }
     match skipped.first() {
         Some(first) if records.is_empty() => Err(first.to_string().into()),
-        _ => Ok(finish(records, skipped)),
+        _ => Ok(Log {
+            lacks_times,
+            ..finish(records, skipped)
+        }),
     }
 }
 
@@ -95,10 +94,20 @@ fn finish(mut records: Vec<Record>, skipped: Vec<Problem>) -> Log {
             record.at = Instant::from_micros(record.at.as_micros() - start);
         }
     }
-    Log { records, skipped }
+    Log {
+        records,
+        skipped,
+        lacks_times: false,
+    }
 }
 
-fn choose<'t>(lines: &[&'t str]) -> Option<Reader<'t>> {
+/// Returns whether no line has a time stamp, and a line is a frame with its interface: what `candump` prints without `-t`.
+fn is_untimed(lines: &[&str]) -> bool {
+    let head = || lines.iter().take(HEAD).map(|line| line.trim_start());
+    !head().any(|line| line.starts_with('(')) && head().any(candump::is_untimed)
+}
+
+fn choose<'t>(lines: &[&'t str], lacks_times: bool) -> Option<Reader<'t>> {
     let head = || lines.iter().take(HEAD).map(|line| line.trim_start());
     if head().any(trc::is_one) {
         return Some(trc::reader(lines));
@@ -110,20 +119,24 @@ fn choose<'t>(lines: &[&'t str]) -> Option<Reader<'t>> {
         let mut rest = Cursor::new(line);
         stamp::take(&mut rest).is_some() && rest.text.contains(char::is_whitespace)
     };
-    head().any(is_candump).then(|| Box::new(line) as Reader<'t>)
+    let is_one = lacks_times || head().any(is_candump);
+    is_one.then(|| Box::new(move |text| line(text, lacks_times)) as Reader<'t>)
 }
 
-/// A line of candump: a log, or what it shows on a screen.
-fn line(text: &str) -> Result<Option<Record>, String> {
+/// Reads a line of candump, from its log or its screen.
+fn line(text: &str, lacks_times: bool) -> Result<Option<Record>, String> {
     if text.trim_start().starts_with(['#', ';']) {
         return Ok(None);
     }
     let missing = "the time stamp in parentheses is missing";
-    if !text.trim_start().starts_with('(') {
+    if !text.trim_start().starts_with('(') && !lacks_times {
         return Err(missing.into());
     }
     let logged = candump::logged(text).map_err(|error| error.message)?;
-    let at = logged.at.ok_or(missing)?;
+    let at = match logged.at {
+        None if lacks_times => Instant::ZERO,
+        at => at.ok_or(missing)?,
+    };
     Ok(Some(Record {
         at,
         sent: logged.sent,

@@ -221,3 +221,29 @@ fn check_does_not_print_long_lines_in_full() {
     assert!(check.out.contains("ä…ä"), "{:.5000}", check.out);
     assert!(check.out.len() < 5000, "{} bytes", check.out.len());
 }
+
+#[test]
+fn a_file_of_another_fieldbus_is_named() {
+    let ip = "$ EZ-EDS\n[File]\n  DescText = \"Adapter\";\n[Device]\n  VendCode = 46;\n";
+    let esi = "<?xml version=\"1.0\"?>\n<EtherCATInfo Version=\"1.2\"></EtherCATInfo>\n";
+    for (name, text, kind) in [
+        (
+            "adapter.eds",
+            ip,
+            "it is an EDS of EtherNet/IP or DeviceNet (ODVA), not of CANopen",
+        ),
+        (
+            "slave.xml",
+            esi,
+            "it is an ESI file of EtherCAT, not of CANopen",
+        ),
+    ] {
+        let path = file(name, text).display().to_string();
+        for command in ["check", "dump"] {
+            let run = odkit(&[command, &path], "");
+            let said = format!("{}{}", run.out, run.err);
+            assert!(said.contains(kind), "{command}: {said}");
+            assert_eq!(run.code, 1, "{command}");
+        }
+    }
+}

@@ -44,6 +44,7 @@ fn what_is_written_is_read_again() {
         let Log {
             mut records,
             skipped,
+            ..
         } = read(&format.write(&self::records())).expect("a log");
         assert_eq!(skipped, [], "{format:?}");
         let mut expected = self::records();
@@ -167,6 +168,26 @@ fn what_cannot_be_read_is_named() {
     for (bytes, why) in [
         (&b"hello\nworld\n"[..], "it is not a candump log"),
         (b"LOGG\x90\0\0\0", "it is a BLF log"),
+        (
+            b"MDF     4.10",
+            "it is an MDF log (MF4), which odkit does not read; export it as ASC",
+        ),
+        (
+            b"***BUSMASTER Ver 3.2.2***\n***HEX***\n",
+            "it is a BUSMASTER log",
+        ),
+        (
+            b"Time Stamp,ID,Extended,Dir,Bus,LEN\n1,701,false,Rx,0,1\n",
+            "it is a CSV log of SavvyCAN",
+        ),
+        (
+            b"timestamp,arbitration_id,extended\n0.1,0x701,0\n",
+            "it is a CSV log of python-can",
+        ),
+        (
+            b"Time   ID     DLC Data                    Comment\n",
+            "it is a trace of CANHacker",
+        ),
         (b"(0.1) can0 zzz#00\n", "line 1: "),
         (cut, "it ends in the middle of a block"),
     ] {
@@ -177,6 +198,30 @@ fn what_cannot_be_read_is_named() {
     let log = read(text.as_bytes()).expect("a log");
     assert_eq!((log.records.len(), log.skipped.len()), (1, 3));
     assert_eq!(log.skipped[0].line, 2);
+}
+
+#[test]
+fn a_candump_log_without_times_is_read_in_order() {
+    let text = "  can0  603   [8]  40 18 10 01 00 00 00 00\n  can0  583   [8]  43 18 10 01 EC 00 00 00\n  \
+                can0  TX - -  703   [1]  05\n";
+    let log = read(text.as_bytes()).expect("a log");
+    assert!(log.lacks_times);
+    assert_eq!(log.skipped, []);
+    let shown = log.records.iter().map(|record| match record.what {
+        What::Frame(frame) => format!("{:?} {frame}", record.at.as_micros()),
+        What::Error => String::from("error"),
+    });
+    let wanted = [
+        "0 603#4018100100000000",
+        "0 583#43181001EC000000",
+        "0 703#05",
+    ];
+    assert_eq!(shown.collect::<Vec<_>>(), wanted);
+    let mixed = read(b"can0 603 [1] 00\n(0.1) can0 601#40\n").expect("a log");
+    assert_eq!(
+        (mixed.lacks_times, mixed.records.len(), mixed.skipped.len()),
+        (false, 1, 1)
+    );
 }
 
 #[test]

@@ -285,3 +285,21 @@ fn the_console_works_on_a_terminal() {
     // The terminal has its earlier mode.
     sees("\u{1b}[?1049l");
 }
+
+#[test]
+fn a_log_without_times_is_shown_with_a_note() {
+    let text = "  can0  603   [8]  40 18 10 01 00 00 00 00\n  can0  703   [1]  05\n";
+    let log = file("untimed.log", text).display().to_string();
+    let run = odkit(&["decode", &log], "");
+    assert_eq!(run.code, 0, "{}", run.err);
+    assert!(
+        run.out.contains("heartbeat") || run.out.contains("Operational"),
+        "{}",
+        run.out
+    );
+    assert!(
+        run.err.contains("the log has no times; `candump -ta`"),
+        "{}",
+        run.err
+    );
+}
