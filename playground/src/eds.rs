@@ -31,6 +31,12 @@ pub fn fix_eds(text: &str, guess: bool) -> String {
     fixed.document.text().into()
 }
 
+/// What a text is if it is a device file of another fieldbus, such as `an ESI file of EtherCAT`; `undefined` otherwise.
+#[wasm_bindgen(js_name = foreignFile)]
+pub fn foreign_file(text: &str) -> Option<String> {
+    od_eds::foreign(text).map(Into::into)
+}
+
 /// The text in the bytes of an EDS or DCF file: UTF-8, UTF-16 or Windows-1252.
 #[wasm_bindgen(js_name = decodeEds)]
 pub fn decode_eds(bytes: &[u8]) -> String {

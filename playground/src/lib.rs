@@ -65,7 +65,7 @@ pub use device::builtin_devices;
 #[cfg(feature = "editor")]
 pub use editor::{LanguageServer, compare_eds, device_eds, encode_eds, rule_titles};
 #[cfg(feature = "eds")]
-pub use eds::{check_eds, decode_eds, fix_eds};
+pub use eds::{check_eds, decode_eds, fix_eds, foreign_file};
 pub use journal::{check_run, read_input};
 #[cfg(feature = "lessons")]
 pub use lesson::{judge_answer, parse_lesson};

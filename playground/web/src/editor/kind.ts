@@ -45,6 +45,8 @@ export async function kindOf(bytes: Uint8Array): Promise<Kind | string> {
   const text = 'value' in decoded ? decoded.value : '';
   if (/^\s*$/.test(text)) return { what: k.blank };
   if (/\0/.test(text)) return { what: k.binary };
+  const foreign = await use('foreignFile', text);
+  if ('value' in foreign && foreign.value) return { what: foreign.value };
   if (/^\s*<(!doctype html|html)/i.test(text)) return { what: k.webPage };
   if (/^\s*<\?xml|^\s*<[a-z]/i.test(text)) return /ISO15745Profile/.test(text) ? text : { what: k.xml };
   // An array of JSON looks like a section.

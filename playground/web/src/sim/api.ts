@@ -2,7 +2,7 @@
 // between page and worker. Only numbers, strings and plain records.
 
 import type { RealCommand, RealReport, RealState } from '../real/api';
-import type { Builtin, Bus, Chain, decodeEds, DeviceInfo, Entry, Input, JournalNews, judgeAnswer, Lesson, LessonState, LineStatus, plainEds, readLog, Status, Value, writeLog } from '../wasm/od_playground';
+import type { Builtin, Bus, Chain, decodeEds, DeviceInfo, Entry, foreignFile, Input, JournalNews, judgeAnswer, Lesson, LessonState, LineStatus, plainEds, readLog, Status, Value, writeLog } from '../wasm/od_playground';
 
 export type { Added, Builtin, Chain, DeviceInfo, Diagnostic, Entry, Field, FrameTemplate, Input, Judgement, Lamp, Lesson, LessonState, LineStatus, Log, Mapped, MappingStep, ObjectRecord, Outcome, Pdo, Source, Status, Transfer, Value } from '../wasm/od_playground';
 
@@ -17,6 +17,7 @@ export type Questions = Pick<Bus, 'describeAll' | 'fields' | 'mappingSteps' | 'p
 /** Functions of the whole module that need no bus. */
 export interface Tools {
   decodeEds: typeof decodeEds;
+  foreignFile: typeof foreignFile;
   judgeAnswer: typeof judgeAnswer;
   plainEds: typeof plainEds;
   readLog: typeof readLog;

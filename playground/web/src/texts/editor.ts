@@ -17,7 +17,7 @@ export const E = {
     list: 'Findings by rule, errors first',
     edit: 'Open in the editor',
     close: 'Close the report',
-    not: (name: string, what: string, next = '') => `${name} is ${what}, not an EDS file. ${next}The bench is unchanged.`,
+    not: (name: string, what: string, next = '') => `${name} is ${what}, not an EDS file of CANopen. ${next}The bench is unchanged.`,
     asLog: 'Open it as a log',
   },
   kinds: {
