@@ -7,6 +7,8 @@ use std::fs::File;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, ExitStatus, Stdio};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use crate::error::{Error, Result};
@@ -29,6 +31,8 @@ pub(crate) struct Console {
     limit: Duration,
     /// Whether its programs run with low priority.
     yields: bool,
+    /// Where another thread says that programs have to stop.
+    stop: Arc<AtomicBool>,
     last: RefCell<String>,
 }
 
@@ -39,6 +43,7 @@ impl Console {
             log: None,
             limit: Duration::MAX,
             yields: false,
+            stop: Arc::default(),
             last: RefCell::default(),
         }
     }
@@ -50,7 +55,16 @@ impl Console {
             log: Some(log),
             limit,
             yields,
+            stop: Arc::default(),
             last: RefCell::default(),
+        }
+    }
+
+    /// Its programs stop as soon as `stop` is set.
+    pub(crate) fn stopped_by(self, stop: &Arc<AtomicBool>) -> Console {
+        Console {
+            stop: Arc::clone(stop),
+            ..self
         }
     }
 
@@ -110,7 +124,7 @@ impl Console {
 
     fn wait(&self, child: &mut Child, started: Instant, shown: &str) -> Result<ExitStatus> {
         let lost = |e| Error::Failed(format!("`{shown}` was lost: {e}"));
-        while started.elapsed() < self.limit {
+        while started.elapsed() < self.limit && !self.stop.load(Ordering::Relaxed) {
             if let Some(status) = child.try_wait().map_err(lost)? {
                 return Ok(status);
             }
@@ -118,10 +132,8 @@ impl Console {
         }
         let _ = child.kill();
         let _ = child.wait();
-        let limit = seconds(self.limit);
-        Err(Error::Failed(format!(
-            "`{shown}` was stopped after {limit}"
-        )))
+        let time = seconds(started.elapsed());
+        Err(Error::Failed(format!("`{shown}` was stopped after {time}")))
     }
 }
 

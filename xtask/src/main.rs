@@ -16,6 +16,7 @@ mod lock;
 mod mutants;
 mod packages;
 mod play;
+mod progress;
 mod release;
 mod repo;
 mod serve;
@@ -37,9 +38,10 @@ odkit's tasks
 
 usage: cargo xtask <command> [options]
 
-  play [--port N] [--no-serve]
+  play [--port N] [--no-serve] [--small]
         set up the tools, build the browser page and serve it on 127.0.0.1
-        (port 8080 or the next free one; --no-serve stops after the build)
+        (port 8080 or the next free one; --no-serve stops after the build); the page
+        is one that compiles soon, or with --small the one of a release
   test [--quick] [--long] [--only STAGE]... [--list]
         run every check; --quick runs the short ones, --long gives fuzz-like tests
         more time, --only runs single stages, --list names them

@@ -13,12 +13,13 @@ use crate::serve::{self, Server};
 pub(crate) struct Options {
     port: Option<u16>,
     serve: bool,
+    small: bool,
 }
 
 impl Options {
     /// Reads the arguments after `play`.
     pub(crate) fn parse(args: &[String]) -> Result<Options> {
-        let (mut port, mut serve) = (None, true);
+        let (mut port, mut serve, mut small) = (None, true, false);
         // `--port=9000` is `--port 9000`.
         let mut words = args.iter().flat_map(|arg| arg.split('='));
         while let Some(word) = words.next() {
@@ -29,10 +30,11 @@ impl Options {
                     port = Some(number.ok_or_else(|| Error::Usage(String::from(wrong)))?);
                 }
                 "--no-serve" => serve = false,
+                "--small" => small = true,
                 _ => return Err(Error::Usage(format!("play has no option `{word}`"))),
             }
         }
-        Ok(Options { port, serve })
+        Ok(Options { port, serve, small })
     }
 }
 
@@ -42,7 +44,11 @@ pub(crate) fn run(repo: &Repo, console: &Console, options: &Options) -> Result<(
     if let Some(port) = options.port {
         serve::check(port)?;
     }
-    bundle::page(repo, console)?;
+    if options.small {
+        bundle::page(repo, console)?;
+    } else {
+        bundle::quick(repo, console)?;
+    }
     say(&format!("\nReady after {}.", seconds(started.elapsed())));
     if options.serve {
         let server = Server::start(repo, options.port)?;
@@ -63,10 +69,11 @@ mod tests {
             let args: Vec<String> = line.split_whitespace().map(String::from).collect();
             Options::parse(&args).ok()
         };
-        let options = |port, serve| Some(Options { port, serve });
-        assert_eq!(parse(""), options(None, true));
-        assert_eq!(parse("--port 9000"), options(Some(9000), true));
-        assert_eq!(parse("--port=0 --no-serve"), options(Some(0), false));
+        let options = |port, serve, small| Some(Options { port, serve, small });
+        assert_eq!(parse(""), options(None, true, false));
+        assert_eq!(parse("--port 9000"), options(Some(9000), true, false));
+        assert_eq!(parse("--port=0 --no-serve"), options(Some(0), false, false));
+        assert_eq!(parse("--small"), options(None, true, true));
         for wrong in ["--port", "--port x", "--port 70000", "--prot 1", "9000"] {
             assert_eq!(parse(wrong), None, "{wrong}");
         }

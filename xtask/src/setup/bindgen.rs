@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::console::{Console, cargo};
+use crate::console::{Console, ask, cargo, which};
 use crate::error::{Error, Result};
 use crate::repo::{Repo, program};
 
@@ -10,6 +10,15 @@ use crate::repo::{Repo, program};
 pub(crate) fn get(repo: &Repo, console: &Console) -> Result<PathBuf> {
     check_versions(repo)?;
     build(repo, console, "odkit-wasm-bindgen", "wasm-bindgen")
+}
+
+/// A wasm-bindgen of the right version on PATH, or the one of [`get`]; its path.
+pub(crate) fn any(repo: &Repo, console: &Console) -> Result<PathBuf> {
+    let version = format!("wasm-bindgen {}", repo.locked_version("wasm-bindgen")?);
+    match which("wasm-bindgen") {
+        Some(path) if ask(&path, &["--version"]).as_ref() == Some(&version) => Ok(path),
+        _ => get(repo, console),
+    }
 }
 
 /// Builds wasm-pack without its downloader; its path.
