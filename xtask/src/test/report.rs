@@ -104,7 +104,11 @@ impl Report {
                 say(&format!("{what} stages: {}", names.join(", ")));
             }
         }
-        say(&format!("finished in {}", seconds(self.started.elapsed())));
+        let took = seconds(self.started.elapsed());
+        say(&match processor_time() {
+            Some(time) => format!("finished in {took}, {} of processor time", seconds(time)),
+            None => format!("finished in {took}"),
+        });
         say(&closing(self.totals));
         if self.failed.is_empty() {
             ExitCode::SUCCESS
@@ -112,6 +116,16 @@ impl Report {
             ExitCode::FAILURE
         }
     }
+}
+
+/// The processor time of all programs that ended; `None` where the system has no `/proc`.
+fn processor_time() -> Option<Duration> {
+    let text = std::fs::read_to_string("/proc/self/stat").ok()?;
+    // Behind the name, which may contain anything: fields 16 and 17 of proc_pid_stat(5), in 1/100 s.
+    let (_, fields) = text.rsplit_once(')')?;
+    let ticks = fields.split_whitespace().skip(13).take(2);
+    let ticks: u64 = ticks.filter_map(|field| field.parse::<u64>().ok()).sum();
+    Some(Duration::from_millis(ticks * 10))
 }
 
 fn explain(name: &str, why: &str, (log, place): (&str, &Path), command: &str) {
@@ -125,12 +139,42 @@ fn explain(name: &str, why: &str, (log, place): (&str, &Path), command: &str) {
         say(&format!("    {line}"));
     }
     let ci = if is_ci() { "CI=true " } else { "" };
-    say(&format!("\n  {name}: {why}\n  log:    {place}"));
+    say(&format!("\n  {name}: {why}"));
+    for line in matters(&lines) {
+        say(&format!("  | {line}"));
+    }
+    say(&format!("  log:    {place}"));
     say(&format!("  repeat: {ci}cargo xtask test --only {name}"));
     if !command.is_empty() {
         say(&format!("  or:     {command}"));
     }
     say("");
+}
+
+/// The lines of a log that name the first failures and their reasons, at most five.
+fn matters<'a>(lines: &[&'a str]) -> Vec<&'a str> {
+    const MOST: usize = 5;
+    // By rustc and xtask; by a Rust test and the line behind it; by Node; by unittest and pytest.
+    let begins = ["error", "not ok ", "E  ", "FAIL:", "ERROR:", "FAILED "];
+    let is_reason = |line: &str| {
+        let line = line.trim_start();
+        begins.iter().any(|begin| line.starts_with(begin)) || line.contains("panicked at")
+    };
+    let mut found = Vec::new();
+    let mut is_next = false;
+    for line in lines.iter().filter(|line| !line.trim().is_empty()) {
+        if is_next || is_reason(line) {
+            found.push(*line);
+        }
+        is_next = line.contains("panicked at");
+    }
+    found.truncate(MOST);
+    if found.is_empty() {
+        found = lines.to_vec();
+        found.retain(|line| !line.trim().is_empty());
+        found.drain(..found.len().saturating_sub(MOST));
+    }
+    found
 }
 
 fn line(name: &str, outcome: &Outcome, took: Duration) -> String {
@@ -168,8 +212,22 @@ fn closing(totals: Counts) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{Counts, Outcome, closing, line};
+    use super::{Counts, Outcome, closing, line, matters};
     use std::time::Duration;
+
+    #[test]
+    fn the_lines_that_matter_are_reasons() {
+        let log = "   Compiling a v1\nrunning 2 tests\ntest x ... FAILED\n\n---- x stdout ----\n\
+                   thread 'x' panicked at a.rs:3:5:\nleft is 1\n\nnote: run with `RUST_BACKTRACE=1`\n\
+                   test result: FAILED. 1 passed; 1 failed\nerror: test failed, to rerun pass `-p a`\n";
+        let lines: Vec<&str> = log.lines().collect();
+        assert_eq!(matters(&lines), [lines[5], lines[6], lines[10]]);
+        let python = "Ran 3 tests\nFAIL: test_a (b)\nTraceback\nE   assert 1 == 2\n";
+        let lines: Vec<&str> = python.lines().collect();
+        assert_eq!(matters(&lines), [lines[1], lines[3]]);
+        let quiet = ["a", "b", "", "c", "d", "e", "f"];
+        assert_eq!(matters(&quiet), ["b", "c", "d", "e", "f"]);
+    }
 
     #[test]
     fn lines() {
