@@ -153,6 +153,11 @@ impl Rule {
         check: Check::Elsewhere,
     };
 
+    /// Returns whether a finding is about one value alone, whatever the other objects are.
+    pub const fn is_of_one_value(&self) -> bool {
+        matches!(self.check, Check::Entry(_))
+    }
+
     /// All that its findings can say.
     pub fn forms(&self) -> impl Iterator<Item = Form> {
         let own = Form {

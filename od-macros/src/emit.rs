@@ -14,6 +14,7 @@ use crate::docs;
 use crate::family::{Device, Family};
 use crate::handles::{Body, Handle, Item};
 use crate::input::Input;
+use crate::near_names;
 use crate::source::Source;
 
 /// The module that a call makes.
@@ -117,6 +118,9 @@ fn device(out: &mut String, input: &Input, device: &Device, of_variant: Option<&
     }
     if !handed_on.is_empty() {
         let _ = writeln!(out, "pub use super::{{{}}};", handed_on.join(", "));
+    }
+    if of_variant.is_none() {
+        near_names::write(out, &device.items);
     }
 }
 

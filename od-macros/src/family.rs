@@ -1,6 +1,6 @@
 //! A base and its variants: edits applied, rules checked, handles named.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use od_eds::patch;
 use od_eds::{Description, Finding, Key, Tables};
@@ -18,6 +18,8 @@ pub(crate) struct Family {
     pub(crate) base: Device,
     /// In the order of the call's variants.
     pub(crate) variants: Vec<Device>,
+    /// Services that the call leaves out and that objects need.
+    pub(crate) needed: Vec<&'static str>,
     /// Number of findings about the file that are not errors.
     pub(crate) remarks: usize,
 }
@@ -30,32 +32,27 @@ pub(crate) struct Device {
 
 /// Builds all there is to build; what is wrong goes to `report`.
 pub(crate) fn build(input: &Input, source: &Source, report: &mut Report) -> Family {
-    // Without the file nothing is known to be wrong: one mistake, one error.
-    // The same after a fault of grammar.
-    let quiet = !report.is_empty();
     let home = match &input.eds {
         Some(path) => path.span(),
         None => input.name.span(),
     };
     let files = source.files.as_ref();
-    let told = Findings { home, files, quiet };
+    let told = Findings { files };
 
     let mut base = source.description.clone();
-    let found = told.patch(
-        &mut base,
-        &source.description,
-        &input.statements,
-        home,
-        "",
-        report,
-    );
+    let before = if base.objects.is_empty() || input.statements.is_empty() {
+        Vec::new()
+    } else {
+        od_eds::check::check(&base)
+    };
+    let made = told.patch(&mut base, &before, &input.statements, home, "", report);
     let left = source.findings.iter();
     let left = left.filter(|finding| !fixed(finding, &base, &input.statements));
-    let mut eds: Vec<Finding> = left.cloned().chain(found).collect();
+    let mut eds: Vec<Finding> = left.cloned().chain(made.old).collect();
     eds.sort_by_key(|finding| finding.span().map_or(0, |span| span.start));
     source.allows.clone().filter(&mut eds);
-    told.tell(&eds, &base, report);
-    if let (Some(profile), false) = (&input.profile, quiet) {
+    findings::tell(&eds, home, files, &base, report);
+    if let (Some(profile), true) = (&input.profile, report.is_whole()) {
         crate::profile::check(profile, &base, report);
     }
 
@@ -67,7 +64,7 @@ pub(crate) fn build(input: &Input, source: &Source, report: &mut Report) -> Fami
             let context = format!("variant `{}`: ", variant.name);
             told.patch(
                 &mut description,
-                &base,
+                &made.all,
                 &variant.statements,
                 variant.name.span(),
                 &context,
@@ -76,6 +73,9 @@ pub(crate) fn build(input: &Input, source: &Source, report: &mut Report) -> Fami
             description
         })
         .collect();
+    if input.is_quiet {
+        report.hide_warnings();
+    }
     let mut family = devices(input, source, base, variants, report);
     if source.files.is_some() {
         family.remarks = eds.iter().filter(|finding| !finding.is_unsound()).count();
@@ -95,8 +95,8 @@ fn fixed(finding: &Finding, base: &Description, statements: &[Statement]) -> boo
     // An edit of the default takes the place of a DCF's value, too.
     let key = match finding.key {
         Some(Key::ParameterValue) => Key::DefaultValue,
-        Some(key) if finding.is_unsound() => key,
-        _ => return false,
+        Some(key) => key,
+        None => return false,
     };
     statements.iter().any(|statement| match statement {
         Statement::Edit { target, fields, .. } => {
@@ -118,6 +118,18 @@ fn devices(
     let mut all: Vec<&mut Tables> = std::iter::once(&mut tables).chain(&mut others).collect();
     layout::lay_out(&mut all);
 
+    let mut needed = Vec::new();
+    let own = std::iter::once(("", &tables));
+    let of_variants = input.variants.iter().zip(&others);
+    let of_variants: Vec<_> = of_variants
+        .map(|(variant, tables)| (variant.name.to_string(), tables))
+        .collect();
+    let of_variants = of_variants.iter().map(|(name, tables)| (&**name, *tables));
+    for (name, tables) in own.chain(of_variants) {
+        let of_one = input.services.check(name, tables.dictionary(), report);
+        needed.extend(of_one);
+    }
+
     let files = source.files.as_ref();
     let modules = input.variants.iter().map(|v| v.name.to_string()).collect();
     let naming = Naming {
@@ -130,6 +142,7 @@ fn devices(
     let mut family = Family {
         base: Device { tables, items },
         variants: Vec::new(),
+        needed,
         remarks: 0,
     };
     for ((variant, description), tables) in input.variants.iter().zip(variants).zip(others) {
@@ -145,56 +158,43 @@ fn devices(
     family
 }
 
+/// Findings about a description after a patch.
+struct Checked {
+    /// Those that its base has, too.
+    old: Vec<Finding>,
+    all: Vec<Finding>,
+}
+
 /// Receiver of findings.
 struct Findings<'a> {
-    home: Span,
     files: Option<&'a Files>,
-    quiet: bool,
 }
 
 impl Findings<'_> {
-    /// Applies statements to `description`, which is still `before`, and checks the result.
+    /// Applies statements to a description, of which the checks found `before`, and checks the result.
     ///
-    /// Faults of the statements are reported. What the checks find in a base is
-    /// returned; what they find in a variant that was not there `before` is reported
-    /// at the edit that made it, or at `home`.
+    /// Faults of the statements, and what the checks find in the result and did not find before, are reported
+    /// at the edit that made them, or at `home`. While a statement is wrong, only findings about a single value
+    /// that it does not touch are reported: all others may be consequences.
     fn patch(
         &self,
         description: &mut Description,
-        before: &Description,
+        before: &[Finding],
         statements: &[Statement],
         home: Span,
         context: &str,
         report: &mut Report,
-    ) -> Vec<Finding> {
+    ) -> Checked {
         let first = report.numbers();
         let edits = lower::edits(statements, report);
-        let mut findings = patch::apply(description, &edits);
-        findings.extend(handles::check_renames(statements, description, report));
-        if self.quiet {
-            return Vec::new();
-        }
-        if !findings.is_empty() {
-            self.tell(&findings, description, report);
-            return Vec::new();
-        }
-        let found = od_eds::check::check(description);
-        if edits.is_empty() {
-            return if context.is_empty() {
-                found
-            } else {
-                Vec::new()
-            };
-        }
-        let mut known = if before.objects.is_empty() {
-            Vec::new()
-        } else {
-            od_eds::check::check(before)
-        };
-        known.retain(Finding::is_unsound);
-        let (old, new): (Vec<_>, Vec<_>) = found
-            .into_iter()
-            .partition(|f| !f.is_unsound() || known.contains(f));
+        let mut faults = patch::apply(description, &edits);
+        faults.extend(handles::check_renames(statements, description, report));
+        let index = |finding: &Finding| finding.object.map(|address| address.index);
+        faults.retain(|fault| {
+            let missing = matches!(fault.code(), "E0701" | "E0703");
+            index(fault).is_none_or(|index| report.is_read(index))
+                && !(missing && report.has_lost())
+        });
         let patch = findings::Patch {
             edits: &edits,
             tokens: first..report.numbers(),
@@ -202,11 +202,32 @@ impl Findings<'_> {
             context,
             files: self.files,
         };
+        patch.tell(&faults, description, report);
+        let mut all = od_eds::check::check(description);
+        if !report.is_whole() || !faults.is_empty() {
+            let broken: BTreeSet<u16> = faults.iter().filter_map(index).collect();
+            all.retain(|finding| {
+                let is_sound = |index| report.is_read(index) && !broken.contains(&index);
+                finding.rule.is_of_one_value() && index(finding).is_none_or(is_sound)
+            });
+        }
+        if edits.is_empty() {
+            return Checked {
+                old: all.clone(),
+                all,
+            };
+        }
+        let mut known: BTreeMap<_, Vec<&Finding>> = BTreeMap::new();
+        for finding in before {
+            let key = (finding.code(), finding.object);
+            known.entry(key).or_default().push(finding);
+        }
+        let is_old = |finding: &Finding| {
+            let alike = known.get(&(finding.code(), finding.object));
+            alike.is_some_and(|alike| alike.contains(&finding))
+        };
+        let (old, new): (Vec<Finding>, Vec<Finding>) = all.iter().cloned().partition(is_old);
         patch.blame(&new, description, report);
-        if context.is_empty() { old } else { Vec::new() }
-    }
-
-    fn tell(&self, findings: &[Finding], description: &Description, report: &mut Report) {
-        findings::tell(findings, self.home, self.files, description, report);
+        Checked { old, all }
     }
 }

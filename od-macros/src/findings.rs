@@ -1,11 +1,12 @@
 //! Findings in rustc's output: at the token that made them, or at the path of the EDS,
 //! with the place in the file in the text.
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 use od_eds::patch::{Action, Edit};
 use od_eds::row::Row;
-use od_eds::{Description, Eds, Finding, Sentence, say, token_of};
+use od_eds::{Description, Eds, Finding, Sentence, Severity, say, token_of};
 use od_model::Address;
 use proc_macro2::Span;
 
@@ -16,7 +17,7 @@ use crate::report::{Place, Report};
 const SHOWN: usize = 20;
 
 /// Reports the findings about the file: those about
-/// what an edit wrote at its token, the others at `home`, the path.
+/// what an edit wrote at its token, the others at `home`, the path. Of warnings one for each rule.
 pub(crate) fn tell(
     findings: &[Finding],
     home: Span,
@@ -26,20 +27,40 @@ pub(crate) fn tell(
 ) {
     let mut shown = 0;
     let mut hidden = 0usize;
-    for finding in findings.iter().filter(|f| f.is_unsound()) {
-        if let Some(place) = report.token(finding) {
-            report.at(place, at_token(&say(finding, &Row), description, None));
-        } else if shown < SHOWN {
-            shown += 1;
-            report.at(home, in_file(finding, description, files));
-        } else {
-            hidden += 1;
+    let mut warned: BTreeMap<&str, (&Finding, usize)> = BTreeMap::new();
+    for finding in findings
+        .iter()
+        .filter(|f| f.severity() >= Severity::Warning)
+    {
+        let place = report.token(finding);
+        let at_token = || at_token(&say(finding, &Row), description, None);
+        match (place, finding.is_unsound()) {
+            (Some(place), true) => report.at(place, at_token()),
+            (Some(place), false) => report.warn(place, finding.code(), at_token()),
+            (None, false) => warned.entry(finding.code()).or_insert((finding, 0)).1 += 1,
+            (None, true) if shown < SHOWN => {
+                shown += 1;
+                report.at(home, in_file(finding, description, files));
+            }
+            (None, true) => hidden += 1,
         }
     }
+    let file = || files.map_or_else(|| "the file".into(), Files::shown);
     if hidden > 0 {
-        let file = files.map_or_else(|| "the file".into(), Files::shown);
+        let file = file();
         let help = format!("`odkit check {file}` shows them all");
         report.at(home, format!("{file}: {hidden} more errors\nhelp: {help}"));
+    }
+    for (code, (first, count)) in warned {
+        let mut text = in_file(first, description, files);
+        if count > 1 {
+            let more = count - 1;
+            text.push_str(&format!(
+                "\nnote: {more} more; `odkit check {}` shows all",
+                file()
+            ));
+        }
+        report.warn(home, code, text);
     }
 }
 
@@ -56,14 +77,56 @@ pub(crate) struct Patch<'a> {
 }
 
 impl Patch<'_> {
-    /// Reports what the edits made unsound.
+    /// Reports the faults of the edits themselves, at their tokens.
+    pub(crate) fn tell(&self, faults: &[Finding], description: &Description, report: &mut Report) {
+        for fault in faults {
+            let mut told = say(fault, &Row);
+            if fault.code() == "E0701" {
+                self.help_to_find(fault, &mut told, report);
+            }
+            let place = report.token(fault).unwrap_or(Place::from(self.home));
+            report.at(place, at_token(&told, description, None));
+        }
+    }
+
+    /// The help about an object that is missing: its `add` may come later, and a table has no file to look into.
+    fn help_to_find(&self, fault: &Finding, told: &mut Sentence, report: &Report) {
+        let own = |edit: &&Edit| Some(edit.target.span) == fault.span();
+        let Some(edit) = self.edits.iter().find(own) else {
+            return;
+        };
+        let target = *edit.target;
+        let is_its = |other: &&Edit| other.action == Action::Add && *other.target == target;
+        if let Some(later) = self.edits.iter().find(is_its) {
+            let line = report.span(later.target.span).and_then(Place::line);
+            let line = line.map_or(String::new(), |line| format!(" in line {line}"));
+            told.help = format!("move this statement behind `add {target}`{line}");
+        } else if self.files.is_none() && told.help.contains("odkit dump") {
+            told.help = format!("write `add {target} {{ … }}` first");
+        }
+    }
+
+    /// Reports what the checks find since the edits.
     pub(crate) fn blame(
         &self,
         findings: &[Finding],
         description: &Description,
         report: &mut Report,
     ) {
-        for finding in findings.iter().filter(|f| f.is_unsound()) {
+        let mut warned: BTreeMap<_, (Place, String, usize)> = BTreeMap::new();
+        for finding in findings
+            .iter()
+            .filter(|f| f.severity() >= Severity::Warning)
+        {
+            // What a file lacks: a table has no [FileInfo].
+            if self.files.is_none() && finding.object.is_none() && finding.span().is_none() {
+                continue;
+            }
+            // What the file says elsewhere, such as in [DeviceInfo], no statement can correct.
+            let is_in_file = finding.span().is_some_and(|span| token_of(span).is_none());
+            if is_in_file && !finding.is_unsound() {
+                continue;
+            }
             let own = finding.span().and_then(token_of);
             let own = own.filter(|id| self.tokens.contains(id));
             let mut told = say(finding, &Row);
@@ -77,8 +140,23 @@ impl Patch<'_> {
                 _ => report.token(finding),
             };
             let text = at_token(&told, description, self.files);
+            let text = format!("{}{text}", self.context);
             let place = place.unwrap_or(Place::from(self.home));
-            report.at(place, format!("{}{text}", self.context));
+            if finding.is_unsound() {
+                report.at(place, text);
+                continue;
+            }
+            let edit = self
+                .culprit(finding)
+                .and_then(|edit| token_of(edit.target.span));
+            let key = (finding.code(), own.or(edit));
+            warned.entry(key).or_insert((place, text, 0)).2 += 1;
+        }
+        for ((code, _), (place, mut text, count)) in warned {
+            if count > 1 {
+                text.push_str(&format!("\nnote: {} more of this rule here", count - 1));
+            }
+            report.warn(place, code, text);
         }
     }
 

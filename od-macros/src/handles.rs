@@ -305,6 +305,21 @@ pub(crate) fn check_renames(
 }
 
 impl Item {
+    /// The name that the description alone gives, before a suffix for names that repeat or are keywords.
+    pub(crate) fn near_name(&self) -> String {
+        if self.is_module() {
+            let name = names::module(&self.label, self.index);
+            let bare = name.trim_end_matches('_');
+            if names::is_keyword(bare) {
+                bare.into()
+            } else {
+                name
+            }
+        } else {
+            names::constant(&self.label, self.index, None)
+        }
+    }
+
     pub(crate) fn is_module(&self) -> bool {
         matches!(self.body, Body::Members(_))
     }

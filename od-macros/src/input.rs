@@ -26,6 +26,8 @@ pub(crate) struct Input {
     pub(crate) overlay: Option<LitStr>,
     pub(crate) profile: Option<Ident>,
     pub(crate) services: Services,
+    /// `warnings = off;`.
+    pub(crate) is_quiet: bool,
     /// `add`, `modify`, `remove` and `rename` outside of the variants, in their order.
     pub(crate) statements: Vec<Statement>,
     pub(crate) variants: Vec<Variant>,
@@ -97,6 +99,7 @@ impl Input {
             overlay: None,
             profile: None,
             services: Services::default(),
+            is_quiet: false,
             statements: Vec::new(),
             variants: Vec::new(),
         };
@@ -157,6 +160,21 @@ impl Input {
                     None => self.profile = Some(profile),
                     Some(_) => report.at(key.span(), "`profile` is given twice"),
                 }
+            }
+            "warnings" => {
+                let key = Ident::parse_any(body)?;
+                body.parse::<Token![=]>()?;
+                let word = Ident::parse_any(body)
+                    .ok()
+                    .filter(|word| word == "off")
+                    .ok_or_else(|| {
+                        syn::Error::new(
+                            key.span(),
+                            "expected `off`\nhelp: `warnings = off;` hides the warnings of the rules",
+                        )
+                    })?;
+                semicolon(body, word.span(), report)?;
+                self.is_quiet = true;
             }
             "without" => {
                 Ident::parse_any(body)?;
@@ -220,11 +238,11 @@ fn overlay(body: ParseStream) -> syn::Result<Option<LitStr>> {
     Ok(Some(path))
 }
 
-const STATEMENTS: [&str; 11] = [
+const STATEMENTS: [&str; 12] = [
     "add", "modify", "remove", "rename", "variant", "eds", "profile", "without", "behaves",
-    "errors", "crate",
+    "errors", "crate", "warnings",
 ];
-const IN_MODULE: &str = "`eds`, `profile`, `without`, `behaves`, `errors`, `crate`, `add`, `modify`, `remove`, `rename` or `variant`";
+const IN_MODULE: &str = "`eds`, `profile`, `without`, `behaves`, `errors`, `crate`, `warnings`, `add`, `modify`, `remove`, `rename` or `variant`";
 const IN_VARIANT: &str = "`add`, `modify`, `remove` or `rename`";
 
 fn statement(body: ParseStream, allowed: &str, report: &mut Report) -> syn::Result<Statement> {
@@ -254,7 +272,7 @@ fn statement(body: ParseStream, allowed: &str, report: &mut Report) -> syn::Resu
             semicolon(body, name.span(), report)?;
             return Ok(Statement::Rename { target, name });
         }
-        "eds" | "profile" | "without" | "behaves" | "errors" | "crate" | "variant" => {
+        "eds" | "profile" | "without" | "behaves" | "errors" | "crate" | "variant" | "warnings" => {
             return Err(syn::Error::new(
                 word.span(),
                 format!(
@@ -288,10 +306,14 @@ fn statement(body: ParseStream, allowed: &str, report: &mut Report) -> syn::Resu
     }
     let inner;
     braced!(inner in body);
+    let before = report.faults();
     let fields = fields::read(&inner, report);
+    if report.faults() > before {
+        report.half_read(target.target.index);
+    }
     // A semicolon behind the brace is harmless and easily typed.
     let _ = body.parse::<Option<Token![;]>>()?;
-    if action == Action::Modify && fields.is_empty() {
+    if action == Action::Modify && fields.is_empty() && report.faults() == before {
         report.at(
             target.span,
             format!(
@@ -335,6 +357,7 @@ fn recover<T>(body: ParseStream, result: syn::Result<T>, report: &mut Report) ->
         Err(error) => error,
     };
     report.push(error);
+    report.lose();
     while !body.is_empty() && !starts_statement(body) {
         match body.parse::<TokenTree>() {
             Ok(TokenTree::Punct(p)) if p.as_char() == ';' => break,
@@ -354,7 +377,7 @@ fn starts_statement(body: ParseStream) -> bool {
     };
     match word.to_string().as_str() {
         "add" | "modify" | "remove" | "rename" => ahead.peek(LitInt),
-        "eds" | "profile" | "behaves" | "errors" => ahead.peek(Token![=]),
+        "eds" | "profile" | "behaves" | "errors" | "warnings" => ahead.peek(Token![=]),
         "variant" | "without" => ahead.peek(syn::Ident),
         _ => false,
     }

@@ -44,6 +44,7 @@
 //!                        changes), guarding, consumer (heartbeat), storage, behaviour (1029h), events,
 //!                        servers (SDO servers past the first), sync_producer, time
 //!           | "behaves" "=" path ";"               the device's `Profile`, known to the compiler
+//!           | "warnings" "=" off ";"                 warnings of the rules are not shown
 //!           | "errors" "=" 4 ";"                   number of EMCY errors that can be active, and come or
 //!                                                  go in one call; 32 unless given
 //!           | { attribute } "variant" name "{" { statement } "}"
@@ -98,8 +99,12 @@
 //!
 //! The macro reports all errors at once: those of the call at their tokens, those of the EDS at its path with
 //! `file:line:column` in the text. It still makes the module from the valid parts, so that one mistake is
-//! one error. Warnings do not stop a build: `odkit check` shows them, and the documentation of the module
-//! gives their number.
+//! one error.
+//!
+//! What `odkit check` reports and a device can be built with, the compiler warns of: of a file at its path, one
+//! warning for each rule with the first place; of a statement at its token. The warning is the lint `deprecated`
+//! of rustc, the one that a macro can bring about: `use of deprecated constant W0452: …`. `warnings = off;` hides
+//! them, and a comment `;odkit-allow=CODE reason` in the file allows a finding.
 //!
 //! A change of the EDS causes a rebuild. The binary contains only names, texts and values of the EDS, not its
 //! other text.
@@ -115,6 +120,7 @@ mod input;
 mod layout;
 mod lower;
 mod names;
+mod near_names;
 mod profile;
 mod report;
 mod services;
@@ -133,9 +139,13 @@ pub fn object_dictionary(input: proc_macro::TokenStream) -> proc_macro::TokenStr
 /// Parse, build, emit; faults are reported beside what could be made.
 fn expand(tokens: TokenStream) -> TokenStream {
     let mut report = report::Report::default();
-    let made = input::Input::read(tokens, &mut report).map(|input| {
+    let made = input::Input::read(tokens, &mut report).map(|mut input| {
         let source = source::read(&input, &mut report);
+        if input.eds.is_some() && source.paths.is_empty() {
+            report.lose();
+        }
         let family = family::build(&input, &source, &mut report);
+        input.services.keep(&family.needed);
         emit::module(&input, &source, &family)
     });
     let mut tokens = report.into_tokens();

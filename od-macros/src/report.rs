@@ -1,14 +1,28 @@
 //! All faults of a call, each at its token.
 
+use std::collections::BTreeSet;
+
 use od_eds::{Finding, token_of};
 use proc_macro2::{Ident, Span, TokenStream};
-use quote::{ToTokens, TokenStreamExt};
+use quote::{ToTokens, TokenStreamExt, quote};
 
 /// Collects what is wrong with a call.
 #[derive(Default)]
 pub(crate) struct Report {
     errors: Vec<syn::Error>,
+    warnings: Vec<Warning>,
     tokens: Vec<Place>,
+    /// Objects with a statement that could not be read in whole.
+    half_read: BTreeSet<u16>,
+    /// Whether a statement, or the file, could not be read at all.
+    has_lost: bool,
+}
+
+/// A warning of rustc.
+struct Warning {
+    place: Place,
+    code: &'static str,
+    message: String,
 }
 
 /// From the first token to the last.
@@ -24,6 +38,13 @@ impl From<Span> for Place {
             first: span,
             last: span,
         }
+    }
+}
+
+impl Place {
+    /// The line in the source; `None` outside of the compiler.
+    pub(crate) fn line(self) -> Option<usize> {
+        proc_macro::is_available().then(|| self.first.unwrap().line())
     }
 }
 
@@ -51,6 +72,51 @@ impl Report {
         self.errors.push(syn::Error::new_spanned(tokens, message));
     }
 
+    /// A warning at this place.
+    pub(crate) fn warn(&mut self, place: impl Into<Place>, code: &'static str, message: String) {
+        let place = place.into();
+        self.warnings.push(Warning {
+            place,
+            code,
+            message,
+        });
+    }
+
+    /// Notes that a statement about this object could not be read in whole.
+    pub(crate) fn half_read(&mut self, index: u16) {
+        self.half_read.insert(index);
+    }
+
+    /// Notes that a statement, or the file, could not be read at all.
+    pub(crate) fn lose(&mut self) {
+        self.has_lost = true;
+    }
+
+    /// Returns whether a statement, or the file, could not be read at all.
+    pub(crate) const fn has_lost(&self) -> bool {
+        self.has_lost
+    }
+
+    /// Returns whether all of the call could be read.
+    pub(crate) fn is_whole(&self) -> bool {
+        !self.has_lost && self.half_read.is_empty()
+    }
+
+    /// Drops the warnings: `warnings = off;`.
+    pub(crate) fn hide_warnings(&mut self) {
+        self.warnings.clear();
+    }
+
+    /// Returns whether every statement about this object could be read.
+    pub(crate) fn is_read(&self, index: u16) -> bool {
+        !self.half_read.contains(&index)
+    }
+
+    /// Number of faults so far.
+    pub(crate) fn faults(&self) -> usize {
+        self.errors.len()
+    }
+
     /// A span for the model that leads back to this token.
     pub(crate) fn number(&mut self, place: impl Into<Place>) -> od_eds::Span {
         let span = od_eds::token(self.numbers());
@@ -74,16 +140,29 @@ impl Report {
         self.tokens.get(token_of(span)? as usize).copied()
     }
 
-    /// Nothing told so far?
-    pub(crate) fn is_empty(&self) -> bool {
-        self.errors.is_empty()
-    }
-
-    /// `compile_error!` for each fault.
+    /// `compile_error!` for each fault; without a fault, the warnings.
     pub(crate) fn into_tokens(self) -> TokenStream {
+        if self.errors.is_empty() {
+            return self.warnings.iter().map(Warning::tokens).collect();
+        }
         self.errors
             .iter()
             .map(syn::Error::to_compile_error)
             .collect()
+    }
+}
+
+impl Warning {
+    /// The use of a deprecated constant: the one warning that a macro can bring about.
+    fn tokens(&self) -> TokenStream {
+        let name = Ident::new(self.code, self.place.first);
+        let message = &self.message;
+        quote! {
+            const _: () = {
+                #[deprecated(note = #message)]
+                const #name: () = ();
+                #name
+            };
+        }
     }
 }

@@ -2,7 +2,9 @@
 //! and room for.
 
 use std::fmt::Write;
+use std::ops::RangeInclusive;
 
+use od_model::Dictionary;
 use proc_macro2::{Ident, Span};
 use quote::ToTokens;
 use syn::parse::ParseStream;
@@ -11,28 +13,32 @@ use syn::{LitInt, Path, Token};
 use crate::report::Report;
 use crate::words;
 
-/// The services by their words, and the constants of `Device`.
-const SERVICES: [(&str, &str); 13] = [
-    ("lss", "LSS"),
-    ("segmented", "SEGMENTED"),
-    ("block", "BLOCK"),
-    ("rpdos", "RPDOS"),
-    ("changes", "CHANGES"),
-    ("guarding", "GUARDING"),
-    ("consumer", "CONSUMER"),
-    ("storage", "STORAGE"),
-    ("behaviour", "BEHAVIOUR"),
-    ("events", "EVENTS"),
-    ("servers", "SERVERS"),
-    ("sync_producer", "SYNC_PRODUCER"),
-    ("time", "TIME"),
+/// The services by their words, the constants of `Device`, and the objects that need them.
+const SERVICES: [(&str, &str, RangeInclusive<u16>); 13] = [
+    ("lss", "LSS", NONE),
+    ("segmented", "SEGMENTED", NONE),
+    ("block", "BLOCK", NONE),
+    ("rpdos", "RPDOS", 0x1400..=0x17FF),
+    ("changes", "CHANGES", NONE),
+    ("guarding", "GUARDING", 0x100C..=0x100D),
+    ("consumer", "CONSUMER", 0x1016..=0x1016),
+    ("storage", "STORAGE", 0x1010..=0x1011),
+    ("behaviour", "BEHAVIOUR", 0x1029..=0x1029),
+    ("events", "EVENTS", NONE),
+    ("servers", "SERVERS", 0x1201..=0x127F),
+    ("sync_producer", "SYNC_PRODUCER", 0x1005..=0x1005),
+    ("time", "TIME", 0x1012..=0x1012),
 ];
+
+/// No object.
+#[allow(clippy::reversed_empty_ranges)]
+const NONE: RangeInclusive<u16> = 1..=0;
 
 /// The services that a call names.
 #[derive(Default)]
 pub(crate) struct Services {
-    /// Constants of `Device` that are `false`.
-    off: Vec<&'static str>,
+    /// Constants of `Device` that are `false`, each with its word.
+    off: Vec<(&'static str, Ident)>,
     /// Path of the profile, as seen from the call.
     profile: Option<Path>,
     /// Errors that the node has room for.
@@ -47,13 +53,13 @@ impl Services {
                 syn::Error::new(e.span(), "expected a service\nhelp: `without lss, block;`")
             })?;
             let text = word.to_string();
-            match SERVICES.iter().find(|(name, _)| *name == text) {
-                Some((_, constant)) if self.off.contains(constant) => {
+            match SERVICES.iter().find(|(name, ..)| *name == text) {
+                Some((_, constant, _)) if self.lacks(constant) => {
                     report.at(word.span(), format!("`{word}` is given twice"));
                 }
-                Some((_, constant)) => self.off.push(constant),
+                Some((_, constant, _)) => self.off.push((constant, word.clone())),
                 None => {
-                    let names = || SERVICES.iter().map(|(name, _)| *name);
+                    let names = || SERVICES.iter().map(|(name, ..)| *name);
                     let help = match words::near(&text, names()) {
                         Some(meant) => format!("did you mean `{meant}`?"),
                         None => format!("`{}`", names().collect::<Vec<_>>().join("`, `")),
@@ -106,9 +112,57 @@ impl Services {
         Ok(())
     }
 
+    /// Reports the objects of the base, or of the variant of this name, that need a service which is left out.
+    pub(crate) fn check(
+        &self,
+        variant: &str,
+        dictionary: Dictionary<'_>,
+        report: &mut Report,
+    ) -> Vec<&'static str> {
+        let mut needed = Vec::new();
+        for (constant, word) in &self.off {
+            let service = SERVICES.iter().find(|(_, own, _)| own == constant);
+            let Some((_, _, range)) = service else {
+                continue;
+            };
+            // 1005h needs the producer only if it is one.
+            let needs = |index: u16| {
+                index != 0x1005
+                    || dictionary
+                        .entry(0x1005, 0)
+                        .and_then(|entry| entry.default.integer(0))
+                        .is_some_and(|cob_id| cob_id & 1 << 30 != 0)
+            };
+            let mut indices = dictionary.objects().map(|object| object.index);
+            if let Some(index) = indices.find(|index| range.contains(index) && needs(*index)) {
+                needed.push(*constant);
+                let context = if variant.is_empty() {
+                    String::new()
+                } else {
+                    format!("variant `{variant}`: ")
+                };
+                let help = if index == 0x1005 {
+                    "clear bit 30 of 1005h".into()
+                } else {
+                    format!("write `remove 0x{index:04X};`")
+                };
+                report.at(
+                    word.span(),
+                    format!("{context}{index:04X}h needs `{word}`\nhelp: remove `{word}` from the list, or {help}"),
+                );
+            }
+        }
+        needed
+    }
+
+    /// Gives the node these services all the same, so that one mistake is one error.
+    pub(crate) fn keep(&mut self, needed: &[&str]) {
+        self.off.retain(|(constant, _)| !needed.contains(constant));
+    }
+
     /// Whether a constant of `Device` is `false`.
     pub(crate) fn lacks(&self, constant: &str) -> bool {
-        self.off.contains(&constant)
+        self.off.iter().any(|(off, _)| *off == constant)
     }
 
     /// Whether `behaves` was given.
@@ -118,7 +172,7 @@ impl Services {
 
     /// The constants, for a module `depth` levels below the call.
     pub(crate) fn constants(&self, out: &mut String, root: &str, depth: usize) {
-        for constant in &self.off {
+        for (constant, _) in &self.off {
             let _ = writeln!(out, "const {constant}: bool = false;");
         }
         if let Some(errors) = self.errors {

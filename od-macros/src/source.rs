@@ -60,6 +60,25 @@ pub(crate) fn read(input: &Input, report: &mut Report) -> Source {
             }
         }
     };
+    if text
+        .trim_start_matches('\u{FEFF}')
+        .trim_start()
+        .starts_with('<')
+    {
+        let shown = literal.value();
+        let help = match shown.rsplit_once('.') {
+            Some((stem, end)) if end.eq_ignore_ascii_case("eds") => {
+                format!("rename it; `odkit convert {stem}.xdd -o {shown}` writes an EDS")
+            }
+            Some((stem, _)) => format!("`odkit convert {shown} -o {stem}.eds` writes an EDS"),
+            None => format!("`odkit convert {shown} -o {shown}.eds` writes an EDS"),
+        };
+        report.at(
+            literal.span(),
+            format!("`{shown}` is XML, and the macro reads EDS and DCF\nhelp: {help}"),
+        );
+        return nothing(files);
+    }
     let parsed = od_eds::parse(&text);
     Source {
         files: Some(files),

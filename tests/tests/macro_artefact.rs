@@ -8,6 +8,7 @@ use odkit::object_dictionary;
 object_dictionary! {
     pub mod small {
         eds = "../eds/small.eds";
+        warnings = off;
     }
 }
 

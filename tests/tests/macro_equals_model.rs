@@ -13,7 +13,7 @@ use odkit::object_dictionary;
 /// `module: "path from this folder"`, one line a file.
 macro_rules! files {
     ($($name:ident: $path:literal,)*) => {
-        $(object_dictionary! { mod $name { eds = $path; } })*
+        $(object_dictionary! { mod $name { eds = $path; warnings = off; } })*
 
         const FILES: &[&str] = &[$($path),*];
 

@@ -7,6 +7,7 @@ use odkit::object_dictionary;
 object_dictionary! {
     /// A device without a file.
     pub mod bench {
+        warnings = off;
         profile = cia406;
         rename 0x6004 = POSITION;
         rename 0x1018 = identity;
@@ -104,6 +105,7 @@ fn a_handle_points_to_the_slot_of_its_entry() {
 object_dictionary! {
     /// A device whose application streams a value.
     pub mod logger {
+        warnings = off;
         add 0x1000 { name = "Device type"; type = u32; access = const; default = 0 }
         add 0x1001 { name = "Error register"; type = u8; default = 0 }
         add 0x1018 { code = record; name = "Identity object" }

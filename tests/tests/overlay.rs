@@ -6,6 +6,7 @@ use odkit::object_dictionary;
 object_dictionary! {
     mod device {
         eds = "../eds/small.eds" + "../eds/small.overlay";
+        warnings = off;
     }
 }
 

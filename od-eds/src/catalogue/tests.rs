@@ -129,6 +129,20 @@ fn faults_of_edits() -> Vec<Finding> {
         Edit::modify(object(0x1000)).data_type(DataType::Unsigned8),
         Edit::add(member(0x1018, 1)).code(ObjectCode::Var),
         Edit::modify(object(0x1018)).default(number()),
+        Edit::add(object(0x2003))
+            .name("a")
+            .data_type(DataType::Unsigned16)
+            .capacity(4),
+        Edit::add(object(0x2004))
+            .name("a")
+            .data_type(DataType::Domain)
+            .mappable(true),
+        Edit::add(object(0))
+            .name("a")
+            .data_type(DataType::Unsigned8),
+        Edit::add(object(5))
+            .name("a")
+            .data_type(DataType::Unsigned8),
     ];
     findings.extend(patch::apply(&mut description, &edits));
     let edits = [Edit::modify(member(0x1018, 9))];

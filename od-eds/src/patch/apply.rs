@@ -12,6 +12,7 @@ use crate::rules::edits::{
     e0702_object_exists, e0703_sub_object_without_object, e0704_object_without_sub_objects,
     e0705_name_missing, e0706_type_missing, e0707_value_not_valid, e0708_value_of_base_not_valid,
     e0709_sub_object_with_object_code, e0710_value_of_object_with_sub_objects,
+    e0711_field_not_for_type, e0712_index_of_data_types,
 };
 use crate::span::{Span, Spanned};
 use od_model::DataType;
@@ -104,6 +105,10 @@ fn modify(description: &mut Description, edit: &Edit, findings: &mut Vec<Finding
 
 fn add_object(description: &mut Description, edit: &Edit, findings: &mut Vec<Finding>) {
     let target = *edit.target;
+    if target.index < 0x1000 {
+        findings.push(e0712_index_of_data_types::finding(&edit.target));
+        return;
+    }
     if description.objects.contains_key(&target.index) {
         findings.push(e0702_object_exists::finding(&edit.target));
         return;
@@ -207,9 +212,7 @@ fn fill(entry: &mut EntryDescription, edit: &Edit, findings: &mut Vec<Finding>) 
         match &change.value {
             Change::Name(name) => entry.name = Spanned::new(name.clone(), span),
             Change::Access(access) => entry.access = Spanned::new(*access, span),
-            Change::Mappable(mappable) => entry.mappable = Spanned::new(*mappable, span),
             Change::Save(group) => entry.group = Some(Spanned::new(*group, span)),
-            Change::Capacity(bytes) => entry.capacity = Some(*bytes),
             Change::Type(data_type) => {
                 entry.data_type = Some(Spanned::new(*data_type, span));
                 for (key, value) in [
@@ -222,9 +225,15 @@ fn fill(entry: &mut EntryDescription, edit: &Edit, findings: &mut Vec<Finding>) 
                     }
                 }
             }
-            Change::Code(_) | Change::Default(_) | Change::Low(_) | Change::High(_) => {}
+            Change::Code(_)
+            | Change::Mappable(_)
+            | Change::Capacity(_)
+            | Change::Default(_)
+            | Change::Low(_)
+            | Change::High(_) => {}
         }
     }
+    fill_length(entry, edit, findings);
     let Some(data_type) = entry.data_type.map(|t| t.value) else {
         return;
     };
@@ -256,6 +265,31 @@ fn fill(entry: &mut EntryDescription, edit: &Edit, findings: &mut Vec<Finding>) 
     // A DCF's value would hide the default that the edit gives.
     if gives(Key::DefaultValue) {
         entry.parameter = None;
+    }
+}
+
+/// Writes what depends on whether values of the type have a fixed length.
+fn fill_length(entry: &mut EntryDescription, edit: &Edit, findings: &mut Vec<Finding>) {
+    let data_type = entry.data_type.map(|given| given.value);
+    let fixed = data_type.map(|data_type| (data_type, data_type.bits().is_some()));
+    for change in &edit.changes {
+        match (&change.value, fixed) {
+            (Change::Mappable(true), Some((data_type, false))) => {
+                let finding =
+                    e0711_field_not_for_type::mappable(&edit.target, change.span, data_type);
+                findings.push(finding);
+            }
+            (Change::Capacity(_), Some((data_type, true))) => {
+                let finding =
+                    e0711_field_not_for_type::capacity(&edit.target, change.span, data_type);
+                findings.push(finding);
+            }
+            (Change::Mappable(mappable), _) => {
+                entry.mappable = Spanned::new(*mappable, change.span);
+            }
+            (Change::Capacity(bytes), _) => entry.capacity = Some(*bytes),
+            _ => {}
+        }
     }
 }
 

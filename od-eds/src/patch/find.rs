@@ -30,16 +30,25 @@ pub fn missing(description: &Description, target: &Spanned<Target>) -> Option<Fi
     missing.then(|| e0701_object_missing::sub_index(target, &subs(object)))
 }
 
-/// The target whose index differs in one digit, and the name of its object.
+/// The target whose index differs in one digit or has one more, and the name of its object.
 fn near_index(description: &Description, target: Target) -> Option<(Target, &str)> {
     let digits = |index: u16| [index >> 12, index >> 8 & 15, index >> 4 & 15, index & 15];
+    // `0x200` for 2000h: without one of its digits, the other is the same number.
+    let has_lost_one = |index: u16| {
+        let all = digits(index);
+        let without = |lost: usize| {
+            let kept = (0..4).filter(|at| *at != lost);
+            kept.fold(0, |number, at| number << 4 | all[at])
+        };
+        target.index < 0x1000 && (0..4).any(|lost| without(lost) == target.index)
+    };
     let near = description.objects.iter().filter(|(index, object)| {
         let same = digits(**index)
             .iter()
             .zip(digits(target.index))
             .filter(|(a, b)| **a == *b)
             .count();
-        same == 3
+        (same == 3 || has_lost_one(**index))
             && target
                 .sub
                 .is_none_or(|sub| object.entries.contains_key(&sub) && object.code.has_members())

@@ -170,6 +170,10 @@ fn statements() -> Vec<(String, String)> {
         ("profile", "the device profile that is checked"),
         ("without", "services that the node does not have"),
         ("behaves", "the profile of the node's services"),
+        (
+            "warnings",
+            "`warnings = off;` hides the warnings of the rules",
+        ),
         ("crate", "path of the crate `odkit`"),
     ]
     .map(|(word, said)| (word.to_owned(), said.to_owned()))

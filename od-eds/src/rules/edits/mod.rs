@@ -11,6 +11,8 @@ catalogue! {
     e0708_value_of_base_not_valid E0708 (example)
     e0709_sub_object_with_object_code E0709 (example)
     e0710_value_of_object_with_sub_objects E0710 (example)
+    e0711_field_not_for_type E0711 (example)
+    e0712_index_of_data_types E0712 (example)
 }
 
 pub(crate) mod e0701_object_missing;
@@ -23,3 +25,5 @@ pub(crate) mod e0707_value_not_valid;
 pub(crate) mod e0708_value_of_base_not_valid;
 pub(crate) mod e0709_sub_object_with_object_code;
 pub(crate) mod e0710_value_of_object_with_sub_objects;
+pub(crate) mod e0711_field_not_for_type;
+pub(crate) mod e0712_index_of_data_types;

@@ -1,5 +1,6 @@
 use alloc::vec::Vec;
 
+use crate::fact::Fact;
 use crate::finding::{Check, Finding, Rule, Severity::Warning};
 use crate::subject::{Object, start_number};
 use od_model::Address;
@@ -11,7 +12,7 @@ pub(crate) static RULE: Rule = Rule {
     why: "The device ignores the start value: SYNC messages have a counter only if 1019h is not 0.",
     source: "CiA 301, PDO communication parameter and object 1019h",
     says: "SYNC start value is {given}, but object 1019h is missing",
-    help: "add a section [1019], or write 0",
+    help: "add {missing}, or write 0",
     check: Check::Object(check),
     ..Rule::NEW
 };
@@ -25,6 +26,7 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
     let given = start_number(object.description, address);
     if let Some(given) = given.filter(|given| given.value != 0) {
         let finding = RULE.on(object, given.span).about(address);
-        findings.push(finding.fact("given", given.value));
+        let finding = finding.fact("given", given.value);
+        findings.push(finding.fact("missing", Fact::Section(0x1019, None)));
     }
 }

@@ -1,6 +1,7 @@
 use alloc::vec::Vec;
 
 use crate::description::Description;
+use crate::fact::Fact;
 use crate::finding::{Check, Finding, Form, Rule, Severity::Warning};
 use crate::span::Spanned;
 use crate::subject::start_number;
@@ -13,7 +14,7 @@ pub(crate) static RULE: Rule = Rule {
     why: "The device produces no SYNC message, or drops synchronous PDOs that come in time.",
     source: "CiA 301, objects 1005h to 1007h",
     says: "1005h makes the device a SYNC producer, but 1006h (communication cycle period) is missing",
-    help: "add a section [1006], or clear bit 30 of 1005h",
+    help: "add {missing}, or clear bit 30 of 1005h",
     also: &[WINDOW],
     check: Check::Device(check),
     ..Rule::NEW
@@ -30,7 +31,8 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
     let at = |number: &Spanned<u64>, index| RULE.at(number.span).about(Address::new(index, 0));
     let produces = value(0x1005).filter(|number| number.value & 1 << 30 != 0);
     if let Some(number) = produces.filter(|_| !description.objects.contains_key(&0x1006)) {
-        findings.push(at(&number, 0x1005));
+        let missing = Fact::Section(0x1006, None);
+        findings.push(at(&number, 0x1005).fact("missing", missing));
     }
     if let Some((window, period)) = value(0x1007).zip(value(0x1006))
         && (1..window.value).contains(&period.value)

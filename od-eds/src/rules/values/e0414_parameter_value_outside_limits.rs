@@ -3,7 +3,6 @@ use alloc::vec::Vec;
 use crate::fact::Key;
 use crate::finding::{Check, Finding, Rule, Severity::Error};
 use crate::rules::values::shared::{ABOVE, BELOW, Outside, WITHIN, outside};
-use crate::span::token_of;
 use crate::subject::Entry;
 
 pub(crate) static RULE: Rule = Rule {
@@ -24,9 +23,7 @@ fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
     findings.extend(fails.map(|outside| outside.finding(&RULE, entry)));
 }
 
-/// A master that configures by a DCF gets an abort; a default is only unusual. A value of a macro
-/// call is the author's own to correct.
+/// A master that configures by a DCF gets an abort; a default is only unusual.
 pub(super) fn fails(outside: &Outside<'_>) -> bool {
-    let own = |span| token_of(span).is_some();
-    outside.key == Key::ParameterValue || own(outside.value.span) || own(outside.limit.span)
+    outside.key == Key::ParameterValue
 }

@@ -4,6 +4,7 @@ mod inner {
     odkit::object_dictionary! {
         pub(super) mod device {
             eds = "../eds/sound.eds";
+            warnings = off;
             variant same {}
         }
     }
@@ -14,6 +15,7 @@ fn compiles() {
     odkit::object_dictionary! {
         mod local {
             eds = "../eds/sound.eds";
+            warnings = off;
         }
     }
     assert_eq!(local::DICTIONARY, inner::device::same::DICTIONARY);

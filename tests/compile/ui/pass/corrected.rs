@@ -5,6 +5,7 @@ use odkit::object_dictionary;
 object_dictionary! {
     mod device {
         eds = "../eds/broken.eds";
+        warnings = off;
         modify 0x2300 { default = 1 }
         modify 0x2301 { low = none; high = none }
         modify 0x2302 { type = u16 }

@@ -11,6 +11,7 @@ object_dictionary! {
         rename 0x2300 = RESTART;
         modify 0x1018sub1 { default = 0x60 }
         eds = "../eds/sound.eds";
+        warnings = off;
         variant slow {
             modify 0x2300 { default = 9; save = none };
         }

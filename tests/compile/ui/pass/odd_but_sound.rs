@@ -5,12 +5,14 @@ use odkit::object_dictionary;
 object_dictionary! {
     mod warned {
         eds = "../eds/odd_but_sound.eds";
+        warnings = off;
     }
 }
 
 object_dictionary! {
     mod allowed {
         eds = "../eds/allowed.eds";
+        warnings = off;
     }
 }
 
