@@ -1,4 +1,4 @@
-//! A bench: devices on a wire, and the world around them.
+//! A bench: devices on a bus, and the controls beside it.
 
 use std::fs;
 use std::path::PathBuf;
@@ -20,15 +20,15 @@ use crate::spec;
 use crate::state::State;
 use crate::wire::{Wire, micros};
 
-/// Devices on a CAN bus, and the world around them, in virtual time.
+/// Devices on a CAN bus in virtual time, with shafts, power supplies and faults.
 ///
-/// `devices` names built-in devices, EDS, DCF or XDD files, and overlays, each with a node ID if it
-/// shall have one: `"gxmm@1,eam_mt@2"`, or a list such as `["my.eds+coarse.overlay@5"]`. They get
-/// power at once. A snapshot in their place makes a bench in its state. `can.Bus(interface="odkit", channel=bench.name)` connects to the bench, and
+/// `devices` names built-in devices, EDS, DCF or XDD files, and overlays, each with an optional node
+/// ID: `"gxmm@1,eam_mt@2"`, or a list such as `["my.eds+coarse.overlay@5"]`. They are switched
+/// on at once. A snapshot in their place makes a bench with its state. `can.Bus(interface="odkit", channel=bench.name)` connects to the bench, and
 /// `bench.bus()` does so, too.
 ///
 /// Time moves while a thread waits: in `run`, `until`, `expect`, or in `recv` of a bus. With
-/// `time="real"` it is that of the clock.
+/// `time="real"` it follows the clock.
 ///
 /// Raises `ValueError` if a device cannot be made, `OSError` if a file cannot be read.
 #[pyclass(frozen, module = "odkit")]
@@ -44,7 +44,7 @@ impl Bench {
         }
     }
 
-    /// Waits for a moment; `or_frame`: or for the next frame.
+    /// Waits for a moment, or with `or_frame` for the next frame if that is earlier.
     fn wait(&self, py: Python<'_>, until: Instant, or_frame: bool) -> PyResult<End> {
         let before = self.wire.lock().journal.end();
         let wait = Wait {
@@ -101,24 +101,24 @@ impl Bench {
         self.close();
     }
 
-    /// Frees the name for another bench. Buses that are open stay so.
+    /// Frees the name for another bench. Open buses stay open.
     fn close(&self) {
         registry::release(&self.wire);
     }
 
-    /// The name of the wire: the `channel` of `can.Bus(interface="odkit", channel=…)`.
+    /// The name of the bus: the `channel` of `can.Bus(interface="odkit", channel=…)`.
     #[getter]
     fn name(&self) -> &str {
         &self.wire.name
     }
 
-    /// The present moment in seconds since the beginning of the bench.
+    /// The current time in seconds since the start of the bench.
     #[getter]
     fn now(&self) -> f64 {
         self.wire.lock().now().as_micros() as f64 / 1e6
     }
 
-    /// The devices, in the order in which they were named.
+    /// The devices, in the order of their names in `devices`.
     #[getter]
     fn devices(&self) -> Vec<Device> {
         let count = self.wire.lock().bus.devices().len();
@@ -157,10 +157,10 @@ impl Bench {
         self.wire.lock().bus.devices().len()
     }
 
-    /// Puts another device on the bus, with power unless `power=False`, and returns it. Of an encoder
-    /// with two channels it is the first one.
+    /// Adds another device to the bus, with power unless `power=False`, and returns it. For an encoder
+    /// with two channels it returns the first one.
     ///
-    /// Raises `ValueError` or `OSError` as the bench does.
+    /// Raises `ValueError` or `OSError` like the bench.
     #[pyo3(signature = (device, *, power=true))]
     fn add(&self, py: Python<'_>, device: &str, power: bool) -> PyResult<Device> {
         let mut state = self.wire.enter(py)?;
@@ -175,7 +175,7 @@ impl Bench {
         Ok(self.device_at(first.ok_or_else(|| Fault::value("no device is named"))?))
     }
 
-    /// Lets `seconds` pass. Programs that listen to the bus do what they do on the way.
+    /// Lets `seconds` pass. Programs that listen to the bus run meanwhile.
     ///
     /// Raises `ValueError` if `seconds` is negative.
     fn run(&self, py: Python<'_>, seconds: f64) -> PyResult<()> {
@@ -188,7 +188,7 @@ impl Bench {
         Ok(())
     }
 
-    /// Lets time pass until `condition()` is true, and returns the seconds that passed. It is asked
+    /// Lets time pass until `condition()` is true, and returns the seconds that passed. It is called
     /// after every frame, and every millisecond. A text is a frame, as in `expect`.
     ///
     /// Raises `TimeoutError` if it is not true within `timeout` seconds.
@@ -215,18 +215,18 @@ impl Bench {
         }
     }
 
-    /// Lets time pass until a frame comes, at most `within` seconds, and returns its line of the log.
-    /// `..` is any byte, `*` any rest: `bench.expect("581#43 04 60 00 *", within=0.1)`. A frame that
-    /// came since the last one of a program counts, too, if that is not longer ago than `within`; one
-    /// that an `expect` found does not.
+    /// Lets time pass until a frame is sent, at most `within` seconds, and returns its line of the log.
+    /// `..` is any byte, `*` any rest: `bench.expect("581#43 04 60 00 *", within=0.1)`. A frame that was
+    /// sent after the last frame of a program counts, too, if that is not longer ago than `within` and no
+    /// `expect` has found it before.
     ///
-    /// Raises `AssertionError` that says what came instead.
+    /// Raises `AssertionError` with the frames that were sent instead.
     #[pyo3(signature = (frame, within=1.0))]
     fn expect(&self, py: Python<'_>, frame: &str, within: f64) -> PyResult<String> {
         expect(py, &self.wire, frame, within)
     }
 
-    /// A bus of python-can on this wire; keywords are those of `can.Bus`.
+    /// A bus of python-can on this bench; keywords are those of `can.Bus`.
     #[pyo3(signature = (**keywords))]
     fn bus<'p>(
         slf: Bound<'p, Self>,
@@ -241,8 +241,8 @@ impl Bench {
             .call((), Some(&keywords))
     }
 
-    /// The bit rate of the programs in kbit/s. A device with another one does not hear them and is
-    /// not heard; `None`, as it is at first: everybody hears everybody.
+    /// The bit rate of the programs in kbit/s. A device with another bit rate neither sends to them nor
+    /// receives from them; `None`, the default: all bit rates match.
     #[getter]
     fn get_bit_rate(&self) -> Option<u16> {
         self.wire.lock().bus.bit_rate()
@@ -256,9 +256,9 @@ impl Bench {
         Ok(())
     }
 
-    /// Whether frames take their time and can fail, as on a CAN bus: they need terminators, another
-    /// station that acknowledges them, and one bit rate. `False` at first: each frame reaches
-    /// everybody at once. A change loses the frames that wait.
+    /// Whether frames take time and can fail, as on a CAN bus: they need terminators, another
+    /// node that acknowledges them, and one bit rate. `False`, the default: each frame is received
+    /// at once. A change drops the waiting frames.
     #[getter]
     fn get_real_line(&self) -> bool {
         self.wire.lock().bus.line.is_real
@@ -270,7 +270,7 @@ impl Bench {
         Ok(())
     }
 
-    /// The resistors of 120 Ω at the ends of the line, 2 at first. With another number frames fail
+    /// The number of terminators (120 Ω), 2 by default. With another number frames fail
     /// on a real line.
     #[getter]
     fn get_terminators(&self) -> u8 {
@@ -283,14 +283,14 @@ impl Bench {
         Ok(())
     }
 
-    /// Seeds the random disturbances of a real line. The same seed gives the same disturbances.
+    /// Seeds the random disturbances of a real line. The same seed gives the same sequence.
     fn seed(&self, py: Python<'_>, seed: u64) -> PyResult<()> {
         self.wire.enter(py)?.bus.line.set_seed(seed);
         Ok(())
     }
 
-    /// Starts the CAN controller of a device again after bus-off, or without a device that of the
-    /// programs.
+    /// Restarts the CAN controller of a device after bus-off, or that of the programs if no device is
+    /// given.
     #[pyo3(signature = (device=None))]
     fn restart(&self, py: Python<'_>, device: Option<&Device>) -> PyResult<()> {
         let station = device.map_or(0, |device| device.place + 1);
@@ -301,18 +301,18 @@ impl Bench {
         Ok(())
     }
 
-    /// The state of the bench, to go back to with `restore`.
+    /// The state of the bench, for `restore`.
     fn snapshot(&self) -> PyResult<Snapshot> {
         Ok(Snapshot::of(&self.wire.lock())?)
     }
 
-    /// Goes back to a state, its time included. The journal begins there, and frames that buses
-    /// received and did not read are gone.
+    /// Restores a state, including its time. The journal starts again, and received frames that were
+    /// not read are dropped.
     fn restore(&self, py: Python<'_>, snapshot: &Snapshot) -> PyResult<()> {
         Ok(snapshot.restore(&mut *self.wire.enter(py)?)?)
     }
 
-    /// The frames so far, one text a line: time, frame, and its meaning in words. The last 2,000,000
+    /// The frames so far, one text per line: time, frame, and its meaning in words. The last 2,000,000
     /// are kept.
     #[getter]
     fn log(&self) -> Vec<String> {
@@ -320,7 +320,7 @@ impl Bench {
         state.journal.lines(state.bus.devices(), 0)
     }
 
-    /// The frames so far as the file that candump writes (`candump -L`), or as one of the formats
+    /// The frames so far in the format of candump (`candump -L`), or in one of the formats
     /// `asc`, `trc` and `pcapng`.
     ///
     /// Raises `ValueError` if the format is not one of them.
@@ -338,10 +338,10 @@ impl Bench {
         ))
     }
 
-    /// Saves the frames so far; the ending of the file is the format: `.log`, `.asc`, `.trc`,
+    /// Saves the frames so far; the extension of the file selects the format: `.log`, `.asc`, `.trc`,
     /// `.pcapng`.
     ///
-    /// Raises `ValueError` if the ending is not one of them, `OSError` if the file cannot be written.
+    /// Raises `ValueError` if the extension is not one of them, `OSError` if the file cannot be written.
     fn save_log(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
         let ending = path
             .extension()

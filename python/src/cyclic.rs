@@ -1,8 +1,8 @@
-//! Frames that a program sends in a rhythm.
+//! Frames that a program sends cyclically.
 
 use od_wire::{Frame, Instant};
 
-/// Frames of one task, one after the other, one per period.
+/// Frames of one task, sent in turn, one per period.
 #[derive(Clone, Debug)]
 pub(crate) struct Cyclic {
     pub(crate) id: u32,
@@ -11,11 +11,11 @@ pub(crate) struct Cyclic {
     pub(crate) frames: Vec<Frame>,
     /// Microseconds, at least 1.
     pub(crate) period: u64,
-    /// Microseconds from the start to the end; `None`: no end.
+    /// Microseconds from the start to the end; `None`: without an end.
     pub(crate) duration: Option<u64>,
-    /// Python gives the frame each time.
+    /// Whether Python makes each frame.
     pub(crate) calls: bool,
-    /// Place of the next frame.
+    /// Index of the next frame.
     turn: usize,
     /// Time when the next frame is due; `None` while it is stopped.
     next: Option<Instant>,
@@ -23,7 +23,7 @@ pub(crate) struct Cyclic {
 }
 
 impl Cyclic {
-    /// A task that is stopped.
+    /// A stopped task.
     pub(crate) fn new(
         id: u32,
         port: u32,
@@ -44,14 +44,14 @@ impl Cyclic {
         }
     }
 
-    /// Starts with its first frame, which is due now.
+    /// Starts with its first frame, which is due at once.
     pub(crate) fn start(&mut self, now: Instant) {
         self.turn = 0;
         self.next = Some(now);
         self.end = self.duration.map(|micros| now.plus_micros(micros));
     }
 
-    /// Sends nothing until it starts again.
+    /// Stops; it sends nothing until it starts again.
     pub(crate) fn stop(&mut self) {
         self.next = None;
     }
@@ -61,7 +61,7 @@ impl Cyclic {
         self.next
     }
 
-    /// Takes the frame that is due, and its place.
+    /// Returns the frame that is due, and its index.
     pub(crate) fn take(&mut self, now: Instant) -> Option<(usize, Frame)> {
         let due = self.next.filter(|due| *due <= now)?;
         if self.end.is_some_and(|end| due >= end) {

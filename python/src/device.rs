@@ -1,4 +1,4 @@
-//! One device of a bench, and the world around it.
+//! One device of a bench, with its shaft, power supply and switches.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -13,10 +13,10 @@ use crate::faults::Fault;
 use crate::value::{from_python, to_python};
 use crate::wire::{Wire, micros};
 
-/// A device of a bench. `bench["gxmm"]` and `bench.devices` have it.
+/// A device of a bench, from `bench["gxmm"]` or `bench.devices`.
 ///
-/// Attributes are read at the present moment of the bench and send nothing on the bus. A method of
-/// something that the device does not have raises `ValueError`.
+/// Attributes are read at the current time of the bench and send nothing on the bus. A method for
+/// a feature that the device does not have raises `ValueError`.
 #[pyclass(frozen, module = "odkit")]
 pub(crate) struct Device {
     pub(crate) wire: Arc<Wire>,
@@ -24,7 +24,7 @@ pub(crate) struct Device {
 }
 
 impl Device {
-    /// Changes something outside the bus, and lets the others hear of it.
+    /// Changes something beside the bus, and wakes the waiting threads.
     fn act<R>(
         &self,
         py: Python<'_>,
@@ -38,7 +38,7 @@ impl Device {
         Ok(result.ok_or_else(gone)?)
     }
 
-    /// As `act`, where the device may not have what is changed.
+    /// Like `act`, if the device may not have the feature.
     fn turn_something(
         &self,
         py: Python<'_>,
@@ -50,7 +50,7 @@ impl Device {
         }
     }
 
-    /// Looks at the device.
+    /// Reads the state of the device.
     fn look<R>(&self, look: impl FnOnce(&VirtualDevice, Instant) -> R) -> PyResult<R> {
         let state = self.wire.lock();
         let device = state.bus.devices().get(self.place);
@@ -129,7 +129,7 @@ impl Device {
         })
     }
 
-    /// Vendor-ID, product code, revision number and serial number of the first start.
+    /// Vendor-ID, product code, revision number and serial number at the first start.
     #[getter]
     fn lss_address(&self) -> PyResult<(u32, u32, u32, u32)> {
         self.look(|device, _| device.lss_address().into())
@@ -154,7 +154,7 @@ impl Device {
         Ok(())
     }
 
-    /// Revolutions of the shaft from the zero point of the sensor. Setting it turns the shaft there;
+    /// Revolutions of the shaft from the zero point of the sensor. Setting it moves the shaft;
     /// the speed stays.
     #[getter]
     fn get_turns(&self) -> PyResult<f64> {
@@ -166,8 +166,8 @@ impl Device {
         self.turn_something(py, |device, now| device.turn_to(turns, now))
     }
 
-    /// The position of the sensor in steps, before scaling and preset. Setting it turns the shaft
-    /// there; the speed stays.
+    /// The position of the sensor in steps, before scaling and preset. Setting it moves the shaft;
+    /// the speed stays.
     #[getter]
     fn get_position(&self) -> PyResult<u64> {
         Ok(self.shaft()?.raw)
@@ -207,7 +207,7 @@ impl Device {
         self.look(|device, _| device.faults())
     }
 
-    /// Lets a fault of `faults` appear, or end with `on=False`.
+    /// Causes a fault of `faults`, or ends it with `on=False`.
     ///
     /// Raises `ValueError` if the device does not support it.
     #[pyo3(signature = (name, on=true))]
@@ -228,7 +228,7 @@ impl Device {
     }
 
     /// Reports an error: an EMCY message with this code, 1001h and 1003h. `register` has the bits of
-    /// 1001h, `info` the five bytes of the manufacturer.
+    /// 1001h, `info` the five manufacturer-specific bytes.
     ///
     /// Raises `ValueError` if the device has no power or no EMCY messages, or if the error is active.
     #[pyo3(signature = (code, register=1, info=None))]
@@ -248,7 +248,7 @@ impl Device {
         Ok(result.map_err(Fault::from)?)
     }
 
-    /// The rotary switches of the node ID, 0 to 99; 0 leaves it to the EEPROM. The device reads
+    /// The rotary switches of the node ID, 0 to 99; at 0 the device uses the saved node ID. The device reads
     /// them when it starts.
     #[getter]
     fn get_node_switch(&self) -> PyResult<u8> {
@@ -301,11 +301,11 @@ impl Device {
         to_python(py, data_type, &bytes)
     }
 
-    /// Sets the value of an object from the side of the device, whatever a master may write.
+    /// Sets the value of an object from the side of the device, also of a read-only object.
     /// Event-driven TPDOs follow. Types and limits are those of the object.
     ///
-    /// Raises `ValueError` if the object does not exist, the device computes it, or it cannot have
-    /// this value.
+    /// Raises `ValueError` if the object does not exist, the device computes it, or the value is not
+    /// valid for it.
     fn __setitem__<'p>(
         &self,
         py: Python<'p>,
@@ -323,7 +323,7 @@ impl Device {
         Ok(result.map_err(Fault::from)?)
     }
 
-    /// The bytes of the EEPROM. Bytes that are set take effect at the next start.
+    /// The bytes of the EEPROM. Written bytes take effect at the next start.
     #[getter]
     fn get_eeprom<'p>(&self, py: Python<'p>) -> PyResult<Bound<'p, PyBytes>> {
         let mut state = self.wire.lock();
@@ -353,7 +353,7 @@ impl Device {
         self.set_eeprom(py, std::fs::read(path)?)
     }
 
-    /// Lets power go in the middle of the next save, when `after` more bytes have been written.
+    /// Cuts the power during the next save, when `after` more bytes have been written.
     fn cut_power(&self, py: Python<'_>, after: usize) -> PyResult<()> {
         self.act(py, |device, _| device.cut_power_after(after))?;
         Ok(())

@@ -1,4 +1,4 @@
-//! A frame that has to come.
+//! Waiting for a frame.
 
 use od_bench::script::Pattern;
 use pyo3::exceptions::PyAssertionError;
@@ -10,7 +10,7 @@ use crate::party::Wait;
 use crate::pass::{End, pass};
 use crate::wire::{Wire, micros};
 
-/// Frames that a message shows.
+/// Number of frames in a message.
 const SHOWN: usize = 12;
 
 /// Waits for a frame, at most `within` seconds, and returns its line of the log.

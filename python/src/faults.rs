@@ -3,16 +3,16 @@
 use pyo3::exceptions::{PyFileNotFoundError, PyOSError, PyTimeoutError, PyValueError};
 use pyo3::prelude::*;
 
-/// Reason why something is not done.
+/// Reason why an action fails.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(crate) enum Fault {
-    /// The caller asks for something that does not exist, or that does not fit: `ValueError`.
+    /// The caller requests something that does not exist or is not valid: `ValueError`.
     Value(String),
     /// A file does not exist: `FileNotFoundError`.
     Missing(String),
     /// The bus or a file fails: `OSError`.
     System(String),
-    /// It did not happen in time: `TimeoutError`.
+    /// The time-out has passed: `TimeoutError`.
     Late(String),
 }
 

@@ -7,14 +7,14 @@ use od_bench::logs::{Record, What};
 use od_bench::words::Decoder;
 use od_wire::{Frame, Instant};
 
-/// Frames that are kept; then the oldest ones go.
+/// Maximum number of frames; the oldest ones are dropped.
 const KEPT: usize = 2_000_000;
 
 /// The last frames of a bus.
 #[derive(Clone, Default)]
 pub(crate) struct Journal {
     records: VecDeque<Record>,
-    /// Records that are not kept any more.
+    /// Number of dropped records.
     dropped: usize,
 }
 
@@ -49,7 +49,7 @@ impl Journal {
         self.records.make_contiguous()
     }
 
-    /// Lines for people, from a number on: when, what, and its meaning in words.
+    /// Lines to display, from a number on: time, frame, and its meaning in words.
     pub(crate) fn lines(&self, devices: &[VirtualDevice], number: usize) -> Vec<String> {
         let mut decoder = Decoder::default();
         let records = self.since(number);

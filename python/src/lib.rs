@@ -1,6 +1,6 @@
 //! The Python package `odkit`: a CAN bus with CANopen devices in it, in virtual time.
 //!
-//! `wire` is a bus with its devices and those who listen; `party` and `pass` decide who moves its
+//! `wire` is a bus with its devices and listeners; `party` and `pass` decide which thread moves its
 //! time. The classes above it are one file each. `files/` is about device descriptions,
 //! `client/` is the other end of a bus.
 
@@ -30,7 +30,7 @@ use pyo3::prelude::*;
 
 /// The compiled part of `odkit`.
 ///
-/// It wants the interpreter's lock: who moves time looks at the frames of running threads.
+/// It needs the interpreter's lock: the thread that moves time reads the frames of running threads.
 #[pymodule(gil_used = true)]
 mod _odkit {
     #[pymodule_export]

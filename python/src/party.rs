@@ -1,4 +1,4 @@
-//! The threads that take part on a wire, and what each of them waits for.
+//! The threads that take part on a bus, and what each of them waits for.
 
 use std::thread::{self, Thread, ThreadId};
 use std::time::{Duration, Instant as Clock};
@@ -8,14 +8,14 @@ use pyo3::prelude::*;
 
 use crate::system::{Seen, see};
 
-/// Condition that a thread in a call of this package waits for.
+/// Condition for which a thread waits in a call of this package.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) struct Wait {
     /// A frame for this bus.
     pub(crate) port: Option<u32>,
     /// This moment.
     pub(crate) until: Option<Instant>,
-    /// Any frame on the bus: the number of frames of which it knows.
+    /// Any frame on the bus; contains the number of frames that the thread has seen.
     pub(crate) seen: Option<usize>,
 }
 
@@ -44,28 +44,28 @@ impl Found {
 /// while the wire was open, until it sleeps for other reasons.
 #[derive(Debug)]
 pub(crate) struct Party {
-    /// `None` as long as it has not taken part.
+    /// `None` until it has taken part.
     pub(crate) thread: Option<Thread>,
     /// `threading.get_ident()`.
     pub(crate) ident: u64,
     /// `threading.get_native_id()`.
     pub(crate) native: u64,
-    /// `Some` in a call that waits.
+    /// `Some` during a call that waits.
     pub(crate) wait: Option<Wait>,
     pub(crate) outside: Outside,
-    /// Since when it does what it does.
+    /// Start of its current action.
     since: Clock,
     /// A moment, and what the thread did then.
     sample: Option<(Clock, Seen)>,
-    /// Its activity at the first look.
+    /// Its activity at the first check.
     first: Option<Seen>,
-    /// The wait that it is in, as Python has it.
+    /// Its current wait, as Python shows it.
     token: Option<Py<PyAny>>,
-    /// It may be in a wait of C that ends at this moment at the latest, or may come out of it.
+    /// It may be in a wait in C that ends at this moment at the latest, or may be leaving it.
     hidden: Option<Option<Instant>>,
     /// Time follows the clock because of it.
     pub(crate) leads: bool,
-    /// Python ends without waiting for it.
+    /// Python can end without waiting for it.
     pub(crate) daemon: bool,
 }
 
@@ -76,19 +76,19 @@ pub(crate) enum Known {
     Run,
     /// All wait, one of them until this moment at most.
     Wait(Instant),
-    /// All wait, and none for a time.
+    /// All wait, none with a time-out.
     WaitForEver,
 }
 
-/// A thread that has slept for this long, in no wait that Python shows, sleeps.
+/// A thread that has slept for this long, without a wait that Python shows, counts as asleep.
 const NAP: Duration = Duration::from_millis(20);
-/// A thread that has slept for this long without a turn does not wait for the interpreter.
+/// A thread that has slept for this long without processor time does not wait for the interpreter.
 const STILL: Duration = Duration::from_millis(8);
-/// A thread that computes for this long does not mind that time goes on.
+/// A thread that computes for this long does not stop time any longer.
 const BUSY: Duration = Duration::from_secs(2);
 /// A thread that has waited for locks for this long does not wait for the interpreter.
 const LOCKED: Duration = Duration::from_millis(500);
-/// As `NAP`, where the system does not say what a thread does.
+/// Like `NAP`, if the system does not report the state of a thread.
 const UNKNOWN: Duration = Duration::from_millis(100);
 
 impl Party {
@@ -110,7 +110,7 @@ impl Party {
         }
     }
 
-    /// The thread that calls.
+    /// The calling thread.
     pub(crate) fn this((ident, native, daemon): (u64, u64, bool)) -> Self {
         Self {
             thread: Some(thread::current()),
@@ -128,7 +128,7 @@ impl Party {
         self.wait.is_none() && self.outside == Outside::Runs
     }
 
-    /// It touched the wire, or begins something else. Returns its last wait.
+    /// It used the bus, or starts another action. Returns its last wait.
     pub(crate) fn touch(&mut self) -> Option<Py<PyAny>> {
         self.outside = Outside::Runs;
         self.since = Clock::now();
@@ -136,13 +136,13 @@ impl Party {
         self.token.take()
     }
 
-    /// Notes what was found now. Returns its last wait if that is over.
+    /// Stores the current observation. Returns its last wait if that is over.
     pub(crate) fn learn(&mut self, found: Found, now: Instant) -> Option<Py<PyAny>> {
         let Found(seconds, hidden, token) = found;
         let mut over = None;
         match (&self.token, &token) {
             (Some(old), Some(new)) if old.is(new) => {}
-            // It runs on.
+            // It continues to run.
             (None, None) => {}
             (Some(_), None) => over = self.touch(),
             _ => {
@@ -163,7 +163,7 @@ impl Party {
         over
     }
 
-    /// It waits in no wait that ends by what other threads do, or Python does not show that it does.
+    /// Returns whether it is in no wait that other threads can end, or Python does not show its wait.
     pub(crate) fn is_of_its_own(&self) -> bool {
         matches!(self.outside, Outside::Waits(until) if until.is_some() || self.hidden.is_some())
     }
@@ -182,8 +182,8 @@ impl Party {
         }
     }
 
-    /// Returns whether time shall follow the clock because of this thread, and since when: it
-    /// sleeps in a call that Python does not show, or computes and computes.
+    /// Returns whether time must follow the clock because of this thread, and since when: it
+    /// sleeps in a call that Python does not show, or computes for long.
     pub(crate) fn lets_time_follow(&mut self) -> Option<Clock> {
         let now = Clock::now();
         let so_far = now.duration_since(self.since);
@@ -206,7 +206,7 @@ impl Party {
         }
         self.sample = Some((now, seen));
         let spent = |seen: Seen| seen.ran + seen.waited;
-        // A thread that waits for the interpreter has a turn every 5 ms, and in a lock.
+        // A thread that waits for the interpreter gets processor time every 5 ms, and is in a lock.
         let is_blocked = seen.locked && seen.turns != before.turns && so_far < LOCKED;
         match !is_blocked && spent(seen).saturating_sub(spent(before)) < elapsed / 2 {
             true => Some(self.since),

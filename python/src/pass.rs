@@ -1,9 +1,9 @@
-//! Choice of the thread that moves the time of a wire.
+//! Selects the thread that moves the time of a bus.
 //!
-//! Time moves when every thread that takes part on the wire waits: in a call of this package, or in
-//! Python (`_who.py`). The thread that finds it so moves time to the next frame. While one of them
-//! runs, nobody does. Of a thread that sleeps where Python does not show it, nobody knows what for:
-//! time follows the clock then.
+//! Time moves when every thread that takes part on the bus waits: in a call of this package, or in
+//! Python (`_who.py`). The thread that detects this moves time to the next frame. While one of them
+//! runs, no thread moves time. If a thread sleeps in a way that Python does not show, its reason is unknown:
+//! time then follows the clock.
 
 use std::sync::MutexGuard;
 use std::thread;
@@ -21,28 +21,28 @@ use crate::wire::Wire;
 pub(crate) enum End {
     /// The condition of the wait is met.
     Done,
-    /// The moment came.
+    /// The moment has come.
     Late,
 }
 
-/// Changes of the wire between two looks at signals such as Ctrl-C, by any thread: each of the
+/// Changes of the bus between two checks for signals such as Ctrl-C, by any thread: each of the
 /// steps of a client is a wait of its own.
 const LOOK: u64 = 1024;
-/// The longest nap of a thread that waits for others.
+/// Maximum pause of a thread that waits for others.
 const NAP: Duration = Duration::from_millis(2);
 
-/// Can time move, and how far?
+/// How far time can move.
 enum Way {
     /// To the next frame, or to this moment if it comes first.
     Free(Option<Instant>),
-    /// As `Free`, but not for the sake of a time-out.
+    /// Like `Free`, but not to the end of a time-out.
     Frames(Option<Instant>),
     /// A thread runs.
     Closed,
 }
 
-/// Waits until `done` or until `wait` is over. `done` is asked whenever something happened; what comes
-/// for a bus `in_turn`, while no other thread runs. After `patience` on the clock it is over in any case.
+/// Waits until `done` or until `wait` is over. `done` is called after each event; frames
+/// for a bus are delivered `in_turn`, while no other thread runs. After `patience` on the clock it ends in any case.
 ///
 /// # Errors
 /// An exception in Python, such as `KeyboardInterrupt`.
@@ -60,7 +60,7 @@ pub(crate) fn pass(
     state.leave(thread::current().id());
     let over = std::mem::take(&mut state.over);
     drop(state);
-    // What goes with them may use the wire.
+    // Objects dropped with them may use the bus.
     drop(over);
     result
 }
@@ -70,7 +70,7 @@ struct Pass<'w> {
     began: Clock,
     patience: Option<Duration>,
     idle: u32,
-    /// No thread has started since it looked.
+    /// No thread has started since the check.
     knows_threads: bool,
     /// A frame is received only while no other thread runs.
     in_turn: bool,
@@ -150,7 +150,7 @@ impl<'w> Pass<'w> {
                 {
                     to
                 }
-                // Nothing will come, or another thread is about to act.
+                // No frame will come, or another thread is about to act.
                 _ if self.is_out_of_patience() => {
                     if let Some(until) = wait.until {
                         drop(state);
@@ -180,7 +180,7 @@ impl<'w> Pass<'w> {
         }
     }
 
-    /// Looks at all threads that take part. What it finds holds as long as the lock is held.
+    /// Checks all threads that take part. The result is valid while the lock is held.
     fn survey(&mut self, py: Python<'_>, own: Wait) -> PyResult<(MutexGuard<'w, State>, Way)> {
         let id = thread::current().id();
         let mut limit = own.until;
@@ -207,7 +207,7 @@ impl<'w> Pass<'w> {
         if outside.is_empty() && self.knows_threads {
             return Ok((state, Way::Free(limit)));
         }
-        // One that ran a moment ago mostly still does.
+        // A thread that ran a moment ago usually still does.
         if (!knows || !self.knows_threads) && self.idle == 0 {
             return Ok((state, Way::Closed));
         }
@@ -231,7 +231,7 @@ impl<'w> Pass<'w> {
         Ok((state, way))
     }
 
-    /// Whether no thread runs, and none has a turn before this one.
+    /// Returns whether no thread runs, and none comes before this one.
     fn is_next(&self, py: Python<'_>, turn: (u8, u32)) -> PyResult<(MutexGuard<'w, State>, bool)> {
         let id = thread::current().id();
         let state = self.wire.lock();
@@ -284,7 +284,7 @@ impl<'w> Pass<'w> {
         Ok(step)
     }
 
-    /// Lets time pass to a moment, with any thread that runs.
+    /// Lets time pass to a moment, whatever threads run.
     fn advance(&mut self, py: Python<'_>, to: Instant) -> PyResult<()> {
         loop {
             let state = self.wire.lock();
@@ -294,7 +294,7 @@ impl<'w> Pass<'w> {
         }
     }
 
-    /// Time is what the clock shows.
+    /// Time follows the clock.
     fn catch_up(
         &mut self,
         py: Python<'_>,
@@ -310,10 +310,10 @@ impl<'w> Pass<'w> {
             .is_some_and(|most| self.began.elapsed() >= most)
     }
 
-    /// Lets the others run: the longer it takes, the longer the rest.
+    /// Lets the others run: the longer it takes, the longer the pause.
     fn rest(&mut self, py: Python<'_>) -> PyResult<()> {
         self.idle = self.idle.saturating_add(1);
-        // A frame ends the rest at once. Without one the thread that runs shall have the interpreter.
+        // A frame ends the pause at once. Without one the running thread gets the interpreter.
         let micros = 25 << self.idle.min(8);
         self.sleep(py, Duration::from_micros(micros).min(NAP))
     }
@@ -339,7 +339,7 @@ fn earlier(a: Option<Instant>, b: Option<Instant>) -> Option<Instant> {
     }
 }
 
-/// Time follows the clock where every thread that runs sleeps; returns the moment that it shows.
+/// Time follows the clock if every running thread sleeps; returns the moment that the clock shows.
 fn follow(state: &mut State) -> Option<Instant> {
     if state.follows.is_none() {
         let own = thread::current().id();
@@ -354,7 +354,7 @@ fn follow(state: &mut State) -> Option<Instant> {
             if takes_part {
                 latest = latest.max(since);
             }
-            // One that never took part may sleep or compute.
+            // A thread that never took part may sleep or compute.
             takes_part || since.is_none()
         });
         if is_closed {
@@ -386,7 +386,7 @@ fn call(py: Python<'_>, wire: &Wire, task: u32, place: usize) -> PyResult<()> {
         .find(|one| one.id == task)
         .map(|one| one.port);
     if let Some(port) = port {
-        // A frame that the line does not take is lost, as that of a timer would be.
+        // A frame that the line does not accept is lost, like that of a timer.
         drop(state.transmit(port, &frame));
         state.wake();
     }

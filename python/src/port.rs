@@ -20,11 +20,11 @@ use crate::state::Heard;
 use crate::value::Parts;
 use crate::wire::{Wire, micros};
 
-/// CAN-ID of an error frame of python-can: what it says is in its data, as SocketCAN has it.
+/// CAN-ID of an error frame of python-can; its data has the reason, as in SocketCAN.
 const PROTOCOL_ERROR: u32 = 0x08;
 const ERROR_DATA: [u8; 8] = [0, 0, 4, 0, 0, 0, 0, 0];
 
-/// A station on a wire; `odkit.bus.OdkitBus` is its Python half.
+/// A participant on a bus; `odkit.bus.OdkitBus` is its Python half.
 #[pyclass(frozen, module = "odkit._odkit")]
 pub(crate) struct Port {
     id: u32,
@@ -64,7 +64,7 @@ impl Port {
             state.bus.set_bit_rate(Some(rate));
             state.bus.line.bit_rate = Some(rate);
         }
-        // The first bus of a wire hears the boot-up messages of its devices.
+        // The first bus receives the boot-up messages of its devices.
         state.collect();
         drop(state);
         Ok(Self {
@@ -80,7 +80,7 @@ impl Port {
         let wire = self.wire()?;
         let mut state = wire.enter(py)?;
         if let Some(clock) = state.clock() {
-            // Calls of Python wait for the next one who waits.
+            // Calls of Python are handled by the next thread that waits.
             while matches!(state.step(clock), crate::state::Step::Moved) {}
         }
         state.transmit(self.id, &frame)?;
@@ -88,7 +88,7 @@ impl Port {
         Ok(())
     }
 
-    /// The next frame as the arguments of `can.Message`, or `None` when the time is over.
+    /// The next frame as the arguments of `can.Message`, or `None` after the time-out.
     #[pyo3(signature = (timeout=None))]
     fn recv<'p>(
         &self,
@@ -98,7 +98,7 @@ impl Port {
         let wire = self.wire()?;
         let mut state = wire.enter(py)?;
         let is_alone = state.parties.len() == 1 || state.real.is_some();
-        // A reader that comes back for the next frame may have woken another thread with the last one.
+        // A reader that requests the next frame may have woken another thread with the last one.
         let mut in_turn = state.parties.len() > 2;
         let mut heard = None;
         if let Some(own) = state.listener(self.id) {
@@ -161,7 +161,7 @@ impl Port {
         Ok(())
     }
 
-    /// Forgets what was received and not read.
+    /// Drops received frames that were not read.
     fn clear(&self, py: Python<'_>) -> PyResult<()> {
         if let Some(own) = self.wire()?.enter(py)?.listener(self.id) {
             own.queue.clear();
@@ -169,7 +169,7 @@ impl Port {
         Ok(())
     }
 
-    /// Makes a task that sends frames in a rhythm, and returns its number.
+    /// Creates a task that sends frames cyclically, and returns its number.
     #[pyo3(signature = (frames, period, duration=None, maker=None))]
     fn task(
         &self,
@@ -212,7 +212,7 @@ impl Port {
         Ok(())
     }
 
-    /// Gives a task other frames.
+    /// Replaces the frames of a task.
     fn change_task(&self, py: Python<'_>, id: u32, frames: Vec<Parts>) -> PyResult<()> {
         let frames = frames
             .into_iter()
@@ -239,7 +239,7 @@ impl Port {
         Ok(())
     }
 
-    /// Condition of the CAN controller of the programs: 0 error active, 1 error passive, 2 bus-off.
+    /// State of the CAN controller of the programs: 0 error active, 1 error passive, 2 bus-off.
     fn condition(&self) -> PyResult<u8> {
         Ok(
             match self.wire()?.lock().bus.line.controller(0).condition() {
@@ -255,7 +255,7 @@ impl Port {
         Ok(Bench { wire: self.wire()? })
     }
 
-    /// Leaves the wire; nothing happens the second time.
+    /// Leaves the bus; a second call has no effect.
     fn close(&self, py: Python<'_>) -> PyResult<()> {
         let wire = self
             .wire

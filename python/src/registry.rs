@@ -1,4 +1,4 @@
-//! The wires that are open, by name.
+//! The open buses, by name.
 
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
@@ -20,7 +20,7 @@ fn open_wires() -> MutexGuard<'static, Vec<Weak<Wire>>> {
     wires
 }
 
-/// Names of the wires that are open.
+/// Names of the open buses.
 #[pyfunction]
 pub(crate) fn wires() -> Vec<String> {
     let open = open_wires();
@@ -30,7 +30,7 @@ pub(crate) fn wires() -> Vec<String> {
         .collect()
 }
 
-/// The wire with this name, if it is open.
+/// The open bus with this name.
 pub(crate) fn find(name: &str) -> Option<Arc<Wire>> {
     let open = open_wires();
     open.iter()
@@ -38,20 +38,20 @@ pub(crate) fn find(name: &str) -> Option<Arc<Wire>> {
         .find(|wire| wire.name == name)
 }
 
-/// Frees the name of a wire.
+/// Frees the name of a bus.
 pub(crate) fn release(wire: &Arc<Wire>) {
     open_wires().retain(|one| one.as_ptr() != Arc::as_ptr(wire));
 }
 
-/// A name that no open wire has.
+/// A name that no open bus has.
 pub(crate) fn free_name() -> String {
     format!("bench-{}", NUMBER.fetch_add(1, Ordering::Relaxed))
 }
 
-/// Opens the wire of a channel: that with its name, or else a new one with its devices.
+/// Opens the bus of a channel: that with its name, or else a new one with its devices.
 ///
 /// # Errors
-/// A device of the channel cannot be made, or the wire is open with another kind of time.
+/// A device of the channel cannot be made, or the bus is open with another kind of time.
 pub(crate) fn open(py: Python<'_>, channel: &str, time: Option<&str>) -> PyResult<Arc<Wire>> {
     let real = is_real(time)?;
     let (name, devices) = spec::split(channel);
@@ -72,7 +72,7 @@ pub(crate) fn open(py: Python<'_>, channel: &str, time: Option<&str>) -> PyResul
     }
     let bare = channel == devices && !devices.trim().is_empty() && !spec::is_list(devices);
     let mut state = State::default();
-    // A name that is neither a device nor a file says so here.
+    // A name that is neither a device nor a file is reported here.
     if bare || !devices.trim().is_empty() {
         spec::add(&mut state.bus, &mut state.names, devices)?;
     }
@@ -80,7 +80,7 @@ pub(crate) fn open(py: Python<'_>, channel: &str, time: Option<&str>) -> PyResul
     add(py, name.to_owned(), state, real == Some(true), true)
 }
 
-/// Makes a wire known by its name.
+/// Registers a bus by its name.
 ///
 /// # Errors
 /// An exception in Python.
@@ -105,7 +105,7 @@ pub(crate) fn add(
     Ok(wire)
 }
 
-/// Whether `time` is `real`; `None`: it does not matter.
+/// Whether `time` is `real`; `None`: either.
 ///
 /// # Errors
 /// It is another word.

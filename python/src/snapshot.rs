@@ -9,8 +9,8 @@ use crate::cyclic::Cyclic;
 use crate::faults::Fault;
 use crate::state::State;
 
-/// A state of a bench: its devices with all they keep, the bus line, and the time.
-/// `bench.snapshot()` makes one; `bench.restore(it)` goes back to it, and `odkit.Bench(it)` makes
+/// A state of a bench: its devices with all their state, the bus line, and the time.
+/// `bench.snapshot()` makes one; `bench.restore(it)` restores it, and `odkit.Bench(it)` makes
 /// another bench in this state.
 #[pyclass(frozen, module = "odkit")]
 pub(crate) struct Snapshot {
@@ -29,12 +29,12 @@ impl Snapshot {
         })
     }
 
-    /// Puts a bench into this state: its journal begins here, and what its buses received is gone.
+    /// Puts a bench into this state: its journal starts again, and received frames are dropped.
     pub(crate) fn restore(&self, state: &mut State) -> Result<(), Fault> {
         let bus = self.bus.lock().unwrap_or_else(PoisonError::into_inner);
         state.bus = copy(&bus)?;
         state.names.clone_from(&self.names);
-        // Tasks that have ended since stay so.
+        // Tasks that have ended since then stay ended.
         let is_there = |one: &&Cyclic| state.cyclics.iter().any(|own| own.id == one.id);
         let cyclics = self.cyclics.iter().filter(is_there).cloned().collect();
         state.cyclics = cyclics;

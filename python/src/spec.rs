@@ -1,4 +1,4 @@
-//! The devices of a wire, as a channel names them: `gxmm@1,eam_mt@2,my.eds+coarse.overlay@5`.
+//! The devices of a bus in a channel: `gxmm@1,eam_mt@2,my.eds+coarse.overlay@5`.
 
 use std::fs;
 
@@ -18,7 +18,7 @@ pub(crate) fn devices() -> Vec<(&'static str, &'static str)> {
     DEVICES.iter().map(|kind| (kind.name, kind.title)).collect()
 }
 
-/// The name of a wire in a channel, and its devices: `line=gxmm@1`.
+/// The name of a bus in a channel, and its devices: `line=gxmm@1`.
 pub(crate) fn split(channel: &str) -> (Option<&str>, &str) {
     let is_name = |name: &str| {
         let fits = |letter: char| letter.is_alphanumeric() || "_-. ".contains(letter);
@@ -30,14 +30,14 @@ pub(crate) fn split(channel: &str) -> (Option<&str>, &str) {
     }
 }
 
-/// Whether this can be the name of a wire that has no devices in its name.
+/// Returns whether this can be the name of a bus without devices in its name.
 pub(crate) fn is_list(devices: &str) -> bool {
     devices.contains(['@', ',', '+'])
         || od_devices::find(devices.trim()).is_some()
         || fs::metadata(devices.trim()).is_ok()
 }
 
-/// Puts the devices of a list on a bus, and adds their names to `names`. They have no power yet.
+/// Adds the devices of a list to a bus, and their names to `names`. They have no power yet.
 ///
 /// # Errors
 /// A device that does not exist, a file that cannot be read, a node ID that is not valid.
@@ -110,7 +110,7 @@ enum Made {
 impl Made {
     fn of(name: &str) -> Result<Self, Fault> {
         let source = Source::find(name).map_err(|fault| match fault {
-            // It may be a name as well as a path.
+            // It may be a name or a path.
             Fault::Missing(why) => Fault::Value(why),
             other => other,
         })?;
@@ -127,7 +127,7 @@ impl Made {
         }
     }
 
-    /// The device with a node ID, with its own if that is free, or else with the next free one.
+    /// The device with a node ID: its own if that is free, or else the next free one.
     fn device(&self, bus: &Bus, wanted: Option<NodeId>) -> Result<VirtualDevice, Fault> {
         let used: Vec<u8> = bus
             .devices()

@@ -1,4 +1,4 @@
-//! A bus with its devices, and all who listen to it.
+//! A bus with its devices and all listeners.
 
 use std::collections::VecDeque;
 use std::thread::{self, Thread, ThreadId};
@@ -16,7 +16,7 @@ use crate::filter::{Filter, passes};
 use crate::journal::Journal;
 use crate::party::{Found, Known, Outside, Party, Wait};
 
-/// Frames that wait for a bus; then the newest ones are lost, as in a controller.
+/// Maximum number of frames that wait for a bus; the newest ones are lost, as in a controller.
 const QUEUED: usize = 1_000_000;
 
 /// A message that a bus of python-can received.
@@ -45,11 +45,11 @@ pub(crate) enum Step {
     Moved,
     /// Nothing happened until the moment.
     Reached,
-    /// Python has to make the frame of this task; the number is its place among its frames.
+    /// Python must make the frame of this task; the number is the index of the frame.
     Call(u32, usize),
 }
 
-/// Everything on one wire.
+/// The state of one bus.
 #[derive(Default)]
 pub(crate) struct State {
     pub(crate) bus: Bus,
@@ -58,7 +58,7 @@ pub(crate) struct State {
     pub(crate) listeners: Vec<Listener>,
     pub(crate) cyclics: Vec<Cyclic>,
     pub(crate) parties: Vec<Party>,
-    /// The threads that were there before, by the numbers of the system.
+    /// The threads that existed before, by their numbers in the system.
     pub(crate) threads: Vec<u64>,
     pub(crate) journal: Journal,
     /// The number of the first record that `expect` looks at.
@@ -69,13 +69,13 @@ pub(crate) struct State {
     senders: VecDeque<u32>,
     /// Time is that of the clock since this moment.
     pub(crate) real: Option<Clock>,
-    /// Time follows the clock, since a moment and from a moment.
+    /// Time follows the clock: the moment of the clock and of the bus at its start.
     pub(crate) follows: Option<(Clock, Instant)>,
-    /// Waits that are over.
+    /// Waits that have ended.
     pub(crate) over: Vec<Py<PyAny>>,
-    /// Counts all that is done to the wire.
+    /// Counts all changes of the bus.
     pub(crate) changes: u64,
-    /// Value of `changes` at the last look at signals such as Ctrl-C.
+    /// Value of `changes` at the last check for signals such as Ctrl-C.
     pub(crate) looked: u64,
     ids: u32,
     /// The process that its threads are in.
@@ -83,13 +83,13 @@ pub(crate) struct State {
 }
 
 impl State {
-    /// A number that nothing else on the wire has.
+    /// A number that is unique on the bus.
     pub(crate) fn number(&mut self) -> u32 {
         self.ids += 1;
         self.ids
     }
 
-    /// From now on a bus of python-can or a client hears the wire; returns its number.
+    /// Adds a bus of python-can or a client as a listener; returns its number.
     pub(crate) fn listen(&mut self, own: bool) -> u32 {
         let id = self.number();
         self.listeners.push(Listener {
@@ -101,19 +101,19 @@ impl State {
         id
     }
 
-    /// Its devices get power.
+    /// Switches its devices on.
     pub(crate) fn start(&mut self) {
         for device in 0..self.bus.devices().len() {
             self.bus.start(device);
         }
     }
 
-    /// The present moment.
+    /// The current time.
     pub(crate) fn now(&self) -> Instant {
         self.bus.now()
     }
 
-    /// The next moment at which something happens.
+    /// The next moment with an event.
     pub(crate) fn next(&self) -> Option<Instant> {
         let cyclics = self.cyclics.iter().filter_map(Cyclic::due);
         cyclics.chain(self.bus.next_deadline()).min()
@@ -143,7 +143,7 @@ impl State {
         };
         match self.cyclics[at].take(now) {
             Some((place, _)) if calls => return Step::Call(id, place),
-            // A frame that the line does not take is lost, as that of a timer would be.
+            // A frame that the line does not accept is lost, like that of a timer.
             Some((_, frame)) => drop(self.transmit(port, &frame)),
             None => {}
         }
@@ -172,7 +172,7 @@ impl State {
         Ok(())
     }
 
-    /// Hands out what was sent.
+    /// Delivers the sent frames.
     pub(crate) fn collect(&mut self) {
         while let Some(one) = self.bus.line.poll() {
             if one.device.is_none() && !one.delivered {
@@ -192,7 +192,7 @@ impl State {
         }
     }
 
-    /// Everybody hears a frame; `from` is the bus that sent it.
+    /// All listeners receive a frame; `from` is the bus that sent it.
     pub(crate) fn hear(&mut self, at: Instant, what: What, from: Option<u32>) {
         for one in &mut self.listeners {
             let own = from == Some(one.id);
@@ -210,7 +210,7 @@ impl State {
         self.journal.add(at, from.is_some(), what);
     }
 
-    /// Forgets all that happened: the bench is another one now.
+    /// Drops all events: the bench was replaced.
     pub(crate) fn forget(&mut self) {
         self.journal.clear();
         self.senders.clear();
@@ -224,8 +224,8 @@ impl State {
         self.listeners.iter_mut().find(|one| one.id == id)
     }
 
-    /// Whose turn it is among the waits that are over: a bus that receives, in the order in which they
-    /// were opened; then a thread that looks at all frames; then one whose moment has come. `None`: the
+    /// Whose turn it is among the waits that have ended: buses that receive, in the order in which they
+    /// were opened; then threads that wait for any frame; then those whose moment has come. `None`: the
     /// wait is not over.
     pub(crate) fn turn(&self, wait: Wait) -> Option<(u8, u32)> {
         let heard = |port| match self.listeners.iter().find(|one| one.id == port) {
@@ -243,12 +243,12 @@ impl State {
         }
     }
 
-    /// Has what this wait is for happened?
+    /// Returns whether the condition of this wait is met.
     pub(crate) fn is_over(&self, wait: Wait) -> bool {
         self.turn(wait).is_some()
     }
 
-    /// The threads whose waits are over, but for this one.
+    /// The threads whose waits have ended, except this one.
     pub(crate) fn over(&self) -> Vec<Thread> {
         let own = thread::current().id();
         let others = self.parties.iter().filter(|party| !party.is(own));
@@ -256,16 +256,16 @@ impl State {
         over.filter_map(|party| party.thread.clone()).collect()
     }
 
-    /// Wakes the threads whose waits are over.
+    /// Wakes the threads whose waits have ended.
     pub(crate) fn wake(&self) {
         if self.parties.len() > 1 {
             self.over().iter().for_each(Thread::unpark);
         }
     }
 
-    /// A thread does something, or ends a wait.
+    /// A thread acts, or ends a wait.
     pub(crate) fn touch(&mut self, id: ThreadId) -> bool {
-        // Of the threads before a fork only one is there.
+        // After a fork only one thread exists.
         let process = std::process::id();
         if std::mem::replace(&mut self.process, process) != process {
             self.parties.retain(|party| party.is(id));
@@ -297,7 +297,7 @@ impl State {
         }
     }
 
-    /// Notes what `odkit._who` found of the threads with these numbers.
+    /// Stores the observations of `odkit._who` for the threads with these numbers.
     pub(crate) fn learn(&mut self, idents: &[u64], found: Vec<Found>) -> Known {
         let now = self.now();
         for (ident, found) in idents.iter().zip(found) {
@@ -308,7 +308,7 @@ impl State {
                 self.over.extend(party.learn(found, now));
             }
         }
-        // One that never took part may do what it likes.
+        // A thread that never took part is ignored.
         self.parties
             .retain(|party| party.thread.is_some() || !party.is_of_its_own());
         let own = thread::current().id();
@@ -329,7 +329,7 @@ impl State {
         known
     }
 
-    /// The moment from which a time-out counts: in real time the clock's, which the bus may be behind.
+    /// The moment from which a time-out is counted: in real time that of the clock, which may be ahead of the bus.
     pub(crate) fn present(&self) -> Instant {
         let now = self.now();
         self.clock().map_or(now, |clock| clock.max(now))

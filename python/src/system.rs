@@ -1,4 +1,4 @@
-//! State of a thread as the operating system reports it; only Linux does.
+//! State of a thread as the operating system reports it; only Linux does so.
 
 use std::fs::read_to_string;
 use std::time::Duration;
@@ -18,17 +18,17 @@ const FUTEX: &str = if cfg!(target_arch = "x86_64") {
 pub(crate) struct Seen {
     /// It neither runs nor waits for a processor.
     pub(crate) sleeps: bool,
-    /// It sleeps for a lock, as far as the system says.
+    /// It sleeps in a lock, as far as the system reports.
     pub(crate) locked: bool,
-    /// Time with a processor.
+    /// Processor time.
     pub(crate) ran: Duration,
-    /// Time in which it waited for a processor.
+    /// Time during which it waited for a processor.
     pub(crate) waited: Duration,
     /// Number of turns on a processor. A thread that waits for the interpreter gets one every 5 ms.
     pub(crate) turns: u64,
 }
 
-/// Looks at the thread with this number; `None`: the system does not say what it does.
+/// Reads the state of the thread with this number; `None` if the system does not report it.
 pub(crate) fn see(native: u64) -> Option<Seen> {
     let read = |name: &str| read_to_string(format!("/proc/self/task/{native}/{name}")).ok();
     let sleeps = read("stat")?.rsplit_once(") ")?.1.starts_with('S');

@@ -1,4 +1,4 @@
-//! Frames and values on their way to Python and back.
+//! Converts frames and values to and from Python.
 
 use od_bench::journal::frame;
 use od_model::{DataType, Kind, values};
@@ -36,7 +36,7 @@ impl Parts {
     }
 }
 
-/// The value of these bytes as Python has it: `bool`, `int`, `float`, `str` or `bytes`.
+/// The value of these bytes in Python: `bool`, `int`, `float`, `str` or `bytes`.
 pub(crate) fn to_python<'p>(
     py: Python<'p>,
     data_type: DataType,
@@ -73,7 +73,7 @@ pub(crate) fn to_python<'p>(
 /// The bytes of a Python value.
 ///
 /// # Errors
-/// A sentence, if the type cannot have this value.
+/// A sentence, if the value is not valid for the type.
 pub(crate) fn from_python(data_type: DataType, value: &Bound<'_, PyAny>) -> PyResult<Vec<u8>> {
     if let Ok(bytes) = value.cast::<PyBytes>() {
         return Ok(bytes.as_bytes().to_vec());
@@ -83,7 +83,7 @@ pub(crate) fn from_python(data_type: DataType, value: &Bound<'_, PyAny>) -> PyRe
     if is_text && matches!(data_type.kind(), Kind::Text) {
         return Ok(text.into_bytes());
     }
-    // `True` is `true` here.
+    // `True` counts as `true`.
     let text = match data_type.kind() {
         Kind::Boolean => text.to_ascii_lowercase(),
         _ => text,

@@ -1,4 +1,4 @@
-//! A wire that several threads and buses share.
+//! A bus that several threads and python-can buses share.
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::thread;
@@ -12,17 +12,17 @@ use crate::faults::Fault;
 use crate::party::{Found, Party};
 use crate::state::State;
 
-/// A wire with a name. Its lock is held with the interpreter attached, and never while a thread
+/// A bus with a name. Its lock is held with the interpreter attached, and never while a thread
 /// waits, so that a fork finds it free.
 pub(crate) struct Wire {
-    /// The name by which buses share it.
+    /// The name by which python-can buses share it.
     pub(crate) name: String,
     /// Seconds since 1970 at which its time began, in real time; else 0.
     pub(crate) epoch: f64,
-    /// A channel opened it, so it ends with the last bus.
+    /// A channel opened it, so it ends with the last python-can bus.
     pub(crate) of_channel: bool,
     state: Mutex<State>,
-    /// The makers of the frames of tasks, by their numbers.
+    /// The Python functions that make the frames of tasks, by their numbers.
     makers: Py<PyDict>,
 }
 
@@ -48,12 +48,12 @@ impl Wire {
         who.call1(py, (threads.to_vec(),))?.extract(py)
     }
 
-    /// The maker of the frames of a task.
+    /// The function that makes the frames of a task.
     pub(crate) fn maker(&self, py: Python<'_>, task: u32) -> Option<Py<PyAny>> {
         self.makers.bind(py).get_item(task).ok()?.map(Bound::unbind)
     }
 
-    /// Lets Python make the frames of a task; `None` ends that.
+    /// Sets the function that makes the frames of a task; `None` removes it.
     pub(crate) fn set_maker(
         &self,
         py: Python<'_>,
@@ -68,7 +68,7 @@ impl Wire {
         }
     }
 
-    /// Its state, for a look.
+    /// Its state, to read.
     pub(crate) fn lock(&self) -> MutexGuard<'_, State> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -91,8 +91,8 @@ impl Wire {
         Ok(state)
     }
 
-    /// Notices the threads that started since the last time; from now on they take part. Returns
-    /// whether there is one. `is_first`: all that are there were there before.
+    /// Registers the threads that were started since the last call; from now on they take part. Returns
+    /// whether there is one. `is_first`: all existing threads existed before.
     ///
     /// # Errors
     /// An exception in Python.
@@ -130,13 +130,13 @@ impl Wire {
         Ok(true)
     }
 
-    /// Seconds of a moment, as timestamps have them.
+    /// Seconds of a moment, as in timestamps.
     pub(crate) fn seconds(&self, at: od_wire::Instant) -> f64 {
         self.epoch + at.as_micros() as f64 / 1e6
     }
 }
 
-/// The threads of `threading`, and those that it starts just now.
+/// The threads of `threading`, and those that are just starting.
 fn threads(py: Python<'_>) -> PyResult<(&Bound<'_, PyDict>, &Bound<'_, PyDict>)> {
     static THREADS: PyOnceLock<(Py<PyDict>, Py<PyDict>)> = PyOnceLock::new();
     let load = || {
@@ -155,7 +155,7 @@ fn threads(py: Python<'_>) -> PyResult<(&Bound<'_, PyDict>, &Bound<'_, PyDict>)>
 /// It is negative or not a number.
 pub(crate) fn micros(seconds: f64, what: &str) -> Result<u64, Fault> {
     match seconds {
-        // What is too long becomes the longest; 2^63 µs are 292,000 years.
+        // A number that is too large becomes the maximum; 2^63 µs are 292,000 years.
         _ if seconds >= 0.0 => Ok((seconds * 1e6).round().min(9e18) as u64),
         _ => Err(Fault::value(format!(
             "{what} is {seconds}; it must be 0 s or more"

@@ -27,20 +27,20 @@ use crate::value::{from_python, to_python};
 ///
 /// `link` is an `odkit.Bench` or a bus of one (virtual time), a bus of python-can, or a name:
 /// `slcan:HOST:PORT`, `slcan:DEVICE[@BAUD]`, `socketcan:INTERFACE`, `socketcand:HOST:PORT[/BUS]`,
-/// `bench:DEVICES`. `timeout` is the longest time to an SDO response in seconds. Values longer than 4 bytes
-/// go by segmented transfer, from 64 bytes on by block transfer if the node has it.
+/// `bench:DEVICES`. `timeout` is the maximum time to an SDO response in seconds. Values longer than 4 bytes
+/// are sent by segmented transfer, from 64 bytes on by block transfer if the node supports it.
 ///
-/// Raises `ValueError` if the name is not one of a link, `OSError` if it cannot be opened.
+/// Raises `ValueError` if the name is not that of a link, `OSError` if it cannot be opened.
 #[pyclass(frozen, module = "odkit")]
 pub(crate) struct Client {
     core: Mutex<Option<Core>>,
 }
 
 impl Client {
-    /// Does something with the client, one thread after the other.
+    /// Uses the client, one thread at a time.
     ///
     /// # Errors
-    /// The client is closed, or what is done fails.
+    /// The client is closed, or the action fails.
     pub(crate) fn with<T>(
         &self,
         py: Python<'_>,
@@ -85,13 +85,13 @@ impl Client {
         self.close(py);
     }
 
-    /// Closes the link; nothing happens the second time.
+    /// Closes the link; a second call has no effect.
     fn close(&self, py: Python<'_>) {
         let core = self.lock(py).take();
         drop(core);
     }
 
-    /// A node of the bus; with a description (as `odkit.read` takes it, or what that returned) its values
+    /// A node of the bus; with a description (as for `odkit.read`, or its result) its values
     /// have types and names, and its PDOs are decoded.
     ///
     /// Raises `ValueError` if the node ID is not 1 to 127, `OSError` if the description cannot be read.
@@ -115,8 +115,8 @@ impl Client {
         })
     }
 
-    /// Reads an object by SDO: `client.upload(5, 0x1018, 1)`. With a description of the node it is a
-    /// value, and `object` may be a name; without one, `bytes`.
+    /// Reads an object by SDO: `client.upload(5, 0x1018, 1)`. With a description of the node it returns a
+    /// value, and `object` may be a name; without one it returns `bytes`.
     ///
     /// Raises `odkit.SdoAbort` if the node aborts it, `TimeoutError` if it does not respond, `OSError` if the link is lost,
     /// `ValueError` if the name is not known.
@@ -146,7 +146,7 @@ impl Client {
     /// Writes an object by SDO: `client.download(5, 0x1017, 1000)`. Without a description of the node the
     /// value is `bytes`.
     ///
-    /// Raises what `upload` raises; `ValueError` also if the type cannot have the value.
+    /// Raises what `upload` raises; `ValueError` also if the value is not valid for the type.
     #[pyo3(signature = (node_id, object, value, sub=0))]
     fn download(
         &self,
@@ -175,8 +175,8 @@ impl Client {
     }
 
     /// Sends an NMT command to a node, or to all: `start`, `stop`, `pre-operational`, `reset`,
-    /// `reset-communication`. Waits at most `timeout` seconds for the state that it leads to, and returns
-    /// that; `None`: it was not heard, as of a node without heartbeat.
+    /// `reset-communication`. Waits at most `timeout` seconds for the resulting state, and returns
+    /// it; `None` if it was not received, such as from a node without heartbeat.
     ///
     /// Raises `ValueError` if the command is not known, `OSError` if the link is lost.
     #[pyo3(signature = (command, node_id=None, timeout=0.1))]
@@ -194,7 +194,7 @@ impl Client {
         Ok(state.map(od_wire::nmt::State::name))
     }
 
-    /// The state in the last heartbeat of a node that was heard; `None`: none was.
+    /// The state in the last received heartbeat of a node; `None` if there was none.
     fn state(&self, py: Python<'_>, node_id: u8) -> PyResult<Option<&'static str>> {
         let node = id_of(node_id)?;
         let state = self.with(py, |core| {
@@ -224,7 +224,7 @@ impl Client {
         Ok(state.name())
     }
 
-    /// Watches the heartbeat of a node: without one for `seconds` it is among `lost`. `None` ends that.
+    /// Monitors the heartbeat of a node: without one for `seconds` the node is in `lost`. `None` ends that.
     #[pyo3(signature = (node_id, seconds))]
     fn watch(&self, py: Python<'_>, node_id: u8, seconds: Option<f64>) -> PyResult<()> {
         let node = id_of(node_id)?;
@@ -237,7 +237,7 @@ impl Client {
         })
     }
 
-    /// Node IDs of the nodes that `watch` watches and whose heartbeat did not come in time.
+    /// Node IDs of the monitored nodes whose heartbeat is missing.
     #[getter]
     fn lost(&self, py: Python<'_>) -> PyResult<Vec<u16>> {
         self.with(py, |core| {
@@ -246,7 +246,7 @@ impl Client {
         })
     }
 
-    /// The oldest EMCY message that was not returned yet, of any node or of one.
+    /// The oldest EMCY message that was not returned yet, of any node or of this one.
     ///
     /// Raises `TimeoutError` if none comes within `timeout` seconds.
     #[pyo3(signature = (timeout=1.0, node_id=None))]
@@ -271,7 +271,7 @@ impl Client {
         Ok(Emcy::of(py, node.raw(), time, &emcy))
     }
 
-    /// The oldest PDO that was not returned yet, of any node with a description or of one.
+    /// The oldest PDO that was not returned yet, of any node with a description or of this one.
     ///
     /// Raises `TimeoutError` if none comes within `timeout` seconds.
     #[pyo3(signature = (timeout=1.0, node_id=None))]
@@ -297,7 +297,7 @@ impl Client {
         Pdo::of(py, &came, known.as_deref())
     }
 
-    /// Reads from a node which TPDOs are valid and what is mapped now, and decodes them so from now on.
+    /// Reads from a node which TPDOs are valid and their current mapping, and uses it to decode them from now on.
     /// Returns their numbers, from 1.
     ///
     /// Raises `TimeoutError` if the node does not respond.
@@ -310,7 +310,7 @@ impl Client {
         found.map_err(|(address, error)| of_transfer(py, node, address, error, timeout))
     }
 
-    /// Lets `seconds` pass, and listens.
+    /// Lets `seconds` pass, and receives frames.
     fn run(&self, py: Python<'_>, seconds: f64) -> PyResult<()> {
         let wait = seconds_of(seconds, "the time to run")?;
         self.with(py, |core| {
@@ -337,8 +337,8 @@ impl Client {
         self.with(py, |core| core.line.send(&Frame::standard(0x80, &[])))
     }
 
-    /// The nodes of the bus: listens for `listen` seconds, asks each of the 127 node IDs, and those that
-    /// answer within `answer` seconds for who they are. It changes nothing on the bus.
+    /// The nodes of the bus: listens for `listen` seconds, then reads the identity of each node that
+    /// responds within `answer` seconds. It changes nothing on the bus.
     #[pyo3(signature = (listen=0.5, answer=0.2))]
     fn scan(&self, py: Python<'_>, listen: f64, answer: f64) -> PyResult<Vec<Found>> {
         let options = Options {
@@ -359,8 +359,8 @@ impl Client {
         Ok(found.into_iter().map(parts).collect())
     }
 
-    /// Gives the slave with an LSS address (as `lss_scan` returns it) a node ID, and has it store that with
-    /// `store=True`. Returns whether it started with it; one that had a node ID takes the new one with its
+    /// Sets the node ID of the slave with an LSS address (from `lss_scan`), and stores it with
+    /// `store=True`. Returns whether it has booted with it; a slave that had a node ID uses the new one after its
     /// next reset. Some devices accept LSS in Stopped only: `client.nmt("stop", 5)`.
     ///
     /// Raises `odkit.NodeError` if no slave has the address, or if it refuses.
@@ -378,8 +378,8 @@ impl Client {
         })
     }
 
-    /// Configures the bit rate in kbit/s of the slave with an LSS address, or without one of all; they store
-    /// it with `store=True`. With `activate` all change over after this many milliseconds.
+    /// Configures the bit rate in kbit/s of the slave with an LSS address, or of all without one; `store=True`
+    /// stores it. With `activate` all slaves change the bit rate after this number of milliseconds.
     ///
     /// Raises `ValueError` for a bit rate that CiA 301 does not have, `odkit.NodeError` if a slave refuses.
     #[pyo3(signature = (kbit, address=None, store=false, activate=None))]

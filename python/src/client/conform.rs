@@ -12,10 +12,10 @@ use crate::client::arguments::id_of;
 use crate::client::calls::Client;
 use crate::files::description::read_of;
 
-/// The cases of the conformance test: id, group, clause, and what is right. `only` names cases or groups,
+/// The cases of the conformance test: id, group, clause, and requirement. `only` selects cases or groups,
 /// with `*` and `?`.
 ///
-/// Raises `ValueError` if no case has a name of `only`.
+/// Raises `ValueError` if no case matches a name of `only`.
 #[pyfunction]
 #[pyo3(signature = (only=None))]
 pub(crate) fn conform_cases(
@@ -50,13 +50,13 @@ pub(crate) struct Record {
     group: String,
     /// Standard and clause.
     clause: String,
-    /// The right behaviour, in words.
+    /// The required behaviour, in words.
     title: String,
-    /// `pass`, `fail`, `skipped`, or `n/a`: the node does not have what the case is about.
+    /// `pass`, `fail`, `skipped`, or `n/a`: the node lacks the object or service of the case.
     verdict: &'static str,
     /// The expected and the actual behaviour, or the reason for skipping it; empty if it passed.
     reason: String,
-    /// Values that were changed and put back, and those that could not be.
+    /// Values that were changed and restored, and those that could not be restored.
     notes: Vec<String>,
     /// The frames, one text a line: time, direction, frame, and its meaning in words.
     frames: Vec<String>,
@@ -79,16 +79,16 @@ impl Record {
 /// The open conformance test of a node: each case is about one clause of CiA 301, 305 or 306, or of the
 /// profile.
 ///
-/// `client` is on the bus of the node, `eds` describes it (as `odkit.read` takes it). `allow_reset` and
-/// `allow_store` allow cases that reset the node, and save and restore its values; what they change is put
-/// back. On a bench the power is switched, too.
+/// `client` is on the bus of the node, `eds` describes it (as for `odkit.read`). `allow_reset` and
+/// `allow_store` allow cases that reset the node, and save and restore its values; changed values are
+/// restored. On a bench the power is switched, too.
 #[pyclass(frozen, module = "odkit")]
 pub(crate) struct Conform {
     client: Py<Client>,
     node: od_wire::NodeId,
     eds: Eds,
     leave: Leave,
-    /// Reason why the test cannot go on.
+    /// Reason why the test cannot continue.
     lost: std::sync::Mutex<Option<String>>,
 }
 
@@ -117,7 +117,7 @@ impl Conform {
         })
     }
 
-    /// Runs a case, and returns what came of it. After the node or the link was lost every case is skipped.
+    /// Runs a case, and returns its result. After the node or the link was lost every case is skipped.
     ///
     /// Raises `ValueError` if the case does not exist.
     fn run(&self, py: Python<'_>, id: &str) -> PyResult<Record> {

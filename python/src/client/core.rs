@@ -1,4 +1,4 @@
-//! A client on a link: it sends what its jobs have to send, and waits for answers.
+//! A client on a link: it sends the frames of its jobs, and waits for responses.
 
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
@@ -15,17 +15,17 @@ use od_wire::{Duration, Instant, NodeId};
 use crate::client::known::{Known, Tpdo, can_id};
 use crate::client::link::Line;
 
-/// PDOs and EMCY messages that wait for the caller; then the oldest ones go.
+/// Maximum number of PDOs and EMCY messages that wait for the caller; the oldest ones are dropped.
 const KEPT: usize = 100_000;
 
-/// A PDO that came.
+/// A received PDO.
 pub(crate) struct Came {
     pub(crate) at: Instant,
     pub(crate) tpdo: Tpdo,
     pub(crate) data: Vec<u8>,
 }
 
-/// A client, its link, and what it knows.
+/// A client, its link, and its state.
 pub(crate) struct Core {
     pub(crate) line: Line,
     client: Client,
@@ -34,7 +34,7 @@ pub(crate) struct Core {
     pub(crate) tpdos: Vec<Tpdo>,
     pub(crate) pdos: VecDeque<Came>,
     pub(crate) emcys: VecDeque<(Instant, NodeId, Emcy)>,
-    /// Nodes whose heartbeat did not come in time.
+    /// Nodes whose heartbeat is missing.
     pub(crate) lost: Vec<NodeId>,
 }
 
@@ -94,7 +94,7 @@ impl Core {
         }
     }
 
-    /// Reads which TPDOs of a node are valid, and what is mapped; returns their numbers, from 1.
+    /// Reads which TPDOs of a node are valid, and their mapping; returns their numbers, from 1.
     pub(crate) fn read_mapping(
         &mut self,
         node: NodeId,
@@ -103,7 +103,7 @@ impl Core {
         for number in 0..0x200_u16 {
             let cob_id = match self.number(node, Address::new(0x1800 + number, 1))? {
                 Ok(Some(cob_id)) => cob_id,
-                // Those behind a gap are rare, and asking for all 512 takes seconds.
+                // TPDOs after a gap are rare, and reading all 512 takes seconds.
                 Ok(None) if number > 3 => break,
                 Ok(None) => continue,
                 Err(error) => return Ok(Err(error)),
@@ -154,7 +154,7 @@ impl Core {
         })
     }
 
-    /// Sends an NMT command and waits for the state that it leads to; `None`: it was not heard.
+    /// Sends an NMT command and waits for the resulting state; `None` if it was not received.
     pub(crate) fn nmt(
         &mut self,
         node: Option<NodeId>,
@@ -175,7 +175,7 @@ impl Core {
         })
     }
 
-    /// Waits for something until a moment; `None`: it did not come.
+    /// Waits for an event until a moment; `None` if it did not happen.
     pub(crate) fn listen<T>(
         &mut self,
         until: Instant,
@@ -202,7 +202,7 @@ impl Core {
                 }
             }
             if self.line.now() >= until {
-                // What came at that moment counts.
+                // Events at that moment count.
                 while let Some(heard) = self.line.receive(Instant::ZERO)? {
                     self.hear(&heard);
                     let result = found(&heard);
@@ -215,7 +215,7 @@ impl Core {
         }
     }
 
-    /// Takes what came so far.
+    /// Handles the frames received so far.
     pub(crate) fn catch_up(&mut self) -> Result<(), Fault> {
         while let Some(heard) = self.line.receive(Instant::ZERO)? {
             self.hear(&heard);
@@ -229,7 +229,7 @@ impl Core {
         self.client.state(node)
     }
 
-    /// Watches the heartbeat of a node; `None` ends that.
+    /// Monitors the heartbeat of a node; `None` ends that.
     pub(crate) fn watch(&mut self, node: NodeId, heartbeat: Option<Duration>) {
         match heartbeat {
             Some(time) => self.client.watch(node, time),
@@ -237,7 +237,7 @@ impl Core {
         }
     }
 
-    /// The end of a job. If the program is to stop, the node hears that the transfer is over.
+    /// Waits for the end of a job. If the program is to stop, the transfer is aborted.
     fn end(&mut self, job: Job) -> Result<Event, Fault> {
         let event = self.wait();
         if matches!(event, Err(Fault::Interrupted)) {
@@ -291,7 +291,7 @@ impl Core {
         while self.next_end().is_some() {}
     }
 
-    /// The next end of a job; what else happened is noted.
+    /// Waits for the next end of a job; other events are stored.
     fn next_end(&mut self) -> Option<Event> {
         loop {
             match self.client.poll_event()? {

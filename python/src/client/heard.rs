@@ -21,7 +21,7 @@ pub(crate) struct Pdo {
     number: u16,
     /// CAN-ID of the frame.
     can_id: u32,
-    /// Time when it came, in seconds of the link's clock.
+    /// Time of reception, in seconds of the link's clock.
     time: f64,
     /// The data.
     data: Py<PyBytes>,
@@ -92,13 +92,13 @@ impl Pdo {
 pub(crate) struct Emcy {
     /// Node ID, 1 to 127.
     node_id: u8,
-    /// Error code, such as 0x8130; 0: the error is over.
+    /// Error code, such as 0x8130; 0: the error has ended.
     code: u16,
     /// The bits of 1001h.
     register: u8,
-    /// The five bytes of the manufacturer.
+    /// The five manufacturer-specific bytes.
     info: Py<PyBytes>,
-    /// Time when it was heard, in seconds of the link's clock.
+    /// Time of reception, in seconds of the link's clock.
     time: f64,
 }
 
@@ -122,14 +122,14 @@ impl Emcy {
     }
 }
 
-/// A node that a scan found.
+/// A node found by a scan.
 #[pyclass(frozen, get_all, module = "odkit")]
 pub(crate) struct Found {
     /// Node ID, 1 to 127.
     node_id: u8,
     /// State in its last heartbeat; `None`: it sent none while odkit listened.
     state: Option<&'static str>,
-    /// Whether it answers SDO requests; in Stopped it does not.
+    /// Whether it responds to SDO requests; in Stopped it does not.
     answers: bool,
     /// 1000h.
     device_type: Option<u32>,
@@ -141,7 +141,7 @@ pub(crate) struct Found {
     hardware: Option<String>,
     /// 100Ah.
     software: Option<String>,
-    /// Serial numbers of all nodes with this node ID, if several answer; else empty.
+    /// Serial numbers of all nodes with this node ID, if several respond; otherwise empty.
     conflict: Vec<u32>,
 }
 

@@ -1,4 +1,4 @@
-//! Knowledge of a client about a node: its dictionary, and where its TPDOs are.
+//! Facts about a node: its dictionary, and its TPDOs.
 
 use od_client::pdo::{Mapping, decode};
 use od_eds::{Description, Tables};
@@ -7,7 +7,7 @@ use od_wire::CanId;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-/// Bits of a COB-ID that say: not valid, 29 bits.
+/// Bits of a COB-ID: not valid, 29 bits.
 const NOT_VALID: i128 = 1 << 31;
 const EXTENDED: i128 = 1 << 29;
 
@@ -46,13 +46,13 @@ impl Known {
         self.tables.dictionary()
     }
 
-    /// The type of an object; `None`: the description does not have it.
+    /// The type of an object; `None` if the description lacks it.
     pub(crate) fn type_of(&self, address: Address) -> Option<DataType> {
         let entry = self.dictionary().find(address).ok()?;
         Some(entry.data_type)
     }
 
-    /// The TPDOs that the description says are there: valid ones, with their default mapping.
+    /// The TPDOs by the description: the valid ones, with their default mapping.
     pub(crate) fn tpdos(&self, node: u8) -> Vec<Tpdo> {
         let dictionary = self.dictionary();
         let one = |number: u16| {
@@ -81,7 +81,7 @@ pub(crate) fn can_id(cob_id: i128) -> Option<CanId> {
     }
 }
 
-/// The values in a PDO; none if it is shorter than its mapping.
+/// The values in a PDO; empty if it is shorter than its mapping.
 pub(crate) fn fields(known: Option<&Known>, tpdo: &Tpdo, data: &[u8]) -> Vec<Field> {
     let dictionary = known.map_or(Dictionary::EMPTY, |known| known.dictionary());
     let Ok(fields) = decode(&dictionary, &tpdo.mapping, data) else {

@@ -14,19 +14,19 @@ use crate::client::errors::raised;
 use crate::client::on_bus::OnBus;
 use crate::client::on_wire::OnWire;
 
-/// Longest wait before it looks for signals such as Ctrl-C, in ms.
+/// Maximum wait before signals such as Ctrl-C are handled, in ms.
 const SLICE: u64 = 50;
 
-/// A link, open.
+/// An open link.
 pub(crate) enum Line {
     Wire(OnWire),
     Bus(OnBus),
-    /// By its name; and what Python raised in a wait.
+    /// A link by name; and the exception that Python raised during a wait.
     Real(Box<dyn Link + Send>, Option<PyErr>),
 }
 
 impl Line {
-    /// Opens what a caller names.
+    /// Opens the link that a caller names.
     ///
     /// # Errors
     /// It cannot be opened.
@@ -54,7 +54,7 @@ impl Line {
         Ok(Self::Bus(OnBus::new(link.clone().unbind())))
     }
 
-    /// The exception of a fault: what Python raised while it waited, if it did.
+    /// The exception of a fault: the one that Python raised during the wait, if any.
     pub(crate) fn raised(&mut self, fault: Fault) -> PyErr {
         let own = match self {
             Self::Wire(one) => one.raised.take(),

@@ -1,4 +1,4 @@
-//! A link onto a wire of a bench: waiting moves its time.
+//! A link to a bus of a bench: waiting moves its time.
 
 use std::sync::Arc;
 
@@ -12,16 +12,16 @@ use crate::party::Wait;
 use crate::pass::pass;
 use crate::wire::Wire;
 
-/// A station on a wire.
+/// A participant on a bus.
 pub(crate) struct OnWire {
     pub(crate) wire: Arc<Wire>,
     id: u32,
-    /// The exception that Python raised in a wait.
+    /// The exception that Python raised during the wait.
     pub(crate) raised: Option<PyErr>,
 }
 
 impl OnWire {
-    /// Joins a wire.
+    /// Joins a bus.
     pub(crate) fn new(py: Python<'_>, wire: Arc<Wire>) -> PyResult<Self> {
         let mut state = wire.enter(py)?;
         let id = state.listen(false);

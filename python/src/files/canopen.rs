@@ -18,9 +18,9 @@ use crate::files::value;
 /// `canopen.Network.add_node`, `canopen.RemoteNode` and `canopen.LocalNode`.
 ///
 /// `source` is a path (EDS, DCF, XDD, XDC), a built-in device, `base.eds+variant.overlay`, a text with line
-/// ends, `bytes`, or what `read` returned. `node_id` (1 to 127) makes numbers of values such as
-/// `$NODEID+0x180`; without it that of a DCF does, and without both such a default is `None`. It reads
-/// what python-canopen refuses, and where the two differ docs/DIFFERENCES.md says why.
+/// ends, `bytes`, or the result of `read`. `node_id` (1 to 127) resolves values such as
+/// `$NODEID+0x180`; without it that of a DCF is used, and without both such a default is `None`. It reads
+/// files that python-canopen rejects; docs/DIFFERENCES.md explains the differences.
 ///
 /// Raises `OSError` if the file cannot be read, `ValueError` if it does not define any object,
 /// `ImportError` if python-canopen is not installed.
@@ -41,7 +41,7 @@ pub(crate) fn to_canopen<'p>(
         return dictionary(py, read.source.document.text(), &read.description, node_id);
     }
     let source = Source::of(source)?;
-    // Only what is read is needed here, no rules.
+    // The rules are not needed here.
     let description = py.detach(|| source.document.parse().description);
     if description.objects.is_empty() {
         let name = source.shown();
@@ -79,7 +79,7 @@ fn dictionary<'p>(
             add(index, &name, maker.dummy(&od, &name, index)?)?;
         }
     }
-    // Of two objects with one name the last one of the file has it.
+    // Of two objects with one name python-canopen keeps the last.
     let mut objects: Vec<_> = description.objects.iter().collect();
     objects.sort_by_key(|(_, object)| object.span.start);
     for (index, object) in objects {
@@ -89,8 +89,8 @@ fn dictionary<'p>(
     Ok(od)
 }
 
-/// Collection of cyclic garbage waits while this lives: nothing of a dictionary that is being made is garbage,
-/// and looking through it again and again takes a third of the time.
+/// Suspends the collection of cyclic garbage: a dictionary that is being made contains none,
+/// and searching it repeatedly would take a third of the time.
 struct Waiting<'p>(Option<Bound<'p, PyModule>>);
 
 impl<'p> Waiting<'p> {
@@ -107,7 +107,7 @@ impl<'p> Waiting<'p> {
 impl Drop for Waiting<'_> {
     fn drop(&mut self) {
         if let Some(gc) = &self.0 {
-            // It cannot fail in a way worth reporting.
+            // A failure here need not be reported.
             _ = gc.call_method0("enable");
         }
     }
@@ -121,7 +121,7 @@ fn number(text: &Spanned<String>) -> Option<i128> {
     od_model::values::integer(text.value.trim())
 }
 
-/// Comments, node ID, bit rate, and what `[FileInfo]` and `[DeviceInfo]` say.
+/// Comments, node ID, bit rate, and the content of `[FileInfo]` and `[DeviceInfo]`.
 fn about(od: &Bound<'_, PyAny>, description: &Description, node_id: Option<u8>) -> PyResult<()> {
     let py = od.py();
     if let Some(section) = description.section("FileInfo") {
@@ -189,7 +189,7 @@ fn about(od: &Bound<'_, PyAny>, description: &Description, node_id: Option<u8>) 
     Ok(())
 }
 
-/// The classes of python-canopen, and the attributes of fresh objects of theirs.
+/// The classes of python-canopen, and the attributes of new objects.
 struct Maker<'p, 't> {
     py: Python<'p>,
     variable: Bound<'p, PyAny>,
@@ -226,7 +226,7 @@ impl<'p, 't> Maker<'p, 't> {
         Ok(made)
     }
 
-    /// The name of an object, and what python-canopen has for it.
+    /// The name of an object, and its counterpart in python-canopen.
     fn object(
         &self,
         od: &Bound<'p, PyAny>,
@@ -277,7 +277,7 @@ impl<'p, 't> Maker<'p, 't> {
         let made = self.variable.call1((name, index, sub))?;
         made.setattr(intern!(py, "parent"), parent)?;
         let known = entry.data_type.map(|one| one.value);
-        // A type that is not one of a value: the application shall look at the bytes.
+        // A type that is not one of a value: the application gets the bytes.
         let data_type = known.filter(|one| one.code() <= DataType::Unsigned64.code());
         let code = data_type.unwrap_or(DataType::Domain).code();
         made.setattr(intern!(py, "data_type"), code)?;
@@ -314,14 +314,14 @@ impl<'p, 't> Maker<'p, 't> {
     /// A value; `None` if it depends on a node ID that is not known.
     fn value(&self, data_type: Option<DataType>, given: &Value) -> PyResult<Bound<'p, PyAny>> {
         match given {
-            // BOOLEAN, too: python-canopen reads `1`, not `True`.
+            // Including BOOLEAN: python-canopen reads `1`, not `True`.
             Value::Unsigned(number) => number.into_bound_py_any(self.py),
             Value::NodeId(_) if self.node_id.is_none() => Ok(self.py.None().into_bound(self.py)),
             given => value::to_python(self.py, data_type, given, self.node_id),
         }
     }
 
-    /// The text of a value in the file, without the comment behind a number.
+    /// The text of a value in the file, without a comment after a number.
     fn raw(&self, value: &Spanned<Value>) -> &'t str {
         let (start, end) = (value.span.start as usize, value.span.end as usize);
         let text = self.text.get(start..end).unwrap_or_default();

@@ -1,4 +1,4 @@
-//! A description in another form.
+//! Converts a description to another format.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -16,14 +16,14 @@ use crate::files::description::read_of;
 
 const FORMS: [&str; 8] = ["eds", "dcf", "xdd", "md", "c", "canopennode", "dbc", "json"];
 
-/// The form with this name, or of a file with this extension.
+/// The format with this name, or for this file extension.
 fn form(name: Option<&str>, output: Option<&Path>) -> Result<&'static str, Fault> {
     let extension = output.and_then(|path| path.extension()?.to_str());
     let given = name.or(extension).unwrap_or_default().to_ascii_lowercase();
     let meant = match given.as_str() {
         "xdc" => "xdd",
         "h" => "c",
-        // An OD.c is asked for by its name.
+        // An OD.c is selected by its name.
         "c" if name.is_none() => "",
         other => other,
     };
@@ -36,18 +36,18 @@ fn form(name: Option<&str>, output: Option<&Path>) -> Result<&'static str, Fault
     })
 }
 
-/// Converts a description to another form, and returns its text; `output` writes it to a file, too, and
-/// its extension gives the form if `to` does not.
+/// Converts a description to another format, and returns its text; `output` also writes it to a file, whose
+/// extension selects the format if `to` does not.
 ///
-/// `source` is a path, a built-in device, a text, or what `read` returned. `to` is `eds`, `dcf`, `xdd`,
-/// `md` (datasheet), `c` (header), `canopennode`, `dbc` or `json`. Of `canopennode` the result is a
+/// `source` is a path, a built-in device, a text, or the result of `read`. `to` is `eds`, `dcf`, `xdd`,
+/// `md` (datasheet), `c` (header), `canopennode`, `dbc` or `json`. For `canopennode` the result is a
 /// dictionary of two texts by file name; `output` names the first (`OD.c`). `node_id` (1 to 127),
-/// `bit_rate` (kbit/s) and `values` (`{0x6001: 4096, "1018sub4": 7}`) make a DCF one of a configured
-/// device; DBC and CANopenNode use `node_id`, too. `lossy` accepts that the target lacks
-/// something of the source.
+/// `bit_rate` (kbit/s) and `values` (`{0x6001: 4096, "1018sub4": 7}`) configure the device of a DCF;
+/// DBC and CANopenNode use `node_id`, too. `lossy` accepts that the target lacks
+/// content of the source.
 ///
-/// Raises `ValueError` if the form is not known, the source does not define any object, an argument does
-/// not fit, or the target lacks objects of the source (each with its line); `OSError` if a file cannot be
+/// Raises `ValueError` if the format is not known, the source does not define any object, an argument is
+/// not valid, or the target lacks objects of the source (each with its line); `OSError` if a file cannot be
 /// read or written.
 #[pyfunction]
 #[pyo3(signature = (source, to=None, output=None, *, node_id=None, bit_rate=None, values=None, lossy=false))]
@@ -142,7 +142,7 @@ pub(crate) fn convert<'p>(
     files.into_bound_py_any(py)
 }
 
-/// Node ID, bit rate and values of one device. A value of the file stays if none is given.
+/// Node ID, bit rate and values of the device. A value of the file stays if none is given.
 fn configure(
     description: &mut Description,
     node_id: Option<u8>,

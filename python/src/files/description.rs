@@ -17,11 +17,11 @@ use crate::files::object::{Object, count};
 use crate::files::read::{Found, Read};
 use crate::files::source::Source;
 
-/// A device description that was read: objects, identity, and findings about it.
+/// A device description: objects, identity, and findings about it.
 ///
 /// `description[0x6004]`, `description["Position value"]` are objects, `description[0x1018, 2]`,
 /// `description["1018h:02"]`, `description["Identity object.Vendor-ID"]` values. `for object in
-/// description` goes through the objects by index. `odkit.read` makes one.
+/// description` iterates over the objects by index. `odkit.read` makes one.
 #[pyclass(frozen, module = "odkit")]
 pub(crate) struct Description {
     pub(crate) read: Arc<Read>,
@@ -41,7 +41,7 @@ impl Read {
     }
 }
 
-/// A description that a caller names, or has read before.
+/// A description that a caller names, or that was read before.
 ///
 /// # Errors
 /// It cannot be read.
@@ -52,7 +52,7 @@ pub(crate) fn read_of(source: &Bound<'_, PyAny>) -> PyResult<Arc<Read>> {
     }
 }
 
-/// The text that a caller names, or that of what it has read before.
+/// The text that a caller names, or that of a description that was read before.
 ///
 /// # Errors
 /// It cannot be read.
@@ -66,9 +66,9 @@ pub(crate) fn source_of(source: &Bound<'_, PyAny>) -> PyResult<Source> {
 /// Reads and checks an EDS, DCF, XDD or XDC.
 ///
 /// `source` is a path, a built-in device, `base.eds+variant.overlay`, a text with line ends, the
-/// `bytes` of a file in any encoding, or a description that was read. What a file says wrongly is a finding, not an exception; with
-/// `strict=True` errors with which no sound device can be built raise `ValueError`, with their lines.
-/// `node_id` (1 to 127) makes numbers of values such as `$NODEID+0x180`; without it that of a DCF does.
+/// `bytes` of a file in any encoding, or a description. Errors in a file are findings, not exceptions; with
+/// `strict=True` errors that prevent a valid device raise `ValueError`, with their lines.
+/// `node_id` (1 to 127) resolves values such as `$NODEID+0x180`; without it that of a DCF is used.
 ///
 /// Raises `OSError` (`FileNotFoundError`) if the file cannot be read, `ValueError` if the overlay does not
 /// fit its base or the node ID is not valid.
@@ -96,8 +96,8 @@ pub(crate) fn read(
     })
 }
 
-/// Lays an overlay over a base, and reads the result: `odkit.read("base.eds+variant.overlay")` with both as
-/// paths, texts with line ends, or `bytes`; the base may be a description that was read.
+/// Applies an overlay to a base, and reads the result: `odkit.read("base.eds+variant.overlay")` with both as
+/// paths, texts with line ends, or `bytes`; the base may be a description.
 ///
 /// Raises `ValueError` with the line of the overlay if it removes what the base lacks, `OSError` if a file
 /// cannot be read.
@@ -138,7 +138,7 @@ impl Description {
         self.read.source.name.as_deref()
     }
 
-    /// The text, of base and overlay the two as one.
+    /// The text; base and overlay are joined.
     #[getter]
     fn text(&self) -> &str {
         self.read.source.document.text()
@@ -178,7 +178,7 @@ impl Description {
         Identity::of(&self.read)
     }
 
-    /// All findings, remarks too, in file order.
+    /// All findings including remarks, in file order.
     #[getter]
     fn findings(&self) -> Vec<Finding> {
         Finding::all(&self.read.source, &self.read.findings)
@@ -263,7 +263,7 @@ impl Description {
         Ok(PyList::new(py, self.objects())?.try_iter()?.into_any())
     }
 
-    /// Writes the text, of base and overlay the two as one, in UTF-8. Raises `OSError` if it cannot be
+    /// Writes the text in UTF-8; base and overlay are joined. Raises `OSError` if it cannot be
     /// written.
     fn save(&self, path: PathBuf) -> PyResult<()> {
         Ok(fs::write(path, self.text())?)

@@ -11,18 +11,18 @@ use crate::files::description::read_of;
 pub(crate) struct Difference {
     /// Index.
     index: u16,
-    /// Sub-index; `None` where it is about a whole object, as it always is for a VAR.
+    /// Sub-index; `None` if the difference is about a whole object, as always for a VAR.
     sub: Option<u8>,
-    /// `6001h`, or `1018h:02` where it is about one of several values.
+    /// `6001h`, or `1018h:02` if the object has several values.
     place: String,
-    /// Name of the object or value; the second's, if it has one.
+    /// Name of the object or value; that of the second dictionary, if it has one.
     name: String,
     /// The kind of difference: `added`, `removed`, `object type`, `name`, `data type`, `access`, `PDO mapping`,
     /// `default`, `low limit`, `high limit`, `storage`.
     field: &'static str,
-    /// In the first dictionary; empty if missing.
+    /// Text in the first dictionary; empty if missing.
     before: String,
-    /// In the second dictionary; empty if missing.
+    /// Text in the second dictionary; empty if missing.
     after: String,
     /// Whether a master configured for the first device may fail with the second.
     breaking: bool,
@@ -48,7 +48,7 @@ impl Difference {
 
 /// Compares two dictionaries, each a path, a built-in device, a text, or what `read` returned.
 ///
-/// Returns the differences by address. Order, spelling and comments do not count.
+/// Returns the differences by address. Order, spelling and comments are ignored.
 ///
 /// Raises `OSError` if a file cannot be read, `ValueError` if it does not define any object.
 #[pyfunction]

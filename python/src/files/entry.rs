@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 use crate::files::read::Read;
 use crate::files::value::optional;
 
-/// One value of an object: what a section with a DataType describes.
+/// One value of an object: the content of a section with a DataType.
 #[pyclass(frozen, module = "odkit")]
 pub(crate) struct Entry {
     pub(crate) read: Arc<Read>,
@@ -36,7 +36,7 @@ impl Entry {
         Ok(&self.read.entry(self.address)?.name.value)
     }
 
-    /// The type by its name in CiA 301, such as `UNSIGNED32`; `None` where it is missing or unknown.
+    /// The type by its name in CiA 301, such as `UNSIGNED32`; `None` if it is missing or unknown.
     #[getter]
     fn data_type(&self) -> PyResult<Option<&'static str>> {
         let entry = self.read.entry(self.address)?;
@@ -50,7 +50,7 @@ impl Entry {
         Ok(entry.data_type.map(|one| one.value.code()))
     }
 
-    /// Length in bits; `None` of texts, bytes and DOMAIN.
+    /// Length in bits; `None` for texts, bytes and DOMAIN.
     #[getter]
     fn bits(&self) -> PyResult<Option<u8>> {
         let entry = self.read.entry(self.address)?;
@@ -81,29 +81,29 @@ impl Entry {
         Ok(self.read.entry(self.address)?.mappable.value)
     }
 
-    /// DefaultValue: `bool`, `int`, `float`, `str` or `bytes`; `odkit.Relative` if it depends on the
-    /// node ID and that is not known; `None` if it is missing or not valid for the type.
+    /// DefaultValue: `bool`, `int`, `float`, `str` or `bytes`; `odkit.Relative` if it depends on an
+    /// unknown node ID; `None` if it is missing or not valid for the type.
     #[getter]
     fn default<'p>(&self, py: Python<'p>) -> PyResult<Option<Bound<'p, PyAny>>> {
         let entry = self.read.entry(self.address)?;
         optional(py, entry, entry.default.as_ref(), self.read.node_id)
     }
 
-    /// LowLimit, as `default`.
+    /// LowLimit, like `default`.
     #[getter]
     fn low<'p>(&self, py: Python<'p>) -> PyResult<Option<Bound<'p, PyAny>>> {
         let entry = self.read.entry(self.address)?;
         optional(py, entry, entry.low.as_ref(), self.read.node_id)
     }
 
-    /// HighLimit, as `default`.
+    /// HighLimit, like `default`.
     #[getter]
     fn high<'p>(&self, py: Python<'p>) -> PyResult<Option<Bound<'p, PyAny>>> {
         let entry = self.read.entry(self.address)?;
         optional(py, entry, entry.high.as_ref(), self.read.node_id)
     }
 
-    /// ParameterValue of a DCF, as `default`.
+    /// ParameterValue of a DCF, like `default`.
     #[getter]
     fn value<'p>(&self, py: Python<'p>) -> PyResult<Option<Bound<'p, PyAny>>> {
         let entry = self.read.entry(self.address)?;

@@ -1,4 +1,4 @@
-//! Findings, as Python has them.
+//! Findings as Python objects.
 
 use od_eds::fix::Applicability;
 use od_eds::{Eds, Severity, say, tools};
@@ -17,13 +17,13 @@ pub(crate) struct Finding {
     severity: &'static str,
     /// The problem, one clause.
     message: String,
-    /// The remedy: what to write instead; empty if the message says it.
+    /// Help: what to write instead; empty if the message contains it.
     help: String,
     /// The consequence for a master or a tool.
     why: &'static str,
     /// Standard and clause.
     source: &'static str,
-    /// The file that it is about, of base and overlay one of the two; `None` for a text.
+    /// The file of the finding, base or overlay; `None` for a text.
     path: Option<String>,
     /// Line, from 1; `None` if something is missing.
     line: Option<u32>,
@@ -35,7 +35,7 @@ pub(crate) struct Finding {
     sub: Option<u8>,
     /// The fix that odkit has: `safe`, `unsafe`, or `None`.
     fix: Option<&'static str>,
-    /// The tool that reads the file so, of a check with `for_`; else `None`.
+    /// The tool that reads the file in this way, for a check with `for_`; otherwise `None`.
     tool: Option<&'static str>,
 }
 

@@ -55,7 +55,7 @@ fn find(document: &Document, tools: &[&'static Tool]) -> Vec<od_eds::Finding> {
 
 /// Checks a description: a path, a built-in device, `base+overlay`, a text with line ends, or `bytes`.
 ///
-/// Returns all findings, remarks too, in file order. `for_` names tools whose readers are tried as well:
+/// Returns all findings including remarks, in file order. `for_` also checks how other tools read it:
 /// `"python-canopen"`, a list of names, or `"all"`.
 ///
 /// Raises `OSError` if the file cannot be read, `ValueError` if a tool is not known.
@@ -88,19 +88,19 @@ impl Fixed {
         self.document.text()
     }
 
-    /// The bytes of the file, in the encoding that it had.
+    /// The bytes of the file, in its encoding.
     #[getter]
     fn data<'p>(&self, py: Python<'p>) -> Bound<'p, PyBytes> {
         PyBytes::new(py, self.document.bytes())
     }
 
-    /// Number of places that were edited.
+    /// Number of edits.
     #[getter]
     fn edits(&self) -> usize {
         self.edits
     }
 
-    /// The findings that are left.
+    /// The remaining findings.
     #[getter]
     fn findings(&self, py: Python<'_>) -> Py<PyAny> {
         self.findings.clone_ref(py)
@@ -113,7 +113,7 @@ impl Fixed {
     }
 
     /// Writes the file; without a path the one that was read. Raises `OSError` if it cannot be written,
-    /// `ValueError` without any path.
+    /// `ValueError` if there is no path.
     #[pyo3(signature = (path=None))]
     fn save(&self, path: Option<PathBuf>) -> PyResult<()> {
         let path = path.or_else(|| self.name.clone().map(PathBuf::from));
@@ -128,10 +128,10 @@ impl Fixed {
     }
 }
 
-/// Applies the fixes of a description, and returns the result; no file is changed before `save()`.
+/// Applies the fixes of a description, and returns the result; no file changes before `save()`.
 ///
-/// Safe fixes do not change what the file says to any reader; `unsafe=True` applies likely guesses, too.
-/// `for_` fixes what stops these tools as well, as in `check`.
+/// Safe fixes do not change the meaning of the file; `unsafe=True` also applies unsafe fixes.
+/// `for_` also fixes what these tools reject, as in `check`.
 ///
 /// Raises `OSError` if the file cannot be read, `ValueError` for a base with an overlay (odkit cannot
 /// know which of the two to change), or if a tool is not known.

@@ -1,4 +1,4 @@
-//! The identity of a device, as its description has it.
+//! The identity of a device by its description.
 
 use pyo3::prelude::*;
 

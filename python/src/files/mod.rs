@@ -1,4 +1,4 @@
-//! Device descriptions as files: read, check, fix, convert, compare, and hand over to python-canopen.
+//! Device descriptions: read, check, fix, convert, compare, and convert to python-canopen.
 
 pub(crate) mod canopen;
 pub(crate) mod convert;

@@ -10,11 +10,11 @@ use pyo3::types::PyList;
 use crate::files::entry::Entry;
 use crate::files::read::Read;
 
-/// One object: a VAR with its one value, or an ARRAY or RECORD with its members.
+/// One object: a VAR with its one value, or an ARRAY or RECORD with its sub-objects.
 ///
-/// `object[sub]` and `object["name"]` are its values, `for entry in object` goes through them. Of a VAR
+/// `object[sub]` and `object["name"]` are its values, `for entry in object` iterates over them. For a VAR,
 /// `data_type`, `access`, `mappable`, `default`, `low`, `high` and `value` are those of its one value;
-/// of another object they are `None`.
+/// for another object they are `None`.
 #[pyclass(frozen, module = "odkit")]
 pub(crate) struct Object {
     pub(crate) read: Arc<Read>,

@@ -1,4 +1,4 @@
-//! A description that was read, shared by the classes that show parts of it.
+//! A description, shared by the classes that show parts of it.
 
 use od_eds::{Description, EntryDescription, Finding, ObjectDescription, Spanned, Value};
 use od_model::{Address, values};
@@ -7,7 +7,7 @@ use pyo3::prelude::*;
 
 use crate::files::source::Source;
 
-/// A description and where it comes from.
+/// A description and its source.
 pub(crate) struct Read {
     pub(crate) source: Source,
     pub(crate) description: Description,
@@ -36,7 +36,7 @@ impl Read {
         }
     }
 
-    /// The object or the value that a key names: `0x6004`, `(0x1018, 2)`, `"1018h:02"`,
+    /// The object or the value of a key: `0x6004`, `(0x1018, 2)`, `"1018h:02"`,
     /// `"Position value"`, `"Identity object.Vendor-ID"`.
     ///
     /// # Errors
@@ -106,7 +106,7 @@ impl Read {
         entry.ok_or_else(|| PyKeyError::new_err(format!("object {address} does not exist")))
     }
 
-    /// The number that an object has: of a DCF its configured value, else the default.
+    /// The number in an object: the configured value of a DCF, else the default.
     pub(crate) fn number(&self, index: u16, sub: u8) -> Option<u64> {
         let entry = self.description.entry(Address::new(index, sub))?;
         let value: &Spanned<Value> = entry.parameter.as_ref().or(entry.default.as_ref())?;
@@ -114,7 +114,7 @@ impl Read {
         u64::try_from(number).ok()
     }
 
-    /// A text of `[DeviceInfo]`; an empty one is missing.
+    /// A text of `[DeviceInfo]`; an empty text counts as missing.
     pub(crate) fn info(&self, key: &str) -> Option<&str> {
         let section = self.description.section("DeviceInfo")?;
         let text = section.get(key)?.value.trim();

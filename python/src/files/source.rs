@@ -12,20 +12,20 @@ use pyo3::types::{PyBytes, PyString};
 
 use crate::faults::Fault;
 
-/// Findings that a message shows.
+/// Number of findings in a message.
 const SHOWN: usize = 5;
 
 /// A text and its name.
 #[derive(Clone)]
 pub(crate) struct Source {
-    /// The path, or the name of the built-in device; of base and overlay, with `+` between them.
+    /// The path, or the name of the built-in device; base and overlay are joined by `+`.
     pub(crate) name: Option<String>,
     pub(crate) kind: Option<&'static DeviceKind>,
     pub(crate) document: Document,
     laid: Option<Box<Laid>>,
 }
 
-/// Parts of an overlaid text.
+/// Parts of a text with overlays.
 #[derive(Clone)]
 struct Laid {
     base: Source,
@@ -115,12 +115,12 @@ impl Source {
         Ok(laid)
     }
 
-    /// The same with another text.
+    /// The same source with another text.
     pub(crate) fn with_document(self, document: Document) -> Self {
         Self { document, ..self }
     }
 
-    /// Is it made of two files?
+    /// Returns whether it consists of two files.
     pub(crate) fn is_overlaid(&self) -> bool {
         self.laid.is_some()
     }
@@ -130,7 +130,7 @@ impl Source {
         self.name.as_deref().unwrap_or("text")
     }
 
-    /// A finding of the text as one of the file that it is about, and the name of that.
+    /// Assigns a finding of the text to its file, and returns the file's name.
     pub(crate) fn place(&self, finding: Finding) -> (Option<&str>, Finding) {
         let Some(laid) = &self.laid else {
             return (self.name.as_deref(), finding);
@@ -141,7 +141,7 @@ impl Source {
         }
     }
 
-    /// Findings in one sentence, each with its file and line; the first ones of many.
+    /// Findings in one sentence, each with its file and line; only the first ones if there are many.
     pub(crate) fn words(&self, findings: &[&Finding]) -> String {
         let mut words: Vec<String> = Vec::new();
         let mut last = None;

@@ -1,4 +1,4 @@
-//! Values of a description, as Python has them.
+//! Values of a description as Python objects.
 
 use od_eds::{EntryDescription, Spanned, Value};
 use od_model::DataType;
@@ -6,7 +6,7 @@ use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
-/// A value that depends on the node ID, such as `$NODEID+0x180`, of a description without one.
+/// A value that depends on an unknown node ID, such as `$NODEID+0x180`.
 #[pyclass(frozen, eq, hash, module = "odkit")]
 #[derive(Clone, PartialEq, Eq, Hash)]
 pub(crate) struct Relative {
@@ -56,7 +56,7 @@ pub(crate) fn to_python<'p>(
     }
 }
 
-/// A value that an entry may have.
+/// A value of an entry, if it has one.
 pub(crate) fn optional<'p>(
     py: Python<'p>,
     entry: &EntryDescription,
@@ -69,7 +69,7 @@ pub(crate) fn optional<'p>(
         .transpose()
 }
 
-/// UTF-16, low byte first, as a UNICODE_STRING has it.
+/// UTF-16, low byte first, like a UNICODE_STRING.
 pub(crate) fn utf16(bytes: &[u8]) -> String {
     let units = bytes
         .chunks_exact(2)
