@@ -1,8 +1,7 @@
-"""What other threads do: time moves while all that take part on a wire wait.
+"""Which other threads run and which wait. Time moves while all threads on a wire wait.
 
-A thread waits where ``threading``, ``queue``, ``concurrent.futures`` or ``asyncio`` put it to sleep.
-One that has been notified and has not run yet does not wait any more: the lock that it sleeps on is
-open by then.
+A thread waits when ``threading``, ``queue``, ``concurrent.futures`` or ``asyncio`` has put it to sleep.
+A thread that was notified but has not run yet no longer waits: its lock is already open.
 """
 
 import sys
@@ -19,7 +18,7 @@ _WAITERS = ("threading", "queue")
 
 
 def this():
-    """Number, number of the system, and daemon flag of the thread that calls."""
+    """The calling thread: its number, its number in the operating system, and its daemon flag."""
     return (
         threading.get_ident(),
         threading.get_native_id(),
@@ -33,12 +32,12 @@ def threads():
 
 
 def waits(threads):
-    """What threads do, for each one three values. The first is -2: it ended, -1: it runs, or it waits
-    for at most so many seconds. The second is whether the wait may be over without a sign in Python;
-    the third is an object that no other wait has."""
+    """Three values for each thread. The first is -2 if it ended, -1 if it runs, otherwise the seconds that
+    it waits at most. The second tells whether the wait can end without a sign in Python. The third is
+    an object that identifies the wait."""
     found = _look(threads)
     if len(threads) > 1 and all(one[0] != _RUNS for one in found):
-        # While one was looked at, an earlier one may have been woken by one that came later.
+        # A later thread may have woken an earlier one after that one was looked at: look again.
         pairs = zip(found, _look(threads))
         return [one if one[2] is other[2] else (_RUNS, False, None) for one, other in pairs]
     return found
@@ -63,23 +62,23 @@ def _look(threads):
 def _seconds(timeout):
     if timeout is None or timeout < 0:
         return _EVER
-    # A rest of a time-out, such as 0.29999 s, is what it is a rest of.
+    # Round the rest of a time-out up: 0.29999 s is 0.3 s.
     return -(-round(timeout * 1e6) // 1000) / 1000
 
 
 def _wait(frame, frames):
-    """The token of the wait that a thread is in, its time-out, and whether its end is hidden;
-    ``None``: it runs."""
+    """The object that identifies the wait of a thread, its time-out, and whether its end is hidden.
+    ``None`` if it runs."""
     code = frame.f_code
     if code is _WAIT:
         local = frame.f_locals
         waiter = local.get("waiter")
-        # Whoever notifies opens the lock and takes it off the list; the thread closes it again.
+        # The thread that notifies opens the lock and removes it from the list; this thread closes it again.
         if waiter is None or not waiter.locked() or waiter not in local["self"]._waiters:
             return None
         return _timed(frame, waiter, local.get("timeout"))
     if code is _LOCK:
-        # Its lock is closed again, too, but the thread that it waited for has no frame then.
+        # This lock is closed again, too, but by then the awaited thread has no frame.
         if frame.f_locals["self"].ident not in frames:
             return None
         return _timed(frame, frame, frame.f_locals.get("timeout"))
@@ -100,8 +99,8 @@ def _wait(frame, frames):
 
 
 def _timed(frame, token, timeout):
-    """A wait with the time-out of the call that waits: that of the innermost wait is what is left
-    of it. A thread that starts another one runs."""
+    """A wait with the time-out of its outermost call; the innermost wait has only the rest of it.
+    A thread that starts another thread counts as running."""
     outer = frame.f_back
     while outer is not None and outer.f_globals.get("__name__") in _WAITERS:
         if outer.f_code is _START:

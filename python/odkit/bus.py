@@ -22,10 +22,10 @@ class OdkitBus(BusABC):
     :param channel: The devices, such as ``gxmm@1,eam_mt@2`` or ``my.eds+coarse.overlay@5``, or the
         name of a wire that is open. ``line=gxmm@1`` gives a new wire a name. All buses of one channel
         or name share the wire; the devices live as long as one of them is open.
-    :param can_filters: As python-can has them.
+    :param can_filters: The filters of python-can.
     :param receive_own_messages: Whether the bus receives what it sends.
-    :param time: ``virtual``, the default of a new wire: time moves while all who take part wait.
-        ``real``: it is that of the clock.
+    :param time: ``virtual``, the default of a new wire: time moves while all that take part wait.
+        ``real``: time follows the clock.
     :param bitrate: In bit/s. Devices with another bit rate do not hear the bus. Without it they do.
     :raises can.CanInitializationError: A device does not exist, a file cannot be read.
     """
@@ -101,7 +101,7 @@ class OdkitBus(BusABC):
             raise CanOperationError(str(error)) from None
 
     def flush_tx_buffer(self):
-        """Does nothing: what was sent is on the line."""
+        """Does nothing: every sent message is already on the line."""
 
     def shutdown(self):
         """Leaves the wire. Its devices go with the last bus or bench of the wire."""
@@ -136,7 +136,7 @@ class OdkitBus(BusABC):
 class CyclicTask(
     LimitedDurationCyclicSendTaskABC, ModifiableCyclicTaskABC, RestartableCyclicTaskABC
 ):
-    """Messages in a rhythm, in the time of the bus."""
+    """Messages that are sent periodically, in the time of the bus."""
 
     def __init__(self, port, messages, period, duration, autostart, modifier_callback):
         super().__init__(messages, period, duration)
@@ -165,9 +165,9 @@ class CyclicTask(
         self._port.stop_task(self._task)
 
     def modify_data(self, messages):
-        """Sends other data from now on, of messages with the same CAN-IDs.
+        """From now on sends other data with the same CAN-IDs.
 
-        :raises ValueError: The CAN-IDs are others.
+        :raises ValueError: The CAN-IDs differ.
         """
         messages = self._check_and_convert_messages(messages)
         self._check_modified_messages(messages)

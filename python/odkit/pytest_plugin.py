@@ -102,8 +102,8 @@ def odkit_bench(request):
 
 @pytest.fixture
 def odkit_bus(odkit_bench):
-    """A bus of python-can on the wire of ``odkit_bench``. It hears the frames from now on, the
-    boot-up messages of the devices not."""
+    """A bus of python-can on the wire of ``odkit_bench``. It receives the frames from now on,
+    but not the boot-up messages of the devices."""
     with odkit_bench.bus() as bus:
         yield bus
 
