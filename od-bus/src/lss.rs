@@ -2,6 +2,7 @@
 
 use od_client::lss::{Answer, Identity, LssError, Options, Task};
 use od_client::{Client, Event, sdo, watch};
+use od_wire::lss::Part;
 use od_wire::nmt::State;
 use od_wire::{Duration, Frame, Instant, NodeId, lss};
 
@@ -12,6 +13,8 @@ use crate::link::Link;
 const PATIENCE: Duration = Duration::from_secs(5);
 /// Longest time until a slave with a new node ID boots.
 const BOOT: Duration = Duration::from_secs(3);
+/// Time in which a second slave would answer, in ms.
+const SECOND: u64 = 50;
 /// Time that a step of fastscan waits for an answer, in ms. Silence is an answer, too, so a late one
 /// spoils the search: it is begun again, and waits longer.
 const PACES: [u64; 3] = [50, 200, 800];
@@ -170,6 +173,44 @@ impl<L: Link> Lss<L> {
         self.select(slaves)?;
         self.run(Task::Store)?;
         self.wait_all()
+    }
+
+    /// Asks a slave for its LSS address and its node ID, which is `None` if it has none.
+    ///
+    /// # Errors
+    /// No slave answers, several do, or the link is lost.
+    pub fn inquire(&mut self, slaves: Slaves) -> Result<(Identity, Option<NodeId>), Fault> {
+        self.select(slaves)?;
+        let mut parts = [0; 4];
+        for (number, part) in parts.iter_mut().zip(Part::ALL) {
+            if let Answer::Number(answer) = self.only(Task::Inquire(part))? {
+                *number = answer;
+            }
+        }
+        let node = match self.only(Task::InquireNodeId)? {
+            Answer::NodeId(node) => node,
+            _ => None,
+        };
+        self.wait_all()?;
+        Ok((Identity::new(parts), node))
+    }
+
+    /// Runs a service that only one slave may answer.
+    fn only(&mut self, task: Task) -> Result<Answer, Fault> {
+        let answer = self.run(task)?;
+        let until = self.link.now().plus_millis(SECOND);
+        while let Some(heard) = self.link.receive(until)? {
+            if heard.frame.id().as_standard() == Some(lss::SLAVE) {
+                return Err(Fault::Node(
+                    "several LSS slaves respond; name one with `--of`, `--serial` or `--address`"
+                        .into(),
+                ));
+            }
+            if heard.at > until {
+                break;
+            }
+        }
+        Ok(answer)
     }
 
     fn select(&mut self, slaves: Slaves) -> Result<(), Fault> {

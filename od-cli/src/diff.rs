@@ -24,18 +24,19 @@ pub(crate) struct Args {
     /// Built-in device, or EDS or DCF file, to compare with
     #[arg(
         value_name = "DEVICE|FILE",
-        required_unless_present = "live",
-        conflicts_with = "live"
+        required_unless_present_any = ["link", "node_id"],
+        conflicts_with_all = ["link", "node_id"]
     )]
     after: Option<String>,
-    /// Compare with the node on this bus: slcan:HOST:PORT
-    #[arg(long, value_name = "LINK")]
-    live: Option<String>,
-    /// Node ID of the node on the bus
-    #[arg(long, value_name = "ID", default_value = "1", value_parser = source::node_id, requires = "live")]
-    node_id: NodeId,
+    /// Compare with a node on this bus: slcan:HOST:PORT, slcan:DEVICE[@BAUD], socketcan:INTERFACE or
+    /// socketcand:HOST:PORT[/BUS] [default with `--node-id`: the running `odkit sim`]
+    #[arg(long, alias = "live", value_name = "LINK")]
+    link: Option<String>,
+    /// Node ID of the node on the bus [default: 1]
+    #[arg(long, value_name = "ID", value_parser = source::node_id)]
+    node_id: Option<NodeId>,
     /// Also list current values that differ from the default values
-    #[arg(long, requires = "live")]
+    #[arg(long, conflicts_with = "after")]
     values: bool,
     /// Format of the output
     #[arg(long, value_enum, default_value = "text")]
@@ -55,18 +56,21 @@ enum FailOn {
 
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let before = tables(&args.before)?;
-    let (found, second) = match (&args.after, &args.live) {
-        (Some(after), _) => {
+    let (found, second) = match &args.after {
+        Some(after) => {
             let found = compare(before.dictionary(), tables(after)?.dictionary());
             (found, after.clone())
         }
-        (None, Some(link)) => {
-            let mut client = Master::new(links::open(link)?, args.node_id);
+        None => {
+            let link = match &args.link {
+                Some(link) => link.clone(),
+                None => links::found::default()?,
+            };
+            let node = args.node_id.unwrap_or(NodeId::ONE);
+            let mut client = Master::new(links::open(&link)?, node);
             let found = device::compare(before.dictionary(), &mut client, args.values)?;
-            (found, format!("node {} on {link}", args.node_id.raw()))
+            (found, format!("node {node} on {link}"))
         }
-        // The argument parser requires one of them.
-        (None, None) => (Vec::new(), String::new()),
     };
     let titles = [args.before.clone(), second];
     show::print(args.format, &titles, &found)?;

@@ -1,10 +1,11 @@
 //! `odkit learn`: makes an EDS from a device.
 
 use std::path::PathBuf;
+use std::time::{SystemTime, UNIX_EPOCH};
 
 use od_bus::interrupt::Interruptible;
 use od_bus::learn::record::{Watch, record};
-use od_bus::learn::{Options, learn};
+use od_bus::learn::{Learned, Options, Today, learn};
 use od_bus::link::Link;
 use od_bus::links;
 use od_model::Visible;
@@ -63,16 +64,42 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     learned(args, link)
 }
 
+/// The present moment, in UTC.
+fn today() -> Today {
+    let now = SystemTime::now().duration_since(UNIX_EPOCH);
+    let minutes = now.unwrap_or_default().as_secs() / 60;
+    // Days from 1 March 0000 (Howard Hinnant's civil_from_days).
+    let days = minutes / 1440 + 719_468;
+    let (era, day) = (days / 146_097, days % 146_097);
+    let year = (day - day / 1460 + day / 36_524 - day / 146_096) / 365;
+    let day = day - (365 * year + year / 4 - year / 100);
+    let month = (5 * day + 2) / 153;
+    let first = (153 * month + 2) / 5;
+    let (month, carry) = if month < 10 {
+        (month + 3, 0)
+    } else {
+        (month - 9, 1)
+    };
+    Today {
+        year: (era * 400 + year + carry) as u16,
+        month: month as u8,
+        day: (day - first + 1) as u8,
+        hour: (minutes / 60 % 24) as u8,
+        minute: (minutes % 60) as u8,
+    }
+}
+
 fn learned(args: &Args, mut link: Box<dyn Link>) -> Result<(), Failure> {
     let options = Options {
         writes: args.allow_writes,
+        today: Some(today()),
     };
     let told = |index: u16| {
         if args.output.is_some() {
             output::note!("reading {index:04X}h to {:04X}h", index | 0xFFF);
         }
     };
-    let description = learn(&mut link, args.node, options, told)?;
+    let Learned { description, left } = learn(&mut link, args.node, options, told)?;
     if description.objects.is_empty() {
         return Err(Failure::Failed(format!(
             "node {} has no objects from 1000h to 9FFFh",
@@ -80,7 +107,7 @@ fn learned(args: &Args, mut link: Box<dyn Link>) -> Result<(), Failure> {
         )));
     }
     let mut text = od_eds::write(&description);
-    if args.twin {
+    if args.twin && left.is_none() {
         let watch = Watch {
             length: Duration::from_secs(args.seconds),
             reset: args.allow_reset,
@@ -92,5 +119,14 @@ fn learned(args: &Args, mut link: Box<dyn Link>) -> Result<(), Failure> {
             output::note!("the twin does not have {lacking}");
         }
     }
-    output::save(args.output.as_deref(), &Visible(&text).lines())
+    output::save(args.output.as_deref(), &Visible(&text).lines())?;
+    match left {
+        Some(fault) => {
+            output::note!(
+                "not all limits were probed; the file has all objects and the limits found so far"
+            );
+            Err(fault.into())
+        }
+        None => Ok(()),
+    }
 }

@@ -93,7 +93,7 @@ struct Learned {
     marked: usize,
     /// Errors that `odkit check` finds in the learned file.
     errors: usize,
-    /// Differences between the learned file and its own node, by `odkit diff --live`.
+    /// Differences between the learned file and its own node, by `odkit diff --link`.
     differences: usize,
     /// Whether a device can be made of the learned file.
     stands_in: usize,
@@ -141,7 +141,8 @@ fn bus(text: &str) -> Result<Bus, String> {
 fn learned(text: &str) -> Result<Learned, String> {
     let mut bus = bus(text)?;
     let made = learn(OnBench(&mut bus), NodeId::ONE, Options::default(), |_| {})
-        .map_err(|fault| fault.to_string())?;
+        .map_err(|fault| fault.to_string())?
+        .description;
     let file = od_eds::write(&made);
     let loaded = od_eds::load(&file);
     let tables = Tables::new(&loaded.description);

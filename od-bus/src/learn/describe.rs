@@ -30,8 +30,9 @@ pub(super) fn describe(found: &[Found], guesses: &[Guess], node: NodeId) -> Obje
         }
         let name = match (is_whole, sub) {
             (true, _) => name(index),
+            (false, 0) if index == 0x1003 => "Number of errors".into(),
             (false, 0) => "Highest sub-index supported".into(),
-            _ => format!("{} {sub}", name(index)),
+            _ => member(index, sub).unwrap_or_else(|| format!("{} {sub}", name(index))),
         };
         let mut entry = EntryDescription::new(name, data_type);
         let access = match one.writable {
@@ -79,6 +80,69 @@ pub(super) fn describe(found: &[Found], guesses: &[Guess], node: NodeId) -> Obje
         flags: 0,
         extra: Vec::new(),
         span: Default::default(),
+    }
+}
+
+/// Sets the access that a write showed, and takes it from what is unknown.
+pub(super) fn set_access(entry: &mut EntryDescription, writable: bool) {
+    entry.access = Spanned::from(if writable { Access::Rw } else { Access::Ro });
+    for (_, text) in entry.extra.iter_mut().filter(|(key, _)| key == ";Learned") {
+        let known = text.replace(", access", "").replace("access, ", "");
+        *text = match (known.as_str(), writable) {
+            ("unknown: access", true) => "unknown: limits".into(),
+            (_, true) => format!("{known}, limits"),
+            _ => known,
+        };
+    }
+    let is_left = |(key, text): &(String, String)| key != ";Learned" || text != "unknown: access";
+    entry.extra.retain(is_left);
+}
+
+/// The name of a sub-object in CiA 301.
+fn member(index: u16, sub: u8) -> Option<String> {
+    let names: &[&str] = match index {
+        0x1010 => &[
+            "Save all parameters",
+            "Save communication parameters",
+            "Save application parameters",
+        ],
+        0x1011 => &[
+            "Restore all default parameters",
+            "Restore communication default parameters",
+            "Restore application default parameters",
+        ],
+        0x1018 => &[
+            "Vendor-ID",
+            "Product code",
+            "Revision number",
+            "Serial number",
+        ],
+        0x1029 => &["Communication error"],
+        0x1200..=0x12FF => &[
+            "COB-ID client -> server",
+            "COB-ID server -> client",
+            if index < 0x1280 {
+                "Node-ID of the SDO client"
+            } else {
+                "Node-ID of the SDO server"
+            },
+        ],
+        0x1400..=0x15FF | 0x1800..=0x19FF => &[
+            "COB-ID",
+            "Transmission type",
+            "Inhibit time",
+            "Reserved",
+            "Event timer",
+            "SYNC start value",
+        ],
+        _ => &[],
+    };
+    match (index, names.get(usize::from(sub).checked_sub(1)?)) {
+        (_, Some(name)) => Some((*name).into()),
+        (0x1003, None) => Some(format!("Standard error field {sub}")),
+        (0x1016, None) => Some(format!("Consumer heartbeat time {sub}")),
+        (0x1600..=0x17FF | 0x1A00..=0x1BFF, None) => Some(format!("Mapped object {sub}")),
+        _ => None,
     }
 }
 

@@ -5,6 +5,8 @@ use std::collections::BTreeMap;
 use od_eds::{Description, ObjectDescription, Section, Spanned, Value};
 use od_wire::NodeId;
 
+use super::{Options, Today};
+
 /// Allows the errors that the file has because the node has them: a learned file says what the node
 /// answers, and no rule shall stop who wants to use it.
 pub(super) fn allow_errors(description: &mut Description) {
@@ -34,8 +36,10 @@ pub(super) fn allow_errors(description: &mut Description) {
 pub(super) fn sections(
     objects: &BTreeMap<u16, ObjectDescription>,
     node: NodeId,
-    writes: bool,
+    options: &Options,
+    has_lss: bool,
 ) -> Vec<Section> {
+    let writes = options.writes;
     let section = |name: &str, pairs: Vec<(&str, String)>| Section {
         name: Spanned::from(name.to_owned()),
         pairs: pairs
@@ -85,11 +89,11 @@ pub(super) fn sections(
         ("GroupMessaging", "0".into()),
         ("NrOfRXPDO", pdos(0x1400)),
         ("NrOfTXPDO", pdos(0x1800)),
-        ("LSS_Supported", "0".into()),
+        ("LSS_Supported", u8::from(has_lss).to_string()),
     ]);
     let lines = [
         format!("Learned by odkit from node {}.", node.raw()),
-        "Not known: bit rates, LSS, which values are saved, which objects can be mapped.".into(),
+        "Not known: bit rates, which values are saved, which objects can be mapped.".into(),
         if writes {
             "Limits were probed.".into()
         } else {
@@ -107,8 +111,23 @@ pub(super) fn sections(
         "Dummy0006",
         "Dummy0007",
     ];
-    let time = || "12:00AM".to_owned();
-    let date = || "01-01-2000".to_owned();
+    let today = options.today.unwrap_or(Today {
+        year: 2000,
+        month: 1,
+        day: 1,
+        hour: 0,
+        minute: 0,
+    });
+    let time = || {
+        let (hour, half) = match today.hour {
+            0 => (12, "AM"),
+            hour @ 1..=11 => (hour, "AM"),
+            12 => (12, "PM"),
+            hour => (hour - 12, "PM"),
+        };
+        format!("{hour:02}:{:02}{half}", today.minute)
+    };
+    let date = || format!("{:02}-{:02}-{:04}", today.month, today.day, today.year);
     vec![
         section(
             "FileInfo",

@@ -28,20 +28,46 @@ use crate::link::Link;
 pub struct Options {
     /// Probe limits by writing, and put the values back.
     pub writes: bool,
+    /// The moment that the file names as that of its creation.
+    pub today: Option<Today>,
+}
+
+/// A moment of the calendar.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Today {
+    /// Year, as in 2026.
+    pub year: u16,
+    /// Month and day, from 1.
+    pub month: u8,
+    /// See `month`.
+    pub day: u8,
+    /// Hour and minute, from 0.
+    pub hour: u8,
+    /// See `hour`.
+    pub minute: u8,
+}
+
+/// What a node showed.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Learned {
+    /// The description of all objects that it has.
+    pub description: Description,
+    /// Reason why not all limits were probed; the description has what was found before.
+    pub left: Option<Fault>,
 }
 
 /// Reads all objects from 1000h to 9FFFh; `told` hears each index that is a multiple of 1000h.
 ///
 /// # Errors
-/// The link is lost, or the node falls silent.
+/// The link is lost, or the node falls silent, before all objects are read.
 pub fn learn(
     link: impl Link,
     node: NodeId,
     options: Options,
     mut told: impl FnMut(u16),
-) -> Result<Description, Fault> {
+) -> Result<Learned, Fault> {
     let mut probe = Probe::new(link, node);
-    let mut all = BTreeMap::new();
+    let mut all: BTreeMap<u16, Vec<Found>> = BTreeMap::new();
     for index in 0x1000..=0x9FFF {
         if index % 0x1000 == 0 {
             told(index);
@@ -62,23 +88,23 @@ pub fn learn(
         .collect();
     let profiles = Profiles::of(low_word(&all, 0x1000), &lengths);
     let version = low_word(&all, 0x6507);
+    let has_lss = probe.has_lss(&identity(&all))?;
+    let mut left = None;
     let mut objects = BTreeMap::new();
-    for (index, found) in &all {
+    for (index, found) in &mut all {
         let is_whole = describe::is_whole(found);
         let guesses = types::types(&profiles, found, is_whole, version);
         let mut object = describe::describe(found, &guesses, node);
-        if options.writes {
-            for one in found.iter().filter(|one| one.writable == Some(true)) {
-                probe_limits(&mut probe, one, &mut object)?;
-            }
+        if options.writes && left.is_none() {
+            left = probe_writes(&mut probe, found, &mut object).err();
         }
         objects.insert(*index, object);
     }
     map(&mut objects);
-    let sections = file::sections(&objects, node, options.writes);
+    let sections = file::sections(&objects, node, &options, has_lss);
     let mut description = Description { sections, objects };
     file::allow_errors(&mut description);
-    Ok(description)
+    Ok(Learned { description, left })
 }
 
 /// Bits 0 to 15 of a value that was found; 0 without one.
@@ -101,6 +127,11 @@ fn members<L: Link>(probe: &mut Probe<L>, index: u16) -> Result<Vec<Found>, Faul
         There::NoSubIndex => {}
         There::Value(found) => all.push(found),
     }
+    if let [whole] = all.as_slice()
+        && probe.is_var(whole)?
+    {
+        return Ok(all);
+    }
     // Sub-index 0 of what has members is their number, at least at first sight.
     let count = match all.first().map(|first| first.bytes.as_deref()) {
         Some(Some([count])) => *count,
@@ -119,6 +150,39 @@ fn members<L: Link>(probe: &mut Probe<L>, index: u16) -> Result<Vec<Found>, Faul
         }
     }
     Ok(all)
+}
+
+/// The four numbers of 1018h; `None`: the node does not have all.
+fn identity(all: &BTreeMap<u16, Vec<Found>>) -> Option<[u32; 4]> {
+    let number = |sub: u8| {
+        let mut found = all.get(&0x1018)?.iter();
+        let one = found.find(|one| one.address.sub == sub)?;
+        let bytes = one.bytes.as_deref()?.try_into().ok()?;
+        Some(u32::from_le_bytes(bytes))
+    };
+    Some([number(1)?, number(2)?, number(3)?, number(4)?])
+}
+
+/// Finds out what only writing shows: access, and limits.
+fn probe_writes<L: Link>(
+    probe: &mut Probe<L>,
+    found: &mut [Found],
+    object: &mut ObjectDescription,
+) -> Result<(), Fault> {
+    for one in found {
+        if one.writable.is_none() && !is_touchy(one.address) {
+            one.writable = probe.takes_its_value(one)?;
+            if let (Some(writable), Some(entry)) =
+                (one.writable, object.entries.get_mut(&one.address.sub))
+            {
+                describe::set_access(entry, writable);
+            }
+        }
+        if one.writable == Some(true) {
+            probe_limits(probe, one, object)?;
+        }
+    }
+    Ok(())
 }
 
 fn probe_limits<L: Link>(

@@ -5,7 +5,7 @@ use od_model::Address;
 use od_wire::AbortCode::{
     InvalidCommand, NoObject, NoSubIndex, ReadOnly, UnsupportedAccess, WriteOnly,
 };
-use od_wire::{Duration, Frame, NodeId, sdo};
+use od_wire::{CanId, Duration, Frame, NodeId, lss, sdo};
 
 use crate::fault::Fault;
 use crate::link::Link;
@@ -35,6 +35,12 @@ pub(super) enum Room {
     Any,
 }
 
+const DEVICE_TYPE: Address = Address::new(0x1000, 0);
+/// A sub-index that no object has.
+const BEYOND: u8 = 0xFE;
+/// Longest time until an LSS slave says that it is selected.
+const SELECTED: Duration = Duration::from_millis(200);
+
 /// More bytes than a string of a device has.
 const LONG: u32 = 1 << 16;
 
@@ -60,6 +66,11 @@ pub(super) struct Probe<L> {
     node: NodeId,
     /// Whether the node looks at the announced length; `None`: not known yet.
     minds: Option<bool>,
+    /// Whether the node refuses a download to an object that is read-only as soon as it begins; `None`:
+    /// not known yet.
+    checks_access: Option<bool>,
+    /// Whether the node answers for sub-indices that an object cannot have; `None`: not known yet.
+    ignores_sub: Option<bool>,
 }
 
 impl<L: Link> Probe<L> {
@@ -68,6 +79,8 @@ impl<L: Link> Probe<L> {
             master: Master::new(link, node),
             node,
             minds: None,
+            checks_access: None,
+            ignores_sub: None,
         }
     }
 
@@ -105,8 +118,73 @@ impl<L: Link> Probe<L> {
     /// Whether the index has no object, by one request: most of the 36,864 indices have none.
     pub(super) fn lacks(&mut self, index: u16) -> Result<bool, Fault> {
         let answer = self.ask(request(0x40, Address::new(index, 0), [0; 4]))?;
-        // A segmented upload that this began ends with the next request.
+        // An upload that this began ends here: some servers abort the next request otherwise.
+        let is_begun = |answer: &[u8; 8]| answer[0] & 0xE2 == 0x40;
+        if answer.as_ref().is_some_and(is_begun) {
+            self.give_up(Address::new(index, 0))?;
+        }
         Ok(answer.as_ref().and_then(code) == Some(NoObject.code()))
+    }
+
+    /// Whether an object is a VAR: by the standard, or because the node answers with the same value for a
+    /// sub-index that it cannot have.
+    pub(super) fn is_var(&mut self, whole: &Found) -> Result<bool, Fault> {
+        let index = whole.address.index;
+        if specified(index).is_some_and(|known| !known.code.has_members()) {
+            return Ok(true);
+        }
+        if self.ignores_sub.is_none() {
+            let beyond = self.bytes(Address::new(DEVICE_TYPE.index, BEYOND))?;
+            self.ignores_sub = Some(beyond.is_some());
+        }
+        if self.ignores_sub == Some(false) || whole.bytes.is_none() {
+            return Ok(false);
+        }
+        Ok(self.bytes(Address::new(index, BEYOND))? == whole.bytes)
+    }
+
+    /// Writes a value to its object: whether it can be written. `None`: it cannot be read.
+    pub(super) fn takes_its_value(&mut self, found: &Found) -> Result<Option<bool>, Fault> {
+        let Some(bytes) = found.bytes.as_deref().filter(|bytes| !bytes.is_empty()) else {
+            return Ok(None);
+        };
+        Ok(match self.master.download(found.address, bytes)? {
+            Ok(()) => Some(true),
+            Err(code) => (is_fixed(code)).then_some(false),
+        })
+    }
+
+    /// Whether an LSS slave has this LSS address. It is in waiting state afterwards.
+    pub(super) fn has_lss(&mut self, identity: &Option<[u32; 4]>) -> Result<bool, Fault> {
+        let Some(identity) = identity else {
+            return Ok(false);
+        };
+        let link = self.master.link();
+        let mut tell = |request: lss::Request| {
+            let id = CanId::standard(lss::MASTER);
+            link.send(&Frame::full(id, request.emit()))
+        };
+        let waiting = lss::Request::SwitchGlobal {
+            configuration: false,
+        };
+        tell(waiting)?;
+        for (part, value) in lss::Part::ALL.into_iter().zip(*identity) {
+            tell(lss::Request::SwitchSelective { part, value })?;
+        }
+        let until = link.now() + SELECTED;
+        let mut is_there = false;
+        while let Some(heard) = link.receive(until)? {
+            if heard.frame.id().as_standard() == Some(lss::SLAVE) {
+                let answer = lss::Response::parse(heard.frame.data());
+                is_there |= matches!(answer, Some(lss::Response::Selected { .. }));
+            }
+            if is_there || heard.at > until {
+                break;
+            }
+        }
+        let id = CanId::standard(lss::MASTER);
+        link.send(&Frame::full(id, waiting.emit()))?;
+        Ok(is_there)
     }
 
     /// Reads the value again.
@@ -215,7 +293,8 @@ impl<L: Link> Probe<L> {
         };
         if answer[0] == 0x60 {
             self.give_up(address)?;
-            return Ok(Some(true));
+            // A node that confirms it of any object looks at the access later.
+            return Ok(self.checks_access()?.then_some(true));
         }
         match code(&answer) {
             Some(code) if is_fixed(code) => return Ok(Some(false)),
@@ -240,6 +319,28 @@ impl<L: Link> Probe<L> {
         })
     }
 
+    /// Does the node refuse a download to 1000h, 1001h or 1018h:01 as soon as it begins? Then one that it
+    /// confirms shows that an object can be written.
+    fn checks_access(&mut self) -> Result<bool, Fault> {
+        if let Some(checks) = self.checks_access {
+            return Ok(checks);
+        }
+        let mut checks = true;
+        for address in [
+            DEVICE_TYPE,
+            Address::new(0x1001, 0),
+            Address::new(0x1018, 1),
+        ] {
+            let Some(bytes) = self.bytes(address)? else {
+                continue;
+            };
+            checks = !self.admits(address, bytes.len() as u32)?;
+            break;
+        }
+        self.checks_access = Some(checks);
+        Ok(checks)
+    }
+
     fn tell(&mut self, data: [u8; 8]) -> Result<(), Fault> {
         let frame = Frame::full(self.node.plus(0x600), data);
         self.master.link().send(&frame)
@@ -260,7 +361,14 @@ impl<L: Link> Probe<L> {
                     return Ok(Some(*heard.frame.bytes()));
                 }
                 Ok(Some(_)) => {}
-                Ok(None) => return Ok(None),
+                Ok(None) => {
+                    // An answer that comes later opens nothing.
+                    let mut abort = data;
+                    abort[0] = 0x80;
+                    abort[4..].copy_from_slice(&0x0504_0000u32.to_le_bytes());
+                    self.tell(abort)?;
+                    return Ok(None);
+                }
                 Err(Fault::Interrupted) => {
                     // The node hears that what was begun is over.
                     let mut abort = data;

@@ -185,8 +185,16 @@ fn ctrl_c_in_learn_puts_back_the_value_that_it_probes() {
         },
     };
     let link = Interruptible::new(trip, Arc::clone(&stop));
-    let made = learn(link, NodeId::ONE, Options { writes: true }, |_| {});
-    assert_eq!(made.map(drop), Err(Fault::Interrupted));
+    let options = Options {
+        writes: true,
+        ..Options::default()
+    };
+    let made = learn(link, NodeId::ONE, options, |_| {}).expect("all objects");
+    assert_eq!(made.left, Some(Fault::Interrupted));
+    assert!(
+        made.description.objects.len() > 50,
+        "what was learned stays"
+    );
     assert_eq!(values(&mut bus, &eds), before);
 }
 

@@ -37,6 +37,7 @@ fn original() -> Bus {
 /// The text of an EDS with a recording.
 fn recorded(bus: &mut Bus, reset: bool) -> String {
     let made = learn(OnBench(&mut *bus), NodeId::ONE, Options::default(), |_| {}).expect("a node");
+    let made = made.description;
     let watch = Watch {
         length: Duration::from_secs(2),
         reset,

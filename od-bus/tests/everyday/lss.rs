@@ -199,3 +199,22 @@ fn an_interrupted_transfer_is_aborted() {
         "{last:?}"
     );
 }
+
+#[test]
+fn a_slave_is_asked_who_it_is() {
+    let mut bus = new(&[4711]);
+    let (identity, node) = Lss::new(OnBench(&mut bus))
+        .inquire(Slaves::All)
+        .expect("a slave");
+    assert_eq!((identity.serial, node), (4711, None));
+    let other = bus.add(encoder(4712, NodeId::new(5)));
+    bus.start(other);
+    let several = Lss::new(OnBench(&mut bus)).inquire(Slaves::All);
+    assert!(matches!(several, Err(Fault::Node(why)) if why.contains("several")));
+    let one = Identity {
+        serial: 4712,
+        ..identity
+    };
+    let asked = Lss::new(OnBench(&mut bus)).inquire(Slaves::One(one));
+    assert_eq!(asked, Ok((one, NodeId::new(5))));
+}

@@ -4,9 +4,11 @@ mod wizard;
 
 use od_bus::lss::{Lss, Slaves};
 use od_bus::master::Master;
+use od_bus::scan::Options;
 use od_client::lss::Identity;
 use od_model::{Address, values};
 use od_runtime::NodeId;
+use od_wire::Duration;
 use serde_json::json;
 
 use crate::bus::names::Names;
@@ -65,6 +67,15 @@ enum What {
         /// Switch all slaves on the bus to the new bit rate, after this time in ms
         #[arg(long, value_name = "MS", num_args = 0..=1, default_missing_value = "1000")]
         activate: Option<u16>,
+        #[command(flatten)]
+        bus: bus::Args,
+    },
+    /// Ask a slave for its LSS address and its node ID
+    ///
+    /// Without an option the slave has to be the only one on the bus.
+    Inquire {
+        #[command(flatten)]
+        slave: Slave,
         #[command(flatten)]
         bus: bus::Args,
     },
@@ -172,6 +183,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
             activate,
             bus,
         } => bit_rate(*kbit, slave, (!no_store, *activate), bus),
+        What::Inquire { slave, bus } => inquire(slave, bus),
         What::Store { slave, bus } => {
             let mut link = bus.open()?;
             let slaves = slave.slaves(&mut link)?;
@@ -192,6 +204,9 @@ fn scan(args: &bus::Args) -> Result<(), Failure> {
         }
     })?;
     drop(lss);
+    if found.is_empty() {
+        note_configured(args)?;
+    }
     if is_text {
         let count = plural(found.len(), "LSS slave");
         output::print(&format!("{count} without a node ID"))?;
@@ -217,6 +232,49 @@ fn scan(args: &bus::Args) -> Result<(), Failure> {
     } else {
         Ok(())
     }
+}
+
+/// Names the nodes that have a node ID: they take no part in a fastscan.
+fn note_configured(args: &bus::Args) -> Result<(), Failure> {
+    let options = Options {
+        listen: Duration::ZERO,
+        ..Options::default()
+    };
+    let scan = od_bus::scan::scan(&mut args.open()?, options, |_| {})?;
+    let nodes: Vec<String> = scan.nodes.iter().map(|one| one.node.to_string()).collect();
+    if let Some(first) = nodes.first() {
+        note!(
+            "{} with a node ID on the bus ({}); such a node does not respond to a fastscan: `odkit scan` \
+             shows it, `odkit lss set 12 --of {first}` changes its node ID",
+            plural(nodes.len(), "node"),
+            nodes.join(", ")
+        );
+    }
+    Ok(())
+}
+
+fn inquire(slave: &Slave, args: &bus::Args) -> Result<(), Failure> {
+    let names = args.names()?;
+    let mut link = args.open()?;
+    let slaves = slave.slaves(&mut link)?;
+    let (identity, node) = Lss::new(link).inquire(slaves)?;
+    output::print(&match args.format {
+        Format::Text => match node {
+            Some(node) => format!("node {node}  {}", title(&identity, &names)),
+            None => format!("without a node ID  {}", title(&identity, &names)),
+        },
+        Format::Json => format!(
+            "{:#}",
+            json!({
+                "node": node.map(NodeId::raw),
+                "vendor_id": identity.vendor,
+                "product_code": identity.product,
+                "revision_number": identity.revision,
+                "serial_number": identity.serial,
+                "fits": fits(&identity, &names),
+            })
+        ),
+    })
 }
 
 fn set(node: NodeId, slave: &Slave, store: bool, args: &bus::Args) -> Result<(), Failure> {

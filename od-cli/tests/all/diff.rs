@@ -93,7 +93,7 @@ impl Drop for Sim {
 #[test]
 fn a_live_device_is_read_object_by_object() {
     let sim = Sim::start("gxam");
-    let live = ["--live", &sim.1, "--node-id", "5", "--fail-on", "any"];
+    let live = ["--link", &sim.1, "--node-id", "5", "--fail-on", "any"];
     let same = odkit(&[&["diff", "gxam"], &live[..]].concat(), "");
     assert_eq!(same.code, 0, "{}{}", same.out, same.err);
     let other = odkit(&[&["diff", "gxmm"], &live[..]].concat(), "");
@@ -107,7 +107,7 @@ fn a_live_device_is_read_object_by_object() {
     let path = path.display().to_string();
     let lacks = odkit(&[&["diff", &path], &live[..]].concat(), "");
     assert!(lacks.out.contains("!- 2202h"), "{}", lacks.out);
-    let nobody = odkit(&["diff", "gxam", "--live", &sim.1, "--node-id", "6"], "");
+    let nobody = odkit(&["diff", "gxam", "--link", &sim.1, "--node-id", "6"], "");
     assert_eq!(nobody.code, 1);
     assert!(
         nobody.err.contains("node 6 does not respond"),

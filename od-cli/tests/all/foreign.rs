@@ -241,7 +241,7 @@ fn a_bus_shows_it_in_every_format() {
     let dcf = file("foreign-backup.dcf", "").display().to_string();
     run(&format!("backup 5 {link} --eds {eds} -o {dcf}"));
     harmless(&dcf, &fs::read_to_string(&dcf).expect("a DCF"));
-    run(&format!("diff {eds} gxmm {link} --live 5"));
+    run(&format!("diff {eds} {link} --node-id 5"));
     for line in ["stats", "state", "get 1008h", EVIL] {
         let done = sim.ctl(&[line]);
         harmless(line, &done.out);

@@ -45,6 +45,18 @@ fn the_wizard_sets_up_new_encoders_one_after_the_other() {
     done(&[&["get", "7", "1018h:04"], &at[..]].concat());
     done(&[&["lss", "bitrate", "250", "--of", "7"], &at[..]].concat());
     done(&[&["lss", "store", "--of", "7"], &at[..]].concat());
+    let asked = done(&[&["lss", "inquire", "--of", "7"], &at[..]].concat());
+    assert!(
+        asked.contains("node 7") && asked.contains("4711"),
+        "{asked}"
+    );
+    let several = fails(1, &[&["lss", "inquire"], &at[..]].concat());
+    assert!(several.contains("several LSS slaves respond"), "{several}");
+    let none = fails(1, &[&["lss", "scan"], &at[..]].concat());
+    assert!(
+        none.contains("3 nodes with a node ID") && none.contains("--of 5"),
+        "{none}"
+    );
     fails(2, &[&["lss", "bitrate", "33"], &at[..]].concat());
     fails(
         2,
