@@ -7,7 +7,7 @@ use od_wire::Instant;
 use super::record::{Reader, Record, frame, id};
 use super::stamp;
 
-/// Does a text with this line look like one?
+/// Returns whether this line shows that the text is an ASC log.
 pub(super) fn is_one(line: &str) -> bool {
     let mut words = line.split_whitespace();
     match words.next().map(str::to_ascii_lowercase).as_deref() {
@@ -19,10 +19,10 @@ pub(super) fn is_one(line: &str) -> bool {
     }
 }
 
-/// Lines that say something about the log, by their first word.
+/// Words that begin a line about the log itself.
 const HEADS: [&str; 6] = ["date", "base", "internal", "no", "begin", "end"];
 
-/// Words after a time stamp that are not a frame.
+/// Words after a time stamp for events that are not frames.
 const OTHERS: [&str; 5] = ["canfd", "log", "start", "trigger", "comment"];
 
 pub(super) fn reader<'t>(lines: &[&'t str]) -> Reader<'t> {

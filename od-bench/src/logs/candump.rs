@@ -1,4 +1,4 @@
-//! The text of can-utils: what `candump` prints and `cansend` takes.
+//! The text formats of can-utils: the output of `candump` and the input of `cansend`.
 //!
 //! | form | example |
 //! |---|---|
@@ -7,7 +7,7 @@
 //! | screen (`candump`) | `can0  601   [8]  40 04 60 00 00 00 00 00` |
 //! | screen (`candump -tA -x -a`) | `(2026-11-25 15:50:01.123456)  can0  RX - -  601   [2]  40 41   '@A'` |
 //!
-//! Everything that is not one of these is an [`Error`] that says where and why.
+//! Any other text is an [`Error`] with the place and the reason.
 
 use std::prelude::v1::*;
 use std::{fmt, format};
@@ -18,12 +18,12 @@ use super::record::{ERROR, What};
 use super::stamp;
 use crate::cursor::Cursor;
 
-/// A frame as a log has it.
+/// A frame with the other fields of its log line.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Line {
-    /// The time stamp, where there is one.
+    /// The time stamp, if there is one.
     pub at: Option<Instant>,
-    /// The interface, where there is one.
+    /// The interface, if there is one.
     pub interface: Option<String>,
     /// The frame.
     pub frame: Frame,
@@ -32,7 +32,7 @@ pub struct Line {
 /// Error for a text that is not a frame.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Error {
-    /// The first character that does not fit, counted from 1.
+    /// The first invalid character, counted from 1.
     pub column: usize,
     /// The problem, one clause.
     pub message: String,
@@ -63,10 +63,10 @@ impl fmt::Display for Error {
 
 impl core::error::Error for Error {}
 
-/// One line in any of the three forms. Empty lines are the caller's business.
+/// Reads one line in any of the three forms. The caller handles empty lines.
 ///
 /// # Errors
-/// [`Error`] names the first character that does not fit.
+/// [`Error`] names the first invalid character.
 pub fn parse_line(line: &str) -> Result<Line, Error> {
     let Logged {
         at,
@@ -114,7 +114,7 @@ pub(super) fn is_untimed(line: &str) -> bool {
     logged(line).is_ok_and(|line| line.at.is_none() && line.interface.is_some())
 }
 
-/// Reads a line in any of the three forms, error frames too.
+/// Reads a line in any of the three forms, including error frames.
 pub(super) fn logged(line: &str) -> Result<Logged<'_>, Error> {
     let mut rest = Cursor::new(line);
     let at = if rest.peek().starts_with('(') {
@@ -150,7 +150,7 @@ pub(super) fn logged(line: &str) -> Result<Logged<'_>, Error> {
     Ok(logged)
 }
 
-/// `TX - -`, as `candump -x` writes it before the CAN-ID: the direction, and flags of bit rate and error state.
+/// Reads `TX - -`, which `candump -x` writes before the CAN-ID: the direction, and flags for bit rate and error state.
 fn direction(rest: &mut Cursor<'_>) -> bool {
     let sent = rest.peek() == "TX";
     if sent || rest.peek() == "RX" {
@@ -164,7 +164,7 @@ fn direction(rest: &mut Cursor<'_>) -> bool {
     sent
 }
 
-/// An error frame of SocketCAN has a flag in its identifier.
+/// Returns whether a flag in the identifier marks an error frame of SocketCAN.
 fn is_error(frame: &str) -> bool {
     let id = frame.split('#').next().unwrap_or_default();
     let raw = u32::from_str_radix(id, 16).ok().filter(|_| id.len() == 8);
@@ -177,10 +177,10 @@ const ID: &str =
     "write a CAN-ID of 3 hex digits (11 bits, up to 7FF) or 8 (29 bits, up to 1FFFFFFF)";
 const DATA: &str = "write 0 to 8 bytes of two hex digits each";
 
-/// A frame as `cansend` takes it: `601#40046000`, `601#40.04.60.00`, `701#R`, `701#R4`.
+/// Reads a frame in the form of `cansend`: `601#40046000`, `601#40.04.60.00`, `701#R`, `701#R4`.
 ///
 /// # Errors
-/// [`Error`] names the first character that does not fit.
+/// [`Error`] names the first invalid character.
 pub fn parse_frame(text: &str) -> Result<Frame, Error> {
     let Some((id, data)) = text.split_once('#') else {
         return Err(Error::new(1, format!("`{text}` has no `#`"), FRAME));
@@ -302,7 +302,7 @@ fn time_stamp(rest: &mut Cursor<'_>) -> Result<Instant, Error> {
         .ok_or_else(not_one)
 }
 
-/// A log line may end with `R` or `T`: received or sent; that of a screen with the bytes as characters (`candump -a`).
+/// A log line may end with `R` or `T` (received or sent), a screen line with its bytes as characters (`candump -a`).
 /// Nothing else follows a frame.
 fn end(mut rest: Cursor<'_>) -> Result<bool, Error> {
     match next_word(&mut rest, "") {
@@ -317,7 +317,7 @@ fn end(mut rest: Cursor<'_>) -> Result<bool, Error> {
     }
 }
 
-/// One line of a log, as `candump -L` writes it.
+/// One line of a log in the form of `candump -L`.
 pub fn format_line(at: Instant, interface: &str, frame: &Frame) -> String {
     format!("({at:?}) {interface} {frame}")
 }

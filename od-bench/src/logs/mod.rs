@@ -1,6 +1,6 @@
-//! Logs of a bus: what candump, Vector, PEAK and Wireshark write, read and written.
+//! Reads and writes the bus logs of candump, Vector, PEAK and Wireshark.
 //!
-//! [`read`] takes the bytes of a file and finds out which it is; [`Format::write`] makes one.
+//! [`read`] takes the bytes of a file and detects its format; [`Format::write`] writes one.
 
 mod asc;
 pub mod candump;

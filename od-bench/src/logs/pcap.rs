@@ -1,4 +1,4 @@
-//! pcap with frames of SocketCAN, as tcpdump and Wireshark write it.
+//! pcap files with frames of SocketCAN, as tcpdump and Wireshark write them.
 
 use std::prelude::v1::*;
 
@@ -39,7 +39,7 @@ impl File<'_> {
     }
 }
 
-/// The records of a pcap file; `None` if it is not one.
+/// The records of a pcap file; `None` if the bytes are not one.
 pub(super) fn read(bytes: &[u8]) -> Option<Result<Vec<Record>, String>> {
     let magic = u32::from_le_bytes(bytes.get(..4)?.try_into().ok()?);
     let (is_little, nanos) = match magic {

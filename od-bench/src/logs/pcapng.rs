@@ -10,7 +10,7 @@ use super::record::{ERROR, EXTENDED, REMOTE, Record, What};
 const SECTION: u32 = 0x0A0D_0D0A;
 const INTERFACE: u32 = 1;
 const PACKET: u32 = 6;
-/// Says that a section is little endian.
+/// Byte-order magic of a section in little endian.
 const LITTLE: u32 = 0x1A2B_3C4D;
 
 /// An interface of a section.
@@ -20,7 +20,7 @@ struct Interface {
     resolution: f64,
 }
 
-/// The records of a pcapng file; `None` if it is not one.
+/// The records of a pcapng file; `None` if the bytes are not one.
 pub(super) fn read(bytes: &[u8]) -> Option<Result<Vec<Record>, String>> {
     let file = File {
         bytes,
@@ -80,7 +80,7 @@ fn packet(file: File<'_>, at: usize, end: usize, owner: &Interface) -> Option<Re
     socketcan(Instant::from_micros(micros.round() as u64), bytes)
 }
 
-/// Ticks per second of an interface: its option `if_tsresol`, else a million.
+/// Ticks per second of an interface: its option `if_tsresol`, otherwise a million.
 fn resolution(file: File<'_>, from: usize, to: usize) -> f64 {
     let mut at = from;
     while at + 4 <= to {
@@ -113,7 +113,7 @@ pub(super) fn head() -> Vec<u8> {
     out
 }
 
-/// Number of the bytes that are whole blocks.
+/// Length of the complete blocks at the start of these bytes.
 pub(super) fn whole(bytes: &[u8]) -> usize {
     let mut at = 0;
     while let Some(length) = bytes.get(at + 4..at + 8) {
@@ -126,7 +126,7 @@ pub(super) fn whole(bytes: &[u8]) -> usize {
     at
 }
 
-/// A record behind those before it.
+/// Adds a record after the existing ones.
 pub(super) fn add(out: &mut Vec<u8>, record: &Record) {
     block(out, PACKET, |out| packet_body(out, record));
 }
@@ -166,7 +166,7 @@ fn words(out: &mut Vec<u8>, words: &[u32]) {
     }
 }
 
-/// A block: its type, its length before and after what is in it.
+/// Writes a block: its type, its length, its content, and its length again.
 fn block(out: &mut Vec<u8>, kind: u32, body: impl FnOnce(&mut Vec<u8>)) {
     let mut inner = Vec::new();
     body(&mut inner);

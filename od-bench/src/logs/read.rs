@@ -1,4 +1,4 @@
-//! From the bytes of a file to records, whatever wrote it.
+//! Reads the records of a log in any supported format.
 
 use od_model::Refused;
 use std::fmt;
@@ -36,16 +36,16 @@ impl fmt::Display for Problem {
     }
 }
 
-/// Times of day become times from the start; a log that starts near 0 keeps its times. In microseconds.
+/// Converts times of day to times from the start, in microseconds; a log that starts near 0 keeps its times.
 const WALL_CLOCK: u64 = 1_000_000_000_000;
 
-/// Lines in which a text has to show what it is.
+/// The format of a text must show within this number of lines.
 const HEAD: usize = 200;
 
 /// Reads a log: candump, ASC, TRC (1.0 to 2.1), pcap or pcapng.
 ///
 /// # Errors
-/// Reason why it is not a log, or the first line if no line can be read.
+/// The reason why it is not a log, or the first line if no line can be read.
 pub fn read(bytes: &[u8]) -> Result<Log, Refused> {
     if let Some(records) = pcapng::read(bytes).or_else(|| pcap::read(bytes)) {
         return Ok(finish(records?, Vec::new()));
@@ -123,7 +123,7 @@ fn choose<'t>(lines: &[&'t str], lacks_times: bool) -> Option<Reader<'t>> {
     is_one.then(|| Box::new(move |text| line(text, lacks_times)) as Reader<'t>)
 }
 
-/// Reads a line of candump, from its log or its screen.
+/// Reads a line of candump, in the log or the screen form.
 fn line(text: &str, lacks_times: bool) -> Result<Option<Record>, String> {
     if text.trim_start().starts_with(['#', ';']) {
         return Ok(None);

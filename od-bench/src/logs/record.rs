@@ -1,4 +1,4 @@
-//! One line of a log.
+//! One record of a log.
 
 use od_wire::{CanId, Frame, Instant};
 
@@ -7,13 +7,13 @@ use od_wire::{CanId, Frame, Instant};
 pub struct Record {
     /// Time from the beginning of the log.
     pub at: Instant,
-    /// Sent by the writer of the log (Tx); else received.
+    /// Sent by the writer of the log (Tx); otherwise received.
     pub sent: bool,
-    /// Content of the bus.
+    /// What was on the bus.
     pub what: What,
 }
 
-/// Content of the bus.
+/// What was on the bus.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum What {
     /// A frame.
@@ -23,7 +23,7 @@ pub enum What {
 }
 
 impl Record {
-    /// A frame that came in.
+    /// A received frame.
     pub(super) const fn received(at: Instant, frame: Frame) -> Self {
         Self {
             at,
@@ -51,10 +51,10 @@ impl Record {
 pub(super) const ERROR: u32 = 1 << 29;
 /// Bit 30: a remote frame.
 pub(super) const REMOTE: u32 = 1 << 30;
-/// Bit 31: 29 bits.
+/// Bit 31: an identifier of 29 bits.
 pub(super) const EXTENDED: u32 = 1 << 31;
 
-/// An identifier in these digits, if it fits into 11 or 29 bits.
+/// Reads an identifier from these digits, if it fits into 11 or 29 bits.
 pub(super) fn id(digits: &str, radix: u32, extended: bool) -> Result<CanId, String> {
     let raw = u32::from_str_radix(digits, radix)
         .map_err(|_| format!("`{digits}` is not a valid CAN-ID"))?;
@@ -65,7 +65,7 @@ pub(super) fn id(digits: &str, radix: u32, extended: bool) -> Result<CanId, Stri
     }
 }
 
-/// A frame of bytes in words, `radix` 10 or 16; a remote one has none.
+/// Reads a frame whose bytes are separate words in base `radix`, 10 or 16; a remote frame has none.
 pub(super) fn frame<'w>(
     id: CanId,
     dlc: u8,
@@ -95,5 +95,5 @@ fn too_long(dlc: u8) -> String {
     format!("the length {dlc} is more than 8")
 }
 
-/// Reads one line: a record, nothing (a comment, a header), or what is wrong with it.
+/// Reads one line: a record, nothing (a comment, a header), or an error.
 pub(super) type Reader<'t> = Box<dyn FnMut(&'t str) -> Result<Option<Record>, String> + 't>;

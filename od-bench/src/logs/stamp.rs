@@ -3,7 +3,7 @@
 use crate::cursor::Cursor;
 
 /// Reads the time stamp at the front, `(0.100000)` or `(2026-11-25 15:50:01.123456)`, in microseconds. `None` if it
-/// is missing; then nothing is read.
+/// is missing; then the text stays unread.
 pub(crate) fn take(rest: &mut Cursor<'_>) -> Option<u64> {
     let (inner, after) = rest.text.strip_prefix('(')?.split_once(')')?;
     if !after.is_empty() && !after.starts_with(char::is_whitespace) {
@@ -14,7 +14,7 @@ pub(crate) fn take(rest: &mut Cursor<'_>) -> Option<u64> {
     Some(micros)
 }
 
-/// Microseconds of a decimal number of seconds; digits past the sixth are cut.
+/// Microseconds of a decimal number of seconds; digits after the sixth are cut off.
 pub(crate) fn seconds(text: &str) -> Option<u64> {
     let (whole, fraction) = text.split_once('.').unwrap_or((text, ""));
     if !is_digits(whole) || !is_digits(fraction) || whole.len() + fraction.len() == 0 {
@@ -44,7 +44,7 @@ fn date(text: &str) -> Option<u64> {
     if date.next().is_some() {
         return None;
     }
-    // A year that begins in March has its leap day at its end.
+    // Let a year begin in March, so that its leap day is the last day.
     let (year, month) = match month {
         1 | 2 => (year - 1, month + 9),
         _ => (year, month - 3),

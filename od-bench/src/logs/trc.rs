@@ -6,7 +6,7 @@ use od_wire::Instant;
 
 use super::record::{Reader, Record, frame, id};
 
-/// Does a text with this line look like one?
+/// Returns whether this line shows that the text is a TRC log.
 pub(super) fn is_one(line: &str) -> bool {
     header(line, "FILEVERSION").is_some()
         || header(line, "STARTTIME").is_some()
@@ -20,7 +20,7 @@ fn header<'t>(line: &'t str, name: &str) -> Option<&'t str> {
     found.eq_ignore_ascii_case(name).then_some(value.trim())
 }
 
-/// The time in milliseconds of `1)  1059.9  …`, as microseconds, and what follows it.
+/// The time in milliseconds of `1)  1059.9  …` as microseconds, and the rest of the line.
 fn numbered(line: &str) -> Option<(Instant, impl Iterator<Item = &str>)> {
     let mut words = line.split_whitespace();
     let number = words.next()?.strip_suffix(')')?;
@@ -69,7 +69,7 @@ pub(super) fn reader<'t>(lines: &[&'t str]) -> Reader<'t> {
         }
         let id = words.next().unwrap_or_default();
         let mut words: Vec<&str> = words.skip(usize::from(has_reserved)).collect();
-        // How version 1.0 writes a change of the bus state.
+        // Version 1.0 writes a change of the bus state like this.
         let is_status =
             !has_version && id.len() >= 4 && id.bytes().all(|c| c.eq_ignore_ascii_case(&b'f'));
         if is_status

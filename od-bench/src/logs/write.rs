@@ -1,4 +1,4 @@
-//! Records in the formats of other tools.
+//! Writes records in the formats of other tools.
 
 use std::fmt::Write as _;
 use std::prelude::v1::*;
@@ -21,7 +21,7 @@ pub enum Format {
 }
 
 impl Format {
-    /// The format that files with this ending have: `log`, `asc`, `trc`, `pcapng`.
+    /// The format of files with this ending: `log`, `asc`, `trc` or `pcapng`.
     pub fn of_ending(ending: &str) -> Option<Self> {
         Some(match ending {
             "log" => Self::Candump,
@@ -32,10 +32,10 @@ impl Format {
         })
     }
 
-    /// The file.
+    /// Writes the whole file.
     pub fn write(self, records: &[Record]) -> Vec<u8> {
         let mut text = String::new();
-        // Writing to a text does not fail.
+        // Writing to a String does not fail.
         let _ = match self {
             Self::Asc => as_asc(&mut text, records),
             Self::Trc => as_trc(&mut text, records),
@@ -58,8 +58,8 @@ impl Format {
         }
     }
 
-    /// Returns whether the beginning of a file is that of a log as [`add`](Self::add) makes it. In a
-    /// text every complete line has to be a record.
+    /// Returns whether these bytes begin like a log of [`add`](Self::add). In a text every complete
+    /// line must be a record.
     pub fn recognises(self, head: &[u8]) -> bool {
         if self == Self::Pcapng {
             return head.starts_with(&pcapng::head()[..4]);
@@ -85,7 +85,7 @@ impl Format {
         }
     }
 
-    /// Number of the bytes that are whole records, of bytes that begin with a record.
+    /// Length of the complete records in these bytes, which begin with a record.
     pub fn whole(self, bytes: &[u8]) -> usize {
         match self {
             Self::Pcapng => pcapng::whole(bytes),

@@ -1,4 +1,4 @@
-//! A client, as the bus sees it: its port, its codec, and what waits for it.
+//! A client of the bus: its port, its codec, and its waiting bytes.
 
 use std::io::{self, ErrorKind};
 use std::time::{Duration, Instant as Clock};
@@ -13,22 +13,22 @@ use super::terminal::note;
 use crate::links::Codec;
 use crate::words::plural;
 
-/// Most bytes that wait for a client. Past that the newest lines are dropped, so that nobody else has
-/// to wait and memory stays bounded.
+/// Most bytes that wait for one client. After that the newest lines are dropped, so that no other
+/// client has to wait and memory stays bounded.
 const WAITING: usize = 1024 * 1024;
-/// Fewest bytes that may wait for a client, however many clients there are.
+/// Lower limit of the waiting bytes of a client, however many clients there are.
 const FEWEST: usize = 16 * 1024;
 /// Bytes that may wait for all clients together.
 const TOTAL: usize = 8 * 1024 * 1024;
-/// Shortest time between two messages to a client that does not read.
+/// Shortest time between two messages about a client that does not read.
 const AGAIN: Duration = Duration::from_secs(10);
 
-/// Room of each of `count` clients, in bytes.
+/// Limit of waiting bytes for each of `count` clients.
 pub(super) fn room(count: usize) -> usize {
     (TOTAL / count.max(1)).clamp(FEWEST, WAITING)
 }
 
-/// A client, as the bus sees it.
+/// A client of the bus.
 pub(super) struct Client {
     pub(super) number: usize,
     /// Name in messages.
@@ -39,27 +39,27 @@ pub(super) struct Client {
     /// First bytes of a client of unknown kind.
     opening: Option<Opening>,
     outbox: Outbox,
-    /// There may be more to read.
+    /// The port may have more to read.
     pub(super) readable: bool,
-    /// There may be room to write.
+    /// The port may have room to write.
     writable: bool,
-    /// Time when it sent its last byte; what waits still goes out.
+    /// The time of its last byte; bytes that wait are still sent.
     pub(super) ended: Option<Clock>,
-    /// It does not read; `true`: that was reported.
+    /// It does not read; `true` after this was reported.
     deaf: Option<bool>,
-    /// Messages dropped for it that were not told.
+    /// Dropped messages that the client was not told about yet.
     dropped: usize,
-    /// Messages dropped for it.
+    /// All dropped messages.
     pub(super) lost: u64,
     /// Time of the last report that it does not read.
     told: Option<Clock>,
 }
 
-/// Frames in the forms that several clients get alike, each with its bytes.
+/// Encoded frames that several clients receive in the same form.
 pub(super) type Encoded = Vec<(&'static str, Vec<u8>)>;
 
 impl Client {
-    /// A client that speaks `protocol`. `is_guest`: it came over a network, and its kind is unknown.
+    /// A client of `protocol`. `is_guest`: it came over a network, and its kind is unknown.
     pub(super) fn new(
         number: usize,
         name: String,
@@ -74,7 +74,7 @@ impl Client {
             codec: protocol.codec(),
             port,
             opening: match protocol {
-                // A page is welcome there, and its codec looks at who it is.
+                // The codec of a WebSocket checks the origin of a page itself.
                 Protocol::WebSocket(_) => None,
                 Protocol::Control => is_guest.then(Opening::of_lines),
                 _ => is_guest.then(Opening::default),
@@ -90,13 +90,13 @@ impl Client {
         }
     }
 
-    /// Events came for its port.
+    /// Notes the events of its port.
     pub(super) fn wake(&mut self, readable: bool, writable: bool) {
         self.readable |= readable && self.ended.is_none();
         self.writable |= writable;
     }
 
-    /// Reads what is there, into `buffer`; `None`: nothing is there now. 0 bytes: it has ended.
+    /// Reads into `buffer`. `None`: nothing is there now. 0 bytes: the client has ended.
     pub(super) fn read(&mut self, buffer: &mut [u8]) -> io::Result<Option<usize>> {
         match self.port.read(buffer) {
             Err(error) if error.kind() == ErrorKind::WouldBlock => {
@@ -108,21 +108,21 @@ impl Client {
         }
     }
 
-    /// Begins again for the next host, to whom nothing of the last one matters.
+    /// Starts again for the next host, without the state of the previous one.
     pub(super) fn restart(&mut self) {
         self.codec = self.protocol.codec();
         self.outbox = Outbox::default();
         self.deaf = None;
     }
 
-    /// Takes its next bytes, and returns whether a browser sent them.
+    /// Takes the next bytes, and returns whether a browser sent them.
     pub(super) fn is_http(&mut self, bytes: &[u8]) -> bool {
         let opening = self.opening.as_mut();
         opening.is_some_and(|opening| opening.is_http(bytes))
     }
 
-    /// A frame of the bus for the client, whose time of day is `stamp` in microseconds; `own`: no
-    /// other client brought it about. `encoded` keeps the bytes for further clients.
+    /// Sends a frame of the bus with the time of day `stamp` in microseconds. `own`: no other client
+    /// caused it. `encoded` keeps the bytes for further clients.
     pub(super) fn hear(
         &mut self,
         frame: &Frame,
@@ -144,7 +144,7 @@ impl Client {
             self.codec.encode(frame, now, stamp, &mut bytes);
             return self.push(&bytes, own, room);
         };
-        // Hundreds that do not read cost next to nothing.
+        // Keep the cost of hundreds of clients that do not read near zero.
         if !own && self.deaf.is_some() && self.outbox.len() > room / 4 {
             self.dropped += 1;
             return;
@@ -161,15 +161,15 @@ impl Client {
         self.push(&encoded[place].1, own, room);
     }
 
-    /// Whole lines for the client, behind those before them. They go out with
-    /// [`flush`](Self::flush), or are dropped if too much waits: half of the `room` is for what is
-    /// its `own`, so that a flood of other clients takes no answer away.
+    /// Queues complete lines. [`flush`](Self::flush) sends them; if too many bytes wait, they are
+    /// dropped. Half of the `room` is reserved for lines that the client caused itself (`own`), so
+    /// that a flood from other clients does not displace its answers.
     pub(super) fn push(&mut self, lines: &[u8], own: bool, room: usize) {
         if lines.is_empty() {
             return;
         }
         let waiting = self.outbox.len();
-        // Half of that is free again before a client counts as reading.
+        // A client counts as reading again when half of that is free.
         let reads = waiting <= room / 4;
         let most = if own {
             room
@@ -192,17 +192,17 @@ impl Client {
         self.outbox.push(lines);
     }
 
-    /// A short pause after what was pushed.
+    /// Adds a short pause after the queued bytes.
     pub(super) fn pause(&mut self) {
         self.outbox.pause();
     }
 
-    /// Is there nothing left to be written?
+    /// Returns whether everything is written.
     pub(super) fn is_flushed(&self) -> bool {
         self.outbox.is_empty()
     }
 
-    /// Writes what its port takes.
+    /// Writes as much as its port takes.
     pub(super) fn flush(&mut self) -> io::Result<()> {
         if !self.writable || self.outbox.is_empty() {
             return Ok(());
@@ -225,13 +225,13 @@ impl Client {
         }
     }
 
-    /// Time when something is due that no event reports.
+    /// The next time when [`check`](Self::check) has something to do; no event reports it.
     pub(super) fn deadline(&self) -> Option<Clock> {
         let pause = self.outbox.deadline().into_iter();
         pause.chain(self.port.next_check()).min()
     }
 
-    /// Does what is due at `now`.
+    /// Does the work that is due at `now`.
     pub(super) fn check(&mut self, now: Clock) {
         if self.port.next_check().is_some_and(|at| at <= now) {
             self.port.check(now);
@@ -289,7 +289,7 @@ mod tests {
     }
 
     #[test]
-    fn a_flood_of_others_takes_no_answer_away() {
+    fn a_flood_from_others_does_not_displace_an_answer() {
         let port = Box::new(Narrow(0));
         let mut client = Client::new(0, "somebody".into(), Protocol::Slcan, port, false);
         let line = [&[b'0'; 1023][..], b"\r"].concat();

@@ -1,4 +1,4 @@
-//! All clients: who may come, whose turn it is, and who hears a frame.
+//! All clients: it accepts them, gives them turns, and sends frames to them.
 
 use std::io;
 use std::sync::atomic::AtomicBool;
@@ -15,29 +15,29 @@ use super::links::listener::{Listener, Stream};
 use super::links::opened::{Ends, Protocol};
 use crate::words::plural;
 
-/// A client that has ended may take this long to read what waits for it.
+/// A client that has ended has this long to read its waiting bytes.
 const FAREWELL: Duration = Duration::from_secs(10);
 
-/// Most clients of the control socket.
+/// Limit of clients of the control socket.
 const CONTROLS: usize = 16;
-/// Bytes that one client may send in a turn to all others together.
+/// Bytes that one client may cause to be sent to all others in a turn.
 const WORK: usize = 256 * 1024;
-/// A turn is a multiple of this number of bytes, and so of the messages of any port.
+/// A turn is a multiple of this number of bytes, which fits the message size of every port.
 const WHOLE: usize = 64;
-/// Fewest bytes of a turn.
+/// Smallest turn, in bytes.
 const LEAST: usize = 512;
 
-/// The clients, and the places where further ones come to.
+/// The clients, and the servers that accept further ones.
 pub(super) struct Clients {
     events: Events,
-    /// By their numbers, the oldest first.
+    /// By number, the oldest first.
     list: Vec<Client>,
     doors: Vec<Door>,
-    /// Number of the next link, and of the next client that comes to a door.
+    /// Number of the next link or client.
     next: (usize, usize),
-    /// Number of the client that had its turn last.
+    /// Number of the client with the last turn.
     last: usize,
-    /// Most clients at all doors.
+    /// Limit of clients at all servers together.
     max: usize,
 }
 
@@ -70,7 +70,7 @@ impl Clients {
         self.add(client)
     }
 
-    /// Can further clients come?
+    /// Returns whether further clients can come.
     pub(super) fn has_doors(&self) -> bool {
         let mut doors = self.doors.iter();
         doors.any(|door| door.protocol != Protocol::Control)
@@ -102,7 +102,7 @@ impl Clients {
         }
     }
 
-    /// Ends a client; what its port does not take of the last words at once is lost with it.
+    /// Ends a client. Last bytes that its port does not take at once are lost.
     pub(super) fn dismiss(&mut self, number: usize) {
         if let Some(client) = self.get(number) {
             let _ = client.flush();
@@ -114,26 +114,26 @@ impl Clients {
         self.list.iter_mut()
     }
 
-    /// Does anything wait for standard output?
+    /// Returns whether bytes wait for standard output.
     pub(super) fn console_waits(&self) -> bool {
         let mut consoles = self.list.iter();
         consoles.any(|one| one.protocol == Protocol::Lines && !one.is_flushed())
     }
 
-    /// Waits until ports have written everything. Returns those that have not, with the reason.
+    /// Waits until all ports have written everything. Returns those that have not, with the reason.
     pub(super) fn finish(&mut self, stopped: &AtomicBool) -> Vec<(usize, io::Error)> {
         let ports = self.list.iter_mut();
         let lost = ports.filter_map(|one| Some((one.number, one.port.finish(stopped).err()?)));
         lost.collect()
     }
 
-    /// Time when a codec has something to do next.
+    /// The next time when a codec has something to do.
     pub(super) fn codecs_due(&self) -> Option<Instant> {
         let codecs = self.list.iter().map(|client| client.codec.deadline());
         codecs.flatten().min()
     }
 
-    /// Waits for bytes, for `patience` at most.
+    /// Waits for bytes, at most for `patience`.
     pub(super) fn wait(&mut self, patience: Duration) -> io::Result<()> {
         let busy = self.list.iter().any(|client| client.readable)
             || self
@@ -151,7 +151,7 @@ impl Clients {
         };
         for ready in self.events.wait(patience)? {
             let Some(number) = ready.number else {
-                // A thread called; it does not say for whom.
+                // A thread woke the loop without naming its port.
                 for client in self.list.iter_mut().filter(|client| client.number < LINKS) {
                     client.wake(true, true);
                 }
@@ -173,7 +173,7 @@ impl Clients {
         Ok(())
     }
 
-    /// Lets clients in, and returns the names and numbers of those that came.
+    /// Accepts clients, and returns the names and numbers of the new ones.
     pub(super) fn accept(&mut self) -> Vec<(usize, String)> {
         let mut came = Vec::new();
         for at in 0..self.doors.len() {
@@ -189,7 +189,7 @@ impl Clients {
         came
     }
 
-    /// Reason why no further client is let in: at the control socket, or at a link.
+    /// Reason why no further client is accepted at the control socket or at a link.
     fn full(&self, control: bool) -> Option<String> {
         let guests = self.list.iter().filter(|client| client.number >= LINKS);
         let guests = guests.filter(|client| (client.protocol == Protocol::Control) == control);
@@ -211,12 +211,12 @@ impl Clients {
         let number = self.next.1;
         self.next.1 += 1;
         let client = Client::new(number, name.clone(), protocol, stream.into_port(), true);
-        // A connection that broke already is not a client.
+        // A connection that is already broken is not a client.
         self.add(client).ok()?;
         Some((number, name))
     }
 
-    /// Numbers of the clients that may have sent something, the one that waits longest first.
+    /// Numbers of the clients that may have sent something, the one with the longest wait first.
     pub(super) fn ready(&self) -> Vec<usize> {
         let ready = self.list.iter().filter(|client| client.readable);
         let mut ready: Vec<usize> = ready.map(|client| client.number).collect();
@@ -225,20 +225,20 @@ impl Clients {
         ready
     }
 
-    /// Bytes of a turn: the more clients hear every frame, the fewer, so that a turn takes the same time.
+    /// Bytes of a turn. More clients that receive each frame make it smaller, so that a turn takes the same time.
     pub(super) fn turn(&self) -> usize {
         (WORK / self.list.len().max(1)).max(LEAST) / WHOLE * WHOLE
     }
 
-    /// Reads what a client has sent, as much as its turn allows. `Ok(None)`: nothing.
+    /// Reads the bytes of a client, at most one turn. `Ok(None)`: there are none.
     pub(super) fn read(&mut self, number: usize, buffer: &mut [u8]) -> io::Result<Option<usize>> {
         self.last = number;
         self.get(number)
             .map_or(Ok(None), |client| client.read(buffer))
     }
 
-    /// A frame of the bus, for every client but the one it is `from`. `cause`: the client that
-    /// brought it about.
+    /// Sends a frame of the bus to every client except `from`. `cause`: the client that
+    /// caused it.
     pub(super) fn hear(
         &mut self,
         frame: &Frame,
@@ -256,7 +256,7 @@ impl Clients {
         }
     }
 
-    /// Lines for one client, in answer to its own.
+    /// Queues lines for one client, as an answer to its own.
     pub(super) fn answer(&mut self, number: usize, lines: &[u8]) {
         let room = room(self.list.len());
         if let Some(client) = self.get(number) {
@@ -264,7 +264,7 @@ impl Clients {
         }
     }
 
-    /// Writes what ports take. Returns the clients that cannot be written to, with the reason.
+    /// Writes as much as the ports take. Returns the clients with a failed port, with the reason.
     pub(super) fn flush(&mut self) -> Vec<(usize, io::Error)> {
         let mut lost = Vec::new();
         for client in &mut self.list {

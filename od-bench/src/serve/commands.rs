@@ -1,4 +1,4 @@
-//! Lines of the control socket, on a bench that runs.
+//! Runs the lines of the control socket on a live bench.
 
 use super::control::Turn;
 use super::links::opened::Protocol;
@@ -6,7 +6,7 @@ use super::live::Live;
 use super::stats::Guest;
 use super::terminal::note;
 
-/// Lines that are carried out before other clients have their turn.
+/// Lines that run before other clients have their turn.
 const TURN: usize = 256;
 
 impl Live {
@@ -21,7 +21,7 @@ impl Live {
         self.run_control();
     }
 
-    /// Carries out the lines whose moment has come, and answers them.
+    /// Runs the lines that are due, and answers them.
     pub(super) fn run_control(&mut self) {
         for _ in 0..TURN {
             let Some(turn) = self.control.step(&mut self.bench) else {

@@ -1,4 +1,4 @@
-//! A place where clients come to.
+//! A server that accepts clients.
 
 use std::collections::VecDeque;
 use std::io::{ErrorKind, Result};
@@ -10,14 +10,14 @@ use super::links::listener::{Listener, Stream};
 use super::links::opened::Protocol;
 use super::terminal::note;
 
-/// Most connections that are looked at in one turn.
+/// Limit of connections that are accepted in one turn.
 const TURN: usize = 64;
-/// A client without room waits this long: another may have left before it came, and the news of that
-/// may come later.
+/// A client without a free place waits this long: another may have left earlier, but its event may
+/// come later.
 const PATIENCE: Duration = Duration::from_millis(100);
-/// Time after which a connection that the system refused is tried again.
+/// Time until the next attempt after the system refused a connection.
 const AGAIN: Duration = Duration::from_millis(100);
-/// Files that remain free for everything but clients.
+/// File descriptors that stay free for other uses.
 #[cfg(unix)]
 const FILES: usize = 4;
 
@@ -26,13 +26,13 @@ pub(super) struct Door {
     pub(super) number: usize,
     pub(super) protocol: Protocol,
     listener: Listener,
-    /// Clients may be waiting.
+    /// Clients may wait.
     pub(super) ready: bool,
-    /// Clients without room, and when they are refused.
+    /// Clients without a free place, and when they are refused.
     held: VecDeque<(Stream, String, Clock)>,
-    /// No client is let in before this moment.
+    /// No client is accepted before this time.
     shut: Option<Clock>,
-    /// The last client was refused, and that was reported.
+    /// The last client was refused, and this was reported.
     refuses: bool,
 }
 
@@ -55,18 +55,18 @@ impl Door {
         })
     }
 
-    /// Time when to try again what the system refused, or to refuse a client.
+    /// The next time for another attempt, or to refuse a client.
     pub(super) fn deadline(&self) -> Option<Clock> {
         let held = self.held.front().map(|(_, _, until)| *until);
         self.shut.into_iter().chain(held).min()
     }
 
-    /// Does a client wait to be let in?
+    /// Returns whether a client waits.
     pub(super) fn is_wanted(&self) -> bool {
         self.ready || !self.held.is_empty()
     }
 
-    /// The next client. `full` is the reason if no more clients are accepted.
+    /// Accepts the next client. `full` is the reason if no more clients are accepted.
     pub(super) fn accept(&mut self, full: Option<&str>) -> Option<(Stream, String)> {
         let now = Clock::now();
         if self.shut.is_some_and(|until| now < until) {
@@ -102,7 +102,7 @@ impl Door {
                     self.ready = false;
                     return None;
                 }
-                // The client went before it was let in.
+                // The client left before it was accepted.
                 Err(error)
                     if matches!(
                         error.kind(),
@@ -120,7 +120,7 @@ impl Door {
         None
     }
 
-    /// Tells it once until a client is let in again.
+    /// Reports it once until a client is accepted again.
     fn tell(&mut self, text: &str) {
         if !std::mem::replace(&mut self.refuses, true) {
             note(text);
@@ -128,7 +128,7 @@ impl Door {
     }
 }
 
-/// Can more files be opened? A save into an EEPROM file has to work however many connect.
+/// Returns whether more files can be opened. Saving an EEPROM file has to work however many clients connect.
 #[cfg(unix)]
 fn has_files() -> bool {
     let files = (0..FILES).map(|_| std::fs::File::open("/dev/null"));

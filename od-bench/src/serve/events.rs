@@ -1,4 +1,4 @@
-//! The one place where the bench waits: for sockets, for a moment, for another thread.
+//! The one place where the bench waits: for sockets, for a time, for another thread.
 
 use std::io;
 use std::sync::Arc;
@@ -15,7 +15,7 @@ const TIMER: Token = Token(usize::MAX - 1);
 /// Directions in which a link is ready again.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct Ready {
-    /// `None`: another thread called, for whatever port it works.
+    /// `None`: another thread woke the loop; any port may be ready.
     pub(super) number: Option<usize>,
     pub(super) readable: bool,
     pub(super) writable: bool,

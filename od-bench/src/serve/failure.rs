@@ -6,7 +6,7 @@ use std::fmt;
 #[derive(Clone, PartialEq, Eq, Debug)]
 #[non_exhaustive]
 pub enum Failure {
-    /// The options cannot be met.
+    /// The options cannot be used together or with these devices.
     Usage(String),
     /// The system refused something: a port, a file, a socket.
     Failed(String),

@@ -1,4 +1,4 @@
-//! The files of a run: an output never replaces an input, another output, or a file of the user.
+//! The files of a run. An output never replaces an input, another output, or another file of the user.
 
 use std::fs;
 use std::io::Read;
@@ -8,7 +8,7 @@ use od_model::Refused;
 
 use crate::logs::Format;
 
-/// Bytes of an existing file that show what it is.
+/// Bytes of an existing file that show its format.
 const HEAD: u64 = 256 * 1024;
 
 /// The files that a run reads or writes.
@@ -23,13 +23,13 @@ struct Used {
     is_written: bool,
 }
 
-/// What makes two paths the same file.
+/// Identity of a file: two paths to the same file have the same one.
 #[derive(PartialEq, Eq, Debug)]
 enum Identity {
     /// Device and inode: hard links are one file.
     #[cfg(unix)]
     Inode(u64, u64),
-    /// The path without symlinks: the file does not exist yet, or the system has no inodes.
+    /// The path without symlinks, for a file that does not exist yet or a system without inodes.
     Path(PathBuf),
 }
 
@@ -56,7 +56,7 @@ impl Files {
     }
 
     fn add(&mut self, title: String, path: &Path, is_written: bool) -> Result<(), Refused> {
-        // A file that was made meanwhile has another identity than before.
+        // A file that was created meanwhile has a new identity.
         if let Some(own) = identity(path) {
             let mut others = self.0.iter();
             let clash = others.find(|other| {
@@ -94,7 +94,7 @@ fn identity(path: &Path) -> Option<Identity> {
     }
 }
 
-/// The path that a file will have when it is made at `path`: without symlinks, as far as they exist.
+/// The path of a file that would be created at `path`: without symlinks, as far as they exist.
 fn target(path: &Path) -> PathBuf {
     let mut path = path.to_owned();
     // Linux follows 40 symlinks.
@@ -130,7 +130,7 @@ pub(super) fn head(path: &Path) -> Option<Vec<u8>> {
     let is_file = path.metadata().is_ok_and(|file| file.is_file());
     let file = is_file.then(|| fs::File::open(path).ok()).flatten()?;
     let mut head = Vec::new();
-    // What cannot be read counts as far as it was read: opening it for writing says why.
+    // Ignore read errors here: opening the file for writing reports the reason.
     let _ = file.take(HEAD).read_to_end(&mut head);
     (!head.is_empty()).then_some(head)
 }
@@ -180,7 +180,7 @@ mod tests {
         files.write("`--eeprom`", &folder.join("x")).unwrap();
         assert!(files.write("`--log`", &folder.join("./x")).is_err());
         assert!(files.read("the input", &folder.join("x")).is_err());
-        // It was made meanwhile.
+        // It was created meanwhile.
         fs::write(folder.join("x"), "").unwrap();
         assert!(files.write("`--log`", &folder.join("x")).is_err());
         fs::remove_file(folder.join("x")).unwrap();

@@ -1,4 +1,4 @@
-//! The devices on the bus, as the command line asks for them.
+//! Makes the devices of the command line.
 
 use std::path::Path;
 
@@ -14,13 +14,13 @@ use crate::words::plural;
 
 /// A device for the bus.
 pub(super) struct Place {
-    /// Without power.
+    /// It starts without power.
     pub(super) device: VirtualDevice,
-    /// The place of the device on whose shaft it sits, where it has none of its own.
+    /// Place of the device whose shaft it uses, if it has no shaft of its own.
     pub(super) beside: Option<usize>,
 }
 
-/// Makes the devices; each channel of a redundant encoder is one.
+/// Makes the devices; each channel of a redundant encoder is one device.
 pub(super) fn make(makers: &[Maker<'_>], args: &Options) -> Result<Vec<Place>, Failure> {
     let nodes: Vec<(&Maker<'_>, u8)> = makers
         .iter()
@@ -82,7 +82,7 @@ pub(super) fn make(makers: &[Maker<'_>], args: &Options) -> Result<Vec<Place>, F
     Ok(places)
 }
 
-/// Refuses what is there and cannot hold an EEPROM; to open a FIFO would wait for its other end.
+/// Refuses a path that exists but cannot hold an EEPROM; opening a FIFO would wait for its other end.
 fn regular(path: &Path) -> Result<(), Failure> {
     match path.metadata() {
         Ok(data) if !data.is_file() => {
@@ -98,7 +98,7 @@ fn regular(path: &Path) -> Result<(), Failure> {
                 "`--eeprom {path}` names a {kind}; write the path of a regular file"
             )))
         }
-        // What does not exist is created; what cannot be read says so when it is opened.
+        // A missing file is created; an unreadable one reports its error when it is opened.
         _ => Ok(()),
     }
 }
@@ -125,7 +125,7 @@ fn eeprom(path: &Path, name: &str, device: &VirtualDevice, reset: bool) -> Resul
     Ok(file)
 }
 
-/// A device with the node ID that it is given, else its own, else the next one that is free.
+/// Makes a device with the given node ID, otherwise its own, otherwise the next free one.
 fn one(
     maker: &Maker<'_>,
     wanted: Option<Option<NodeId>>,
@@ -144,7 +144,7 @@ fn one(
     let Some(last) = used.last().map(|id| id.raw()) else {
         return Ok(device);
     };
-    // A DCF says which node it is; the others follow the device before them.
+    // A DCF names its node ID; other devices follow the device before them.
     if wanted.is_some() || own != NodeId::ONE && !is_used(own) {
         return Ok(device);
     }
@@ -166,7 +166,7 @@ fn unconfigured(maker: &Maker<'_>) -> Result<VirtualDevice, Failure> {
         .map_err(|why| Failure::Usage(format!("`--node-id none` does not fit {name}: {why}")))
 }
 
-/// Returns the next free serial number, if another device has the LSS address of this one.
+/// Returns the next free serial number if another device has the LSS address of this one.
 fn free(device: &VirtualDevice, others: &[Place]) -> Option<u32> {
     let own = device.lss_address();
     let others = others.iter().map(|other| other.device.lss_address());
@@ -186,7 +186,7 @@ fn set_shaft(
 ) -> Result<(), Failure> {
     let now = Instant::ZERO;
     if let Some(seed) = args.seed {
-        // A device without a shaft has nothing to be placed.
+        // A device without a shaft has no start position.
         device.turn_to(anywhere(seed, at), now);
     }
     let placed = args
@@ -203,14 +203,14 @@ fn set_shaft(
     )))
 }
 
-/// Revolutions that look like chance, the same for the same numbers (SplitMix64).
+/// Pseudo-random revolutions, the same for the same numbers (SplitMix64).
 fn anywhere(seed: u64, at: usize) -> f64 {
     let step = 0x9E37_79B9_7F4A_7C15_u64;
     let mut bits = seed.wrapping_add(step.wrapping_mul(at as u64 + 1));
     bits = (bits ^ bits >> 30).wrapping_mul(0xBF58_476D_1CE4_E5B9);
     bits = (bits ^ bits >> 27).wrapping_mul(0x94D0_49BB_1331_11EB);
     bits ^= bits >> 31;
-    // 16 bits of turns, 32 bits of angle: what the largest of our encoders can tell apart.
+    // 16 bits of turns and 32 bits of angle: the resolution of the largest of our encoders.
     (bits >> 16) as f64 / 4_294_967_296.0
 }
 
@@ -219,7 +219,7 @@ mod tests {
     use super::anywhere;
 
     #[test]
-    fn chance_is_repeated_by_its_seed() {
+    fn the_same_seed_gives_the_same_positions() {
         assert_eq!(anywhere(7, 0), anywhere(7, 0));
         let places: Vec<f64> = (0..20)
             .flat_map(|seed| [anywhere(seed, 0), anywhere(seed, 1)])

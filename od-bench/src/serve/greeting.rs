@@ -1,4 +1,4 @@
-//! Greeting of a live bench: its devices, and the commands to try next.
+//! Greeting of a live bench: its devices, and commands to try next.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -16,7 +16,7 @@ use crate::bus::Bus;
 use crate::device::VirtualDevice;
 use crate::services::Services;
 
-/// Prints it: to standard output, or where that carries frames, to standard error.
+/// Prints the greeting to standard output, or to standard error if standard output carries frames.
 pub(super) fn print(
     first: Option<&Maker<'_>>,
     args: &Options,
@@ -135,7 +135,7 @@ pub(super) fn node(device: &VirtualDevice) -> String {
     }
 }
 
-/// Services that the EDS of a device turns on, and those that it promises in vain.
+/// Services that the EDS of a device enables, and those that it promises but odkit does not simulate.
 fn services(text: &mut String, device: &VirtualDevice, several: bool) {
     let Services { on, missing } = device.services();
     let of = if several {
@@ -172,7 +172,7 @@ fn place(link: &Opened) -> String {
     }
 }
 
-/// Writes how the page of odkit reaches a WebSocket.
+/// Describes how the page of odkit reaches a WebSocket.
 fn page(text: &mut String, address: &str) {
     let _ = writeln!(
         text,

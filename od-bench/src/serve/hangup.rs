@@ -1,12 +1,12 @@
-//! A terminal that closes ends the bench, unless it was started to outlive it.
+//! Closing the terminal ends the bench, unless the bench was started with `nohup` or the like.
 
-/// Keeps SIGHUP ignored if it was at the start, as `nohup` does it.
+/// Keeps SIGHUP ignored if it was ignored at the start, as `nohup` sets it.
 #[cfg(unix)]
 pub(super) fn respect() {
     use nix::sys::signal::{SigSet, Signal};
 
     if is_ignored().unwrap_or(false) {
-        // ctrlc handles the signal whatever was before; a blocked one never reaches it.
+        // ctrlc would handle the signal in any case; a blocked signal never reaches it.
         let mut signals = SigSet::empty();
         signals.add(Signal::SIGHUP);
         let _ = signals.thread_block();
@@ -26,7 +26,7 @@ fn is_ignored() -> Option<bool> {
     Some(u64::from_str_radix(set.trim(), 16).ok()? & 1 != 0)
 }
 
-/// To ask the system itself would need `unsafe`.
+/// Asking the system directly would need `unsafe`.
 #[cfg(all(unix, not(target_os = "linux")))]
 fn is_ignored() -> Option<bool> {
     let id = std::process::id().to_string();

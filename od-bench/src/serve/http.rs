@@ -1,20 +1,20 @@
-//! The first bytes of a client, which shall not be those of a browser.
+//! Detects a browser by the first bytes of a client, to refuse it.
 
 /// Longest method of a request.
 const LONGEST: usize = 32;
 
-/// The beginning of what a client sends: any web page can make a browser connect to a port of
-/// this computer and send lines in the body of a `POST`.
+/// Any web page can make a browser connect to a port of this computer and send lines in the body
+/// of a `POST`. This looks at the first bytes of a client for that.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Opening {
     letters: usize,
     is_over: bool,
-    /// Only a word in capitals is a method: the client sends words, too.
+    /// Only a word in capitals is an HTTP method: the client sends words, too.
     capitals: bool,
 }
 
 impl Opening {
-    /// Of a client that sends lines of the script language.
+    /// For a client that sends lines of the script language.
     pub(super) fn of_lines() -> Self {
         Self {
             capitals: true,
@@ -22,8 +22,8 @@ impl Opening {
         }
     }
 
-    /// Takes the next bytes, and returns whether they are the beginning of an HTTP request: a word
-    /// and a blank. No command of slcan has a blank, and those of socketcand begin with `<`.
+    /// Takes the next bytes, and returns whether they begin an HTTP request: a word and a blank. No
+    /// command of slcan has a blank, and those of socketcand begin with `<`.
     pub(super) fn is_http(&mut self, bytes: &[u8]) -> bool {
         for byte in bytes {
             match byte {
@@ -46,7 +46,7 @@ mod tests {
     use super::Opening;
 
     #[test]
-    fn a_verb_is_no_method() {
+    fn a_verb_of_the_script_language_is_no_method() {
         for (text, is_http) in [
             ("POST / HTTP/1.1", true),
             ("power off", false),
@@ -62,7 +62,7 @@ mod tests {
     }
 
     #[test]
-    fn a_request_is_seen_whatever_its_pieces() {
+    fn a_request_is_detected_however_it_is_split() {
         for (text, is_http) in [
             ("POST / HTTP/1.1\r\nHost: a\r\n\r\nO\r", true),
             ("GET / HTTP/1.1", true),

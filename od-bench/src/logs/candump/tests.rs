@@ -50,7 +50,7 @@ fn the_three_forms_read_the_same() {
 }
 
 #[test]
-fn errors_say_where_and_what() {
+fn errors_name_the_place_and_the_problem() {
     check("601", "4: the line ends here");
     check("(x) can0 601#40", "1: `(x)` is not a time stamp");
     check("601#4", "5: half a byte");

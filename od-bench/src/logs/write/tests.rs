@@ -1,4 +1,4 @@
-//! Reads written logs again, and logs of other programs.
+//! Reads written logs back, and logs of other programs.
 
 use std::prelude::v1::*;
 use std::vec;
@@ -39,7 +39,7 @@ fn records() -> Vec<Record> {
 }
 
 #[test]
-fn what_is_written_is_read_again() {
+fn a_written_log_is_read_back_unchanged() {
     for format in [Format::Candump, Format::Asc, Format::Trc, Format::Pcapng] {
         let Log {
             mut records,
@@ -59,7 +59,7 @@ fn what_is_written_is_read_again() {
 }
 
 #[test]
-fn what_is_written_stays_the_same() {
+fn written_logs_are_byte_for_byte_the_same() {
     let text = |format: Format| String::from_utf8(format.write(&records())).expect("a text");
     assert_eq!(
         text(Format::Candump),
@@ -95,7 +95,7 @@ fn what_is_written_stays_the_same() {
 }
 
 #[test]
-fn what_other_tools_write() {
+fn logs_of_other_tools_are_read() {
     for (text, expected) in [
         (
             "(1436509052.249713) vcan0 044#2A366C2BBA\n",
@@ -163,7 +163,7 @@ fn what_other_tools_write() {
 }
 
 #[test]
-fn what_cannot_be_read_is_named() {
+fn an_unreadable_log_is_an_error_that_names_it() {
     let cut = &Format::Pcapng.write(&records())[..90];
     for (bytes, why) in [
         (&b"hello\nworld\n"[..], "it is not a candump log"),
@@ -225,7 +225,7 @@ fn a_candump_log_without_times_is_read_in_order() {
 }
 
 #[test]
-fn times_end_with_the_last_one() {
+fn a_log_ends_with_its_last_record() {
     let text = "base hex  timestamps relative\n   0.5 1 80 Rx d 0\n \
                 18446744073709.5 1 80 Rx d 0\n 18446744073709.5 1 80 Rx d 0\n";
     let log = read(text.as_bytes()).expect("a log");
@@ -233,7 +233,7 @@ fn times_end_with_the_last_one() {
 }
 
 #[test]
-fn clocks_of_the_wall_are_taken_off() {
+fn times_of_day_become_times_from_the_start() {
     let log = read(b"(1436509052.5) can0 080#\n(1436509053.0) can0 080#\n").expect("a log");
     let times: Vec<_> = log.records.iter().map(|one| one.at.as_micros()).collect();
     assert_eq!(times, [0, 500_000]);

@@ -1,7 +1,7 @@
-//! Control of a bench that runs: each line of a client is carried out, and answered when it is done.
+//! Control of a live bench: it runs each line of a client and answers when the line is done.
 //!
-//! An answer is a line: `ok` and what was done, `failed` and why the bench cannot do it, `wrong` and
-//! why the line cannot be read. Lines before it that begin with `| ` belong to it.
+//! An answer is one line: `ok` and the result, `failed` and why the bench cannot do it, or `wrong`
+//! and why the line cannot be read. Lines before it that begin with `| ` belong to it.
 
 pub(super) mod open;
 pub(super) mod place;
@@ -14,7 +14,7 @@ use od_runtime::{Frame, Instant};
 use crate::bench::Bench;
 use crate::script::Console;
 
-/// Lines of one client that wait; a client that sends more is disconnected.
+/// Limit of waiting lines of one client; a client that sends more is disconnected.
 const MOST: usize = 1000;
 
 /// Clients of the control socket.
@@ -40,7 +40,7 @@ struct Session {
     /// The device that its lines are about.
     current: usize,
     queue: VecDeque<Entry>,
-    /// Answer to the line that goes on.
+    /// Answer to the line that is in progress.
     said: Option<String>,
     has_left: bool,
 }
@@ -64,7 +64,7 @@ impl Control {
         self.0[place].queue.len() <= MOST
     }
 
-    /// A client has left: the line that goes on is completed, and those behind it are not begun.
+    /// The client has left: the line in progress is completed, later ones do not start.
     pub(super) fn leave(&mut self, client: usize) {
         for session in self.0.iter_mut().filter(|one| one.client == client) {
             session.console.abandon();
@@ -74,7 +74,7 @@ impl Control {
         self.0.retain(|one| !one.is_over());
     }
 
-    /// Time when a line is due, seen from `now`.
+    /// Time when the next line is due, as seen at `now`.
     pub(super) fn deadline(&self, now: Instant) -> Option<Instant> {
         let due = |session: &Session| match session.queue.front() {
             Some(Entry::Line) | None => session.console.deadline(now),
@@ -83,7 +83,7 @@ impl Control {
         self.0.iter().filter_map(due).min()
     }
 
-    /// Carries out the next line that is due.
+    /// Runs the next line that is due.
     pub(super) fn step(&mut self, bench: &mut Bench) -> Option<Turn> {
         let turn = self.0.iter_mut().find_map(|session| session.step(bench));
         if turn.is_none() {

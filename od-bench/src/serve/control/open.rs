@@ -1,4 +1,4 @@
-//! The control socket, for this user only.
+//! Opens the control socket, for this user only.
 
 use std::io::ErrorKind;
 
@@ -8,20 +8,20 @@ use super::place::Place;
 use crate::serve::failure::Failure;
 use crate::serve::links::listener::Listener;
 
-/// A control socket that works.
+/// An open control socket.
 pub(in crate::serve) struct Opened {
-    /// With the port that it has.
+    /// Its address, with the real port number.
     pub(in crate::serve) place: Place,
     pub(in crate::serve) listener: Listener,
-    /// Takes the path away at the end.
+    /// Removes the path when it is dropped.
     pub(in crate::serve) path: Option<Path>,
 }
 
-/// The path of a socket; it goes with this value.
+/// The path of a socket; dropping this value removes it.
 pub(in crate::serve) struct Path {
     #[cfg(unix)]
     path: std::path::PathBuf,
-    /// Device and inode: another bench may have put its own there.
+    /// Device and inode: another bench may have put its own socket there.
     #[cfg(unix)]
     file: (u64, u64),
 }
@@ -29,7 +29,7 @@ pub(in crate::serve) struct Path {
 /// Listens at a place.
 ///
 /// # Errors
-/// Another process listens there, others could reach it, or what the system refuses.
+/// Another process listens there, other users could reach it, or the system refuses it.
 pub(in crate::serve) fn listen(place: &Place) -> Result<Opened, Failure> {
     match place {
         #[cfg(unix)]
@@ -102,7 +102,7 @@ mod unix {
         })
     }
 
-    /// With mode 0600 from the first moment.
+    /// Creates the socket with mode 0600 from the start.
     fn bind(path: &std::path::Path) -> io::Result<UnixListener> {
         let before = umask(Mode::S_IRWXG | Mode::S_IRWXO | Mode::S_IXUSR);
         let bound = UnixListener::bind(path);

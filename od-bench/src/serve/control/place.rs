@@ -24,7 +24,7 @@ impl Place {
     /// Reads `unix:PATH`, `tcp:HOST:PORT`, or a path.
     ///
     /// # Errors
-    /// The text to write instead.
+    /// The message contains the text to write instead.
     pub fn parse(text: &str) -> Result<Self, Refused> {
         let wrong =
             || format!("`{text}` is not a control socket; write unix:PATH or tcp:127.0.0.1:PORT");
@@ -46,7 +46,7 @@ impl Place {
         }
     }
 
-    /// Connects to it.
+    /// Connects to the socket.
     ///
     /// # Errors
     /// Reason why no bench answers.
@@ -67,7 +67,7 @@ impl Place {
     /// The addresses of a TCP place, which must be this computer's own.
     ///
     /// # Errors
-    /// A sentence: the host is unknown, or others could connect.
+    /// A sentence: the host is unknown, or other computers could connect.
     pub(super) fn own_addresses(place: &str) -> Result<Vec<SocketAddr>, String> {
         let addresses: Vec<SocketAddr> = match place.to_socket_addrs() {
             Ok(addresses) => addresses.collect(),

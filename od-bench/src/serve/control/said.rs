@@ -1,4 +1,4 @@
-//! The effect of a line in words.
+//! Describes the effect of a line in words.
 
 use od_model::values;
 use od_runtime::BusEvent;

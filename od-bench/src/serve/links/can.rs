@@ -15,7 +15,7 @@ pub(super) fn open(name: &str) -> Result<Opened, Failure> {
     }))
 }
 
-/// Message for an error, with the commands that solve it.
+/// Message for an error, with the commands that help.
 #[cfg(target_os = "linux")]
 fn advice(name: &str, error: &std::io::Error) -> String {
     /// "Address family not supported by protocol": a kernel without CAN.

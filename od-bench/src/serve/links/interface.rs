@@ -17,11 +17,11 @@ use crate::links::can_frame::{SIZE, is_up};
 use crate::serve::terminal::note;
 use crate::words::plural;
 
-/// Room for frames that odkit has not read yet, in bytes; the system may allow less.
+/// Buffer for unread frames, in bytes; the system may allow less.
 const BUFFER: usize = 64 * 1024 * 1024;
-/// A full queue of the interface is tried again after this time.
+/// Time until the next attempt when the queue of the interface is full.
 const FULL: Duration = Duration::from_millis(1);
-/// An interface that is down is looked at after this time.
+/// Period for checking an interface that is down.
 const DOWN: Duration = Duration::from_millis(250);
 /// Shortest time between two reports of dropped frames.
 const DROPS: Duration = Duration::from_secs(1);
@@ -30,25 +30,25 @@ const DROPS: Duration = Duration::from_secs(1);
 pub(super) struct Interface {
     name: String,
     socket: CanSocket,
-    /// Time when to look whether it is up again, if it is down.
+    /// The next time to check whether it is up again, if it is down.
     down: Option<Clock>,
-    /// Time when to write again, if its queue is full.
+    /// The next time to write, if its queue is full.
     full: Option<Clock>,
-    /// Frames that the kernel dropped, as it counts them.
+    /// Dropped frames by the count of the kernel.
     dropped: u32,
-    /// The number that was reported last, and the time of the next report.
+    /// The number of the last report, and the time of the next one.
     told: (u32, Clock),
-    /// Came behind frames.
+    /// An error that came after frames.
     failed: Option<io::Error>,
 }
 
 impl Interface {
     pub(super) fn open(name: &str) -> io::Result<Self> {
-        // A socket for all interfaces says whether there can be any.
+        // A socket for all interfaces shows whether the kernel supports CAN.
         CanSocket::open_iface(0)?;
         let socket = CanSocket::open(name)?;
         socket.set_nonblocking(true)?;
-        // More than the limit of the system needs a right that few have.
+        // A larger buffer than the system's limit needs a special right.
         if setsockopt(&socket, sockopt::RcvBufForce, &BUFFER).is_err() {
             let _ = setsockopt(&socket, sockopt::RcvBuf, &BUFFER);
         }
@@ -77,7 +77,7 @@ impl Interface {
         }
     }
 
-    /// Reads a frame; other messages are shorter or longer than `SIZE`.
+    /// Reads a frame; other messages have another length than `SIZE`.
     fn receive(&mut self, frame: &mut [u8]) -> io::Result<usize> {
         let mut space = cmsg_space!(u32);
         let mut slices = [IoSliceMut::new(frame)];
@@ -96,7 +96,7 @@ impl Interface {
         Ok(message.bytes)
     }
 
-    /// Tells how many frames the kernel dropped, a second after the last time or later.
+    /// Reports the number of frames that the kernel dropped, at most once a second.
     fn tell_drops(&mut self, now: Clock) {
         let (told, next) = self.told;
         if told == self.dropped || now < next {
@@ -110,7 +110,7 @@ impl Interface {
         self.told = (self.dropped, now + DROPS);
     }
 
-    /// An error that ends the link; `None`: it does not.
+    /// An error that ends the link; `None` for one that does not.
     fn fatal(&mut self, error: io::Error) -> Option<io::Error> {
         match Errno::from_raw(error.raw_os_error().unwrap_or(0)) {
             Errno::EINTR => None,
@@ -162,7 +162,7 @@ impl Port for Interface {
         let frame = &bytes[..SIZE.min(bytes.len())];
         match self.socket.as_raw_socket().write(frame) {
             Err(error) if error.raw_os_error() == Some(Errno::ENOBUFS as i32) => {
-                // No event tells when there is room again.
+                // No event reports new room in the queue.
                 self.full = Some(Clock::now() + FULL);
                 Err(ErrorKind::WouldBlock.into())
             }

@@ -26,7 +26,7 @@ pub(in crate::serve) enum Stream {
 }
 
 impl Listener {
-    /// Has a client that comes reported under `token`.
+    /// Registers the server: its events have this `token`.
     pub(in crate::serve) fn register(&mut self, events: &Registry, token: Token) -> io::Result<()> {
         match self {
             Self::Tcp(listener) => events.register(listener, token, Interest::READABLE),
@@ -52,7 +52,7 @@ impl Listener {
 }
 
 impl Stream {
-    /// Prepares a client that was accepted.
+    /// Prepares an accepted client.
     pub(in crate::serve) fn prepare(&self) -> io::Result<()> {
         match self {
             Self::Tcp(stream) => tcp::prepare(stream),
@@ -61,7 +61,7 @@ impl Stream {
         }
     }
 
-    /// Tells a client why it is refused, as well as its protocol can.
+    /// Tells a client why it is refused, if its protocol has a way to do so.
     pub(in crate::serve) fn refuse(self, protocol: Protocol, why: &str) {
         match self {
             Self::Tcp(stream) => tcp::refuse(stream, protocol, why),

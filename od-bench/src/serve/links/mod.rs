@@ -24,18 +24,18 @@ use threads::Threads;
 const FORMS: &str = "slcan:HOST:PORT, slcan:pty, slcan:DEVICE[@BAUD], socketcand:HOST:PORT, \
                      socketcan:INTERFACE, ws:HOST:PORT, or - for standard input and output";
 
-/// Most links of one bench; as clients they have the numbers below this one.
+/// Limit of links of one bench; as clients they have the numbers below this one.
 pub(super) const LINKS: usize = 64;
 
-/// One link, as it was asked for.
+/// One link of the command line.
 #[derive(Clone, PartialEq, Eq, Debug)]
 #[non_exhaustive]
 pub enum Link {
-    /// A server on TCP, an adapter's end of a serial line, or a CAN interface.
+    /// A server on TCP, the adapter side of a serial line, or a CAN interface.
     At(Address),
-    /// A pseudo-terminal that a program opens as if it were an adapter's serial port.
+    /// A pseudo-terminal that a program opens like the serial port of an adapter.
     Pty,
-    /// A WebSocket server for pages, and its token if it shall have a known one.
+    /// A WebSocket server for pages, and its token if one is given.
     WebSocket(String, Option<String>),
     /// Standard input and output.
     Console,
@@ -63,7 +63,7 @@ impl Link {
         }
     }
 
-    /// Opens it.
+    /// Opens the link.
     pub(super) fn open(&self, origins: &[String]) -> Result<Opened, Failure> {
         match self {
             Self::At(Address::Slcan(place)) => tcp::listen(Protocol::Slcan, place),

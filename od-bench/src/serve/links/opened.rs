@@ -1,4 +1,4 @@
-//! A link that works: who speaks what over it.
+//! An open link and its protocol.
 
 use std::net::SocketAddr;
 
@@ -18,18 +18,18 @@ use crate::links::web_socket::{self, Gate, WebSocket};
 pub(in crate::serve) enum Protocol {
     Slcan,
     Socketcand,
-    /// slcan in a WebSocket, behind a gate that is there as long as the program.
+    /// slcan in a WebSocket, with a gate that exists as long as the program.
     WebSocket(&'static Gate),
     /// `struct can_frame` of Linux.
     CanFrame,
-    /// Lines of the script language in, a candump log out.
+    /// Lines of the script language as input, a candump log as output.
     Lines,
-    /// Lines of the script language in, an answer to each out.
+    /// Lines of the script language as input, an answer to each as output.
     Control,
 }
 
 impl PartialEq for Protocol {
-    /// Two of one kind are alike, whatever their gates.
+    /// Two protocols of one kind are equal, whatever their gates.
     fn eq(&self, other: &Self) -> bool {
         std::mem::discriminant(self) == std::mem::discriminant(other)
     }
@@ -47,7 +47,7 @@ impl Protocol {
         }
     }
 
-    /// Its name, as `--link` has it.
+    /// Its name in `--link`.
     pub(in crate::serve) fn name(self) -> &'static str {
         match self {
             Self::Slcan => "slcan",
@@ -65,23 +65,23 @@ impl Protocol {
             Self::Socketcand => format!("< error {why} >"),
             Self::WebSocket(_) => web_socket::refusal(StatusCode::SERVICE_UNAVAILABLE, why),
             Self::Control => format!("failed {why}\n"),
-            // A host counts the bell as an answer, and skips a line that it does not know.
+            // A host takes the bell as an answer, and skips an unknown line.
             _ => format!("\x07odkit: {why}\r"),
         }
     }
 }
 
-/// A link that works.
+/// An open link.
 pub(in crate::serve) enum Opened {
-    /// Clients come and go.
+    /// A server: clients come and go.
     Listener(Protocol, TcpListener, SocketAddr),
-    /// There is one client, and it is there already.
+    /// A link with one client from the start.
     Ends(Ends),
 }
 
-/// The client of a link that has one.
+/// The client of a link with one client.
 pub(in crate::serve) struct Ends {
-    /// Name in messages; for a pseudo-terminal the path that others open.
+    /// Name in messages; for a pseudo-terminal the path for the other program.
     pub(in crate::serve) name: String,
     pub(in crate::serve) protocol: Protocol,
     pub(in crate::serve) port: Box<dyn Port>,

@@ -11,16 +11,16 @@ use mio::{Interest, Registry, Token, Waker};
 /// Both directions.
 pub(super) const BOTH: Interest = Interest::READABLE.add(Interest::WRITABLE);
 
-/// Both directions of a client. Neither waits: what cannot be done now is
-/// [`WouldBlock`](io::ErrorKind::WouldBlock), and an event tells when to try again.
+/// Both directions of a client. Neither waits: it returns [`WouldBlock`](io::ErrorKind::WouldBlock)
+/// for what is impossible now, and an event reports when to try again.
 pub(in crate::serve) trait Port {
-    /// Has events reported under `token`; a port that works on threads of its own calls `waker`.
+    /// Registers the port: its events have this `token`; a port with threads of its own calls `waker`.
     fn register(&mut self, events: &Registry, token: Token, waker: &Arc<Waker>) -> io::Result<()>;
 
-    /// Reads into `buffer`, whole messages where the port has some; 0: the other end has left.
+    /// Reads into `buffer`, whole messages if the port has some. 0: the other end has left.
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize>;
 
-    /// Writes what it can of `bytes`.
+    /// Writes as many of `bytes` as possible.
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize>;
 
     /// Returns how many frames the system dropped because odkit did not read them in time.
@@ -28,22 +28,22 @@ pub(in crate::serve) trait Port {
         0
     }
 
-    /// Can another one come after the other end has left?
+    /// Returns whether another host can come after the other end has left.
     fn outlives_hosts(&self) -> bool {
         false
     }
 
-    /// Returns when [`check`](Self::check) is due; `None`: an event tells everything.
+    /// Returns when [`check`](Self::check) is due; `None` if events report everything.
     fn next_check(&self) -> Option<Clock> {
         None
     }
 
-    /// Looks at what no event tells, at `now`.
+    /// Checks at `now` what no event reports.
     fn check(&mut self, now: Clock) {
         let _ = now;
     }
 
-    /// Waits until what was written has arrived, or `stopped` is set.
+    /// Waits until all written bytes have arrived, or `stopped` is set.
     fn finish(&mut self, stopped: &AtomicBool) -> io::Result<()> {
         let _ = stopped;
         Ok(())

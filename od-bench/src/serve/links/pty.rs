@@ -1,4 +1,4 @@
-//! slcan over a pseudo-terminal, which a program opens as if it were an adapter's serial port.
+//! slcan over a pseudo-terminal, which a program opens like the serial port of an adapter.
 
 use super::opened::Opened;
 use crate::serve::failure::Failure;

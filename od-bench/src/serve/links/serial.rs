@@ -1,4 +1,4 @@
-//! slcan as an adapter speaks it over a serial line.
+//! slcan over a serial line, in the role of the adapter.
 
 use std::io::ErrorKind;
 
@@ -23,7 +23,7 @@ pub(super) fn open(path: &str, baud: u32) -> Result<Opened, Failure> {
     };
     let port = serial2::SerialPort::open(path, baud).map_err(failed)?;
     let mut writing = port.try_clone().map_err(failed)?;
-    // A host that reads slowly holds up the thread that writes, and nothing else.
+    // A slow host only delays the writing thread.
     writing
         .set_write_timeout(std::time::Duration::from_secs(3600))
         .map_err(failed)?;

@@ -8,7 +8,7 @@ use mio::net::{TcpListener, TcpStream};
 use super::opened::{Opened, Protocol};
 use crate::serve::failure::Failure;
 
-/// Bytes of the system's own queue to a client: what waits there can no longer be dropped.
+/// Size of the system's queue to a client: bytes in it can no longer be dropped.
 #[cfg(unix)]
 const QUEUE: usize = 64 * 1024;
 
@@ -43,16 +43,16 @@ pub(super) fn listen(protocol: Protocol, full: &str) -> Result<Opened, Failure> 
     Ok(Opened::Listener(protocol, listener, address))
 }
 
-/// Prepares a client that was accepted.
+/// Prepares an accepted client.
 pub(super) fn prepare(stream: &TcpStream) -> io::Result<()> {
     #[cfg(unix)]
     nix::sys::socket::setsockopt(stream, nix::sys::socket::sockopt::SndBuf, &QUEUE)?;
     stream.set_nodelay(true)
 }
 
-/// Tells a client why it is refused, as well as its protocol can.
+/// Tells a client why it is refused, if its protocol has a way to do so.
 pub(super) fn refuse(mut stream: TcpStream, protocol: Protocol, why: &str) {
-    // Who does not hear it sees the end of the connection.
+    // If the message does not arrive, the client still sees the end of the connection.
     let _ = stream.write_all(protocol.refusal(why).as_bytes());
     let _ = stream.shutdown(std::net::Shutdown::Write);
 }

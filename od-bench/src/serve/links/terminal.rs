@@ -1,4 +1,4 @@
-//! The adapter's end of a pseudo-terminal.
+//! The adapter side of a pseudo-terminal.
 
 use std::fs::{File, OpenOptions};
 use std::io::{self, ErrorKind, Read, Write};
@@ -19,13 +19,13 @@ use crate::serve::terminal::note;
 
 /// A pseudo-terminal whose hosts come and go.
 pub(super) struct Terminal {
-    /// Our end, and the events of which it is part; `None`: no end is open at the moment.
+    /// Our end, and the events it is registered with; `None` while no end is open.
     end: Option<File>,
     path: PathBuf,
     events: Option<(Registry, Token)>,
-    /// Only Linux says when the last host has left. Elsewhere the other end stays open.
+    /// Only Linux reports that the last host has left. Elsewhere the other end stays open.
     _other: Option<OwnedFd>,
-    /// A host has sent something since the last one left.
+    /// A host has sent something since the previous one left.
     used: bool,
 }
 
@@ -33,7 +33,7 @@ impl Terminal {
     pub(super) fn open() -> io::Result<Self> {
         let pair = openpty(None, None)?;
         let mut settings = tcgetattr(&pair.slave)?;
-        // Bytes as they are: no echo, no signals, no line ends.
+        // Raw bytes: no echo, no signals, no conversion of line ends.
         cfmakeraw(&mut settings);
         tcsetattr(&pair.slave, SetArg::TCSANOW, &settings)?;
         fcntl(&pair.master, FcntlArg::F_SETFL(OFlag::O_NONBLOCK))?;
@@ -56,7 +56,7 @@ impl Terminal {
         self.end.as_mut().ok_or_else(gone)
     }
 
-    /// Makes the terminal ready for the next host: it shall not read what was meant for the last.
+    /// Prepares the terminal for the next host, which must not read the bytes of the previous one.
     fn tidy(&mut self) -> io::Result<()> {
         let flags = (OFlag::O_NOCTTY | OFlag::O_NONBLOCK).bits();
         let other = OpenOptions::new()
@@ -64,8 +64,8 @@ impl Terminal {
             .write(true)
             .custom_flags(flags)
             .open(&self.path);
-        // An slcand that was killed leaves the line discipline of the kernel behind, and a network
-        // interface with it; no write works there. Only a new terminal ends both.
+        // An slcand that was killed leaves the line discipline of the kernel and its network interface
+        // in place, and no write works there. Only a new terminal removes both.
         let is_usable = other.and_then(|mut other| {
             tcflush(&other, FlushArg::TCIOFLUSH)?;
             other.write(b"")
@@ -77,7 +77,7 @@ impl Terminal {
     }
 
     fn renew(&mut self) -> io::Result<()> {
-        // With the old one gone, the new one gets its path, unless another program is faster.
+        // After the old one is closed, the new one gets its path, unless another program is faster.
         drop(self.end.take());
         let mut new = Self::open()?;
         if let Some((events, token)) = self.events.take() {

@@ -1,4 +1,4 @@
-//! A port that cannot be polled: standard input and output, a serial line. One thread reads, one writes.
+//! A port that cannot be polled, such as standard input and output or a serial line. One thread reads, one writes.
 
 use std::io::{self, ErrorKind, Read, Write};
 use std::sync::Arc;
@@ -12,21 +12,21 @@ use mio::{Registry, Token, Waker};
 
 use super::port::Port;
 
-/// Pieces that wait in each direction.
+/// Limit of waiting pieces in each direction.
 const PIECES: usize = 4;
 /// Longest piece, in bytes.
 const PIECE: usize = 4096;
 
-/// Both directions, each on a thread of its own.
+/// Both directions, with one thread each.
 pub(super) struct Threads {
-    /// Until the threads have them.
+    /// The threads take them when they start.
     ends: Option<(Box<dyn Read + Send>, Box<dyn Write + Send>)>,
-    /// Input, nothing at its end, or the error that ended it or the output.
+    /// Input, nothing at its end, or the error that ended input or output.
     input: Option<Receiver<io::Result<Vec<u8>>>>,
-    /// Input that found no room in the buffer of the reader.
+    /// Input that did not fit into the buffer of the reader.
     rest: Vec<u8>,
     output: Option<SyncSender<Vec<u8>>>,
-    /// Says that all is written, or why not.
+    /// Reports that everything is written, or the error.
     done: Option<Receiver<io::Result<()>>>,
 }
 
@@ -93,7 +93,7 @@ impl Port for Threads {
         match sent {
             Some(Ok(())) => Ok(piece.len()),
             Some(Err(TrySendError::Full(_))) => Err(ErrorKind::WouldBlock.into()),
-            // The reader gets the reason.
+            // The reader receives the error.
             Some(Err(TrySendError::Disconnected(_))) | None => Ok(bytes.len()),
         }
     }
@@ -128,7 +128,7 @@ fn read(mut reading: impl Read, heard: &SyncSender<io::Result<Vec<u8>>>, waker: 
     }
 }
 
-/// A serial line that says nothing for a while is well.
+/// For a serial line a time-out without data is no error.
 fn passes(error: &io::Error) -> bool {
     matches!(
         error.kind(),
