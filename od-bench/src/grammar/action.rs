@@ -1,4 +1,4 @@
-//! The meaning of a line, as data.
+//! The content of a line as data.
 
 use std::prelude::v1::*;
 
@@ -11,21 +11,21 @@ use super::frames::Frames;
 use super::pattern::Pattern;
 use super::typed::Write;
 
-/// Time when a line acts.
+/// Time of a line.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum When {
-    /// Time when the line before it is done.
+    /// When the line before it is done.
     Next,
-    /// At a moment.
+    /// At this moment.
     At(Instant),
     /// This number of microseconds after the line before it.
     After(u64),
 }
 
-/// Action of a line.
+/// What a line does.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Action {
-    /// Action that a live bench supports too.
+    /// An action that a live bench supports, too.
     Deed(Deed),
     /// Puts a device on the bus.
     Device(Added),
@@ -33,43 +33,43 @@ pub enum Action {
     Read {
         /// Address or name.
         object: String,
-        /// Expected end.
+        /// Expected result.
         outcome: Outcome,
     },
     /// A whole SDO download.
     Write {
         /// Object and value.
         write: Write,
-        /// Expected end.
+        /// Expected result.
         outcome: Outcome,
     },
-    /// Such frames do not matter; `None`: all frames matter again.
+    /// Ignores such frames; `None`: no frames are ignored any more.
     Ignore(Option<Pattern>),
     /// Empties the queue of frames.
     Skip,
-    /// Something has to hold.
+    /// A condition that must hold.
     Expect(Expect),
 }
 
 /// A device that a line puts on the bus.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct Added {
-    /// Of a built-in device or a file; `None`: the one of scripts that name none.
+    /// Name of a built-in device or of a file; `None`: the default device of scripts.
     pub(crate) name: Option<String>,
-    /// Of each channel.
+    /// Node ID of each channel.
     pub(crate) nodes: Vec<NodeId>,
     pub(crate) label: Option<String>,
-    /// The device on whose shaft it sits.
+    /// The device whose shaft it uses.
     pub(crate) beside: Option<String>,
-    /// Another serial number than the first.
+    /// A serial number other than the first.
     pub(crate) serial: Option<u32>,
-    /// Bytes for each string and DOMAIN of a file's device.
+    /// Space for each string and DOMAIN of a device that a file describes, in bytes.
     pub(crate) domain_size: Option<u32>,
-    /// Without power.
+    /// It starts without power.
     pub(crate) off: bool,
 }
 
-/// Expected end of an SDO transfer.
+/// Expected result of an SDO transfer.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Outcome {
     /// It succeeds.
@@ -85,11 +85,11 @@ pub enum Outcome {
 pub enum Expect {
     /// A frame comes.
     Frame {
-        /// The frames that are right.
+        /// The frames that match.
         frames: Frames,
-        /// How often.
+        /// Their number.
         times: u32,
-        /// When.
+        /// Their time.
         timing: Timing,
     },
     /// No frame comes for this time in microseconds.
@@ -98,15 +98,15 @@ pub enum Expect {
     Fact(Fact),
 }
 
-/// Time when an expected frame has to come.
+/// Time of an expected frame.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Timing {
-    /// It is there already.
+    /// It has already come.
     Now,
     /// Within this time in microseconds.
     Within(u64),
     /// After exactly this time in microseconds.
     After(u64),
-    /// Each exactly this time in microseconds after the one before.
+    /// Each exactly this time in microseconds after the previous one.
     Every(u64),
 }

@@ -1,4 +1,4 @@
-//! Actions on the bus and on the world around it, on any bench.
+//! Actions on the bus and its surroundings that any bench can carry out.
 
 use std::format;
 use std::prelude::v1::*;
@@ -8,53 +8,53 @@ use od_runtime::{BusEvent, Frame};
 use super::typed::{Typed, Write};
 use crate::bench::Bench;
 
-/// A shaft that moves.
+/// A movement of a shaft.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Shaft {
     /// To a raw position.
     At(u64),
     /// By revolutions, backwards if negative.
     Turn(f64),
-    /// From now on, in revolutions per minute.
+    /// At this speed from now on, in revolutions per minute.
     Rpm(f64),
-    /// Evenly to a speed in revolutions per minute, in a time in microseconds.
+    /// With constant acceleration to a speed in revolutions per minute, in a time in microseconds.
     Ramp(f64, u64),
 }
 
-/// A bus line that changes.
+/// A change of the bus line.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Wire {
-    /// Frames can fail.
+    /// Frames may fail.
     Real(bool),
     /// Number of terminating resistors.
     Terminators(u8),
-    /// Bit rate of what is outside in kbit/s; `None`: that of the first device.
+    /// Bit rate of the outside in kbit/s; `None`: that of the first device.
     BitRate(Option<u16>),
-    /// The present device is connected.
+    /// Whether the current device is connected.
     Plugged(bool),
 }
 
-/// Action of a line that waits for nothing.
+/// An action that waits for nothing.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Deed {
-    /// Nothing: the line only lets time pass.
+    /// Nothing: only time passes.
     Wait,
-    /// The lines that follow are about this device.
+    /// The following lines are about this device.
     Use(String),
     /// Sends a frame.
     Send {
         /// The frame.
         frame: Typed,
-        /// How often.
+        /// Number of frames.
         times: u32,
         /// Period in microseconds.
         every: u64,
     },
-    /// Power on or off.
+    /// Power on (`true`) or off.
     Power(bool),
-    /// Off for this time in microseconds, then on.
+    /// Power off for this time in microseconds, then on.
     Cycle(u64),
-    /// The shaft moves.
+    /// A movement of the shaft.
     Shaft(Shaft),
     /// The rotary switches of the node ID.
     NodeSwitch(u8),
@@ -68,23 +68,23 @@ pub enum Deed {
         code: u16,
         /// Bits of the error register.
         register: u8,
-        /// `None`: the bytes of its family.
+        /// `None`: the default bytes of its family.
         info: Option<[u8; 5]>,
     },
-    /// Errors with this code end, or all of them with 0.
+    /// Ends the errors with this code, or with 0 all errors.
     ClearError(u16),
-    /// A value of the device changes.
+    /// Sets a value of the device.
     Set(Write),
-    /// News of the CAN controller.
+    /// An event of the CAN controller.
     Controller(BusEvent),
-    /// Bit rate of what is outside in kbit/s; `None`: it does not matter.
+    /// Bit rate of the outside in kbit/s; `None`: any.
     BusRate(Option<u16>),
-    /// The bus line changes.
+    /// A change of the bus line.
     Line(Wire),
 }
 
 impl Deed {
-    /// Rest of the action after [`act`](Self::act), and its delay in microseconds.
+    /// The rest of the action after [`act`](Self::act), and its delay in microseconds.
     pub(crate) fn rest(&self) -> Option<(u64, Self)> {
         match self {
             Self::Send {
@@ -108,10 +108,10 @@ impl Deed {
         }
     }
 
-    /// Does what comes first. A frame is returned: the caller puts it on the bus.
+    /// Carries out the first part. It returns a frame instead of sending it: the caller puts it on the bus.
     ///
     /// # Errors
-    /// Reason why the present device cannot do it.
+    /// Reason why the current device cannot do it.
     pub(crate) fn act(&self, bench: &mut Bench) -> Result<Option<Frame>, String> {
         match self {
             Self::Wait => {}

@@ -1,4 +1,4 @@
-//! Conditions about one moment: parsed, evaluated, and shown in words.
+//! Conditions about the present moment: reads, evaluates and describes them.
 
 use std::format;
 use std::prelude::v1::*;
@@ -15,7 +15,7 @@ use crate::device::VirtualDevice;
 use crate::leds::Led;
 use crate::world::ShaftView;
 
-/// Something about a device or the bus line that holds or does not.
+/// A condition about a device or the bus line.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Fact {
     /// The current value of an object, by address or name.
@@ -24,18 +24,18 @@ pub enum Fact {
     Saved(String, Option<Test>),
     /// `None`: the device has no power.
     State(Option<State>),
-    /// The green or the red LED shows this.
+    /// The green or the red LED shows this pattern.
     Led {
-        /// Green, otherwise red.
+        /// The green LED, otherwise the red one.
         green: bool,
-        /// What it shows.
+        /// Pattern of the LED.
         led: Led,
     },
     /// The node ID of the device.
     NodeId(Test),
-    /// In kbit/s.
+    /// The bit rate in kbit/s.
     BitRate(Test),
-    /// Revolutions since the step began, without their sign.
+    /// Revolutions since the step began, as an absolute value.
     Turned(Test),
     /// Revolutions per minute.
     Rpm(Test),
@@ -45,19 +45,19 @@ pub enum Fact {
     Terminators(Test),
 }
 
-/// Does it hold, and how is it now?
+/// Whether it holds, and the present value.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) struct Found {
     pub(crate) holds: bool,
     pub(crate) now: String,
 }
 
-/// The first words of facts, for messages.
+/// The first words of conditions, for messages.
 pub(crate) const NAMES: &str =
     "value, saved, state, led, node-id, bitrate, turned, rpm, broken, terminators";
 
 impl Fact {
-    /// Reads a fact; `None` where the line begins with another word.
+    /// Reads a condition; `None` if the line begins with another word.
     pub(crate) fn parse(tokens: &mut Tokens<'_>) -> Result<Option<Self>, Problem> {
         let start = *tokens;
         Ok(Some(match tokens.next() {
@@ -106,10 +106,10 @@ impl Fact {
         }
     }
 
-    /// Looks at the bench. `turns` is where the device's shaft was when the step began.
+    /// Evaluates the condition. `turns` is the position of the device's shaft when the step began.
     ///
     /// # Errors
-    /// Reason why it cannot be true at all: the object does not exist, or the value is not valid.
+    /// Reason why the condition can never hold: the object does not exist, or the value is invalid.
     pub(crate) fn look(
         &self,
         bus: &mut Bus,
@@ -153,7 +153,7 @@ impl Fact {
         }
     }
 
-    /// Evaluates a condition that is visible from outside the device.
+    /// Evaluates a condition that needs no view into the device.
     fn outside(
         &self,
         one: &VirtualDevice,
@@ -193,13 +193,13 @@ impl Fact {
                 let broken = one.is_broken(name);
                 found(broken, if broken { "active" } else { "not active" })
             }
-            // These were looked at before.
+            // Handled above.
             Self::Value(..) | Self::Saved(..) | Self::Terminators(_) => found(false, ""),
         }
     }
 
-    /// The fact in words. `whose` follows what it is about, as ` of device left`; `not` turns it
-    /// around.
+    /// The condition in words. `whose` follows its subject, as in ` of device left`; `not` negates
+    /// it.
     pub(crate) fn words(&self, device: Option<&VirtualDevice>, whose: &str, not: bool) -> String {
         let is = if not { "is not" } else { "is" };
         let label = |object: &String| {
@@ -255,7 +255,7 @@ fn found(holds: bool, now: impl Into<String>) -> Result<Found, String> {
 
 fn numbers(value: impl Into<f64>, test: &Test) -> Result<Found, String> {
     let value = value.into();
-    // Thousandths are what a person can see of a shaft.
+    // A user can see a thousandth of a revolution on a shaft.
     let shown = (value * 1000.0).round() / 1000.0;
     found(test.holds_number(value), format!("{shown}"))
 }

@@ -1,4 +1,4 @@
-//! Frames that are waited for: with gaps, or by what they say.
+//! Expected frames: as a pattern with gaps, or by their meaning.
 
 use std::prelude::v1::*;
 use std::{fmt, format};
@@ -15,12 +15,12 @@ use super::tokens::Tokens;
 use crate::device::VirtualDevice;
 use crate::words;
 
-/// Frames that are waited for.
+/// Expected frames.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Frames {
-    /// With gaps.
+    /// A pattern with gaps.
     Pattern(Pattern),
-    /// To any node, if it names none.
+    /// An NMT command; without a node it may be for any node.
     Nmt(Command, Option<u8>),
     /// The boot-up message of any node.
     BootUp,
@@ -76,7 +76,7 @@ impl Frames {
         Ok(frames)
     }
 
-    /// Returns whether this is one of the frames.
+    /// Returns whether a frame is one of these.
     pub fn matches(&self, frame: &Frame) -> bool {
         let id = frame.id().as_standard().unwrap_or(u16::MAX);
         match self {
@@ -104,7 +104,7 @@ impl Frames {
         }
     }
 
-    /// The frames in words, with the names that the devices give.
+    /// The frames in words, with the object names of the devices.
     pub(crate) fn words(&self, devices: &[VirtualDevice]) -> String {
         let label = |address: &Address| match devices.first() {
             Some(device) => values::label(device.dictionary(), *address),
@@ -140,7 +140,7 @@ impl Frames {
     }
 }
 
-/// As a script names them.
+/// The name in scripts.
 impl fmt::Display for Frames {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

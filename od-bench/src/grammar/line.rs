@@ -1,4 +1,4 @@
-//! A whole line: its time, then a verb or a frame.
+//! A complete line: its time, then a verb or a frame.
 
 use std::format;
 use std::prelude::v1::*;
@@ -14,13 +14,13 @@ use super::typed::Typed;
 use super::verbs::VERBS;
 use crate::logs::candump;
 
-/// A log of the wall clock counts from 1970; its first time stamp is the origin.
+/// Time stamps from here on are times of day since 1970; the first one is then the origin.
 const WALL_CLOCK: u64 = 100_000_000_000_000;
 
-/// Words that say when a line acts.
+/// Words that begin the time of a line.
 const TIMES: [&str; 3] = ["wait", "at", "after"];
 
-/// Reads a line that is not empty. `origin` is where the time stamps of a log begin.
+/// Reads a line that is not empty. `origin` is the first time stamp of a log.
 pub(crate) fn line(
     mut tokens: Tokens<'_>,
     origin: &mut Option<u64>,
@@ -55,7 +55,7 @@ pub(crate) fn line(
     Ok((when, action))
 }
 
-/// `(0.100000)`, `at 1.5s`, `after 100ms`, or nothing.
+/// Reads `(0.100000)`, `at 1.5s`, `after 100ms`, or nothing.
 fn time(tokens: &mut Tokens<'_>, origin: &mut Option<u64>) -> Result<When, Problem> {
     let at = |micros| When::At(Instant::from_micros(micros));
     if tokens.take("at") {
@@ -76,7 +76,7 @@ fn time(tokens: &mut Tokens<'_>, origin: &mut Option<u64>) -> Result<When, Probl
     here.limited(Some(micros.saturating_sub(first))).map(at)
 }
 
-/// Content of parentheses that is not a time stamp.
+/// Text in parentheses that is not a time stamp.
 fn no_stamp(here: Tokens<'_>) -> Result<u64, Problem> {
     let word = here.peek();
     let inner = word
@@ -89,7 +89,7 @@ fn no_stamp(here: Tokens<'_>) -> Result<u64, Problem> {
     Err(here.problem(message, "write seconds in parentheses, such as (0.100000)"))
 }
 
-/// A line of a log, or a frame as `cansend` takes it, blanks between its bytes allowed.
+/// Reads a line of a log, or a frame in the form of `cansend` with optional blanks between its bytes.
 fn frame(tokens: &mut Tokens<'_>, word: &str) -> Result<Action, Problem> {
     let here = tokens.take_rest();
     let mut words = here.rest().split_whitespace();

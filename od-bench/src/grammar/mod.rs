@@ -1,14 +1,14 @@
-//! The grammar of a line: scripts, `odkit sim --link -`, `odkit lesson run`, checkpoints of lessons
+//! The grammar of a line. Scripts, `odkit sim --link -`, `odkit lesson run`, checkpoints of lessons
 //! and the console of the page share it.
 //!
 //! | file | what it reads |
 //! |---|---|
 //! | `tokens` | the words of a line, durations, numbers |
-//! | `verbs` | the table of verbs, one row per first word; `world` those outside the bus |
-//! | `line` | a whole line: its time, then a verb or a frame |
+//! | `verbs` | the table of verbs, one row per first word; `world` has those outside the bus |
+//! | `line` | a complete line: its time, then a verb or a frame |
 //! | `typed` | frames by name: `nmt start`, `sync`, `guard`, `read 1017h` |
-//! | `pattern`, `frames` | frames that are waited for |
-//! | `fact`, `test` | what has to be so at one moment |
+//! | `pattern`, `frames` | expected frames |
+//! | `fact`, `test` | conditions about one moment |
 
 pub(crate) mod action;
 pub(crate) mod deed;

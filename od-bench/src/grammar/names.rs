@@ -1,4 +1,4 @@
-//! Names that lines of every kind share: faults, NMT commands.
+//! Names of faults and NMT commands, for lines of every kind.
 
 use od_wire::nmt::Command;
 
@@ -6,12 +6,12 @@ use super::problem::Problem;
 use super::tokens::Tokens;
 use crate::faults;
 
-/// The name of a fault.
+/// Reads the name of a fault.
 pub(super) fn fault_name(tokens: &mut Tokens<'_>) -> Result<&'static str, Problem> {
     tokens.one_of("fault", &faults::NAMES.map(|name| (name, name)))
 }
 
-/// An NMT command, then its node: 0 for `all`, `None` if it is missing.
+/// Reads an NMT command and its node: 0 for `all`, `None` if it is missing.
 pub(crate) fn nmt_command(tokens: &mut Tokens<'_>) -> Result<(Command, Option<u8>), Problem> {
     let command = tokens.one_of(
         "NMT command",

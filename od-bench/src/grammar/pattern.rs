@@ -1,4 +1,4 @@
-//! A frame with gaps: what an `expect` line wants.
+//! A frame with gaps, for `expect` lines.
 
 use std::prelude::v1::*;
 use std::{fmt, format};
@@ -8,23 +8,23 @@ use od_runtime::{CanId, Frame};
 use crate::logs::candump;
 use crate::logs::candump::Error;
 
-/// An identifier and bytes of which some may be anything.
+/// An identifier, and bytes with gaps.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Pattern {
     id: CanId,
     /// `None`: a remote frame of any length.
     bytes: Option<Vec<Option<u8>>>,
-    /// More bytes may follow.
+    /// Further bytes may follow.
     open: bool,
 }
 
 const HELP: &str = "write bytes as two hex digits, `..` or `xx` for any byte, `*` for any rest";
 
 impl Pattern {
-    /// `581#43 02 60 00 .. xx *`, `701#R`, `080#`.
+    /// Reads `581#43 02 60 00 .. xx *`, `701#R`, `080#`.
     ///
     /// # Errors
-    /// [`Error`] names the first character that does not fit.
+    /// [`Error`] names the first invalid character.
     pub fn parse(text: &str) -> Result<Self, Error> {
         let text = text.trim();
         let Some((id, data)) = text.split_once('#') else {
@@ -82,7 +82,7 @@ impl Pattern {
         Ok(pattern)
     }
 
-    /// A pattern that no frame of a device has: an NMT command of no bytes.
+    /// A pattern that no frame of a device matches: an NMT command without bytes.
     pub(crate) const NOTHING: Self = Self {
         id: CanId::standard(0),
         bytes: None,
@@ -94,17 +94,17 @@ impl Pattern {
         self.id
     }
 
-    /// Its bytes, `None` for one that may be anything; no bytes at all for a remote frame.
+    /// Its bytes, `None` for a gap; a remote frame has no bytes.
     pub fn bytes(&self) -> Option<&[Option<u8>]> {
         self.bytes.as_deref()
     }
 
-    /// May more bytes follow?
+    /// Returns whether further bytes may follow.
     pub const fn is_open(&self) -> bool {
         self.open
     }
 
-    /// Is this the frame that was meant?
+    /// Returns whether a frame matches.
     pub fn matches(&self, frame: &Frame) -> bool {
         let Some(bytes) = &self.bytes else {
             return frame.id() == self.id && frame.is_remote();
@@ -146,7 +146,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn gaps_match_any_byte() {
+    fn a_gap_matches_any_byte() {
         let frame = candump::parse_frame("581#4302600000000020").expect("a frame");
         for (text, holds) in [
             ("581#43 02 60 00 00 00 00 20", true),

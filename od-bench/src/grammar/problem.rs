@@ -3,7 +3,7 @@
 use std::fmt;
 use std::prelude::v1::*;
 
-/// A mistake in a line, its place, and what to write instead.
+/// A mistake in a line, its place, and the text to write instead.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Problem {
     /// Counted from 1.

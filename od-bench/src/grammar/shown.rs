@@ -1,14 +1,14 @@
-//! Lines, messages and durations as messages show them.
+//! The form of lines, texts and durations in messages.
 
 use std::format;
 use std::prelude::v1::*;
 
-/// Characters of a line that are shown.
+/// Longest part of a line in a message, in characters.
 const SHOWN: usize = 60;
-/// Characters of a message that are shown.
+/// Longest message, in characters.
 const MESSAGE: usize = 400;
 
-/// The first `limit` characters of a text, and `…` if it is longer.
+/// The first `limit` characters of a text, with `…` if it is longer.
 fn cut(text: &str, limit: usize) -> String {
     match text.char_indices().nth(limit) {
         Some((at, _)) => format!("{}…", &text[..at]),
@@ -16,12 +16,12 @@ fn cut(text: &str, limit: usize) -> String {
     }
 }
 
-/// A line as messages show it.
+/// A line in the form for messages.
 pub(crate) fn line(text: &str) -> String {
     cut(text, SHOWN)
 }
 
-/// A message whose quotes are not longer than a line is shown.
+/// A message whose quotes are cut to the limit of a line.
 pub(crate) fn brief(message: &str) -> String {
     if message.len() <= SHOWN {
         return message.to_owned();
@@ -39,7 +39,7 @@ pub(crate) fn brief(message: &str) -> String {
     cut(&brief, MESSAGE)
 }
 
-/// Microseconds as a script writes them.
+/// Microseconds in the form of scripts.
 pub(crate) fn duration(micros: u64) -> String {
     match (micros % 1_000_000, micros % 1000) {
         (0, _) if micros > 0 => format!("{}s", micros / 1_000_000),

@@ -9,7 +9,7 @@ use od_model::{DataType, Kind, values};
 use super::problem::Problem;
 use super::tokens::Tokens;
 
-/// A comparison with a value, as it is written.
+/// A comparison with a value, as written.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Test {
     how: How,
@@ -40,7 +40,7 @@ pub(crate) const SIGNS: [(&str, How); 7] = [
 ];
 
 impl Test {
-    /// The value behind a sign, which was read.
+    /// Reads the value after a sign.
     pub(crate) fn value(how: How, tokens: &mut Tokens<'_>) -> Result<Self, Problem> {
         let here = *tokens;
         let value = tokens.take_rest();
@@ -57,7 +57,7 @@ impl Test {
         })
     }
 
-    /// A comparison with numbers: `= 5`, or only `5`.
+    /// Reads a comparison with a number: `= 5`, or only `5`.
     pub(crate) fn number(tokens: &mut Tokens<'_>) -> Result<Self, Problem> {
         let sign = tokens.peek();
         let how = SIGNS.iter().find(|(name, _)| *name == sign);
@@ -73,10 +73,10 @@ impl Test {
         }
     }
 
-    /// Do the values suit the type?
+    /// Checks that the values fit the type.
     ///
     /// # Errors
-    /// Describes a valid value.
+    /// The message describes a valid value.
     pub(crate) fn fits(&self, data_type: DataType) -> Result<(), String> {
         for part in self.text.split("..") {
             values::parse(data_type, part)?;
@@ -84,7 +84,7 @@ impl Test {
         Ok(())
     }
 
-    /// Does a value of this type hold?
+    /// Returns whether a value of this type meets the comparison.
     ///
     /// # Errors
     /// Reason why it cannot be compared.
@@ -100,7 +100,7 @@ impl Test {
         }
     }
 
-    /// Does a number hold?
+    /// Returns whether a number meets the comparison.
     pub(crate) fn holds_number(&self, value: f64) -> bool {
         let (low, high) = self.text.split_once("..").unwrap_or((&self.text, ""));
         let Some(wanted) = number(low) else {
@@ -117,7 +117,7 @@ impl Test {
         }
     }
 
-    /// The comparison in words, behind "is".
+    /// The comparison in words, for use after "is".
     pub(crate) fn words(&self) -> String {
         match self.how {
             How::Equal => self.text.clone(),
@@ -131,7 +131,7 @@ impl Test {
     }
 }
 
-/// Good enough for an order: what people compare is far below 2⁵³.
+/// Precise enough for comparisons: practical values are far below 2⁵³.
 fn as_number(data_type: DataType, bytes: &[u8]) -> Option<f64> {
     if data_type.size() != Some(bytes.len()) {
         return None;
@@ -147,7 +147,7 @@ fn as_number(data_type: DataType, bytes: &[u8]) -> Option<f64> {
     }
 }
 
-/// A number as lessons write it: whole in any form, or with a point.
+/// Reads a number of a lesson: a whole number in any form, or one with a decimal point.
 fn number(text: &str) -> Option<f64> {
     let text = text.trim();
     match values::integer(text) {

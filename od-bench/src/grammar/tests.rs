@@ -51,7 +51,7 @@ fn several_on_a_bus() {
 }
 
 #[test]
-fn mistakes_are_found_in_every_line() {
+fn a_mistake_is_found_in_every_line() {
     check("wait", "1:5: a duration is missing; write 500ms");
     check("\n  wait 5", "2:8: `5` is not a duration");
     check("wait 99999999999999999999s", "1:6: `99");
@@ -127,7 +127,7 @@ fn mistakes_are_found_in_every_line() {
 }
 
 #[test]
-fn long_lines_are_cut_where_they_are_quoted() {
+fn a_quoted_long_line_is_cut() {
     let long = "ä".repeat(100_000);
     for line in [
         "{}",
@@ -178,7 +178,7 @@ fn no_text_panics() {
 }
 
 #[test]
-fn a_frame_by_name_is_a_frame_for_the_device() {
+fn a_frame_by_name_becomes_a_frame_for_the_device() {
     let kind = od_devices::find("gxmm").expect("it is built in");
     let node = od_runtime::NodeId::new(5).expect("1 to 127");
     let device = crate::VirtualDevice::new(kind, node);

@@ -1,4 +1,4 @@
-//! The tokenizer: the words of a line, with their columns.
+//! The tokenizer: splits a line into words with their columns.
 
 use std::format;
 use std::prelude::v1::*;
@@ -13,7 +13,7 @@ const LONGEST: u64 = 100 * 365 * 86_400 * 1_000_000;
 
 const TOO_LONG: &str = "the limit is 100 years, 3153600000s";
 
-/// Part of a line, read from the front.
+/// The rest of a line, read from the front.
 #[derive(Clone, Copy)]
 pub(crate) struct Tokens<'t> {
     line: u32,
@@ -22,7 +22,7 @@ pub(crate) struct Tokens<'t> {
 
 impl<'t> Tokens<'t> {
     /// The line without its comment and the blanks around it. A comment begins with `#` at
-    /// the start of a line or behind a blank; `601#40` is a frame.
+    /// the start of a line or after a blank; `601#40` is a frame.
     pub(crate) fn new(line: u32, text: &'t str) -> Self {
         let mut end = text.len();
         let mut quoted = false;
@@ -45,7 +45,7 @@ impl<'t> Tokens<'t> {
         self.rest.text.is_empty()
     }
 
-    /// All that is left.
+    /// The whole rest.
     pub(crate) fn rest(&self) -> &'t str {
         self.rest.text
     }
@@ -59,12 +59,12 @@ impl<'t> Tokens<'t> {
         self.rest.next()
     }
 
-    /// Takes a time stamp of a log, if there is one: microseconds.
+    /// Takes a time stamp of a log, if the rest begins with one: microseconds.
     pub(crate) fn stamp(&mut self) -> Option<u64> {
         stamp::take(&mut self.rest)
     }
 
-    /// Takes the next word if it is this one.
+    /// Takes the next word if it equals this one.
     pub(crate) fn take(&mut self, word: &str) -> bool {
         let here = self.peek() == word;
         if here {
@@ -73,7 +73,7 @@ impl<'t> Tokens<'t> {
         here
     }
 
-    /// Splits off what begins with the first of these words.
+    /// Splits off the part that begins with the first of these words.
     pub(crate) fn split_at_word(&mut self, keywords: &[&str]) -> Self {
         let mut head = *self;
         let mut quoted = false;
@@ -89,7 +89,7 @@ impl<'t> Tokens<'t> {
         head
     }
 
-    /// Splits the last word off.
+    /// Splits off the last word.
     pub(crate) fn split_last(&mut self) -> Self {
         let at = self
             .rest
@@ -103,8 +103,8 @@ impl<'t> Tokens<'t> {
         last
     }
 
-    /// Splits at the first of these signs that is not quoted, and drops it: what is before it,
-    /// and which sign it is. A sign of letters is a word of its own.
+    /// Splits at the first of these signs outside quotes and drops it. Returns the part before it, and
+    /// the sign. A sign of letters is a word of its own.
     pub(crate) fn split_at_sign<T: Copy>(&mut self, signs: &[(&str, T)]) -> Option<(Self, T)> {
         let mut quoted = false;
         let mut before = ' ';
@@ -116,7 +116,7 @@ impl<'t> Tokens<'t> {
                 let is_word = || before.is_whitespace() && rest[sign.len()..].starts_with(' ');
                 rest.starts_with(sign) && (!word || is_word())
             };
-            // Of `<` and `<=` the longer one.
+            // Of `<` and `<=` choose the longer one.
             let found = signs.iter().filter(|(sign, _)| !quoted && is_here(sign));
             if let Some((sign, meaning)) = found.max_by_key(|(sign, _)| sign.len()) {
                 let mut head = *self;
@@ -130,12 +130,12 @@ impl<'t> Tokens<'t> {
         None
     }
 
-    /// Splits at the first `=` that is not quoted.
+    /// Splits at the first `=` outside quotes.
     pub(crate) fn split_at_equals(&mut self) -> Option<Self> {
         self.split_at_sign(&[("=", ())]).map(|(head, ())| head)
     }
 
-    /// All that is left, which is then taken.
+    /// Takes the whole rest.
     pub(crate) fn take_rest(&mut self) -> Self {
         self.split_at_word(&[])
     }
@@ -149,19 +149,19 @@ impl<'t> Tokens<'t> {
         }
     }
 
-    /// A mistake at the front; how the line is written is added from the table of verbs.
+    /// A mistake at the front; the table of verbs adds the syntax.
     pub(crate) fn wrong(&self, message: impl Into<String>) -> Problem {
         self.problem(message, "")
     }
 
-    /// A mistake in a frame that begins at the front.
+    /// A mistake in a frame at the front.
     pub(crate) fn frame_problem(&self, error: &candump::Error) -> Problem {
         let mut problem = self.problem(error.message.clone(), error.help);
         problem.column += error.column - 1;
         problem
     }
 
-    /// Nothing may be left.
+    /// Checks that nothing is left.
     pub(crate) fn end(&self) -> Result<(), Problem> {
         if self.is_empty() {
             return Ok(());
@@ -172,7 +172,7 @@ impl<'t> Tokens<'t> {
         ))
     }
 
-    /// One word of a table, and its meaning.
+    /// A word of a table, and its meaning.
     pub(crate) fn one_of<T: Copy>(
         &mut self,
         what: &str,
@@ -191,7 +191,7 @@ impl<'t> Tokens<'t> {
         Err(here.problem(message, format!("write {names}")))
     }
 
-    /// Does a number begin here, whether it fits or not?
+    /// Returns whether a number begins here, even one that is too large.
     pub(crate) fn at_number(&self) -> bool {
         let word = self.peek();
         word.strip_prefix('-')
@@ -199,12 +199,12 @@ impl<'t> Tokens<'t> {
             .starts_with(|c: char| c.is_ascii_digit())
     }
 
-    /// A moment or a duration of this line, `None` where it is past counting.
+    /// A moment or a duration in this line; `None` if it is too large to count.
     pub(crate) fn limited(&self, micros: Option<u64>) -> Result<u64, Problem> {
         self.within(self.peek(), micros)
     }
 
-    /// The turns of a line must not take longer, either.
+    /// Checks that the repetitions of a line do not take longer, either.
     pub(crate) fn limited_turns(&self, times: u32, every: u64) -> Result<(), Problem> {
         let micros = every.checked_mul(u64::from(times));
         self.within(&format!("{times} times"), micros).map(|_| ())
@@ -258,7 +258,7 @@ impl<'t> Tokens<'t> {
     }
 }
 
-/// Digits with at most one point among them, as many as there are.
+/// Digits with at most one decimal point, as many as there are.
 pub(crate) fn is_decimal(text: &str) -> bool {
     text.matches('.').count() <= 1
         && text.bytes().any(|byte| byte.is_ascii_digit())

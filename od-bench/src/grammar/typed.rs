@@ -12,12 +12,12 @@ use super::problem::Problem;
 use super::tokens::Tokens;
 use crate::device::VirtualDevice;
 
-/// A frame as a line names it; its bytes may depend on the present device.
+/// A frame by name; its bytes may depend on the current device.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Typed {
-    /// As its identifier and bytes.
+    /// By its identifier and bytes.
     Frame(Frame),
-    /// To a node, 0 for all; `None`: to the present device.
+    /// NMT command to a node, 0 for all; `None`: to the current device.
     Nmt(Command, Option<u8>),
     /// Node guarding request.
     Guard,
@@ -32,25 +32,25 @@ pub enum Typed {
 pub struct Write {
     /// Address or name.
     pub object: String,
-    /// As it is written.
+    /// The text as written.
     pub value: String,
-    /// The type of `as u16` …; `None`: that of the object.
+    /// The type in `as u16` …; `None`: that of the object.
     pub data_type: Option<DataType>,
 }
 
 impl Typed {
-    /// The frame, for this device.
+    /// Returns the frame for this device.
     ///
     /// # Errors
-    /// As [`frame`](Self::frame).
+    /// Like [`frame`](Self::frame).
     pub(crate) fn of(&self, device: &VirtualDevice) -> Result<Frame, String> {
         self.frame(device.node_id(), device.dictionary())
     }
 
-    /// The frame, for a node with this dictionary.
+    /// Returns the frame for a node with this dictionary.
     ///
     /// # Errors
-    /// The object does not exist, or the value is not valid.
+    /// The object does not exist, or the value is invalid.
     pub fn frame(&self, node: NodeId, dictionary: Dictionary<'_>) -> Result<Frame, String> {
         let request = match self {
             Self::Frame(frame) => return Ok(*frame),
@@ -91,10 +91,10 @@ impl Typed {
 }
 
 impl Write {
-    /// Returns the address and the bytes of a value that the device takes, typed by its dictionary.
+    /// Returns the address and the bytes of a value for the device, with the type from its dictionary.
     ///
     /// # Errors
-    /// The object does not exist, or the value is not valid.
+    /// The object does not exist, or the value is invalid.
     pub(crate) fn own(&self, dictionary: Dictionary<'_>) -> Result<(Address, Vec<u8>), String> {
         let entry = values::find(dictionary, &self.object)?;
         let bytes = values::parse(entry.data_type, &self.value);
@@ -106,7 +106,7 @@ impl Write {
     /// Returns the address and the bytes to write.
     ///
     /// # Errors
-    /// Reason why it cannot be written.
+    /// Reason why the value cannot be written.
     pub fn bytes(&self, dictionary: Dictionary<'_>) -> Result<(Address, Vec<u8>), String> {
         let (address, own) = resolve(dictionary, &self.object)?;
         let data_type = self.data_type.or(own).unwrap_or(DataType::Unsigned32);
@@ -114,7 +114,7 @@ impl Write {
     }
 }
 
-/// An object by address, whether the dictionary has it or not, or by name.
+/// Returns an object by address, even if the dictionary lacks it, or by name.
 ///
 /// # Errors
 /// The object does not exist.

@@ -1,4 +1,4 @@
-//! The table of verbs: the first word of a line, how the line is written, and how it is read.
+//! The table of verbs: the first word of a line, its syntax, and its reader.
 
 use std::prelude::v1::*;
 
@@ -22,7 +22,7 @@ pub(super) struct Verb {
     pub(super) parse: fn(&mut Tokens<'_>) -> Result<Action, Problem>,
 }
 
-/// Every verb, in the order of messages.
+/// All verbs, in the order of messages.
 #[rustfmt::skip]
 pub(super) const VERBS: [Verb; 20] = [
     Verb { name: "device", parse: device,
@@ -221,7 +221,7 @@ fn expect(tokens: &mut Tokens<'_>) -> Result<Expect, Problem> {
     })
 }
 
-/// A frame, then `N times`, `within D`, `after D`, `every D`.
+/// Reads a frame, then `N times`, `within D`, `after D`, `every D`.
 fn repeated<'t>(tokens: &mut Tokens<'t>) -> Result<(Tokens<'t>, u32, Timing), Problem> {
     let mut head = tokens.split_at_word(&["times", "within", "after", "every"]);
     let mut times = 1;

@@ -1,4 +1,4 @@
-//! Lines about the world outside the bus: devices, their shafts and switches, faults, the bus line.
+//! Lines about everything outside the bus: devices, their shafts and switches, faults, the bus line.
 
 use std::format;
 use std::prelude::v1::*;
@@ -31,7 +31,7 @@ pub(super) fn device(tokens: &mut Tokens<'_>) -> Result<Action, Problem> {
     };
     while !tokens.is_empty() {
         if tokens.take("node") {
-            // One for each channel.
+            // One node ID for each channel.
             added.nodes.clear();
             while added.nodes.is_empty() || tokens.at_number() {
                 let id = tokens.number(1, 127)? as u8;
@@ -85,8 +85,8 @@ pub(super) fn shaft(tokens: &mut Tokens<'_>) -> Result<Action, Problem> {
     let Some(value) = number.filter(|value: &f64| value.is_finite()) else {
         return Err(here.wrong("the number is missing"));
     };
-    // Far and fast enough for the ends of what an encoder counts: 2²⁹ revolutions with a gear,
-    // 2³¹ steps per second. An angle ends at 2³¹ revolutions, a speed at 2³¹ thousandths.
+    // The limits of an encoder's counters are within these: 2²⁹ revolutions with a gear, 2³¹ steps per
+    // second. An angle is limited to 2³¹ revolutions, a speed to 2³¹ thousandths.
     let limit = if what == "turn" { 1e9 } else { 2e6 };
     if value.abs() > limit {
         let help = format!("the limit is {limit}");
@@ -162,7 +162,7 @@ pub(super) fn emcy(tokens: &mut Tokens<'_>) -> Result<Action, Problem> {
     }))
 }
 
-/// One to five bytes in hexadecimal; the others are 0.
+/// Reads one to five bytes in hexadecimal; the others are 0.
 fn bytes(tokens: &mut Tokens<'_>) -> Result<[u8; 5], Problem> {
     let mut bytes = [0; 5];
     for (at, byte) in bytes.iter_mut().enumerate() {
@@ -203,7 +203,7 @@ pub(super) fn wire(tokens: &mut Tokens<'_>) -> Result<Action, Problem> {
     })))
 }
 
-/// In kbit/s, or `any`.
+/// Reads a bit rate in kbit/s, or `any`.
 fn bit_rate(tokens: &mut Tokens<'_>) -> Result<Option<u16>, Problem> {
     if tokens.take("any") {
         Ok(None)

@@ -1,4 +1,4 @@
-//! The bus in real time: what clients send, what devices send, and the clock.
+//! The bus in real time: bytes of clients, frames of devices, and the clock.
 
 use std::io::{self, ErrorKind};
 use std::sync::Arc;
@@ -27,9 +27,9 @@ use crate::notice;
 use crate::script::Console;
 use crate::words::plural;
 
-/// Most bytes of one client that the bus takes in its turn.
+/// Limit of bytes that the bus takes from one client in a turn.
 const TURN: usize = 4 * 1024;
-/// Turns before the frames of all go out.
+/// Turns after which the frames of all clients are sent.
 const ROUND: usize = 4;
 
 /// The bus in real time.
@@ -43,17 +43,17 @@ pub(super) struct Live {
     /// Log file of the bus.
     pub(super) log: Option<Log>,
     stopped: Arc<AtomicBool>,
-    /// The client whose bytes are carried out.
+    /// The client whose bytes are being handled.
     cause: Option<usize>,
-    /// Links with a client of their own that are left.
+    /// Number of links with a client of their own that are still open.
     links: usize,
     /// Reason why the last link was lost.
     lost: Option<String>,
 }
 
 impl Live {
-    /// Devices get power. What they send waits until the bench [runs](Self::run), so that every
-    /// link hears it that is there by then.
+    /// Switches the devices on. Their frames wait until the bench [runs](Self::run), so that every
+    /// link that exists by then receives them.
     pub(super) fn new(
         places: Vec<Place>,
         clients: Clients,
@@ -85,7 +85,7 @@ impl Live {
         live
     }
 
-    /// Another link.
+    /// Adds a link.
     pub(super) fn add(&mut self, link: Opened) -> io::Result<()> {
         match link {
             Opened::Listener(protocol, listener, _) => {
@@ -133,7 +133,7 @@ impl Live {
         self.stopped.load(Ordering::Relaxed)
     }
 
-    /// Sends the last lines to the clients that wait for them.
+    /// Sends the last lines to the clients.
     fn finish(&mut self) -> io::Result<()> {
         self.flush();
         while self.clients.console_waits() && !self.is_stopped() {
@@ -160,8 +160,8 @@ impl Live {
         all.into_iter().flatten().min()
     }
 
-    /// The bus catches up with the clock, and what devices send goes out. A bus that is late, since
-    /// the computer slept or is too slow, must not send at once all that it has missed.
+    /// Runs the bus up to the present time and sends the frames of the devices. A bus that is late,
+    /// because the computer slept or is too slow, must not send all missed frames at once.
     pub(super) fn catch_up(&mut self) {
         let clock = Clock::now();
         let before = self.bench.bus.now();
@@ -188,7 +188,7 @@ impl Live {
         events(&mut self.bench, |_| true);
     }
 
-    /// Lets codecs and the console do what is due.
+    /// Lets codecs and the console do the work that is due.
     fn wake(&mut self) {
         let now = self.bench.bus.now();
         let stamp = self.pace.stamp(now);
@@ -207,14 +207,14 @@ impl Live {
         self.run_control();
     }
 
-    /// Sends what waits for clients.
+    /// Sends the bytes that wait for clients.
     fn flush(&mut self) {
         for (number, error) in self.clients.flush() {
             self.end(number, Some(error));
         }
     }
 
-    /// A frame for every client but the one it is from.
+    /// Sends a frame to every client except its sender.
     fn pass_on(&mut self, frame: &Frame, at: Instant, from: Option<usize>) {
         let stamp = self.pace.stamp(at);
         self.stats.frame(frame, from, self.cause);
@@ -224,8 +224,8 @@ impl Live {
         self.clients.hear(frame, (at, stamp), from, self.cause);
     }
 
-    /// Everybody who has sent something gets a turn, as far as this round has room. Then others may
-    /// come: who has left already makes room for them.
+    /// Gives a turn to each client that has sent something, within the limit of this round. After that
+    /// new clients are accepted: clients that have left make room for them.
     fn turns(&mut self) {
         let mut turns = 0;
         for number in self.clients.ready() {
@@ -246,8 +246,8 @@ impl Live {
         }
     }
 
-    /// The turn of one client, to the end of what it has sent or of its room. Returns whether that
-    /// was something.
+    /// Handles the bytes of one client, until there are no more or its limit is reached. Returns whether
+    /// there were any.
     fn turn(&mut self, number: usize) -> bool {
         let mut buffer = [0; TURN];
         let mut room = self.clients.turn().min(TURN);
@@ -264,7 +264,7 @@ impl Live {
             (has_sent, room) = (true, room - len);
             self.receive(number, &buffer[..len]);
         }
-        // Its answers go out before the next turn.
+        // Its answers are sent before the next turn.
         let flushed = self.clients.get(number).map(|client| client.flush());
         if let Some(Err(error)) = flushed {
             self.end(number, Some(error));
@@ -289,7 +289,7 @@ impl Live {
         self.steps(number, steps);
     }
 
-    /// A client has sent everything; with an `error`, it also hears no more.
+    /// A client has sent everything; with an `error`, it also receives nothing more.
     fn end(&mut self, number: usize, error: Option<io::Error>) {
         let Some(client) = self.clients.get(number) else {
             return;
@@ -325,7 +325,7 @@ impl Live {
         }
         self.links -= usize::from(is_first);
         self.lost = match (protocol, error) {
-            // A reader that left is not an error.
+            // A reader that closed its end is not an error.
             (Protocol::Lines, None) => None,
             (Protocol::Lines, Some(error)) if error.kind() == ErrorKind::BrokenPipe => None,
             (_, error) => {
@@ -336,7 +336,7 @@ impl Live {
         };
     }
 
-    /// Carries out a client's bytes, one input after the other.
+    /// Handles the bytes of a client, one input after the other.
     fn steps(&mut self, number: usize, steps: Vec<Step>) {
         self.cause = Some(number);
         for step in steps {
@@ -358,7 +358,7 @@ impl Live {
         self.cause = None;
     }
 
-    /// A line of a client; one that was disconnected has no more to say.
+    /// Handles a line of a client; lines of a disconnected client are ignored.
     fn line(&mut self, number: usize, text: &str) {
         let protocol = self.clients.get(number).map(|client| client.protocol);
         match protocol {
@@ -374,9 +374,9 @@ impl Live {
         }
     }
 
-    /// Lines of the console whose moment has come.
+    /// Runs the lines of the console that are due.
     fn run_console(&mut self) {
-        // The console itself does not hear what it sends; the others do.
+        // Other clients receive frames of the console; the console itself does not.
         let mut clients = self.clients.all();
         let console = clients.find(|client| client.protocol == Protocol::Lines);
         let console = console.map(|client| client.number);
@@ -390,7 +390,7 @@ impl Live {
         }
     }
 
-    /// A frame from outside, and what it brings about.
+    /// Puts a frame from outside on the bus, with its effects.
     pub(super) fn frame(&mut self, frame: &Frame, from: Option<usize>) {
         self.bench.bus.receive(frame);
         let now = self.bench.bus.now();

@@ -1,4 +1,4 @@
-//! A log file of the bus, on a thread of its own: no disk stops the bus.
+//! A log file of the bus, with a thread of its own, so that a slow disk never stops the bus.
 
 use std::fs::{File, OpenOptions};
 use std::io::{Seek, Write};
@@ -15,28 +15,28 @@ use super::terminal::note;
 use crate::logs::{Format, Record, What};
 use crate::words::plural;
 
-/// Records that wait for the disk; more are left out.
+/// Limit of records that wait for the disk; further ones are left out.
 const WAITING: usize = 65_536;
-/// A record waits no longer than this for the disk.
+/// Longest time that a record waits before it is written.
 const PATIENCE: Duration = Duration::from_millis(250);
-/// Bytes that are written at once at most.
+/// Limit of bytes in one write.
 const PIECE: usize = 64 * 1024;
-/// The end of the program waits no longer than this for the disk.
+/// Longest time that the end of the program waits for the disk.
 const FAREWELL: Duration = Duration::from_secs(5);
 
 /// A log file that grows.
 pub(super) struct Log {
     records: Option<SyncSender<Record>>,
-    /// Disconnects when all is written.
+    /// It disconnects when everything is written.
     done: Receiver<()>,
     name: String,
     left_out: usize,
 }
 
-/// Format of a log file by its name: pcapng, else candump.
+/// Chooses the format of a log file by its name: pcapng, otherwise candump.
 ///
 /// # Errors
-/// The name is that of another format.
+/// The name belongs to another format.
 pub(super) fn format(path: &Path) -> Result<Format, String> {
     let ending = path.extension().unwrap_or_default().to_string_lossy();
     let format = Format::of_ending(&ending.to_ascii_lowercase()).unwrap_or(Format::Candump);
@@ -48,10 +48,10 @@ pub(super) fn format(path: &Path) -> Result<Format, String> {
 }
 
 impl Log {
-    /// Begins an empty file.
+    /// Creates an empty file.
     ///
     /// # Errors
-    /// It cannot be written.
+    /// The file cannot be written.
     pub(super) fn create(path: &Path) -> Result<Self, Failure> {
         let name = path.display().to_string();
         let failed = |why: String| Failure::Failed(format!("--log {name}: {why}"));
@@ -84,7 +84,7 @@ impl Log {
         })
     }
 
-    /// A frame at a time of day in microseconds.
+    /// Adds a frame with its time of day in microseconds.
     pub(super) fn add(&mut self, stamp: u64, frame: &Frame) {
         let record = Record {
             at: Instant::from_micros(stamp),
@@ -105,13 +105,13 @@ impl Log {
                 }
                 self.left_out += 1;
             }
-            // The thread has told why.
+            // The thread has already reported the reason.
             Some(Err(TrySendError::Disconnected(_))) => self.records = None,
             _ => {}
         }
     }
 
-    /// Waits until all is written, as long as a disk may take.
+    /// Waits until everything is written, up to a time limit.
     pub(super) fn finish(mut self) {
         self.records = None;
         let _ = self.done.recv_timeout(FAREWELL);
@@ -133,7 +133,7 @@ fn is_pipe(_: &Path) -> bool {
     false
 }
 
-/// Writes what comes until nothing more can.
+/// Writes records until the channel is closed.
 fn write(mut file: File, format: Format, records: &Receiver<Record>) -> std::io::Result<()> {
     let mut bytes = format.head();
     let mut due = Some(Clock::now());
@@ -159,7 +159,7 @@ fn write(mut file: File, format: Format, records: &Receiver<Record>) -> std::io:
     }
 }
 
-/// Writes records behind the first `written` bytes. If there is room for a part of them only, the file
+/// Writes records after the first `written` bytes. If only some of them fit on the disk, the file
 /// ends with the last whole record.
 fn write_whole(
     file: &mut File,
@@ -183,7 +183,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_name_says_the_format() {
+    fn the_name_decides_the_format() {
         for (name, expected) in [
             ("a.log", Some(Format::Candump)),
             ("a", Some(Format::Candump)),

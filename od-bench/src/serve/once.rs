@@ -1,9 +1,9 @@
-//! The long hint at the start: once in each session of a terminal.
+//! Shows the long hint of the start once in each session of a terminal.
 
 use std::io::IsTerminal;
 
-/// Whether the hint is to be printed: not to a terminal that has seen it, but always to a pipe.
-/// `to_error`: it goes to standard error.
+/// Returns whether to print the hint: once per session of a terminal, and always to a pipe.
+/// `to_error`: it is printed to standard error.
 pub(super) fn is_due(to_error: bool) -> bool {
     let is_terminal = if to_error {
         std::io::stderr().is_terminal()
@@ -13,7 +13,7 @@ pub(super) fn is_due(to_error: bool) -> bool {
     !is_terminal || begin(stamp().as_deref())
 }
 
-/// Leaves a stamp; `false` if it is there already. Without a place for it every time is the first.
+/// Leaves a stamp; `false` if it exists already. Without a folder for stamps the hint is always shown.
 fn begin(stamp: Option<&std::path::Path>) -> bool {
     let Some(stamp) = stamp else {
         return true;
@@ -25,13 +25,13 @@ fn begin(stamp: Option<&std::path::Path>) -> bool {
     !created.is_err_and(|error| error.kind() == std::io::ErrorKind::AlreadyExists)
 }
 
-/// A file for this session: by the process that leads it, and when that one was started.
+/// The stamp file of this session, named after its leading process and the start time of that process.
 #[cfg(unix)]
 fn stamp() -> Option<std::path::PathBuf> {
     let leader = nix::unistd::getsid(None).ok()?;
     let user = nix::unistd::Uid::current();
     let status = std::fs::read_to_string(format!("/proc/{leader}/stat")).unwrap_or_default();
-    // The name of the program is in parentheses, with any characters; field 22 is the start.
+    // The program name is in parentheses and may contain any characters; field 22 is the start time.
     let rest = status.rsplit(')').next().unwrap_or_default();
     let start = rest.split_whitespace().nth(19).unwrap_or("0");
     let folder = std::env::var_os("XDG_RUNTIME_DIR").map(std::path::PathBuf::from);
@@ -50,7 +50,7 @@ mod tests {
     use super::begin;
 
     #[test]
-    fn a_hint_is_due_once_where_it_can_be_noted() {
+    fn a_hint_is_shown_once_where_a_stamp_can_be_left() {
         let stamp = std::env::temp_dir().join(format!("odkit-once-{}", std::process::id()));
         assert!(begin(Some(&stamp)));
         assert!(!begin(Some(&stamp)));

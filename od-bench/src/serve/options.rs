@@ -17,15 +17,15 @@ pub struct Options {
     pub node_ids: Vec<Option<NodeId>>,
     /// Serial number of each device (1018h:04), in their order.
     pub serials: Vec<u32>,
-    /// Links for masters; none: slcan on port 29536 of this computer.
+    /// Links for masters; without any, slcan on port 29536 of this computer.
     pub links: Vec<Link>,
-    /// Origins of pages that may use a WebSocket, beside those of this computer.
+    /// Origins of pages that may use a WebSocket, besides those of this computer.
     pub origins: Vec<String>,
-    /// Bytes for each string and DOMAIN that masters write, of devices of files.
+    /// Space for each string and DOMAIN that masters write, in bytes, in devices that a file describes.
     pub domain_size: u32,
-    /// File with the EEPROM of each device, in their order; in memory if a file is missing.
+    /// EEPROM file of each device, in their order; a device without one keeps its EEPROM in memory.
     pub eeproms: Vec<PathBuf>,
-    /// Those files start erased.
+    /// Erase the EEPROM files at the start.
     pub eeprom_reset: bool,
     /// Raw position of the shaft at the start, in steps.
     pub position: Option<u64>,
@@ -35,15 +35,15 @@ pub struct Options {
     pub seed: Option<u64>,
     /// Bit rate in the connection lines of the greeting, in bit/s.
     pub bitrate: u32,
-    /// Most clients at a time that connect over TCP; further ones are refused.
+    /// Limit of TCP clients at a time; further ones are refused.
     pub max_clients: usize,
     /// Place of the control socket.
     pub control: Option<Place>,
     /// Log file of the bus: pcapng if its name ends in .pcapng, otherwise candump.
     pub log: Option<PathBuf>,
-    /// File that is there while the bench can be reached; `-`: a line on standard output.
+    /// File that exists while the bench can be reached; `-`: a line on standard output.
     pub ready_file: Option<PathBuf>,
-    /// No greeting and no news, only problems.
+    /// Print problems only, no greeting and no news.
     pub quiet: bool,
 }
 
@@ -70,7 +70,7 @@ impl Default for Options {
     }
 }
 
-/// One option as it is written: `--name VALUE`, or `--name` if its value is "".
+/// One option as written: `--name VALUE`, or `--name` if its value is "".
 #[derive(Debug)]
 pub struct Choice {
     /// Without the two dashes.
@@ -79,20 +79,20 @@ pub struct Choice {
     pub value: &'static str,
     /// Description, for help texts.
     pub help: &'static str,
-    /// Value without it, for help texts.
+    /// Value if the option is missing, for help texts.
     pub default: Option<&'static str>,
-    /// May be given again.
+    /// It may be repeated.
     pub repeats: bool,
-    /// The option that cannot be given beside it.
+    /// The option that excludes it.
     pub conflicts: Option<&'static str>,
     set: fn(&mut Options, &str) -> Result<(), Refused>,
 }
 
 impl Choice {
-    /// Puts a value into the options.
+    /// Stores a value in the options.
     ///
     /// # Errors
-    /// The problem of the value.
+    /// The value is invalid; the message says why.
     pub fn set(&self, options: &mut Options, value: &str) -> Result<(), Refused> {
         (self.set)(options, value)
     }
@@ -293,7 +293,7 @@ pub const CHOICES: [Choice; 17] = [
 /// Reads a node ID.
 ///
 /// # Errors
-/// It is not 1 to 127.
+/// The number is not 1 to 127.
 pub fn node_id(text: &str) -> Result<NodeId, Refused> {
     let number = values::integer(text).and_then(|value| u8::try_from(value).ok());
     let node = number.and_then(NodeId::new);
@@ -310,7 +310,7 @@ fn number<T: std::str::FromStr<Err: std::fmt::Display>>(text: &str) -> Result<T,
         .map_err(|error: T::Err| error.to_string().into())
 }
 
-/// Reads the arguments of a program that has these options and no other.
+/// Reads the arguments of a program with exactly these options.
 ///
 /// # Errors
 /// The argument that is wrong, and why.

@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 use std::time::{Duration, Instant as Clock};
 
-/// Pause after a message that a client has to read separately.
+/// Pause after a message that the client has to read separately.
 const PAUSE: Duration = Duration::from_millis(100);
 /// An empty queue keeps this much memory, in bytes.
 const KEPT: usize = 64 * 1024;
@@ -12,9 +12,9 @@ const KEPT: usize = 64 * 1024;
 #[derive(Debug, Default)]
 pub(super) struct Outbox {
     bytes: Vec<u8>,
-    /// Bytes at the front of `bytes` that are written.
+    /// Number of bytes at the front of `bytes` that are already written.
     start: usize,
-    /// Places of pauses, counted from the first byte ever written.
+    /// Positions of pauses, counted from the first byte ever written.
     pauses: VecDeque<u64>,
     written: u64,
     /// Nothing is written before this moment.
@@ -39,12 +39,12 @@ impl Outbox {
         self.bytes.extend_from_slice(bytes);
     }
 
-    /// A pause after what was pushed so far.
+    /// Adds a pause after the bytes so far.
     pub(super) fn pause(&mut self) {
         self.pauses.push_back(self.written + self.len() as u64);
     }
 
-    /// Bytes that may be written now.
+    /// The bytes that may be written now.
     pub(super) fn next(&mut self, now: Clock) -> &[u8] {
         if self.resting.is_some_and(|until| now < until) {
             return &[];
@@ -57,7 +57,7 @@ impl Outbox {
         }
     }
 
-    /// The first `count` bytes of [`next`](Self::next) are written.
+    /// Marks the first `count` bytes of [`next`](Self::next) as written.
     pub(super) fn wrote(&mut self, count: usize, now: Clock) {
         self.start += count;
         self.written += count as u64;
@@ -72,12 +72,12 @@ impl Outbox {
         }
     }
 
-    /// Nothing is to be written before this moment.
+    /// Writes nothing before this moment.
     pub(super) fn rest(&mut self, until: Clock) {
         self.resting = Some(until);
     }
 
-    /// Time when the rest ends; `None`: nothing waits for that.
+    /// The end of the pause; `None`: no bytes wait for it.
     pub(super) fn deadline(&self) -> Option<Clock> {
         self.resting.filter(|_| !self.is_empty())
     }
@@ -109,7 +109,7 @@ mod tests {
     }
 
     #[test]
-    fn an_empty_queue_gives_its_memory_back() {
+    fn an_empty_queue_frees_its_memory() {
         let now = Clock::now();
         let mut outbox = Outbox::default();
         let line = [b'0'; 1024];

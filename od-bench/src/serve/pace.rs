@@ -1,28 +1,28 @@
-//! The time of the bus beside the time of the computer.
+//! Relates the time of the bus to the time of the computer.
 
 use std::time::{Duration, Instant as Clock, SystemTime};
 
 use od_runtime::Instant;
 
-/// A bus that is later than this goes on from now: it makes up for nothing.
+/// A bus that is later than this continues from now and does not catch up.
 pub(super) const LATE: Duration = Duration::from_millis(50);
-/// Lateness within this time after an earlier one is not told again: the computer is too slow, and that
-/// is known.
+/// A delay within this time after an earlier one is not reported again: the user already knows that the
+/// computer is too slow.
 const AGAIN: Duration = Duration::from_secs(1);
-/// No slow computer is that late; this is always told.
+/// A delay of this length is always reported: no slow computer causes it.
 const LONG: Duration = Duration::from_millis(500);
 
-/// The time of the bus: that of the computer, without the times in which the process did not run.
+/// The time of the bus: that of the computer, without the times when the process did not run.
 pub(super) struct Pace {
     start: Clock,
     /// Time of day at the start of the bus, in microseconds.
     epoch: u64,
-    /// Time when the bus was late the last time.
+    /// Time of the last delay.
     last: Option<Clock>,
 }
 
 impl Pace {
-    /// Time begins now.
+    /// Starts the time now.
     pub(super) fn new() -> Self {
         let epoch = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH);
         Self {
@@ -42,8 +42,8 @@ impl Pace {
         self.epoch + at.as_micros()
     }
 
-    /// Shifts the time of the bus so that it is `due` at `clock`, if it were late otherwise. Returns
-    /// how late it was, if that has to be reported.
+    /// Shifts the time of the bus so that it is `due` at `clock`, if it would be late otherwise. Returns
+    /// the delay if it has to be reported.
     pub(super) fn shift(&mut self, due: Instant, clock: Clock) -> Option<Duration> {
         let late = self.at(clock) - due;
         if late <= LATE {
@@ -62,7 +62,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_late_is_not_made_up_for() {
+    fn a_late_bus_does_not_catch_up() {
         let mut pace = Pace::new();
         let after = |millis| pace_start() + Duration::from_millis(millis);
         fn pace_start() -> Clock {
@@ -73,11 +73,11 @@ mod tests {
         let millis = |millis: u64| Instant::from_micros(millis * 1000);
         let day = pace.stamp(millis(100));
         assert_eq!(pace.at(after(100)), millis(100));
-        // 50 ms are not late, and a bus without anything due never is.
+        // 50 ms are no delay, and a bus with nothing due is never late.
         assert_eq!(pace.shift(millis(100), after(150)), None);
         assert_eq!(pace.shift(millis(900), after(700)), None);
         assert_eq!(pace.at(after(150)), millis(150));
-        // A delay of 5 s is reported, once.
+        // A delay of 5 s is reported once.
         let late = Some(Duration::from_secs(5));
         assert_eq!(pace.shift(millis(100), after(5100)), late);
         assert_eq!(pace.at(after(5100)), millis(100));

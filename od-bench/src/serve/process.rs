@@ -1,12 +1,12 @@
-//! Processes: which one a number means, and what limits ours.
+//! Processes: whether one still runs, and the file-size limit of this one.
 
-/// Returns the start of a process; `None`: it does not run, or the system does not say.
+/// Returns the start time of a process; `None`: it does not run, or the system does not tell.
 ///
-/// In clock ticks since the computer started, as `/proc/PID/stat` has it.
+/// In clock ticks since the start of the computer, from `/proc/PID/stat`.
 #[cfg(target_os = "linux")]
 pub(super) fn started(process: u32) -> Option<u64> {
     let status = std::fs::read_to_string(format!("/proc/{process}/stat")).ok()?;
-    // The name of a program may have blanks and parentheses; the start is the 22nd field.
+    // A program name may contain blanks and parentheses; the start time is field 22.
     let (_, fields) = status.rsplit_once(')')?;
     fields.split_whitespace().nth(19)?.parse().ok()
 }
@@ -16,7 +16,7 @@ pub(super) fn started(_: u32) -> Option<u64> {
     None
 }
 
-/// Returns whether the process runs that had this number and this start; 0: its start is not known.
+/// Returns whether the process with this number and start time still runs; 0: its start time is unknown.
 pub(super) fn runs(process: u64, start: u64) -> bool {
     let Some(number) = u32::try_from(process).ok().filter(|number| *number > 0) else {
         return false;
@@ -26,7 +26,7 @@ pub(super) fn runs(process: u64, start: u64) -> bool {
 
 #[cfg(unix)]
 fn is_there(process: u32) -> bool {
-    // No signal: only whether one could be sent.
+    // Signal 0 sends nothing: it only tests whether a signal could be sent.
     let id = i32::try_from(process).map(nix::unistd::Pid::from_raw);
     id.is_ok_and(|id| nix::sys::signal::kill(id, None).is_ok())
 }
@@ -36,8 +36,8 @@ fn is_there(_: u32) -> bool {
     true
 }
 
-/// Makes a write beyond the limit of `ulimit -f` an error, which is a message, instead of a signal,
-/// which ends the process. For this thread and those that it starts.
+/// Turns a write beyond the limit of `ulimit -f` into an error with a message, instead of a signal
+/// that ends the process. It applies to this thread and the threads that it starts.
 #[cfg(unix)]
 pub(super) fn survive_file_limit() {
     use nix::sys::signal::{SigSet, Signal};
@@ -55,7 +55,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_process_is_a_number_and_a_start() {
+    fn a_process_is_identified_by_number_and_start_time() {
         let own = std::process::id();
         let start = started(own).unwrap_or(0);
         assert!(runs(own.into(), start) && runs(own.into(), 0));

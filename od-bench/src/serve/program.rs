@@ -1,4 +1,4 @@
-//! The program of a crate with a device of its own.
+//! The `main` of a crate with a device of its own.
 
 use std::process::ExitCode;
 

@@ -1,4 +1,4 @@
-//! One line of JSON for the program that started the bench, when everything listens.
+//! Writes one line of JSON for the program that started the bench, when all links are open.
 
 use std::fs;
 use std::io::Write;
@@ -13,18 +13,18 @@ use super::links::opened::{Opened, Protocol};
 use super::process;
 use crate::bus::Bus;
 
-/// A file that is there while the bench can be reached.
+/// A file that exists while the bench can be reached.
 pub(super) struct Ready {
     path: PathBuf,
-    /// Content that was written; empty before.
+    /// Written content; empty before.
     written: String,
 }
 
 impl Ready {
-    /// Removes what an earlier bench left.
+    /// Removes the file of an earlier bench.
     ///
     /// # Errors
-    /// The path is that of something else.
+    /// The path belongs to another kind of file.
     pub(super) fn at(path: &Path) -> Result<Self, Failure> {
         let failed = |why: &str| Failure::Failed(format!("--ready-file {}: {why}", path.display()));
         match fs::symlink_metadata(path) {
@@ -46,10 +46,10 @@ impl Ready {
         })
     }
 
-    /// Writes the file whole: it is there with all of its content, or not at all.
+    /// Writes the file in one step, so that no reader sees a part of it.
     ///
     /// # Errors
-    /// It cannot be written.
+    /// The file cannot be written.
     pub(super) fn write(&mut self, line: &str) -> Result<(), Failure> {
         let path = &self.path;
         self.written = format!("{line}\n");
@@ -58,7 +58,7 @@ impl Ready {
         let _ = fs::remove_file(&new);
         let mut file = fs::OpenOptions::new();
         let file = file.write(true).create_new(true);
-        // Other users have no business with the ports of this one.
+        // Other users must not read the ports of this bench.
         #[cfg(unix)]
         std::os::unix::fs::OpenOptionsExt::mode(file, 0o600);
         let file = file.open(&new);
@@ -74,7 +74,7 @@ impl Ready {
 
 impl Drop for Ready {
     fn drop(&mut self) {
-        // Another bench may have put its own there.
+        // Another bench may have written its own file there.
         let is_own = |content: Vec<u8>| content == self.written.as_bytes();
         if !self.written.is_empty() && fs::read(&self.path).is_ok_and(is_own) {
             let _ = fs::remove_file(&self.path);
@@ -82,7 +82,7 @@ impl Drop for Ready {
     }
 }
 
-/// Returns whether a file is empty, or a report of a bench.
+/// Returns whether a file is empty or a report of a bench.
 fn is_ready_file(path: &Path) -> bool {
     let Some(head) = files::head(path) else {
         return path.metadata().is_ok_and(|file| file.len() == 0);
@@ -91,12 +91,12 @@ fn is_ready_file(path: &Path) -> bool {
     head["version"].is_u64() && head["pid"].is_u64() && head["links"].is_array()
 }
 
-/// Links with their ports and paths, nodes, control socket.
+/// Links with their ports and paths, nodes, and the control socket.
 #[derive(Serialize)]
 struct Report<'b> {
     version: u8,
     pid: u32,
-    /// Start of the process: with its number it names one process for good.
+    /// Start time of the process: with its number it identifies one process for ever.
     started: u64,
     links: Vec<Link>,
     nodes: Vec<Node<'b>>,
@@ -110,7 +110,7 @@ struct Link {
     place: Reached,
 }
 
-/// Address at which masters reach a link.
+/// The address for masters to reach a link.
 #[derive(Serialize)]
 #[serde(rename_all = "lowercase")]
 enum Reached {
@@ -129,7 +129,7 @@ struct Node<'b> {
     serial: u32,
 }
 
-/// The line for programs. Only the one that started the bench gets the tokens of its links: `with_tokens`.
+/// The line for programs. Only the program that started the bench gets the tokens of its links: `with_tokens`.
 pub(super) fn report(
     links: &[Opened],
     bus: &Bus,
@@ -175,6 +175,6 @@ fn link(link: &Opened, with_tokens: bool) -> Link {
 
 /// One line of JSON.
 pub(super) fn line(report: &impl Serialize) -> String {
-    // All maps of a report have text as keys, and NaN becomes null.
+    // This cannot fail: all maps of a report have text keys, and NaN becomes null.
     serde_json::to_string(report).expect("it has fields only")
 }

@@ -24,9 +24,9 @@ use super::{control, fleet, greeting, hangup, process, running, terminal};
 /// Puts the devices on a bus and runs it until Ctrl-C, or until its last link has ended.
 ///
 /// # Errors
-/// Options that cannot be met, what the system refuses, or a last link that is lost.
+/// Options that do not fit together, an error of the system, or the loss of the last link.
 pub fn run(makers: &[Maker<'_>], options: &Options) -> Result<(), Failure> {
-    // Before any thread: threads take it over.
+    // Set this before any thread starts, because threads inherit it.
     hangup::respect();
     process::survive_file_limit();
     if options.quiet {
@@ -47,7 +47,7 @@ pub fn run(makers: &[Maker<'_>], options: &Options) -> Result<(), Failure> {
     let stop = Arc::clone(&stopped);
     ctrlc::set_handler(move || {
         stop.store(true, Ordering::Relaxed);
-        // If the bus has ended already, so has the program.
+        // A bus that has ended ends the program.
         let _ = waker.wake();
     })
     .map_err(|error| Failure::Failed(format!("cannot handle Ctrl-C: {error}")))?;
@@ -84,7 +84,7 @@ pub fn run(makers: &[Maker<'_>], options: &Options) -> Result<(), Failure> {
     live.run()
 }
 
-/// Refuses an output that is the file of another option or of a device.
+/// Refuses an output file that another option or a device uses.
 fn check_files(makers: &[Maker<'_>], options: &Options) -> Result<(), Refused> {
     let mut files = Files::new();
     for path in makers.iter().flat_map(|maker| &maker.files) {
@@ -110,7 +110,7 @@ fn check_files(makers: &[Maker<'_>], options: &Options) -> Result<(), Refused> {
     Ok(())
 }
 
-/// Whether a path means standard output.
+/// Returns whether a path means standard output.
 fn is_output(path: &Path) -> bool {
     path.as_os_str() == "-"
 }

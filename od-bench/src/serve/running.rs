@@ -1,4 +1,4 @@
-//! Benches that run: each leaves its report where programs of the same user find it.
+//! Live benches: each leaves a report in a folder where programs of the same user look for it.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -8,10 +8,10 @@ use serde_json::Value;
 use super::process;
 use super::ready::Ready;
 
-/// Beginning of the files' names.
+/// Beginning of the file names.
 const NAME: &str = "odkit-sim-";
 
-/// Tells programs of this user that this bench runs; it does so until the value goes. `None`: the
+/// Reports this bench to programs of this user until the value is dropped. `None`: the
 /// file cannot be written.
 pub(super) fn enrol(report: &str) -> Option<Ready> {
     let path = folder().join(format!("{NAME}{}{}.json", user(), std::process::id()));
@@ -20,7 +20,7 @@ pub(super) fn enrol(report: &str) -> Option<Ready> {
     Some(ready)
 }
 
-/// The best link of each bench of this user that runs, as `--link` names it.
+/// The best link of each running bench of this user, in the form of `--link`.
 pub fn links() -> Vec<String> {
     let mut found = Vec::new();
     for entry in fs::read_dir(folder()).into_iter().flatten().flatten() {
@@ -33,7 +33,7 @@ pub fn links() -> Vec<String> {
             if process::runs(number("pid"), number("started")) {
                 found.extend(link(&report))
             } else {
-                // It was killed.
+                // Its process was killed.
                 drop(fs::remove_file(entry.path()))
             }
         }
@@ -58,7 +58,7 @@ fn link(report: &Value) -> Option<String> {
         .or_else(|| of("slcan", "path"))
 }
 
-/// A folder of this user, or the one for temporary files.
+/// A folder of this user, otherwise the folder for temporary files.
 fn folder() -> PathBuf {
     let folder = std::env::var_os("XDG_RUNTIME_DIR").map(PathBuf::from);
     let folder = folder.filter(|folder| folder.is_absolute() && folder.is_dir());
@@ -75,7 +75,7 @@ fn user() -> String {
     String::new()
 }
 
-/// Others can write into the folder for temporary files, too.
+/// Other users can write into the folder for temporary files, so check the owner.
 #[cfg(unix)]
 fn is_own(path: &Path) -> bool {
     use std::os::unix::fs::MetadataExt;

@@ -1,4 +1,4 @@
-//! Figures of a bench that runs: frames, load, and what each client sent.
+//! Figures of a live bench: frames, load, and the frames of each client.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -13,24 +13,24 @@ use crate::bus::Bus;
 use crate::device::VirtualDevice;
 use crate::words::plural;
 
-/// Load and frames per second are those of this time.
+/// Load and frames per second are measured over this time.
 const WINDOW: Duration = Duration::from_secs(1);
 
 /// Frames of a client.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Sent {
     pub(super) frames: u64,
-    /// SDO requests, and the aborts that answered them.
+    /// SDO requests, and the aborts in response to them.
     pub(super) requests: u64,
     pub(super) aborts: u64,
 }
 
-/// A client, for a report.
+/// A client in a report.
 pub(super) struct Guest<'c> {
     pub(super) number: usize,
     pub(super) name: &'c str,
     pub(super) protocol: &'static str,
-    /// Messages that odkit dropped since it does not read.
+    /// Messages that odkit dropped because the client does not read.
     pub(super) dropped: u64,
     /// Frames of its link that the system dropped before odkit read them.
     pub(super) missed: u64,
@@ -58,7 +58,7 @@ struct Node {
     state: String,
 }
 
-/// Frames that a client sent, and frames of the bus that it did not get.
+/// Frames that a client sent, and frames of the bus that it missed.
 #[derive(Serialize)]
 struct Traffic<'g> {
     name: &'g str,
@@ -73,11 +73,11 @@ struct Traffic<'g> {
 /// The figures.
 pub(super) struct Stats {
     start: Clock,
-    /// Bit rate of a bus that has none, in bit/s.
+    /// Bit rate for a bus without one, in bit/s.
     bit_rate: u32,
     pub(super) frames: u64,
     sent: BTreeMap<usize, Sent>,
-    /// The window that goes on, and the one before it: frames and bits.
+    /// The current window and the one before it: frames and bits.
     since: Clock,
     now: (u64, f64),
     before: (u64, f64),
@@ -97,7 +97,7 @@ impl Stats {
         }
     }
 
-    /// A frame of the bus; `from`: the client that sent it; `cause`: the one that brought it about.
+    /// Counts a frame of the bus. `from`: the client that sent it; `cause`: the client that caused it.
     pub(super) fn frame(&mut self, frame: &Frame, from: Option<usize>, cause: Option<usize>) {
         self.roll(Clock::now());
         self.frames += 1;
@@ -115,7 +115,7 @@ impl Stats {
         }
     }
 
-    /// A client has left.
+    /// Removes a client that has left.
     pub(super) fn forget(&mut self, client: usize) {
         self.sent.remove(&client);
     }
@@ -227,7 +227,7 @@ fn rounded(number: f64, parts: f64) -> f64 {
     (number * parts).round() / parts
 }
 
-/// Bits of a frame on the bus line, a tenth of them stuff bits.
+/// Bits of a frame on the bus line, with 10 % of stuff bits.
 fn bits(frame: &Frame) -> f64 {
     let head = if frame.id().is_extended() { 67 } else { 47 };
     let data = 8 * frame.data().len();

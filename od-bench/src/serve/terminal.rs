@@ -1,19 +1,19 @@
-//! Texts for the person at the terminal.
+//! Texts for the user at the terminal.
 
 use std::io::{self, ErrorKind, Write};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use od_model::Visible;
 
-/// News are not wanted.
+/// [`news`] prints nothing.
 static QUIET: AtomicBool = AtomicBool::new(false);
 
-/// Prints no [`news`] from now on.
+/// Makes [`news`] print nothing from now on.
 pub(super) fn be_quiet() {
     QUIET.store(true, Ordering::Relaxed);
 }
 
-/// As [`note`], for what goes as it should.
+/// Like [`note`], but for messages that are not problems.
 pub(super) fn news(line: &str) {
     if !QUIET.load(Ordering::Relaxed) {
         note(line);
@@ -25,7 +25,7 @@ pub(super) fn note(line: &str) {
     let _ = io::stderr().write_all(format!("{}\n", Visible(line).lines()).as_bytes());
 }
 
-/// Writes a line to standard output; a reader that left is not an error.
+/// Writes a line to standard output; a reader that closed its end is not an error.
 pub(super) fn print(line: &str) -> io::Result<()> {
     let mut output = io::stdout().lock();
     let written = writeln!(output, "{}", Visible(line).lines()).and_then(|()| output.flush());

@@ -1,4 +1,4 @@
-//! Events of a device in words, for the terminal.
+//! Describes events of a device in words, for the terminal.
 
 use od_runtime::Event;
 
@@ -6,7 +6,7 @@ use super::terminal::{news, note};
 use crate::bench::Bench;
 use crate::notice;
 
-/// Tells the events of all devices since the last call, of those that are `wanted`.
+/// Prints the `wanted` events of all devices since the last call.
 pub(super) fn events(bench: &mut Bench, wanted: impl Fn(&Event) -> bool) {
     let several = bench.bus.devices().len() > 1;
     for number in 0..bench.bus.devices().len() {
@@ -26,7 +26,7 @@ pub(super) fn events(bench: &mut Bench, wanted: impl Fn(&Event) -> bool) {
     }
 }
 
-/// Event in words; `None` for one that is not told.
+/// The event in words; `None` if it is not printed.
 fn words(event: Event) -> Option<String> {
     Some(match event {
         Event::State(state) => format!("state: {state}"),

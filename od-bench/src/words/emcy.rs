@@ -8,7 +8,7 @@ use od_runtime::{CobId, Frame};
 use super::said::{Service, Words};
 use crate::device::VirtualDevice;
 
-/// Meaning of an error code: the manuals' own words, else the class of CiA 301, table 26.
+/// Meaning of an error code: the words of the manual, otherwise the class of CiA 301, table 26.
 pub fn code_text(code: u16) -> &'static str {
     match code {
         0x0000 => "no error, or error reset",
@@ -39,7 +39,7 @@ pub fn code_text(code: u16) -> &'static str {
     }
 }
 
-/// The EMCY of a device whose 1014h is not the predefined one, too.
+/// Finds the EMCY of a device even if its 1014h is not the predefined value.
 pub(super) fn explain(devices: &[VirtualDevice], frame: &Frame) -> Option<Words> {
     let device = devices.iter().find(|device| {
         let cob_id = device.stored(0x1014, 0).map(|raw| CobId::new(raw as u32));

@@ -1,4 +1,4 @@
-//! The bytes of a frame, one field after the other.
+//! Splits the bytes of a frame into fields.
 
 use std::prelude::v1::*;
 use std::string::ToString;
@@ -14,7 +14,7 @@ use super::said::bytes;
 use super::tag::{TAGS, answered, requested, tag};
 use crate::device::VirtualDevice;
 
-/// A part of a frame.
+/// A field of a frame.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Field {
     /// The first byte.
@@ -25,12 +25,12 @@ pub struct Field {
     pub name: String,
     /// Value in words.
     pub value: String,
-    /// The object that it is about.
+    /// Its object.
     pub object: Option<Address>,
 }
 
-/// The fields of a frame, with the names of the device that it is from or for; none for a
-/// remote frame and for a service without fields.
+/// Returns the fields of a frame, with object names of its device. A remote frame or a service
+/// without fields has none.
 pub fn fields(devices: &[VirtualDevice], frame: &Frame) -> Vec<Field> {
     let mut fields = Fields {
         len: frame.data().len(),
@@ -98,7 +98,7 @@ pub fn fields(devices: &[VirtualDevice], frame: &Frame) -> Vec<Field> {
     fields.all
 }
 
-/// Fields of a frame so far; those behind its data are left out.
+/// Adds fields to a frame; fields after the end of its data are left out.
 struct Fields {
     len: usize,
     all: Vec<Field>,
@@ -139,7 +139,7 @@ fn number(data: &[u8], len: usize) -> u64 {
     bytes.fold(0, |value, byte| value << 8 | u64::from(*byte))
 }
 
-/// The objects of a PDO by the mapping that is valid now.
+/// The objects of a PDO by its current mapping.
 fn mapped(
     fields: &mut Fields,
     devices: &[VirtualDevice],
@@ -152,7 +152,7 @@ fn mapped(
         if data.len() < to {
             break;
         }
-        // A mapped object takes bits, wherever they begin.
+        // A mapped object has bits, which may begin anywhere.
         let value = pdo::bits(data, *first as u8, *bits as u8).unwrap_or_default();
         let value = value.to_le_bytes();
         let bytes = &value[..bits.div_ceil(8) as usize];
@@ -171,7 +171,7 @@ fn mapped(
     }
 }
 
-/// Command, object and data of an SDO frame.
+/// Adds the command, object and data of an SDO frame.
 fn sdo(fields: &mut Fields, device: Option<&VirtualDevice>, frame: &Frame) {
     let is_answer = frame.id().raw() < 0x600;
     let (command, object, expedited, size) = if is_answer {
@@ -332,7 +332,7 @@ mod tests {
     }
 
     #[test]
-    fn a_mapped_object_has_its_own_bits() {
+    fn each_mapped_object_has_its_own_bits() {
         let kind = od_devices::find("gxmm").expect("it is built in");
         let device = VirtualDevice::new(kind, NodeId::ONE);
         let register = Address::new(0x1001, 0);

@@ -1,7 +1,7 @@
 //! Frames in plain words, with the names of the objects.
 //!
-//! [`explain`] shows a single frame; a [`Decoder`] also remembers which object a
-//! segmented or block transfer is about.
+//! [`explain`] describes a single frame; a [`Decoder`] also remembers the object of a
+//! segmented or block transfer.
 
 mod control;
 mod emcy;
@@ -31,20 +31,20 @@ pub use tag::{TAGS, Tag, tag};
 use self::sorted::Sorted;
 use crate::device::VirtualDevice;
 
-/// Returns a single frame in words.
+/// Describes a single frame in words.
 pub fn explain(devices: &[VirtualDevice], frame: &Frame) -> Words {
     Decoder::default().explain(devices, frame)
 }
 
-/// Frames in words, one after the other.
+/// Describes a sequence of frames in words.
 #[derive(Clone, Debug, Default)]
 pub struct Decoder {
     transfers: Sorted<u8, sdo::Transfer>,
 }
 
 impl Decoder {
-    /// The next frame of the bus in words. `devices` gives names and mappings; frames of
-    /// nodes that are not among them are explained by the predefined connection set.
+    /// Describes the next frame of the bus. `devices` provides names and mappings; frames of other
+    /// nodes are described by the predefined connection set.
     pub fn explain(&mut self, devices: &[VirtualDevice], frame: &Frame) -> Words {
         if let Some(words) = pdo::explain(devices, frame).or_else(|| emcy::explain(devices, frame))
         {

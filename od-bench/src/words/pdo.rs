@@ -1,4 +1,4 @@
-//! Process data by the mapping that the device has now.
+//! Describes PDOs by the current mapping of the device.
 
 use std::format;
 use std::prelude::v1::*;
@@ -11,17 +11,17 @@ use od_runtime::{CobId, Frame};
 use super::said::{Service, Words, bytes};
 use crate::device::VirtualDevice;
 
-/// PDOs of a device that are looked at: those of its dictionary, 512 at most.
+/// Limit of PDOs that are searched in a device's dictionary: 512.
 const MOST: u16 = 0x1FF;
 
-/// A frame whose identifier a PDO of one of the devices has.
+/// Describes a frame whose identifier belongs to a PDO of one of the devices.
 pub(super) fn explain(devices: &[VirtualDevice], frame: &Frame) -> Option<Words> {
     let (device, service, number, mapping) = find(devices, frame)?;
     Some(words(device, service, number, mapping, frame))
 }
 
-/// The objects in the data of a PDO by its current mapping: each with its first bit and its number
-/// of bits. `None` for a frame that no PDO of these devices has.
+/// Returns the objects in the data of a PDO by its current mapping, each with its first bit and its number
+/// of bits. `None` for a frame that is no PDO of these devices.
 pub fn layout(devices: &[VirtualDevice], frame: &Frame) -> Option<Vec<(Address, u32, u32)>> {
     let (device, _, _, index) = find(devices, frame)?;
     let mut first = 0;
@@ -40,7 +40,7 @@ fn mapping(device: &VirtualDevice, index: u16) -> Vec<u32> {
     (1..=count).map(entry).collect()
 }
 
-/// The device whose PDO it is, its direction, its number from 0, and its mapping object.
+/// The device of a PDO, its direction, its number from 0, and its mapping object.
 fn find<'d>(
     devices: &'d [VirtualDevice],
     frame: &Frame,
@@ -83,7 +83,7 @@ fn words(
         return Words::new(service, node, format!("{kind}{number} requested (RTR)"));
     }
     let (dictionary, entries) = (device.dictionary(), mapping(device, mapping_object));
-    // Of a PDO that is too short, the values that came.
+    // Of a PDO that is too short, show the values that it contains.
     let fields = (0..=entries.len())
         .rev()
         .find_map(|len| decode(&dictionary, &entries[..len], frame.data()).ok());
@@ -108,7 +108,7 @@ fn words(
     Words::new(service, node, text)
 }
 
-/// A frame that no device of the bench knows, by the predefined connection set.
+/// Describes a frame of an unknown device by the predefined connection set.
 pub(super) fn by_identifier(id: u16, frame: &Frame) -> Words {
     let node = (id & 0x7F) as u8;
     let number = (id >> 7) - 3;

@@ -1,4 +1,4 @@
-//! A frame in words, and what its service is called.
+//! The description of a frame, and the name of its service.
 
 use std::format;
 use std::prelude::v1::*;
@@ -17,9 +17,9 @@ pub enum Service {
     Time,
     /// Emergency.
     Emcy,
-    /// Process data of a device.
+    /// PDO sent by a device.
     Tpdo,
-    /// Process data for a device.
+    /// PDO received by a device.
     Rpdo,
     /// SDO, client to server.
     SdoRequest,
@@ -29,12 +29,12 @@ pub enum Service {
     ErrorControl,
     /// Layer setting.
     Lss,
-    /// Nothing that this bus knows.
+    /// A frame without a known service.
     Unknown,
 }
 
 impl Service {
-    /// A short name: `NMT`, `SYNC`, `PDO` …
+    /// Returns a short name: `NMT`, `SYNC`, `PDO` …
     pub const fn name(self) -> &'static str {
         match self {
             Self::Nmt => "NMT",
@@ -50,18 +50,18 @@ impl Service {
     }
 }
 
-/// A frame in words.
+/// The description of a frame.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Words {
     /// Service.
     pub service: Service,
-    /// The node it is from or for; `None` where it is for all.
+    /// Its sender or receiver; `None` for a frame to all nodes.
     pub node: Option<u8>,
-    /// The object it is about.
+    /// Its object.
     pub address: Option<Address>,
-    /// Is it an abort, an emergency, an error?
+    /// Whether it is an abort, an emergency or an error.
     pub error: bool,
-    /// An abort with its reason first, for those who read one line; `None` for everything else.
+    /// For an abort, a text that begins with its reason, for displays of one line; `None` otherwise.
     pub reason_first: Option<String>,
     /// The meaning, without the service and the node.
     pub text: String,

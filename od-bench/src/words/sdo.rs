@@ -1,4 +1,4 @@
-//! SDO requests, answers and aborts (CiA 301, chapter 7.2.4).
+//! Describes SDO requests, responses and aborts (CiA 301, chapter 7.2.4).
 
 use std::format;
 use std::prelude::v1::*;
@@ -11,7 +11,7 @@ use super::said::{Service, Words, bytes};
 use crate::device::VirtualDevice;
 use crate::sdo::{Message, Observer};
 
-/// State of a transfer, from the frames so far.
+/// State of a transfer after the frames so far.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Transfer {
     observer: Observer,
@@ -107,7 +107,7 @@ impl Explainer<'_> {
     }
 
     fn show(&self, data: &[u8]) -> String {
-        // The signatures of 1010h and 1011h are numbers that spell a word.
+        // The signatures of 1010h and 1011h are ASCII words.
         let index = self.transfer.observer.object.map(|address| address.index);
         if matches!(index, Some(0x1010 | 0x1011)) && data.iter().all(u8::is_ascii_lowercase) {
             return format!("\"{}\"", String::from_utf8_lossy(data));

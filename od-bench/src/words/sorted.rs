@@ -1,5 +1,5 @@
-//! A map for few keys, or for keys that come in order: a thirtieth of the code of a `BTreeMap`,
-//! which counts where a page loads it.
+//! A map for few keys, or for keys that arrive in order. Its code has a thirtieth of the size of a
+//! `BTreeMap`, which matters in a page.
 
 use std::collections::VecDeque;
 use std::prelude::v1::*;
@@ -40,7 +40,7 @@ impl<K: Ord + Copy, V> Sorted<K, V> {
         &mut self.0[at].1
     }
 
-    /// Puts a value in; returns the one that had its key before.
+    /// Inserts a value; returns the previous value of its key.
     pub(super) fn insert(&mut self, key: K, value: V) -> Option<V> {
         match self.find(key) {
             Ok(at) => Some(std::mem::replace(&mut self.0[at].1, value)),
@@ -60,7 +60,7 @@ impl<K: Ord + Copy, V> Sorted<K, V> {
         self.0.retain(|(_, value)| keep(value));
     }
 
-    /// Removes all with lower keys.
+    /// Removes all lower keys.
     pub(super) fn forget_before(&mut self, key: K) {
         let at = self.find(key).unwrap_or_else(|at| at);
         self.0.drain(..at);
@@ -72,7 +72,7 @@ mod tests {
     use super::Sorted;
 
     #[test]
-    fn it_is_a_map() {
+    fn it_behaves_like_a_map() {
         let mut map = Sorted::default();
         for key in [5, 1, 9, 5] {
             map.insert(key, key * 10);

@@ -1,22 +1,22 @@
-//! Frames by the predefined connection set (CiA 301, table 38), whatever is on the bus.
+//! Classifies frames by the predefined connection set (CiA 301, table 38) alone.
 
 use od_model::Address;
 use od_wire::Frame;
 use od_wire::nmt;
 use od_wire::sdo::{Request, Response};
 
-/// Meaning of a frame without its devices.
+/// Service, node and object of a frame, without knowledge of its device.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Tag {
-    /// Place of its name in [`TAGS`].
+    /// Index of its name in [`TAGS`].
     pub tag: u8,
-    /// The node that it is from or for; 0: none, or all of them.
+    /// Its sender or receiver; 0: none, or all nodes.
     pub node: u8,
-    /// The object of an SDO request or answer.
+    /// The object of an SDO request or response.
     pub object: Option<Address>,
 }
 
-/// Short names of the services: the PDOs one by one, as seen from the device.
+/// Short names of the services, with one for each PDO, from the device's point of view.
 pub const TAGS: [&str; 16] = [
     "CAN", "NMT", "SYNC", "TIME", "EMCY", "PDO1", "RPDO1", "PDO2", "RPDO2", "PDO3", "RPDO3",
     "PDO4", "RPDO4", "SDO", "HB", "LSS",
@@ -65,7 +65,7 @@ pub fn tag(frame: &Frame) -> Tag {
     }
 }
 
-/// The object that an SDO frame names; segments name none.
+/// The object of an SDO frame; segments contain none.
 fn object(frame: &Frame, is_answer: bool) -> Option<Address> {
     if frame.is_remote() || frame.dlc() < 4 {
         return None;

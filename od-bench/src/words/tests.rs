@@ -24,7 +24,7 @@ fn explained(device: VirtualDevice, frames: &[(&str, &str)]) {
 }
 
 #[test]
-fn frames_become_plain_words() {
+fn frames_are_described_in_words() {
     let kind = od_devices::find("gxmm").expect("a built-in device");
     explained(
         VirtualDevice::new(kind, NodeId::ONE),

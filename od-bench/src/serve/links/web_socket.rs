@@ -7,13 +7,13 @@ use crate::links::web_socket::Gate;
 use crate::serve::failure::Failure;
 use od_model::Refused;
 
-/// Fewest characters of a token that is chosen.
+/// Shortest token that a user may choose, in characters.
 const SHORTEST: usize = 16;
 
 /// Reads `HOST:PORT[?token=TOKEN]` into a place and a token.
 ///
 /// # Errors
-/// The problem of the address or of the token.
+/// The address or the token is invalid.
 pub(super) fn parse(place: &str) -> Result<(String, Option<String>), Refused> {
     let (place, query) = match place.split_once('?') {
         Some((place, query)) => (place, Some(query)),
@@ -42,7 +42,7 @@ fn token(query: &str) -> Result<String, String> {
 /// Reads the origin of a page.
 ///
 /// # Errors
-/// It is not one.
+/// The text is not an origin.
 pub(in crate::serve) fn origin(text: &str) -> Result<String, String> {
     let place = text.strip_prefix("https://");
     let place = place.or_else(|| text.strip_prefix("http://"));
@@ -54,7 +54,7 @@ pub(in crate::serve) fn origin(text: &str) -> Result<String, String> {
     }
 }
 
-/// Listens at `HOST:PORT`; without a `token` it makes one that nobody can guess.
+/// Listens at `HOST:PORT`; without a `token` it makes a random one.
 pub(super) fn listen(
     place: &str,
     token: Option<&str>,
@@ -64,7 +64,7 @@ pub(super) fn listen(
         Some(token) => token.to_owned(),
         None => random()?,
     };
-    // One for each link of the program's life.
+    // Links live as long as the program, one value for each.
     let gate = Box::leak(Box::new(Gate::new(token, origins.to_vec())));
     tcp::listen(Protocol::WebSocket(gate), place)
 }
