@@ -15,7 +15,7 @@ use crate::script::Limits;
 #[cfg(feature = "lessons")]
 use crate::script::{Bare, Limited};
 
-/// Outcome of an input that puts a device on the bus, starts a lesson or runs a script.
+/// Result of an input that adds a device, starts a lesson or runs a script.
 #[derive(Debug, Default)]
 pub struct Added {
     /// Number of the device, 0 for a lesson; `None` if it cannot run.
@@ -213,7 +213,7 @@ impl Journal {
                 Some(there) => *there = placed,
                 None => self.devices.push(placed),
             }
-            // The further channels of a redundant encoder are nodes of their own.
+            // The further channels of a redundant encoder are separate nodes.
             for (channel, device) in (2..).zip(devices.iter().skip(self.devices.len())) {
                 self.devices.push(Placed {
                     source: source_of(&self.devices, node),

@@ -1,7 +1,7 @@
 //! One definition of an input, and of a source of a device, in Rust and in TypeScript.
 
-/// Declares a choice of records: the enum, how its fields are read and written, and the type that TypeScript has of it.
-/// The field with the name behind `by` tells which record it is.
+/// Declares a choice of records: the enum, the code that reads and writes its fields, and its type in TypeScript.
+/// The field with the name after `by` selects the record.
 macro_rules! choice {
     ($(#[doc = $about:literal])* $type:ident by $tag:literal {
         $($(#[doc = $doc:literal])* $op:literal $name:ident {
@@ -32,7 +32,7 @@ macro_rules! choice {
                 ";\n",
             ];
 
-            /// The record with this name, its fields empty.
+            /// The record with this name and empty fields.
             fn named(name: &str) -> Option<Self> {
                 Some(match name {
                     $($op => Self::$name { $($field: Default::default()),* },)*
@@ -70,7 +70,7 @@ macro_rules! choice {
                 result.map(|()| record)
             }
 
-            /// Writes the record, with its name.
+            /// Writes the record with its name.
             pub fn write(mut self, to: &mut dyn $crate::journal::field::Sink) {
                 let name = self.fields(&mut |key, field| field.write(to, key));
                 to.put($tag, $crate::journal::field::Value::Text(name.into()));

@@ -1,21 +1,21 @@
-//! Fields of an input as a program outside hands them over, and the checks on them: they may come
+//! Fields of an input in the form of an outside program, and the checks on them: they may come
 //! from a link of unknown origin.
 
 use std::prelude::v1::*;
 use std::{fmt, format};
 
-/// Most bytes of an input, and most steps of a profile.
+/// Limit of bytes of an input, and of steps of a profile.
 const MOST_BYTES: usize = 150_000;
 const MOST_STEPS: usize = 2000;
-/// Most bytes of an EDS text or a lesson.
+/// Limit of bytes of an EDS text or a lesson.
 const LONGEST: usize = 8_000_000;
-/// Largest number, and smallest.
+/// Range of numbers.
 const LARGEST: f64 = 1e9;
 
 /// A value of a field.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Value {
-    /// The field is not there.
+    /// The field is missing.
     Missing,
     /// No value.
     Null,
@@ -35,9 +35,9 @@ pub enum Value {
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[non_exhaustive]
 pub enum Fault {
-    /// A field is missing, or has a value that is not allowed.
+    /// A field is missing or has an invalid value.
     Cut,
-    /// A later version wrote it.
+    /// It was written by a later version.
     Newer,
 }
 
@@ -68,21 +68,21 @@ pub trait Fields {
     fn get(&self, key: &str) -> Value;
 }
 
-/// Destination of the fields.
+/// Receiver of the fields.
 pub trait Sink {
-    /// Takes the value of a field.
+    /// Stores the value of a field.
     fn put(&mut self, key: &str, value: Value);
 }
 
-/// Type of a field as TypeScript declares it.
+/// Type of a field in TypeScript.
 pub(super) trait Declared {
-    /// `?` behind the name of a field that may be missing.
+    /// `?` after the name of an optional field.
     const MARK: &'static str = "";
     /// The type.
     const TYPE: &'static str;
 }
 
-/// A field that has fields.
+/// A field with fields of its own.
 pub(super) trait Part {
     /// Reads it.
     fn read(&mut self, from: &dyn Fields, key: &str) -> Result<(), Fault>;
@@ -91,7 +91,7 @@ pub(super) trait Part {
     fn write(&mut self, to: &mut dyn Sink, key: &str);
 }
 
-/// Fields of a field: each is named `source.name` outside.
+/// The fields of a field: outside, each is named `source.name`.
 pub(super) struct Within<'a, T: ?Sized>(pub(super) &'a mut T, pub(super) &'a str);
 
 impl Fields for Within<'_, &dyn Fields> {
@@ -106,7 +106,7 @@ impl Sink for Within<'_, dyn Sink + '_> {
     }
 }
 
-/// A field of an input, to be read or written.
+/// A field of an input that can be read and written.
 pub(super) enum Field<'a> {
     Place(&'a mut u8),
     MaybePlace(&'a mut Option<u8>),

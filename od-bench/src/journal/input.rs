@@ -1,4 +1,4 @@
-//! Inputs of a bench: each act of its user.
+//! Inputs of a bench: all actions of its user.
 
 use std::prelude::v1::*;
 
@@ -8,10 +8,10 @@ use super::choice::choice;
 use super::parts::{Dip, Rate, Source};
 
 choice! {
-    /// A change of a bench. A journal keeps every input with its virtual moment, so that a run can be made again: for a
+    /// A change of a bench. A journal keeps every input with its virtual time, so that a run can be repeated: for a
     /// step back, from a link, after a reload. Devices and stations count from 0; station 0 is the outside.
     Input by "op" {
-        /// A device is put on the bus, in the place of another or in a new one.
+        /// A device is added to the bus, new or instead of another.
         "add" Add {
             "source" source: Source,
             "nodeId" node_id: u8,
@@ -19,14 +19,14 @@ choice! {
         }
         /// A device is removed from the bus.
         "remove" Remove { "node" node: u8, }
-        /// A frame is sent from outside. Of a remote frame only the number of bytes counts.
+        /// A frame is sent from outside. For a remote frame only the number of bytes counts.
         "send" Send {
             "id" id: u32,
             "data" data: Vec<u8>,
             "extended" extended: bool,
             "remote" remote: bool,
         }
-        /// A frame is sent at this interval in microseconds; 0 ends it. `key` tells rhythms apart.
+        /// A frame is sent at this interval in microseconds; 0 ends it. `key` identifies the periodic frame.
         "repeat" Repeat {
             "key" key: u32,
             "id" id: u32,
@@ -35,7 +35,7 @@ choice! {
             "remote" remote: bool,
             "micros" micros: u32,
         }
-        /// The power is switched.
+        /// The power is switched on or off.
         "power" Power { "node" node: u8, "on" on: bool, }
         /// The shaft is turned to a number of revolutions from the sensor's zero point.
         "turn" Turn { "node" node: u8, "turns" turns: f64, }
@@ -43,29 +43,29 @@ choice! {
         "rpm" Rpm { "node" node: u8, "rpm" rpm: f64, }
         /// The shaft follows a profile: pairs of rpm and milliseconds.
         "follow" Follow { "node" node: u8, "steps" steps: Vec<f64>, "repeats" repeats: bool, }
-        /// The rotary switches of the node ID are set, or a DIP switch of the bit rate.
+        /// The rotary switches of the node ID or a DIP switch of the bit rate are set.
         "switches" Switches { "node" node: u8, "id" id: Option<u8>, "dip" dip: Option<Dip>, }
-        /// A fault appears or goes.
+        /// A fault begins or ends.
         "fault" Fault { "node" node: u8, "name" name: String, "on" on: bool, }
-        /// The bus line is set up.
+        /// The bus line is configured.
         "line" Line { "real" real: bool, "terminators" terminators: u8, "rate" rate: Rate, }
         /// The random disturbances of the bus line get a seed.
         "seed" Seed { "seed" seed: u32, }
-        /// A station is plugged in or out.
+        /// A station is connected or disconnected.
         "plug" Plug { "station" station: u8, "on" on: bool, }
         /// The CAN controller of a station starts again after bus-off.
         "restart" Restart { "station" station: u8, }
-        /// The power goes in the middle of the next save, after this number of bytes.
+        /// The power fails in the middle of the next save, after this number of bytes.
         "cut" Cut { "node" node: u8, "bytes" bytes: u32, }
         /// The EEPROM gets these bytes.
         "eeprom" Eeprom { "node" node: u8, "bytes" bytes: Vec<u8>, }
-        /// One device gets a frame that is not on the bus.
+        /// One device gets a frame without the bus.
         "deliver" Deliver { "node" node: u8, "id" id: u32, "data" data: Vec<u8>, }
-        /// A lesson starts: its bench takes the place of all that was there.
+        /// A lesson starts: its bench replaces the current one.
         "lesson" Lesson { "text" text: String, }
         /// The lesson ends; its bench stays.
         "leave" Leave {}
-        /// Lines of a script run, such as the solution of a step.
+        /// The lines of a script run, such as the solution of a step.
         "script" Script { "text" text: String, }
     }
 }
@@ -87,7 +87,7 @@ impl Input {
     }
 }
 
-/// A frame from its parts; of a remote one only the number of bytes counts. `None` for more than
+/// A frame from its parts; for a remote frame only the number of bytes counts. `None` for more than
 /// eight bytes.
 pub fn frame(id: u32, data: &[u8], extended: bool, remote: bool) -> Option<Frame> {
     let id = if extended {
@@ -102,7 +102,7 @@ pub fn frame(id: u32, data: &[u8], extended: bool, remote: bool) -> Option<Frame
     }
 }
 
-/// An input and its moment.
+/// An input and its time.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Entry {
     /// Time of the input.

@@ -1,4 +1,4 @@
-//! Limits of a run that is made again: it may come from a link of unknown origin.
+//! Limits of a repeated run: it may come from a link of unknown origin.
 
 use std::fmt;
 use std::prelude::v1::*;
@@ -8,13 +8,13 @@ use od_wire::Instant;
 use super::input::{Entry, Input};
 use crate::script::Limits;
 
-/// Most devices on the bus, each channel of a redundant one.
+/// Limit of devices on the bus, counting each channel of a redundant one.
 pub(super) const MOST_DEVICES: usize = Limits::PAGE.devices;
 /// Longest run in microseconds: a day.
 const LONGEST: u64 = 86_400_000_000;
 /// Shortest period of a cyclic frame, in microseconds.
 const SHORTEST: u32 = 100;
-/// Most frames that cyclic inputs send.
+/// Limit of frames from periodic inputs.
 const MOST_FRAMES: u64 = 10_000_000;
 
 /// Limit that a run exceeds.
@@ -25,7 +25,7 @@ pub enum Excess {
     Devices,
     /// Virtual time.
     Time,
-    /// Frames that are sent cyclically.
+    /// Frames that are sent periodically.
     Frames,
 }
 
@@ -52,11 +52,11 @@ impl fmt::Display for Excess {
 
 impl core::error::Error for Excess {}
 
-/// Adds up what a run to the moment `until` asks for, before any of it happens. The lines of
+/// Adds up the needs of a run to the time `until` before it starts. The lines of
 /// scripts and lessons are checked when they are read.
 ///
 /// # Errors
-/// The limit that it exceeds.
+/// The limit that the run exceeds.
 pub fn check(entries: &[Entry], until: Instant) -> Result<(), Excess> {
     let last = entries.last().map_or(until, |entry| entry.at.max(until));
     if last.as_micros() > LONGEST {
@@ -169,7 +169,7 @@ mod tests {
             );
             assert_eq!(journal.rig.bus.now(), at, "nothing of it happened");
         }
-        // Frames of devices count as they come: 1800h:05 is 1 ms.
+        // Frames of devices count when they come: 1800h:05 is 1 ms.
         let text = "send 601#2B 00 18 05 01 00\nnmt start\nwait 500s";
         let added = journal.act(Input::Script { text: text.into() });
         assert!(

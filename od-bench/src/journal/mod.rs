@@ -1,5 +1,5 @@
-//! A bench, and all that was done to it. The journal records every input, so that the bench
-//! can be made again up to any moment: for a step back, from a link, after a reload.
+//! A bench and its journal. The journal records every input, so that the bench
+//! can be repeated up to any time: for a step back, from a link, after a reload.
 
 mod apply;
 mod choice;
@@ -24,23 +24,23 @@ pub use self::input::{Entry, Input, frame};
 pub use self::limits::{Excess, check};
 pub use self::parts::{Dip, Rate, Source};
 
-/// Things in one portion of a run that is made again: they are thrown away in between.
+/// Inputs in one portion of a repeated run; what the bench shows in between is thrown away.
 const PORTION: usize = 5000;
 
-/// A device that the journal put on the bus.
+/// A device added by the journal.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Placed {
-    /// Text or built-in device that it was made from.
+    /// Its text or built-in device.
     pub source: Source,
-    /// The node ID that it got.
+    /// Its node ID.
     pub node_id: NodeId,
-    /// Name of the built-in device, title of the one of a file; of a further channel `name.2`.
+    /// Name of the built-in device, or title of a device of a file; `name.2` for a further channel.
     pub name: String,
 }
 
 /// A bench and its journal.
 pub struct Journal {
-    /// The bench. What is done to it from outside the journal is not made again.
+    /// The bench. Changes made without the journal are not repeated.
     pub rig: Rig,
     /// The built-in devices.
     roster: &'static [DeviceKind],
@@ -48,13 +48,13 @@ pub struct Journal {
     #[cfg(feature = "lessons")]
     lesson: Option<crate::lesson::Lesson>,
     entries: Vec<Entry>,
-    /// Entries that have taken effect; those behind are still to come.
+    /// Number of entries that have taken effect; later ones are still to come.
     done: usize,
-    /// Entries that [`news`](Self::news) returned.
+    /// Number of entries that [`news`](Self::news) returned.
     told: usize,
-    /// Reason why inputs of a run that is made again could not be carried out.
+    /// Reasons why inputs of a repeated run could not be carried out.
     refused: Vec<String>,
-    /// Nothing is kept: what happens on a real bus cannot be made again.
+    /// Nothing is recorded: the events of a real bus cannot be repeated.
     is_live: bool,
 }
 
@@ -86,7 +86,7 @@ impl Journal {
         self.lesson.as_ref()
     }
 
-    /// All entries, those that are still to come as well.
+    /// All entries, including those that are still to come.
     pub fn entries(&self) -> &[Entry] {
         &self.entries
     }
@@ -103,12 +103,12 @@ impl Journal {
         (from != self.told).then(|| (from, &self.entries[from.min(self.told)..]))
     }
 
-    /// Takes why inputs of a run that is made again could not be carried out.
+    /// Takes the reasons why inputs of a repeated run could not be carried out.
     pub fn refused(&mut self) -> Vec<String> {
         std::mem::take(&mut self.refused)
     }
 
-    /// Something is done now. What was still to come of a run before does not come any more.
+    /// Carries out an input now. Entries of an earlier run that are still to come are dropped.
     pub fn act(&mut self, input: Input) -> Added {
         if let Input::Lesson { .. } = input {
             return self.begin_lesson(input);
@@ -125,14 +125,14 @@ impl Journal {
         added
     }
 
-    /// Puts the bench on a real bus: a link is its outside, and nothing is kept any more.
+    /// Puts the bench on a real bus: a link is its outside, and nothing is recorded any more.
     #[cfg(feature = "real")]
     pub fn go_live(&mut self) {
         self.is_live = true;
         self.rig.open_port();
     }
 
-    /// Adds the description of a node of the real bus, as `Input::Add` adds a device.
+    /// Adds the description of a node of the real bus, like `Input::Add`.
     #[cfg(feature = "real")]
     pub fn describe(&mut self, input: &Input) -> Added {
         self.rig.describes = true;
@@ -149,7 +149,7 @@ impl Journal {
         self.done += 1;
     }
 
-    /// A lesson starts at zero, and what was before is gone; a wrong one leaves all as it is.
+    /// A lesson starts at time zero and replaces the bench; a wrong one changes nothing.
     fn begin_lesson(&mut self, input: Input) -> Added {
         if self.is_live {
             return self.apply(&input);
@@ -165,7 +165,7 @@ impl Journal {
         added
     }
 
-    /// Sends what the SDO client has to send, as an input like any other.
+    /// Sends the frame of the SDO client as an input.
     pub fn send_requests(&mut self) -> bool {
         let mut any = false;
         while let Some(frame) = self.rig.request() {
@@ -179,8 +179,8 @@ impl Journal {
         any
     }
 
-    /// Lets `micros` pass, with what the journal has for them, or less if `frames` are seen
-    /// before. Returns how many passed.
+    /// Lets `micros` pass with the inputs of the journal, or stops earlier after `frames` frames.
+    /// Returns the elapsed time.
     pub fn advance(&mut self, micros: u64, frames: usize) -> u64 {
         let start = self.rig.bus.now();
         let end = start.plus_micros(micros);
@@ -207,14 +207,14 @@ impl Journal {
         }
     }
 
-    /// Makes the bench as it was at `to`; what came after stays in the journal and comes again.
+    /// Goes back to the bench at `to`; later entries stay in the journal and come again.
     pub fn rewind(&mut self, to: Instant) {
         self.begin();
         self.catch_up(to);
     }
 
-    /// Makes an empty bench, and a run that is made again as time passes. A `quiet` one does not
-    /// show what happens at its first moment.
+    /// Makes an empty bench and repeats a run as time passes. A `quiet` one does not
+    /// show the events of its first moment.
     pub fn restore(&mut self, entries: Vec<Entry>, quiet: bool) {
         self.entries = entries;
         self.told = 0;
@@ -235,7 +235,7 @@ impl Journal {
         self.done = 0;
     }
 
-    /// Goes on to `to`, and throws away what is seen.
+    /// Continues to `to` and throws away what the bench shows.
     fn catch_up(&mut self, to: Instant) {
         while self.rig.bus.now() < to || self.entries.get(self.done).is_some_and(|one| one.at == to)
         {

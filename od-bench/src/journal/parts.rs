@@ -8,7 +8,7 @@ use super::field::{Declared, Fault, Fields, Part, Sink, Value, Within, flag, num
 choice! {
     /// Source of a device.
     Source by "kind" {
-        /// A built-in one.
+        /// A built-in device.
         "builtin" Builtin { "name" name: String, }
         /// An EDS or DCF text; `lenient`: the device runs as far as the text allows.
         "eds" Eds { "name" name: String, "text" text: String, "lenient" lenient: bool, }
@@ -38,7 +38,7 @@ impl Source {
 pub struct Dip {
     /// Its bit: 1, 2 or 4.
     pub bit: u8,
-    /// Its place.
+    /// Its position.
     pub on: bool,
 }
 

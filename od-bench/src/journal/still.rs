@@ -1,5 +1,5 @@
-//! A bench without its past: what has to be done to an empty one so that it is as this one is now.
-//! Shorter than a long run, and quicker to make again.
+//! A bench without its history: the inputs that bring an empty bench into the present state.
+//! They are shorter than a long run, and faster to repeat.
 
 use std::prelude::v1::*;
 use std::vec;
@@ -11,24 +11,24 @@ use super::input::{Entry, Input};
 use super::parts::{Dip, Rate};
 use super::{Journal, Placed};
 
-/// A device as it is now.
+/// The present state of a device.
 struct Station {
     turns: Option<f64>,
     rpm: f64,
     image: Vec<u8>,
     eeprom: Vec<u8>,
-    /// Of the node ID, and of the bit rate.
+    /// Switches of the node ID and of the bit rate.
     switches: (u8, u8),
     is_powered: bool,
     broken: Vec<&'static str>,
     state: State,
-    /// The profile that its shaft follows.
+    /// The profile of its shaft.
     profile: Option<Input>,
 }
 
 impl Journal {
-    /// Returns what makes an empty bench as this one is; `None` if the devices are in an order
-    /// that adding them does not give.
+    /// Returns the inputs that make this bench from an empty one; `None` if adding the devices
+    /// one after the other cannot give their order.
     pub fn still(&mut self) -> Option<Vec<Entry>> {
         if !self.is_regular() {
             return None;
@@ -37,7 +37,7 @@ impl Journal {
             .filter_map(|node| self.station(node))
             .collect();
         let mut inputs = Vec::new();
-        // While it is set up, every frame comes through.
+        // During the set-up every frame arrives.
         inputs.push(Input::Line {
             real: false,
             terminators: 2,
@@ -59,8 +59,8 @@ impl Journal {
                 .into_iter()
                 .collect()
         });
-        // What is not saved comes from a memory that it is saved in; the true one is put back
-        // afterwards, and acts at the next start.
+        // Values that are not saved come from a memory in which they are saved; the true memory follows
+        // later, and acts at the next start.
         each(&|node, one| {
             vec![Input::Eeprom {
                 node,
@@ -100,7 +100,7 @@ impl Journal {
             };
             vec![Input::Deliver { node, id: 0, data }]
         });
-        // A shaft that follows a profile begins it again.
+        // A shaft with a profile begins it again.
         each(&|node, one| match &one.profile {
             Some(profile) => vec![profile.clone()],
             None if one.rpm != 0.0 => vec![Input::Rpm { node, rpm: one.rpm }],
@@ -161,7 +161,7 @@ impl Journal {
         done.map(|entry| &entry.input).collect()
     }
 
-    /// The channels of an encoder come with its first one, behind all that is there by then.
+    /// The channels of an encoder come with its first one, after all existing devices.
     fn is_regular(&self) -> bool {
         let devices = &self.devices;
         let is_in_place = |at: usize| {
@@ -194,7 +194,7 @@ fn is_channel(device: &Placed) -> bool {
     rest.is_some_and(|rest| rest.starts_with('.'))
 }
 
-/// Frames that are sent again and again, in the order in which their rhythms began.
+/// Periodic frames, in the order in which they began.
 fn rhythms(past: &[&Input]) -> Vec<Input> {
     let mut latest: Vec<(u32, &Input)> = Vec::new();
     for input in past {

@@ -6,7 +6,7 @@ use od_model::Address;
 use super::*;
 use crate::rig::Seen;
 
-/// Fields by name, as a program outside has them.
+/// Fields by name, like those of an outside program.
 #[derive(Clone, Default, PartialEq, Debug)]
 struct Record(BTreeMap<String, Value>);
 
@@ -53,7 +53,7 @@ fn frames(journal: &mut Journal) -> Vec<String> {
 }
 
 #[test]
-fn every_input_comes_back_as_it_went() {
+fn every_input_is_read_as_written() {
     let text = || String::from("text");
     let source = Source::Eds {
         name: "ü.eds".into(),
@@ -146,7 +146,7 @@ fn every_input_comes_back_as_it_went() {
             panic!("{input:?} has no name");
         };
         assert_eq!(Input::read(&op, &record), Ok(input.clone()));
-        // No field may be missing, but those that say so, nor have a value of another kind.
+        // Every field that is not optional must be present, with a value of its type.
         for key in record.0.keys().filter(|key| *key != "op") {
             let mut other = record.clone();
             other.put(key, Value::Numbers(vec![f64::NAN]));
@@ -156,7 +156,7 @@ fn every_input_comes_back_as_it_went() {
 }
 
 #[test]
-fn numbers_have_their_range() {
+fn numbers_have_a_range() {
     let turn = |node: f64, turns: f64| {
         let mut record = Record::default();
         record.put("node", Value::Number(node));
@@ -186,14 +186,14 @@ fn numbers_have_their_range() {
 }
 
 #[test]
-fn a_run_is_made_again_frame_by_frame() {
+fn a_run_is_repeated_frame_by_frame() {
     let sync = Input::Repeat {
         key: 1,
         id: 0x80,
         data: Vec::new(),
         extended: false,
         remote: false,
-        // A SYNC takes 1 ms at 50 kbit/s, and so does the answer.
+        // A SYNC takes 1 ms at 50 kbit/s, and so does the response.
         micros: 7000,
     };
     let start = Input::Send {
@@ -208,7 +208,7 @@ fn a_run_is_made_again_frame_by_frame() {
         sync,
         Input::Rpm { node: 0, rpm: 30.0 },
     ]);
-    // What the SDO client sends is part of the run.
+    // Frames of the SDO client are part of the run.
     let node = NodeId::new(5).unwrap();
     first.rig.write(node, Address::new(0x1017, 0), &[5, 0]);
     first.send_requests();
@@ -227,7 +227,7 @@ fn a_run_is_made_again_frame_by_frame() {
     second.advance(first.rig.bus.now().as_micros(), usize::MAX);
     assert_eq!(frames(&mut second), run);
 
-    // A step back: the rest comes again, until something else is done.
+    // After a step back the rest comes again, until there is a new input.
     let half = Instant::from_micros(second.rig.bus.now().as_micros() / 2);
     second.rewind(half);
     assert!(frames(&mut second).is_empty());
@@ -248,7 +248,7 @@ fn a_run_is_made_again_frame_by_frame() {
 }
 
 #[test]
-fn news_are_told_once_and_begin_where_they_differ() {
+fn news_come_once_and_begin_at_the_first_difference() {
     let mut journal = bench(vec![add("gxmm", 5), Input::Seed { seed: 1 }]);
     assert_eq!(
         journal.news().map(|(from, all)| (from, all.len())),
@@ -270,7 +270,7 @@ fn news_are_told_once_and_begin_where_they_differ() {
 }
 
 #[test]
-fn a_bench_without_its_past_is_as_it_was() {
+fn a_bench_without_its_history_is_the_same() {
     let write = Input::Send {
         id: 0x605,
         data: vec![0x2B, 0x17, 0x10, 0, 0xF4, 1, 0, 0],
@@ -326,7 +326,7 @@ fn a_bench_without_its_past_is_as_it_was() {
         )
     };
     assert_eq!(seen(&mut first), seen(&mut second));
-    // A channel that is not behind its encoder cannot be put there again.
+    // A channel that does not follow its encoder cannot be added again.
     let mut moved = bench(vec![
         add("gmm_r", 5),
         add("gxmm", 9),
@@ -341,7 +341,7 @@ fn a_bench_without_its_past_is_as_it_was() {
 }
 
 #[test]
-fn the_bus_has_room_for_16_devices_also_in_a_run_that_is_made_again() {
+fn the_bus_has_room_for_16_devices_in_a_repeated_run_too() {
     let mut journal = bench((0..20).map(|_| add("gxmm", 5)).collect());
     assert_eq!(journal.devices().len(), 16);
     let added = journal.act(add("gxmm", 5));

@@ -1,4 +1,4 @@
-//! From the lines of a checkpoint to what they ask for.
+//! Reads the lines of a checkpoint as conditions.
 
 use std::format;
 use std::prelude::v1::*;
@@ -10,7 +10,7 @@ use crate::grammar::pattern::Pattern;
 use crate::grammar::problem::Problem;
 use crate::grammar::tokens::Tokens;
 
-/// One line; `None` where it says nothing. `before` is the line above it.
+/// Reads one line; `None` if it is empty or a comment. `before` is the line above it.
 pub(super) fn line(
     number: u32,
     text: &str,
@@ -116,7 +116,7 @@ fn seen(who: Who, tokens: &mut Tokens<'_>) -> Result<(Seen, Option<String>), Pro
         } else if tokens.take("of") {
             device = Some(device_name(tokens)?);
         } else {
-            // Something is left, so this is an error.
+            // The rest is not empty, so this returns an error.
             tokens.end()?;
         }
     }

@@ -12,12 +12,12 @@ use crate::grammar::pattern::Pattern;
 use crate::grammar::shown::duration;
 use crate::script::Origin;
 
-/// One line of a checkpoint: one of its alternatives has to hold.
+/// One line of a checkpoint: one of its alternatives must hold.
 #[derive(Clone, PartialEq, Debug)]
 pub(super) struct Line {
-    /// In the lesson.
+    /// Line number in the lesson.
     pub(super) line: u32,
-    /// The frame must come after the frame of the line before.
+    /// The frame must come after the frame of the previous line.
     pub(super) then: bool,
     pub(super) alternatives: Vec<Alternative>,
     /// Text to show instead of the condition in words.
@@ -30,15 +30,15 @@ pub(super) struct Alternative {
     pub(super) what: What,
     /// Number or label of the device; `None`: any sender, or the first device.
     pub(super) device: Option<String>,
-    /// Time without a break, in microseconds.
+    /// It must hold for this time without a break, in microseconds.
     pub(super) lasting: u64,
 }
 
 #[derive(Clone, PartialEq, Debug)]
 pub(super) enum What {
-    /// Something came over the bus since the step began.
+    /// A frame came since the step began.
     Seen(Seen),
-    /// Something is so now.
+    /// The condition holds now.
     Fact(Fact),
     /// No such frame comes.
     Quiet(Pattern),
@@ -54,26 +54,26 @@ pub(super) enum Who {
     Anybody,
 }
 
-/// Frames that have to be seen.
+/// Expected frames.
 #[derive(Clone, PartialEq, Debug)]
 pub(super) struct Seen {
     pub(super) who: Who,
     pub(super) what: Frames,
     pub(super) times: u32,
-    /// Microseconds from one to the next, at least and at most.
+    /// Shortest and longest time from one frame to the next, in microseconds.
     pub(super) every: Option<(u64, u64)>,
-    /// Microseconds after what the line before asks for, at most.
+    /// Longest time after the event of the previous line, in microseconds.
     pub(super) within: Option<u64>,
 }
 
 impl Line {
-    /// Does it wait for a frame, whichever alternative comes?
+    /// Returns whether all alternatives are frames.
     pub(super) fn waits(&self) -> bool {
         let seen = |one: &Alternative| !one.not && matches!(one.what, What::Seen(_));
         self.alternatives.iter().all(seen)
     }
 
-    /// The line in words, without what is missing of it.
+    /// The line in words, without the parts that are still missing.
     pub(super) fn words(&self, devices: &[VirtualDevice], at: impl Fn(&str) -> usize) -> String {
         if let Some(say) = &self.say {
             return say.clone();
@@ -112,7 +112,7 @@ impl Alternative {
 }
 
 impl Seen {
-    /// Is it such a frame? `device` is the number of the device that has to send it.
+    /// Returns whether a frame matches. `device` is the number of the device that must send it.
     pub(super) fn matches(&self, origin: Origin, device: Option<usize>, frame: &Frame) -> bool {
         let by = match (self.who, origin) {
             (Who::Learner, Origin::Script) | (Who::Anybody, _) => true,

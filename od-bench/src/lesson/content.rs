@@ -1,4 +1,4 @@
-//! A lesson that was read: its texts, its steps, and the bench that it asks for.
+//! The content of a lesson: its texts, its steps, and its bench.
 
 use std::prelude::v1::*;
 
@@ -7,34 +7,34 @@ use super::quiz::Quiz;
 use crate::grammar::problem::Problem;
 use crate::script::{Bench, Host, Script, Stop, run_on};
 
-/// A lesson that was read.
+/// The content of a lesson.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct Lesson {
     /// Title.
     pub title: String,
-    /// Content in one sentence; may be empty.
+    /// Summary in one sentence; may be empty.
     pub summary: String,
-    /// Language of its text, `en` if it says nothing.
+    /// Language of its text; `en` if it names none.
     pub language: String,
-    /// 1 for beginners, 2, 3.
+    /// Level: 1 for beginners, 2, 3.
     pub level: u8,
     /// Approximate duration in minutes.
     pub minutes: u16,
-    /// Objects that its text names though no device of it has them, as `2FFFh`.
+    /// Objects that its text may name though no device of it has them, such as `2FFFh`.
     pub absent: Vec<od_model::Address>,
     /// Text before the first step, as Markdown.
     pub intro: String,
-    /// The script that makes the bench.
+    /// The script that sets up the bench.
     pub set_up: Block,
     /// Steps, in order.
     pub steps: Vec<Step>,
-    /// Targets of links, each with its line.
+    /// Targets of links, each with its line number.
     pub(super) links: Vec<(u32, String)>,
-    /// Objects that its text names, each with its line.
+    /// Objects in its text, each with its line number.
     pub(super) objects: Vec<(u32, od_model::Address)>,
 }
 
-/// Lines of a script, with their place in the lesson.
+/// Lines of a script, with their position in the lesson.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Block {
     /// Number of the first line in the lesson, counted from 1; 0 if the block is missing.
@@ -46,19 +46,19 @@ pub struct Block {
 /// One step of a lesson.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct Step {
-    /// Line of its heading.
+    /// Line number of its heading.
     pub line: u32,
     /// Title.
     pub title: String,
     /// Task and reason, as Markdown.
     pub text: String,
-    /// Each tells a bit more than the one before, as Markdown.
+    /// Hints, each more detailed than the previous one, as Markdown.
     pub hints: Vec<String>,
-    /// Explanation that is shown when the step is done, as Markdown.
+    /// Explanation for the end of the step, as Markdown.
     pub happened: String,
-    /// A question about bytes that are still to come.
+    /// A question about the bytes of a later frame.
     pub quiz: Option<Quiz>,
-    /// The lines that do it.
+    /// The lines that solve it.
     pub solution: Block,
     /// Conditions; all must hold.
     pub(super) checkpoint: Vec<Line>,
@@ -68,17 +68,17 @@ impl Lesson {
     /// Makes the bench: runs the set-up.
     ///
     /// # Errors
-    /// The line of the lesson that cannot be carried out, and why.
+    /// The first line that cannot be carried out, with the reason.
     pub fn set_up(&self, host: &mut dyn Host) -> Result<Bench, Problem> {
         self.set_up_on(Bench::default(), host)
     }
 
-    /// As [`set_up`](Self::set_up), with a bench whose time has begun already.
+    /// Like [`set_up`](Self::set_up), on a bench whose time has begun already.
     ///
     /// # Errors
-    /// As there.
+    /// Like [`set_up`](Self::set_up).
     pub fn set_up_on(&self, mut bench: Bench, host: &mut dyn Host) -> Result<Bench, Problem> {
-        // Lessons are about a real wire, unless they say otherwise.
+        // Lessons use a real line unless they choose otherwise.
         bench.bus.line.is_real = true;
         let script = self.set_up.script().map_err(|mut all| all.remove(0))?;
         run_on(&script, &mut bench, host).map_err(|stop| stopped(&stop))?;
@@ -89,7 +89,7 @@ impl Lesson {
 }
 
 impl Block {
-    /// Its lines as a script that counts lines as the lesson does.
+    /// Its lines as a script with the line numbers of the lesson.
     ///
     /// # Errors
     /// The problems of its lines.
@@ -98,10 +98,10 @@ impl Block {
     }
 }
 
-/// Reason why a block stopped, as a problem of the lesson.
+/// The reason why a block stopped, as a problem of the lesson.
 pub(super) fn stopped(stop: &Stop) -> Problem {
     let why = std::format!("{stop}");
-    // The first line names the place, which the problem has already.
+    // The first line names the place, which the problem contains already.
     let why: Vec<_> = why.lines().skip(1).map(str::trim).collect();
     let message = std::format!("`{}` fails: {}", stop.text, why.join(" "));
     let help = "run the block with `odkit run` to see its frames";

@@ -10,7 +10,7 @@ use crate::grammar::problem::Problem;
 
 const KEYS: &str = "write title, summary, level, minutes, language or absent";
 
-/// Takes one line of it.
+/// Reads one line.
 pub(super) fn line(lesson: &mut Lesson, number: u32, text: &str) -> Result<(), Problem> {
     let problem = |message: String, help: &str| Err(Problem::new(number, message, help));
     let text = text.trim();

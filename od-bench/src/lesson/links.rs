@@ -1,4 +1,4 @@
-//! References in the text of a lesson: files and objects.
+//! References in the text of a lesson to files and objects.
 
 use std::prelude::v1::*;
 use std::{format, vec};
@@ -9,10 +9,10 @@ use super::content::Lesson;
 use crate::device::VirtualDevice;
 use crate::grammar::problem::Problem;
 
-/// EMCY error codes that look like objects of the profile.
+/// EMCY error codes that look like objects of the device profile.
 const ERROR_CODES: [u16; 2] = [0x1000, 0x6010];
 
-/// Notes where a line of text points to.
+/// Collects the references of a line of text.
 pub(super) fn collect(lesson: &mut Lesson, number: u32, line: &str) {
     let mut rest = line;
     while let Some(at) = rest.find("](") {
@@ -26,7 +26,7 @@ pub(super) fn collect(lesson: &mut Lesson, number: u32, line: &str) {
     }
 }
 
-/// `1017h`, `1018h:02`: objects of the communication area, of makers and of CiA 406.
+/// `1017h`, `1018h:02`: objects of the communication area, of manufacturers and of CiA 406.
 fn objects(line: &str) -> Vec<Address> {
     let mut found = vec![];
     let separates = |c: char| !c.is_ascii_alphanumeric() && c != ':';
@@ -56,7 +56,7 @@ fn objects(line: &str) -> Vec<Address> {
 }
 
 impl Lesson {
-    /// The relative links of its text, each with its line: names of files, without the part
+    /// The relative links of the text, each with its line number: names of files, without the part
     /// after `#`.
     pub fn files(&self) -> impl Iterator<Item = (u32, &str)> {
         let file = |(line, link): &'_ (u32, String)| {
@@ -72,7 +72,7 @@ impl Lesson {
             .filter(|(_, link)| !link.is_empty() && !link.contains("://"))
     }
 
-    /// Objects that the text names and no device of the bench has.
+    /// Objects in the text that no device of the bench has.
     pub(super) fn unknown_objects(&self, devices: &[VirtualDevice]) -> Vec<Problem> {
         let known = |address: &Address| {
             let found = |device: &VirtualDevice| {

@@ -1,8 +1,8 @@
-//! Lessons: what to do on a bench, step by step, and how the bench itself tells that it was done.
+//! Lessons: tasks on a bench, step by step. The bench itself detects that a step is done.
 //!
-//! A lesson is a Markdown text (`od-cli/LESSONS.md` describes it for those who write some). A
-//! step's checkpoint says what has to be seen on the bus, in the dictionary and of the device;
-//! which way a learner takes to it does not matter.
+//! A lesson is a Markdown text (`od-cli/LESSONS.md` describes it for authors). The checkpoint of a step
+//! lists the frames, values and device states that must be seen; how the learner
+//! gets there does not matter.
 //!
 //! ```
 //! use od_bench::lesson::{pass, Lesson, Progress};

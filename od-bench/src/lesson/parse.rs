@@ -1,4 +1,4 @@
-//! From Markdown to a lesson: front matter, headings, and blocks with a name.
+//! Reads a lesson from Markdown: front matter, headings, and named blocks.
 
 use std::format;
 use std::prelude::v1::*;
@@ -10,10 +10,10 @@ use crate::grammar::pattern::Pattern;
 use crate::grammar::problem::Problem;
 use crate::script::Script;
 
-/// A lesson is a text for people; what is longer is something else.
+/// Longest lesson, in bytes; a longer text is refused.
 const LONGEST: usize = 256 * 1024;
 
-/// Part that receives prose.
+/// The part to which prose is added.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Part {
     Text,
@@ -23,12 +23,12 @@ enum Part {
     Reveal,
 }
 
-/// A fenced block that is open.
+/// An open fenced block.
 struct Fence {
     line: u32,
-    /// As many backticks as it began with.
+    /// Number of backticks at its start.
     ticks: usize,
-    /// `set-up`, `checkpoint`, `solution`, `answer`; else it is part of the text.
+    /// `set-up`, `checkpoint`, `solution`, `answer`; any other block is part of the text.
     name: String,
     lines: Vec<String>,
 }
@@ -38,7 +38,7 @@ struct Reader {
     problems: Vec<Problem>,
     part: Part,
     fence: Option<Fence>,
-    /// Names of the blocks of the present step.
+    /// Names of the blocks of the current step.
     seen: Vec<&'static str>,
 }
 
@@ -48,7 +48,7 @@ impl Lesson {
     /// Reads a lesson.
     ///
     /// # Errors
-    /// Everything that could not be read, in order of its lines.
+    /// All problems, in the order of their lines.
     pub fn parse(text: &str) -> Result<Self, Vec<Problem>> {
         parse(text)
     }
@@ -85,7 +85,7 @@ fn parse(text: &str) -> Result<Lesson, Vec<Problem>> {
                     reader.problems.push(problem);
                 }
             }
-            // Without front matter everything else is read all the same.
+            // Read the rest even without front matter.
             _ => {
                 front = Some(false);
                 reader.line(number, line);
@@ -138,7 +138,7 @@ impl Reader {
         }
     }
 
-    /// `### Hint` and its like.
+    /// `### Hint` and the other headings of this level.
     fn heading(&mut self, number: u32, title: &str) {
         const HELP: &str = "write Hint, Predict or What just happened; for another heading use \
                             `####`";
@@ -175,7 +175,7 @@ impl Reader {
         };
     }
 
-    /// Returns the text that receives prose now.
+    /// Returns the text to which prose is added now.
     fn target(&mut self) -> &mut String {
         let Some(step) = self.lesson.steps.last_mut() else {
             return &mut self.lesson.intro;
@@ -191,7 +191,7 @@ impl Reader {
 
     fn prose(&mut self, line: &str) {
         let target = self.target();
-        // No blank lines at the beginning.
+        // Skip blank lines at the beginning.
         if !target.is_empty() || !line.trim().is_empty() {
             target.push_str(line.trim_end());
             target.push('\n');
@@ -291,7 +291,7 @@ impl Reader {
         }
     }
 
-    /// Reports missing parts of the step that ends.
+    /// Reports the missing parts of the step that ends.
     fn end_step(&mut self) {
         let Some(step) = self.lesson.steps.last() else {
             return;
@@ -353,7 +353,7 @@ impl Reader {
                 let help = "close it with the same number of backticks";
                 self.problem(fence.line - 1, "this block is not closed", help);
             }
-            // What the block swallowed is not missing.
+            // The unclosed block contains these parts, so do not report them as missing.
             None => self.end_step(),
         }
         if let Some(problem) = front::missing(&self.lesson) {

@@ -14,53 +14,53 @@ use crate::device::VirtualDevice;
 use crate::grammar::fact::Fact;
 use crate::script::Origin;
 
-/// One thing that the present step asks for.
+/// A condition of the current step.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Requirement {
-    /// It is so.
+    /// It holds.
     pub holds: bool,
-    /// It held since the step began, and no longer does: the learner may have no way back.
+    /// It held since the step began but no longer does; the learner may be unable to restore it.
     pub lost: bool,
-    /// The condition in words; while it is not met, its current state follows in parentheses.
+    /// The condition in words; while it does not hold, its present state follows in parentheses.
     pub text: String,
 }
 
 /// Observations of one alternative since the step began.
 #[derive(Clone, Copy, Default, Debug)]
 struct Note {
-    /// Frames that counted.
+    /// Number of matching frames.
     count: u32,
-    /// The last of them.
+    /// Time of the last one.
     last: Option<Instant>,
     /// Time when there were enough.
     done: Option<Instant>,
-    /// Since when the fact holds.
+    /// Time since which the condition holds.
     since: Option<Instant>,
-    /// The fact was looked at, and it held at some time.
+    /// The condition was checked, and held at some time.
     looked: bool,
     held: bool,
 }
 
 /// Watches a bench during a lesson.
 ///
-/// Hand it every frame that came through, then let it look; both change nothing on the bench.
+/// Pass every frame to it, then call its check; neither changes the bench.
 pub struct Progress {
     lesson: Lesson,
-    /// Number of each device that the lesson names.
+    /// Number of each device in the lesson.
     devices: Vec<(String, usize)>,
     step: usize,
     began: Instant,
-    /// Position of each shaft at that moment.
+    /// Position of each shaft when the step began.
     turns: Vec<Option<f64>>,
     notes: Vec<Vec<Note>>,
-    /// Time when a frame was disturbed on the wire.
+    /// Time of a disturbed frame.
     disturbed: Option<Instant>,
     reached: Vec<Instant>,
     news: VecDeque<usize>,
 }
 
 impl Progress {
-    /// At the first step, with the bench as its set-up left it.
+    /// Begins with the first step, on the bench after its set-up.
     pub fn new(lesson: Lesson, bench: &mut Bench) -> Self {
         let mut devices = Vec::new();
         for name in lesson.devices_named() {
@@ -88,12 +88,12 @@ impl Progress {
         &self.lesson
     }
 
-    /// The present step, counted from 0; the number of steps when all is done.
+    /// The current step, counted from 0; the number of steps when all are done.
     pub fn step(&self) -> usize {
         self.step
     }
 
-    /// Is every checkpoint reached?
+    /// Returns whether every checkpoint is reached.
     pub fn is_done(&self) -> bool {
         self.step >= self.lesson.steps.len()
     }
@@ -103,17 +103,17 @@ impl Progress {
         &self.reached
     }
 
-    /// A checkpoint that was reached since the last call: the number of its step.
+    /// Returns the step of a checkpoint that was reached since the last call.
     pub fn poll(&mut self) -> Option<usize> {
         self.news.pop_front()
     }
 
-    /// Does a checkpoint wait to be polled? A live bench pauses then.
+    /// Returns whether a reached checkpoint waits for a poll. A live bench pauses then.
     pub fn has_news(&self) -> bool {
         !self.news.is_empty()
     }
 
-    /// Goes to a step, as if those before it had just been done; what was seen so far does
+    /// Goes to a step as if the previous ones had just been done; earlier frames do
     /// not count for it.
     pub fn begin(&mut self, step: usize, bus: &Bus) {
         self.step = step.min(self.lesson.steps.len());
@@ -135,23 +135,23 @@ impl Progress {
         });
     }
 
-    /// A frame was disturbed on the wire.
+    /// Notes a disturbed frame.
     pub fn disturbed(&mut self, at: Instant) {
         self.disturbed = Some(at);
     }
 
-    /// A frame came through.
+    /// Notes a frame.
     pub fn frame(&mut self, at: Instant, origin: Origin, frame: &Frame) {
         let Some(step) = self.lesson.steps.get(self.step) else {
             return;
         };
-        // A device that is not there sends nothing.
+        // A missing device sends nothing.
         let device = |name: &Option<String>| {
             let name = name.as_deref()?;
             Some(number(&self.devices, Some(name)).unwrap_or(usize::MAX))
         };
         let mut again = false;
-        // From the last line to the first, so that one frame counts for one line of a row.
+        // Go from the last line to the first, so that one frame counts for only one line of a sequence.
         for (number, line) in step.checkpoint.iter().enumerate().rev() {
             let before = number.checked_sub(1).and_then(|above| {
                 self.notes
@@ -193,8 +193,8 @@ impl Progress {
         }
     }
 
-    /// Looks at the bench, after each frame and whenever something else happened. Answers
-    /// whether the present step is done now; the next one has begun then.
+    /// Checks the bench, after each frame and after every other event. Returns whether the
+    /// current step is done; then the next one has begun.
     pub fn look(&mut self, bus: &mut Bus) -> bool {
         let Some(step) = self.lesson.steps.get(self.step) else {
             return false;
@@ -204,7 +204,7 @@ impl Progress {
         for (line, notes) in step.checkpoint.iter().zip(&mut self.notes) {
             let mut any = false;
             for (one, note) in line.alternatives.iter().zip(notes) {
-                // What has to last is looked at each time; the rest once, and where it decides.
+                // Check lasting conditions each time, the others once, when the frames are complete.
                 if one.lasting > 0 || !note.looked || (all && !any) {
                     let device = device_of(&self.devices, one);
                     let turns = self.turns.get(device).copied().flatten();
@@ -222,7 +222,7 @@ impl Progress {
         all
     }
 
-    /// Returns the conditions of the present step, with their state.
+    /// Returns the conditions of the current step, with their state.
     pub fn requirements(&mut self, bus: &mut Bus) -> Vec<Requirement> {
         let Some(step) = self.lesson.steps.get(self.step) else {
             return Vec::new();
@@ -257,7 +257,7 @@ impl Progress {
         requirements
     }
 
-    /// Returns conditions that this bench cannot meet: the line, and the reason.
+    /// Returns conditions that this bench cannot meet: the line number, and the reason.
     pub(super) fn impossible(&self, bus: &mut Bus) -> Vec<(u32, String)> {
         let mut found = Vec::new();
         for line in self.lesson.steps.iter().flat_map(|step| &step.checkpoint) {
@@ -310,12 +310,12 @@ fn number(devices: &[(String, usize)], name: Option<&str>) -> Option<usize> {
     Some(*number)
 }
 
-/// The device that a fact is about: the first, where none is named.
+/// The device of a condition; the first if it names none.
 fn device_of(devices: &[(String, usize)], one: &Alternative) -> usize {
     number(devices, one.device.as_deref()).unwrap_or(0)
 }
 
-/// Returns if it holds, and its current state.
+/// Returns whether it holds, and its present state.
 fn holds(
     one: &Alternative,
     note: &mut Note,

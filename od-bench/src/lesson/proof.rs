@@ -1,5 +1,5 @@
-//! Proof that a lesson works: nothing is done at the start, its solution does it all, and every line
-//! of the solution is needed.
+//! Proof that a lesson works: no step is done at the start, its solutions complete it, and every line
+//! of them is needed.
 
 use std::prelude::v1::*;
 use std::{format, vec};
@@ -10,22 +10,22 @@ use super::watch::{Watched, pass};
 use crate::grammar::problem::Problem;
 use crate::script::{Bench, Host, Recorder, Script, run_on};
 
-/// Time without any action, in microseconds; it must not reach a checkpoint.
+/// Time without any action, in microseconds; no checkpoint may be reached in it.
 const IDLE: u64 = 20_000_000;
 
 const NEEDS_ACTION: &str = "add a condition that needs an action";
 
-/// Proves a lesson on benches that `host` makes devices for.
+/// Proves a lesson; `host` makes the devices of its benches.
 ///
-/// Returns problems in order of the lines; none if the lesson meets all of this:
+/// Returns problems in order of the lines. There are none if the lesson meets all of this:
 ///
-/// - the set-up and the solutions can be carried out, and what checkpoints ask for can be;
+/// - the set-up and the solutions can be carried out, and the checkpoints can be reached;
 /// - no checkpoint holds at the start, nor after a while without any action, nor
 ///   when the steps before it are done;
 /// - each step's solution reaches its checkpoint and no other;
 /// - without any one line of the solutions the lesson does not come to its end;
-/// - the frame that a question asks for comes while the step is done;
-/// - the text names no object that no device has, nor is the title or a hint missing.
+/// - the frame of a question comes during its step;
+/// - all objects in the text exist in a device, and the title and the hints exist.
 pub fn prove(lesson: &Lesson, host: &mut dyn Host) -> Vec<Problem> {
     let mut problems = match lesson.set_up(host) {
         Ok(mut bench) => {
@@ -55,7 +55,7 @@ pub fn prove(lesson: &Lesson, host: &mut dyn Host) -> Vec<Problem> {
     problems
 }
 
-/// The bench as the set-up leaves it, with some solutions played on it.
+/// The bench after the set-up and some solutions.
 fn played(
     lesson: &Lesson,
     host: &mut dyn Host,
@@ -69,7 +69,7 @@ fn played(
     Ok((bench, progress))
 }
 
-/// Each step on its own, on the bench as the set-up leaves it.
+/// Plays each step alone, on the bench after the set-up.
 fn nothing_by_itself(lesson: &Lesson, host: &mut dyn Host, problems: &mut Vec<Problem>) {
     for (number, step) in lesson.steps.iter().enumerate() {
         let Ok((mut bench, mut progress)) = played(lesson, host, &[]) else {
@@ -90,7 +90,7 @@ fn nothing_by_itself(lesson: &Lesson, host: &mut dyn Host, problems: &mut Vec<Pr
     }
 }
 
-/// Plays the solutions in their order.
+/// Plays the solutions in order.
 fn solved(lesson: &Lesson, host: &mut dyn Host, solutions: &[Block], problems: &mut Vec<Problem>) {
     let Ok((mut bench, mut progress)) = played(lesson, host, &[]) else {
         return;
@@ -135,7 +135,7 @@ fn solved(lesson: &Lesson, host: &mut dyn Host, solutions: &[Block], problems: &
     }
 }
 
-/// With the first steps done, the next one is not done by waiting.
+/// Checks that waiting does not complete the next step.
 fn waits(
     lesson: &Lesson,
     host: &mut dyn Host,
@@ -153,7 +153,7 @@ fn waits(
     }
 }
 
-/// Leaves one line after the other out.
+/// Plays the solutions without one line, for each line.
 fn every_line_is_needed(
     lesson: &Lesson,
     host: &mut dyn Host,
@@ -183,7 +183,7 @@ fn every_line_is_needed(
     }
 }
 
-/// Plays a block under the eyes of a lesson.
+/// Plays a block while a lesson watches.
 fn play(
     block: &Block,
     bench: &mut Bench,

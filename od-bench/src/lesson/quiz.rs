@@ -1,4 +1,4 @@
-//! Predict, then reveal: a question about bytes that are still to come.
+//! Questions about the bytes of a later frame.
 
 use std::prelude::v1::*;
 use std::vec;
@@ -7,34 +7,34 @@ use crate::grammar::pattern::Pattern;
 use crate::grammar::problem::Problem;
 use crate::logs::candump;
 
-/// A question, its answer, and why.
+/// A question, its answer, and the explanation.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Quiz {
     /// The question, as Markdown.
     pub question: String,
-    /// The frame; bytes that do not matter are open.
+    /// The frame; bytes that do not matter are gaps.
     pub answer: Pattern,
-    /// Text to show with the answer, as Markdown.
+    /// Text that is shown with the answer, as Markdown.
     pub reveal: String,
-    /// Line of the answer.
+    /// Line number of the answer.
     pub line: u32,
 }
 
-/// Result of comparing a given answer.
+/// Result of comparing an answer.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Judgement {
-    /// All of it.
+    /// All correct.
     pub right: bool,
-    /// The identifier is another one.
+    /// The identifier is wrong.
     pub wrong_identifier: bool,
-    /// The number of bytes is another one.
+    /// The number of bytes is wrong.
     pub wrong_length: bool,
     /// Numbers of the wrong bytes, counted from 0.
     pub wrong_bytes: Vec<usize>,
 }
 
 impl Quiz {
-    /// As [`judge`], with the answer of this question.
+    /// Like [`judge`], with the answer of this question.
     ///
     /// # Errors
     /// The text is not a frame.
@@ -46,7 +46,7 @@ impl Quiz {
 /// Compares a prediction: `585#43 00 10 00`, or only its bytes.
 ///
 /// # Errors
-/// It is neither.
+/// The text is neither.
 pub fn judge(answer: &Pattern, given: &str) -> Result<Judgement, Problem> {
     let given = given.trim();
     let whole = if given.contains('#') {

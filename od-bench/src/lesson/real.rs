@@ -1,4 +1,4 @@
-//! Selection of the lessons that work on a real bus: those that need frames, objects and states only.
+//! Lessons on a real bus: those that need only frames, objects and states.
 
 use std::format;
 use std::prelude::v1::*;
@@ -15,7 +15,7 @@ use crate::grammar::problem::Problem;
 use crate::script::Host;
 
 impl Lesson {
-    /// Makes the bench of a lesson on a real bus: its devices describe the nodes that a learner has.
+    /// Makes the bench of a lesson on a real bus; its devices describe the nodes of the learner.
     ///
     /// # Errors
     /// The first line that needs a virtual bench, with its reason; or the problem of the set-up.
@@ -31,7 +31,7 @@ impl Lesson {
         Ok(bench)
     }
 
-    /// The first line that needs a virtual bench.
+    /// Returns the first line that needs a virtual bench.
     fn virtual_line(&self, bus: &Bus) -> Option<Problem> {
         let help = "take it on the virtual bench: leave the real bus first";
         let needs = |line, what| {
@@ -44,7 +44,7 @@ impl Lesson {
         for (line, text) in (self.set_up.line + 1..).zip(self.set_up.text.lines()) {
             let text = text.split('#').next().unwrap_or_default().trim();
             let is_kept = text.is_empty() || text.starts_with("device ") || text == "line ideal";
-            // A device without power boots when the learner gives it some.
+            // A device without power boots when the learner switches it on.
             if !is_kept || text.ends_with(" off") {
                 return Some(needs(line, format!("`{text}` in its set-up")));
             }
@@ -63,7 +63,7 @@ impl Lesson {
     }
 }
 
-/// The thing that a condition looks at and no frame shows.
+/// Subject of a condition that no frame shows.
 fn virtual_thing(one: &Alternative) -> Option<&'static str> {
     let What::Fact(fact) = &one.what else {
         return matches!(one.what, What::Undisturbed).then_some("a step looks at the bus line");

@@ -67,7 +67,7 @@ fn check(from: &str, to: &str, expected: &str) {
 }
 
 #[test]
-fn a_good_lesson_has_nothing_to_mend() {
+fn a_good_lesson_has_no_problems() {
     check("", "", "");
     check("state operational", "state operational\nled green on", "");
     let lesson = Lesson::parse(GOOD).expect("a good lesson");
@@ -85,7 +85,7 @@ fn a_good_lesson_has_nothing_to_mend() {
 }
 
 #[test]
-fn mistakes_of_the_form_say_where_and_what_to_do() {
+fn a_mistake_in_the_form_has_a_line_and_a_help() {
     check("title =", "titel =", "1:1: the lesson has no title");
     check("level = 1", "level = 9", "1:1: the lesson has no level");
     check("+++\ntitle", "title", "1:1: the lesson has no title");
@@ -170,7 +170,7 @@ fn mistakes_of_the_form_say_where_and_what_to_do() {
 }
 
 #[test]
-fn what_does_not_work_is_found() {
+fn a_lesson_that_does_not_work_is_found() {
     check(
         "device gxmm",
         "device gxxx",

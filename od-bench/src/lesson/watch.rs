@@ -1,4 +1,4 @@
-//! A script, or time, while a lesson is watched.
+//! Runs a script, or lets time pass, while a lesson watches.
 
 use od_model::Refused;
 use std::prelude::v1::*;
@@ -10,11 +10,11 @@ use crate::bus::Bus;
 use crate::device::VirtualDevice;
 use crate::script::{Host, Limits, Origin};
 
-/// A host whose frames a lesson sees, too.
+/// A host that passes all frames to a lesson, too.
 pub struct Watched<'a> {
-    /// Host that makes the devices.
+    /// The host that makes the devices.
     pub host: &'a mut dyn Host,
-    /// Progress that sees all frames.
+    /// The progress that receives all frames.
     pub progress: &'a mut Progress,
 }
 
@@ -45,7 +45,7 @@ impl Host for Watched<'_> {
     }
 }
 
-/// Lets this number of microseconds pass, watched by a lesson.
+/// Lets this number of microseconds pass while a lesson watches.
 pub fn pass(bus: &mut Bus, progress: &mut Progress, micros: u64) {
     let end = bus.now().plus_micros(micros);
     loop {

@@ -1,5 +1,5 @@
-//! The language of scripts, spoken to a bench that runs already: frames, and the world
-//! outside the bus. Expectations belong to scripts only.
+//! The script language for a live bench: frames, and the surroundings of the bus.
+//! Only scripts can have expectations.
 
 use od_model::Refused;
 use std::collections::VecDeque;
@@ -13,10 +13,10 @@ use crate::grammar::action::{Action, When};
 use crate::grammar::deed::Deed;
 use crate::grammar::problem::Problem;
 
-/// Lines that wait for their moment; more are refused.
+/// Limit of waiting lines; more are refused.
 const MOST: usize = 100_000;
 
-/// Takes lines and carries them out in order, each at its moment.
+/// Takes lines and carries them out in order, each at its time.
 ///
 /// ```
 /// use od_bench::script::{Bench, Console};
@@ -37,20 +37,20 @@ const MOST: usize = 100_000;
 pub struct Console {
     reader: Reader,
     lines: VecDeque<(When, Deed)>,
-    /// Time when the line before was done.
+    /// Time when the previous line was done.
     done: Option<Instant>,
-    /// Time when it was first asked for something to do: stamps and `at` count from it.
+    /// Time of the first call of `step`: time stamps and `at` count from it.
     start: Option<Instant>,
     /// The rest of a line that takes time.
     rest: Option<(Instant, Deed)>,
 }
 
 impl Console {
-    /// A line that was read; empty lines and comments mean nothing. Returns whether there is something
+    /// Adds a line; empty lines and comments have no effect. Returns whether there is something
     /// to do.
     ///
     /// # Errors
-    /// The problem, and the text to write instead; then nothing of the line is done.
+    /// The problem, and the text to write instead. No part of the line is carried out then.
     pub fn push(&mut self, text: &str) -> Result<bool, Problem> {
         let Some(statement) = self.reader.statement(text)? else {
             return Ok(false);
@@ -73,32 +73,32 @@ impl Console {
         Ok(true)
     }
 
-    /// The action that begins next, if none goes on.
+    /// The action that begins next, if none is in progress.
     #[cfg(feature = "serve")]
     pub(crate) fn front(&self) -> Option<&Deed> {
         let front = self.lines.front().filter(|_| self.rest.is_none());
         front.map(|(_, deed)| deed)
     }
 
-    /// Does the last line go on?
+    /// Returns whether the last line is in progress.
     #[cfg(feature = "serve")]
     pub(crate) fn goes_on(&self) -> bool {
         self.rest.is_some()
     }
 
-    /// Forgets all lines, but for power that a line has switched off for a time.
+    /// Forgets all lines, except for power that a line has switched off for a time.
     #[cfg(feature = "serve")]
     pub(crate) fn abandon(&mut self) {
         self.lines.clear();
         self.rest.take_if(|(_, rest)| *rest != Deed::Power(true));
     }
 
-    /// Has everything been carried out?
+    /// Returns whether everything has been carried out.
     pub fn is_idle(&self) -> bool {
         self.lines.is_empty() && self.rest.is_none()
     }
 
-    /// Time when [`step`](Self::step) is due, seen from `now`.
+    /// Time when [`step`](Self::step) is due, as seen at `now`.
     pub fn deadline(&self, now: Instant) -> Option<Instant> {
         if let Some((at, _)) = &self.rest {
             return Some(*at);
@@ -116,10 +116,10 @@ impl Console {
         }
     }
 
-    /// Carries out the next line that is due: `None` where none is. A frame that the line
-    /// sends is handed back; who calls puts it on the bus.
+    /// Carries out the next line that is due; `None` if none is. It returns a frame that the line
+    /// sends; the caller puts it on the bus.
     ///
-    /// The error says why a line could not be carried out; those after it still can.
+    /// The error tells why a line could not be carried out; later lines still can.
     pub fn step(&mut self, bench: &mut Bench) -> Option<Result<Option<Frame>, Refused>> {
         let now = bench.bus.now();
         self.start.get_or_insert(now);
@@ -133,7 +133,7 @@ impl Console {
         };
         self.done = Some(now);
         let result = deed.act(bench);
-        // What did not work is not done again.
+        // Do not repeat a failed action.
         let rest = deed.rest().filter(|_| result.is_ok());
         self.rest = rest.map(|(micros, rest)| (now.plus_micros(micros), rest));
         Some(result.map_err(Refused::from))
@@ -149,7 +149,7 @@ mod tests {
     use std::format;
     use std::string::ToString;
 
-    /// Frames of the devices while these lines are carried out, up to 10 s.
+    /// Frames of the devices while these lines are carried out, for up to 10 s.
     fn run(lines: &[&str]) -> String {
         let mut bus = Bus::new();
         for node in [1, 2] {
@@ -186,7 +186,7 @@ mod tests {
     }
 
     #[test]
-    fn lines_act_in_order_and_at_their_moments() {
+    fn lines_act_in_order_and_at_their_times() {
         let out = run(&[
             "# nothing",
             "power on",
@@ -208,7 +208,7 @@ mod tests {
     }
 
     #[test]
-    fn what_only_a_script_can_do_is_refused() {
+    fn lines_only_for_scripts_are_refused() {
         let mut console = Console::default();
         for (line, why) in [
             ("expect 701#00", "only in a script"),

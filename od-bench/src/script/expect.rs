@@ -1,4 +1,4 @@
-//! Checks of `expect` lines against the frames that came.
+//! Checks `expect` lines against the received frames.
 
 use std::format;
 use std::prelude::v1::*;
@@ -12,10 +12,10 @@ use crate::grammar::fact::Fact;
 use crate::grammar::frames::Frames;
 use crate::grammar::shown::duration;
 
-/// So far ahead a failed expectation looks, to say what would have come.
+/// After a failed expectation the script runs for this time to find the frame that comes next.
 const LOOK_AHEAD: u64 = 10_000_000;
 
-/// So long an expectation without a time waits on a line that takes time, in microseconds.
+/// Longest wait of an expectation without a time on a line that takes time, in microseconds.
 const ON_ITS_WAY: u64 = 100_000;
 
 impl Runner<'_> {
@@ -67,7 +67,7 @@ impl Runner<'_> {
         let from = self.now();
         let late = self.bench.bus.longest_wait();
         let (until, when, exact) = match timing {
-            // Where frames take time, what is on its way counts as there.
+            // If frames take time, a frame that is being sent counts as received.
             Timing::Now if self.bench.bus.line.is_timed() => {
                 (from.plus_micros(ON_ITS_WAY), String::new(), None)
             }
@@ -102,7 +102,7 @@ impl Runner<'_> {
         format!("({:?}) {} came: {words}", sent.at, sent.frame)
     }
 
-    /// Nothing came; what would come later?
+    /// No frame came; find the one that comes later.
     fn look_ahead(&mut self) -> String {
         let now = self.now();
         let far = now.plus_micros(LOOK_AHEAD);

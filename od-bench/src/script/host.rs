@@ -28,8 +28,8 @@ impl Origin {
 
 /// Interface of a script to the program that runs it.
 pub trait Host {
-    /// Makes the device of a `device` line: the name of a built-in one, or of an EDS file.
-    /// With no name: the one that scripts without a `device` line run on.
+    /// Makes the device of a `device` line: by the name of a built-in one, or of an EDS file.
+    /// Without a name, the default device of scripts.
     ///
     /// # Errors
     /// The reason why the device does not exist, and what to do.
@@ -39,23 +39,23 @@ pub trait Host {
         node_id: Option<NodeId>,
     ) -> Result<VirtualDevice, Refused>;
 
-    /// The most that a script may ask for; `None`: no limits.
+    /// The limits of a script; `None`: no limits.
     fn limits(&self) -> Option<Limits> {
         None
     }
 
-    /// A frame is on the bus.
+    /// Called for each frame on the bus.
     fn frame(&mut self, at: Instant, origin: Origin, frame: &Frame) {
         let _ = (at, origin, frame);
     }
 
-    /// A frame was on the bus, or a line is done: the bench as it is now.
+    /// Called after a frame or a line, with the bench after it.
     fn look(&mut self, bus: &mut Bus) {
         let _ = bus;
     }
 }
 
-/// A host whose frames go to a function; its devices are those of another host.
+/// A host that passes frames to a function; another host makes its devices.
 pub(crate) struct Recorder<'a, F> {
     pub(crate) host: &'a mut dyn Host,
     pub(crate) record: F,
@@ -79,9 +79,9 @@ impl<F: FnMut(Instant, Origin, Frame)> Host for Recorder<'_, F> {
     }
 }
 
-/// A host whose scripts come from outside and have limits.
+/// A host with limits, for scripts from other people.
 pub struct Limited<'a>(
-    /// Host that makes the devices.
+    /// The host that makes the devices.
     pub &'a mut dyn Host,
     /// The limits.
     pub Limits,
@@ -101,10 +101,10 @@ impl Host for Limited<'_> {
     }
 }
 
-/// A host with these devices and nothing else.
+/// A host with these devices and without other functions.
 #[derive(Clone, Copy, Debug)]
 pub struct Bare(
-    /// The devices that have names; the first is the one of scripts that name none.
+    /// The named devices; the first is the default device of scripts.
     pub &'static [DeviceKind],
 );
 

@@ -1,4 +1,4 @@
-//! Limits of a script that runs while a user waits for it: a text from outside must not hang
+//! Limits of a script that runs while a user waits: a text from other people must not hang
 //! the program that opens it.
 
 use std::format;
@@ -13,14 +13,14 @@ use crate::grammar::deed::Deed;
 use crate::grammar::shown::duration;
 use crate::words::plural;
 
-/// The most that a script may ask of a bench.
+/// The limits of a script.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Limits {
     /// Virtual time of the run, in microseconds.
     pub micros: u64,
-    /// Devices on the bus, each channel of a redundant one.
+    /// Devices on the bus, counting each channel of a redundant one.
     pub devices: usize,
-    /// Frames, those that the script sends and those that devices send.
+    /// Frames, counting those of the script and those of devices.
     pub frames: u64,
 }
 
@@ -32,7 +32,7 @@ impl Limits {
         frames: 100_000,
     };
 
-    /// Adds up what the lines of a script ask for, before any of them runs.
+    /// Adds up the needs of all lines before any of them runs.
     ///
     /// # Errors
     /// The first line that exceeds a limit.
@@ -69,12 +69,12 @@ impl Limits {
         Ok(())
     }
 
-    /// The sentence for one device too many.
+    /// The message for one device too many.
     pub fn room(&self) -> String {
         format!("the bus has room for {}", plural(self.devices, "device"))
     }
 
-    /// The sentence for too many frames.
+    /// The message for too many frames.
     pub(super) fn flood(&self) -> String {
         format!(
             "the limit is {} in one run",
@@ -141,7 +141,7 @@ mod tests {
     }
 
     #[test]
-    fn what_a_page_can_bear_passes() {
+    fn scripts_within_the_limits_of_a_page_run() {
         assert_eq!(
             check("wait 300s\nwait 299s\nsync 1000 times every 1ms"),
             Ok(())
@@ -150,7 +150,7 @@ mod tests {
     }
 
     #[test]
-    fn sums_count_not_single_lines() {
+    fn limits_apply_to_sums_of_lines() {
         for (text, line, why) in [
             ("wait 1000000000s", 1, "600s"),
             ("wait 400s\nwait 201s", 2, "601s"),

@@ -1,4 +1,4 @@
-//! One line that is one frame: what the send line of a page takes.
+//! One line with one frame: the input of the send line of a page.
 
 use std::prelude::v1::*;
 
@@ -14,7 +14,7 @@ use crate::logs::candump;
 
 /// Context of a line.
 pub struct Known<'k> {
-    /// The node that it is for.
+    /// The node of the line.
     pub node: NodeId,
     /// The type of an object of that node.
     pub type_of: &'k dyn Fn(Address) -> Option<DataType>,
@@ -22,9 +22,9 @@ pub struct Known<'k> {
     pub real: &'k dyn Fn(&str) -> Option<f64>,
 }
 
-/// Reads a line of a log, a frame as people type it, or what a script says of one frame:
-/// `601#40 04 60 00`, `(0.1) can0 601#40046000`, `nmt start`, `sync`, `sdo read 6004h`, and for
-/// short `read 6004`, `write 6001 = 4096`, `sync 5`, `guard`.
+/// Reads a line of a log, a frame in any usual form, or a script's words for one frame:
+/// `601#40 04 60 00`, `(0.1) can0 601#40046000`, `nmt start`, `sync`, `sdo read 6004h`, and the
+/// short forms `read 6004`, `write 6001 = 4096`, `sync 5`, `guard`.
 ///
 /// # Errors
 /// The problem, and the text to write instead.
@@ -160,7 +160,7 @@ mod tests {
         }
     }
 
-    /// Whatever options candump was started with: here, and in scripts, lessons and `--link -`, which have one reader.
+    /// Lines of candump with any of its options, here and in scripts, lessons and `--link -`, which share one reader.
     #[test]
     fn a_line_of_candump_is_a_frame_everywhere() {
         use crate::grammar::action::Action;

@@ -1,7 +1,7 @@
-//! The language of `odkit run` and of the conformance tests: frames, the world outside the
-//! bus, and what is expected, one line after the other, in virtual time.
+//! The language of `odkit run` and of the conformance tests: frames, the surroundings of the
+//! bus, and expectations, one line after the other, in virtual time.
 //!
-//! `od-cli/SCRIPTS.md` describes it for those who write scripts.
+//! `od-cli/SCRIPTS.md` describes it for authors of scripts.
 //!
 //! ```
 //! use od_bench::script::{run, Bare, Script};

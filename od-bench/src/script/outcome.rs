@@ -7,10 +7,10 @@ use od_runtime::Instant;
 
 use crate::grammar::shown;
 
-/// A run that came to its end.
+/// A run that reached its end.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Summary {
-    /// Expectations that held.
+    /// Number of expectations that held.
     pub held: usize,
     /// Frames that the devices sent.
     pub frames: u64,
@@ -41,7 +41,7 @@ pub enum Reason {
         /// Actual frame or value.
         got: String,
     },
-    /// The line cannot be carried out: no such device, no such fault, a moment that has passed.
+    /// The line cannot be carried out: the device or the fault does not exist, or its time has passed.
     Impossible(String),
 }
 
@@ -55,7 +55,7 @@ impl fmt::Display for Stop {
 
 impl core::error::Error for Stop {}
 
-/// As it is shown below the line.
+/// The reason in the form that is printed below the line.
 impl fmt::Display for Reason {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

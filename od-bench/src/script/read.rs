@@ -1,4 +1,4 @@
-//! From text to a script. Lines are independent, so every mistake is found.
+//! Reads a script. Lines are independent, so every mistake is found.
 
 use std::prelude::v1::*;
 use std::vec;
@@ -8,7 +8,7 @@ use crate::grammar::line::line;
 use crate::grammar::problem::Problem;
 use crate::grammar::tokens::Tokens;
 
-/// One line with its place in the text.
+/// One line with its position in the text.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Statement {
     /// Counted from 1.
@@ -21,7 +21,7 @@ pub struct Statement {
     pub action: Action,
 }
 
-/// A script that was read.
+/// The lines of a script.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct Script {
     pub(super) statements: Vec<Statement>,
@@ -31,15 +31,15 @@ impl Script {
     /// Reads a script.
     ///
     /// # Errors
-    /// Everything that could not be read, in order.
+    /// All mistakes, in order.
     pub fn parse(text: &str) -> Result<Self, Vec<Problem>> {
         Self::parse_at(text, 1)
     }
 
-    /// Reads a script inside another text, where its first line has this number.
+    /// Reads a script inside another text; its first line has this number.
     ///
     /// # Errors
-    /// As [`parse`](Self::parse).
+    /// Like [`parse`](Self::parse).
     pub fn parse_at(text: &str, first_line: u32) -> Result<Self, Vec<Problem>> {
         let mut script = Self::default();
         let mut problems = vec![];
@@ -60,12 +60,12 @@ impl Script {
         }
     }
 
-    /// The lines that say something, for a program that plays them itself.
+    /// The lines that are not empty, for a program that plays them itself.
     pub fn statements(&self) -> &[Statement] {
         &self.statements
     }
 
-    /// Number of `expect` lines, SDO lines included.
+    /// Number of `expect` lines, including SDO lines.
     pub fn expectations(&self) -> usize {
         let expects = |statement: &&Statement| {
             matches!(
@@ -77,12 +77,12 @@ impl Script {
     }
 }
 
-/// Reads a script line by line, each as a script of its own.
+/// Reads a script line by line; each line is a script of its own.
 #[derive(Clone, Debug, Default)]
 pub struct Reader {
     /// Origin of the time stamps of a log.
     origin: Option<u64>,
-    /// Lines so far.
+    /// Number of lines so far.
     line: u32,
 }
 
@@ -96,7 +96,7 @@ impl Reader {
         Ok(Script { statements })
     }
 
-    /// The next line; `None` where it is empty, or only a comment.
+    /// Reads the next line; `None` if it is empty or only a comment.
     pub(super) fn statement(&mut self, text: &str) -> Result<Option<Statement>, Problem> {
         self.line = self.line.saturating_add(1);
         let tokens = Tokens::new(self.line, text.trim_start_matches('\u{feff}'));

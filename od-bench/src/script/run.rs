@@ -1,4 +1,4 @@
-//! From statements to frames.
+//! Runs the statements of a script.
 
 use std::collections::VecDeque;
 use std::format;
@@ -17,7 +17,7 @@ use crate::grammar::action::{Action, Added, When};
 use crate::grammar::deed::{Deed, Wire};
 use crate::grammar::pattern::Pattern;
 
-/// Result of a line; the error stops it.
+/// Result of a line; an error stops the script.
 pub(super) type Result<T> = core::result::Result<T, Reason>;
 
 pub(super) fn impossible<T>(why: impl Into<String>) -> Result<T> {
@@ -35,28 +35,28 @@ pub(super) fn failed<T>(expected: impl Into<String>, got: impl Into<String>) -> 
 pub(super) struct Runner<'r> {
     host: &'r mut dyn Host,
     pub(super) bench: &'r mut Bench,
-    /// Frames that the devices sent and no line has expected yet.
+    /// Frames of the devices that no line has expected yet.
     pub(super) pending: VecDeque<Sent>,
     ignored: Vec<Pattern>,
-    /// Boot-up messages of `device` lines: a script may expect them and need not.
+    /// Boot-up messages of `device` lines, which a script need not expect.
     greetings: Vec<Sent>,
     pub(super) held: usize,
     frames: u64,
     limits: Option<Limits>,
 }
 
-/// Runs a script from its first line to its last, or to the first that does not hold.
+/// Runs a script up to its end or its first failed line.
 ///
 /// # Errors
-/// [`Stop`] says which line, and why.
+/// [`Stop`] names the line and the reason.
 pub fn run(script: &Script, host: &mut dyn Host) -> core::result::Result<Summary, Box<Stop>> {
     run_on(script, &mut Bench::default(), host)
 }
 
-/// As [`run`], on a bench that is there already and stays there afterwards.
+/// Like [`run`], on an existing bench, which stays afterwards.
 ///
 /// # Errors
-/// [`Stop`] says which line, and why; what the lines before it did stays done.
+/// [`Stop`] names the line and the reason; the effects of earlier lines stay.
 pub fn run_on(
     script: &Script,
     bench: &mut Bench,
@@ -101,7 +101,7 @@ pub fn run_on(
 impl Runner<'_> {
     fn statement(&mut self, statement: &Statement) -> Result<()> {
         let now = self.now();
-        // The bus line is there before the first device is.
+        // The bus line exists before the first device.
         let is_before_devices = match &statement.action {
             Action::Device(_) => true,
             Action::Deed(Deed::Line(wire)) => !matches!(wire, Wire::Plugged(_)),
@@ -154,7 +154,7 @@ impl Runner<'_> {
         }
     }
 
-    /// Puts a device on the bus, all its channels.
+    /// Puts a device with all its channels on the bus.
     fn add(&mut self, wanted: &Added) -> Result<()> {
         let beside = match &wanted.beside {
             Some(label) => Some(self.bench.named(label).or_else(impossible)?),
@@ -204,7 +204,7 @@ impl Runner<'_> {
                 channel => format!("{label}.{}", channel + 1),
             }));
             channel += 1;
-            // The next free number, where the line gives none.
+            // Use the next free number if the line names none.
             let next = wanted.nodes.get(usize::from(channel)).copied();
             let raw = id.unwrap_or(NodeId::ONE).raw();
             id = next.or(NodeId::new(raw + 1)).or(Some(NodeId::ONE));
@@ -214,7 +214,7 @@ impl Runner<'_> {
             let before = self.pending.len();
             self.bench.bus.start(self.bench.current);
             self.collect();
-            // On a line that takes time the boot-up is still on its way.
+            // On a line that takes time, the boot-up message is still being sent.
             for station in first.unwrap_or_default() + 1..=self.bench.bus.devices().len() {
                 self.send_out(station);
             }
@@ -223,7 +223,7 @@ impl Runner<'_> {
         Ok(())
     }
 
-    /// Takes greetings off the queue that are not what is wanted.
+    /// Removes boot-up messages from the queue that do not match.
     pub(super) fn pass_greetings(&mut self, wanted: impl Fn(&Frame) -> bool) {
         while let Some(sent) = self.pending.front()
             && self.greetings.contains(sent)
@@ -233,7 +233,7 @@ impl Runner<'_> {
         }
     }
 
-    /// The device that lines are about.
+    /// The device of the current lines.
     pub(super) fn device(&self) -> Result<&VirtualDevice> {
         self.bench.present().or_else(impossible)
     }
@@ -245,7 +245,7 @@ impl Runner<'_> {
     /// Puts a frame on the bus.
     pub(super) fn send(&mut self, frame: &Frame) {
         let at = self.now();
-        // The answers wait in the bus until `collect`, so the frame is seen before them.
+        // Answers wait in the bus until `collect`, so the frame is reported before them.
         if self.bench.bus.receive(frame) {
             self.host.frame(at, Origin::Script, frame);
             self.host.look(&mut self.bench.bus);
@@ -254,8 +254,8 @@ impl Runner<'_> {
         self.send_out(0);
     }
 
-    /// On a line that takes time, a line of a script is done when what it sends is through, or
-    /// was given up. Station 0 is the script.
+    /// On a line that takes time, a script line is done when its frame was sent or
+    /// given up. Station 0 is the script.
     fn send_out(&mut self, station: usize) {
         while self.bench.bus.is_sending(station) && self.bench.bus.advance_until_event() {
             self.collect();
@@ -269,7 +269,7 @@ impl Runner<'_> {
         }
     }
 
-    /// Were there more frames than the script may bring about?
+    /// Returns whether there were more frames than the limit of the script.
     fn is_flooded(&self) -> bool {
         self.limits
             .is_some_and(|limits| self.frames > limits.frames)

@@ -1,4 +1,4 @@
-//! The SDO client behind `sdo read` and `sdo write`.
+//! The SDO client of `sdo read` and `sdo write`.
 
 use std::format;
 use std::prelude::v1::*;
@@ -12,7 +12,7 @@ use super::run::{Result, Runner, failed, impossible};
 use crate::grammar::action::Outcome;
 use crate::grammar::typed::{Write, resolve};
 
-/// A script's frames are those of segmented transfers, whatever the length of a value.
+/// A script uses segmented transfers for values of any length.
 const SDO: Options = Options::SEGMENTED;
 
 /// Result of a transfer: data, or an abort code.
@@ -49,7 +49,7 @@ impl Runner<'_> {
         Ok(())
     }
 
-    /// Carries out one transfer; a download brings no bytes.
+    /// Carries out one transfer; a download returns no bytes.
     fn transfer(&mut self, begin: impl FnOnce(&mut Client, NodeId) -> Job) -> Result<Transfer> {
         let mut client = Client::with(SDO, lss::Options::DEFAULT);
         begin(&mut client, self.device()?.node_id());
@@ -62,8 +62,8 @@ impl Runner<'_> {
         }
     }
 
-    /// Runs the client until something happens. It gets the answers among the frames that come
-    /// after its request; the rest stays for `expect`.
+    /// Runs the client until an event. It receives the responses among the frames
+    /// after its request; other frames stay for `expect`.
     fn next_event(&mut self, client: &mut Client) -> Result<Event> {
         let id = Channel::of(self.device()?.node_id()).response;
         let mut looked_at = self.pending.len();
@@ -88,7 +88,7 @@ impl Runner<'_> {
         }
     }
 
-    /// Takes the next frame with this CAN-ID out of what came.
+    /// Takes the next received frame with this CAN-ID.
     fn answer(&mut self, id: CanId, looked_at: &mut usize) -> Option<Frame> {
         while let Some(sent) = self.pending.get(*looked_at) {
             if sent.frame.id() == id && !sent.frame.is_remote() {
@@ -100,7 +100,7 @@ impl Runner<'_> {
     }
 }
 
-/// A script may expect an abort; any other error stops it.
+/// A script may expect an abort; any other error stops the script.
 fn transferred(result: core::result::Result<Vec<u8>, SdoError>) -> Result<Transfer> {
     match result {
         Ok(value) => Ok(Ok(value)),
@@ -116,7 +116,7 @@ fn transferred(result: core::result::Result<Vec<u8>, SdoError>) -> Result<Transf
     }
 }
 
-/// Compares the end of a transfer with the expected one. Returns the bytes of one that succeeded.
+/// Compares the end of a transfer with the expected one. Returns the bytes of a successful transfer.
 fn ended(
     outcome: &Outcome,
     result: Transfer,

@@ -1,4 +1,4 @@
-//! Frames and values as people type them: what the forms of can-utils allow, and looser ones.
+//! Frames and values typed by users: the forms of can-utils, and less strict ones.
 
 use std::prelude::v1::*;
 
@@ -13,7 +13,7 @@ const EXAMPLE: &str = "type a CAN-ID and up to 8 bytes, such as 601#40 04 60 00"
 /// `701#R`, `181 [4] rtr`, `12345678#0102` (eight digits: 29 bits).
 ///
 /// # Errors
-/// [`Error`] names the first character that does not fit.
+/// [`Error`] names the first invalid character.
 pub fn frame(text: &str) -> Result<Frame, Error> {
     let mut rest = Text::new(text);
     rest.skip(char::is_whitespace);
@@ -62,7 +62,7 @@ fn id(digits: &str, at: usize) -> Result<CanId, Error> {
     }
 }
 
-/// A line, character by character.
+/// A line, read character by character.
 struct Text {
     chars: Vec<char>,
     at: usize,
@@ -94,7 +94,7 @@ impl Text {
         self.chars[from..self.at].iter().collect()
     }
 
-    /// Takes these characters if they are next, in any case.
+    /// Takes these characters if they come next, in upper or lower case.
     fn take(&mut self, text: &str) -> bool {
         let len = text.chars().count();
         let next = self.chars.get(self.at..self.at + len).unwrap_or_default();
@@ -108,7 +108,7 @@ impl Text {
         is_next
     }
 
-    /// `[8]`, with what may be before it.
+    /// Reads `[8]`, with optional characters before it.
     fn length(&mut self) -> Option<u8> {
         let from = self.at;
         self.skip(char::is_whitespace);
@@ -128,7 +128,7 @@ impl Text {
         None
     }
 
-    /// `R`, `R4`, `rtr`: the rest is a remote frame, maybe with a length.
+    /// Reads `R`, `R4` or `rtr`: the rest is a remote frame, with an optional length.
     fn remote(&mut self) -> Option<Option<u8>> {
         let rest: String = self.chars[self.at..].iter().collect();
         let rest = rest.trim().to_ascii_lowercase();
@@ -143,7 +143,7 @@ impl Text {
         }
     }
 
-    /// Bytes of one or two digits; one digit needs a separator after it.
+    /// Reads bytes of one or two digits; one digit needs a separator after it.
     fn bytes(&mut self) -> Result<Vec<u8>, Error> {
         let between = |c: char| c.is_whitespace() || matches!(c, '.' | ',' | '_' | '-');
         let mut bytes = Vec::new();
@@ -181,9 +181,9 @@ impl Text {
     }
 }
 
-/// The bytes of a value for an object of this type: `4096`, `0x1000`, `1000h`, `4 096`, `-1`,
+/// Returns the bytes of a value for an object of this type: `4096`, `0x1000`, `1000h`, `4 096`, `-1`,
 /// `true`, `1.5`, `"save"`, a text without quotes for a text, `01 02 FF` for bytes. `real` reads
-/// a decimal fraction: a page has that already.
+/// a decimal fraction; a page already has such a function.
 ///
 /// # Errors
 /// The problem of the text.
@@ -236,7 +236,7 @@ fn integer(data_type: DataType, text: &str) -> Result<Vec<u8>, Refused> {
     };
     let value =
         value.ok_or_else(|| format!("“{text}” is not a whole number (decimal, 0x1F or 1Fh)"))?;
-    // All bits may be given, whatever the sign.
+    // All bits may be given, for signed types, too.
     let bits = data_type.bits().unwrap_or(8);
     if value < -(1 << (bits - 1)) || value >= 1 << bits {
         return Err(format!("{value} does not fit {data_type}").into());
@@ -264,7 +264,7 @@ mod tests {
     use std::string::ToString;
 
     #[test]
-    fn frames_may_be_loose() {
+    fn frames_may_have_a_loose_form() {
         for text in [
             "601#4004600000000000",
             "601#40 04 60 00 00 00 00 00",
@@ -298,7 +298,7 @@ mod tests {
     }
 
     #[test]
-    fn mistakes_in_frames_say_where() {
+    fn a_mistake_in_a_frame_has_a_place() {
         for (text, column, why) in [
             ("", 1, "missing"),
             ("xyz#00", 1, "hexadecimal"),
@@ -318,7 +318,7 @@ mod tests {
     }
 
     #[test]
-    fn values_may_be_loose() {
+    fn values_may_have_a_loose_form() {
         let value = |data_type, text: &str| super::value(data_type, text, |text| text.parse().ok());
         let u32_ = DataType::Unsigned32;
         for text in [

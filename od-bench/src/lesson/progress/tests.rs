@@ -32,7 +32,7 @@ fn play(lines: &str, bench: &mut Bench, progress: &mut Progress) {
     run_on(&script, bench, &mut watched).expect(lines);
 }
 
-/// Plays lines on the bench of a lesson with this checkpoint, and answers whether they reach it.
+/// Plays lines on the bench of a lesson with this checkpoint, and returns whether they reach it.
 #[track_caller]
 fn reaches(checkpoint: &str, lines: &str) -> bool {
     let (mut bench, mut progress) = begin(checkpoint);
@@ -140,7 +140,7 @@ fn conditions_hold_when_they_should() {
             false,
         ),
     ] {
-        // What holds already at the start is not what these are about.
+        // Conditions that already hold at the start.
         let lines = format!("{lines}\nwait 0ms");
         let expected = holds || checkpoint.starts_with("value 1008h");
         assert_eq!(
@@ -152,7 +152,7 @@ fn conditions_hold_when_they_should() {
 }
 
 #[test]
-fn what_is_missing_is_said_in_words() {
+fn missing_conditions_are_described_in_words() {
     let (mut bench, mut progress) = begin(
         "sent 000#01 05\ncame 705#05 3 times\nvalue 1017h = 100\nled green on -- see the LED",
     );
@@ -181,7 +181,7 @@ fn what_is_missing_is_said_in_words() {
 }
 
 #[test]
-fn what_held_and_no_longer_does_is_lost() {
+fn a_condition_that_no_longer_holds_is_lost() {
     let (mut bench, mut progress) = begin("came abort\nvalue 6001h = 8192");
     let lost = |bench: &mut Bench, progress: &mut Progress| {
         let all = progress.requirements(&mut bench.bus);

@@ -1,7 +1,7 @@
 use super::*;
 
 #[test]
-fn an_answer_is_judged_byte_by_byte() {
+fn an_answer_is_compared_byte_by_byte() {
     let judge = |given| {
         judge(
             &Pattern::parse("585#43 17 .. 00").expect("a pattern"),
