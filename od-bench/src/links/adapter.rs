@@ -1,4 +1,4 @@
-//! The client's side of slcan: an adapter on a serial line, a server of one, or `odkit sim`.
+//! The client side of slcan: for an adapter on a serial line, an slcan server, or `odkit sim`.
 
 use std::format;
 use std::prelude::v1::*;
@@ -7,10 +7,10 @@ use od_wire::Frame;
 
 use super::slcan;
 
-/// Bit rates in kbit/s, by their number in the command `S`.
+/// Bit rates in kbit/s; the index is the number in the command `S`.
 pub const RATES: [u16; 9] = [10, 20, 50, 100, 125, 250, 500, 800, 1000];
 
-/// Longest line that an adapter sends; of a longer one the end is cut.
+/// Longest line of an adapter; the end of a longer line is cut off.
 const LONGEST: usize = 256;
 
 /// Line of an adapter.
@@ -24,27 +24,27 @@ pub enum Said {
     Closed,
     /// The adapter refuses a frame.
     Refused,
-    /// An answer that does not matter.
+    /// An answer without effect.
     Nothing,
-    /// No adapter sends such a line.
+    /// Not a line of an adapter.
     Noise(Vec<u8>),
 }
 
 /// State of the conversation with an adapter.
 #[derive(Clone, Debug, Default)]
 pub struct Adapter {
-    /// Answers that are due before the channel is open.
+    /// Answers that must come before the channel is open.
     due: u8,
     is_open: bool,
-    /// A line without its end.
+    /// An incomplete line.
     line: Vec<u8>,
 }
 
 impl Adapter {
-    /// Returns the bytes that open the channel: at `rate` in kbit/s, else at the rate that the adapter
-    /// has; with `listens`, without acknowledging frames. `None` for a rate that slcan does not have.
+    /// Returns the bytes that open the channel, at `rate` in kbit/s or otherwise at the present rate of the
+    /// adapter; with `listens`, without acknowledging frames. `None` for a rate that slcan does not have.
     pub fn begin(&mut self, rate: Option<u16>, listens: bool) -> Option<Vec<u8>> {
-        // The first end of line ends what an earlier host left.
+        // The first end of line completes a line that an earlier host left.
         let mut text = String::from("\rC\r");
         *self = Self {
             due: 3,
@@ -76,7 +76,7 @@ impl Adapter {
         }
     }
 
-    /// Takes a line without its end, which is the bell where it is not right.
+    /// Takes a line without its end; the bell in place of an end marks an error.
     pub fn line(&mut self, line: &[u8], is_right: bool) -> Said {
         if let Some(frame) = slcan::frame_of(line) {
             return Said::Frame(frame);
@@ -84,13 +84,13 @@ impl Adapter {
         match line {
             [] => self.answer(is_right),
             [b'z' | b'Z'] | [b'V' | b'v' | b'N' | b'F', ..] => Said::Nothing,
-            // The end of a line whose beginning another reader got.
+            // The end of a line whose beginning another reader received.
             _ if !self.is_open => Said::Nothing,
             line => Said::Noise(line.to_vec()),
         }
     }
 
-    /// An answer without text: right, or wrong.
+    /// An answer without text: accepted, or an error.
     fn answer(&mut self, is_right: bool) -> Said {
         if self.is_open {
             return if is_right {
@@ -146,7 +146,7 @@ mod tests {
     }
 
     #[test]
-    fn frames_come_in_pieces_and_the_bell_is_heard() {
+    fn frames_come_in_pieces_and_the_bell_is_an_error() {
         let mut adapter = Adapter::default();
         assert!(
             adapter

@@ -1,4 +1,4 @@
-//! Addresses of links, for programs that listen there and for those that connect: `slcan:HOST:PORT`,
+//! Addresses of links, for programs that listen there and programs that connect: `slcan:HOST:PORT`,
 //! `slcan:DEVICE[@BAUD]`, `socketcand:HOST:PORT`, `socketcan:INTERFACE`.
 
 use std::format;
@@ -6,7 +6,7 @@ use std::prelude::v1::*;
 
 use od_model::Refused;
 
-/// Bit rate of a serial line if the address gives none.
+/// Bit rate of a serial line if the address has none.
 pub const BAUD: u32 = 115_200;
 
 /// Address of a link.
@@ -23,7 +23,7 @@ pub enum Address {
 }
 
 impl Address {
-    /// Reads an address. `forms` are the forms that the caller takes, for the message.
+    /// Reads an address. `forms` lists the forms that the caller accepts, for the message.
     ///
     /// # Errors
     /// The text is not a valid address.

@@ -1,5 +1,5 @@
-//! Linux' `struct can_frame`, as a raw CAN socket reads and writes it: 16 bytes, with an
-//! identifier in the machine's own byte order.
+//! `struct can_frame` of Linux, the message of a raw CAN socket: 16 bytes, with an
+//! identifier in the byte order of the machine.
 
 use std::prelude::v1::*;
 
@@ -7,15 +7,15 @@ use od_runtime::{CanId, Frame, Instant};
 
 use super::codec::{Codec, Step};
 
-/// Bytes of a frame; a socket takes and gives one frame at a time.
+/// Bytes of a frame; a socket reads or writes one frame at a time.
 pub const SIZE: usize = 16;
 
 const EXTENDED: u32 = 1 << 31;
 const REMOTE: u32 = 1 << 30;
 const ERROR: u32 = 1 << 29;
 
-/// Whether a CAN interface of Linux is up; `None`: the system does not say. An interface that comes up later
-/// works.
+/// Returns whether a CAN interface of Linux is up; `None` if the system does not tell. An interface that comes up
+/// later works.
 #[cfg(all(feature = "serve", target_os = "linux"))]
 pub fn is_up(interface: &str) -> Option<bool> {
     const IFF_UP: u32 = 1;
@@ -58,8 +58,8 @@ pub fn encode(frame: &Frame, out: &mut Vec<u8>) {
     out.extend_from_slice(&bytes);
 }
 
-/// Reads a frame; `None` where it is an error message of the controller, a CAN FD frame, or
-/// not whole.
+/// Reads a frame; `None` for an error message of the controller, a CAN FD frame, or an
+/// incomplete frame.
 pub fn decode(bytes: &[u8]) -> Option<Frame> {
     let bytes: &[u8; SIZE] = bytes.try_into().ok()?;
     let (id, rest) = bytes.split_first_chunk::<4>()?;
@@ -83,7 +83,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_written_is_read() {
+    fn a_written_frame_is_read_back() {
         for frame in [
             Frame::standard(0x581, &[0x43, 2, 0x60, 0, 0, 0, 0, 0x20]),
             Frame::standard(0x80, &[]),
@@ -99,7 +99,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_frame_is_left_out() {
+    fn other_messages_are_left_out() {
         let mut bytes = Vec::new();
         encode(&Frame::standard(0x123, &[1, 2]), &mut bytes);
         assert_eq!(decode(&bytes[..15]), None);

@@ -1,4 +1,4 @@
-//! The codec of a client: its bytes on one side, the frames of the bus on the other.
+//! The codec of a client: converts between its bytes and the frames of the bus.
 
 use std::prelude::v1::*;
 
@@ -15,19 +15,19 @@ pub enum Step {
     Line(String),
     /// The client needs time to read the reply before frames follow.
     Pause,
-    /// The client has no more to say, and the connection ends.
+    /// The client has finished, and the connection ends.
     Leave,
 }
 
-/// A codec: takes bytes as they come, in any pieces, and answers with [`Step`]s in the order in
-/// which they have to happen. No codec waits, and none grows with the input.
+/// A codec: takes bytes in pieces of any size, and returns [`Step`]s in the order in
+/// which they must happen. No codec waits, and none grows with the input.
 pub trait Codec: Send {
     /// Returns the first bytes for a new client.
     fn hello(&self) -> &'static [u8] {
         b""
     }
 
-    /// Takes bytes from the client, and adds what they bring about to `steps`.
+    /// Takes bytes of the client, and adds their effects to `steps`.
     fn receive(&mut self, bytes: &[u8], now: Instant, steps: &mut Vec<Step>);
 
     /// Takes the end of the input: the last line of a text may lack its line end.
@@ -35,14 +35,14 @@ pub trait Codec: Send {
         let _ = steps;
     }
 
-    /// Name of the form of the next frame. Codecs that return the same name encode a frame to
+    /// Name of the encoding of the next frame. Codecs with the same name encode a frame to
     /// the same bytes; `None`: the bytes are for this client only.
     fn form(&self) -> Option<&'static str> {
         None
     }
 
-    /// Adds a frame of the bus as this client gets it to `out`; nothing while the client does not
-    /// hear it. `stamp` is the time of day at `now`, in microseconds.
+    /// Adds a frame of the bus in the encoding of this client to `out`; nothing while the client does not
+    /// receive it. `stamp` is the time of day at `now`, in microseconds.
     fn encode(&mut self, frame: &Frame, now: Instant, stamp: u64, out: &mut Vec<u8>);
 
     /// Time when [`wake`](Self::wake) is due; `None`: never.
@@ -50,13 +50,13 @@ pub trait Codec: Send {
         None
     }
 
-    /// Does what is due at `now`, whose time of day is `stamp` in microseconds.
+    /// Does the work that is due at `now`, at the time of day `stamp` in microseconds.
     fn wake(&mut self, now: Instant, stamp: u64, steps: &mut Vec<Step>) {
         let _ = (now, stamp, steps);
     }
 }
 
-/// Adds to the reply that comes next.
+/// Adds to the next reply.
 pub(super) fn reply(steps: &mut Vec<Step>, bytes: &[u8]) {
     match steps.last_mut() {
         Some(Step::Reply(reply)) => reply.extend_from_slice(bytes),

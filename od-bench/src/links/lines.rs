@@ -1,4 +1,4 @@
-//! Lines of the script language in, a candump log out.
+//! Lines of the script language as input, a candump log as output.
 
 use std::prelude::v1::*;
 
@@ -10,7 +10,7 @@ use crate::logs::candump;
 /// Longest line of input, in bytes; longer lines are cut.
 const LONGEST: usize = 4096;
 
-/// The codec of standard input and output: holds the line that has not ended yet.
+/// The codec of standard input and output; it keeps an incomplete line.
 #[derive(Debug, Default)]
 pub struct Lines(Vec<u8>);
 
@@ -22,7 +22,7 @@ impl Codec for Lines {
                     steps.push(Step::Line(String::from_utf8_lossy(&self.0).into_owned()));
                     self.0.clear();
                 }
-                // The rest of a longer line would say something else than the whole.
+                // A cut line could have another meaning, so it is refused.
                 _ if self.0.len() > LONGEST => {}
                 _ => self.0.push(*byte),
             }

@@ -1,9 +1,9 @@
-//! Protocols of adapters and daemons: frames on one side, bytes on the other.
+//! Protocols of adapters and daemons: they convert frames to bytes and back.
 //!
-//! | module | who speaks it |
+//! | module | protocol of |
 //! |---|---|
-//! | `address` | where a link leads: the values of `--link`; feature `serve` |
-//! | [`adapter`] | the client's side of slcan |
+//! | `address` | the values of `--link`; feature `serve` |
+//! | [`adapter`] | the client side of slcan |
 //! | [`slcan`] | serial adapters, `slcand`, python-can's `slcan` |
 //! | [`socketcand`] | the daemon of that name, python-can's `socketcand`, Kayak |
 //! | `web_socket` | slcan in a WebSocket, for pages; feature `serve` |

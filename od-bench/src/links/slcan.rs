@@ -1,7 +1,7 @@
-//! The serial line CAN protocol, as adapters and hosts speak it (Lawicel; can-utils; python-can).
+//! The serial line CAN protocol of adapters and hosts (Lawicel; can-utils; python-can).
 //!
-//! A client's line ends with CR. It is answered with CR, or with BEL if it was wrong.
-//! Frames go out as `t1232AABB`, `T0000012321122`, `r1230`, `R000001230`.
+//! A line of a client ends with CR. The answer is CR, or BEL after an error.
+//! Frames are sent as `t1232AABB`, `T0000012321122`, `r1230`, `R000001230`.
 
 use std::format;
 use std::prelude::v1::*;
@@ -10,12 +10,12 @@ use od_runtime::{CanId, Frame, Instant};
 
 use super::codec::{Codec, Step, reply};
 
-/// The answer to what was right.
+/// The answer to a valid line.
 const OK: &[u8] = b"\r";
-/// The answer to what was wrong.
+/// The answer to an error.
 const BELL: &[u8] = b"\x07";
 
-/// The longest line that means anything is `T` with 8 bytes: 26 characters, and 4 of a
+/// The longest valid line is `T` with 8 bytes: 26 characters, and 4 of a
 /// time stamp that some hosts send.
 const LONGEST: usize = 64;
 
@@ -38,13 +38,13 @@ impl Codec for Channel {
                     if std::mem::take(&mut self.too_long) {
                         reply(steps, BELL);
                     } else if let Some(frame) = self.command(&line, steps) {
-                        // A frame's own acknowledgement comes before its effects.
+                        // The acknowledgement of a frame comes before its effects.
                         steps.push(Step::Frame(frame));
                     }
                     self.line = line;
                     self.line.clear();
                 }
-                // Terminals send it along; no line contains one.
+                // Terminals send line feeds, too; no line contains one.
                 b'\n' => {}
                 _ if self.line.len() < LONGEST => self.line.push(*byte),
                 _ => self.too_long = true,
@@ -74,12 +74,12 @@ impl Codec for Channel {
 }
 
 impl Channel {
-    /// One line without its CR.
+    /// Handles one line without its CR.
     fn command(&mut self, line: &[u8], steps: &mut Vec<Step>) -> Option<Frame> {
         let answer = match line {
-            // Hosts send empty lines to clear half a line of an earlier host.
+            // Hosts send empty lines to end an incomplete line of an earlier host.
             [] => OK,
-            // Opening what is open and closing what is closed: hosts do it to be sure.
+            // Hosts open an open channel and close a closed one, to be sure.
             [b'C'] => {
                 self.open = false;
                 OK
@@ -92,7 +92,7 @@ impl Channel {
                 (self.open, self.listen_only) = (true, true);
                 OK
             }
-            // Bit rates, filters, polling, UART rate: taken, and without meaning here.
+            // Bit rates, filters, polling, UART rate: accepted without effect.
             [b'S', b'0'..=b'9'] => OK,
             [b's', rest @ ..] if matches!(rest.len(), 4 | 6) && is_hex(rest) => OK,
             [b'M' | b'm', rest @ ..] if rest.len() == 8 && is_hex(rest) => OK,
@@ -105,7 +105,7 @@ impl Channel {
             [b'V'] => b"V1013\r",
             [b'v'] => b"v0100\r",
             [b'N'] => b"NODKT\r",
-            // No overrun, no error passive, no bus-off on this bus.
+            // This bus has no overrun, error passive or bus-off.
             [b'F'] => b"F00\r",
             [kind @ (b't' | b'T' | b'r' | b'R'), rest @ ..] => {
                 let frame = parse_frame(*kind, rest).filter(|_| self.open && !self.listen_only);
@@ -151,7 +151,7 @@ fn is_hex(text: &[u8]) -> bool {
     text.iter().all(u8::is_ascii_hexdigit)
 }
 
-/// Parses the rest after the letter: CAN-ID, length, data, perhaps a time stamp.
+/// Parses the rest after the letter: CAN-ID, length, data, and an optional time stamp.
 fn parse_frame(kind: u8, text: &[u8]) -> Option<Frame> {
     let extended = kind.is_ascii_uppercase();
     let (id, rest) = text.split_at_checked(if extended { 8 } else { 3 })?;
@@ -181,7 +181,7 @@ fn is_stamp(rest: &[u8]) -> bool {
     rest.len() == 4 && is_hex(rest)
 }
 
-/// At most eight hex digits, without a sign.
+/// Up to eight hex digits, without a sign.
 fn hex(digits: &[u8]) -> Option<u32> {
     if !is_hex(digits) {
         return None;
@@ -236,7 +236,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_wrong_gets_a_bell_and_nothing_else() {
+    fn an_error_is_answered_with_a_bell_only() {
         for line in [
             "x",
             "S",
@@ -282,7 +282,7 @@ mod tests {
     }
 
     #[test]
-    fn a_closed_channel_hears_nothing() {
+    fn a_closed_channel_receives_nothing() {
         let frame = Frame::standard(0x701, &[0]);
         let mut channel = Channel::default();
         let mut out = Vec::new();
@@ -298,7 +298,7 @@ mod tests {
     }
 
     #[test]
-    fn what_goes_out_comes_back() {
+    fn a_written_line_is_read_back() {
         let mut channel = Channel::default();
         channel.receive(b"O\r", Instant::ZERO, &mut Vec::new());
         for frame in [

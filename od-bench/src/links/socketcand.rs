@@ -1,18 +1,18 @@
 //! The protocol of the socketcand daemon: commands in angle brackets over TCP.
 //!
-//! A client is greeted with `< hi >` and opens a bus (`< open can0 >`); after that it is in
-//! BCM mode, where it hears what it subscribes to and may have frames sent again and again,
-//! or after `< rawmode >` in RAW mode, where it hears everything.
+//! The server greets a client with `< hi >`. The client opens a bus (`< open can0 >`) and is then in
+//! BCM mode, in which it receives its subscriptions and can have frames sent repeatedly,
+//! or after `< rawmode >` in RAW mode, in which it receives everything.
 //!
 //! | | |
 //! |---|---|
 //! | `< send 601 8 40 4 60 0 0 0 0 0 >`, `< sendrtr 701 0 >` | a frame, at once |
 //! | `< add 0 20000 80 0 >`, `< update 80 1 5 >`, `< delete 80 >` | a frame every 20 ms |
-//! | `< subscribe 0 0 181 >`, `< filter 0 0 181 2 FF 00 >`, `< unsubscribe 181 >` | what BCM mode hears |
+//! | `< subscribe 0 0 181 >`, `< filter 0 0 181 2 FF 00 >`, `< unsubscribe 181 >` | subscriptions of BCM mode |
 //! | `< rawmode >`, `< bcmmode >`, `< echo >` | |
 //!
 //! There is one bus, and every name opens it. ISO-TP, CAN FD, statistics and multiplex
-//! filters are answered as unknown commands.
+//! filters are answered like unknown commands.
 
 mod jobs;
 #[cfg(test)]
@@ -26,9 +26,9 @@ use od_runtime::{CanId, Frame, Instant};
 use super::codec::{Codec, Step, reply};
 use jobs::{Jobs, Watches};
 
-/// The longest command that means anything is an `add` with 8 bytes.
+/// The longest valid command is an `add` with 8 bytes.
 const LONGEST: usize = 128;
-/// Interfaces have no longer names.
+/// Longest name of an interface.
 const LONGEST_NAME: usize = 16;
 
 const OK: &[u8] = b"< ok >";
@@ -48,7 +48,7 @@ enum Mode {
 #[derive(Debug, Default)]
 pub struct Session {
     mode: Mode,
-    /// The command so far, from its bracket on.
+    /// The command so far, from its opening bracket.
     text: Vec<u8>,
     jobs: Jobs,
     watches: Watches,
@@ -77,7 +77,7 @@ impl Codec for Session {
                     self.text = text;
                     self.text.clear();
                 }
-                // Text between commands has no meaning.
+                // Text between commands is ignored.
                 _ if self.text.is_empty() || self.text.len() >= LONGEST => {}
                 _ => self.text.push(*byte),
             }
@@ -178,7 +178,7 @@ impl Session {
         }
     }
 
-    /// Jobs and subscriptions belong to the mode that was.
+    /// Jobs and subscriptions end with the mode.
     fn switch(&mut self, mode: Mode, steps: &mut Vec<Step>) {
         self.mode = mode;
         self.jobs = Jobs::default();
@@ -187,7 +187,7 @@ impl Session {
     }
 }
 
-/// `< frame 123 23.424242 1122 >`; BCM mode has a blank behind each byte.
+/// `< frame 123 23.424242 1122 >`; BCM mode has a blank after each byte.
 fn write(frame: &Frame, stamp: u64, blank: &str, out: &mut Vec<u8>) {
     let kind = if frame.is_remote() { "rtr" } else { "frame" };
     let (seconds, micros) = (stamp / 1_000_000, stamp % 1_000_000);
@@ -202,7 +202,7 @@ fn write(frame: &Frame, stamp: u64, blank: &str, out: &mut Vec<u8>) {
     out.extend_from_slice(text.as_bytes());
 }
 
-/// Three digits or fewer are an identifier of 11 bits, eight are one of 29.
+/// Up to three digits are an identifier of 11 bits, eight digits are one of 29 bits.
 fn id(word: &str) -> Option<CanId> {
     let raw = hex(word)?;
     match word.len() {
@@ -255,7 +255,7 @@ fn remote_frame(words: &[&str]) -> Option<Frame> {
     }
 }
 
-/// Seconds and microseconds, and the rest.
+/// Reads seconds and microseconds, and returns the rest.
 fn interval<'w>(words: &'w [&'w str]) -> Option<(u64, &'w [&'w str])> {
     let [seconds, micros, rest @ ..] = words else {
         return None;

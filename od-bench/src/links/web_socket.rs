@@ -1,4 +1,4 @@
-//! slcan inside a WebSocket, for pages: a web page can reach a bus only this way, and only one that has
+//! slcan inside a WebSocket, the only way for a web page to reach a bus. The page needs
 //! the token.
 
 use std::io::{self, Cursor, ErrorKind, Read, Write};
@@ -25,7 +25,7 @@ const HANDSHAKE: Duration = Duration::from_secs(10);
 /// Longest message of a page, in bytes; one holds many frames.
 const MESSAGE: usize = 64 * 1024;
 
-/// Access control: a page that shows the token, from this computer or from a named origin, is let in.
+/// Access control: it accepts a page that sends the token and comes from this computer or a named origin.
 #[derive(Debug)]
 pub struct Gate {
     token: String,
@@ -33,7 +33,7 @@ pub struct Gate {
 }
 
 impl Gate {
-    /// A gate with a token, and origins beside those of this computer, such as `https://example.org`.
+    /// A gate with a token, and origins besides those of this computer, such as `https://example.org`.
     pub fn new(token: String, origins: Vec<String>) -> Self {
         Self { token, origins }
     }
@@ -43,15 +43,15 @@ impl Gate {
         &self.token
     }
 
-    /// Returns the address that a page connects to, where the server is at `place`.
+    /// Returns the address for a page, when the server is at `place`.
     pub fn address(&self, place: SocketAddr) -> String {
         format!("ws://{place}/?token={}", self.token)
     }
 
-    /// Looks at a request, and says why it is refused.
+    /// Checks a request, and returns why it is refused.
     fn admit(&self, request: &Request) -> Result<(), &'static str> {
         let origin = request.headers().get(header::ORIGIN);
-        // Only a browser sends one.
+        // Only browsers send this header.
         if let Some(origin) = origin
             && !origin
                 .to_str()
@@ -68,7 +68,7 @@ impl Gate {
     }
 }
 
-/// Whether an origin is a page that this computer itself serves.
+/// Returns whether an origin is a page that this computer serves.
 fn is_local(origin: &str) -> bool {
     let Some((_, place)) = origin.split_once("://") else {
         return false;
@@ -84,16 +84,16 @@ fn is_local(origin: &str) -> bool {
 #[derive(Debug)]
 pub struct WebSocket<'g> {
     gate: &'g Gate,
-    /// The head of the request, until it is whole.
+    /// The head of the request, until it is complete.
     head: Vec<u8>,
     open: Option<WebSocketContext>,
     channel: Channel,
     is_over: bool,
-    /// End of the time for the request; `None`: its time has not begun.
+    /// End of the time for the request; `None` before the first check.
     until: Option<Instant>,
 }
 
-/// Bytes that came in and were not read, and bytes to send.
+/// Received bytes that were not read yet, and bytes to send.
 struct Pipe<'b> {
     input: Cursor<&'b [u8]>,
     output: Vec<u8>,
@@ -131,7 +131,7 @@ impl<'g> WebSocket<'g> {
         }
     }
 
-    /// Takes bytes of the request, and returns the answer when it is whole, with what came behind it.
+    /// Takes bytes of the request. When it is complete, returns the answer and the bytes after it.
     fn shake_hands(&mut self, bytes: &[u8]) -> Option<(Vec<u8>, Vec<u8>)> {
         self.head.extend_from_slice(bytes);
         let request = match Request::try_parse(&self.head) {
@@ -177,7 +177,7 @@ impl<'g> WebSocket<'g> {
         if let Some(open) = &mut self.open
             && let Ok(text) = String::from_utf8(text)
         {
-            // One that is closing takes no more.
+            // A closing WebSocket takes no more.
             let _ = open.write(&mut pipe, Message::text(text));
             let _ = open.flush(&mut pipe);
         }
@@ -216,7 +216,7 @@ impl<'g> WebSocket<'g> {
         self.channel.receive(bytes, now, &mut inner);
         for step in inner {
             steps.push(match step {
-                // The bell is text, too.
+                // The bell is sent as text, too.
                 Step::Reply(bytes) => Step::Reply(self.pack(bytes)),
                 other => other,
             });
@@ -280,13 +280,13 @@ impl Codec for WebSocket<'_> {
 /// The bytes of a response.
 fn written(response: &tungstenite::handshake::server::Response) -> Vec<u8> {
     let mut bytes = Vec::new();
-    // Writing to a vector cannot fail.
+    // Writing to a Vec cannot fail.
     let _ = write_response(&mut bytes, response);
     bytes
 }
 
-/// A WebSocket that is closed at once, with the reason, for a page whose query has `why`: of one that
-/// is refused a browser says nothing.
+/// A WebSocket that is closed at once with the reason, for a page whose query has `why`: a browser
+/// tells a page nothing about a refused one.
 fn closed(request: &Request, why: &'static str) -> Option<Vec<u8>> {
     let query = request.uri().query()?;
     query.split('&').find(|it| *it == "why")?;
@@ -299,13 +299,13 @@ fn closed(request: &Request, why: &'static str) -> Option<Vec<u8>> {
         code: CloseCode::Policy,
         reason: why.into(),
     };
-    // What is left of it goes out, whatever it says of the other side.
+    // Send the rest, whatever the state of the other side.
     let _ = open.close(&mut pipe, Some(frame));
     let _ = open.flush(&mut pipe);
     Some(pipe.output)
 }
 
-/// A response that gives the reason why no WebSocket opens.
+/// A response with the reason why no WebSocket opens.
 pub(crate) fn refusal(status: StatusCode, why: &str) -> String {
     format!(
         "HTTP/1.1 {status}\r\nContent-Type: text/plain; charset=utf-8\r\nContent-Length: {}\r\n\

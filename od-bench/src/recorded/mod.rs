@@ -1,6 +1,6 @@
-//! Recorded behaviour of a device, which a device of a file plays: its answers, its times, its errors.
+//! Recorded behaviour that a device of a file repeats: its responses, its times, its errors.
 //!
-//! It is in the comments at the end of an EDS, so that the file stays one that every tool reads:
+//! It is stored in comments at the end of an EDS, so that every tool can still read the file:
 //!
 //! ```text
 //! ;odkit-twin=1
@@ -22,7 +22,7 @@
 //! | `length TIME` | length of the recording; the values begin again after it |
 //! | `answer TIME` | from an SDO request to its response |
 //! | `boot-up TIME` | from NMT reset node to the boot-up message |
-//! | `heartbeat TIME`, `tpdo NUMBER TIME` | measured period, where it is not the configured one |
+//! | `heartbeat TIME`, `tpdo NUMBER TIME` | measured period, if it differs from the configured one |
 //! | `emcy TIME CODE REGISTER BYTES` | an error, with its time after the boot-up message |
 //! | `without segments blocks` | SDO downloads in segments, or block transfers, are refused |
 //! | `empty OBJECT BYTES` | the value, 1 to 4 bytes, while no data is available (08000024h) |
@@ -45,9 +45,9 @@ pub use read::read;
 
 /// Version of the format that this odkit writes and reads.
 pub const VERSION: u32 = 1;
-/// Most lines of a recording, as [`read`] accepts them.
+/// Limit of lines that [`read`] accepts.
 pub const LINES: usize = 20_000;
-/// Most bytes of a recorded value.
+/// Limit of bytes of a recorded value.
 pub const BYTES: usize = 1_024;
 /// Longest recorded time, in microseconds: an hour.
 pub const LONGEST: u64 = 3_600_000_000;
@@ -71,15 +71,15 @@ pub struct Recorded {
     pub no_segments: bool,
     /// Whether SDO block transfers are refused.
     pub no_blocks: bool,
-    /// Values in the place of the SDO abort 08000024h (no data), of 1 to 4 bytes.
+    /// Values in place of the SDO abort 08000024h (no data), of 1 to 4 bytes.
     pub empty: BTreeMap<Address, Vec<u8>>,
     /// Reads that are refused, with the SDO abort code.
     pub aborts: BTreeMap<Address, u32>,
-    /// Values that change: when, which, what.
+    /// Values that change: time, object, value.
     pub values: Vec<(u64, Address, Vec<u8>)>,
 }
 
-/// A time as the lines have it.
+/// A time in the form of the lines.
 fn time(micros: u64) -> String {
     match micros {
         micros if micros % 1_000_000 == 0 => format!("{}s", micros / 1_000_000),
@@ -89,7 +89,7 @@ fn time(micros: u64) -> String {
 }
 
 impl fmt::Display for Recorded {
-    /// The lines, as they are in an EDS.
+    /// The lines in the form of an EDS.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, ";odkit-twin={VERSION}")?;
         writeln!(f, ";twin length {}", time(self.length))?;
@@ -132,7 +132,7 @@ impl fmt::Display for Recorded {
     }
 }
 
-/// An object with its sub-index, also 0.
+/// An object with its sub-index, including 0.
 fn full(Address { index, sub }: Address) -> String {
     format!("{index:04X}h:{sub:02X}")
 }

@@ -1,4 +1,4 @@
-//! Figures of the SDO client of each node (its default SDO, CiA 301, chapter 7.2.4): time to answer, aborts.
+//! Figures of the SDO client of each node (its default SDO, CiA 301, chapter 7.2.4): response time and aborts.
 
 use std::prelude::v1::*;
 
@@ -8,25 +8,25 @@ use od_wire::{Frame, Instant};
 use super::{Sum, Times};
 use crate::sdo::{Message, Observer, default_sdo};
 
-/// The requests to one node, and its answers.
+/// The requests to one node, and its responses.
 #[derive(Clone, Debug, Default)]
 pub struct Client {
     /// Node ID of the server.
     pub node: u8,
-    /// Requests that want an answer; of a block the segments do not count.
+    /// Requests that need a response; of a block the segments do not count.
     pub requests: u32,
     /// Transfers that the client or the server aborted.
     pub aborts: u32,
-    /// Requests that were not answered before the next one.
+    /// Requests without a response before the next one.
     pub unanswered: u32,
     times: Sum,
-    /// Time when the last request came, while it waits for its answer.
+    /// Time of the last request, while it waits for its response.
     asked: Option<Instant>,
     observer: Observer,
 }
 
 impl Client {
-    /// Time from a request to its answer; `None` before the first answer.
+    /// Time from a request to its response; `None` before the first response.
     pub fn times(&self) -> Option<Times> {
         self.times.times()
     }
@@ -47,7 +47,7 @@ impl Client {
             Message::Request(Request::Abort { .. }) => {
                 self.unanswered += u32::from(self.asked.take().is_some());
             }
-            // The answer comes after the last segment of a block.
+            // The response comes after the last segment of a block.
             Message::Segment { .. } | Message::Request(Request::EndBlockDownload { .. }) => {
                 self.asked = Some(at);
             }
@@ -65,7 +65,7 @@ impl Client {
 pub struct Clients(Vec<Client>);
 
 impl Clients {
-    /// Takes the next frame; others than those of a default SDO change nothing.
+    /// Takes the next frame; only frames of a default SDO count.
     pub fn take(&mut self, at: Instant, frame: &Frame) {
         let Some((node, is_response)) = default_sdo(frame) else {
             return;
@@ -120,7 +120,7 @@ mod tests {
     }
 
     #[test]
-    fn an_answer_has_its_time() {
+    fn a_response_has_its_time() {
         check(
             &[
                 "601#4004600000000000",
@@ -135,7 +135,7 @@ mod tests {
     }
 
     #[test]
-    fn aborts_count_for_server_and_client_and_silence_counts() {
+    fn aborts_and_missing_responses_are_counted() {
         check(
             &[
                 "601#4000700000000000",
@@ -151,7 +151,7 @@ mod tests {
     }
 
     #[test]
-    fn segments_of_a_block_are_no_requests_and_no_answers() {
+    fn segments_of_a_block_are_neither_requests_nor_responses() {
         check(
             &[
                 "601#C201200009000000",

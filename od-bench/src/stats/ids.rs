@@ -1,4 +1,4 @@
-//! Figures of each CAN-ID: how often, in what rhythm, and when its data changed.
+//! Figures of each CAN-ID: number of frames, period, and time of the last change of its data.
 
 use std::prelude::v1::*;
 
@@ -6,7 +6,7 @@ use od_wire::{Frame, Instant};
 
 use super::{Sum, Times};
 
-/// Distances in time that a jitter is made of.
+/// Number of intervals for the jitter.
 const GAPS: usize = 32;
 
 /// Frames with one CAN-ID.
@@ -14,14 +14,14 @@ const GAPS: usize = 32;
 pub struct Row {
     /// The last frame.
     pub frame: Frame,
-    /// Time when it came.
+    /// Time of the last frame.
     pub at: Instant,
-    /// Frames so far.
+    /// Number of frames.
     pub count: u32,
-    /// Time when the data changed last; `None`: each frame has the data of the first.
+    /// Time of the last change of the data; `None` if each frame has the data of the first.
     pub changed: Option<Instant>,
     all: Sum,
-    /// The last distances, in microseconds.
+    /// The last intervals, in microseconds.
     gaps: [u64; GAPS],
 }
 
@@ -51,12 +51,12 @@ impl Row {
         (self.frame, self.at) = (frame, at);
     }
 
-    /// Distances of all frames; `None` before the second frame.
+    /// Intervals of all frames; `None` before the second frame.
     pub fn period(&self) -> Option<Times> {
         self.all.times()
     }
 
-    /// The last distance in microseconds; `None` before the second frame.
+    /// The last interval in microseconds; `None` before the second frame.
     pub fn cycle(&self) -> Option<u64> {
         let last = (self.all.count as usize).checked_sub(1)?;
         Some(self.gaps[last % GAPS])
@@ -66,13 +66,13 @@ impl Row {
         &self.gaps[..GAPS.min(self.all.count as usize)]
     }
 
-    /// The mean of the last 32 distances in microseconds; `None` before the second frame.
+    /// The mean of the last 32 intervals in microseconds; `None` before the second frame.
     pub fn recent_period(&self) -> Option<f64> {
         let gaps = self.recent();
         (!gaps.is_empty()).then(|| gaps.iter().sum::<u64>() as f64 / gaps.len() as f64)
     }
 
-    /// The longest minus the shortest of the last 32 distances in microseconds; `None` before the third frame.
+    /// The longest minus the shortest of the last 32 intervals in microseconds; `None` before the third frame.
     pub fn jitter(&self) -> Option<u64> {
         let gaps = self.recent();
         let (low, high) = (gaps.iter().min()?, gaps.iter().max()?);
@@ -116,7 +116,7 @@ mod tests {
     }
 
     #[test]
-    fn period_jitter_and_last_change_are_those_of_the_frames() {
+    fn period_jitter_and_last_change_are_measured() {
         // Every 10 ms, one of them 2 ms late; its data changes once.
         let row = of(&[(0, 1), (10_000, 1), (20_000, 2), (32_000, 2), (40_000, 2)]);
         let Times { least, mean, most } = row.period().expect("five frames");
@@ -128,7 +128,7 @@ mod tests {
     }
 
     #[test]
-    fn a_single_frame_has_no_rhythm() {
+    fn a_single_frame_has_no_period() {
         let row = of(&[(5, 0)]);
         assert_eq!((row.period(), row.jitter()), (None, None));
         assert_eq!((row.recent_period(), row.changed), (None, None));
@@ -137,7 +137,7 @@ mod tests {
     }
 
     #[test]
-    fn jitter_forgets_what_is_long_ago_and_the_period_does_not() {
+    fn jitter_counts_the_last_intervals_and_the_period_all() {
         let mut frames = vec![(0, 0), (900_000, 0)];
         frames.extend((1..=32).map(|n| (900_000 + n * 1000, 0)));
         let row = of(&frames);

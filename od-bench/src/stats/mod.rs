@@ -1,4 +1,4 @@
-//! Figures of the frames on a bus: of each CAN-ID, and of each SDO client.
+//! Figures of the frames on a bus, for each CAN-ID and each SDO client.
 
 mod clients;
 mod ids;
@@ -6,7 +6,7 @@ mod ids;
 pub use clients::{Client, Clients};
 pub use ids::{Ids, Row};
 
-/// Shortest, mean and longest of times in microseconds.
+/// Shortest, mean and longest time in microseconds.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Times {
     /// The shortest.
@@ -17,7 +17,7 @@ pub struct Times {
     pub most: u64,
 }
 
-/// Times that are counted one by one.
+/// Collects times one by one.
 #[derive(Clone, Copy, Default, Debug)]
 struct Sum {
     count: u32,

@@ -10,7 +10,7 @@ use od_runtime::Frame;
 pub enum Part {
     /// Start of frame.
     Start,
-    /// Identifier, of an extended frame its first 11 bits.
+    /// Identifier; of an extended frame its first 11 bits.
     Identifier,
     /// SRR of an extended frame.
     Substitute,
@@ -51,12 +51,12 @@ pub struct Bit {
 
 /// Bits between two frames (intermission).
 pub const INTERMISSION: u64 = 3;
-/// Bits behind the acknowledge slot.
+/// Bits after the acknowledge slot.
 pub(super) const BEHIND_ACKNOWLEDGE: u64 = 8;
 /// Polynomial of the CRC sequence without its highest bit.
 const POLYNOMIAL: u16 = 0x4599;
 
-/// Returns the bits of a frame that is acknowledged, from the start of frame to the last bit of
+/// Returns the bits of an acknowledged frame, from the start of frame to the last bit of
 /// its end.
 pub fn bits(frame: &Frame) -> Vec<Bit> {
     let mut plain = Plain::default();
@@ -93,7 +93,7 @@ pub fn bits(frame: &Frame) -> Vec<Bit> {
     bits
 }
 
-/// Returns the number of bits of a frame that is acknowledged, as [`bits`] has them, without a list.
+/// Returns the number of bits of an acknowledged frame without a list; [`bits`] has the same number.
 pub(super) fn count(frame: &Frame) -> u64 {
     let mut plain = Word::default();
     let (raw, remote) = (frame.id().raw(), u32::from(frame.is_remote()));
@@ -109,7 +109,7 @@ pub(super) fn count(frame: &Frame) -> u64 {
     for byte in frame.data() {
         plain.put((*byte).into(), 8);
     }
-    // Dominant bits before the first one leave the CRC as it is, so it can be that of whole bytes.
+    // Dominant bits before the first one do not change the CRC, so it can be computed from whole bytes.
     let crc = plain.bits.to_be_bytes().iter().fold(0u16, |crc, byte| {
         let at = (crc >> 7) as u8 ^ byte;
         (crc << 8 & 0x7FFF) ^ REMAINDERS[usize::from(at)]
@@ -131,7 +131,7 @@ pub(super) fn count(frame: &Frame) -> u64 {
     u64::from(len) + stuffed + END
 }
 
-/// Bits, the last one lowest.
+/// Bits; the last one is the lowest.
 #[derive(Default)]
 struct Word {
     bits: u128,
@@ -145,7 +145,7 @@ impl Word {
     }
 }
 
-/// Bits behind the CRC sequence: delimiter, acknowledge slot, delimiter, end of frame.
+/// Bits after the CRC sequence: delimiter, acknowledge slot, delimiter, end of frame.
 const END: u64 = 3 + 7;
 
 /// Remainder of the CRC for each byte.
@@ -168,8 +168,8 @@ static REMAINDERS: [u16; 256] = {
     all
 };
 
-/// The order in which frames win: of two that start at once, the one with the lower number is
-/// sent first. Its bits are those that decide, the most significant first.
+/// The order of arbitration: of two frames that start together, the one with the lower number is
+/// sent first. It has the bits that decide, the most significant first.
 pub fn arbitration(frame: &Frame) -> u32 {
     let (raw, remote) = (frame.id().raw(), u32::from(frame.is_remote()));
     if frame.id().is_extended() {
@@ -201,7 +201,7 @@ fn crc(bits: &[Bit]) -> u16 {
     })
 }
 
-/// After five equal bits one of the other level, which counts for the next five.
+/// Inserts a bit of the other level after five equal bits; it counts for the next five.
 fn stuff(plain: &[Bit]) -> Vec<Bit> {
     let mut all: Vec<Bit> = Vec::with_capacity(plain.len() * 6 / 5);
     let mut run = 0;
@@ -229,7 +229,7 @@ mod tests {
 
     use super::*;
 
-    /// Start of frame, identifier, RTR, IDE, r0, DLC, data; the CRC by division on paper; the end.
+    /// Start of frame, identifier, RTR, IDE, r0, DLC, data; the CRC was divided by hand; the end.
     #[test]
     fn a_frame_bit_by_bit() {
         let all = bits(&Frame::standard(0x14, &[1]));
@@ -260,7 +260,7 @@ mod tests {
     }
 
     #[test]
-    fn bits_are_counted_without_a_list() {
+    fn the_number_of_bits_is_that_of_the_list() {
         let mut seed = 1u64;
         for round in 0..5_000u32 {
             seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
@@ -269,7 +269,7 @@ mod tests {
                 0 => CanId::standard(raw as u16),
                 _ => CanId::extended(raw),
             };
-            // Long runs of one level, too.
+            // Include long sequences of one level.
             let data = match round % 3 {
                 0 => [0; 8],
                 1 => (seed & 0x00FF_FF00_F0F0_0000).to_be_bytes(),
@@ -302,7 +302,7 @@ mod tests {
         }
     }
 
-    /// A receiver divides what it read, CRC included, and gets 0.
+    /// A receiver divides the received bits with the CRC, and gets 0.
     #[test]
     fn the_crc_leaves_no_remainder() {
         for frame in [

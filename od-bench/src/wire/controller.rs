@@ -1,24 +1,24 @@
-//! The error counters of one CAN controller, and what it may do with them (ISO 11898-1).
+//! The error counters of one CAN controller, and its error state (ISO 11898-1).
 
 use od_runtime::{BusEvent, Instant};
 
-/// A controller warns from this count on.
+/// Error warning limit.
 const WARNING: u16 = 97;
-/// A controller is error passive from this count on.
+/// Error passive limit.
 pub(super) const PASSIVE: u16 = 128;
-/// A controller is bus-off from this count of transmit errors on.
+/// Bus-off limit of the transmit errors.
 const BUS_OFF: u16 = 256;
-/// Bits that a controller waits after bus-off: 128 times 11 recessive ones (ISO 11898-1).
+/// Bits that a controller waits after bus-off: 128 times 11 recessive bits (ISO 11898-1).
 const RECOVERY: u64 = 128 * 11;
 
 /// Error state of a controller.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub enum Condition {
-    /// Everything.
+    /// It takes part without restrictions.
     ErrorActive,
     /// It no longer destroys the frames of others.
     ErrorPassive,
-    /// Nothing, until it is started again.
+    /// It takes no part until it is restarted.
     BusOff,
 }
 
@@ -40,7 +40,7 @@ pub struct Controller {
     pub transmit: u16,
     /// Receive error counter.
     pub receive: u16,
-    /// Bus-off: the moment at which the bus allows a restart.
+    /// Bus-off: the time from which a restart is allowed.
     pub(super) recovers: Option<Instant>,
 }
 
@@ -84,7 +84,7 @@ impl Controller {
         self.receive = self.receive.min(PASSIVE).saturating_sub(1);
     }
 
-    /// Bus-off at a bit rate in kbit/s: the bus has to be recessive for a while.
+    /// Goes bus-off at a bit rate in kbit/s: the bus must be recessive for some time.
     pub(super) fn waits(&mut self, since: Instant, rate: Option<u16>) {
         let rate = rate.unwrap_or(500).max(1);
         let micros = (RECOVERY * 1000).div_ceil(rate.into());

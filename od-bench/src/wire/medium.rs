@@ -1,6 +1,6 @@
-//! Frames on their way over a line that takes time: one at a time, the lowest identifier first.
+//! Frames on a line that takes time: one at a time, the lowest identifier first.
 //!
-//! Moments are kept in nanoseconds, since a bit at 800 kbit/s takes 1.25 µs.
+//! Times are in nanoseconds, because a bit at 800 kbit/s takes 1.25 µs.
 
 use std::prelude::v1::*;
 
@@ -9,15 +9,15 @@ use od_runtime::{Frame, Instant};
 use super::Trouble;
 use super::bits::{self, BEHIND_ACKNOWLEDGE, INTERMISSION, arbitration};
 
-/// Mailboxes of a CAN controller: the frame with the lowest identifier in them goes first.
+/// Mailboxes of a CAN controller: it sends the frame with the lowest identifier first.
 pub(crate) const MAILBOXES: usize = 3;
-/// Frames of the outside that wait; a program has a queue before its controller.
+/// Limit of waiting frames of the outside; a program has a queue before its controller.
 const QUEUE: usize = 1000;
-/// Time from a frame to the answer of a device, in microseconds.
+/// Time from a frame to the response of a device, in microseconds.
 pub(crate) const PROCESSING: u64 = 200;
 /// Error flag and its delimiter (ISO 11898-1).
 const ERROR_FRAME: u64 = 6 + 8;
-/// Bits of a frame that another station destroys, with the flags of both: it sees no valid
+/// Bits of a frame that another station destroys, with the flags of both: that station sees no valid
 /// bit times within the identifier.
 const DESTROYED: u64 = 20 + 6 + ERROR_FRAME;
 const NANOS: u64 = 1000;
@@ -28,7 +28,7 @@ pub(crate) struct Waiting {
     /// Station: 0 is the outside, then come the devices.
     pub(crate) station: usize,
     pub(crate) frame: Frame,
-    /// Attempts that failed, and why the last one did.
+    /// Number of failed attempts, and the reason of the last one.
     pub(crate) attempts: u16,
     pub(crate) trouble: Option<Trouble>,
     ready: Instant,
@@ -43,28 +43,28 @@ struct Flight {
     outcome: Option<Trouble>,
 }
 
-/// The wire, and who waits for it.
+/// The line, and the frames that wait for it.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Medium {
     waiting: Vec<Waiting>,
     flight: Option<Flight>,
-    /// Nanosecond from which the next frame may start.
+    /// Time from which the next frame may start, in nanoseconds.
     free: u64,
-    /// Nanoseconds that the wire was not idle.
+    /// Time during which the line was not idle, in nanoseconds.
     busy: u64,
     order: u64,
 }
 
-/// Something that is due on the wire.
+/// An event on the line.
 pub(crate) enum Due {
-    /// This station starts its frame, with the highest priority of all that wait.
+    /// This station starts its frame, which has the highest priority of all waiting frames.
     Start(Waiting),
-    /// A frame ended; it came through, or did not.
+    /// A frame ended, with or without success.
     End(Waiting, Option<Trouble>),
 }
 
 impl Medium {
-    /// A station wants to send a frame from `ready` on. Answers whether it has room for it.
+    /// Queues a frame of a station, to be sent from `ready` on. Returns whether there is room for it.
     pub(crate) fn push(&mut self, station: usize, frame: Frame, ready: Instant) -> bool {
         let room = if station == 0 { QUEUE } else { MAILBOXES };
         if self.count(station) >= room {
@@ -82,7 +82,7 @@ impl Medium {
         true
     }
 
-    /// Can a device hand over another frame?
+    /// Returns whether a device can queue another frame.
     pub(crate) fn has_room(&self, station: usize) -> bool {
         self.count(station) < MAILBOXES
     }
@@ -93,18 +93,18 @@ impl Medium {
         flies.chain(waits).filter(|one| *one == station).count()
     }
 
-    /// Does a frame of this station wait, or is it on the wire?
+    /// Returns whether a frame of this station waits or is being sent.
     pub(crate) fn holds(&self, station: usize) -> bool {
         self.count(station) > 0
     }
 
-    /// Does this frame of the outside wait?
+    /// Returns whether this frame of the outside waits.
     pub(crate) fn waits(&self, frame: &Frame) -> bool {
         let mut waiting = self.waiting.iter();
         waiting.any(|one| one.station == 0 && one.frame == *frame)
     }
 
-    /// Time when something is due next.
+    /// Time of the next event.
     pub(crate) fn due(&self) -> Option<Instant> {
         let nanos = match self.flight {
             Some(flight) => flight.end,
@@ -113,12 +113,12 @@ impl Medium {
         Some(Instant::from_micros(nanos.div_ceil(NANOS)))
     }
 
-    /// Nanosecond at which a frame may start if nothing else does.
+    /// Time at which a frame may start if no other frame does, in nanoseconds.
     fn start(&self, waiting: &Waiting) -> u64 {
         self.free.max(waiting.ready.as_micros() * NANOS)
     }
 
-    /// Takes what is due at a moment. A frame that starts is handed back to
+    /// Takes the event of a time. The caller returns a frame that starts to
     /// [`begin`](Self::begin).
     pub(crate) fn take(&mut self, now: Instant) -> Option<Due> {
         if self.due()? > now {
@@ -127,8 +127,8 @@ impl Medium {
         if let Some(flight) = self.flight.take() {
             return Some(Due::End(flight.waiting, flight.outcome));
         }
-        // All that are ready at the first possible start take part; a program sends its frames in
-        // their order, so of the outside only the oldest does.
+        // All frames that are ready at the first possible start take part. A program sends its frames in
+        // order, so only the oldest of the outside does.
         let first = self.waiting.iter().map(|one| self.start(one)).min()?;
         let outside = self.waiting.iter().filter(|one| one.station == 0);
         let oldest = outside.map(|one| one.order).min();
@@ -144,7 +144,7 @@ impl Medium {
         Some(Due::Start(self.waiting.remove(place)))
     }
 
-    /// The frame is on the wire at this bit rate in kbit/s, and will end as `outcome` says.
+    /// Puts the frame on the line at this bit rate in kbit/s; it will end with `outcome`.
     pub(crate) fn begin(&mut self, waiting: Waiting, kbit: u16, outcome: Option<Trouble>) {
         let whole = bits::count(&waiting.frame);
         let count = match outcome {
@@ -164,7 +164,7 @@ impl Medium {
         });
     }
 
-    /// The frame goes back to those that wait: its controller sends it again.
+    /// Queues a failed frame again: its controller repeats it.
     pub(crate) fn again(&mut self, waiting: Waiting) {
         self.waiting.push(waiting);
     }
@@ -186,7 +186,7 @@ impl Medium {
         }
     }
 
-    /// Removes a station; those behind it move up.
+    /// Removes a station; later ones move up.
     pub(crate) fn remove(&mut self, station: usize) {
         self.forget(station);
         let flying = self.flight.iter_mut().map(|flight| &mut flight.waiting);
@@ -195,7 +195,7 @@ impl Medium {
         }
     }
 
-    /// Microseconds that the wire was not idle so far; a frame on the wire counts whole.
+    /// Microseconds during which the line was not idle; a frame that is being sent counts completely.
     pub(crate) fn busy(&self) -> u64 {
         self.busy / NANOS
     }

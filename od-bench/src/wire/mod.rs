@@ -1,11 +1,11 @@
-//! The wire: bit rates, terminators, and the error counters of the controllers on it.
+//! The bus line: bit rates, terminators, and the error counters of the controllers.
 //!
-//! A [`Bus`](crate::bus::Bus) begins with an ideal line, where every frame reaches everybody.
-//! A real one treats a frame as CAN does: who hears it with another bit
-//! rate destroys it as long as it is error active, nobody who acknowledges it lets it be
-//! repeated, and a controller that errs too often goes bus-off. What happens by chance is
-//! drawn from a seed, so it happens again on the next run. A timed line also takes the bits of
-//! a frame at the bit rate, one frame at a time, the lowest identifier first.
+//! A [`Bus`](crate::bus::Bus) begins with an ideal line, on which every frame reaches all stations.
+//! A real line treats a frame as CAN does. A station with another bit rate destroys
+//! the frame while it is error active. A frame that no station acknowledges is
+//! repeated. A controller with too many errors goes bus-off. Random events are
+//! drawn from a seed, so the next run repeats them. A timed line also needs the time of each bit of
+//! a frame at the bit rate: one frame at a time, the lowest identifier first.
 
 pub mod bits;
 mod controller;
@@ -20,22 +20,22 @@ use self::controller::PASSIVE;
 pub use self::controller::{Condition, Controller};
 pub(crate) use self::medium::{Due, Medium, PROCESSING, Waiting};
 
-/// Attempts after which a frame that nobody acknowledges is given up: the transmit counter
-/// is at [`PASSIVE`] then, and would stay there for ever.
+/// Attempts after which a frame without an acknowledgement is given up: the transmit counter
+/// is then at [`PASSIVE`] and would stay there for ever.
 const ATTEMPTS: u16 = 16;
-/// Number of disturbances that are kept until they are read.
+/// Limit of disturbances that are kept until they are read.
 const KEPT: usize = 1000;
 
-/// One participant of the bus at one moment.
+/// The state of a station at one time.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Station {
-    /// It has power and hangs on the line.
+    /// It has power and is connected.
     pub present: bool,
-    /// Its bit rate in kbit/s; `None` adapts itself.
+    /// Its bit rate in kbit/s; `None` adapts to any.
     pub rate: Option<u16>,
 }
 
-/// Reason why a frame did not come through at once.
+/// Reason why a frame failed.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub enum Trouble {
     /// Nobody acknowledged it.
@@ -46,34 +46,34 @@ pub enum Trouble {
     Reflections,
 }
 
-/// A frame that was disturbed.
+/// A disturbed frame.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Disturbance {
     /// Time of the disturbance.
     pub at: Instant,
-    /// Whose frame; `None` for one from outside.
+    /// Its sender; `None` for the outside.
     pub device: Option<usize>,
     /// The frame.
     pub frame: Frame,
-    /// Reason, at the last attempt that failed.
+    /// Reason of the last failed attempt.
     pub trouble: Trouble,
-    /// Attempts that failed.
+    /// Number of failed attempts.
     pub attempts: u16,
-    /// Did it come through in the end?
+    /// Whether it was sent successfully in the end.
     pub delivered: bool,
-    /// The sender went bus-off over it.
+    /// Whether its sender went bus-off.
     pub bus_off: bool,
 }
 
-/// The wire between the stations. Station 0 is the outside, then come the devices.
+/// The line between the stations. Station 0 is the outside, then come the devices.
 #[derive(Clone, Debug)]
 pub struct Line {
-    /// Does the physical layer matter at all?
+    /// Whether frames can fail.
     pub is_real: bool,
-    /// Does a frame take its time? Only on a real line.
+    /// Whether a frame takes time; only on a real line.
     is_timed: bool,
     pub(crate) medium: Medium,
-    /// Resistors of 120 Ω at the ends; there should be two.
+    /// Terminating resistors of 120 Ω; there should be two.
     pub terminators: u8,
     /// The bit rate of the outside in kbit/s; `None`: that of the first device with power.
     pub bit_rate: Option<u16>,
@@ -110,17 +110,17 @@ impl Line {
         (self.is_real, self.is_timed) = (real, real);
     }
 
-    /// Does a frame take its time?
+    /// Returns whether a frame takes time.
     pub fn is_timed(&self) -> bool {
         self.is_real && self.is_timed
     }
 
-    /// Microseconds that a timed line was not idle so far; a frame on the line counts whole.
+    /// Microseconds during which a timed line was not idle; a frame that is being sent counts completely.
     pub fn busy(&self) -> u64 {
         self.medium.busy()
     }
 
-    /// Begins a new row of chances; the same seed gives the same row.
+    /// Restarts the random numbers; the same seed gives the same sequence.
     pub fn set_seed(&mut self, seed: u64) {
         self.chance = seed ^ 0x9E37_79B9_7F4A_7C15;
     }
@@ -130,8 +130,8 @@ impl Line {
         self.controllers.get(station).copied().unwrap_or_default()
     }
 
-    /// Returns the device, counted from 0, whose controller may restart next after bus-off,
-    /// and when.
+    /// Returns the device, counted from 0, whose controller may be the next to restart after bus-off,
+    /// and the time.
     pub(super) fn next_recovery(&self) -> Option<(Instant, usize)> {
         let devices = self.controllers.iter().skip(1).enumerate();
         devices
@@ -139,7 +139,7 @@ impl Line {
             .min()
     }
 
-    /// Will something happen on the line without input?
+    /// Returns whether something will happen on the line without input.
     pub(super) fn has_plans(&self) -> bool {
         self.medium.due().is_some() || self.next_recovery().is_some()
     }
@@ -161,7 +161,7 @@ impl Line {
         }
     }
 
-    /// Takes a station off the line, or puts it back.
+    /// Disconnects a station, or connects it again.
     pub fn set_plugged(&mut self, station: usize, plugged: bool) {
         if self.unplugged.len() <= station {
             self.unplugged.resize(station + 1, false);
@@ -169,12 +169,12 @@ impl Line {
         self.unplugged[station] = !plugged;
     }
 
-    /// Does it hang on the line?
+    /// Returns whether a station is connected.
     pub fn is_plugged(&self, station: usize) -> bool {
         !self.unplugged.get(station).copied().unwrap_or(false)
     }
 
-    /// Forgets a station; those behind it move up.
+    /// Removes a station; later ones move up.
     pub(super) fn remove(&mut self, station: usize) {
         self.medium.remove(station);
         if station < self.controllers.len() {
@@ -185,12 +185,12 @@ impl Line {
         }
     }
 
-    /// The next frame that was disturbed, oldest first.
+    /// The next disturbed frame, oldest first.
     pub fn poll(&mut self) -> Option<Disturbance> {
         self.disturbed.pop_front()
     }
 
-    /// The next controller whose state changed, and what it is now.
+    /// The next controller whose state changed, and its new state.
     pub(super) fn poll_event(&mut self) -> Option<(usize, BusEvent)> {
         self.events.pop_front()
     }
@@ -207,7 +207,7 @@ impl Line {
             .or_else(|| first().and_then(|station| station.rate))
     }
 
-    /// Does `to` understand what `from` sends?
+    /// Returns whether `to` understands frames of `from`.
     pub(super) fn hears(&self, stations: &[Station], from: usize, to: usize) -> bool {
         if !self.is_real {
             return self.is_plugged(to);
@@ -221,7 +221,7 @@ impl Line {
             && same_rate(sender.rate, listener.rate)
     }
 
-    /// A station sends a frame. Answers whether it came through.
+    /// Sends a frame of a station. Returns whether it succeeded.
     pub(super) fn transmit(
         &mut self,
         at: Instant,
@@ -263,7 +263,7 @@ impl Line {
         delivered
     }
 
-    /// One attempt of a station on a timed line; `None` if it will succeed.
+    /// Makes one attempt of a station on a timed line; `None` if it will succeed.
     pub(super) fn try_once(
         &mut self,
         at: Instant,
@@ -276,7 +276,7 @@ impl Line {
         trouble
     }
 
-    /// Is a frame given up after an attempt that failed?
+    /// Returns whether a frame is given up after a failed attempt.
     pub(super) fn gives_up(&self, waiting: &Waiting) -> bool {
         let no_one = waiting.trouble == Some(Trouble::NoAcknowledge);
         self.controller(waiting.station).condition() == Condition::BusOff
@@ -284,7 +284,7 @@ impl Line {
             || no_one && waiting.attempts >= ATTEMPTS
     }
 
-    /// Keeps a disturbance until it is asked for.
+    /// Keeps a disturbance until it is read.
     pub(super) fn keep(&mut self, disturbance: Disturbance) {
         if self.disturbed.len() == KEPT {
             self.disturbed.pop_front();
@@ -298,7 +298,7 @@ impl Line {
         self.controllers.iter().map(|one| one.event()).collect()
     }
 
-    /// Notes the controllers whose state is another one than before.
+    /// Notes the controllers whose state changed.
     fn tell_changes(&mut self, at: Instant, stations: &[Station], before: Vec<BusEvent>) {
         for (station, was) in before.into_iter().enumerate() {
             let is = self.controllers[station].event();
@@ -311,7 +311,7 @@ impl Line {
         }
     }
 
-    /// One attempt; `None` if it succeeds.
+    /// Makes one attempt; `None` if it succeeds.
     fn attempt(&mut self, stations: &[Station], from: usize) -> Option<Trouble> {
         let on_line = |line: &Self, station: usize| {
             line.is_plugged(station)
@@ -353,7 +353,7 @@ impl Line {
                 }
             }
             Some(Trouble::NoAcknowledge) => {
-                // An error passive sender that misses the acknowledge counts no further.
+                // An error passive sender without an acknowledgement does not count further.
                 if self.controllers[from].transmit < PASSIVE {
                     self.controllers[from].erred_sending();
                 }
@@ -368,19 +368,19 @@ impl Line {
         trouble
     }
 
-    /// Do reflections hit this attempt? The faster the line, the likelier.
+    /// Returns whether reflections destroy this attempt. A faster line makes it more likely.
     fn is_unlucky(&mut self, rate: Option<u16>) -> bool {
         let rate = u64::from(rate.unwrap_or(500));
         let percent = match self.terminators {
             2 => return false,
             0 => (rate / 12 + 5).min(100),
-            // One is enough up to 125 kbit/s on the short line of a bench; some 11 % of
-            // failures are what a controller can make up for.
+            // One resistor is enough up to 125 kbit/s on the short line of a bench; a controller can compensate
+            // for about 11 % of failures.
             1 => rate.saturating_sub(125) / 45,
-            // Too many take the level away from everybody.
+            // Too many resistors take the signal level away from all stations.
             _ => rate / 20 + 5,
         };
-        // xorshift64*: a row of numbers that is the same everywhere.
+        // xorshift64*: the same sequence of numbers on every computer.
         self.chance ^= self.chance >> 12;
         self.chance ^= self.chance << 25;
         self.chance ^= self.chance >> 27;
@@ -388,7 +388,7 @@ impl Line {
     }
 }
 
-/// One that adapts itself has every bit rate.
+/// A station that adapts has every bit rate.
 fn same_rate(one: Option<u16>, other: Option<u16>) -> bool {
     one.is_none() || other.is_none() || one == other
 }

@@ -29,7 +29,7 @@ fn equal_rates_and_two_terminators_lose_nothing() {
 }
 
 #[test]
-fn a_stranger_disturbs_until_it_is_error_passive_and_goes_bus_off_when_it_talks() {
+fn a_station_with_another_rate_disturbs_until_error_passive_and_goes_bus_off_when_it_sends() {
     let (mut line, stations) = (real(2), stations(&[500, 500, 250]));
     assert!(send(&mut line, &stations, 0));
     let first = line.poll().expect("the first frame is disturbed");
@@ -64,7 +64,7 @@ fn alone_on_the_line_a_frame_is_given_up_and_nobody_goes_bus_off() {
 }
 
 #[test]
-fn a_missing_terminator_hurts_fast_lines_and_the_same_seed_hurts_the_same_way() {
+fn a_missing_terminator_disturbs_fast_lines_and_a_seed_repeats_it() {
     let count = |rate, terminators| {
         let (mut line, stations) = (real(terminators), stations(&[rate, rate]));
         line.set_seed(7);
@@ -82,7 +82,7 @@ fn a_missing_terminator_hurts_fast_lines_and_the_same_seed_hurts_the_same_way() 
 }
 
 #[test]
-fn an_error_of_the_transmitter_counts_8_and_a_frame_that_came_through_1() {
+fn a_transmit_error_counts_8_and_a_success_1() {
     let mut controller = Line::default().controller(0);
     for errors in 1..=31 {
         controller.erred_sending();

@@ -1,12 +1,12 @@
-//! Repeated work of BCM mode: send a frame, and watch a CAN-ID.
+//! Repeated work of BCM mode: sends frames periodically, and watches CAN-IDs.
 
 use std::prelude::v1::*;
 
 use od_runtime::{CanId, Frame, Instant};
 
-/// Limit of jobs, and of subscriptions, of a client.
+/// Limit of jobs and of subscriptions of a client.
 const MOST: usize = 256;
-/// No job sends faster, microseconds.
+/// Shortest period of a job, in microseconds.
 const FASTEST: u64 = 1000;
 
 #[derive(Debug)]
@@ -16,13 +16,13 @@ struct Job {
     next: Option<Instant>,
 }
 
-/// Frames that are sent again and again.
+/// Frames that are sent periodically.
 #[derive(Debug, Default)]
 pub(super) struct Jobs(Vec<Job>);
 
 impl Jobs {
-    /// A new job, or another interval for the one with this identifier; its first frame goes
-    /// out at once, and no other where `every` is 0. Answers whether there is room.
+    /// Adds a job, or changes the interval of the job with this identifier. Its first frame is
+    /// sent at once, and no further one if `every` is 0. Returns whether there is room.
     pub(super) fn add(&mut self, frame: Frame, every: u64, now: Instant) -> bool {
         self.delete(frame.id());
         if self.0.len() >= MOST {
@@ -51,7 +51,7 @@ impl Jobs {
         self.0.iter().filter_map(|job| job.next).min()
     }
 
-    /// Returns the jobs that are due, each once, even after a late call.
+    /// Returns the jobs that are due, each only once, even after a late call.
     pub(super) fn due(&mut self, now: Instant, mut send: impl FnMut(Frame)) {
         for job in &mut self.0 {
             if let Some(next) = job.next.filter(|next| *next <= now) {
@@ -70,9 +70,9 @@ impl Jobs {
 #[derive(Debug)]
 struct Watch {
     id: CanId,
-    /// No two frames come faster than this.
+    /// Shortest time between two frames.
     every: u64,
-    /// Only a change in these bits counts.
+    /// Only changes of these bits count.
     mask: Option<Frame>,
     /// Last frame that the client received, and its time.
     heard: Option<(Frame, Instant)>,
@@ -100,7 +100,7 @@ impl Watch {
 pub(super) struct Watches(Vec<Watch>);
 
 impl Watches {
-    /// Answers whether there is room.
+    /// Adds a subscription; returns whether there is room.
     pub(super) fn add(&mut self, id: CanId, every: u64, mask: Option<Frame>) -> bool {
         self.delete(id);
         if self.0.len() >= MOST {
@@ -120,7 +120,7 @@ impl Watches {
         self.0.retain(|watch| watch.id != id);
     }
 
-    /// Does the client hear this frame now? If it comes too early, the client hears it later.
+    /// Returns whether the client receives this frame now. A frame that comes too early is sent later.
     pub(super) fn hears(&mut self, frame: &Frame, now: Instant) -> bool {
         let Some(watch) = self.0.iter_mut().find(|watch| watch.id == frame.id()) else {
             return false;
@@ -142,7 +142,7 @@ impl Watches {
         held.filter_map(Watch::may_speak_at).min()
     }
 
-    /// The next frame that was held back long enough.
+    /// Returns the next delayed frame whose time has come.
     pub(super) fn due(&mut self, now: Instant) -> Option<Frame> {
         let ready = |watch: &&mut Watch| {
             watch.held.is_some() && watch.may_speak_at().is_none_or(|at| at <= now)

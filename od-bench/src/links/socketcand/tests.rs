@@ -17,7 +17,7 @@ impl Client {
         }
     }
 
-    /// Answers, frames in parentheses, a pause as `|`.
+    /// Answers; frames are in parentheses, a pause is `|`.
     fn say(&mut self, text: &str) -> String {
         let mut steps = Vec::new();
         self.session.receive(text.as_bytes(), self.now, &mut steps);
@@ -102,7 +102,7 @@ fn python_can_opens_like_this() {
 }
 
 #[test]
-fn commands_come_in_pieces_and_in_heaps() {
+fn commands_come_in_pieces_and_together() {
     let mut client = Client::new();
     let mut all = String::new();
     for byte in "junk< open can0 >\r\n< echo >< bcmmode >>< sendrtr 1AAAAAAA 2 >".chars() {
@@ -113,7 +113,7 @@ fn commands_come_in_pieces_and_in_heaps() {
         client.say("< rawmode >< send 1AAAAAAA 2 1 F1 >< echo >"),
         "< ok >|(1AAAAAAA#01F1)< echo >"
     );
-    // A command that never ends is given up for the next one.
+    // A command without an end is dropped for the next one.
     assert_eq!(client.say("< send 123 < echo >"), "< echo >");
     let long = format!("< send {} >", "1 ".repeat(100_000));
     assert_eq!(client.say(&long), "< error syntax error >");
@@ -121,7 +121,7 @@ fn commands_come_in_pieces_and_in_heaps() {
 }
 
 #[test]
-fn what_is_wrong_sends_nothing() {
+fn a_wrong_command_sends_nothing() {
     for wrong in [
         "< send >",
         "< send 123 >",
@@ -161,7 +161,7 @@ fn what_is_wrong_sends_nothing() {
             "{unknown}"
         );
     }
-    // In RAW mode jobs do not exist.
+    // RAW mode has no jobs.
     assert_eq!(
         open("< rawmode >").say("< add 1 0 123 0 >"),
         "< error unknown command >"
@@ -171,7 +171,7 @@ fn what_is_wrong_sends_nothing() {
 }
 
 #[test]
-fn jobs_go_on_until_they_are_deleted() {
+fn jobs_continue_until_they_are_deleted() {
     let mut client = open("");
     assert_eq!(client.say("< add 0 20000 123 2 42 43 >"), "(123#4243)");
     assert_eq!(client.wait(45_000), "(123#4243)(123#4243)");
@@ -206,7 +206,7 @@ fn jobs_go_on_until_they_are_deleted() {
 }
 
 #[test]
-fn bcm_mode_hears_what_it_subscribed_to() {
+fn bcm_mode_receives_its_subscriptions() {
     let mut client = open("");
     assert_eq!(client.say("< subscribe 0 0 123 >"), "");
     assert_eq!(
@@ -220,7 +220,7 @@ fn bcm_mode_hears_what_it_subscribed_to() {
     assert_eq!(client.hear(Frame::standard(0x124, &[])), "");
     assert_eq!(client.say("< unsubscribe 123 >"), "");
     assert_eq!(client.hear(frame(&[1])), "");
-    // Only changes of the first byte.
+    // Only changes of the first byte count.
     assert_eq!(client.say("< filter 0 0 123 1 F0 >"), "");
     assert_eq!(
         client.hear(frame(&[0x10, 1])),
@@ -231,7 +231,7 @@ fn bcm_mode_hears_what_it_subscribed_to() {
         client.hear(frame(&[0x20, 2])),
         "< frame 123 23.424242 20 02  >"
     );
-    // Not more often than every 10 ms, and then the newest.
+    // At most every 10 ms, and then the newest.
     assert_eq!(client.say("< subscribe 0 10000 123 >"), "");
     assert_eq!(client.hear(frame(&[1])), "< frame 123 23.424242 01  >");
     assert_eq!(client.hear(frame(&[2])), "");

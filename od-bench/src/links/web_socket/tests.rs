@@ -1,4 +1,4 @@
-//! Requests that are let in and those that are not, and frames in messages.
+//! Requests that are accepted or refused, and frames in messages.
 
 use super::*;
 
@@ -15,7 +15,7 @@ fn request(path: &str, more: &str) -> String {
     )
 }
 
-/// Answers to bytes, each on its own.
+/// Answers to separate pieces of bytes.
 fn say(codec: &mut WebSocket<'_>, bytes: &[u8]) -> Vec<Step> {
     let mut steps = Vec::new();
     codec.receive(bytes, Instant::ZERO, &mut steps);
@@ -33,7 +33,7 @@ fn answer(gate: &Gate, request: &str) -> String {
     text
 }
 
-/// A message of a client: 6 bytes, then the text, with a mask that changes nothing.
+/// A message of a client: 6 bytes, then the text, with a mask without effect.
 fn message(text: &str) -> Vec<u8> {
     let mut bytes = vec![
         0x81,
@@ -48,7 +48,7 @@ fn message(text: &str) -> Vec<u8> {
 }
 
 #[test]
-fn who_is_let_in() {
+fn the_token_and_the_origin_decide() {
     let gate = gate();
     let good = format!("/?token={TOKEN}");
     let origin = |origin: &str| format!("Origin: {origin}\r\n");
@@ -71,7 +71,7 @@ fn who_is_let_in() {
         let head = format!("HTTP/1.1 {status}");
         assert!(said.starts_with(&head), "{path} {more}: {said}");
     }
-    // RFC 6455, clause 1.3: the key of the answer.
+    // RFC 6455, clause 1.3: the key in the response.
     let said = answer(&gate, &request(&good, "")).to_ascii_lowercase();
     assert!(
         said.contains("sec-websocket-accept: s3pplmbitxaq9kygzzhzrbk+xoo="),
@@ -80,7 +80,7 @@ fn who_is_let_in() {
 }
 
 #[test]
-fn what_is_no_request_is_refused_and_does_not_grow() {
+fn other_bytes_are_refused_and_memory_stays_bounded() {
     let gate = gate();
     let plain = format!("GET /?token={TOKEN} HTTP/1.1\r\nHost: a\r\n\r\n");
     assert!(answer(&gate, &plain).starts_with("HTTP/1.1 426"));
@@ -115,7 +115,7 @@ fn frames_go_both_ways_in_any_pieces() {
     let mut out = Vec::new();
     codec.encode(&Frame::standard(0x181, &[1]), Instant::ZERO, 0, &mut out);
     assert_eq!(out, b"\x81\x08t181101\r");
-    // A page that is closed says so, and gets its answer.
+    // A page sends a close frame, and gets its answer.
     let steps = say(&mut codec, &[0x88, 0x80, 0, 0, 0, 0]);
     assert_eq!(steps, [Step::Reply(vec![0x88, 0]), Step::Leave]);
     out.clear();
@@ -144,7 +144,7 @@ fn garbage_ends_the_connection() {
 }
 
 #[test]
-fn a_page_that_asks_why_it_is_refused_is_told_in_a_close_frame() {
+fn a_page_that_asks_for_the_reason_gets_a_close_frame() {
     let gate = gate();
     let foreign = "Origin: https://elsewhere.example\r\n";
     for (path, more, why) in [
