@@ -1,8 +1,8 @@
-//! `cargo bench -p od-lsp [-- FILE]`: 1,000 keystrokes in a file of 530 kB, and what an editor asks after each.
+//! `cargo bench -p od-lsp [-- FILE]`: 1,000 keystrokes in a file of 530 kB, with the requests of an editor after each.
 //!
-//! A keystroke is a `didChange` of one character; it is answered when its diagnostics are there. Behind
-//! it an editor asks for the changed tokens, the hints of the lines it shows, and a hover. Messages are
-//! JSON text, as over a pipe.
+//! A keystroke is a `didChange` of one character; it ends when its diagnostics are there. After
+//! it an editor requests the changed tokens, the hints of the visible lines, and a hover. Messages are
+//! JSON text, as in a pipe.
 
 use std::env;
 use std::fmt::Write as _;
@@ -54,7 +54,7 @@ fn main() {
             .wrapping_mul(6_364_136_223_846_793_005)
             .wrapping_add(1_442_695_040_888_963_407);
         let line = (seed >> 33) % lines.len();
-        // A digit behind the line, and the next time it is removed again.
+        // Append a digit to the line, and remove it the next time.
         let end = lines[line].encode_utf16().count();
         let at = |character| json!({ "line": line, "character": character });
         let mut all = Duration::ZERO;
@@ -90,7 +90,7 @@ fn milliseconds(time: Duration) -> f64 {
 
 struct Bench {
     server: Server,
-    /// The number of the tokens that the editor has.
+    /// The number of the editor's tokens.
     result: Value,
 }
 
@@ -141,7 +141,7 @@ impl Bench {
     }
 }
 
-/// A device with VARs and RECORDs until it has the size of the largest file of the corpus.
+/// A device with VARs and RECORDs, as large as the largest file of the corpus.
 fn large() -> String {
     let mut text = String::from(
         "[FileInfo]\nFileName=large.eds\nFileVersion=1\nFileRevision=0\nEDSVersion=4.0\n\n[DeviceInfo]\nVendorName=none\n\n",

@@ -1,9 +1,9 @@
-//! COB-IDs of a description: which values are one, and what they say (CiA 301, chapter 7.5.2).
+//! The COB-IDs of a description, and their meaning (CiA 301, chapter 7.5.2).
 
 use od_eds::{Description, Value};
 use od_model::Address;
 
-/// Is the value at this address a COB-ID?
+/// Returns whether the value at this address is a COB-ID.
 pub(crate) const fn is_one(address: Address) -> bool {
     match address.index {
         0x1005 | 0x1012 | 0x1014 => address.sub == 0,
@@ -18,14 +18,14 @@ pub(crate) const fn is_one(address: Address) -> bool {
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) struct CobId {
     can_id: u32,
-    /// Is the node ID added?
+    /// Whether the node ID is added.
     node_id: bool,
     invalid: bool,
     extended: bool,
 }
 
 impl CobId {
-    /// The COB-ID that this value is.
+    /// Reads the COB-ID of a value.
     pub(crate) fn of(value: &Value) -> Option<Self> {
         let (number, node_id) = match value {
             Value::NodeId(offset) => (*offset, true),
@@ -40,12 +40,12 @@ impl CobId {
         })
     }
 
-    /// Do two have the same CAN-ID, if the node IDs are the same?
+    /// Returns whether two have the same CAN-ID if their node IDs are equal.
     pub(crate) fn is_like(self, other: Self) -> bool {
         (self.can_id, self.node_id, self.extended) == (other.can_id, other.node_id, other.extended)
     }
 
-    /// In words: `180h + node ID`.
+    /// The COB-ID in words: `180h + node ID`.
     pub(crate) fn words(self, address: Address) -> String {
         let mut words = if self.node_id {
             format!("{:X}h + node ID", self.can_id)
@@ -55,7 +55,7 @@ impl CobId {
         if self.extended {
             words.push_str(", 29 bits");
         }
-        // Of SYNC and TIME the bit says something else.
+        // In SYNC and TIME this bit has another meaning.
         if self.invalid && !matches!(address.index, 0x1005 | 0x1012) {
             words.push_str(", not valid");
         }
@@ -63,7 +63,7 @@ impl CobId {
     }
 }
 
-/// The values of a description that are COB-IDs, with their addresses and the bytes of the text.
+/// All COB-IDs of a description, with their addresses and their spans in the text.
 pub(crate) fn all(
     description: &Description,
 ) -> impl Iterator<Item = (Address, CobId, std::ops::Range<usize>)> + '_ {
@@ -80,7 +80,7 @@ pub(crate) fn all(
     })
 }
 
-/// The mapping that belongs to the communication parameter of a PDO.
+/// The mapping object of the communication parameter of a PDO.
 pub(crate) const fn mapping_of(index: u16) -> Option<u16> {
     match index {
         0x1400..=0x15FF | 0x1800..=0x19FF => Some(index + 0x200),

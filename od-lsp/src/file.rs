@@ -1,4 +1,4 @@
-//! One open file: its text, and what odkit reads in it, made on demand.
+//! One open file: its text, and what odkit has read from it, on demand.
 
 use std::cell::OnceCell;
 
@@ -33,16 +33,16 @@ pub(crate) struct File {
     pub(crate) version: Option<i64>,
     pub(crate) text: Text,
     pub(crate) kind: Kind,
-    /// The file on the disk without its text, if its encoding is another than that of the client's text.
+    /// The file on the disk without its text, if its encoding differs from that of the client's text.
     disk: Option<Document>,
     seen: OnceCell<Seen>,
 }
 
-/// A text as odkit reads it.
+/// A text that odkit has read.
 pub(crate) struct Seen {
     pub(crate) layout: Layout,
     pub(crate) description: Description,
-    /// Those about this file.
+    /// The findings about this file.
     pub(crate) findings: Vec<Finding>,
     /// Error in the settings of the project.
     pub(crate) misused: Option<String>,
@@ -74,7 +74,7 @@ impl File {
         }
     }
 
-    /// Forgets what was read: the text, a file it depends on, or the project's settings changed.
+    /// Forgets everything read: the text, a file that it depends on, or the project's settings changed.
     pub(crate) fn forget(&mut self) {
         self.seen = OnceCell::new();
     }
@@ -83,7 +83,7 @@ impl File {
         self.text.as_str()
     }
 
-    /// A piece of the text.
+    /// A part of the text.
     pub(crate) fn part(&self, bytes: std::ops::Range<usize>) -> &str {
         self.str().get(bytes).unwrap_or_default()
     }
@@ -97,7 +97,7 @@ impl File {
         }
     }
 
-    /// Reads the text as odkit does.
+    /// Reads the text.
     pub(crate) fn seen(&self, host: &dyn Host) -> &Seen {
         self.seen.get_or_init(|| match self.kind {
             Kind::Eds | Kind::Xdd => self.read(host),
@@ -111,7 +111,7 @@ impl File {
         })
     }
 
-    /// The file as it would be on the disk.
+    /// The bytes that the file would have on the disk.
     pub(crate) fn document(&self) -> Document {
         let disk = self.disk.clone().and_then(|mut disk| {
             let edit = Edit {
@@ -135,7 +135,7 @@ impl File {
                 }
             })
         } else {
-            // Places are those of the text with the mark.
+            // Places refer to the text with the mark.
 
             if is_eds && !od_eds::is_xml(self.str()) {
                 layout = Layout::of(self.str());
@@ -155,7 +155,7 @@ impl File {
         }
     }
 
-    /// An overlay with the base that it names.
+    /// Reads an overlay with its base.
     fn overlaid(&self, host: &dyn Host) -> Seen {
         let mut seen = Seen {
             layout: Layout::of(self.str()),
@@ -177,8 +177,8 @@ impl File {
         seen
     }
 
-    /// Path of the EDS that an overlay is laid over: the one of its first line `;odkit-base=my.eds`,
-    /// else the only EDS or DCF beside it.
+    /// Path of the EDS below an overlay: the one in its first line `;odkit-base=my.eds`,
+    /// otherwise the only EDS or DCF in the same folder.
     pub(crate) fn base(&self, host: &dyn Host) -> Option<String> {
         let named = self.str().lines().find_map(|line| {
             let rest = line.trim().strip_prefix([';', '#'])?.trim_start();
@@ -194,7 +194,7 @@ impl File {
     }
 }
 
-/// Findings of base and overlay that are about the overlay.
+/// Those findings of base and overlay that are about the overlay.
 fn own(made: &Overlaid, findings: Vec<Finding>) -> Vec<Finding> {
     let placed = findings.into_iter().map(|finding| made.place(finding));
     placed
@@ -203,7 +203,7 @@ fn own(made: &Overlaid, findings: Vec<Finding>) -> Vec<Finding> {
         .collect()
 }
 
-/// A file in an encoding that is not that of a client's text, or with a mark; without its text.
+/// Returns a file without its text if its encoding differs from the client's text, or if it has a mark.
 fn foreign(bytes: Vec<u8>) -> Option<Document> {
     let mut document = Document::new(bytes);
     let same = matches!(document.encoding(), Encoding::Ascii | Encoding::Utf8);
@@ -236,8 +236,8 @@ fn kind(path: &str, language: &str) -> Kind {
     }
 }
 
-/// The edit that makes `after` of the text of a file: of the lines between the first and the last
-/// that differ. None if nothing does.
+/// The edit that changes the text of a file into `after`: it covers the lines between the first and the last
+/// difference. `None` without a difference.
 pub(crate) fn edits(file: &File, after: &str) -> Vec<TextEdit> {
     let before = file.str();
     if before == after {
@@ -255,7 +255,7 @@ pub(crate) fn edits(file: &File, after: &str) -> Vec<TextEdit> {
     }]
 }
 
-/// Number of bytes of the lines that are the same.
+/// Number of bytes of equal lines.
 fn same<'a>(a: impl Iterator<Item = &'a str>, b: impl Iterator<Item = &'a str>) -> usize {
     let pairs = a.zip(b).take_while(|(a, b)| a == b);
     pairs.map(|(line, _)| line.len()).sum()

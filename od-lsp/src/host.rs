@@ -10,14 +10,14 @@ pub trait Host {
     /// The names of the files beside a file, with their paths.
     fn beside(&self, path: &str) -> Vec<String>;
 
-    /// Removes findings of rules that a project has off, and gives the others their severity.
+    /// Removes findings of rules that the project switches off, and sets the severity of the others.
     ///
     /// # Errors
-    /// The error in the project's settings; the findings are unchanged then.
+    /// The error in the project's settings; the findings are then unchanged.
     fn judge(&self, path: &str, findings: &mut Vec<Finding>) -> Result<(), String>;
 }
 
-/// A world without files and settings.
+/// A host without files and settings.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct NoHost;
 

@@ -1,4 +1,4 @@
-//! The keys of CiA 306-1 in words.
+//! Descriptions of the keys of CiA 306-1.
 
 /// Explains a key of an object's section.
 pub(crate) fn of_object(key: &str) -> Option<&'static str> {

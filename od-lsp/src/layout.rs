@@ -1,11 +1,11 @@
-//! The text of an EDS as sections, keys and values with their bytes.
+//! The text of an EDS as sections, keys and values with their byte ranges.
 
 use std::ops::Range;
 
 use od_eds::Span;
 use od_eds::outline::{self, Place, Placed};
 
-/// The bytes of a span.
+/// The byte range of a span.
 pub(crate) const fn bytes(span: Span) -> Range<usize> {
     span.start as usize..span.end as usize
 }
@@ -17,7 +17,7 @@ pub(crate) struct Section {
     pub(crate) place: Place,
     /// The text between the brackets.
     pub(crate) name: Range<usize>,
-    /// The brackets with what is between them.
+    /// The brackets with the text between them.
     pub(crate) header: Range<usize>,
     pub(crate) pairs: Vec<Pair>,
 }
@@ -30,13 +30,13 @@ pub(crate) struct Pair {
 }
 
 impl Section {
-    /// Behind its last key.
+    /// The position after its last key.
     pub(crate) fn end(&self) -> usize {
         let last = self.pairs.last();
         last.map_or(self.header.end, |pair| pair.value.end.max(pair.key.end))
     }
 
-    /// Index of the object that it is about.
+    /// Index of its object.
     pub(crate) const fn index(&self) -> Option<u16> {
         match self.place {
             Place::Object(index) | Place::Member(index, _) | Place::Compact(index, _) => {
@@ -46,7 +46,7 @@ impl Section {
         }
     }
 
-    /// The first pair with this key, in any case.
+    /// The first pair with this key, in upper or lower case.
     pub(crate) fn get<'s>(&'s self, text: &str, key: &str) -> Option<&'s Pair> {
         let is = |pair: &&Pair| {
             let own = text.get(pair.key.clone());
@@ -56,7 +56,7 @@ impl Section {
     }
 }
 
-/// The part of a section that a place belongs to.
+/// The part of a section at a position.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Spot<'a> {
     /// The header.
@@ -106,7 +106,7 @@ impl Layout {
         }
     }
 
-    /// The section whose lines a byte is in.
+    /// The section that contains the line of a byte.
     pub(crate) fn section_at(&self, offset: usize) -> Option<&Section> {
         let behind = self
             .sections
@@ -114,7 +114,7 @@ impl Layout {
         self.sections.get(behind.checked_sub(1)?)
     }
 
-    /// The header, key or value at a byte; the end of each belongs to it.
+    /// The header, key or value at a byte, including its end.
     pub(crate) fn spot(&self, offset: usize) -> Option<Spot<'_>> {
         let holds = |range: &Range<usize>| range.start <= offset && offset <= range.end;
         let section = self.section_at(offset)?;
@@ -134,12 +134,12 @@ impl Layout {
         }
     }
 
-    /// The first section about an object, a member, or another subject.
+    /// The first section of an object, a sub-object, or another subject.
     pub(crate) fn section_of(&self, place: Place) -> Option<&Section> {
         self.sections.iter().find(|section| section.place == place)
     }
 
-    /// The sections of an object: its own, its members', its compact lists.
+    /// All sections of an object: its own, those of its sub-objects, and its compact lists.
     pub(crate) fn sections_of(&self, index: u16) -> impl Iterator<Item = &Section> {
         let sections = self.sections.iter();
         sections.filter(move |section| section.index() == Some(index))

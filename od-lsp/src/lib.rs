@@ -1,7 +1,7 @@
-//! The language server behind `odkit lsp`: messages of the Language Server Protocol 3.17 in, messages out.
+//! The language server of `odkit lsp`. It takes and returns messages of the Language Server Protocol 3.17.
 //!
-//! Sans-io: it reads no file, no pipe and no clock. A message is the JSON text between two headers;
-//! files of the disk and a project's settings come from a [`Host`].
+//! It is sans-io: it uses no file, no pipe and no clock. A message is the JSON text between two headers;
+//! a [`Host`] provides the files of the disk and the settings of a project.
 //!
 //! ```
 //! use od_lsp::{NoHost, Server};

@@ -1,4 +1,4 @@
-//! The places of a text that name an object: headers, list entries, mapping entries.
+//! The mentions of objects in a text: headers, list entries, mapping entries.
 
 use std::ops::Range;
 
@@ -19,14 +19,14 @@ pub(crate) enum What {
     Mapping,
 }
 
-/// A place that names an object.
+/// A mention of an object.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(crate) struct Mention {
     pub(crate) what: What,
     pub(crate) object: Address,
     /// The whole name or number.
     pub(crate) bytes: Range<usize>,
-    /// The part of it that is the index; `None` if the index has no digits of its own.
+    /// The index in it; `None` if the index has no digits of its own.
     pub(crate) index: Option<Range<usize>>,
 }
 
@@ -49,28 +49,28 @@ impl Mapped {
     }
 }
 
-/// Does this object hold the mapping of a PDO?
+/// Returns whether this object is the mapping of a PDO.
 pub(crate) const fn is_mapping(index: u16) -> bool {
     matches!(index, 0x1600..=0x17FF | 0x1A00..=0x1BFF)
 }
 
-/// The bytes of a value without a comment behind it.
+/// The range of a value without a comment after it.
 pub(crate) fn plain(text: &str, pair: &Pair) -> Range<usize> {
     let value = text.get(pair.value.clone()).unwrap_or_default();
     pair.value.start..pair.value.start + outline::before_comment(value).len()
 }
 
-/// The number of a value, if it is one.
+/// The number in a value.
 pub(crate) fn number(text: &str, pair: &Pair) -> Option<i128> {
     outline::number(text.get(pair.value.clone())?)
 }
 
-/// Is it the key of a value that a node starts with?
+/// Returns whether this key has a value with which a node starts.
 pub(crate) fn is_value_key(key: &str) -> bool {
     key.eq_ignore_ascii_case("DefaultValue") || key.eq_ignore_ascii_case("ParameterValue")
 }
 
-/// The mapping entry that a pair holds.
+/// The mapping entry in a key-value pair.
 pub(crate) fn mapped(text: &str, section: &Section, pair: &Pair) -> Option<Mapped> {
     let key = text.get(pair.key.clone())?;
     let holds = match section.place {
@@ -83,7 +83,7 @@ pub(crate) fn mapped(text: &str, section: &Section, pair: &Pair) -> Option<Mappe
     holds.then(|| Mapped::of(number(text, pair)?)).flatten()
 }
 
-/// The object that a pair of a list or of links names.
+/// The object in an entry of a list or of links.
 pub(crate) fn listed(text: &str, section: &Section, pair: &Pair) -> Option<u16> {
     let names = matches!(section.place, Place::List(_)) || links(text, section).is_some();
     if !names || outline::number(text.get(pair.key.clone())?).is_none() {
@@ -92,7 +92,7 @@ pub(crate) fn listed(text: &str, section: &Section, pair: &Pair) -> Option<u16> 
     u16::try_from(number(text, pair)?).ok()
 }
 
-/// The object that `[2000ObjectLinks]` is about.
+/// The object of `[2000ObjectLinks]`.
 fn links(text: &str, section: &Section) -> Option<u16> {
     let (index, rest) = text.get(section.name.clone())?.split_at_checked(4)?;
     let Place::Object(index) = outline::place(index) else {
@@ -101,7 +101,7 @@ fn links(text: &str, section: &Section) -> Option<u16> {
     rest.eq_ignore_ascii_case("ObjectLinks").then_some(index)
 }
 
-/// The digits of an index at the end of a number `0x2000`, or before sub-index and length in `0x20000010`.
+/// The digits of an index: at the end of a number `0x2000`, or before sub-index and length in `0x20000010`.
 fn digits(text: &str, bytes: &Range<usize>, before: usize) -> Option<Range<usize>> {
     let number = text.get(bytes.clone())?;
     let hex = number

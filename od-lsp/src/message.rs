@@ -1,4 +1,4 @@
-//! Messages of JSON-RPC 2.0 as the Language Server Protocol uses them: one text each.
+//! Messages of JSON-RPC 2.0 in the form of the Language Server Protocol: one text each.
 
 use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
@@ -24,7 +24,7 @@ impl Incoming {
     /// The text is not JSON, or not an object with a method or an id.
     pub(crate) fn read(text: &str) -> Result<Self, Fault> {
         let incoming: Result<Self, _> = serde_json::from_str(text);
-        // An array could be read as the fields of a message.
+        // serde would read an array as the fields of a message.
         let is_object = text.trim_start().starts_with('{');
         match incoming {
             Ok(incoming) if is_object && (incoming.method.is_some() || incoming.id.is_some()) => {
@@ -56,7 +56,7 @@ impl Fault {
         Self::new(-32700, message.into())
     }
 
-    /// It is JSON, but not a message that can be sent now.
+    /// It is JSON, but no valid message at this time.
     pub(crate) fn invalid(message: impl Into<String>) -> Self {
         Self::new(-32600, message.into())
     }
@@ -77,7 +77,7 @@ impl Fault {
         Self::new(-32800, "the request was cancelled".into())
     }
 
-    /// The request is valid, and cannot be fulfilled for this text.
+    /// The request is valid but impossible for this text.
     pub(crate) fn failed(message: impl Into<String>) -> Self {
         Self::new(-32803, message.into())
     }
@@ -106,7 +106,7 @@ struct Call<'a, T> {
     params: &'a T,
 }
 
-/// The types of this crate have only texts as keys, so this does not fail.
+/// This cannot fail: the types of this crate have only text keys.
 fn written(message: &impl Serialize) -> String {
     serde_json::to_string(message).unwrap_or_default()
 }
@@ -120,7 +120,7 @@ pub(crate) fn answer(id: &Value, result: &impl Serialize) -> String {
     })
 }
 
-/// A response with an error; the id of a message that could not be read is null.
+/// A response with an error; the id of an unreadable message is null.
 pub(crate) fn refusal(id: &Value, error: &Fault) -> String {
     written(&Refusal {
         jsonrpc: "2.0",

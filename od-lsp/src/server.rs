@@ -1,4 +1,4 @@
-//! The server: messages wait in a queue, each is answered in its turn, and files that changed are
+//! The server: messages wait in a queue and are answered in order. Changed files are
 //! checked when no message waits.
 
 use std::collections::{BTreeMap, VecDeque};
@@ -20,30 +20,30 @@ mod requests;
 /// A language server for one client.
 ///
 /// Every message goes to [`receive`](Self::receive); then [`step`](Self::step) is called until it
-/// returns `false`, and [`poll`](Self::poll) until it returns `None`. A caller that has more input
-/// at hand should `receive` it first: a file is checked once for all changes that wait.
+/// returns `false`, and [`poll`](Self::poll) until it returns `None`. A caller that has more
+/// input should `receive` all of it first: a file is checked only once for all waiting changes.
 pub struct Server {
     host: Box<dyn Host>,
     files: BTreeMap<String, Open>,
     inbox: VecDeque<Incoming>,
     outbox: VecDeque<String>,
     unit: Unit,
-    /// Can edits of code actions be asked for later?
+    /// The client can request the edits of code actions later.
     later: bool,
-    /// Does the client report changes of files that it has not opened?
+    /// The client reports changes of files that it has not opened.
     watches: bool,
     phase: Phase,
     exit: Option<u8>,
-    /// The last complaint about a project's settings.
+    /// The last reported error of the project's settings.
     complained: Option<String>,
 }
 
-/// An open file, and what the client knows of it.
+/// An open file, and the results that the client has of it.
 struct Open {
     file: File,
-    /// Does the client wait for diagnostics?
+    /// The client waits for diagnostics.
     dirty: bool,
-    /// The tokens that it has, and the number of that answer.
+    /// The tokens of the client, and the number of their response.
     tokens: (u64, Vec<u32>),
 }
 
@@ -55,7 +55,7 @@ enum Phase {
 }
 
 impl Server {
-    /// A server for a client that has not said a word yet.
+    /// A server for a client that has not sent anything yet.
     pub fn new(host: Box<dyn Host>) -> Self {
         Self {
             host,
@@ -71,7 +71,7 @@ impl Server {
         }
     }
 
-    /// Takes a message: the text between two headers. A text that is not one is answered with an error.
+    /// Takes a message: the text between two headers. An invalid text is answered with an error.
     pub fn receive(&mut self, text: &str) {
         let incoming = match Incoming::read(text) {
             Ok(incoming) => incoming,
@@ -88,13 +88,13 @@ impl Server {
         self.inbox.push_back(incoming);
     }
 
-    /// Takes note of input that is not even a message.
+    /// Notes input that is no message at all.
     pub fn reject(&mut self, why: &str) {
         let fault = message::refusal(&Value::Null, &Fault::parse(why));
         self.outbox.push_back(fault);
     }
 
-    /// Does one thing that is due; `false` if there is nothing to do.
+    /// Does one task; `false` if there is none.
     pub fn step(&mut self) -> bool {
         if let Some(incoming) = self.inbox.pop_front() {
             self.handle(incoming);
@@ -116,12 +116,12 @@ impl Server {
         self.outbox.pop_front()
     }
 
-    /// The exit code, once the client has said `exit`: 0 after `shutdown`, else 1.
+    /// The exit code after the `exit` of the client: 0 after `shutdown`, otherwise 1.
     pub const fn exit_code(&self) -> Option<u8> {
         self.exit
     }
 
-    /// The exit code for input that ends without `exit`.
+    /// The exit code when the input ends without `exit`.
     pub const fn end_of_input(&self) -> u8 {
         match self.phase {
             Phase::Shutdown => 0,
@@ -129,7 +129,7 @@ impl Server {
         }
     }
 
-    /// Answers a request that waits with "cancelled"; one that is answered already stays so.
+    /// Answers a waiting request with "cancelled"; one that is already answered stays so.
     fn cancel(&mut self, params: &Value) {
         let Some(id) = params.get("id") else {
             return;
@@ -149,7 +149,7 @@ impl Server {
         }
         let Incoming { id, method, params } = incoming;
         let Some(method) = method else {
-            // A response of the client, of which none matters; or nothing.
+            // A response of the client, none of which matters; or nothing.
             return;
         };
         let Some(id) = id else {
@@ -194,7 +194,7 @@ impl Server {
         if self.phase != Phase::Running {
             return;
         }
-        // What cannot be read has no answer: a notification has none.
+        // An unreadable notification has no answer.
         match method {
             "initialized" => self.watch(),
             "textDocument/didOpen" => {
@@ -248,7 +248,7 @@ impl Server {
         }
     }
 
-    /// Checks all files again that depend on other files; after a save, all.
+    /// Checks all files again that depend on other files; after a save, all files.
     fn others(&mut self, but: &str) {
         for (uri, open) in &mut self.files {
             let depends = matches!(open.file.kind, Kind::Overlay | Kind::Rust) || but.is_empty();
@@ -259,7 +259,7 @@ impl Server {
         }
     }
 
-    /// Shows what is wrong with a project's settings, once.
+    /// Shows an error of the project's settings, only once.
     fn complain(&mut self, misused: Option<String>) {
         if let Some(why) = &misused
             && self.complained != misused
@@ -271,7 +271,7 @@ impl Server {
         self.complained = misused;
     }
 
-    /// Sends the diagnostics of a file; returns what is wrong with the project's settings.
+    /// Sends the diagnostics of a file; returns the error of the project's settings, if there is one.
     fn publish(&mut self, uri: &str) -> Option<String> {
         let open = self.files.get(uri)?;
         let file = &open.file;
@@ -291,7 +291,7 @@ impl Server {
         misused
     }
 
-    /// The text of a file, as the client has it or as it is on the disk.
+    /// The text of a file, from the client or from the disk.
     fn find(&self, path: &str) -> Option<String> {
         let mut open = self.files.values();
         match open.find(|open| open.file.path == path) {

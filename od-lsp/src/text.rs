@@ -1,4 +1,4 @@
-//! A text with places as a client counts them: lines, and characters in the unit agreed on.
+//! A text with positions as the client counts them: by line, and by character in the agreed unit.
 
 use crate::types::{Position, Range};
 
@@ -26,7 +26,7 @@ impl Unit {
         }
     }
 
-    /// Length of a text without line ends.
+    /// Length of a text without its line ends.
     pub(crate) fn count(self, text: &str) -> u32 {
         let count = match self {
             _ if text.is_ascii() => text.len(),
@@ -36,7 +36,7 @@ impl Unit {
     }
 }
 
-/// A text and the byte where each of its lines begins; `\n`, `\r\n` and `\r` end one.
+/// A text and the byte position of each line; `\n`, `\r\n` and `\r` end a line.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Text {
     content: String,
@@ -68,7 +68,7 @@ impl Text {
         behind.saturating_sub(1)
     }
 
-    /// The bytes of a line without its end; of one behind the text, none.
+    /// The byte range of a line without its end; an empty one after the text.
     pub(crate) fn line(&self, number: usize) -> std::ops::Range<usize> {
         let len = self.content.len();
         let Some(&start) = self.starts.get(number) else {
@@ -84,7 +84,7 @@ impl Text {
         self.starts.len()
     }
 
-    /// The place of a byte; of one inside a character, that of the character.
+    /// The position of a byte; inside a character, the position of that character.
     pub(crate) fn position(&self, offset: usize) -> Position {
         let mut offset = offset.min(self.content.len());
         while !self.content.is_char_boundary(offset) {
@@ -99,7 +99,7 @@ impl Text {
         }
     }
 
-    /// The byte of a place; behind the end of a line or of the text, that end.
+    /// The byte at a position; for a position after the end of a line or of the text, that end.
     pub(crate) fn offset(&self, position: Position) -> usize {
         let line = self.line(position.line as usize);
         let mut left = position.character as usize;
@@ -114,7 +114,7 @@ impl Text {
         line.end
     }
 
-    /// The places of a stretch of bytes.
+    /// The positions of a byte range.
     pub(crate) fn range(&self, bytes: std::ops::Range<usize>) -> Range {
         Range {
             start: self.position(bytes.start),
@@ -122,20 +122,20 @@ impl Text {
         }
     }
 
-    /// The bytes between two places, in either order.
+    /// The byte range between two positions, in either order.
     pub(crate) fn bytes(&self, range: Range) -> std::ops::Range<usize> {
         let (a, b) = (self.offset(range.start), self.offset(range.end));
         a.min(b)..a.max(b)
     }
 
-    /// Writes `text` in the place of a range, or of everything.
+    /// Replaces a range, or everything, with `text`.
     pub(crate) fn change(&mut self, range: Option<Range>, text: &str) {
         let Some(range) = range else {
             *self = Self::new(text.into(), self.unit);
             return;
         };
         let bytes = self.bytes(range);
-        // The lines of the range are counted again, with the one before: its `\r` may get a `\n`.
+        // Count the lines of the range again, with the line before: its `\r` may be followed by a new `\n`.
         let first = self.line_at(bytes.start).saturating_sub(1);
         let behind = self.starts.partition_point(|start| *start <= bytes.end);
         for start in &mut self.starts[behind..] {
@@ -178,7 +178,7 @@ mod tests {
     }
 
     #[test]
-    fn places_in_every_unit() {
+    fn positions_are_correct_in_every_unit() {
         let content = "a\r\nµ😀b\rz";
         for (unit, b) in [(Unit::Utf8, 6), (Unit::Utf16, 3)] {
             let text = Text::new(content.into(), unit);
@@ -190,7 +190,7 @@ mod tests {
             assert_eq!(text.offset(at(9, 9)), content.len());
             assert_eq!(text.position(content.len()), at(2, 1));
         }
-        // Half of a surrogate pair is the place of the pair.
+        // Half of a surrogate pair has the position of the pair.
         let text = Text::new(content.into(), Unit::Utf16);
         assert_eq!(text.offset(at(1, 2)), content.find('😀').unwrap());
     }
@@ -202,7 +202,7 @@ mod tests {
         text.change(Some(Range { start, end }), "2\ny=µ");
         assert_eq!(text.as_str(), "[a]\nx=2\ny=µ\n");
         assert_eq!(text.lines(), 4);
-        // Backwards, and far outside.
+        // A reversed range, and one far outside.
         let range = Range {
             start: at(99, 0),
             end: at(2, 0),

@@ -1,18 +1,18 @@
 //! The types of the Language Server Protocol 3.17 that this server sends and receives, with the
-//! protocol's own names.
+//! names of the protocol.
 
 use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-/// A place: both numbers count from 0; the unit of `character` was agreed on.
+/// A position: both numbers count from 0; the unit of `character` is agreed on at the start.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Position {
     pub(crate) line: u32,
     pub(crate) character: u32,
 }
 
-/// A stretch; the end is not part of it.
+/// A range; its end is excluded.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Range {
     pub(crate) start: Position,
@@ -85,7 +85,7 @@ pub(crate) struct CodeAction {
     pub(crate) is_preferred: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) edit: Option<WorkspaceEdit>,
-    /// The file, for an edit that is asked for later.
+    /// The file, for an edit that is requested later.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) data: Option<String>,
 }
@@ -190,16 +190,16 @@ pub(crate) struct OfDocument {
     pub(crate) text_document: DocumentId,
 }
 
-/// Parameters of requests about a place.
+/// Parameters of requests about a position.
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(crate) struct AtPosition {
     pub(crate) text_document: DocumentId,
     pub(crate) position: Position,
-    /// Of references: with the definition itself?
+    /// For references: include the definition.
     #[serde(default)]
     pub(crate) context: ReferenceContext,
-    /// Of a rename.
+    /// For a rename.
     #[serde(default)]
     pub(crate) new_name: String,
 }
@@ -223,13 +223,13 @@ const fn yes() -> bool {
     true
 }
 
-/// Parameters of requests about a stretch.
+/// Parameters of requests about a range.
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(crate) struct InRange {
     pub(crate) text_document: DocumentId,
     pub(crate) range: Range,
-    /// Of code actions.
+    /// For code actions.
     #[serde(default)]
     pub(crate) context: ActionContext,
 }
@@ -273,7 +273,7 @@ pub(crate) struct Versioned {
 
 #[derive(Deserialize)]
 pub(crate) struct Change {
-    /// The whole text without one.
+    /// Without a range, the whole text.
     #[serde(default)]
     pub(crate) range: Option<Range>,
     pub(crate) text: String,

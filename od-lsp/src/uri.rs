@@ -1,6 +1,6 @@
-//! From the URI of a file to its path, and back.
+//! Converts the URI of a file to its path, and back.
 
-/// The path of a `file:` URI; another URI is its own path.
+/// The path of a `file:` URI; any other URI is its own path.
 pub(crate) fn path(uri: &str) -> String {
     let Some(rest) = uri.strip_prefix("file://") else {
         return uri.to_owned();
@@ -14,7 +14,7 @@ pub(crate) fn path(uri: &str) -> String {
     }
 }
 
-/// The URI of a path, in the form of this one, which is of another file.
+/// The URI of a path, in the same form as this URI of another file.
 pub(crate) fn of(path: &str, like: &str) -> String {
     if !like.starts_with("file://") {
         return path.to_owned();
@@ -34,7 +34,7 @@ pub(crate) fn of(path: &str, like: &str) -> String {
     uri
 }
 
-/// A path beside a file.
+/// A path in the folder of a file.
 pub(crate) fn join(file: &str, name: &str) -> String {
     if name.starts_with('/') || name.contains(":/") {
         return name.to_owned();

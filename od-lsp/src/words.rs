@@ -1,4 +1,4 @@
-//! Values of an EDS in words.
+//! Descriptions of values of an EDS.
 
 use od_eds::{Description, EntryDescription, Value};
 use od_model::{Access, Address, DataType, ObjectCode, Visible};
@@ -7,7 +7,7 @@ use crate::cob_ids::{self, CobId};
 use crate::mentions::{Mapped, is_mapping};
 use crate::standard;
 
-/// An address in words: `6004h` of a VAR, else `1018h:01`.
+/// An address in words: `6004h` for a VAR, otherwise `1018h:01`.
 pub(crate) fn address(description: &Description, address: Address) -> String {
     let object = description.objects.get(&address.index);
     match object {
@@ -43,7 +43,7 @@ pub(crate) fn mapping(mapped: Mapped) -> String {
     format!("{}, {} {bits}", mapped.object, mapped.bits)
 }
 
-/// The name that belongs to a mapping entry: of the object, or of the data type of a gap.
+/// The name for a mapping entry: that of the object, or of the data type of a gap.
 pub(crate) fn mapped_name(description: &Description, mapped: Mapped) -> Option<String> {
     if let Some(name) = name(description, mapped.object) {
         return Some(name.to_owned());
@@ -52,7 +52,7 @@ pub(crate) fn mapped_name(description: &Description, mapped: Mapped) -> Option<S
     Some(format!("dummy entry, {}", dummy.name()))
 }
 
-/// The value of an entry in words, if the words say more than the text.
+/// The value of an entry in words, if they add information to the text.
 pub(crate) fn value(
     description: &Description,
     at: Address,
@@ -91,7 +91,7 @@ pub(crate) fn value(
     }
 }
 
-/// Values of communication objects that have a meaning of their own.
+/// Values of communication objects with a meaning.
 fn special(at: Address, number: Option<i128>) -> Option<String> {
     let number = u32::try_from(number?).ok()?;
     let [low, high, third, _] = number.to_le_bytes();
@@ -160,7 +160,7 @@ pub(crate) const fn code(code: ObjectCode) -> &'static str {
     }
 }
 
-/// A data type in words: its name and its size or range.
+/// A data type in words: its name, and its size or range.
 pub(crate) fn data_type(data_type: DataType) -> String {
     match data_type.integer_range() {
         Some((low, high)) => format!("{}, {low} to {high}", data_type.name()),
@@ -183,7 +183,7 @@ pub(crate) fn heading(description: &Description, at: Address) -> String {
     heading
 }
 
-/// A text of a file in Markdown.
+/// A text of a file, escaped for Markdown.
 pub(crate) fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {

@@ -11,12 +11,12 @@ use crate::host::Host;
 use crate::layout::bytes;
 use crate::types::{CodeAction, TextEdit, WorkspaceEdit};
 
-/// The kind that applies all safe fixes; an editor can ask for it on every save.
+/// The kind that applies all safe fixes; an editor can request it on every save.
 pub(crate) const FIX_ALL: &str = "source.fixAll.odkit";
 const QUICK_FIX: &str = "quickfix";
 
-/// The actions of the lines of a stretch. The edit of "fix all" is made now, or when it is `later`
-/// asked for.
+/// The actions for the lines of a range. The edit of "fix all" is made now, or when the client requests it
+/// `later`.
 pub(crate) fn of(
     file: &File,
     seen: &Seen,
@@ -52,7 +52,7 @@ pub(crate) fn of(
     };
     if wants(FIX_ALL) && seen.findings.iter().any(is_safe) {
         let now = (!later).then(|| fix_all(file, host));
-        // What a fix of another finding would break is not fixed.
+        // A fix that would break the fix of another finding is left out.
         if now.as_ref().is_none_or(|edit| !edit.changes.is_empty()) {
             actions.push(CodeAction {
                 title: "Apply all safe fixes of odkit".into(),
@@ -71,7 +71,7 @@ pub(crate) fn of(
 pub(crate) fn fix_all(file: &File, host: &dyn Host) -> WorkspaceEdit {
     let find = |document: &Document| {
         let mut findings = document.load().findings;
-        // What is wrong with the settings is shown when the file is checked.
+        // Errors in the settings are shown when the file is checked.
         let _ = host.judge(&file.path, &mut findings);
         findings
     };
@@ -114,7 +114,7 @@ fn fixed(file: &File, seen: &Seen, finding: &Finding) -> Option<CodeAction> {
     })
 }
 
-/// A comment that allows the finding where it is.
+/// The action that adds a comment which allows the finding.
 fn allowed(file: &File, seen: &Seen, finding: &Finding) -> Option<CodeAction> {
     let code = finding.code();
     if file.kind != Kind::Eds || matches!(&code[1..3], "07" | "08") {
@@ -122,7 +122,7 @@ fn allowed(file: &File, seen: &Seen, finding: &Finding) -> Option<CodeAction> {
     }
     let span = finding.span()?;
     let section = seen.layout.section_at(span.start as usize)?;
-    // Behind the header, in the line below it.
+    // After the header, in the line below it.
     let line = file.text.line_at(section.header.start);
     let end = file.text.line(line).end;
     let line_end = match file.str().get(end..) {

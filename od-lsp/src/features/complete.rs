@@ -1,4 +1,4 @@
-//! Completion: sections, keys, and the values of keys that have a list of them.
+//! Completion of sections, keys, and the values of keys with a list of values.
 
 use std::ops::Range;
 
@@ -18,10 +18,10 @@ const PROPERTY: u8 = 10;
 const VALUE: u8 = 12;
 const MODULE: u8 = 9;
 
-/// The line that is completed.
+/// The line under the cursor.
 struct Line<'a> {
     file: &'a File,
-    /// Its text up to the cursor, and behind it.
+    /// Its text before and after the cursor.
     before: &'a str,
     behind: &'a str,
     offset: usize,
@@ -79,7 +79,7 @@ fn header(line: &Line<'_>, seen: &Seen) -> Vec<CompletionItem> {
     let Some(open) = line.before.find('[') else {
         return Vec::new();
     };
-    // Behind the closing bracket there is nothing to complete.
+    // After the closing bracket there is nothing to complete.
     if line.before.contains(']') {
         return Vec::new();
     }
@@ -127,7 +127,7 @@ fn key(line: &Line<'_>, layout: &Layout, section: &Section) -> Vec<CompletionIte
     line.items(PROPERTY, choices.collect(), &(start..end))
 }
 
-/// The keys that a section may have, with what they say.
+/// The keys that a section may have, with their descriptions.
 fn names(
     text: &str,
     section: &Section,
@@ -184,7 +184,7 @@ fn names(
     }
 }
 
-/// The largest number at the end of a key that is not at the cursor: `3` of `Line3` or `3`.
+/// The largest number at the end of a key, without the key at the cursor: `3` of `Line3` or `3`.
 fn last(text: &str, section: &Section, cursor: usize) -> u64 {
     let pairs = section.pairs.iter();
     let others = pairs.filter(|pair| !(pair.key.start..=pair.key.end).contains(&cursor));
@@ -222,7 +222,7 @@ fn value(line: &Line<'_>, seen: &Seen, section: &Section, sign: usize) -> Vec<Co
     line.items(VALUE, choices, &(start..end))
 }
 
-/// The objects of a list that it lacks.
+/// The objects that a list lacks.
 fn listed(text: &str, seen: &Seen, section: &Section, list: List) -> Vec<Choice> {
     let pairs = section.pairs.iter();
     let known: Vec<u16> = pairs

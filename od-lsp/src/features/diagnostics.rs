@@ -15,7 +15,7 @@ pub(crate) fn of(file: &File, seen: &Seen) -> Vec<Diagnostic> {
         .collect()
 }
 
-/// One finding; without a place it is at the start of the text.
+/// One finding; a finding without a place is shown at the start of the text.
 pub(crate) fn one(file: &File, description: &Description, finding: &Finding) -> Diagnostic {
     let said = say(finding, &Eds);
     let place = |span| file.text.range(bytes(span));

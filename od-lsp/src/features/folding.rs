@@ -19,7 +19,7 @@ pub(crate) fn of(file: &File, layout: &Layout) -> Vec<FoldingRange> {
         let members = layout.sections.iter().skip(at + 1);
         let members =
             members.take_while(|other| other.index() == section.index() && other.name.len() > 4);
-        // An object is folded with its members: its own keys are few.
+        // An object is folded together with its sub-objects, because its own keys are few.
         match members.last().filter(|_| is_object(section)) {
             Some(last) => found.push(range(start, line(last.end()))),
             None if end > start => found.push(range(start, end)),
@@ -31,7 +31,7 @@ pub(crate) fn of(file: &File, layout: &Layout) -> Vec<FoldingRange> {
     found
 }
 
-/// Lines of comments, one below the other.
+/// Consecutive lines of comments.
 fn comments(file: &File, found: &mut Vec<FoldingRange>) {
     let is_comment = |line: usize| {
         let line = file.part(file.text.line(line)).trim_start();

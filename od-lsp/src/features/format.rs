@@ -1,7 +1,7 @@
-//! The canonical form of a file, with its comments.
+//! Formats a file: brings it into its canonical form and keeps its comments.
 //!
-//! The text is what `odkit convert` writes. That has no comments, so each one goes to where the line
-//! below it is now; what odkit cannot read becomes a comment, and nothing is lost.
+//! The text is that of `odkit convert`, which has no comments. So each comment moves to the new place of
+//! the line below it. Lines that odkit cannot read become comments, so nothing is lost.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -41,7 +41,7 @@ pub(crate) fn edits(file: &File, seen: &Seen) -> Result<Vec<TextEdit>, String> {
     Ok(file::edits(file, &format!("{}{text}", file.mark())))
 }
 
-/// Name of a section as it is in the canonical form, in lower case.
+/// Name of a section in the canonical form, in lower case.
 fn known(name: &str) -> String {
     let own = outline::place(name).name();
     let own = own.unwrap_or_else(|| match name.to_ascii_lowercase().as_str() {
@@ -51,15 +51,15 @@ fn known(name: &str) -> String {
     own.to_ascii_lowercase()
 }
 
-/// Lines to be written above a header (no key) or above a key.
+/// Comments to write above a header (no key) or above a key.
 #[derive(Default)]
 struct Comments {
-    /// Above everything.
+    /// Above the whole text.
     top: Vec<String>,
     at: BTreeMap<(String, Option<String>), Vec<String>>,
-    /// Right below the header.
+    /// Directly below the header.
     below: BTreeMap<String, Vec<String>>,
-    /// Behind everything.
+    /// After the whole text.
     end: Vec<String>,
 }
 
@@ -107,7 +107,7 @@ impl Comments {
                 let lines = comments.at.entry((name, Some(key))).or_default();
                 lines.append(&mut waiting);
             } else if is_word(own, "odkit-allow") && section.is_some() {
-                // It is about the section that it is in.
+                // It belongs to the section around it.
                 comments.below.entry(name).or_default().push(own.into());
             } else if !own.is_empty() && !is_word(own, "StorageLocation") {
                 waiting.push(commented(own));
@@ -120,7 +120,7 @@ impl Comments {
         comments
     }
 
-    /// The canonical text with them; what has no place there comes last.
+    /// The canonical text with the comments; a comment without a place comes last.
     fn into(mut self, plain: &str) -> String {
         let mut out = String::with_capacity(plain.len());
         let put = |lines: Vec<String>, out: &mut String| {
@@ -158,8 +158,8 @@ impl Comments {
         out
     }
 
-    /// Finds another place for comments of sections and keys that the canonical form writes otherwise:
-    /// below the header of their section or object, else behind everything.
+    /// Finds another place for comments of sections and keys that the canonical form lacks:
+    /// below the header of their section or object, otherwise at the end.
     fn settle(&mut self, plain: &str) {
         let mut keys: BTreeSet<(String, Option<String>)> = BTreeSet::new();
         let mut section = String::new();
@@ -216,7 +216,7 @@ fn is_word(line: &str, word: &str) -> bool {
     start.is_some_and(|start| start.eq_ignore_ascii_case(word))
 }
 
-/// Does the value keep what is behind a `;`?
+/// Returns whether the value includes the text after a `;`.
 fn is_text(key: &str) -> bool {
     matches!(
         key,

@@ -1,4 +1,4 @@
-//! Inlay hints: what a number means, behind it.
+//! Inlay hints: the meaning of a number, shown after it.
 
 use std::ops::Range;
 

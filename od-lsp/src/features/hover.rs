@@ -1,4 +1,4 @@
-//! Hover: the object, key or value under the cursor in words, and the rules that report there.
+//! Hover: describes the object, key or value under the cursor, and the rules with a finding there.
 
 use od_eds::check::Fixability;
 use od_eds::outline::{self, Compact, Place};
@@ -13,7 +13,7 @@ use crate::standard;
 use crate::types::{Hover, Markup};
 use crate::words;
 
-/// The hover at a byte; `None` if there is nothing to say.
+/// The hover at a byte; `None` if there is no information.
 pub(crate) fn at(file: &File, seen: &Seen, offset: usize) -> Option<Hover> {
     let spot = seen.layout.spot(offset);
     let mut parts: Vec<String> = spot.map_or_else(Vec::new, |spot| said(file, seen, spot));
@@ -182,14 +182,14 @@ fn value(file: &File, seen: &Seen, section: &Section, pair: &Pair) -> Option<Str
         }
         "defaultvalue" | "parametervalue" => {
             let name = standard::name(at.index, standard::profile(description));
-            // Below it the object is described with the value in words.
+            // The description of the object below includes the value.
             name.map_or_else(|| None, |_| self::key(file, section, pair))
         }
         _ => self::key(file, section, pair),
     }
 }
 
-/// The rule of a finding, as `odkit explain` shows it.
+/// The rule of a finding, in the form of `odkit explain`.
 pub(crate) fn explained(finding: &Finding) -> String {
     let rule = finding.rule;
     let fix = match rule.fixability {

@@ -1,4 +1,4 @@
-//! From a place to the one that it is about: objects, lists, mappings, COB-IDs.
+//! Jumps from a place to its subject: objects, lists, mappings, COB-IDs.
 
 use std::ops::Range;
 
@@ -42,20 +42,20 @@ fn target(file: &File, seen: &Seen, offset: usize) -> Option<Target> {
     }
 }
 
-/// Is a mapping about one of several sub-objects?
+/// Returns whether a mapping contains several sub-objects.
 fn is_sub(seen: &Seen, mention: &Mention) -> bool {
     let object = seen.description.objects.get(&mention.object.index);
     mention.what == What::Mapping && object.is_some_and(|object| object.code.has_members())
 }
 
-/// Place of the object's description; of a COB-ID, the other values with it, or the mapping of its PDO.
+/// Place of the object's description; for a COB-ID, the other values with it, or the mapping of its PDO.
 pub(crate) fn definition(file: &File, seen: &Seen, offset: usize) -> Vec<Range<usize>> {
     match target(file, seen, offset) {
         None => Vec::new(),
         Some(Target::Object(at, is_sub)) => {
             let own = Place::Member(at.index, at.sub);
             let header = match seen.layout.spot(offset) {
-                // From a member to its object.
+                // From a sub-object to its object.
                 Some(Spot::Header(section)) if section.place == own => None,
                 _ => seen.layout.section_of(own).filter(|_| is_sub),
             };
@@ -78,7 +78,7 @@ pub(crate) fn definition(file: &File, seen: &Seen, offset: usize) -> Vec<Range<u
     }
 }
 
-/// All places about the same object or COB-ID; without those that define it unless `declared`.
+/// All places of the same object or COB-ID; without its definitions unless `declared`.
 pub(crate) fn references(
     file: &File,
     seen: &Seen,
@@ -108,7 +108,7 @@ pub(crate) fn references(
     }
 }
 
-/// The values of DataType that name a type of the file.
+/// The values of DataType with the name of a type of the file.
 fn typed<'a>(
     file: &'a File,
     seen: &'a Seen,

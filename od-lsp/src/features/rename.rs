@@ -1,4 +1,4 @@
-//! Another index for an object: its sections, its list entries, the PDOs that map it.
+//! Gives an object another index: in its sections, its list entries, and the PDOs that map it.
 
 use std::ops::Range;
 
@@ -90,12 +90,12 @@ fn index(name: &str) -> Option<u16> {
         .filter(|index| *index != 0)
 }
 
-/// A mention with another index, in its spelling if that has digits for the index.
+/// A mention with another index, in the same spelling if the index has digits of its own.
 fn written(file: &File, mention: Mention, new: u16) -> (Range<usize>, String) {
     let Some(digits) = mention.index else {
         let text = match mention.what {
             What::Mapping => {
-                // The sub-index and the length stay.
+                // The sub-index and the length do not change.
                 let number = outline::number(file.part(mention.bytes.clone())).unwrap_or_default();
                 format!("0x{new:04X}{:04X}", number & 0xFFFF)
             }
@@ -119,7 +119,7 @@ fn is_of_list(seen: &Seen, mention: &Mention) -> bool {
 }
 
 /// The edits that move an entry to the list of the new index; none if it stays in its list, or
-/// that list is missing.
+/// the list is missing.
 fn moved(file: &File, seen: &Seen, old: u16, new: u16) -> Vec<(Range<usize>, String)> {
     let mut edits = Vec::new();
     let (from, to) = (List::of(old), List::of(new));
@@ -141,7 +141,7 @@ fn moved(file: &File, seen: &Seen, old: u16, new: u16) -> Vec<(Range<usize>, Str
     edits
 }
 
-/// Removes an entry; those behind it are numbered from there.
+/// Removes an entry; later ones get new numbers.
 fn unlist(file: &File, section: &Section, index: u16, edits: &mut Vec<(Range<usize>, String)>) {
     let text = file.str();
     let mut removed = 0;
@@ -168,7 +168,7 @@ fn unlist(file: &File, section: &Section, index: u16, edits: &mut Vec<(Range<usi
     counted(file, section, count, edits);
 }
 
-/// Adds an entry behind the others.
+/// Adds an entry at the end.
 fn list(file: &File, section: &Section, index: u16, edits: &mut Vec<(Range<usize>, String)>) {
     let text = file.str();
     let entries = section
@@ -192,7 +192,7 @@ fn list(file: &File, section: &Section, index: u16, edits: &mut Vec<(Range<usize
     counted(file, section, count + 1, edits);
 }
 
-/// SupportedObjects as it must be, in its own base.
+/// The correct value of SupportedObjects, in the number base of the file.
 fn counted(file: &File, section: &Section, count: usize, edits: &mut Vec<(Range<usize>, String)>) {
     let Some(pair) = section.get(file.str(), "SupportedObjects") else {
         return;

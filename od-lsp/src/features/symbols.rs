@@ -1,4 +1,4 @@
-//! The outline of a file: its sections, members below their objects.
+//! The outline of a file: its sections, with sub-objects below their objects.
 
 use od_eds::Description;
 use od_eds::outline::{Compact, Place};
@@ -19,7 +19,7 @@ const OBJECT: u8 = 19;
 /// The outline, in file order.
 pub(crate) fn of(file: &File, layout: &Layout, description: &Description) -> Vec<DocumentSymbol> {
     let mut found: Vec<DocumentSymbol> = Vec::new();
-    // The object of the last symbol, to which members are added.
+    // The object of the last symbol; sub-objects are added to it.
     let mut open = None;
     for section in &layout.sections {
         let symbol = symbol(file, section, description);
@@ -66,7 +66,7 @@ fn symbol(file: &File, section: &Section, description: &Description) -> Document
         Place::Other => (name.to_owned(), MODULE),
     };
     label.truncate(label.trim_end().len());
-    // A symbol has a name.
+    // A symbol must have a name.
     if label.is_empty() {
         label.push_str("[]");
     }
@@ -80,7 +80,7 @@ fn symbol(file: &File, section: &Section, description: &Description) -> Document
     }
 }
 
-/// Type and access of a value, or the code of an object.
+/// Type and access of a value, or the object code of an object.
 fn detail(section: &Section, description: &Description) -> String {
     let (index, sub) = match section.place {
         Place::Object(index) => (index, 0),

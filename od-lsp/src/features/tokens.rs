@@ -8,7 +8,7 @@ use crate::file::File;
 use crate::layout::{Layout, Pair};
 use crate::mentions::plain;
 
-/// The types, in the order of their numbers.
+/// The token types; the index is their number.
 pub(crate) const LEGEND: [&str; 7] = [
     "namespace",
     "property",
@@ -27,7 +27,7 @@ const COMMENT: u32 = 4;
 const WORD: u32 = 5;
 const NODE_ID: u32 = 6;
 
-/// The tokens between two bytes, five numbers each, as the protocol counts them.
+/// The tokens between two bytes, with five numbers each, in the encoding of the protocol.
 pub(crate) fn of(file: &File, layout: &Layout, within: &Range<usize>) -> Vec<u32> {
     let mut tokens = Vec::new();
     let from = layout
@@ -93,7 +93,7 @@ fn of_pair(file: &File, pair: &Pair, tokens: &mut Vec<(Range<usize>, u32)>) {
     tokens.push((value, kind));
 }
 
-/// Each token relative to the one before it.
+/// Each token relative to the previous one.
 fn encoded(file: &File, tokens: &[(Range<usize>, u32)]) -> Vec<u32> {
     let mut data = Vec::with_capacity(tokens.len() * 5);
     let (mut line, mut character) = (0, 0);
@@ -112,7 +112,7 @@ fn encoded(file: &File, tokens: &[(Range<usize>, u32)]) -> Vec<u32> {
     data
 }
 
-/// Start, number of numbers to delete, and those to insert, that make `new` of `old`.
+/// Start, number of numbers to delete, and numbers to insert, to change `old` into `new`.
 pub(crate) fn difference<'n>(old: &[u32], new: &'n [u32]) -> Option<(usize, usize, &'n [u32])> {
     if old == new {
         return None;

@@ -1,4 +1,4 @@
-//! The file that a call names, as the macro reads it.
+//! The file named by a call of the macro, read as the macro reads it.
 
 use od_eds::{Description, Document, Finding, Origin, Overlaid, Parsed};
 
@@ -9,7 +9,7 @@ use crate::text::Text;
 use crate::types::Location;
 use crate::uri;
 
-/// Reads the text of a file, open or on the disk.
+/// Reads the text of a file, from the editor or from the disk.
 pub(crate) type Find<'a> = &'a dyn Fn(&str) -> Option<String>;
 
 /// A file with its text.
@@ -18,7 +18,7 @@ pub(crate) struct Named {
     pub(crate) text: Text,
 }
 
-/// The file that a call names, and its overlay.
+/// The file of a call, and its overlay.
 pub(crate) struct Base {
     pub(crate) eds: Named,
     overlay: Option<(Named, Overlaid)>,
@@ -85,7 +85,7 @@ impl Base {
         })
     }
 
-    /// Place in the EDS that describes an object or a sub-object.
+    /// Place of an object or a sub-object in the EDS.
     pub(crate) fn described(&self, place: od_eds::outline::Place) -> Option<Location> {
         let layout = Layout::of(self.eds.text.as_str());
         let section = layout.section_of(place)?;
@@ -108,7 +108,7 @@ fn named(file: &File, path: &std::ops::Range<usize>, find: Find<'_>) -> Result<N
     }
 }
 
-/// The text of a file of the disk.
+/// The text of a file on the disk.
 pub(crate) fn decoded(bytes: Vec<u8>) -> String {
     Document::new(bytes).text().to_owned()
 }

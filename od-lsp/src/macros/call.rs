@@ -1,4 +1,4 @@
-//! A call of `object_dictionary!`: the file that it names, and its statements.
+//! A call of `object_dictionary!`: its file and its statements.
 
 use std::ops::Range;
 
@@ -11,7 +11,7 @@ use crate::macros::scan::{Kind, Token, tokens};
 pub(crate) struct Call {
     /// The bytes between its braces.
     pub(crate) body: Range<usize>,
-    /// The path behind `eds =`, without its quotes, and that of the overlay.
+    /// The path after `eds =`, without its quotes, and that of the overlay.
     pub(crate) eds: Option<Range<usize>>,
     pub(crate) overlay: Option<Range<usize>>,
     pub(crate) statements: Vec<Statement>,
@@ -22,19 +22,19 @@ pub(crate) struct Call {
 pub(crate) struct Statement {
     /// `None` for `rename`.
     pub(crate) action: Option<Action>,
-    /// `None` while it is being typed.
+    /// `None` while it is incomplete.
     pub(crate) target: Option<(Target, Range<usize>)>,
     /// The tokens between the braces.
     pub(crate) fields: Vec<Token>,
     /// The braces, if it has some.
     pub(crate) braces: Option<Range<usize>>,
-    /// Number of the variant that it is in.
+    /// Index of its variant.
     pub(crate) variant: Option<usize>,
 }
 
 /// The calls of a source.
 pub(crate) fn all(source: &str) -> Vec<Call> {
-    // Most sources have none.
+    // Most sources contain no call.
     if !source.contains("object_dictionary") {
         return Vec::new();
     }
@@ -65,7 +65,7 @@ fn is(source: &str, token: &Token, word: &str) -> bool {
     token.kind == Kind::Word && source.get(token.bytes.clone()) == Some(word)
 }
 
-/// Number of the token that closes the bracket which the first one opens.
+/// Index of the token that closes the bracket which the first token opens.
 fn closed(tokens: &[Token]) -> usize {
     let mut depth = 0usize;
     for (at, token) in tokens.iter().enumerate() {
@@ -88,7 +88,7 @@ fn call(source: &str, tokens: &[Token], body: Range<usize>) -> Call {
     };
     let kind = |at: usize| tokens.get(at).map(|token| token.kind);
     let mut variants = 0;
-    // End of the variant that is open, by token.
+    // End of the open variant, by token.
     let mut open: Option<(usize, usize)> = None;
     let mut at = 0;
     while let Some(token) = tokens.get(at) {
@@ -135,7 +135,7 @@ fn call(source: &str, tokens: &[Token], body: Range<usize>) -> Call {
     call
 }
 
-/// The statement whose word is a token, and the token behind it.
+/// The statement with this first token, and the token after it.
 fn statement(source: &str, tokens: &[Token], at: usize, word: &str) -> (Statement, usize) {
     let number = tokens
         .get(at + 1)

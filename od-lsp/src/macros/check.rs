@@ -1,4 +1,4 @@
-//! Findings of the macro about a call: errors of the file, and of the statements.
+//! Findings about a call of the macro: errors of the file, and of the statements.
 
 use std::ops::Range;
 
@@ -14,10 +14,10 @@ use crate::macros::call::{self, Call, Statement};
 use crate::macros::scan::{Kind, Token};
 use crate::types::{Diagnostic, RelatedInformation};
 
-/// Errors of the file that are shown; the rest is counted.
+/// Limit of shown errors of the file; the others are counted.
 const SHOWN: usize = 20;
 
-/// The diagnostics of the calls of a source.
+/// The diagnostics of the calls in a source.
 pub(crate) fn of(file: &File, find: Find<'_>) -> Vec<Diagnostic> {
     let calls = call::all(file.str());
     calls
@@ -65,7 +65,7 @@ fn of_call(file: &File, call: &Call, find: Find<'_>) -> Vec<Diagnostic> {
     found
 }
 
-/// Applies the statements of a variant, or those outside; findings at their tokens.
+/// Applies the statements of a variant, or those outside variants; findings are at their tokens.
 fn patched(
     file: &File,
     call: &Call,
@@ -121,12 +121,12 @@ fn edit(source: &str, own: &Statement, places: &mut Vec<Range<usize>>) -> Option
         let span = mark(&(first.bytes.start..last.bytes.end), places);
         edit.changes.push(Spanned::new(change, span));
     }
-    // While an `add` is being typed it lacks fields, and rustc says so.
+    // An incomplete `add` lacks fields, which rustc reports.
     let is_typed = own.action == Some(Action::Add) && own.braces.is_none();
     (!is_typed).then_some(edit)
 }
 
-/// A field; `None` for one that only the macro itself can judge.
+/// A field; `None` for one that only the macro can check.
 fn change(source: &str, key: &str, value: &[Token]) -> Option<Change> {
     let text = |token: &Token| source.get(token.bytes.clone());
     let [only] = value else {
@@ -168,7 +168,7 @@ fn raw_or_none(source: &str, value: &[Token]) -> Option<Option<Raw>> {
     }
 }
 
-/// An integer, a truth value or a text; other values are left to the macro.
+/// An integer, a truth value or a text; the macro checks other values.
 fn raw(source: &str, value: &[Token]) -> Option<Raw> {
     let (negative, token) = match value {
         [sign, token] if sign.kind == Kind::Sign(b'-') => (true, token),

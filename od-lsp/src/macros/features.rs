@@ -28,7 +28,7 @@ fn holds(bytes: &Range<usize>, offset: usize) -> bool {
     bytes.start <= offset && offset <= bytes.end
 }
 
-/// The object of the call at a byte.
+/// The object at a byte.
 fn target_at(call: &Call, offset: usize) -> Option<(Target, Range<usize>)> {
     let targets = call.statements.iter().filter_map(|own| own.target.clone());
     targets.into_iter().find(|(_, bytes)| holds(bytes, offset))
@@ -130,7 +130,7 @@ pub(crate) fn complete(file: &File, offset: usize, find: Find<'_>) -> Option<Com
     })
 }
 
-/// The objects of the file with their sub-objects; or those that its standards know and it lacks.
+/// The objects of the file with their sub-objects; or the objects of its standards that it lacks.
 fn objects(description: &Description, missing: bool) -> Vec<(String, String)> {
     let profile = standard::profile(description);
     if missing {
@@ -180,7 +180,7 @@ fn statements() -> Vec<(String, String)> {
     .into()
 }
 
-/// The fields, or the words of the field that is being written.
+/// The fields, or the values of the field at the cursor.
 fn fields(before: &str) -> Vec<(String, String)> {
     let field = before.rsplit([';', '{']).next().unwrap_or_default().trim();
     let owned = |word: &str| (word.to_owned(), String::new());

@@ -1,4 +1,4 @@
-//! Calls of `object_dictionary!` in Rust source: the objects of the file that `eds =` names.
+//! Calls of `object_dictionary!` in Rust sources, with the objects of the file after `eds =`.
 
 pub(crate) mod base;
 pub(crate) mod call;

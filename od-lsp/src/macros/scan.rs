@@ -1,4 +1,4 @@
-//! Rust source as tokens, as far as calls of a macro need them; never fails.
+//! A tokenizer for Rust sources, as precise as calls of a macro need; it never fails.
 
 use std::ops::Range;
 
@@ -8,7 +8,7 @@ pub(crate) enum Kind {
     Word,
     /// A number with its suffix: `0x1018sub2`.
     Number,
-    /// `"…"`; the bytes are those between the quotes.
+    /// `"…"`; its range excludes the quotes.
     Text,
     /// `b"…"`
     Bytes,
@@ -66,7 +66,7 @@ fn line(rest: &[u8]) -> usize {
     rest.iter().take_while(|b| **b != b'\n').count()
 }
 
-/// A comment, which may hold others.
+/// A comment, which may contain others.
 fn comment(rest: &[u8]) -> usize {
     let mut depth = 0usize;
     let mut at = 0;
@@ -114,7 +114,7 @@ fn raw(rest: &[u8]) -> Option<usize> {
     Some(found.map_or(rest.len(), |found| start + found + end.len()))
 }
 
-/// Length of `'a'` and `'\n'`; of a lifetime, its quote.
+/// Length of `'a'` and `'\n'`; for a lifetime, of its quote.
 fn character(rest: &[u8]) -> usize {
     if rest.get(1) == Some(&b'\\') {
         let end = rest[2..].iter().skip(1).take(10).position(|b| *b == b'\'');
@@ -137,7 +137,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_no_code_is_left_out() {
+    fn comments_and_characters_are_left_out() {
         let source = "a // b \"\n/* /* c */ \" */ 'x' '\\'' '\\u{41}' 'life \"t\\\"x\" r#\"q\"\"# b\"y\" 0x1018sub2 = é; '";
         let found: Vec<_> = tokens(source)
             .into_iter()

@@ -1,4 +1,4 @@
-//! The start: what the client can, and what the server can.
+//! Initialization: the capabilities of the client and of the server.
 
 use serde_json::{Value, json};
 
@@ -9,7 +9,7 @@ use crate::message;
 use crate::text::Unit;
 
 impl Server {
-    /// Takes note of what the client can, and answers with what the server can.
+    /// Notes the capabilities of the client, and answers with those of the server.
     pub(super) fn initialize(&mut self, params: &Value) -> Value {
         let can = |pointer: &str| params.pointer(&format!("/capabilities/{pointer}"));
         let units = can("general/positionEncodings").and_then(Value::as_array);
@@ -51,7 +51,7 @@ impl Server {
         })
     }
 
-    /// Asks for changes of files that the client has not opened.
+    /// Requests notifications about files that the client has not opened.
     pub(super) fn watch(&mut self) {
         if !self.watches {
             return;

@@ -1,4 +1,4 @@
-//! Requests about files, each to its feature.
+//! Passes requests about files to their features.
 
 use serde::de::DeserializeOwned;
 use serde_json::Value;
@@ -114,8 +114,8 @@ impl Server {
         }
     }
 
-    /// The answer of a request about a Rust source; `None` for requests that are answered as for
-    /// an EDS, which it is not.
+    /// The answer to a request about a Rust source; `None` for requests that are answered as for
+    /// an EDS.
     fn in_rust(&self, id: &Value, method: &str, params: &Value) -> Option<String> {
         let uri = params.pointer("/textDocument/uri")?.as_str()?;
         let file = &self.files.get(uri)?.file;
@@ -148,7 +148,7 @@ impl Server {
         answer(&open.file, open.file.seen(host))
     }
 
-    /// A request about a place of a file.
+    /// A request about a position in a file.
     fn at(
         &mut self,
         params: Value,
@@ -160,7 +160,7 @@ impl Server {
         answer(&open.file, open.file.seen(host), &params, offset)
     }
 
-    /// A request about a stretch of a file.
+    /// A request about a range in a file.
     fn within(
         &mut self,
         params: Value,
@@ -183,7 +183,7 @@ impl Server {
         Ok(message::answer(id, &found))
     }
 
-    /// The edit of "fix all"; every other action has its edit.
+    /// The edit of "fix all"; all other actions already have their edit.
     fn resolve(&mut self, id: &Value, mut action: Value) -> Result<String, Fault> {
         let uri = action
             .get("data")
@@ -200,7 +200,7 @@ impl Server {
         Ok(message::answer(id, &action))
     }
 
-    /// All tokens, or the difference to those that the client has.
+    /// All tokens, or the difference to the tokens of the client.
     fn tokens(
         &mut self,
         id: &Value,

@@ -1,4 +1,4 @@
-//! Names of objects in the standards, for those that look at an index.
+//! Names of objects in the standards, by index.
 
 mod drive;
 mod encoder;
@@ -19,7 +19,7 @@ pub(crate) fn profile(description: &Description) -> Option<u16> {
         .filter(|number| *number != 0)
 }
 
-/// The name of an object and the standard that it is in; `profile` is that of the device.
+/// The name of an object and its standard; `profile` is the profile of the device.
 pub(crate) fn name(index: u16, profile: Option<u16>) -> Option<(&'static str, &'static str)> {
     if let Some(known) = specified(index) {
         return Some((known.name, known.source));
@@ -31,7 +31,7 @@ pub(crate) fn name(index: u16, profile: Option<u16>) -> Option<(&'static str, &'
         406 => (encoder::TABLE, "CiA 406", 1),
         _ => return None,
     };
-    // The second device of a module has its objects 800h higher, and so on.
+    // The objects of the second device of a module are 800h higher, and so on.
     let own = index.checked_sub(0x6000)?;
     let index = match own / 0x800 < devices {
         true if devices > 1 => 0x6000 + own % 0x800,

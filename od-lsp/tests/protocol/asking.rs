@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use crate::support::{Client, TEXT, URI, covered, edited, labels, place};
 
 #[test]
-fn a_hover_says_what_is_there() {
+fn a_hover_describes_the_place() {
     let mut client = Client::with(TEXT);
     for (mark, expected) in [
         (
@@ -50,7 +50,7 @@ fn a_hover_says_what_is_there() {
 }
 
 #[test]
-fn completion_offers_what_is_missing() {
+fn completion_offers_missing_items() {
     let mut client = Client::with(TEXT);
     let found = client.at("textDocument/completion", TEXT, "DataType=|0x0007");
     assert!(labels(&found).contains(&"0x001B"));
@@ -60,7 +60,7 @@ fn completion_offers_what_is_missing() {
     assert_eq!(labels(&found), ["ro", "wo", "rw", "rwr", "rww", "const"]);
     let found = client.at("textDocument/completion", TEXT, "DefaultValue=|0x60040020");
     assert_eq!(labels(&found), ["0x60000010", "0x60040020"]);
-    // Mandatory objects first, with their keys.
+    // Mandatory objects come first, with their keys.
     let text = "[1000]\nParameterName=a\n\n[";
     client.change(URI, json!({ "text": text }));
     let found = client.at("textDocument/completion", text, "\n[|");

@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use crate::support::{Client, Files, TEXT, covered, labels, place};
 
 #[test]
-fn calls_of_the_macro_know_the_objects_of_their_file() {
+fn calls_of_the_macro_use_the_objects_of_their_file() {
     let mut files = Files::default();
     files.0.insert("/w/eds/a.eds".into(), TEXT.into());
     let mut client = Client::new(files, json!({}));
@@ -19,7 +19,7 @@ fn calls_of_the_macro_know_the_objects_of_their_file() {
         .iter()
         .map(|one| (one["code"].as_str().unwrap(), covered(text, &one["range"])))
         .collect();
-    // Two PDOs of the file have one COB-ID.
+    // Two PDOs of the file have the same COB-ID.
     assert_eq!(
         said,
         [

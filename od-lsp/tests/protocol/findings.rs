@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use crate::support::{Client, Files, TEXT, URI, edited, place};
 
 #[test]
-fn findings_follow_each_keystroke_and_are_sent_once_for_those_that_wait() {
+fn findings_follow_each_keystroke_and_waiting_changes_are_checked_once() {
     let mut client = Client::with(TEXT);
     let before = client.codes(URI);
     assert!(!before.contains(&"E0412".to_owned()), "{before:?}");
@@ -48,7 +48,7 @@ fn findings_follow_each_keystroke_and_are_sent_once_for_those_that_wait() {
 }
 
 #[test]
-fn places_are_counted_in_the_unit_agreed_on() {
+fn positions_are_counted_in_the_agreed_unit() {
     let text = "[2000]\nParameterName=µ😀 x\nDataType=5 ; 😀\nDefaultValue=300\nAccessType=😀z\n";
     for (offered, unit, character) in [
         (json!(["utf-8", "utf-16"]), "utf-8", 11),
@@ -67,7 +67,7 @@ fn places_are_counted_in_the_unit_agreed_on() {
         );
         let end = if unit == "utf-8" { 16 } else { 14 };
         assert_eq!(fault["range"]["end"]["character"], end);
-        // The character behind two that are longer in UTF-8.
+        // The character after two that are longer in UTF-8.
         let at = if unit == "utf-8" { 20 } else { 17 };
         let range = json!({ "start": { "line": 1, "character": at }, "end": { "line": 1, "character": at + 2 } });
         client.change(URI, json!({ "range": range, "text": "!" }));
@@ -77,7 +77,7 @@ fn places_are_counted_in_the_unit_agreed_on() {
 }
 
 #[test]
-fn fixes_remove_what_they_are_about() {
+fn a_fix_removes_its_finding() {
     let text = "[2000]\nParameterName=a\nDataType:5\nAccessType=rw\nDefaultValue=300\n";
     let mut client = Client::with(text);
     let range = |line: u32| json!({ "start": { "line": line, "character": 0 }, "end": { "line": line, "character": 3 } });
@@ -101,7 +101,7 @@ fn fixes_remove_what_they_are_about() {
     assert!(client.codes(URI).contains(&code));
     client.change(URI, json!({ "text": fixed }));
     assert!(!client.codes(URI).contains(&code));
-    // A comment that allows what has no fix.
+    // A comment allows a finding without a fix.
     let found = ask(&mut client, 4, json!(["quickfix"]));
     let allow = found
         .as_array()
@@ -119,7 +119,7 @@ fn fixes_remove_what_they_are_about() {
 }
 
 #[test]
-fn all_safe_fixes_at_once_are_those_of_check() {
+fn fix_all_makes_the_safe_fixes_of_check() {
     let text = "[2000]\r\nParameterName=a\r\nDataType:5\r\nDefaultValue:1\r\nAccessType=rw\r\n";
     let file = od_eds::Document::new(text);
     let expected = od_eds::fix::fix(&file, od_eds::fix::Applicability::Safe, |file| {

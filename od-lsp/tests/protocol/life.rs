@@ -1,11 +1,11 @@
-//! Messages in and out of order, settings, and input that nobody expects.
+//! Messages in and out of order, settings, and unexpected input.
 
 use serde_json::{Value, json};
 
 use crate::support::{Client, Files, TEXT, URI, place};
 
 #[test]
-fn a_life_in_order_and_out_of_order() {
+fn messages_in_and_out_of_order_have_an_answer() {
     let mut client = Client::raw(Files::default());
     let code = |answer: &Value| answer["error"]["code"].as_i64();
     assert_eq!(
@@ -67,7 +67,7 @@ fn a_life_in_order_and_out_of_order() {
 }
 
 #[test]
-fn a_cancelled_request_has_an_error_and_others_have_answers() {
+fn a_cancelled_request_has_an_error_and_other_requests_an_answer() {
     let mut client = Client::with(TEXT);
     client.all();
     for id in ["a", "b"] {
@@ -109,7 +109,7 @@ fn settings_of_the_project_are_honoured() {
     assert_eq!(client.others.iter().filter(shown).count(), 1, "said once");
 }
 
-/// Whatever is typed, at whatever place something is asked: an answer comes.
+/// Whatever is typed, and wherever a request points, there is an answer.
 #[test]
 fn nothing_stops_the_server() {
     let mut seed = 1u64;

@@ -1,4 +1,4 @@
-//! The server over its messages, in one process.
+//! Tests of the server through its messages, in one process.
 
 mod asking;
 mod calls;

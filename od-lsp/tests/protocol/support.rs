@@ -32,7 +32,7 @@ pub(crate) struct Client {
     pub(crate) server: Server,
     id: i32,
     version: i64,
-    /// Messages that are not answers.
+    /// Messages that are no answers.
     pub(crate) others: Vec<Value>,
 }
 
@@ -42,7 +42,7 @@ pub(crate) const TEXT: &str = include_str!("device.eds");
 pub(crate) const URI: &str = "file:///w/a.eds";
 
 impl Client {
-    /// A client that was initialized with these capabilities.
+    /// A client after initialization with these capabilities.
     pub(crate) fn new(files: Files, capabilities: Value) -> Self {
         let mut client = Self::raw(files);
         client.request("initialize", json!({ "capabilities": capabilities }));
@@ -50,7 +50,7 @@ impl Client {
         client
     }
 
-    /// One that has not said a word.
+    /// A client that has sent nothing yet.
     pub(crate) fn raw(files: Files) -> Self {
         Self {
             server: Server::new(Box::new(files)),
@@ -60,7 +60,7 @@ impl Client {
         }
     }
 
-    /// One with an open file.
+    /// A client with an open file.
     pub(crate) fn with(text: &str) -> Self {
         let mut client = Self::new(Files::default(), json!({}));
         client.open(URI, text);
@@ -108,7 +108,7 @@ impl Client {
         answer["result"].clone()
     }
 
-    /// Everything that the server has to say now.
+    /// All messages that the server has now.
     pub(crate) fn all(&mut self) -> Vec<Value> {
         while self.server.step() {}
         let texts = std::iter::from_fn(|| self.server.poll());
@@ -137,7 +137,7 @@ impl Client {
             .collect()
     }
 
-    /// A request about the place of `mark` in the text: its `^`-th byte is the cursor.
+    /// A request at the position of `mark` in the text, as [`place`] finds it.
     #[track_caller]
     pub(crate) fn at(&mut self, method: &str, text: &str, mark: &str) -> Value {
         self.request(
@@ -153,7 +153,7 @@ impl Client {
     }
 }
 
-/// The place of `|` in `mark`, which without it is a part of an ASCII text.
+/// The position of `|` in `mark`; without it, `mark` is a part of an ASCII text.
 #[track_caller]
 pub(crate) fn place(text: &str, mark: &str) -> Value {
     let within = mark.find('|').unwrap();
@@ -211,7 +211,7 @@ pub(crate) fn labels(found: &Value) -> Vec<&str> {
         .collect()
 }
 
-/// The text that a range covers.
+/// The text in a range.
 pub(crate) fn covered<'t>(text: &'t str, range: &Value) -> &'t str {
     let line = text
         .lines()

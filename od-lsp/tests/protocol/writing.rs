@@ -27,7 +27,7 @@ fn an_index_is_renamed_everywhere() {
         let text = edited(TEXT, &found["result"]["changes"][URI]);
         assert_eq!(text, TEXT.replace("6004", "6008"), "{mark}");
     }
-    // Into another list: the entries behind it move up, and both are counted.
+    // In another list: later entries move up, and both lists are counted.
     let found = rename(&mut client, "[60|00]", "0x2000");
     let text = edited(TEXT, &found["result"]["changes"][URI]);
     let (before, after) = (od_eds::load(TEXT), od_eds::load(&text));
@@ -59,7 +59,7 @@ fn an_index_is_renamed_everywhere() {
 }
 
 #[test]
-fn the_canonical_form_keeps_comments_and_is_made_once() {
+fn formatting_keeps_comments_and_is_stable() {
     let text = "; top\r\n[2000]\r\n;odkit-allow=W0311 mine\r\nDataType = 0x5 ; eight bits\r\n\
         ; a name\r\nParameterName=a\r\nnonsense\r\nAccessType=rw\r\nAccessType=ro\r\n; end\r\n";
     let mut client = Client::with(text);

@@ -1,4 +1,4 @@
-//! The sections that a file may get: mandatory objects first.
+//! The sections that can be added to a file: mandatory objects first.
 
 use std::collections::BTreeMap;
 
@@ -62,7 +62,7 @@ fn object(index: u16, profile: Option<u16>, is_empty: bool) -> Choice {
     }
 }
 
-/// The sections of an object of the standards, without its first bracket and its last line end.
+/// The sections of an object of the standards, without the first bracket and the last line end.
 fn sections(index: u16, name: &str, code: ObjectCode, access: Access) -> String {
     let mut name = name.to_owned();
     if let Some(first) = name.get_mut(..1) {
@@ -101,7 +101,7 @@ fn sections(index: u16, name: &str, code: ObjectCode, access: Access) -> String 
     let own = text
         .split_once(&format!("[{index:04X}]"))
         .map(|(_, own)| own);
-    // Behind the object are the lists that come after its own.
+    // The lists after its own object type come after the object.
     let own = own.and_then(|own| {
         let lists = own
             .find("\n\n[Optional")
@@ -111,7 +111,7 @@ fn sections(index: u16, name: &str, code: ObjectCode, access: Access) -> String 
     format!("{index:04X}]{}", own.unwrap_or_default().trim_end())
 }
 
-/// The next members of the object above.
+/// The next sub-objects of the object above.
 fn members(seen: &Seen, current: Option<&Section>) -> Vec<Choice> {
     let Some(current) = current else {
         return Vec::new();
@@ -153,7 +153,7 @@ fn members(seen: &Seen, current: Option<&Section>) -> Vec<Choice> {
     all.into_iter().map(choice).collect()
 }
 
-/// The sections without a number in their names that a file lacks.
+/// The sections without a number in their name that a file lacks.
 fn lacking<'a>(
     description: &'a Description,
     layout: &'a Layout,

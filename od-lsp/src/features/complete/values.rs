@@ -1,4 +1,4 @@
-//! The values of the keys of an object that have a list of them.
+//! The values of keys with a list of values, in the section of an object.
 
 use od_eds::outline::Place;
 use od_model::{Access, Address, DataType, Kind, ObjectCode};
@@ -8,13 +8,13 @@ use crate::layout::Section;
 use crate::mentions::{is_mapping, is_value_key};
 use crate::words;
 
-/// One thing to choose.
+/// A value to choose.
 pub(super) struct Choice {
     pub(super) label: String,
     pub(super) detail: String,
-    /// The text to write, if it is another than the label.
+    /// The text to write, if it differs from the label.
     pub(super) text: Option<String>,
-    /// The text that typed letters are compared with, if it is another than the label.
+    /// The text to compare with typed letters, if it differs from the label.
     pub(super) filter: Option<String>,
     pub(super) note: Option<String>,
 }
@@ -30,7 +30,7 @@ impl Choice {
         }
     }
 
-    /// A number that is also found by its name.
+    /// A number that can also be found by its name.
     fn named(label: String, detail: &str) -> Self {
         Self {
             filter: Some(format!("{label} {detail}")),
@@ -39,7 +39,7 @@ impl Choice {
     }
 }
 
-/// The values that a key of an object or of a member may have.
+/// The values of a key in the section of an object or a sub-object.
 pub(super) fn of_object(text: &str, seen: &Seen, section: &Section, key: &str) -> Vec<Choice> {
     let (at, is_member) = match section.place {
         Place::Object(index) => (Address::new(index, 0), false),
@@ -89,7 +89,7 @@ pub(super) fn of_object(text: &str, seen: &Seen, section: &Section, key: &str) -
     }
 }
 
-/// Default values: what can be mapped, and the COB-IDs of CiA 301.
+/// Default values: objects that can be mapped, and the COB-IDs of CiA 301.
 fn value(text: &str, seen: &Seen, section: &Section, at: Address) -> Vec<Choice> {
     if is_mapping(at.index) && at.sub > 0 {
         return mappable(seen, at.index >= 0x1A00);
@@ -120,7 +120,7 @@ fn value(text: &str, seen: &Seen, section: &Section, at: Address) -> Vec<Choice>
     choices
 }
 
-/// The mapping entries of all values that can be mapped in this direction.
+/// The mapping entries of all objects that can be mapped in this direction.
 fn mappable(seen: &Seen, into_tpdo: bool) -> Vec<Choice> {
     let description = &seen.description;
     let entries = description.entries().filter(|(_, entry)| {
