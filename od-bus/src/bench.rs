@@ -5,7 +5,7 @@ use std::borrow::BorrowMut;
 use od_bench::bus::Bus;
 use od_wire::{Frame, Instant};
 
-use crate::fault::Fault;
+use crate::Error;
 use crate::link::{Heard, Link};
 
 /// A link onto a [`Bus`], owned or borrowed: waiting moves the bench's time to the next frame at once.
@@ -17,13 +17,13 @@ impl<B: BorrowMut<Bus>> Link for OnBench<B> {
         self.0.borrow().now()
     }
 
-    fn send(&mut self, frame: &Frame) -> Result<(), Fault> {
+    fn send(&mut self, frame: &Frame) -> Result<(), Error> {
         // Where a line does not let it through, nobody answers, as on a real bus.
         self.0.borrow_mut().receive(frame);
         Ok(())
     }
 
-    fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Fault> {
+    fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Error> {
         let bus = self.0.borrow_mut();
         loop {
             bus.advance_until_sent(until.max(bus.now()));

@@ -5,7 +5,7 @@ use od_model::values;
 use od_model::{Access, Address, Dictionary, Entry, Object};
 use od_wire::{AbortCode, NodeId};
 
-use crate::fault::Fault;
+use crate::Error;
 use crate::link::Link;
 use crate::master::Master;
 
@@ -20,7 +20,7 @@ pub fn compare(
     dictionary: Dictionary<'_>,
     client: &mut Master<impl Link>,
     values: bool,
-) -> Result<Vec<Difference>, Fault> {
+) -> Result<Vec<Difference>, Error> {
     let node = client.node();
     client.know(dictionary);
     let mut found = Vec::new();
@@ -29,45 +29,46 @@ pub fn compare(
             if !entry.access.readable() {
                 continue;
             }
-            let (field, before, after, impact) = match client.upload(entry.address)? {
-                Ok(bytes) => match value(dictionary, &entry, &bytes, (node, values)) {
-                    Some(difference) => difference,
-                    None => continue,
-                },
-                Err(code) if code == AbortCode::NoObject.code() => {
-                    let has = format!("{} {}", object.code.name(), entry.data_type.name());
-                    found.push(at(
-                        dictionary,
-                        &object,
-                        entry.address,
-                        (Field::ObjectRemoved, has, String::new(), Impact::Breaking),
-                    ));
-                    break;
-                }
-                Err(code) if code == AbortCode::NoSubIndex.code() => (
-                    Field::EntryRemoved,
-                    format!("{} {}", entry.data_type.name(), entry.access.name()),
-                    String::new(),
-                    Impact::Breaking,
-                ),
-                Err(code) if code == AbortCode::WriteOnly.code() => (
-                    Field::Access,
-                    entry.access.name().into(),
-                    Access::Wo.name().into(),
-                    Impact::Breaking,
-                ),
-                // No error is logged, no data is there now: nothing is said of the object.
-                Err(code) if code == AbortCode::NoData.code() => continue,
-                Err(code) => (
-                    Field::Access,
-                    entry.access.name().into(),
-                    match AbortCode::from_code(code) {
-                        Some(code) => format!("abort {code}"),
-                        None => format!("abort {code:08X}h"),
+            let (field, before, after, impact) =
+                match Error::or_abort(client.upload(entry.address))? {
+                    Ok(bytes) => match value(dictionary, &entry, &bytes, (node, values)) {
+                        Some(difference) => difference,
+                        None => continue,
                     },
-                    Impact::Breaking,
-                ),
-            };
+                    Err(code) if code == AbortCode::NoObject.code() => {
+                        let has = format!("{} {}", object.code.name(), entry.data_type.name());
+                        found.push(at(
+                            dictionary,
+                            &object,
+                            entry.address,
+                            (Field::ObjectRemoved, has, String::new(), Impact::Breaking),
+                        ));
+                        break;
+                    }
+                    Err(code) if code == AbortCode::NoSubIndex.code() => (
+                        Field::EntryRemoved,
+                        format!("{} {}", entry.data_type.name(), entry.access.name()),
+                        String::new(),
+                        Impact::Breaking,
+                    ),
+                    Err(code) if code == AbortCode::WriteOnly.code() => (
+                        Field::Access,
+                        entry.access.name().into(),
+                        Access::Wo.name().into(),
+                        Impact::Breaking,
+                    ),
+                    // No error is logged, no data is there now: nothing is said of the object.
+                    Err(code) if code == AbortCode::NoData.code() => continue,
+                    Err(code) => (
+                        Field::Access,
+                        entry.access.name().into(),
+                        match AbortCode::from_code(code) {
+                            Some(code) => format!("abort {code}"),
+                            None => format!("abort {code:08X}h"),
+                        },
+                        Impact::Breaking,
+                    ),
+                };
             found.push(at(
                 dictionary,
                 &object,

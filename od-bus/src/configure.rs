@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use od_model::{Address, DataType, Dictionary};
 
-use crate::fault::Fault;
+use crate::Error;
 use crate::link::Link;
 use crate::master::Master;
 
@@ -70,11 +70,11 @@ pub fn read(
     master: &mut Master<impl Link>,
     addresses: &[Address],
     mut progress: impl FnMut(u8),
-) -> Result<Vec<Read>, Fault> {
+) -> Result<Vec<Read>, Error> {
     let mut values = Vec::new();
     for (at, address) in addresses.iter().enumerate() {
         progress((100 * at / addresses.len()) as u8);
-        values.push((*address, master.upload(*address)?));
+        values.push((*address, Error::or_abort(master.upload(*address))?));
     }
     Ok(values)
 }
@@ -89,7 +89,7 @@ pub fn apply(
     master: &mut Master<impl Link>,
     settings: &[Setting],
     mut progress: impl FnMut(u8),
-) -> Result<Applied, Fault> {
+) -> Result<Applied, Error> {
     let mut applied = Applied::default();
     let wanted = Values(
         settings
@@ -124,7 +124,7 @@ pub fn apply(
             .flatten()
         {
             if !old.0.contains_key(&address)
-                && let Ok(bytes) = master.upload(address)?
+                && let Ok(bytes) = Error::or_abort(master.upload(address))?
             {
                 old.0.insert(address, bytes);
             }
@@ -198,7 +198,7 @@ impl Values {
         is_mapping && count.is_some_and(|count| address.sub > count)
     }
 
-    fn write(&self, master: &mut Master<impl Link>) -> Result<Refused, Fault> {
+    fn write(&self, master: &mut Master<impl Link>) -> Result<Refused, Error> {
         let mut waiting: Vec<_> = self
             .0
             .iter()
@@ -209,7 +209,7 @@ impl Values {
             let mut refused = Vec::new();
             let mut first = None;
             for (address, bytes) in &waiting {
-                if let Err(code) = master.download(**address, bytes)? {
+                if let Err(code) = Error::or_abort(master.download(**address, bytes))? {
                     refused.push((*address, *bytes));
                     first.get_or_insert(wrong(**address, bytes.to_vec(), Err(code)));
                 }
@@ -232,17 +232,17 @@ impl Values {
     }
 
     /// CiA 301, chapter 7.5.2.36: not valid, mapping off, entries, mapping on, valid.
-    fn write_pdo(&self, master: &mut Master<impl Link>, index: u16) -> Result<Refused, Fault> {
+    fn write_pdo(&self, master: &mut Master<impl Link>, index: u16) -> Result<Refused, Error> {
         let (cob_id, mapping) = (Address::new(index, 1), index + 0x200);
         let count = Address::new(mapping, 0);
         let put = |master: &mut Master<_>, address: Address, bytes: &[u8]| {
-            let done = master.download(address, bytes)?;
-            Ok::<_, Fault>(
+            let done = Error::or_abort(master.download(address, bytes))?;
+            Ok::<_, Error>(
                 done.err()
                     .map(|code| wrong(address, bytes.to_vec(), Err(code))),
             )
         };
-        let before = master.upload(cob_id)?;
+        let before = Error::or_abort(master.upload(cob_id))?;
         let last = self.0.get(&cob_id).cloned().or(before.clone().ok());
         if let Ok(Ok(raw)) = before.as_deref().map(<[u8; 4]>::try_from) {
             let raw = u32::from_le_bytes(raw) | NOT_VALID;
@@ -252,7 +252,7 @@ impl Values {
         if self.0.keys().any(|address| address.index == mapping) {
             let last = match self.0.get(&count) {
                 Some(count) => Some(count.clone()),
-                None => master.upload(count)?.ok(),
+                None => Error::or_abort(master.upload(count))?.ok(),
             };
             let entries = self
                 .0

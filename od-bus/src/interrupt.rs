@@ -5,13 +5,13 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use od_wire::{Frame, Instant};
 
-use crate::fault::Fault;
+use crate::Error;
 use crate::link::{Heard, Link};
 
 /// Longest wait before it looks whether it is to stop, in ms.
 const SLICE: u64 = 50;
 
-/// A link that ends each wait with [`Fault::Interrupted`] while `stop` is set.
+/// A link that ends each wait with [`Error::Interrupted`] while `stop` is set.
 ///
 /// It still sends, so that what was begun on the bus can be put back.
 #[derive(Debug)]
@@ -32,14 +32,14 @@ impl<L: Link> Link for Interruptible<L> {
         self.link.now()
     }
 
-    fn send(&mut self, frame: &Frame) -> Result<(), Fault> {
+    fn send(&mut self, frame: &Frame) -> Result<(), Error> {
         self.link.send(frame)
     }
 
-    fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Fault> {
+    fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Error> {
         loop {
             if self.stop.load(Ordering::Relaxed) {
-                return Err(Fault::Interrupted);
+                return Err(Error::Interrupted);
             }
             let slice = self.link.now().plus_millis(SLICE);
             let heard = self.link.receive(until.min(slice))?;
@@ -49,7 +49,7 @@ impl<L: Link> Link for Interruptible<L> {
         }
     }
 
-    fn listen_at(&mut self, kbit: u16) -> Result<(), Fault> {
+    fn listen_at(&mut self, kbit: u16) -> Result<(), Error> {
         self.link.listen_at(kbit)
     }
 

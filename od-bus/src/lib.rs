@@ -7,7 +7,7 @@ pub mod bench;
 pub mod compare;
 pub mod configure;
 pub mod conform;
-pub mod fault;
+mod error;
 pub mod filter;
 pub mod interrupt;
 pub mod learn;
@@ -21,3 +21,5 @@ pub mod replay;
 pub mod scan;
 pub mod tap;
 pub mod watch;
+
+pub use error::Error;

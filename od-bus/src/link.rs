@@ -2,7 +2,7 @@
 
 use od_wire::{Frame, Instant};
 
-use crate::fault::Fault;
+use crate::Error;
 
 /// A frame that came over a link.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -22,28 +22,28 @@ pub trait Link {
     /// Sends a frame.
     ///
     /// # Errors
-    /// [`Fault::Link`] if the link is lost.
-    fn send(&mut self, frame: &Frame) -> Result<(), Fault>;
+    /// [`Error::Link`] if the link is lost.
+    fn send(&mut self, frame: &Frame) -> Result<(), Error>;
 
     /// Waits for the next frame of the others until `until`; with a moment that is past it takes
     /// what is there and does not wait. Frames sent over this link do not come back.
     ///
     /// # Errors
-    /// [`Fault::Link`] if the link is lost.
-    fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Fault>;
+    /// [`Error::Link`] if the link is lost.
+    fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Error>;
 
     /// Goes on at another bit rate, in kbit/s, and only listens there: it acknowledges nothing,
     /// so a wrong bit rate disturbs no node.
     ///
     /// # Errors
-    /// [`Fault::Usage`] if this link cannot; [`Fault::Link`] if it is lost.
-    fn listen_at(&mut self, kbit: u16) -> Result<(), Fault> {
-        Err(Fault::Usage(format!(
+    /// [`Error::Usage`] if this link cannot; [`Error::Link`] if it is lost.
+    fn listen_at(&mut self, kbit: u16) -> Result<(), Error> {
+        Err(Error::Usage(format!(
             "this link cannot listen at {kbit} kbit/s; bit-rate detection needs an slcan adapter"
         )))
     }
 
-    /// Waits again after [`Fault::Interrupted`], to put back what was begun on the bus.
+    /// Waits again after [`Error::Interrupted`], to put back what was begun on the bus.
     fn resume(&mut self) {}
 }
 
@@ -52,15 +52,15 @@ impl<L: Link + ?Sized> Link for &mut L {
         (**self).now()
     }
 
-    fn send(&mut self, frame: &Frame) -> Result<(), Fault> {
+    fn send(&mut self, frame: &Frame) -> Result<(), Error> {
         (**self).send(frame)
     }
 
-    fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Fault> {
+    fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Error> {
         (**self).receive(until)
     }
 
-    fn listen_at(&mut self, kbit: u16) -> Result<(), Fault> {
+    fn listen_at(&mut self, kbit: u16) -> Result<(), Error> {
         (**self).listen_at(kbit)
     }
 
@@ -74,15 +74,15 @@ impl<L: Link + ?Sized> Link for Box<L> {
         (**self).now()
     }
 
-    fn send(&mut self, frame: &Frame) -> Result<(), Fault> {
+    fn send(&mut self, frame: &Frame) -> Result<(), Error> {
         (**self).send(frame)
     }
 
-    fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Fault> {
+    fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Error> {
         (**self).receive(until)
     }
 
-    fn listen_at(&mut self, kbit: u16) -> Result<(), Fault> {
+    fn listen_at(&mut self, kbit: u16) -> Result<(), Error> {
         (**self).listen_at(kbit)
     }
 

@@ -6,7 +6,7 @@ use od_wire::lss::Part;
 use od_wire::nmt::State;
 use od_wire::{Duration, Frame, Instant, NodeId, lss};
 
-use crate::fault::Fault;
+use crate::Error;
 use crate::link::Link;
 
 /// Longest time for an answer: storing takes the longest.
@@ -64,7 +64,7 @@ impl<L: Link> Lss<L> {
     ///
     /// # Errors
     /// The link is lost, or a slave answers and in no search confirms its LSS address.
-    pub fn scan(&mut self, mut found: impl FnMut(&Identity)) -> Result<Vec<Identity>, Fault> {
+    pub fn scan(&mut self, mut found: impl FnMut(&Identity)) -> Result<Vec<Identity>, Error> {
         let mut told = Vec::new();
         let mut all = Vec::new();
         let mut paces = PACES.into_iter().peekable();
@@ -77,7 +77,7 @@ impl<L: Link> Lss<L> {
                 match self.ask(Task::Fastscan)? {
                     Ok(Answer::Found(Some(identity))) => {
                         if all.contains(&identity) {
-                            return Err(Fault::Node(twice(identity)));
+                            return Err(Error::Node(twice(identity)));
                         }
                         if !told.contains(&identity) {
                             found(&identity);
@@ -86,7 +86,7 @@ impl<L: Link> Lss<L> {
                         all.push(identity);
                     }
                     Err(LssError::ScanFailed) if paces.peek().is_some() => break true,
-                    Err(error) => return Err(Fault::Node(words(Task::Fastscan, error))),
+                    Err(error) => return Err(Error::Node(words(Task::Fastscan, error))),
                     Ok(_) => break false,
                 }
             };
@@ -111,7 +111,7 @@ impl<L: Link> Lss<L> {
         identity: Identity,
         node: NodeId,
         store: bool,
-    ) -> Result<bool, Fault> {
+    ) -> Result<bool, Error> {
         self.select(Slaves::One(identity))?;
         self.run(Task::ConfigureNodeId(Some(node)))?;
         if store {
@@ -135,7 +135,7 @@ impl<L: Link> Lss<L> {
     /// follow.
     ///
     /// # Errors
-    /// [`Fault::Usage`] for a bit rate that CiA 301 does not have; a slave refuses, none answers, or
+    /// [`Error::Usage`] for a bit rate that CiA 301 does not have; a slave refuses, none answers, or
     /// the link is lost.
     pub fn set_bit_rate(
         &mut self,
@@ -143,13 +143,13 @@ impl<L: Link> Lss<L> {
         kbit: u16,
         store: bool,
         activate: Option<u16>,
-    ) -> Result<(), Fault> {
+    ) -> Result<(), Error> {
         let index = BIT_RATES.iter().position(|rate| *rate == Some(kbit));
         let index = index
             .and_then(|index| u8::try_from(index).ok())
             .ok_or_else(|| {
                 let rates = BIT_RATES.iter().flatten().map(u16::to_string);
-                Fault::Usage(format!(
+                Error::Usage(format!(
                     "CiA 301 does not define {kbit} kbit/s; write one of {}",
                     rates.collect::<Vec<_>>().join(", ")
                 ))
@@ -169,7 +169,7 @@ impl<L: Link> Lss<L> {
     ///
     /// # Errors
     /// A slave refuses, none answers, or the link is lost.
-    pub fn store(&mut self, slaves: Slaves) -> Result<(), Fault> {
+    pub fn store(&mut self, slaves: Slaves) -> Result<(), Error> {
         self.select(slaves)?;
         self.run(Task::Store)?;
         self.wait_all()
@@ -179,7 +179,7 @@ impl<L: Link> Lss<L> {
     ///
     /// # Errors
     /// No slave answers, several do, or the link is lost.
-    pub fn inquire(&mut self, slaves: Slaves) -> Result<(Identity, Option<NodeId>), Fault> {
+    pub fn inquire(&mut self, slaves: Slaves) -> Result<(Identity, Option<NodeId>), Error> {
         self.select(slaves)?;
         let mut parts = [0; 4];
         for (number, part) in parts.iter_mut().zip(Part::ALL) {
@@ -196,12 +196,12 @@ impl<L: Link> Lss<L> {
     }
 
     /// Runs a service that only one slave may answer.
-    fn only(&mut self, task: Task) -> Result<Answer, Fault> {
+    fn only(&mut self, task: Task) -> Result<Answer, Error> {
         let answer = self.run(task)?;
         let until = self.link.now().plus_millis(SECOND);
         while let Some(heard) = self.link.receive(until)? {
             if heard.frame.id().as_standard() == Some(lss::SLAVE) {
-                return Err(Fault::Node(
+                return Err(Error::Node(
                     "several LSS slaves respond; name one with `--of`, `--serial` or `--address`"
                         .into(),
                 ));
@@ -213,7 +213,7 @@ impl<L: Link> Lss<L> {
         Ok(answer)
     }
 
-    fn select(&mut self, slaves: Slaves) -> Result<(), Fault> {
+    fn select(&mut self, slaves: Slaves) -> Result<(), Error> {
         self.wait_all()?;
         match slaves {
             Slaves::One(identity) => self.run(Task::SwitchSelective(identity)),
@@ -224,19 +224,19 @@ impl<L: Link> Lss<L> {
         .map(drop)
     }
 
-    fn wait_all(&mut self) -> Result<(), Fault> {
+    fn wait_all(&mut self) -> Result<(), Error> {
         let configuration = false;
         self.run(Task::SwitchGlobal { configuration }).map(drop)
     }
 
     /// Runs a service. Of several slaves that answer one that refuses counts.
-    fn run(&mut self, task: Task) -> Result<Answer, Fault> {
+    fn run(&mut self, task: Task) -> Result<Answer, Error> {
         self.ask(task)?
-            .map_err(|error| Fault::Node(words(task, error)))
+            .map_err(|error| Error::Node(words(task, error)))
     }
 
     /// Runs a service; the error outside is the link's.
-    fn ask(&mut self, task: Task) -> Result<Result<Answer, LssError>, Fault> {
+    fn ask(&mut self, task: Task) -> Result<Result<Answer, LssError>, Error> {
         self.client.lss(task);
         let mut refused = None;
         loop {
@@ -258,7 +258,7 @@ impl<L: Link> Lss<L> {
     }
 
     /// Listens to the slaves that answer after the first.
-    fn others(&mut self, refused: &mut Option<LssError>) -> Result<(), Fault> {
+    fn others(&mut self, refused: &mut Option<LssError>) -> Result<(), Error> {
         let until = self.link.now().plus_millis(100);
         while let Some(heard) = self.link.receive(until)? {
             if heard.frame.id().as_standard() == Some(lss::SLAVE)

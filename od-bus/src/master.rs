@@ -8,7 +8,7 @@ use od_eds::outline;
 use od_model::{Address, DataType, Dictionary};
 use od_wire::{Duration, Instant, NodeId};
 
-use crate::fault::Fault;
+use crate::Error;
 use crate::link::Link;
 
 /// An answer within 1 s, as devices that save or calibrate take their time; a value of at most
@@ -88,11 +88,11 @@ impl<L: Link> Master<L> {
         &mut self.link
     }
 
-    /// Reads an object: its bytes, or the code of the SDO abort.
+    /// Reads an object.
     ///
     /// # Errors
-    /// The link is lost, or the node says nothing, or what no server should.
-    pub fn upload(&mut self, address: Address) -> Result<Result<Vec<u8>, u32>, Fault> {
+    /// The link is lost, or the node aborts the transfer, does not respond, or violates the protocol.
+    pub fn upload(&mut self, address: Address) -> Result<Vec<u8>, Error> {
         let mut tries = TRIES;
         loop {
             let standard = || outline::data_type(address.index, address.sub, is_var(address));
@@ -114,11 +114,11 @@ impl<L: Link> Master<L> {
         }
     }
 
-    /// Writes an object; answers with the code of the SDO abort if there was one.
+    /// Writes an object.
     ///
     /// # Errors
     /// As [`upload`](Self::upload).
-    pub fn download(&mut self, address: Address, bytes: &[u8]) -> Result<Result<(), u32>, Fault> {
+    pub fn download(&mut self, address: Address, bytes: &[u8]) -> Result<(), Error> {
         let job = self.client.write(self.node, address, bytes);
         loop {
             if let Event::Written(_, result) = self.event(job)? {
@@ -129,10 +129,10 @@ impl<L: Link> Master<L> {
 
     /// Waits for the client's next event; only for a client with a job, which ends with one. If the
     /// program is to stop or the time is over, the node hears that the transfer is over.
-    fn event(&mut self, job: Job) -> Result<Event, Fault> {
+    fn event(&mut self, job: Job) -> Result<Event, Error> {
         let until = self.whole.map(|whole| self.link.now() + whole);
         let event = self.wait(until);
-        if matches!(event, Err(Fault::Interrupted | Fault::Node(_))) {
+        if matches!(event, Err(Error::Interrupted | Error::Node(_))) {
             let now = self.link.now();
             self.client.cancel(now, job);
             while let Some(frame) = self.client.poll_transmit(now) {
@@ -142,7 +142,7 @@ impl<L: Link> Master<L> {
         event
     }
 
-    fn wait(&mut self, end: Option<Instant>) -> Result<Event, Fault> {
+    fn wait(&mut self, end: Option<Instant>) -> Result<Event, Error> {
         loop {
             self.send()?;
             if let Some(event) = self.client.poll_event() {
@@ -152,7 +152,7 @@ impl<L: Link> Master<L> {
                 && end.is_some_and(|end| self.link.now() > end)
             {
                 let (node, seconds) = (self.node, whole.as_secs_f32());
-                return Err(Fault::Node(format!(
+                return Err(Error::Node(format!(
                     "node {node} does not come to the end of a transfer within {seconds} s"
                 )));
             }
@@ -164,7 +164,7 @@ impl<L: Link> Master<L> {
         }
     }
 
-    fn send(&mut self) -> Result<(), Fault> {
+    fn send(&mut self) -> Result<(), Error> {
         while let Some(frame) = self.client.poll_transmit(self.link.now()) {
             // What an earlier, slower answer left behind is not the answer to this. A bus that is
             // full does not hold the request up.
@@ -175,15 +175,11 @@ impl<L: Link> Master<L> {
         Ok(())
     }
 
-    fn outcome<T>(
-        &self,
-        address: Address,
-        result: Result<T, SdoError>,
-    ) -> Result<Result<T, u32>, Fault> {
+    fn outcome<T>(&self, address: Address, result: Result<T, SdoError>) -> Result<T, Error> {
         let node = self.node;
-        Err(Fault::Node(match result {
-            Ok(done) => return Ok(Ok(done)),
-            Err(SdoError::Abort(code)) => return Ok(Err(code)),
+        Err(Error::Node(match result {
+            Ok(done) => return Ok(done),
+            Err(SdoError::Abort(code)) => return Err(Error::Abort(code)),
             Err(SdoError::Silent) => format!(
                 "node {node} does not respond to SDO requests within {} s; check its power, its NMT \
                  state (not Stopped) and its node ID",

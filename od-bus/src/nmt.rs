@@ -6,7 +6,7 @@ use od_client::{nmt, watch};
 use od_wire::nmt::{Command, State};
 use od_wire::{Duration, NodeId};
 
-use crate::fault::Fault;
+use crate::Error;
 use crate::link::Link;
 
 /// Sends a command to a node, or to all, and listens for at most `wait`: to all the time for
@@ -20,7 +20,7 @@ pub fn command(
     node: Option<NodeId>,
     command: Command,
     wait: Duration,
-) -> Result<BTreeMap<NodeId, State>, Fault> {
+) -> Result<BTreeMap<NodeId, State>, Error> {
     let wanted = match command {
         Command::Start => State::Operational,
         Command::Stop => State::Stopped,

@@ -4,7 +4,7 @@ use od_model::values;
 use od_model::{Address, DataType, Dictionary, Entry, Kind, Literal, ObjectCode, Refused};
 use od_wire::AbortCode;
 
-use crate::fault::Fault;
+use crate::Error;
 use crate::link::Link;
 use crate::master::Master;
 
@@ -75,8 +75,8 @@ pub fn select(dictionary: Dictionary<'_>, text: &str) -> Result<Vec<Asked>, Refu
 /// As [`select`] without a dictionary: the node is asked which of the objects exist.
 ///
 /// # Errors
-/// [`Fault::Usage`] if `text` is not an address or a glob of addresses; else as [`Master::upload`].
-pub fn probe(master: &mut Master<impl Link>, text: &str) -> Result<Vec<Asked>, Fault> {
+/// [`Error::Usage`] if `text` is not an address or a glob of addresses; else as [`Master::upload`].
+pub fn probe(master: &mut Master<impl Link>, text: &str) -> Result<Vec<Asked>, Error> {
     let of = |index, sub, is_one_of_many| Asked {
         address: Address::new(index, sub),
         entry: None,
@@ -85,14 +85,14 @@ pub fn probe(master: &mut Master<impl Link>, text: &str) -> Result<Vec<Asked>, F
     if !is_glob(text) {
         let Some(address) = values::address(text) else {
             let why = format!("`{text}` is not an address; add `--eds FILE` for names");
-            return Err(Fault::Usage(why));
+            return Err(Error::Usage(why));
         };
         return Ok(vec![of(address.index, address.sub, false)]);
     }
     let pattern = Pattern::of(text);
     if !pattern.is_address() {
         let why = format!("`{text}` is not a glob of addresses; add `--eds FILE` for names");
-        return Err(Fault::Usage(why));
+        return Err(Error::Usage(why));
     }
     let mut found = Vec::new();
     for index in 0x1000..=u16::MAX {
@@ -119,15 +119,15 @@ pub fn probe(master: &mut Master<impl Link>, text: &str) -> Result<Vec<Asked>, F
         }
     }
     if found.is_empty() {
-        Err(Fault::Node(format!("no object matches `{text}`")))
+        Err(Error::Node(format!("no object matches `{text}`")))
     } else {
         Ok(found)
     }
 }
 
 /// The value of an object that exists and can be read; empty if it has none now.
-fn exists(master: &mut Master<impl Link>, address: Address) -> Result<Option<Vec<u8>>, Fault> {
-    Ok(match master.upload(address)? {
+fn exists(master: &mut Master<impl Link>, address: Address) -> Result<Option<Vec<u8>>, Error> {
+    Ok(match Error::or_abort(master.upload(address))? {
         Ok(bytes) => Some(bytes),
         Err(code) => {
             use AbortCode::{NoObject, NoSubIndex, WriteOnly};

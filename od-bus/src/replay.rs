@@ -2,7 +2,7 @@
 
 use od_wire::{Duration, Frame, Instant};
 
-use crate::fault::Fault;
+use crate::Error;
 use crate::link::Link;
 
 /// Sends these frames with their distances in time, `speed` times as fast; 0: without waiting. Frames
@@ -14,7 +14,7 @@ pub fn replay(
     link: &mut impl Link,
     frames: &[(Instant, Frame)],
     speed: f64,
-) -> Result<usize, Fault> {
+) -> Result<usize, Error> {
     let begin = link.now();
     let first = frames.first().map_or(Instant::ZERO, |(at, _)| *at);
     for (at, frame) in frames {

@@ -8,7 +8,7 @@ use od_wire::nmt::State;
 use od_wire::sdo::{Request, Response};
 use od_wire::{CanId, Duration, Frame, Instant, NodeId, lss};
 
-use crate::fault::Fault;
+use crate::Error;
 use crate::link::Link;
 use crate::master::Master;
 
@@ -94,7 +94,7 @@ pub fn scan(
     link: &mut impl Link,
     options: Options,
     mut progress: impl FnMut(u8),
-) -> Result<Scan, Fault> {
+) -> Result<Scan, Error> {
     let mut heard = Heard::default();
     heard.listen(link, options.listen)?;
     link.send(&Frame::full(
@@ -168,7 +168,7 @@ impl Found {
     }
 
     /// Reads who it is.
-    fn read(&mut self, link: &mut impl Link) -> Result<(), Fault> {
+    fn read(&mut self, link: &mut impl Link) -> Result<(), Error> {
         let mut master = Master::new(link, self.node).within(TEXT);
         for (part, sub) in self.identity.iter_mut().zip(1..=3) {
             *part = optional(master.upload(Address::new(0x1018, sub)))?.and_then(|bytes| {
@@ -193,10 +193,10 @@ impl Found {
 }
 
 /// An object that a device may lack; so does a node that falls silent.
-fn optional(read: Result<Result<Vec<u8>, u32>, Fault>) -> Result<Option<Vec<u8>>, Fault> {
+fn optional(read: Result<Vec<u8>, Error>) -> Result<Option<Vec<u8>>, Error> {
     match read {
-        Ok(bytes) => Ok(bytes.ok()),
-        Err(Fault::Node(_)) => Ok(None),
+        Ok(bytes) => Ok(Some(bytes)),
+        Err(Error::Abort(_) | Error::Node(_)) => Ok(None),
         Err(fault) => Err(fault),
     }
 }
@@ -209,7 +209,7 @@ impl Heard {
         nodes: &[NodeId],
         address: Address,
         wait: Duration,
-    ) -> Result<(), Fault> {
+    ) -> Result<(), Error> {
         let request = Request::InitiateUpload { address }.emit();
         self.asked = [request[1], request[2], request[3]];
         for node in nodes {
@@ -219,7 +219,7 @@ impl Heard {
         self.listen(link, wait)
     }
 
-    fn listen(&mut self, link: &mut impl Link, wait: Duration) -> Result<(), Fault> {
+    fn listen(&mut self, link: &mut impl Link, wait: Duration) -> Result<(), Error> {
         let until = link.now() + wait;
         while let Some(heard) = link.receive(until)? {
             self.frame(&heard.frame);
@@ -292,7 +292,7 @@ pub fn detect(
     link: &mut impl Link,
     wait: Duration,
     mut try_: impl FnMut(u16),
-) -> Result<Option<u16>, Fault> {
+) -> Result<Option<u16>, Error> {
     for rate in RATES {
         try_(rate);
         link.listen_at(rate)?;

@@ -2,7 +2,7 @@
 
 use od_wire::{Frame, Instant};
 
-use crate::fault::Fault;
+use crate::Error;
 use crate::link::{Heard, Link};
 
 /// A link whose frames, both ways, a function sees.
@@ -24,13 +24,13 @@ impl<L: Link, F: FnMut(&Frame)> Link for Tap<L, F> {
         self.link.now()
     }
 
-    fn send(&mut self, frame: &Frame) -> Result<(), Fault> {
+    fn send(&mut self, frame: &Frame) -> Result<(), Error> {
         self.link.send(frame)?;
         (self.see)(frame);
         Ok(())
     }
 
-    fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Fault> {
+    fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Error> {
         let heard = self.link.receive(until)?;
         if let Some(heard) = &heard {
             (self.see)(&heard.frame);
@@ -38,7 +38,7 @@ impl<L: Link, F: FnMut(&Frame)> Link for Tap<L, F> {
         Ok(heard)
     }
 
-    fn listen_at(&mut self, kbit: u16) -> Result<(), Fault> {
+    fn listen_at(&mut self, kbit: u16) -> Result<(), Error> {
         self.link.listen_at(kbit)
     }
 

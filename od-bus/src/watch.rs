@@ -6,7 +6,7 @@ use od_model::typed::MapEntry;
 use od_model::{Address, DataType};
 use od_wire::{AbortCode, CanId, Duration, Frame, Instant, NodeId};
 
-use crate::fault::Fault;
+use crate::Error;
 use crate::link::Link;
 use crate::master::Master;
 
@@ -63,7 +63,7 @@ pub struct Sample {
 pub fn sources(
     master: &mut Master<impl Link>,
     addresses: &[Address],
-) -> Result<Vec<Source>, Fault> {
+) -> Result<Vec<Source>, Error> {
     let polled = |address: &Address| Source {
         address: *address,
         by: By::Poll,
@@ -71,7 +71,7 @@ pub fn sources(
     };
     let mut found: Vec<Source> = addresses.iter().map(polled).collect();
     for (number, index) in (1..).zip(0x1800..=0x19FF_u16) {
-        let cob_id = match master.upload(Address::new(index, 1))? {
+        let cob_id = match Error::or_abort(master.upload(Address::new(index, 1)))? {
             // Those behind a gap are rare, and asking for all 512 takes seconds.
             Err(code) if code == AbortCode::NoObject.code() && number > 4 => break,
             read => number_of(read),
@@ -80,16 +80,18 @@ pub fn sources(
         let Some(id) = cob_id.map(can_id) else {
             continue;
         };
-        let kind = number_of(master.upload(Address::new(index, 2))?);
+        let kind = number_of(Error::or_abort(master.upload(Address::new(index, 2)))?);
         if matches!(kind, Some(252 | 253)) {
             // Only on request.
             continue;
         }
         let mapping = index + 0x200;
-        let count = number_of(master.upload(Address::new(mapping, 0))?).unwrap_or(0);
+        let count =
+            number_of(Error::or_abort(master.upload(Address::new(mapping, 0)))?).unwrap_or(0);
         let mut first = 0_u32;
         for sub in 1..=count.min(64) as u8 {
-            let raw = number_of(master.upload(Address::new(mapping, sub))?).unwrap_or(0);
+            let raw =
+                number_of(Error::or_abort(master.upload(Address::new(mapping, sub)))?).unwrap_or(0);
             let MapEntry { address, bits } = MapEntry::parse(raw);
             let here = found
                 .iter_mut()
@@ -143,7 +145,7 @@ pub fn watch(
     every: Duration,
     until: Instant,
     mut tell: impl FnMut(Sample) -> bool,
-) -> Result<(), Fault> {
+) -> Result<(), Error> {
     let mut client = Client::new();
     let mut jobs: Vec<(Job, usize)> = Vec::new();
     let times = (every, until);
@@ -172,7 +174,7 @@ fn follow(
     sources: &[Source],
     (every, until): (Duration, Instant),
     tell: &mut impl FnMut(Sample) -> bool,
-) -> Result<(), Fault> {
+) -> Result<(), Error> {
     // When the value is asked for; `None`: it is on its way.
     let mut due = vec![Some(link.now()); sources.len()];
     loop {

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use od_bus::Error;
 use od_bus::configure::{self, Applied, Setting};
 use od_bus::master::Master;
 use od_eds::{Description, Value};
@@ -69,7 +70,7 @@ pub(crate) fn backup(args: &Args) -> Result<(), Failure> {
     let mut bar = Bar::new("reading");
     let addresses = configure::addresses(known.dictionary);
     let found = configure::read(&mut master, &addresses, |percent| bar.show(percent))?;
-    let serial = master.upload(Address::new(0x1018, 4))?;
+    let serial = Error::or_abort(master.upload(Address::new(0x1018, 4)))?;
     drop(master);
     bar.clear();
     description.commission("NodeID", &args.node.raw().to_string());
@@ -170,7 +171,9 @@ pub(crate) fn apply(args: &Apply) -> Result<(), Failure> {
     let mut saved = None;
     if args.save && is_right {
         let mut master = Master::patient(master.link(), args.node, crate::save::PATIENCE);
-        saved = Some(master.download(Address::new(0x1010, 1), b"save")?);
+        saved = Some(Error::or_abort(
+            master.download(Address::new(0x1010, 1), b"save"),
+        )?);
     }
     drop(master);
     report(args, dictionary, &applied)?;
@@ -218,7 +221,7 @@ fn fits(
     for (sub, what) in [(1, "vendor-ID"), (2, "product code")] {
         let wanted = dictionary.entry(0x1018, sub);
         let wanted = wanted.and_then(|entry| entry.default.integer(0));
-        let read = master.upload(Address::new(0x1018, sub))?;
+        let read = Error::or_abort(master.upload(Address::new(0x1018, sub)))?;
         let bytes = read.ok().and_then(|bytes| bytes.as_slice().try_into().ok());
         let found = bytes.map(|bytes| i128::from(u32::from_le_bytes(bytes)));
         if let (Some(wanted), Some(found)) = (wanted, found)

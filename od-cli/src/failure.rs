@@ -40,10 +40,13 @@ impl From<od_bench::serve::Failure> for Failure {
     }
 }
 
-impl From<od_bus::fault::Fault> for Failure {
-    fn from(fault: od_bus::fault::Fault) -> Self {
+impl From<od_bus::Error> for Failure {
+    fn from(fault: od_bus::Error) -> Self {
         match fault {
-            od_bus::fault::Fault::Usage(message) => Self::Usage(message),
+            od_bus::Error::Usage(message) => Self::Usage(message),
+            wrong @ (od_bus::Error::Filter { .. } | od_bus::Error::Case { .. }) => {
+                Self::Usage(wrong.to_string())
+            }
             other => Self::Failed(other.to_string()),
         }
     }

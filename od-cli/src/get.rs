@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use od_bus::Error;
 use od_bus::master::Master;
 use od_bus::objects::{self, Asked};
 use od_bus::tap::Tap;
@@ -73,7 +74,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     }
     let mut shown = Vec::new();
     for one in &asked {
-        let read = master.upload(one.address)?;
+        let read = Error::or_abort(master.upload(one.address))?;
         shown.push(Shown::new(
             dictionary,
             (one.address, one.entry.as_ref()),

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use od_bench::logs::{self, Format, Record, What};
 use od_bench::serve::files::replaces_log;
-use od_bus::fault::Fault;
+use od_bus::Error;
 use od_bus::link::Link;
 use od_bus::replay;
 use od_wire::{Duration, Instant};
@@ -137,7 +137,7 @@ pub(crate) fn record(args: &Args) -> Result<(), Failure> {
         }
         match bus.receive(until) {
             Ok(Some(heard)) => recorder.add(heard.at, &heard.frame)?,
-            Ok(None) | Err(Fault::Interrupted) => break Ok(()),
+            Ok(None) | Err(Error::Interrupted) => break Ok(()),
             // Frames received before the error are kept.
             Err(fault) => break Err(fault.into()),
         }

@@ -1,5 +1,6 @@
 //! `odkit save` and `odkit restore`: 1010h and 1011h.
 
+use od_bus::Error;
 use od_bus::master::Master;
 use od_model::Address;
 use od_runtime::NodeId;
@@ -55,7 +56,7 @@ pub(crate) fn restore(args: &Args) -> Result<(), Failure> {
 
 fn write(args: &Args, address: Address, signature: &[u8], done: &str) -> Result<(), Failure> {
     let mut master = Master::patient(args.bus.open()?, args.node, PATIENCE);
-    let written = master.download(address, signature)?;
+    let written = Error::or_abort(master.download(address, signature))?;
     drop(master);
     let node = args.node.raw();
     if let Err(code) = written {

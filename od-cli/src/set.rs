@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use od_bus::Error;
 use od_bus::master::Master;
 use od_bus::objects;
 use od_bus::tap::Tap;
@@ -73,7 +74,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     }
     let mut shown = Vec::new();
     for one in &ready {
-        let written = master.download(one.address, &one.bytes)?;
+        let written = Error::or_abort(master.download(one.address, &one.bytes))?;
         let failed = written.is_err();
         let about = (one.address, one.entry.as_ref());
         shown.push(Shown::new(
@@ -178,7 +179,7 @@ fn sized(
                 objects::encode_by_size(0, text).map_err(wrong)?
             }
             Value::Text(text) => {
-                let size = match master.upload(address)? {
+                let size = match Error::or_abort(master.upload(address))? {
                     Ok(bytes) => bytes.len(),
                     Err(code) if code == AbortCode::WriteOnly.code() => {
                         return Err(wrong(

@@ -1,13 +1,12 @@
 //! A case: one of the built-in table, or a script with a head of comments.
 
 use od_bench::script::Script;
-use od_model::Refused;
-use std::fmt;
 use std::path::Path;
 use std::sync::OnceLock;
 
 use super::check::{self, BuiltIn, Check, Test};
 use super::play::placed;
+use crate::Error;
 
 /// One step of a case.
 #[derive(Clone, Debug)]
@@ -38,26 +37,6 @@ pub struct Case {
     pub(crate) steps: Vec<Step>,
 }
 
-/// A line of a case that cannot be read.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Mistake {
-    /// The case.
-    pub id: String,
-    /// Counted from 1.
-    pub line: u32,
-    /// The error, and the text to write instead.
-    pub message: String,
-}
-
-impl fmt::Display for Mistake {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { id, line, message } = self;
-        write!(f, "{id}.script:{line}: {message}")
-    }
-}
-
-impl std::error::Error for Mistake {}
-
 const NEEDS: [&str; 3] = ["reset", "store", "power"];
 
 /// The parts of a list with commas.
@@ -81,7 +60,7 @@ impl Case {
     }
 
     /// A case of the built-in table.
-    fn built_in(group: &str, case: &BuiltIn) -> Result<Self, Mistake> {
+    fn built_in(group: &str, case: &BuiltIn) -> Result<Self, Error> {
         let check = match case.test {
             Test::Script(text) => return Self::parse(case.id, text),
             Test::Check(check) => check,
@@ -101,11 +80,11 @@ impl Case {
     ///
     /// # Errors
     /// The first line that cannot be read.
-    pub fn parse(id: &str, text: &str) -> Result<Self, Mistake> {
+    pub fn parse(id: &str, text: &str) -> Result<Self, Error> {
         let mut case = Self::new(id, id.split('-').next().unwrap_or(id));
         let mut in_head = true;
         for (number, line) in (1..).zip(text.lines()) {
-            let wrong = |message: String| Mistake {
+            let wrong = |message: String| Error::Case {
                 id: id.into(),
                 line: number,
                 message,
@@ -127,7 +106,7 @@ impl Case {
             if let Some(problem) = script.err().and_then(|all| all.into_iter().next()) {
                 let message = format!("{}; {}", problem.message, problem.help);
                 let (id, line) = (id.into(), problem.line);
-                return Err(Mistake { id, line, message });
+                return Err(Error::Case { id, line, message });
             }
         }
         Ok(case)
@@ -207,8 +186,9 @@ fn is_like(pattern: &[u8], text: &[u8]) -> bool {
 ///
 /// # Errors
 /// The folder or a file cannot be read.
-pub fn in_folder(folder: &Path) -> Result<Vec<Case>, Refused> {
-    let fail = |path: &Path, error: std::io::Error| format!("{}: {error}", path.display());
+pub fn in_folder(folder: &Path) -> Result<Vec<Case>, Error> {
+    let fail =
+        |path: &Path, error: std::io::Error| Error::Usage(format!("{}: {error}", path.display()));
     let mut found = Vec::new();
     let entries = std::fs::read_dir(folder).map_err(|error| fail(folder, error))?;
     for entry in entries {
@@ -220,7 +200,7 @@ pub fn in_folder(folder: &Path) -> Result<Vec<Case>, Refused> {
             continue;
         };
         let text = std::fs::read_to_string(&path).map_err(|error| fail(&path, error))?;
-        found.push(Case::parse(id, &text).map_err(|mistake| mistake.to_string())?);
+        found.push(Case::parse(id, &text)?);
     }
     found.sort_by(|a, b| a.id.cmp(&b.id));
     Ok(found)

@@ -1,6 +1,6 @@
 //! Early end of a step of a case.
 
-use crate::fault::Fault;
+use crate::Error;
 
 /// Reason why a step is the last one.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -17,14 +17,14 @@ pub(crate) enum End {
     /// The node does not have it.
     NotApplicable(String),
     /// The link is lost.
-    Lost(Fault),
+    Lost(Error),
 }
 
 /// Result of a step.
 pub(crate) type Checked<T = ()> = Result<T, End>;
 
-impl From<Fault> for End {
-    fn from(fault: Fault) -> Self {
+impl From<Error> for End {
+    fn from(fault: Error) -> Self {
         Self::Lost(fault)
     }
 }

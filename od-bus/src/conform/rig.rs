@@ -5,8 +5,8 @@ use std::process::Command;
 
 use od_bench::bus::Bus;
 
+use crate::Error;
 use crate::bench::OnBench;
-use crate::fault::Fault;
 use crate::link::{Heard, Link};
 use od_wire::{Frame, Instant};
 
@@ -21,7 +21,7 @@ pub trait Rig: Link {
     ///
     /// # Errors
     /// The command fails.
-    fn power(&mut self, _on: bool) -> Result<(), Fault> {
+    fn power(&mut self, _on: bool) -> Result<(), Error> {
         Ok(())
     }
 
@@ -36,7 +36,7 @@ impl<B: BorrowMut<Bus>> Rig for OnBench<B> {
         true
     }
 
-    fn power(&mut self, on: bool) -> Result<(), Fault> {
+    fn power(&mut self, on: bool) -> Result<(), Error> {
         self.0.borrow_mut().set_power(0, on);
         Ok(())
     }
@@ -55,11 +55,11 @@ impl Link for RealBus {
         self.link.now()
     }
 
-    fn send(&mut self, frame: &Frame) -> Result<(), Fault> {
+    fn send(&mut self, frame: &Frame) -> Result<(), Error> {
         self.link.send(frame)
     }
 
-    fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Fault> {
+    fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Error> {
         self.link.receive(until)
     }
 
@@ -73,7 +73,7 @@ impl Rig for RealBus {
         self.power.is_some()
     }
 
-    fn power(&mut self, on: bool) -> Result<(), Fault> {
+    fn power(&mut self, on: bool) -> Result<(), Error> {
         let Some(command) = &self.power else {
             return Ok(());
         };
@@ -83,7 +83,7 @@ impl Rig for RealBus {
         } else {
             ("sh", "-c")
         };
-        let fail = |why: String| Fault::Usage(format!("`{line}`: {why}"));
+        let fail = |why: String| Error::Usage(format!("`{line}`: {why}"));
         let status = Command::new(shell).args([flag, &line]).status();
         match status {
             Ok(status) if status.success() => Ok(()),

@@ -12,7 +12,7 @@ use super::end::{Checked, End, skip};
 use super::play::play;
 use super::record::{Record, Times, Verdict};
 use super::rig::Rig;
-use crate::fault::Fault;
+use crate::Error;
 
 /// Permissions of the test.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
@@ -101,7 +101,7 @@ impl<'s> Session<'s> {
                     }
                     _ => steps(case, &mut dut),
                 };
-                if matches!(done, Err(End::Lost(Fault::Interrupted))) {
+                if matches!(done, Err(End::Lost(Error::Interrupted))) {
                     dut.rig.resume();
                 }
                 let back = dut.put_back();
@@ -123,7 +123,7 @@ impl<'s> Session<'s> {
         }
         if let Err(End::Lost(fault)) = &result {
             let why = match fault {
-                Fault::Link(text) => format!("the link is lost: {text}"),
+                Error::Link(text) => format!("the link is lost: {text}"),
                 other => other.to_string(),
             };
             self.lost = Some(why.clone());

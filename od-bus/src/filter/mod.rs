@@ -4,12 +4,11 @@
 mod term;
 mod tokens;
 
-use std::fmt;
-
 use od_wire::Frame;
 
 use self::term::{Term, term};
 use self::tokens::{Token, tokens};
+use crate::Error;
 
 /// A filter of frames; an empty one lets all pass.
 #[derive(Clone, PartialEq, Debug, Default)]
@@ -28,7 +27,7 @@ impl Filter {
     ///
     /// # Errors
     /// The first mistake.
-    pub fn parse(text: &str) -> Result<Self, Mistake> {
+    pub fn parse(text: &str) -> Result<Self, Error> {
         let mut parser = Parser {
             tokens: &tokens(text)?,
             length: text.len(),
@@ -78,7 +77,7 @@ impl<'t> Parser<'t> {
         Some(first)
     }
 
-    fn any(&mut self) -> Result<Rule, Mistake> {
+    fn any(&mut self) -> Result<Rule, Error> {
         let mut rules = vec![self.all()?];
         while matches!(self.peek().as_deref(), Some("or" | "|")) {
             self.next();
@@ -90,7 +89,7 @@ impl<'t> Parser<'t> {
         })
     }
 
-    fn all(&mut self) -> Result<Rule, Mistake> {
+    fn all(&mut self) -> Result<Rule, Error> {
         let mut rules = Vec::new();
         while let Some(next) = self.peek() {
             match next.as_str() {
@@ -109,12 +108,12 @@ impl<'t> Parser<'t> {
         }
     }
 
-    fn missing(&self) -> Mistake {
+    fn missing(&self) -> Error {
         let at = self.tokens.first().map_or(self.length, |token| token.at);
         mistake(at, "a term is missing here")
     }
 
-    fn one(&mut self) -> Result<Rule, Mistake> {
+    fn one(&mut self) -> Result<Rule, Error> {
         let Some(token) = self.next() else {
             return Err(self.missing());
         };
@@ -150,24 +149,9 @@ pub struct Seen<'f> {
     pub words: &'f str,
 }
 
-/// A mistake in the text of a filter.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Mistake {
-    /// Its place, in bytes from the start.
-    pub at: usize,
-    /// The mistake in words.
-    pub what: String,
-}
-
-impl fmt::Display for Mistake {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} (at character {})", self.what, self.at + 1)
-    }
-}
-
-fn mistake(at: usize, what: impl Into<String>) -> Mistake {
+fn mistake(at: usize, what: impl Into<String>) -> Error {
     let what = what.into();
-    Mistake { at, what }
+    Error::Filter { at, what }
 }
 
 #[cfg(test)]
@@ -250,10 +234,14 @@ mod tests {
             ("!", 1, "missing"),
         ] {
             let wrong = Filter::parse(text).expect_err(text);
-            assert!(
-                wrong.at == at && wrong.what.contains(what),
-                "{text}: {wrong:?}"
-            );
+            let Error::Filter {
+                at: place,
+                what: why,
+            } = &wrong
+            else {
+                panic!("{text}: {wrong:?}");
+            };
+            assert!(*place == at && why.contains(what), "{text}: {wrong:?}");
         }
     }
 }

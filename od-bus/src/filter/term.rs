@@ -3,7 +3,8 @@
 use od_bench::words::{TAGS, tag};
 use od_model::{Address, values};
 
-use super::{Mistake, Seen, mistake};
+use super::{Seen, mistake};
+use crate::Error;
 
 /// A condition for a frame.
 #[derive(Clone, PartialEq, Debug)]
@@ -81,7 +82,7 @@ impl Term {
 }
 
 /// Reads a term; with `!=` it is to be denied.
-pub(super) fn term(text: &str, at: usize) -> Result<(Term, bool), Mistake> {
+pub(super) fn term(text: &str, at: usize) -> Result<(Term, bool), Error> {
     if let Some((name, operator, value)) = field(text) {
         let start = at + text.len() - value.len();
         let term = field_term(&name.to_ascii_lowercase(), value, (start, at))?;
@@ -102,7 +103,7 @@ fn field(text: &str) -> Option<(&str, &str, &str)> {
     (!name.is_empty() && !is_digits).then_some((name, operator, value))
 }
 
-fn plain(text: &str, at: usize) -> Result<Term, Mistake> {
+fn plain(text: &str, at: usize) -> Result<Term, Error> {
     let lower = text.to_ascii_lowercase();
     let has_digit = lower.bytes().any(|byte| byte.is_ascii_digit());
     Ok(match lower.as_str() {
@@ -147,7 +148,7 @@ fn plain(text: &str, at: usize) -> Result<Term, Mistake> {
     })
 }
 
-fn field_term(name: &str, value: &str, (at, start): (usize, usize)) -> Result<Term, Mistake> {
+fn field_term(name: &str, value: &str, (at, start): (usize, usize)) -> Result<Term, Error> {
     if value.is_empty() {
         return Err(mistake(at, format!("the value of `{name}` is missing")));
     }
@@ -211,7 +212,7 @@ fn words(text: &str) -> Term {
     Term::Words(text.replace('"', "").to_lowercase())
 }
 
-fn identifier(text: &str, at: usize) -> Result<Term, Mistake> {
+fn identifier(text: &str, at: usize) -> Result<Term, Error> {
     let id = number(&text.to_ascii_lowercase()).filter(|id| *id <= 0x1FFF_FFFF);
     id.map(|id| Term::Range { low: id, high: id })
         .ok_or_else(|| mistake(at, "a COB-ID is a hexadecimal number of at most 29 bits"))

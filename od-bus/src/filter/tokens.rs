@@ -1,6 +1,7 @@
 //! A filter's text in pieces.
 
-use super::{Mistake, mistake};
+use super::mistake;
+use crate::Error;
 
 /// A piece, and where it begins.
 #[derive(Clone, Copy, Debug)]
@@ -10,7 +11,7 @@ pub(super) struct Token<'t> {
 }
 
 /// Brackets, `!`, `|`, a `-` before something, and words, in which quotes hold blanks together.
-pub(super) fn tokens(text: &str) -> Result<Vec<Token<'_>>, Mistake> {
+pub(super) fn tokens(text: &str) -> Result<Vec<Token<'_>>, Error> {
     let mut found = Vec::new();
     let mut at = 0;
     while let Some(start) = text[at..].find(|c: char| !c.is_whitespace()) {

@@ -4,7 +4,7 @@ use od_model::DataType;
 
 use super::probe::{Found, Probe};
 use super::types::with_sign;
-use crate::fault::Fault;
+use crate::Error;
 use crate::link::Link;
 
 /// Properties of a number that writing shows.
@@ -26,7 +26,7 @@ pub(super) fn limits<L: Link>(
     found: &Found,
     data_type: DataType,
     is_sure: bool,
-) -> Result<Learned, Fault> {
+) -> Result<Learned, Error> {
     let mut learned = Learned {
         data_type,
         value: None,
@@ -40,7 +40,7 @@ pub(super) fn limits<L: Link>(
         return Ok(learned);
     }
     let result = probed(probe, found, bytes, is_sure, &mut learned);
-    if matches!(result, Err(Fault::Interrupted)) {
+    if matches!(result, Err(Error::Interrupted)) {
         probe.resume();
     }
     probe.put_back(found.address, bytes)?;
@@ -53,7 +53,7 @@ fn probed<L: Link>(
     bytes: &[u8],
     is_sure: bool,
     learned: &mut Learned,
-) -> Result<(), Fault> {
+) -> Result<(), Error> {
     let size = bytes.len();
     let mut accepts = |number: i128| probe.write(found.address, &number.to_le_bytes()[..size]);
     if let Some(signed) = with_sign(learned.data_type).filter(|_| !is_sure)
@@ -86,8 +86,8 @@ fn probed<L: Link>(
 fn edge(
     mut good: i128,
     mut bad: i128,
-    accepts: &mut impl FnMut(i128) -> Result<bool, Fault>,
-) -> Result<i128, Fault> {
+    accepts: &mut impl FnMut(i128) -> Result<bool, Error>,
+) -> Result<i128, Error> {
     while good.abs_diff(bad) > 1 {
         let middle = (good + bad).div_euclid(2);
         if accepts(middle)? {

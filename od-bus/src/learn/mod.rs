@@ -19,8 +19,8 @@ use od_wire::NodeId;
 
 use self::known::Profiles;
 use self::probe::{Found, Probe, There};
+use crate::Error;
 use crate::conform::eds::is_touchy;
-use crate::fault::Fault;
 use crate::link::Link;
 
 /// Options of [`learn`].
@@ -53,7 +53,7 @@ pub struct Learned {
     /// The description of all objects that it has.
     pub description: Description,
     /// Reason why not all limits were probed; the description has what was found before.
-    pub left: Option<Fault>,
+    pub left: Option<Error>,
 }
 
 /// Reads all objects from 1000h to 9FFFh; `told` hears each index that is a multiple of 1000h.
@@ -65,7 +65,7 @@ pub fn learn(
     node: NodeId,
     options: Options,
     mut told: impl FnMut(u16),
-) -> Result<Learned, Fault> {
+) -> Result<Learned, Error> {
     let mut probe = Probe::new(link, node);
     let mut all: BTreeMap<u16, Vec<Found>> = BTreeMap::new();
     for index in 0x1000..=0x9FFF {
@@ -117,7 +117,7 @@ fn low_word(all: &BTreeMap<u16, Vec<Found>>, index: u16) -> u16 {
 }
 
 /// The values of an object.
-fn members<L: Link>(probe: &mut Probe<L>, index: u16) -> Result<Vec<Found>, Fault> {
+fn members<L: Link>(probe: &mut Probe<L>, index: u16) -> Result<Vec<Found>, Error> {
     let mut all = Vec::new();
     if probe.lacks(index)? {
         return Ok(all);
@@ -168,7 +168,7 @@ fn probe_writes<L: Link>(
     probe: &mut Probe<L>,
     found: &mut [Found],
     object: &mut ObjectDescription,
-) -> Result<(), Fault> {
+) -> Result<(), Error> {
     for one in found {
         if one.writable.is_none() && !is_touchy(one.address) {
             one.writable = probe.takes_its_value(one)?;
@@ -189,7 +189,7 @@ fn probe_limits<L: Link>(
     probe: &mut Probe<L>,
     one: &Found,
     object: &mut ObjectDescription,
-) -> Result<(), Fault> {
+) -> Result<(), Error> {
     let Some(entry) = object.entries.get_mut(&one.address.sub) else {
         return Ok(());
     };

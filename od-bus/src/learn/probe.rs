@@ -7,7 +7,7 @@ use od_wire::AbortCode::{
 };
 use od_wire::{CanId, Duration, Frame, NodeId, lss, sdo};
 
-use crate::fault::Fault;
+use crate::Error;
 use crate::link::Link;
 use crate::master::Master;
 
@@ -85,8 +85,8 @@ impl<L: Link> Probe<L> {
     }
 
     /// Reads a value; of one that is there, tries whether it can be written.
-    pub(super) fn read(&mut self, address: Address) -> Result<There, Fault> {
-        let (bytes, is_write_only) = match self.master.upload(address)? {
+    pub(super) fn read(&mut self, address: Address) -> Result<There, Error> {
+        let (bytes, is_write_only) = match Error::or_abort(self.master.upload(address))? {
             Ok(bytes) => (Some(bytes), false),
             Err(code) if code == NoObject.code() => return Ok(There::NoObject),
             Err(code) if code == NoSubIndex.code() => return Ok(There::NoSubIndex),
@@ -116,7 +116,7 @@ impl<L: Link> Probe<L> {
     }
 
     /// Whether the index has no object, by one request: most of the 36,864 indices have none.
-    pub(super) fn lacks(&mut self, index: u16) -> Result<bool, Fault> {
+    pub(super) fn lacks(&mut self, index: u16) -> Result<bool, Error> {
         let answer = self.ask(request(0x40, Address::new(index, 0), [0; 4]))?;
         // An upload that this began ends here: some servers abort the next request otherwise.
         let is_begun = |answer: &[u8; 8]| answer[0] & 0xE2 == 0x40;
@@ -128,7 +128,7 @@ impl<L: Link> Probe<L> {
 
     /// Whether an object is a VAR: by the standard, or because the node answers with the same value for a
     /// sub-index that it cannot have.
-    pub(super) fn is_var(&mut self, whole: &Found) -> Result<bool, Fault> {
+    pub(super) fn is_var(&mut self, whole: &Found) -> Result<bool, Error> {
         let index = whole.address.index;
         if specified(index).is_some_and(|known| !known.code.has_members()) {
             return Ok(true);
@@ -144,18 +144,20 @@ impl<L: Link> Probe<L> {
     }
 
     /// Writes a value to its object: whether it can be written. `None`: it cannot be read.
-    pub(super) fn takes_its_value(&mut self, found: &Found) -> Result<Option<bool>, Fault> {
+    pub(super) fn takes_its_value(&mut self, found: &Found) -> Result<Option<bool>, Error> {
         let Some(bytes) = found.bytes.as_deref().filter(|bytes| !bytes.is_empty()) else {
             return Ok(None);
         };
-        Ok(match self.master.download(found.address, bytes)? {
-            Ok(()) => Some(true),
-            Err(code) => (is_fixed(code)).then_some(false),
-        })
+        Ok(
+            match Error::or_abort(self.master.download(found.address, bytes))? {
+                Ok(()) => Some(true),
+                Err(code) => (is_fixed(code)).then_some(false),
+            },
+        )
     }
 
     /// Whether an LSS slave has this LSS address. It is in waiting state afterwards.
-    pub(super) fn has_lss(&mut self, identity: &Option<[u32; 4]>) -> Result<bool, Fault> {
+    pub(super) fn has_lss(&mut self, identity: &Option<[u32; 4]>) -> Result<bool, Error> {
         let Some(identity) = identity else {
             return Ok(false);
         };
@@ -188,13 +190,13 @@ impl<L: Link> Probe<L> {
     }
 
     /// Reads the value again.
-    pub(super) fn bytes(&mut self, address: Address) -> Result<Option<Vec<u8>>, Fault> {
-        Ok(self.master.upload(address)?.ok())
+    pub(super) fn bytes(&mut self, address: Address) -> Result<Option<Vec<u8>>, Error> {
+        Ok(Error::or_abort(self.master.upload(address))?.ok())
     }
 
     /// Writes a value; whether it was accepted.
-    pub(super) fn write(&mut self, address: Address, bytes: &[u8]) -> Result<bool, Fault> {
-        Ok(self.master.download(address, bytes)?.is_ok())
+    pub(super) fn write(&mut self, address: Address, bytes: &[u8]) -> Result<bool, Error> {
+        Ok(Error::or_abort(self.master.download(address, bytes))?.is_ok())
     }
 
     /// Waits again after Ctrl-C.
@@ -203,10 +205,10 @@ impl<L: Link> Probe<L> {
     }
 
     /// Puts a value back.
-    pub(super) fn put_back(&mut self, address: Address, bytes: &[u8]) -> Result<(), Fault> {
-        match self.master.download(address, bytes)? {
+    pub(super) fn put_back(&mut self, address: Address, bytes: &[u8]) -> Result<(), Error> {
+        match Error::or_abort(self.master.download(address, bytes))? {
             Ok(()) => Ok(()),
-            Err(code) => Err(Fault::Node(format!(
+            Err(code) => Err(Error::Node(format!(
                 "node {}: could not put back {address} = {}: abort {code:08X}h",
                 self.node,
                 od_model::values::hex(bytes)
@@ -215,7 +217,7 @@ impl<L: Link> Probe<L> {
     }
 
     /// Bytes that a download may have, if that is not clear from the value.
-    fn room(&mut self, address: Address, bytes: Option<&[u8]>) -> Result<Option<Room>, Fault> {
+    fn room(&mut self, address: Address, bytes: Option<&[u8]>) -> Result<Option<Room>, Error> {
         let is_clear = |bytes: &[u8]| {
             let is_text = bytes.iter().any(|byte| byte.is_ascii_graphic());
             matches!(bytes.len(), 1 | 2) || matches!(bytes.len(), 3 | 4 | 8) && !is_text
@@ -240,7 +242,7 @@ impl<L: Link> Probe<L> {
     }
 
     /// Does the node refuse a number with a length that it cannot have?
-    fn minds(&mut self) -> Result<bool, Fault> {
+    fn minds(&mut self) -> Result<bool, Error> {
         if let Some(minds) = self.minds {
             return Ok(minds);
         }
@@ -260,7 +262,7 @@ impl<L: Link> Probe<L> {
     }
 
     /// Is a download of this length confirmed? It ends there.
-    fn admits(&mut self, address: Address, size: u32) -> Result<bool, Fault> {
+    fn admits(&mut self, address: Address, size: u32) -> Result<bool, Error> {
         let answer = self.ask(request(0x21, address, size.to_le_bytes()))?;
         let is_confirmed = answer.is_some_and(|answer| answer[0] == 0x60);
         if is_confirmed {
@@ -270,7 +272,7 @@ impl<L: Link> Probe<L> {
     }
 
     /// Does the node refuse a request because of its command? What it begins ends there.
-    pub(super) fn lacks_command(&mut self, command: u8, address: Address) -> Result<bool, Fault> {
+    pub(super) fn lacks_command(&mut self, command: u8, address: Address) -> Result<bool, Error> {
         let answer = self.ask(request(command, address, [2, 0, 0, 0]))?;
         match answer.as_ref().map(code) {
             Some(Some(code)) => Ok(code == InvalidCommand.code()),
@@ -278,13 +280,13 @@ impl<L: Link> Probe<L> {
         }
     }
 
-    fn give_up(&mut self, address: Address) -> Result<(), Fault> {
+    fn give_up(&mut self, address: Address) -> Result<(), Error> {
         self.tell(request(0x80, address, 0x0800_0000u32.to_le_bytes()))
     }
 
     /// Begins a download that writes nothing: segmented, and aborted as soon as it is confirmed. A
     /// server without segments refuses one byte for a value of more, and takes the value that it has.
-    fn writable(&mut self, address: Address, bytes: Option<&[u8]>) -> Result<Option<bool>, Fault> {
+    fn writable(&mut self, address: Address, bytes: Option<&[u8]>) -> Result<Option<bool>, Error> {
         let bytes = bytes.unwrap_or(&[0]);
         let size = (bytes.len().max(1) as u32).to_le_bytes();
         let answer = self.ask(request(0x21, address, size))?;
@@ -321,7 +323,7 @@ impl<L: Link> Probe<L> {
 
     /// Does the node refuse a download to 1000h, 1001h or 1018h:01 as soon as it begins? Then one that it
     /// confirms shows that an object can be written.
-    fn checks_access(&mut self) -> Result<bool, Fault> {
+    fn checks_access(&mut self) -> Result<bool, Error> {
         if let Some(checks) = self.checks_access {
             return Ok(checks);
         }
@@ -341,12 +343,12 @@ impl<L: Link> Probe<L> {
         Ok(checks)
     }
 
-    fn tell(&mut self, data: [u8; 8]) -> Result<(), Fault> {
+    fn tell(&mut self, data: [u8; 8]) -> Result<(), Error> {
         let frame = Frame::full(self.node.plus(0x600), data);
         self.master.link().send(&frame)
     }
 
-    fn ask(&mut self, data: [u8; 8]) -> Result<Option<[u8; 8]>, Fault> {
+    fn ask(&mut self, data: [u8; 8]) -> Result<Option<[u8; 8]>, Error> {
         self.tell(data)?;
         let id = self.node.plus(0x580);
         let link = self.master.link();
@@ -369,13 +371,13 @@ impl<L: Link> Probe<L> {
                     self.tell(abort)?;
                     return Ok(None);
                 }
-                Err(Fault::Interrupted) => {
+                Err(Error::Interrupted) => {
                     // The node hears that what was begun is over.
                     let mut abort = data;
                     abort[0] = 0x80;
                     abort[4..].copy_from_slice(&0x0800_0000u32.to_le_bytes());
                     self.tell(abort)?;
-                    return Err(Fault::Interrupted);
+                    return Err(Error::Interrupted);
                 }
                 Err(fault) => return Err(fault),
             }

@@ -10,7 +10,7 @@ use od_wire::nmt::{Command, Repr};
 use od_wire::{Duration, Frame, Instant, NodeId};
 
 use super::probe::Probe;
-use crate::fault::Fault;
+use crate::Error;
 use crate::link::Link;
 use crate::master::Master;
 
@@ -51,7 +51,7 @@ pub fn record(
     node: NodeId,
     description: &Description,
     watch: Watch,
-) -> Result<Seen, Fault> {
+) -> Result<Seen, Error> {
     let mut seen = Seen {
         recorded: Recorded {
             length: watch.length.as_micros() as u64,
@@ -64,7 +64,7 @@ pub fn record(
         let back = match (watch.reset, state) {
             (false, _) | (true, Some(5)) => Ok(()),
             (true, _) => {
-                if matches!(listened, Err(Fault::Interrupted)) {
+                if matches!(listened, Err(Error::Interrupted)) {
                     link.resume();
                 }
                 nmt(&mut link, node, Command::EnterPreOperational)
@@ -87,7 +87,7 @@ pub fn record(
     Ok(seen)
 }
 
-fn nmt(link: &mut impl Link, node: NodeId, command: Command) -> Result<(), Fault> {
+fn nmt(link: &mut impl Link, node: NodeId, command: Command) -> Result<(), Error> {
     let node = node.raw();
     link.send(&Frame::standard(0, &Repr { command, node }.emit()))
 }
@@ -98,7 +98,7 @@ fn begin(
     node: NodeId,
     watch: Watch,
     seen: &mut Seen,
-) -> Result<Option<u8>, Fault> {
+) -> Result<Option<u8>, Error> {
     if !watch.reset {
         let text = "boot-up time and errors at start: they need --allow-reset";
         seen.lacking.push(text.into());
@@ -140,7 +140,7 @@ fn begin(
     match booted {
         Some(at) => seen.recorded.boot_up = Some(at.micros_since(from)),
         None => {
-            return Err(Fault::Node(format!(
+            return Err(Error::Node(format!(
                 "node {node} does not boot up within 10 s of a reset"
             )));
         }
@@ -156,7 +156,7 @@ fn listen(
     description: &Description,
     watch: Watch,
     seen: &mut Seen,
-) -> Result<(), Fault> {
+) -> Result<(), Error> {
     let default = |index: u16, sub: u8| {
         let entry = description.objects.get(&index)?.entries.get(&sub)?;
         entry.default.as_ref()?.value.integer(node.raw())
@@ -221,7 +221,7 @@ fn values(
     description: &Description,
     watch: Watch,
     seen: &mut Seen,
-) -> Result<(), Fault> {
+) -> Result<(), Error> {
     let mut master = Master::new(link, node);
     let mut last: BTreeMap<Address, Vec<u8>> = BTreeMap::new();
     let mut took = Vec::new();
@@ -239,7 +239,7 @@ fn values(
     for round in 0..2 {
         for (address, kind) in &readable {
             let from = master.link().now();
-            match master.upload(*address)? {
+            match Error::or_abort(master.upload(*address))? {
                 Ok(bytes) => {
                     if address.index == 0x1003 && address.sub > 0 && bytes.len() <= 4 {
                         seen.recorded.empty.insert(*address, bytes.clone());
@@ -271,7 +271,7 @@ fn values(
     }
     while !changing.is_empty() && master.link().now() < until {
         for address in &changing {
-            let Ok(bytes) = master.upload(*address)? else {
+            let Ok(bytes) = Error::or_abort(master.upload(*address))? else {
                 continue;
             };
             let at = master.link().now().micros_since(start);

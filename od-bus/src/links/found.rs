@@ -2,7 +2,7 @@
 
 use od_bench::serve::running;
 
-use crate::fault::Fault;
+use crate::Error;
 
 /// A network interface of this type is a CAN interface (`ARPHRD_CAN` of Linux).
 const CAN: &str = "280";
@@ -11,7 +11,7 @@ const CAN: &str = "280";
 ///
 /// # Errors
 /// None runs, or several: the text lists what `--link` can be.
-pub fn default() -> Result<String, Fault> {
+pub fn default() -> Result<String, Error> {
     let mut running = running::links();
     match running.len() {
         1 => Ok(running.remove(0)),
@@ -22,12 +22,12 @@ pub fn default() -> Result<String, Fault> {
             } else {
                 format!("interfaces found: {}", found.join(", "))
             };
-            Err(Fault::Link(format!(
+            Err(Error::Link(format!(
                 "no `odkit sim` runs; start one, or add `--link`, such as `--link socketcan:can0`\n\
                  {list}"
             )))
         }
-        count => Err(Fault::Link(format!(
+        count => Err(Error::Link(format!(
             "{count} benches of `odkit sim` run; add `--link` with one of: {}",
             running.join(", ")
         ))),

@@ -13,7 +13,7 @@ use od_bench::links::address::Address;
 use self::slcan::Slcan;
 use self::socketcand::Socketcand;
 use self::stream::Stream;
-use crate::fault::Fault;
+use crate::Error;
 use crate::link::Link;
 
 /// Forms of a link's name, for messages.
@@ -24,16 +24,16 @@ const FORMS: &str = "`slcan:HOST:PORT`, `slcan:DEVICE[@BAUD]`, `socketcan:INTERF
 /// `socketcand:HOST:PORT[/BUS]`.
 ///
 /// # Errors
-/// [`Fault::Usage`] if the name is not that of a link, [`Fault::Link`] if it cannot be opened.
-pub fn open(name: &str) -> Result<Box<dyn Link>, Fault> {
+/// [`Error::Usage`] if the name is not that of a link, [`Error::Link`] if it cannot be opened.
+pub fn open(name: &str) -> Result<Box<dyn Link>, Error> {
     open_at(name, None)
 }
 
 /// As [`open`], at a bit rate in kbit/s that the link has to set.
 ///
 /// # Errors
-/// As [`open`]; [`Fault::Usage`] also if this kind of link cannot set the bit rate.
-pub fn open_at(name: &str, kbit: Option<u16>) -> Result<Box<dyn Link>, Fault> {
+/// As [`open`]; [`Error::Usage`] also if this kind of link cannot set the bit rate.
+pub fn open_at(name: &str, kbit: Option<u16>) -> Result<Box<dyn Link>, Error> {
     Ok(open_between_threads(name, kbit)?)
 }
 
@@ -41,10 +41,10 @@ pub fn open_at(name: &str, kbit: Option<u16>) -> Result<Box<dyn Link>, Fault> {
 ///
 /// # Errors
 /// As [`open_at`].
-pub fn open_between_threads(name: &str, kbit: Option<u16>) -> Result<Box<dyn Link + Send>, Fault> {
+pub fn open_between_threads(name: &str, kbit: Option<u16>) -> Result<Box<dyn Link + Send>, Error> {
     let (address, bus) = parse(name)?;
     if let (Some(kbit), Address::SocketCan(_) | Address::Socketcand(_)) = (kbit, &address) {
-        return Err(Fault::Usage(format!(
+        return Err(Error::Usage(format!(
             "{name} cannot set the bit rate; its computer does: `sudo ip link set can0 type can \
              bitrate {kbit}000`"
         )));
@@ -70,37 +70,37 @@ pub fn open_between_threads(name: &str, kbit: Option<u16>) -> Result<Box<dyn Lin
 /// Checks a link's name, without opening it.
 ///
 /// # Errors
-/// [`Fault::Usage`]: what to write instead.
-pub fn check(name: &str) -> Result<(), Fault> {
+/// [`Error::Usage`]: what to write instead.
+pub fn check(name: &str) -> Result<(), Error> {
     parse(name).map(drop)
 }
 
 /// The address, and the bus behind a socketcand.
-fn parse(name: &str) -> Result<(Address, &str), Fault> {
+fn parse(name: &str) -> Result<(Address, &str), Error> {
     let (address, bus) = match name.split_once('/') {
         Some((address, bus)) if name.starts_with("socketcand:") => (address, bus),
         _ => (name, "can0"),
     };
     if bus.is_empty() || bus.contains([' ', '<', '>']) {
-        return Err(Fault::Usage(format!(
+        return Err(Error::Usage(format!(
             "`{name}` is not a valid link; write {FORMS}"
         )));
     }
     match Address::parse(address, FORMS) {
         Ok(address) => Ok((address, bus)),
-        Err(refused) => Err(Fault::Usage(refused.to_string())),
+        Err(refused) => Err(Error::Usage(refused.to_string())),
     }
 }
 
 #[cfg(target_os = "linux")]
-fn interface(name: &str) -> Result<Box<dyn Link + Send>, Fault> {
+fn interface(name: &str) -> Result<Box<dyn Link + Send>, Error> {
     Ok(Box::new(self::socketcan::Interface::open(name)?))
 }
 
 /// Only Linux has such interfaces.
 #[cfg(not(target_os = "linux"))]
-fn interface(_: &str) -> Result<Box<dyn Link + Send>, Fault> {
-    Err(Fault::Usage(String::from(
+fn interface(_: &str) -> Result<Box<dyn Link + Send>, Error> {
+    Err(Error::Usage(String::from(
         "SocketCAN needs Linux; use an slcan adapter: `--link slcan:COM3`",
     )))
 }

@@ -7,7 +7,7 @@ use od_wire::Duration;
 use serial2::SerialPort;
 
 use super::stream::Port;
-use crate::fault::Fault;
+use crate::Error;
 
 /// Longest time until a server accepts a connection.
 const CONNECT: Duration = Duration::from_secs(5);
@@ -15,10 +15,10 @@ const CONNECT: Duration = Duration::from_secs(5);
 const WRITE: Duration = Duration::from_secs(2);
 
 /// Connects to `HOST:PORT`.
-pub(super) fn connect(kind: &str, place: &str) -> Result<(TcpStream, String), Fault> {
+pub(super) fn connect(kind: &str, place: &str) -> Result<(TcpStream, String), Error> {
     let name = format!("{kind}:{place}");
     let addresses = place.to_socket_addrs().map_err(|error| {
-        Fault::Usage(format!(
+        Error::Usage(format!(
             "{name}: {error}; write `{kind}:HOST:PORT`, such as `{kind}:127.0.0.1:29536`"
         ))
     })?;
@@ -36,7 +36,7 @@ pub(super) fn connect(kind: &str, place: &str) -> Result<(TcpStream, String), Fa
             Err(error) => last = error,
         }
     }
-    Err(Fault::Link(format!(
+    Err(Error::Link(format!(
         "{name}: {last}; start a CAN adapter server or `odkit sim` at this address"
     )))
 }
@@ -56,9 +56,9 @@ impl Port for TcpStream {
 }
 
 /// Opens a serial port at a baud rate.
-pub(super) fn serial(path: &str, baud: u32) -> Result<SerialPort, Fault> {
+pub(super) fn serial(path: &str, baud: u32) -> Result<SerialPort, Error> {
     let failed = |error: io::Error| {
-        Fault::Link(match error.kind() {
+        Error::Link(match error.kind() {
             ErrorKind::NotFound => {
                 format!("serial port {path} does not exist; is the adapter plugged in?")
             }

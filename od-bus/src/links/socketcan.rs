@@ -7,7 +7,7 @@ use od_bench::links::can_frame;
 use od_wire::{Duration, Frame, Instant};
 use socketcan::{CanSocket, Socket};
 
-use crate::fault::Fault;
+use crate::Error;
 use crate::link::{Heard, Link};
 
 /// Longest time for a full queue of the interface to get a place.
@@ -28,8 +28,8 @@ pub(super) struct Interface {
 }
 
 impl Interface {
-    pub(super) fn open(name: &str) -> Result<Self, Fault> {
-        let failed = |error: io::Error| Fault::Link(advice(name, &error));
+    pub(super) fn open(name: &str) -> Result<Self, Error> {
+        let failed = |error: io::Error| Error::Link(advice(name, &error));
         // A socket for all interfaces says whether there can be any.
         CanSocket::open_iface(0).map_err(failed)?;
         let socket = CanSocket::open(name).map_err(failed)?;
@@ -44,8 +44,8 @@ impl Interface {
         }
     }
 
-    fn lost(&self, error: &io::Error) -> Fault {
-        Fault::Link(advice(&self.name, error))
+    fn lost(&self, error: &io::Error) -> Error {
+        Error::Link(advice(&self.name, error))
     }
 }
 
@@ -54,7 +54,7 @@ impl Link for Interface {
         Instant::ZERO + self.start.elapsed()
     }
 
-    fn send(&mut self, frame: &Frame) -> Result<(), Fault> {
+    fn send(&mut self, frame: &Frame) -> Result<(), Error> {
         let mut bytes = Vec::new();
         can_frame::encode(frame, &mut bytes);
         let until = self.now() + FULL;
@@ -64,7 +64,7 @@ impl Link for Interface {
                 Err(error) if error.kind() == ErrorKind::Interrupted => {}
                 Err(error) if error.raw_os_error() == Some(ENOBUFS) => {
                     if self.now() >= until {
-                        return Err(Fault::Link(format!(
+                        return Err(Error::Link(format!(
                             "{}: no frame leaves the interface; is another node on the bus, at this \
                              bit rate, and is the bus terminated?",
                             self.name
@@ -77,7 +77,7 @@ impl Link for Interface {
         }
     }
 
-    fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Fault> {
+    fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Error> {
         loop {
             let left = Duration::from_micros(until.micros_since(self.now()));
             // A time-out of zero would mean none at all.
@@ -105,9 +105,9 @@ impl Link for Interface {
         }
     }
 
-    fn listen_at(&mut self, kbit: u16) -> Result<(), Fault> {
+    fn listen_at(&mut self, kbit: u16) -> Result<(), Error> {
         let name = &self.name;
-        Err(Fault::Usage(format!(
+        Err(Error::Usage(format!(
             "the system sets the bit rate of {name}; to listen at {kbit} kbit/s write `sudo ip link set \
              {name} type can bitrate {kbit}000 listen-only on`"
         )))

@@ -6,7 +6,7 @@ use std::time;
 
 use od_wire::{Duration, Frame, Instant};
 
-use crate::fault::Fault;
+use crate::Error;
 use crate::link::{Heard, Link};
 
 /// Longest time for the first answers of the other side.
@@ -75,7 +75,7 @@ pub(super) struct Stream<P: Port, S: Protocol> {
 }
 
 impl<P: Port, S: Protocol> Stream<P, S> {
-    pub(super) fn open(port: P, protocol: S, name: String) -> Result<Self, Fault> {
+    pub(super) fn open(port: P, protocol: S, name: String) -> Result<Self, Error> {
         let mut stream = Self {
             port,
             protocol,
@@ -89,8 +89,8 @@ impl<P: Port, S: Protocol> Stream<P, S> {
     }
 
     /// Opens the bus, and waits until it is.
-    fn begin(&mut self, listen_at: Option<u16>) -> Result<(), Fault> {
-        let first = self.protocol.begin(listen_at).map_err(Fault::Usage)?;
+    fn begin(&mut self, listen_at: Option<u16>) -> Result<(), Error> {
+        let first = self.protocol.begin(listen_at).map_err(Error::Usage)?;
         self.write(&first)?;
         let (patience, is_open_after) = self.protocol.patience();
         let until = self.now() + patience;
@@ -113,7 +113,7 @@ impl<P: Port, S: Protocol> Stream<P, S> {
     }
 
     /// The next message; `None`: none came in time.
-    fn hear(&mut self, until: Instant) -> Result<Option<Said>, Fault> {
+    fn hear(&mut self, until: Instant) -> Result<Option<Said>, Error> {
         loop {
             match self.protocol.take(&mut self.rest) {
                 Ok(Some(Said::Reply(bytes))) => self.write(&bytes)?,
@@ -142,7 +142,7 @@ impl<P: Port, S: Protocol> Stream<P, S> {
         }
     }
 
-    fn write(&mut self, bytes: &[u8]) -> Result<(), Fault> {
+    fn write(&mut self, bytes: &[u8]) -> Result<(), Error> {
         self.port.write(bytes).map_err(|error| match error.kind() {
             ErrorKind::WouldBlock | ErrorKind::TimedOut => {
                 self.lost("the other side no longer accepts bytes")
@@ -151,8 +151,8 @@ impl<P: Port, S: Protocol> Stream<P, S> {
         })
     }
 
-    fn lost(&self, why: &str) -> Fault {
-        Fault::Link(format!("{}: {why}", self.name))
+    fn lost(&self, why: &str) -> Error {
+        Error::Link(format!("{}: {why}", self.name))
     }
 }
 
@@ -161,13 +161,13 @@ impl<P: Port, S: Protocol> Link for Stream<P, S> {
         Instant::ZERO + self.start.elapsed()
     }
 
-    fn send(&mut self, frame: &Frame) -> Result<(), Fault> {
+    fn send(&mut self, frame: &Frame) -> Result<(), Error> {
         let mut bytes = Vec::new();
         self.protocol.write(frame, &mut bytes);
         self.write(&bytes)
     }
 
-    fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Fault> {
+    fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Error> {
         if let Some(heard) = self.early.pop_front() {
             return Ok(Some(heard));
         }
@@ -183,7 +183,7 @@ impl<P: Port, S: Protocol> Link for Stream<P, S> {
         }
     }
 
-    fn listen_at(&mut self, kbit: u16) -> Result<(), Fault> {
+    fn listen_at(&mut self, kbit: u16) -> Result<(), Error> {
         self.early.clear();
         self.begin(Some(kbit))
     }

@@ -2,13 +2,13 @@
 
 use std::collections::VecDeque;
 
+use od_bus::Error;
 use od_bus::bench::OnBench;
 use od_bus::conform::case::{Case, built_in};
 use od_bus::conform::eds::Eds;
 use od_bus::conform::record::Verdict;
 use od_bus::conform::rig::RealBus;
 use od_bus::conform::session::{Leave, Session};
-use od_bus::fault::Fault;
 use od_bus::link::{Heard, Link};
 use od_bus::master::Master;
 use od_model::Address;
@@ -27,7 +27,7 @@ impl<L: Link> Link for Late<L> {
         self.link.now()
     }
 
-    fn send(&mut self, frame: &Frame) -> Result<(), Fault> {
+    fn send(&mut self, frame: &Frame) -> Result<(), Error> {
         let arrival = self.link.now().plus_millis(4);
         while let Some(heard) = self.link.receive(arrival)? {
             self.heard.push_back(heard);
@@ -35,7 +35,7 @@ impl<L: Link> Link for Late<L> {
         self.link.send(frame)
     }
 
-    fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Fault> {
+    fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Error> {
         match self.heard.pop_front() {
             Some(heard) => Ok(Some(heard)),
             None => self.link.receive(until),
@@ -51,7 +51,7 @@ fn heartbeats_between_request_and_response_fail_no_case() {
         // Every 3 ms, also after each reset.
         for (index, sub, bytes) in [(0x1017, 0, &[3, 0][..]), (0x1010, 1, b"save")] {
             let written = master.download(Address::new(index, sub), bytes);
-            assert_eq!(written, Ok(Ok(())), "{name} {index:X}");
+            assert_eq!(written, Ok(()), "{name} {index:X}");
         }
         let kind = od_devices::find(name).expect("a device");
         let eds = Eds::read(&od_devices::text::eds(kind));
@@ -76,7 +76,7 @@ fn a_case_about_heartbeats_hears_them() {
     let mut bus = bus("gxmm");
     let mut master = Master::new(OnBench(&mut bus), NodeId::ONE);
     let written = master.download(Address::new(0x1017, 0), &[3, 0]);
-    assert_eq!(written, Ok(Ok(())));
+    assert_eq!(written, Ok(()));
     let kind = od_devices::find("gxmm").expect("a device");
     let eds = Eds::read(&od_devices::text::eds(kind));
     let mut rig = RealBus {

@@ -3,9 +3,9 @@
 use std::collections::VecDeque;
 
 use od_bench::{EdsOptions, VirtualDevice};
+use od_bus::Error;
 use od_bus::bench::OnBench;
 use od_bus::compare::compare;
-use od_bus::fault::Fault;
 use od_bus::learn::{Options, Today, learn};
 use od_bus::link::{Heard, Link};
 use od_bus::master::Master;
@@ -69,8 +69,8 @@ fn the_twelve_devices_are_learned_and_stand_in() {
         let device = VirtualDevice::from_eds(&text, EdsOptions::default()).expect("a device");
         let mut twin = Master::new(OnBench(alone(device)), NodeId::ONE);
         for entry in made.entries().filter(|one| one.access == Access::Const) {
-            let bytes = original.upload(entry.address).expect("an answer");
-            let same = twin.upload(entry.address).expect("an answer");
+            let bytes = original.upload(entry.address);
+            let same = twin.upload(entry.address);
             assert_eq!(bytes, same, "{name}: {}", entry.address);
         }
         let differences = compare(made, &mut twin, false).expect("a device that answers");
@@ -95,8 +95,7 @@ fn limits_are_probed_and_values_put_back() {
     assert!(limited > 3, "{limited} limits");
     let mut master = Master::new(OnBench(&mut bus), NodeId::ONE);
     for (address, entry) in made.entries().filter(|(_, entry)| entry.access.writable()) {
-        if let (Ok(bytes), Some(default)) =
-            (master.upload(address).expect("an answer"), &entry.default)
+        if let (Ok(bytes), Some(default)) = (master.upload(address), &entry.default)
             && let Some(wanted) = default.value.integer(1)
         {
             assert_eq!(bytes, wanted.to_le_bytes()[..bytes.len()], "{address}");
@@ -116,14 +115,14 @@ impl<F: FnMut(&[u8; 8]) -> Option<[u8; 8]>> Link for Odd<F> {
         self.now
     }
 
-    fn send(&mut self, frame: &Frame) -> Result<(), Fault> {
+    fn send(&mut self, frame: &Frame) -> Result<(), Error> {
         if frame.id().as_standard() == Some(0x601) {
             self.answers.extend((self.answer)(frame.bytes()));
         }
         Ok(())
     }
 
-    fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Fault> {
+    fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Error> {
         match self.answers.pop_front() {
             Some(bytes) => {
                 let frame = Frame::standard(0x581, &bytes);
@@ -322,7 +321,7 @@ fn a_node_that_falls_silent_while_limits_are_probed_is_still_learned() {
         }),
     };
     let made = learn(odd(ways), NodeId::ONE, options, |_| {}).expect("a description");
-    assert!(matches!(made.left, Some(Fault::Node(_))), "{:?}", made.left);
+    assert!(matches!(made.left, Some(Error::Node(_))), "{:?}", made.left);
     assert_eq!(made.description.objects.len(), 7);
     let text = od_eds::write(&made.description);
     for line in [

@@ -7,9 +7,9 @@ use std::collections::VecDeque;
 
 use od_bench::bus::Bus;
 use od_bench::logs::candump::parse_frame;
+use od_bus::Error;
 use od_bus::bench::OnBench;
 use od_bus::conform::rig::Rig;
-use od_bus::fault::Fault;
 use od_bus::link::{Heard, Link};
 use od_wire::{CanId, Frame, Instant};
 
@@ -293,7 +293,7 @@ impl Link for Spoiled {
         self.bench.now()
     }
 
-    fn send(&mut self, frame: &Frame) -> Result<(), Fault> {
+    fn send(&mut self, frame: &Frame) -> Result<(), Error> {
         let at = self.now();
         match self.deed(frame, false) {
             None => self.bench.send(frame),
@@ -321,7 +321,7 @@ impl Link for Spoiled {
         }
     }
 
-    fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Fault> {
+    fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Error> {
         loop {
             let soon = self.due(until);
             let now = self.now();
@@ -346,7 +346,7 @@ impl Rig for Spoiled {
         true
     }
 
-    fn power(&mut self, on: bool) -> Result<(), Fault> {
+    fn power(&mut self, on: bool) -> Result<(), Error> {
         self.bench.power(on)
     }
 }

@@ -4,6 +4,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use od_bench::bus::Bus;
+use od_bus::Error;
 use od_bus::bench::OnBench;
 use od_bus::conform::case::built_in;
 use od_bus::conform::eds::Eds;
@@ -11,7 +12,6 @@ use od_bus::conform::record::{Record, Verdict};
 use od_bus::conform::report::{Format, Report};
 use od_bus::conform::rig::{RealBus, Rig};
 use od_bus::conform::session::{Leave, Session};
-use od_bus::fault::Fault;
 use od_bus::interrupt::Interruptible;
 use od_bus::learn::{Options, learn};
 use od_bus::link::{Heard, Link};
@@ -27,17 +27,17 @@ struct Trip<L, F> {
     act: F,
 }
 
-impl<L: Link, F: FnMut(&str) -> Result<(), Fault>> Link for Trip<L, F> {
+impl<L: Link, F: FnMut(&str) -> Result<(), Error>> Link for Trip<L, F> {
     fn now(&self) -> Instant {
         self.link.now()
     }
 
-    fn send(&mut self, frame: &Frame) -> Result<(), Fault> {
+    fn send(&mut self, frame: &Frame) -> Result<(), Error> {
         (self.act)(&frame.to_string())?;
         self.link.send(frame)
     }
 
-    fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Fault> {
+    fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Error> {
         self.link.receive(until)
     }
 }
@@ -50,12 +50,7 @@ fn values(bus: &mut Bus, eds: &Eds) -> Vec<(Address, Option<Vec<u8>>)> {
         .entries()
         .filter(|one| one.access == Access::Rw);
     entries
-        .map(|one| {
-            (
-                one.address,
-                master.upload(one.address).expect("an answer").ok(),
-            )
-        })
+        .map(|one| (one.address, master.upload(one.address).ok()))
         .collect()
 }
 
@@ -116,11 +111,11 @@ impl Link for OnLink<'_> {
         self.0.now()
     }
 
-    fn send(&mut self, frame: &Frame) -> Result<(), Fault> {
+    fn send(&mut self, frame: &Frame) -> Result<(), Error> {
         self.0.send(frame)
     }
 
-    fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Fault> {
+    fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Error> {
         self.0.receive(until)
     }
 
@@ -143,7 +138,7 @@ fn a_lost_link_ends_in_a_report_that_says_what_is_left() {
             is_cut |= is_changed;
             is_changed |= frame.starts_with("601#2B17100032");
             if is_cut {
-                Err(Fault::Link("the other end has gone".into()))
+                Err(Error::Link("the other end has gone".into()))
             } else {
                 Ok(())
             }
@@ -190,7 +185,7 @@ fn ctrl_c_in_learn_puts_back_the_value_that_it_probes() {
         ..Options::default()
     };
     let made = learn(link, NodeId::ONE, options, |_| {}).expect("all objects");
-    assert_eq!(made.left, Some(Fault::Interrupted));
+    assert_eq!(made.left, Some(Error::Interrupted));
     assert!(
         made.description.objects.len() > 50,
         "what was learned stays"

@@ -2,8 +2,8 @@
 
 use std::collections::VecDeque;
 
+use od_bus::Error;
 use od_bus::bench::OnBench;
-use od_bus::fault::Fault;
 use od_bus::link::{Heard, Link};
 use od_bus::master::Master;
 use od_bus::scan::{Options, scan};
@@ -44,11 +44,11 @@ impl<L: Link> Link for Late<'_, L> {
         self.link.now()
     }
 
-    fn send(&mut self, frame: &Frame) -> Result<(), Fault> {
+    fn send(&mut self, frame: &Frame) -> Result<(), Error> {
         self.link.send(frame)
     }
 
-    fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Fault> {
+    fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Error> {
         loop {
             let due = self.held.front().map(|heard| heard.at);
             if due.is_some_and(|at| at <= self.now()) {
@@ -92,7 +92,7 @@ fn an_answer_to_an_earlier_request_is_not_the_answer() {
     let link = Late::responses(OnBench(&mut bus), 600);
     let mut master = Master::patient(link, NodeId::ONE, Duration::from_millis(500));
     let late = master.upload(Address::new(0x1000, 0));
-    assert!(matches!(late, Err(Fault::Node(_))), "{late:?}");
+    assert!(matches!(late, Err(Error::Node(_))), "{late:?}");
     let vendor = master.upload(Address::new(0x1018, 1));
-    assert_eq!(vendor, Ok(Ok(vec![0xEC, 0, 0, 0])));
+    assert_eq!(vendor, Ok(vec![0xEC, 0, 0, 0]));
 }

@@ -2,8 +2,8 @@
 
 use od_bench::bus::Bus;
 use od_bench::{EdsOptions, VirtualDevice};
+use od_bus::Error;
 use od_bus::bench::OnBench;
-use od_bus::fault::Fault;
 use od_bus::link::{Heard, Link};
 use od_bus::lss::{Lss, Slaves};
 use od_bus::master::Master;
@@ -64,7 +64,7 @@ fn three_new_encoders_get_their_node_ids() {
     for (serial, node) in serials.iter().zip([5, 6, 7]) {
         let mut master = Master::new(OnBench(&mut bus), id(node));
         let read = master.upload(Address::new(0x1018, 4));
-        assert_eq!(read, Ok(Ok(serial.to_le_bytes().to_vec())));
+        assert_eq!(read, Ok(serial.to_le_bytes().to_vec()));
     }
     assert_eq!(Lss::new(OnBench(&mut bus)).scan(|_| {}), Ok(Vec::new()));
     // It was stored.
@@ -99,7 +99,7 @@ fn a_slave_that_has_a_node_id_takes_another_with_its_reset() {
     let mut lss = Lss::new(OnBench(&mut bus));
     let nobody = lss.set_node_id(unknown, id(9), false);
     assert!(
-        matches!(&nobody, Err(Fault::Node(why)) if why.contains("99")),
+        matches!(&nobody, Err(Error::Node(why)) if why.contains("99")),
         "{nobody:?}"
     );
 }
@@ -116,7 +116,7 @@ fn bit_rates_are_configured_for_one_or_all() {
     );
     assert_eq!(lss.store(Slaves::All), Ok(()));
     let unknown = lss.set_bit_rate(Slaves::All, 33, true, None);
-    assert!(matches!(unknown, Err(Fault::Usage(_))), "{unknown:?}");
+    assert!(matches!(unknown, Err(Error::Usage(_))), "{unknown:?}");
 }
 
 /// A link that somebody interrupts after some frames, and what it sent.
@@ -131,15 +131,15 @@ impl Link for Cut<'_> {
         self.bench.now()
     }
 
-    fn send(&mut self, frame: &Frame) -> Result<(), Fault> {
+    fn send(&mut self, frame: &Frame) -> Result<(), Error> {
         self.sent.push(*frame);
         self.bench.send(frame)
     }
 
-    fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Fault> {
+    fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Error> {
         match self.left.checked_sub(1) {
             Some(left) => self.left = left,
-            None => return Err(Fault::Interrupted),
+            None => return Err(Error::Interrupted),
         }
         self.bench.receive(until)
     }
@@ -154,7 +154,7 @@ fn an_interrupted_scan_leaves_no_slave_in_configuration_state() {
             left,
             sent: Vec::new(),
         };
-        assert_eq!(Lss::new(&mut cut).scan(|_| {}), Err(Fault::Interrupted));
+        assert_eq!(Lss::new(&mut cut).scan(|_| {}), Err(Error::Interrupted));
         let last = cut.sent.last().map(Frame::to_string);
         assert_eq!(last.as_deref(), Some("7E5#0400000000000000"));
     }
@@ -191,7 +191,7 @@ fn an_interrupted_transfer_is_aborted() {
     // The drain before the request takes the one that is left.
     assert_eq!(
         master.upload(Address::new(0x1008, 0)),
-        Err(Fault::Interrupted)
+        Err(Error::Interrupted)
     );
     let last = cut.sent.last().map(Frame::to_string);
     assert!(
@@ -210,7 +210,7 @@ fn a_slave_is_asked_who_it_is() {
     let other = bus.add(encoder(4712, NodeId::new(5)));
     bus.start(other);
     let several = Lss::new(OnBench(&mut bus)).inquire(Slaves::All);
-    assert!(matches!(several, Err(Fault::Node(why)) if why.contains("several")));
+    assert!(matches!(several, Err(Error::Node(why)) if why.contains("several")));
     let one = Identity {
         serial: 4712,
         ..identity

@@ -2,8 +2,8 @@
 
 use od_bench::VirtualDevice;
 use od_bench::bus::Bus;
+use od_bus::Error;
 use od_bus::bench::OnBench;
-use od_bus::fault::Fault;
 use od_bus::link::Link;
 use od_bus::master::Master;
 use od_model::Address;
@@ -25,14 +25,14 @@ fn it_reads_and_writes() {
     let mut master = Master::new(OnBench(&mut bus), NodeId::ONE);
     assert_eq!(
         master.upload(DEVICE_TYPE),
-        Ok(Ok(vec![0x96, 1, 2, 0])),
+        Ok(vec![0x96, 1, 2, 0]),
         "1000h: CiA 406, multiturn"
     );
     let heartbeat = Address::new(0x1017, 0);
-    assert_eq!(master.download(heartbeat, &[100, 0]), Ok(Ok(())));
-    assert_eq!(master.upload(heartbeat), Ok(Ok(vec![100, 0])));
+    assert_eq!(master.download(heartbeat, &[100, 0]), Ok(()));
+    assert_eq!(master.upload(heartbeat), Ok(vec![100, 0]));
     let read_only = master.download(DEVICE_TYPE, &[0; 4]);
-    assert_eq!(read_only, Ok(Err(0x0601_0002)));
+    assert_eq!(read_only, Err(Error::Abort(0x0601_0002)));
     let now = master.link().now();
     let heard = master.link().receive(now.plus_millis(1000));
     let heard = heard.expect("a link").expect("a heartbeat");
@@ -45,7 +45,7 @@ fn a_silent_node_is_told_after_the_time_out() {
     let mut bus = bus();
     let node = NodeId::new(9).expect("a node ID");
     let mut master = Master::new(OnBench(&mut bus), node);
-    let Err(Fault::Node(text)) = master.upload(DEVICE_TYPE) else {
+    let Err(Error::Node(text)) = master.upload(DEVICE_TYPE) else {
         panic!("node 9 is not there");
     };
     assert!(text.starts_with("node 9 does not respond"), "{text}");

@@ -1,7 +1,7 @@
 //! Scans, bit-rate detection and NMT commands.
 
+use od_bus::Error;
 use od_bus::bench::OnBench;
-use od_bus::fault::Fault;
 use od_bus::link::{Heard, Link};
 use od_bus::master::Master;
 use od_bus::nmt;
@@ -65,7 +65,7 @@ fn a_stopped_node_is_known_by_its_heartbeat_and_a_scan_changes_nothing() {
     let heartbeat = Address::new(0x1017, 0);
     for node in [5, 6] {
         let mut master = Master::new(&mut link, id(node));
-        assert_eq!(master.download(heartbeat, &[200, 0]), Ok(Ok(())));
+        assert_eq!(master.download(heartbeat, &[200, 0]), Ok(()));
     }
     let wait = Duration::from_millis(500);
     let states = nmt::command(&mut link, Some(id(5)), Command::Stop, wait).expect("a link");
@@ -105,11 +105,11 @@ impl Link for At {
         self.now
     }
 
-    fn send(&mut self, frame: &Frame) -> Result<(), Fault> {
+    fn send(&mut self, frame: &Frame) -> Result<(), Error> {
         panic!("{frame} is sent while it only listens");
     }
 
-    fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Fault> {
+    fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Error> {
         let next = self.now.plus_millis(1000);
         if self.rate != Some(self.own) || next > until {
             self.now = until;
@@ -120,7 +120,7 @@ impl Link for At {
         Ok(Some(Heard { at: next, frame }))
     }
 
-    fn listen_at(&mut self, kbit: u16) -> Result<(), Fault> {
+    fn listen_at(&mut self, kbit: u16) -> Result<(), Error> {
         self.rate = Some(kbit);
         Ok(())
     }
@@ -145,5 +145,5 @@ fn a_bit_rate_is_found_by_listening() {
     assert_eq!(detect(&mut silent, wait, |_| {}), Ok(None));
     let mut bench = bus(&[]);
     let cannot = detect(&mut OnBench(&mut bench), wait, |_| {});
-    assert!(matches!(cannot, Err(Fault::Usage(_))), "{cannot:?}");
+    assert!(matches!(cannot, Err(Error::Usage(_))), "{cannot:?}");
 }

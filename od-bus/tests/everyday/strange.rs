@@ -1,6 +1,6 @@
 //! Slaves that no standard has: what a master believes, and when it gives up.
 
-use od_bus::fault::Fault;
+use od_bus::Error;
 use od_bus::link::{Heard, Link};
 use od_bus::master::Master;
 use od_bus::scan::{Options, scan};
@@ -35,7 +35,7 @@ impl<F: FnMut(&[u8; 8]) -> Option<[u8; 8]>> Link for Slave<F> {
         self.now
     }
 
-    fn send(&mut self, frame: &Frame) -> Result<(), Fault> {
+    fn send(&mut self, frame: &Frame) -> Result<(), Error> {
         if frame.id().as_standard() == Some(0x605) {
             self.heard.push(*frame.bytes());
             if let Some(bytes) = (self.answer)(frame.bytes()) {
@@ -48,7 +48,7 @@ impl<F: FnMut(&[u8; 8]) -> Option<[u8; 8]>> Link for Slave<F> {
         Ok(())
     }
 
-    fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Fault> {
+    fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Error> {
         let due = self.waiting.first().map(|heard| heard.at);
         if due.is_some_and(|due| due <= until.max(self.now)) {
             let heard = self.waiting.remove(0);
@@ -115,7 +115,7 @@ fn a_watch_ends_when_it_said_it_would() {
 fn a_read_with_a_time_limit_names_it() {
     let mut slave = Slave::new(endless);
     let mut master = Master::new(&mut slave, id(5)).within(Duration::from_secs(2));
-    let Err(Fault::Node(why)) = master.upload(Address::new(0x1008, 0)) else {
+    let Err(Error::Node(why)) = master.upload(Address::new(0x1008, 0)) else {
         panic!("it came to an end");
     };
     assert!(why.contains("within 2 s"), "{why}");
@@ -137,14 +137,11 @@ fn a_value_without_a_size_is_read_by_its_type() {
     let gain = Address::new(0x2001, 0);
     let mut slave = Slave::new(without_size);
     let mut master = Master::new(&mut slave, id(5));
-    assert_eq!(master.upload(gain), Ok(Ok(vec![0xE8, 3, 0, 0])));
+    assert_eq!(master.upload(gain), Ok(vec![0xE8, 3, 0, 0]));
     // The standard gives the type of 1017h.
-    assert_eq!(
-        master.upload(Address::new(0x1017, 0)),
-        Ok(Ok(vec![0xE8, 3]))
-    );
+    assert_eq!(master.upload(Address::new(0x1017, 0)), Ok(vec![0xE8, 3]));
     master.know(tables.dictionary());
-    assert_eq!(master.upload(gain), Ok(Ok(vec![0xE8, 3])));
+    assert_eq!(master.upload(gain), Ok(vec![0xE8, 3]));
     let found = od_bus::compare::compare(tables.dictionary(), &mut master, false);
     assert_eq!(found, Ok(Vec::new()));
     let setting = od_bus::configure::Setting {
@@ -194,10 +191,7 @@ fn a_long_value_is_one_transfer() {
         _ => None,
     });
     let mut master = Master::new(&mut slave, id(5));
-    assert_eq!(
-        master.upload(Address::new(0x1008, 0)),
-        Ok(Ok(text.to_vec()))
-    );
+    assert_eq!(master.upload(Address::new(0x1008, 0)), Ok(text.to_vec()));
     drop(master);
     let begins: Vec<u8> = slave.heard.iter().map(|request| request[0] >> 5).collect();
     assert_eq!(

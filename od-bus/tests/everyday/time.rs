@@ -23,7 +23,7 @@ fn running() -> Bus {
     let mut link = OnBench(&mut bus);
     let mut master = Master::new(&mut link, id(5));
     let timer = Address::new(0x1800, 5);
-    assert_eq!(master.download(timer, &[50, 0]), Ok(Ok(())));
+    assert_eq!(master.download(timer, &[50, 0]), Ok(()));
     drop(master);
     link.send(&nmt::frame(Some(id(5)), Command::Start))
         .expect("a link");

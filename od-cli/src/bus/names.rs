@@ -1,7 +1,7 @@
 //! Names and types of the nodes on a bus.
 
 use od_bench::VirtualDevice;
-use od_bus::fault::Fault;
+use od_bus::Error;
 use od_bus::link::Link;
 use od_bus::master::Master;
 use od_devices::DEVICES;
@@ -76,14 +76,14 @@ impl Names {
 
     /// Returns the dictionary of a node: the file for its ID, else the file or built-in device that matches its
     /// identity (1018h).
-    pub(crate) fn of<L: Link>(&self, master: &mut Master<L>) -> Result<Option<Known<'_>>, Fault> {
+    pub(crate) fn of<L: Link>(&self, master: &mut Master<L>) -> Result<Option<Known<'_>>, Error> {
         if let Some(known) = self.given(master.node()) {
             return Ok(Some(known));
         }
         let mut identity = [None; 4];
         for (part, sub) in identity.iter_mut().zip(1..=3) {
             // A node without 1018h has no names. A silent node is reported at the first read.
-            let read = master.upload(Address::new(0x1018, sub))?;
+            let read = Error::or_abort(master.upload(Address::new(0x1018, sub)))?;
             let bytes = read.ok().and_then(|bytes| bytes.as_slice().try_into().ok());
             *part = bytes.map(u32::from_le_bytes);
             if part.is_none() {

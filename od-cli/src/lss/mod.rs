@@ -2,6 +2,7 @@
 
 mod wizard;
 
+use od_bus::Error;
 use od_bus::lss::{Lss, Slaves};
 use od_bus::master::Master;
 use od_bus::scan::Options;
@@ -122,7 +123,7 @@ impl Slave {
             let mut master = Master::new(bus, node);
             let mut parts = [0; 4];
             for (part, sub) in parts.iter_mut().zip(1..) {
-                let read = master.upload(Address::new(0x1018, sub))?;
+                let read = Error::or_abort(master.upload(Address::new(0x1018, sub)))?;
                 let bytes = read.ok().and_then(|bytes| bytes.as_slice().try_into().ok());
                 *part = bytes.map(u32::from_le_bytes).ok_or_else(|| {
                     let why = "has no LSS address: 1018h lacks a number";

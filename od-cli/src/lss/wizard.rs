@@ -6,7 +6,7 @@ use std::sync::atomic::Ordering;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::time::Duration;
 
-use od_bus::fault::Fault;
+use od_bus::Error;
 use od_bus::lss::Lss;
 use od_bus::scan::{self, Options};
 use od_client::lss::Identity;
@@ -108,7 +108,7 @@ fn answer(answers: &Receiver<String>) -> Result<Option<String>, Failure> {
             Err(RecvTimeoutError::Disconnected) => return Ok(None),
             Err(RecvTimeoutError::Timeout) if stop.load(Ordering::Relaxed) => {
                 output::note_text("\n");
-                return Err(Failure::from(Fault::Interrupted));
+                return Err(Failure::from(Error::Interrupted));
             }
             Err(RecvTimeoutError::Timeout) => {}
         }

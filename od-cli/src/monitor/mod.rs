@@ -6,7 +6,7 @@ mod stats;
 use std::io::IsTerminal;
 use std::path::PathBuf;
 
-use od_bus::fault::Fault;
+use od_bus::Error;
 use od_bus::filter::Filter;
 use od_bus::link::Link;
 use od_wire::Instant;
@@ -101,7 +101,7 @@ fn plain(
         }
         let heard = match bus.receive(until) {
             Ok(Some(heard)) if heard.at <= until => heard,
-            Ok(_) | Err(Fault::Interrupted) => break Ok(()),
+            Ok(_) | Err(Error::Interrupted) => break Ok(()),
             Err(fault) => break Err(fault.into()),
         };
         if let Some(recorder) = &mut recorder {

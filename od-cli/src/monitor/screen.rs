@@ -10,7 +10,7 @@ use crossterm::style::Print;
 use crossterm::terminal::{self, Clear, ClearType, EnterAlternateScreen, LeaveAlternateScreen};
 use crossterm::{cursor, execute, queue};
 use od_bench::words::Service;
-use od_bus::fault::Fault;
+use od_bus::Error;
 use od_bus::filter::{Filter, Seen};
 use od_bus::link::Link;
 use od_model::Visible;
@@ -111,7 +111,7 @@ pub(super) fn run(
                 }
             }
             Ok(None) => {}
-            Err(Fault::Interrupted) => return Ok(()),
+            Err(Error::Interrupted) => return Ok(()),
             Err(fault) => return Err(fault.into()),
         }
         let now = bus.now();

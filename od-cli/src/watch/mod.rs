@@ -6,7 +6,7 @@ use std::fs::File;
 use std::io::{BufWriter, IsTerminal, Write};
 use std::path::PathBuf;
 
-use od_bus::fault::Fault;
+use od_bus::Error;
 use od_bus::master::Master;
 use od_bus::objects::{self, Asked};
 use od_bus::watch::{self, By, Sample, Source};
@@ -169,7 +169,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     }
     match (failed, watched) {
         (Some(failure), _) => Err(failure),
-        (None, Ok(()) | Err(Fault::Interrupted)) => Ok(()),
+        (None, Ok(()) | Err(Error::Interrupted)) => Ok(()),
         (None, Err(fault)) => Err(fault.into()),
     }
 }

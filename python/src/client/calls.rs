@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, Mutex, MutexGuard};
 
-use od_bus::fault::Fault;
+use od_bus::Error;
 use od_bus::link::Link;
 use od_bus::lss::{Lss, Slaves};
 use od_bus::scan::{Options, scan};
@@ -44,7 +44,7 @@ impl Client {
     pub(crate) fn with<T>(
         &self,
         py: Python<'_>,
-        act: impl FnOnce(&mut Core) -> Result<T, Fault>,
+        act: impl FnOnce(&mut Core) -> Result<T, Error>,
     ) -> PyResult<T> {
         let mut guard = self.lock(py);
         let core = guard

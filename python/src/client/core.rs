@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
 
-use od_bus::fault::Fault;
+use od_bus::Error;
 use od_bus::link::{Heard, Link};
 use od_client::emcy::Emcy;
 use od_client::sdo::{Options, SdoError};
@@ -67,7 +67,7 @@ impl Core {
         node: NodeId,
         address: Address,
         data_type: Option<DataType>,
-    ) -> Result<Result<Vec<u8>, SdoError>, Fault> {
+    ) -> Result<Result<Vec<u8>, SdoError>, Error> {
         let job = match data_type {
             Some(data_type) => self.client.read_as(node, address, data_type),
             None => self.client.read(node, address),
@@ -85,7 +85,7 @@ impl Core {
         node: NodeId,
         address: Address,
         bytes: &[u8],
-    ) -> Result<Result<(), SdoError>, Fault> {
+    ) -> Result<Result<(), SdoError>, Error> {
         let job = self.client.write(node, address, bytes);
         loop {
             if let Event::Written(_, result) = self.end(job)? {
@@ -98,7 +98,7 @@ impl Core {
     pub(crate) fn read_mapping(
         &mut self,
         node: NodeId,
-    ) -> Result<Result<Vec<u16>, (Address, SdoError)>, Fault> {
+    ) -> Result<Result<Vec<u16>, (Address, SdoError)>, Error> {
         let mut found = Vec::new();
         for number in 0..0x200_u16 {
             let cob_id = match self.number(node, Address::new(0x1800 + number, 1))? {
@@ -141,7 +141,7 @@ impl Core {
         &mut self,
         node: NodeId,
         address: Address,
-    ) -> Result<Result<Option<u32>, (Address, SdoError)>, Fault> {
+    ) -> Result<Result<Option<u32>, (Address, SdoError)>, Error> {
         Ok(match self.upload(node, address, None)? {
             Ok(bytes) if bytes.len() <= 4 => {
                 let bytes = bytes.iter().rev();
@@ -160,7 +160,7 @@ impl Core {
         node: Option<NodeId>,
         command: Command,
         wait: Duration,
-    ) -> Result<Option<State>, Fault> {
+    ) -> Result<Option<State>, Error> {
         let wanted = match command {
             Command::Start => State::Operational,
             Command::Stop => State::Stopped,
@@ -180,7 +180,7 @@ impl Core {
         &mut self,
         until: Instant,
         mut found: impl FnMut(&Heard) -> Option<T>,
-    ) -> Result<Option<T>, Fault> {
+    ) -> Result<Option<T>, Error> {
         loop {
             self.send()?;
             let next = self
@@ -216,7 +216,7 @@ impl Core {
     }
 
     /// Handles the frames received so far.
-    pub(crate) fn catch_up(&mut self) -> Result<(), Fault> {
+    pub(crate) fn catch_up(&mut self) -> Result<(), Error> {
         while let Some(heard) = self.line.receive(Instant::ZERO)? {
             self.hear(&heard);
         }
@@ -238,9 +238,9 @@ impl Core {
     }
 
     /// Waits for the end of a job. If the program is to stop, the transfer is aborted.
-    fn end(&mut self, job: Job) -> Result<Event, Fault> {
+    fn end(&mut self, job: Job) -> Result<Event, Error> {
         let event = self.wait();
-        if matches!(event, Err(Fault::Interrupted)) {
+        if matches!(event, Err(Error::Interrupted)) {
             let now = self.line.now();
             self.client.cancel(now, job);
             while let Some(frame) = self.client.poll_transmit(now) {
@@ -250,7 +250,7 @@ impl Core {
         event
     }
 
-    fn wait(&mut self) -> Result<Event, Fault> {
+    fn wait(&mut self) -> Result<Event, Error> {
         loop {
             self.send()?;
             if let Some(event) = self.next_end() {
@@ -264,7 +264,7 @@ impl Core {
         }
     }
 
-    fn send(&mut self) -> Result<(), Fault> {
+    fn send(&mut self) -> Result<(), Error> {
         while let Some(frame) = self.client.poll_transmit(self.line.now()) {
             self.line.send(&frame)?;
         }

@@ -1,6 +1,6 @@
 //! Errors on a bus, as Python exceptions.
 
-use od_bus::fault::Fault;
+use od_bus::Error;
 use od_client::sdo::SdoError;
 use od_model::Address;
 use od_wire::{AbortCode, NodeId};
@@ -22,12 +22,12 @@ create_exception!(
 );
 
 /// The exception of a fault.
-pub(crate) fn raised(fault: Fault) -> PyErr {
+pub(crate) fn raised(fault: Error) -> PyErr {
     match fault {
-        Fault::Usage(text) => PyValueError::new_err(text),
-        Fault::Link(text) => PyOSError::new_err(text),
-        Fault::Node(text) => NodeError::new_err(text),
-        Fault::Interrupted => PyKeyboardInterrupt::new_err(()),
+        Error::Usage(text) => PyValueError::new_err(text),
+        Error::Link(text) => PyOSError::new_err(text),
+        Error::Node(text) => NodeError::new_err(text),
+        Error::Interrupted => PyKeyboardInterrupt::new_err(()),
         other => PyOSError::new_err(other.to_string()),
     }
 }

@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
+use od_bus::Error;
 use od_bus::conform::rig::Rig;
-use od_bus::fault::Fault;
 use od_bus::link::{Heard, Link};
 use od_bus::links;
 use od_wire::{Frame, Instant};
@@ -55,7 +55,7 @@ impl Line {
     }
 
     /// The exception of a fault: the one that Python raised during the wait, if any.
-    pub(crate) fn raised(&mut self, fault: Fault) -> PyErr {
+    pub(crate) fn raised(&mut self, fault: Error) -> PyErr {
         let own = match self {
             Self::Wire(one) => one.raised.take(),
             Self::Bus(one) => one.raised.take(),
@@ -74,7 +74,7 @@ impl Link for Line {
         }
     }
 
-    fn send(&mut self, frame: &Frame) -> Result<(), Fault> {
+    fn send(&mut self, frame: &Frame) -> Result<(), Error> {
         match self {
             Self::Wire(one) => one.send(frame),
             Self::Bus(one) => one.send(frame),
@@ -82,7 +82,7 @@ impl Link for Line {
         }
     }
 
-    fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Fault> {
+    fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Error> {
         let (link, error) = match self {
             Self::Wire(one) => return one.receive(until),
             Self::Bus(one) => return one.receive(until),
@@ -97,7 +97,7 @@ impl Link for Line {
                 }
                 if let Err(why) = py.check_signals() {
                     *error = Some(why);
-                    return Err(Fault::Interrupted);
+                    return Err(Error::Interrupted);
                 }
             }
         })
@@ -109,7 +109,7 @@ impl Rig for Line {
         matches!(self, Self::Wire(_))
     }
 
-    fn power(&mut self, on: bool) -> Result<(), Fault> {
+    fn power(&mut self, on: bool) -> Result<(), Error> {
         if let Self::Wire(one) = self {
             let mut state = one.wire.lock();
             for device in 0..state.bus.devices().len() {

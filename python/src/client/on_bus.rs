@@ -3,7 +3,7 @@
 use std::time::Instant as Clock;
 
 use od_bench::journal::frame;
-use od_bus::fault::Fault;
+use od_bus::Error;
 use od_bus::link::{Heard, Link};
 use od_wire::{Frame, Instant};
 use pyo3::prelude::*;
@@ -68,10 +68,10 @@ impl OnBus {
         }
     }
 
-    fn or_raised<T>(&mut self, done: PyResult<T>) -> Result<T, Fault> {
+    fn or_raised<T>(&mut self, done: PyResult<T>) -> Result<T, Error> {
         done.map_err(|error| {
             self.raised = Some(error);
-            Fault::Interrupted
+            Error::Interrupted
         })
     }
 }
@@ -82,12 +82,12 @@ impl Link for OnBus {
         Instant::from_micros(u64::try_from(micros).unwrap_or(u64::MAX))
     }
 
-    fn send(&mut self, frame: &Frame) -> Result<(), Fault> {
+    fn send(&mut self, frame: &Frame) -> Result<(), Error> {
         let sent = Python::attach(|py| self.send_now(py, frame));
         self.or_raised(sent)
     }
 
-    fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Fault> {
+    fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Error> {
         let taken = Python::attach(|py| self.taken(py, until));
         self.or_raised(taken)
     }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use od_bench::logs::What;
-use od_bus::fault::Fault;
+use od_bus::Error;
 use od_bus::link::{Heard, Link};
 use od_wire::{Frame, Instant};
 use pyo3::prelude::*;
@@ -70,10 +70,10 @@ impl OnWire {
         Ok(())
     }
 
-    fn or_raised<T>(&mut self, done: PyResult<T>) -> Result<T, Fault> {
+    fn or_raised<T>(&mut self, done: PyResult<T>) -> Result<T, Error> {
         done.map_err(|error| {
             self.raised = Some(error);
-            Fault::Interrupted
+            Error::Interrupted
         })
     }
 }
@@ -83,12 +83,12 @@ impl Link for OnWire {
         self.wire.lock().now()
     }
 
-    fn send(&mut self, frame: &Frame) -> Result<(), Fault> {
+    fn send(&mut self, frame: &Frame) -> Result<(), Error> {
         let sent = Python::attach(|py| self.send_now(py, frame));
         self.or_raised(sent)
     }
 
-    fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Fault> {
+    fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Error> {
         loop {
             let heard = self.taken();
             if heard.is_some() || until <= self.now() {
