@@ -1,10 +1,10 @@
 //! CANopen device descriptions as text (CiA 306-1, CiA 311): read, check, fix, patch, compare, write.
 //!
-//! Needs `alloc`, not `std`: text in, text out, no files.
+//! It needs `alloc`, not `std`: it takes and returns text and uses no files.
 //!
-//! [`parse`] never fails: it returns the parts that it understood, and a finding for
-//! everything else, each with its place in the text. It keeps text that is not a valid
-//! value in `extra`, so that [`write()`] loses nothing.
+//! [`parse`] never fails: it returns the parts that it could read, and a finding for
+//! everything else, each with its place in the text. It keeps invalid values as text
+//! in `extra`, so that [`write()`] loses nothing.
 //!
 //! ```
 //! use od_eds::Value;

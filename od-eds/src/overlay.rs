@@ -1,17 +1,17 @@
-//! An overlay: an EDS with nothing in it but what a variant says otherwise.
+//! An overlay: an EDS with only the differences of a variant.
 //!
 //! ```text
-//! [6001]                     ; what is there: these keys take the place of the base's
+//! [6001]                     ; existing: these keys replace those of the base
 //! DefaultValue=0x1000
-//! [2300]                     ; what is not to be there
+//! [2300]                     ; removed
 //! Remove=1
-//! [5000]                     ; what is new: a whole section, as in any EDS
+//! [5000]                     ; new: a whole section, as in any EDS
 //! ParameterName=Mine
 //! DataType=0x0007
 //! AccessType=rw
 //! ```
-//! The two become one text, so every rule of the reader and of the checks holds for it, and
-//! every finding has the place in the file that it comes from.
+//! Both become one text, so every rule of the reader and of the checks applies to it, and
+//! every finding has its place in the original file.
 
 use alloc::collections::BTreeSet;
 use alloc::format;
@@ -37,14 +37,14 @@ pub enum Origin {
 pub struct Overlaid {
     /// The text, for [`parse`](crate::parse()) or [`load`](crate::load).
     pub text: String,
-    /// For each of its lines: the file, the line there from 1, and the byte where that begins.
+    /// For each of its lines: the file, the line number there from 1, and the byte where the line begins.
     lines: Vec<(Origin, u32, u32)>,
     /// Byte where each line of `text` begins.
     starts: Vec<u32>,
 }
 
 impl Overlaid {
-    /// The file of a place in the text, and the place there.
+    /// Converts a place in the text into a file and the place there.
     pub fn locate(&self, span: Span) -> (Origin, Span) {
         let at = (span.line as usize).saturating_sub(1);
         let (Some((origin, line, byte)), Some(start)) = (self.lines.get(at), self.starts.get(at))
@@ -61,8 +61,8 @@ impl Overlaid {
         (*origin, span)
     }
 
-    /// A finding of the text as one of the file that it is about. Second places in the other
-    /// file are left out, and so is a fix: it would have to change two files.
+    /// Converts a finding of the text into one of its file. Second places in the other
+    /// file are left out, and so is a fix that would have to change both files.
     pub fn place(&self, mut finding: Finding) -> (Origin, Finding) {
         let Place::Text(span) = finding.place else {
             return (Origin::Base, finding);
@@ -82,7 +82,7 @@ impl Overlaid {
 /// Lays an overlay over a base.
 ///
 /// # Errors
-/// Objects and sections that the overlay removes and the base lacks, a sentence each, with the line of the
+/// Objects and sections that the overlay removes but the base lacks: a sentence each, with the line of the
 /// overlay.
 pub fn overlay(base: &str, overlay: &str) -> Result<Overlaid, Vec<(u32, String)>> {
     let mut sections = read(base, Origin::Base);
@@ -116,7 +116,7 @@ pub fn overlay(base: &str, overlay: &str) -> Result<Overlaid, Vec<(u32, String)>
     Ok(join(&sections))
 }
 
-/// A line and where it comes from.
+/// A line and its origin.
 #[derive(Clone, Debug)]
 struct Line<'t> {
     text: alloc::borrow::Cow<'t, str>,
@@ -138,7 +138,7 @@ impl Line<'_> {
     }
 }
 
-/// A header and the lines below it; the first one of a text has no header.
+/// A header and the lines below it; the first part of a text has no header.
 #[derive(Clone, Debug)]
 struct Part<'t> {
     name: String,
@@ -158,7 +158,7 @@ impl<'t> Part<'t> {
         })
     }
 
-    /// An object goes with its members and lists.
+    /// An object is removed with its members and lists.
     fn removes(&self, other: &Part<'_>) -> bool {
         other.is(&self.name)
             || self.name.len() == 4
@@ -166,7 +166,7 @@ impl<'t> Part<'t> {
                 && object_of(&other.name) == object_of(&self.name)
     }
 
-    /// Keys of the overlay replace the same keys; others come at the end.
+    /// Keys of the overlay replace the same keys; others are added at the end.
     fn take_over(&mut self, overlay: Part<'t>) {
         for line in overlay.lines.into_iter().skip(1) {
             let key = line.key().map(ToString::to_string);
@@ -193,7 +193,7 @@ fn read(text: &str, origin: Origin) -> Vec<Part<'_>> {
     let mut byte = 0;
     for (number, piece) in (1..).zip(with_ends(text)) {
         let line = Line {
-            // Another line may follow, whose first character would make `\r\n` of it.
+            // The next line could begin with a character that completes `\r\n`.
             text: match piece.strip_suffix('\r') {
                 Some(line) => format!("{line}\n").into(),
                 None => piece.into(),
@@ -220,13 +220,13 @@ fn read(text: &str, origin: Origin) -> Vec<Part<'_>> {
     parts
 }
 
-/// The indices that have a section of their own.
+/// The indices with a section of their own.
 fn objects(parts: &[Part<'_>]) -> BTreeSet<u16> {
     let whole = parts.iter().filter(|part| part.name.len() == 4);
     whole.filter_map(|part| object_of(&part.name)).collect()
 }
 
-/// The three lists with the objects that came or went; each line has the place of the list's header.
+/// The three lists with added and removed objects; each line has the place of the list's header.
 fn list(parts: &mut Vec<Part<'_>>, objects: &BTreeSet<u16>) {
     for list in List::ALL {
         let own: Vec<u16> = objects
@@ -270,7 +270,7 @@ fn list(parts: &mut Vec<Part<'_>>, objects: &BTreeSet<u16>) {
 fn join(parts: &[Part<'_>]) -> Overlaid {
     let mut made = Overlaid::default();
     for line in parts.iter().flat_map(|part| &part.lines) {
-        // The last line of a file may have no end; another one follows now.
+        // The last line of a file may have no end, but another line follows now.
         if !made.text.is_empty() && !made.text.ends_with('\n') {
             made.text.push('\n');
         }

@@ -1,4 +1,4 @@
-//! A document with its fixes applied: round by round, all that do no harm.
+//! Applies the fixes of a document round by round, except harmful ones.
 
 use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::string::String;
@@ -13,13 +13,13 @@ use crate::document::{Document, Edit, EditError};
 use crate::finding::Finding;
 use crate::scan::encoding::Encoding;
 
-/// Limit of rounds: a fix may make room for the next one.
+/// Limit of rounds: a fix may make another one possible.
 const ROUNDS: usize = 64;
 /// Limit of runs over all rounds.
 const RUNS: usize = 8;
-/// Limit of documents that are read again to find the fixes that do harm.
+/// Limit of documents that are read again to find harmful fixes.
 const TRIALS: usize = 1000;
-/// Rounds that are remembered to see that fixes undo each other.
+/// Rounds that are remembered to detect fixes that undo each other.
 const PAST: usize = 8;
 
 /// A document after [`fix`].
@@ -29,18 +29,18 @@ pub struct Fixed {
     pub document: Document,
     /// Number of places that were edited.
     pub edits: usize,
-    /// Findings that are left.
+    /// Remaining findings.
     pub findings: Vec<Finding>,
-    /// Fixes that were not applied, each with its finding in the document as it is now or was.
+    /// Fixes that were not applied, each with its finding in the present or an earlier document.
     pub held: Vec<Held>,
 }
 
 /// A fix that was not applied.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Held {
-    /// The finding that it belongs to.
+    /// Its finding.
     pub finding: Finding,
-    /// The harm that it would do.
+    /// The reason.
     pub why: Why,
 }
 
@@ -57,8 +57,8 @@ pub enum Why {
 
 /// Applies the fixes of a document up to `level`; `find` returns its findings.
 ///
-/// A second run finds nothing to do. Every line without an edit keeps its bytes. A fix that
-/// would add an error, or that would not remove its finding, is held back; the others are applied.
+/// A second run changes nothing. Every line without an edit keeps its bytes. A fix that
+/// would add an error, or that would not remove its finding, is left out; the others are applied.
 pub fn fix(
     document: &Document,
     level: Applicability,
@@ -70,7 +70,7 @@ pub fn fix(
         edits: 0,
     };
     let mut held = Vec::new();
-    // What was held back may do no harm once the others are applied: the last run changes nothing.
+    // A fix that was left out may be harmless after the others: repeat until a run changes nothing.
     for _ in 0..RUNS {
         let before = state.edits;
         let mut run = Run {
@@ -106,7 +106,7 @@ impl State {
         errors(&self.findings).count()
     }
 
-    /// Were there too many findings of some rule to show all of them?
+    /// Returns whether a rule has too many findings to show all of them.
     fn is_capped(&self) -> bool {
         self.findings.iter().any(|one| one.code() == "W0116")
     }
@@ -116,7 +116,7 @@ fn errors(findings: &[Finding]) -> impl Iterator<Item = &Finding> {
     findings.iter().filter(|finding| finding.is_error())
 }
 
-/// The same fault at the same object, or in the same section, wherever in the text.
+/// The same problem at the same object or in the same section, wherever in the text.
 type Fault = (&'static str, Option<Address>, Vec<u8>, String);
 
 impl State {
@@ -129,14 +129,14 @@ impl State {
         (finding.code(), finding.object, section.to_vec(), said)
     }
 
-    /// Counts each fault.
+    /// Counts each problem.
     fn counts<'a>(&self, findings: impl Iterator<Item = &'a Finding>) -> BTreeMap<Fault, usize> {
         let mut counts = BTreeMap::new();
         findings.for_each(|finding| *counts.entry(self.fault(finding)).or_default() += 1);
         counts
     }
 
-    /// The name of the section that a place is in; empty where it is far above.
+    /// The name of the section at a position; empty if the header is far above.
     fn section(&self, at: usize) -> &[u8] {
         const FAR: usize = 4096;
         let bytes = self.document.text().as_bytes();
@@ -162,7 +162,7 @@ enum Refusal {
 struct Run<'f> {
     find: &'f dyn Fn(&Document) -> Vec<Finding>,
     held: Vec<Held>,
-    /// Faults whose fixes are held back.
+    /// Problems whose fixes are left out.
     refused: BTreeSet<Fault>,
     trials: usize,
 }
@@ -182,7 +182,7 @@ impl Run<'_> {
             let held = self.held.len();
             let (made, next) = self.make(&state, choices);
             let Some(next) = next else {
-                // All of them were held back; what they were in the way of may be next.
+                // All of them were left out; fixes that they blocked may come next.
                 debug_assert!(self.held.len() > held);
                 continue;
             };
@@ -203,7 +203,7 @@ impl Run<'_> {
             state = match seen {
                 None => next,
                 Some(at) => {
-                    // Fixes that undo each other: the document stays as it was before the first.
+                    // If fixes undo each other, the document stays as it was before the first of them.
                     let circle: Vec<_> = past.drain(at..).collect();
                     for (old, faults) in &circle {
                         for finding in &old.findings {
@@ -232,7 +232,7 @@ impl Run<'_> {
         }
     }
 
-    /// Applies as many of the fixes as do no harm, and returns which.
+    /// Applies as many harmless fixes as possible, and returns which.
     fn make(&mut self, base: &State, choices: Vec<Choice>) -> (Vec<Choice>, Option<State>) {
         let mut made: (Vec<Choice>, Option<State>) = (Vec::new(), None);
         let mut sets = alloc::vec![choices];
@@ -287,7 +287,7 @@ impl Run<'_> {
         made
     }
 
-    /// The document with these fixes; `before` is the one with all of them that were applied.
+    /// The document with these fixes; `before` is the document with all applied fixes.
     fn attempt(&self, base: &State, before: &State, choices: &[&Choice]) -> Result<State, Refusal> {
         let edits = choices.iter().flat_map(|choice| &choice.edits);
         let edits: Vec<Edit> = edits

@@ -1,8 +1,8 @@
 //! Fixes: edits of the text that touch no other line.
 //!
-//! A check says what to write and where ([`Fix`]); [`plan`] turns the fixes of a text
-//! into plain replacements that do not meet, and [`fix`] applies them to a
-//! document, round by round until there is nothing left to do. What no edit is about
+//! A check tells what to write and where ([`Fix`]); [`plan`] turns the fixes of a text
+//! into replacements that do not overlap, and [`fix`] applies them to a
+//! document, round by round until none are left. Text without an edit
 //! keeps its bytes, whatever the encoding and the line ends.
 //!
 //! ```
@@ -25,7 +25,7 @@ mod plan;
 pub use fixed::{Fixed, Held, Why, fix};
 pub use plan::{TextEdit, apply, plan};
 
-/// May a fix be applied without looking at it?
+/// Whether a fix may be applied without a review.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 #[cfg_attr(
     feature = "serde",
@@ -33,17 +33,17 @@ pub use plan::{TextEdit, apply, plan};
     serde(rename_all = "lowercase")
 )]
 pub enum Applicability {
-    /// It says to every reader what odkit read before.
+    /// The meaning of the file does not change.
     Safe,
-    /// It changes what the file says, in the way that is most likely meant.
+    /// It changes the meaning of the file, in the way that is most likely intended.
     Unsafe,
 }
 
-/// The edits that remove one finding: all of them together, or none.
+/// The edits that remove one finding; either all of them are applied or none.
 #[derive(Clone, PartialEq, Eq, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Fix {
-    /// May it be applied without looking at it?
+    /// Whether it may be applied without a review.
     pub applicability: Applicability,
     /// Edits of the text.
     pub edits: Vec<Edit>,
@@ -53,15 +53,15 @@ pub struct Fix {
 #[derive(Clone, PartialEq, Eq, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Edit {
-    /// The stretch of text that it is about.
+    /// The text to edit.
     pub span: Span,
-    /// Action on that text.
+    /// What to do with that text.
     pub action: Action,
     /// Text to write, `\n` for the line end of the file.
     pub text: String,
 }
 
-/// Action of an edit on its span.
+/// What an edit does with its span.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[cfg_attr(
     feature = "serde",
@@ -69,23 +69,23 @@ pub struct Edit {
     serde(rename_all = "kebab-case")
 )]
 pub enum Action {
-    /// The text takes the place of the span.
+    /// The text replaces the span.
     Replace,
-    /// The text makes lines of its own above the line of the span.
+    /// The text becomes new lines above the line of the span.
     InsertAbove,
-    /// The text makes lines of its own below the line of the span.
+    /// The text becomes new lines below the line of the span.
     InsertBelow,
-    /// The line of the span goes, with its line end.
+    /// The line of the span is removed, with its line end.
     RemoveLine,
 }
 
 impl Fix {
-    /// A fix that needs no second look; edits are added to it.
+    /// A fix that needs no review; edits are added to it.
     pub const fn safe() -> Self {
         Self::new(Applicability::Safe)
     }
 
-    /// A fix to be reviewed; edits are added to it.
+    /// A fix that needs a review; edits are added to it.
     pub const fn unsafe_fix() -> Self {
         Self::new(Applicability::Unsafe)
     }
@@ -115,7 +115,7 @@ impl Fix {
         self.edit(span, Action::InsertAbove, text)
     }
 
-    /// Makes a comment of a line.
+    /// Turns a line into a comment.
     #[must_use]
     pub(crate) fn comment_out(self, line: Span) -> Self {
         let start = Span {

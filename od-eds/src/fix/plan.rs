@@ -1,4 +1,4 @@
-//! From fixes to replacements that do not meet.
+//! Turns fixes into replacements that do not overlap.
 
 use alloc::string::String;
 use alloc::vec::Vec;
@@ -6,20 +6,20 @@ use alloc::vec::Vec;
 use super::{Action, Applicability, Edit, Fix};
 use crate::finding::Finding;
 
-/// A stretch of the text, and what takes its place.
+/// A range of the text, and its replacement.
 #[derive(Clone, PartialEq, Eq, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct TextEdit {
     /// First byte, counted from 0.
     pub start: u32,
-    /// The byte behind the last one; `start` where nothing is replaced.
+    /// The byte after the last one; `start` if nothing is replaced.
     pub end: u32,
     /// Text to write there, with the line ends of the file.
     pub text: String,
 }
 
 impl TextEdit {
-    /// Would the result depend on which of the two is made first?
+    /// Returns whether the result depends on the order of the two.
     fn meets(&self, other: &Self) -> bool {
         match (self.start == self.end, other.start == other.end) {
             // Two insertions keep their order.
@@ -31,7 +31,7 @@ impl TextEdit {
     }
 }
 
-/// A fix that is to be applied.
+/// A fix to apply.
 pub(super) struct Choice {
     /// Index of its finding.
     pub(super) finding: usize,
@@ -40,7 +40,7 @@ pub(super) struct Choice {
 
 /// The replacements of all fixes that can be applied at once, in the order of the text.
 ///
-/// Of two fixes that meet, the first is applied; the other is for the next round.
+/// Of two overlapping fixes the first is applied, the other in the next round.
 pub fn plan(text: &str, findings: &[Finding], level: Applicability) -> Vec<TextEdit> {
     let chosen = choose(text, findings, level, |_| true).into_iter();
     let mut planned: Vec<TextEdit> = chosen.flat_map(|choice| choice.edits).collect();
@@ -48,7 +48,7 @@ pub fn plan(text: &str, findings: &[Finding], level: Applicability) -> Vec<TextE
     planned
 }
 
-/// The fixes that can be applied at once, of the findings that `may` be fixed.
+/// The fixes that can be applied at once, for findings that `may` be fixed.
 pub(super) fn choose(
     text: &str,
     findings: &[Finding],
@@ -66,7 +66,7 @@ pub(super) fn choose(
             continue;
         };
         edits.retain(|edit| text.get(edit.start as usize..edit.end as usize) != Some(&edit.text));
-        // Sorted, and apart from each other: only the neighbours count.
+        // They are sorted and do not overlap, so only the neighbours count.
         let near = |edit: &TextEdit| {
             let from = planned.partition_point(|other| other.end < edit.start);
             let end = edit.end;
@@ -80,7 +80,7 @@ pub(super) fn choose(
             continue;
         }
         for edit in &edits {
-            // Sorted by place; behind what was put there before.
+            // Sorted by position; after earlier insertions at the same one.
             let key = (edit.start, edit.end);
             let at = planned.partition_point(|other| (other.start, other.end) <= key);
             planned.insert(at, edit.clone());
@@ -91,15 +91,15 @@ pub(super) fn choose(
 }
 
 impl Fix {
-    /// The plain replacements in `text`, which is the one that the finding is about.
+    /// The replacements in `text`, which must be the text of the finding.
     ///
-    /// `None` if it is another.
+    /// `None` if it is another text.
     pub fn text_edits(&self, text: &str) -> Option<Vec<TextEdit>> {
         self.edits.iter().map(|edit| place(edit, text)).collect()
     }
 }
 
-/// Does a run of this level fix the finding?
+/// Returns whether a run of this level fixes the finding.
 fn applies(finding: &Finding, level: Applicability) -> Option<&Fix> {
     finding
         .fix
@@ -107,7 +107,7 @@ fn applies(finding: &Finding, level: Applicability) -> Option<&Fix> {
         .filter(|fix| fix.applicability <= level)
 }
 
-/// The text with these edits, which are sorted and do not meet, as [`plan`] gives them.
+/// The text with these edits, which are sorted and do not overlap, as returned by [`plan`].
 pub fn apply(text: &str, edits: &[TextEdit]) -> String {
     let mut out = String::with_capacity(text.len());
     let mut at = 0;
@@ -125,7 +125,7 @@ fn place(edit: &Edit, text: &str) -> Option<TextEdit> {
     let (start, end) = (edit.span.start as usize, edit.span.end as usize);
     let (before, _, behind) = (text.get(..start)?, text.get(start..end)?, text.get(end..)?);
     let is_end = |c: char| matches!(c, '\n' | '\r');
-    // A mark before the text belongs to no line.
+    // A byte order mark belongs to no line.
     let mark = text.len() - text.trim_start_matches('\u{FEFF}').len();
     let line_start = before.rfind(is_end).map_or(mark.min(start), |at| at + 1);
     let line_end = end + behind.find(is_end).unwrap_or(behind.len());
@@ -229,7 +229,7 @@ mod tests {
     }
 
     #[test]
-    fn of_two_that_meet_the_first_is_made() {
+    fn the_first_of_two_overlapping_fixes_is_made() {
         let text = "a=1\nb=2\n";
         let (one, two) = (span(text, "1"), span(text, "2"));
         check(
@@ -259,7 +259,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_nowhere_is_not_edited() {
+    fn a_fix_without_a_place_is_not_made() {
         assert_eq!(finding(Fix::safe()).fix, None);
         let nowhere = Fix::safe().replace(Span::default(), "x");
         assert_eq!(finding(nowhere).fix, None);

@@ -1,4 +1,4 @@
-//! A concise DCF: the writes that configure a node, as 1F22h has them (CiA 302-2).
+//! A concise DCF: the writes that configure a node, in the form of 1F22h (CiA 302-2).
 
 use alloc::format;
 use alloc::vec::Vec;
@@ -10,7 +10,7 @@ use od_model::{Address, DataType, Kind, Refused};
 pub struct Write {
     /// The object.
     pub address: Address,
-    /// Its value, as an SDO carries it.
+    /// Its value, in the encoding of an SDO.
     pub data: Vec<u8>,
 }
 
@@ -18,7 +18,7 @@ impl Write {
     /// A write of a number of this type.
     ///
     /// # Errors
-    /// The number is not one of the type, or the type has no numbers; in words.
+    /// The number is not valid for the type, or the type has no numbers; in words.
     pub fn new(address: Address, data_type: DataType, number: i128) -> Result<Self, Refused> {
         let refused = || format!("{address}: {number} is not a valid {}", data_type.name());
         let data = match (
@@ -28,7 +28,7 @@ impl Write {
         ) {
             (Kind::Real, _, Some(4)) => (number as f32).to_le_bytes().to_vec(),
             (Kind::Real, ..) => (number as f64).to_le_bytes().to_vec(),
-            // dcfgen gives a BOOLEAN the 8 bits that it has in an SDO.
+            // dcfgen writes a BOOLEAN with the 8 bits of an SDO.
             (Kind::Boolean, ..) => u8::try_from(number)
                 .map(|byte| [byte].to_vec())
                 .map_err(|_| refused())?,

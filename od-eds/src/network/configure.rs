@@ -1,4 +1,4 @@
-//! From what a project says of a node to the writes that configure it.
+//! Turns the settings of a project for a node into the writes that configure it.
 
 use alloc::format;
 use alloc::string::String;
@@ -12,9 +12,9 @@ use od_model::{Address, Refused};
 /// Settings of a project for all nodes.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Options {
-    /// Folder of the concise DCFs on the master; empty: that of the master.
+    /// Folder of the concise DCFs on the master; empty: the folder of the master's files.
     pub dcf_path: String,
-    /// Factor between a heartbeat and its consumer time.
+    /// Factor between the heartbeat time and the consumer time.
     pub heartbeat_multiplier: f64,
     /// Attempts of an SDO (1F81h).
     pub retry_factor: u32,
@@ -52,7 +52,7 @@ pub struct Configuration {
     /// PDOs from 1 on, in the order of the project.
     pub rpdo: Vec<(u16, PdoConfiguration)>,
     pub tpdo: Vec<(u16, PdoConfiguration)>,
-    /// Bits 2, 3 and 4 of 1F81h, the last one inverted; `None` has the default.
+    /// Bits 2, 3 and 4 of 1F81h, the last one inverted; `None`: the default.
     pub boot: Option<bool>,
     pub mandatory: Option<bool>,
     pub reset_communication: Option<bool>,
@@ -66,7 +66,7 @@ pub struct Configuration {
 /// Makes the writes of a node.
 ///
 /// # Errors
-/// An object is missing, or a value is not valid; in words.
+/// An object is missing or a value is invalid; in words.
 pub fn configure(
     node: &mut Node,
     wanted: &Configuration,
@@ -92,7 +92,7 @@ pub fn configure(
         (0x100D, wanted.life_time_factor),
     ] {
         let before = match index {
-            // dcfgen writes another COB-ID than the default, whatever the file says.
+            // dcfgen writes a COB-ID that differs from the default, whatever the file contains.
             0x1012 => 0x100,
             index => node.number(index, 0),
         };

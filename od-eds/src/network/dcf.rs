@@ -15,7 +15,7 @@ use crate::write::describe::section;
 use od_model::{Access, DataType, ObjectCode};
 
 /// Returns the DCF of the master: it receives each TPDO of the nodes, and sends each of their RPDOs.
-/// The nodes have the values that their writes leave ([`Node::apply`]).
+/// The nodes have the values after their writes ([`Node::apply`]).
 pub fn dcf(master: &Master, nodes: &[Node]) -> Description {
     let mut made = Description::default();
     let [vendor, product, revision, serial] = master.identity;
@@ -54,7 +54,7 @@ pub fn dcf(master: &Master, nodes: &[Node]) -> Description {
     made
 }
 
-/// The objects of CiA 301 but for PDOs.
+/// The objects of CiA 301 without the PDOs.
 fn communication(made: &mut Description, master: &Master, nodes: &[Node]) {
     use DataType::{Unsigned8, Unsigned16, Unsigned32};
     let rw = Access::Rw;
@@ -146,7 +146,7 @@ fn communication(made: &mut Description, master: &Master, nodes: &[Node]) {
     }
     let errors = ("Pre-defined error field", Unsigned32, Access::Ro);
     array(made, 0x1003, errors, (254, 0), &[]);
-    // No error yet; a master clears the list by writing 0.
+    // There is no error yet; a master clears the list by writing 0.
     if let Some(object) = made.objects.get_mut(&0x1003) {
         let count = value("Number of errors", Unsigned8, rw, unsigned(0));
         object.entries.insert(0, count);
@@ -209,7 +209,7 @@ fn communication(made: &mut Description, master: &Master, nodes: &[Node]) {
     );
 }
 
-/// The objects of CiA 302-2: which nodes there are, and how the master starts them.
+/// The objects of CiA 302-2: the list of nodes, and how the master starts them.
 fn slaves(made: &mut Description, nodes: &[Node]) {
     use DataType::{Unsigned8, Unsigned32};
     let rw = Access::Rw;

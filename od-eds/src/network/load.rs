@@ -1,4 +1,4 @@
-//! Frames that a network sends periodically, and the bus load that they make.
+//! Frames that a network sends periodically, and their bus load.
 
 use alloc::vec::Vec;
 
@@ -17,16 +17,16 @@ pub struct Frame {
     pub service: Service,
     /// CAN-ID.
     pub id: u32,
-    /// Bits on the bus line at most: with all stuff bits, and the 3 bits between frames.
+    /// Largest number of bits on the bus line: with all stuff bits, and the 3 bits between frames.
     pub bits: u32,
     /// Bytes of data.
     pub bytes: u8,
-    /// Frames per second; `None` if it is sent on an event.
+    /// Frames per second; `None` if an event triggers it.
     pub rate: Option<f64>,
 }
 
-/// Bits of a frame on the bus line at most (ISO 11898-1): of `34 + 8n` bits, or `54 + 8n` with a CAN-ID of
-/// 29 bits, each fourth can be followed by a stuff bit.
+/// Largest number of bits of a frame on the bus line (ISO 11898-1): of its `34 + 8n` bits, or `54 + 8n` with a
+/// CAN-ID of 29 bits, each fourth can be followed by a stuff bit.
 pub const fn frame_bits(is_extended: bool, bytes: u8) -> u32 {
     let data = 8 * bytes as u32;
     if is_extended {
@@ -36,8 +36,8 @@ pub const fn frame_bits(is_extended: bool, bytes: u8) -> u32 {
     }
 }
 
-/// The frames of the nodes but for SDO, EMCY and NMT, in the order of their nodes. `sync_period` is
-/// that of a SYNC producer, in microseconds; 0: none of the nodes given decides it.
+/// The frames of the nodes except SDO, EMCY and NMT, in the order of their nodes. `sync_period` is
+/// that of a SYNC producer, in microseconds; 0 if no given node decides it.
 pub fn frames(nodes: &[Node], sync_period: u32) -> Vec<Frame> {
     let mut found = Vec::new();
     let per_second = |milliseconds: f64| match milliseconds {
@@ -105,9 +105,9 @@ pub fn load(frames: &[Frame], bit_rate: u32) -> f64 {
 mod tests {
     use super::*;
 
-    /// The longest frames of the literature: 55 + 10n bits, 80 + 10n with 29 bits (Davis et al., 2007).
+    /// The longest frames in the literature: 55 + 10n bits, 80 + 10n with 29 bits (Davis et al., 2007).
     #[test]
-    fn a_frame_has_all_its_stuff_bits() {
+    fn the_length_of_a_frame_includes_all_stuff_bits() {
         for bytes in 0..=8 {
             assert_eq!(frame_bits(false, bytes), 55 + 10 * u32::from(bytes));
             assert_eq!(frame_bits(true, bytes), 80 + 10 * u32::from(bytes));

@@ -1,4 +1,4 @@
-//! The master of a network as a project has it, and its own concise DCF (CiA 302-2).
+//! The master of a network in a project, and its own concise DCF (CiA 302-2).
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -23,7 +23,7 @@ pub struct Master {
     pub time_cob_id: u32,
     pub emcy_inhibit_time: u32,
     pub heartbeat_multiplier: f64,
-    /// Does it watch the heartbeats of the nodes?
+    /// Whether it watches the heartbeats of the nodes.
     pub consumes_heartbeat: bool,
     /// Milliseconds.
     pub heartbeat_producer: u32,
@@ -56,10 +56,10 @@ impl Default for Master {
     }
 }
 
-/// Puts the writes of 1016h before those of each node: to watch the master, or not to.
+/// Inserts the writes of 1016h before those of each node: to watch the master, or not to.
 ///
 /// # Errors
-/// A value is not valid; in words.
+/// A value is invalid; in words.
 pub fn consume_heartbeats(master: &Master, nodes: &mut [Node]) -> Result<(), Refused> {
     let time = (f64::from(master.heartbeat_producer) * master.heartbeat_multiplier) as u32;
     for node in nodes {
@@ -88,7 +88,7 @@ pub fn consume_heartbeats(master: &Master, nodes: &mut [Node]) -> Result<(), Ref
     Ok(())
 }
 
-/// The writes of `master.bin`: identities that cannot be in a DCF for many masters.
+/// The writes of `master.bin`: identities, which a DCF for many masters cannot contain.
 pub fn writes(master: &Master, nodes: &[Node]) -> Vec<Write> {
     let number = |index, sub, number: u32| Write {
         address: Address::new(index, sub),

@@ -1,7 +1,7 @@
-//! A network of nodes: the concise DCF of each (1F22h, CiA 302-2), the DCF of its master, and what
-//! does not fit together.
+//! A network of nodes: the concise DCF of each node (1F22h, CiA 302-2), the DCF of its master, and
+//! contradictions between the nodes.
 //!
-//! The order of the writes and the objects of the master are those of dcfgen (dcf-tools), so that a
+//! The order of the writes and the objects of the master follow dcfgen (dcf-tools), so that a
 //! master of Lely core boots the network.
 
 mod concise;

@@ -9,7 +9,7 @@ use crate::description::Description;
 use crate::subject::start_value;
 use od_model::Address;
 
-/// A node, and the writes that configure it.
+/// A node with the writes that configure it.
 #[derive(Clone, Debug)]
 pub struct Node {
     /// Its name in the network.
@@ -20,7 +20,7 @@ pub struct Node {
     pub description: Description,
     /// The writes of its concise DCF, in their order.
     pub writes: Vec<Write>,
-    /// The file that the master reads them from (1F22h); empty without a file.
+    /// The file from which the master reads them (1F22h); empty without a file.
     pub configuration_file: String,
     /// Identity that the master expects (1F87h, 1F88h); 0: any.
     pub revision_number: u32,
@@ -28,12 +28,12 @@ pub struct Node {
     pub serial_number: u32,
     /// Factor between the heartbeat of the node and the consumer time of the master.
     pub heartbeat_multiplier: f64,
-    /// Does the node watch the heartbeat of the master?
+    /// Whether the node watches the heartbeat of the master.
     pub consumes_heartbeat: bool,
     /// Bits of 1F81h: boot, mandatory, …; with retry factor and guard time.
     pub assignment: u32,
-    /// By the index of a PDO what its partner on the master has: inhibit time, event timer, SYNC start
-    /// value, and the COB-ID, which the PDO of a project has even if it is not enabled.
+    /// Settings for the partner PDO on the master, by the index of a PDO: inhibit time, event timer, SYNC start
+    /// value, and the COB-ID, which a PDO of a project has even if it is not enabled.
     pub partners: BTreeMap<u16, [u32; 4]>,
     /// The program file of 1F58h, its version in 1F55h, and the sub-index of 1F8Ah.
     pub software: (String, u32, u8),
@@ -66,7 +66,7 @@ impl Node {
         self.description.entry(Address::new(index, sub)).is_some()
     }
 
-    /// The number that a value starts with; 0 if the file gives none.
+    /// The start value as a number; 0 if the file gives none.
     pub(super) fn number(&self, index: u16, sub: u8) -> u32 {
         let entry = self.description.entry(Address::new(index, sub));
         let number = entry
@@ -77,7 +77,7 @@ impl Node {
             .unwrap_or(0)
     }
 
-    /// A number of `[DeviceInfo]`, or else of the identity object.
+    /// A number of `[DeviceInfo]`, otherwise of the identity object.
     pub(super) fn identity(&self, key: &str, sub: u8) -> u32 {
         let info = self.description.section("DeviceInfo");
         let text = info.and_then(|info| info.get(key)).map(|text| text.trim());

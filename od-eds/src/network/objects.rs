@@ -1,4 +1,4 @@
-//! Objects of a description that is made.
+//! Makes the objects of a new description.
 
 use alloc::format;
 use alloc::string::String;
@@ -27,7 +27,7 @@ pub(super) fn var(made: &mut Description, index: u16, entry: EntryDescription) {
     made.objects.insert(index, ObjectDescription::var(entry));
 }
 
-/// An ARRAY or RECORD: the members with their sub-indices, and how many the object has.
+/// An ARRAY or RECORD: the members with their sub-indices, and their number.
 pub(super) fn members(
     made: &mut Description,
     index: u16,
@@ -49,7 +49,7 @@ pub(super) fn members(
     made.objects.insert(index, object);
 }
 
-/// An ARRAY of numbers: these, and 0 in all others.
+/// An ARRAY of numbers: the given ones, and 0 in all others.
 pub(super) fn array(
     made: &mut Description,
     index: u16,

@@ -60,7 +60,7 @@ pub(super) fn pdos(nodes: &[Node], first: u16) -> Vec<Pdo> {
     found
 }
 
-/// PDOs, and the objects that they map: one for each PDO, with a member for each value of the node.
+/// PDOs and the objects that they map: one object for each PDO, with a member for each value of the node.
 pub(super) fn applications(
     made: &mut Description,
     nodes: &[Node],
@@ -70,7 +70,7 @@ pub(super) fn applications(
     access: Access,
 ) {
     use DataType::{Unsigned8, Unsigned16, Unsigned32};
-    // A value that two PDOs of a node carry is one object.
+    // A value in two PDOs of a node is one object.
     let mut known: Vec<((usize, Address), u32)> = Vec::new();
     for (number, pdo) in (0_u16..512).zip(pdos) {
         let [transmission, inhibit_time, event_timer, sync_start] = pdo.parameters;

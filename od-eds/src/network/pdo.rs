@@ -15,7 +15,7 @@ const INVALID: u32 = 1 << 31;
 /// Appends the writes of a PDO; `next` is the next CAN-ID for PDOs without a pre-defined one.
 ///
 /// # Errors
-/// An object is missing, or a value is not valid; in words.
+/// An object is missing or a value is invalid; in words.
 pub(super) fn configure(
     node: &mut Node,
     index: u16,
@@ -141,7 +141,7 @@ fn map(
 #[derive(Clone, PartialEq, Debug, Default)]
 #[allow(missing_docs)] // the names of CiA 301
 pub struct PdoConfiguration {
-    /// `Some(None)`: one is chosen.
+    /// `Some(None)`: it is chosen automatically.
     pub cob_id: Option<Option<u32>>,
     pub transmission: Option<u32>,
     pub inhibit_time: Option<u32>,
@@ -150,6 +150,6 @@ pub struct PdoConfiguration {
     pub event_deadline: Option<u32>,
     pub sync_start: Option<u32>,
     pub mapping: Option<Vec<Address>>,
-    /// Is the PDO valid in the end?
+    /// Returns whether the PDO is valid at the end.
     pub enabled: bool,
 }

@@ -17,9 +17,9 @@ use crate::rules::network::{
 /// Bus load in percent above which frames of low priority come late.
 const HIGH: f64 = 80.0;
 
-/// Returns the findings about a network: its nodes with the values that their writes leave
-/// ([`Node::apply`]), the master among them if there is one. A master takes part in each PDO, so it is
-/// no second producer of one. `bit_rate` is in kbit/s, `sync_period` as in [`frames`].
+/// Returns the findings about a network. Its nodes, with the master if there is one, have the values after their
+/// writes ([`Node::apply`]). A master takes part in each PDO, so it does not count as
+/// a second producer. `bit_rate` is in kbit/s, `sync_period` as in [`frames`].
 pub fn check(
     nodes: &[Node],
     master: Option<usize>,
@@ -95,7 +95,7 @@ fn valid(node: &Node) -> Vec<Used> {
     let valid = used.filter(|used| used.is_valid && used.id != 0);
     valid
         .filter(|used| match used.service {
-            // A PDO that maps nothing is not on the bus.
+            // A PDO without a mapping is never sent.
             Service::Tpdo(number) => bits(node, 0x19FF + number) > 0,
             Service::Rpdo(number) => bits(node, 0x15FF + number) > 0,
             _ => true,
@@ -127,7 +127,7 @@ fn place(node: &Node, service: Service) -> String {
     format!("{service} of {}", node.name)
 }
 
-/// Does a valid PDO of the node wait for SYNC?
+/// Returns whether a valid PDO of the node waits for SYNC.
 fn is_synchronous(node: &Node, used: &[Used]) -> bool {
     used.iter().any(|used| match used.service {
         Service::Tpdo(_) | Service::Rpdo(_) => {

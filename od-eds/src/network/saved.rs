@@ -1,4 +1,4 @@
-//! The writes that make a device what its DCF says.
+//! The writes that configure a device by its DCF.
 
 use alloc::collections::BTreeSet;
 use alloc::string::String;
@@ -9,17 +9,17 @@ use super::node::Node;
 use crate::subject::start_value;
 use od_model::{Address, Refused};
 
-/// Returns the writes of all values that the DCF of a node sets (ParameterValue), in an order that a
-/// node accepts: a PDO is not valid while its mapping changes.
+/// Returns the writes of all values that the DCF of a node sets (ParameterValue), in an order that
+/// every node accepts: a PDO is not valid while its mapping changes.
 ///
 /// # Errors
-/// A value is not valid; in words.
+/// A value is invalid; in words.
 pub fn saved(node: &Node) -> Result<Vec<Write>, Refused> {
     let mut writes = Vec::new();
     let mut pdos = BTreeSet::new();
     for (address, entry) in node.description.entries() {
         let Address { index, sub } = address;
-        // Commands are not configuration.
+        // Commands are no configuration.
         let is_command = matches!(index, 0x1003 | 0x1010 | 0x1011 | 0x1F50..=0x1F5F);
         if entry.parameter.is_none() || !entry.access.writable() || is_command {
             continue;

@@ -1,4 +1,4 @@
-//! Writes by the types of a node's objects, and what they leave in them.
+//! Writes with the types of a node's objects, and the values after them.
 
 use alloc::format;
 use alloc::string::String;
@@ -13,7 +13,7 @@ impl Node {
     /// The write of a number to an object of this node, by the object's type.
     ///
     /// # Errors
-    /// The object does not exist, or the number is not valid; in words.
+    /// The object does not exist, or the number is invalid; in words.
     pub(super) fn write(&self, index: u16, sub: u8, number: i128) -> Result<Write, String> {
         let address = Address::new(index, sub);
         let name = &self.name;
@@ -28,7 +28,7 @@ impl Node {
         Write::new(address, data_type, number).map_err(|why| format!("{name}: {why}"))
     }
 
-    /// Gives the objects the values that the writes leave in them.
+    /// Sets the objects to the values after the writes.
     pub fn apply(&mut self) {
         for write in &self.writes {
             let Address { index, sub } = write.address;

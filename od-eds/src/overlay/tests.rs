@@ -58,13 +58,13 @@ fn number(made: &Overlaid, index: u16, sub: u8) -> Option<i128> {
 }
 
 #[test]
-fn nothing_changes_nothing() {
+fn an_empty_overlay_changes_nothing() {
     assert_eq!(laid("").text, BASE);
     assert_eq!(laid("; a comment\n").text, BASE);
 }
 
 #[test]
-fn keys_take_the_place_of_keys() {
+fn keys_of_the_overlay_replace_those_of_the_base() {
     let made = laid("[2000]\ndefaultvalue=5\nLowLimit=2\n[deviceinfo]\nProductName=Mine\n");
     assert_eq!(number(&made, 0x2000, 0), Some(5));
     let description = crate::parse(&made.text).description;
@@ -79,7 +79,7 @@ fn keys_take_the_place_of_keys() {
 }
 
 #[test]
-fn objects_come_and_go_with_their_places_in_the_lists() {
+fn objects_are_added_and_removed_in_the_lists_too() {
     let made = laid("[2001]\nRemove=1\n[1017]\nParameterName=Beat\nDataType=6\nAccessType=rw\n");
     let loaded = crate::parse(&made.text);
     let indices: Vec<u16> = loaded.description.objects.keys().copied().collect();
@@ -94,7 +94,7 @@ fn objects_come_and_go_with_their_places_in_the_lists() {
 }
 
 #[test]
-fn what_is_not_there_cannot_go() {
+fn a_missing_object_cannot_be_removed() {
     let faults = overlay(BASE, "\n[2005]\nRemove=1\n[2001sub7]\nRemove=1 ; why\n");
     let faults = faults.expect_err("two faults");
     assert_eq!(faults[0], (2, "section [2005] to remove is missing".into()));
@@ -102,7 +102,7 @@ fn what_is_not_there_cannot_go() {
 }
 
 #[test]
-fn findings_are_told_where_they_come_from() {
+fn a_finding_has_its_place_in_the_original_file() {
     let text = "; mine\n[2000]\nHighLimit=1\n\n[2002]\nParameterName=New\nAccessType=rw\n";
     let made = laid(text);
     let findings = crate::load(&made.text).findings;

@@ -23,7 +23,7 @@ use od_model::{Access, Address, DataType};
 /// The `[xxxxName]`, `[xxxxValue]` and `[xxxxDenotation]` of an object.
 pub(crate) type CompactSections<'a> = BTreeMap<Compact, Placed<'a>>;
 
-/// The highest sub-index that a member can have.
+/// The highest sub-index of a member.
 const HIGHEST: u8 = 254;
 
 /// CompactSubObj, if the object has one that is not 0.
@@ -49,7 +49,7 @@ pub(crate) fn count(
     count
 }
 
-/// The members that CompactSubObj replaces, with the names and values given for some.
+/// The members that CompactSubObj replaces, with the names and values of some of them.
 pub(crate) fn expand(
     address: Address,
     template: (EntryDescription, Unread),
@@ -81,7 +81,7 @@ pub(crate) fn expand(
                 number::integer(key, &mut Vec::new()).and_then(|n| u8::try_from(n.value).ok());
             let entry = sub.and_then(|sub| Some((sub, entries.get_mut(&sub)?)));
             match entry {
-                // Of duplicate keys, the first counts; that was reported.
+                // Of duplicate keys the first counts; this was reported.
                 Some((sub, _)) if !given.insert((compact, sub)) => {}
                 Some((sub, entry)) => {
                     let address = Address::new(address.index, sub);
@@ -96,7 +96,7 @@ pub(crate) fn expand(
     entries
 }
 
-/// Names an NrOfEntries that does not count the entries of its section.
+/// Reports an NrOfEntries that differs from the number of entries of its section.
 fn entry_count(section: &Placed<'_>, address: Address, log: &mut Log) {
     let entries = section
         .pairs
@@ -132,8 +132,8 @@ fn give(mut reader: Reader<'_>, entry: &mut EntryDescription, compact: Compact, 
     }
 }
 
-/// Sub-index 0, which CompactSubObj implies. That of 1003h counts the errors that
-/// there are, not the room for them, and a master writes 0 to it.
+/// Sub-index 0, which CompactSubObj implies. That of 1003h counts the present
+/// errors instead of the room for them, and a master writes 0 to it.
 fn highest(index: u16, count: &Spanned<u8>) -> EntryDescription {
     let (number, access) = match index {
         0x1003 => (0, Access::Rw),

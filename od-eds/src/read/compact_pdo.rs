@@ -1,8 +1,8 @@
-//! CompactPDO: PDO objects that a file has only by their number (CiA 306-1, DeviceInfo).
+//! CompactPDO: PDO objects that a file only counts (CiA 306-1, DeviceInfo).
 //!
 //! Each bit of CompactPDO replaces a sub-index of the communication parameters,
-//! bit 0 for sub-index 1. NrOfRXPDO and NrOfTXPDO count all PDOs; those without
-//! sections are made, lowest number first, and so is the half that a PDO lacks.
+//! bit 0 for sub-index 1. NrOfRXPDO and NrOfTXPDO count all PDOs. PDOs without
+//! sections are added, lowest number first, and so is the missing half of a PDO.
 
 use alloc::collections::BTreeMap;
 use alloc::format;
@@ -15,14 +15,14 @@ use crate::scan::number::number;
 use crate::span::{Span, Spanned};
 use od_model::{Access, DataType, ObjectCode};
 
-/// PDOs of one direction that CiA 301 has room for.
+/// Largest number of PDOs of one direction in CiA 301.
 const MOST: u16 = 512;
-/// Entries of a mapping: one bit each, at most.
+/// Limit of entries of a mapping: one bit each.
 const ENTRIES: u8 = 64;
 
-/// The one direction or the other.
+/// One of the two directions.
 struct Direction {
-    /// First communication parameter; the mapping is 200h further.
+    /// First communication parameter; its mapping is 200h above.
     base: u16,
     word: &'static str,
     key: &'static str,
@@ -93,7 +93,7 @@ pub(crate) fn objects(
     made
 }
 
-/// The sub-indices that the communication parameters have, by bits.
+/// The sub-indices of the communication parameters, as bits.
 fn mask(info: &Section) -> Option<(u8, Span)> {
     let given = info.get("CompactPDO")?;
     let mask = u8::try_from(number(given)?).ok()? & 0x3F;
@@ -103,7 +103,7 @@ fn mask(info: &Section) -> Option<(u8, Span)> {
 fn communication(direction: &Direction, n: u16, mask: u8, span: Span) -> ObjectDescription {
     let cob_id = match n {
         0..4 => Value::NodeId(direction.identifier + 0x100 * u32::from(n)),
-        // Not valid until a master says which identifier it has.
+        // Not valid until a master assigns an identifier.
         _ => Value::Unsigned(0x8000_0000),
     };
     let highest = 8 - mask.leading_zeros();
@@ -199,7 +199,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn pdos_without_sections_are_made() {
+    fn pdos_without_sections_are_added() {
         let parsed = crate::parse(
             "[DeviceInfo]\nNrOfRXPDO=6\nNrOfTXPDO=1\nCompactPDO=0x13\n\
              [1401]\nObjectType=9\nSubNumber=0\n",
@@ -220,7 +220,7 @@ mod tests {
         assert_eq!(default(0x1404, 1), Some(Value::Unsigned(0x8000_0000)));
         assert_eq!(default(0x1800, 1), Some(Value::NodeId(0x180)));
         assert_eq!(objects[&0x1A00].entries.len(), 65);
-        // The one that has a section is as the section says.
+        // A PDO with a section has the content of the section.
         assert!(objects[&0x1401].entries.is_empty());
         let codes: Vec<_> = parsed.findings.iter().map(|d| d.code()).collect();
         assert_eq!(codes.iter().filter(|code| **code == "I0515").count(), 2);
@@ -229,7 +229,7 @@ mod tests {
     }
 
     #[test]
-    fn a_count_that_no_device_has_makes_no_more_than_there_can_be() {
+    fn too_large_a_count_makes_no_more_than_the_limit() {
         let text = "[DeviceInfo]\nNrOfRXPDO=65535\nCompactPDO=0xFF\n";
         assert_eq!(crate::parse(text).description.objects.len(), 1024);
         for text in [

@@ -1,11 +1,11 @@
-//! Keys and sections of a DCF in a file that is an EDS.
+//! Keys and sections of a DCF that are in an EDS.
 
 use crate::log::Log;
 use crate::rules::lists::w0217_dcf_key_in_eds;
 use crate::scan::names::{Compact, Place, place};
 use crate::scan::placed::Placed;
 
-/// Keys of an object that only a DCF has.
+/// Keys of objects that only a DCF has.
 const KEYS: [&str; 5] = [
     "ParameterValue",
     "Denotation",
@@ -21,7 +21,7 @@ const SECTIONS: [&str; 3] = [
     "ConnectedModules",
 ];
 
-/// Reports what only a DCF has, if the file is an EDS: by its name on the disk, else by FileName.
+/// Reports keys and sections of a DCF if the file is an EDS: by its name on the disk, otherwise by FileName.
 pub(crate) fn check(sections: &[Placed<'_>], file: Option<&str>, log: &mut Log) {
     let info = |section: &&Placed<'_>| section.name.eq_ignore_ascii_case("FileInfo");
     let name = sections

@@ -1,4 +1,4 @@
-//! One value: what a section with a DataType says.
+//! Reads one value: a section with a DataType.
 
 use alloc::format;
 use alloc::string::{String, ToString};
@@ -27,26 +27,26 @@ use crate::scan::placed::Text;
 use crate::span::{Span, Spanned};
 use od_model::{Access, Address, DataType, Kind, ObjectCode};
 
-/// Destination of the findings of one section, and the object that it is about.
+/// Destination of the findings of one section, and its object.
 pub(crate) struct Reader<'a> {
     pub(crate) address: Address,
     pub(crate) log: &'a mut Log,
 }
 
-/// Source of the type of a section without a DataType.
+/// Source of the type for a section without a DataType.
 #[derive(Clone, Copy)]
 pub(crate) enum Assumed {
     /// It is a DOMAIN.
     Domain,
-    /// The standard's type of a sub-index, or of the one value of a VAR.
+    /// The type of the standard for a sub-index, or for the value of a VAR.
     Standard { sub: u8, is_whole: bool },
 }
 
-/// Values that could not be read, kept as text.
+/// Unreadable values, kept as text.
 pub(crate) type Unread = Vec<(String, String)>;
 
-/// The texts that an object or entry keeps: the keys that were not read, in file
-/// order, then what could not be read, by key, so that reading again finds the same.
+/// The texts that an object or entry keeps: unknown keys in file
+/// order, then unreadable values by key, so that the written file is read in the same way.
 pub(crate) fn extra(mut rest: Vec<(String, String)>, mut unread: Unread) -> Vec<(String, String)> {
     unread.sort();
     rest.append(&mut unread);
@@ -58,7 +58,7 @@ impl Reader<'_> {
         self.log.push(finding.about(self.address));
     }
 
-    /// ParameterName; empty where it is missing.
+    /// ParameterName; empty if missing.
     pub(crate) fn name(&mut self, fields: &mut Fields<'_>) -> Spanned<String> {
         let place = fields.place("ParameterName").unwrap_or(fields.header);
         let name = fields.take("ParameterName").map(placed::owned);
@@ -77,7 +77,7 @@ impl Reader<'_> {
         Some(number.value)
     }
 
-    /// The entry that the fields describe; takes its keys and leaves the others.
+    /// The entry of the fields; takes its keys and leaves the others.
     pub(crate) fn entry(
         &mut self,
         fields: &mut Fields<'_>,
@@ -114,7 +114,7 @@ impl Reader<'_> {
         (entry, unread)
     }
 
-    /// The type of a section that gives none.
+    /// The type of a section without one.
     fn assumed(&mut self, assumed: Assumed, header: Span) -> Option<DataType> {
         match assumed {
             // An object of code DOMAIN may leave its type out.
@@ -127,7 +127,7 @@ impl Reader<'_> {
         }
     }
 
-    /// The value of a key, if the section has it; one that cannot be read is reported and
+    /// The value of a key, if the section has it; an unreadable value is reported and
     /// kept as text.
     pub(crate) fn keyed<T>(
         &mut self,
@@ -146,7 +146,7 @@ impl Reader<'_> {
         Some(Spanned::new(value, given.span))
     }
 
-    /// A value written as a number, or as a word of another format.
+    /// A value written as a number, or as a word of another tool.
     fn coded<T>(
         &mut self,
         key: Key,
@@ -242,7 +242,7 @@ impl Reader<'_> {
         self.report(shared::read_as(&rules::W0424, key, given, right));
     }
 
-    /// ObjFlags; 0 where it is missing.
+    /// ObjFlags; 0 if missing.
     pub(crate) fn flags(&mut self, fields: &mut Fields<'_>, unread: &mut Unread) -> u32 {
         let key = Key::ObjFlags;
         let read = |reader: &mut Self, given: &Text<'_>| {
@@ -286,8 +286,8 @@ impl Reader<'_> {
         value
     }
 
-    /// The value of a key by its type; reported if it is not valid. A HighLimit comes
-    /// with the LowLimit: between 0 and FFh of an INTEGER8, FFh is not -1.
+    /// The value of a key by its type; an invalid one is reported. A HighLimit is read
+    /// together with the LowLimit: between 0 and FFh of an INTEGER8, FFh is not -1.
     pub(crate) fn typed(
         &mut self,
         key: Key,
@@ -295,7 +295,7 @@ impl Reader<'_> {
         data_type: Option<Spanned<DataType>>,
         low: Option<&Value>,
     ) -> Option<Spanned<Value>> {
-        // Without a type it has no values; this was reported, or the checks report it.
+        // Without a type it has no value; this was reported, or the checks report it.
         let data_type = data_type.filter(|t| t.kind() != Kind::Record)?;
         let mut notes = Vec::new();
         match values::value(given, *data_type, &mut notes) {
@@ -318,7 +318,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Reports a value that is understood, though not every tool would.
+    /// Reports a value that odkit can read but other tools may not.
     fn notes(
         &mut self,
         notes: &[Note],
@@ -348,7 +348,7 @@ impl Reader<'_> {
     }
 }
 
-/// The finding about a value that is not valid for its type.
+/// The finding about a value that is invalid for its type.
 fn unfit(key: Key, given: &Text<'_>, data_type: Spanned<DataType>) -> Finding {
     let formula = given.to_ascii_uppercase().contains("$NODEID");
     if formula && !data_type.holds_node_id() {

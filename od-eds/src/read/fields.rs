@@ -1,4 +1,4 @@
-//! The keys of one section, read one by one; the others are left over.
+//! Reads the keys of one section one by one, and keeps the others.
 
 use alloc::borrow::Cow;
 use alloc::collections::BTreeMap;
@@ -42,7 +42,7 @@ impl<'a> Fields<'a> {
             keep
         });
         for (key, value) in &mut pairs {
-            // An empty value or limit is treated as missing.
+            // An empty value or limit counts as missing.
             let numeric = |key: &str| {
                 let mut coded = Key::ALL.into_iter().filter(|key| key.is_coded());
                 coded.any(|known| known.is(key))
@@ -63,7 +63,7 @@ impl<'a> Fields<'a> {
         }
     }
 
-    /// Takes the value of a key; an empty one is a missing one.
+    /// Takes the value of a key; an empty one counts as missing.
     pub(crate) fn take(&mut self, key: &str) -> Option<Text<'a>> {
         let at = self
             .pairs
@@ -80,7 +80,7 @@ impl<'a> Fields<'a> {
         Some(found.0.span)
     }
 
-    /// Does the section give a value for this key?
+    /// Returns whether the section has a value for this key.
     pub(crate) fn has(&self, key: &str) -> bool {
         self.pairs
             .iter()
@@ -97,7 +97,7 @@ impl<'a> Fields<'a> {
     }
 }
 
-/// CANopenEditor's words for where a value is stored; others are other tools' own.
+/// The words of CANopenEditor for the storage of a value; other words belong to other tools.
 fn group(location: &str) -> Option<Group> {
     [
         ("RAM", Group::None),
@@ -111,7 +111,7 @@ fn group(location: &str) -> Option<Group> {
     .map(|(_, group)| group)
 }
 
-/// The word for a group, the reverse of what [`Fields`] reads.
+/// The word for a group, the reverse of reading in [`Fields`].
 pub(crate) const fn location(group: Group) -> &'static str {
     match group {
         Group::None => "RAM",
@@ -137,7 +137,7 @@ pub(crate) fn duplicates(pairs: &[(Text<'_>, Text<'_>)], log: &mut Log) -> Vec<u
         }
         found.push(at);
     };
-    // Sections are short; a tree is for the text that was made to be slow.
+    // Sections are short; the tree is for texts that were made to be slow.
     if pairs.len() <= 24 {
         for at in 1..pairs.len() {
             let same = |(k, _): &&(Text<'_>, _)| k.eq_ignore_ascii_case(&pairs[at].0);

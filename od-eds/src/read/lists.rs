@@ -1,4 +1,4 @@
-//! The three lists of objects, against the sections.
+//! Compares the three lists of objects with the sections.
 
 use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
@@ -16,7 +16,7 @@ use crate::scan::number::{before_comment, number};
 use crate::scan::placed::{Placed, Text};
 use crate::span::Span;
 
-/// Compares the lists of a file with the objects it has, and those that CompactPDO made.
+/// Compares the lists of a file with its objects, and with those that CompactPDO added.
 pub(crate) fn check(
     lists: &BTreeMap<List, Vec<Placed<'_>>>,
     description: &Description,
@@ -55,7 +55,7 @@ fn entries(
     let (mut found, mut invalid) = (0, 0);
     let mut numbers: BTreeMap<i128, Span> = BTreeMap::new();
     let mut ordered = true;
-    // Each of these fixes numbers all entries: more of them are of no use to anybody.
+    // Each of these fixes renumbers all entries, so one of them is enough.
     let mut fixes = 0..8;
     let mut renumbered = || match fixes.next() {
         Some(_) => w0242_list_numbering::renumbered(placed),
@@ -106,7 +106,7 @@ fn entries(
         }
     }
     let given = count.and_then(|count| number(count));
-    // An entry that is not valid is one all the same.
+    // An invalid entry still counts as one.
     let counted = given == Some(found) || given == Some(found + invalid);
     if !counted && (found > 0 || count.is_some()) {
         log.push(w0204_supported_objects_count::finding(
@@ -117,8 +117,8 @@ fn entries(
     }
 }
 
-/// The index of a list entry, however it is written; one without `0x` is decimal, unless only
-/// hexadecimal makes sense.
+/// The index in a list entry, in any spelling; without `0x` it is decimal, unless only
+/// hexadecimal gives an index.
 fn index(value: &str, description: &Description) -> Option<u16> {
     let read = number(value).and_then(|n| u16::try_from(n).ok());
     let text = before_comment(value);
@@ -131,7 +131,7 @@ fn index(value: &str, description: &Description) -> Option<u16> {
     hex.filter(exists).or(read)
 }
 
-/// Is the index written as CiA 306 has it: hexadecimal with `0x`, or decimal?
+/// Returns whether the index has a spelling of CiA 306: hexadecimal with `0x`, or decimal.
 fn is_plain(value: &str, index: u16) -> bool {
     let text = before_comment(value);
     let hex = text.strip_prefix("0x").or_else(|| text.strip_prefix("0X"));

@@ -1,4 +1,4 @@
-//! From the sections of a text to a [`Description`](crate::Description).
+//! Reads the sections of a text as a [`Description`](crate::Description).
 
 mod compact;
 mod compact_pdo;

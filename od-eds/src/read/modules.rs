@@ -1,8 +1,8 @@
-//! Modular devices: what a bus coupler's modules add to its dictionary (CiA 306-1, modular devices).
+//! Modular devices: the modules of a bus coupler extend its dictionary (CiA 306-1, modular devices).
 //!
-//! `[SupportedModules]` names them; `[M1FixedObjects]` lists objects that come once a
-//! module of the kind is there, `[M1SubExtends]` objects that every module adds
-//! sub-indices to.
+//! `[SupportedModules]` names them; `[M1FixedObjects]` lists objects that exist once a
+//! module of this kind is plugged in, `[M1SubExtends]` objects to which every module adds
+//! sub-indices.
 
 use alloc::borrow::Cow;
 use alloc::collections::{BTreeMap, BTreeSet};
@@ -27,40 +27,40 @@ use crate::span::{Span, Spanned};
 pub struct Module {
     /// Its number in `[SupportedModules]`, from 1.
     pub number: u16,
-    /// Its name there; empty where it is in no list.
+    /// Its name there; empty if no list has it.
     pub name: String,
-    /// Objects that the device has when such a module is there.
+    /// Objects of the device while such a module is plugged in.
     pub fixed: BTreeMap<u16, ObjectDescription>,
-    /// Objects that each such module adds sub-indices to.
+    /// Objects to which each such module adds sub-indices.
     pub extensions: BTreeMap<u16, Extension>,
 }
 
 /// The sub-indices that a module adds to an object.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Extension {
-    /// The description of each of them.
+    /// The description of each sub-index.
     pub entry: EntryDescription,
-    /// Number of them.
+    /// Their number.
     pub count: Count,
-    /// ObjExtend of the file; 0 if it is missing.
+    /// ObjExtend in the file; 0 if it is missing.
     pub extend: u8,
 }
 
-/// The way a module's values fill sub-indices.
+/// How the values of a module fill sub-indices.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Count {
     /// Number of new sub-indices per module.
     Each(u8),
-    /// Number of bits per module; a new sub-index when the last one is full.
+    /// Number of bits per module; a new sub-index begins when the last one is full.
     Bits(u8),
 }
 
-/// The modules that a description has sections for, by number.
+/// The modules with sections in a description, by number.
 pub fn modules(description: &Description) -> Vec<Module> {
     read(&description.sections, &mut Log::default())
 }
 
-/// The numbers of the modules that a DCF's `[ConnectedModules]` lists, in their order.
+/// The module numbers in the `[ConnectedModules]` of a DCF, in their order.
 pub fn connected_modules(description: &Description) -> Vec<u16> {
     let Some(section) = description.section("ConnectedModules") else {
         return Vec::new();
@@ -77,15 +77,15 @@ pub fn connected_modules(description: &Description) -> Vec<u16> {
     found.into_iter().map(|(_, module)| module).collect()
 }
 
-/// The description of the device with these modules, in the order in which they are plugged in.
+/// The description of the device with these modules, in the order of their slots.
 ///
-/// Fixed objects are added where the device lacks them; extended objects get their
-/// sub-indices behind those that they have, and sub-index 0 counts them. A number
-/// of no module is passed over, and so is what would go beyond sub-index 254.
+/// Missing fixed objects are added. Extended objects get their
+/// sub-indices after the existing ones, and sub-index 0 counts them. Unknown module
+/// numbers are ignored, and so are values beyond sub-index 254.
 pub fn with_modules(description: &Description, numbers: &[u16]) -> Description {
     let known = modules(description);
     let mut made = description.clone();
-    // Bits that are left in the last sub-index of an object.
+    // Bits that are still free in the last sub-index of an object.
     let mut left: BTreeMap<u16, u8> = BTreeMap::new();
     for number in numbers {
         let Some(module) = known.iter().find(|module| module.number == *number) else {
@@ -142,7 +142,7 @@ fn extend(object: &mut ObjectDescription, extension: &Extension, left: &mut u8) 
     object.sub_number = Some(Spanned::from(object.entries.len() as u32));
 }
 
-/// Names what is wrong with the modules of a file.
+/// Reports problems with the modules of a file.
 pub(crate) fn check(description: &Description, log: &mut Log) {
     let sections = &description.sections;
     let is_part = |section: &Section| {
@@ -171,7 +171,7 @@ pub(crate) fn check(description: &Description, log: &mut Log) {
     }
 }
 
-/// The module and the kind of a list `M1FixedObjects` or `M1SubExtends`.
+/// The module and the kind of a list: `M1FixedObjects` or `M1SubExtends`.
 fn list_of(name: &str) -> Option<(u16, bool)> {
     let rest = name.strip_prefix(['M', 'm'])?;
     let digits = rest.bytes().take_while(u8::is_ascii_digit).count();
@@ -243,7 +243,7 @@ fn borrow(text: &Spanned<String>) -> Text<'_> {
     Spanned::new(Cow::Borrowed(text.value.as_str()), text.span)
 }
 
-/// The section of an object of a module as that of an object.
+/// Renames the section of an object of a module to that of an object.
 fn placed<'a>(section: &'a Section, place: Place, without: &[&str]) -> Placed<'a> {
     let name = place.name().unwrap_or_default();
     let is_own = |key: &str| !without.iter().any(|word| key.eq_ignore_ascii_case(word));
@@ -299,7 +299,7 @@ fn count(text: &str) -> Option<Count> {
     }
 }
 
-/// Compares the list of a module's objects with its sections.
+/// Compares the object list of a module with its sections.
 fn listed(
     sections: &[Section],
     module: u16,
@@ -366,10 +366,10 @@ mod tests {
         [ConnectedModules]\nNrOfEntries=2\n2=2\n1=1\n";
 
     #[test]
-    fn modules_and_what_is_wrong_with_them() {
+    fn modules_and_their_problems() {
         let parsed = crate::parse(TEXT);
         let codes: Vec<_> = parsed.findings.iter().map(|d| d.code()).collect();
-        // The value of the fixed object is looked at by the checks; the second list is missing.
+        // The checks look at the value of the fixed object; the second list is missing.
         assert_eq!(codes, ["W0215"]);
         let found = modules(&parsed.description);
         assert_eq!((found.len(), found[0].name.as_str()), (2, "Eight inputs"));
@@ -401,7 +401,7 @@ mod tests {
         let made = with_modules(&base, &[1, 2, 2, 2, 2, 2, 9]);
         assert!(made.objects.contains_key(&0x2000));
         let subs: Vec<u8> = made.objects[&0x6000].entries.keys().copied().collect();
-        // Two of the first module, one that four of the second share, one of the fifth.
+        // Two bits of the first module, one that four of the second share, one of the fifth.
         assert_eq!(subs, [0, 1, 2, 3, 4]);
         let highest = made.entry(Address::new(0x6000, 0)).unwrap();
         assert_eq!(highest.default.as_deref(), Some(&Value::Unsigned(4)));

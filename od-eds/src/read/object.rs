@@ -1,4 +1,4 @@
-//! One object: its own section and those of its members.
+//! Reads one object: its own section and those of its members.
 
 use alloc::collections::BTreeMap;
 use alloc::string::{String, ToString};
@@ -29,7 +29,7 @@ pub(crate) struct Sections<'a> {
     pub(crate) compact: CompactSections<'a>,
 }
 
-/// The object that the sections describe; `None` if there is neither its own nor a member's.
+/// The object of the sections; `None` if neither its own nor a member's exists.
 pub(crate) fn object(
     index: u16,
     sections: Sections<'_>,
@@ -84,7 +84,7 @@ pub(crate) fn object(
             reader.log,
         );
     } else if mistaken && fields.has("DataType") && !members.contains_key(&0) {
-        // What was said of the VAR is said of sub-index 0, where a VAR has its value.
+        // The keys of the VAR belong to sub-index 0, where a VAR has its value.
         let whole = Assumed::Standard {
             sub: 0,
             is_whole: true,
@@ -112,7 +112,7 @@ pub(crate) fn object(
     }
     let counted = entries.len() as u32;
     let sub_number = match (count, sub_number) {
-        // CompactSubObj takes its place.
+        // CompactSubObj replaces it.
         (Some(count), _) => Spanned::new(counted, count.span),
         (None, Some(given)) => match given.value {
             Some(number) => Spanned::new(number, given.span),
@@ -137,7 +137,7 @@ pub(crate) fn object(
     })
 }
 
-/// The members of a CompactSubObj that there is room for: all, or none.
+/// The members of a CompactSubObj: all if there is room for them, otherwise none.
 fn room(reader: &mut Reader<'_>, count: Spanned<u8>) -> Spanned<u8> {
     if reader.log.expand(usize::from(count.value)) {
         return count;
@@ -146,7 +146,7 @@ fn room(reader: &mut Reader<'_>, count: Spanned<u8>) -> Spanned<u8> {
     Spanned::new(0, count.span)
 }
 
-/// Members without the section of their object.
+/// Members whose object has no section.
 fn orphan(
     index: u16,
     members: BTreeMap<u8, Placed<'_>>,
@@ -183,7 +183,7 @@ fn member(address: Address, section: Placed<'_>, log: &mut Log) -> EntryDescript
         if !matches!(code, Some(ObjectCode::Var | ObjectCode::Domain)) {
             reader.report(w0322_sub_index_not_var::finding(&given));
         }
-        // A member is a VAR; what else is said is kept.
+        // A member is a VAR; other keys are kept.
         if code != Some(ObjectCode::Var) {
             unread.push(("ObjectType".into(), given.value.into_owned()));
         }
@@ -251,7 +251,7 @@ fn object_code(
     }
 }
 
-/// An object that can have no members, but has: a RECORD; an ARRAY where
+/// An object that has members but should not: a RECORD; an ARRAY if
 /// CompactSubObj counts them.
 fn contradiction(
     reader: &mut Reader<'_>,
@@ -277,7 +277,7 @@ fn contradiction(
     Spanned::new(meant, code.span)
 }
 
-/// SubNumber; `None` inside if it cannot be read.
+/// SubNumber; the inner `None` if it is unreadable.
 fn sub_number(
     reader: &mut Reader<'_>,
     fields: &mut Fields<'_>,

@@ -1,4 +1,4 @@
-//! Sections that describe no object: do they say what CiA 306 knows, and in its form?
+//! Checks sections that describe no object against CiA 306.
 
 use alloc::format;
 use alloc::string::String;
@@ -20,7 +20,7 @@ use crate::scan::number;
 use crate::scan::placed::{Placed, Text};
 use od_model::Address;
 
-/// Names what is unknown in a section, and values that are not what they should be.
+/// Reports unknown keys of a section, and invalid values.
 pub(crate) fn check(placed: &Placed<'_>, log: &mut Log) {
     let name = &placed.name;
     if name.is_empty() || known::is_of_objects(name) {
@@ -61,7 +61,7 @@ fn unknown_section(placed: &Placed<'_>, log: &mut Log) {
     });
 }
 
-/// The section of a sub-object that is probably meant: `2005sub3` by `2005sb3`.
+/// The section of a sub-object that was probably intended: `2005sub3` for `2005sb3`.
 fn object_section(name: &str) -> Option<String> {
     let (index, rest) = name.split_at_checked(4)?;
     let word = rest.trim_end_matches(|c: char| c.is_ascii_hexdigit());
@@ -77,7 +77,7 @@ fn object_section(name: &str) -> Option<String> {
     Some(format!("{index:04X}sub{sub:X}"))
 }
 
-/// The finding about a key that odkit ignores, with the one that may be meant.
+/// The finding about a key that odkit ignores, with the key that may be intended.
 fn unknown_key<'a>(key: &Text<'_>, value: &str, keys: impl Iterator<Item = &'a str>) -> Finding {
     match known::near(key, keys) {
         Some(meant) => w0318_key_misspelled::finding(key, value, &meant.replace('#', "1")),
@@ -85,7 +85,7 @@ fn unknown_key<'a>(key: &Text<'_>, value: &str, keys: impl Iterator<Item = &'a s
     }
 }
 
-/// Names the keys of an object or a sub-object that odkit ignores.
+/// Reports keys of an object or a sub-object that odkit ignores.
 pub(crate) fn unknown_object_keys(rest: &[(Text<'_>, Text<'_>)], address: Address, log: &mut Log) {
     for (key, value) in rest {
         if !OBJECT_KEYS

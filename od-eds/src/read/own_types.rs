@@ -1,7 +1,7 @@
-//! Types that a file defines for itself, the way CanFestival writes them.
+//! Types that a file defines for itself, as CanFestival writes them.
 //!
 //! A DataType of 0040h or more refers to an object of the same file, whose sub-index 1
-//! holds the type, and 2 and 3 the limits. The value is read as if it said so itself.
+//! holds the type, and 2 and 3 the limits. The value is read as if it had this type and these limits itself.
 
 use alloc::borrow::Cow;
 use alloc::collections::BTreeMap;
@@ -17,14 +17,14 @@ use od_model::{Address, DataType};
 /// Types of manufacturers and profiles (CiA 301, object dictionary structure).
 const OWN: core::ops::RangeInclusive<u16> = 0x0040..=0x025F;
 
-/// A type of the file: its number and the limits, as they are written.
+/// A type of the file: its number and the limits, as written.
 struct OwnType<'a> {
     data_type: Text<'a>,
     low: Option<Text<'a>>,
     high: Option<Text<'a>>,
 }
 
-/// Puts the types in the place of the references to them.
+/// Replaces references to the types.
 pub(crate) fn resolve<'a>(objects: &mut BTreeMap<u16, Sections<'a>>, log: &mut Log) {
     let own: BTreeMap<u16, OwnType<'a>> = objects
         .range(OWN)
@@ -59,7 +59,7 @@ pub(crate) fn resolve<'a>(objects: &mut BTreeMap<u16, Sections<'a>>, log: &mut L
     }
 }
 
-/// A limit of the type, where the value has none of its own.
+/// A limit of the type, if the value has none of its own.
 fn add<'a>(section: &mut Placed<'a>, key: &'static str, limit: &Option<Text<'a>>) {
     let has_one = section.get(key).is_some_and(|own| !own.is_empty());
     if let Some(limit) = limit
@@ -99,7 +99,7 @@ mod tests {
     use crate::description::Value;
 
     #[test]
-    fn a_type_of_the_file_is_the_type_it_stands_for() {
+    fn a_reference_to_a_type_of_the_file_is_replaced() {
         let parsed = crate::parse(
             "[A0]\nParameterName=INTEGER8[-10-20]\nObjectType=0x6\nSubNumber=4\n\
              [A0sub1]\nParameterName=Type\nDataType=5\nDefaultValue=0x2\n\

@@ -1,4 +1,4 @@
-//! Sections sorted by what they are about, and the description that they make.
+//! Sorts sections by their subject, and makes the description.
 
 use alloc::collections::BTreeMap;
 use alloc::collections::btree_map::Entry;
@@ -28,7 +28,7 @@ use crate::scan::number::number;
 use crate::scan::placed::{Placed, owned};
 use crate::span::Span;
 
-/// Reads an EDS or a DCF; `file` is its name on the disk, if it has one, and `see` gets the sections.
+/// Reads an EDS or a DCF; `file` is its name on the disk, if it has one, and `see` receives the sections.
 pub(crate) fn eds(
     text: &str,
     file: Option<&str>,
@@ -43,19 +43,19 @@ pub(crate) fn eds(
     sorted.described()
 }
 
-/// Reads only the sections of objects, as an XDD and the modules of a device have them: no
+/// Reads only the sections of objects, for an XDD and for the modules of a device, where no
 /// list names them.
 pub(crate) fn objects(sections: Vec<Placed<'_>>, log: &mut Log) -> Description {
     Sorted::of(sections, log).described()
 }
 
-/// The sections of a file by what they are about.
+/// The sections of a file by their subject.
 struct Sorted<'a, 'l> {
     objects: BTreeMap<u16, Sections<'a>>,
     lists: BTreeMap<List, Vec<Placed<'a>>>,
     others: Vec<Placed<'a>>,
     names: BTreeMap<String, Span>,
-    /// Keys of the sections that are there twice, with their places among the first's pairs.
+    /// Keys of duplicate sections, with their positions among the pairs of the first section.
     repeated: BTreeMap<Place, BTreeMap<String, usize>>,
     has_lists: bool,
     log: &'l mut Log,
@@ -107,7 +107,7 @@ impl<'a, 'l> Sorted<'a, 'l> {
         }
     }
 
-    /// The place of a section, even if its name is not quite right.
+    /// The place of a section, even if its name is misspelled.
     fn place(&mut self, section: &Placed<'_>) -> Place {
         let name = &section.name;
         let exact = place(name);
@@ -166,7 +166,7 @@ impl<'a, 'l> Sorted<'a, 'l> {
     }
 }
 
-/// A section as a description keeps it.
+/// A section in the form of a description.
 fn kept(section: Placed<'_>) -> Section {
     let pairs = section.pairs.into_iter();
     Section {
@@ -177,21 +177,21 @@ fn kept(section: Placed<'_>) -> Section {
     }
 }
 
-/// Does a section say what an object says, whatever its name?
+/// Returns whether a section describes an object, whatever its name.
 fn describes(section: &Placed<'_>) -> bool {
     ["ParameterName", "DataType", "SubNumber"]
         .iter()
         .any(|key| section.get(key).is_some())
 }
 
-/// Has the object a CompactSubObj that counts something?
+/// Returns whether the object has a CompactSubObj that is not 0.
 fn counts_members(own: &Placed<'_>) -> bool {
     own.get("CompactSubObj")
         .and_then(|count| number(count))
         .is_some_and(|count| count > 0)
 }
 
-/// The first place of each key of a section.
+/// The first position of each key of a section.
 fn keys(section: &Placed<'_>) -> BTreeMap<String, usize> {
     let mut keys = BTreeMap::new();
     for (at, (key, _)) in section.pairs.iter().enumerate() {
@@ -200,7 +200,7 @@ fn keys(section: &Placed<'_>) -> BTreeMap<String, usize> {
     keys
 }
 
-/// The finding about a second section; what the first, with these keys, lacks is added to it.
+/// The finding about a second section; its fix adds the keys that the first section (with these keys) lacks.
 fn twice<'a>(
     first: &mut Placed<'a>,
     keys: &mut BTreeMap<String, usize>,
@@ -228,7 +228,7 @@ fn twice<'a>(
     finding
 }
 
-/// Reports a fault.
+/// Reports a problem.
 pub(crate) fn report(fault: &Fault<'_>, log: &mut Log) {
     match *fault {
         Fault::Conflict(line) => log.add(&rules::E0118, || e0118_merge_conflict::finding(line)),
@@ -285,7 +285,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_read_is_kept_as_text() {
+    fn an_unreadable_value_is_kept_as_text() {
         let parsed =
             parse("[2000]\nParameterName=x\nDataType=0x99\nAccessType=any\nDefaultValue=5");
         assert_eq!(codes(&parsed), ["E0402", "E0405", "W0203"]);
@@ -300,7 +300,7 @@ mod tests {
     }
 
     #[test]
-    fn a_second_section_adds_what_the_first_lacks_and_changes_nothing() {
+    fn a_second_section_only_adds_missing_keys() {
         let parsed = parse(
             "[2000]\nParameterName=First\nDataType=5\nAccessType=rw\n\
              [2000]\nparametername=Second\nAccessType=rw\nDefaultValue=7\n\
@@ -329,14 +329,14 @@ mod tests {
         let compact = [1, 2].map(|sub| number(&entry(0x2002, sub).parameter));
         assert_eq!(compact, [Some(3), Some(5)]);
         assert_eq!(number(&entry(0x2003, 0).default), Some(7));
-        // Those that contradict the first, and the one that does not; no key is there twice.
+        // Keys that contradict the first section, and one that does not; no key is duplicated.
         let mut twice = codes(&parsed);
         twice.retain(|code| ["E0303", "W0304", "W0107"].contains(code));
         assert_eq!(twice, ["E0303", "E0303", "E0303", "W0304"]);
     }
 
     #[test]
-    fn members_are_stored_where_their_object_is() {
+    fn members_are_saved_with_their_object() {
         let parsed = parse(
             "[2000]\n;StorageLocation=PERSIST_APP\nObjectType=8\n[2000sub0]\nDataType=5\n\
              [2000sub1]\n;StorageLocation=RAM\nDataType=5\n",
@@ -363,7 +363,7 @@ mod tests {
     }
 
     #[test]
-    fn sections_without_objects_are_kept_as_they_are() {
+    fn sections_without_objects_are_kept_unchanged() {
         let parsed = parse("[FileInfo]\nA=1\n[2000Name]\n1=x\n[Mine]\na=2\nA=3\n");
         let names: Vec<_> = parsed
             .description

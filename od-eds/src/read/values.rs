@@ -1,4 +1,4 @@
-//! Values by their type.
+//! Reads and writes values by their type.
 
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
@@ -8,10 +8,10 @@ use crate::scan::number;
 use crate::scan::number::{Note, Number};
 use od_model::{DataType, Kind};
 
-/// Reads a value of a type; `None` if it is not valid.
+/// Reads a value of a type; `None` if it is invalid.
 ///
-/// A number that is one but does not fit comes back too, for the checks to name:
-/// as [`Value::Signed`] if it is negative, else as the type's own kind if it can.
+/// A number that does not fit the type is returned, too, so that the checks can report it:
+/// as [`Value::Signed`] if it is negative, otherwise as the kind of the type if possible.
 pub(crate) fn value(text: &str, data_type: DataType, notes: &mut Vec<Note>) -> Option<Value> {
     match data_type.kind() {
         Kind::Record => None,
@@ -55,7 +55,7 @@ fn word(text: &str) -> Option<Value> {
         .map(|(_, value)| Value::Unsigned(*value))
 }
 
-/// A time as days and milliseconds, the way Lely writes it.
+/// A time as days and milliseconds, in the spelling of Lely.
 fn time(text: &str, data_type: DataType) -> Option<Value> {
     if !matches!(data_type, DataType::TimeOfDay | DataType::TimeDifference) {
         return None;
@@ -88,7 +88,7 @@ fn integer(number: Number, data_type: DataType, notes: &mut Vec<Note>) -> Option
     u64::try_from(value).ok().map(Value::Unsigned)
 }
 
-/// A number as it is written, even in a signed type.
+/// A number as written, even for a signed type.
 pub(crate) fn pattern(text: &str) -> Option<Value> {
     let text = number::without_comment(text, &mut Vec::new());
     let number = number::integer(text, &mut Vec::new())?.value;
@@ -98,8 +98,8 @@ pub(crate) fn pattern(text: &str) -> Option<Value> {
     }
 }
 
-/// The negative number of a bit pattern: one as wide as the type, or
-/// one that was sign extended to 32 or 64 bits.
+/// The negative number of a bit pattern that is as wide as the type or was
+/// sign-extended to 32 or 64 bits.
 fn twos_complement(pattern: i128, data_type: DataType) -> Option<i64> {
     let (low, high) = data_type.integer_range()?;
     if pattern <= high {
@@ -126,7 +126,7 @@ fn real(text: &str, data_type: DataType) -> Option<Value> {
         };
         return real.is_finite().then_some(Value::Real(real));
     }
-    // `inf` and `nan` are words of Rust's parser; C's suffix `f` is tolerated as silently as there.
+    // Rust's parser accepts the words `inf` and `nan`; C's suffix `f` is accepted without a finding.
     let digits = text.strip_suffix(['f', 'F']).unwrap_or(text);
     if !digits
         .bytes()
@@ -138,7 +138,7 @@ fn real(text: &str, data_type: DataType) -> Option<Value> {
     real.is_finite().then_some(Value::Real(real))
 }
 
-/// Hexadecimal bytes: `0x1234AB`, `1234AB`, `12 34 AB`, `0x12 0x34`; else the characters.
+/// Hexadecimal bytes: `0x1234AB`, `1234AB`, `12 34 AB`, `0x12 0x34`; otherwise the characters.
 fn bytes(text: &str, notes: &mut Vec<Note>) -> Vec<u8> {
     let mut bytes = Vec::new();
     for word in text.split_whitespace() {
@@ -174,14 +174,14 @@ fn bytes(text: &str, notes: &mut Vec<Note>) -> Vec<u8> {
 pub(crate) fn text(value: &Value, data_type: Option<DataType>) -> String {
     use alloc::format;
     match value {
-        // In a signed type, hexadecimal is a bit pattern.
+        // For a signed type, hexadecimal is a bit pattern.
         Value::Unsigned(v) if data_type.is_some_and(|t| t.kind() == Kind::Signed) => v.to_string(),
         Value::Unsigned(v) => match data_type.and_then(DataType::bits) {
             Some(0..=16) => v.to_string(),
             _ => format!("0x{v:X}"),
         },
         Value::Signed(v) => v.to_string(),
-        // What every reader takes for zero.
+        // A spelling that every reader takes for zero.
         Value::Real(0.0) => "0".into(),
         Value::Real(v) => format!("{v:?}"),
         Value::NodeId(offset) => format!("$NODEID+0x{offset:X}"),
@@ -259,7 +259,7 @@ mod tests {
     }
 
     #[test]
-    fn what_does_not_fit_is_a_value_still() {
+    fn a_number_that_does_not_fit_is_still_a_value() {
         use DataType::*;
         check("300", Unsigned8, Value::Unsigned(300), &[]);
         check("-1", Unsigned8, Value::Signed(-1), &[]);

@@ -1,4 +1,4 @@
-//! Words where CiA 306 has numbers, and other words than its own.
+//! Words in place of the numbers of CiA 306, and spellings of other tools.
 
 use alloc::string::String;
 
@@ -18,7 +18,7 @@ pub(crate) fn object_code(text: &str) -> Option<ObjectCode> {
     codes.find(|code| same(word, code.name()))
 }
 
-/// An access in other words than those of CiA 306.
+/// An access type in another spelling than that of CiA 306.
 pub(crate) fn access(text: &str) -> Option<Access> {
     const KNOWN: [(&str, Access); 12] = [
         ("r", Access::Ro),
@@ -55,7 +55,7 @@ fn known<T: Copy>(text: &str, words: &[(&str, T)]) -> Option<T> {
     Some(found.1)
 }
 
-/// Are the letters and digits the same, whatever is between them?
+/// Returns whether two texts have the same letters and digits, ignoring all other characters.
 fn same(a: &str, b: &str) -> bool {
     let letters = |text: &str| -> String {
         text.chars()
