@@ -6,12 +6,12 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::Command;
 
 use crate::console::{Console, ask, ask_in, cargo, clean, say};
 use crate::error::{Error, Result};
 use crate::packages::TESTS;
 use crate::repo::{Repo, program};
+use crate::setup::toolchain;
 
 /// The version of cargo-fuzz that is built.
 const VERSION: &str = "0.13.2";
@@ -173,15 +173,10 @@ impl Folder {
 /// A nightly compiler, and cargo-fuzz in `.xtask`, built there when it is missing: the program,
 /// and the system that the compiler compiles for.
 fn install(repo: &Repo, console: &Console) -> Result<(PathBuf, String)> {
+    toolchain::add(repo, console, "nightly")?;
     let args = ["run", "nightly", "rustc", "--print", "host-tuple"];
-    let host = || ask_in(&repo.root, "rustup", &args);
-    if host().is_none() {
-        let mut add = Command::new("rustup");
-        add.args(["toolchain", "install", "nightly", "--profile", "minimal"]);
-        console.run("installing the nightly compiler (once)", &mut add)?;
-    }
-    let missing = || Error::Missing(String::from("a nightly compiler is missing; see rustup.rs"));
-    let host = host().ok_or_else(missing)?;
+    let host = ask_in(&repo.root, "rustup", &args);
+    let host = host.ok_or_else(|| Error::Missing(String::from("`rustup` does not run")))?;
     let root = repo.tools().join("fuzz");
     let tool = root.join("bin").join(program("cargo-fuzz"));
     let wanted = format!("cargo-fuzz {VERSION}");

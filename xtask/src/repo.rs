@@ -77,6 +77,17 @@ impl Repo {
             .ok_or_else(|| Error::Failed(format!("Cargo.lock has no package {package}")))
     }
 
+    /// The oldest Rust that the workspace promises: `rust-version` in its Cargo.toml.
+    pub(crate) fn oldest_rust(&self) -> Result<String> {
+        let path = self.root.join("Cargo.toml");
+        let text = fs::read_to_string(&path).map_err(|e| Error::io("read", &path, &e))?;
+        let line = text
+            .lines()
+            .find_map(|line| line.strip_prefix("rust-version = "));
+        let version = line.map(|value| String::from(value.trim_matches('"')));
+        version.ok_or_else(|| Error::Failed(String::from("Cargo.toml has no rust-version")))
+    }
+
     /// `path` as seen from the root, for messages.
     pub(crate) fn short<'a>(&self, path: &'a Path) -> std::path::Display<'a> {
         path.strip_prefix(&self.root).unwrap_or(path).display()

@@ -7,20 +7,20 @@ use od_wire::sdo::Response;
 
 /// Reason why a transfer failed.
 ///
-/// In all cases except [`Abort`](Self::Abort) the client gives up and aborts the
-/// transfer at the server.
+/// In every case but [`Abort`](Self::Abort) the client gives up, and tells the server by an
+/// abort of its own.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[non_exhaustive]
 pub enum SdoError {
-    /// The server aborts with this code (CiA 301, table 22); [`AbortCode::from_code`] has its text.
+    /// The server aborts with this code (CiA 301, table 22); [`AbortCode::from_code`] knows its text.
     Abort(u32),
-    /// No response came in time.
+    /// No answer came in time.
     Silent,
-    /// The response is for another object, has another command or the wrong toggle bit.
+    /// The answer is about another object, has another command or the wrong toggle bit.
     OutOfTurn {
-        /// The expected response.
+        /// The answer that was due.
         expected: Expected,
-        /// The received response.
+        /// The answer that came.
         got: Response,
     },
     /// The value is longer than the buffer or than [`Options::limit`](super::Options::limit).
@@ -68,29 +68,29 @@ impl fmt::Display for SdoError {
 
 impl core::error::Error for SdoError {}
 
-/// The response that a client waits for.
+/// The answer that a client waits for.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[non_exhaustive]
 pub enum Expected {
-    /// Response to initiate upload.
+    /// Answer to initiate upload.
     Upload,
     /// Segment of an upload.
     UploadSegment,
-    /// Response to initiate download.
+    /// Answer to initiate download.
     Download,
-    /// Response to a segment of a download.
+    /// Answer to a segment of a download.
     DownloadSegment,
-    /// Response to initiate block upload.
+    /// Answer to initiate block upload.
     BlockUpload,
     /// Segment of a block.
     BlockSegment,
     /// End of a block upload.
     BlockUploadEnd,
-    /// Response to initiate block download.
+    /// Answer to initiate block download.
     BlockDownload,
-    /// Response to the segments of a block.
+    /// Answer to the segments of a block.
     BlockConfirmation,
-    /// Response to the end of a block download.
+    /// Answer to the end of a block download.
     BlockDownloadEnd,
 }
 

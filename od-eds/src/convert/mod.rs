@@ -1,4 +1,4 @@
-//! Writes a device description in the formats of other programs.
+//! A device description in the forms of other programs.
 
 pub mod c_header;
 pub mod canopennode;

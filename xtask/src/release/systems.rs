@@ -18,3 +18,20 @@ pub(super) const SYSTEMS: [System; 3] = [
         linker: Some(("x86_64-w64-mingw32-gcc", Some("gcc-mingw-w64-x86-64"))),
     },
 ];
+
+#[cfg(test)]
+mod tests {
+    use super::SYSTEMS;
+
+    /// `cargo binstall` finds the files by the names that od-cli/Cargo.toml says.
+    #[test]
+    fn binstall_knows_the_files_of_each_system() {
+        let manifest = include_str!("../../../od-cli/Cargo.toml");
+        let made = "odkit-{ version }-{ target }{ binary-ext }\"";
+        assert!(manifest.contains(made));
+        for system in SYSTEMS {
+            let name = format!("/odkit-{{ version }}-{}{}\"", system.triple, system.ending);
+            assert!(manifest.contains(&name), "{name}");
+        }
+    }
+}

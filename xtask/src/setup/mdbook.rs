@@ -2,36 +2,21 @@
 
 use std::path::PathBuf;
 
-use crate::console::{Console, cargo};
-use crate::error::{Error, Result};
-use crate::repo::{Repo, program};
+use super::installed::{self, Package};
+use crate::console::Console;
+use crate::error::Result;
+use crate::repo::Repo;
 
-/// Checked in November 2026: released every few weeks by the Rust project.
+/// Last looked at in November 2026: released every few weeks by the Rust project.
 pub(crate) const VERSION: &str = "0.5.4";
+
+const MDBOOK: Package = Package {
+    name: "mdbook",
+    version: VERSION,
+    args: &["--no-default-features", "--features", "search"],
+};
 
 /// The program, installed if it is missing.
 pub(crate) fn get(repo: &Repo, console: &Console) -> Result<PathBuf> {
-    let place = repo.tools().join("mdbook").join(VERSION);
-    let tool = place.join("bin").join(program("mdbook"));
-    if tool.is_file() {
-        return Ok(tool);
-    }
-    let mut install = cargo(&repo.root, &["install", "--locked", "--quiet", "mdbook"]);
-    install.args(["--version", VERSION, "--no-default-features"]);
-    install.args(["--features", "search", "--root"]).arg(&place);
-    // The build files are not needed afterwards.
-    install
-        .arg("--target-dir")
-        .arg(repo.tools().join("mdbook/target"));
-    let built = console.run("installing mdBook (once, some minutes)", &mut install);
-    let _ = std::fs::remove_dir_all(repo.tools().join("mdbook/target"));
-    match built {
-        Ok(()) => Ok(tool),
-        Err(why) => Err(Error::Missing(format!(
-            "mdBook {VERSION} is missing: run `cargo install --locked mdbook --version {VERSION} \
-             --root {}` with a network connection ({})",
-            repo.short(&place),
-            why.message()
-        ))),
-    }
+    installed::get(repo, console, &MDBOOK)
 }

@@ -9,6 +9,7 @@ mod corpus;
 mod dist;
 mod editor;
 mod page;
+mod promised;
 mod python;
 mod release;
 mod rust;
@@ -140,6 +141,10 @@ pub(super) const STAGES: &[Stage] = &[
     stage("rustdoc", Check, "the documentation builds without a warning", rust::rustdoc).beside(Lane::Lint),
     stage("doc", Tests, "the examples in the documentation", rust::doc).beside(Lane::Lint),
     stage("unit", Tests, "tests inside the crates", rust::unit).quick(),
+    stage("typos", Check, "spelling of code and documents", promised::typos).beside(Lane::Lint),
+    stage("msrv", Check, "what is published compiles with the oldest Rust that it promises", promised::msrv).long().beside(Lane::Cross),
+    stage("minimal", Check, "what is published compiles with the oldest versions of its dependencies", promised::minimal).long().beside(Lane::Cross),
+    stage("deny", Check, "advisories, licences and sources of all dependencies", promised::deny).long().beside(Lane::Cross),
     stage("alone", Check, "a clone in an empty folder passes, with no environment but PATH, HOME and CI=true", alone::alone).long(),
     stage("editor", Check, "a session in Neovim, the extension, hooks and action", editor::editor).long(),
     stage("dist", Tests, "a release is made, and each part of it installed and used in an empty folder", dist::dist).long(),

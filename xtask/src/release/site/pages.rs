@@ -69,6 +69,8 @@ const PARTS: [(&str, &[&str]); 9] = [
         "docs/decisions/",
         "SECURITY.md",
         "docs/how-to/make-a-release.md",
+        "docs/RELEASE.md",
+        "docs/TESTING.md",
         "CHANGELOG.md",
     ]),
 ];
