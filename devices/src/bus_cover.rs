@@ -8,9 +8,9 @@
 
 use odkit::encoder::{EncoderProfile, Fault, Options, Report, Role, Total};
 use odkit::{
-    AbortCode, BusOffProfile, CommunicationReset, CutSave, ErrorProfile, ErrorReset, LengthRule,
-    LssProfile, NmtProfile, Notice, PdoProfile, Profile, Restore, SaveAnswer, SavedCobIds,
-    SdoProfile, StoreProfile,
+    AbortCode, BusOffProfile, CommunicationReset, CutSave, ErrorProfile, ErrorReset, EventTimer,
+    LengthRule, LssProfile, NmtProfile, Notice, PdoProfile, Profile, Restore, SaveAnswer,
+    SavedCobIds, SdoProfile, StoreProfile,
 };
 use odkit::{Address, Dictionary};
 
@@ -151,6 +151,8 @@ pub static PROFILE: Profile = Profile {
         // 1800h:02: every n-th SYNC, or cyclic with the event timer.
         tpdo_types: &[(1, 240), (254, 254)],
         event_on_change: false,
+        // 1800h:05 is the cycle time of a PDO that is sent cyclically.
+        event_timer: EventTimer::Cyclic,
         // A new COB-ID takes effect at once (U-18).
         direct_cob_id: true,
         repeat_counter: Some(0x2800),
@@ -220,6 +222,8 @@ pub(crate) const ERRORS: ErrorProfile = ErrorProfile {
     bus_passive: None,
     bus_off: 0x11,
     bus_recovered: None,
+    // A SYNC of no byte and of one are accepted alike, and no code is named for others.
+    watches_sync_length: false,
     overrun: Some(Notice {
         code: 0x1000,
         register: 0x11,

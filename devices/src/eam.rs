@@ -12,9 +12,9 @@ use odkit::encoder::{
     Source, Total,
 };
 use odkit::{
-    AbortCode, BusOffProfile, CommunicationReset, CutSave, ErrorProfile, ErrorReset, LengthRule,
-    LssProfile, NmtProfile, Notice, PdoProfile, Profile, Restore, SaveAnswer, SavedCobIds,
-    SdoProfile, StoreProfile,
+    AbortCode, BusOffProfile, CommunicationReset, CutSave, ErrorProfile, ErrorReset, EventTimer,
+    LengthRule, LssProfile, NmtProfile, Notice, PdoProfile, Profile, Restore, SaveAnswer,
+    SavedCobIds, SdoProfile, StoreProfile,
 };
 use odkit::{Address, Dictionary};
 
@@ -94,6 +94,8 @@ pub static PROFILE: Profile = Profile {
         // Chapter 7.2.
         tpdo_types: &[(1, 240), (253, 255)],
         event_on_change: false,
+        // Chapter 7.2: 1800h:05 is a cycle time.
+        event_timer: EventTimer::Cyclic,
         // A new COB-ID takes effect at once (chapter 7.3).
         direct_cob_id: true,
         repeat_counter: None,
@@ -166,6 +168,8 @@ pub static PROFILE: Profile = Profile {
         bus_off: 1 << 4,
         // C-EAM-41.
         bus_recovered: None,
+        // A SYNC of 0 bytes and of 1 byte are accepted; the manual has no code for others.
+        watches_sync_length: false,
         // The row has no bit of 1001h; chapter 8.4.1 has one (C-EAM-20).
         overrun: Some(Notice {
             code: 0x8110,

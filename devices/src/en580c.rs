@@ -10,8 +10,8 @@ use odkit::encoder::{
     Sensor, Source, Total,
 };
 use odkit::{
-    AbortCode, CommunicationReset, CutSave, LengthRule, LssProfile, NmtProfile, PdoProfile,
-    Profile, Restore, SaveAnswer, SavedCobIds, SdoProfile, StoreProfile,
+    AbortCode, CommunicationReset, CutSave, EventTimer, LengthRule, LssProfile, NmtProfile,
+    PdoProfile, Profile, Restore, SaveAnswer, SavedCobIds, SdoProfile, StoreProfile,
 };
 
 use odkit::DeviceKind;
@@ -65,6 +65,8 @@ pub static PROFILE: Profile = Profile {
         // Chapter 5.1.4.1.
         tpdo_types: &[(1, 240), (254, 255)],
         event_on_change: false,
+        // Chapter 5.1.4.1: 1800h:05 is the time between two PDOs.
+        event_timer: EventTimer::Cyclic,
         // Chapter 5.1.4.2: at once.
         direct_cob_id: true,
         repeat_counter: None,

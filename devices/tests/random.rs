@@ -10,7 +10,7 @@ use odkit::Kind;
 use odkit::encoder::Encoder;
 use odkit::nmt::State;
 use odkit::storage::{Memory, image};
-use odkit::{BusEvent, CanId, Frame, Instant, Lent, Node, NodeId, Store};
+use odkit::{BusEvent, CanId, Frame, Instant, Node, NodeId};
 
 /// xorshift64*: the same frames in every run.
 struct Random(u64);
@@ -38,10 +38,7 @@ impl Random {
 
 struct Bench {
     kind: &'static DeviceKind,
-    values: Vec<u8>,
-    storage: Memory<Vec<u8>>,
-    encoder: Encoder<Shaft>,
-    node: Node,
+    node: Node<DeviceKind, Encoder<Shaft>, Memory<Vec<u8>>>,
     now: Instant,
     /// SDO requests to this node without a response yet.
     open: usize,
@@ -49,12 +46,10 @@ struct Bench {
 
 impl Bench {
     fn new(kind: &'static DeviceKind) -> Self {
+        let storage = Memory::new(vec![0xFF; image::capacity_needed(&kind.dictionary)]);
         let mut bench = Self {
             kind,
-            values: vec![0; kind.dictionary.store_len()],
-            storage: Memory::new(vec![0xFF; image::capacity_needed(&kind.dictionary)]),
-            encoder: shaft::encoder(kind),
-            node: Node::new(NodeId::ONE),
+            node: Node::new(*kind, NodeId::ONE, shaft::encoder(kind), storage),
             now: Instant::ZERO,
             open: 0,
         };
@@ -62,29 +57,17 @@ impl Bench {
         bench
     }
 
-    fn with<R>(&mut self, call: impl FnOnce(&mut Node, &mut Lent<'_>, Instant) -> R) -> R {
-        let mut device = Lent {
-            dictionary: self.kind.dictionary,
-            values: &mut self.values,
-            application: &mut self.encoder,
-            storage: &mut self.storage,
-            profile: Some(self.kind.profile),
-        };
-        call(&mut self.node, &mut device, self.now)
-    }
-
     fn power_on(&mut self) {
-        self.storage.restore_power();
+        self.node.storage.restore_power();
         self.open = 0;
-        self.with(|node, device, now| node.power_on(device, now))
-            .unwrap();
+        self.node.power_on(self.now);
         self.drain();
     }
 
     /// Checks that each sent frame is allowed.
     fn drain(&mut self) {
         let node_id = u32::from(self.node.node_id().raw());
-        while let Some(frame) = self.with(|node, device, now| node.poll_transmit(device, now)) {
+        while let Some(frame) = self.node.poll_transmit(self.now) {
             assert!(!self.node.is_bus_off(), "{frame}");
             if frame.id() == CanId::standard(0x580 + node_id as u16) {
                 assert!(self.open > 0, "{frame}: nobody asked");
@@ -101,7 +84,7 @@ impl Bench {
         if frame.id() == request && !frame.is_remote() && heard && !self.node.is_bus_off() {
             self.open += 1;
         }
-        self.with(|node, device, now| node.handle_frame(device, now, frame));
+        self.node.handle_frame(self.now, frame);
         self.drain();
     }
 
@@ -110,7 +93,7 @@ impl Bench {
         let mut turns = 0;
         while let Some(at) = self.node.poll_timeout().filter(|at| *at <= end) {
             self.now = self.now.max(at);
-            self.with(|node, device, now| node.handle_timeout(device, now));
+            self.node.handle_timeout(self.now);
             self.drain();
             turns += 1;
             // Two PDOs, a heartbeat and others, each at most once a millisecond.
@@ -120,30 +103,27 @@ impl Bench {
     }
 
     fn check_limits(&mut self) {
-        let node_id = self.node.node_id();
-        let dictionary = self.kind.dictionary;
-        let store = Store::new(&dictionary, &mut self.values, node_id).unwrap();
-        for entry in dictionary.entries().filter(|e| e.access.writable()) {
-            let Some(bits) = entry.data_type.bits().filter(|bits| *bits <= 64) else {
-                continue;
-            };
-            let value = match entry.data_type.kind() {
-                Kind::Unsigned => i128::from(store.number(&entry)),
-                Kind::Signed => {
-                    let unused = 64 - u32::from(bits);
-                    i128::from((store.number(&entry) << unused) as i64 >> unused)
-                }
-                _ => continue,
-            };
-            let low = entry.low.integer(node_id.raw()).unwrap_or(i128::MIN);
-            let high = entry.high.integer(node_id.raw()).unwrap_or(i128::MAX);
-            assert!(
-                (low..=high).contains(&value),
-                "{}: {} is {value}",
-                self.kind.name,
-                entry.address
-            );
-        }
+        let (node_id, name) = (self.node.node_id(), self.kind.name);
+        self.node.look(|_, store| {
+            let entries = store.dictionary().entries();
+            for entry in entries.filter(|entry| entry.access.writable()) {
+                let Some(bits) = entry.data_type.bits().filter(|bits| *bits <= 64) else {
+                    continue;
+                };
+                let value = match entry.data_type.kind() {
+                    Kind::Unsigned => i128::from(store.number(&entry)),
+                    Kind::Signed => {
+                        let unused = 64 - u32::from(bits);
+                        i128::from((store.number(&entry) << unused) as i64 >> unused)
+                    }
+                    _ => continue,
+                };
+                let low = entry.low.integer(node_id.raw()).unwrap_or(i128::MIN);
+                let high = entry.high.integer(node_id.raw()).unwrap_or(i128::MAX);
+                let is_within = (low..=high).contains(&value);
+                assert!(is_within, "{name}: {} is {value}", entry.address);
+            }
+        });
     }
 
     /// A frame that is valid more often than a random one.
@@ -200,21 +180,21 @@ impl Bench {
                 BusEvent::Overrun,
                 BusEvent::Active,
             ]);
-            self.with(|node, device, now| node.handle_bus(device, now, event));
+            self.node.handle_bus(self.now, event);
             self.drain();
         }
         if self.node.is_bus_off() && random.one_in(20) {
-            self.with(|node, device, now| node.handle_bus(device, now, BusEvent::Active));
+            self.node.handle_bus(self.now, BusEvent::Active);
             self.drain();
         }
         if random.one_in(2_000) || self.node.is_bus_off() && random.one_in(200) {
-            self.encoder.power_off(self.now);
+            self.node.application.power_off(self.now);
             self.node.power_off();
             self.now = self.now.plus_millis(1);
             self.power_on();
         }
         if random.one_in(3_000) {
-            self.storage.cut_after(random.below(900));
+            self.node.storage.cut_after(random.below(900));
         }
         let frame = self.frame(random);
         self.send(&frame);

@@ -1,6 +1,7 @@
 //! The master: it sends what every node has to answer, and measures what that takes.
 
-use odkit::{Device, Extras, Frame, Instant, Lent, Node};
+use odkit::storage::Storage;
+use odkit::{Application, Device, Frame, Instant, Node};
 
 use crate::board;
 
@@ -32,22 +33,19 @@ static SYNC: Frame = Frame::standard(0x80, &[]);
 #[unsafe(link_section = ".script")]
 static FOREIGN: Frame = Frame::standard(0x605, &[0x40, 0, 0x10, 0, 0, 0, 0, 0]);
 
-/// A node with its device and its time.
-struct Bench<'b, 'd, D, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> {
-    node: &'b mut Node<D, PDO, SDO, X>,
-    device: &'b mut Lent<'d>,
+/// A node and its time.
+struct Bench<'b, D: Device, A, S> {
+    node: &'b mut Node<D, A, S>,
     now: Instant,
     /// Frames that the node sent.
     sent: u32,
 }
 
-impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>>
-    Bench<'_, '_, D, PDO, SDO, X>
-{
+impl<D: Device, A: Application, S: Storage> Bench<'_, D, A, S> {
     #[inline(never)]
     fn drain(&mut self) {
         loop {
-            let frame = self.node.poll_transmit(self.device, self.now);
+            let frame = self.node.poll_transmit(self.now);
             if frame.is_none() {
                 return;
             }
@@ -61,7 +59,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>>
         let end = self.now.plus_millis(ms.into());
         while let Some(at) = self.node.poll_timeout().filter(|at| *at <= end) {
             self.now = at;
-            self.node.handle_timeout(self.device, at);
+            self.node.handle_timeout(at);
             self.drain();
         }
         self.now = end;
@@ -70,20 +68,20 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>>
     #[inline(never)]
     fn step(&mut self, step: &Step) {
         match step {
-            Step::Frame(frame) => self.node.handle_frame(self.device, self.now, frame),
+            Step::Frame(frame) => self.node.handle_frame(self.now, frame),
             Step::Wait(ms) => self.wait(*ms),
-            Step::Change => self.node.handle_change(self.device, self.now),
+            Step::Change => self.node.handle_change(self.now),
         }
         self.drain();
     }
 
-    /// Whether the node starts, and the ticks until its first frame is out.
+    /// Ticks until the first frame is out.
     #[inline(never)]
-    fn power_on(&mut self) -> (bool, u32) {
+    fn power_on(&mut self) -> u32 {
         let before = board::clock();
-        let started = self.node.power_on(self.device, self.now).is_ok();
+        self.node.power_on(self.now);
         self.drain();
-        (started, before.wrapping_sub(board::clock()) & 0xFF_FFFF)
+        before.wrapping_sub(board::clock()) & 0xFF_FFFF
     }
 
     /// Ticks of a frame, when it comes the second time, until all that it causes is sent, with those of
@@ -93,7 +91,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>>
         let mut ticks = 0;
         for _ in 0..2 {
             let before = board::clock();
-            self.node.handle_frame(self.device, self.now, frame);
+            self.node.handle_frame(self.now, frame);
             self.drain();
             ticks = before.wrapping_sub(board::clock()) & 0xFF_FFFF;
         }
@@ -104,30 +102,27 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>>
 /// Plays a script, reports what it took, and ends the program.
 ///
 /// `upload` is the request that is measured; `script` goes through all that the node can do.
-pub fn run<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>>(
-    node: &mut Node<D, PDO, SDO, X>,
-    device: &mut Lent<'_>,
+pub fn run<D: Device, A: Application, S: Storage>(
+    node: &mut Node<D, A, S>,
     upload: &Frame,
     script: &[Step],
 ) -> ! {
     board::start_clock();
     let mut bench = Bench {
         node,
-        device,
         now: Instant::ZERO,
         sent: 0,
     };
     let clock = board::clock();
     let overhead = clock.wrapping_sub(board::clock()) & 0xFF_FFFF;
     board::print(b"overhead\0", overhead);
-    let (started, power_on) = bench.power_on();
-    board::print(b"power_on\0", power_on);
+    board::print(b"power_on\0", bench.power_on());
     bench.step(&START);
     board::print(b"upload\0", bench.ticks(upload));
     board::print(b"sync\0", bench.ticks(&SYNC));
     board::print(b"foreign\0", bench.ticks(&FOREIGN));
     let before = board::clock();
-    bench.node.handle_timeout(bench.device, bench.now);
+    bench.node.handle_timeout(bench.now);
     let idle = before.wrapping_sub(board::clock()) & 0xFF_FFFF;
     board::print(b"idle\0", idle);
     for step in script {
@@ -138,5 +133,5 @@ pub fn run<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>>(
     board::print(b"ram\0", ram);
     board::print(b"stack\0", board::stack());
     board::print(b"sent\0", bench.sent);
-    board::exit(started)
+    board::exit(true)
 }

@@ -1,44 +1,321 @@
-//! The behaviour of a device, and the shaft of an encoder.
+//! The behaviour of a device: the shaft of an encoder, a serial number, or that of its maker, and beside
+//! it what only a device of a file has.
 
 use std::prelude::v1::*;
 
-use od_model::Dictionary;
-use od_runtime::Application;
+use od_model::{Address, Dictionary};
 use od_runtime::encoder::Encoder;
+use od_runtime::{
+    AbortCode, Application, Context, Instant, NodeId, Reset, Store, Stream, TimeOfDay,
+};
+#[cfg(feature = "eds")]
+use od_runtime::{Chunk, Halt, StreamEnd};
 
+#[cfg(feature = "eds")]
+use crate::beside::{Beside, Long, room};
 use crate::plain::Plain;
+#[cfg(feature = "eds")]
+use crate::programs::Loader;
 use crate::shaft::{self, Shaft};
 
-/// Behaviour behind the dictionary.
-pub(crate) enum Behaviour {
+/// Behaviour behind a dictionary.
+#[derive(Clone)]
+pub(crate) enum Behind {
     Encoder(Box<Encoder<Shaft>>),
     Plain(Plain),
-    Other(Box<dyn Application + Send>),
+    Own(Box<dyn Own>),
+}
+
+/// Behaviour of one's own, of which a copy of the bench has a copy.
+pub(crate) trait Own: Application + Send {
+    fn copy(&self) -> Box<dyn Own>;
+}
+
+impl<A: Application + Clone + Send + 'static> Own for A {
+    fn copy(&self) -> Box<dyn Own> {
+        Box::new(self.clone())
+    }
+}
+
+impl Clone for Box<dyn Own> {
+    fn clone(&self) -> Self {
+        (**self).copy()
+    }
+}
+
+/// The application of a bench's node.
+#[derive(Clone)]
+pub(crate) struct Behaviour {
+    pub(crate) behind: Behind,
+    /// Of a device of a file.
+    #[cfg(feature = "eds")]
+    pub(crate) beside: Option<Beside>,
+}
+
+impl From<Behind> for Behaviour {
+    fn from(behind: Behind) -> Self {
+        Self {
+            behind,
+            #[cfg(feature = "eds")]
+            beside: None,
+        }
+    }
 }
 
 impl Behaviour {
     /// An encoder where there is a position (6004h), else nothing.
     pub(crate) fn of(dictionary: Dictionary<'_>) -> Self {
-        match shaft::encoder_of(dictionary) {
-            Some(encoder) => Self::Encoder(Box::new(encoder)),
-            None => Self::Plain(Plain::default()),
+        let behind = match shaft::encoder_of(dictionary) {
+            Some(encoder) => Behind::Encoder(Box::new(encoder)),
+            None => Behind::Plain(Plain::default()),
+        };
+        behind.into()
+    }
+
+    pub(crate) fn encoder(&self) -> Option<&Encoder<Shaft>> {
+        match &self.behind {
+            Behind::Encoder(encoder) => Some(encoder),
+            _ => None,
         }
     }
 
-    /// A copy; `None` of behaviour of one's own.
-    pub(crate) fn copy(&self) -> Option<Self> {
-        match self {
-            Self::Encoder(encoder) => Some(Self::Encoder(encoder.clone())),
-            Self::Plain(plain) => Some(Self::Plain(*plain)),
-            Self::Other(_) => None,
+    pub(crate) fn encoder_mut(&mut self) -> Option<&mut Encoder<Shaft>> {
+        match &mut self.behind {
+            Behind::Encoder(encoder) => Some(encoder),
+            _ => None,
         }
     }
 
-    pub(crate) fn as_application(&mut self) -> &mut dyn Application {
-        match self {
-            Self::Encoder(encoder) => &mut **encoder,
-            Self::Plain(plain) => plain,
-            Self::Other(other) => &mut **other,
+    /// The behaviour without what is beside it.
+    pub(crate) fn own(&self) -> &dyn Application {
+        match &self.behind {
+            Behind::Encoder(encoder) => &**encoder,
+            Behind::Plain(plain) => plain,
+            Behind::Own(own) => &**own,
         }
+    }
+
+    /// The behaviour without what is beside it.
+    pub(crate) fn own_mut(&mut self) -> &mut dyn Application {
+        match &mut self.behind {
+            Behind::Encoder(encoder) => &mut **encoder,
+            Behind::Plain(plain) => plain,
+            Behind::Own(own) => &mut **own,
+        }
+    }
+}
+
+impl Application for Behaviour {
+    fn reset(&mut self, cx: &mut Context<'_, '_>, reset: Reset) {
+        #[cfg(feature = "eds")]
+        if let Some(beside) = &mut self.beside {
+            beside.reset(cx, reset);
+        }
+        self.own_mut().reset(cx, reset);
+    }
+
+    fn node_id(&self, store: &Store<'_>) -> Option<NodeId> {
+        self.own().node_id(store)
+    }
+
+    fn is_live(&self, address: Address) -> bool {
+        self.own().is_live(address)
+    }
+
+    fn refresh(&mut self, cx: &mut Context<'_, '_>, address: Address) -> Result<(), AbortCode> {
+        self.own_mut().refresh(cx, address)
+    }
+
+    fn validate(
+        &mut self,
+        cx: &mut Context<'_, '_>,
+        address: Address,
+        value: &[u8],
+    ) -> Result<(), AbortCode> {
+        #[cfg(feature = "eds")]
+        if let Some(beside) = &mut self.beside {
+            beside.validate(cx, address, value)?;
+        }
+        self.own_mut().validate(cx, address, value)
+    }
+
+    fn written(&mut self, cx: &mut Context<'_, '_>, address: Address) {
+        #[cfg(feature = "eds")]
+        if let Some(beside) = &mut self.beside {
+            beside.written(cx, address);
+        }
+        self.own_mut().written(cx, address);
+    }
+
+    fn stream(&mut self, address: Address) -> Option<&mut dyn Stream> {
+        #[cfg(feature = "eds")]
+        if self.beside.is_some() {
+            return Some(self.stream_beside(address));
+        }
+        self.own_mut().stream(address)
+    }
+
+    fn saving(&mut self, cx: &mut Context<'_, '_>, begins: bool) {
+        self.own_mut().saving(cx, begins);
+    }
+
+    fn storage_is(&mut self, sound: bool) {
+        self.own_mut().storage_is(sound);
+    }
+
+    fn error_info(&self, store: &Store<'_>) -> [u8; 5] {
+        self.own().error_info(store)
+    }
+
+    fn tick(&mut self, cx: &mut Context<'_, '_>) -> Option<Instant> {
+        #[cfg(feature = "eds")]
+        if let Some(beside) = &mut self.beside {
+            let ticks = [beside.clock.tick(cx), self.own_mut().tick(cx)];
+            return ticks.into_iter().flatten().min();
+        }
+        self.own_mut().tick(cx)
+    }
+
+    fn set_time(&mut self, cx: &mut Context<'_, '_>, time: TimeOfDay) {
+        #[cfg(feature = "eds")]
+        if let Some(beside) = &mut self.beside {
+            return beside.clock.set(cx.now, time);
+        }
+        self.own_mut().set_time(cx, time);
+    }
+
+    fn time(&mut self, cx: &mut Context<'_, '_>) -> Option<TimeOfDay> {
+        #[cfg(feature = "eds")]
+        if let Some(beside) = &self.beside {
+            return Some(beside.clock.time(cx.now));
+        }
+        self.own_mut().time(cx)
+    }
+}
+
+/// Strings and DOMAINs of any length, and programs, of a device of a file.
+#[cfg(feature = "eds")]
+impl Behaviour {
+    fn long(&mut self) -> &mut Long {
+        &mut self.beside.get_or_insert_default().long
+    }
+
+    /// The program that an object holds, else the strings and DOMAINs.
+    pub(crate) fn stream_beside(&mut self, address: Address) -> &mut dyn Stream {
+        let programs = &mut self.beside.get_or_insert_default().programs;
+        let loads = |loader: &mut Loader| loader.stream(address).is_some();
+        match programs.iter_mut().position(loads) {
+            Some(at) => &mut self.beside.get_or_insert_default().programs[at],
+            None => self,
+        }
+    }
+
+    /// Looks at the bytes at an address.
+    fn look<R>(
+        &mut self,
+        store: &Store<'_>,
+        address: Address,
+        look: impl FnOnce(&[u8]) -> R,
+    ) -> Result<R, Halt> {
+        if let Some(value) = self.long().get(address) {
+            return Ok(look(value));
+        }
+        let entry = store.dictionary().find(address).map_err(AbortCode::from)?;
+        Ok(look(store.bytes(&entry, &mut [0; 8])))
+    }
+
+    /// A value came whole.
+    fn keep(&mut self, cx: &mut Context<'_, '_>, address: Address) -> Result<(), Halt> {
+        let mut value = core::mem::take(self.long().coming(address));
+        value.shrink_to_fit();
+        self.own_mut().validate(cx, address, &value)?;
+        let entry = cx
+            .store
+            .dictionary()
+            .find(address)
+            .map_err(AbortCode::from)?;
+        self.long().remove(address);
+        if value.len() <= room(&entry) {
+            cx.store.put(&entry, &value)?;
+        } else {
+            // What 1010h saves is the default.
+            cx.store.reset_entry(&entry);
+            self.long().values.push((address, value));
+        }
+        self.own_mut().written(cx, address);
+        Ok(())
+    }
+}
+
+/// Strings and DOMAINs of a file's device.
+#[cfg(feature = "eds")]
+impl Stream for Behaviour {
+    fn begin_download(
+        &mut self,
+        cx: &mut Context<'_, '_>,
+        address: Address,
+        size: Option<u32>,
+    ) -> Result<(), Halt> {
+        let entry = cx
+            .store
+            .dictionary()
+            .find(address)
+            .map_err(AbortCode::from)?;
+        let limit = self.long().limit(cx.store, &entry);
+        if size.is_some_and(|size| size as usize > limit) {
+            return Err(AbortCode::TooLong.into());
+        }
+        Ok(())
+    }
+
+    fn write(
+        &mut self,
+        cx: &mut Context<'_, '_>,
+        address: Address,
+        chunk: Chunk<'_>,
+    ) -> Result<(), Halt> {
+        let entry = cx
+            .store
+            .dictionary()
+            .find(address)
+            .map_err(AbortCode::from)?;
+        let limit = self.long().limit(cx.store, &entry);
+        if self.long().coming(address).len() + chunk.bytes.len() > limit {
+            return Err(AbortCode::TooLong.into());
+        }
+        self.long().coming(address).extend_from_slice(chunk.bytes);
+        if chunk.last {
+            self.keep(cx, address)
+        } else {
+            Ok(())
+        }
+    }
+
+    fn begin_upload(&mut self, cx: &mut Context<'_, '_>, address: Address) -> Result<u32, Halt> {
+        if address.index >= 0x2000 {
+            self.own_mut().refresh(cx, address)?;
+        }
+        let len = self.look(cx.store, address, <[u8]>::len)?;
+        Ok(u32::try_from(len).map_err(|_| AbortCode::OutOfMemory)?)
+    }
+
+    fn read(
+        &mut self,
+        cx: &mut Context<'_, '_>,
+        address: Address,
+        at: u32,
+        to: &mut [u8],
+    ) -> Result<(), Halt> {
+        let at = at as usize;
+        self.look(cx.store, address, |value| {
+            // The value may have changed since its length was announced.
+            let part = value.get(at..at + to.len()).ok_or(AbortCode::General)?;
+            to.copy_from_slice(part);
+            Ok(())
+        })?
+    }
+
+    fn end(&mut self, _: &mut Context<'_, '_>, address: Address, _: StreamEnd) {
+        self.long().coming.retain(|(own, _)| *own != address);
     }
 }

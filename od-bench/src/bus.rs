@@ -30,8 +30,8 @@ pub struct Sent {
 ///
 /// Events of one moment have a fixed order: devices in the order they
 /// were added, frames in the order they were sent. The same inputs give the same
-/// frames on every run.
-#[derive(Default)]
+/// frames on every run. A copy goes on as this bus would.
+#[derive(Clone, Default)]
 pub struct Bus {
     devices: Vec<VirtualDevice>,
     wiring: Wiring,
@@ -392,20 +392,5 @@ impl Bus {
                 carry.push_back((device, frame));
             }
         }
-    }
-}
-
-impl Bus {
-    /// Returns a copy that goes on as this bus would. `None` if a device [cannot be
-    /// copied](crate::VirtualDevice::copy).
-    pub fn copy(&self) -> Option<Self> {
-        let devices = self.devices.iter().map(|device| device.copy());
-        Some(Self {
-            devices: devices.collect::<Option<Vec<_>>>()?,
-            wiring: self.wiring.clone(),
-            line: self.line.clone(),
-            now: self.now,
-            sent: self.sent.clone(),
-        })
     }
 }

@@ -1,68 +1,74 @@
-//! Devices that the compiler knows, with the node of their firmware.
+//! Devices that the compiler knows, as their firmware runs them.
 
 use std::prelude::v1::*;
 
+use od_model::Dictionary;
 use od_runtime::encoder::Encoder;
-use od_runtime::{Application, Device, Extras, Node, Profile};
+use od_runtime::{Application, Device, NodeId, Profile};
 
-use crate::behaviour::Behaviour;
+use crate::behaviour::{Behaviour, Behind};
 use crate::device::VirtualDevice;
 use crate::shaft::Shaft;
-use crate::source::Source;
+use crate::source::{Loaded, Source};
 
 impl VirtualDevice {
-    /// A device of one's own with nothing but its dictionary: CiA 301 to the letter unless the node
-    /// has a profile, and an encoder behind it where there is a position (6004h).
+    /// A device of one's own with nothing but its dictionary and profile, and an encoder behind it where
+    /// there is a position (6004h).
     ///
-    /// `node` is the one that `object_dictionary!` made a type of, with the sizes of the firmware.
-    /// A node that does not know its dictionary does not compile.
-    pub fn of<
-        D: Device + Send + 'static,
-        const PDO: usize,
-        const SDO: usize,
-        X: Extras<D, SDO> + Send + 'static,
-    >(
-        title: &str,
-        node: Node<D, PDO, SDO, X>,
-    ) -> Self {
-        let source = Source::of::<D>();
-        let behaviour = Behaviour::of(source.dictionary());
-        let profile = D::PROFILE.copied().unwrap_or(Profile::CIA301);
-        Self::build(title.into(), source, behaviour, profile, Box::new(node))
+    /// `device` is the type that `object_dictionary!` made. Services that it switches off are off here, too.
+    /// A device that does not know its dictionary does not compile.
+    pub fn of<D: Device>(title: &str, device: D, node_id: NodeId) -> Self {
+        let behaviour = Behaviour::of(dictionary::<D>());
+        Self::compiled(title, &device, node_id, behaviour)
     }
 
-    /// As [`of`](Self::of), with behaviour of one's own, and what the services do differently.
-    pub fn with_application<
-        D: Device + Send + 'static,
-        const PDO: usize,
-        const SDO: usize,
-        X: Extras<D, SDO> + Send + 'static,
-    >(
+    /// As [`of`](Self::of), with behaviour of one's own.
+    pub fn with_application<D: Device>(
         title: &str,
-        node: Node<D, PDO, SDO, X>,
-        profile: &'static Profile,
-        application: Box<dyn Application + Send>,
+        device: D,
+        node_id: NodeId,
+        application: impl Application + Clone + Send + 'static,
     ) -> Self {
-        let behaviour = Behaviour::Other(application);
-        let source = Source::of::<D>();
-        Self::build(title.into(), source, behaviour, *profile, Box::new(node))
+        let behaviour = Behind::Own(Box::new(application)).into();
+        Self::compiled(title, &device, node_id, behaviour)
     }
 
-    /// As [`of`](Self::of), with this encoder, which the bench turns, and what the services do
-    /// differently.
-    pub fn with_encoder<
-        D: Device + Send + 'static,
-        const PDO: usize,
-        const SDO: usize,
-        X: Extras<D, SDO> + Send + 'static,
-    >(
+    /// As [`of`](Self::of), with this encoder, which the bench turns.
+    pub fn with_encoder<D: Device>(
         title: &str,
-        node: Node<D, PDO, SDO, X>,
-        profile: &'static Profile,
+        device: D,
+        node_id: NodeId,
         encoder: Encoder<Shaft>,
     ) -> Self {
-        let behaviour = Behaviour::Encoder(Box::new(encoder));
-        let source = Source::of::<D>();
-        Self::build(title.into(), source, behaviour, *profile, Box::new(node))
+        let behaviour = Behind::Encoder(Box::new(encoder)).into();
+        Self::compiled(title, &device, node_id, behaviour)
     }
+
+    fn compiled<D: Device>(title: &str, device: &D, node_id: NodeId, behaviour: Behaviour) -> Self {
+        let loaded = Loaded {
+            source: Source::Compiled(dictionary::<D>()),
+            profile: profile(device),
+        };
+        Self::build(title.into(), loaded, node_id, behaviour)
+    }
+}
+
+const fn dictionary<D: Device>() -> Dictionary<'static> {
+    const { D::DICTIONARY.expect("the dictionary is a constant") }
+}
+
+/// The profile of a device, without the services that it switches off. Of those that are not in the profile
+/// it has no objects.
+fn profile<D: Device>(device: &D) -> Profile {
+    let mut profile = *device.profile();
+    profile.sdo.segmented_upload &= D::SEGMENTED;
+    profile.sdo.segmented_download &= D::SEGMENTED;
+    profile.sdo.block &= D::BLOCK;
+    profile.pdo.event_on_change &= D::CHANGES;
+    profile.errors.watches_sync_length &= D::SYNC_LENGTH;
+    profile.lss = profile.lss.filter(|_| D::LSS);
+    if !D::BEHAVIOUR {
+        profile.errors.behaviour = &[];
+    }
+    profile
 }

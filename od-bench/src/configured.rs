@@ -2,11 +2,9 @@
 
 use std::prelude::v1::*;
 use std::string::ToString;
-use std::vec;
 
 use od_eds::{Description, Spanned, Value};
 use od_model::{Address, Group};
-use od_runtime::Store;
 
 use crate::device::VirtualDevice;
 
@@ -32,20 +30,15 @@ impl VirtualDevice {
 
     /// Values that a master could set again and that are not the default values.
     fn configured(&mut self) -> Vec<(Address, Value)> {
-        let node_id = self.node_id();
-        let Self { source, values, .. } = self;
-        let dictionary = source.dictionary();
-        let Ok(store) = Store::new(&dictionary, values, node_id) else {
-            return vec![];
-        };
-        let entries = dictionary.entries();
-        let set = entries.filter(|entry| {
-            entry.group != Group::None && entry.access.writable() && !store.is_default(entry)
-        });
-        set.map(|entry| {
-            let bytes = store.bytes(&entry, &mut [0; 8]).to_vec();
-            (entry.address, Value::from_wire(entry.data_type, bytes))
+        self.node.look(|_, store| {
+            let set = store.dictionary().entries().filter(|entry| {
+                entry.group != Group::None && entry.access.writable() && !store.is_default(entry)
+            });
+            set.map(|entry| {
+                let bytes = store.bytes(&entry, &mut [0; 8]).to_vec();
+                (entry.address, Value::from_wire(entry.data_type, bytes))
+            })
+            .collect()
         })
-        .collect()
     }
 }

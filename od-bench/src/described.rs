@@ -5,7 +5,7 @@ use std::prelude::v1::*;
 
 use od_client::watch;
 use od_model::Address;
-use od_runtime::{Frame, Store};
+use od_runtime::{Frame, Instant};
 use od_wire::nmt::{self, Command, State};
 use od_wire::sdo::{self, Request, Response};
 
@@ -18,12 +18,11 @@ impl VirtualDevice {
     /// Makes it the description of a node of a real bus, with the values of its file.
     #[must_use]
     pub fn describing(mut self) -> Self {
+        // Power makes room for the values.
+        self.node.power_on(Instant::ZERO);
         self.node.power_off();
-        let dictionary = self.source.dictionary();
-        // `build` made room for the values.
-        if let Ok(mut store) = Store::new(&dictionary, &mut self.values, self.node.node_id()) {
-            store.reset(|_| true);
-        }
+        while self.node.poll_event().is_some() {}
+        self.node.look(|_, store| store.reset(|_| true));
         self.described = Some(Described::default());
         self
     }
@@ -52,17 +51,22 @@ impl VirtualDevice {
 
     /// Keeps a value that the node has.
     pub fn learn(&mut self, address: Address, bytes: &[u8]) {
-        let dictionary = self.source.dictionary();
-        let (Ok(entry), Some(described)) = (dictionary.find(address), &mut self.described) else {
+        let Self {
+            node, described, ..
+        } = self;
+        let Some(described) = described else {
             return;
         };
-        let size = entry.data_type.size().unwrap_or(bytes.len());
-        let bytes = bytes.get(..size).unwrap_or(bytes);
-        described.known.insert(address, bytes.to_vec());
-        if let Ok(mut store) = Store::new(&dictionary, &mut self.values, self.node.node_id()) {
+        node.look(|_, store| {
+            let Ok(entry) = store.dictionary().find(address) else {
+                return;
+            };
+            let size = entry.data_type.size().unwrap_or(bytes.len());
+            let bytes = bytes.get(..size).unwrap_or(bytes);
+            described.known.insert(address, bytes.to_vec());
             // A constant has no room there.
             let _ = store.put(&entry, bytes);
-        }
+        });
         if (0x1800..0x1C00).contains(&address.index) {
             described.tpdos = None;
         }

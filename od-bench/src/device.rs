@@ -1,60 +1,38 @@
-//! One device: dictionary, values, node, behaviour and storage in one piece.
+//! One device: a node and the world around it.
 
 use std::collections::VecDeque;
 use std::prelude::v1::*;
 use std::vec;
 
 use od_model::Dictionary;
-#[cfg(feature = "eds")]
-use od_runtime::Application;
 use od_runtime::encoder::Fault;
 use od_runtime::storage::{Storage, image};
-use od_runtime::{BusEvent, Event, Frame, Instant, Lent, NodeId, Profile, Reset};
+use od_runtime::{BusEvent, DeviceKind, Event, Frame, Instant, NodeId, Profile, Reset};
 use od_wire::emcy::Emcy;
 use od_wire::nmt::State;
 
-mod copy;
-mod power;
-mod run;
-
-use crate::behaviour::Behaviour;
-#[cfg(feature = "eds")]
-use crate::clock::Clock;
+use crate::behaviour::{Behaviour, Behind};
 use crate::eeprom::Eeprom;
-#[cfg(feature = "eds")]
-use crate::long::{Beside, Long};
-#[cfg(feature = "eds")]
-use crate::programs::Programs;
 #[cfg(feature = "serve")]
 use crate::recorded::play::Playing;
-use crate::roomy::roomy;
 use crate::services::Services;
 use crate::shaft;
-use crate::slave::{Input, Slave};
-use crate::source::Source;
-use crate::twin::{Call, Twin};
-use od_runtime::DeviceKind;
+use crate::source::{Loaded, Source};
+use crate::twin::{Call, Twins};
+
+/// The node of a device on a bench.
+pub(crate) type Node = od_runtime::Node<Loaded, Behaviour, Eeprom>;
 
 /// A CANopen device that lives in virtual time.
 ///
 /// Drain [`poll_transmit`](Self::poll_transmit) after every call that takes a moment;
-/// [`Bus`](crate::bus::Bus) does it for you.
+/// [`Bus`](crate::bus::Bus) does it for you. A copy goes on as this device would, without its
+/// [twin](Self::with_twin), and with an EEPROM in memory.
+#[derive(Clone)]
 pub struct VirtualDevice {
     title: String,
-    pub(super) source: Source,
-    pub(super) values: Vec<u8>,
-    pub(super) node: Box<dyn Slave>,
-    pub(super) behaviour: Behaviour,
-    pub(super) storage: Eeprom,
-    pub(super) profile: Profile,
+    pub(super) node: Node,
     pub(super) services: Services,
-    /// Of a device of a file.
-    #[cfg(feature = "eds")]
-    pub(super) long: Option<Long>,
-    #[cfg(feature = "eds")]
-    clock: Clock,
-    #[cfg(feature = "eds")]
-    pub(super) programs: Programs,
     pub(super) wanted_id: NodeId,
     pub(super) wanted_rate: Option<u16>,
     /// Time when the turning shaft is looked at again.
@@ -69,7 +47,7 @@ pub struct VirtualDevice {
     channels: u8,
     pub(super) has_leds: bool,
     /// Receives the calls of this device, too.
-    pub(super) twin: Option<Box<dyn Twin>>,
+    pub(super) twin: Twins,
     /// Knowledge of the node of a real bus that it describes.
     #[cfg(feature = "real")]
     pub(super) described: Option<crate::knowledge::Described>,
@@ -84,16 +62,49 @@ const EVENTS: usize = 256;
 impl VirtualDevice {
     /// A built-in device, without power, with an empty EEPROM in memory.
     pub fn new(kind: &DeviceKind, node_id: NodeId) -> Self {
-        let behaviour = Behaviour::Encoder(Box::new(shaft::encoder(kind)));
-        let source = Source::Compiled(kind.dictionary);
-        let node = roomy(node_id, kind.dictionary);
-        let device = Self::build(kind.title.into(), source, behaviour, *kind.profile, node);
+        let behaviour = Behind::Encoder(Box::new(shaft::encoder(kind))).into();
+        let loaded = Loaded {
+            source: Source::Compiled(kind.dictionary),
+            profile: *kind.profile,
+        };
+        let device = Self::build(kind.title.into(), loaded, node_id, behaviour);
         Self {
             channels: kind.channels,
             services: Services::default(),
             has_leds: kind.leds,
             ..device
         }
+    }
+
+    pub(super) fn build(
+        title: String,
+        device: Loaded,
+        node_id: NodeId,
+        behaviour: Behaviour,
+    ) -> Self {
+        let dictionary = device.source.dictionary();
+        let services = Services::of(dictionary, device.profile.lss.is_some(), |_| false);
+        let erased = vec![0xFF; needed(dictionary, &device.profile)];
+        let mut made = Self {
+            title,
+            node: Node::new(device, node_id, behaviour, Eeprom::own(erased)),
+            services,
+            wanted_id: node_id,
+            wanted_rate: None,
+            look_at: None,
+            activated: None,
+            raised: Vec::new(),
+            events: VecDeque::new(),
+            channels: 1,
+            has_leds: true,
+            twin: Twins::default(),
+            #[cfg(feature = "real")]
+            described: None,
+            #[cfg(feature = "serve")]
+            recorded: None,
+        };
+        made.break_storage();
+        made
     }
 
     /// Number of devices like this one on its shaft, itself included: 2 for a redundant encoder,
@@ -103,52 +114,11 @@ impl VirtualDevice {
         self.channels
     }
 
-    pub(super) fn build(
-        title: String,
-        source: Source,
-        behaviour: Behaviour,
-        profile: Profile,
-        node: Box<dyn Slave>,
-    ) -> Self {
-        let dictionary = source.dictionary();
-        let values = vec![0; dictionary.store_len()];
-        let erased = vec![0xFF; needed(dictionary, &profile)];
-        let services = Services::of(dictionary, profile.lss.is_some(), |_| false);
-        Self {
-            title,
-            source,
-            values,
-            wanted_id: node.node_id(),
-            node,
-            behaviour,
-            storage: Eeprom::own(erased),
-            profile,
-            services,
-            #[cfg(feature = "eds")]
-            long: None,
-            #[cfg(feature = "eds")]
-            clock: Clock::default(),
-            #[cfg(feature = "eds")]
-            programs: Programs::new(),
-            wanted_rate: None,
-            look_at: None,
-            activated: None,
-            raised: Vec::new(),
-            events: VecDeque::new(),
-            channels: 1,
-            has_leds: true,
-            twin: None,
-            #[cfg(feature = "real")]
-            described: None,
-            #[cfg(feature = "serve")]
-            recorded: None,
-        }
-    }
-
     /// Another EEPROM, with what is in it. Do it before power comes.
     #[must_use]
     pub fn with_storage(mut self, storage: Box<dyn Storage + Send>) -> Self {
-        self.storage = Eeprom::lent(storage);
+        self.node.storage = Eeprom::lent(storage);
+        self.break_storage();
         self
     }
 
@@ -164,8 +134,8 @@ impl VirtualDevice {
     /// one. Do it before power comes.
     pub fn set_domain_size(&mut self, bytes: u32) -> bool {
         #[cfg(feature = "eds")]
-        if let Some(long) = &mut self.long {
-            long.size = Some(bytes as usize);
+        if let Some(beside) = &mut self.node.application.beside {
+            beside.long.size = Some(bytes as usize);
             return true;
         }
         let _ = bytes;
@@ -174,7 +144,7 @@ impl VirtualDevice {
 
     /// Bytes that an EEPROM of this device needs.
     pub fn storage_needed(&self) -> usize {
-        needed(self.dictionary(), &self.profile)
+        needed(self.dictionary(), self.profile())
     }
 
     /// A name to show.
@@ -192,13 +162,15 @@ impl VirtualDevice {
         if self.refuses_recorded(now, frame) {
             return;
         }
-        self.handle(now, Input::Frame(frame));
+        self.call(now, Call::Frame(frame), |node| {
+            node.handle_frame(now, frame);
+        });
         self.falls_dark(now);
     }
 
     /// Time has passed.
     pub fn handle_timeout(&mut self, now: Instant) {
-        self.handle(now, Input::Timeout);
+        self.call(now, Call::Timeout, |node| node.handle_timeout(now));
         if self.look_at.is_some_and(|at| at <= now) {
             self.noticed(now);
         }
@@ -209,19 +181,19 @@ impl VirtualDevice {
 
     /// Power that went while the EEPROM was written went for all.
     fn falls_dark(&mut self, now: Instant) {
-        if self.storage.is_cut() {
+        if self.node.storage.is_cut() {
             self.power_off(now);
         }
     }
 
     /// The CAN controller has news: error counters, bus-off, a lost frame.
     pub fn handle_bus(&mut self, event: BusEvent, now: Instant) {
-        self.handle(now, Input::Bus(event));
+        self.call(now, Call::Bus(event), |node| node.handle_bus(now, event));
     }
 
     /// Something outside the bus changed.
     pub(super) fn noticed(&mut self, now: Instant) {
-        self.handle(now, Input::Change);
+        self.call(now, Call::Change, |node| node.handle_change(now));
         self.look_at = self.watches_shaft().then(|| now.plus_millis(1));
     }
 
@@ -234,8 +206,8 @@ impl VirtualDevice {
         if !self.node.may_transmit() {
             return None;
         }
-        let frame = self.lend(|node, device| node.poll_transmit(device, now));
-        if let (Some(twin), Some(frame)) = (&mut self.twin, &frame) {
+        let frame = self.node.poll_transmit(now);
+        if let (Some(twin), Some(frame)) = (&mut self.twin.0, &frame) {
             twin.sent(frame);
         }
         frame
@@ -259,23 +231,19 @@ impl VirtualDevice {
         self.events.pop_front()
     }
 
-    /// Hands an input on to the node.
-    fn handle(&mut self, now: Instant, input: Input<'_>) {
-        self.forward(now, Call::Input(input));
-        self.lend(|node, device| node.handle(device, now, input));
-        self.take_events();
-    }
-
     /// Keeps the events of the node for [`poll_event`](Self::poll_event), and acts on those that
-    /// the world outside the node has to know.
-    pub(super) fn take_events(&mut self) {
+    /// the world outside the node has to know. Returns whether there were any.
+    pub(super) fn take_events(&mut self) -> bool {
+        let mut any = false;
         while let Some(event) = self.node.poll_event() {
             self.take_event(event);
+            any = true;
         }
+        any
     }
 
     fn take_event(&mut self, event: Event) {
-        if let Some(twin) = &mut self.twin {
+        if let Some(twin) = &mut self.twin.0 {
             twin.happened(&event);
         }
         match event {
@@ -308,53 +276,101 @@ impl VirtualDevice {
 
     /// The object dictionary.
     pub fn dictionary(&self) -> Dictionary<'_> {
-        self.source.dictionary()
+        self.node.device().source.dictionary()
     }
 
-    /// Lends the device to the node for a call.
-    pub(super) fn lend<R>(&mut self, call: impl FnOnce(&mut dyn Slave, &mut Lent<'_>) -> R) -> R {
-        let Self {
-            source,
-            values,
-            node,
-            behaviour,
-            storage,
-            profile,
-            #[cfg(feature = "eds")]
-            long,
-            #[cfg(feature = "eds")]
-            clock,
-            #[cfg(feature = "eds")]
-            programs,
-            ..
-        } = self;
-        if let Behaviour::Encoder(encoder) = behaviour {
-            storage.broken = encoder.is_broken(Fault::Memory);
+    /// Options and deviations of its family relative to CiA 301.
+    pub(super) fn profile(&self) -> &Profile {
+        &self.node.device().profile
+    }
+
+    /// The EEPROM takes no byte while the memory is broken.
+    pub(super) fn break_storage(&mut self) {
+        let encoder = self.node.application.encoder();
+        self.node.storage.broken = encoder.is_some_and(|one| one.is_broken(Fault::Memory));
+    }
+
+    /// Power comes. A device that keeps its node ID in 2101h and has an empty EEPROM starts
+    /// with the ID that it was made with.
+    pub fn power_on(&mut self, now: Instant) {
+        if self.is_powered() {
+            return;
         }
-        let application = behaviour.as_application();
-        #[cfg(feature = "eds")]
-        let mut beside;
-        #[cfg(feature = "eds")]
-        let application: &mut dyn Application = match long {
-            Some(long) => {
-                beside = Beside {
-                    application,
-                    long,
-                    clock,
-                    programs,
-                };
-                &mut beside
+        if let Some(memory) = self.node.storage.memory() {
+            memory.restore_power();
+        }
+        self.node.storage.fails = false;
+        self.configure_node_id();
+        self.call(now, Call::PowerOn, |node| node.power_on(now));
+    }
+
+    /// Boots up now, where the initialisation after power-on takes its time.
+    pub(crate) fn boot_at_once(&mut self, now: Instant) {
+        self.call(now, Call::Boot, |node| node.boot_at_once(now));
+    }
+
+    /// Power goes. Time goes on, and the shaft with it.
+    pub fn power_off(&mut self, now: Instant) {
+        self.forward(now, Call::PowerOff);
+        if let Some(encoder) = self.node.application.encoder_mut() {
+            encoder.power_off(now);
+        }
+        self.node.power_off();
+        #[cfg(feature = "serve")]
+        if let Some(playing) = &mut self.recorded {
+            playing.stop();
+        }
+    }
+
+    /// Has its CAN controller left the bus, with the node still off?
+    pub(crate) fn is_bus_off(&self) -> bool {
+        self.node.is_bus_off()
+    }
+
+    /// Is there power? A node of a real bus that it describes has some.
+    pub fn is_powered(&self) -> bool {
+        #[cfg(feature = "real")]
+        if self.is_described() {
+            return true;
+        }
+        self.node.is_powered()
+    }
+
+    /// Lets time pass until `to`, or until this number of `frames` was sent or an event came, while nothing
+    /// happens to it but that its deadlines come; `now` moves along. Returns whether there may be more to do at the moment that
+    /// it is now. `None`: somebody wants to know of each call, or acts between them.
+    pub(crate) fn run(
+        &mut self,
+        now: &mut Instant,
+        to: Instant,
+        mut frames: usize,
+        mut sent: impl FnMut(Instant, Frame),
+    ) -> Option<bool> {
+        let looks_on = self.twin.0.is_some() || self.look_at.is_some() || self.node.storage.fails;
+        #[cfg(feature = "real")]
+        let looks_on = looks_on || self.described.is_some();
+        #[cfg(feature = "serve")]
+        let looks_on = looks_on || self.recorded.is_some();
+        if looks_on {
+            return None;
+        }
+        while frames > 0
+            && let Some(at) = self.node.poll_timeout()
+            && at <= to
+        {
+            *now = at.max(*now);
+            self.node.handle_timeout(*now);
+            while let Some(frame) = self.node.poll_transmit(*now) {
+                frames = frames.saturating_sub(1);
+                sent(*now, frame);
             }
-            None => application,
-        };
-        let mut device = Lent {
-            dictionary: source.dictionary(),
-            values,
-            application,
-            storage,
-            profile: Some(profile),
-        };
-        call(&mut **node, &mut device)
+            let has_events = self.take_events();
+            let again = self.node.poll_timeout().is_some_and(|again| again <= *now);
+            if again || has_events {
+                return Some(true);
+            }
+        }
+        Some(false)
     }
 }
 

@@ -1,12 +1,18 @@
 //! A device's EEPROM, which can break, and whose power can go while it is written.
 
+use std::cell::RefCell;
 use std::prelude::v1::*;
+use std::vec;
 
 use od_runtime::storage::{Geometry, Memory, Storage, StorageError};
 
 /// A storage that takes no byte while it is broken; what it holds can still be read.
+///
+/// A copy has a memory of its own, with the same bytes.
+#[derive(Clone)]
 pub(super) struct Eeprom {
-    storage: Keeper,
+    keeper: Keeper,
+    geometry: Geometry,
     /// Nothing can be written.
     pub(super) broken: bool,
     /// Power will go while it is written.
@@ -17,14 +23,22 @@ pub(super) struct Eeprom {
 enum Keeper {
     /// A memory of its own, with a supply that can be cut.
     Own(Memory<Vec<u8>>),
-    Lent(Box<dyn Storage + Send>),
+    Lent(RefCell<Box<dyn Storage + Send>>),
 }
 
-impl Keeper {
-    fn storage(&mut self) -> &mut dyn Storage {
+impl Clone for Keeper {
+    fn clone(&self) -> Self {
         match self {
-            Self::Own(memory) => memory,
-            Self::Lent(storage) => &mut **storage,
+            Self::Own(memory) => Self::Own(memory.clone()),
+            Self::Lent(storage) => {
+                let mut storage = storage.borrow_mut();
+                let mut bytes = vec![0xFF; storage.capacity()];
+                // What cannot be read is erased in the copy.
+                if storage.read(0, &mut bytes).is_err() {
+                    bytes.fill(0xFF);
+                }
+                Self::Own(Memory::new(bytes))
+            }
         }
     }
 }
@@ -32,37 +46,42 @@ impl Keeper {
 impl Eeprom {
     /// Bytes in memory.
     pub(super) fn own(bytes: Vec<u8>) -> Self {
-        Self {
-            storage: Keeper::Own(Memory::new(bytes)),
-            broken: false,
-            fails: false,
-        }
+        let geometry = Geometry::eeprom(bytes.len());
+        Self::new(Keeper::Own(Memory::new(bytes)), geometry)
     }
 
     /// A storage of the caller.
     pub(super) fn lent(storage: Box<dyn Storage + Send>) -> Self {
+        let geometry = storage.geometry();
+        Self::new(Keeper::Lent(RefCell::new(storage)), geometry)
+    }
+
+    fn new(keeper: Keeper, geometry: Geometry) -> Self {
         Self {
-            storage: Keeper::Lent(storage),
+            keeper,
+            geometry,
             broken: false,
             fails: false,
         }
     }
 
-    /// A copy; `None` of a storage of the caller.
-    pub(super) fn copy(&self) -> Option<Self> {
-        match &self.storage {
-            Keeper::Own(memory) => Some(Self {
-                storage: Keeper::Own(memory.clone()),
-                broken: self.broken,
-                fails: self.fails,
-            }),
-            Keeper::Lent(_) => None,
+    fn storage(&mut self) -> &mut dyn Storage {
+        match &mut self.keeper {
+            Keeper::Own(memory) => memory,
+            Keeper::Lent(storage) => &mut **storage.get_mut(),
         }
+    }
+
+    fn sound(&mut self) -> Result<&mut dyn Storage, StorageError> {
+        if self.broken {
+            return Err(StorageError::Device);
+        }
+        Ok(self.storage())
     }
 
     /// The memory, where it is its own.
     pub(super) fn memory(&mut self) -> Option<&mut Memory<Vec<u8>>> {
-        match &mut self.storage {
+        match &mut self.keeper {
             Keeper::Own(memory) => Some(memory),
             Keeper::Lent(_) => None,
         }
@@ -70,41 +89,37 @@ impl Eeprom {
 
     /// Did power go while it was written?
     pub(super) fn is_cut(&self) -> bool {
-        matches!(&self.storage, Keeper::Own(memory) if memory.is_cut())
+        matches!(&self.keeper, Keeper::Own(memory) if memory.is_cut())
     }
 }
 
 impl Storage for Eeprom {
     fn capacity(&self) -> usize {
-        self.geometry().capacity
+        self.geometry.capacity
     }
 
     fn geometry(&self) -> Geometry {
-        match &self.storage {
-            Keeper::Own(memory) => memory.geometry(),
-            Keeper::Lent(storage) => storage.geometry(),
-        }
+        self.geometry
     }
 
     fn read(&mut self, offset: usize, to: &mut [u8]) -> Result<(), StorageError> {
-        self.storage.storage().read(offset, to)
+        self.storage().read(offset, to)
     }
 
     fn write(&mut self, offset: usize, bytes: &[u8]) -> Result<(), StorageError> {
-        if self.broken {
-            return Err(StorageError::Device);
-        }
-        self.storage.storage().write(offset, bytes)
+        self.sound()?.write(offset, bytes)
     }
 
     fn erase(&mut self, offset: usize) -> Result<(), StorageError> {
-        if self.broken {
-            return Err(StorageError::Device);
+        let page = self.geometry.page;
+        match self.memory() {
+            // A copy of flash.
+            Some(_) => self.write(offset, &vec![0xFF; page]),
+            None => self.sound()?.erase(offset),
         }
-        self.storage.storage().erase(offset)
     }
 
     fn flush(&mut self) -> Result<(), StorageError> {
-        self.storage.storage().flush()
+        self.storage().flush()
     }
 }

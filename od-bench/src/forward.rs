@@ -1,32 +1,36 @@
-//! Forwarding of the calls of a device to its twin.
+//! Calls of a device, which go to its twin and to its node.
 
 use std::prelude::v1::*;
 
 use od_runtime::Instant;
 
-use crate::behaviour::Behaviour;
-use crate::device::VirtualDevice;
+use crate::device::{Node, VirtualDevice};
 use crate::twin::{Before, Call, Twin};
 
 impl VirtualDevice {
     /// With a twin. Do it before power comes.
     #[must_use]
     pub fn with_twin(mut self, twin: Box<dyn Twin>) -> Self {
-        self.twin = Some(twin);
+        self.twin.0 = Some(twin);
         self
     }
 
-    /// Forwards a call to the twin; [`Call::End`] after the last.
-    #[inline]
-    pub fn forward(&mut self, now: Instant, call: Call<'_>) {
-        if self.twin.is_some() {
-            self.forward_now(now, call);
-        }
+    /// Calls the node, after the twin, and takes its events.
+    pub(crate) fn call<R>(
+        &mut self,
+        now: Instant,
+        call: Call<'_>,
+        act: impl FnOnce(&mut Node) -> R,
+    ) -> R {
+        self.forward(now, call);
+        let result = act(&mut self.node);
+        self.take_events();
+        result
     }
 
-    #[cold]
-    fn forward_now(&mut self, now: Instant, call: Call<'_>) {
-        let Some(twin) = &mut self.twin else {
+    /// Forwards a call to the twin; [`Call::End`] after the last.
+    pub fn forward(&mut self, now: Instant, call: Call<'_>) {
+        let Some(twin) = &mut self.twin.0 else {
             return;
         };
         let before = Before {
@@ -34,11 +38,8 @@ impl VirtualDevice {
             node_id: self.node.node_id(),
             is_powered: self.node.is_powered(),
             due: self.node.poll_timeout(),
-            encoder: match &self.behaviour {
-                Behaviour::Encoder(encoder) => Some(encoder),
-                _ => None,
-            },
-            storage: &mut self.storage,
+            encoder: self.node.application.encoder(),
+            storage: &mut self.node.storage,
         };
         twin.call(before, now, call);
     }

@@ -1,13 +1,14 @@
 //! Identity of a device on the bus: serial number, LSS address, and whether it has a node ID.
 
 use std::prelude::v1::*;
+use std::vec;
 
 use od_model::{Group, Refused};
 use od_runtime::Store;
 use od_runtime::encoder::{Role, Switches};
 use od_runtime::storage::image;
 
-use crate::behaviour::Behaviour;
+use crate::behaviour::Behind;
 use crate::device::VirtualDevice;
 use crate::services::Services;
 
@@ -16,12 +17,12 @@ impl VirtualDevice {
     /// power comes.
     #[must_use]
     pub fn with_serial_number(mut self, serial_number: u32) -> Self {
-        match &mut self.behaviour {
-            Behaviour::Encoder(encoder) => {
+        match &mut self.node.application.behind {
+            Behind::Encoder(encoder) => {
                 **encoder = encoder.clone().with_serial_number(serial_number);
             }
-            Behaviour::Plain(plain) => plain.serial_number = Some(serial_number),
-            Behaviour::Other(_) => {}
+            Behind::Plain(plain) => plain.serial_number = Some(serial_number),
+            Behind::Own(_) => {}
         }
         self
     }
@@ -34,10 +35,10 @@ impl VirtualDevice {
             u32::try_from(entry.default.integer(self.wanted_id.raw())?).ok()
         };
         let mut address = [1, 2, 3, 4].map(|sub| own(sub).unwrap_or_default());
-        let serial_number = match &self.behaviour {
-            Behaviour::Encoder(encoder) => encoder.serial_number(),
-            Behaviour::Plain(plain) => plain.serial_number,
-            Behaviour::Other(_) => None,
+        let serial_number = match &self.node.application.behind {
+            Behind::Encoder(encoder) => encoder.serial_number(),
+            Behind::Plain(plain) => plain.serial_number,
+            Behind::Own(_) => None,
         };
         address[3] = serial_number.unwrap_or(address[3]);
         address
@@ -48,9 +49,10 @@ impl VirtualDevice {
     /// before power comes.
     #[must_use]
     pub fn delivered(mut self) -> Self {
-        if let Behaviour::Encoder(encoder) = &self.behaviour {
+        if let Some(encoder) = self.node.application.encoder() {
             let object = encoder.profile().object(Role::NodeId);
-            self.profile.store.node_id = object.map(|at| (at, self.wanted_id));
+            let node_id = object.map(|at| (at, self.wanted_id));
+            self.node.device_mut().profile.store.node_id = node_id;
         }
         self
     }
@@ -60,9 +62,9 @@ impl VirtualDevice {
     /// without switches, it is [`delivered`](Self::delivered) with this node ID.
     #[must_use]
     pub fn with_node_switch(mut self) -> Self {
-        if let Behaviour::Encoder(encoder) = &mut self.behaviour {
+        if let Some(encoder) = self.node.application.encoder() {
             let family = encoder.profile();
-            let dictionary = self.source.dictionary();
+            let dictionary = self.dictionary();
             let code = family.object(Role::BitRate).and_then(|at| {
                 let entry = dictionary.find(at).ok()?;
                 usize::try_from(entry.default.integer(0)?).ok()
@@ -71,7 +73,9 @@ impl VirtualDevice {
             let dip = rate.and_then(|rate| family.switch_rates.iter().position(|one| one == rate));
             if let (Some(dip), node_id @ ..=99) = (dip, self.wanted_id.raw()) {
                 let bit_rate = dip as u8;
+                let mut encoder = encoder.clone();
                 encoder.set_switches(Switches { node_id, bit_rate });
+                self.node.application.behind = Behind::Encoder(Box::new(encoder));
             }
         }
         self.delivered()
@@ -110,7 +114,7 @@ impl VirtualDevice {
     /// # Errors
     /// A sentence, if the device has no LSS slave, or one that always has a node ID.
     pub fn without_node_id(mut self) -> Result<Self, Refused> {
-        if !self.profile.lss.is_some_and(|lss| lss.is_own()) {
+        if !self.profile().lss.is_some_and(|lss| lss.is_own()) {
             return Err(String::from(
                 "a device starts without a node ID only if its EDS says `LSS_Supported=1`",
             )
@@ -128,33 +132,28 @@ impl VirtualDevice {
 
     /// Writes the wanted node ID and bit rate into an empty EEPROM, as in a device that was set up.
     pub(super) fn configure_node_id(&mut self) {
-        let Behaviour::Encoder(encoder) = &self.behaviour else {
+        let Some(encoder) = self.node.application.encoder() else {
             return;
         };
         let family = encoder.profile();
-        let Self {
-            source,
-            values,
-            storage,
-            wanted_id,
-            wanted_rate,
-            profile,
-            ..
-        } = self;
-        let code = wanted_rate.and_then(|rate| {
+        let code = self.wanted_rate.and_then(|rate| {
             let code = family.bit_rates.iter().position(|known| *known == rate)?;
             Some((family.object(Role::BitRate)?, code as u64))
         });
         let id = family
             .object(Role::NodeId)
-            .map(|at| (at, u64::from(wanted_id.raw())));
+            .map(|at| (at, u64::from(self.wanted_id.raw())));
         let wanted = [id, code];
-        let dictionary = source.dictionary();
-        let Ok(mut store) = Store::new(&dictionary, values, *wanted_id) else {
+        let loaded = self.node.device().clone();
+        let profile = &loaded.profile.store;
+        let dictionary = loaded.source.dictionary();
+        let mut values = vec![0; dictionary.store_len()];
+        let Ok(mut store) = Store::new(&dictionary, &mut values, self.wanted_id) else {
             return;
         };
         store.reset(|_| true);
-        let loaded = image::load(storage, &mut store, &profile.store, &|_| true);
+        let storage = &mut self.node.storage;
+        let loaded = image::load(storage, &mut store, profile, &|_| true);
         if loaded != Ok(image::Loaded::Blank) {
             return;
         }
@@ -165,7 +164,7 @@ impl VirtualDevice {
         }
         if differs {
             // Only the group of the object; a storage that fails keeps the default.
-            let _ = image::save(storage, &store, &profile.store, 4);
+            let _ = image::save(storage, &store, profile, 4);
         }
     }
 }

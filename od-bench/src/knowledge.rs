@@ -11,7 +11,7 @@ use od_wire::nmt::State;
 use crate::words::fold::Folder;
 
 /// Knowledge of a node.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(super) struct Described {
     pub(super) state: Option<State>,
     /// Values that were seen since the node started.

@@ -10,6 +10,8 @@
 
 mod behaviour;
 mod bench;
+#[cfg(feature = "eds")]
+mod beside;
 pub mod bus;
 #[cfg(feature = "eds")]
 mod clock;
@@ -36,8 +38,6 @@ pub mod links;
 #[cfg(feature = "eds")]
 mod loaded;
 pub mod logs;
-#[cfg(feature = "eds")]
-mod long;
 pub mod notice;
 mod own;
 pub mod pdos;
@@ -47,7 +47,6 @@ mod programs;
 #[cfg(feature = "serve")]
 pub mod recorded;
 pub mod rig;
-mod roomy;
 mod saved;
 pub mod script;
 mod sdo;
@@ -57,7 +56,6 @@ mod services;
 pub mod shaft;
 pub mod signal;
 mod size;
-mod slave;
 mod source;
 pub mod stats;
 #[cfg(all(test, feature = "eds"))]

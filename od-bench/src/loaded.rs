@@ -7,13 +7,11 @@ use od_eds::{Description, Finding, Tables};
 use od_runtime::{LssProfile, NodeId, Profile};
 
 use crate::behaviour::Behaviour;
+use crate::beside::Beside;
 use crate::device::VirtualDevice;
 use crate::left_out;
-use crate::long::Long;
-use crate::programs;
-use crate::roomy::roomy;
 use crate::services::Services;
-use crate::source::Source;
+use crate::source::{Loaded, Source};
 
 /// Choices that an EDS file leaves open.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
@@ -50,23 +48,23 @@ impl VirtualDevice {
             .and_then(|info| info.get("ProductName"));
         let title = product.map(|name| od_model::Visible(name.value.trim()).line().into_owned());
         let tables = Tables::new(description);
-        let behaviour = Behaviour::of(tables.dictionary());
+        let mut behaviour = Behaviour::of(tables.dictionary());
+        behaviour.beside = Some(Beside::of(tables.dictionary()));
         let title = title
             .filter(|title| !title.is_empty())
             .unwrap_or_else(|| "EDS device".into());
-        let node = roomy(node_id, tables.dictionary());
-        let source = Source::Loaded(Arc::new(tables));
-        let profile = Profile {
-            lss: lss(description),
-            ..Profile::CIA301
+        let loaded = Loaded {
+            source: Source::Loaded(Arc::new(tables)),
+            profile: Profile {
+                lss: lss(description),
+                ..Profile::CIA301
+            },
         };
-        let mut device = Self::build(title, source, behaviour, profile, node);
-        let has_lss = device.profile.lss.is_some();
+        let mut device = Self::build(title, loaded, node_id, behaviour);
+        let has_lss = device.profile().lss.is_some();
         device.services = Services::of(device.dictionary(), has_lss, |key| {
             description.info_is_set(key)
         });
-        device.long = Some(Long::default());
-        device.programs = programs::of(device.dictionary());
         let commissioning = description.commissioning().unwrap_or_default();
         if let Some(number) = commissioning.serial_number {
             device = device.with_serial_number(number);

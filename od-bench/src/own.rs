@@ -5,12 +5,11 @@ use std::prelude::v1::*;
 use std::string::ToString;
 
 use od_model::{Access, Address, Entry, Refused, values};
-use od_runtime::{Instant, Store};
+use od_runtime::{Application, Instant};
 use od_wire::AbortCode;
 use od_wire::emcy::Emcy;
 use od_wire::nmt::State;
 
-use crate::behaviour::Behaviour;
 use crate::device::VirtualDevice;
 use crate::twin::Call;
 
@@ -43,9 +42,9 @@ impl VirtualDevice {
             let (size, len) = (size * 8, len * 8);
             return Err(format!("{label}: {data_type} has {size} bits, not {len}").into());
         }
-        self.forward(now, Call::Value(address, bytes));
-        let result = self.lend(|node, lent| node.set_value(lent, now, address, bytes));
-        self.take_events();
+        let result = self.call(now, Call::Value(address, bytes), |node| {
+            node.set_value(now, address, bytes)
+        });
         result.map_err(|code| {
             let node = self.node_id().raw();
             let shown = values::show(entry.data_type, bytes);
@@ -68,12 +67,9 @@ impl VirtualDevice {
     /// Reason why the value of an object cannot be set from outside.
     fn refusal(&self, entry: &Entry) -> Option<&'static str> {
         let Address { index, sub } = entry.address;
-        let is_computed = match &self.behaviour {
-            Behaviour::Encoder(encoder) => {
-                !entry.access.writable() && encoder.computes(entry.address)
-            }
-            _ => false,
-        };
+        let encoder = self.node.application.encoder();
+        let is_computed = !entry.access.writable()
+            && encoder.is_some_and(|encoder| encoder.computes(entry.address));
         match (index, sub) {
             _ if is_computed => Some(
                 "is computed by the device; `shaft …` and `fault …` change what it is computed from",
@@ -101,20 +97,13 @@ impl VirtualDevice {
         if self.dictionary().entry(0x1014, 0).is_none() {
             return Err("the device sends no EMCY messages: object 1014h is missing".into());
         }
-        let node_id = self.node_id();
-        let Self {
-            source,
-            values,
-            behaviour,
-            ..
-        } = self;
-        let dictionary = source.dictionary();
-        let store = Store::new(&dictionary, values, node_id);
-        let own = store.map(|store| behaviour.as_application().error_info(&store));
+        let own = self
+            .node
+            .look(|behaviour, store| behaviour.error_info(store));
         let error = Emcy {
             code,
             register,
-            info: info.unwrap_or(own.unwrap_or_default()),
+            info: info.unwrap_or(own),
         };
         if self.raised.len() >= ERRORS {
             return Err(
@@ -154,10 +143,10 @@ impl VirtualDevice {
     }
 
     fn change_error(&mut self, error: Emcy, on: bool, now: Instant) -> bool {
-        self.forward(now, Call::Error(error, on));
-        let changed = self.lend(|node, lent| node.change_error(lent, now, error, on));
-        self.take_events();
-        changed
+        self.call(now, Call::Error(error, on), |node| match on {
+            true => node.raise(now, error),
+            false => node.clear(now, error),
+        })
     }
 
     /// Checks that it has power and has started.

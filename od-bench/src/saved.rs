@@ -30,11 +30,12 @@ impl Saved {
 impl VirtualDevice {
     /// The bytes of the EEPROM; empty where they cannot be read.
     pub fn eeprom(&mut self) -> Vec<u8> {
-        let mut bytes = vec![0; self.storage.capacity()];
-        match self.storage.read(0, &mut bytes) {
+        let storage = &mut self.node.storage;
+        let mut bytes = vec![0; storage.capacity()];
+        match storage.read(0, &mut bytes) {
             Ok(()) => bytes,
             // Without power it still holds what it holds.
-            Err(_) => match self.storage.memory() {
+            Err(_) => match storage.memory() {
                 Some(memory) => memory.bytes().to_vec(),
                 None => Vec::new(),
             },
@@ -43,51 +44,46 @@ impl VirtualDevice {
 
     /// Puts bytes into the EEPROM, as far as it has room. They act at the next start.
     pub fn set_eeprom(&mut self, bytes: &[u8]) {
-        let len = bytes.len().min(self.storage.capacity());
+        let storage = &mut self.node.storage;
+        let len = bytes.len().min(storage.capacity());
         // A memory that fails keeps what it has.
-        let _ = self.storage.write(0, &bytes[..len]);
+        let _ = storage.write(0, &bytes[..len]);
     }
 
     /// Cuts the power when `bytes` more bytes have been written to the EEPROM and one more is
     /// to be. Only an EEPROM of its own can be cut; returns whether this is one.
     pub fn cut_power_after(&mut self, bytes: usize) -> bool {
-        let memory = self.storage.memory();
-        let is_own = memory.is_some();
-        if let Some(memory) = memory {
-            memory.cut_after(bytes);
-            self.storage.fails = true;
-        }
-        is_own
+        let storage = &mut self.node.storage;
+        let Some(memory) = storage.memory() else {
+            return false;
+        };
+        memory.cut_after(bytes);
+        storage.fails = true;
+        true
     }
 
     /// Returns the values that a start would load now.
     pub fn saved(&mut self) -> Saved {
-        let Self {
-            source,
-            storage,
-            node,
-            profile,
-            ..
-        } = self;
-        let dictionary = source.dictionary();
+        let loaded = self.node.device().clone();
+        let profile = loaded.profile.store;
+        let dictionary = loaded.source.dictionary();
         let mut values = vec![0; dictionary.store_len()];
-        if let Ok(mut store) = Store::new(&dictionary, &mut values, node.node_id()) {
-            profile.store.reset(&mut store, &|_| true);
+        if let Ok(mut store) = Store::new(&dictionary, &mut values, self.node_id()) {
+            profile.reset(&mut store, &|_| true);
             // Nothing that can be read: the defaults come back.
-            let _ = image::load(storage, &mut store, &profile.store, &|_| true);
+            let _ = image::load(&mut self.node.storage, &mut store, &profile, &|_| true);
         }
         Saved { values }
     }
 
     /// Returns the values that the EEPROM would contain after a save.
     pub fn image(&mut self) -> Vec<u8> {
-        let mut memory = Memory::new(vec![0xFF; self.storage.capacity()]);
-        let node_id = self.node.node_id();
-        let dictionary = self.source.dictionary();
-        if let Ok(store) = Store::new(&dictionary, &mut self.values, node_id) {
-            // What does not fit is lost, as it would be in the device.
-            let _ = image::save(&mut memory, &store, &self.profile.store, 1);
-        }
+        let mut memory = Memory::new(vec![0xFF; self.node.storage.capacity()]);
+        let profile = self.profile().store;
+        // What does not fit is lost, as it would be in the device.
+        let _ = self
+            .node
+            .look(|_, store| image::save(&mut memory, store, &profile, 1));
         memory.bytes().to_vec()
     }
 
@@ -105,7 +101,7 @@ impl VirtualDevice {
     /// no object that is saved.
     pub fn is_unsaved(&self, saved: &Saved, address: Address) -> Option<bool> {
         let range = self.saved_slot(address)?;
-        Some(saved.values.get(range.clone()) != self.values.get(range))
+        Some(saved.values.get(range.clone()) != self.node.values().get(range))
     }
 
     /// Place of the value of an object that is saved.

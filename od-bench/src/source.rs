@@ -1,4 +1,4 @@
-//! Source of the dictionary of a device.
+//! The device of a bench's node: its dictionary, compiled or of a file, and its family.
 
 #[cfg(feature = "eds")]
 use std::sync::Arc;
@@ -6,7 +6,8 @@ use std::sync::Arc;
 #[cfg(feature = "eds")]
 use od_eds::Tables;
 use od_model::Dictionary;
-use od_runtime::Device;
+use od_runtime::rooms::{LoadedRooms, LoadedValues};
+use od_runtime::{Device, Profile, Services};
 
 /// A dictionary and its tables, if they are not compiled in; copies of a device share them.
 #[derive(Clone)]
@@ -17,16 +18,37 @@ pub(super) enum Source {
 }
 
 impl Source {
-    /// The dictionary that the compiler knows of a device.
-    pub(super) const fn of<D: Device>() -> Self {
-        Self::Compiled(const { D::DICTIONARY.expect("the node's type has no dictionary") })
-    }
-
     pub(super) fn dictionary(&self) -> Dictionary<'_> {
         match self {
             Self::Compiled(dictionary) => *dictionary,
             #[cfg(feature = "eds")]
             Self::Loaded(tables) => tables.dictionary(),
         }
+    }
+}
+
+/// A device whose dictionary is known at run time, with every service.
+#[derive(Clone)]
+pub(super) struct Loaded {
+    pub(super) source: Source,
+    pub(super) profile: Profile,
+}
+
+impl Services for Loaded {
+    const SERVERS: bool = true;
+    const SYNC_PRODUCER: bool = true;
+    const TIME: bool = true;
+}
+
+impl Device for Loaded {
+    type Values = LoadedValues;
+    type Rooms = LoadedRooms;
+
+    fn dictionary(&self) -> Dictionary<'_> {
+        self.source.dictionary()
+    }
+
+    fn profile(&self) -> &Profile {
+        &self.profile
     }
 }

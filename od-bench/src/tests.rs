@@ -90,7 +90,7 @@ fn a_compiled_device_runs_on_its_own_node() {
         assert_eq!(frame.data()[..4], [0xA4, 0x17, 0x10, 0x00]);
         frame.data()[4]
     };
-    let own = VirtualDevice::of("own", en580c::Node::new(NodeId::ONE));
+    let own = VirtualDevice::of("own", en580c::Device, NodeId::ONE);
     let segments = en580c::DICTIONARY.longest() / 7;
     assert_eq!(usize::from(room(own)), segments.max(1));
     let options = EdsOptions {

@@ -1,16 +1,16 @@
 //! Twin of a device: it receives the calls of the device, and may answer them elsewhere, on a
 //! microcontroller for instance.
 
+use std::prelude::v1::*;
+
 use od_model::Address;
 use od_runtime::encoder::Encoder;
 use od_runtime::storage::Storage;
-use od_runtime::{Event, Frame, Instant, NodeId};
+use od_runtime::{BusEvent, Event, Frame, Instant, NodeId};
 use od_wire::emcy::Emcy;
 use od_wire::nmt::State;
 
 use crate::shaft::Shaft;
-
-pub use crate::slave::Input;
 
 /// Call of a device, one of [`Node`](od_runtime::Node).
 #[derive(Clone, Copy, Debug)]
@@ -19,8 +19,16 @@ pub enum Call<'a> {
     PowerOn,
     /// Power goes, or is off already.
     PowerOff,
-    /// The node handles something.
-    Input(Input<'a>),
+    /// A frame was received.
+    Frame(&'a Frame),
+    /// A deadline is due.
+    Timeout,
+    /// The CAN controller has news.
+    Bus(BusEvent),
+    /// Something outside the bus changed.
+    Change,
+    /// The initialisation ends at once.
+    Boot,
     /// A value changes from the side of the device.
     Value(Address, &'a [u8]),
     /// An error comes (`true`) or goes from the side of the device.
@@ -55,4 +63,14 @@ pub trait Twin: Send {
 
     /// Receives an event of the node.
     fn happened(&mut self, event: &Event);
+}
+
+/// The twin of a device; a copy of the device has none.
+#[derive(Default)]
+pub(crate) struct Twins(pub(crate) Option<Box<dyn Twin>>);
+
+impl Clone for Twins {
+    fn clone(&self) -> Self {
+        Self(None)
+    }
 }

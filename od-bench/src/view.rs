@@ -3,9 +3,8 @@
 use std::prelude::v1::*;
 
 use od_model::Address;
-use od_runtime::{Context, Instant, Signals, Store};
+use od_runtime::{Application, Context, Instant, Signals};
 
-use crate::behaviour::Behaviour;
 use crate::device::VirtualDevice;
 use crate::leds;
 use crate::leds::Led;
@@ -22,34 +21,27 @@ impl VirtualDevice {
             return value.to_vec();
         }
         #[cfg(feature = "eds")]
-        if let Some(value) = self.long.as_ref().and_then(|long| long.get(address)) {
+        if let Some(beside) = &self.node.application.beside
+            && let Some(value) = beside.long.get(address)
+        {
             return value.to_vec();
         }
-        let Self {
-            source,
-            values,
-            behaviour,
-            node,
-            ..
-        } = self;
-        let dictionary = source.dictionary();
-        let (Ok(entry), Ok(mut store)) = (
-            dictionary.find(address),
-            Store::new(&dictionary, values, node.node_id()),
-        ) else {
-            return Vec::new();
-        };
-        if node.is_powered() && address.index >= 0x2000 {
-            let mut signals = Signals::default();
-            let mut context = Context {
-                store: &mut store,
-                now,
-                signals: &mut signals,
+        let is_refreshed = self.node.is_powered() && address.index >= 0x2000;
+        self.node.look(|behaviour, store| {
+            let Ok(entry) = store.dictionary().find(address) else {
+                return Vec::new();
             };
-            // What cannot be had now shows as it was.
-            let _ = behaviour.as_application().refresh(&mut context, address);
-        }
-        store.bytes(&entry, &mut [0; 8]).to_vec()
+            if is_refreshed {
+                let mut context = Context {
+                    store,
+                    now,
+                    signals: &mut Signals::default(),
+                };
+                // What cannot be had now shows as it was.
+                let _ = behaviour.refresh(&mut context, address);
+            }
+            store.bytes(&entry, &mut [0; 8]).to_vec()
+        })
     }
 
     /// The number at an address, live values as they were last read.
@@ -58,7 +50,8 @@ impl VirtualDevice {
         let entry = dictionary.entry(index, sub)?;
         let start = entry.slot.offset as usize;
         let bytes = self
-            .values
+            .node
+            .values()
             .get(start..start + usize::from(entry.slot.len))?;
         match bytes {
             [] => u64::try_from(entry.default.integer(self.node_id().raw())?).ok(),
@@ -82,14 +75,12 @@ impl VirtualDevice {
         let bits = |index| self.stored(index, 0).unwrap_or(0);
         let warning = bits(0x6505) != 0;
         // 1001h does not tell a warning from an error beside it; bit 4 never warns.
-        let broken = match &self.behaviour {
-            Behaviour::Encoder(encoder) => {
-                let reports = encoder.profile().reports.iter();
-                let mut errors = reports.filter(|report| report.warning == 0);
-                errors.any(|report| encoder.is_broken(report.fault))
-            }
-            _ => false,
-        };
+        let encoder = self.node.application.encoder();
+        let broken = encoder.is_some_and(|encoder| {
+            let reports = encoder.profile().reports.iter();
+            let mut errors = reports.filter(|report| report.warning == 0);
+            errors.any(|report| encoder.is_broken(report.fault))
+        });
         let register = bits(0x1001);
         let error = broken
             || bits(0x6503) != 0

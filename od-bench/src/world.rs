@@ -5,7 +5,6 @@ use std::prelude::v1::*;
 use od_runtime::Instant;
 use od_runtime::encoder::{Angle, Encoder, Fault};
 
-use crate::behaviour::Behaviour;
 use crate::device::VirtualDevice;
 use crate::faults;
 use crate::shaft::Shaft;
@@ -27,22 +26,22 @@ pub struct ShaftView {
 impl VirtualDevice {
     /// The encoder behind the dictionary, if there is one.
     pub fn encoder(&self) -> Option<&Encoder<Shaft>> {
-        match &self.behaviour {
-            // The shaft of a real node is somewhere else.
-            #[cfg(feature = "real")]
-            _ if self.is_described() => None,
-            Behaviour::Encoder(encoder) => Some(encoder),
-            _ => None,
+        // The shaft of a real node is somewhere else.
+        #[cfg(feature = "real")]
+        if self.is_described() {
+            return None;
         }
+        self.node.application.encoder()
     }
 
     /// Changes something outside, and lets the device notice. Answers whether there is an
     /// encoder at all.
     fn change(&mut self, now: Instant, act: impl FnOnce(&mut Encoder<Shaft>)) -> bool {
-        let Behaviour::Encoder(encoder) = &mut self.behaviour else {
+        let Some(encoder) = self.node.application.encoder_mut() else {
             return false;
         };
         act(encoder);
+        self.break_storage();
         self.noticed(now);
         true
     }
@@ -177,7 +176,7 @@ impl VirtualDevice {
     /// Bit rate in kbit/s of a code of the device (2100h), or without an object for it, of an index of
     /// the LSS table.
     pub(super) fn bit_rate_of(&self, code: u8) -> Option<u16> {
-        if self.profile.lss.is_some_and(|lss| lss.is_own()) {
+        if self.profile().lss.is_some_and(|lss| lss.is_own()) {
             return od_wire::lss::kbit(code);
         }
         let rate = self
@@ -193,6 +192,6 @@ impl VirtualDevice {
     /// millisecond.
     pub(super) fn watches_shaft(&self) -> bool {
         let turns = |encoder: &Encoder<Shaft>| encoder.shaft.is_turning();
-        self.profile.pdo.event_on_change && self.encoder().is_some_and(turns)
+        self.profile().pdo.event_on_change && self.encoder().is_some_and(turns)
     }
 }

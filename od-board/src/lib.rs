@@ -1,6 +1,7 @@
 //! A CANopen node on a board: what a firmware needs besides the node itself. Reached as `odkit::board`.
 //!
-//! - [`Board`] owns node, values, application and storage, and can be a `static`.
+//! A [`Node`](od_runtime::Node) owns its values, application and storage, and can be a `static`.
+//!
 //! - [`Port`] connects it to a CAN controller with the traits of `embedded-can`, nb or blocking.
 //! - `Shared` (feature `embassy`) is a node for several tasks, and the task that runs it; `Watch` looks for
 //!   bus-off where the driver of the CAN controller does not report it.
@@ -16,7 +17,7 @@
 //! ```
 //! use odkit::board::{Clock, Filters, Owner, Port};
 //! use odkit::storage::NoStorage;
-//! use odkit::{Application, NodeId};
+//! use odkit::{Application, Node, NodeId};
 //!
 //! odkit::object_dictionary! {
 //!     /// A thermometer that sends its temperature when it changes.
@@ -44,14 +45,14 @@
 //!     C: embedded_can::nb::Can,
 //! {
 //!     let (mut clock, mut port) = (Clock::<1_000_000>::new(), Port::new());
-//!     let mut board = thermometer::Board::new(NodeId::ONE, Heater, NoStorage);
-//!     board.power_on(clock.at(timer())).ok(); // it fits: the compiler has checked it
+//!     let mut node = Node::new(thermometer::Device, NodeId::ONE, Heater, NoStorage);
+//!     node.power_on(clock.at(timer()));
 //!     loop {
 //!         let now = clock.at(timer());
-//!         port.serve_nb(&mut board, can, now)?;
-//!         board.set(now, thermometer::TEMPERATURE, sensor());
+//!         port.serve_nb(&mut node, can, now)?;
+//!         node.set(now, thermometer::TEMPERATURE, sensor());
 //!         let mut filters = Filters::<14>::default();
-//!         board.poll_wanted_ids(&mut |id| filters.add(id));
+//!         node.poll_wanted_ids().into_iter().flatten().for_each(|id| filters.add(id));
 //!         // … set the filters of the controller if there are any, and sleep until an interrupt
 //!         # if now.as_micros() > u64::from(u32::MAX) + 3000 { return Ok(()) }
 //!     }
@@ -84,23 +85,23 @@
 //! # RTIC
 //!
 //! The interrupt of the CAN controller handles frames, a task of low priority writes flash, and they share
-//! the board. `firmware/rtic` is a complete program; these are its two tasks:
+//! the node. `firmware/rtic` is a complete program; these are its two tasks:
 //!
 //! ```text
-//! #[task(binds = GPIOA, priority = 2, shared = [board, can], local = [port, clock])]
+//! #[task(binds = GPIOA, priority = 2, shared = [node, can], local = [port, clock])]
 //! fn frames(cx: frames::Context) {
 //!     let now = cx.local.clock.at(ticks());
-//!     (cx.shared.board, cx.shared.can).lock(|board, can| cx.local.port.serve_nb(board, can, now));
+//!     (cx.shared.node, cx.shared.can).lock(|node, can| cx.local.port.serve_nb(node, can, now));
 //! }
 //!
-//! #[task(priority = 1, shared = [board], local = [log])]
+//! #[task(priority = 1, shared = [node], local = [log])]
 //! async fn keep(mut cx: keep::Context) {
-//!     cx.local.log.run(|act| cx.shared.board.lock(|board| act(&mut board.storage))).await;
+//!     cx.local.log.run(|act| cx.shared.node.lock(|node| act(&mut node.storage))).await;
 //! }
 //! ```
 //!
 //! A block transfer is a frame at a time in the interrupt, and never more. While flash is erased or written
-//! nobody holds the board, so a SYNC is answered at once. The longest call of the node is the longest that
+//! nobody holds the node, so a SYNC is answered at once. The longest call of the node is the longest that
 //! a frame can wait: a save copies the values and returns, as `firmware/rtic` measures.
 #![cfg_attr(
     all(feature = "embassy", feature = "flash"),
@@ -134,10 +135,14 @@ odkit::object_dictionary! {
 
 const SAVED: usize = capacity_needed(&thermometer::DICTIONARY);
 type Saved = Mirror<SAVED, { thermometer::STORE_LEN }>;
-type Board = thermometer::Board<NoApplication, Saved>;
+type Node = thermometer::Node<NoApplication, Saved>;
 
-static NODE: Shared<CriticalSectionRawMutex, Board> =
-    Shared::new(Board::new(NodeId::ONE, NoApplication, Saved::new(&thermometer::DICTIONARY)));
+static NODE: Shared<CriticalSectionRawMutex, Node> = Shared::new(Node::new(
+    thermometer::Device,
+    NodeId::ONE,
+    NoApplication,
+    Saved::new(&thermometer::DICTIONARY),
+));
 
 struct Rx<D>(D);
 # trait Driver { type Frame: embedded_can::Frame; async fn read(&mut self) -> Result<Self::Frame, ()>; }
@@ -157,15 +162,15 @@ async fn keep<F: embedded_storage::nor_flash::NorFlash>(flash: F) {
     let mut log = Log::<_, { SAVED / 2 + 64 }>::new(Steps(flash), 0x1_E000..0x2_0000);
     let mut saved = Saved::new(&thermometer::DICTIONARY);
     log.load(&mut saved).await.ok();
-    NODE.with(|board, now| {
-        board.storage = saved;
-        board.power_on(now).ok();
+    NODE.with(|node, now| {
+        node.storage = saved;
+        node.power_on(now);
     });
-    log.run(|act| NODE.with(|board, _| act(&mut board.storage))).await;
+    log.run(|act| NODE.with(|node, _| act(&mut node.storage))).await;
 }
 
 fn measured(temperature: i16) {
-    NODE.with(|board, now| board.set(now, thermometer::TEMPERATURE, temperature));
+    NODE.with(|node, now| node.set(now, thermometer::TEMPERATURE, temperature));
 }
 ```
 "#
@@ -173,7 +178,6 @@ fn measured(temperature: i16) {
 #![no_std]
 #![forbid(unsafe_code)]
 
-mod board;
 mod clock;
 mod filters;
 mod owner;
@@ -184,7 +188,6 @@ pub mod storage;
 #[cfg(feature = "embassy")]
 mod watch;
 
-pub use board::Board;
 pub use clock::Clock;
 pub use filters::{Filter, Filters};
 pub use owner::Owner;

@@ -1,11 +1,10 @@
 //! The node as the parts of this crate drive it.
 
-use od_runtime::{BusEvent, Event, Frame, Instant};
+use od_runtime::storage::Storage;
+use od_runtime::{Application, BusEvent, Device, Event, Frame, Instant, Node};
 use od_wire::CanId;
 
-/// A node with all that it needs, so that a call has no argument but its input.
-///
-/// [`Board`](crate::Board) is one. The functions are those of [`Node`](od_runtime::Node).
+/// A [`Node`], whatever its device, application and storage are. The functions are those of [`Node`].
 pub trait Owner {
     /// Handles a frame that was received.
     fn handle_frame(&mut self, now: Instant, frame: &Frame);
@@ -39,6 +38,46 @@ pub trait Owner {
     fn catch_up(&mut self, now: Instant) {
         if self.poll_timeout().is_some_and(|at| at <= now) {
             self.handle_timeout(now);
+        }
+    }
+}
+
+impl<D: Device, A: Application, S: Storage> Owner for Node<D, A, S> {
+    fn handle_frame(&mut self, now: Instant, frame: &Frame) {
+        self.handle_frame(now, frame);
+    }
+
+    fn handle_timeout(&mut self, now: Instant) {
+        self.handle_timeout(now);
+    }
+
+    fn handle_change(&mut self, now: Instant) {
+        self.handle_change(now);
+    }
+
+    fn handle_bus(&mut self, now: Instant, event: BusEvent) {
+        self.handle_bus(now, event);
+    }
+
+    fn is_bus_off(&self) -> bool {
+        self.is_bus_off()
+    }
+
+    fn poll_transmit(&mut self, now: Instant) -> Option<Frame> {
+        self.poll_transmit(now)
+    }
+
+    fn poll_timeout(&self) -> Option<Instant> {
+        self.poll_timeout()
+    }
+
+    fn poll_event(&mut self) -> Option<Event> {
+        self.poll_event()
+    }
+
+    fn poll_wanted_ids(&mut self, each: &mut dyn FnMut(CanId)) {
+        if let Some(ids) = self.poll_wanted_ids() {
+            ids.for_each(each);
         }
     }
 }

@@ -2,7 +2,6 @@
 
 mod support;
 
-use odkit::board::Owner;
 use odkit::board::storage::Mirror;
 use odkit::storage::image::capacity_needed;
 use odkit::storage::{Storage, StorageError};
@@ -33,14 +32,14 @@ impl Application for Told {
 
 #[test]
 fn a_set_that_cannot_be_loaded_is_damage_until_a_master_saves() {
-    type Board = thermometer::Board<Told, Mirrored>;
+    type Node = thermometer::Node<Told, Mirrored>;
     let lost = |lose: &dyn Fn(&mut Mirrored)| {
         let mut mirror = Mirror::new(&thermometer::DICTIONARY);
         lose(&mut mirror);
-        let mut board = Board::new(NodeId::ONE, Told::default(), mirror);
-        board.power_on(Instant::ZERO).expect("it fits");
-        sent(&mut board, Instant::ZERO);
-        board
+        let mut node = Node::new(thermometer::Device, NodeId::ONE, Told::default(), mirror);
+        node.power_on(Instant::ZERO);
+        sent(&mut node, Instant::ZERO);
+        node
     };
     // A program with more values made it.
     let longer = |mirror: &mut Mirrored| {
@@ -49,30 +48,30 @@ fn a_set_that_cannot_be_loaded_is_damage_until_a_master_saves() {
     };
     let unreadable = |mirror: &mut Mirrored| mirror.lose(StorageError::Device);
     for lose in [&longer as &dyn Fn(&mut _), &unreadable] {
-        let mut board = lost(lose);
-        assert_eq!(board.application.sound, Some(false));
-        assert!(board.storage.newest().0.is_empty());
+        let mut node = lost(lose);
+        assert_eq!(node.application.sound, Some(false));
+        assert!(node.storage.newest().0.is_empty());
         // The device itself does not replace it.
-        board.handle_timeout(Instant::from_millis(5));
-        assert!(!board.storage.is_writing());
+        node.handle_timeout(Instant::from_millis(5));
+        assert!(!node.storage.is_writing());
         // Neither does 1011h:01, which has nothing to restore.
-        board.handle_frame(Instant::ZERO, &frame("601#231110016C6F6164"));
-        assert_eq!(sent(&mut board, Instant::ZERO), ["581#8011100100000606"]);
-        assert_eq!(board.application.sound, Some(false));
+        node.handle_frame(Instant::ZERO, &frame("601#231110016C6F6164"));
+        assert_eq!(sent(&mut node, Instant::ZERO), ["581#8011100100000606"]);
+        assert_eq!(node.application.sound, Some(false));
         // 1010h:01 replaces it, and the storage is sound again.
-        board.handle_frame(Instant::ZERO, &frame("601#2310100173617665"));
-        assert_eq!(sent(&mut board, Instant::ZERO), [] as [String; 0]);
-        while board.storage.step() {}
-        let (set, number) = board.storage.newest();
+        node.handle_frame(Instant::ZERO, &frame("601#2310100173617665"));
+        assert_eq!(sent(&mut node, Instant::ZERO), [] as [String; 0]);
+        while node.storage.step() {}
+        let (set, number) = node.storage.newest();
         let set = set.to_vec();
-        board.storage.stored(number, Ok(()));
-        board.handle_timeout(Instant::from_millis(10));
+        node.storage.stored(number, Ok(()));
+        node.handle_timeout(Instant::from_millis(10));
         assert_eq!(
-            sent(&mut board, Instant::from_millis(10)),
+            sent(&mut node, Instant::from_millis(10)),
             ["581#6010100100000000"]
         );
-        assert_eq!(board.application.sound, Some(true));
-        let board = lost(&|mirror| mirror.load(&set).expect("its own set"));
-        assert_eq!(board.application.sound, Some(true));
+        assert_eq!(node.application.sound, Some(true));
+        let node = lost(&|mirror| mirror.load(&set).expect("its own set"));
+        assert_eq!(node.application.sound, Some(true));
     }
 }

@@ -3,12 +3,13 @@
 mod support;
 
 use odkit::board::{Filters, Owner};
-use odkit::storage::Memory;
+use odkit::nmt::State;
+use odkit::rooms::{LoadedRooms, LoadedValues};
+use odkit::storage::{Memory, NoStorage};
 use odkit::{
-    AnyDevice, Application, CanId, Dictionary, Frame, Instant, Lent, NoApplication, Node, NodeId,
-    Profile,
+    CanId, Device, Dictionary, Frame, Instant, NoApplication, Node, NodeId, Profile, Services,
 };
-use support::{Random, frame, thermometer};
+use support::{Random, frame, sent, thermometer};
 
 odkit::object_dictionary! {
     /// All of CiA 301 that there is an object for.
@@ -17,60 +18,59 @@ odkit::object_dictionary! {
     }
 }
 
-/// A node with its device.
-struct Rig<'d> {
-    node: Node<AnyDevice, 8, 1024>,
+/// A device whose dictionary is known at run time.
+struct Loaded {
     dictionary: Dictionary<'static>,
-    profile: &'d Profile,
-    values: Vec<u8>,
-    storage: Memory<Vec<u8>>,
+    profile: &'static Profile,
 }
 
-impl<'d> Rig<'d> {
-    fn new(dictionary: Dictionary<'static>, profile: &'d Profile) -> Self {
-        Self {
-            node: Node::new(NodeId::ONE),
-            dictionary,
-            profile,
-            values: vec![0; dictionary.store_len()],
-            storage: Memory::new(vec![0; 16 * 1024]),
-        }
+impl Services for Loaded {
+    const SERVERS: bool = true;
+    const SYNC_PRODUCER: bool = true;
+    const TIME: bool = true;
+}
+
+impl Device for Loaded {
+    type Values = LoadedValues;
+    type Rooms = LoadedRooms;
+
+    fn dictionary(&self) -> Dictionary<'_> {
+        self.dictionary
     }
 
-    fn call<R>(
-        &mut self,
-        act: impl FnOnce(&mut Node<AnyDevice, 8, 1024>, &mut Lent<'_>) -> R,
-    ) -> R {
-        let application: &mut dyn Application = &mut NoApplication;
-        let mut lent = Lent {
-            dictionary: self.dictionary,
-            values: &mut self.values,
-            application,
-            storage: &mut self.storage,
-            profile: Some(self.profile),
-        };
-        act(&mut self.node, &mut lent)
+    fn profile(&self) -> &Profile {
+        self.profile
     }
+}
 
-    /// The visible state of the node.
-    fn shows(&mut self, now: Instant) -> (Vec<Frame>, Option<Instant>, odkit::nmt::State, Vec<u8>) {
-        let frames = self.call(|node, lent| {
-            std::iter::from_fn(|| node.poll_transmit(lent, now)).collect::<Vec<_>>()
-        });
-        let (deadline, state) = (self.node.poll_timeout(), self.node.state());
-        (frames, deadline, state, self.values.clone())
-    }
+type Any = Node<Loaded, NoApplication, Memory<Vec<u8>>>;
+
+/// The visible state of the node.
+fn shows(node: &mut Any, now: Instant) -> (Vec<String>, Option<Instant>, State, Vec<u8>) {
+    let frames = sent(node, now);
+    (
+        frames,
+        node.poll_timeout(),
+        node.state(),
+        node.values().to_vec(),
+    )
 }
 
 /// Plays the same frames to a node that gets all and to one behind filters.
-fn compare(name: &str, dictionary: Dictionary<'static>, profile: &Profile, steps: u32) {
+fn compare(name: &str, dictionary: Dictionary<'static>, profile: &'static Profile, steps: u32) {
     let mut random = Random(0x1234_5678_9ABC_DEF1);
-    let (mut all, mut filtered) = (Rig::new(dictionary, profile), Rig::new(dictionary, profile));
+    let node = || {
+        let memory = Memory::new(vec![0; 16 * 1024]);
+        let loaded = Loaded {
+            dictionary,
+            profile,
+        };
+        let mut node = Node::new(loaded, NodeId::ONE, NoApplication, memory);
+        node.power_on(Instant::ZERO);
+        node
+    };
+    let (mut all, mut filtered) = (node(), node());
     let mut now = Instant::ZERO;
-    for rig in [&mut all, &mut filtered] {
-        rig.call(|node, lent| node.power_on_partly(lent, now))
-            .expect("room");
-    }
     let mut filters = Filters::<64>::default();
     let (mut refused, mut changes) = (0, 0);
     let ids = [
@@ -79,7 +79,7 @@ fn compare(name: &str, dictionary: Dictionary<'static>, profile: &Profile, steps
     ];
     let lengths = [0, 1, 2, 4, 8];
     for step in 0..steps {
-        let node_id = u16::from(all.node.node_id().raw());
+        let node_id = u16::from(all.node_id().raw());
         let bytes = random.below(u64::MAX).to_le_bytes();
         let frame = match random.below(10) {
             // Configuration: COB-IDs, watched nodes, the node ID of a family that has an object for it.
@@ -138,7 +138,7 @@ fn compare(name: &str, dictionary: Dictionary<'static>, profile: &Profile, steps
         };
         now = now.plus_millis(random.below(40));
         let mut told = Vec::new();
-        if let Some(ids) = filtered.node.poll_wanted_ids() {
+        if let Some(ids) = filtered.poll_wanted_ids() {
             told.extend(ids);
             changes += 1;
             filters = told.iter().copied().collect();
@@ -148,19 +148,15 @@ fn compare(name: &str, dictionary: Dictionary<'static>, profile: &Profile, steps
             .iter()
             .any(|filter| filter.accepts(frame.id()));
         refused += u32::from(!passes);
-        for (rig, passes) in [(&mut all, true), (&mut filtered, passes)] {
-            rig.call(|node, lent| {
-                if node.poll_timeout().is_some_and(|at| at <= now) {
-                    node.handle_timeout(lent, now);
-                }
-                if passes {
-                    node.handle_frame(lent, now, &frame);
-                }
-            });
+        for (node, passes) in [(&mut all, true), (&mut filtered, passes)] {
+            node.catch_up(now);
+            if passes {
+                node.handle_frame(now, &frame);
+            }
         }
         assert_eq!(
-            all.shows(now),
-            filtered.shows(now),
+            shows(&mut all, now),
+            shows(&mut filtered, now),
             "{name}, step {step}: {frame} with {filters:?}"
         );
     }
@@ -175,39 +171,39 @@ fn what_the_filters_refuse_means_nothing_to_the_node() {
     }
     let plain = thermometer::DICTIONARY;
     compare("thermometer", plain, &Profile::CIA301, 3_000);
-    let lss = Profile {
+    const LSS: Profile = Profile {
         lss: Some(odkit::LssProfile::CIA305),
         ..Profile::CIA301
     };
-    compare("ds301", everything::DICTIONARY, &lss, 10_000);
+    compare("ds301", everything::DICTIONARY, &LSS, 10_000);
 }
 
 #[test]
 fn the_filters_are_told_again_when_they_change() {
-    let mut board = thermometer::Board::new(NodeId::ONE, NoApplication, odkit::storage::NoStorage);
+    let mut node = Node::new(thermometer::Device, NodeId::ONE, NoApplication, NoStorage);
     let now = Instant::ZERO;
-    let told = |board: &mut thermometer::Board| {
-        let mut ids = Vec::new();
-        board.poll_wanted_ids(&mut |id| ids.push(id.raw()));
+    let told = |node: &mut thermometer::Node| {
+        let told = node.poll_wanted_ids().into_iter().flatten();
+        let mut ids: Vec<u32> = told.map(|id| id.raw()).collect();
         ids.sort_unstable();
         ids
     };
-    board.power_on(now).expect("it fits");
+    node.power_on(now);
     let first = [0, 0x80, 0x181, 0x201, 0x601, 0x701];
-    assert_eq!(told(&mut board), first);
-    board.handle_frame(now, &frame("601#4000100000000000"));
-    assert!(told(&mut board).is_empty());
+    assert_eq!(told(&mut node), first);
+    node.handle_frame(now, &frame("601#4000100000000000"));
+    assert!(told(&mut node).is_empty());
     // The RPDO, the TPDO without remote frames, a node to watch.
-    board.handle_frame(now, &frame("601#2300140101020080"));
-    assert_eq!(told(&mut board), [0, 0x80, 0x181, 0x601, 0x701]);
-    board.handle_frame(now, &frame("601#2300140133030000"));
-    assert_eq!(told(&mut board), [0, 0x80, 0x181, 0x333, 0x601, 0x701]);
-    board.handle_frame(now, &frame("601#2300180181010080"));
-    board.handle_frame(now, &frame("601#2300180181010040"));
-    assert_eq!(told(&mut board), [0, 0x80, 0x333, 0x601, 0x701]);
-    board.handle_frame(now, &frame("601#23161001F4010900"));
-    assert_eq!(told(&mut board), [0, 0x80, 0x333, 0x601, 0x701, 0x709]);
-    assert!(told(&mut board).is_empty());
+    node.handle_frame(now, &frame("601#2300140101020080"));
+    assert_eq!(told(&mut node), [0, 0x80, 0x181, 0x601, 0x701]);
+    node.handle_frame(now, &frame("601#2300140133030000"));
+    assert_eq!(told(&mut node), [0, 0x80, 0x181, 0x333, 0x601, 0x701]);
+    node.handle_frame(now, &frame("601#2300180181010080"));
+    node.handle_frame(now, &frame("601#2300180181010040"));
+    assert_eq!(told(&mut node), [0, 0x80, 0x333, 0x601, 0x701]);
+    node.handle_frame(now, &frame("601#23161001F4010900"));
+    assert_eq!(told(&mut node), [0, 0x80, 0x333, 0x601, 0x701, 0x709]);
+    assert!(told(&mut node).is_empty());
 }
 
 /// However few filters there are, they let through what they are made of.

@@ -24,7 +24,7 @@ use support::{frame, sent, thermometer};
 const SAVED: usize = capacity_needed(&thermometer::DICTIONARY);
 const BUFFER: usize = SAVED / 2 + 64;
 
-type Mirrored = thermometer::Board<NoApplication, Mirror<SAVED, { thermometer::STORE_LEN }>>;
+type Mirrored = thermometer::Node<NoApplication, Mirror<SAVED, { thermometer::STORE_LEN }>>;
 
 /// Reason why a flash fails; the only one.
 #[derive(Clone, Copy, Debug)]
@@ -117,29 +117,30 @@ fn start<const PAGE: usize, const WORD: usize>(
     chip: &Chip<PAGE, WORD>,
 ) -> (Mirrored, Log<Steps<Chip<PAGE, WORD>>, BUFFER>) {
     let mut log = log(chip);
-    let mut board = Mirrored::new(
+    let mut node = Mirrored::new(
+        thermometer::Device,
         NodeId::ONE,
         NoApplication,
         Mirror::new(&thermometer::DICTIONARY),
     );
-    wait(log.load(&mut board.storage), || {}).expect("a flash that works");
-    board.power_on(Instant::ZERO).expect("it fits");
-    sent(&mut board, Instant::ZERO);
-    (board, log)
+    wait(log.load(&mut node.storage), || {}).expect("a flash that works");
+    node.power_on(Instant::ZERO);
+    sent(&mut node, Instant::ZERO);
+    (node, log)
 }
 
 /// Heartbeat time in milliseconds.
-fn time(board: &Mirrored) -> Option<u64> {
-    board.poll_timeout().map(|at| at.as_micros() / 1000)
+fn time(node: &Mirrored) -> Option<u64> {
+    node.poll_timeout().map(|at| at.as_micros() / 1000)
 }
 
 /// A master sets the heartbeat time, and saves.
-fn command(board: &mut impl Owner, time: u16) -> Vec<String> {
+fn command(node: &mut impl Owner, time: u16) -> Vec<String> {
     let [low, high] = time.to_le_bytes();
     let now = Instant::ZERO;
-    board.handle_frame(now, &frame(&format!("601#2B171000{low:02X}{high:02X}0000")));
-    board.handle_frame(now, &frame("601#2310100173617665"));
-    sent(board, now)
+    node.handle_frame(now, &frame(&format!("601#2B171000{low:02X}{high:02X}0000")));
+    node.handle_frame(now, &frame("601#2310100173617665"));
+    sent(node, now)
 }
 
 const SET: &str = "581#6017100000000000";
@@ -149,11 +150,11 @@ const NOT_SAVED: &str = "581#8010100100000606";
 #[test]
 fn a_save_is_answered_when_the_flash_has_it() {
     let chip = Chip::<1024, 8>::new(3);
-    let (board, mut log) = start(&chip);
-    let board = RefCell::new(board);
-    assert_eq!(command(&mut *board.borrow_mut(), 700), [SET]);
+    let (node, mut log) = start(&chip);
+    let node = RefCell::new(node);
+    assert_eq!(command(&mut *node.borrow_mut(), 700), [SET]);
     let mut now = Instant::ZERO;
-    let save = log.save(|act| act(&mut board.borrow_mut().storage));
+    let save = log.save(|act| act(&mut node.borrow_mut().storage));
     let mut steps = 0;
     let mut calls = chip.calls.get();
     wait(save, || {
@@ -161,27 +162,27 @@ fn a_save_is_answered_when_the_flash_has_it() {
         let in_step = chip.calls.get() - calls;
         assert!(in_step <= 1, "{in_step} changes of the flash in a step");
         (calls, steps) = (chip.calls.get(), steps + 1);
-        let mut board = board.borrow_mut();
+        let mut node = node.borrow_mut();
         now = now.plus_millis(1);
-        board.catch_up(now);
-        assert_eq!(sent(&mut *board, now), [""; 0]);
+        node.catch_up(now);
+        assert_eq!(sent(&mut *node, now), [""; 0]);
     });
     assert!(steps > 5, "{steps}");
-    let mut board = board.into_inner();
+    let mut node = node.into_inner();
     now = now.plus_millis(3);
-    board.catch_up(now);
-    assert_eq!(sent(&mut board, now), [SAVED_NOW]);
-    let events: Vec<_> = std::iter::from_fn(|| board.poll_event()).collect();
+    node.catch_up(now);
+    assert_eq!(sent(&mut node, now), [SAVED_NOW]);
+    let events: Vec<_> = std::iter::from_fn(|| node.poll_event()).collect();
     assert!(events.contains(&Event::Saved(1)), "{events:?}");
     // A restore waits, too.
-    board.handle_frame(now, &frame("601#231110016C6F6164"));
-    assert_eq!(sent(&mut board, now), [""; 0]);
-    let board = RefCell::new(board);
-    wait(log.save(|act| act(&mut board.borrow_mut().storage)), || {});
-    let mut board = board.into_inner();
-    board.catch_up(now.plus_millis(3));
+    node.handle_frame(now, &frame("601#231110016C6F6164"));
+    assert_eq!(sent(&mut node, now), [""; 0]);
+    let node = RefCell::new(node);
+    wait(log.save(|act| act(&mut node.borrow_mut().storage)), || {});
+    let mut node = node.into_inner();
+    node.catch_up(now.plus_millis(3));
     assert_eq!(
-        sent(&mut board, now.plus_millis(3)),
+        sent(&mut node, now.plus_millis(3)),
         ["581#6011100100000000"]
     );
     assert_eq!(time(&start(&chip).0), None);
@@ -190,19 +191,19 @@ fn a_save_is_answered_when_the_flash_has_it() {
 #[test]
 fn a_task_keeps_what_comes() {
     let chip = Chip::<1024, 4>::new(4);
-    let (board, mut log) = start(&chip);
-    let board = RefCell::new(board);
-    let mut task = pin!(log.run(|act| act(&mut board.borrow_mut().storage)));
+    let (node, mut log) = start(&chip);
+    let node = RefCell::new(node);
+    let mut task = pin!(log.run(|act| act(&mut node.borrow_mut().storage)));
     let mut cx = Context::from_waker(Waker::noop());
     let mut now = Instant::ZERO;
     for time in 1..20 {
-        command(&mut *board.borrow_mut(), time * 100);
+        command(&mut *node.borrow_mut(), time * 100);
         let mut answers = Vec::new();
         while answers.is_empty() {
             assert!(task.as_mut().poll(&mut cx).is_pending());
             now = now.plus_millis(1);
-            board.borrow_mut().catch_up(now);
-            answers = sent(&mut *board.borrow_mut(), now);
+            node.borrow_mut().catch_up(now);
+            answers = sent(&mut *node.borrow_mut(), now);
             answers.retain(|frame| frame.starts_with("581"));
         }
         assert_eq!(answers, [SAVED_NOW]);
@@ -212,16 +213,16 @@ fn a_task_keeps_what_comes() {
 
 fn erasures<const PAGE: usize, const WORD: usize>(pages: usize) -> (usize, Vec<usize>) {
     let chip = Chip::<PAGE, WORD>::new(pages);
-    let (board, mut log) = start(&chip);
-    let board = RefCell::new(board);
+    let (node, mut log) = start(&chip);
+    let node = RefCell::new(node);
     let mut places = vec![0; pages];
     for save in 0..300u16 {
-        command(&mut *board.borrow_mut(), 1 + save);
+        command(&mut *node.borrow_mut(), 1 + save);
         let before = chip.nor.borrow().bytes.clone();
-        wait(log.save(|act| act(&mut board.borrow_mut().storage)), || {});
-        let mut board = board.borrow_mut();
-        board.catch_up(Instant::from_millis(3 + 3 * u64::from(save)));
-        sent(&mut *board, Instant::ZERO);
+        wait(log.save(|act| act(&mut node.borrow_mut().storage)), || {});
+        let mut node = node.borrow_mut();
+        node.catch_up(Instant::from_millis(3 + 3 * u64::from(save)));
+        sent(&mut *node, Instant::ZERO);
         let after = &chip.nor.borrow().bytes;
         for (page, place) in places.iter_mut().enumerate() {
             let of = page * PAGE..(page + 1) * PAGE;
@@ -256,20 +257,20 @@ fn cut<const PAGE: usize, const WORD: usize>(saves: u16, cuts: u64) {
         let chip = Chip::<PAGE, WORD>::new(3);
         let mut old = None;
         for save in 1..=saves {
-            let (mut board, mut log) = start(&chip);
-            command(&mut board, save * 10);
-            let board = RefCell::new(board);
-            wait(log.save(|act| act(&mut board.borrow_mut().storage)), || {});
+            let (mut node, mut log) = start(&chip);
+            command(&mut node, save * 10);
+            let node = RefCell::new(node);
+            wait(log.save(|act| act(&mut node.borrow_mut().storage)), || {});
             old = Some(u64::from(save) * 10);
         }
         let mut was_cut = false;
         for cut in 0..cuts {
             let new = 5000 + cut * 10;
-            let (mut board, mut log) = start(&chip);
-            command(&mut board, new as u16);
+            let (mut node, mut log) = start(&chip);
+            command(&mut node, new as u16);
             chip.nor.borrow_mut().cut_after(step, seed + cut);
-            let board = RefCell::new(board);
-            wait(log.save(|act| act(&mut board.borrow_mut().storage)), || {});
+            let node = RefCell::new(node);
+            wait(log.save(|act| act(&mut node.borrow_mut().storage)), || {});
             was_cut = chip.nor.borrow().is_cut;
             chip.nor.borrow_mut().restore_power();
             let found = time(&start(&chip).0);
@@ -285,10 +286,10 @@ fn cut<const PAGE: usize, const WORD: usize>(saves: u16, cuts: u64) {
             old = found;
         }
         for new in [9000, 9010] {
-            let (mut board, mut log) = start(&chip);
-            command(&mut board, new);
-            let board = RefCell::new(board);
-            wait(log.save(|act| act(&mut board.borrow_mut().storage)), || {});
+            let (mut node, mut log) = start(&chip);
+            command(&mut node, new);
+            let node = RefCell::new(node);
+            wait(log.save(|act| act(&mut node.borrow_mut().storage)), || {});
             assert_eq!(
                 time(&start(&chip).0),
                 Some(new.into()),
@@ -320,16 +321,16 @@ fn power_can_go_in_any_step_of_a_save_in_the_background() {
 #[test]
 fn a_flash_that_fails_is_an_abort() {
     let chip = Chip::<1024, 8>::new(3);
-    let (mut board, mut log) = start(&chip);
-    assert_eq!(command(&mut board, 300), [SET]);
+    let (mut node, mut log) = start(&chip);
+    assert_eq!(command(&mut node, 300), [SET]);
     chip.nor.borrow_mut().cut_after(2, 1);
-    let board = RefCell::new(board);
-    wait(log.save(|act| act(&mut board.borrow_mut().storage)), || {});
-    let mut board = board.into_inner();
+    let node = RefCell::new(node);
+    wait(log.save(|act| act(&mut node.borrow_mut().storage)), || {});
+    let mut node = node.into_inner();
     let later = Instant::from_millis(3);
-    board.catch_up(later);
-    assert_eq!(sent(&mut board, later), [NOT_SAVED]);
-    let events: Vec<_> = std::iter::from_fn(|| board.poll_event()).collect();
+    node.catch_up(later);
+    assert_eq!(sent(&mut node, later), [NOT_SAVED]);
+    let events: Vec<_> = std::iter::from_fn(|| node.poll_event()).collect();
     assert!(events.contains(&Event::NotSaved), "{events:?}");
 }
 
@@ -342,12 +343,13 @@ fn a_save_on_two_banks_of_flash_is_answered_at_once() {
         let place = PAGE as u32;
         for save in 1..5u16 {
             let flash = Nor::new(chip.clone(), place, 2 * place);
-            let mut board = thermometer::Board::new(NodeId::ONE, NoApplication, flash);
-            board.power_on(Instant::ZERO).expect("it fits");
-            let old = board.poll_timeout().map(|at| at.as_micros() / 100_000);
+            let mut node =
+                thermometer::Node::new(thermometer::Device, NodeId::ONE, NoApplication, flash);
+            node.power_on(Instant::ZERO);
+            let old = node.poll_timeout().map(|at| at.as_micros() / 100_000);
             assert_eq!(old, (save > 1).then_some(u64::from(save - 1)));
-            sent(&mut board, Instant::ZERO);
-            assert_eq!(command(&mut board, save * 100), [SET, SAVED_NOW]);
+            sent(&mut node, Instant::ZERO);
+            assert_eq!(command(&mut node, save * 100), [SET, SAVED_NOW]);
         }
         let nor = chip.nor.borrow();
         assert_eq!(nor.erases, 4);

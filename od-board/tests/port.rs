@@ -6,7 +6,8 @@ mod support;
 use std::collections::VecDeque;
 
 use odkit::board::{Owner, Port};
-use odkit::{BusEvent, CanId, Event, Frame, Instant, NoApplication, NodeId};
+use odkit::storage::NoStorage;
+use odkit::{BusEvent, CanId, Event, Frame, Instant, NoApplication, Node, NodeId};
 use support::{Random, frame, thermometer};
 
 /// Mailboxes as of a bxCAN: the frame with the lowest CAN-ID goes first, and one with a still lower
@@ -164,16 +165,16 @@ fn nothing_overtakes_a_boot_up_message() {
 #[test]
 fn a_node_answers_through_an_nb_controller() {
     let (mut can, mut port) = (Mailboxes::default(), Port::new());
-    let mut board = thermometer::Board::new(NodeId::ONE, NoApplication, odkit::storage::NoStorage);
-    board.power_on(Instant::ZERO).unwrap();
+    let mut node = Node::new(thermometer::Device, NodeId::ONE, NoApplication, NoStorage);
+    node.power_on(Instant::ZERO);
     can.received.push_back(frame("601#4000100000000000"));
     can.received.push_back(frame("601#2B17100064000000"));
-    port.serve_nb(&mut board, &mut can, Instant::ZERO).unwrap();
+    port.serve_nb(&mut node, &mut can, Instant::ZERO).unwrap();
     let later = Instant::from_millis(100);
     while !can.pending.is_empty() {
         can.step();
     }
-    port.serve_nb(&mut board, &mut can, later).unwrap();
+    port.serve_nb(&mut node, &mut can, later).unwrap();
     can.step();
     let bus: Vec<_> = can.bus.iter().map(Frame::to_string).collect();
     let expected = ["581#4300100000000000", "581#6017100000000000", "701#00"];
@@ -183,20 +184,20 @@ fn a_node_answers_through_an_nb_controller() {
 #[test]
 fn no_frame_of_before_bus_off_follows_the_way_back() {
     let (mut can, mut port) = (Mailboxes::default(), Port::new());
-    let mut board = thermometer::Board::new(NodeId::ONE, NoApplication, odkit::storage::NoStorage);
-    board.power_on(Instant::ZERO).unwrap();
+    let mut node = Node::new(thermometer::Device, NodeId::ONE, NoApplication, NoStorage);
+    node.power_on(Instant::ZERO);
     // Frames of others keep the mailboxes full.
     can.pending = vec![frame("080#"); 3];
     can.received.push_back(frame("601#4000100000000000"));
-    port.serve_nb(&mut board, &mut can, Instant::ZERO).unwrap();
+    port.serve_nb(&mut node, &mut can, Instant::ZERO).unwrap();
     assert!(!port.is_empty());
-    board.handle_bus(Instant::ZERO, BusEvent::Off);
-    port.serve_nb(&mut board, &mut can, Instant::ZERO).unwrap();
+    node.handle_bus(Instant::ZERO, BusEvent::Off);
+    port.serve_nb(&mut node, &mut can, Instant::ZERO).unwrap();
     assert!(port.is_empty());
-    board.handle_bus(Instant::ZERO, BusEvent::Active);
+    node.handle_bus(Instant::ZERO, BusEvent::Active);
     can.pending.clear();
     can.received.push_back(frame("601#4001100000000000"));
-    port.serve_nb(&mut board, &mut can, Instant::ZERO).unwrap();
+    port.serve_nb(&mut node, &mut can, Instant::ZERO).unwrap();
     let ids: Vec<_> = can.pending.iter().map(Frame::to_string).collect();
     assert_eq!(ids, ["581#4F01100000000000"]);
 }
@@ -220,16 +221,16 @@ impl embedded_can::blocking::Can for Waits {
 
 #[test]
 fn a_node_answers_through_a_blocking_controller() {
-    let mut board = thermometer::Board::new(NodeId::ONE, NoApplication, odkit::storage::NoStorage);
-    board.power_on(Instant::ZERO).unwrap();
+    let mut node = Node::new(thermometer::Device, NodeId::ONE, NoApplication, NoStorage);
+    node.power_on(Instant::ZERO);
     let mut port = Port::new();
     let mut can = Waits([Ok(frame("601#4000100000000000"))].into(), Vec::new());
-    port.send_blocking(&mut board, &mut can, Instant::ZERO)
+    port.send_blocking(&mut node, &mut can, Instant::ZERO)
         .unwrap();
-    let served = port.serve_blocking(&mut board, &mut can, || Instant::ZERO);
+    let served = port.serve_blocking(&mut node, &mut can, || Instant::ZERO);
     assert_eq!(served, Ok(()));
     assert_eq!(can.1, ["701#00", "581#4300100000000000"]);
-    let served = port.serve_blocking(&mut board, &mut can, || Instant::ZERO);
+    let served = port.serve_blocking(&mut node, &mut can, || Instant::ZERO);
     assert_eq!(served, Err(Overrun(false)));
 }
 

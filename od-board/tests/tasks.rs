@@ -13,12 +13,12 @@ use std::task::{Context, Poll, Wake, Waker};
 
 use embassy_sync::blocking_mutex::raw::CriticalSectionRawMutex;
 use embassy_time::{Duration, MockDriver};
-use odkit::board::{Filter, Filters, Owner, Receive, Shared, Transmit, Watch};
+use odkit::board::{Filter, Filters, Receive, Shared, Transmit, Watch};
 use odkit::storage::NoStorage;
 use odkit::{BusEvent, Frame, NodeId};
 use support::{Heater, frame, thermometer};
 
-type Thermometer = Shared<CriticalSectionRawMutex, thermometer::Board<Heater>>;
+type Thermometer = Shared<CriticalSectionRawMutex, thermometer::Node<Heater>>;
 
 /// The tests share the clock.
 static CLOCK: Mutex<()> = Mutex::new(());
@@ -139,7 +139,8 @@ impl Executor<'_> {
 /// Runs the task of a thermometer while `test` has its executor.
 fn run(test: impl FnOnce(&mut Executor<'_>, &Thermometer)) {
     let _guard = clock();
-    let shared = Thermometer::new(thermometer::Board::new(
+    let shared = Thermometer::new(thermometer::Node::new(
+        thermometer::Device,
         NodeId::ONE,
         Heater::new(),
         NoStorage,
@@ -156,9 +157,7 @@ fn run(test: impl FnOnce(&mut Executor<'_>, &Thermometer)) {
         controller,
     };
     assert_eq!(executor.sends(), [""; 0]);
-    shared
-        .with(|board, now| board.power_on(now))
-        .expect("it fits");
+    shared.with(|node, now| node.power_on(now));
     assert_eq!(executor.sends(), ["701#00"]);
     test(&mut executor, &shared);
 }
@@ -185,10 +184,10 @@ fn a_change_from_another_task_sends_its_tpdo_at_once() {
     run(|executor, shared| {
         executor.receives(Ok(frame("000#0100")));
         assert_eq!(executor.sends(), ["181#D700"]);
-        shared.with(|board, now| board.set(now, thermometer::TEMPERATURE, 99));
+        shared.with(|node, now| node.set(now, thermometer::TEMPERATURE, 99));
         assert_eq!(executor.sends(), ["181#6300"]);
-        shared.with(|board, now| {
-            board.change(now, |heater, store| {
+        shared.with(|node, now| {
+            node.change(now, |heater, store| {
                 heater.ticks = 0;
                 store.set(thermometer::TEMPERATURE, 98);
             })
@@ -217,7 +216,7 @@ fn a_controller_without_room_holds_up_neither_frames_nor_time() {
         executor.receives(Ok(frame("000#0100")));
         executor.receives(Ok(frame("201#0700")));
         assert_eq!(executor.sends(), [""; 0]);
-        assert_eq!(shared.with(|board, _| board.get(thermometer::TARGET)), 7);
+        assert_eq!(shared.with(|node, _| node.get(thermometer::TARGET)), 7);
         for _ in 0..250 {
             assert_eq!(executor.advance(1).0, [""; 0]);
         }
@@ -271,7 +270,7 @@ fn bus_off_and_back() {
     run(|executor, shared| {
         executor.receives(Err(BusEvent::Off));
         executor.sends();
-        assert!(shared.with(|board, _| board.node().is_bus_off()));
+        assert!(shared.with(|node, _| node.is_bus_off()));
         executor.receives(Ok(frame("601#4000100000000000")));
         assert_eq!(executor.sends(), [""; 0]);
         executor.receives(Err(BusEvent::Active));
@@ -294,7 +293,7 @@ fn frames_of_before_bus_off(learn: impl Fn(&mut Executor<'_>, &Thermometer)) {
         assert_eq!(executor.sends(), [""; 0]);
         learn(executor, shared);
         assert_eq!(executor.sends(), [""; 0]);
-        assert!(shared.with(|board, _| board.node().is_bus_off()));
+        assert!(shared.with(|node, _| node.is_bus_off()));
         assert_eq!(executor.advance(500).0, [""; 0]);
         executor.receives(Err(BusEvent::Active));
         let mut controller = executor.controller.lock().unwrap();
@@ -304,7 +303,7 @@ fn frames_of_before_bus_off(learn: impl Fn(&mut Executor<'_>, &Thermometer)) {
         }
         drop(controller);
         let sent = executor.sends();
-        assert!(!shared.with(|board, _| board.node().is_bus_off()));
+        assert!(!shared.with(|node, _| node.is_bus_off()));
         assert_eq!(sent, [""; 0]);
         executor.receives(Ok(frame("601#4000100000000000")));
         assert_eq!(executor.sends(), ["581#4300100000000000"]);
@@ -317,7 +316,7 @@ fn no_frame_of_before_bus_off_follows_the_way_back() {
     frames_of_before_bus_off(|executor, _| executor.receives(Err(BusEvent::Off)));
     // Another task does, such as an interrupt of the controller.
     frames_of_before_bus_off(|_, shared| {
-        shared.with(|board, now| board.handle_bus(now, BusEvent::Off));
+        shared.with(|node, now| node.handle_bus(now, BusEvent::Off));
     });
     // The sending half does.
     frames_of_before_bus_off(|executor, _| {

@@ -9,10 +9,10 @@ use crate::types::{
     ODKIT_RESET_POWER_ON, odkit_device,
 };
 
-/// The behaviour of a device, for the length of one call.
-pub(crate) struct Behaviour<'i> {
-    pub(crate) device: &'i odkit_device,
-    pub(crate) nested: &'i Nested,
+/// The behaviour of a device.
+pub(crate) struct Behaviour {
+    pub(crate) device: odkit_device,
+    pub(crate) nested: &'static Nested,
     /// The firmware writes, and no master: it is not asked.
     pub(crate) own: bool,
 }
@@ -36,7 +36,7 @@ fn outcome(answer: u32) -> Result<(), AbortCode> {
 }
 
 // SAFETY of all calls below: C wrote the functions for these arguments.
-impl Application for Behaviour<'_> {
+impl Application for Behaviour {
     fn reset(&mut self, cx: &mut Context<'_, '_>, reset: Reset) {
         if let Some(call) = self.device.reset {
             // SAFETY: see above.

@@ -5,7 +5,7 @@
 #[macro_export]
 macro_rules! export {
     ($device:ident) => {
-        static ODKIT: $crate::instance::Instance<$device::Node, { $device::STORE_LEN }> =
+        static ODKIT: $crate::instance::Instance<$device::Device> =
             $crate::instance::Instance::new();
 
         /// Switches the power on: loads the saved values or their defaults, and the node boots up.

@@ -4,9 +4,9 @@
 use core::cell::UnsafeCell;
 use core::sync::atomic::{AtomicBool, Ordering};
 
-use odkit::{BusEvent, Device, Dictionary, Extras, Instant, Lent, Node, NodeId, nmt};
+use odkit::{BusEvent, Device, Instant, Node, NodeId, nmt};
 
-use crate::answer::{ODKIT_ARGUMENT, ODKIT_BUSY, ODKIT_NULL, ODKIT_OK, ODKIT_SIZE, ODKIT_STATE};
+use crate::answer::{ODKIT_ARGUMENT, ODKIT_BUSY, ODKIT_NULL, ODKIT_OK, ODKIT_STATE};
 use crate::application::Behaviour;
 use crate::clock::{self, Clock};
 use crate::frame::{from_c, to_c};
@@ -17,33 +17,28 @@ use crate::types::{
     ODKIT_UNCONFIGURED, odkit_device, odkit_event, odkit_frame,
 };
 
-/// A node with its values and all that C gave it. [`export!`](crate::export) makes a static one.
+/// A node and its time. [`export!`](crate::export) makes a static one.
 ///
-/// `N` is the type `Node` of a dictionary's module, `LEN` its `STORE_LEN`.
-pub struct Instance<N, const LEN: usize> {
+/// `D` is the type `Device` of a dictionary's module.
+pub struct Instance<D: Device> {
     /// A call has `state`.
     busy: AtomicBool,
     pub(crate) nested: Nested,
-    state: UnsafeCell<State<N, LEN>>,
+    state: UnsafeCell<State<D>>,
 }
 
-pub(crate) struct State<N, const LEN: usize> {
-    pub(crate) node: N,
-    pub(crate) values: [u8; LEN],
-    device: odkit_device,
+/// A node with the callbacks and the memory that C gave it.
+pub(crate) type Slave<D> = Node<D, Behaviour, Memory>;
+
+pub(crate) struct State<D: Device> {
+    /// `None`: it has had no power yet.
+    node: Option<Slave<D>>,
     clock: Clock,
 }
 
 // SAFETY: `busy` lets one call at a time come to `state`. The context of `nested` is that of a
 // callback; the header asks for calls from one thread at a time.
-unsafe impl<N, const LEN: usize> Sync for Instance<N, LEN> {}
-
-/// The node and what is lent to it, for the length of one call.
-pub(crate) struct Call<'c, 'd, N> {
-    pub(crate) node: &'c mut N,
-    pub(crate) lent: Lent<'d>,
-    pub(crate) clock: &'c mut Clock,
-}
+unsafe impl<D: Device> Sync for Instance<D> {}
 
 /// A result as C sees it.
 pub(crate) fn answer(result: Result<(), u32>) -> u32 {
@@ -62,17 +57,7 @@ pub(crate) unsafe fn put<T>(to: *mut T, value: T) {
     unsafe { to.write_unaligned(value) };
 }
 
-impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>, const LEN: usize>
-    Instance<Node<D, PDO, SDO, X>, LEN>
-{
-    pub(crate) const DICTIONARY: Dictionary<'static> = match D::DICTIONARY {
-        Some(dictionary) => {
-            assert!(LEN >= dictionary.store_len(), "LEN is not STORE_LEN");
-            dictionary
-        }
-        None => panic!("the compiler has to know the dictionary"),
-    };
-
+impl<D: Device + Default> Instance<D> {
     /// A node without power.
     #[allow(clippy::new_without_default)] // for a static
     pub const fn new() -> Self {
@@ -80,19 +65,14 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>, const LEN
             busy: AtomicBool::new(false),
             nested: Nested::new(),
             state: UnsafeCell::new(State {
-                node: Node::new(NodeId::ONE),
-                values: [0; LEN],
-                device: odkit_device::none(),
+                node: None,
                 clock: Clock::new(),
             }),
         }
     }
 
     /// Has the state for one call; `ODKIT_BUSY` while another one has it.
-    pub(crate) fn enter<R>(
-        &self,
-        call: impl FnOnce(&mut State<Node<D, PDO, SDO, X>, LEN>) -> Result<R, u32>,
-    ) -> Result<R, u32> {
+    fn enter<R>(&self, call: impl FnOnce(&mut State<D>) -> Result<R, u32>) -> Result<R, u32> {
         #[cfg(target_has_atomic = "8")]
         let busy = self.busy.swap(true, Ordering::Acquire);
         // One core without such an operation: an interrupt between the two lines has left again
@@ -112,43 +92,14 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>, const LEN
         result
     }
 
-    /// Lends the device to a node that has power.
+    /// Has the node for one call, and its clock; `ODKIT_STATE` without power.
     pub(crate) fn open<R>(
         &self,
-        own: bool,
-        call: impl FnOnce(Call<'_, '_, Node<D, PDO, SDO, X>>) -> Result<R, u32>,
+        call: impl FnOnce(&mut Slave<D>, &mut Clock) -> Result<R, u32>,
     ) -> Result<R, u32> {
-        self.enter(|state| match state.node.is_powered() {
-            true => self.lend(state, own, call),
-            false => Err(ODKIT_STATE),
-        })
-    }
-
-    fn lend<R>(
-        &self,
-        state: &mut State<Node<D, PDO, SDO, X>, LEN>,
-        own: bool,
-        call: impl FnOnce(Call<'_, '_, Node<D, PDO, SDO, X>>) -> R,
-    ) -> R {
-        let mut behaviour = Behaviour {
-            device: &state.device,
-            nested: &self.nested,
-            own,
-        };
-        let mut memory = Memory {
-            context: state.device.context,
-            storage: &state.device.storage,
-        };
-        call(Call {
-            node: &mut state.node,
-            lent: Lent {
-                dictionary: Self::DICTIONARY,
-                values: &mut state.values,
-                application: &mut behaviour,
-                storage: &mut memory,
-                profile: None,
-            },
-            clock: &mut state.clock,
+        self.enter(|State { node, clock }| match node {
+            Some(node) if node.is_powered() => call(node, clock),
+            _ => Err(ODKIT_STATE),
         })
     }
 
@@ -157,39 +108,49 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>, const LEN
     /// # Safety
     /// `device` is null or points to a device, whose functions accept its context and stay where
     /// they are.
-    pub unsafe fn power_on(&self, now_us: u32, node_id: u8, device: *const odkit_device) -> u32 {
-        let device = match device.is_null() {
+    pub unsafe fn power_on(
+        &'static self,
+        now_us: u32,
+        node_id: u8,
+        device: *const odkit_device,
+    ) -> u32 {
+        let callbacks = match device.is_null() {
             true => odkit_device::none(),
             // SAFETY: the caller's.
             false => unsafe { device.read_unaligned() },
         };
-        let has_lss = D::LSS && D::PROFILE.is_some_and(|profile| profile.lss.is_some());
+        let device = D::default();
+        let has_lss = D::LSS && device.profile().lss.is_some();
         let number = NodeId::new(node_id);
         let is_valid = number.is_some() || node_id == ODKIT_UNCONFIGURED && has_lss;
-        if !is_valid || !device.storage.is_valid() {
+        if !is_valid || !callbacks.storage.is_valid() {
             return ODKIT_ARGUMENT;
         }
-        answer(self.enter(|state| {
-            if state.node.is_powered() {
+        answer(self.enter(|State { node, clock }| {
+            if node.as_ref().is_some_and(Node::is_powered) {
                 return Err(ODKIT_STATE);
             }
-            state.device = device;
-            let now = state.clock.start(now_us);
-            state.node = Node::new(number.unwrap_or(NodeId::ONE));
-            state.node.set_node_id(number);
-            self.lend(state, false, |mut call| {
-                // The compiler has checked that it fits.
-                call.node
-                    .power_on(&mut call.lent, now)
-                    .map_err(|_| ODKIT_SIZE)
-            })
+            let memory = Memory {
+                context: callbacks.context,
+                storage: callbacks.storage,
+            };
+            let behaviour = Behaviour {
+                device: callbacks,
+                nested: &self.nested,
+                own: false,
+            };
+            let first = number.unwrap_or(NodeId::ONE);
+            let node = node.insert(Node::new(device, first, behaviour, memory));
+            node.set_node_id(number);
+            node.power_on(clock.start(now_us));
+            Ok(())
         }))
     }
 
     /// See `odkit_power_off`.
     pub fn power_off(&self) -> u32 {
         answer(self.enter(|state| {
-            state.node.power_off();
+            state.node.iter_mut().for_each(Node::power_off);
             Ok(())
         }))
     }
@@ -206,19 +167,17 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>, const LEN
         let Some(frame) = from_c(&unsafe { frame.read_unaligned() }) else {
             return ODKIT_ARGUMENT;
         };
-        self.at(now_us, |node, lent, now| {
-            node.handle_frame(lent, now, &frame)
-        })
+        self.at(now_us, |node, now| node.handle_frame(now, &frame))
     }
 
     /// See `odkit_handle_timeout`.
     pub fn handle_timeout(&self, now_us: u32) -> u32 {
-        self.at(now_us, |node, lent, now| node.handle_timeout(lent, now))
+        self.at(now_us, Node::handle_timeout)
     }
 
     /// See `odkit_handle_change`.
     pub fn handle_change(&self, now_us: u32) -> u32 {
-        self.at(now_us, |node, lent, now| node.handle_change(lent, now))
+        self.at(now_us, Node::handle_change)
     }
 
     /// See `odkit_handle_bus`.
@@ -231,18 +190,13 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>, const LEN
             ODKIT_BUS_OVERRUN => BusEvent::Overrun,
             _ => return ODKIT_ARGUMENT,
         };
-        self.at(now_us, |node, lent, now| node.handle_bus(lent, now, event))
+        self.at(now_us, |node, now| node.handle_bus(now, event))
     }
 
     /// Something happens at a moment.
-    fn at(
-        &self,
-        now_us: u32,
-        handle: impl FnOnce(&mut Node<D, PDO, SDO, X>, &mut Lent<'_>, Instant),
-    ) -> u32 {
-        answer(self.open(false, |mut call| {
-            let now = call.clock.at(now_us);
-            handle(call.node, &mut call.lent, now);
+    fn at(&self, now_us: u32, handle: impl FnOnce(&mut Slave<D>, Instant)) -> u32 {
+        answer(self.open(|node, clock| {
+            handle(node, clock.at(now_us));
             Ok(())
         }))
     }
@@ -255,10 +209,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>, const LEN
         if to.is_null() {
             return false;
         }
-        let frame = self.open(false, |mut call| {
-            let now = call.clock.last();
-            Ok(call.node.poll_transmit(&mut call.lent, now))
-        });
+        let frame = self.open(|node, clock| Ok(node.poll_transmit(clock.last())));
         let Ok(Some(frame)) = frame else { return false };
         // SAFETY: it is not null, and the caller's.
         unsafe { put(to, to_c(&frame)) };
@@ -269,7 +220,8 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>, const LEN
     pub fn poll_timeout(&self, now_us: u32) -> u32 {
         let wait = self.enter(|state| {
             let now = state.clock.at(now_us);
-            Ok(clock::until(now, state.node.poll_timeout()))
+            let due = state.node.as_ref().and_then(Node::poll_timeout);
+            Ok(clock::until(now, due))
         });
         wait.unwrap_or(0)
     }
@@ -282,9 +234,8 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>, const LEN
         if to.is_null() {
             return false;
         }
-        let Ok(Some(event)) = self.enter(|state| Ok(state.node.poll_event())) else {
-            return false;
-        };
+        let event = self.enter(|state| Ok(state.node.as_mut().and_then(Node::poll_event)));
+        let Ok(Some(event)) = event else { return false };
         // SAFETY: it is not null, and the caller's.
         unsafe { put(to, event.into()) };
         true
@@ -292,15 +243,17 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>, const LEN
 
     /// See `odkit_state`.
     pub fn state(&self) -> u8 {
-        let state = self.enter(|state| Ok(state.node.state()));
+        let state = self.enter(|state| Ok(state.node.as_ref().map(Node::state)));
+        let state = state.ok().flatten();
         state.unwrap_or(nmt::State::Initialising) as u8
     }
 
     /// See `odkit_node_id`.
     pub fn node_id(&self) -> u8 {
-        let number = self.enter(|state| match state.node.is_configured() {
-            true => Ok(state.node.node_id().raw()),
-            false => Ok(ODKIT_UNCONFIGURED),
+        let number = self.enter(|state| match &state.node {
+            Some(node) if !node.is_configured() => Ok(ODKIT_UNCONFIGURED),
+            Some(node) => Ok(node.node_id().raw()),
+            None => Ok(NodeId::ONE.raw()),
         });
         number.unwrap_or(0)
     }

@@ -11,9 +11,9 @@ use crate::types::odkit_storage;
 const LARGEST_WORD: u32 = 32;
 
 /// The memory of a device.
-pub(crate) struct Memory<'i> {
+pub(crate) struct Memory {
     pub(crate) context: *mut c_void,
-    pub(crate) storage: &'i odkit_storage,
+    pub(crate) storage: odkit_storage,
 }
 
 impl odkit_storage {
@@ -44,7 +44,7 @@ fn outcome(answer: i32) -> Result<(), StorageError> {
     }
 }
 
-impl Memory<'_> {
+impl Memory {
     /// Offset and length as C sees them.
     fn part(&self, offset: usize, len: usize) -> Result<(u32, u32), StorageError> {
         let capacity = self.storage.capacity as usize;
@@ -55,7 +55,7 @@ impl Memory<'_> {
     }
 }
 
-impl Storage for Memory<'_> {
+impl Storage for Memory {
     fn capacity(&self) -> usize {
         self.storage.capacity as usize
     }

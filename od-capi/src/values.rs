@@ -4,9 +4,9 @@
 use core::ffi::c_void;
 use core::slice;
 
-use odkit::{AbortCode, Address, Device, Emcy, Entry, Extras, Node, Store, nmt};
+use odkit::{AbortCode, Address, Device, Emcy, Entry, Store, nmt};
 
-use crate::answer::{ODKIT_ARGUMENT, ODKIT_NULL, ODKIT_OK, ODKIT_SIZE, ODKIT_STATE};
+use crate::answer::{ODKIT_ARGUMENT, ODKIT_NULL, ODKIT_OK, ODKIT_SIZE};
 use crate::instance::{Instance, answer, put};
 use crate::number;
 
@@ -16,22 +16,13 @@ fn find(store: &Store<'_>, address: Address) -> Result<Entry, u32> {
     found.map_err(|missing| AbortCode::from(missing).code())
 }
 
-impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>, const LEN: usize>
-    Instance<Node<D, PDO, SDO, X>, LEN>
-{
+impl<D: Device + Default> Instance<D> {
     /// Reads values, in a callback or outside.
     fn look<R>(&self, read: impl Fn(&Store<'_>) -> Result<R, u32>) -> Result<R, u32> {
         if let Some(result) = self.nested.with(|cx| read(cx.store)) {
             return result;
         }
-        self.enter(|state| {
-            if !state.node.is_powered() {
-                return Err(ODKIT_STATE);
-            }
-            let node_id = state.node.node_id();
-            let store = Store::new(&Self::DICTIONARY, &mut state.values, node_id);
-            read(&store.map_err(|_| ODKIT_SIZE)?)
-        })
+        self.open(|node, _| node.look(|_, store| read(store)))
     }
 
     /// Writes a value, in a callback or outside.
@@ -47,9 +38,10 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>, const LEN
         if let Some(result) = nested {
             return result;
         }
-        self.open(true, |mut call| {
-            let now = call.clock.at(now_us);
-            let set = call.node.set_value(&mut call.lent, now, address, bytes);
+        self.open(|node, clock| {
+            node.application.own = true;
+            let set = node.set_value(clock.at(now_us), address, bytes);
+            node.application.own = false;
             set.map_err(AbortCode::code)
         })
     }
@@ -215,15 +207,15 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>, const LEN
         if nested.is_some() {
             return ODKIT_OK;
         }
-        answer(self.open(false, |mut call| {
-            if call.node.state() == nmt::State::Initialising {
+        answer(self.open(|node, clock| {
+            if node.state() == nmt::State::Initialising {
                 return Err(AbortCode::DeviceState.code());
             }
-            let now = call.clock.at(now_us);
+            let now = clock.at(now_us);
             // One that is active already, or not, needs no message.
             let _ = match comes {
-                true => call.node.raise(&mut call.lent, now, error),
-                false => call.node.clear(&mut call.lent, now, error),
+                true => node.raise(now, error),
+                false => node.clear(now, error),
             };
             Ok(())
         }))

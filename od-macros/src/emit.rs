@@ -62,7 +62,7 @@ fn root(input: &Input) -> String {
         Some(path) => quote!(#path).to_string(),
         None => String::from("::odkit"),
     };
-    format!("{odkit}::__private4")
+    format!("{odkit}::__private5")
 }
 
 fn about(source: &Source, family: &Family) -> String {
@@ -102,11 +102,10 @@ fn device(out: &mut String, input: &Input, device: &Device, of_variant: Option<&
     let family = of_variant.unwrap_or_default();
     let _ = writeln!(out, "use {root}::*;");
     dictionary(out, root, &device.tables);
-    let mut services = String::new();
     let depth = if of_variant.is_some() { 2 } else { 1 };
-    input.services.constants(&mut services, root, depth);
-    let extras = extras(input, &device.tables);
-    node(out, root, &device.tables, &services, extras);
+    let services = input.services.constants();
+    let profile = input.services.profile(root, depth);
+    node(out, root, &services, &profile);
     let mut handed_on = Vec::new();
     for item in &device.items {
         match family.iter().find(|other| other.index == item.index) {
@@ -224,55 +223,29 @@ pub const STORE_LEN: usize = DICTIONARY.store_len();
     );
 }
 
-/// Number of SDO servers past the first, if the node needs room for them, or for SYNC producer or
-/// TIME.
-fn extras(input: &Input, tables: &Tables) -> Option<usize> {
-    let dictionary = tables.dictionary();
-    let has = |index, service| dictionary.has(index) && !input.services.lacks(service);
-    let servers = if input.services.lacks("SERVERS") {
-        0
-    } else {
-        dictionary.servers()
-    };
-    let has_clocks = has(0x1006, "SYNC_PRODUCER") || has(0x1012, "TIME");
-    (servers > 0 || has_clocks).then_some(servers)
-}
-
-/// `Node` with the sizes of the dictionary, and the type that ties the two.
-fn node(out: &mut String, root: &str, tables: &Tables, services: &str, extras: Option<usize>) {
-    let dictionary = tables.dictionary();
-    let pdos = dictionary.tpdos().max(dictionary.rpdos());
-    let mut bytes = dictionary.longest();
-    if dictionary.has_streams() {
-        bytes = bytes.max(BLOCK);
-    }
-    let extras = match extras {
-        Some(servers) => format!("{root}::Extra<Device, {bytes}, {servers}, Rooms>"),
-        None => format!("{root}::Only<Rooms>"),
-    };
+/// The device as a type, and its node.
+fn node(out: &mut String, root: &str, services: &str, profile: &str) {
     let _ = write!(
         out,
         "#[doc = \"The device of [`DICTIONARY`], as a type.\"]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct Device;
-impl {root}::Device for Device {{
+impl {root}::Services for Device {{
 const DICTIONARY: ::core::option::Option<{root}::Dictionary<'static>> =
 ::core::option::Option::Some(DICTIONARY);
 {services}}}
-#[doc = \"Room for what a node of this device remembers.\"]
-pub type Rooms = {root}::rooms!(Device);
-#[doc = \"A node for [`DICTIONARY`]: as many PDOs each way and as long an SDO buffer as it needs \
-({pdos}, and {bytes} bytes).\"]
-pub type Node = {root}::Node<Device, {pdos}, {bytes}, {extras}>;
-#[doc = \"A node for [`DICTIONARY`] with all that it needs: values, an application, a storage.\"]
-pub type Board<A = {root}::NoApplication, S = {root}::NoStorage> =
-{root}::Board<Device, A, S, {pdos}, {bytes}, STORE_LEN, {extras}>;
+impl {root}::Device for Device {{
+type Values = Values;
+type Rooms = Rooms;
+#[inline]
+fn dictionary(&self) -> {root}::Dictionary<'_> {{ DICTIONARY }}
+{profile}}}
+{root}::rooms!(Device);
+#[doc = \"A node of this device, with the behaviour `A` and the storage `S`.\"]
+pub type Node<A = {root}::NoApplication, S = {root}::NoStorage> = {root}::Node<Device, A, S>;
 "
     );
 }
-
-/// Bytes of the longest block of an SDO block transfer: so much of a streamed value is in the buffer.
-const BLOCK: usize = 127 * 7;
 
 /// A literal of bytes. Most are 0, which `escape_ascii` would write with four letters.
 fn bytes(out: &mut String, bytes: impl Iterator<Item = u8>) {

@@ -42,7 +42,8 @@
 //!           | "without" service { "," service } ";"  the node of the device has no code for these:
 //!                        lss, segmented, block (SDO transfers), rpdos, changes (PDOs when a value
 //!                        changes), guarding, consumer (heartbeat), storage, behaviour (1029h), events,
-//!                        servers (SDO servers past the first), sync_producer, time
+//!                        servers (SDO servers past the first), sync_producer, time, deadlines (of
+//!                        RPDOs), sync_length (of SYNC messages)
 //!           | "behaves" "=" path ";"               the device's `Profile`, known to the compiler
 //!           | "warnings" "=" off ";"                 warnings of the rules are not shown
 //!           | "errors" "=" 4 ";"                   number of EMCY errors that can be active, and come or
@@ -80,7 +81,8 @@
 //!
 //! # Generated module
 //!
-//! The module contains `DICTIONARY`, `STORE_LEN` and a handle for every value: constants
+//! The module contains `DICTIONARY`, `STORE_LEN`, the type `Device`, of which `odkit::Node::new` makes a node, the type
+//! `Node<A, S>` of such a node, and a handle for every value: constants
 //! for VARs, modules of constants for RECORDs and ARRAYs. Their names come from the names in the
 //! EDS: `Device type` becomes `DEVICE_TYPE`, `Identity object` the module
 //! `identity_object`. Characters other than letters and digits separate words. **Names that
@@ -177,14 +179,16 @@ mod tests {
         let (_, base) = made.split_once("pubmoddevice").unwrap();
         let (base, variant) = base.split_once("pubmodblind").unwrap();
         for part in [
-            "pub const DICTIONARY: ::odkit::__private4::Dictionary<'static> =",
+            "pub const DICTIONARY: ::odkit::__private5::Dictionary<'static> =",
             "static ROWS: [Row; 5] = rows(b\"1\\0\\0\\x10",
             "static NAMES: [[Range; 2]; 5] = names(b\"",
             "pub const ERROR_REGISTER: Var<u8, Ro, Pdo> = __v(0x1001, 0, 4, 1, 8);",
             "pub mod identity {",
             "pub const VENDOR_ID: Var<u32, Const> = __v(0x1018, 1, 0, 0, 32);",
             "pub const STORE_LEN: usize = DICTIONARY.store_len();",
-            "pub type Node =\n::odkit::__private4::Node<Device, 0, 4, ::odkit::__private4::Only<Rooms>>;",
+            "::odkit::__private5::rooms!(Device);",
+            "pub type Node<A = ::odkit::__private5::NoApplication, S = ::odkit::__private5::NoStorage> =
+             ::odkit::__private5::Node<Device, A, S>;",
         ] {
             assert!(base.contains(&tight(part)), "{part}\n\n{base}");
         }

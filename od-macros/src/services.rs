@@ -14,7 +14,7 @@ use crate::report::Report;
 use crate::words;
 
 /// The services by their words, the constants of `Device`, and the objects that need them.
-const SERVICES: [(&str, &str, RangeInclusive<u16>); 13] = [
+const SERVICES: [(&str, &str, RangeInclusive<u16>); 15] = [
     ("lss", "LSS", NONE),
     ("segmented", "SEGMENTED", NONE),
     ("block", "BLOCK", NONE),
@@ -28,6 +28,8 @@ const SERVICES: [(&str, &str, RangeInclusive<u16>); 13] = [
     ("servers", "SERVERS", 0x1201..=0x127F),
     ("sync_producer", "SYNC_PRODUCER", 0x1005..=0x1005),
     ("time", "TIME", 0x1012..=0x1012),
+    ("deadlines", "DEADLINES", NONE),
+    ("sync_length", "SYNC_LENGTH", NONE),
 ];
 
 /// No object.
@@ -160,25 +162,34 @@ impl Services {
         self.off.retain(|(constant, _)| !needed.contains(constant));
     }
 
-    /// Whether a constant of `Device` is `false`.
-    pub(crate) fn lacks(&self, constant: &str) -> bool {
+    /// Returns whether `without` has named the service of this constant.
+    fn lacks(&self, constant: &str) -> bool {
         self.off.iter().any(|(off, _)| *off == constant)
     }
 
-    /// Whether `behaves` was given.
+    /// Returns whether `behaves` was given.
     pub(crate) const fn has_profile(&self) -> bool {
         self.profile.is_some()
     }
 
-    /// The constants, for a module `depth` levels below the call.
-    pub(crate) fn constants(&self, out: &mut String, root: &str, depth: usize) {
-        for (constant, _) in &self.off {
-            let _ = writeln!(out, "const {constant}: bool = false;");
-        }
+    /// The constants of `Services` that are not the usual ones.
+    pub(crate) fn constants(&self) -> String {
+        let off = self.off.iter();
+        let mut out: String = off
+            .map(|(constant, _)| format!("const {constant}: bool = false;\n"))
+            .collect();
         if let Some(errors) = self.errors {
             let _ = writeln!(out, "const ERRORS: usize = {errors};");
         }
-        let Some(path) = &self.profile else { return };
+        out
+    }
+
+    /// The function of `Device` that returns the profile, if there is one, for a module `depth` levels below
+    /// the call.
+    pub(crate) fn profile(&self, root: &str, depth: usize) -> String {
+        let Some(path) = &self.profile else {
+            return String::new();
+        };
         let first = path
             .segments
             .first()
@@ -186,10 +197,6 @@ impl Services {
         let is_absolute = path.leading_colon.is_some() || first.as_deref() == Some("crate");
         let up = "super::".repeat(if is_absolute { 0 } else { depth });
         let path = path.to_token_stream();
-        let _ = writeln!(
-            out,
-            "const PROFILE: ::core::option::Option<&'static {root}::Profile> =
-::core::option::Option::Some(&{up}{path});"
-        );
+        format!("#[inline]\nfn profile(&self) -> &{root}::Profile {{ &{up}{path} }}\n")
     }
 }

@@ -132,7 +132,6 @@ impl<'a> Dictionary<'a> {
         self.unpack(position, self.rows[position])
     }
 
-    #[inline(never)]
     const fn unpack(&self, position: usize, row: Row) -> Entry {
         let mut entry = row.entry(self.arenas.pool);
         entry.name = self.names_at(position)[0];
@@ -156,42 +155,36 @@ impl<'a> Dictionary<'a> {
 
     /// The row of the value at a position.
     #[doc(hidden)]
-    #[inline(always)]
     pub fn row(&self, position: usize) -> Option<&'a Row> {
         self.rows.get(position)
     }
 
     /// The rows, by ascending address.
     #[doc(hidden)]
-    #[inline(always)]
     pub const fn rows(&self) -> &'a [Row] {
         self.rows
     }
 
     /// Parts of rows that do not fit into them.
     #[doc(hidden)]
-    #[inline(always)]
     pub const fn pool(&self) -> &'a [u32] {
         self.arenas.pool
     }
 
     /// Limits, texts and bytes that rows refer to.
     #[doc(hidden)]
-    #[inline(always)]
     pub const fn arenas(&self) -> &Arenas<'a> {
         &self.arenas
     }
 
     /// Functions for REALs; `None` if it has no REALs.
     #[doc(hidden)]
-    #[inline(always)]
     pub const fn reals(&self) -> Option<&'static Reals> {
         self.reals
     }
 
     /// Functions for values whose length varies; `None` if it has none.
     #[doc(hidden)]
-    #[inline(always)]
     pub const fn varying(&self) -> Option<&'static Varying> {
         self.varying
     }
@@ -254,14 +247,12 @@ impl<'a> Dictionary<'a> {
 
     /// The position of an address and its row, if there is one; in registers.
     #[doc(hidden)]
-    #[inline(never)]
     pub fn locate(&self, address: Address) -> Option<(usize, &'a Row)> {
         index::position(self.buckets, self.rows, address.key())
     }
 
     /// The row of an address, if there is one.
     #[doc(hidden)]
-    #[inline(always)]
     pub fn row_at(&self, address: Address) -> Option<&'a Row> {
         self.locate(address).map(|(_, row)| row)
     }
@@ -269,7 +260,6 @@ impl<'a> Dictionary<'a> {
     /// The row of a number in the store that a master may read and one frame carries, by the
     /// [key](Address::key) of its address; none where [`search`](index::search) has to find it.
     #[doc(hidden)]
-    #[inline(always)]
     pub fn plain_row(&self, key: u32) -> Option<&'a Row> {
         let (_, row) = index::hashed(self.buckets, self.rows, key)?;
         matches!(row.plain().len, 1..=4).then_some(row)
@@ -277,7 +267,6 @@ impl<'a> Dictionary<'a> {
 
     /// Returns what is absent, the object or its sub-object, where [`row_at`](Self::row_at) finds none.
     #[doc(hidden)]
-    #[cold]
     pub fn missing(&self, address: Address) -> Missing {
         match self.rows.get(self.first(address.index)) {
             Some(row) if row.index() == address.index => Missing::SubIndex,

@@ -21,7 +21,6 @@ pub enum Buckets<'a> {
 
 impl Buckets<'_> {
     /// Number of buckets.
-    #[inline(always)]
     const fn len(self) -> usize {
         match self {
             Self::Bytes(all) => all.len(),
@@ -30,7 +29,6 @@ impl Buckets<'_> {
     }
 
     /// Content of a bucket: past the last row where it is empty.
-    #[inline(always)]
     fn get(self, at: usize) -> Option<usize> {
         match self {
             Self::Bytes(all) => all.get(at).copied().map(usize::from),
@@ -97,7 +95,6 @@ pub const fn fill(buckets: &mut [u16], rows: &[Row]) {
 }
 
 /// The row with the address of this key, and its position.
-#[inline(always)]
 pub(crate) fn position<'a>(
     buckets: Buckets<'_>,
     rows: &'a [Row],
@@ -110,7 +107,6 @@ pub(crate) fn position<'a>(
 }
 
 /// As [`position`], by the buckets only.
-#[inline(always)]
 pub(crate) fn hashed<'a>(
     buckets: Buckets<'_>,
     rows: &'a [Row],
@@ -130,7 +126,6 @@ pub(crate) fn hashed<'a>(
 }
 
 /// The search among more rows than buckets can name; they are sorted.
-#[cold]
 fn search(rows: &[Row], key: u32) -> Option<(usize, &Row)> {
     let position = first(rows, key);
     let row = rows.get(position)?;
@@ -138,7 +133,6 @@ fn search(rows: &[Row], key: u32) -> Option<(usize, &Row)> {
 }
 
 /// Position of the first row from this key on; they are sorted.
-#[inline(never)]
 pub(crate) const fn first(rows: &[Row], key: u32) -> usize {
     let (mut from, mut to) = (0, rows.len());
     while from < to {

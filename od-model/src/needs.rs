@@ -89,7 +89,9 @@ impl Dictionary<'_> {
     #[doc(hidden)]
     pub const fn last_sub(&self, index: u16) -> u8 {
         match self.first(index + 1).checked_sub(1) {
-            Some(last) if self.index_at(last) == index => self.rows()[last].address().sub,
+            Some(last) if last < self.len() && self.index_at(last) == index => {
+                self.rows()[last].address().sub
+            }
             _ => 0,
         }
     }

@@ -111,13 +111,11 @@ const fn bits(pool: &[u32], at: usize, kind: u32) -> u64 {
 }
 
 /// The bits of a literal of two words in the pool.
-#[inline(never)]
 const fn wide(pool: &[u32], at: usize) -> u64 {
     bits(pool, at, WIDE)
 }
 
 /// The bits of a number of up to two words.
-#[inline(always)]
 const fn number(kind: u32, bits: u64, node_id: u8) -> u64 {
     match kind {
         2 => bits as i32 as u64,
@@ -127,8 +125,6 @@ const fn number(kind: u32, bits: u64, node_id: u8) -> u64 {
 }
 
 /// Length in bytes of a value by the first word of its row. On a microcontroller it is a call.
-#[cfg_attr(target_os = "none", inline(never))]
-#[cfg_attr(not(target_os = "none"), inline(always))]
 const fn size(head: u32) -> usize {
     (BITS[(head >> 3 & 31) as usize] as usize).div_ceil(8)
 }
@@ -181,32 +177,27 @@ impl Row {
     }
 
     /// The address as one number.
-    #[inline(always)]
     pub const fn key(self) -> u32 {
         self.0[0] >> 8
     }
 
     /// Index and sub-index.
-    #[inline(always)]
     pub const fn address(self) -> Address {
         Address::new(self.index(), (self.0[0] >> 8) as u8)
     }
 
     /// Whether a master may read the value.
-    #[inline(always)]
     pub const fn readable(self) -> bool {
         self.0[3] >> 4 & 7 != Access::Wo as u32
     }
 
     /// Whether a master may write the value.
-    #[inline(always)]
     pub const fn writable(self) -> bool {
         self.has_access(1 << Access::Wo as u32 | 1 << Access::Rw as u32)
             || self.has_access(1 << Access::Rwr as u32 | 1 << Access::Rww as u32)
     }
 
     /// Whether the access is one of those whose bits are set.
-    #[inline(always)]
     const fn has_access(self, of: u32) -> bool {
         of >> (self.0[3] >> 4 & 7) & 1 != 0
     }
@@ -239,13 +230,11 @@ impl Row {
     }
 
     /// Whether the store has the value.
-    #[inline(always)]
     pub const fn is_stored(self) -> bool {
         self.0[3] & 1 << 13 != 0
     }
 
     /// Data type.
-    #[inline(always)]
     pub const fn data_type(self) -> DataType {
         let number = (self.0[0] >> 3 & 31) as usize;
         if number < DataType::ALL.len() {
@@ -256,25 +245,21 @@ impl Row {
     }
 
     /// Length of a value whose type gives it, in bits; 0 for a string or DOMAIN.
-    #[inline(always)]
     pub const fn bits(self) -> u8 {
         BITS[(self.0[0] >> 3 & 31) as usize]
     }
 
     /// Length of a value whose type gives it, in bytes; 0 for a string or DOMAIN.
-    #[inline(always)]
     pub const fn size(self) -> usize {
         size(self.0[0])
     }
 
     /// Whether the length varies (strings, domains) instead of following from the type.
-    #[inline(always)]
     pub const fn is_variable(self) -> bool {
         size(self.0[0]) == 0
     }
 
     /// Whether the default may be another than 0 or empty.
-    #[inline(always)]
     pub const fn has_default(self) -> bool {
         self.0[0] & 7 > 2 || self.0[2] != 0
     }
@@ -290,7 +275,6 @@ impl Row {
     }
 
     /// Place in the store of a value whose type gives its length; length 0 where it has none.
-    #[inline(always)]
     pub const fn fixed_slot(self) -> Slot {
         let len = if self.is_stored() {
             self.size() as u16
@@ -313,7 +297,6 @@ impl Row {
     }
 
     /// The default of a number: its bits, those of an IEEE 754 double of a REAL. 0 without one.
-    #[inline(always)]
     pub const fn default(self, pool: &[u32], node_id: u8) -> u64 {
         let (kind, at) = (self.0[0] & 7, self.0[2]);
         if kind < WIDE {
@@ -335,7 +318,6 @@ impl Row {
     }
 
     /// Index of the object.
-    #[inline(always)]
     pub const fn index(self) -> u16 {
         (self.0[0] >> 16) as u16
     }
@@ -352,7 +334,6 @@ impl Row {
 
     /// Slot of a value that a master may read at any time and whose type gives its length; length 0 for
     /// any other value, and for the log of errors, which has no more than there were.
-    #[inline(always)]
     pub const fn plain(self) -> Slot {
         Slot {
             offset: self.0[1],
@@ -361,7 +342,6 @@ impl Row {
     }
 
     /// The entry. Not its name, which the row does not have.
-    #[inline(always)]
     pub const fn entry(self, pool: &[u32]) -> Entry {
         let [head, _, payload, flags] = self.0;
         let is_text = self.data_type() as u16 == DataType::VisibleString as u16;

@@ -298,15 +298,6 @@ pub trait Application {
         let _ = (cx, address);
         Ok(())
     }
-
-    /// Returns the number of a live value of up to four bytes, if it is at hand: the node puts it into the
-    /// store, and does without [`refresh`](Self::refresh), which would do no more than that. `None`: it is
-    /// not. A node on a microcontroller does not ask.
-    fn number(&mut self, now: Instant, address: Address) -> Option<u32> {
-        let _ = (now, address);
-        None
-    }
-
     /// Checks a `value` that a master wants to write; it has the length of the object and is
     /// within its limits. The store still holds the old value.
     ///

@@ -2,7 +2,7 @@
 
 use od_wire::Instant;
 
-use crate::rooms::Blank;
+use crate::blank::Blank;
 
 /// Time when something is due. `Never` is all zeros, so that a static node takes no flash; the end of time
 /// is never, too.
@@ -19,53 +19,36 @@ impl Deadline {
     pub(crate) const NEVER: Self = Self(0);
 
     /// Due at this moment.
-    #[inline(always)]
     pub(crate) const fn at(at: Instant) -> Self {
         Self(at.as_micros().wrapping_add(1))
     }
 
     /// Due at this moment, if there is one.
-    #[inline(always)]
     pub(crate) fn of(at: Option<Instant>) -> Self {
         at.map_or(Self::NEVER, Self::at)
     }
 
     /// Whether something will be due.
-    #[inline(always)]
     pub(crate) const fn is_set(self) -> bool {
         self.0 != 0
     }
 
     /// Whether it is due by now.
-    #[inline(always)]
     pub(crate) const fn is_due(self, now: Instant) -> bool {
         is_due(self.0, now.as_micros())
     }
 
     /// The earlier one of two.
-    #[inline(always)]
     pub(crate) const fn or(self, other: Self) -> Self {
         Self(earlier(self.0, other.0))
     }
 
     /// The next one of a period in milliseconds that had one here, after `now`.
-    #[inline(always)]
     pub(crate) const fn next_period(self, millis: u32, now: Instant) -> Self {
         Self(next(self.0, millis, now.as_micros()))
     }
 
-    /// As [`next_period`](Self::next_period), for a caller that mostly comes in time.
-    #[inline(always)]
-    pub(crate) fn next_of(self, millis: u32, now: Instant) -> Self {
-        let next = self.moment().plus_micros(u64::from(millis) * 1000);
-        match next > now {
-            true => Self::at(next),
-            false => self.next_period(millis, now),
-        }
-    }
-
     /// The moment; the end of time for never.
-    #[inline(always)]
     pub(crate) const fn moment(self) -> Instant {
         Instant::from_micros(self.0.wrapping_sub(1))
     }
@@ -74,15 +57,11 @@ impl Deadline {
 // Numbers are in registers, which `Deadline` is not. On a microcontroller they are calls.
 
 /// [`Deadline::is_due`].
-#[cfg_attr(target_os = "none", inline(never))]
-#[cfg_attr(not(target_os = "none"), inline(always))]
 const fn is_due(at: u64, now: u64) -> bool {
     at != 0 && at - 1 <= now
 }
 
 /// [`Deadline::or`].
-#[cfg_attr(target_os = "none", inline(never))]
-#[cfg_attr(not(target_os = "none"), inline(always))]
 const fn earlier(one: u64, other: u64) -> u64 {
     match one.wrapping_sub(1) <= other.wrapping_sub(1) {
         true => one,
@@ -91,7 +70,6 @@ const fn earlier(one: u64, other: u64) -> u64 {
 }
 
 /// [`Deadline::next_period`].
-#[inline(never)]
 const fn next(at: u64, millis: u32, now: u64) -> u64 {
     let (at, now) = (Deadline(at).moment(), Instant::from_micros(now));
     Deadline::at(at.next_period(millis as u64 * 1000, now)).0

@@ -1,228 +1,46 @@
-//! Properties of a device that are known at compile time.
+//! A device, as a node has it.
 
 use od_model::Dictionary;
 
 use crate::profile::Profile;
+use crate::rooms::{Rooms, Values};
+use crate::services::Services;
 
-/// Device as a type, so that the compiler can check a node against its dictionary, and leaves out
-/// what the device does not use.
+/// A device: its dictionary, its family, and the memory that a node of it needs.
 ///
-/// `object_dictionary!` implements it for the type `Device` of each module that it makes.
-/// `Node<Device, PDO, SDO>` does not compile unless it fits the dictionary.
+/// `object_dictionary!` implements it for the type `Device` of each module that it makes. A host that loads
+/// dictionaries at run time has a type of its own:
 ///
-/// Each service below is on unless its constant is `false`; then the node has no code for it, and
-/// does not compile if the dictionary has objects of it.
-pub trait Device {
-    /// Dictionary that the node serves, and no other
-    /// ([`Unfit::Dictionary`](crate::Unfit::Dictionary)); `None`: known at run time, when
-    /// [`Node::power_on`](crate::Node::power_on) checks it.
-    const DICTIONARY: Option<Dictionary<'static>> = None;
-    /// Options of the device family, for which [`Lent::profile`](crate::Lent::profile) does not
-    /// count then, and is `None`; `None`: known at run time.
-    const PROFILE: Option<&'static Profile> = None;
-    /// LSS slave (CiA 305).
-    const LSS: bool = true;
-    /// Segmented SDO transfers. Without them a value of more than four bytes cannot be read
-    /// (06010000h), and a segmented download is not a command (05040001h).
-    const SEGMENTED: bool = true;
-    /// SDO block transfers. Without them they are not commands (05040001h).
-    const BLOCK: bool = true;
-    /// RPDOs (1400h to 17FFh).
-    const RPDOS: bool = true;
-    /// Transmission of TPDOs when a mapped value changes
-    /// ([`event_on_change`](crate::PdoProfile::event_on_change)).
-    const CHANGES: bool = true;
-    /// Node guarding and life guarding (100Ch, 100Dh).
-    const GUARDING: bool = true;
-    /// Heartbeat consumer (1016h).
-    const CONSUMER: bool = true;
-    /// Saving and restoring (1010h, 1011h), and the operating records.
-    const STORAGE: bool = true;
-    /// Error behaviour (1029h, and the default one of CiA 301 without it).
-    const BEHAVIOUR: bool = true;
-    /// Events for the host ([`Node::poll_event`](crate::Node::poll_event)).
-    const EVENTS: bool = true;
-    /// SDO servers past the default one (1201h to 127Fh): on where the dictionary has one.
-    ///
-    /// The node has room for them, the SYNC producer and TIME as [`Extras`](crate::Extras). A device
-    /// whose dictionary is known at run time has these services where it says so.
-    const SERVERS: bool = match &Self::DICTIONARY {
-        Some(dictionary) => dictionary.servers() > 0,
-        None => false,
-    };
-    /// SYNC producer (1005h, 1006h, 1019h): on where the dictionary has 1006h. Otherwise bit 30 of
-    /// 1005h cannot be set (06090030h).
-    const SYNC_PRODUCER: bool = match &Self::DICTIONARY {
-        Some(dictionary) => dictionary.has(0x1006),
-        None => false,
-    };
-    /// TIME consumer and producer (1012h): on where the dictionary has 1012h.
-    const TIME: bool = match &Self::DICTIONARY {
-        Some(dictionary) => dictionary.has(0x1012),
-        None => false,
-    };
-    /// Errors that can be active at once, and that can come or go in one call, 1–128. 16 EMCY messages can
-    /// wait, or as many if they are fewer.
-    const ERRORS: usize = 32;
-    /// Values that the application streams ([`Application::stream`](crate::Application::stream)): on
-    /// where the dictionary has one, or is known at run time.
-    const STREAMS: bool = match &Self::DICTIONARY {
-        Some(dictionary) => dictionary.has_streams(),
-        None => true,
-    };
-}
-
-/// Options of the device family: those that the compiler knows, or else those that were lent.
-#[inline(always)]
-pub(crate) fn profile<D: Device>(lent: Option<&Profile>) -> &Profile {
-    match D::PROFILE {
-        Some(profile) => profile,
-        None => lent.unwrap_or(&Profile::CIA301),
-    }
-}
-
-/// Whether a device may have a value whose index is one of these, and whose sub-index is this one if it is
-/// named. To be asked at compile time.
-pub(crate) const fn may_have<D: Device>(first: u16, last: u16, sub: Option<u8>) -> bool {
-    let Some(dictionary) = &D::DICTIONARY else {
-        return true;
-    };
-    let mut rest = dictionary.rows();
-    while let [row, others @ ..] = rest {
-        let is_sub = match sub {
-            Some(sub) => row.address().sub == sub,
-            None => true,
-        };
-        if is_sub && first <= row.index() && row.index() <= last {
-            return true;
-        }
-        rest = others;
-    }
-    false
-}
-
-/// As [`may_have`], in its store: any other value cannot change.
-pub(crate) const fn may_change<D: Device>(first: u16, last: u16) -> bool {
-    let Some(dictionary) = &D::DICTIONARY else {
-        return true;
-    };
-    let mut rest = dictionary.rows();
-    while let [row, others @ ..] = rest {
-        if row.is_stored() && first <= row.index() && row.index() <= last {
-            return true;
-        }
-        rest = others;
-    }
-    false
-}
-
-/// Device whose dictionary is known at run time only.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
-pub struct AnyDevice;
-
-impl Device for AnyDevice {}
-
-/// There are the quickest ways, too: together they take 1 kB, which a microcontroller does not have for
-/// them.
-pub(crate) const ROOMY: bool = cfg!(not(target_os = "none"));
-
-#[cfg(test)]
-pub(crate) mod tests {
-    use od_model::row::Row;
-    use od_model::{
-        Access, Address, DataType, Entry, Group, Literal, Names, ObjectCode, Range, Slot,
-    };
-
-    use super::*;
-
-    /// A number at an address, with a place in the store or without.
-    const fn row(index: u16, sub: u8, len: u16) -> Row {
-        let entry = Entry {
-            address: Address::new(index, sub),
-            data_type: DataType::Unsigned32,
-            access: if len > 0 { Access::Rw } else { Access::Const },
-            mappable: false,
-            group: Group::None,
-            name: Range::new(0, 0),
-            default: Literal::None,
-            low: Literal::None,
-            high: Literal::None,
-            slot: Slot { offset: 0, len },
-        };
-        Row::new(&entry, ObjectCode::Record, 0, 0)
-    }
-
-    /// The mapping of a TPDO can change, that of an RPDO cannot.
-    pub(crate) struct Known;
-
-    impl Device for Known {
-        const DICTIONARY: Option<Dictionary<'static>> = {
-            static ROWS: &[Row] = &[row(0x1003, 0, 4), row(0x1600, 2, 0), row(0x1A00, 1, 4)];
-            Some(dictionary(ROWS))
-        };
-    }
-
-    /// It has no PDO.
-    pub(crate) struct Rich;
-
-    impl Device for Rich {
-        const DICTIONARY: Option<Dictionary<'static>> = {
-            static ROWS: &[Row] = &[row(0x1006, 0, 4), row(0x1012, 0, 4), row(0x1201, 1, 4)];
-            Some(dictionary(ROWS))
-        };
-    }
-
-    const fn dictionary(rows: &'static [Row]) -> Dictionary<'static> {
-        let names = Names {
-            rows: &[],
-            text: "",
-        };
-        let buckets = od_model::owned::Buckets::Words(&[]);
-        Dictionary::trusted(buckets, rows, &[], "", &[], 4, None, None, names)
-    }
-
-    #[test]
-    fn a_device_has_what_its_dictionary_has() {
-        for (first, last, sub, there) in [
-            (0x1003, 0x1003, None, true),
-            (0x1002, 0x1003, Some(0), true),
-            (0x1003, 0x1004, Some(0), true),
-            (0x1003, 0x1003, Some(2), false),
-            (0x1000, 0x1002, None, false),
-            (0x1601, 0x19FF, None, false),
-            (0x1601, 0x19FF, Some(1), false),
-            (0x1600, 0x17FF, Some(2), true),
-            (0x1A00, 0x1BFF, Some(1), true),
-            (0x1A01, 0x1BFF, Some(1), false),
-        ] {
-            assert_eq!(may_have::<Known>(first, last, sub), there, "{first:X}");
-            assert!(may_have::<AnyDevice>(first, last, sub));
-        }
-    }
-
-    #[test]
-    fn what_is_not_in_the_store_cannot_change() {
-        for (first, last, can_change) in [
-            (0x1003, 0x1003, true),
-            (0x1000, 0x1002, false),
-            (0x1004, 0x19FF, false),
-            (0x1600, 0x17FF, false),
-            (0x1A00, 0x1BFF, true),
-            (0x1A01, 0x1BFF, false),
-        ] {
-            assert_eq!(may_change::<Known>(first, last), can_change, "{first:X}");
-            assert!(may_change::<AnyDevice>(first, last));
-        }
-    }
-
-    #[test]
-    fn services_of_few_devices_are_on_by_their_objects() {
-        const NONE: [bool; 4] = [false, false, false, false];
-        fn services<D: Device>() -> [bool; 4] {
-            [D::SERVERS, D::SYNC_PRODUCER, D::TIME, D::STREAMS]
-        }
-        assert_eq!(services::<Known>(), NONE);
-        assert_eq!(services::<Rich>(), [true, true, true, false]);
-        assert_eq!(services::<AnyDevice>(), [false, false, false, true]);
+/// ```
+/// # #[cfg(feature = "std")] {
+/// use od_model::Dictionary;
+/// use od_runtime::rooms::{LoadedRooms, LoadedValues};
+/// use od_runtime::{Device, Services};
+///
+/// struct Loaded(od_eds::Tables);
+///
+/// impl Services for Loaded {}
+///
+/// impl Device for Loaded {
+///     type Values = LoadedValues;
+///     type Rooms = LoadedRooms;
+///
+///     fn dictionary(&self) -> Dictionary<'_> {
+///         self.0.dictionary()
+///     }
+/// }
+/// # }
+/// ```
+pub trait Device: Services {
+    /// The current values of a node of this device.
+    type Values: Values;
+    /// What the services of a node of this device remember.
+    type Rooms: Rooms;
+    /// The dictionary.
+    fn dictionary(&self) -> Dictionary<'_>;
+    /// Options and deviations of the device family relative to CiA 301.
+    #[inline]
+    fn profile(&self) -> &Profile {
+        &Profile::CIA301
     }
 }

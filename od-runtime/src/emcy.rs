@@ -1,11 +1,11 @@
 //! Emergency producer and the error objects 1001h, 1003h, 1014h, 1015h (CiA 301, chapter 7.2.7).
 
+use crate::blank::Blank;
 pub(crate) use crate::change::Change;
 use crate::deadline::Deadline;
-use crate::device::{Device, may_have};
 use crate::fifo::Fifo;
 use crate::profile::ErrorReset;
-use crate::rooms::{Blank, Room, Rooms};
+use crate::services::{Services, may_have};
 use crate::store::Store;
 use od_model::Address;
 
@@ -15,6 +15,10 @@ use od_wire::{CanId, CobId, Frame, Instant};
 
 /// Emergency error code of an RPDO that is shorter than its mapping (CiA 301, table 26).
 pub(crate) const PDO_LENGTH: u16 = 0x8210;
+/// That of a SYNC with an unexpected length.
+pub(crate) const SYNC_LENGTH: u16 = 0x8240;
+/// That of an RPDO whose frame is late.
+pub(crate) const RPDO_TIMEOUT: u16 = 0x8250;
 
 impl Blank for Emcy {
     const BLANK: Self = Self {
@@ -35,14 +39,41 @@ const NO_NEWS: Outcome = Outcome {
     is_dropped: false,
 };
 
-/// The emergency producer.
+/// State of the emergency producer that is no queue.
 #[derive(Clone, Debug)]
-pub(crate) struct Producer<R: Rooms> {
-    active: Fifo<R::Errors<Emcy>>,
-    waiting: Fifo<R::Messages<Emcy>>,
+pub(crate) struct State {
     blocked_until: Instant,
     /// Bits of 1001h without an EMCY message.
     silent: u8,
+}
+
+impl State {
+    pub(crate) const NEW: Self = Self {
+        blocked_until: Instant::ZERO,
+        silent: 0,
+    };
+
+    /// 1001h, with these errors.
+    pub(crate) fn register(&self, active: &Fifo<[Emcy]>) -> u8 {
+        let bits = active.iter().map(|error| error.register);
+        bits.fold(self.silent, |all, bits| all | bits)
+    }
+
+    /// Time when the next message can be sent, if one waits.
+    pub(crate) fn deadline(&self, waiting: &Fifo<[Emcy]>) -> Deadline {
+        if waiting.is_empty() {
+            Deadline::NEVER
+        } else {
+            Deadline::at(self.blocked_until)
+        }
+    }
+}
+
+/// The emergency producer at work.
+pub(crate) struct Producer<'p> {
+    pub(crate) active: &'p mut Fifo<[Emcy]>,
+    pub(crate) waiting: &'p mut Fifo<[Emcy]>,
+    pub(crate) state: &'p mut State,
 }
 
 /// Result of a change.
@@ -56,30 +87,12 @@ pub(crate) struct Outcome {
     pub(crate) is_dropped: bool,
 }
 
-impl<R: Rooms> Producer<R> {
-    pub(crate) const fn new() -> Self {
-        Self {
-            active: Fifo::new(Room::BLANK),
-            waiting: Fifo::new(Room::BLANK),
-            blocked_until: Instant::ZERO,
-            silent: 0,
-        }
-    }
-
+impl Producer<'_> {
     /// Forgets everything: the device starts without errors.
     pub(crate) fn reset(&mut self) {
         self.active.clear();
         self.waiting.clear();
-        self.blocked_until = Instant::ZERO;
-        self.silent = 0;
-    }
-
-    fn active(&self) -> &Fifo<[Emcy]> {
-        Room::queue(&self.active)
-    }
-
-    fn active_mut(&mut self) -> &mut Fifo<[Emcy]> {
-        Room::queue_mut(&mut self.active)
+        *self.state = State::NEW;
     }
 
     /// Takes a change over into 1001h and 1003h.
@@ -87,7 +100,7 @@ impl<R: Rooms> Producer<R> {
     /// `send` is false where the NMT state or 1014h forbids the frame; the log
     /// in 1003h is kept all the same. Messages that wait for the inhibit time keep their order; the
     /// seventeenth is dropped, and an event says so.
-    pub(crate) fn change<D: Device>(
+    pub(crate) fn change<D: Services>(
         &mut self,
         store: &mut Store<'_>,
         change: Change,
@@ -105,13 +118,13 @@ impl<R: Rooms> Producer<R> {
         };
         match (change, self.position(code, register)) {
             (Change::Raised(error), None) => {
-                self.active_mut().push(error);
+                self.active.push(error);
                 if const { may_have::<D>(0x1003, 0x1003, None) } {
                     log::<D>(store, code);
                 }
             }
             (Change::Cleared { .. }, Some(at)) => {
-                self.active_mut().take_out(at);
+                self.active.take_out(at);
                 code = 0;
             }
             _ => return NO_NEWS,
@@ -127,7 +140,7 @@ impl<R: Rooms> Producer<R> {
         Outcome {
             is_news: true,
             set: register & !before,
-            is_dropped: is_due && !Room::queue_mut(&mut self.waiting).push(message),
+            is_dropped: is_due && !self.waiting.push(message),
         }
     }
 
@@ -138,9 +151,8 @@ impl<R: Rooms> Producer<R> {
 
     /// The first active error with this code and, as sources that share a code differ in them, these bits of
     /// 1001h.
-    #[cfg_attr(target_os = "none", inline(never))]
     fn position(&self, code: u16, register: Option<u8>) -> Option<u8> {
-        self.active().position(|known| {
+        self.active.position(|known| {
             known.code == code && register.is_none_or(|bits| bits == known.register)
         })
     }
@@ -148,21 +160,20 @@ impl<R: Rooms> Producer<R> {
     /// Sets the bits of 1001h without an EMCY message. Returns those that became set.
     pub(crate) fn set_silent(&mut self, store: &mut Store<'_>, bits: u8) -> u8 {
         let before = self.register();
-        self.silent = bits;
+        self.state.silent = bits;
         self.show(store) & !before
     }
 
     /// Ends errors without an EMCY message, as a reset of the communication does.
     pub(crate) fn forget(&mut self, store: &mut Store<'_>, which: impl Fn(u16) -> bool) {
-        self.active_mut().remove(|error| which(error.code));
-        self.silent = 0;
+        self.active.remove(|error| which(error.code));
+        self.state.silent = 0;
         self.show(store);
     }
 
     /// 1001h.
-    pub(crate) fn register(&self) -> u8 {
-        let bits = self.active().iter().map(|error| error.register);
-        bits.fold(self.silent, |all, bits| all | bits)
+    fn register(&self) -> u8 {
+        self.state.register(self.active)
     }
 
     fn show(&self, store: &mut Store<'_>) -> u8 {
@@ -172,31 +183,17 @@ impl<R: Rooms> Producer<R> {
     }
 
     /// The next frame, when the inhibit time 1015h (in 100 µs) allows it.
-    pub(crate) fn poll<D: Device>(&mut self, store: &Store<'_>, now: Instant) -> Option<Frame> {
-        if self.waiting.is_empty() || now < self.blocked_until {
+    pub(crate) fn poll<D: Services>(&mut self, store: &Store<'_>, now: Instant) -> Option<Frame> {
+        if self.waiting.is_empty() || now < self.state.blocked_until {
             return None;
         }
         let id = can_id(store);
-        let emcy = Room::queue_mut(&mut self.waiting).pop()?;
+        let emcy = self.waiting.pop()?;
         if const { may_have::<D>(0x1015, 0x1015, None) } {
             let inhibit = u64::from(store.word(0x1015, 0, 0)) * 100;
-            self.blocked_until = now.plus_micros(inhibit);
+            self.state.blocked_until = now.plus_micros(inhibit);
         }
         id.map(|id| Frame::full(id, emcy.emit()))
-    }
-
-    /// Time when [`poll`](Self::poll) is due, if something waits.
-    pub(crate) fn deadline(&self) -> Deadline {
-        match self.waiting.is_empty() {
-            true => Deadline::NEVER,
-            false => Deadline::at(self.blocked_until),
-        }
-    }
-
-    /// Whether something waits.
-    #[inline]
-    pub(crate) const fn is_waiting(&self) -> bool {
-        !self.waiting.is_empty()
     }
 }
 
@@ -208,7 +205,7 @@ pub(crate) fn can_id(store: &Store<'_>) -> Option<CanId> {
 }
 
 /// Puts the code on top of 1003h; the oldest entry falls out.
-fn log<D: Device>(store: &mut Store<'_>, code: u16) {
+fn log<D: Services>(store: &mut Store<'_>, code: u16) {
     let capacity = capacity::<D>(store);
     if capacity == 0 {
         return;
@@ -226,21 +223,19 @@ fn log<D: Device>(store: &mut Store<'_>, code: u16) {
 }
 
 /// Sets a sub-index of 1003h.
-#[inline(never)]
 fn put(store: &mut Store<'_>, sub: u8, value: u32) {
     store.set_unsigned(Address::new(0x1003, sub), value.into());
 }
 
 /// Empties 1003h, as writing 0 to its sub-index 0 does.
-pub(crate) fn clear_log<D: Device>(store: &mut Store<'_>) {
+pub(crate) fn clear_log<D: Services>(store: &mut Store<'_>) {
     for sub in 0..u16::from(capacity::<D>(store)) + 1 {
         put(store, sub as u8, 0);
     }
 }
 
 /// Entries of 1003h, as far as the compiler knows them.
-#[inline(always)]
-fn capacity<D: Device>(store: &Store<'_>) -> u8 {
+fn capacity<D: Services>(store: &Store<'_>) -> u8 {
     let known = const {
         match &D::DICTIONARY {
             Some(dictionary) => Some(dictionary.last_sub(0x1003)),

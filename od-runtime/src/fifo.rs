@@ -31,7 +31,6 @@ impl Span {
     }
 
     /// Takes the next place, if there is room.
-    #[inline(never)]
     fn push(&mut self, room: usize) -> Option<usize> {
         let has_room = usize::from(self.len) < room;
         has_room.then(|| {
@@ -41,7 +40,6 @@ impl Span {
     }
 
     /// Leaves the first place, and returns it.
-    #[inline(never)]
     fn pop(&mut self, room: usize) -> usize {
         let first = self.head.into();
         self.head = self.place(1, room) as u8;
@@ -52,7 +50,7 @@ impl Span {
 
 impl<Q> Fifo<Q> {
     /// An empty queue; `items` is the content of empty places, 255 at most.
-    pub(crate) const fn new(items: Q) -> Self {
+    pub const fn new(items: Q) -> Self {
         Self {
             span: Span::NONE,
             items,
@@ -73,7 +71,6 @@ impl<Q: ?Sized> Fifo<Q> {
 
 impl<T: Copy> Fifo<[T]> {
     /// Answers whether there was room.
-    #[inline(never)]
     pub(crate) fn push(&mut self, item: T) -> bool {
         let place = self.span.push(self.items.len());
         if let Some(place) = place
@@ -122,7 +119,6 @@ impl<T: Copy> Fifo<[T]> {
     }
 
     /// Takes out the item that is `at` behind the first one: those behind it move up.
-    #[inline(never)]
     pub(crate) fn take_out(&mut self, mut at: u8) {
         while let Some(next) = at.checked_add(1).filter(|next| *next < self.span.len)
             && let Some(item) = self.get(next)

@@ -2,8 +2,12 @@
 
 use od_model::Dictionary;
 
+#[cfg(feature = "std")]
+use crate::device::Device;
 use crate::encoder::{EncoderProfile, Sensor};
 use crate::profile::Profile;
+#[cfg(feature = "std")]
+use crate::services::Services;
 
 /// Product: names, dictionary and family of an encoder.
 #[derive(Clone, Copy, Debug)]
@@ -31,5 +35,27 @@ impl DeviceKind {
     /// Returns the sensor that profile and dictionary describe.
     pub fn sensor(&self) -> Sensor {
         self.encoder.sensor_of(self.dictionary)
+    }
+}
+
+#[cfg(feature = "std")]
+impl Services for DeviceKind {
+    const SERVERS: bool = true;
+    const SYNC_PRODUCER: bool = true;
+    const TIME: bool = true;
+}
+
+/// On a host, with every service.
+#[cfg(feature = "std")]
+impl Device for DeviceKind {
+    type Values = crate::rooms::LoadedValues;
+    type Rooms = crate::rooms::LoadedRooms;
+
+    fn dictionary(&self) -> Dictionary<'_> {
+        self.dictionary
+    }
+
+    fn profile(&self) -> &Profile {
+        self.profile
     }
 }

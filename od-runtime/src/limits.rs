@@ -20,13 +20,11 @@ pub(crate) enum Outside {
 }
 
 /// Checks a value against the limits of an entry. `bytes` has the entry's length.
-#[inline(always)]
 pub(crate) fn check(store: &Store<'_>, row: &Row, bytes: &[u8]) -> Result<(), Outside> {
     check_with(store, row, bytes, store.dictionary().reals())
 }
 
 /// As [`check`], where the compiler may know that there are no REALs.
-#[inline(never)]
 pub(crate) fn check_with(
     store: &Store<'_>,
     row: &Row,

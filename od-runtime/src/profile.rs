@@ -51,6 +51,8 @@ pub struct PdoProfile {
     pub tpdo_types: &'static [(u8, u8)],
     /// Types 254 and 255 send when a mapped value changes; otherwise by the event timer only.
     pub event_on_change: bool,
+    /// When the event timer of types 254 and 255 starts anew.
+    pub event_timer: EventTimer,
     /// A COB-ID can be changed while the PDO is valid. In CiA 301 bit 31 has to be set first
     /// (chapter 7.5.2.36).
     pub direct_cob_id: bool,
@@ -60,6 +62,16 @@ pub struct PdoProfile {
     /// Object index and bit mask. While all masked bits are set, the node sends only synchronous
     /// TPDOs (types 0–240). `None`: not supported.
     pub sync_only: Option<(u16, u32)>,
+}
+
+/// When the event timer of an event-driven TPDO (1800h:05) starts anew.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum EventTimer {
+    /// With each transmission: the PDO is sent when the time has elapsed without an event (CiA 301, chapter
+    /// 7.2.2.3).
+    SinceTransmission,
+    /// Never: the PDO is sent on a fixed grid, whatever else sends it.
+    Cyclic,
 }
 
 /// Time when a restored default applies (1011h).
@@ -126,7 +138,6 @@ pub struct StoreProfile {
 
 impl StoreProfile {
     /// Every value for which `which` is true becomes what the device was delivered with.
-    #[inline(never)]
     pub fn reset(&self, store: &mut Store<'_>, which: &dyn Fn(&Row) -> bool) {
         store.reset(which);
         self.give_node_id(store, which);
@@ -281,6 +292,8 @@ pub struct ErrorProfile {
     pub bus_off: u8,
     /// EMCY message after bus-off; `None`: not sent.
     pub bus_recovered: Option<Notice>,
+    /// A SYNC whose length is not that of 1019h is reported (8240h).
+    pub watches_sync_length: bool,
     /// Report of received frames that were lost; `None`: not reported.
     pub overrun: Option<Notice>,
     /// Time of the EMCY message for error reset.
@@ -334,6 +347,7 @@ impl Profile {
         pdo: PdoProfile {
             tpdo_types: &[(0, 240), (252, 255)],
             event_on_change: true,
+            event_timer: EventTimer::SinceTransmission,
             direct_cob_id: false,
             repeat_counter: None,
             sync_only: None,
@@ -372,6 +386,7 @@ impl Profile {
                 code: 0x8140,
                 register: 0x11,
             }),
+            watches_sync_length: true,
             overrun: Some(Notice {
                 code: 0x8110,
                 register: 0x11,

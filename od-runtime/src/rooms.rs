@@ -1,298 +1,485 @@
-//! Room for what a node remembers: as much as its device needs.
+//! Memory of a node: arrays as long as its device needs, which the services see as slices.
+//!
+//! [`rooms!`](crate::rooms) writes the two structs of arrays of a compiled device. A device whose dictionary is
+//! known at run time has [`LoadedValues`] and [`LoadedRooms`] (feature `std`).
 
 use core::fmt::Debug;
 
-use od_wire::Frame;
+use od_model::Dictionary;
+pub use od_wire::Frame;
+pub use od_wire::emcy::Emcy;
 
-use crate::device::Device;
-use crate::fifo::Fifo;
-use crate::objects::outbox::Outbox;
+pub use crate::blank::Blank;
+pub use crate::change::Change;
+pub use crate::error_control::{Guard, Watch};
+pub use crate::fifo::Fifo;
+pub use crate::listening::Listener;
+pub use crate::lss::Slave;
+pub use crate::node::event::Event;
+pub use crate::objects::command::Saving;
+pub use crate::objects::outbox::Outbox;
+pub use crate::pdo::{Mapped, Rpdo, Tpdo};
+pub use crate::sdo::SdoServer;
+pub use crate::services::Services;
+pub use crate::sync::Clocks;
 
-/// Content of a place that nothing has been put into.
-pub trait Blank: Clone + Debug + Send {
-    /// All zeros where the type allows it, so that a static node takes no flash.
-    const BLANK: Self;
-}
-
-/// Room for some `T`.
-pub trait Room<T>: Clone + Debug + Send {
-    /// Nothing is in it.
-    const BLANK: Self;
-    /// Number of items that fit.
-    const LEN: usize;
-    /// All places.
-    fn all(&self) -> &[T];
-    /// All places.
-    fn all_mut(&mut self) -> &mut [T];
-    /// The queue with this room.
-    fn queue(queue: &Fifo<Self>) -> &Fifo<[T]>;
-    /// The queue with this room.
-    fn queue_mut(queue: &mut Fifo<Self>) -> &mut Fifo<[T]>;
-    /// The outbox with this room.
-    fn outbox(outbox: &mut Outbox<Self>) -> &mut Outbox<[T]>;
-}
-
-impl<T: Blank, const N: usize> Room<T> for [T; N] {
-    const BLANK: Self = [const { T::BLANK }; N];
-    const LEN: usize = N;
-
-    #[inline(always)]
-    fn all(&self) -> &[T] {
-        self
+/// What a call of the node lends to the application: the current values, and what it asks for.
+pub trait Values: Debug + Send {
+    /// Before power-on.
+    const NEW: Self;
+    /// Makes room for a dictionary that is known at run time only.
+    fn fit(&mut self, sizes: &Sizes) {
+        let _ = sizes;
     }
-
-    #[inline(always)]
-    fn all_mut(&mut self) -> &mut [T] {
-        self
-    }
-
-    #[inline(always)]
-    fn queue(queue: &Fifo<Self>) -> &Fifo<[T]> {
-        queue
-    }
-
-    #[inline(always)]
-    fn queue_mut(queue: &mut Fifo<Self>) -> &mut Fifo<[T]> {
-        queue
-    }
-
-    #[inline(always)]
-    fn outbox(outbox: &mut Outbox<Self>) -> &mut Outbox<[T]> {
-        outbox
-    }
+    /// The current values, as [`Store`](crate::Store) lays them out.
+    fn bytes(&self) -> &[u8];
+    /// A save; a device without 1010h has no room for one.
+    fn saving(&self) -> Option<&Saving>;
+    /// All of it.
+    fn lend(&mut self) -> Lent<'_>;
 }
 
-/// The rooms of a node: [`FullRooms`], or what [`rooms!`](crate::rooms) makes for a device.
-///
-/// Arrays of a node, of length 0 for services that the device lacks. `object_dictionary!` chooses the
-/// rooms of the type `Node` of its module.
-pub trait Rooms: Clone + Debug {
-    /// Errors that can be active at once.
-    type Errors<T: Blank>: Room<T>;
-    /// Errors that can come or go in one call.
-    type Changes<T: Blank>: Room<T>;
-    /// EMCY messages that can wait.
-    type Messages<T: Blank>: Room<T>;
-    /// Events for the host.
-    type Events<T: Blank>: Room<T>;
-    /// Frames to be sent, except PDOs and EMCY messages.
-    type Frames<T: Blank>: Room<T>;
-    /// Nodes whose heartbeats can be watched.
-    type Watches<T: Blank>: Room<T>;
-    /// Node guarding.
-    type Guards<T: Blank>: Room<T>;
-    /// LSS slave.
-    type Lss<T: Blank>: Room<T>;
-    /// Save in the background.
-    type Saves<T: Blank>: Room<T>;
-    /// SDO response that waits.
-    type Late<T: Blank>: Room<T>;
-    /// SDO transfer with more than one request.
-    type Transfers<T: Blank>: Room<T>;
-    /// Mapping entries of a PDO that are kept.
-    type Kept<T: Blank>: Room<T>;
-    /// RPDOs of a node with `PDO` TPDOs.
-    type Rpdos<T: Blank, const PDO: usize>: Room<T>;
+/// The parts of [`Values`].
+#[derive(Debug)]
+pub struct Lent<'v> {
+    /// The current values.
+    pub bytes: &'v mut [u8],
+    /// What a call leaves for its end.
+    pub outbox: &'v mut Outbox,
+    /// A save; a device without 1010h has no room for one.
+    pub saving: Option<&'v mut Saving>,
 }
 
-/// Room for every service, for a device whose dictionary is known at run time.
-#[derive(Clone, Copy, Debug)]
-pub struct FullRooms;
-
-impl Rooms for FullRooms {
-    type Errors<T: Blank> = [T; ERRORS];
-    type Changes<T: Blank> = [T; ERRORS];
-    type Messages<T: Blank> = [T; MESSAGES];
-    type Events<T: Blank> = [T; EVENTS];
-    type Frames<T: Blank> = [T; FRAMES];
-    type Watches<T: Blank> = [T; WATCHES];
-    type Guards<T: Blank> = [T; 1];
-    type Lss<T: Blank> = [T; 1];
-    type Saves<T: Blank> = [T; 1];
-    type Late<T: Blank> = [T; 1];
-    type Transfers<T: Blank> = [T; 1];
-    type Kept<T: Blank> = [T; KEPT];
-    type Rpdos<T: Blank, const PDO: usize> = [T; PDO];
+/// What the services remember, apart from single numbers.
+pub trait Rooms: Debug + Send {
+    /// Before power-on.
+    const NEW: Self;
+    /// Makes room for a dictionary that is known at run time only.
+    fn fit(&mut self, sizes: &Sizes) {
+        let _ = sizes;
+    }
+    /// All arrays.
+    fn all(&self) -> Shared<'_>;
+    /// All arrays, to be changed.
+    fn all_mut(&mut self) -> Slices<'_>;
 }
 
-/// The rooms that a device needs, by [`rooms!`](crate::rooms).
-#[doc(hidden)]
-#[derive(Clone, Copy, Debug)]
-pub struct Fit<
-    const ERRORS: usize,
-    const MESSAGES: usize,
-    const EVENTS: usize,
-    const FRAMES: usize,
-    const WATCHES: usize,
-    const GUARDS: usize,
-    const LSS: usize,
-    const SAVES: usize,
-    const LATE: usize,
-    const TRANSFERS: usize,
-    const KEPT: usize,
-    const RPDOS: usize,
->;
+/// Writes [`Slices`] and [`Shared`], which have the same fields.
+macro_rules! slices {
+    ($($(#[$about:meta])* $name:ident: $what:ty,)*) => {
+        /// The arrays of [`Rooms`], to be changed.
+        #[derive(Debug)]
+        pub struct Slices<'r> {
+            $($(#[$about])* pub $name: &'r mut $what,)*
+        }
 
-impl<
-    const ERRORS: usize,
-    const MESSAGES: usize,
-    const EVENTS: usize,
-    const FRAMES: usize,
-    const WATCHES: usize,
-    const GUARDS: usize,
-    const LSS: usize,
-    const SAVES: usize,
-    const LATE: usize,
-    const TRANSFERS: usize,
-    const KEPT: usize,
-    const RPDOS: usize,
-> Rooms
-    for Fit<
-        ERRORS,
-        MESSAGES,
-        EVENTS,
-        FRAMES,
-        WATCHES,
-        GUARDS,
-        LSS,
-        SAVES,
-        LATE,
-        TRANSFERS,
-        KEPT,
-        RPDOS,
-    >
-{
-    type Errors<T: Blank> = [T; ERRORS];
-    type Changes<T: Blank> = [T; ERRORS];
-    type Messages<T: Blank> = [T; MESSAGES];
-    type Events<T: Blank> = [T; EVENTS];
-    type Frames<T: Blank> = [T; FRAMES];
-    type Watches<T: Blank> = [T; WATCHES];
-    type Guards<T: Blank> = [T; GUARDS];
-    type Lss<T: Blank> = [T; LSS];
-    type Saves<T: Blank> = [T; SAVES];
-    type Late<T: Blank> = [T; LATE];
-    type Transfers<T: Blank> = [T; TRANSFERS];
-    type Kept<T: Blank> = [T; KEPT];
-    type Rpdos<T: Blank, const PDO: usize> = [T; RPDOS];
-}
-
-/// The type of the [`Rooms`] that a [`Device`] needs: `Only<rooms!(Device)>` is the last parameter of its
-/// [`Node`](crate::Node).
-#[macro_export]
-macro_rules! rooms {
-    ($device:ty) => {
-        $crate::rooms::Fit<
-            { $crate::rooms::room::<$device>(0) },
-            { $crate::rooms::room::<$device>(1) },
-            { $crate::rooms::room::<$device>(2) },
-            { $crate::rooms::room::<$device>(3) },
-            { $crate::rooms::room::<$device>(4) },
-            { $crate::rooms::room::<$device>(5) },
-            { $crate::rooms::room::<$device>(6) },
-            { $crate::rooms::room::<$device>(7) },
-            { $crate::rooms::room::<$device>(8) },
-            { $crate::rooms::room::<$device>(9) },
-            { $crate::rooms::room::<$device>(10) },
-            { $crate::rooms::room::<$device>(11) },
-        >
+        /// The arrays of [`Rooms`].
+        #[derive(Clone, Copy, Debug)]
+        pub struct Shared<'r> {
+            $($(#[$about])* pub $name: &'r $what,)*
+        }
     };
 }
 
-/// Most errors that can be active at once, and that can come or go in one call.
-pub(crate) const ERRORS: usize = 32;
+slices! {
+    /// CAN-IDs that the node listens to.
+    listeners: [Listener],
+    /// Frames to be sent, except PDOs, EMCY messages and segments of block uploads.
+    frames: Fifo<[Frame]>,
+    /// Events for the host.
+    events: Fifo<[Event]>,
+    /// Errors that are active.
+    errors: Fifo<[Emcy]>,
+    /// EMCY messages that wait to be sent.
+    messages: Fifo<[Emcy]>,
+    /// SDO servers; the first is the default one.
+    servers: [SdoServer],
+    /// Buffers of the SDO servers, one behind the other, all of one length.
+    buffers: [u8],
+    /// TPDOs.
+    tpdos: [Tpdo],
+    /// RPDOs.
+    rpdos: [Rpdo],
+    /// Entries of all mappings: those of the TPDOs, then those of the RPDOs.
+    mapped: [Mapped],
+    /// Nodes whose heartbeats can be watched.
+    watches: [Watch],
+    /// Node guarding: one, or none where the device lacks it.
+    guards: [Guard],
+    /// LSS slave: one or none.
+    lss: [Slave],
+    /// SYNC producer and TIME: one or none.
+    clocks: [Clocks],
+}
+
+/// Lengths of all arrays of a node.
+#[derive(Clone, Copy, Debug)]
+#[allow(missing_docs)] // as the fields of `Slices`
+pub struct Sizes {
+    pub values: usize,
+    pub changes: usize,
+    pub saves: usize,
+    pub listeners: usize,
+    pub frames: usize,
+    pub events: usize,
+    pub errors: usize,
+    pub messages: usize,
+    pub servers: usize,
+    pub buffers: usize,
+    pub tpdos: usize,
+    pub rpdos: usize,
+    pub mapped: usize,
+    pub watches: usize,
+    pub guards: usize,
+    pub lss: usize,
+    pub clocks: usize,
+}
+
 /// Most EMCY messages that can wait to be sent.
 const MESSAGES: usize = 16;
 const EVENTS: usize = 16;
-const FRAMES: usize = 8;
+const FRAMES: usize = 9;
 /// Number of nodes that can be watched; entries of 1016h beyond it are ignored.
 const WATCHES: usize = 8;
-/// Mapping entries that are kept; more (BOOLEANs, say) are read from the mapping object each time.
-pub(crate) const KEPT: usize = 8;
+/// Bytes of the longest block of an SDO block transfer: so much of a streamed value is in the buffer.
+const BLOCK: usize = 127 * 7;
 
-/// A size of [`Fit`] for a device, by its position.
-#[doc(hidden)]
-pub const fn room<D: Device>(of: usize) -> usize {
-    let is_on = match of {
-        0 => return D::ERRORS,
-        1 => {
-            return if has::<D>(0x1014) {
-                least(D::ERRORS, MESSAGES)
-            } else {
-                0
-            };
+impl Sizes {
+    /// What a device with this dictionary needs.
+    pub const fn of<D: Services>(dictionary: &Dictionary<'_>) -> Self {
+        let servers = 1 + if D::SERVERS { dictionary.servers() } else { 0 };
+        let tpdos = dictionary.tpdos();
+        let rpdos = if D::RPDOS { dictionary.rpdos() } else { 0 };
+        let watches = match D::CONSUMER {
+            true => least(dictionary.last_sub(0x1016) as usize, WATCHES),
+            false => 0,
+        };
+        let mapped = entries(dictionary, 0x1A00, tpdos) + entries(dictionary, 0x1600, rpdos);
+        let mut buffer = dictionary.longest();
+        if D::STREAMS && dictionary.has_streams() && buffer < BLOCK {
+            buffer = BLOCK;
         }
-        2 => return if D::EVENTS { EVENTS } else { 0 },
-        // Without these services a call has one or two frames.
-        3 => {
-            return if D::LSS || D::BEHAVIOUR || D::SERVERS || D::BLOCK {
-                FRAMES
-            } else {
-                FRAMES / 2
-            };
+        // Without these services a call sends one frame or two.
+        let is_small = !(D::LSS || D::BEHAVIOUR || D::SERVERS || D::BLOCK);
+        Self {
+            values: dictionary.store_len(),
+            changes: D::ERRORS,
+            saves: D::STORAGE as usize,
+            // NMT, SYNC, TIME, LSS and node guarding, and one for each SDO server, watched node and PDO.
+            listeners: 5 + servers + watches + tpdos + rpdos,
+            frames: if is_small { FRAMES / 2 + 1 } else { FRAMES },
+            events: if D::EVENTS { EVENTS } else { 0 },
+            errors: D::ERRORS,
+            messages: match dictionary.has(0x1014) {
+                true => least(D::ERRORS, MESSAGES),
+                false => 0,
+            },
+            servers,
+            buffers: servers * buffer,
+            tpdos,
+            rpdos,
+            mapped,
+            watches,
+            guards: D::GUARDING as usize,
+            lss: D::LSS as usize,
+            clocks: (D::SYNC_PRODUCER || D::TIME) as usize,
         }
-        4 => {
-            return if D::CONSUMER {
-                least(subs::<D>(0x1016, 0x1016), WATCHES)
-            } else {
-                0
-            };
-        }
-        5 => D::GUARDING,
-        6 => D::LSS,
-        7 => D::STORAGE,
-        8 => D::STORAGE || D::STREAMS,
-        9 => D::SEGMENTED || D::BLOCK || D::STREAMS,
-        10 => {
-            let (rpdo, tpdo) = (subs::<D>(0x1600, 0x17FF), subs::<D>(0x1A00, 0x1BFF));
-            return least(if rpdo > tpdo { rpdo } else { tpdo }, KEPT);
-        }
-        _ => {
-            return match &D::DICTIONARY {
-                Some(dictionary) if D::RPDOS => dictionary.rpdos(),
-                _ => 0,
-            };
-        }
-    };
-    is_on as usize
+    }
 }
 
 const fn least(a: usize, b: usize) -> usize {
     if a < b { a } else { b }
 }
 
-/// Whether the dictionary has an object, as far as the compiler knows.
-const fn has<D: Device>(index: u16) -> bool {
-    match &D::DICTIONARY {
-        Some(dictionary) => dictionary.has(index),
-        None => true,
+/// Mapping entries that `count` objects from `first` on have room for.
+const fn entries(dictionary: &Dictionary<'_>, first: u16, count: usize) -> usize {
+    let (mut entries, mut number) = (0, 0);
+    while number < count {
+        entries += dictionary.last_sub(first + number as u16) as usize;
+        number += 1;
     }
+    entries
 }
 
-/// The greatest sub-index of the objects of this range.
-const fn subs<D: Device>(first: u16, last: u16) -> usize {
-    let Some(dictionary) = &D::DICTIONARY else {
-        return usize::MAX;
-    };
-    let (mut greatest, mut at) = (0, 0);
-    while at < dictionary.len() {
-        let address = dictionary.rows()[at].address();
-        if first <= address.index && address.index <= last && address.sub as usize > greatest {
-            greatest = address.sub as usize;
+/// Writes the structs `Values` and `Rooms` of a device, which has the constant `DICTIONARY`.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! rooms {
+    ($device:ty) => {
+        const __SIZES: $crate::rooms::Sizes =
+            match &<$device as $crate::rooms::Services>::DICTIONARY {
+                ::core::option::Option::Some(dictionary) => {
+                    $crate::rooms::Sizes::of::<$device>(dictionary)
+                }
+                ::core::option::Option::None => ::core::panic!("the dictionary is not a constant"),
+            };
+
+        /// The current values of a node of this device.
+        #[doc(hidden)]
+        #[derive(Clone, Debug)]
+        pub struct Values {
+            bytes: [u8; __SIZES.values],
+            outbox: $crate::rooms::Outbox<[$crate::rooms::Change; __SIZES.changes]>,
+            saving: [$crate::rooms::Saving; __SIZES.saves],
         }
-        at += 1;
+
+        impl $crate::rooms::Values for Values {
+            const NEW: Self = Self {
+                bytes: [0; __SIZES.values],
+                outbox: $crate::rooms::Outbox::new(
+                    [const { <$crate::rooms::Change as $crate::rooms::Blank>::BLANK };
+                        __SIZES.changes],
+                ),
+                saving: [const { <$crate::rooms::Saving as $crate::rooms::Blank>::BLANK };
+                    __SIZES.saves],
+            };
+
+            #[inline]
+            fn bytes(&self) -> &[u8] {
+                &self.bytes
+            }
+
+            #[inline]
+            fn saving(&self) -> ::core::option::Option<&$crate::rooms::Saving> {
+                self.saving.first()
+            }
+
+            #[inline]
+            fn lend(&mut self) -> $crate::rooms::Lent<'_> {
+                $crate::rooms::Lent {
+                    bytes: &mut self.bytes,
+                    outbox: &mut self.outbox,
+                    saving: self.saving.first_mut(),
+                }
+            }
+        }
+
+        /// What the services of a node of this device remember.
+        #[doc(hidden)]
+        #[derive(Clone, Debug)]
+        pub struct Rooms {
+            listeners: [$crate::rooms::Listener; __SIZES.listeners],
+            frames: $crate::rooms::Fifo<[$crate::rooms::Frame; __SIZES.frames]>,
+            events: $crate::rooms::Fifo<[$crate::rooms::Event; __SIZES.events]>,
+            errors: $crate::rooms::Fifo<[$crate::rooms::Emcy; __SIZES.errors]>,
+            messages: $crate::rooms::Fifo<[$crate::rooms::Emcy; __SIZES.messages]>,
+            servers: [$crate::rooms::SdoServer; __SIZES.servers],
+            buffers: [u8; __SIZES.buffers],
+            tpdos: [$crate::rooms::Tpdo; __SIZES.tpdos],
+            rpdos: [$crate::rooms::Rpdo; __SIZES.rpdos],
+            mapped: [$crate::rooms::Mapped; __SIZES.mapped],
+            watches: [$crate::rooms::Watch; __SIZES.watches],
+            guards: [$crate::rooms::Guard; __SIZES.guards],
+            lss: [$crate::rooms::Slave; __SIZES.lss],
+            clocks: [$crate::rooms::Clocks; __SIZES.clocks],
+        }
+
+        impl $crate::rooms::Rooms for Rooms {
+            const NEW: Self = Self {
+                listeners: [const { <$crate::rooms::Listener as $crate::rooms::Blank>::BLANK };
+                    __SIZES.listeners],
+                frames: $crate::rooms::Fifo::new(
+                    [const { <$crate::rooms::Frame as $crate::rooms::Blank>::BLANK };
+                        __SIZES.frames],
+                ),
+                events: $crate::rooms::Fifo::new(
+                    [const { <$crate::rooms::Event as $crate::rooms::Blank>::BLANK };
+                        __SIZES.events],
+                ),
+                errors: $crate::rooms::Fifo::new(
+                    [const { <$crate::rooms::Emcy as $crate::rooms::Blank>::BLANK };
+                        __SIZES.errors],
+                ),
+                messages: $crate::rooms::Fifo::new(
+                    [const { <$crate::rooms::Emcy as $crate::rooms::Blank>::BLANK };
+                        __SIZES.messages],
+                ),
+                servers: [const { <$crate::rooms::SdoServer as $crate::rooms::Blank>::BLANK };
+                    __SIZES.servers],
+                buffers: [const { <u8 as $crate::rooms::Blank>::BLANK }; __SIZES.buffers],
+                tpdos: [const { <$crate::rooms::Tpdo as $crate::rooms::Blank>::BLANK };
+                    __SIZES.tpdos],
+                rpdos: [const { <$crate::rooms::Rpdo as $crate::rooms::Blank>::BLANK };
+                    __SIZES.rpdos],
+                mapped: [const { <$crate::rooms::Mapped as $crate::rooms::Blank>::BLANK };
+                    __SIZES.mapped],
+                watches: [const { <$crate::rooms::Watch as $crate::rooms::Blank>::BLANK };
+                    __SIZES.watches],
+                guards: [const { <$crate::rooms::Guard as $crate::rooms::Blank>::BLANK };
+                    __SIZES.guards],
+                lss: [const { <$crate::rooms::Slave as $crate::rooms::Blank>::BLANK }; __SIZES.lss],
+                clocks: [const { <$crate::rooms::Clocks as $crate::rooms::Blank>::BLANK };
+                    __SIZES.clocks],
+            };
+
+            fn all(&self) -> $crate::rooms::Shared<'_> {
+                $crate::rooms::Shared {
+                    listeners: &self.listeners,
+                    frames: &self.frames,
+                    events: &self.events,
+                    errors: &self.errors,
+                    messages: &self.messages,
+                    servers: &self.servers,
+                    buffers: &self.buffers,
+                    tpdos: &self.tpdos,
+                    rpdos: &self.rpdos,
+                    mapped: &self.mapped,
+                    watches: &self.watches,
+                    guards: &self.guards,
+                    lss: &self.lss,
+                    clocks: &self.clocks,
+                }
+            }
+
+            fn all_mut(&mut self) -> $crate::rooms::Slices<'_> {
+                $crate::rooms::Slices {
+                    listeners: &mut self.listeners,
+                    frames: &mut self.frames,
+                    events: &mut self.events,
+                    errors: &mut self.errors,
+                    messages: &mut self.messages,
+                    servers: &mut self.servers,
+                    buffers: &mut self.buffers,
+                    tpdos: &mut self.tpdos,
+                    rpdos: &mut self.rpdos,
+                    mapped: &mut self.mapped,
+                    watches: &mut self.watches,
+                    guards: &mut self.guards,
+                    lss: &mut self.lss,
+                    clocks: &mut self.clocks,
+                }
+            }
+        }
+    };
+}
+
+/// Values of a device whose dictionary is known at run time.
+#[cfg(any(feature = "std", test))]
+#[derive(Clone, Debug)]
+pub struct LoadedValues {
+    bytes: std::vec::Vec<u8>,
+    outbox: Outbox<[Change; ERRORS]>,
+    saving: Saving,
+}
+
+/// Errors that can be active at once, and that can come or go in one call.
+#[cfg(any(feature = "std", test))]
+const ERRORS: usize = 32;
+
+#[cfg(any(feature = "std", test))]
+impl Values for LoadedValues {
+    const NEW: Self = Self {
+        bytes: std::vec::Vec::new(),
+        outbox: Outbox::new([Change::BLANK; ERRORS]),
+        saving: Saving::BLANK,
+    };
+
+    fn fit(&mut self, sizes: &Sizes) {
+        self.bytes.resize(sizes.values, 0);
     }
-    greatest
+
+    fn bytes(&self) -> &[u8] {
+        &self.bytes
+    }
+
+    fn saving(&self) -> Option<&Saving> {
+        Some(&self.saving)
+    }
+
+    fn lend(&mut self) -> Lent<'_> {
+        Lent {
+            bytes: &mut self.bytes,
+            outbox: &mut self.outbox,
+            saving: Some(&mut self.saving),
+        }
+    }
 }
 
-impl Blank for u32 {
-    const BLANK: Self = 0;
+/// What the services of a device whose dictionary is known at run time remember.
+#[cfg(any(feature = "std", test))]
+#[derive(Clone, Debug)]
+pub struct LoadedRooms {
+    listeners: std::vec::Vec<Listener>,
+    frames: Fifo<[Frame; FRAMES]>,
+    events: Fifo<[Event; EVENTS]>,
+    errors: Fifo<[Emcy; ERRORS]>,
+    messages: Fifo<[Emcy; MESSAGES]>,
+    servers: std::vec::Vec<SdoServer>,
+    buffers: std::vec::Vec<u8>,
+    tpdos: std::vec::Vec<Tpdo>,
+    rpdos: std::vec::Vec<Rpdo>,
+    mapped: std::vec::Vec<Mapped>,
+    watches: [Watch; WATCHES],
+    guards: [Guard; 1],
+    lss: [Slave; 1],
+    clocks: [Clocks; 1],
 }
 
-impl Blank for Frame {
-    const BLANK: Self = Self::standard(0, &[]);
-}
+#[cfg(any(feature = "std", test))]
+impl Rooms for LoadedRooms {
+    const NEW: Self = Self {
+        listeners: std::vec::Vec::new(),
+        frames: Fifo::new([Frame::BLANK; FRAMES]),
+        events: Fifo::new([Event::BLANK; EVENTS]),
+        errors: Fifo::new([Emcy::BLANK; ERRORS]),
+        messages: Fifo::new([Emcy::BLANK; MESSAGES]),
+        servers: std::vec::Vec::new(),
+        buffers: std::vec::Vec::new(),
+        tpdos: std::vec::Vec::new(),
+        rpdos: std::vec::Vec::new(),
+        mapped: std::vec::Vec::new(),
+        watches: [Watch::BLANK; WATCHES],
+        guards: [Guard::BLANK],
+        lss: [Slave::BLANK],
+        clocks: [Clocks::BLANK],
+    };
 
-impl<T: Clone + Debug + Send> Blank for Option<T> {
-    const BLANK: Self = None;
+    fn fit(&mut self, sizes: &Sizes) {
+        self.listeners.resize(sizes.listeners, Listener::BLANK);
+        self.servers.resize(sizes.servers, SdoServer::BLANK);
+        self.buffers.resize(sizes.buffers, 0);
+        self.tpdos.resize(sizes.tpdos, Tpdo::BLANK);
+        self.rpdos.resize(sizes.rpdos, Rpdo::BLANK);
+        self.mapped.resize(sizes.mapped, 0);
+    }
+
+    #[inline]
+    fn all(&self) -> Shared<'_> {
+        Shared {
+            listeners: &self.listeners,
+            frames: &self.frames,
+            events: &self.events,
+            errors: &self.errors,
+            messages: &self.messages,
+            servers: &self.servers,
+            buffers: &self.buffers,
+            tpdos: &self.tpdos,
+            rpdos: &self.rpdos,
+            mapped: &self.mapped,
+            watches: &self.watches,
+            guards: &self.guards,
+            lss: &self.lss,
+            clocks: &self.clocks,
+        }
+    }
+
+    #[inline]
+    fn all_mut(&mut self) -> Slices<'_> {
+        Slices {
+            listeners: &mut self.listeners,
+            frames: &mut self.frames,
+            events: &mut self.events,
+            errors: &mut self.errors,
+            messages: &mut self.messages,
+            servers: &mut self.servers,
+            buffers: &mut self.buffers,
+            tpdos: &mut self.tpdos,
+            rpdos: &mut self.rpdos,
+            mapped: &mut self.mapped,
+            watches: &mut self.watches,
+            guards: &mut self.guards,
+            lss: &mut self.lss,
+            clocks: &mut self.clocks,
+        }
+    }
 }

@@ -7,7 +7,7 @@ use od_model::typed::{DeviceWritable, Scalar, Text, Var};
 use od_model::varying::Varying;
 use od_model::{Address, Dictionary, Entry, Kind, Slot};
 
-use crate::number::{copy, fill, little_endian, number_in};
+use crate::number::{copy, fill, number_in};
 use od_wire::{AbortCode, NodeId};
 
 pub use error::{StoreTooSmall, TextTooLong};
@@ -43,6 +43,19 @@ impl<'a> Store<'a> {
             values,
             node_id,
         })
+    }
+
+    /// As [`new`](Self::new), over any slice: values past its end read 0, and cannot be written.
+    pub(crate) fn over(
+        dictionary: &'a Dictionary<'a>,
+        values: &'a mut [u8],
+        node_id: NodeId,
+    ) -> Self {
+        Self {
+            dictionary,
+            values,
+            node_id,
+        }
     }
 
     /// The dictionary.
@@ -94,7 +107,6 @@ impl<'a> Store<'a> {
     }
 
     /// One value becomes its default.
-    #[inline(never)]
     pub(crate) fn reset_row(&mut self, row: &Row) {
         match varying(self.dictionary, row) {
             // The layout left room for the default; a longer one cannot be.
@@ -106,7 +118,6 @@ impl<'a> Store<'a> {
     }
 
     /// Puts a number in its place, cut to its length, if it has one.
-    #[cfg_attr(target_os = "none", inline(never))]
     fn put_number(&mut self, row: &Row, number: u64) {
         if let Some(room) = slot_mut(self.values, row.fixed_slot()) {
             fill(room, number.to_le_bytes());
@@ -197,7 +208,6 @@ impl<'a> Store<'a> {
     }
 
     /// As [`bytes`](Self::bytes).
-    #[inline(never)]
     pub(crate) fn value<'b>(&'b self, row: &Row, number: &'b mut [u8; 8]) -> &'b [u8] {
         if let Some(varying) = varying(self.dictionary, row) {
             return (varying.value)(self.dictionary.arenas(), self.values, row);
@@ -218,8 +228,6 @@ impl<'a> Store<'a> {
     }
 
     /// The row of the value at an address.
-    #[cfg_attr(target_os = "none", inline(never))]
-    #[cfg_attr(not(target_os = "none"), inline)]
     pub(crate) fn row(&self, address: Address) -> Result<&'a Row, AbortCode> {
         match self.dictionary.row_at(address) {
             Some(row) => Ok(row),
@@ -237,7 +245,6 @@ impl<'a> Store<'a> {
     }
 
     /// As [`put`](Self::put).
-    #[inline(never)]
     pub(crate) fn put_row(&mut self, row: &Row, bytes: &[u8]) -> Result<(), AbortCode> {
         let room = self.room(row, bytes.len())?;
         copy(room, bytes);
@@ -267,21 +274,18 @@ impl<'a> Store<'a> {
     }
 
     /// The number at an address, if there is such an object; signed ones are extended.
-    #[inline(never)]
     pub fn try_unsigned(&self, index: u16, sub: u8) -> Option<u64> {
         let row = self.dictionary.row_at(Address::new(index, sub))?;
         Some(self.number_of(row))
     }
 
     /// The low 32 bits of the number at an address, if there is such an object; in registers.
-    #[inline(never)]
     pub(crate) fn try_word(&self, index: u16, sub: u8) -> Option<u32> {
         let row = self.dictionary.row_at(Address::new(index, sub))?;
         Some(self.number_of(row) as u32)
     }
 
     /// The low 32 bits of the number at an address; `missing` without such an object.
-    #[inline(never)]
     pub(crate) fn word(&self, index: u16, sub: u8, missing: u32) -> u32 {
         match self.dictionary.row_at(Address::new(index, sub)) {
             Some(row) => self.number_of(row) as u32,
@@ -290,23 +294,20 @@ impl<'a> Store<'a> {
     }
 
     /// The number of the value of a row, little-endian, eight bytes at most.
-    #[inline(never)]
     pub(crate) fn number_of(&self, row: &Row) -> u64 {
         match self.slot(row.plain()) {
             [] => self.other_number(row),
-            bytes => little_endian(bytes),
+            bytes => number_in(bytes),
         }
     }
 
     /// As [`number_of`](Self::number_of), of a value that no master may read, is a string, or is not in
     /// the store.
-    #[inline(never)]
     fn other_number(&self, row: &Row) -> u64 {
         number_in(self.value(row, &mut [0; 8]))
     }
 
     /// The default of a number, cut to its length.
-    #[inline(never)]
     fn default_number(&self, row: &Row) -> u64 {
         let default = default(self.dictionary, row, self.node_id).to_le_bytes();
         number_in(default.get(..row.size()).unwrap_or_default())
@@ -333,8 +334,6 @@ impl<'a> Store<'a> {
 }
 
 /// The abort code where there is no such value.
-#[cold]
-#[inline(never)]
 fn missing(dictionary: &Dictionary<'_>, address: Address) -> AbortCode {
     dictionary.missing(address).into()
 }
@@ -357,7 +356,6 @@ fn varying(dictionary: &Dictionary<'_>, row: &Row) -> Option<&'static Varying> {
 }
 
 /// The bytes of the default of a number.
-#[inline(never)]
 fn default_bytes<'b>(
     dictionary: &Dictionary<'b>,
     row: &Row,
@@ -369,7 +367,6 @@ fn default_bytes<'b>(
 }
 
 /// The default of a number.
-#[inline(never)]
 fn default(dictionary: &Dictionary<'_>, row: &Row, node_id: NodeId) -> u64 {
     let default = row.default(dictionary.pool(), node_id.raw());
     match dictionary.reals() {

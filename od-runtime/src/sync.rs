@@ -2,7 +2,23 @@
 
 use od_wire::{CanId, CobId, Instant};
 
+use crate::blank::Blank;
 use crate::store::Store;
+
+/// State of SYNC producer and TIME.
+#[derive(Clone, Debug)]
+pub struct Clocks {
+    pub(crate) sync: Producer,
+    /// CAN-ID of the TIME messages that the device consumes.
+    pub(crate) time_id: Option<CanId>,
+}
+
+impl Blank for Clocks {
+    const BLANK: Self = Self {
+        sync: Producer::IDLE,
+        time_id: None,
+    };
+}
 
 /// State of the producer.
 #[derive(Clone, Copy, Debug)]
@@ -68,6 +84,34 @@ impl Producer {
 /// CAN-ID of SYNC: 1005h, or 080h without it; `None` if no service may have it.
 pub(crate) fn can_id(store: &Store<'_>) -> Option<CanId> {
     CobId::new(store.word(0x1005, 0, 0x80)).usable_id()
+}
+
+/// Length of a SYNC that a consumer expects (CiA 301, object 1019h).
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Length {
+    /// Without 1019h the device does not know whether its producer counts.
+    Any,
+    Zero,
+    One,
+}
+
+impl Length {
+    pub(crate) fn of(store: &Store<'_>) -> Self {
+        match store.try_word(0x1019, 0) {
+            None => Self::Any,
+            Some(0) => Self::Zero,
+            Some(_) => Self::One,
+        }
+    }
+
+    /// Returns whether a SYNC may have this length in bytes.
+    pub(crate) fn is_right(self, len: usize) -> bool {
+        match self {
+            Self::Any => len <= 1,
+            Self::Zero => len == 0,
+            Self::One => len == 1,
+        }
+    }
 }
 
 /// Whether 1019h can have the value; 1 and 241 to 255 are reserved.

@@ -30,7 +30,6 @@ macro_rules! abort_codes {
             }
 
             // A call, so that the compiler makes a table of them.
-            #[inline(never)]
             const fn short(self) -> u16 {
                 match self { $(Self::$name => const { short($code) },)* }
             }

@@ -14,6 +14,15 @@ pub struct Emcy {
 }
 
 impl Emcy {
+    /// An error without manufacturer-specific information.
+    pub const fn new(code: u16, register: u8) -> Self {
+        Self {
+            code,
+            register,
+            info: [0; 5],
+        }
+    }
+
     /// The meaning of a frame's bytes; `None` unless there are eight.
     pub fn parse(data: &[u8]) -> Option<Self> {
         let &[low, high, register, a, b, c, d, e] = data else {

@@ -143,7 +143,6 @@ impl Frame {
     /// As [`with_dlc`](Self::with_dlc), where nothing has to be cut: `dlc` is 8 at most, and the bytes of
     /// `data` behind it are 0.
     #[doc(hidden)]
-    #[inline(always)]
     pub const fn padded(id: CanId, data: [u8; 8], dlc: u8) -> Self {
         debug_assert!(dlc == 8 || dlc < 8 && u64::from_le_bytes(data) >> (8 * dlc as u32) == 0);
         Self::data_frame(id, data, dlc)

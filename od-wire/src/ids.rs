@@ -92,7 +92,6 @@ impl CobId {
     }
 
     /// Returns the CAN-ID: 29 bits with bit 29 set, else 11.
-    #[cfg_attr(target_os = "none", inline(never))] // one copy in a microcontroller
     pub const fn can_id(self) -> CanId {
         if self.0 & 1 << 29 != 0 {
             CanId::extended(self.0)

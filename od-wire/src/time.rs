@@ -73,7 +73,6 @@ impl Instant {
 }
 
 /// The sum, or the end of time. On a microcontroller it is a call.
-#[cfg_attr(target_os = "none", inline(never))]
 const fn later(at: u64, micros: u64) -> u64 {
     at.saturating_add(micros)
 }

@@ -5,8 +5,8 @@
 //! deadline and events.
 //!
 //! ```
-//! use odkit::storage::Memory;
-//! use odkit::{Frame, Instant, Lent, NoApplication, NodeId, Profile};
+//! use odkit::storage::NoStorage;
+//! use odkit::{Frame, Instant, NoApplication, Node, NodeId};
 //!
 //! odkit::object_dictionary! {
 //!     /// A thermometer.
@@ -19,26 +19,15 @@
 //!     }
 //! }
 //!
-//! let mut values = [0; thermometer::STORE_LEN];
-//! let mut application = NoApplication;
-//! let mut storage = Memory::new([0xFF; 256]);
-//! let mut device = Lent {
-//!     dictionary: thermometer::DICTIONARY,
-//!     values: &mut values,
-//!     application: &mut application,
-//!     storage: &mut storage,
-//!     profile: Some(&Profile::CIA301),
-//! };
-//! let mut node = thermometer::Node::new(NodeId::ONE);
+//! let mut node = Node::new(thermometer::Device, NodeId::ONE, NoApplication, NoStorage);
 //! let now = Instant::ZERO;
-//! node.power_on(&mut device, now)?;
-//! assert_eq!(node.poll_transmit(&mut device, now).unwrap().to_string(), "701#00");
+//! node.power_on(now);
+//! assert_eq!(node.poll_transmit(now).unwrap().to_string(), "701#00");
 //!
 //! let request = Frame::standard(0x601, &[0x40, 0x00, 0x20, 0, 0, 0, 0, 0]);
-//! node.handle_frame(&mut device, now, &request);
-//! let response = node.poll_transmit(&mut device, now).unwrap();
+//! node.handle_frame(now, &request);
+//! let response = node.poll_transmit(now).unwrap();
 //! assert_eq!(response.to_string(), "581#4B002000D7000000");
-//! # Ok::<(), odkit::Unfit>(())
 //! ```
 //!
 //! The crates behind this one are public, too: `od-model` (dictionary), `od-wire` (frames and
@@ -54,23 +43,21 @@ pub use od_model::{
     ObjectCode, Slot, typed,
 };
 pub use od_runtime::{
-    AbortCode, AnyDevice, Application, BusEvent, BusOffProfile, CanId, Chunk, Clocks, CobId,
-    CommunicationReset, Context, CutSave, Device, DeviceKind, Duration, Emcy, ErrorProfile,
-    ErrorReset, Event, Extra, Extras, Frame, FullRooms, Halt, Instant, LengthRule, Lent,
-    LssProfile, NmtProfile, NoApplication, Node, NodeId, Notice, Only, PdoProfile, Profile, Reset,
-    Restore, Rooms, SaveAnswer, SavedCobIds, SdoProfile, SdoServer, Signals, Store, StoreProfile,
-    StoreTooSmall, Stream, StreamEnd, TextTooLong, TimeOfDay, Unfit, encoder, program, rooms,
-    storage,
+    AbortCode, Application, BusEvent, BusOffProfile, CanId, Chunk, CobId, CommunicationReset,
+    Context, CutSave, Device, DeviceKind, Duration, Emcy, ErrorProfile, ErrorReset, Event,
+    EventTimer, Frame, Halt, Instant, LengthRule, LssProfile, NmtProfile, NoApplication, Node,
+    NodeId, Notice, PdoProfile, Profile, Reset, Restore, SaveAnswer, SavedCobIds, SdoProfile,
+    Services, Signals, Store, StoreProfile, StoreTooSmall, Stream, StreamEnd, TextTooLong,
+    TimeOfDay, encoder, program, rooms, storage,
 };
 pub use od_wire::{emcy, lss, nmt, sdo};
 
 /// The paths that [`object_dictionary!`] emits; not an API. The number changes with the shape of
 /// the emitted code, so that a macro and a crate of different versions fail at this name.
 #[doc(hidden)]
-pub mod __private4 {
-    pub use od_board::Board;
+pub mod __private5 {
     pub use od_model::Dictionary;
     pub use od_model::typed::emit::*;
     pub use od_runtime::storage::NoStorage;
-    pub use od_runtime::{Device, Extra, NoApplication, Node, Only, Profile, rooms};
+    pub use od_runtime::{Device, NoApplication, Node, Profile, Services, rooms};
 }

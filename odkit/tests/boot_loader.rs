@@ -55,12 +55,13 @@ fn programs_of_every_length_by_segments() {
         round_trip(&mut rig, len);
     }
     assert!(
-        rig.loader
+        rig.node
+            .application
             .ends
             .iter()
             .all(|end| *end == StreamEnd::Complete)
     );
-    assert_eq!(rig.loader.ends.len(), 2 * SIZES.len());
+    assert_eq!(rig.node.application.ends.len(), 2 * SIZES.len());
 }
 
 #[test]
@@ -93,7 +94,7 @@ fn one_byte_more_than_the_flash_has() {
         let abort = SdoError::Abort(AbortCode::TooLong.code());
         assert_eq!(rig.run(), [Event::Written(long, Err(abort))]);
         // It did not even begin.
-        assert_eq!((rig.frames, rig.loader.ends.len()), (2, 0));
+        assert_eq!((rig.frames, rig.node.application.ends.len()), (2, 0));
     }
     // Nothing says how much comes: the byte after the last one is refused.
     let mut rig = Rig::new();
@@ -104,14 +105,20 @@ fn one_byte_more_than_the_flash_has() {
     }
     // 65,534 bytes came.
     assert_eq!(rig.ask("0901020300000000"), "80501F0112000706");
-    assert_eq!(rig.loader.ends, [StreamEnd::Aborted(AbortCode::TooLong)]);
+    assert_eq!(
+        rig.node.application.ends,
+        [StreamEnd::Aborted(AbortCode::TooLong)]
+    );
     assert_eq!(rig.len(), None);
 }
 
 impl Rig {
     /// Bytes of the program in the flash.
     fn len(&self) -> Option<usize> {
-        self.loader.program().map(|program| program.len as usize)
+        self.node
+            .application
+            .program()
+            .map(|program| program.len as usize)
     }
 
     /// The device receives a request; its answers before time goes on, without the identifier.
@@ -211,7 +218,7 @@ fn the_master_waits_while_the_flash_is_busy() {
     rig.wait_until(Instant::from_micros(81_200));
     assert_eq!(rig.answers(), ["A100000000000000"]);
     assert_eq!(rig.len(), Some(1025));
-    assert_eq!(rig.loader.ends, [StreamEnd::Complete]);
+    assert_eq!(rig.node.application.ends, [StreamEnd::Complete]);
 }
 
 #[test]
@@ -229,32 +236,41 @@ fn three_bytes_go_expedited_and_wait_too() {
     );
     assert_eq!(rig.ask("6000000000000000"), "0941424300000000");
     assert_eq!(rig.send("40501F0100000000"), ["47501F0141424300"]);
-    assert_eq!(rig.loader.ends, [StreamEnd::Complete; 3]);
+    assert_eq!(rig.node.application.ends, [StreamEnd::Complete; 3]);
 }
 
 #[test]
 fn an_abort_in_the_middle_is_told() {
     let mut rig = Rig::begun();
     assert_eq!(rig.send("80501F0100000008"), [""; 0]);
-    assert_eq!(rig.loader.ends, [StreamEnd::Cancelled(0x0800_0000)]);
+    assert_eq!(
+        rig.node.application.ends,
+        [StreamEnd::Cancelled(0x0800_0000)]
+    );
     assert_eq!(rig.len(), None);
     assert_eq!(rig.ask("40501F0100000000"), "80501F0124000008");
     // Also while the stream is awaited: nothing comes when the flash is ready.
     let mut rig = Rig::new();
     rig.send("27501F0141424300");
     assert_eq!(rig.send("80501F0100000008"), [""; 0]);
-    assert_eq!(rig.loader.ends, [StreamEnd::Cancelled(0x0800_0000)]);
+    assert_eq!(
+        rig.node.application.ends,
+        [StreamEnd::Cancelled(0x0800_0000)]
+    );
     assert_eq!(rig.due(), Some(Instant::from_millis(80)), "1F57h changes");
     rig.wait_until(Instant::from_millis(100));
     assert_eq!(rig.answers(), [""; 0]);
     assert_eq!(rig.send("4000100000000000"), ["4300100000000000"]);
     // And in an upload.
     round_trip(&mut rig, 100);
-    rig.loader.ends.clear();
+    rig.node.application.ends.clear();
     rig.ask("40501F0100000000");
     rig.ask("6000000000000000");
     rig.send("80501F0100000008");
-    assert_eq!(rig.loader.ends, [StreamEnd::Cancelled(0x0800_0000)]);
+    assert_eq!(
+        rig.node.application.ends,
+        [StreamEnd::Cancelled(0x0800_0000)]
+    );
 }
 
 #[test]
@@ -262,13 +278,13 @@ fn a_reset_or_a_stop_in_the_middle_is_told() {
     for command in [0x81, 0x82, 0x02] {
         let mut rig = Rig::begun();
         rig.nmt(command);
-        assert_eq!(rig.loader.ends, [StreamEnd::Cut]);
+        assert_eq!(rig.node.application.ends, [StreamEnd::Cut]);
         rig.answers();
         // A segment that comes late belongs to no transfer.
         rig.nmt(0x80);
         assert_eq!(rig.ask("0041424344454647"), "8041424301000405");
         assert_eq!(rig.len(), None);
-        assert_eq!(rig.loader.ends, [StreamEnd::Cut], "once");
+        assert_eq!(rig.node.application.ends, [StreamEnd::Cut], "once");
     }
 }
 
@@ -284,7 +300,11 @@ fn another_transfer_takes_its_place() {
         let mut rig = Rig::new();
         rig.ask("21501F0105000000");
         assert_eq!(rig.send(request), [answer]);
-        assert_eq!(rig.loader.ends, [StreamEnd::Replaced], "{request}");
+        assert_eq!(
+            rig.node.application.ends,
+            [StreamEnd::Replaced],
+            "{request}"
+        );
         rig.send("0541424344450000");
         assert_eq!(rig.len(), None);
     }
@@ -305,7 +325,10 @@ fn a_wrong_checksum_is_no_program() {
     rig.ask(&segment(147, 0x80 | 20));
     let wrong = end(1025).replace(&end(1025)[2..6], "0000");
     assert_eq!(rig.ask(&wrong), "80501F0104000405");
-    assert_eq!(rig.loader.ends, [StreamEnd::Aborted(AbortCode::Crc)]);
+    assert_eq!(
+        rig.node.application.ends,
+        [StreamEnd::Aborted(AbortCode::Crc)]
+    );
     assert_eq!(rig.len(), None);
 }
 
@@ -335,7 +358,10 @@ fn more_than_was_announced_is_refused_early() {
     }
     // 889 bytes, and 888 were to come.
     assert_eq!(rig.ask(&segment(127, 127)), "80501F0112000706");
-    assert_eq!(rig.loader.ends, [StreamEnd::Aborted(AbortCode::TooLong)]);
+    assert_eq!(
+        rig.node.application.ends,
+        [StreamEnd::Aborted(AbortCode::TooLong)]
+    );
 }
 
 #[test]
@@ -348,7 +374,10 @@ fn a_master_that_is_gone_is_given_up() {
     assert_eq!(due, Instant::from_millis(80 + 5000));
     rig.wait_until(due);
     assert_eq!(rig.answers(), ["80501F0100000405"]);
-    assert_eq!(rig.loader.ends, [StreamEnd::Aborted(AbortCode::Timeout)]);
+    assert_eq!(
+        rig.node.application.ends,
+        [StreamEnd::Aborted(AbortCode::Timeout)]
+    );
     assert_eq!(rig.len(), None);
     // While the flash keeps it waiting it is not gone.
     let mut rig = Rig::new();

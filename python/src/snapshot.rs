@@ -6,7 +6,6 @@ use od_bench::bus::Bus;
 use pyo3::prelude::*;
 
 use crate::cyclic::Cyclic;
-use crate::faults::Fault;
 use crate::state::State;
 
 /// A state of a bench: its devices with all their state, the bus line, and the time.
@@ -21,31 +20,25 @@ pub(crate) struct Snapshot {
 
 impl Snapshot {
     /// The state of a bench.
-    pub(crate) fn of(state: &State) -> Result<Self, Fault> {
-        Ok(Self {
-            bus: Mutex::new(copy(&state.bus)?),
+    pub(crate) fn of(state: &State) -> Self {
+        Self {
+            bus: Mutex::new(state.bus.clone()),
             names: state.names.clone(),
             cyclics: state.cyclics.clone(),
-        })
+        }
     }
 
     /// Puts a bench into this state: its journal starts again, and received frames are dropped.
-    pub(crate) fn restore(&self, state: &mut State) -> Result<(), Fault> {
+    pub(crate) fn restore(&self, state: &mut State) {
         let bus = self.bus.lock().unwrap_or_else(PoisonError::into_inner);
-        state.bus = copy(&bus)?;
+        state.bus = bus.clone();
         state.names.clone_from(&self.names);
         // Tasks that have ended since then stay ended.
         let is_there = |one: &&Cyclic| state.cyclics.iter().any(|own| own.id == one.id);
         let cyclics = self.cyclics.iter().filter(is_there).cloned().collect();
         state.cyclics = cyclics;
         state.forget();
-        Ok(())
     }
-}
-
-fn copy(bus: &Bus) -> Result<Bus, Fault> {
-    bus.copy()
-        .ok_or_else(|| Fault::value("a device of the bench cannot be copied"))
 }
 
 #[pymethods]

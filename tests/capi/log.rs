@@ -4,7 +4,7 @@
 use std::sync::{Arc, Mutex};
 
 use od_bench::VirtualDevice;
-use od_bench::twin::{Before, Call, Input, Twin};
+use od_bench::twin::{Before, Call, Twin};
 use od_model::Address;
 use od_runtime::storage::Storage;
 use od_runtime::{BusEvent, Event, Frame, Instant};
@@ -87,10 +87,10 @@ impl Log {
                 self.eeprom = content(device.storage);
                 self.call(b'-', now, &[]);
             }
-            Call::Input(Input::Frame(frame)) => self.call(b'F', now, &bytes(frame)),
-            Call::Input(Input::Timeout | Input::Boot) => self.call(b'T', now, &[]),
-            Call::Input(Input::Change) => self.call(b'C', now, &[]),
-            Call::Input(Input::Bus(event)) => {
+            Call::Frame(frame) => self.call(b'F', now, &bytes(frame)),
+            Call::Timeout | Call::Boot => self.call(b'T', now, &[]),
+            Call::Change => self.call(b'C', now, &[]),
+            Call::Bus(event) => {
                 let number = match event {
                     BusEvent::Active => 0,
                     BusEvent::Warning => 1,

@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex};
 
 use od_bench::VirtualDevice;
 use od_bench::shaft::Shaft;
-use od_bench::twin::{Before, Call, Input, Twin};
+use od_bench::twin::{Before, Call, Twin};
 use od_model::Address;
 use od_runtime::encoder::{Angle, Encoder, Fault, Motion, Role};
 use od_runtime::storage::Storage;
@@ -143,11 +143,11 @@ impl Log {
                 self.eeprom = content(device.storage);
                 self.add(b'-', now, &[]);
             }
-            Call::Input(Input::Frame(frame)) => self.add(b'F', now, &bytes(frame)),
-            Call::Input(Input::Timeout) => self.add(b'T', now, &[]),
-            Call::Input(Input::Change) => self.add(b'C', now, &[]),
-            Call::Input(Input::Boot) => self.add(b'I', now, &[]),
-            Call::Input(Input::Bus(event)) => {
+            Call::Frame(frame) => self.add(b'F', now, &bytes(frame)),
+            Call::Timeout => self.add(b'T', now, &[]),
+            Call::Change => self.add(b'C', now, &[]),
+            Call::Boot => self.add(b'I', now, &[]),
+            Call::Bus(event) => {
                 let number = match event {
                     BusEvent::Active => 0,
                     BusEvent::Warning => 1,
@@ -202,7 +202,7 @@ impl Log {
         }
         let sample = shaft.seen(now);
         let mut letter = match call {
-            Call::PowerOn | Call::Input(Input::Change | Input::Boot) => Some(b'S'),
+            Call::PowerOn | Call::Change | Call::Boot => Some(b'S'),
             _ => None,
         };
         let mut jumped = None;

@@ -37,7 +37,7 @@ macro_rules! targets {
 }
 
 targets! {
-    sdo node eeprom structure eds xdd overlay fix script lesson console slcan socketcand candump logs
+    sdo node eeprom cob_ids structure eds xdd overlay fix script lesson console slcan socketcand candump logs
 }
 
 /// An input that fails makes the test fail.

@@ -125,9 +125,9 @@ fn a_capacity_is_room_in_the_store_and_0_is_a_stream() {
         !bench::DICTIONARY.has_streams(),
         "a `const` text is not a stream"
     );
-    // A block of 127 segments, if the longest value of the store has 300 bytes.
-    type Rooms = odkit::Only<odkit::rooms!(logger::Device)>;
-    let _: logger::Node = odkit::Node::<logger::Device, 0, 889, Rooms>::new(odkit::NodeId::ONE);
-    const { assert!(<logger::Device as odkit::Device>::STREAMS) }
-    const { assert!(!<bench::Device as odkit::Device>::STREAMS) }
+    // A block of 127 segments, where the longest value of the store has 300 bytes.
+    let sizes = od_runtime::rooms::Sizes::of::<logger::Device>(&logger::DICTIONARY);
+    assert_eq!(sizes.buffers, 889);
+    const { assert!(<logger::Device as odkit::Services>::STREAMS) }
+    const { assert!(!<bench::Device as odkit::Services>::STREAMS) }
 }

@@ -1,8 +1,8 @@
 //! `without` and `behaves`: a node has code for the services of its device only, and the profile that the
 //! compiler knows is used.
 
-use odkit::storage::Memory;
-use odkit::{Frame, Instant, Lent, NoApplication, NodeId, PdoProfile, Profile, SdoProfile};
+use odkit::storage::NoStorage;
+use odkit::{Frame, Instant, NoApplication, Node, NodeId, PdoProfile, Profile, SdoProfile};
 
 static PROFILE: Profile = Profile {
     sdo: SdoProfile {
@@ -41,35 +41,29 @@ device!(lean, without lss, segmented, block, events; behaves = PROFILE;);
 
 device!(few, errors = 2;);
 
+type Small<D> = Node<D, NoApplication, NoStorage>;
+
 #[test]
 fn a_service_that_is_off_uses_no_ram() {
     use core::mem::size_of;
-    // An error takes 8 bytes while it is active, and 10 until the node has handled it.
-    assert!(size_of::<full::Node>() - size_of::<few::Node>() >= 30 * 18);
-    assert!(size_of::<full::Node>() - size_of::<lean::Node>() > 150);
+    // An error takes 8 bytes while it is active, and 10 until the node knows of it.
+    assert!(size_of::<Small<full::Device>>() - size_of::<Small<few::Device>>() >= 30 * 18);
+    assert!(size_of::<Small<full::Device>>() - size_of::<Small<lean::Device>>() > 150);
 }
 
 /// The responses of a node to each request, and whether it had an event for its host.
 macro_rules! answers {
     ($module:path, $requests:expr) => {{
         use $module as device;
-        let mut node = device::Node::new(NodeId::ONE);
-        let mut values = [0; device::STORE_LEN];
-        let mut device = Lent {
-            dictionary: device::DICTIONARY,
-            values: &mut values,
-            application: &mut NoApplication,
-            storage: &mut Memory::new([]),
-            profile: Some(&Profile::CIA301),
-        };
+        let mut node = Node::new(device::Device, NodeId::ONE, NoApplication, NoStorage);
         let now = Instant::ZERO;
-        node.power_on(&mut device, now).unwrap();
-        while node.poll_transmit(&mut device, now).is_some() {}
+        node.power_on(now);
+        while node.poll_transmit(now).is_some() {}
         let mut found = Vec::new();
         for request in $requests {
             let request = Frame::new(odkit::CanId::standard(0x601), request).unwrap();
-            node.handle_frame(&mut device, now, &request);
-            let answer = node.poll_transmit(&mut device, now);
+            node.handle_frame(now, &request);
+            let answer = node.poll_transmit(now);
             found.push(answer.map_or(String::from("nothing"), |frame| frame.to_string()));
         }
         (found, node.poll_event().is_some())
@@ -97,7 +91,7 @@ fn a_service_that_is_off_responds_like_a_missing_one() {
     assert_eq!(lean[0], "581#8000200000000106", "06010000h");
     assert_eq!(lean[1], "581#8000200001000405", "05040001h");
     assert_eq!(lean[2], "581#8000200001000405", "05040001h");
-    // The profile that the compiler knows is used, not the lent one.
+    // `behaves = PROFILE` accepts four bytes.
     assert_eq!(lean[3..], ["581#4300100000000000", "581#4300100000000000"]);
     assert!(!has_events);
     assert_eq!(answers!(lean::small, REQUESTS).0, lean);
@@ -119,24 +113,16 @@ odkit::object_dictionary! {
 
 #[test]
 fn a_node_has_the_servers_and_the_sync_producer_of_its_dictionary() {
-    let mut node = rich::Node::new(NodeId::ONE);
-    let mut values = [0; rich::STORE_LEN];
-    let mut device = Lent {
-        dictionary: rich::DICTIONARY,
-        values: &mut values,
-        application: &mut NoApplication,
-        storage: &mut Memory::new([]),
-        profile: Some(&Profile::CIA301),
-    };
-    node.power_on(&mut device, Instant::ZERO).unwrap();
-    while node.poll_transmit(&mut device, Instant::ZERO).is_some() {}
+    let mut node = Node::new(rich::Device, NodeId::ONE, NoApplication, NoStorage);
+    node.power_on(Instant::ZERO);
+    while node.poll_transmit(Instant::ZERO).is_some() {}
     let request = Frame::standard(0x680, &[0x40, 0x18, 0x10, 1, 0, 0, 0, 0]);
-    node.handle_frame(&mut device, Instant::ZERO, &request);
-    let answer = node.poll_transmit(&mut device, Instant::ZERO).unwrap();
+    node.handle_frame(Instant::ZERO, &request);
+    let answer = node.poll_transmit(Instant::ZERO).unwrap();
     assert_eq!(answer.to_string(), "6C0#4318100101000000");
     let at = node.poll_timeout().unwrap();
     assert_eq!(at, Instant::from_millis(5));
-    node.handle_timeout(&mut device, at);
-    let sync = node.poll_transmit(&mut device, at).unwrap();
+    node.handle_timeout(at);
+    let sync = node.poll_transmit(at).unwrap();
     assert_eq!(sync, Frame::standard(0x80, &[]));
 }

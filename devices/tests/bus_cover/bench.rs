@@ -5,15 +5,11 @@ use od_devices::find;
 use odkit::DeviceKind;
 use odkit::encoder::Encoder;
 use odkit::storage::{Memory, image};
-use odkit::{CanId, Frame, Instant, Lent, Node, NodeId};
+use odkit::{CanId, Frame, Instant, Node, NodeId};
 
 /// A device on a bench of its own.
 pub(crate) struct Bench {
-    kind: &'static DeviceKind,
-    values: Vec<u8>,
-    pub(crate) storage: Memory<Vec<u8>>,
-    pub(crate) encoder: Encoder<Shaft>,
-    node: Node,
+    pub(crate) node: Node<DeviceKind, Encoder<Shaft>, Memory<Vec<u8>>>,
     pub(crate) now: Instant,
     /// Node ID of the last boot-up message.
     pub(crate) booted: u32,
@@ -22,13 +18,10 @@ pub(crate) struct Bench {
 impl Bench {
     /// The device of this name, just switched on.
     pub(crate) fn new(name: &str) -> Self {
-        let kind = find(name).unwrap();
+        let kind = *find(name).unwrap();
+        let storage = Memory::new(vec![0xFF; image::capacity_needed(&kind.dictionary)]);
         let mut bench = Self {
-            kind,
-            values: vec![0; kind.dictionary.store_len()],
-            storage: Memory::new(vec![0xFF; image::capacity_needed(&kind.dictionary)]),
-            encoder: shaft::encoder(kind),
-            node: Node::new(NodeId::ONE),
+            node: Node::new(kind, NodeId::ONE, shaft::encoder(&kind), storage),
             now: Instant::ZERO,
             booted: 0,
         };
@@ -36,25 +29,10 @@ impl Bench {
         bench
     }
 
-    pub(crate) fn with<R>(
-        &mut self,
-        call: impl FnOnce(&mut Node, &mut Lent<'_>, Instant) -> R,
-    ) -> R {
-        let mut device = Lent {
-            dictionary: self.kind.dictionary,
-            values: &mut self.values,
-            application: &mut self.encoder,
-            storage: &mut self.storage,
-            profile: Some(self.kind.profile),
-        };
-        call(&mut self.node, &mut device, self.now)
-    }
-
     /// All frames that the device sends now, in order.
     pub(crate) fn sent(&mut self) -> Vec<Frame> {
-        let frames: Vec<Frame> = self.with(|node, device, now| {
-            std::iter::from_fn(|| node.poll_transmit(device, now)).collect()
-        });
+        let sent = || self.node.poll_transmit(self.now);
+        let frames: Vec<Frame> = std::iter::from_fn(sent).collect();
         let boot = |frame: &&Frame| frame.id().raw() & 0x780 == 0x700;
         if let Some(boot) = frames.iter().find(boot) {
             self.booted = boot.id().raw() - 0x700;
@@ -63,19 +41,19 @@ impl Bench {
     }
 
     fn power_on(&mut self) {
-        self.storage.restore_power();
-        self.with(|node, device, now| node.power_on(device, now).unwrap());
+        self.node.storage.restore_power();
+        self.node.power_on(self.now);
         self.sent();
     }
 
     /// Moves the shaft to where the sensor value becomes `raw`.
     pub(crate) fn set_raw(&mut self, raw: u64) {
-        let sensor = self.encoder.sensor();
-        self.encoder.shaft.set_raw(self.now, sensor, raw);
+        let encoder = &mut self.node.application;
+        encoder.shaft.set_raw(self.now, encoder.sensor(), raw);
     }
 
     pub(crate) fn power_cycle(&mut self) {
-        self.encoder.power_off(self.now);
+        self.node.application.power_off(self.now);
         self.node.power_off();
         self.now = self.now.plus_millis(100);
         self.power_on();
@@ -83,7 +61,7 @@ impl Bench {
 
     pub(crate) fn send(&mut self, id: u16, data: &[u8]) -> Vec<Frame> {
         let frame = Frame::new(CanId::standard(id), data).unwrap();
-        self.with(|node, device, now| node.handle_frame(device, now, &frame));
+        self.node.handle_frame(self.now, &frame);
         self.sent()
     }
 

@@ -21,7 +21,7 @@ impl Bench {
     fn turn(&mut self, model: &Model, steps: i64) {
         let step = (1 << 32) / i64::from(model.resolution);
         let by = Angle::from_fractions(steps * step);
-        self.encoder.shaft.turn(self.now, by);
+        self.node.application.shaft.turn(self.now, by);
     }
 
     fn position(&mut self) -> u32 {
@@ -63,7 +63,7 @@ fn the_pdo_contains_all_bits() {
         bench.put(model.range - 1);
         assert_eq!(bench.send(0x000, &[1, 1]), []);
         bench.now = bench.now.plus_millis(0x203);
-        bench.with(|node, device, now| node.handle_timeout(device, now));
+        bench.node.handle_timeout(bench.now);
         let data = (model.range - 1).to_le_bytes();
         let pdo = Frame::standard(0x181, &data);
         assert_eq!(bench.sent(), [pdo], "{}", model.name);
@@ -211,8 +211,8 @@ fn sdo_and_lss_name_the_same_product() {
 #[test]
 fn only_a_multiturn_has_a_battery() {
     for (model, mut bench) in all() {
-        bench.encoder.set_fault(Fault::Battery, true);
-        bench.with(|node, device, now| node.handle_change(device, now));
+        bench.node.application.set_fault(Fault::Battery, true);
+        bench.node.handle_change(bench.now);
         let emcy = Frame::standard(0x81, &[0x00, 0xFF, 0x81, 0, 0, 0x10, 0, 0]);
         let (sent, warnings) = if model.is_multiturn() {
             (vec![emcy], 0x10)

@@ -48,12 +48,15 @@ fn the_node_id_takes_effect_at_the_next_start() {
     assert_eq!(bench.read(0x1800, 1), 0x182, "the default follows");
     bench.write(0x1800, 1, 0x181).unwrap();
     bench.write(0x1010, 2, SAVE).unwrap();
-    bench.encoder.set_switches(Switches {
+    bench.node.application.set_switches(Switches {
         node_id: 42,
         bit_rate: 4,
     });
     bench.power_cycle();
-    assert_eq!((bench.booted, bench.encoder.bit_rate()), (42, Some(250)));
+    assert_eq!(
+        (bench.booted, bench.node.application.bit_rate()),
+        (42, Some(250))
+    );
     assert_eq!((bench.read(0x2101, 0), bench.read(0x1801, 1)), (2, 0x2AA));
     assert_eq!(bench.read(0x1800, 1), 0x181, "a value of the user's stays");
 }
@@ -62,8 +65,8 @@ fn the_node_id_takes_effect_at_the_next_start() {
 fn statistics_survive_a_restore() {
     let mut bench = Bench::new("gxmm");
     for broken in [true, false] {
-        bench.encoder.set_fault(Fault::Position, broken);
-        bench.with(|node, device, now| node.handle_change(device, now));
+        bench.node.application.set_fault(Fault::Position, broken);
+        bench.node.handle_change(bench.now);
         let emcy = bench.sent();
         let expected: [u8; 8] = if broken {
             [0x20, 0x73, 0x81, 1, 0, 0, 0, 0]
@@ -76,7 +79,7 @@ fn statistics_survive_a_restore() {
     assert_eq!(bench.read(0x2201, 1), 1);
     assert_eq!(bench.read(0x1003, 1), 0x7320);
     bench.write(0x1010, 2, SAVE).unwrap();
-    bench.encoder = shaft::encoder(find("gxmm").unwrap());
+    bench.node.application = shaft::encoder(find("gxmm").unwrap());
     bench.power_cycle();
     assert_eq!(bench.read(0x2201, 1), 1, "from the EEPROM");
 }
@@ -90,7 +93,7 @@ fn an_interrupted_save_leaves_the_set_before() {
     for cut in 0.. {
         bench.write(0x6001, 0, 2000).unwrap();
         bench.write(0x6002, 0, 7000).unwrap();
-        bench.storage.cut_after(cut);
+        bench.node.storage.cut_after(cut);
         let saved = bench.write(0x1010, 1, SAVE);
         bench.power_cycle();
         let values = (bench.read(0x6001, 0), bench.read(0x6002, 0));
@@ -111,7 +114,7 @@ fn a_damaged_eeprom_is_an_error() {
     bench.write(0x2300, 1, 7).unwrap();
     bench.write(0x1010, 1, SAVE).unwrap();
     bench.write(0x1010, 1, SAVE).unwrap();
-    for byte in bench.storage.bytes_mut().iter_mut().skip(16) {
+    for byte in bench.node.storage.bytes_mut().iter_mut().skip(16) {
         *byte = byte.wrapping_add(1);
     }
     for _ in 0..2 {

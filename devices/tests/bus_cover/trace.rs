@@ -5,7 +5,7 @@
 use od_bench::shaft;
 use od_devices::find;
 use odkit::storage::{Memory, image};
-use odkit::{CanId, Frame, Instant, Lent, Node, NodeId};
+use odkit::{CanId, Frame, Instant, Node, NodeId};
 
 /// Frames of the bus in order: CAN-ID, data, and `<` if the encoder sends it.
 const TRACE: &str = "
@@ -38,22 +38,14 @@ const TRACE: &str = "
 #[test]
 fn every_response_is_the_printed_one() {
     let kind = find("gxmm").unwrap();
-    let mut values = vec![0; kind.dictionary.store_len()];
-    let mut storage = Memory::new(vec![0xFF; image::capacity_needed(&kind.dictionary)]);
+    let storage = Memory::new(vec![0xFF; image::capacity_needed(&kind.dictionary)]);
     let mut encoder = shaft::encoder(kind);
     encoder
         .shaft
         .set_raw(Instant::ZERO, encoder.sensor(), 0x7_9592);
-    let mut node: Node = Node::new(NodeId::ONE);
+    let mut node = Node::new(*kind, NodeId::ONE, encoder, storage);
     let mut now = Instant::ZERO;
-    let mut device = Lent {
-        dictionary: kind.dictionary,
-        values: &mut values,
-        application: &mut encoder,
-        storage: &mut storage,
-        profile: Some(kind.profile),
-    };
-    node.power_on(&mut device, now).unwrap();
+    node.power_on(now);
     let mut words = TRACE.split_whitespace();
     while let (Some(id), Some(direction), Some(hex)) = (words.next(), words.next(), words.next()) {
         let id = CanId::standard(u16::from_str_radix(id, 16).unwrap());
@@ -62,22 +54,18 @@ fn every_response_is_the_printed_one() {
             .collect();
         let frame = Frame::new(id, &data).unwrap();
         if direction == ">" {
-            assert_eq!(
-                node.poll_transmit(&mut device, now),
-                None,
-                "before {frame:?}"
-            );
-            node.handle_frame(&mut device, now, &frame);
+            assert_eq!(node.poll_transmit(now), None, "before {frame:?}");
+            node.handle_frame(now, &frame);
             continue;
         }
         // A PDO is sent when its time has come.
         let sent = loop {
-            match (node.poll_transmit(&mut device, now), node.poll_timeout()) {
+            match (node.poll_transmit(now), node.poll_timeout()) {
                 (Some(sent), _) => break sent,
                 (None, Some(next)) => now = next,
                 (None, None) => panic!("silence where {frame:?} is due"),
             }
-            node.handle_timeout(&mut device, now);
+            node.handle_timeout(now);
         };
         assert_eq!(sent, frame, "at {now:?}");
     }

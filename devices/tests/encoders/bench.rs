@@ -6,7 +6,7 @@ use odkit::DeviceKind;
 use odkit::encoder::{Angle, Encoder, Motion};
 use odkit::nmt::State;
 use odkit::storage::{Memory, image};
-use odkit::{CanId, Event, Frame, Instant, Lent, Node, NodeId};
+use odkit::{CanId, Event, Frame, Instant, Node, NodeId};
 
 pub(crate) const SAVE: u32 = u32::from_le_bytes(*b"save");
 /// MANUALS.md U-05.
@@ -17,11 +17,7 @@ pub(crate) const TOO_LITTLE: Result<(), u32> = Err(0x0609_0032);
 pub(crate) const INCOMPATIBLE: Result<(), u32> = Err(0x0604_0043);
 
 pub(crate) struct Bench<M: Motion = Shaft> {
-    kind: &'static DeviceKind,
-    values: Vec<u8>,
-    storage: Memory<Vec<u8>>,
-    pub(crate) encoder: Encoder<M>,
-    node: Node,
+    pub(crate) node: Node<DeviceKind, Encoder<M>, Memory<Vec<u8>>>,
     pub(crate) now: Instant,
     /// Frames that were not requested, in order.
     pub(crate) heard: Vec<Frame>,
@@ -45,7 +41,7 @@ impl Bench {
     /// Turns the shaft by 2⁻³² revolutions.
     pub(crate) fn turn_fractions(&mut self, fractions: i64) {
         let by = Angle::from_fractions(fractions);
-        self.encoder.shaft.turn(self.now, by);
+        self.node.application.shaft.turn(self.now, by);
     }
 
     /// Switches the power off for `off_ms`, while the shaft turns by `revolutions`.
@@ -60,13 +56,11 @@ impl Bench {
 impl<M: Motion> Bench<M> {
     /// The device of this name on a shaft, just switched on at time 0.
     pub(crate) fn on(shaft: M, name: &str) -> Self {
-        let kind = find(name).unwrap();
+        let kind = *find(name).unwrap();
+        let encoder = Encoder::new(kind.encoder, shaft).with_sensor_of(kind.dictionary);
+        let storage = Memory::new(vec![0xFF; image::capacity_needed(&kind.dictionary)]);
         let mut bench = Self {
-            kind,
-            values: vec![0; kind.dictionary.store_len()],
-            storage: Memory::new(vec![0xFF; image::capacity_needed(&kind.dictionary)]),
-            encoder: Encoder::new(kind.encoder, shaft).with_sensor_of(kind.dictionary),
-            node: Node::new(NodeId::ONE),
+            node: Node::new(kind, NodeId::ONE, encoder, storage),
             now: Instant::ZERO,
             heard: Vec::new(),
         };
@@ -74,37 +68,23 @@ impl<M: Motion> Bench<M> {
         bench
     }
 
-    fn with<R>(&mut self, call: impl FnOnce(&mut Node, &mut Lent<'_>, Instant) -> R) -> R {
-        let mut device = Lent {
-            dictionary: self.kind.dictionary,
-            values: &mut self.values,
-            application: &mut self.encoder,
-            storage: &mut self.storage,
-            profile: Some(self.kind.profile),
-        };
-        call(&mut self.node, &mut device, self.now)
-    }
-
     fn listen(&mut self) {
-        let frames: Vec<Frame> = self.with(|node, device, now| {
-            std::iter::from_fn(|| node.poll_transmit(device, now)).collect()
-        });
-        self.heard.extend(frames);
+        while let Some(frame) = self.node.poll_transmit(self.now) {
+            self.heard.push(frame);
+        }
     }
 
     pub(crate) fn power_on(&mut self) {
-        self.storage.restore_power();
-        self.with(|node, device, now| {
-            node.power_on(device, now).unwrap();
-            node.boot_at_once(device, now);
-        });
+        self.node.storage.restore_power();
+        self.node.power_on(self.now);
+        self.node.boot_at_once(self.now);
         self.listen();
     }
 
     pub(crate) fn power_off(&mut self) {
         // This test is not about a save in the background.
         self.wait(2_000);
-        self.encoder.power_off(self.now);
+        self.node.application.power_off(self.now);
         self.node.power_off();
     }
 
@@ -113,7 +93,7 @@ impl<M: Motion> Bench<M> {
         let until = self.now.plus_millis(ms);
         while let Some(at) = self.node.poll_timeout().filter(|at| *at <= until) {
             self.now = self.now.max(at);
-            self.with(|node, device, now| node.handle_timeout(device, now));
+            self.node.handle_timeout(self.now);
             self.listen();
         }
         self.now = until;
@@ -136,14 +116,14 @@ impl<M: Motion> Bench<M> {
 
     /// An input of the application has changed.
     pub(crate) fn change(&mut self, act: impl FnOnce(&mut Encoder<M>, Instant)) {
-        act(&mut self.encoder, self.now);
-        self.with(|node, device, now| node.handle_change(device, now));
+        act(&mut self.node.application, self.now);
+        self.node.handle_change(self.now);
         self.listen();
     }
 
     pub(crate) fn send(&mut self, id: u16, data: &[u8]) {
         let frame = Frame::new(CanId::standard(id), data).unwrap();
-        self.with(|node, device, now| node.handle_frame(device, now, &frame));
+        self.node.handle_frame(self.now, &frame);
         self.listen();
     }
 

@@ -138,7 +138,10 @@ fn eam_the_example_of_the_manual() {
         (0, 6000)
     );
     // Half a revolution per second more each second for a second, after 1000 revolutions.
-    assert_eq!(bench.encoder.shaft.at(bench.now).fractions(), 70i64 << 32);
+    assert_eq!(
+        bench.node.application.shaft.at(bench.now).fractions(),
+        70i64 << 32
+    );
     bench.change(|encoder, now| encoder.shaft.ramp_to(now, 0, 500_000));
     bench.wait(400);
     assert_eq!(bench.read16(0x6040, 1), -12_002);

@@ -62,10 +62,13 @@ fn en_switches_take_precedence_if_their_bit_rate_exists() {
         (1, 6, 800),
         (1, 7, 1000),
     ] {
-        bench.encoder.set_switches(Switches { node_id, bit_rate });
+        bench
+            .node
+            .application
+            .set_switches(Switches { node_id, bit_rate });
         bench.power_cycle(1, 0);
         assert_eq!(
-            bench.encoder.bit_rate(),
+            bench.node.application.bit_rate(),
             Some(expected),
             "{node_id} {bit_rate}"
         );
@@ -75,13 +78,13 @@ fn en_switches_take_precedence_if_their_bit_rate_exists() {
 #[test]
 fn eam_has_no_switches() {
     let mut bench = Bench::new("eam_mt");
-    bench.encoder.set_switches(Switches {
+    bench.node.application.set_switches(Switches {
         node_id: 9,
         bit_rate: 7,
     });
     bench.power_cycle(1, 0);
     assert_eq!(bench.read(0x2101, 0), 1);
-    assert_eq!(bench.encoder.bit_rate(), Some(50));
+    assert_eq!(bench.node.application.bit_rate(), Some(50));
 }
 
 /// MANUALS.md U-40: the node tells its host that an NMT reset interrupted a save, and what it loaded.

@@ -80,10 +80,10 @@ impl Model {
 
 impl Bench {
     fn put(&mut self, model: &mut Model, by: i64) {
-        let before = self.encoder.shaft.seen(self.now);
+        let before = self.node.application.shaft.seen(self.now);
         self.turn_fractions(by);
         assert_eq!(
-            self.encoder.shaft.seen(self.now),
+            self.node.application.shaft.seen(self.now),
             before.plus(Angle::from_fractions(by))
         );
         model.angle += i128::from(by);

@@ -44,12 +44,12 @@ fn with_speed() -> impl Iterator<Item = (&'static DeviceKind, u64)> {
 
 impl Bench<Shaft> {
     fn set_position(&mut self, raw: i64) {
-        self.encoder.shaft.source.raw = Ok(raw);
+        self.node.application.shaft.source.raw = Ok(raw);
     }
 
     /// 6030h:01, 16 or 32 bits.
     fn speed(&mut self) -> i32 {
-        match self.encoder.profile().object(Role::RawPosition) {
+        match self.node.application.profile().object(Role::RawPosition) {
             // The EN580C.
             Some(_) => self.read16(0x6030, 1).into(),
             None => self.read(0x6030, 1) as i32,
@@ -65,7 +65,7 @@ fn positions_set_by_a_host_give_a_speed() {
         let mut bench = bench(kind);
         // 6001h equals the resolution of the sensor, so their steps are equal.
         bench
-            .write(0x6001, 0, bench.encoder.sensor().steps)
+            .write(0x6001, 0, bench.node.application.sensor().steps)
             .unwrap();
         // The EN580C has 16 bits for 100,000 steps per second.
         let divider = if bench.write(0x6031, 4, 10).is_ok() {
@@ -124,7 +124,7 @@ fn positions_set_on_the_bench_give_a_speed() {
 fn a_shaft_that_jitters_is_within_a_step_per_interval() {
     for (kind, interval) in with_speed() {
         let mut bench = bench(kind);
-        let steps = bench.encoder.sensor().steps;
+        let steps = bench.node.application.sensor().steps;
         bench.write(0x6001, 0, steps).unwrap();
         let jitter = |ms: u64| (ms * 7919 % 13) as i64 - 6;
         let position = |ms: u64| 17 * ms as i64 + jitter(ms);
@@ -170,7 +170,7 @@ fn a_preset_or_a_new_resolution_is_no_movement() {
 fn an_acceleration_comes_from_the_samples() {
     for (kind, _) in with_speed() {
         let mut bench = bench(kind);
-        let steps = f64::from(bench.encoder.sensor().steps);
+        let steps = f64::from(bench.node.application.sensor().steps);
         bench.write(0x6001, 0, 0x1_0000).unwrap();
         bench.write(0x6041, 4, 1092).unwrap();
         // 6000 revolutions per minute more in a second, as in the example of the manuals.
@@ -198,7 +198,7 @@ fn a_sensor_fault_is_an_alarm_until_a_sample_succeeds() {
             "{}",
             kind.name
         );
-        bench.encoder.shaft.source.raw = Err(Fault::Position);
+        bench.node.application.shaft.source.raw = Err(Fault::Position);
         bench.wait(1);
         let emcys = bench.emcys();
         // Every family has bit 0 for a position that is not reliable.
@@ -217,7 +217,7 @@ fn a_sensor_fault_is_an_alarm_until_a_sample_succeeds() {
 #[test]
 fn a_fault_that_is_a_warning_is_an_alarm_if_there_is_no_position() {
     let mut bench = bench(od_devices::find("eam_mt").unwrap());
-    bench.encoder.shaft.source.raw = Err(Fault::SingleturnStrength);
+    bench.node.application.shaft.source.raw = Err(Fault::SingleturnStrength);
     bench.wait(1);
     let [warning, alarm] = bench.emcys()[..] else {
         panic!("two EMCYs")

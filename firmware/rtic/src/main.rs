@@ -33,7 +33,7 @@ const BUFFER: usize = SAVED / 2 + 64;
 const _: () = assert!(BUFFER + 64 <= PAGE);
 
 /// The node.
-pub type Board = slave::Board<NoApplication, Mirror<SAVED, { slave::STORE_LEN }>>;
+pub type Node = slave::Node<NoApplication, Mirror<SAVED, { slave::STORE_LEN }>>;
 /// Its saved values.
 pub type Keeper = Log<Steps<Flash>, BUFFER>;
 
@@ -75,7 +75,7 @@ mod app {
 
     #[shared]
     struct Shared {
-        board: Board,
+        node: Node,
         can: Can,
         /// The most that a SYNC waited.
         longest: u32,
@@ -96,13 +96,12 @@ mod app {
         timer.set_clock_source(cortex_m::peripheral::syst::SystClkSource::Core);
         timer.enable_counter();
         let mut clock = Clock::new();
-        let mut board = Board::new(NodeId::ONE, NoApplication, Mirror::new(&slave::DICTIONARY));
-        if board.power_on(clock.at(ticks())).is_err() {
-            debug::exit(debug::EXIT_FAILURE);
-        }
+        let saved = Mirror::new(&slave::DICTIONARY);
+        let mut node = Node::new(slave::Device, NodeId::ONE, NoApplication, saved);
+        node.power_on(clock.at(ticks()));
         keep::spawn().ok();
         let shared = Shared {
-            board,
+            node,
             can: Can::new(),
             longest: 0,
         };
@@ -114,17 +113,17 @@ mod app {
         (shared, local)
     }
 
-    /// Frames, and what is due: a timer requests it at [`Owner::poll_timeout`], too.
-    #[task(binds = GPIOA, priority = 2, shared = [board, can, longest], local = [port, clock])]
+    /// Frames, and what is due: a timer requests it at [`Node::poll_timeout`](odkit::Node::poll_timeout), too.
+    #[task(binds = GPIOA, priority = 2, shared = [node, can, longest], local = [port, clock])]
     fn frames(cx: frames::Context) {
         let begin = ticks();
         let now = cx.local.clock.at(begin);
-        (cx.shared.board, cx.shared.can, cx.shared.longest).lock(|board, can, longest| {
+        (cx.shared.node, cx.shared.can, cx.shared.longest).lock(|node, can, longest| {
             let since = REQUESTED.swap(0, Ordering::Relaxed);
             if since != 0 {
                 can.push(Frame::standard(0x80, &[]));
             }
-            let _ = cx.local.port.serve_nb(board, can, now);
+            let _ = cx.local.port.serve_nb(node, can, now);
             if since != 0 {
                 *longest = instructions(since).max(*longest);
             }
@@ -133,13 +132,13 @@ mod app {
     }
 
     /// Keeps what the node saves.
-    #[task(priority = 1, shared = [board], local = [log])]
+    #[task(priority = 1, shared = [node], local = [log])]
     async fn keep(mut cx: keep::Context) {
         let log = cx.local.log;
         log.run(|act| {
-            cx.shared.board.lock(|board| {
+            cx.shared.node.lock(|node| {
                 let since = ticks();
-                act(&mut board.storage);
+                act(&mut node.storage);
                 HELD.fetch_max(instructions(since), Ordering::Relaxed);
             });
         })
@@ -147,7 +146,7 @@ mod app {
     }
 
     /// The master, and the end of the program.
-    #[idle(shared = [board, can, longest])]
+    #[idle(shared = [can, longest])]
     fn idle(mut cx: idle::Context) -> ! {
         let frames = [
             Frame::standard(0, &[1, 0]),

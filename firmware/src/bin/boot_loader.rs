@@ -8,14 +8,13 @@ use core::arch::{asm, global_asm};
 use odkit::program::{Loader, MemoryFailed, Program, ProgramMemory};
 use odkit::sdo::{block_segment, crc16, unused};
 use odkit::storage::NoStorage;
-use odkit::{Frame, Instant, Lent, NodeId, Profile};
+use odkit::{Frame, Instant, Node, NodeId};
 use odkit_firmware::board::{self, Once};
 
 odkit::object_dictionary! {
     /// A device that can only receive a program.
     mod device {
         without lss, rpdos, changes, guarding, consumer, storage, behaviour, events;
-        behaves = PROFILE;
 
         add 0x1000 { name = "Device type"; type = u32; access = const; default = 0 }
         add 0x1001 { name = "Error register"; type = u8 }
@@ -31,8 +30,6 @@ odkit::object_dictionary! {
         add 0x1F57sub1 { name = "Program 1"; type = u32; access = ro }
     }
 }
-
-static PROFILE: Profile = Profile::CIA301;
 
 /// Bytes of a page, and of the memory for a program.
 const PAGE: usize = 256;
@@ -118,37 +115,34 @@ unsafe extern "C" {
     static program_end: u8;
 }
 
-static NODE: Once<device::Node> = Once::new(device::Node::new(NodeId::ONE));
-static VALUES: Once<[u8; device::STORE_LEN]> = Once::new([0; device::STORE_LEN]);
 #[unsafe(link_section = ".eeprom")]
 static MEMORY: Once<[u8; SIZE]> = Once::new([0; SIZE]);
 
 /// A master at the other end of the bus, and the time of both.
-struct Master<'b, 'd> {
-    node: &'b mut device::Node,
-    device: &'b mut Lent<'d>,
+struct Master {
+    node: device::Node<Loader<Flash, PAGE>>,
     now: Instant,
 }
 
-impl Master<'_, '_> {
+impl Master {
     /// Sends a frame to the SDO server.
     fn send(&mut self, data: [u8; 8]) {
         let frame = Frame::standard(0x601, &data);
-        self.node.handle_frame(self.device, self.now, &frame);
+        self.node.handle_frame(self.now, &frame);
     }
 
     /// Sends a request; its answer, which may take its time.
     fn ask(&mut self, data: [u8; 8]) -> [u8; 8] {
         self.send(data);
         loop {
-            if let Some(frame) = self.node.poll_transmit(self.device, self.now) {
+            if let Some(frame) = self.node.poll_transmit(self.now) {
                 return *frame.bytes();
             }
             let Some(at) = self.node.poll_timeout() else {
                 board::exit(false);
             };
             self.now = at;
-            self.node.handle_timeout(self.device, at);
+            self.node.handle_timeout(at);
         }
     }
 
@@ -198,27 +192,17 @@ extern "C" fn main() -> ! {
         bytes: MEMORY.take(),
         ready_at: Instant::ZERO,
     };
-    let mut loader: Loader<Flash, PAGE> = Loader::new(flash, 1);
-    let mut lent = Lent {
-        dictionary: device::DICTIONARY,
-        values: VALUES.take(),
-        application: &mut loader,
-        storage: &mut NoStorage,
-        profile: None,
-    };
     let mut master = Master {
-        node: NODE.take(),
-        device: &mut lent,
+        node: Node::new(
+            device::Device,
+            NodeId::ONE,
+            Loader::new(flash, 1),
+            NoStorage,
+        ),
         now: Instant::ZERO,
     };
-    if master.node.power_on(master.device, master.now).is_err() {
-        board::exit(false);
-    }
-    while master
-        .node
-        .poll_transmit(master.device, master.now)
-        .is_some()
-    {}
+    master.node.power_on(master.now);
+    while master.node.poll_transmit(master.now).is_some() {}
     // SAFETY: the linker has put the program between the two symbols.
     let program = unsafe {
         let begin = &raw const program_begin;
@@ -235,12 +219,13 @@ extern "C" fn main() -> ! {
             board::exit(false);
         };
         master.now = at;
-        master.node.handle_timeout(master.device, at);
+        master.node.handle_timeout(at);
     }
     master.expect(start, &[0x60, 0x51, 0x1F, 1]);
     let identification = master.ask([0x40, 0x56, 0x1F, 1, 0, 0, 0, 0]);
     let [.., a, b, c, d] = identification;
     board::print(b"program\0", u32::from_le_bytes([a, b, c, d]));
+    let loader = master.node.application;
     match loader.program() {
         Some(Program { len, .. }) if loader.is_running() && len as usize == program.len() => {
             jump(loader.memory.bytes)

@@ -4,7 +4,7 @@
 #![no_main]
 
 use odkit::storage::Memory;
-use odkit::{Frame, Lent, NoApplication, NodeId, Profile};
+use odkit::{Frame, NoApplication, NodeId};
 use odkit_firmware::board::Once;
 use odkit_firmware::master::{self, Step, frame, sdo};
 
@@ -13,16 +13,19 @@ odkit::object_dictionary! {
     mod slave {
         eds = "../../eds/ds301.eds";
         without lss;
-        behaves = PROFILE;
         errors = 8;
     }
 }
 
-/// CiA 301 to the letter.
-static PROFILE: Profile = Profile::CIA301;
+/// The slave, whose EEPROM is there from the start of the program on.
+type Slave = slave::Node<NoApplication, Memory<&'static mut [u8]>>;
 
-static NODE: Once<slave::Node> = Once::new(slave::Node::new(NodeId::ONE));
-static VALUES: Once<[u8; slave::STORE_LEN]> = Once::new([0; slave::STORE_LEN]);
+static NODE: Once<Slave> = Once::new(Slave::new(
+    slave::Device,
+    NodeId::ONE,
+    NoApplication,
+    Memory::new(&mut []),
+));
 #[unsafe(link_section = ".eeprom")]
 static EEPROM: Once<[u8; 2048]> = Once::new([0; 2048]);
 
@@ -65,12 +68,7 @@ static SCRIPT: [Step; 27] = [
 
 #[unsafe(no_mangle)]
 extern "C" fn main() -> ! {
-    let mut device = Lent {
-        dictionary: slave::DICTIONARY,
-        values: VALUES.take(),
-        application: &mut NoApplication,
-        storage: &mut Memory::new(&mut EEPROM.take()[..]),
-        profile: None,
-    };
-    master::run(NODE.take(), &mut device, &UPLOAD, &SCRIPT)
+    let node = NODE.take();
+    node.storage = Memory::new(EEPROM.take());
+    master::run(node, &UPLOAD, &SCRIPT)
 }

@@ -5,7 +5,7 @@
 use od_devices::bus_cover::{ENCODER, PROFILE, gxmm};
 use odkit::encoder::{Angle, Encoder, EncoderProfile, Family, Sampled};
 use odkit::storage::Memory;
-use odkit::{Device, Dictionary, Duration, Frame, Lent, Node, NodeId, Only, Profile, rooms};
+use odkit::{Device, Dictionary, Duration, Frame, Node, NodeId, Profile, Services};
 use odkit_firmware::board::Once;
 use odkit_firmware::master::{self, Step, frame, sdo};
 
@@ -22,27 +22,42 @@ impl Family for Covers {
 /// GXMM without what its profile switches off anyway.
 struct Gxmm;
 
-impl Device for Gxmm {
+impl Services for Gxmm {
     const DICTIONARY: Option<Dictionary<'static>> = Some(gxmm::DICTIONARY);
-    const PROFILE: Option<&'static Profile> = Some(&PROFILE);
     const SEGMENTED: bool = false;
     const BLOCK: bool = false;
     const RPDOS: bool = false;
     const CHANGES: bool = false;
+    const SYNC_LENGTH: bool = false;
     /// Five of the encoder, five of the services (81xxh, 82xxh).
     const ERRORS: usize = 10;
 }
 
-const PDOS: usize = gxmm::DICTIONARY.tpdos();
-const LONGEST: usize = gxmm::DICTIONARY.longest();
+impl Device for Gxmm {
+    type Values = Values;
+    type Rooms = Rooms;
 
-static NODE: Once<Node<Gxmm, PDOS, LONGEST, Only<rooms!(Gxmm)>>> =
-    Once::new(Node::new(NodeId::ONE));
-static VALUES: Once<[u8; gxmm::STORE_LEN]> = Once::new([0; gxmm::STORE_LEN]);
-static SHAFT: Once<Shaft> = Once::new(Encoder::of_family(Sampled::new(
-    Angle::from_fractions(1 << 30),
-    Duration::from_millis(1),
-)));
+    fn dictionary(&self) -> Dictionary<'_> {
+        gxmm::DICTIONARY
+    }
+
+    fn profile(&self) -> &Profile {
+        &PROFILE
+    }
+}
+
+odkit::rooms!(Gxmm);
+
+/// The node, whose EEPROM is there from the start of the program on.
+static NODE: Once<Node<Gxmm, Shaft, Memory<&'static mut [u8]>>> = Once::new(Node::new(
+    Gxmm,
+    NodeId::ONE,
+    Encoder::of_family(Sampled::new(
+        Angle::from_fractions(1 << 30),
+        Duration::from_millis(1),
+    )),
+    Memory::new(&mut []),
+));
 #[unsafe(link_section = ".eeprom")]
 static EEPROM: Once<[u8; 2048]> = Once::new([0; 2048]);
 
@@ -72,12 +87,7 @@ static SCRIPT: [Step; 16] = [
 
 #[unsafe(no_mangle)]
 extern "C" fn main() -> ! {
-    let mut device = Lent {
-        dictionary: gxmm::DICTIONARY,
-        values: VALUES.take(),
-        application: SHAFT.take(),
-        storage: &mut Memory::new(&mut EEPROM.take()[..]),
-        profile: None,
-    };
-    master::run(NODE.take(), &mut device, &UPLOAD, &SCRIPT)
+    let node = NODE.take();
+    node.storage = Memory::new(EEPROM.take());
+    master::run(node, &UPLOAD, &SCRIPT)
 }

@@ -3,15 +3,14 @@
 #![no_main]
 
 use odkit::storage::NoStorage;
-use odkit::{Address, Application, Context, Emcy, Frame, Instant, Lent, NodeId, Profile};
+use odkit::{Address, Application, Context, Emcy, Frame, Instant, NodeId};
 use odkit_firmware::board::Once;
 use odkit_firmware::master::{self, Step, frame, sdo};
 
 odkit::object_dictionary! {
     /// A thermometer with two inputs.
     mod thermometer {
-        without lss, segmented, block, rpdos, changes, guarding, consumer, storage, behaviour, events;
-        behaves = PROFILE;
+        without lss, segmented, block, rpdos, changes, guarding, consumer, storage, behaviour, events, sync_length;
         errors = 4;
 
         add 0x1000 { name = "Device type"; type = u32; access = const; default = 0 }
@@ -71,11 +70,12 @@ impl Application for Thermometer {
     }
 }
 
-/// CiA 301 to the letter.
-static PROFILE: Profile = Profile::CIA301;
-
-static NODE: Once<thermometer::Node> = Once::new(thermometer::Node::new(NodeId::ONE));
-static VALUES: Once<[u8; thermometer::STORE_LEN]> = Once::new([0; thermometer::STORE_LEN]);
+static NODE: Once<thermometer::Node<Thermometer>> = Once::new(thermometer::Node::new(
+    thermometer::Device,
+    NodeId::ONE,
+    Thermometer,
+    NoStorage,
+));
 
 #[unsafe(link_section = ".script")]
 static UPLOAD: Frame = Frame::standard(0x601, &[0x40, 0x03, 0x20, 0, 0, 0, 0, 0]);
@@ -94,12 +94,5 @@ static SCRIPT: [Step; 9] = [
 
 #[unsafe(no_mangle)]
 extern "C" fn main() -> ! {
-    let mut device = Lent {
-        dictionary: thermometer::DICTIONARY,
-        values: VALUES.take(),
-        application: &mut Thermometer,
-        storage: &mut NoStorage,
-        profile: None,
-    };
-    master::run(NODE.take(), &mut device, &UPLOAD, &SCRIPT)
+    master::run(NODE.take(), &UPLOAD, &SCRIPT)
 }

@@ -2,9 +2,9 @@
 #![no_std]
 #![no_main]
 
-use odkit::storage::{Memory, NoStorage, Storage};
+use odkit::storage::Memory;
 use odkit::{
-    CanId, Device, Dictionary, Frame, Lent, LssProfile, NoApplication, Node, NodeId, Profile, rooms,
+    CanId, Device, Dictionary, Frame, LssProfile, NoApplication, Node, NodeId, Profile, Services,
 };
 use odkit_firmware::board::Once;
 use odkit_firmware::master::{self, Step, frame, sdo};
@@ -36,6 +36,15 @@ odkit::object_dictionary! {
             add 0x1400 { code = record; name = "RPDO communication parameter 1" }
             add 0x1400sub1 { name = "COB-ID"; type = u32; access = rw; default = $NODEID + 0x200 }
             add 0x1400sub2 { name = "Transmission type"; type = u8; access = rw; default = 255 }
+            add 0x1600 { code = record; name = "RPDO mapping parameter 1" }
+            add 0x1600sub0 { name = "Mapped objects"; type = u8; access = const; default = 1 }
+            add 0x1600sub1 { name = "Application object 1"; type = u32; access = const; default = 0x2000_0020 }
+        }
+        variant deadlines {
+            add 0x1400 { code = record; name = "RPDO communication parameter 1" }
+            add 0x1400sub1 { name = "COB-ID"; type = u32; access = rw; default = $NODEID + 0x200 }
+            add 0x1400sub2 { name = "Transmission type"; type = u8; access = rw; default = 255 }
+            add 0x1400sub5 { name = "Event timer"; type = u16; access = rw; default = 100 }
             add 0x1600 { code = record; name = "RPDO mapping parameter 1" }
             add 0x1600sub0 { name = "Mapped objects"; type = u8; access = const; default = 1 }
             add 0x1600sub1 { name = "Application object 1"; type = u32; access = const; default = 0x2000_0020 }
@@ -85,6 +94,8 @@ static PROFILE: Profile = Profile {
 /// The tables with the objects of the service.
 const DICTIONARY: Dictionary<'static> = if cfg!(feature = "rpdos") {
     slave::rpdos::DICTIONARY
+} else if cfg!(feature = "deadlines") {
+    slave::deadlines::DICTIONARY
 } else if cfg!(feature = "guarding") {
     slave::guarding::DICTIONARY
 } else if cfg!(feature = "consumer") {
@@ -106,33 +117,44 @@ const DICTIONARY: Dictionary<'static> = if cfg!(feature = "rpdos") {
 /// The node, without all services but that one.
 struct Measured;
 
-impl Device for Measured {
+impl Services for Measured {
     const DICTIONARY: Option<Dictionary<'static>> = Some(DICTIONARY);
-    const PROFILE: Option<&'static Profile> = Some(&PROFILE);
     const LSS: bool = cfg!(feature = "lss");
     const SEGMENTED: bool = cfg!(feature = "segmented");
     const BLOCK: bool = cfg!(feature = "block");
-    const RPDOS: bool = cfg!(feature = "rpdos");
+    const RPDOS: bool = cfg!(feature = "rpdos") || cfg!(feature = "deadlines");
     const CHANGES: bool = cfg!(feature = "changes");
     const GUARDING: bool = cfg!(feature = "guarding");
     const CONSUMER: bool = cfg!(feature = "consumer");
     const STORAGE: bool = cfg!(feature = "storage");
     const BEHAVIOUR: bool = cfg!(feature = "behaviour");
     const EVENTS: bool = cfg!(feature = "events");
+    const SYNC_LENGTH: bool = cfg!(feature = "sync-length");
     const ERRORS: usize = 4;
 }
 
-const LONGEST: usize = DICTIONARY.longest();
+impl Device for Measured {
+    type Values = Values;
+    type Rooms = Rooms;
 
-#[cfg(not(any(feature = "servers", feature = "sync-producer", feature = "time")))]
-type Room = odkit::Only<rooms!(Measured)>;
-#[cfg(any(feature = "servers", feature = "sync-producer", feature = "time"))]
-type Room =
-    odkit::Extra<Measured, LONGEST, { cfg!(feature = "servers") as usize }, rooms!(Measured)>;
+    fn dictionary(&self) -> Dictionary<'_> {
+        DICTIONARY
+    }
 
-static NODE: Once<Node<Measured, { DICTIONARY.tpdos() }, LONGEST, Room>> =
-    Once::new(Node::new(NodeId::ONE));
-static VALUES: Once<[u8; DICTIONARY.store_len()]> = Once::new([0; DICTIONARY.store_len()]);
+    fn profile(&self) -> &Profile {
+        &PROFILE
+    }
+}
+
+odkit::rooms!(Measured);
+
+/// The node, whose EEPROM is there from the start of the program on.
+static NODE: Once<Node<Measured, NoApplication, Memory<&'static mut [u8]>>> = Once::new(Node::new(
+    Measured,
+    NodeId::ONE,
+    NoApplication,
+    Memory::new(&mut []),
+));
 #[unsafe(link_section = ".eeprom")]
 static EEPROM: Once<[u8; 1024]> = Once::new([0; 1024]);
 
@@ -191,20 +213,7 @@ static SCRIPT: [Step; 35] = [
 
 #[unsafe(no_mangle)]
 extern "C" fn main() -> ! {
-    let mut none = NoStorage;
-    let mut memory;
-    let storage: &mut dyn Storage = if Measured::STORAGE || Measured::LSS {
-        memory = Memory::new(&mut EEPROM.take()[..]);
-        &mut memory
-    } else {
-        &mut none
-    };
-    let mut device = Lent {
-        dictionary: DICTIONARY,
-        values: VALUES.take(),
-        application: &mut NoApplication,
-        storage,
-        profile: None,
-    };
-    master::run(NODE.take(), &mut device, &UPLOAD, &SCRIPT)
+    let node = NODE.take();
+    node.storage = Memory::new(EEPROM.take());
+    master::run(node, &UPLOAD, &SCRIPT)
 }

@@ -16,17 +16,18 @@ macro_rules! twin {
     ($dictionary:path, $profile:path, $encoder:path) => {
         use odkit::encoder::{EncoderProfile, Family};
         use odkit::storage::image;
-        use odkit::{Device, Dictionary, Node, NodeId, Only, Profile, rooms};
+        use odkit::{Device, Dictionary, NodeId, Profile, Services};
         use odkit_firmware::board::Once;
+        use $crate::twin::{Slave, run, slave};
 
+        #[derive(Clone, Copy)]
         struct Own;
 
         const DICTIONARY: Dictionary<'static> = $dictionary;
         const DEVICE: &Profile = &$profile;
 
-        impl Device for Own {
+        impl Services for Own {
             const DICTIONARY: Option<Dictionary<'static>> = Some(DICTIONARY);
-            const PROFILE: Option<&'static Profile> = Some(DEVICE);
             const LSS: bool = DEVICE.lss.is_some();
             const SEGMENTED: bool = DEVICE.sdo.segmented_upload || DEVICE.sdo.segmented_download;
             const BLOCK: bool = DEVICE.sdo.block;
@@ -34,27 +35,33 @@ macro_rules! twin {
             const CHANGES: bool = DEVICE.pdo.event_on_change;
         }
 
+        impl Device for Own {
+            type Values = Values;
+            type Rooms = Rooms;
+
+            fn dictionary(&self) -> Dictionary<'_> {
+                DICTIONARY
+            }
+
+            fn profile(&self) -> &Profile {
+                DEVICE
+            }
+        }
+
+        odkit::rooms!(Own);
+
         impl Family for Own {
             const PROFILE: Option<&'static EncoderProfile> = Some(&$encoder);
         }
 
-        type Slave = Node<Own, { DICTIONARY.tpdos() }, { DICTIONARY.longest() }, Only<rooms!(Own)>>;
-
-        static NODE: Once<Slave> = Once::new(Node::new(NodeId::ONE));
-        static VALUES: Once<[u8; DICTIONARY.store_len()]> = Once::new([0; DICTIONARY.store_len()]);
+        static NODE: Once<Slave<Own>> = Once::new(slave(Own, NodeId::ONE));
         #[unsafe(link_section = ".eeprom")]
         static EEPROM: Once<[u8; image::capacity_needed(&DICTIONARY)]> =
             Once::new([0; image::capacity_needed(&DICTIONARY)]);
 
         #[unsafe(no_mangle)]
         extern "C" fn main() -> ! {
-            $crate::twin::run::<Own, _, _, _, _>(
-                NODE.take(),
-                DICTIONARY,
-                VALUES.take(),
-                EEPROM.take(),
-                DEVICE,
-            )
+            run(NODE.take(), EEPROM.take())
         }
     };
 }

@@ -34,14 +34,24 @@ impl Motion for Shaft {
 }
 
 /// An EEPROM that can break: it takes no byte then.
-pub struct Eeprom<'b> {
+pub struct Eeprom {
     /// Its content.
-    pub memory: Memory<&'b mut [u8]>,
+    pub memory: Memory<&'static mut [u8]>,
     /// Nothing can be written.
     pub broken: bool,
 }
 
-impl Storage for Eeprom<'_> {
+impl Eeprom {
+    /// An EEPROM with this content.
+    pub const fn new(bytes: &'static mut [u8]) -> Self {
+        Self {
+            memory: Memory::new(bytes),
+            broken: false,
+        }
+    }
+}
+
+impl Storage for Eeprom {
     fn capacity(&self) -> usize {
         self.memory.capacity()
     }

@@ -22,10 +22,9 @@
 //! above. `D` adds a hash of each value (4) and the bytes of the EEPROM.
 
 use odkit::encoder::{Angle, Encoder, Family, Fault, Motion, Sampled, Switches};
-use odkit::storage::Memory;
 use odkit::{
-    Address, Application, BusEvent, CanId, Context, Device, Dictionary, Duration, Emcy, Extras,
-    Frame, Instant, Lent, Node, NodeId, Profile, Signals, Store,
+    Address, Application, BusEvent, CanId, Context, Device, Duration, Emcy, Frame, Instant, Node,
+    NodeId, Signals,
 };
 use odkit_firmware::board;
 
@@ -57,14 +56,19 @@ impl core::fmt::Write for Hash {
     }
 }
 
-/// A device and its surroundings.
-struct Twin<'b, F, D, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> {
-    node: &'b mut Node<D, PDO, SDO, X>,
-    dictionary: Dictionary<'static>,
-    values: &'b mut [u8],
-    encoder: Encoder<Shaft, F>,
-    eeprom: Eeprom<'b>,
-    profile: &'static Profile,
+/// The node of a device, whose type is also its family.
+pub type Slave<D> = Node<D, Encoder<Shaft, D>, Eeprom>;
+
+/// A node without power, without EEPROM.
+pub const fn slave<D: Device + Family>(device: D, node_id: NodeId) -> Slave<D> {
+    let shaft = Sampled::new(Angle::ZERO, Duration::from_millis(1));
+    let encoder = Encoder::of_family(Shaft(shaft));
+    Node::new(device, node_id, encoder, Eeprom::new(&mut []))
+}
+
+/// A node and its surroundings.
+struct Twin<'b, D: Device> {
+    node: &'b mut Slave<D>,
     calls: Input,
     answers: Output,
     frames: [Frame; FRAMES],
@@ -73,26 +77,13 @@ struct Twin<'b, F, D, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> {
 }
 
 /// Plays the calls to their end.
-pub fn run<F: Family, D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>>(
-    node: &mut Node<D, PDO, SDO, X>,
-    dictionary: Dictionary<'static>,
-    values: &mut [u8],
-    eeprom: &mut [u8],
-    profile: &'static Profile,
-) -> ! {
+pub fn run<D: Device + Family + Copy>(node: &mut Slave<D>, eeprom: &'static mut [u8]) -> ! {
+    node.storage = Eeprom::new(eeprom);
     board::start_clock();
     let before = board::clock();
     let overhead = since(before);
-    let mut twin: Twin<'_, F, D, PDO, SDO, X> = Twin {
+    let mut twin = Twin {
         node,
-        dictionary,
-        values,
-        encoder: encoder(dictionary, None),
-        eeprom: Eeprom {
-            memory: Memory::new(eeprom),
-            broken: false,
-        },
-        profile,
         calls: Input::open(c"calls"),
         answers: Output::open(c"answers"),
         frames: [Frame::standard(0, &[]); FRAMES],
@@ -107,49 +98,34 @@ pub fn run<F: Family, D: Device, const PDO: usize, const SDO: usize, X: Extras<D
     board::exit(true)
 }
 
-/// An encoder that has no sample yet.
-fn encoder<F: Family>(
-    dictionary: Dictionary<'static>,
-    serial_number: Option<u32>,
-) -> Encoder<Shaft, F> {
-    let shaft = Sampled::new(Angle::ZERO, Duration::from_millis(1));
-    let encoder = Encoder::of_family(Shaft(shaft)).with_sensor_of(dictionary);
-    match serial_number {
-        Some(number) => encoder.with_serial_number(number),
-        None => encoder,
-    }
-}
-
 /// Ticks since a look at the clock.
 fn since(before: u32) -> u32 {
     before.wrapping_sub(board::clock()) & 0xFF_FFFF
 }
 
-impl<F: Family, D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>>
-    Twin<'_, F, D, PDO, SDO, X>
-{
+impl<D: Device + Family + Copy> Twin<'_, D> {
     /// Handles a call; `None` where it makes no sense.
     fn call(&mut self, call: u8) -> Option<()> {
         let now = Instant::from_micros(u64::from_le_bytes(self.calls.array()?));
         match call {
             b'N' => self.renew()?,
-            b'E' => self.calls.fill(self.eeprom.memory.bytes_mut())?,
+            b'E' => self.calls.fill(self.node.storage.memory.bytes_mut())?,
             b'W' => self.turn_switches()?,
             b'S' | b'J' => {
                 let angle = i64::from_le_bytes(self.calls.array()?);
-                self.encoder.shaft.0.source = Angle::from_fractions(angle);
+                self.node.application.shaft.0.source = Angle::from_fractions(angle);
                 if call == b'J' {
                     // Nothing is known between the last sample and this one.
-                    self.encoder.shaft.power_off(now);
+                    self.node.application.shaft.power_off(now);
                 }
                 if self.node.is_powered() {
                     // A sample has no fault here.
-                    let _ = self.encoder.shaft.angle(now);
+                    let _ = self.node.application.shaft.angle(now);
                 }
             }
             b'D' => {
-                self.answer(now, |_, _| ());
-                self.show(now)?;
+                self.answer(now, |_| ());
+                self.show(now);
             }
             _ => self.act(call, now)?,
         }
@@ -158,26 +134,34 @@ impl<F: Family, D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>
 
     fn renew(&mut self) -> Option<()> {
         let [node_id, has_number, number @ ..] = self.calls.array::<6>()?;
-        *self.node = Node::new(NodeId::new(node_id)?);
-        self.values.fill(0);
-        self.eeprom.memory.bytes_mut().fill(0xFF);
-        let number = (has_number != 0).then_some(u32::from_le_bytes(number));
-        self.encoder = encoder(self.dictionary, number);
+        let device = *self.node.device();
+        let mut new = slave(device, NodeId::new(node_id)?);
+        new.application = new.application.with_sensor_of(device.dictionary());
+        if has_number != 0 {
+            new.application = new
+                .application
+                .with_serial_number(u32::from_le_bytes(number));
+        }
+        core::mem::swap(&mut new.storage, &mut self.node.storage);
+        new.storage.memory.bytes_mut().fill(0xFF);
+        *self.node = new;
         Some(())
     }
 
     fn turn_switches(&mut self) -> Option<()> {
         let [node_id, bit_rate, faults @ ..] = self.calls.array::<4>()?;
         let faults = u16::from_le_bytes(faults);
-        self.encoder.set_switches(Switches { node_id, bit_rate });
+        self.node
+            .application
+            .set_switches(Switches { node_id, bit_rate });
         for (at, (fault, _)) in Fault::NAMES.iter().enumerate() {
             let broken = faults >> at & 1 != 0;
             // A watchdog that is set twice resets twice.
-            if self.encoder.is_broken(*fault) != broken {
-                self.encoder.set_fault(*fault, broken);
+            if self.node.application.is_broken(*fault) != broken {
+                self.node.application.set_fault(*fault, broken);
             }
         }
-        self.eeprom.broken = self.encoder.is_broken(Fault::Memory);
+        self.node.storage.broken = self.node.application.is_broken(Fault::Memory);
         Some(())
     }
 
@@ -186,11 +170,11 @@ impl<F: Family, D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>
         match call {
             b'F' => {
                 let frame = frame(self.calls.array()?)?;
-                self.answer(now, |node, device| node.handle_frame(device, now, &frame));
+                self.answer(now, |node| node.handle_frame(now, &frame));
             }
-            b'T' => self.answer(now, |node, device| node.handle_timeout(device, now)),
-            b'C' => self.answer(now, |node, device| node.handle_change(device, now)),
-            b'I' => self.answer(now, |node, device| node.boot_at_once(device, now)),
+            b'T' => self.answer(now, |node| node.handle_timeout(now)),
+            b'C' => self.answer(now, |node| node.handle_change(now)),
+            b'I' => self.answer(now, |node| node.boot_at_once(now)),
             b'B' => {
                 let event = match self.calls.byte()? {
                     0 => BusEvent::Active,
@@ -199,15 +183,12 @@ impl<F: Family, D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>
                     3 => BusEvent::Off,
                     _ => BusEvent::Overrun,
                 };
-                self.answer(now, |node, device| node.handle_bus(device, now, event));
+                self.answer(now, |node| node.handle_bus(now, event));
             }
-            b'+' => self.answer(now, |node, device| {
-                // The values have room.
-                let _ = node.power_on(device, now);
-            }),
+            b'+' => self.answer(now, |node| node.power_on(now)),
             b'-' => {
-                self.encoder.power_off(now);
-                self.answer(now, |node, _| node.power_off());
+                self.node.application.power_off(now);
+                self.answer(now, |node| node.power_off());
             }
             b'V' => {
                 let [low, high, sub, len] = self.calls.array()?;
@@ -215,9 +196,9 @@ impl<F: Family, D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>
                 let mut value = [0; 255];
                 let value = value.get_mut(..len.into())?;
                 self.calls.fill(value)?;
-                self.answer(now, |node, device| {
+                self.answer(now, |node| {
                     // What is refused is refused on the bench, too.
-                    let _ = node.set_value(device, now, address, value);
+                    let _ = node.set_value(now, address, value);
                 });
             }
             b'X' => {
@@ -228,10 +209,10 @@ impl<F: Family, D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>
                     register,
                     info,
                 };
-                self.answer(now, |node, device| {
+                self.answer(now, |node| {
                     match on {
-                        0 => node.clear(device, now, error),
-                        _ => node.raise(device, now, error),
+                        0 => node.clear(now, error),
+                        _ => node.raise(now, error),
                     };
                 });
             }
@@ -241,20 +222,9 @@ impl<F: Family, D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>
     }
 
     /// Makes a call of the node, takes what it sends, and writes the answer.
-    fn answer(
-        &mut self,
-        now: Instant,
-        call: impl FnOnce(&mut Node<D, PDO, SDO, X>, &mut Lent<'_>),
-    ) {
-        let mut device = Lent {
-            dictionary: self.dictionary,
-            values: self.values,
-            application: &mut self.encoder,
-            storage: &mut self.eeprom,
-            profile: Some(self.profile),
-        };
+    fn answer(&mut self, now: Instant, call: impl FnOnce(&mut Slave<D>)) {
         let before = board::clock();
-        call(self.node, &mut device);
+        call(self.node);
         let mut ticks = since(before).saturating_sub(self.overhead);
         let mut events = Hash::new();
         while let Some(event) = self.node.poll_event() {
@@ -263,7 +233,7 @@ impl<F: Family, D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>
         }
         let mut count = 0;
         let before = board::clock();
-        while let Some(frame) = self.node.poll_transmit(&mut device, now) {
+        while let Some(frame) = self.node.poll_transmit(now) {
             if let Some(room) = self.frames.get_mut(count) {
                 *room = frame;
                 count += 1;
@@ -286,24 +256,26 @@ impl<F: Family, D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>
     }
 
     /// Writes every value as it is now, and the EEPROM.
-    fn show(&mut self, now: Instant) -> Option<()> {
-        for entry in self.dictionary.entries() {
-            let mut store = Store::new(&self.dictionary, self.values, self.node.node_id()).ok()?;
-            if self.node.is_powered() && entry.address.index >= 0x2000 {
-                let mut context = Context {
-                    store: &mut store,
-                    now,
-                    signals: &mut Signals::default(),
-                };
-                // What cannot be had now shows as it was.
-                let _ = self.encoder.refresh(&mut context, entry.address);
+    fn show(&mut self, now: Instant) {
+        let Self { node, answers, .. } = self;
+        let (device, is_powered) = (*node.device(), node.is_powered());
+        node.look(|encoder, store| {
+            for entry in device.dictionary().entries() {
+                if is_powered && entry.address.index >= 0x2000 {
+                    let mut context = Context {
+                        store,
+                        now,
+                        signals: &mut Signals::default(),
+                    };
+                    // What cannot be had now shows as it was.
+                    let _ = encoder.refresh(&mut context, entry.address);
+                }
+                let mut hash = Hash::new();
+                hash.add(store.bytes(&entry, &mut [0; 8]));
+                answers.put(&hash.0.to_le_bytes());
             }
-            let mut hash = Hash::new();
-            hash.add(store.bytes(&entry, &mut [0; 8]));
-            self.answers.put(&hash.0.to_le_bytes());
-        }
-        self.answers.put(self.eeprom.memory.bytes());
-        Some(())
+        });
+        answers.put(node.storage.memory.bytes());
     }
 }
 

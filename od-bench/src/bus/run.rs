@@ -5,7 +5,6 @@ use std::prelude::v1::*;
 use od_runtime::Instant;
 
 use super::{Bus, Sent};
-use crate::slave::Stretch;
 
 impl Bus {
     /// Time passes until the first moment not after `to` at which something is sent.
@@ -37,7 +36,7 @@ impl Bus {
             wiring,
             line,
             sent,
-            ..
+            now,
         } = self;
         let [device] = devices.as_mut_slice() else {
             return None;
@@ -46,20 +45,14 @@ impl Bus {
         if line.is_real || !reaches_outside || line.has_plans() {
             return None;
         }
-        let mut stretch = Stretch {
-            now: self.now,
-            to,
-            frames: frames.saturating_sub(sent.len()),
-            events: Vec::new(),
-        };
-        let again = device.run(&mut stretch, &mut |at, frame| {
+        let frames = frames.saturating_sub(sent.len());
+        let again = device.run(now, to, frames, |at, frame| {
             sent.push_back(Sent {
                 at,
                 device: Some(0),
                 frame,
             });
         })?;
-        self.now = stretch.now;
         match self.deadline(0) {
             Some(at) if at <= self.now && again => Some(self.meet(0, 1, to)),
             Some(at) if at <= to => Some(true),

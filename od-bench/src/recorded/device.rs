@@ -7,25 +7,26 @@ use od_wire::nmt::State;
 
 use super::Recorded;
 use super::play::{Due, Playing};
-use crate::behaviour::Behaviour;
+use crate::behaviour::Behind;
 use crate::device::VirtualDevice;
 use crate::plain::Plain;
 
 impl VirtualDevice {
     /// Plays a recording in the place of all behaviour behind the dictionary. Do it before power comes.
     pub fn play_recorded(&mut self, recorded: Recorded) {
+        let profile = &mut self.node.device_mut().profile;
         if let Some(micros) = recorded
             .boot_up
             .and_then(|micros| u32::try_from(micros).ok())
         {
-            self.profile.nmt.reset_node_us = micros;
-            self.profile.nmt.reset_communication_us = micros;
+            profile.nmt.reset_node_us = micros;
+            profile.nmt.reset_communication_us = micros;
         }
-        self.profile.sdo.segmented_download &= !recorded.no_segments;
-        self.profile.sdo.block &= !recorded.no_blocks;
-        self.behaviour = Behaviour::Plain(Plain::default());
+        profile.sdo.segmented_download &= !recorded.no_segments;
+        profile.sdo.block &= !recorded.no_blocks;
+        self.node.application.behind = Behind::Plain(Plain::default());
         let node = self.node_id().raw();
-        let dictionary = self.source.dictionary();
+        let dictionary = self.dictionary();
         let configured = |index, sub| {
             let entry = dictionary.entry(index, sub);
             let default = entry.and_then(|entry| entry.default.integer(node));
@@ -41,7 +42,7 @@ impl VirtualDevice {
     pub(crate) fn poll_recorded(&mut self, now: Instant) -> Option<Frame> {
         let mut playing = self.recorded.take()?;
         playing.look(self.state(), |index, sub| self.stored(index, sub));
-        while let Some(frame) = self.lend(|node, device| node.poll_transmit(device, now)) {
+        while let Some(frame) = self.node.poll_transmit(now) {
             let tpdo = self.tpdo_of(&playing, &frame);
             playing.sent(now, self.node_id(), frame, tpdo);
         }

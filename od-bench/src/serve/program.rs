@@ -24,7 +24,7 @@ use crate::device::VirtualDevice;
 ///
 /// fn main() -> std::process::ExitCode {
 ///     od_bench::serve::main("mine.eds", |node_id| {
-///         VirtualDevice::of("mine", gxmm::Node::new(node_id.unwrap_or(NodeId::ONE)))
+///         VirtualDevice::of("mine", gxmm::Device, node_id.unwrap_or(NodeId::ONE))
 ///     })
 /// }
 /// ```

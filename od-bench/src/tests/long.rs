@@ -97,7 +97,9 @@ impl Pair {
 
     /// Bytes that its values have.
     fn memory(&self) -> usize {
-        self.device.values.len() + self.device.long.as_ref().map_or(0, |long| long.memory())
+        let node = &self.device.node;
+        let beside = node.application.beside.as_ref();
+        node.values().len() + beside.map_or(0, |beside| beside.long.memory())
     }
 }
 

@@ -37,7 +37,7 @@ pub enum State {
     Aborted,
 }
 
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 struct Open {
     first: u32,
     /// The request says that the value is in segments, or in blocks.
@@ -52,7 +52,7 @@ struct Open {
 const MOST: usize = 1 << 20;
 
 /// Puts the frames of each transfer together.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct Folder {
     observers: Sorted<u8, Observer>,
     open: Sorted<u8, Open>,

@@ -60,9 +60,11 @@ fn a_workspace_has_device_firmware_simulation_and_tests() {
             read(&folder, &format!("device/board-{number}.eds")),
             fs::read_to_string(&eds).expect("the file")
         );
-        // Both have the same node, with the sizes of its dictionary.
-        assert!(read(&folder, "firmware/src/main.rs").contains("dictionary::Board::new(NODE_ID"));
-        assert!(read(&folder, "sim/src/lib.rs").contains("dictionary::Node::new(node_id"));
+        // Both have the same device.
+        assert!(
+            read(&folder, "firmware/src/main.rs").contains("Node::new(dictionary::Device, NODE_ID")
+        );
+        assert!(read(&folder, "sim/src/lib.rs").contains("dictionary::Device,"));
         let script = read(&folder, "tests/scripts/boot-up.script");
         assert!(script.contains("expect 701#00"), "{script}");
         for name in ["device", "firmware", "sim", "tests"] {

@@ -1,6 +1,6 @@
 //! Jobs that wait for each other, jobs side by side, and what comes from the bus.
 
-use crate::support::bus::{Bus, Peer};
+use crate::support::bus::{Bus, peer};
 use crate::support::{OBJECT, at, frame, pattern};
 use od_client::emcy::Emcy;
 use od_client::lss::{self, Answer, Task};
@@ -75,7 +75,7 @@ fn the_next_job_begins_after_one_that_failed() {
 fn block_downloads_take_turns() {
     let mut bus = Bus::new(
         Client::new(),
-        vec![Peer::new(1, [1, 2, 3, 4]), Peer::new(2, [1, 2, 3, 5])],
+        vec![peer(1, [1, 2, 3, 4]), peer(2, [1, 2, 3, 5])],
     );
     let value = pattern(500);
     let jobs = [1, 2].map(|raw| bus.client.write(node(raw), OBJECT, &value));

@@ -1,6 +1,6 @@
 //! Fastscan: one slave, several slaves, none; slaves to the letter of CiA 305 and nodes of `od-runtime`.
 
-use crate::support::bus::{Bus, Peer};
+use crate::support::bus::{Bus, peer};
 use crate::support::slave::Slave;
 use crate::support::{at, frame};
 use od_client::lss::{Answer, Identity, LssError, Master, Options, Part, Task};
@@ -139,7 +139,7 @@ fn several_slaves_one_after_the_other() {
 #[test]
 fn nodes_of_the_same_node_id_are_told_apart() {
     let serials = [7, 6, 0x8000_0000];
-    let peers = serials.map(|serial| Peer::new(1, [0xEC, 0x0A, 1, serial]));
+    let peers = serials.map(|serial| peer(1, [0xEC, 0x0A, 1, serial]));
     let mut bus = Bus::new(Client::new(), peers.into());
     let mut found = Vec::new();
     loop {

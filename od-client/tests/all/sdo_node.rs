@@ -1,6 +1,6 @@
 //! The client against the node of `od-runtime`: every kind of transfer, both ways.
 
-use crate::support::bus::{Bus, Peer, ROOM};
+use crate::support::bus::{Bus, ROOM, peer};
 use crate::support::{OBJECT, pattern};
 use od_client::sdo::{Options, SdoError};
 use od_client::{AbortCode, Client, Event, NodeId, lss};
@@ -136,8 +136,8 @@ fn segments_that_the_bus_loses_come_again() {
 
 #[test]
 fn a_node_without_block_transfers_gets_segments_and_is_asked_once() {
-    let mut peer = Peer::new(1, [1, 2, 3, 4]);
-    peer.profile.sdo = SdoProfile {
+    let mut peer = peer(1, [1, 2, 3, 4]);
+    peer.device_mut().profile.sdo = SdoProfile {
         block: false,
         ..Profile::CIA301.sdo
     };
@@ -149,8 +149,8 @@ fn a_node_without_block_transfers_gets_segments_and_is_asked_once() {
 
 #[test]
 fn an_upload_finds_out_too_that_a_node_has_no_block_transfers() {
-    let mut peer = Peer::new(1, [1, 2, 3, 4]);
-    peer.profile.sdo.block = false;
+    let mut peer = peer(1, [1, 2, 3, 4]);
+    peer.device_mut().profile.sdo.block = false;
     let mut bus = Bus::new(client(blocks(127)), vec![peer]);
     for _ in 0..2 {
         let job = bus.client.read(NodeId::ONE, OBJECT);

@@ -16,7 +16,6 @@ static KINDS: [Kind; 32] = {
 
 impl Row {
     /// Meaning of the bytes, as that of the data type.
-    #[inline(always)]
     pub const fn kind(self) -> Kind {
         KINDS[(self.0[0] >> 3 & 31) as usize]
     }

@@ -4,13 +4,11 @@ use super::{RANGE, Row, bits, number, word, words};
 
 impl Row {
     /// Whether the value has limits besides those of its type.
-    #[inline(always)]
     pub const fn has_limits(self) -> bool {
         self.0[3] >> 14 != 0
     }
 
     /// Lower or upper limit, as [`default`](Self::default) has numbers; `None`: the type limits the value.
-    #[inline(never)]
     pub const fn limit(&self, is_upper: bool, pool: &[u32], node_id: u8) -> Option<u64> {
         let mut at = (self.0[3] >> 14) as usize;
         if at == 0 {

@@ -1,14 +1,14 @@
 //! Node and life guarding (CiA 301, chapter 7.2.8.2.1; objects 100Ch and 100Dh).
 
+use crate::blank::Blank;
 use crate::deadline::Deadline;
-use crate::rooms::Blank;
 use crate::store::Store;
 use od_wire::Instant;
 use od_wire::nmt::State;
 
 /// The slave's side: a toggling answer to each remote frame, and the life time of the master.
 #[derive(Clone, Debug)]
-pub(crate) struct Guard {
+pub struct Guard {
     enabled: bool,
     toggle: bool,
     /// Guard time × life time factor; 0: the master is not watched.
@@ -56,7 +56,6 @@ impl Guard {
         Some(answer)
     }
 
-    #[inline]
     pub(super) fn handle_timeout(&mut self, now: Instant) {
         if self.deadline.is_due(now) {
             self.deadline = Deadline::NEVER;
@@ -64,12 +63,10 @@ impl Guard {
         }
     }
 
-    #[inline]
     pub(super) fn is_lost(&self) -> bool {
         self.lost
     }
 
-    #[inline]
     pub(super) fn deadline(&self) -> Deadline {
         self.deadline
     }

@@ -1,8 +1,8 @@
 //! Heartbeat producer (CiA 301, chapter 7.2.8.2.2, object 1017h).
 
 use crate::deadline::Deadline;
-use crate::device::Device;
 use crate::profile::Profile;
+use crate::services::Services;
 use crate::store::Store;
 use od_wire::Instant;
 
@@ -22,17 +22,16 @@ impl Producer {
     }
 
     /// 1017h was written, or the device boots: the first heartbeat is one period from now.
-    #[inline(never)]
-    pub(crate) fn configure<D: Device>(
+    pub(crate) fn configure<D: Services>(
         &mut self,
         store: &Store<'_>,
         profile: &Profile,
         now: Instant,
     ) {
-        let guards = super::guards::<D>(store, profile);
-        self.period_ms = match guards {
-            true => 0,
-            false => store.word(0x1017, 0, 0),
+        self.period_ms = if super::guards::<D>(store, profile) {
+            0
+        } else {
+            store.word(0x1017, 0, 0)
         };
         self.next = match self.period_ms {
             0 => Deadline::NEVER,
@@ -46,7 +45,6 @@ impl Producer {
     }
 
     /// Returns whether a heartbeat is due, and plans the next one.
-    #[inline]
     pub(crate) fn handle_timeout(&mut self, now: Instant) -> bool {
         let is_due = self.next.is_due(now);
         if is_due {
@@ -56,7 +54,6 @@ impl Producer {
     }
 
     /// Time when the next one is due.
-    #[inline]
     pub(crate) fn deadline(&self) -> Deadline {
         self.next
     }

@@ -8,21 +8,23 @@ mod consumer;
 mod guarding;
 mod heartbeat;
 
+pub use consumer::Watch;
+pub use guarding::Guard;
 pub(crate) use heartbeat::Producer;
 
+use crate::blank::Blank;
 use crate::deadline::Deadline;
-use crate::device::Device;
 use crate::profile::Profile;
-use crate::rooms::{Blank, Room, Rooms};
+use crate::services::Services;
 use crate::store::Store;
+use od_wire::Instant;
 use od_wire::nmt::State;
-use od_wire::{CanId, Instant, NodeId};
 
 /// Whether node guarding is active instead of heartbeat.
 ///
 /// CiA 301: guarding while 1017h is 0. A family may have a switch for it instead, which
 /// leaves nothing of the heartbeat, neither producer nor consumer.
-pub(crate) fn guards<D: Device>(store: &Store<'_>, profile: &Profile) -> bool {
+pub(crate) fn guards<D: Services>(store: &Store<'_>, profile: &Profile) -> bool {
     match profile.guarding_switch {
         Some((index, mask)) => store.word(index, 0, 0) & mask != 0,
         None => D::GUARDING && store.word(0x1017, 0, 0) == 0 && store.try_word(0x100C, 0).is_some(),
@@ -37,91 +39,68 @@ pub(crate) fn is_configuration(index: u16, profile: &Profile) -> bool {
             .is_some_and(|(switch, _)| switch == index)
 }
 
-/// Monitor of the other side: life guarding and heartbeat consumer.
-#[derive(Clone, Debug)]
-pub(crate) struct Monitor<R: Rooms> {
-    guards: R::Guards<guarding::Guard>,
-    consumer: consumer::Consumer<R>,
+/// Monitor of the other side at work: life guarding and heartbeat consumer.
+pub(crate) struct Monitor<'m> {
+    pub(crate) guards: &'m mut [Guard],
+    pub(crate) watches: &'m mut [Watch],
     /// Result of the last [`poll`](Self::poll).
-    lost: bool,
+    pub(crate) lost: &'m mut bool,
 }
 
-impl<R: Rooms> Monitor<R> {
-    pub(crate) const fn new() -> Self {
-        Self {
-            guards: Room::BLANK,
-            consumer: consumer::Consumer::new(),
-            lost: false,
-        }
-    }
-
+impl Monitor<'_> {
     /// Boot-up: no node is watched yet, and none is lost.
     pub(crate) fn reset(&mut self) {
-        self.guards.all_mut().fill(Blank::BLANK);
-        self.consumer.reset();
-        self.lost = false;
+        self.guards.fill(Guard::BLANK);
+        self.watches.fill(Watch::BLANK);
+        *self.lost = false;
     }
 
     /// Reads 100Ch, 100Dh and 1016h again.
-    pub(crate) fn configure<D: Device>(&mut self, store: &Store<'_>, profile: &Profile) {
+    pub(crate) fn configure<D: Services>(&mut self, store: &Store<'_>, profile: &Profile) {
         let guards = guards::<D>(store, profile);
-        for guard in self.guards.all_mut() {
+        for guard in &mut *self.guards {
             guard.configure(store, guards);
         }
-        if D::CONSUMER {
-            let switched_off = profile.guarding_switch.is_some() && guards;
-            self.consumer.configure(store, !switched_off);
-        }
+        let switched_off = profile.guarding_switch.is_some() && guards;
+        consumer::configure(self.watches, store, !switched_off);
     }
 
-    /// A master guards this node: the byte of the answer, if guarding is in force.
+    /// A master guards this node. Returns the byte of the response, if guarding is in force.
     pub(crate) fn guard(&mut self, state: State, now: Instant) -> Option<u8> {
-        self.guards.all_mut().first_mut()?.request(state, now)
+        self.guards.first_mut()?.request(state, now)
     }
 
     /// A heartbeat, or boot-up message, of another node.
     pub(crate) fn heartbeat(&mut self, node: u8, now: Instant) {
-        self.consumer.heartbeat(node, now);
-    }
-
-    /// CAN-IDs of the heartbeats that are watched.
-    pub(crate) fn watched(&self) -> impl Iterator<Item = CanId> + '_ {
-        let nodes = self.consumer.nodes().filter_map(NodeId::new);
-        nodes.map(|node| node.plus(0x700))
+        for watch in &mut *self.watches {
+            watch.heartbeat(node, now);
+        }
     }
 
     /// Time has passed.
-    #[inline]
-    pub(crate) fn handle_timeout<D: Device>(&mut self, now: Instant) {
-        for guard in self.guards.all_mut() {
+    pub(crate) fn handle_timeout(&mut self, now: Instant) {
+        for guard in &mut *self.guards {
             guard.handle_timeout(now);
         }
-        if D::CONSUMER {
-            self.consumer.handle_timeout(now);
+        for watch in &mut *self.watches {
+            watch.handle_timeout(now);
         }
     }
 
     /// `Some(true)` when a node was lost and none before, `Some(false)` when
     /// everybody is back.
-    #[inline]
-    pub(crate) fn poll<D: Device>(&mut self) -> Option<bool> {
-        let mut guards = self.guards.all().iter();
-        let lost = guards.any(guarding::Guard::is_lost) || D::CONSUMER && self.consumer.is_lost();
-        let changed = lost != self.lost;
-        self.lost = lost;
+    pub(crate) fn poll(&mut self) -> Option<bool> {
+        let lost =
+            self.guards.iter().any(Guard::is_lost) || self.watches.iter().any(Watch::is_lost);
+        let changed = lost != *self.lost;
+        *self.lost = lost;
         changed.then_some(lost)
     }
+}
 
-    /// Whether a node or the master is lost.
-    pub(crate) const fn is_lost(&self) -> bool {
-        self.lost
-    }
-
-    /// Time when a node is lost unless it is heard before.
-    #[inline]
-    pub(crate) fn deadline<D: Device>(&self) -> Deadline {
-        let guards = self.guards.all().iter().map(guarding::Guard::deadline);
-        let consumer = D::CONSUMER.then(|| self.consumer.deadline());
-        guards.chain(consumer).fold(Deadline::NEVER, Deadline::or)
-    }
+/// Time when a node is lost unless it is heard before.
+pub(crate) fn deadline(guards: &[Guard], watches: &[Watch]) -> Deadline {
+    let guards = guards.iter().map(Guard::deadline);
+    let watches = watches.iter().map(Watch::deadline);
+    guards.chain(watches).fold(Deadline::NEVER, Deadline::or)
 }

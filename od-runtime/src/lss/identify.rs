@@ -12,7 +12,6 @@ impl Sequence {
     }
 
     /// Answers whether this step, the `last` one, completes the sequence.
-    #[inline(never)]
     pub(super) fn step(&mut self, step: u8, last: u8, matches: bool) -> bool {
         // Step 0 restarts, whatever came before.
         let in_order = step == 0 || step == self.next;

@@ -2,10 +2,10 @@
 
 mod identify;
 
-use crate::device::Device;
+use crate::blank::Blank;
 use crate::objects::Objects;
 use crate::profile::LssProfile;
-use crate::rooms::Blank;
+use crate::services::Services;
 use crate::storage::StorageError;
 use crate::storage::image::{self, Banks, Medium, Plan};
 use od_wire::lss::{Request, Response};
@@ -38,7 +38,7 @@ pub(crate) enum Action {
 
 /// The slave.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Slave {
+pub struct Slave {
     configuration: bool,
     selective: identify::Sequence,
     remote: identify::Sequence,
@@ -79,7 +79,7 @@ impl Slave {
     }
 
     /// A master's frame, for a node whose active node ID this is ([`UNCONFIGURED`]: none).
-    pub(crate) fn handle<D: Device>(
+    pub(crate) fn handle<D: Services>(
         &mut self,
         objects: &mut Objects<'_, D>,
         profile: &LssProfile,
@@ -196,7 +196,7 @@ impl Slave {
 
     /// Writes the pending configuration to 2101h and 2100h, and saves only these two: the next
     /// start uses them. FFh is not a node ID, and nothing is stored for it.
-    fn store<D: Device>(&mut self, objects: &mut Objects<'_, D>, profile: &LssProfile) -> u8 {
+    fn store<D: Services>(&mut self, objects: &mut Objects<'_, D>, profile: &LssProfile) -> u8 {
         let pending = [
             (
                 profile.node_id,
@@ -214,7 +214,7 @@ impl Slave {
             }
         }
         let ours = [profile.node_id, profile.bit_rate];
-        let (device, profile) = (objects.device(), &objects.profile().store);
+        let (device, profile) = (objects.device(), &objects.profile.store);
         let plan = Plan::Only(&ours);
         code(image::write(
             objects.storage,
@@ -227,9 +227,9 @@ impl Slave {
 
     /// Puts what is pending into the image, beside the objects: the next start takes it. A node
     /// ID of FFh is stored as it is.
-    fn store_own<D: Device>(&mut self, objects: &mut Objects<'_, D>, active: u8) -> u8 {
+    fn store_own<D: Services>(&mut self, objects: &mut Objects<'_, D>, active: u8) -> u8 {
         objects.complete_save();
-        let (device, profile) = (objects.device(), &objects.profile().store);
+        let (device, profile) = (objects.device(), &objects.profile.store);
         let mut banks = Banks::NONE;
         let mut medium = Medium::new(objects.storage, &mut banks);
         let stored = medium.own(device).and_then(|[node_id, bit_rate]| {
@@ -252,13 +252,13 @@ fn code(saved: Result<(), StorageError>) -> u8 {
 }
 
 /// A number of the LSS address (1018h), from 0 on; 0 without such an object.
-fn number<D: Device>(objects: &Objects<'_, D>, part: u8) -> u32 {
+fn number<D: Services>(objects: &Objects<'_, D>, part: u8) -> u32 {
     objects.store.word(0x1018, part.wrapping_add(1), 0)
 }
 
 /// Returns the node ID and the bit rate that a device without objects for them stored. A storage
 /// that cannot be read holds none.
-pub(crate) fn stored<D: Device>(objects: &mut Objects<'_, D>) -> [Option<u8>; 2] {
+pub(crate) fn stored<D: Services>(objects: &mut Objects<'_, D>) -> [Option<u8>; 2] {
     let device = objects.device();
     let mut banks = Banks::NONE;
     let mut medium = Medium::new(objects.storage, &mut banks);

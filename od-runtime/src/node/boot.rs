@@ -5,90 +5,60 @@ use od_wire::nmt::State;
 use od_wire::{CanId, CobId, Instant, NodeId};
 
 use super::clocks::produced_time_id;
-use super::ear::{Ear, Quick};
-use super::{BusEvent, Event, Machines, Node, Unfit};
-use crate::application::Reset;
+use super::{BusEvent, Event, Machines, Node};
+use crate::application::{Application, Reset};
+use crate::blank::Blank;
 use crate::deadline::Deadline;
-use crate::device::{Device, profile};
-use crate::extras::Extras;
-use crate::lent::Lent;
+use crate::device::Device;
 use crate::objects::Objects;
 use crate::profile::{CommunicationReset, LssProfile};
-use crate::rooms::Room;
+use crate::rooms::{Rooms, Saving, Sizes, Slave, Values};
+use crate::storage::Storage;
 use crate::storage::image::{self, Loaded};
-use crate::store::StoreTooSmall;
-use crate::{emcy, lss, pdo, sync};
+use crate::{emcy, lss, sync};
 
-impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, PDO, SDO, X> {
+impl<D: Device, A: Application, S: Storage> Node<D, A, S> {
     /// Power comes: the values become the saved ones or their defaults, and the node boots up.
-    ///
-    /// # Errors
-    /// [`Unfit`] where `device.values` is too short for the dictionary, or the node does not
-    /// serve all that the dictionary has ([`fits`](Self::fits)). The node stays without power.
-    pub fn power_on(&mut self, device: &mut Lent<'_>, now: Instant) -> Result<(), Unfit> {
-        match &D::DICTIONARY {
-            // The compiler has checked it.
-            Some(known) if known.is_same(&device.dictionary) => {}
-            Some(_) => return Err(Unfit::Dictionary),
-            None => Self::fits(&device.dictionary)?,
-        }
-        Ok(self.power_on_partly(device, now)?)
-    }
-
-    /// [`power_on`](Self::power_on) for a dictionary that need not fit, such as that of a file.
-    /// PDOs, SDO servers and a SYNC producer without room are not served; a value
-    /// longer than the SDO buffer answers with SDO abort 05040005h.
-    ///
-    /// # Errors
-    /// [`StoreTooSmall`] where `device.values` is too short for the dictionary. The node stays
-    /// without power.
-    #[inline(never)]
-    pub fn power_on_partly(
-        &mut self,
-        device: &mut Lent<'_>,
-        now: Instant,
-    ) -> Result<(), StoreTooSmall> {
-        let needed = device.dictionary.store_len();
-        if device.values.len() < needed {
-            return Err(StoreTooSmall { needed });
-        }
+    pub fn power_on(&mut self, now: Instant) {
         let node = &mut self.machines;
+        if D::DICTIONARY.is_none() {
+            let sizes = Sizes::of::<D>(&self.device.dictionary());
+            node.rooms.fit(&sizes);
+            self.values.fit(&sizes);
+        }
         node.now = now;
-        node.pending = 0;
         node.powered = true;
         node.mute = None;
-        node.discard_frames();
-        if let Some((node, objects)) = &mut self.open(device, now) {
-            node.reset(objects, Reset::PowerOn);
-        }
-        Ok(())
+        node.rooms.all_mut().frames.clear();
+        self.call(now, |node, objects| node.reset(objects, Reset::PowerOn));
     }
 
     /// Ends an initialisation that takes its time ([`NmtProfile::reset_node_us`]), at once: for a
     /// host whose clock starts when the node boots up, and not when power came.
     ///
     /// [`NmtProfile::reset_node_us`]: crate::NmtProfile::reset_node_us
-    pub fn boot_at_once(&mut self, device: &mut Lent<'_>, now: Instant) {
-        if let Some((node, objects)) = &mut self.open(device, now)
-            && node.boot_at.is_set()
-        {
-            node.boot_up(objects);
-        }
+    pub fn boot_at_once(&mut self, now: Instant) {
+        self.call(now, |node, objects| {
+            if node.boot_at.is_set() {
+                node.boot_up(objects);
+            }
+        });
     }
+}
 
+impl<D: Device, A, S> Node<D, A, S> {
     /// Power goes: silence until [`power_on`](Self::power_on).
     pub fn power_off(&mut self) {
-        self.saves = Room::BLANK;
+        if let Some(saving) = self.values.lend().saving {
+            *saving = Saving::BLANK;
+        }
         let node = &mut self.machines;
         node.powered = false;
-        node.save_at = Room::BLANK;
-        // If nothing waits, no deadline remains either.
+        node.idle = true;
+        node.listeners = 0;
         node.next = Instant::ZERO;
-        node.pending = 0;
-        node.ear = Ear::DEAF;
-        node.quick = Quick::NONE;
-        node.discard_frames();
-        node.emcy.reset();
+        node.rooms.all_mut().frames.clear();
+        node.emcy().reset();
         node.forget_transfers();
         node.stop_pdos();
         node.state = State::Initialising;
@@ -96,10 +66,9 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
     }
 }
 
-impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<D, PDO, SDO, X> {
-    #[inline(never)]
+impl<D: Device> Machines<D> {
     pub(super) fn reset(&mut self, objects: &mut Objects<'_, D>, reset: Reset) {
-        let nmt = &objects.profile().nmt;
+        let nmt = &objects.profile.nmt;
         let delay = match reset {
             Reset::PowerOn | Reset::Node => nmt.reset_node_us,
             Reset::Communication => nmt.reset_communication_us,
@@ -111,9 +80,10 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         self.cut_transfers(objects);
         self.stop_pdos();
         self.heartbeat.stop();
-        self.monitor.reset();
-        let pending = self.lss.all().first().and_then(|lss| lss.node_id);
-        self.lss = Room::BLANK;
+        self.monitor().reset();
+        let slaves = self.rooms.all_mut().lss;
+        let pending = slaves.first().and_then(|lss| lss.node_id);
+        slaves.fill(Slave::BLANK);
         if self.is_bus_off() {
             self.event(Event::BusOn);
         }
@@ -134,11 +104,10 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         } else {
             // A save that was not complete will not be; `load` finds out.
             objects.forget_save();
-            self.save_at = Room::BLANK;
             if reset == Reset::Communication {
                 self.forget_bus_errors(objects);
             } else {
-                self.emcy.reset();
+                self.emcy().reset();
             }
             let bit_rate = self.take_own(objects, reset, pending);
             self.load(objects, reset);
@@ -158,14 +127,13 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
 
     /// Node ID of a device without an object for it: a start takes the stored one, NMT reset
     /// communication the pending one (CiA 305, chapter 6.3.1). Returns the bit rate of a start.
-    #[inline(never)]
     fn take_own(
         &mut self,
         objects: &mut Objects<'_, D>,
         reset: Reset,
         pending: Option<u8>,
     ) -> Option<u8> {
-        if !D::LSS || !objects.profile().lss.is_some_and(|lss| lss.is_own()) {
+        if !D::LSS || !objects.profile.lss.is_some_and(|lss| lss.is_own()) {
             return None;
         }
         let (node_id, bit_rate) = match reset {
@@ -190,15 +158,12 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
 
     /// Defaults, then what storage holds. The node ID may be among it, and defaults hang
     /// on the node ID, so a new one means a second pass.
-    #[inline(never)]
     fn load(&mut self, objects: &mut Objects<'_, D>, reset: Reset) {
         let all = reset != Reset::Communication;
         // Reset communication takes 1000h–1FFFh back, and what the device starts on the
         // bus with, or all that can be saved or written; it leaves the errors that last.
-        let lent = objects.lent_profile;
+        let profile = objects.profile;
         let which = |row: &Row| {
-            // Not as a part of it that is carried in: of a profile that the compiler knows nothing is read.
-            let profile = profile::<D>(lent);
             let address = row.address();
             let starts_with = |lss: &LssProfile| address == lss.node_id || address == lss.bit_rate;
             all || match address.index {
@@ -211,7 +176,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
             }
         };
         for pass in 0..2 {
-            let profile = &objects.profile().store;
+            let profile = &objects.profile.store;
             match all {
                 true => profile.reset_all(&mut objects.store),
                 false => profile.reset(&mut objects.store, &which),
@@ -244,34 +209,31 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
 
     /// The end of initialisation: services take their configuration, the boot-up message
     /// goes out, Pre-operational begins.
-    #[inline(never)]
     pub(super) fn boot_up(&mut self, objects: &mut Objects<'_, D>) {
         self.boot_at = Deadline::NEVER;
         if self.unconfigured {
             return self.listen(objects);
         }
+        if D::GUARDING || D::CONSUMER {
+            self.monitor()
+                .configure::<D>(&objects.store, objects.profile);
+        }
         self.configure(objects);
         self.push_error_control(0);
         self.state = State::PreOperational;
-        self.listen(objects);
         self.event(Event::State(self.state));
         if D::SYNC_PRODUCER || D::TIME {
             self.configure_clocks(objects);
         }
         self.heartbeat
-            .configure::<D>(&objects.store, objects.profile(), objects.now);
-        if Self::HAS_MONITOR {
-            self.monitor
-                .configure::<D>(&objects.store, objects.profile());
-        }
+            .configure::<D>(&objects.store, objects.profile, objects.now);
         self.tick(objects);
-        let self_start = objects.profile().nmt.self_start;
+        let self_start = objects.profile.nmt.self_start;
         if self_start.is_some_and(|switch| objects.has_bits(switch)) {
             self.enter(objects, State::Operational);
             self.react_to_lasting(objects);
         }
         self.finish(objects);
-        self.reset_if_due(objects);
     }
 
     /// The CAN-IDs by which SYNC, EMCY and TIME are sent, which come before those of SDO servers and TPDOs. That of
@@ -287,7 +249,6 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
     }
 
     /// Reports the services of one object whose CAN-ID is refused, once as long as it is.
-    #[inline(never)]
     fn report_refused(&mut self, objects: &Objects<'_, D>) {
         let [sync, emcy, time] = Self::senders(objects);
         let cob_id = |index| CobId::new(objects.store.word(index, 0, 0));
@@ -312,60 +273,63 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
     }
 
     /// Every service reads its objects again.
-    #[inline(never)]
     pub(super) fn configure(&mut self, objects: &mut Objects<'_, D>) {
         self.wanted_changed = true;
         self.sync_id = sync::can_id(&objects.store);
+        self.sync_length = sync::Length::of(&objects.store);
         self.report_refused(objects);
-        if Self::PDOS.is_none() {
-            let dictionary = objects.store.dictionary();
-            self.tpdo_count = dictionary.tpdos().min(PDO) as u16;
-            self.rpdo_count = dictionary.rpdos().min(Self::RPDOS) as u16;
-        }
-        let operates = self.state == State::Operational;
-        let fixed = const { &pdo::Fixed::all::<D, PDO>() };
         self.configure_servers(objects);
         if D::SYNC_PRODUCER || D::TIME {
             self.configure_clocks(objects);
         }
+        self.configure_tpdos(objects);
+        self.configure_rpdos(objects);
+        self.listen(objects);
+    }
+
+    fn configure_tpdos(&mut self, objects: &mut Objects<'_, D>) {
+        let operates = self.state == State::Operational;
         let others = Self::senders(objects);
-        let count = self.tpdo_count();
-        for (at, fixed) in fixed.iter().enumerate().take(count) {
-            let Some((before, [tpdo, ..])) = self.tpdo.split_at_mut_checked(at) else {
+        let rooms = self.rooms.all_mut();
+        let (mut first, mut changes, mut live) = (0, false, false);
+        for at in 0..rooms.tpdos.len() {
+            let Some((before, [tpdo, ..])) = rooms.tpdos.split_at_mut_checked(at) else {
                 break;
             };
-            let servers = self.extras.servers();
             let is_taken = |id| {
                 others.contains(&Some(id))
-                    || D::SERVERS && servers.iter().any(|one| one.sent_by() == Some(id))
+                    || rooms.servers.iter().any(|one| one.sent_by() == Some(id))
                     || before.iter().any(|pdo| pdo.sent_by() == Some(id))
             };
-            if tpdo.configure(objects, at as u16, fixed, &is_taken) {
-                let (starts, refused) = (operates, tpdo.is_refused());
-                if starts {
-                    tpdo.start(objects);
+            let number = at as u16;
+            if tpdo.configure(objects, number, first, rooms.mapped, &is_taken) {
+                if operates {
+                    tpdo.start(objects, rooms.mapped);
                 }
-                if refused {
-                    self.event(Event::CobIdRefused(0x1800 + at as u16));
-                }
-            }
-        }
-        if D::CHANGES && objects.profile().pdo.event_on_change {
-            let (mut changes, mut live) = (false, false);
-            for pdo in self.tpdos() {
-                changes |= pdo.watches_changes();
-                live |= pdo.watches_live();
-            }
-            (self.watches_changes, self.watches_live) = (changes, live);
-        }
-        if D::RPDOS {
-            for at in 0..self.rpdo_count() {
-                let rpdo = self.rpdo.all_mut().get_mut(at);
-                if rpdo.is_some_and(|rpdo| rpdo.configure(objects, at as u16)) {
-                    self.event(Event::CobIdRefused(0x1400 + at as u16));
+                if D::EVENTS && tpdo.is_refused() {
+                    rooms.events.push(Event::CobIdRefused(0x1800 + number));
                 }
             }
+            changes |= tpdo.watches_changes();
+            live |= tpdo.watches_live();
+            first += usize::from(objects.store.dictionary().last_sub(0x1A00 + number));
         }
-        self.listen(objects);
+        let sends_changes = D::CHANGES && objects.profile.pdo.event_on_change;
+        (self.watches_changes, self.watches_live) =
+            (changes && sends_changes, live && sends_changes);
+    }
+
+    fn configure_rpdos(&mut self, objects: &Objects<'_, D>) {
+        let dictionary = objects.store.dictionary();
+        let entries = |object| usize::from(dictionary.last_sub(object));
+        let rooms = self.rooms.all_mut();
+        let tpdos = 0x1A00..0x1A00 + rooms.tpdos.len() as u16;
+        let mut first = tpdos.map(entries).sum();
+        for (number, rpdo) in (0..).zip(rooms.rpdos) {
+            if rpdo.configure(objects, number, first, rooms.mapped) && D::EVENTS {
+                rooms.events.push(Event::CobIdRefused(0x1400 + number));
+            }
+            first += entries(0x1600 + number);
+        }
     }
 }

@@ -1,4 +1,4 @@
-//! States of the CAN controller, and times without frames.
+//! News of the CAN controller, and what follows from them.
 
 use od_wire::Instant;
 use od_wire::nmt::State;
@@ -6,61 +6,57 @@ use od_wire::nmt::State;
 use super::controller::{BusEvent, Mute};
 use super::event::Event;
 use super::{Machines, Node};
-use crate::application::Reset;
+use crate::application::{Application, Reset};
 use crate::device::Device;
-use crate::emcy::PDO_LENGTH;
-use crate::extras::Extras;
-use crate::lent::Lent;
+use crate::emcy::{PDO_LENGTH, RPDO_TIMEOUT, SYNC_LENGTH};
 use crate::objects::Objects;
 use crate::profile::Notice;
+use crate::rooms::Rooms;
+use crate::storage::Storage;
 
-impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, PDO, SDO, X> {
+impl<D: Device, A: Application, S: Storage> Node<D, A, S> {
     /// Reports a state change or frame loss of the CAN controller. A host that never calls
     /// this runs the node as on an error-free bus.
-    pub fn handle_bus(&mut self, device: &mut Lent<'_>, now: Instant, event: BusEvent) {
-        let mut open = self.open(device, now);
-        let Some((node, objects)) = &mut open else {
-            return;
-        };
-        // A controller that is being set up has no news.
-        if node.state == State::Initialising {
-            return;
-        }
-        let profile = objects.profile().errors;
-        let restarts = profile
-            .off
-            .restart
-            .is_none_or(|switch| objects.has_bits(switch));
-        if node.is_bus_off() {
-            if event != BusEvent::Active || !restarts {
-                return;
-            }
-            if profile.off.boots {
-                node.reset(objects, Reset::Communication);
-            } else {
-                node.come_back(objects);
-                node.finish(objects);
-            }
-            return;
-        }
-        if event == BusEvent::Off {
-            node.fall_off(objects, restarts);
-        } else {
-            node.take_state(objects, event);
-        }
-        node.finish(objects);
-        node.reset_if_due(objects);
+    pub fn handle_bus(&mut self, now: Instant, event: BusEvent) {
+        self.call(now, |node, objects| node.take_bus(objects, event));
     }
 }
 
-impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<D, PDO, SDO, X> {
+impl<D: Device> Machines<D> {
     pub(super) const fn is_bus_off(&self) -> bool {
         matches!(self.bus, BusEvent::Off)
     }
 
+    /// News of the CAN controller.
+    fn take_bus(&mut self, objects: &mut Objects<'_, D>, event: BusEvent) {
+        // A controller that is being set up has no news.
+        if self.state == State::Initialising {
+            return;
+        }
+        let profile = objects.profile.errors;
+        let restarts = profile
+            .off
+            .restart
+            .is_none_or(|switch| objects.has_bits(switch));
+        if self.is_bus_off() {
+            if event != BusEvent::Active || !restarts {
+                return;
+            }
+            if profile.off.boots {
+                return self.reset(objects, Reset::Communication);
+            }
+            self.come_back(objects);
+        } else if event == BusEvent::Off {
+            self.fall_off(objects, restarts);
+        } else {
+            self.take_state(objects, event);
+        }
+        self.finish(objects);
+    }
+
     /// Warning, passive, overrun, and the way back.
     fn take_state(&mut self, objects: &mut Objects<'_, D>, event: BusEvent) {
-        let profile = objects.profile().errors;
+        let profile = objects.profile.errors;
         let info = objects.application.error_info(&objects.store);
         let signals = &mut objects.outbox.signals;
         if event == BusEvent::Overrun {
@@ -88,34 +84,32 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
 
     /// Bus-off: nothing goes out or comes in, and 1029h acts as the family has it.
     fn fall_off(&mut self, objects: &mut Objects<'_, D>, restarts: bool) {
-        let profile = objects.profile().errors;
+        let profile = objects.profile.errors;
         if let Some(bit_rate) = self.mute.and_then(Mute::bit_rate) {
             self.event(Event::BitRate(bit_rate));
         }
         self.bus = BusEvent::Off;
         self.mute = Some(Mute::BUS_OFF);
         self.event(Event::BusOff { restarts });
-        self.discard_frames();
+        self.rooms.all_mut().frames.clear();
         self.cut_transfers(objects);
         self.stop_pdos();
-        let set = self.emcy.set_silent(&mut objects.store, profile.bus_off);
+        let set = self.emcy().set_silent(&mut objects.store, profile.bus_off);
         if !(restarts && profile.off.behaviour_if_off) {
             self.react(objects, set, true);
         }
         // The error behaviour may have led to another state, but not back to the bus.
         self.stop_pdos();
-        self.listen(objects);
     }
 
     /// The CAN controller restarted, and the NMT state goes on.
     fn come_back(&mut self, objects: &mut Objects<'_, D>) {
         self.mute = None;
-        self.listen(objects);
         self.event(Event::BusOn);
-        self.emcy.set_silent(&mut objects.store, 0);
+        self.emcy().set_silent(&mut objects.store, 0);
         self.take_state(objects, BusEvent::Active);
         let info = objects.application.error_info(&objects.store);
-        if let Some(notice) = objects.profile().errors.bus_recovered {
+        if let Some(notice) = objects.profile.errors.bus_recovered {
             objects.outbox.signals.raise(notice.error(info));
             objects.outbox.signals.clear(notice.code, info);
         }
@@ -125,7 +119,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
     }
 
     /// A switch delay of LSS is over.
-    pub(super) fn end_mute(&mut self, objects: &Objects<'_, D>) {
+    pub(super) fn end_mute(&mut self) {
         let Some(mute) = self.mute.take() else { return };
         if let Some(bit_rate) = mute.bit_rate() {
             self.event(Event::BitRate(bit_rate));
@@ -137,23 +131,21 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
                 });
             }
         }
-        self.listen(objects);
     }
 
     /// A reset ends the errors of communication without an EMCY message: the monitor and the CAN
     /// controller restart.
-    #[inline(never)]
     pub(super) fn forget_bus_errors(&mut self, objects: &mut Objects<'_, D>) {
-        let profile = &objects.profile().errors;
+        let profile = &objects.profile.errors;
         let is_of_bus = |code| {
             let is = |notice: &Option<Notice>| notice.is_some_and(|notice| notice.code == code);
-            code == PDO_LENGTH
+            matches!(code, PDO_LENGTH | SYNC_LENGTH | RPDO_TIMEOUT)
                 || code == profile.lost.code
                 || is(&profile.bus_warning)
                 || is(&profile.bus_passive)
                 || is(&profile.bus_recovered)
                 || is(&profile.overrun)
         };
-        self.emcy.forget(&mut objects.store, is_of_bus);
+        self.emcy().forget(&mut objects.store, is_of_bus);
     }
 }

@@ -5,29 +5,29 @@ use od_wire::time_of_day::TimeOfDay;
 use od_wire::{CanId, CobId, Frame, Instant};
 
 use super::{Machines, Node};
+use crate::application::Application;
 use crate::device::Device;
-use crate::extras::Extras;
-use crate::lent::Lent;
 use crate::objects::Objects;
+use crate::rooms::Rooms;
+use crate::storage::Storage;
 use crate::store::Store;
 use crate::{emcy, sync};
 
-impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, PDO, SDO, X> {
+impl<D: Device, A: Application, S: Storage> Node<D, A, S> {
     /// Sends a TIME message with what [`Application::time`](crate::Application::time) returns, as
     /// [`Signals::send_time`](crate::Signals::send_time) does. Returns whether it goes out: bit 30 of
     /// 1012h is set, and the NMT state is Pre-operational or Operational.
-    pub fn send_time(&mut self, device: &mut Lent<'_>, now: Instant) -> bool {
-        let mut open = self.open(device, now);
-        let Some((node, objects)) = &mut open else {
-            return false;
-        };
-        let sent = D::TIME && node.produce_time(objects);
-        node.finish(objects);
-        sent
+    pub fn send_time(&mut self, now: Instant) -> bool {
+        let sent = self.call(now, |node, objects| {
+            let sent = D::TIME && node.produce_time(objects);
+            node.finish(objects);
+            sent
+        });
+        sent == Some(true)
     }
 }
 
-impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<D, PDO, SDO, X> {
+impl<D: Device> Machines<D> {
     /// SYNC and TIME are services of Pre-operational and Operational (CiA 301, table 37).
     fn is_communicating(&self) -> bool {
         matches!(self.state, State::PreOperational | State::Operational)
@@ -36,7 +36,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
     /// Reads the objects of SYNC producer and TIME again.
     pub(super) fn configure_clocks(&mut self, objects: &Objects<'_, D>) {
         let may_send = self.is_communicating();
-        let Some(clocks) = self.extras.clocks_mut() else {
+        let Some(clocks) = self.rooms.all_mut().clocks.first_mut() else {
             return;
         };
         if D::SYNC_PRODUCER {
@@ -50,19 +50,12 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         }
     }
 
-    /// Time when the next SYNC of this node is due.
-    #[inline]
-    pub(super) fn sync_deadline(&self) -> Option<Instant> {
-        self.extras.clocks()?.sync.deadline()
-    }
-
     /// Sends the SYNC that is due; the node's own PDOs act on it, too.
-    #[inline]
     pub(super) fn produce_sync(&mut self, objects: &mut Objects<'_, D>) {
         if !D::SYNC_PRODUCER {
             return;
         }
-        let Some(clocks) = self.extras.clocks_mut() else {
+        let Some(clocks) = self.rooms.all_mut().clocks.first_mut() else {
             return;
         };
         let Some(counter) = clocks.sync.handle_timeout(objects.now) else {
@@ -83,14 +76,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         }
     }
 
-    /// The CAN-ID of the TIME messages that the device consumes.
-    #[inline]
-    pub(super) fn time_id(&self) -> Option<CanId> {
-        self.extras.clocks()?.time_id
-    }
-
     /// A TIME message: the application gets the time.
-    #[inline(never)]
     pub(super) fn handle_time(&mut self, objects: &mut Objects<'_, D>, frame: &Frame) {
         if let Some(time) = TimeOfDay::parse(frame.data()) {
             objects.application(|application, context| application.set_time(context, time));

@@ -5,9 +5,9 @@ use super::{Event, Machines};
 use crate::change::Change;
 use crate::device::Device;
 use crate::emcy;
-use crate::extras::Extras;
 use crate::objects::Objects;
 use crate::profile::Notice;
+use crate::rooms::Rooms;
 use crate::store::Store;
 use od_wire::emcy::Emcy;
 use od_wire::nmt::State;
@@ -33,21 +33,17 @@ impl Notice {
     }
 }
 
-impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<D, PDO, SDO, X> {
+impl<D: Device> Machines<D> {
     /// Takes over what the monitor has to say.
-    #[inline(never)]
     pub(super) fn poll_monitor(&mut self, objects: &mut Objects<'_, D>) {
-        if Self::HAS_MONITOR
-            && let Some(lost) = self.monitor.poll::<D>()
-        {
+        if let Some(lost) = self.monitor().poll() {
             self.tell(objects, lost);
         }
     }
 
     /// A watched node was lost, or all are back.
-    #[cold]
     fn tell(&mut self, objects: &mut Objects<'_, D>, lost: bool) {
-        let notice = objects.profile().errors.lost;
+        let notice = objects.profile.errors.lost;
         let info = objects.application.error_info(&objects.store);
         if lost {
             objects.outbox.signals.raise(notice.error(info));
@@ -59,12 +55,11 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
 
     /// Errors set `bits` of 1001h, or Operational begins while they last: 1029h acts. The
     /// EMCYs that tell of them go out first.
-    #[cold]
     pub(super) fn react(&mut self, objects: &mut Objects<'_, D>, bits: u8, lost: bool) {
         if !D::BEHAVIOUR {
             return;
         }
-        let profile = &objects.profile().errors;
+        let profile = &objects.profile.errors;
         let operational = self.state == State::Operational;
         if self.state == State::Initialising || profile.operational_only && !operational {
             return;
@@ -77,7 +72,8 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
             gravest = gravest.max(asked(&objects.store, *sub, operational));
         }
         if gravest >= Behaviour::Stopped && self.sends_emcy() {
-            while let Some(frame) = self.emcy.poll::<D>(&objects.store, objects.now) {
+            let now = objects.now;
+            while let Some(frame) = self.emcy().poll::<D>(&objects.store, now) {
                 self.push(frame);
             }
         }
@@ -91,7 +87,8 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
 
     /// Operational begins while errors last.
     pub(super) fn react_to_lasting(&mut self, objects: &mut Objects<'_, D>) {
-        let (bits, lost) = (self.emcy.register(), self.monitor.is_lost());
+        let bits = self.emcy.register(self.rooms.all().errors);
+        let lost = self.was_lost;
         if bits != 0 || lost {
             self.react(objects, bits, lost);
         }
@@ -102,9 +99,9 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         let mut set = 0;
         while let Some(change) = objects.outbox.signals.errors.pop() {
             let send = self.state != State::Stopped && emcy::can_id(&objects.store).is_some();
-            let reset = objects.profile().errors.reset;
+            let reset = objects.profile.errors.reset;
             let outcome = self
-                .emcy
+                .emcy()
                 .change::<D>(&mut objects.store, change, reset, send);
             set |= outcome.set;
             if outcome.is_news {
@@ -125,7 +122,6 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
 }
 
 /// The reaction that a sub-index of 1029h requests.
-#[inline(never)]
 fn asked(store: &Store<'_>, sub: u8, operational: bool) -> Behaviour {
     match store.try_word(0x1029, sub) {
         None | Some(0) if operational => Behaviour::PreOperational,

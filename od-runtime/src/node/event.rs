@@ -3,7 +3,7 @@
 use od_model::Address;
 
 use crate::application::Reset;
-use crate::rooms::Blank;
+use crate::blank::Blank;
 use crate::storage::image::Loaded;
 use od_wire::NodeId;
 use od_wire::emcy::Emcy;

@@ -1,183 +1,179 @@
-//! Inputs of the node: frames, time, and changes outside the bus.
+//! Inputs of the node: frames, time, and changes from the side of the device.
 
+use od_model::Address;
 use od_wire::emcy::Emcy;
 use od_wire::nmt::{self, Command, State};
-use od_wire::{CanId, Frame, Instant};
+use od_wire::{AbortCode, CanId, Frame, Instant};
 
 use super::controller::Mute;
-use super::{Machines, Node, pending};
-use crate::application::Reset;
-use crate::device::{Device, ROOMY};
-use crate::emcy::PDO_LENGTH;
-use crate::extras::Extras;
-use crate::lent::Lent;
+use super::{Machines, Node};
+use crate::application::{Application, Reset};
+use crate::device::Device;
+use crate::emcy::{PDO_LENGTH, RPDO_TIMEOUT, SYNC_LENGTH};
+use crate::listening::Service;
 use crate::lss::{self, Action};
 use crate::objects::Objects;
 use crate::pdo::Received;
-use crate::rooms::Room;
+use crate::rooms::{Rooms, Slices};
+use crate::storage::Storage;
 
-/// The CAN-ID of NMT commands.
-const NMT: CanId = CanId::standard(0);
-
-impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, PDO, SDO, X> {
+impl<D: Device, A: Application, S: Storage> Node<D, A, S> {
     /// Handles a frame that was received.
-    #[inline]
-    pub fn handle_frame(&mut self, device: &mut Lent<'_>, now: Instant, frame: &Frame) {
-        let node = &mut self.machines;
-        let id = frame.id();
-        if ROOMY && id == node.ear.sdo {
-            node.now = node.now.max(now);
-            self.handle_request(device, frame);
-        } else if ROOMY && id == node.ear.sync {
-            node.now = node.now.max(now);
-            self.handle_count(device, frame);
-        } else if node.ear.hears(id) {
-            node.now = node.now.max(now);
-            self.receive(device, frame);
-        }
-    }
-
-    /// A frame that is for this node: what comes all day, or any other.
-    #[inline(never)]
-    fn receive(&mut self, device: &mut Lent<'_>, frame: &Frame) {
-        let ear = &self.machines.ear;
-        if !ROOMY && frame.id() == ear.sdo {
-            self.handle_request(device, frame);
-        } else if !ROOMY && frame.id() == ear.sync {
-            self.handle_count(device, frame);
-        } else {
-            self.handle_seldom(device, frame);
-        }
-    }
-
-    /// Any frame.
-    #[inline(never)]
-    pub(super) fn handle_seldom(&mut self, device: &mut Lent<'_>, frame: &Frame) {
-        let now = self.machines.now;
-        let mut open = self.open(device, now);
-        let Some((node, objects)) = &mut open else {
-            return;
-        };
-        if node.state == State::Initialising || node.mute.is_some() {
-            return node.handle_unconfigured(objects, frame);
-        }
-        let id = frame.id();
-        if id == NMT {
-            if !frame.is_remote() {
-                node.handle_nmt(objects, frame);
+    pub fn handle_frame(&mut self, now: Instant, frame: &Frame) {
+        match self.machines.service(frame) {
+            Some(service) => {
+                self.call(now, |node, objects| node.serve(objects, service, frame));
             }
-            return;
-        }
-        let is_error_control = Machines::<D, PDO, SDO, X>::HAS_MONITOR
-            && id.raw() & 0x780 == 0x700
-            && !id.is_extended();
-        if D::LSS && id == CanId::standard(od_wire::lss::MASTER) {
-            node.handle_lss(objects, frame);
-            return;
-        }
-        if node.state == State::Stopped && !is_error_control {
-            return;
-        }
-        if is_error_control {
-            node.handle_error_control(frame, objects.now);
-            node.poll_monitor(objects);
-        } else if frame.is_remote() {
-            node.handle_remote(objects, frame);
-        } else if id == node.node_id.plus(0x600) {
-            if D::SERVERS && node.refuses(objects, frame) {
-            } else {
-                node.ask(objects, frame.bytes(), frame.dlc());
+            // Most frames are for others. A value that changes by itself is looked at whenever one comes.
+            None if self.machines.watches_live => {
+                self.call(now, |node, objects| node.finish(objects));
             }
-        } else if D::SERVERS && node.handle_server(objects, frame) {
-        } else if D::TIME && node.time_id() == Some(id) {
-            node.handle_time(objects, frame);
-        } else if node.state != State::Operational {
-            return;
-        } else if Some(id) == node.sync_id {
-            node.handle_sync(objects, frame);
-        } else if D::RPDOS {
-            node.handle_rpdo(objects, frame);
+            None => self.machines.now = self.machines.now.max(now),
         }
-        node.finish(objects);
-        node.reset_if_due(objects);
     }
 
     /// Does what is due by now; the moment is that of [`poll_timeout`](Self::poll_timeout), or
     /// later.
-    #[inline]
-    pub fn handle_timeout(&mut self, device: &mut Lent<'_>, now: Instant) {
+    pub fn handle_timeout(&mut self, now: Instant) {
         let node = &mut self.machines;
-        node.now = node.now.max(now);
-        if node.now < node.next && !node.watches_live {
+        if now.max(node.now) < node.next && !node.watches_live {
+            node.now = node.now.max(now);
             return;
         }
-        if !(ROOMY && node.tick_pdos()) {
-            self.handle_due(device, now);
-        }
-    }
-
-    #[inline(never)]
-    fn handle_due(&mut self, device: &mut Lent<'_>, now: Instant) {
-        let mut open = self.open(device, now);
-        let Some((node, objects)) = &mut open else {
-            return;
-        };
-        let now = objects.now;
-        if Machines::<D, PDO, SDO, X>::BOOTS_LATE && node.boot_at.is_due(now) {
-            node.boot_up(objects);
-        }
-        if D::LSS && node.mute.is_some_and(|mute| mute.until <= now) {
-            node.end_mute(objects);
-        }
-        if node.heartbeat.handle_timeout(now) {
-            node.push_error_control(node.state as u8);
-        }
-        if (D::BLOCK || D::STREAMS)
-            && let Some(answer) = node.sdo.handle_timeout(objects)
-        {
-            node.answer(answer);
-        }
-        node.wake_servers(objects, false);
-        if Machines::<D, PDO, SDO, X>::HAS_MONITOR {
-            node.monitor.handle_timeout::<D>(now);
-            node.poll_monitor(objects);
-        }
-        if node.save_at.all().iter().any(|at| at.is_due(now)) {
-            node.end_save(objects);
-        }
-        if node.tick_at.is_due(now) {
-            node.tick(objects);
-        }
-        node.produce_sync(objects);
-        if node.state == State::Operational {
-            node.each_tpdo(|pdo| pdo.handle_timeout(objects));
-        }
-        node.finish(objects);
-        node.reset_if_due(objects);
-        node.find_next();
+        self.call(now, |node, objects| node.handle_due(objects));
     }
 
     /// Tells the application that the world outside the bus changed (shaft, faults, switches).
-    #[inline(never)]
-    pub fn handle_change(&mut self, device: &mut Lent<'_>, now: Instant) {
-        let mut open = self.open(device, now);
-        let Some((node, objects)) = &mut open else {
-            return;
-        };
-        if node.state == State::Initialising {
-            return;
-        }
-        node.tick(objects);
-        if let Some(answer) = node.sdo.handle_change(objects) {
-            node.answer(answer);
-        }
-        node.wake_servers(objects, true);
-        node.finish(objects);
+    pub fn handle_change(&mut self, now: Instant) {
+        self.call(now, |node, objects| {
+            if node.state == State::Initialising {
+                return;
+            }
+            node.tick(objects);
+            node.wake_servers(objects, true);
+            node.finish(objects);
+        });
+    }
+
+    /// Sets a value from the side of the device: as a master's download does, but for the access, so
+    /// that read-only objects change, too. Event-driven TPDOs follow.
+    ///
+    /// # Errors
+    /// Abort code of the download; `ReadOnly` for an object without a place for its value (const),
+    /// `DeviceState` without power and before the boot-up message.
+    pub fn set_value(
+        &mut self,
+        now: Instant,
+        address: Address,
+        bytes: &[u8],
+    ) -> Result<(), AbortCode> {
+        let result = self.call(now, |node, objects| {
+            if node.state == State::Initialising {
+                return Err(AbortCode::DeviceState);
+            }
+            objects.set(address, bytes)?;
+            node.finish(objects);
+            Ok(())
+        });
+        result.unwrap_or(Err(AbortCode::DeviceState))
+    }
+
+    /// Reports an error, as [`Signals::raise`](crate::Signals::raise) does. Returns `false` if it is
+    /// active already, and without power and before the boot-up message.
+    pub fn raise(&mut self, now: Instant, error: Emcy) -> bool {
+        self.change_error(now, error, true)
+    }
+
+    /// Reports the end of the error with this code and these bits of 1001h. Returns `false` if it is
+    /// not active.
+    pub fn clear(&mut self, now: Instant, error: Emcy) -> bool {
+        self.change_error(now, error, false)
+    }
+
+    fn change_error(&mut self, now: Instant, error: Emcy, comes: bool) -> bool {
+        let changed = self.call(now, |node, objects| {
+            if node.state == State::Initialising || node.emcy().is_active(error) == comes {
+                return false;
+            }
+            let Emcy {
+                code,
+                register,
+                info,
+            } = error;
+            if comes {
+                objects.outbox.signals.raise(error);
+            } else {
+                objects.outbox.signals.clear_one(code, register, info);
+            }
+            node.finish(objects);
+            true
+        });
+        changed == Some(true)
     }
 }
 
-impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<D, PDO, SDO, X> {
-    #[inline(never)]
+impl<D: Device> Machines<D> {
+    /// Passes a frame on to its service, where the NMT state has this service (CiA 301, table 37).
+    fn serve(&mut self, objects: &mut Objects<'_, D>, service: Service, frame: &Frame) {
+        // Before the boot-up message a node without a node ID knows LSS.
+        if self.state == State::Initialising || self.mute.is_some() {
+            if service == Service::Lss && self.is_unconfigured() {
+                self.handle_lss(objects, frame);
+            }
+            return;
+        }
+        let is_operational = self.state == State::Operational;
+        match service {
+            Service::Nmt => return self.handle_nmt(objects, frame),
+            Service::Lss => return self.handle_lss(objects, frame),
+            Service::Guarding => self.handle_guarding(objects),
+            Service::Heartbeat => self.handle_heartbeat(objects, frame),
+            _ if self.state == State::Stopped => return,
+            Service::Sdo(at) => self.handle_sdo(objects, at.into(), frame),
+            Service::Time => self.handle_time(objects, frame),
+            _ if !is_operational => return,
+            Service::Sync => self.handle_sync(objects, frame),
+            Service::Rpdo(number) => self.handle_rpdo(objects, number, frame),
+            Service::TpdoRequest(number) => self.handle_request(objects, number),
+        }
+        self.finish(objects);
+    }
+
+    /// Does what is due by now, each service in a fixed order.
+    fn handle_due(&mut self, objects: &mut Objects<'_, D>) {
+        let now = objects.now;
+        if self.boot_at.is_due(now) {
+            self.boot_up(objects);
+        }
+        if D::LSS && self.mute.is_some_and(|mute| mute.until <= now) {
+            self.end_mute();
+        }
+        if self.heartbeat.handle_timeout(now) {
+            self.push_error_control(self.state as u8);
+        }
+        self.wake_servers(objects, false);
+        if D::GUARDING || D::CONSUMER {
+            self.monitor().handle_timeout(now);
+            self.poll_monitor(objects);
+        }
+        if objects.save_due().is_due(now) {
+            self.end_save(objects);
+        }
+        if self.tick_at.is_due(now) {
+            self.tick(objects);
+        }
+        self.produce_sync(objects);
+        if self.state == State::Operational {
+            self.each_tpdo(|pdo, mapped| pdo.handle_timeout(objects, mapped));
+            if D::DEADLINES {
+                self.watch_rpdos(objects);
+            }
+        }
+        self.finish(objects);
+        self.next = self.timers(objects.save_due()).moment();
+    }
+
+    /// NMT command (CiA 301, chapter 7.2.8.2.1).
     fn handle_nmt(&mut self, objects: &mut Objects<'_, D>, frame: &Frame) {
         let Some(nmt::Repr { command, node }) = nmt::Repr::parse(frame.data()) else {
             return;
@@ -185,50 +181,42 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         if node != 0 && node != self.node_id.raw() {
             return;
         }
-        let state = match command {
-            Command::Start => State::Operational,
-            Command::Stop => State::Stopped,
-            Command::EnterPreOperational => State::PreOperational,
+        match command {
+            Command::Start => {
+                self.enter(objects, State::Operational);
+                self.react_to_lasting(objects);
+            }
+            Command::Stop => self.enter(objects, State::Stopped),
+            Command::EnterPreOperational => self.enter(objects, State::PreOperational),
             Command::ResetNode => return self.reset(objects, Reset::Node),
             Command::ResetCommunication => return self.reset(objects, Reset::Communication),
-        };
-        self.enter(objects, state);
-        if state == State::Operational {
-            self.react_to_lasting(objects);
         }
         self.finish(objects);
-        self.reset_if_due(objects);
     }
 
-    /// A frame before the boot-up message: a node without a node ID knows LSS only.
-    #[cold]
-    fn handle_unconfigured(&mut self, objects: &mut Objects<'_, D>, frame: &Frame) {
-        if D::LSS && self.is_unconfigured() && frame.id() == CanId::standard(od_wire::lss::MASTER) {
-            self.handle_lss(objects, frame);
-        }
-    }
-
-    /// 7E5h: LSS, where the device has it and the state allows it.
-    #[cold]
+    /// LSS (CiA 305), where the device has it and the state allows it.
     fn handle_lss(&mut self, objects: &mut Objects<'_, D>, frame: &Frame) {
-        let Some(profile) = objects.profile().lss else {
+        let Some(profile) = objects.profile.lss.as_ref().filter(|_| D::LSS) else {
             return;
         };
-        if frame.is_remote() || profile.stopped_only && self.state != State::Stopped {
+        if profile.stopped_only && self.state != State::Stopped {
             return;
         }
-        let active = match self.unconfigured {
-            true => lss::UNCONFIGURED,
-            false => self.node_id.raw(),
+        let active = if self.unconfigured {
+            lss::UNCONFIGURED
+        } else {
+            self.node_id.raw()
         };
-        let Some(slave) = self.lss.all_mut().first_mut() else {
+        let Some(slave) = self.rooms.all_mut().lss.first_mut() else {
             return;
         };
-        match slave.handle(objects, &profile, active, frame.data()) {
+        let action = slave.handle(objects, profile, active, frame.data());
+        let is_ready = slave.is_ready();
+        match action {
             Action::Answer(None) => {}
-            Action::Answer(Some(answer)) => {
+            Action::Answer(Some(response)) => {
                 let id = CanId::standard(od_wire::lss::SLAVE);
-                self.push(Frame::full(id, answer.emit()));
+                self.push(Frame::full(id, response.emit()));
             }
             Action::Activate { delay_ms, bit_rate } => {
                 let silence_ms = if profile.second_delay { delay_ms } else { 0 };
@@ -237,95 +225,130 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
                     bit_rate: u16::from(bit_rate) + 1,
                     silence_ms,
                 });
-                self.listen(objects);
             }
         }
         self.finish(objects);
-        if self.unconfigured && self.lss.all().iter().any(lss::Slave::is_ready) {
+        if self.unconfigured && is_ready {
             self.reset(objects, Reset::Communication);
         }
     }
 
-    /// 701h–77Fh: a master guards this node, or another node is alive.
-    #[inline(never)]
-    fn handle_error_control(&mut self, frame: &Frame, now: Instant) {
+    /// A master guards this node (CiA 301, chapter 7.2.8.3.2).
+    fn handle_guarding(&mut self, objects: &mut Objects<'_, D>) {
+        let (state, now) = (self.state, objects.now);
+        if let Some(response) = self.monitor().guard(state, now) {
+            self.push_error_control(response);
+        }
+        self.poll_monitor(objects);
+    }
+
+    /// Heartbeat or boot-up message of a node that is watched (CiA 301, chapter 7.2.8.3.1).
+    fn handle_heartbeat(&mut self, objects: &mut Objects<'_, D>, frame: &Frame) {
         let node = (frame.id().raw() & 0x7F) as u8;
-        if !frame.is_remote() {
-            if D::CONSUMER {
-                self.monitor.heartbeat(node, now);
-            }
-        } else if D::GUARDING
-            && node == self.node_id.raw()
-            && let Some(answer) = self.monitor.guard(self.state, now)
+        self.monitor().heartbeat(node, objects.now);
+        self.poll_monitor(objects);
+    }
+
+    /// A remote frame requests a TPDO (CiA 301, chapter 7.2.2.5.2).
+    fn handle_request(&mut self, objects: &mut Objects<'_, D>, number: u16) {
+        let rooms = self.rooms.all_mut();
+        if let Some(pdo) = rooms.tpdos.get_mut(usize::from(number))
+            && let Some(frame) = pdo.request(objects, rooms.mapped)
         {
-            self.push_error_control(answer);
+            rooms.frames.push(frame);
         }
     }
 
-    /// The error behaviour requested NMT reset node.
-    #[inline]
-    pub(super) fn reset_if_due(&mut self, objects: &mut Objects<'_, D>) {
-        if D::BEHAVIOUR && self.reset_due {
-            self.reset(objects, Reset::Node);
-        }
-    }
-
-    #[inline(never)]
-    fn handle_remote(&mut self, objects: &mut Objects<'_, D>, frame: &Frame) {
-        if self.state != State::Operational {
-            return;
-        }
-        let count = self.tpdo_count();
-        let pdos = self.tpdo.get_mut(..count).unwrap_or_default();
-        for pdo in pdos.iter_mut().filter(|pdo| pdo.answers(frame.id())) {
-            if let Some(answer) = pdo.request(objects) {
-                Room::queue_mut(&mut self.out).push(answer);
-            }
-            self.pending |= if pdo.is_pending() { pending::PDO } else { 0 };
-        }
-    }
-
-    /// SYNC: with a counter of one byte or without.
-    #[inline(never)]
+    /// SYNC: with a counter of one byte or without (CiA 301, chapter 7.2.5; table 26, code 8240h).
     fn handle_sync(&mut self, objects: &mut Objects<'_, D>, frame: &Frame) {
-        let counter = match frame.data() {
-            [] => None,
-            [counter] => Some(*counter),
-            _ => return,
-        };
-        self.sync(objects, counter);
+        if D::SYNC_LENGTH && objects.profile.errors.watches_sync_length {
+            if self.sync_length.is_right(frame.data().len()) {
+                self.end_error(objects, SYNC_LENGTH);
+            } else {
+                objects
+                    .outbox
+                    .signals
+                    .raise(communication_error(SYNC_LENGTH));
+            }
+        }
+        match frame.data() {
+            [] => self.sync(objects, None),
+            [counter] => self.sync(objects, Some(*counter)),
+            _ => {}
+        }
     }
 
     /// A SYNC, of another node or of this one.
-    #[inline]
     pub(super) fn sync(&mut self, objects: &mut Objects<'_, D>, counter: Option<u8>) {
-        if D::RPDOS {
-            for pdo in self.rpdos_mut() {
-                pdo.sync(objects);
-            }
+        let Slices {
+            tpdos,
+            rpdos,
+            mapped,
+            ..
+        } = self.rooms.all_mut();
+        for pdo in rpdos {
+            pdo.sync(objects, mapped);
         }
-        self.each_tpdo(|pdo| pdo.sync(objects, counter));
-        self.expect_sync();
+        for pdo in tpdos {
+            pdo.sync(objects, mapped, counter);
+        }
     }
 
-    #[inline(never)]
-    fn handle_rpdo(&mut self, objects: &mut Objects<'_, D>, frame: &Frame) {
-        for pdo in self
-            .rpdos_mut()
-            .iter_mut()
-            .filter(|pdo| pdo.takes(frame.id()))
-        {
-            match pdo.receive(objects, frame) {
-                Received::Taken => objects.outbox.signals.clear(PDO_LENGTH, [0; 5]),
-                Received::TooShort => {
-                    objects.outbox.signals.raise(Emcy {
-                        code: PDO_LENGTH,
-                        register: 0x11,
-                        info: [0; 5],
-                    });
-                }
+    /// The frame of an RPDO, and of those behind it that have the same CAN-ID (CiA 301, chapter 7.2.2.4).
+    fn handle_rpdo(&mut self, objects: &mut Objects<'_, D>, first: u16, frame: &Frame) {
+        for at in usize::from(first).. {
+            let rooms = self.rooms.all_mut();
+            let Some(pdo) = rooms.rpdos.get_mut(at) else {
+                break;
+            };
+            if pdo.received_by() != Some(frame.id()) {
+                continue;
+            }
+            match pdo.receive(objects, rooms.mapped, frame) {
+                Received::Taken => self.end_error(objects, PDO_LENGTH),
+                Received::TooShort => objects
+                    .outbox
+                    .signals
+                    .raise(communication_error(PDO_LENGTH)),
             }
         }
-        self.expect_sync();
+        // The error is over when all RPDOs that were late have come again.
+        if D::DEADLINES && !self.rooms.all().rpdos.iter().any(|pdo| pdo.is_late()) {
+            self.end_error(objects, RPDO_TIMEOUT);
+        }
+    }
+
+    /// RPDOs whose next frame is late (CiA 301, object 1400h, sub-index 5; table 26, code 8250h).
+    fn watch_rpdos(&mut self, objects: &mut Objects<'_, D>) {
+        for pdo in self.rooms.all_mut().rpdos {
+            if pdo.handle_timeout(objects.now) {
+                objects
+                    .outbox
+                    .signals
+                    .raise(communication_error(RPDO_TIMEOUT));
+            }
+        }
+    }
+
+    /// An error of the communication is over, if it was active.
+    fn end_error(&self, objects: &mut Objects<'_, D>, code: u16) {
+        if self
+            .rooms
+            .all()
+            .errors
+            .iter()
+            .any(|error| error.code == code)
+        {
+            objects.outbox.signals.clear(code, [0; 5]);
+        }
+    }
+}
+
+/// An error of the communication: bits 0 and 4 of 1001h.
+const fn communication_error(code: u16) -> Emcy {
+    Emcy {
+        code,
+        register: 0x11,
+        info: [0; 5],
     }
 }

@@ -7,73 +7,72 @@
 //! ```
 //! Drain `poll_transmit` after every input, then sleep until `poll_timeout` or the next
 //! frame. Everything is a function of the inputs and their order; nothing else.
+//!
+//! - [`input`]: a frame, a moment, a change from the side of the device, and the service that handles it.
+//! - [`output`]: frames, the next deadline, events.
+//! - [`listening`]: the table of the CAN-IDs that the node listens to.
+//! - [`boot`]: power-on, resets, and the configuration of all services.
+//! - [`effects`]: what a call leaves for its end.
+//! - `servers`, `clocks`, `bus`, `errors`: SDO, SYNC and TIME, the CAN controller, error behaviour.
 
 mod boot;
 mod bus;
 mod clocks;
 mod controller;
-mod ear;
 mod effects;
 mod errors;
-mod event;
-mod fits;
+pub(crate) mod event;
 mod input;
-mod listen;
+mod listening;
 mod output;
-mod own;
-mod pending;
-mod quick;
 mod servers;
-mod ticks;
-mod wanted;
 
+use core::fmt;
+
+use od_model::typed::{DeviceWritable, Scalar, Var};
 use od_wire::nmt::State;
 use od_wire::{CanId, Frame, Instant, NodeId};
 
-use crate::change::Change;
+use crate::application::{Application, NoApplication};
 use crate::deadline::Deadline;
-use crate::device::{AnyDevice, Device};
-use crate::extras::Extras;
-use crate::fifo::Fifo;
-use crate::lent::Lent;
+use crate::device::Device;
 use crate::objects::Objects;
-use crate::objects::command::Saving;
-use crate::objects::outbox::Outbox;
-use crate::rooms::{Room, Rooms};
-use crate::{emcy, error_control, lss, pdo, sdo};
+use crate::rooms::{Lent, Rooms, Values};
+use crate::services::assert_served;
+use crate::storage::{NoStorage, Storage};
+use crate::store::Store;
+use crate::{emcy, error_control, pdo, sync};
 
 pub use controller::BusEvent;
 pub use event::Event;
-pub use fits::Unfit;
 
-/// A CANopen slave.
+/// A CANopen node: a device with its values, its behaviour and its memory.
 ///
-/// `PDO` is the number of TPDOs and of RPDOs that it can have, `SDO` the bytes of the transfer
-/// buffer: the longest value that a segmented or block transfer can carry, or the longest part of a
-/// streamed one ([`Application::stream`](crate::Application::stream)). `D` says what the
-/// compiler knows of the device: with `object_dictionary!` the type `Node` of its module has the
-/// sizes of the dictionary, and other sizes do not compile unless they fit. `X` is the room for
-/// services that few devices have ([`Extras`]).
+/// `D` is the device: its object dictionary, its family and the services that it has. `object_dictionary!` makes
+/// it for each module. `A` is the behaviour ([`Application`]), `S` the non-volatile memory ([`Storage`]) for
+/// the values saved with 1010h.
 ///
-/// The node has no lifetime: each call borrows the device as a [`Lent`].
-#[derive(Clone, Debug)]
-#[repr(C)]
-pub struct Node<D = AnyDevice, const PDO: usize = 4, const SDO: usize = 128, X: Extras<D, SDO> = ()>
-{
-    machines: Machines<D, PDO, SDO, X>,
-    /// [`Objects`] holds both while a call has the device, so they are not among the machines.
-    outbox: Outbox<<X::Rooms as Rooms>::Changes<Change>>,
-    saves: <X::Rooms as Rooms>::Saves<Saving>,
+/// A node has no clock and does no I/O. Call [`handle_frame`](Self::handle_frame),
+/// [`handle_timeout`](Self::handle_timeout) and [`change`](Self::change) with the present moment; after each,
+/// call [`poll_transmit`](Self::poll_transmit) until it returns no frame, then wait for the next frame or for
+/// [`poll_timeout`](Self::poll_timeout), whichever is first. The [crate's page](crate) shows the loop.
+pub struct Node<D: Device, A = NoApplication, S = NoStorage> {
+    machines: Machines<D>,
+    values: D::Values,
+    device: D,
+    /// Behaviour of the device. After a change call [`handle_change`](Self::handle_change), or use
+    /// [`change`](Self::change).
+    pub application: A,
+    /// Memory for the values saved with 1010h.
+    pub storage: S,
 }
 
-/// The state of the node: NMT, queues, and one machine for each service.
-#[derive(Clone, Debug)]
-#[repr(C)] // What is small and used everywhere comes first: a Cortex-M reaches it by short instructions.
-struct Machines<D, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> {
+/// The state of the node: NMT, deadlines, and what each service remembers.
+struct Machines<D: Device> {
     state: State,
     powered: bool,
-    /// Kinds of frames that may wait to be sent, in the bits of [`pending`].
-    pending: u8,
+    /// Nothing waits to be sent.
+    idle: bool,
     node_id: NodeId,
     /// The node ID is FFh (CiA 305), and only LSS works. Not `configured`: a node without power is
     /// all zeros, so that a static one takes no flash.
@@ -82,24 +81,24 @@ struct Machines<D, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> {
     reset_due: bool,
     /// Heartbeat or guarding failed in this call, and 1029h:01 has not acted on it yet.
     lost: bool,
-    /// There is a TPDO that is sent when a mapped value changes.
+    /// Result of the last look at the watched nodes.
+    was_lost: bool,
+    /// A TPDO is sent when a mapped value changes.
     watches_changes: bool,
-    /// Such a value may change without a word to the node.
+    /// Such a value may change without notifying the node.
     watches_live: bool,
     /// The CAN-IDs that the node listens to may be others than those that the host knows.
     wanted_changed: bool,
-    /// CAN-IDs of SYNC, EMCY and TIME that were refused.
+    /// CAN-IDs of SYNC, EMCY and TIME that were refused, as bits.
     refused: u8,
+    /// Number of CAN-IDs that the node listens to.
+    listeners: u16,
     /// Last report of the CAN controller, except overruns.
     bus: BusEvent,
     /// Node ID of the first start, where the image keeps it ([`LssProfile::is_own`](crate::LssProfile::is_own)).
     made_with: NodeId,
     /// It was made without a node ID.
     made_unconfigured: bool,
-    quick: ear::Quick,
-    tpdo_count: u16,
-    rpdo_count: u16,
-    ear: ear::Ear,
     now: Instant,
     /// The first of all deadlines but those of frames that wait; [`Instant::ZERO`]: not known, and
     /// [`Instant::MAX`]: never.
@@ -107,44 +106,45 @@ struct Machines<D, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> {
     /// Boot-up is due then; only while initialising.
     boot_at: Deadline,
     tick_at: Deadline,
-    /// A save is complete then.
-    save_at: <X::Rooms as Rooms>::Saves<Deadline>,
     heartbeat: error_control::Producer,
     /// Nothing is sent or received: LSS activates a bit rate, or the CAN controller is bus-off.
     mute: Option<controller::Mute>,
     /// `None`: 1005h has a CAN-ID that no service may have.
     sync_id: Option<CanId>,
-    /// The frame before those of `out`, if it is an SDO response: its data as words. Most
-    /// frames are, and this way they do not go through memory in pieces.
-    answer: [u32; 2],
-    sdo: sdo::Server<D, SDO, X::Rooms>,
-    emcy: emcy::Producer<X::Rooms>,
-    monitor: error_control::Monitor<X::Rooms>,
-    lss: <X::Rooms as Rooms>::Lss<lss::Slave>,
-    out: Fifo<<X::Rooms as Rooms>::Frames<Frame>>,
-    events: Fifo<<X::Rooms as Rooms>::Events<Event>>,
-    tpdo: [pdo::Tpdo<X::Rooms>; PDO],
-    rpdo: <X::Rooms as Rooms>::Rpdos<pdo::Rpdo<X::Rooms>, PDO>,
-    extras: X,
+    sync_length: sync::Length,
+    emcy: emcy::State,
+    rooms: D::Rooms,
 }
 
-impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, PDO, SDO, X> {
+impl<D: Device, A, S> Node<D, A, S> {
     /// A node without power. It starts with this node ID, unless the application or the saved
     /// values set another.
     ///
-    /// Does not compile where [`fits`](Self::fits) refuses the dictionary of `D`.
-    pub const fn new(node_id: NodeId) -> Self {
-        Self::with_extras(node_id, X::NEW)
+    /// Does not compile where the dictionary of `D` has objects of a service that the device switched off.
+    pub const fn new(device: D, node_id: NodeId, application: A, storage: S) -> Self {
+        const { assert_served::<D>() };
+        Self {
+            machines: Machines::new(node_id),
+            values: D::Values::NEW,
+            device,
+            application,
+            storage,
+        }
     }
 
-    /// As [`new`](Self::new), with room for services that was made at run time.
-    pub const fn with_extras(node_id: NodeId, extras: X) -> Self {
-        const { Self::assert_fits() };
-        Self {
-            outbox: Outbox::new(Room::BLANK),
-            saves: Room::BLANK,
-            machines: Machines::new(node_id, extras),
-        }
+    /// Device, application and storage; the node ends.
+    pub fn into_parts(self) -> (D, A, S) {
+        (self.device, self.application, self.storage)
+    }
+
+    /// The device.
+    pub const fn device(&self) -> &D {
+        &self.device
+    }
+
+    /// The device, to change what is known at run time only. Do it without power.
+    pub const fn device_mut(&mut self) -> &mut D {
+        &mut self.device
     }
 
     /// The NMT state.
@@ -152,7 +152,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
         self.machines.state
     }
 
-    /// Whether the node has power.
+    /// Returns whether the node has power.
     pub const fn is_powered(&self) -> bool {
         self.machines.powered
     }
@@ -176,46 +176,148 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
         }
     }
 
-    /// Whether the node has a node ID; without one it does nothing but LSS.
+    /// Returns whether the node has a node ID; without one it does nothing but LSS.
     pub const fn is_configured(&self) -> bool {
         !self.machines.unconfigured
     }
 
-    /// Whether the CAN controller is bus-off, as far as [`handle_bus`](Self::handle_bus)
+    /// Returns whether the CAN controller is bus-off, as far as [`handle_bus`](Self::handle_bus)
     /// reported it. Until it ends the node neither sends nor receives.
     pub const fn is_bus_off(&self) -> bool {
         self.machines.is_bus_off()
     }
 
-    /// The top of every call: the device taken apart, and the machines that work on it; `None`
-    /// without power.
-    ///
-    /// Time does not run backwards here, whatever the host's clock says.
-    #[inline(never)]
-    fn open<'c>(
-        &'c mut self,
-        device: &'c mut Lent<'_>,
-        now: Instant,
-    ) -> Option<(&'c mut Machines<D, PDO, SDO, X>, Objects<'c, D>)> {
-        let machines = &mut self.machines;
-        if !machines.powered {
-            return None;
-        }
-        machines.pend_marks();
-        machines.now = machines.now.max(now);
-        machines.next = Instant::ZERO;
-        machines.pending |= pending::OTHER;
-        let (outbox, saving) = (
-            Room::outbox(&mut self.outbox),
-            self.saves.all_mut().first_mut(),
-        );
-        let objects = device.objects(machines.node_id, machines.now, outbox, saving)?;
-        Some((machines, objects))
+    /// The current values, as [`Store`] lays them out.
+    pub fn values(&self) -> &[u8] {
+        self.values.bytes()
+    }
+
+    /// Calls `act` with the application and the values; nothing is sent for what it changes
+    /// ([`change`](Self::change) does that).
+    pub fn look<R>(&mut self, act: impl FnOnce(&mut A, &mut Store<'_>) -> R) -> R {
+        let local;
+        let dictionary = match &D::DICTIONARY {
+            Some(dictionary) => dictionary,
+            None => {
+                local = self.device.dictionary();
+                &local
+            }
+        };
+        let Lent { bytes, .. } = self.values.lend();
+        let mut store = Store::over(dictionary, bytes, self.machines.node_id);
+        act(&mut self.application, &mut store)
+    }
+
+    /// The value of a handle.
+    pub fn get<T: Scalar, B, M>(&mut self, var: Var<T, B, M>) -> T {
+        self.look(|_, store| store.get(var))
     }
 }
 
-impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<D, PDO, SDO, X> {
-    const fn new(node_id: NodeId, extras: X) -> Self {
+impl<D: Device, A: Application, S: Storage> Node<D, A, S> {
+    /// Changes the application or values from the side of the device; event-driven TPDOs of what
+    /// changed follow at once.
+    pub fn change<R>(&mut self, now: Instant, act: impl FnOnce(&mut A, &mut Store<'_>) -> R) -> R {
+        let result = self.look(act);
+        self.handle_change(now);
+        result
+    }
+
+    /// Sets the value of a handle, as [`change`](Self::change) does.
+    pub fn set<T: Scalar, B: DeviceWritable, M>(
+        &mut self,
+        now: Instant,
+        var: Var<T, B, M>,
+        value: T,
+    ) {
+        self.change(now, |_, store| store.set(var, value));
+    }
+
+    /// The top of every call: the machines of the services, and the objects that they work on. `None` without
+    /// power.
+    ///
+    /// Time does not run backwards here, whatever the host's clock says.
+    fn call<R>(
+        &mut self,
+        now: Instant,
+        act: impl FnOnce(&mut Machines<D>, &mut Objects<'_, D>) -> R,
+    ) -> Option<R> {
+        let Self {
+            machines,
+            values,
+            device,
+            application,
+            storage,
+        } = self;
+        if !machines.powered {
+            return None;
+        }
+        machines.now = machines.now.max(now);
+        machines.next = Instant::ZERO;
+        machines.idle = false;
+        let local;
+        let dictionary = match &D::DICTIONARY {
+            Some(dictionary) => dictionary,
+            None => {
+                local = device.dictionary();
+                &local
+            }
+        };
+        let Lent {
+            bytes,
+            outbox,
+            saving,
+        } = values.lend();
+        let mut objects = Objects {
+            device: core::marker::PhantomData,
+            store: Store::over(dictionary, bytes, machines.node_id),
+            application,
+            storage,
+            profile: device.profile(),
+            now: machines.now,
+            outbox,
+            saving,
+        };
+        Some(act(machines, &mut objects))
+    }
+}
+
+impl<D: Device + Clone, A: Clone, S: Clone> Clone for Node<D, A, S>
+where
+    D::Values: Clone,
+    D::Rooms: Clone,
+{
+    fn clone(&self) -> Self {
+        let machines = &self.machines;
+        Self {
+            machines: Machines {
+                heartbeat: machines.heartbeat,
+                mute: machines.mute,
+                emcy: machines.emcy.clone(),
+                rooms: machines.rooms.clone(),
+                ..*machines
+            },
+            values: self.values.clone(),
+            device: self.device.clone(),
+            application: self.application.clone(),
+            storage: self.storage.clone(),
+        }
+    }
+}
+
+impl<D: Device, A: fmt::Debug, S: fmt::Debug> fmt::Debug for Node<D, A, S> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Node")
+            .field("node_id", &self.machines.node_id)
+            .field("state", &self.machines.state)
+            .field("application", &self.application)
+            .field("storage", &self.storage)
+            .finish_non_exhaustive()
+    }
+}
+
+impl<D: Device> Machines<D> {
+    const fn new(node_id: NodeId) -> Self {
         Self {
             node_id,
             made_with: node_id,
@@ -223,117 +325,64 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
             unconfigured: false,
             state: State::Initialising,
             powered: false,
+            idle: false,
             now: Instant::ZERO,
             boot_at: Deadline::NEVER,
             tick_at: Deadline::NEVER,
             next: Instant::ZERO,
             sync_id: None,
-            ear: ear::Ear::DEAF,
-            out: Fifo::new(Room::BLANK),
-            answer: [0; 2],
-            pending: 0,
-            events: Fifo::new(Room::BLANK),
-            sdo: sdo::Server::idle(),
+            sync_length: sync::Length::Any,
+            listeners: 0,
             heartbeat: error_control::Producer::new(),
-            monitor: error_control::Monitor::new(),
-            lss: Room::BLANK,
             mute: None,
             bus: BusEvent::Active,
             reset_due: false,
             lost: false,
-            save_at: Room::BLANK,
-            emcy: emcy::Producer::new(),
-            tpdo: [const { pdo::Tpdo::NONE }; PDO],
-            tpdo_count: 0,
-            rpdo: Room::BLANK,
-            rpdo_count: 0,
-            quick: ear::Quick::NONE,
+            was_lost: false,
+            emcy: emcy::State::NEW,
             watches_changes: false,
             watches_live: false,
             wanted_changed: false,
             refused: 0,
-            extras,
+            rooms: D::Rooms::NEW,
         }
     }
-
-    /// RPDOs that there is room for.
-    const RPDOS: usize =
-        <<X::Rooms as Rooms>::Rpdos<pdo::Rpdo<X::Rooms>, PDO> as Room<pdo::Rpdo<X::Rooms>>>::LEN;
-
-    /// Initialisation may take its time.
-    const BOOTS_LATE: bool = match D::PROFILE {
-        Some(profile) => profile.nmt.reset_node_us > 0 || profile.nmt.reset_communication_us > 0,
-        None => true,
-    };
-
-    /// The node watches others: a master that guards, or a node that sends heartbeats.
-    const HAS_MONITOR: bool = D::GUARDING || D::CONSUMER;
 
     /// Queues a frame, if there is room.
     fn push(&mut self, frame: Frame) -> bool {
-        Room::queue_mut(&mut self.out).push(frame)
+        self.rooms.all_mut().frames.push(frame)
     }
 
     /// Something for the host to know.
-    #[inline]
     fn event(&mut self, event: Event) {
         if D::EVENTS {
-            Room::queue_mut(&mut self.events).push(event);
+            self.rooms.all_mut().events.push(event);
         }
     }
 
-    /// It has started, and waits for LSS to give it a node ID.
+    /// Returns whether the node has started, and waits for LSS to give it a node ID.
     fn is_unconfigured(&self) -> bool {
         self.unconfigured && !self.boot_at.is_set() && self.mute.is_none()
     }
 
-    /// The numbers of TPDOs and RPDOs, as far as the compiler knows them.
-    const PDOS: Option<[usize; 2]> = match &D::DICTIONARY {
-        Some(dictionary) if dictionary.tpdos() <= PDO && dictionary.rpdos() <= Self::RPDOS => {
-            Some([dictionary.tpdos(), dictionary.rpdos()])
-        }
-        _ => None,
-    };
-
-    #[inline(always)]
-    fn tpdo_count(&self) -> usize {
-        match Self::PDOS {
-            Some([tpdos, _]) => tpdos,
-            None => self.tpdo_count.into(),
+    /// The emergency producer.
+    fn emcy(&mut self) -> emcy::Producer<'_> {
+        let rooms = self.rooms.all_mut();
+        emcy::Producer {
+            active: rooms.errors,
+            waiting: rooms.messages,
+            state: &mut self.emcy,
         }
     }
 
-    #[inline(always)]
-    fn rpdo_count(&self) -> usize {
-        match Self::PDOS {
-            Some([_, rpdos]) => rpdos,
-            None => self.rpdo_count.into(),
+    /// The monitor of other nodes.
+    fn monitor(&mut self) -> error_control::Monitor<'_> {
+        let rooms = self.rooms.all_mut();
+        error_control::Monitor {
+            guards: rooms.guards,
+            watches: rooms.watches,
+            lost: &mut self.was_lost,
         }
-    }
-
-    /// The TPDOs that the dictionary has.
-    #[inline(always)]
-    fn tpdos(&self) -> &[pdo::Tpdo<X::Rooms>] {
-        self.tpdo.get(..self.tpdo_count()).unwrap_or_default()
-    }
-
-    /// The RPDOs that the dictionary has.
-    #[inline(always)]
-    fn rpdos(&self) -> &[pdo::Rpdo<X::Rooms>] {
-        let rpdos = self.rpdo.all();
-        rpdos.get(..self.rpdo_count()).unwrap_or_default()
-    }
-
-    #[inline]
-    fn tpdos_mut(&mut self) -> &mut [pdo::Tpdo<X::Rooms>] {
-        let count = self.tpdo_count();
-        self.tpdo.get_mut(..count).unwrap_or_default()
-    }
-
-    #[inline]
-    fn rpdos_mut(&mut self) -> &mut [pdo::Rpdo<X::Rooms>] {
-        let count = self.rpdo_count();
-        self.rpdo.all_mut().get_mut(..count).unwrap_or_default()
     }
 
     fn enter(&mut self, objects: &mut Objects<'_, D>, state: State) {
@@ -341,8 +390,12 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
             return;
         }
         // Its LSS hears nothing outside Stopped, so it is in configuration there alone.
-        if D::LSS && objects.profile().lss.is_some_and(|lss| lss.stopped_only) {
-            self.lss.all_mut().iter_mut().for_each(lss::Slave::leave);
+        if D::LSS && objects.profile.lss.is_some_and(|lss| lss.stopped_only) {
+            self.rooms
+                .all_mut()
+                .lss
+                .iter_mut()
+                .for_each(|lss| lss.leave());
         }
         self.state = state;
         self.event(Event::State(state));
@@ -356,45 +409,26 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         if state == State::Stopped {
             self.cut_transfers(objects);
         }
-        self.listen(objects);
     }
 
     fn start_pdos(&mut self, objects: &mut Objects<'_, D>) {
-        self.each_tpdo(|pdo| {
-            pdo.start(objects);
+        self.each_tpdo(|pdo, mapped| {
+            pdo.start(objects, mapped);
             pdo.announce(objects);
         });
     }
 
-    #[inline(never)]
     fn stop_pdos(&mut self) {
-        for pdo in self.tpdos_mut() {
-            pdo.stop();
-        }
-        if D::RPDOS {
-            for pdo in self.rpdos_mut() {
-                pdo.stop();
-            }
-        }
-        self.pending &= !(pending::PDO | pending::MARKS);
+        let rooms = self.rooms.all_mut();
+        rooms.tpdos.iter_mut().for_each(|pdo| pdo.stop());
+        rooms.rpdos.iter_mut().for_each(|pdo| pdo.stop());
     }
 
-    /// Does something with each TPDO, after which it may be waiting to be sent.
-    #[inline]
-    fn each_tpdo(&mut self, mut act: impl FnMut(&mut pdo::Tpdo<X::Rooms>)) {
-        let mut pending = false;
-        for pdo in self.tpdos_mut() {
-            act(pdo);
-            pending |= pdo.is_pending();
-        }
-        self.pend_pdo(pending);
-    }
-
-    /// A TPDO may be waiting to be sent.
-    #[inline(always)]
-    fn pend_pdo(&mut self, pending: bool) {
-        if pending {
-            self.pending |= pending::PDO;
+    /// Does something with each TPDO, and the array of all mapping entries.
+    fn each_tpdo(&mut self, mut act: impl FnMut(&mut pdo::Tpdo, &[pdo::Mapped])) {
+        let rooms = self.rooms.all_mut();
+        for pdo in rooms.tpdos {
+            act(pdo, rooms.mapped);
         }
     }
 }

@@ -1,36 +1,60 @@
-//! The SDO servers past the default one (1201h to 127Fh; CiA 301, chapter 7.5.2.33).
+//! The SDO servers: the default one, and those of 1201h to 127Fh (CiA 301, chapters 7.2.4 and 7.5.2.33).
 
 use od_wire::sdo::address;
 use od_wire::{AbortCode, Frame};
 
 use super::{Event, Machines};
-use crate::deadline::Deadline;
 use crate::device::Device;
-use crate::extras::Extras;
 use crate::objects::Objects;
+use crate::rooms::{Rooms, Slices};
+use crate::sdo::Server;
 
-/// The first object of a further server.
-const FIRST: u16 = 0x1201;
+/// The object of the second server.
+const FURTHER: u16 = 0x1201;
 
-impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<D, PDO, SDO, X> {
+/// Abort code for a value that another server streams.
+const TAKEN: AbortCode = AbortCode::DeviceState;
+
+impl<D: Device> Machines<D> {
+    /// The server at a position, with its buffer.
+    fn server(&mut self, at: usize) -> Option<Server<'_, D>> {
+        let Slices {
+            servers, buffers, ..
+        } = self.rooms.all_mut();
+        let room = buffers.len().checked_div(servers.len())?;
+        let buffer = buffers.get_mut(at * room..(at + 1) * room)?;
+        Some(Server::new(servers.get_mut(at)?, buffer))
+    }
+
+    fn server_count(&self) -> usize {
+        if D::SERVERS {
+            self.rooms.all().servers.len()
+        } else {
+            1
+        }
+    }
+
     /// Reads the COB-IDs again; a server that has another channel forgets its transfer.
     pub(super) fn configure_servers(&mut self, objects: &mut Objects<'_, D>) {
-        if !D::SERVERS {
-            return;
+        let node_id = self.node_id;
+        if let Some(server) = self.rooms.all_mut().servers.first_mut() {
+            server.configure_default(node_id);
         }
         let others = Self::senders(objects);
-        for at in 0..self.extras.servers().len() {
-            let servers = self.extras.servers_mut();
-            let Some((before, [one, ..])) = servers.split_at_mut_checked(at) else {
+        for at in 1..self.server_count() {
+            let Some((before, [one, ..])) = self.rooms.all_mut().servers.split_at_mut_checked(at)
+            else {
                 break;
             };
             let is_taken = |id| {
                 others.contains(&Some(id)) || before.iter().any(|one| one.sent_by() == Some(id))
             };
-            let index = FIRST + at as u16;
+            let index = FURTHER + at as u16 - 1;
             let configured = one.configure(&objects.store, index, &is_taken);
-            if configured.has_changed {
-                one.server.cut(objects);
+            if configured.has_changed
+                && let Some(mut server) = self.server(at)
+            {
+                server.cut(objects);
             }
             if configured.is_refused {
                 self.event(Event::CobIdRefused(index));
@@ -39,7 +63,6 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
     }
 
     /// COB-IDs that were assigned dynamically (bit 30) are not kept, whatever was saved.
-    #[inline]
     pub(super) fn forget_dynamic(objects: &mut Objects<'_, D>) {
         if !D::SERVERS {
             return;
@@ -55,154 +78,135 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         }
     }
 
-    /// A frame that may be the request of a further server. Returns whether it is.
-    #[inline(never)]
-    pub(super) fn handle_server(&mut self, objects: &mut Objects<'_, D>, frame: &Frame) -> bool {
-        let servers = self.extras.servers();
-        let Some(at) = servers.iter().position(|one| one.takes(frame.id())) else {
-            return false;
-        };
+    /// A request for the server at a position. What it commands is carried out here: nothing is as deep in the
+    /// stack as a save.
+    pub(super) fn handle_sdo(&mut self, objects: &mut Objects<'_, D>, at: usize, frame: &Frame) {
         let data = frame.bytes();
-        let is_taken = self.is_streamed(data, Some(at));
-        let Some(one) = self.extras.servers_mut().get_mut(at) else {
-            return false;
-        };
-        let answer = match is_taken {
-            true => Some(one.server.refuse(objects, address(data), TAKEN)),
-            false => one.server.ask(objects, data, frame.dlc()),
-        };
-        let response = answer.and_then(|answer| one.frame(answer));
-        self.send(response);
-        true
+        if self.is_streamed(data, at) {
+            if let Some(mut server) = self.server(at) {
+                let abort = server.refuse(objects, address(data), TAKEN);
+                self.respond(at, Some(abort));
+            }
+            return;
+        }
+        self.ask(objects, at, data, frame.dlc());
     }
 
-    /// A request for the default server. Returns whether it is refused: another one has to be done
-    /// with the value first.
-    #[inline(never)]
-    pub(super) fn refuses(&mut self, objects: &mut Objects<'_, D>, frame: &Frame) -> bool {
-        let is_taken = self.is_streamed(frame.bytes(), None);
-        if is_taken {
-            let abort = self.sdo.refuse(objects, address(frame.bytes()), TAKEN);
-            self.answer(abort);
+    fn ask(&mut self, objects: &mut Objects<'_, D>, at: usize, data: &[u8; 8], dlc: u8) {
+        let Some(mut server) = self.server(at) else {
+            return;
+        };
+        let response = server.handle(objects, data, dlc);
+        self.respond(at, response);
+        if let Some(done) = objects.carry_out() {
+            self.respond_late(objects, at, done);
         }
-        is_taken
     }
 
-    /// Whether a request begins a transfer of a value that is on its way to or from the
-    /// application by another server: a stream is one for all of them. `None`: the default server.
-    fn is_streamed(&self, data: &[u8; 8], by: Option<usize>) -> bool {
-        if !D::STREAMS {
+    /// The response that waited for the end of a command.
+    fn respond_late(&mut self, objects: &mut Objects<'_, D>, at: usize, done: bool) {
+        if let Some(mut server) = self.server(at) {
+            let response = server.finish(objects, done);
+            self.respond(at, response);
+        }
+    }
+
+    /// Queues a response of the server at a position.
+    fn respond(&mut self, at: usize, response: Option<[u8; 8]>) {
+        let Slices {
+            servers, frames, ..
+        } = self.rooms.all_mut();
+        if let Some(response) = response
+            && let Some(frame) = servers.get(at).and_then(|server| server.frame(response))
+        {
+            frames.push(frame);
+        }
+    }
+
+    /// Returns whether a request begins a transfer of a value that another server streams to or from the
+    /// application: a stream is one for all of them.
+    fn is_streamed(&self, data: &[u8; 8], by: usize) -> bool {
+        if !(D::STREAMS && D::SERVERS) {
             return false;
         }
-        let servers = self.extras.servers();
-        let own = match by.and_then(|at| servers.get(at)) {
-            Some(one) => &one.server,
-            None => &self.sdo,
-        };
+        let servers = self.rooms.all().servers;
         let begins = matches!(data[0] >> 5, 1 | 2)
             || data[0] >> 5 == 5 && data[0] & 3 == 0
             || data[0] >> 5 == 6 && data[0] & 1 == 0;
-        if !begins || own.takes_anything() {
+        if !begins || servers.get(by).is_none_or(|own| own.takes_anything()) {
             return false;
         }
         let address = Some(address(data));
-        let others = servers.iter().enumerate();
-        let mut others = others.filter(|(at, _)| Some(*at) != by);
-        by.is_some() && self.sdo.streamed() == address
-            || others.any(|(_, one)| one.server.streamed() == address)
+        let mut others = servers.iter().enumerate().filter(|(at, _)| *at != by);
+        others.any(|(_, one)| one.streamed() == address)
     }
 
-    /// All transfers end without a word to the clients.
+    /// All transfers end without a message to the clients.
     pub(super) fn cut_transfers(&mut self, objects: &mut Objects<'_, D>) {
-        self.sdo.cut(objects);
-        if D::SERVERS {
-            for one in self.extras.servers_mut() {
-                one.server.cut(objects);
+        for at in 0..self.server_count() {
+            if let Some(mut server) = self.server(at) {
+                server.cut(objects);
             }
         }
     }
 
-    /// As [`cut_transfers`](Self::cut_transfers), without telling a client.
+    /// As [`cut_transfers`](Self::cut_transfers), without telling the application.
     pub(super) fn forget_transfers(&mut self) {
-        self.sdo.forget();
-        if D::SERVERS {
-            for one in self.extras.servers_mut() {
-                one.server.forget();
-            }
+        for server in self.rooms.all_mut().servers {
+            server.forget();
         }
     }
 
-    /// Continues transfers that are due, and streams that were held up outside the bus.
+    /// Continues transfers that are due; after a change outside the bus also streams that were held up.
     pub(super) fn wake_servers(&mut self, objects: &mut Objects<'_, D>, is_change: bool) {
-        if !D::SERVERS {
+        if !(D::BLOCK || D::STREAMS) {
             return;
         }
-        for at in 0..self.extras.servers().len() {
-            let Some(one) = self.extras.servers_mut().get_mut(at) else {
+        for at in 0..self.server_count() {
+            let Some(mut server) = self.server(at) else {
                 return;
             };
-            let answer = match is_change {
-                true => one.server.handle_change(objects),
-                false => one.server.handle_timeout(objects),
+            let response = if is_change {
+                server.handle_change(objects)
+            } else {
+                server.handle_timeout(objects)
             };
-            let response = answer.and_then(|answer| one.frame(answer));
-            self.send(response);
+            self.respond(at, response);
         }
     }
 
-    /// Ends a save that is complete (`done`) or failed: its client gets the response, and the
-    /// request behind it is handled.
-    pub(super) fn end_save_of_servers(&mut self, objects: &mut Objects<'_, D>, done: bool) {
-        if !D::SERVERS {
+    /// A save that took its time is complete: its client gets the response, and the request behind it is
+    /// handled.
+    pub(super) fn end_save(&mut self, objects: &mut Objects<'_, D>) {
+        let Some(done) = objects.complete_save() else {
             return;
-        }
-        for at in 0..self.extras.servers().len() {
-            let Some(one) = self.extras.servers_mut().get_mut(at) else {
-                return;
-            };
-            if !one.server.awaits_save() {
+        };
+        for at in 0..self.server_count() {
+            if !self
+                .rooms
+                .all()
+                .servers
+                .get(at)
+                .is_some_and(|one| one.awaits_save())
+            {
                 continue;
             }
-            let answer = one.server.finish(objects, done);
-            let first = answer.and_then(|answer| one.frame(answer));
-            let held = one.server.held();
-            let next = held.and_then(|(data, dlc)| one.server.ask(objects, &data, dlc));
-            let next = next.and_then(|answer| one.frame(answer));
-            self.send(first);
-            self.send(next);
+            self.respond_late(objects, at, done);
+            let server = self.rooms.all_mut().servers.get_mut(at);
+            if let Some((data, dlc)) = server.and_then(|server| server.held()) {
+                self.ask(objects, at, &data, dlc);
+            }
         }
     }
 
-    /// Whether a further server may have a segment to send.
-    #[inline]
-    pub(super) fn is_server_sending(&self) -> bool {
-        let mut servers = self.extras.servers().iter();
-        D::SERVERS && D::BLOCK && servers.any(|one| one.server.is_sending())
-    }
-
-    /// The next segment of a block upload.
-    pub(super) fn poll_servers(&mut self, objects: &mut Objects<'_, D>) -> Option<Frame> {
-        let mut servers = self.extras.servers_mut().iter_mut();
-        servers.find_map(|one| {
-            let segment = one.server.poll(objects)?;
-            one.frame(segment)
-        })
-    }
-
-    /// Time when one of them has something to do.
-    pub(super) fn servers_deadline(&self) -> Deadline {
-        let servers = self.extras.servers().iter();
-        servers.fold(Deadline::NEVER, |first, one| {
-            first.or(one.server.deadline())
-        })
-    }
-
-    fn send(&mut self, frame: Option<Frame>) {
-        if let Some(frame) = frame {
-            self.push(frame);
+    /// The next segment of a block upload (CiA 301, chapter 7.2.4.3.14).
+    pub(super) fn next_segment(&mut self, objects: &mut Objects<'_, D>) -> Option<Frame> {
+        if !D::BLOCK {
+            return None;
         }
+        (0..self.server_count()).find_map(|at| {
+            let segment = self.server(at)?.poll(objects)?;
+            self.rooms.all().servers.get(at)?.frame(segment)
+        })
     }
 }
-
-/// Abort code for a value that another server streams.
-const TAKEN: AbortCode = AbortCode::DeviceState;

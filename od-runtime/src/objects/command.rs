@@ -1,7 +1,7 @@
 //! Commands of downloads to 1010h and 1011h, and the save in progress.
 
+use crate::blank::Blank;
 use crate::deadline::Deadline;
-use crate::rooms::Blank;
 use crate::storage::image::Banks;
 
 /// No sub-index of 1010h that saves.
@@ -22,7 +22,7 @@ pub(super) const KEEP: Command = Command::Save(0);
 
 /// A save, which outlasts the call if it takes its time. A node without power has none, which is all zeros.
 #[derive(Clone, Debug)]
-pub(crate) struct Saving {
+pub struct Saving {
     pub(super) command: Command,
     /// While a save goes on, the set that waits for its commit word; without one all is written, and on its
     /// way to the memory that keeps it.
@@ -31,6 +31,13 @@ pub(crate) struct Saving {
     pub(super) sub: u8,
     /// It is complete then; never without one.
     pub(super) due: Deadline,
+}
+
+impl Saving {
+    /// Time when it is complete; never without one.
+    pub(crate) const fn due(&self) -> Deadline {
+        self.due
+    }
 }
 
 impl Blank for Saving {

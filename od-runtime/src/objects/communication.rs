@@ -4,9 +4,9 @@ use od_model::Address;
 use od_model::row::Row;
 use od_model::typed::MapEntry;
 
-use crate::device::{Device, may_change, may_have};
 use crate::number::number_in;
 use crate::profile::Profile;
+use crate::services::{Services, may_change, may_have};
 use crate::store::Store;
 use crate::sync;
 use od_wire::{AbortCode, CobId};
@@ -33,8 +33,7 @@ pub(super) const fn is_mapping_count(address: Address) -> bool {
 
 /// Checks a value that a master wants to write to an object below 2000h. `bytes` has the
 /// entry's length.
-#[inline(never)]
-pub(super) fn check<D: Device>(
+pub(super) fn check<D: Services>(
     store: &Store<'_>,
     profile: &Profile,
     row: &Row,
@@ -139,12 +138,12 @@ const PRODUCER: u32 = 1 << 30;
 const CONSUMER: u32 = 1 << 31;
 
 /// Whether the device can produce SYNC: it has the period, too.
-fn produces_sync<D: Device>(store: &Store<'_>) -> bool {
+fn produces_sync<D: Services>(store: &Store<'_>) -> bool {
     D::SYNC_PRODUCER && store.try_word(0x1006, 0).is_some()
 }
 
 /// Whether the mapping of a PDO may change.
-const fn can_map<D: Device>() -> bool {
+const fn can_map<D: Services>() -> bool {
     may_change::<D>(0x1600, 0x17FF) || may_change::<D>(0x1A00, 0x1BFF)
 }
 
@@ -167,7 +166,6 @@ fn is_watched_elsewhere(store: &Store<'_>, sub: u8, value: u32) -> bool {
 
 /// A COB-ID: its bits agree, it is not one that CiA 301 keeps for itself, and it
 /// changes only while bit 31 is set (unless the family allows more).
-#[inline(never)]
 fn check_cob_id(
     store: &Store<'_>,
     profile: &Profile,
@@ -210,7 +208,6 @@ fn check_mapping_count(store: &Store<'_>, index: u16, count: u32) -> Result<(), 
 
 /// One entry of the mapping object at `index`: what it names exists, can be mapped in this
 /// direction, and is named with its own length. An RPDO may skip over the dummies 0001h–0007h.
-#[inline(never)]
 pub(crate) fn check_mapped(store: &Store<'_>, index: u16, raw: u32) -> Result<(), AbortCode> {
     let mapped = MapEntry::parse(raw);
     let transmits = index >= 0x1A00;
@@ -245,8 +242,7 @@ pub(crate) fn check_mapped(store: &Store<'_>, index: u16, raw: u32) -> Result<()
 #[cfg(test)]
 mod tests {
     use super::can_map;
-    use crate::device::AnyDevice;
-    use crate::device::tests::{Known, Rich};
+    use crate::services::tests::{AnyDevice, Known, Rich};
 
     #[test]
     fn one_mapping_that_can_change_is_enough() {

@@ -11,9 +11,9 @@ use od_model::Address;
 use od_model::row::Row;
 
 use crate::application::{Application, Context, Halt, Reset, Stream};
-use crate::device::{Device, ROOMY, may_have, profile};
 use crate::limits::{self, Outside};
 use crate::profile::Profile;
+use crate::services::{Services, may_have};
 use crate::storage::Storage;
 use crate::store::Store;
 use od_wire::{AbortCode, Instant};
@@ -43,15 +43,15 @@ pub(crate) struct Objects<'c, D> {
     pub(crate) store: Store<'c>,
     pub(crate) application: &'c mut dyn Application,
     pub(crate) storage: &'c mut dyn Storage,
-    /// See [`profile`](Self::profile).
-    pub(crate) lent_profile: Option<&'c Profile>,
+    /// Options of the device family.
+    pub(crate) profile: &'c Profile,
     pub(crate) now: Instant,
     pub(crate) outbox: &'c mut Outbox,
     /// A save; a device without storage has no room for one.
     pub(crate) saving: Option<&'c mut Saving>,
 }
 
-impl<'c, D: Device> Objects<'c, D> {
+impl<'c, D: Services> Objects<'c, D> {
     /// The device may have a log of its errors.
     pub(crate) const HAS_LOG: bool = may_have::<D>(0x1003, 0x1003, None);
 
@@ -60,12 +60,6 @@ impl<'c, D: Device> Objects<'c, D> {
         Some(dictionary) => dictionary.varying().is_some(),
         None => true,
     };
-
-    /// Options of the device family: those that the compiler knows, or else those that were lent.
-    #[inline(always)]
-    pub(crate) fn profile(&self) -> &'c Profile {
-        profile::<D>(self.lent_profile)
-    }
 
     /// Whether one of these bits of an object is set.
     pub(crate) fn has_bits(&self, (index, bits): (u16, u32)) -> bool {
@@ -107,14 +101,10 @@ impl<'c, D: Device> Objects<'c, D> {
             self.unused_error(address)?;
         }
         self.refresh(address)?;
-        Ok(match self.store.slot(plain) {
-            bytes @ [_, ..] if ROOMY => bytes,
-            _ => self.store.value(row, number),
-        })
+        Ok(self.store.value(row, number))
     }
 
     /// Whether a value that is not plain (a number in the store) can be read from the store.
-    #[cfg_attr(not(target_os = "none"), inline(never))]
     fn check_special(&mut self, row: &Row) -> Result<(), Unread> {
         if !row.readable() {
             return Err(Unread::Abort(AbortCode::WriteOnly));
@@ -149,7 +139,6 @@ impl<'c, D: Device> Objects<'c, D> {
 
     /// The application resets, and says which values are live. The communication area is the services' own;
     /// nothing in it is.
-    #[inline(never)]
     pub(crate) fn restart(&mut self, reset: Reset) {
         self.application(|application, context| application.reset(context, reset));
         let rows = self.store.dictionary().rows().iter();
@@ -159,13 +148,11 @@ impl<'c, D: Device> Objects<'c, D> {
     }
 
     /// Whether the application may have to bring a value up to date.
-    #[inline(always)]
     pub(crate) fn is_live(&self, address: Address) -> bool {
         self.outbox.is_live(address)
     }
 
     /// Has the application bring a live value up to date.
-    #[inline(always)]
     pub(crate) fn refresh(&mut self, address: Address) -> Result<(), AbortCode> {
         match self.is_live(address) {
             true => self.refresh_live(address),
@@ -173,13 +160,11 @@ impl<'c, D: Device> Objects<'c, D> {
         }
     }
 
-    #[inline(never)]
     fn refresh_live(&mut self, address: Address) -> Result<(), AbortCode> {
         self.application(|application, context| application.refresh(context, address))
     }
 
     /// Returns the row of a value, if it can be written.
-    #[inline(never)]
     pub(crate) fn writable(&self, address: Address) -> Result<&'c Row, AbortCode> {
         let row = self.row(address)?;
         match row.writable() {
@@ -190,7 +175,7 @@ impl<'c, D: Device> Objects<'c, D> {
 
     /// Returns how many of `len` bytes the value accepts.
     pub(crate) fn fit(&self, row: &Row, len: usize) -> Result<usize, AbortCode> {
-        let rule = &self.profile().sdo.length;
+        let rule = &self.profile.sdo.length;
         let (low, high) = match row.size() {
             0 if Self::VARIES => {
                 let slot = row.slot(self.store.dictionary().pool());
@@ -220,13 +205,12 @@ impl<'c, D: Device> Objects<'c, D> {
         let row = self.row(address)?;
         self.change(row, bytes)?;
         match self.carry_out() {
-            Some(false) => Err(self.profile().store.failed),
+            Some(false) => Err(self.profile.store.failed),
             _ => Ok(()),
         }
     }
 
     /// Writes a value of which it is known that it may be written, as [`write`](Self::write) does.
-    #[inline(never)]
     pub(crate) fn change(&mut self, row: &Row, bytes: &[u8]) -> Result<(), AbortCode> {
         let address = row.address();
         let len = self.fit(row, bytes.len())?;
@@ -243,7 +227,7 @@ impl<'c, D: Device> Objects<'c, D> {
         limits::check_with(&self.store, row, bytes, reals)
             .map_err(|outside| self.refusal(address, outside))?;
         if address.index < 0x2000 {
-            communication::check::<D>(&self.store, self.profile(), row, bytes)?;
+            communication::check::<D>(&self.store, self.profile, row, bytes)?;
         }
         self.application(|application, context| application.validate(context, address, bytes))?;
         self.store.put_row(row, bytes)?;
@@ -261,16 +245,15 @@ impl<'c, D: Device> Objects<'c, D> {
             // More objects than a mapping has room for are too many, not too great a number.
             Outside::Above if communication::is_mapping_count(address) => AbortCode::PdoTooLong,
             Outside::Above => AbortCode::ValueTooHigh,
-            Outside::Below => self.profile().sdo.below_limit,
+            Outside::Below => self.profile.sdo.below_limit,
             Outside::NotAllowed => AbortCode::ValueRange,
             Outside::Length => AbortCode::Length,
         }
     }
 
     /// Reading an entry of 1003h that holds no error.
-    #[cfg_attr(not(target_os = "none"), inline(never))]
     fn unused_error(&self, address: Address) -> Result<(), AbortCode> {
-        match self.profile().sdo.unused_error {
+        match self.profile.sdo.unused_error {
             Some(code) if u32::from(address.sub) > self.store.word(0x1003, 0, 0) => Err(code),
             _ => Ok(()),
         }

@@ -18,8 +18,6 @@ pub(crate) enum Effect {
     },
     /// 1010h: these groups were saved (sub-index).
     Saved(u8),
-    /// 1010h: a save goes on in the background.
-    Saving,
     /// A save that had begun failed at its end.
     NotSaved,
     /// 1011h: these groups were restored (sub-index), at once or at the next reset.
@@ -40,28 +38,20 @@ pub struct Outbox<Q: ?Sized = [Change]> {
     pub(crate) signals: Signals<Q>,
 }
 
-/// Whether a set of live values may name an address. On a microcontroller it is a call, since most
-/// addresses need none.
-#[cfg_attr(target_os = "none", inline(never))]
-const fn names(live: u32, address: Address) -> bool {
-    live & live_bit(address) != 0
-}
-
-/// Whether the application may have to bring the value at an address up to date, by the set of live
+/// Returns whether the application may have to bring the value at an address up to date, by the set of live
 /// values.
-#[inline(always)]
 pub(crate) const fn is_live(live: u32, address: Address) -> bool {
-    address.index >= 0x2000 && live != 0 && names(live, address)
+    address.index >= 0x2000 && live & live_bit(address) != 0
 }
 
 /// An address as one of 32 bits: neighbours have different ones.
-#[inline(always)]
 pub(super) const fn live_bit(address: Address) -> u32 {
     1 << (address.index & 31)
 }
 
 impl<Q> Outbox<Q> {
-    pub(crate) const fn new(room: Q) -> Self {
+    /// An empty one; `room` is the content of empty places.
+    pub const fn new(room: Q) -> Self {
         Self {
             effects: Fifo::new([Effect::Written { index: 0, sub: 0 }; 8]),
             overflow: false,
@@ -86,22 +76,13 @@ impl Outbox {
         self.effect(Effect::Written { index, sub });
     }
 
-    #[inline(never)]
     pub(super) fn effect(&mut self, effect: Effect) {
         self.overflow |= !self.effects().push(effect);
     }
 }
 
 impl<Q: ?Sized> Outbox<Q> {
-    /// Whether the set of live values may name the address with this key, which may be one of the
-    /// services' own, too.
-    #[inline(always)]
-    pub(crate) const fn is_marked(&self, key: u32) -> bool {
-        self.live >> (key >> 8 & 31) & 1 != 0
-    }
-
     /// Whether the application may have to bring the value at an address up to date.
-    #[inline(always)]
     pub(crate) const fn is_live(&self, address: Address) -> bool {
         is_live(self.live, address)
     }
@@ -130,7 +111,6 @@ mod tests {
         let mut outbox = Outbox::new([Change::NONE; 1]);
         for live in [0, bit, !bit, u32::MAX] {
             outbox.live = live;
-            assert_eq!(outbox.is_marked(address.key()), live & bit != 0);
             assert_eq!(outbox.is_live(address), live & bit != 0);
         }
     }

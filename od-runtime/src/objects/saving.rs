@@ -10,15 +10,15 @@ use super::command::{Command, KEEP, RESTORE};
 use super::outbox::Effect;
 use crate::application::Reset;
 use crate::deadline::Deadline;
-use crate::device::Device;
 use crate::profile::{Restore, SaveAnswer};
+use crate::services::Services;
 use crate::storage::Save;
 use crate::storage::image::{self, Banks, Loaded, Medium, Plan};
 
 /// Time until a memory that is still writing is asked again, in microseconds.
 const ASK_AGAIN_US: u32 = 2_000;
 
-impl<D: Device> Objects<'_, D> {
+impl<D: Services> Objects<'_, D> {
     /// The [device](image::device) whose values are saved, as far as the compiler knows it.
     const DEVICE: Option<u32> = match &D::DICTIONARY {
         Some(dictionary) => Some(image::device(dictionary)),
@@ -51,7 +51,7 @@ impl<D: Device> Objects<'_, D> {
     /// Puts saved values over those of the store, for the entries that `which` names; no save goes on.
     /// A storage that cannot be read is damaged.
     pub(crate) fn load(&mut self, which: &dyn Fn(&Row) -> bool) -> Loaded {
-        let (device, profile) = (self.device(), &self.profile().store);
+        let (device, profile) = (self.device(), &self.profile.store);
         let Some(saving) = &mut self.saving else {
             return Loaded::Blank;
         };
@@ -104,7 +104,6 @@ impl<D: Device> Objects<'_, D> {
     }
 
     /// A command, in parts each of which takes much of a small stack.
-    #[inline(never)]
     fn execute(&mut self, command: Command) -> Option<bool> {
         if command != KEEP {
             // What a save writes in the background is there before anything follows.
@@ -132,9 +131,8 @@ impl<D: Device> Objects<'_, D> {
     }
 
     /// The set that a command makes is written, but for its commit word. Returns whether that is done.
-    #[inline(never)]
     fn begin(&mut self, command: Command) -> bool {
-        let (device, profile) = (self.device(), &self.profile().store);
+        let (device, profile) = (self.device(), &self.profile.store);
         let Some(saving) = &mut self.saving else {
             return false;
         };
@@ -170,7 +168,6 @@ impl<D: Device> Objects<'_, D> {
     }
 
     /// The values of this moment are to be saved.
-    #[inline(never)]
     fn prepare(&mut self, command: Command) {
         self.refresh_life_record();
         if command != KEEP {
@@ -178,11 +175,10 @@ impl<D: Device> Objects<'_, D> {
         }
     }
     /// 1010h: complete at once or in a while.
-    #[inline(never)]
     fn saved(&mut self, sub: u8, begun: bool) -> Option<bool> {
         self.tell(false);
         self.saving.as_mut()?.sub = sub;
-        let profile = &self.profile().store;
+        let profile = &self.profile.store;
         if begun && profile.duration_us > 0 {
             self.await_end(profile.duration_us);
             return (profile.answer == SaveAnswer::AtOnce).then_some(true);
@@ -191,19 +187,17 @@ impl<D: Device> Objects<'_, D> {
     }
 
     /// The application hears that its values are about to be saved, and that they have been read.
-    #[inline(never)]
     fn tell(&mut self, begins: bool) {
         self.application(|application, context| application.saving(context, begins));
     }
 
     /// 1011h: at once, or at the next reset.
-    #[inline(never)]
     fn restored(&mut self, sub: u8, begun: bool) -> Option<bool> {
         if !(begun && self.commit()) {
             return Some(false);
         }
         self.storage_is_sound();
-        let profile = &self.profile().store;
+        let profile = &self.profile.store;
         if profile.restore == Restore::AtOnce {
             let which = |row: &Row| image::restores(profile, row, sub);
             profile.reset(&mut self.store, &which);
@@ -269,7 +263,6 @@ impl<D: Device> Objects<'_, D> {
         if let Some(saving) = &mut self.saving {
             saving.due = Deadline::at(self.now.plus_micros(micros.into()));
         }
-        self.outbox.effect(Effect::Saving);
     }
 
     /// Whether a save goes on.

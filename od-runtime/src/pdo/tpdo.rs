@@ -1,22 +1,53 @@
-//! One TPDO: when it is sent, and with what.
+//! One TPDO: when it is sent, and with what (CiA 301, chapter 7.2.2.3, objects 1800h to 1BFFh).
 
-use super::config::{Config, Parameters, Validity, kind};
-use super::fixed::{Fixed, is_fixed};
-use super::mapping::Mapping;
-use crate::application::{Application, Context};
+use super::mapping::{Mapped, Mapping};
+use crate::blank::Blank;
 use crate::deadline::Deadline;
-use crate::device::Device;
 use crate::objects::Objects;
-use crate::rooms::Rooms;
-use crate::store::Store;
-use od_model::Dictionary;
-use od_wire::{CanId, Frame, Instant, NodeId};
+use crate::profile::EventTimer;
+use crate::services::Services;
+use od_wire::{CanId, CobId, Frame, Instant};
+
+/// Transmission types of CiA 301 (table 72).
+mod kind {
+    pub(super) const ACYCLIC: u8 = 0;
+    pub(super) const LAST_CYCLIC: u8 = 240;
+    pub(super) const SYNC_RTR: u8 = 252;
+    pub(super) const RTR: u8 = 253;
+    pub(super) const EVENT_FIRST: u8 = 254;
+}
+
+/// Whether a TPDO is sent.
+#[derive(Clone, Copy, PartialEq, Debug)]
+enum Validity {
+    /// Never.
+    Off,
+    /// Never, whatever bit 31 says: no service may have the CAN-ID, or another one sends by it.
+    Refused,
+    On,
+    /// A remote frame requests it, too.
+    Requested,
+}
+
+/// Configuration of a TPDO, from its communication parameter.
+#[derive(Clone, Copy, PartialEq, Debug)]
+struct Config {
+    validity: Validity,
+    kind: u8,
+    repeat: u8,
+    sync_start: u8,
+    id: CanId,
+    /// In milliseconds.
+    event: u32,
+    /// In units of 100 µs.
+    inhibit: u32,
+}
 
 /// TPDO: its configuration and its state.
 #[derive(Clone, Debug)]
-pub(crate) struct Tpdo<R: Rooms> {
+pub struct Tpdo {
     config: Config,
-    mapping: Mapping<R>,
+    mapping: Mapping,
     /// The next tick of the event timer.
     event_at: Deadline,
     inhibited_until: Instant,
@@ -33,10 +64,17 @@ pub(crate) struct Tpdo<R: Rooms> {
     sampled: bool,
 }
 
-impl<R: Rooms> Tpdo<R> {
-    /// One that does not exist.
-    pub(crate) const NONE: Self = Self {
-        config: Config::NONE,
+impl Blank for Tpdo {
+    const BLANK: Self = Self {
+        config: Config {
+            validity: Validity::Off,
+            kind: 0,
+            repeat: 0,
+            sync_start: 0,
+            id: CanId::standard(0),
+            event: 0,
+            inhibit: 0,
+        },
         mapping: Mapping::NONE,
         event_at: Deadline::NEVER,
         inhibited_until: Instant::ZERO,
@@ -47,45 +85,77 @@ impl<R: Rooms> Tpdo<R> {
         last: [0; 8],
         sampled: false,
     };
+}
 
-    /// Reads the objects of TPDO `number` (0 is 1800h and 1A00h) again. Answers whether they say something
-    /// else than before; only then the TPDO restarts. `fixed` is its mapping where none can change;
-    /// `is_taken` knows the CAN-IDs by which other services send.
-    pub(crate) fn configure<D: Device>(
+impl Config {
+    /// Reads the communication parameter of TPDO `number`. `is_taken` knows the CAN-IDs by which other services
+    /// send.
+    fn load<D: Services>(
+        objects: &Objects<'_, D>,
+        number: u16,
+        is_taken: &dyn Fn(CanId) -> bool,
+    ) -> Self {
+        let profile = &objects.profile.pdo;
+        let word = |index, sub| objects.store.word(index, sub, 0);
+        let parameter = 0x1800 + number;
+        let cob_id = CobId::new(objects.store.word(parameter, 1, 1 << 31));
+        let kind = word(parameter, 2) as u8;
+        let is_sync_only = profile
+            .sync_only
+            .is_some_and(|(index, bits)| word(index, 0) & bits == bits);
+        let is_allowed = kind <= kind::LAST_CYCLIC || !is_sync_only;
+        let repeat = profile.repeat_counter.map(|first| first + number);
+        Self {
+            validity: match cob_id.usable_id() {
+                _ if !(cob_id.is_valid() && is_allowed) => Validity::Off,
+                None => Validity::Refused,
+                Some(id) if is_taken(id) => Validity::Refused,
+                Some(_) if cob_id.allows_rtr() => Validity::Requested,
+                Some(_) => Validity::On,
+            },
+            kind,
+            repeat: repeat.map_or(0, |index| word(index, 0) as u8),
+            sync_start: word(parameter, 6) as u8,
+            id: cob_id.can_id(),
+            event: word(parameter, 5),
+            inhibit: word(parameter, 3),
+        }
+    }
+}
+
+impl Tpdo {
+    /// Reads the objects of TPDO `number` (0 is 1800h and 1A00h) again; its mapping entries are in `mapped` from
+    /// `first` on, and `is_taken` knows the CAN-IDs by which other services send. Returns whether the objects say
+    /// something else than before; only then the TPDO restarts.
+    pub(crate) fn configure<D: Services>(
         &mut self,
         objects: &Objects<'_, D>,
         number: u16,
-        fixed: &Fixed,
+        first: usize,
+        mapped: &mut [Mapped],
         is_taken: &dyn Fn(CanId) -> bool,
     ) -> bool {
         let mut config = Config::load(objects, number, is_taken);
-        let mut changed = match const { is_fixed::<D>() } {
-            true => self.mapping.fix(objects, 0x1A00 + number, fixed),
-            false => self.mapping.load(objects, 0x1A00 + number),
-        };
+        let is_mapping_new = self.mapping.load(objects, 0x1A00 + number, first, mapped);
         if self.mapping.len() == 0 {
             config.validity = Validity::Off;
         }
-        changed |= !config.is_same(&self.config);
+        let changed = is_mapping_new || config != self.config;
         if changed {
-            self.config = config;
-            self.stop();
-            self.inhibited_until = Instant::ZERO;
-            self.syncs = 0;
-            self.waits_for_start = false;
-            self.repeats_left = 0;
-            self.last = [0; 8];
-            self.sampled = false;
+            *self = Self {
+                config,
+                mapping: self.mapping.clone(),
+                ..Self::BLANK
+            };
         }
         changed
     }
 
-    #[inline(always)]
     fn is_valid(&self) -> bool {
-        self.config.validity > Validity::Refused
+        matches!(self.config.validity, Validity::On | Validity::Requested)
     }
 
-    /// Whether its objects make it valid, and its CAN-ID does not.
+    /// Returns whether its objects make it valid, and its CAN-ID does not.
     pub(crate) fn is_refused(&self) -> bool {
         self.config.validity == Validity::Refused
     }
@@ -104,7 +174,7 @@ impl<R: Rooms> Tpdo<R> {
     }
 
     /// Operational begins: the first period of the event timer, the first SYNC.
-    pub(crate) fn start<D: Device>(&mut self, objects: &mut Objects<'_, D>) {
+    pub(crate) fn start<D: Services>(&mut self, objects: &mut Objects<'_, D>, mapped: &[Mapped]) {
         self.syncs = 0;
         self.pending = false;
         self.repeats_left = self.config.repeat;
@@ -112,17 +182,17 @@ impl<R: Rooms> Tpdo<R> {
         self.sampled = false;
         self.inhibited_until = objects.now;
         self.event_at = Deadline::NEVER;
-        if D::TIMED && self.is_valid() && self.is_event_driven() && self.config.event > 0 {
+        if self.is_valid() && self.is_event_driven() && self.config.event > 0 {
             self.event_at = Deadline::at(objects.now.plus_millis(self.config.event.into()));
         }
         if self.is_valid() {
-            self.last = self.mapping.sample(objects);
+            self.last = self.mapping.sample(objects, mapped);
         }
     }
 
     /// Operational begins: a family that sends changes says first what there is to change.
-    pub(crate) fn announce<D: Device>(&mut self, objects: &Objects<'_, D>) {
-        let sends_changes = objects.profile().pdo.event_on_change;
+    pub(crate) fn announce<D: Services>(&mut self, objects: &Objects<'_, D>) {
+        let sends_changes = objects.profile.pdo.event_on_change;
         self.pending |= sends_changes && self.is_valid() && self.is_event_driven();
     }
 
@@ -132,21 +202,20 @@ impl<R: Rooms> Tpdo<R> {
         self.pending = false;
     }
 
-    /// Whether a remote frame with this CAN-ID requests it.
-    pub(crate) fn answers(&self, id: CanId) -> bool {
-        self.requested_by() == Some(id)
-    }
-
     /// CAN-ID of the remote frame that requests it.
     pub(crate) fn requested_by(&self) -> Option<CanId> {
         (self.config.validity == Validity::Requested).then_some(self.config.id)
     }
 
-    /// A remote frame asks for it: synchronous types answer with what the last SYNC saw.
-    pub(crate) fn request<D: Device>(&mut self, objects: &mut Objects<'_, D>) -> Option<Frame> {
+    /// A remote frame requests it. A synchronous TPDO responds with the values of the last SYNC.
+    pub(crate) fn request<D: Services>(
+        &mut self,
+        objects: &mut Objects<'_, D>,
+        mapped: &[Mapped],
+    ) -> Option<Frame> {
         if self.config.kind <= kind::SYNC_RTR {
             if !self.sampled {
-                self.last = self.mapping.sample(objects);
+                self.last = self.mapping.sample(objects, mapped);
             }
             return Some(self.frame(self.last));
         }
@@ -154,69 +223,38 @@ impl<R: Rooms> Tpdo<R> {
         None
     }
 
-    /// Whether a SYNC is only [counted](Self::count_sync).
-    #[inline(always)]
-    pub(crate) fn only_counts<D: Device>(&self) -> bool {
-        match self.config.kind {
-            _ if !self.is_valid() => true,
-            kind::ACYCLIC | kind::SYNC_RTR => false,
-            _ => !(D::REPEATED && self.config.repeat != 0 || D::STARTED && self.waits_for_start),
-        }
-    }
-
-    /// The number of SYNCs that it is sent after; 0 where it does not count them.
-    pub(crate) fn cycle(&self) -> u8 {
-        match self.is_valid() && self.is_cyclic() {
-            true => self.config.kind,
-            false => 0,
-        }
-    }
-
-    /// To be sent, if it is marked.
-    pub(crate) fn pend_if(&mut self, is_marked: bool) {
-        self.pending |= is_marked;
-    }
-
-    /// SYNC came. Returns whether the PDO is due.
-    #[inline(always)]
-    pub(crate) fn count_sync(&mut self) -> bool {
-        if self.is_valid() && self.is_cyclic() {
-            self.syncs += 1;
-            if self.syncs >= self.config.kind {
-                self.syncs = 0;
-                self.pending = true;
-            }
-        }
-        self.pending
-    }
-
     /// SYNC came, with its counter if it had one.
-    pub(crate) fn sync<D: Device>(&mut self, objects: &mut Objects<'_, D>, counter: Option<u8>) {
+    pub(crate) fn sync<D: Services>(
+        &mut self,
+        objects: &mut Objects<'_, D>,
+        mapped: &[Mapped],
+        counter: Option<u8>,
+    ) {
         if !self.is_valid() {
             return;
         }
-        if D::STARTED && self.waits_for_start {
+        if self.waits_for_start {
             match counter {
                 Some(counter) if counter != self.config.sync_start => return,
                 _ => self.waits_for_start = false,
             }
-            // The SYNC that starts the count is the one the first PDO follows.
+            // The SYNC that starts the count is the one that the first PDO follows.
             self.syncs = self.config.kind.saturating_sub(1);
         }
         match self.config.kind {
             kind::SYNC_RTR => {
-                self.last = self.mapping.sample(objects);
+                self.last = self.mapping.sample(objects, mapped);
                 self.sampled = true;
             }
             kind::ACYCLIC => {
-                let data = self.mapping.sample(objects);
+                let data = self.mapping.sample(objects, mapped);
                 self.pending = data != self.last || !self.sampled;
             }
             _ if self.is_cyclic() => {
                 self.syncs += 1;
                 if self.syncs >= self.config.kind {
                     self.syncs = 0;
-                    self.due(objects);
+                    self.due(objects, mapped);
                 }
             }
             _ => {}
@@ -224,10 +262,9 @@ impl<R: Rooms> Tpdo<R> {
     }
 
     /// A cyclic transmission is due; the repeat counter may hold it back.
-    #[inline]
-    fn due<D: Device>(&mut self, objects: &mut Objects<'_, D>) {
-        if D::REPEATED && self.config.repeat != 0 {
-            let data = self.mapping.sample(objects);
+    fn due<D: Services>(&mut self, objects: &mut Objects<'_, D>, mapped: &[Mapped]) {
+        if self.config.repeat != 0 {
+            let data = self.mapping.sample(objects, mapped);
             if data != self.last {
                 self.last = data;
                 self.repeats_left = self.config.repeat;
@@ -241,164 +278,85 @@ impl<R: Rooms> Tpdo<R> {
     }
 
     /// The event timer, if its tick has come.
-    #[inline]
-    pub(crate) fn handle_timeout<D: Device>(&mut self, objects: &mut Objects<'_, D>) {
-        if D::TIMED && self.event_at.is_due(objects.now) {
+    pub(crate) fn handle_timeout<D: Services>(
+        &mut self,
+        objects: &mut Objects<'_, D>,
+        mapped: &[Mapped],
+    ) {
+        if self.event_at.is_due(objects.now) {
             self.event_at = self.event_at.next_period(self.config.event, objects.now);
-            self.due(objects);
+            self.due(objects, mapped);
         }
     }
 
-    /// Whether all that the event timer does is to [tick](Self::tick).
-    #[inline(always)]
-    pub(crate) fn only_ticks<D: Device>(&self) -> bool {
-        !(D::REPEATED && self.config.repeat != 0)
-    }
-
-    /// Whether the tick of the event timer has come.
-    #[inline(always)]
-    pub(crate) fn is_due(&self, now: Instant) -> bool {
-        self.event_at.is_due(now)
-    }
-
-    /// The event timer ticks, and [that is all](Self::only_ticks). Returns whether the PDO waits now; if not,
-    /// it can be sent at once, and is to be marked.
-    #[inline(always)]
-    pub(crate) fn tick(&mut self, now: Instant) -> bool {
-        self.event_at = self.event_at.next_of(self.config.event, now);
-        self.pending |= self.inhibited_until > now;
-        self.pending
-    }
-
-    /// Whether it is sent when a mapped value changes, in a family that sends changes.
+    /// Returns whether it is sent when a mapped value changes, in a family that sends changes.
     pub(crate) fn watches_changes(&self) -> bool {
         self.is_valid() && self.is_event_driven()
     }
 
-    /// Whether a mapped value changes without a word to the node.
+    /// Returns whether a mapped value changes without notifying the node.
     pub(crate) fn watches_live(&self) -> bool {
         self.watches_changes() && self.mapping.is_live()
     }
 
     /// Marks it as pending if a mapped value has changed that it is sent for.
-    pub(crate) fn notice_change<D: Device>(&mut self, objects: &mut Objects<'_, D>) {
+    pub(crate) fn notice_change<D: Services>(
+        &mut self,
+        objects: &mut Objects<'_, D>,
+        mapped: &[Mapped],
+    ) {
         if self.watches_changes() && !self.pending {
-            self.pending = self.mapping.sample(objects) != self.last;
+            self.pending = self.mapping.sample(objects, mapped) != self.last;
         }
     }
 
     /// The next tick of its event timer.
-    #[inline]
-    pub(crate) fn deadline<D: Device>(&self) -> Deadline {
-        if !D::TIMED {
-            return Deadline::NEVER;
-        }
+    pub(crate) fn deadline(&self) -> Deadline {
         self.event_at
     }
 
-    /// Time when what is pending can be sent; so is what SYNC marked.
-    pub(crate) fn ready_at(&self, is_marked: bool) -> Deadline {
-        match self.pending || is_marked {
-            true => Deadline::at(self.inhibited_until),
-            false => Deadline::NEVER,
+    /// Time when what is pending can be sent.
+    pub(crate) fn ready_at(&self) -> Deadline {
+        if self.pending {
+            Deadline::at(self.inhibited_until)
+        } else {
+            Deadline::NEVER
         }
     }
 
-    /// Whether the application has to bring a value up to date before it is sent.
-    #[inline(always)]
-    pub(crate) fn is_live(&self) -> bool {
-        self.mapping.is_live()
-    }
-
-    /// Has the application bring the live values up to date, by the set of them.
-    pub(crate) fn refresh<D: Device>(
-        &self,
-        application: &mut dyn Application,
-        context: &mut Context<'_, '_>,
-        live: u32,
-    ) {
-        self.mapping.refresh::<D>(application, context, live);
-    }
-
-    /// Whether all its values are plain numbers of the store, whether live or not.
-    #[inline(always)]
-    pub(crate) fn is_plain(&self) -> bool {
-        self.mapping.is_plain()
-    }
-
-    /// The frame, with the values of the store. It is to be [ready](Self::is_ready).
-    #[inline(always)]
-    pub(crate) fn send<D: Device>(
+    /// The frame, with the current values. It is to be [ready](Self::is_ready).
+    pub(crate) fn send<D: Services>(
         &mut self,
-        dictionary: &Dictionary<'_>,
-        values: &mut [u8],
-        node_id: NodeId,
-        now: Instant,
-    ) -> Option<Frame> {
-        let plain = self.is_plain().then(|| self.mapping.gather(values));
-        let data = match plain.flatten() {
-            Some(data) => data.to_le_bytes(),
-            None => {
-                let store = Store::new(dictionary, values, node_id).ok()?;
-                self.mapping.read::<D>(&store)
-            }
-        };
-        Some(self.sent::<D>(data, now))
-    }
-
-    /// As [`send`](Self::send), of one that [is plain](Self::is_plain) and has a single value; `None` if it has
-    /// more, or if the value is one of the last of the store.
-    #[inline(always)]
-    pub(crate) fn send_single<D: Device>(&mut self, values: &[u8], now: Instant) -> Option<Frame> {
-        let data = self.mapping.single(values)?;
-        Some(self.sent::<D>(data.to_le_bytes(), now))
-    }
-
-    /// Puts the live values of one that [is plain](Self::is_plain) into the store; `None` if the application
-    /// does not have all of them at hand.
-    #[inline(always)]
-    pub(crate) fn fetch_live(
-        &self,
-        application: &mut dyn Application,
-        values: &mut [u8],
-        now: Instant,
-    ) -> Option<()> {
-        self.mapping.fetch_live(application, values, now)
-    }
-
-    /// It is sent with these values.
-    #[inline(always)]
-    fn sent<D: Device>(&mut self, data: [u8; 8], now: Instant) -> Frame {
+        objects: &mut Objects<'_, D>,
+        mapped: &[Mapped],
+    ) -> Frame {
+        let data = self.mapping.sample(objects, mapped);
         self.pending = false;
         self.last = data;
         self.sampled = true;
         if self.config.kind >= kind::RTR {
-            self.inhibited_until = match D::INHIBITED {
-                true => now.plus_micros(u64::from(self.config.inhibit) * 100),
-                false => now,
-            };
+            let inhibit = u64::from(self.config.inhibit) * 100;
+            self.inhibited_until = objects.now.plus_micros(inhibit);
+        }
+        // CiA 301, chapter 7.2.2.3: the timer elapses where no event has occurred.
+        let starts_anew = objects.profile.pdo.event_timer == EventTimer::SinceTransmission;
+        if starts_anew && self.event_at.is_set() {
+            self.event_at = Deadline::at(objects.now.plus_millis(self.config.event.into()));
         }
         self.frame(data)
     }
 
-    /// Something waits to be sent, now or later.
+    /// Returns whether it waits to be sent, now or later.
     pub(crate) fn is_pending(&self) -> bool {
         self.pending
     }
 
-    /// Something waits to be sent, and nothing keeps it.
-    #[inline]
-    pub(crate) fn is_ready<D: Device>(&self, now: Instant) -> bool {
-        self.pending && (!D::INHIBITED || now >= self.inhibited_until)
+    /// Returns whether it waits to be sent, and no inhibit time holds it back.
+    pub(crate) fn is_ready(&self, now: Instant) -> bool {
+        self.pending && now >= self.inhibited_until
     }
 
     fn frame(&self, data: [u8; 8]) -> Frame {
         Frame::padded(self.config.id, data, self.mapping.len())
-    }
-
-    /// Holds it back until then.
-    #[cfg(test)]
-    pub(crate) fn inhibit(&mut self, until: Instant) {
-        self.inhibited_until = until;
     }
 }

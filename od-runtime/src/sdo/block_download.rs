@@ -51,9 +51,9 @@ impl BlockDownload {
 
     /// A segment. One that is out of sequence is ignored: the response at the end of the block
     /// tells the client where to go on. Returns whether the block is over.
-    pub(super) fn segment<const N: usize>(
+    pub(super) fn segment(
         &mut self,
-        window: &mut Window<N>,
+        window: &mut Window<'_>,
         data: &[u8; 8],
     ) -> Result<bool, AbortCode> {
         let [head, bytes @ ..] = data;
@@ -68,7 +68,7 @@ impl BlockDownload {
                 return Err(AbortCode::OutOfMemory);
             }
             window.put(&bytes[..len])?;
-            window.len += len;
+            window.part.len += len;
             self.cut = (7 - len) as u8;
             self.ack = sequence;
             self.last = last;
@@ -86,7 +86,7 @@ impl BlockDownload {
     }
 
     /// Checks whether as much came as was announced, or less; the last segment comes yet.
-    pub(super) fn check_size<const N: usize>(&self, window: &Window<N>) -> Result<(), AbortCode> {
+    pub(super) fn check_size(&self, window: &Window<'_>) -> Result<(), AbortCode> {
         match self.size {
             Some(size) if window.end() > size as usize => Err(AbortCode::TooLong),
             _ => Ok(()),
@@ -94,9 +94,9 @@ impl BlockDownload {
     }
 
     /// The end of the transfer: returns how many bytes of the buffer end the value, if it came whole.
-    pub(super) fn end<const N: usize>(
+    pub(super) fn end(
         &self,
-        window: &Window<N>,
+        window: &Window<'_>,
         unused: u8,
         crc: u16,
     ) -> Result<usize, AbortCode> {
@@ -107,8 +107,8 @@ impl BlockDownload {
             Some(Ordering::Greater) => return Err(AbortCode::TooLong),
             Some(Ordering::Equal) | None => {}
         }
-        let len = len.saturating_sub(window.start);
-        if len > window.len {
+        let len = len.saturating_sub(window.part.start);
+        if len > window.part.len {
             return Err(AbortCode::OutOfMemory);
         }
         if self.crc && crc16_after(self.crc_before, window.first(len)) != crc {
@@ -125,6 +125,7 @@ fn segments(room: usize) -> u8 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::window::Part;
     use super::*;
 
     const fn segment(head: u8) -> [u8; 8] {
@@ -151,7 +152,11 @@ mod tests {
 
     #[test]
     fn segments_come_in_sequence() {
-        let mut window = Window::<21>::new();
+        let (mut buffer, mut part) = ([0; 21], Part::default());
+        let mut window = Window {
+            buffer: &mut buffer,
+            part: &mut part,
+        };
         let mut block = BlockDownload::new(21, false, None);
         assert!(block.wants_segments());
         for wrong in [0, 4, 127] {
@@ -159,10 +164,14 @@ mod tests {
             assert_eq!(answer, Err(AbortCode::InvalidSequence), "{wrong}");
         }
         assert_eq!(block.segment(&mut window, &segment(2)), Ok(false));
-        assert_eq!((window.len, block.ack), (0, 0), "the first one is missing");
+        assert_eq!(
+            (window.part.len, block.ack),
+            (0, 0),
+            "the first one is missing"
+        );
         assert_eq!(block.segment(&mut window, &segment(1)), Ok(false));
         assert_eq!(block.segment(&mut window, &segment(3)), Ok(true));
-        assert_eq!((window.len, block.ack), (7, 1));
+        assert_eq!((window.part.len, block.ack), (7, 1));
         let Response::BlockDownloadResponse { ack, block_size } = block.confirm(14) else {
             panic!("a block is confirmed");
         };
@@ -170,21 +179,25 @@ mod tests {
         assert_eq!(block.segment(&mut window, &segment(1)), Ok(false));
         assert_eq!(block.segment(&mut window, &segment(0x82)), Ok(true));
         assert!(!block.wants_segments());
-        assert_eq!((window.len, block.cut), (21, 0));
+        assert_eq!((window.part.len, block.cut), (21, 0));
         assert_eq!(block.end(&window, 0, 0), Ok(21));
         assert_eq!(block.end(&window, 6, 0), Ok(15));
     }
 
     #[test]
     fn unused_bytes_of_the_last_segment_may_be_past_the_buffer() {
-        let mut window = Window::<10>::new();
+        let (mut buffer, mut part) = ([0; 10], Part::default());
+        let mut window = Window {
+            buffer: &mut buffer,
+            part: &mut part,
+        };
         let mut block = BlockDownload::new(10, false, None);
         assert_eq!(block.segment(&mut window, &segment(1)), Ok(true));
         block.confirm(window.room());
         let full = block.segment(&mut window, &segment(1));
         assert_eq!(full, Err(AbortCode::OutOfMemory), "more follows");
         assert_eq!(block.segment(&mut window, &segment(0x81)), Ok(true));
-        assert_eq!((window.len, block.cut), (10, 4));
+        assert_eq!((window.part.len, block.cut), (10, 4));
         assert_eq!(block.end(&window, 4, 0), Ok(10));
         assert_eq!(block.end(&window, 6, 0), Ok(8));
         assert_eq!(block.end(&window, 3, 0), Err(AbortCode::OutOfMemory));
@@ -192,7 +205,11 @@ mod tests {
 
     #[test]
     fn a_value_is_as_long_as_was_announced_and_has_its_crc() {
-        let mut window = Window::<14>::new();
+        let (mut buffer, mut part) = ([0; 14], Part::default());
+        let mut window = Window {
+            buffer: &mut buffer,
+            part: &mut part,
+        };
         let mut block = BlockDownload::new(14, true, Some(7));
         assert_eq!(block.segment(&mut window, &segment(0x81)), Ok(true));
         let crc = crc16_after(0, &[1, 2, 3, 4, 5, 6, 7]);
@@ -219,8 +236,12 @@ mod tests {
 
     #[test]
     fn a_stream_has_what_came_before_the_buffer() {
-        let mut window = Window::<7>::new();
-        window.start = 70;
+        let (mut buffer, mut part) = ([0; 7], Part::default());
+        let mut window = Window {
+            buffer: &mut buffer,
+            part: &mut part,
+        };
+        window.part.start = 70;
         let mut block = BlockDownload::new(7, false, Some(75));
         assert_eq!(block.segment(&mut window, &segment(0x81)), Ok(true));
         assert_eq!(block.end(&window, 2, 0), Ok(5));

@@ -1,7 +1,7 @@
 //! An answer that waits until the device has stored (1010h) or a stream can go on, and the request
 //! that waits for it.
 
-use crate::rooms::Blank;
+use crate::blank::Blank;
 
 /// The answer that waits, and what came since.
 #[derive(Clone, Copy, Debug)]

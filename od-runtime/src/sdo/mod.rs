@@ -5,38 +5,31 @@
 
 mod block_download;
 mod block_upload;
-mod expedited;
-mod further;
 mod late;
 mod request;
 mod segmented;
-mod stop;
 mod streamed;
-mod under_way;
 mod window;
 
 use core::marker::PhantomData;
 
 use od_model::Address;
 
-use crate::application::StreamEnd;
+use crate::application::{Halt, StreamEnd};
+use crate::blank::Blank;
 use crate::deadline::Deadline;
-use crate::device::Device;
 use crate::number::number_in;
 use crate::objects::{Objects, Unread};
-use crate::rooms::{Blank, FullRooms, Room, Rooms};
+use crate::services::Services;
+use crate::store::Store;
 use od_wire::sdo::{Response, address, expedited_upload};
-use od_wire::{AbortCode, Frame, Instant};
+use od_wire::{AbortCode, CanId, CobId, Frame, Instant, NodeId};
 
 use block_download::BlockDownload;
 use block_upload::BlockUpload;
-use late::Late;
+use late::{Held, Late};
 use segmented::{Download, Upload};
-use stop::Stop;
-use window::Window;
-
-pub use further::SdoServer;
-pub(crate) use late::Held;
+use window::{Part, Window};
 
 /// Longest time that a block transfer waits for the client, in microseconds: its segments look
 /// like requests, so a client that died would block the next one.
@@ -59,66 +52,220 @@ enum Transfer {
     BlockDownload(BlockDownload),
 }
 
-impl Blank for Transfer {
-    const BLANK: Self = Self::None;
+/// What an SDO server remembers: its channel, and one transfer at a time. The first server is the default one
+/// (1200h), the others are those of 1201h to 127Fh.
+#[derive(Clone, Debug)]
+pub struct SdoServer {
+    /// The two CAN-IDs, while both are valid.
+    channel: Option<Channel>,
+    /// Both COB-IDs are valid, and their CAN-IDs are not.
+    refused: bool,
+    state: State,
+    /// The part of the value that is in the buffer.
+    part: Part,
 }
 
-/// The server: one transfer at a time, `N` bytes of it.
+/// State of a transfer.
 #[derive(Clone, Debug)]
-pub(crate) struct Server<D, const N: usize, R: Rooms = FullRooms> {
-    device: PhantomData<D>,
-    transfers: R::Transfers<Transfer>,
-    address: Address,
-    window: Window<N>,
+struct State {
     /// The application streams the value of the transfer.
     is_streaming: bool,
+    address: Address,
+    transfer: Transfer,
     deadline: Deadline,
-    /// A frame needs a closer look: a block transfer is under way, whose segments may look like requests,
-    /// the frame has to wait, or it ends a stream.
-    is_busy: bool,
-    late: R::Late<Late>,
+    late: Late,
+}
+
+impl State {
+    const IDLE: Self = Self {
+        is_streaming: false,
+        address: Address::new(0, 0),
+        transfer: Transfer::None,
+        deadline: Deadline::NEVER,
+        late: Late::BLANK,
+    };
+
+    /// Returns whether the next frame is data, whatever it looks like, or waits.
+    fn takes_anything(&self) -> bool {
+        self.late.is_awaited()
+            || matches!(&self.transfer, Transfer::BlockDownload(block) if block.wants_segments())
+    }
+}
+
+/// The CAN-IDs of an SDO: from client to server, and back.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+struct Channel {
+    request: CanId,
+    response: CanId,
+}
+
+/// Result of [`SdoServer::configure`].
+pub(crate) struct Configured {
+    /// Its channel is another one than before: the transfer on the old one has lost its client.
+    pub(crate) has_changed: bool,
+    /// It was not refused before: both COB-IDs are valid, and a CAN-ID is not.
+    pub(crate) is_refused: bool,
+}
+
+impl Blank for SdoServer {
+    const BLANK: Self = Self {
+        channel: None,
+        refused: false,
+        state: State::IDLE,
+        part: Part { start: 0, len: 0 },
+    };
+}
+
+impl SdoServer {
+    /// The CAN-ID of its requests, while it is valid.
+    pub(crate) fn received_by(&self) -> Option<CanId> {
+        self.channel.map(|channel| channel.request)
+    }
+
+    /// The CAN-ID of its responses, while it is valid.
+    pub(crate) fn sent_by(&self) -> Option<CanId> {
+        self.channel.map(|channel| channel.response)
+    }
+
+    /// The frame of a response; `None` where the server has no COB-ID any more.
+    pub(crate) fn frame(&self, data: [u8; 8]) -> Option<Frame> {
+        Some(Frame::full(self.channel?.response, data))
+    }
+
+    /// Gives the default server its channel (CiA 301, chapter 7.3.3: 600h and 580h + node ID).
+    pub(crate) fn configure_default(&mut self, node_id: NodeId) {
+        self.channel = Some(Channel {
+            request: node_id.plus(0x600),
+            response: node_id.plus(0x580),
+        });
+    }
+
+    /// Reads the object of a further server again. `is_taken` knows the CAN-IDs by which other services
+    /// send.
+    pub(crate) fn configure(
+        &mut self,
+        store: &Store<'_>,
+        index: u16,
+        is_taken: &dyn Fn(CanId) -> bool,
+    ) -> Configured {
+        let cob_id = |sub| {
+            let cob_id = CobId::new(store.try_word(index, sub)?);
+            cob_id.is_valid().then(|| cob_id.usable_id())
+        };
+        let (both, channel) = match (cob_id(1), cob_id(2)) {
+            (Some(request), Some(response)) => {
+                let response = response.filter(|id| !is_taken(*id));
+                let channel = request.zip(response);
+                (
+                    true,
+                    channel.map(|(request, response)| Channel { request, response }),
+                )
+            }
+            _ => (false, None),
+        };
+        let refused = both && channel.is_none();
+        Configured {
+            has_changed: core::mem::replace(&mut self.channel, channel) != channel,
+            is_refused: !core::mem::replace(&mut self.refused, refused) && refused,
+        }
+    }
+
+    /// Forgets the transfer without telling client or application, as the end of power does.
+    pub(crate) fn forget(&mut self) {
+        self.state = State::IDLE;
+    }
+
+    /// Returns whether the next frame is data, whatever it looks like, or waits.
+    pub(crate) fn takes_anything(&self) -> bool {
+        self.state.takes_anything()
+    }
+
+    /// Returns whether a client waits for the end of a save.
+    pub(crate) fn awaits_save(&self) -> bool {
+        self.state.late.is_awaited() && !self.state.late.awaits_stream()
+    }
+
+    /// Returns whether a block upload may have a segment to send.
+    pub(crate) fn is_sending(&self) -> bool {
+        matches!(self.state.transfer, Transfer::BlockUpload(_))
+    }
+
+    /// The value that the application streams.
+    pub(crate) fn streamed(&self) -> Option<Address> {
+        self.state.is_streaming.then_some(self.state.address)
+    }
+
+    /// Takes the request that waited for a response.
+    pub(crate) fn held(&mut self) -> Option<Held> {
+        self.state.late.held.take()
+    }
+
+    /// Time when a block transfer gives up, or a stream is asked again.
+    pub(crate) const fn deadline(&self) -> Deadline {
+        self.state.deadline
+    }
+}
+
+/// An SDO server at work: what it remembers, and its buffer.
+pub(crate) struct Server<'s, D> {
+    device: PhantomData<D>,
+    state: &'s mut State,
+    window: Window<'s>,
 }
 
 /// Response of the server, if there is one, or the reason why it does not come.
 type Answer = Result<Option<[u8; 8]>, Stop>;
 
-impl<D, const N: usize, R: Rooms> Server<D, N, R> {
-    pub(crate) const fn idle() -> Self {
-        Self {
-            device: PhantomData,
-            transfers: Room::BLANK,
-            address: Address::new(0, 0),
-            window: Window::new(),
-            is_streaming: false,
-            deadline: Deadline::NEVER,
-            is_busy: false,
-            late: Room::BLANK,
+/// Why a request has no response yet, or none but an abort. A [`Halt`] without its moment, which becomes the
+/// deadline of the server.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Stop {
+    Abort(AbortCode),
+    /// Until the server's deadline.
+    Wait,
+}
+
+impl From<AbortCode> for Stop {
+    fn from(code: AbortCode) -> Self {
+        Self::Abort(code)
+    }
+}
+
+impl Stop {
+    fn new(halt: Halt, deadline: &mut Deadline) -> Self {
+        match halt {
+            Halt::Abort(code) => Self::Abort(code),
+            Halt::Until(at) => {
+                *deadline = Deadline::at(at);
+                Self::Wait
+            }
         }
     }
 }
 
-impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
-    /// Forgets everything without a word, as the end of power does.
-    pub(crate) fn forget(&mut self) {
-        self.reset();
-        self.is_streaming = false;
-        self.set_late(Late::BLANK);
-        self.is_busy = false;
+impl<'s, D: Services> Server<'s, D> {
+    /// The server with its buffer.
+    pub(crate) fn new(server: &'s mut SdoServer, buffer: &'s mut [u8]) -> Self {
+        Self {
+            device: PhantomData,
+            state: &mut server.state,
+            window: Window {
+                buffer,
+                part: &mut server.part,
+            },
+        }
     }
 
     /// Forgets everything without a word to the client, as a change of the NMT state does.
     pub(crate) fn cut(&mut self, objects: &mut Objects<'_, D>) {
         self.close(objects, StreamEnd::Cut);
-        self.forget();
+        *self.state = State::IDLE;
     }
 
     /// The transfer is over.
-    #[inline]
-    pub(crate) fn reset(&mut self) {
-        self.set_transfer(Transfer::None);
-        if D::BLOCK || D::STREAMS {
-            self.deadline = Deadline::NEVER;
-        }
+    fn reset(&mut self) {
+        self.state.transfer = Transfer::None;
+        self.state.deadline = Deadline::NEVER;
     }
 
     /// A client's frame; `data` beyond `dlc` is 0. The response to a [command](Objects::carry_out) waits.
@@ -128,39 +275,28 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
         data: &[u8; 8],
         dlc: u8,
     ) -> Option<[u8; 8]> {
-        match self.is_quick(data) {
-            true => self.handle_upload(objects, data, dlc),
-            false => self.handle_other(objects, data, dlc),
+        if dlc < objects.profile.sdo.min_dlc {
+            return None;
+        }
+        // Most requests are uploads that nothing else waits for.
+        let is_busy = self.state.takes_anything() || self.streams() || self.is_in_block();
+        if data[0] >> 5 == 2 && !is_busy {
+            self.handle_upload(objects, data, dlc)
+        } else {
+            self.handle_other(objects, data, dlc)
         }
     }
 
-    /// Whether this is a request for an upload that can be answered at once.
-    #[inline(always)]
-    pub(crate) fn is_quick(&self, data: &[u8; 8]) -> bool {
-        data[0] >> 5 == 2 && !self.is_busy
-    }
-
-    /// The first four bytes of such a request that is a whole frame, as a number.
-    #[inline(always)]
-    pub(crate) fn quick(&self, frame: &Frame) -> Option<u32> {
-        let head = u64::from_le_bytes(*frame.bytes()) as u32;
-        let is_whole = u16::from_le_bytes([frame.dlc(), frame.is_remote().into()]) == 8;
-        (is_whole && head & 0xE0 == 0x40 && !self.is_busy).then_some(head)
-    }
-
-    /// A request for an upload.
-    #[inline(never)]
-    pub(crate) fn handle_upload(
+    /// A request for an upload (CiA 301, chapter 7.2.4.3.4).
+    fn handle_upload(
         &mut self,
         objects: &mut Objects<'_, D>,
         data: &[u8; 8],
         dlc: u8,
     ) -> Option<[u8; 8]> {
-        if dlc < objects.profile().sdo.min_dlc {
-            return None;
-        }
         let address = address(data);
-        self.begin(address);
+        self.reset();
+        self.state.address = address;
         match self.upload(objects, address) {
             Ok(answer) => Some(answer),
             Err(Unread::Abort(code)) => Some(self.abort(objects, code)),
@@ -169,28 +305,22 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
     }
 
     /// Any other request.
-    #[inline(never)]
-    pub(crate) fn handle_other(
+    fn handle_other(
         &mut self,
         objects: &mut Objects<'_, D>,
         data: &[u8; 8],
         dlc: u8,
     ) -> Option<[u8; 8]> {
-        if dlc < objects.profile().sdo.min_dlc {
-            return None;
-        }
-        if (D::STORAGE || D::STREAMS) && self.late().is_awaited() {
-            for late in self.late.all_mut() {
-                late.hold(data, dlc, D::STREAMS);
-            }
-            if D::STREAMS && data[0] == ABORT && self.late().awaits_stream() {
+        if (D::STORAGE || D::STREAMS) && self.state.late.is_awaited() {
+            self.state.late.hold(data, dlc, D::STREAMS);
+            if D::STREAMS && data[0] == ABORT && self.state.late.awaits_stream() {
                 let answer = self.request(objects, data, dlc);
-                self.set_late(Late::BLANK);
+                self.state.late = Late::BLANK;
                 self.settle(objects, answer, data, dlc);
             }
             return None;
         }
-        let answer = match self.transfer() {
+        let answer = match self.state.transfer {
             Transfer::BlockDownload(block)
                 if D::BLOCK && block.wants_segments() && data[0] != ABORT =>
             {
@@ -198,8 +328,7 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
             }
             _ if (D::STREAMS || D::BLOCK) && data[0] >> 5 == 2 => {
                 self.close(objects, StreamEnd::Replaced);
-                self.is_busy = false;
-                return self.handle(objects, data, dlc);
+                return self.handle_upload(objects, data, dlc);
             }
             _ => self.request(objects, data, dlc),
         };
@@ -214,12 +343,12 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
         data: &[u8; 8],
         dlc: u8,
     ) -> Option<[u8; 8]> {
-        let until = self.deadline;
+        let until = self.state.deadline;
         self.await_client(objects.now);
         let is_late = objects.is_commanded();
-        let answer = match answer {
+        match answer {
             Ok(Some(response)) if is_late => {
-                self.set_late(Late::new(response));
+                self.state.late = Late::new(response);
                 None
             }
             Ok(response) => response,
@@ -230,46 +359,31 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
                 }
                 None
             }
-        };
-        self.look();
-        answer
+        }
     }
 
     /// From now on a block transfer waits for its client.
     fn await_client(&mut self, now: Instant) {
-        let is_block = matches!(
-            self.transfer(),
-            Transfer::BlockDownload(_) | Transfer::BlockUpload(_)
-        );
-        self.deadline = match is_block {
-            true => Deadline::at(now.plus_micros(BLOCK_TIMEOUT_US)),
-            false => Deadline::NEVER,
+        self.state.deadline = if self.is_in_block() {
+            Deadline::at(now.plus_micros(BLOCK_TIMEOUT_US))
+        } else {
+            Deadline::NEVER
         };
     }
 
-    /// Finds out whether the next frame needs a closer look.
-    #[cfg_attr(target_os = "none", inline(never))]
-    fn look(&mut self) {
-        self.is_busy = self.takes_anything()
-            || self.streams()
-            || D::BLOCK
-                && matches!(
-                    self.transfer(),
-                    Transfer::BlockDownload(_) | Transfer::BlockUpload(_)
-                );
+    /// Returns whether a block transfer is under way, whose segments may look like requests.
+    fn is_in_block(&self) -> bool {
+        D::BLOCK
+            && matches!(
+                self.state.transfer,
+                Transfer::BlockDownload(_) | Transfer::BlockUpload(_)
+            )
     }
 
     /// A new transfer takes the place of one that was not finished.
-    #[inline]
-    fn begin(&mut self, address: Address) {
-        self.reset();
-        self.address = address;
-    }
-
-    /// As [`begin`](Self::begin), where the one that was not finished may be a stream.
     fn replace(&mut self, objects: &mut Objects<'_, D>, address: Address) {
         self.close(objects, StreamEnd::Replaced);
-        self.address = address;
+        self.state.address = address;
     }
 
     fn upload(
@@ -277,7 +391,7 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
         objects: &mut Objects<'_, D>,
         address: Address,
     ) -> Result<[u8; 8], Unread> {
-        let segmented = D::SEGMENTED && objects.profile().sdo.segmented_upload;
+        let segmented = D::SEGMENTED && objects.profile.sdo.segmented_upload;
         let mut number = [0; 8];
         let bytes = objects.read(address, &mut number)?;
         match *bytes {
@@ -292,10 +406,9 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
     }
 
     /// A value of more than four bytes (or none) goes in segments.
-    #[inline(never)]
     fn begin_upload(&mut self, address: Address, bytes: &[u8]) -> Result<[u8; 8], Unread> {
         let len = self.window.load(bytes)?;
-        self.set_transfer(Transfer::Upload(Upload::new(len)));
+        self.state.transfer = Transfer::Upload(Upload::new(len));
         Ok(Response::InitiateUpload {
             address,
             size: Some(len as u32),
@@ -305,7 +418,6 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
     }
 
     /// An upload of a value that the application streams.
-    #[cold]
     fn handle_streamed(
         &mut self,
         objects: &mut Objects<'_, D>,
@@ -319,78 +431,64 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
         self.settle(objects, answer, data, dlc)
     }
 
-    #[inline(never)]
     fn abort(&mut self, objects: &mut Objects<'_, D>, code: AbortCode) -> [u8; 8] {
         self.close(objects, StreamEnd::Aborted(code));
         Response::Abort {
-            address: self.address,
+            address: self.state.address,
             code: code.code(),
         }
         .emit()
     }
 
-    /// Whether [`poll`](Self::poll) may have a segment.
-    #[inline]
-    pub(crate) fn is_sending(&self) -> bool {
-        matches!(self.transfer(), Transfer::BlockUpload(_))
-    }
-
     /// The next segment of a block upload, if one is due, or an abort.
     pub(crate) fn poll(&mut self, objects: &mut Objects<'_, D>) -> Option<[u8; 8]> {
-        let Transfer::BlockUpload(block) = self.transfer() else {
+        let Transfer::BlockUpload(block) = &self.state.transfer else {
             return None;
         };
         let (at, len) = (block.due()?, block.len());
-        if self.late().is_awaited() {
+        if self.state.late.is_awaited() {
             return None;
         }
         let fetched = self.fetch(objects, at, len);
-        let answer = match (fetched, self.transfers.all_mut()) {
-            (Ok(()), [Transfer::BlockUpload(block)]) => Some(block.segment(self.window.from(at))),
+        match (fetched, &mut self.state.transfer) {
+            (Ok(()), Transfer::BlockUpload(block)) => Some(block.segment(self.window.from(at))),
             (Err(Stop::Abort(code)), _) => Some(self.abort(objects, code)),
             (Err(Stop::Wait), _) if D::STREAMS => {
-                self.await_stream(self.deadline, None);
+                self.await_stream(self.state.deadline, None);
                 None
             }
             _ => None,
-        };
-        self.look();
-        answer
+        }
     }
 
     /// Everything is stored (`done`), or could not be: the answer that waited. The request behind it is
     /// [held](Self::held).
     pub(crate) fn finish(&mut self, objects: &mut Objects<'_, D>, done: bool) -> Option<[u8; 8]> {
-        let late = self.late.all_mut().first_mut();
-        let answer = late.and_then(Late::end);
-        self.look();
-        match answer {
-            Some(_) if !done => Some(self.abort(objects, objects.profile().store.failed)),
+        match self.state.late.end() {
+            Some(_) if !done => Some(self.abort(objects, objects.profile.store.failed)),
             answer => answer,
         }
     }
 
-    /// Takes the request that waited for the answer.
-    pub(crate) fn held(&mut self) -> Option<Held> {
-        self.late.all_mut().first_mut()?.held.take()
-    }
-
-    /// Time when a block transfer gives up, or a stream is asked again.
-    #[inline]
-    pub(crate) fn deadline(&self) -> Deadline {
-        self.deadline
-    }
-
     /// Gives up a block transfer whose client is gone; asks a stream again.
     pub(crate) fn handle_timeout(&mut self, objects: &mut Objects<'_, D>) -> Option<[u8; 8]> {
-        if !self.deadline.is_due(objects.now) {
+        if !self.state.deadline.is_due(objects.now) {
             return None;
         }
-        if D::STREAMS && self.late().awaits_stream() {
+        if D::STREAMS && self.state.late.awaits_stream() {
             return self.ask_again(objects);
         }
-        let abort = self.abort(objects, AbortCode::Timeout);
-        self.look();
-        Some(abort)
+        Some(self.abort(objects, AbortCode::Timeout))
+    }
+
+    /// Refuses a request that begins a transfer.
+    pub(crate) fn refuse(
+        &mut self,
+        objects: &mut Objects<'_, D>,
+        address: Address,
+        code: AbortCode,
+    ) -> [u8; 8] {
+        self.replace(objects, address);
+        self.abort(objects, code)
     }
 }

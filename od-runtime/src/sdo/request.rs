@@ -7,14 +7,14 @@ use od_wire::sdo::{Response, Segment, address, crc16_after, end, number, toggle,
 use super::block_download::BlockDownload;
 use super::block_upload::{self, BlockUpload};
 use super::segmented::Download;
-use super::stop::Stop;
-use super::{Answer, Server, Transfer, expedited};
+use super::{Answer, Server, Stop, Transfer};
 use crate::application::StreamEnd;
-use crate::device::Device;
 use crate::objects::{Objects, Unread};
-use crate::rooms::{Room, Rooms};
+use crate::profile::SdoProfile;
+use crate::services::Services;
+use od_model::row::Row;
 
-impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
+impl<D: Services> Server<'_, D> {
     #[inline]
     pub(super) fn request(
         &mut self,
@@ -33,7 +33,7 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
             }
             _ if D::SEGMENTED || D::BLOCK || D::STREAMS => self.transfer_request(objects, data),
             _ => {
-                self.address = address;
+                self.state.address = address;
                 Err(AbortCode::InvalidCommand.into())
             }
         }
@@ -41,13 +41,12 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
 
     /// A request of a transfer with more than one. Not in the frame of an expedited download, which may
     /// save all values: that is as deep as the stack gets.
-    #[inline(never)]
     fn transfer_request(&mut self, objects: &mut Objects<'_, D>, data: &[u8; 8]) -> Answer {
-        let profile = &objects.profile().sdo;
+        let profile = &objects.profile.sdo;
         let has_blocks = D::BLOCK && profile.block;
         // Not a `Request` of all: taken apart it is more code than its parts where they are.
         let (command, kind) = (data[0] >> 5, data[0] & 3);
-        match (command, kind, self.transfers.all_mut()) {
+        match (command, kind, &mut self.state.transfer) {
             (1, ..) => {
                 self.replace(objects, address(data));
                 if !D::SEGMENTED || !profile.segmented_download {
@@ -55,15 +54,15 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
                 }
                 let size = (kind == 1).then_some(number(data));
                 self.open_download(objects, size)?;
-                self.set_transfer(Transfer::Download(Download::new(size)));
-                let address = self.address;
+                self.state.transfer = Transfer::Download(Download::new(size));
+                let address = self.state.address;
                 Ok(Some(Response::InitiateDownload { address }.emit_to(data)))
             }
-            (3, _, [Transfer::Upload(upload)]) if D::SEGMENTED => {
+            (3, _, Transfer::Upload(upload)) if D::SEGMENTED => {
                 upload.check(toggle(data))?;
                 let (at, len) = (upload.sent(), upload.len());
                 self.fetch(objects, at, len)?;
-                let [Transfer::Upload(upload)] = self.transfers.all_mut() else {
+                let Transfer::Upload(upload) = &mut self.state.transfer else {
                     return Ok(None);
                 };
                 let segment = upload.segment(self.window.from(at));
@@ -72,7 +71,7 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
                 }
                 Ok(Some(segment))
             }
-            (0, _, [Transfer::Download(download)]) if D::SEGMENTED => {
+            (0, _, Transfer::Download(download)) if D::SEGMENTED => {
                 let mut download = *download;
                 let (bytes, is_last) = Segment::of_frame(data);
                 let toggle = toggle(data);
@@ -81,13 +80,13 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
                     self.pass_on(objects)?;
                 }
                 self.window.put(bytes)?;
-                let len = self.window.len + bytes.len();
+                let len = self.window.part.len + bytes.len();
                 if is_last {
                     self.complete(objects, len)?;
                 } else {
-                    self.window.len = len;
+                    self.window.part.len = len;
                     download.go_on();
-                    self.set_transfer(Transfer::Download(download));
+                    self.state.transfer = Transfer::Download(download);
                 }
                 Ok(Some(Response::DownloadSegment { toggle }.emit()))
             }
@@ -97,22 +96,22 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
                 block_upload::check(block_size)?;
                 let len = self.open_upload(objects)?;
                 let block = BlockUpload::new(len, wants_crc(data), block_size);
-                self.set_transfer(Transfer::BlockUpload(block));
+                self.state.transfer = Transfer::BlockUpload(block);
                 let response = Response::InitiateBlockUpload {
-                    address: self.address,
+                    address: self.state.address,
                     crc: true,
                     size: Some(len as u32),
                 };
                 Ok(Some(response.emit_to(data)))
             }
-            (5, 3, [Transfer::BlockUpload(block)]) if D::BLOCK => {
+            (5, 3, Transfer::BlockUpload(block)) if D::BLOCK => {
                 block.start()?;
                 Ok(None)
             }
-            (5, 2, [Transfer::BlockUpload(block)]) if D::BLOCK => {
+            (5, 2, Transfer::BlockUpload(block)) if D::BLOCK => {
                 Ok(block.acknowledged(data[1], data[2])?)
             }
-            (5, 1, [Transfer::BlockUpload(block)]) if D::BLOCK && block.is_complete() => {
+            (5, 1, Transfer::BlockUpload(block)) if D::BLOCK && block.is_complete() => {
                 self.close(objects, StreamEnd::Complete);
                 Ok(None)
             }
@@ -120,24 +119,24 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
                 self.replace(objects, address(data));
                 let size = (kind == 2).then_some(number(data));
                 self.open_download(objects, size)?;
-                let block = BlockDownload::new(N, wants_crc(data), size);
-                self.set_transfer(Transfer::BlockDownload(block));
+                let block = BlockDownload::new(self.window.buffer.len(), wants_crc(data), size);
+                self.state.transfer = Transfer::BlockDownload(block);
                 let response = Response::InitiateBlockDownload {
-                    address: self.address,
+                    address: self.state.address,
                     crc: true,
                     block_size: block.block_size(),
                 };
                 Ok(Some(response.emit_to(data)))
             }
-            (6, 1 | 3, [Transfer::BlockDownload(block)]) if D::BLOCK => {
+            (6, 1 | 3, Transfer::BlockDownload(block)) if D::BLOCK => {
                 let (unused, crc) = end(data);
                 let len = block.end(&self.window, unused, crc)?;
                 self.complete(objects, len)?;
                 Ok(Some(Response::EndBlockDownload.emit()))
             }
             (.., transfer) => {
-                if matches!(transfer, [] | [Transfer::None]) {
-                    self.address = address(data);
+                if matches!(transfer, Transfer::None) {
+                    self.state.address = address(data);
                 }
                 Err(AbortCode::InvalidCommand.into())
             }
@@ -154,9 +153,9 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
         // Bytes 4 to 7 are the value; the command gives the number of unused ones.
         let [command, _, _, _, bytes @ ..] = data;
         let size = (command & 1 != 0).then_some(4 - (command >> 2 & 3));
-        let had_begun = match self.transfer() {
-            Transfer::Expedited(len) if D::STREAMS && address == self.address => {
-                Some(usize::from(*len))
+        let had_begun = match self.state.transfer {
+            Transfer::Expedited(len) if D::STREAMS && address == self.state.address => {
+                Some(usize::from(len))
             }
             _ => None,
         };
@@ -164,7 +163,7 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
             self.replace(objects, address);
         }
         let row = objects.writable(address)?;
-        let len = expedited::len(&objects.profile().sdo, row, size.map(u32::from), dlc)?;
+        let len = expedited_len(&objects.profile.sdo, row, size.map(u32::from), dlc)?;
         let bytes = bytes.get(..len).unwrap_or_default();
         if !objects.streams(row) {
             objects.change(row, bytes)?;
@@ -173,7 +172,7 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
             if had_begun != Some(len) {
                 self.close(objects, StreamEnd::Replaced);
                 self.open_download(objects, Some(len as u32))?;
-                self.set_transfer(Transfer::Expedited(len as u8));
+                self.state.transfer = Transfer::Expedited(len as u8);
             }
             self.window.clear();
             self.window.put(bytes)?;
@@ -188,15 +187,15 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
         objects: &mut Objects<'_, D>,
         size: Option<u32>,
     ) -> Result<(), Stop> {
-        let address = self.address;
+        let address = self.state.address;
         let row = objects.writable(address)?;
         self.window.clear();
         if objects.streams(row) {
             let begun = objects.stream(address, |stream, cx| {
                 stream.begin_download(cx, address, size)
             });
-            begun.map_err(|halt| Stop::new(halt, &mut self.deadline))?;
-            self.is_streaming = true;
+            begun.map_err(|halt| Stop::new(halt, &mut self.state.deadline))?;
+            self.state.is_streaming = true;
             return Ok(());
         }
         let size = size.map(|size| size as usize);
@@ -204,7 +203,7 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
             objects.fit(row, size)?;
         }
         match size {
-            Some(size) if size > N => Err(AbortCode::OutOfMemory.into()),
+            Some(size) if size > self.window.buffer.len() => Err(AbortCode::OutOfMemory.into()),
             _ => Ok(()),
         }
     }
@@ -212,7 +211,7 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
     /// A value is to be read, in blocks. Returns its length.
     fn open_upload(&mut self, objects: &mut Objects<'_, D>) -> Result<usize, Stop> {
         let mut number = [0; 8];
-        match objects.read(self.address, &mut number) {
+        match objects.read(self.state.address, &mut number) {
             Ok(bytes) => Ok(self.window.load(bytes)?),
             Err(Unread::Abort(code)) => Err(code.into()),
             Err(Unread::Streamed) => self.open_stream(objects),
@@ -220,23 +219,23 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
     }
 
     /// A segment of a block download.
-    #[inline(never)]
     pub(super) fn block_segment(&mut self, objects: &mut Objects<'_, D>, data: &[u8; 8]) -> Answer {
-        let [Transfer::BlockDownload(block)] = self.transfers.all_mut() else {
+        let Transfer::BlockDownload(block) = &mut self.state.transfer else {
             return Ok(None);
         };
         if !block.segment(&mut self.window, data)? {
             return Ok(None);
         }
         // What is last waits for its length and the checksum.
-        if D::STREAMS && self.is_streaming && block.wants_segments() {
+        if D::STREAMS && self.state.is_streaming && block.wants_segments() {
             let mut block = *block;
             block.check_size(&self.window)?;
-            block.crc_before = crc16_after(block.crc_before, self.window.first(self.window.len));
+            block.crc_before =
+                crc16_after(block.crc_before, self.window.first(self.window.part.len));
             self.pass_on(objects)?;
-            self.set_transfer(Transfer::BlockDownload(block));
+            self.state.transfer = Transfer::BlockDownload(block);
         }
-        let [Transfer::BlockDownload(block)] = self.transfers.all_mut() else {
+        let Transfer::BlockDownload(block) = &mut self.state.transfer else {
             return Ok(None);
         };
         Ok(Some(block.confirm(self.window.room()).emit()))
@@ -247,11 +246,36 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
     fn complete(&mut self, objects: &mut Objects<'_, D>, len: usize) -> Result<(), Stop> {
         if self.streams() {
             self.give(objects, len, true)?;
-            objects.streamed(self.address);
+            objects.streamed(self.state.address);
         } else {
-            objects.write(self.address, self.window.first(len))?;
+            objects.write(self.state.address, self.window.first(len))?;
         }
         self.close(objects, StreamEnd::Complete);
         Ok(())
     }
+}
+
+/// Returns how many of the up to four bytes that came with an expedited download are the value (CiA 301,
+/// chapter 7.2.4.3.3). Without an indicated size the object's own counts; in a frame that is shorter than its
+/// data, what is missing was not given.
+fn expedited_len(
+    profile: &SdoProfile,
+    row: &Row,
+    size: Option<u32>,
+    dlc: u8,
+) -> Result<usize, AbortCode> {
+    let given = usize::from(dlc.saturating_sub(4)).min(4);
+    let own = Some(row.size()).filter(|size| *size > 0);
+    let len = match size {
+        // Bytes that do not count need not be there either.
+        Some(size) if profile.length.too_long.is_none() => {
+            (size as usize).min(own.unwrap_or(4)).min(4)
+        }
+        Some(size) => (size as usize).min(4),
+        None => own.unwrap_or(given),
+    };
+    if len > given {
+        return Err(profile.length.too_short);
+    }
+    Ok(len)
 }

@@ -3,52 +3,52 @@
 use crate::number::copy;
 use od_wire::AbortCode;
 
-/// A part of a value.
-#[derive(Clone, Debug)]
-pub(super) struct Window<const N: usize> {
-    pub(super) buffer: [u8; N],
+/// The part of a value that is in the buffer.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Part {
     /// Bytes of the value before those in the buffer: the stream has them.
     pub(super) start: usize,
     /// Bytes in the buffer.
     pub(super) len: usize,
 }
 
-impl<const N: usize> Window<N> {
-    pub(super) const fn new() -> Self {
-        Self {
-            buffer: [0; N],
-            start: 0,
-            len: 0,
-        }
-    }
+/// The buffer, and the part of a value in it.
+#[derive(Debug)]
+pub(super) struct Window<'s> {
+    pub(super) buffer: &'s mut [u8],
+    pub(super) part: &'s mut Part,
+}
 
+impl Window<'_> {
     /// Empties the buffer; the next byte is the first of a value.
     pub(super) fn clear(&mut self) {
-        self.start = 0;
-        self.len = 0;
+        self.part.start = 0;
+        self.part.len = 0;
     }
 
     /// Copies a whole value into the buffer. Returns its length.
     pub(super) fn load(&mut self, bytes: &[u8]) -> Result<usize, AbortCode> {
         self.clear();
         self.put(bytes)?;
-        self.len = bytes.len();
-        Ok(self.len)
+        self.part.len = bytes.len();
+        Ok(self.part.len)
     }
 
     /// Bytes of the value so far.
-    pub(super) const fn end(&self) -> usize {
-        self.start + self.len
+    pub(super) fn end(&self) -> usize {
+        self.part.start + self.part.len
     }
 
     /// Bytes that there is room for.
-    pub(super) const fn room(&self) -> usize {
-        N - self.len
+    pub(super) fn room(&self) -> usize {
+        self.buffer.len().saturating_sub(self.part.len)
     }
 
     /// Puts bytes behind those in the buffer. They count with the next change of `len`.
     pub(super) fn put(&mut self, bytes: &[u8]) -> Result<(), AbortCode> {
-        let room = self.buffer.get_mut(self.len..self.len + bytes.len());
+        let room = self
+            .buffer
+            .get_mut(self.part.len..self.part.len + bytes.len());
         copy(room.ok_or(AbortCode::OutOfMemory)?, bytes);
         Ok(())
     }
@@ -60,7 +60,7 @@ impl<const N: usize> Window<N> {
 
     /// The bytes of the value from `at` on, as far as they are in the buffer.
     pub(super) fn from(&self, at: usize) -> &[u8] {
-        let at = at.wrapping_sub(self.start);
-        self.buffer.get(at..self.len).unwrap_or(&[])
+        let at = at.wrapping_sub(self.part.start);
+        self.buffer.get(at..self.part.len).unwrap_or(&[])
     }
 }

@@ -32,7 +32,6 @@ impl Crc32 {
     }
 
     /// Takes more bytes in.
-    #[inline(never)]
     pub(crate) fn update(&mut self, bytes: &[u8]) {
         *self = self.after(bytes);
     }

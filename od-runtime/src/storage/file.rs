@@ -1,5 +1,6 @@
 //! Storage in a file: a header that says whose it is, and the bytes of an EEPROM.
 
+use std::format;
 use std::fs::{OpenOptions, TryLockError};
 use std::io::{self, ErrorKind, Read, Seek, SeekFrom, Write};
 use std::path::Path;
@@ -7,6 +8,8 @@ use std::process;
 use std::string::String;
 use std::vec;
 use std::vec::Vec;
+
+use od_model::Dictionary;
 
 use self::header::{Header, LEN, SIGNATURE, Seen};
 use super::image;
@@ -47,6 +50,25 @@ impl File {
         owner: &Owner<'_>,
     ) -> Result<Self, OpenError> {
         Self::start(path.as_ref(), capacity, owner, false)
+    }
+
+    /// As [`open`](Self::open), for the device of a dictionary: vendor-ID and product code (1018h) say whose the
+    /// file is, and there is room for all values.
+    ///
+    /// # Errors
+    /// [`OpenError`]; the file is as it was then.
+    pub fn of(path: impl AsRef<Path>, dictionary: &Dictionary<'_>) -> Result<Self, OpenError> {
+        let number = |sub| match dictionary.entry(0x1018, sub) {
+            Some(entry) => entry.default.integer(0).unwrap_or_default(),
+            None => 0,
+        };
+        let identity = format!("vendor-ID {:X}h, product code {:X}h", number(1), number(2));
+        let owner = Owner {
+            name: &identity,
+            identity: &identity,
+            device: image::device(dictionary),
+        };
+        Self::open(path, image::capacity_needed(dictionary), &owner)
     }
 
     /// As [`open`](Self::open), and erases the file, whichever device of odkit it was of.

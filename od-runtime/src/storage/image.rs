@@ -142,7 +142,6 @@ pub fn load(
 }
 
 /// The second part of [`load`], of surveyed banks.
-#[inline(never)]
 pub(crate) fn take_over(
     medium: &mut Medium<'_>,
     store: &mut Store<'_>,
@@ -180,7 +179,6 @@ pub(crate) fn take_over(
 }
 
 /// Puts a saved value over that of the store. Returns whether the object can have it.
-#[inline(never)]
 fn load_value(
     medium: &mut Medium<'_>,
     store: &mut Store<'_>,

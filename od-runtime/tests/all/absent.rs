@@ -1,14 +1,14 @@
 //! A node without a service: its objects are values as any others, and its frames mean nothing.
 
 use crate::support::{Bench, Row, rows, unsigned};
-use crate::table::{Unknown, With, on};
+use crate::table::{With, on};
 use od_model::{Access, Address, DataType};
 use od_runtime::{
     AbortCode, Application, Chunk, Context, Emcy, Halt, LssProfile, NoApplication, Stream,
 };
 use od_wire::nmt::State;
 
-type Of<const SERVICES: u16> = Bench<NoApplication, With<Unknown, SERVICES>>;
+type Of<const SERVICES: u16> = Bench<NoApplication, With<SERVICES>>;
 
 /// Objects of all services, whose values no rule of theirs would accept.
 fn all() -> Vec<Row> {
@@ -34,8 +34,8 @@ fn all() -> Vec<Row> {
 }
 
 fn bench<const SERVICES: u16>() -> Of<SERVICES> {
-    let mut bench = Bench::of_device(all(), NoApplication);
-    bench.profile.pdo.event_on_change = false;
+    let mut bench: Of<SERVICES> = Bench::of_device(all(), NoApplication);
+    bench.node.device_mut().profile.pdo.event_on_change = false;
     assert_eq!(bench.power_on(), ["701#00"]);
     bench
 }
@@ -144,7 +144,7 @@ fn transfers_without_their_service_are_no_commands() {
 fn frames_of_an_absent_service_mean_nothing() {
     fn answers<const SERVICES: u16>(frame: &str) -> usize {
         let mut bench = bench::<SERVICES>();
-        bench.profile.lss = Some(LssProfile::CIA305);
+        bench.node.device_mut().profile.lss = Some(LssProfile::CIA305);
         bench.power_cycle();
         bench.send("000#0101");
         bench.send(frame).len()
@@ -176,7 +176,7 @@ fn rpdos_that_the_node_does_not_have_are_not_received() {
 fn changes_are_sent_where_the_node_looks_for_them() {
     fn sent<const SERVICES: u16>() -> usize {
         let mut bench = bench::<SERVICES>();
-        bench.profile.pdo.event_on_change = true;
+        bench.node.device_mut().profile.pdo.event_on_change = true;
         bench.power_cycle();
         bench.send("000#0101");
         bench.send("601#2300200006000000").len()
@@ -246,10 +246,10 @@ impl Stream for Noisy {
     }
 }
 
-fn noisy<const SERVICES: u16>() -> Bench<Noisy, With<Unknown, SERVICES>> {
-    let mut bench = Bench::of_device(all(), Noisy);
-    bench.profile.pdo.event_on_change = false;
-    bench.profile.errors.behaviour = &[(0x01, 1)];
+fn noisy<const SERVICES: u16>() -> Bench<Noisy, With<SERVICES>> {
+    let mut bench: Bench<Noisy, With<SERVICES>> = Bench::of_device(all(), Noisy);
+    bench.node.device_mut().profile.pdo.event_on_change = false;
+    bench.node.device_mut().profile.errors.behaviour = &[(0x01, 1)];
     bench.power_on();
     bench.send("000#0101");
     bench
@@ -306,8 +306,8 @@ fn a_block_ends_where_its_client_does() {
 #[test]
 fn a_save_that_takes_its_time_is_answered_without_streams_too() {
     let mut bench = bench::<{ on::STORAGE }>();
-    bench.profile.store.answer = od_runtime::SaveAnswer::AfterStoring;
-    bench.profile.store.duration_us = 50_000;
+    bench.node.device_mut().profile.store.answer = od_runtime::SaveAnswer::AfterStoring;
+    bench.node.device_mut().profile.store.duration_us = 50_000;
     let saved = (50, "581#6010100100000000".to_owned());
     assert_eq!(bench.send("601#2310100173617665"), [""; 0]);
     assert_eq!(bench.send("601#4000100000000000"), [""; 0], "not yet");

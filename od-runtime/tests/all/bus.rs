@@ -22,6 +22,7 @@ const MANUAL_001: ErrorProfile = ErrorProfile {
     bus_passive: notice(0x8120, 0x10),
     bus_off: 0x10,
     bus_recovered: None,
+    watches_sync_length: false,
     overrun: notice(0x8110, 0x10),
     reset: ErrorReset::LastError,
     behaviour: &[(0x10, 1), (0x01, 2), (0x08, 3)],
@@ -59,9 +60,9 @@ fn bench(errors: ErrorProfile, behaviour: u64, options: u64) -> Bench {
         (0x2110, 0, Unsigned16, Rw, false, unsigned(options)),
     ]);
     let mut bench = Bench::with(all, NoApplication);
-    bench.profile.pdo.event_on_change = false;
-    bench.profile.errors = errors;
-    bench.profile.nmt.reset_communication_us = 5_000;
+    bench.node.device_mut().profile.pdo.event_on_change = false;
+    bench.node.device_mut().profile.errors = errors;
+    bench.node.device_mut().profile.nmt.reset_communication_us = 5_000;
     bench.power_on();
     bench.ask("601#2B00180564000000");
     bench.send("000#0101");
@@ -241,33 +242,28 @@ fn an_error_of_the_bus_that_gets_better_ends() {
 
 #[test]
 fn a_reset_of_the_communication_ends_its_errors_alone() {
-    use od_runtime::{Emcy, Lent};
+    use od_runtime::Emcy;
     let after = |codes: &[(u16, u8)]| {
         let mut errors = MANUAL_001;
         errors.bus_recovered = notice(0x8140, 0x10);
         errors.behaviour = &[];
         let mut bench = bench(errors, 1, 8);
         for (code, register) in codes {
-            let mut device = Lent {
-                dictionary: bench.tables.dictionary(),
-                values: &mut bench.values,
-                application: &mut bench.application,
-                storage: &mut bench.storage,
-                profile: Some(&bench.profile),
-            };
             let (code, register, info) = (*code, *register, [0; 5]);
             let error = Emcy {
                 code,
                 register,
                 info,
             };
-            assert!(bench.node.raise(&mut device, bench.now, error));
+            assert!(bench.node.raise(bench.now, error));
         }
         bench.send("000#8201");
         bench.wait(5);
         bench.value(0x1001, 0)
     };
-    for code in [0x8130, 0x8100, 0x8120, 0x8110, 0x8140, 0x8210] {
+    for code in [
+        0x8130, 0x8100, 0x8120, 0x8110, 0x8140, 0x8210, 0x8240, 0x8250,
+    ] {
         assert_eq!(after(&[(code, 0x10)]), 0, "{code:X}");
         assert_eq!(after(&[(code, 0x10), (0x5000, 2)]), 2, "{code:X}");
     }

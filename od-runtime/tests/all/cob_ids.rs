@@ -99,7 +99,7 @@ fn a_cob_id_that_leaves_the_11_bits_makes_its_service_not_valid() {
             device(&[((0x1800, 1), Value::NodeId(0x790))]),
             Talker::default(),
         );
-        bench.node = od_runtime::Node::new(NodeId::new(node_id).unwrap());
+        bench = bench.at(NodeId::new(node_id).unwrap());
         bench.power_on();
         assert_eq!(refused(&mut bench), [0x1800], "node {node_id}");
         let out = all_frames(&mut bench);
@@ -115,7 +115,8 @@ fn a_cob_id_that_leaves_the_11_bits_makes_its_service_not_valid() {
 #[test]
 fn a_service_whose_cob_id_is_refused_is_not_valid_and_the_others_are() {
     let emcy = |frame: &String| frame.ends_with("EEEEEEEEEE");
-    let cases: [(&[((u16, u8), Value)], &[u16]); 8] = [
+    type Case<'c> = (&'c [((u16, u8), Value)], &'c [u16]);
+    let cases: [Case<'_>; 8] = [
         (&[], &[]),
         (&[((0x1014, 0), Value::Unsigned(0x7E4))], &[0x1014]),
         (&[((0x1014, 0), Value::NodeId(0x800))], &[0x1014]),
@@ -278,7 +279,7 @@ fn no_node_sends_by_a_restricted_can_id_or_by_that_of_another_service() {
         }
         let own = random.pick(&[1, 2, 16, 96, 111, 112, 126, 127]);
         let mut bench = Bench::with(rows, Talker::default());
-        bench.node = od_runtime::Node::new(NodeId::new(own).unwrap());
+        bench = bench.at(NodeId::new(own).unwrap());
         let mut owners = BTreeMap::new();
         for frame in all_frames(&mut bench) {
             let service = service(&frame, own);

@@ -42,23 +42,23 @@ fn error(code: u16, register: u8) -> Emcy {
 #[test]
 fn errors_come_and_go_with_their_bits() {
     let mut bench = bench(&[]);
-    bench.application.raise.push(error(0x5530, 0x01));
+    bench.node.application.raise.push(error(0x5530, 0x01));
     assert_eq!(bench.change(), ["081#3055010102030405"]);
-    bench.application.raise.push(error(0xFF00, 0x81));
+    bench.node.application.raise.push(error(0xFF00, 0x81));
     assert_eq!(bench.change(), ["081#00FF810102030405"]);
-    bench.application.raise.push(error(0xFF00, 0x81));
+    bench.node.application.raise.push(error(0xFF00, 0x81));
     assert!(bench.change().is_empty(), "it is there already");
     assert_eq!(bench.ask("601#4001100000000000"), "581#4F01100081000000");
     assert_eq!(bench.ask("601#4003100000000000"), "581#4F03100002000000");
     assert_eq!(bench.ask("601#4003100100000000"), "581#4303100100FF0000");
     assert_eq!(bench.ask("601#4003100200000000"), "581#4303100230550000");
-    bench.application.clear.push(0xFF00);
+    bench.node.application.clear.push(0xFF00);
     assert_eq!(
         bench.change(),
         ["081#0000010909090909"],
         "the other one is left"
     );
-    bench.application.clear.extend([0x5530, 0x1234]);
+    bench.node.application.clear.extend([0x5530, 0x1234]);
     assert_eq!(
         bench.change(),
         ["081#0000000909090909"],
@@ -70,7 +70,7 @@ fn errors_come_and_go_with_their_bits() {
 fn the_log_keeps_the_newest() {
     let mut bench = bench(&[]);
     for code in [0x1000, 0x5530, 0x6010] {
-        bench.application.raise.push(error(code, 1));
+        bench.node.application.raise.push(error(code, 1));
         bench.change();
     }
     assert_eq!(
@@ -99,6 +99,7 @@ fn inhibit_time_and_1014h_hold_the_frame_not_the_log() {
     );
     let mut bench = bench(&[inhibit]);
     bench
+        .node
         .application
         .raise
         .extend([error(0x1000, 1), error(0x5530, 1)]);
@@ -109,7 +110,7 @@ fn inhibit_time_and_1014h_hold_the_frame_not_the_log() {
         "500 x 100 us"
     );
     bench.ask("601#2314100081000080");
-    bench.application.raise.push(error(0x6010, 1));
+    bench.node.application.raise.push(error(0x6010, 1));
     assert!(bench.change().is_empty(), "1014h bit 31");
     assert_eq!(bench.ask("601#4003100100000000"), "581#4303100110600000");
 }
@@ -118,7 +119,7 @@ fn inhibit_time_and_1014h_hold_the_frame_not_the_log() {
 fn no_emcy_when_stopped_but_an_entry_in_the_log() {
     let mut bench = bench(&[]);
     bench.send("000#0201");
-    bench.application.raise.push(error(0x1000, 1));
+    bench.node.application.raise.push(error(0x1000, 1));
     assert!(bench.change().is_empty());
     assert_eq!(bench.send("000#8001"), [""; 0]);
     assert_eq!(bench.ask("601#4003100100000000"), "581#4303100100100000");
@@ -135,8 +136,9 @@ fn an_emcy_that_waits_goes_out_after_the_boot_up() {
         unsigned(500),
     );
     let mut bench = bench(&[inhibit]);
-    bench.profile.nmt.reset_communication_us = 60_000;
+    bench.node.device_mut().profile.nmt.reset_communication_us = 60_000;
     bench
+        .node
         .application
         .raise
         .extend([error(0x1000, 1), error(0x5530, 1)]);
@@ -163,7 +165,7 @@ fn errors_wait_for_the_inhibit_time_in_their_order() {
     let message = |code: u16| format!("081#{:04X}010102030405", code.swap_bytes());
     let mut dropped = Vec::new();
     for code in 0x2001..=0x2014u16 {
-        bench.application.raise.push(error(code, 1));
+        bench.node.application.raise.push(error(code, 1));
         let sent = bench.change();
         assert_eq!(sent.len(), usize::from(code == 0x2001), "{code:X}");
         while let Some(event) = bench.node.poll_event() {
@@ -192,6 +194,7 @@ fn the_inhibit_time_is_in_units_of_100_microseconds() {
         unsigned(25),
     )]);
     bench
+        .node
         .application
         .raise
         .extend([error(0x2001, 1), error(0x2002, 1)]);
@@ -208,7 +211,7 @@ fn a_reset_forgets_errors_and_those_that_wait() {
     for start in ["reset node", "power"] {
         let mut bench = bench(std::slice::from_ref(&inhibit));
         let both = [error(0x1000, 1), error(0x5530, 0x81)];
-        bench.application.raise.extend(both);
+        bench.node.application.raise.extend(both);
         assert_eq!(bench.change(), ["081#0010010102030405"]);
         let out = match start {
             "power" => bench.power_cycle(),
@@ -220,7 +223,7 @@ fn a_reset_forgets_errors_and_those_that_wait() {
             "{start}: the second waits no more"
         );
         assert_eq!(bench.ask("601#4001100000000000"), "581#4F01100000000000");
-        bench.application.raise.push(error(0x1000, 1));
+        bench.node.application.raise.push(error(0x1000, 1));
         assert_eq!(bench.change(), ["081#0010010102030405"], "{start}");
         assert_eq!(bench.ask("601#4001100000000000"), "581#4F01100001000000");
     }

@@ -34,16 +34,16 @@ fn bench(values: [u64; 3], operational_only: bool) -> Bench<Faults> {
         all.push((0x1029, sub, Unsigned8, Rw, false, unsigned(value)));
     }
     let mut bench = Bench::with(all, Faults::default());
-    bench.profile.pdo.event_on_change = false;
-    bench.profile.errors.behaviour = &[(0x10, 1), (0x01, 2), (0x08, 3)];
-    bench.profile.errors.operational_only = operational_only;
+    bench.node.device_mut().profile.pdo.event_on_change = false;
+    bench.node.device_mut().profile.errors.behaviour = &[(0x10, 1), (0x01, 2), (0x08, 3)];
+    bench.node.device_mut().profile.errors.operational_only = operational_only;
     bench.power_on();
     bench.send("000#0101");
     bench
 }
 
 fn raise(bench: &mut Bench<Faults>, code: u16, register: u8) -> Vec<String> {
-    bench.application.raise.push(Emcy {
+    bench.node.application.raise.push(Emcy {
         code,
         register,
         info: [0; 5],
@@ -52,7 +52,7 @@ fn raise(bench: &mut Bench<Faults>, code: u16, register: u8) -> Vec<String> {
 }
 
 fn clear(bench: &mut Bench<Faults>, code: u16) -> Vec<String> {
-    bench.application.clear.push(code);
+    bench.node.application.clear.push(code);
     bench.change()
 }
 
@@ -123,7 +123,7 @@ fn an_error_reset_may_wait_for_the_last_error() {
         (ErrorReset::LastError, vec![]),
     ] {
         let mut bench = bench([1, 1, 1], true);
-        bench.profile.errors.reset = reset;
+        bench.node.device_mut().profile.errors.reset = reset;
         raise(&mut bench, 0x5100, 0x01);
         raise(&mut bench, 0xFF00, 0x00);
         raise(&mut bench, 0x4200, 0x09);
@@ -142,14 +142,14 @@ fn an_error_reset_may_wait_for_the_last_error() {
 fn many_errors_at_once_are_all_told() {
     let mut bench = bench([1, 1, 1], true);
     for code in 0..20 {
-        bench.application.raise.push(Emcy {
+        bench.node.application.raise.push(Emcy {
             code: 0xFF00 + code,
             register: 1,
             info: [0; 5],
         });
     }
     assert_eq!(bench.change().len(), 16, "as many as can wait");
-    bench.application.clear.extend(0xFF00..0xFF14);
+    bench.node.application.clear.extend(0xFF00..0xFF14);
     assert_eq!(bench.change().len(), 16);
     assert_eq!(bench.value(0x1001, 0), 0, "but none is forgotten");
 }
@@ -158,7 +158,7 @@ fn many_errors_at_once_are_all_told() {
 fn a_bus_off_acts_by_the_bits_that_become_set() {
     for (was_set, state) in [(false, State::Stopped), (true, State::Operational)] {
         let mut bench = bench([1, 1, 1], false);
-        bench.profile.errors.bus_off = 0x08;
+        bench.node.device_mut().profile.errors.bus_off = 0x08;
         if was_set {
             raise(&mut bench, 0x4200, 0x08);
         }

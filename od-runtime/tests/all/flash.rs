@@ -4,11 +4,12 @@
 use crate::nor::Nor;
 use crate::support::{rows, tables, unsigned};
 use od_model::{Access, Address, DataType};
+use od_runtime::rooms::{LoadedRooms, LoadedValues};
 use od_runtime::storage::image::{self, Loaded};
 use od_runtime::storage::{Storage, StorageError};
 use od_runtime::{
-    AbortCode, AnyDevice, CutSave, Event, Frame, Instant, Lent, NoApplication, Node, NodeId,
-    Profile, Store, StoreProfile,
+    AbortCode, CutSave, Event, Frame, Instant, NoApplication, Node, NodeId, Profile, Store,
+    StoreProfile,
 };
 
 /// Page and word.
@@ -281,36 +282,37 @@ fn a_word_that_keeps_its_content_fails_the_save() {
     }
 }
 
+/// That device, for a node.
+struct Compiled(&'static od_model::Dictionary<'static>);
+
+impl od_runtime::Services for Compiled {}
+
+impl od_runtime::Device for Compiled {
+    type Values = LoadedValues;
+    type Rooms = LoadedRooms;
+
+    fn dictionary(&self) -> od_model::Dictionary<'_> {
+        *self.0
+    }
+}
+
 /// A node of that device; the save is answered, and told.
 #[test]
 fn a_save_that_is_not_there_aborts_and_is_told() {
-    let mut device = Device::new(CutSave::LastSet);
-    let mut flash = device.flash(1024, 8);
-    let mut node = Node::<AnyDevice, 4, 512>::new(NodeId::ONE);
+    let device = Device::new(CutSave::LastSet);
+    let flash = device.flash(1024, 8);
     let now = Instant::ZERO;
-    let mut lent = Lent {
-        dictionary: *device.dictionary,
-        values: &mut device.values,
-        application: &mut NoApplication,
-        storage: &mut flash,
-        profile: Some(&Profile::CIA301),
-    };
-    node.power_on_partly(&mut lent, now).expect("room");
-    while node.poll_transmit(&mut lent, now).is_some() {}
+    let device = Compiled(device.dictionary);
+    let mut node = Node::new(device, NodeId::ONE, NoApplication, flash);
+    node.power_on(now);
+    while node.poll_transmit(now).is_some() {}
     let save = Frame::standard(0x601, &[0x23, 0x10, 0x10, 1, b's', b'a', b'v', b'e']);
     let mut answers = Vec::new();
     for stuck in [None, Some(1024 + 16)] {
-        flash.stuck = stuck;
-        let mut lent = Lent {
-            dictionary: *device.dictionary,
-            values: &mut device.values,
-            application: &mut NoApplication,
-            storage: &mut flash,
-            profile: Some(&Profile::CIA301),
-        };
+        node.storage.stuck = stuck;
         while node.poll_event().is_some() {}
-        node.handle_frame(&mut lent, now, &save);
-        let answer = node.poll_transmit(&mut lent, now).expect("an answer");
+        node.handle_frame(now, &save);
+        let answer = node.poll_transmit(now).expect("an answer");
         let events: Vec<_> = std::iter::from_fn(|| node.poll_event()).collect();
         answers.push((answer.data()[0], answer.data()[4..].to_vec(), events));
     }

@@ -21,7 +21,7 @@ fn bench(behaviour: u64) -> Bench {
         (0x2110, 0, Unsigned32, Rw, false, unsigned(8)),
     ]);
     let mut bench = Bench::with(all, NoApplication);
-    bench.profile.pdo.event_on_change = false;
+    bench.node.device_mut().profile.pdo.event_on_change = false;
     bench.power_on();
     bench
 }
@@ -52,9 +52,9 @@ fn heartbeat_wins_over_guarding() {
 #[test]
 fn a_family_may_have_a_switch_for_it() {
     let mut bench = bench(1);
-    bench.profile = Profile {
+    bench.node.device_mut().profile = Profile {
         guarding_switch: Some((0x2110, 0x20)),
-        ..bench.profile
+        ..bench.node.device_mut().profile
     };
     bench.send("000#8101");
     bench.ask("601#2B17100064000000");

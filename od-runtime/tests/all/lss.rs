@@ -32,7 +32,7 @@ fn bench_of<A: Application>(lss: LssProfile, application: A) -> Bench<A> {
         (0x2300, 0, Unsigned8, Rw, false, unsigned(7)),
     ]);
     let mut bench = Bench::with(all, application);
-    bench.profile = Profile {
+    bench.node.device_mut().profile = Profile {
         lss: Some(lss),
         ..Profile::CIA301
     };

@@ -18,12 +18,13 @@ fn bench(node_id: Option<NodeId>) -> Bench<NoApplication> {
         (0x1018, 4, Unsigned32, Ro, false, unsigned(0x1234)),
     ]);
     let mut bench = Bench::with(all, NoApplication);
-    bench.profile = Profile {
+    bench.node.device_mut().profile = Profile {
         lss: Some(LssProfile::CIA305),
         ..Profile::CIA301
     };
-    let capacity = image::capacity_needed(&bench.tables.dictionary()) + image::OWN_CAPACITY;
-    bench.storage = Memory::new(vec![0xFF; capacity]);
+    let capacity =
+        image::capacity_needed(&bench.node.device().tables.dictionary()) + image::OWN_CAPACITY;
+    bench.node.storage = Memory::new(vec![0xFF; capacity]);
     bench.node.set_node_id(node_id);
     bench
 }

@@ -43,7 +43,7 @@ fn every_command_from_every_state_to_this_node_and_to_all() {
         for (from, _) in commands {
             for (command, state) in commands {
                 let mut bench = Bench::new();
-                bench.profile.pdo.event_on_change = false;
+                bench.node.device_mut().profile.pdo.event_on_change = false;
                 bench.power_on();
                 bench.send(&format!("000#{from}{node}"));
                 let out = bench.send(&format!("000#{command}{node}"));

@@ -3,7 +3,7 @@
 use crate::support::{Bench, rows, unsigned};
 use od_model::{Access, Address, DataType};
 use od_runtime::storage::{Storage, StorageError};
-use od_runtime::{AbortCode, Emcy, Lent, NodeId};
+use od_runtime::{AbortCode, Emcy, NodeId};
 
 const WORKING: Address = Address::new(0x2000, 0);
 const READ_ONLY: Address = Address::new(0x2010, 0);
@@ -23,24 +23,14 @@ fn bench() -> Bench {
 
 macro_rules! own {
     ($bench:expr, $call:ident($($argument:expr),*)) => {
-        $bench.node.$call(
-            &mut Lent {
-                dictionary: $bench.tables.dictionary(),
-                values: &mut $bench.values,
-                application: &mut $bench.application,
-                storage: &mut $bench.storage,
-                profile: Some(&$bench.profile),
-            },
-            $bench.now,
-            $($argument),*
-        )
+        $bench.node.$call($bench.now, $($argument),*)
     };
 }
 
 #[test]
 fn a_save_of_the_device_itself_keeps_no_client_waiting() {
     let mut bench = bench();
-    bench.profile.store.duration_us = 50_000;
+    bench.node.device_mut().profile.store.duration_us = 50_000;
     bench.power_on();
     bench.ask("601#2300200007000000");
     let save = Address::new(0x1010, 1);

@@ -104,7 +104,7 @@ const HARDWARE: &str = "581#80501F0200000606";
 fn a_program_goes_into_the_memory_page_by_page() {
     let mut bench = bench(Chip::default());
     assert_eq!(load(&mut bench), DONE);
-    let pages = &bench.application.memory.pages;
+    let pages = &bench.node.application.memory.pages;
     let expected = [(0, "1234"), (4, "5678"), (8, "9")];
     assert_eq!(
         *pages,
@@ -114,7 +114,7 @@ fn a_program_goes_into_the_memory_page_by_page() {
     assert_eq!(bench.ask("601#40561F0200000000"), "581#43561F022639F4CB");
     assert_eq!(bench.ask("601#40571F0200000000"), "581#43571F0200000000");
     assert_eq!(bench.ask("601#2F511F0201000000"), "581#60511F0200000000");
-    assert!(bench.application.is_running());
+    assert!(bench.node.application.is_running());
     // NMT reset communication lets it run, reset node does not.
     bench.send("000#8201");
     assert_eq!(bench.ask("601#40511F0200000000"), "581#4F511F0201000000");
@@ -130,7 +130,7 @@ fn what_the_memory_keeps_is_there_after_power() {
     bench.power_cycle();
     assert_eq!(bench.ask("601#40561F0200000000"), "581#43561F022639F4CB");
     assert_eq!(bench.ask("601#2F511F0201000000"), "581#60511F0200000000");
-    bench.application.memory.stored = None;
+    bench.node.application.memory.stored = None;
     bench.power_cycle();
     assert_eq!(bench.ask("601#40561F0200000000"), "581#43561F0200000000");
     assert_eq!(bench.ask("601#40571F0200000000"), "581#43571F0202000000");
@@ -149,13 +149,13 @@ fn a_memory_that_fails_is_a_hardware_error_and_no_program() {
         // 1F57h: flash write error, code 5.
         assert_eq!(bench.ask("601#40571F0200000000"), "581#43571F020A000000");
         assert_eq!(bench.ask("601#40561F0200000000"), "581#43561F0200000000");
-        bench.application.memory.works = None;
+        bench.node.application.memory.works = None;
         assert_eq!(load(&mut bench), DONE);
         assert_eq!(bench.ask("601#40571F0200000000"), "581#43571F0200000000");
     }
     let mut bench = bench(Chip::default());
     load(&mut bench);
-    bench.application.memory.works = Some(0);
+    bench.node.application.memory.works = Some(0);
     assert_eq!(bench.ask("601#2F511F0203000000"), "581#60511F0200000000");
     assert_eq!(bench.ask("601#40571F0200000000"), "581#43571F020A000000");
 }
@@ -175,14 +175,14 @@ fn a_program_fills_the_memory_and_no_more() {
     assert_eq!(bench.ask("601#0031323334353637"), "581#2000000000000000");
     assert_eq!(bench.ask("601#1038393A3B3C3D3E"), "581#3000000000000000");
     assert_eq!(bench.ask("601#0B3F400000000000"), "581#2000000000000000");
-    assert_eq!(bench.application.program().map(|it| it.len), Some(16));
+    assert_eq!(bench.node.application.program().map(|it| it.len), Some(16));
     // And back again.
     assert_eq!(bench.ask("601#40501F0200000000"), "581#41501F0210000000");
     assert_eq!(bench.ask("601#6000000000000000"), "581#0031323334353637");
     assert_eq!(bench.ask("601#7000000000000000"), "581#1038393A3B3C3D3E");
     assert_eq!(bench.ask("601#6000000000000000"), "581#0B3F400000000000");
     assert_eq!(bench.ask("601#21501F0211000000"), "581#80501F0212000706");
-    assert_eq!(bench.application.program().map(|it| it.len), Some(16));
+    assert_eq!(bench.node.application.program().map(|it| it.len), Some(16));
     // One that does not say how long it is.
     assert_eq!(bench.ask("601#20501F0200000000"), "581#60501F0200000000");
     let mut answer = String::new();
@@ -194,7 +194,7 @@ fn a_program_fills_the_memory_and_no_more() {
         }
     }
     assert_eq!(answer, "581#80501F0212000706");
-    assert_eq!(bench.application.program(), None);
+    assert_eq!(bench.node.application.program(), None);
 }
 
 #[test]
@@ -202,7 +202,7 @@ fn a_busy_memory_says_so_until_it_is_ready() {
     let mut bench = bench(Chip::default());
     load(&mut bench);
     assert_eq!(bench.ask("601#40571F0200000000"), "581#43571F0200000000");
-    bench.application.memory.busy_until = Some(Instant::from_millis(30));
+    bench.node.application.memory.busy_until = Some(Instant::from_millis(30));
     bench.change();
     assert_eq!(bench.ask("601#40571F0200000000"), "581#43571F0201000000");
     for command in ["01", "02", "03"] {
@@ -221,7 +221,7 @@ fn a_busy_memory_says_so_until_it_is_ready() {
     // A download under way is busy, too.
     assert_eq!(bench.ask("601#21501F0209000000"), "581#60501F0200000000");
     assert_eq!(bench.node.poll_timeout(), None);
-    assert_eq!(bench.application.program(), None);
+    assert_eq!(bench.node.application.program(), None);
     assert_eq!(bench.value(0x1F57, 2) & 1, 1);
     bench.send("601#80501F0200000008");
     assert_eq!(bench.value(0x1F57, 2) & 1, 0);
@@ -231,16 +231,16 @@ fn a_busy_memory_says_so_until_it_is_ready() {
 fn a_busy_memory_keeps_a_download_waiting() {
     let mut bench = bench(Chip::default());
     let ms = Instant::from_millis;
-    bench.application.memory.busy_until = Some(ms(30));
+    bench.node.application.memory.busy_until = Some(ms(30));
     assert_eq!(bench.send("601#21501F0209000000"), [""; 0]);
     assert_eq!(bench.wait(29), []);
     assert_eq!(bench.wait(1), [(30, "581#60501F0200000000".to_owned())]);
     assert_eq!(bench.ask("601#0031323334353637"), "581#2000000000000000");
-    bench.application.memory.busy_until = Some(ms(50));
+    bench.node.application.memory.busy_until = Some(ms(50));
     assert_eq!(bench.send("601#1B38390000000000"), [""; 0]);
-    assert!(bench.application.memory.pages.is_empty());
+    assert!(bench.node.application.memory.pages.is_empty());
     assert_eq!(bench.wait(20), [(50, DONE.to_owned())]);
-    bench.application.memory.busy_until = Some(ms(70));
+    bench.node.application.memory.busy_until = Some(ms(70));
     let start = bench.ask("601#40501F0200000000");
     assert_eq!(start, "581#41501F0209000000");
     assert_eq!(bench.send("601#6000000000000000"), [""; 0]);

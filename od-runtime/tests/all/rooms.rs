@@ -1,105 +1,104 @@
-//! Rooms of a node: what its device has no use for takes none.
+//! Memory of a node: what its device has no use for takes none.
 
-use crate::table::{Table, Unknown, With, on, row};
-use od_model::row::Row;
-use od_runtime::rooms::room;
-use od_runtime::{AnyDevice, Device};
+use crate::support::{Full, Row, rows, tables, unsigned};
+use crate::table::{With, on};
+use od_model::{Access, DataType};
+use od_runtime::Device;
+use od_runtime::rooms::Sizes;
 
-fn rooms<D: Device>() -> [usize; 12] {
-    core::array::from_fn(room::<D>)
+fn sizes<D: Device>(rows: Vec<Row>) -> Sizes {
+    Sizes::of::<D>(&tables(rows).dictionary())
 }
 
-struct Few;
-
-impl Table for Few {
-    const ROWS: Option<&'static [Row]> = Some(&[row(0x1000, 0), row(0x1015, 0), row(0x2000, 9)]);
+fn few() -> Vec<Row> {
+    vec![(
+        0x1000,
+        0,
+        DataType::Unsigned32,
+        Access::Ro,
+        false,
+        unsigned(0),
+    )]
 }
 
-/// Objects around those of a service, whose greatest sub-indices do not count.
-struct Many;
-
-impl Table for Many {
-    const ROWS: Option<&'static [Row]> = Some(&[
-        row(0x1014, 0),
-        row(0x1015, 9),
-        row(0x1016, 0),
-        row(0x1016, 3),
-        row(0x1017, 9),
-        row(0x1400, 1),
-        row(0x1402, 1),
-        row(0x15FF, 0),
-        row(0x1600, 2),
-        row(0x17FF, 4),
-        row(0x1800, 7),
-        row(0x19FF, 7),
-        row(0x1A00, 5),
-        row(0x1A01, 1),
-        row(0x1BFF, 6),
-        row(0x1C00, 7),
-    ]);
-}
-
-struct Receiver;
-
-impl Table for Receiver {
-    const ROWS: Option<&'static [Row]> = Some(&[
-        row(0x1016, 20),
-        row(0x1400, 1),
-        row(0x1401, 1),
-        row(0x1600, 5),
-        row(0x1A00, 4),
-        row(0x1A01, 0),
-    ]);
-}
-
-struct Long;
-
-impl Table for Long {
-    const ROWS: Option<&'static [Row]> = Some(&[row(0x1600, 7), row(0x1A00, 20)]);
-}
+type Of<const SERVICES: u16> = With<SERVICES>;
 
 #[test]
-fn a_device_that_nobody_knows_has_room_for_everything() {
-    let all = [32, 16, 16, 8, 8, 1, 1, 1, 1, 1, 8, 0];
-    assert_eq!(rooms::<AnyDevice>(), all);
-    let none = [5, 5, 0, 4, 0, 0, 0, 0, 0, 0, 8, 0];
-    assert_eq!(rooms::<With<Unknown, 0>>(), none);
+fn a_device_with_every_service_has_room_for_it() {
+    let all = sizes::<Full>(rows());
+    assert_eq!((all.tpdos, all.rpdos, all.servers), (2, 2, 1));
+    assert_eq!((all.errors, all.changes, all.messages), (32, 32, 16));
+    assert_eq!((all.events, all.frames), (16, 9));
+    assert_eq!((all.guards, all.lss, all.saves, all.clocks), (1, 1, 1, 1));
+    // Eight entries of each of the four mappings.
+    assert_eq!(all.mapped, 32);
+    // The longest value, a DOMAIN.
+    assert_eq!(all.buffers, 512);
+    let values = tables(rows()).dictionary().store_len();
+    assert_eq!(all.values, values);
 }
 
 #[test]
 fn each_service_takes_its_own_room() {
-    const NONE: [usize; 12] = [5, 0, 0, 4, 0, 0, 0, 0, 0, 0, 0, 0];
-    let with = |changes: &[(usize, usize)]| {
-        let mut rooms = NONE;
-        changes.iter().for_each(|(at, size)| rooms[*at] = *size);
-        rooms
-    };
-    assert_eq!(rooms::<With<Few, 0>>(), NONE);
-    assert_eq!(rooms::<With<Few, { on::ERRORS }>>(), with(&[(0, 20)]));
-    assert_eq!(rooms::<With<Few, { on::EVENTS }>>(), with(&[(2, 16)]));
-    assert_eq!(rooms::<With<Few, { on::BEHAVIOUR }>>(), with(&[(3, 8)]));
-    assert_eq!(rooms::<With<Few, { on::SERVERS }>>(), with(&[(3, 8)]));
-    assert_eq!(rooms::<With<Few, { on::LSS }>>(), with(&[(3, 8), (6, 1)]));
-    assert_eq!(rooms::<With<Few, { on::BLOCK }>>(), with(&[(3, 8), (9, 1)]));
-    assert_eq!(rooms::<With<Few, { on::GUARDING }>>(), with(&[(5, 1)]));
-    let stores = with(&[(7, 1), (8, 1)]);
-    assert_eq!(rooms::<With<Few, { on::STORAGE }>>(), stores);
-    assert_eq!(rooms::<With<Few, { on::SEGMENTED }>>(), with(&[(9, 1)]));
-    let streams = with(&[(8, 1), (9, 1)]);
-    assert_eq!(rooms::<With<Few, { on::STREAMS }>>(), streams);
-    assert_eq!(rooms::<With<Few, { on::CONSUMER }>>(), NONE, "nobody");
-    assert_eq!(rooms::<With<Few, { on::RPDOS }>>(), NONE, "it has none");
+    let none = sizes::<Of<0>>(few());
+    assert_eq!(
+        (none.tpdos, none.rpdos, none.mapped, none.servers),
+        (0, 0, 0, 1)
+    );
+    assert_eq!((none.errors, none.changes, none.messages), (5, 5, 0));
+    assert_eq!((none.events, none.frames, none.watches), (0, 5, 0));
+    assert_eq!(
+        (none.guards, none.lss, none.saves, none.clocks),
+        (0, 0, 0, 0)
+    );
+    assert_eq!(sizes::<Of<{ on::ERRORS }>>(few()).errors, 20);
+    assert_eq!(sizes::<Of<{ on::EVENTS }>>(few()).events, 16);
+    assert_eq!(sizes::<Of<{ on::GUARDING }>>(few()).guards, 1);
+    assert_eq!(sizes::<Of<{ on::LSS }>>(few()).lss, 1);
+    assert_eq!(sizes::<Of<{ on::STORAGE }>>(few()).saves, 1);
+    assert_eq!(sizes::<Of<{ on::TIME }>>(few()).clocks, 1);
+    assert_eq!(sizes::<Of<{ on::SYNC_PRODUCER }>>(few()).clocks, 1);
+    for frames in [
+        sizes::<Of<{ on::LSS }>>(few()).frames,
+        sizes::<Of<{ on::BLOCK }>>(few()).frames,
+        sizes::<Of<{ on::SERVERS }>>(few()).frames,
+        sizes::<Of<{ on::BEHAVIOUR }>>(few()).frames,
+    ] {
+        assert_eq!(frames, 9);
+    }
 }
 
 #[test]
 fn sizes_are_those_of_the_dictionary() {
-    const SERVICES: u16 = on::CONSUMER | on::RPDOS | on::ERRORS;
-    let none = [5, 5, 0, 4, 0, 0, 0, 0, 0, 0, 6, 0];
-    assert_eq!(rooms::<With<Many, 0>>(), none);
-    let some = [20, 16, 0, 4, 3, 0, 0, 0, 0, 0, 6, 512];
-    assert_eq!(rooms::<With<Many, SERVICES>>(), some);
-    let watches_many = [20, 0, 0, 4, 8, 0, 0, 0, 0, 0, 5, 2];
-    assert_eq!(rooms::<With<Receiver, SERVICES>>(), watches_many);
-    let maps_many = [5, 0, 0, 4, 0, 0, 0, 0, 0, 0, 8, 0];
-    assert_eq!(rooms::<With<Long, 0>>(), maps_many);
+    let with = |index, sub| {
+        let mut rows = rows();
+        rows.push((
+            index,
+            sub,
+            DataType::Unsigned32,
+            Access::Rw,
+            false,
+            unsigned(0),
+        ));
+        rows
+    };
+    for (index, tpdos, rpdos) in [
+        (0x1403, 2, 4),
+        (0x15FF, 2, 512),
+        (0x1802, 3, 2),
+        (0x19FF, 512, 2),
+    ] {
+        let sizes = sizes::<Full>(with(index, 1));
+        assert_eq!((sizes.tpdos, sizes.rpdos), (tpdos, rpdos), "{index:04X}h");
+    }
+    assert_eq!(sizes::<Of<0>>(with(0x1403, 1)).rpdos, 0);
+    assert_eq!(sizes::<Full>(with(0x1016, 3)).watches, 3);
+    assert_eq!(
+        sizes::<Full>(with(0x1016, 20)).watches,
+        8,
+        "the node watches 8"
+    );
+    let servers = sizes::<Full>(with(0x1203, 1));
+    assert_eq!((servers.servers, servers.buffers), (4, 4 * 512));
+    assert_eq!(sizes::<Of<0>>(with(0x1203, 1)).servers, 1);
 }

@@ -20,10 +20,10 @@ fn bench(answer: SaveAnswer, cut: CutSave) -> Bench {
         unsigned(0),
     ));
     let mut bench = Bench::with(all, NoApplication);
-    bench.profile.pdo.event_on_change = false;
-    bench.profile.store.answer = answer;
-    bench.profile.store.cut = cut;
-    bench.profile.store.duration_us = 50_000;
+    bench.node.device_mut().profile.pdo.event_on_change = false;
+    bench.node.device_mut().profile.store.answer = answer;
+    bench.node.device_mut().profile.store.cut = cut;
+    bench.node.device_mut().profile.store.duration_us = 50_000;
     bench.power_on();
     bench
 }
@@ -167,7 +167,7 @@ fn a_reset_meanwhile_is_an_interruption() {
 fn a_storage_that_fails_at_the_end_is_told() {
     let mut bench = bench(SaveAnswer::AfterStoring, CutSave::LastSet);
     bench.send(SAVE);
-    bench.storage.cut_after(0);
+    bench.node.storage.cut_after(0);
     assert_eq!(
         bench.wait(50),
         [(50, "581#8010100100000606".to_owned())],
@@ -182,7 +182,7 @@ fn a_cob_id_moves_or_stays() {
         (SavedCobIds::Difference, 0x18F),
     ] {
         let mut bench = bench(SaveAnswer::AtOnce, CutSave::Factory);
-        bench.profile.store.cob_ids = rule;
+        bench.node.device_mut().profile.store.cob_ids = rule;
         bench.ask("601#2301180181010080");
         bench.ask("601#2300180181010080");
         bench.ask("601#2300180187010000");
@@ -191,7 +191,7 @@ fn a_cob_id_moves_or_stays() {
         bench.power_cycle();
         assert_eq!(bench.value(0x1800, 1), 0x187);
         bench.node.power_off();
-        bench.node = od_runtime::Node::new(od_runtime::NodeId::new(9).expect("1 to 127"));
+        bench = bench.at(od_runtime::NodeId::new(9).expect("1 to 127"));
         assert_eq!(bench.power_on(), ["709#00"]);
         assert_eq!(bench.value(0x1800, 1), cob_id, "{rule:?}");
         assert_eq!(bench.value(0x1014, 0), 0x89, "never changed");
@@ -201,14 +201,14 @@ fn a_cob_id_moves_or_stays() {
 #[test]
 fn a_difference_that_leaves_the_eleven_bits_is_none() {
     let mut bench = bench(SaveAnswer::AtOnce, CutSave::Factory);
-    bench.profile.store.cob_ids = SavedCobIds::Difference;
+    bench.node.device_mut().profile.store.cob_ids = SavedCobIds::Difference;
     bench.ask("601#231410008E060000");
     bench.ask("601#23141000DF060080");
     bench.ask("601#23141000F8070080");
     bench.ask(SAVE);
     bench.wait(50);
     bench.node.power_off();
-    bench.node = od_runtime::Node::new(od_runtime::NodeId::new(127).expect("1 to 127"));
+    bench = bench.at(od_runtime::NodeId::new(127).expect("1 to 127"));
     bench.power_on();
     assert_eq!(bench.value(0x1014, 0), 0xFF, "the default");
 }
@@ -230,14 +230,14 @@ fn twins(restore: Restore) -> Bench {
     all.extend([0x2300, 0x2301, 0x6200, 0x6201].map(|index| rw(index, 0)));
     all.extend([0x1010, 0x1011].map(|index| rw(index, 3)));
     let mut bench = Bench::with(all, NoApplication);
-    bench.profile.store.twins = const {
+    bench.node.device_mut().profile.store.twins = const {
         &[
             [Address::new(0x2300, 0), Address::new(0x6200, 0)],
             [Address::new(0x2004, 0), Address::new(0x6201, 0)],
         ]
     };
-    bench.profile.store.restore = restore;
-    bench.profile.pdo.event_on_change = false;
+    bench.node.device_mut().profile.store.restore = restore;
+    bench.node.device_mut().profile.pdo.event_on_change = false;
     bench.power_on();
     for (index, value) in [("0023", 7), ("0123", 8), ("0062", 9), ("0162", 10)] {
         bench.ask(&format!("601#23{index}00{value:02X}000000"));
@@ -290,11 +290,11 @@ impl od_runtime::Application for Hears {
 fn an_application_hears_that_its_storage_is_sound() {
     let mut bench = Bench::with(rows(), Hears::default());
     bench.power_on();
-    assert_eq!(bench.application.sound, [true]);
+    assert_eq!(bench.node.application.sound, [true]);
     for request in [SAVE, "601#231110016C6F6164"] {
-        bench.application = Hears::default();
+        bench.node.application = Hears::default();
         bench.send(request);
-        let hears = &bench.application;
+        let hears = &bench.node.application;
         assert_eq!(
             (&hears.sound[..], hears.ticks),
             (&[true][..], 1),
@@ -308,22 +308,26 @@ fn the_newest_set_is_all_that_a_start_needs() {
     use od_runtime::storage::Storage;
     use od_runtime::storage::image::{newest, writer};
     let mut bench = bench(SaveAnswer::AtOnce, CutSave::LastSet);
-    assert_eq!(writer(&mut bench.storage), Ok(None));
-    assert_eq!(newest(&mut bench.storage), Ok(None));
-    bench.profile.store.duration_us = 0;
+    assert_eq!(writer(&mut bench.node.storage), Ok(None));
+    assert_eq!(newest(&mut bench.node.storage), Ok(None));
+    bench.node.device_mut().profile.store.duration_us = 0;
     for value in [7, 8, 9] {
         write(&mut bench, value);
         assert_eq!(bench.ask(SAVE), SAVED);
-        let who = writer(&mut bench.storage).expect("it can be read");
-        let place = newest(&mut bench.storage).expect("it can be read");
+        let who = writer(&mut bench.node.storage).expect("it can be read");
+        let place = newest(&mut bench.node.storage).expect("it can be read");
         let (who, place) = (who.expect("a set"), place.expect("a set"));
         let mut bytes = vec![0; place.len()];
-        bench.storage.read(place.start, &mut bytes).expect("there");
+        bench
+            .node
+            .storage
+            .read(place.start, &mut bytes)
+            .expect("there");
         // The same set at the start of another storage.
         let mut other = self::bench(SaveAnswer::AtOnce, CutSave::LastSet);
         other.node.power_off();
-        other.storage.write(0, &bytes).expect("it has room");
-        assert_eq!(writer(&mut other.storage), Ok(Some(who)));
+        other.node.storage.write(0, &bytes).expect("it has room");
+        assert_eq!(writer(&mut other.node.storage), Ok(Some(who)));
         assert_eq!(after_power_cycle(&mut other), u64::from(value));
     }
 }

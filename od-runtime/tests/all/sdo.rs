@@ -244,7 +244,7 @@ fn three_bytes_go_expedited_both_ways() {
     assert_eq!(bench.ask("601#2702200061626300"), "581#6002200000000000");
     assert_eq!(bench.ask("601#4002200000000000"), "581#4702200061626300");
     // What the frame is too short for was not given.
-    bench.profile.sdo.min_dlc = 4;
+    bench.node.device_mut().profile.sdo.min_dlc = 4;
     assert_eq!(bench.ask("601#27022000414243"), "581#6002200000000000");
     assert_eq!(bench.ask("601#270220007172"), "581#8002200013000706");
     assert_eq!(bench.ask("601#4002200000000000"), "581#4702200041424300");
@@ -253,13 +253,13 @@ fn three_bytes_go_expedited_both_ways() {
 #[test]
 fn transfers_that_a_family_lacks_are_unknown_commands() {
     let mut bench = bench();
-    bench.profile.sdo.block = false;
+    bench.node.device_mut().profile.sdo.block = false;
     assert_eq!(bench.ask("601#A40320007F000000"), "581#8003200001000405");
     assert_eq!(bench.ask("601#C603200007000000"), "581#8003200001000405");
     // No block has begun, so this is a segment without a transfer.
     assert_eq!(bench.ask("601#0101020304050607"), "581#8001020301000405");
     assert_eq!(bench.ask("601#2102200003000000"), "581#6002200000000000");
-    bench.profile.sdo.segmented_download = false;
+    bench.node.device_mut().profile.sdo.segmented_download = false;
     assert_eq!(bench.ask("601#2102200003000000"), "581#8002200001000405");
     assert_eq!(bench.ask("601#0961626300000000"), "581#8061626301000405");
     assert_eq!(bench.ask("601#2702200061626300"), "581#6002200000000000");
@@ -296,8 +296,8 @@ fn what_an_expedited_download_of_a_text_carries() {
 #[test]
 fn bytes_that_do_not_count_need_not_be_there() {
     let mut bench = Bench::new();
-    bench.profile.sdo.length.too_long = None;
-    bench.profile.sdo.min_dlc = 4;
+    bench.node.device_mut().profile.sdo.length.too_long = None;
+    bench.node.device_mut().profile.sdo.min_dlc = 4;
     bench.power_on();
     // Four bytes for an UNSIGNED8, and one for an INTEGER16.
     assert_eq!(bench.ask("601#2304200007"), "581#6004200000000000");

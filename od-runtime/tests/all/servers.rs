@@ -1,11 +1,8 @@
 //! SDO servers past the default one (CiA 301, chapter 7.5.2.33).
 
-use crate::support::{Bench, Full, Row, rows, unsigned};
+use crate::support::{Bench, Row, rows, unsigned};
 use od_model::{Access, Address, DataType};
-use od_runtime::{
-    AnyDevice, Application, Chunk, Context, Extra, Halt, NoApplication, Node, SaveAnswer, Stream,
-    StreamEnd, Unfit,
-};
+use od_runtime::{Application, Chunk, Context, Halt, NoApplication, SaveAnswer, Stream, StreamEnd};
 
 /// 1201h and 1203h; 1202h is missing.
 fn servers() -> Vec<Row> {
@@ -161,15 +158,8 @@ fn a_channel_that_goes_takes_its_transfer_with_it() {
 #[test]
 fn the_number_of_servers_is_that_of_the_dictionary() {
     let bench = bench();
-    let dictionary = bench.tables.dictionary();
+    let dictionary = bench.node.device().tables.dictionary();
     assert_eq!(dictionary.servers(), 3);
-    type With<const N: usize> = Node<Full, 2, 1024, Extra<Full, 1024, N>>;
-    assert_eq!(With::<3>::fits(&dictionary), Ok(()));
-    assert_eq!(With::<2>::fits(&dictionary), Err(Unfit::SdoServer(0x1203)));
-    assert_eq!(
-        Node::<AnyDevice, 2, 1024>::fits(&dictionary),
-        Err(Unfit::SdoServer(0x1201))
-    );
 }
 
 /// A log of 20 bytes at 2003h, which its application streams.
@@ -238,13 +228,13 @@ fn a_stream_is_read_by_one_server_at_a_time() {
     assert_eq!(bench.ask("680#4003200000000000"), "6C0#8003200022000008");
     bench.send("000#0201");
     let cancelled = StreamEnd::Cancelled(0x0504_0000);
-    assert_eq!(bench.application.ends, [cancelled, StreamEnd::Cut]);
+    assert_eq!(bench.node.application.ends, [cancelled, StreamEnd::Cut]);
 }
 
 #[test]
 fn a_save_answers_on_the_channel_that_asked_when_it_is_complete() {
     let mut bench = bench();
-    bench.profile.store.answer = SaveAnswer::AfterStoring;
+    bench.node.device_mut().profile.store.answer = SaveAnswer::AfterStoring;
     bench.hear("680#2310100173617665");
     bench.hear("680#4000200000000000");
     let mut out = bench.drain();
@@ -259,8 +249,8 @@ fn a_save_answers_on_the_channel_that_asked_when_it_is_complete() {
 #[test]
 fn a_save_that_takes_its_time_answers_there_too() {
     let mut bench = bench();
-    bench.profile.store.answer = SaveAnswer::AfterStoring;
-    bench.profile.store.duration_us = 50_000;
+    bench.node.device_mut().profile.store.answer = SaveAnswer::AfterStoring;
+    bench.node.device_mut().profile.store.duration_us = 50_000;
     assert!(bench.send("680#2310100173617665").is_empty());
     assert!(bench.send("680#4000200000000000").is_empty(), "behind it");
     let frames = ["6C0#6010100100000000", "6C0#4300200005000000"];

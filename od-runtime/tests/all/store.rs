@@ -103,7 +103,7 @@ fn a_family_may_restore_at_once() {
         restore: Restore::AtOnce,
         ..Profile::CIA301.store
     };
-    bench.profile = Profile {
+    bench.node.device_mut().profile = Profile {
         store,
         ..Profile::CIA301
     };
@@ -125,7 +125,7 @@ fn a_cob_id_that_was_never_changed_follows_the_node_id() {
     bench.ask("601#2314100099000080");
     bench.ask("601#2314100099000000");
     command(&mut bench, "10", 1);
-    bench.node = crate::support::TestNode::new(od_runtime::NodeId::new(9).expect("1–127"));
+    bench = bench.at(od_runtime::NodeId::new(9).expect("1–127"));
     cycle(&mut bench);
     assert_eq!(bench.value(0x1014, 0), 0x99, "changed and saved");
     assert_eq!(bench.value(0x1800, 1), 0x189, "still the default");
@@ -137,9 +137,9 @@ fn storage_that_fails_says_so_and_keeps_the_last_set() {
     change(&mut bench, 9);
     command(&mut bench, "10", 1);
     change(&mut bench, 10);
-    bench.storage.cut_after(20);
+    bench.node.storage.cut_after(20);
     assert_eq!(bench.ask("601#2310100173617665"), "581#8010100100000606");
-    bench.storage.restore_power();
+    bench.node.storage.restore_power();
     cycle(&mut bench);
     assert_eq!(values(&bench), [9, 9, 9]);
 }
@@ -150,7 +150,14 @@ fn a_stored_value_that_the_object_cannot_have_is_left_out() {
     change(&mut bench, 9);
     // 2006h is a BOOLEAN: a damaged device saves a 2.
     let slot = bench.entry(od_model::Address::new(0x2006, 0)).slot;
-    bench.values[slot.offset as usize] = 2;
+    bench.node.look(|_, store| {
+        let bits = od_model::typed::Var::<u8, od_model::typed::Ro>::new(
+            od_model::Address::new(0x2006, 0),
+            slot,
+            8,
+        );
+        store.set(bits, 2);
+    });
     command(&mut bench, "10", 1);
     cycle(&mut bench);
     assert_eq!(bench.value(0x2006, 0), 0);
@@ -161,10 +168,11 @@ fn a_stored_value_that_the_object_cannot_have_is_left_out() {
 fn a_number_is_put_in_its_own_length() {
     use od_model::Address;
     use od_runtime::{AbortCode, NodeId, Store};
-    let mut bench = bench();
+    let bench = bench();
     let entry = bench.entry(Address::new(0x2000, 0));
-    let dictionary = bench.tables.dictionary();
-    let mut store = Store::new(&dictionary, &mut bench.values, NodeId::ONE).expect("room");
+    let dictionary = bench.node.device().tables.dictionary();
+    let mut values = bench.node.values().to_vec();
+    let mut store = Store::new(&dictionary, &mut values, NodeId::ONE).expect("room");
     for (bytes, result) in [
         (&[1, 2, 3, 4][..], Ok(())),
         (&[5, 6, 7], Err(AbortCode::TooShort)),
@@ -183,10 +191,10 @@ fn a_number_is_put_in_its_own_length() {
 fn a_handle_of_a_constant_has_its_default() {
     use od_model::typed::Var;
     use od_model::{Address, Slot};
-    let mut bench = bench();
-    let dictionary = bench.tables.dictionary();
-    let values = &mut bench.values;
-    let store = od_runtime::Store::new(&dictionary, values, od_runtime::NodeId::ONE);
+    let bench = bench();
+    let dictionary = bench.node.device().tables.dictionary();
+    let mut values = bench.node.values().to_vec();
+    let store = od_runtime::Store::new(&dictionary, &mut values, od_runtime::NodeId::ONE);
     let store = store.expect("room");
     let handle = |index| {
         let nowhere = Slot { offset: 0, len: 0 };

@@ -3,10 +3,11 @@
 
 use od_eds::{Description, EntryDescription, ObjectDescription, Spanned, Tables, Value};
 use od_model::{Access, Address, DataType, ObjectCode};
+use od_runtime::rooms::{LoadedRooms, LoadedValues};
 use od_runtime::storage::Memory;
 use od_runtime::{
-    Application, BusEvent, CanId, Device, Extra, Frame, Instant, Lent, NoApplication, Node, NodeId,
-    Profile,
+    Application, BusEvent, CanId, Device, Frame, Instant, NoApplication, Node, NodeId, Profile,
+    Services,
 };
 
 /// One row of a dictionary: address, type, access, mappable, default.
@@ -111,6 +112,10 @@ pub fn tables(rows: Vec<Row>) -> Tables {
         entry.access = Spanned::from(access);
         entry.mappable = Spanned::from(mappable);
         entry.default = default.map(Spanned::from);
+        if data_type == DataType::Domain {
+            // As long as 73 segments of a block transfer.
+            entry.capacity = Some(512);
+        }
         if matches!((index, sub), (0x2000, 0)) {
             entry.low = Some(Spanned::from(Value::Unsigned(2)));
             entry.high = Some(Spanned::from(Value::Unsigned(1_000_000)));
@@ -127,40 +132,48 @@ pub fn tables(rows: Vec<Row>) -> Tables {
     Tables::new(&description)
 }
 
+/// A device of tables that are made at run time.
+pub trait Loaded: Device {
+    fn of(tables: Tables) -> Self;
+}
+
 /// A device with every service; its dictionary is known at run time.
 #[derive(Debug)]
-pub struct Full;
+pub struct Full {
+    pub tables: Tables,
+    pub profile: Profile,
+}
 
-impl Device for Full {
+impl Services for Full {
     const SERVERS: bool = true;
     const SYNC_PRODUCER: bool = true;
     const TIME: bool = true;
 }
 
-/// Its buffer is shorter than the DOMAIN 2003h: what runs over is tested, too.
-pub type TestNode = Node<Full, 4, 512, Extra<Full, 512, 3>>;
+impl Device for Full {
+    type Values = LoadedValues;
+    type Rooms = LoadedRooms;
 
-/// The node with everything that it needs.
-pub struct Bench<A = NoApplication, D: Device = Full> {
-    pub tables: Tables,
-    pub values: Vec<u8>,
-    pub application: A,
-    pub storage: Memory<Vec<u8>>,
-    pub profile: Profile,
-    pub node: Node<D, 4, 512, Extra<D, 512, 3>>,
-    pub now: Instant,
+    fn dictionary(&self) -> od_model::Dictionary<'_> {
+        self.tables.dictionary()
+    }
+
+    fn profile(&self) -> &Profile {
+        &self.profile
+    }
 }
 
-macro_rules! device {
-    ($bench:expr) => {
-        Lent {
-            dictionary: $bench.tables.dictionary(),
-            values: &mut $bench.values,
-            application: &mut $bench.application,
-            storage: &mut $bench.storage,
-            profile: Some(&$bench.profile),
-        }
-    };
+impl Loaded for Full {
+    fn of(tables: Tables) -> Self {
+        let profile = Profile::CIA301;
+        Self { tables, profile }
+    }
+}
+
+/// A node and the time.
+pub struct Bench<A = NoApplication, D: Device = Full> {
+    pub node: Node<D, A, Memory<Vec<u8>>>,
+    pub now: Instant,
 }
 
 impl Bench {
@@ -176,25 +189,32 @@ impl<A: Application> Bench<A> {
     }
 }
 
-impl<A: Application, D: Device> Bench<A, D> {
+impl<A: Application, D: Loaded> Bench<A, D> {
     /// As [`with`](Bench::with), of a device that need not have every service.
     pub fn of_device(rows: Vec<Row>, application: A) -> Self {
-        let tables = tables(rows);
+        Self::of_tables(tables(rows), application)
+    }
+
+    /// As [`of_device`](Self::of_device), of these tables.
+    pub fn of_tables(tables: Tables, application: A) -> Self {
+        let storage = Memory::new(vec![0xFF; 8192]);
         Self {
-            values: vec![0xAA; tables.dictionary().store_len()],
-            tables,
-            application,
-            storage: Memory::new(vec![0xFF; 8192]),
-            profile: Profile::CIA301,
-            node: Node::new(NodeId::ONE),
+            node: Node::new(D::of(tables), NodeId::ONE, application, storage),
             now: Instant::ZERO,
         }
     }
 
+    /// The same device with another node ID, before power-on.
+    pub fn at(self, node_id: NodeId) -> Self {
+        let (device, application, storage) = self.node.into_parts();
+        Self {
+            node: Node::new(device, node_id, application, storage),
+            now: self.now,
+        }
+    }
+
     pub fn power_on(&mut self) -> Vec<String> {
-        self.node
-            .power_on_partly(&mut device!(self), self.now)
-            .expect("the values fit");
+        self.node.power_on(self.now);
         self.drain()
     }
 
@@ -202,7 +222,7 @@ impl<A: Application, D: Device> Bench<A, D> {
         let mut out = Vec::new();
         loop {
             let may = self.node.may_transmit();
-            let Some(frame) = self.node.poll_transmit(&mut device!(self), self.now) else {
+            let Some(frame) = self.node.poll_transmit(self.now) else {
                 return out;
             };
             assert!(may, "{frame} was not announced");
@@ -233,7 +253,7 @@ impl<A: Application, D: Device> Bench<A, D> {
                 Frame::new(id, &bytes).expect("eight bytes at most")
             }
         };
-        self.node.handle_frame(&mut device!(self), self.now, &frame);
+        self.node.handle_frame(self.now, &frame);
     }
 
     /// The one frame that answers.
@@ -249,7 +269,7 @@ impl<A: Application, D: Device> Bench<A, D> {
         let mut out = Vec::new();
         while let Some(at) = self.node.poll_timeout().filter(|at| *at <= end) {
             self.now = self.now.max(at);
-            self.node.handle_timeout(&mut device!(self), self.now);
+            self.node.handle_timeout(self.now);
             let ms = self.now.as_micros() / 1000;
             out.extend(self.drain().into_iter().map(|frame| (ms, frame)));
         }
@@ -259,30 +279,34 @@ impl<A: Application, D: Device> Bench<A, D> {
 
     /// The CAN controller says something; what goes out.
     pub fn bus(&mut self, event: BusEvent) -> Vec<String> {
-        self.node.handle_bus(&mut device!(self), self.now, event);
+        self.node.handle_bus(self.now, event);
         self.drain()
     }
 
     /// Power goes and comes back; what goes out.
     pub fn power_cycle(&mut self) -> Vec<String> {
         self.node.power_off();
-        self.storage.restore_power();
+        self.node.storage.restore_power();
         self.power_on()
     }
 
     pub fn change(&mut self) -> Vec<String> {
-        self.node.handle_change(&mut device!(self), self.now);
+        self.node.handle_change(self.now);
         self.drain()
     }
 
     pub fn value(&self, index: u16, sub: u8) -> u64 {
-        let mut values = self.values.clone();
-        let dictionary = self.tables.dictionary();
+        let mut values = self.node.values().to_vec();
+        let dictionary = self.node.device().dictionary();
         let store = od_runtime::Store::new(&dictionary, &mut values, self.node.node_id());
         store.expect("the values fit").unsigned(index, sub)
     }
 
     pub fn entry(&self, address: Address) -> od_model::Entry {
-        self.tables.dictionary().find(address).expect("there")
+        self.node
+            .device()
+            .dictionary()
+            .find(address)
+            .expect("there")
     }
 }

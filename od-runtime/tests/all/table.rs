@@ -1,13 +1,11 @@
-//! Devices whose services and dictionary the compiler knows.
+//! Devices with some services, whose dictionary is known at run time.
 #![allow(unreachable_pub)]
 
-use core::marker::PhantomData;
-
-use od_model::row::Row;
-use od_model::{
-    Access, Address, DataType, Dictionary, Entry, Group, Literal, Names, ObjectCode, Range, Slot,
-};
-use od_runtime::Device;
+use crate::support::Loaded;
+use od_eds::Tables;
+use od_model::Dictionary;
+use od_runtime::rooms::{LoadedRooms, LoadedValues};
+use od_runtime::{Device, Profile, Services};
 
 /// Bits of the services of [`With`].
 pub mod on {
@@ -29,27 +27,20 @@ pub mod on {
     pub const SYNC_PRODUCER: u16 = 1 << 14;
 }
 
-/// The values of a device.
-pub trait Table {
-    /// `None`: they are known at run time.
-    const ROWS: Option<&'static [Row]>;
+/// A device with only these services.
+pub struct With<const SERVICES: u16> {
+    pub tables: Tables,
+    pub profile: Profile,
 }
 
-/// Values that are known at run time.
-pub struct Unknown;
-
-impl Table for Unknown {
-    const ROWS: Option<&'static [Row]> = None;
+impl<const SERVICES: u16> Loaded for With<SERVICES> {
+    fn of(tables: Tables) -> Self {
+        let profile = Profile::CIA301;
+        Self { tables, profile }
+    }
 }
 
-/// A device with these values, and with only these services.
-pub struct With<T, const SERVICES: u16>(PhantomData<T>);
-
-impl<T: Table, const SERVICES: u16> Device for With<T, SERVICES> {
-    const DICTIONARY: Option<Dictionary<'static>> = match T::ROWS {
-        Some(rows) => Some(dictionary(rows)),
-        None => None,
-    };
+impl<const SERVICES: u16> Services for With<SERVICES> {
     const LSS: bool = SERVICES & on::LSS != 0;
     const SEGMENTED: bool = SERVICES & on::SEGMENTED != 0;
     const BLOCK: bool = SERVICES & on::BLOCK != 0;
@@ -67,28 +58,15 @@ impl<T: Table, const SERVICES: u16> Device for With<T, SERVICES> {
     const ERRORS: usize = if SERVICES & on::ERRORS != 0 { 20 } else { 5 };
 }
 
-/// A number of 32 bits at an address.
-pub const fn row(index: u16, sub: u8) -> Row {
-    let entry = Entry {
-        address: Address::new(index, sub),
-        data_type: DataType::Unsigned32,
-        access: Access::Rw,
-        mappable: false,
-        group: Group::None,
-        name: Range::new(0, 0),
-        default: Literal::None,
-        low: Literal::None,
-        high: Literal::None,
-        slot: Slot { offset: 0, len: 4 },
-    };
-    Row::new(&entry, ObjectCode::Record, 0, 0)
-}
+impl<const SERVICES: u16> Device for With<SERVICES> {
+    type Values = LoadedValues;
+    type Rooms = LoadedRooms;
 
-const fn dictionary(rows: &'static [Row]) -> Dictionary<'static> {
-    let names = Names {
-        rows: &[],
-        text: "",
-    };
-    let buckets = od_model::owned::Buckets::Words(&[]);
-    Dictionary::trusted(buckets, rows, &[], "", &[], 4, None, None, names)
+    fn dictionary(&self) -> Dictionary<'_> {
+        self.tables.dictionary()
+    }
+
+    fn profile(&self) -> &Profile {
+        &self.profile
+    }
 }

@@ -45,7 +45,7 @@ fn bench(cob_id: u64) -> Bench<Clock> {
 }
 
 fn press(bench: &mut Bench<Clock>) -> Vec<String> {
-    bench.application.sends = true;
+    bench.node.application.sends = true;
     bench.change()
 }
 
@@ -64,7 +64,7 @@ fn write(bench: &mut Bench<Clock>, value: u32) -> String {
 fn a_consumer_hears_the_time() {
     let mut bench = bench(0x8000_0100);
     assert!(bench.send("100#04030201323D").is_empty());
-    assert_eq!(bench.application.told, [TIME]);
+    assert_eq!(bench.node.application.told, [TIME]);
     // Not a time: another length, more than a day, a remote frame.
     for frame in [
         "100#0403020132",
@@ -78,20 +78,20 @@ fn a_consumer_hears_the_time() {
     // Stopped has no TIME.
     bench.send("000#0201");
     bench.send("100#04030201323D");
-    assert_eq!(bench.application.told.len(), 1);
+    assert_eq!(bench.node.application.told.len(), 1);
     bench.send("000#0101");
     bench.send("100#04030201323D");
-    assert_eq!(bench.application.told.len(), 2);
+    assert_eq!(bench.node.application.told.len(), 2);
     assert_eq!(write(&mut bench, 0x100), "");
     bench.send("100#04030201323D");
-    assert_eq!(bench.application.told.len(), 2, "bit 31 is clear");
+    assert_eq!(bench.node.application.told.len(), 2, "bit 31 is clear");
 }
 
 #[test]
 fn a_producer_sends_when_its_application_asks() {
     let mut bench = bench(0x4000_0100);
     assert!(press(&mut bench).is_empty(), "the clock has no time");
-    bench.application.time = Some(TIME);
+    bench.node.application.time = Some(TIME);
     assert_eq!(press(&mut bench), ["100#04030201323D"]);
     assert!(bench.change().is_empty(), "it is asked for once");
     bench.send("000#0201");
@@ -100,7 +100,7 @@ fn a_producer_sends_when_its_application_asks() {
     assert_eq!(press(&mut bench), ["100#04030201323D"]);
     assert_eq!(write(&mut bench, 0x8000_0100), "");
     assert!(press(&mut bench).is_empty(), "bit 30 is clear");
-    assert!(bench.application.told.is_empty());
+    assert!(bench.node.application.told.is_empty());
 }
 
 #[test]
@@ -122,30 +122,22 @@ fn the_cob_id_follows_its_rules() {
     ] {
         assert_eq!(write(&mut bench, value), expected, "{value:X}");
     }
-    bench.application.time = Some(TIME);
+    bench.node.application.time = Some(TIME);
     assert_eq!(press(&mut bench), ["00123456#04030201323D"]);
     bench.send("00123456#04030201323D");
-    assert_eq!(bench.application.told, [TIME]);
+    assert_eq!(bench.node.application.told, [TIME]);
 }
 
 #[test]
 fn a_host_hears_whether_the_time_went_out() {
-    use od_runtime::Lent;
     let send = |bench: &mut Bench<Clock>| {
-        let mut device = Lent {
-            dictionary: bench.tables.dictionary(),
-            values: &mut bench.values,
-            application: &mut bench.application,
-            storage: &mut bench.storage,
-            profile: Some(&bench.profile),
-        };
-        let sent = bench.node.send_time(&mut device, bench.now);
+        let sent = bench.node.send_time(bench.now);
         assert_eq!(sent, bench.drain() == ["100#04030201323D"]);
         sent
     };
     let mut bench = bench(0x4000_0100);
     assert!(!send(&mut bench), "the clock has no time");
-    bench.application.time = Some(TIME);
+    bench.node.application.time = Some(TIME);
     assert!(send(&mut bench));
     bench.send("000#0201");
     assert!(!send(&mut bench), "Stopped");

@@ -21,7 +21,7 @@ fn bench() -> Bench {
         (0x2110, 0, Unsigned16, Rw, false, unsigned(0)),
     ]);
     let mut bench = Bench::with(rows, NoApplication);
-    bench.profile.pdo.event_on_change = false;
+    bench.node.device_mut().profile.pdo.event_on_change = false;
     bench.power_on();
     bench
 }
@@ -41,7 +41,7 @@ fn a_host_is_told_of_other_can_ids() {
     assert_eq!(
         first,
         [
-            0, 0x80, 0x100, 0x181, 0x201, 0x281, 0x301, 0x601, 0x701, 0x705, 0x7E5
+            0, 0x80, 0x100, 0x181, 0x201, 0x281, 0x301, 0x601, 0x701, 0x705
         ]
     );
     assert_eq!(ids(&mut bench), None, "once");
@@ -72,7 +72,7 @@ fn a_host_is_told_of_other_can_ids() {
 #[test]
 fn services_read_their_objects_again_where_a_restore_acts_at_once() {
     let mut bench = bench();
-    bench.profile.store.restore = Restore::AtOnce;
+    bench.node.device_mut().profile.store.restore = Restore::AtOnce;
     for request in [
         "2B17100000000000",
         "2316100100000000",
@@ -99,7 +99,7 @@ fn an_inhibit_time_changes_only_while_the_pdo_is_off() {
     assert_eq!(bench.ask("601#2B00180364000000"), "581#8000180330000906");
     bench.ask("601#2300180181010080");
     assert_eq!(bench.ask("601#2B00180364000000"), "581#6000180300000000");
-    bench.profile.pdo.direct_cob_id = true;
+    bench.node.device_mut().profile.pdo.direct_cob_id = true;
     bench.ask("601#2300180181010000");
     assert_eq!(bench.ask("601#2B00180365000000"), "581#6000180300000000");
     let mut rows = rows();

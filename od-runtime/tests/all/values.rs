@@ -3,12 +3,11 @@
 use crate::support::{Bench, Row, rows, unsigned};
 use od_eds::{Description, EntryDescription, ObjectDescription, Spanned, Tables, Value};
 use od_model::{Access, Address, DataType};
-use od_runtime::storage::{Memory, NoStorage, Storage, StorageError};
-use od_runtime::{AbortCode, Halt, NoApplication, Node, NodeId, Store, StoreTooSmall, TextTooLong};
+use od_runtime::storage::{NoStorage, Storage, StorageError};
+use od_runtime::{AbortCode, Halt, NoApplication, NodeId, Store, StoreTooSmall, TextTooLong};
 
 /// A number with limits at 2010h.
 fn limited(data_type: DataType, low: Value, high: Value) -> Bench {
-    let mut bench = Bench::new();
     let mut description = Description::default();
     for (index, data_type) in [(0x1000, DataType::Unsigned32), (0x2010, data_type)] {
         let mut entry = EntryDescription::new("Value", data_type);
@@ -20,10 +19,7 @@ fn limited(data_type: DataType, low: Value, high: Value) -> Bench {
         let object = ObjectDescription::var(entry);
         description.objects.insert(index, object);
     }
-    bench.tables = Tables::new(&description);
-    bench.values = vec![0; bench.tables.dictionary().store_len()];
-    bench.storage = Memory::new(vec![0xFF; 8192]);
-    bench.node = Node::new(NodeId::ONE);
+    let mut bench = Bench::of_tables(Tables::new(&description), NoApplication);
     bench.power_on();
     bench
 }
@@ -259,7 +255,7 @@ fn many() -> Bench {
     }
     rows.retain(|row| row.3 != Const || row.0 < 0x2000);
     let mut bench = Bench::with(rows, NoApplication);
-    bench.profile.pdo.event_on_change = false;
+    bench.node.device_mut().profile.pdo.event_on_change = false;
     bench.power_on();
     bench
 }

@@ -6,7 +6,6 @@ pub fn crc16(data: &[u8]) -> u16 {
 }
 
 /// [`crc16`] of data that goes on behind data with this checksum.
-#[inline(never)] // one copy in a microcontroller
 pub fn crc16_after(before: u16, data: &[u8]) -> u16 {
     data.iter().fold(before, |crc, byte| {
         (0..8).fold(crc ^ u16::from(*byte) << 8, |crc, _| {

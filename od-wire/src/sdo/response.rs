@@ -95,7 +95,6 @@ impl Response {
     }
 
     /// Returns the frame's bytes, as a server sends them.
-    #[inline(always)] // a server knows which one it is
     pub fn emit(self) -> [u8; 8] {
         match self {
             Self::UploadSegment(segment) => segment.emit(),
@@ -125,7 +124,6 @@ impl Response {
 
 impl Response {
     /// As [`emit`](Self::emit), with the address as it is in the request, which is less work.
-    #[inline(always)]
     pub fn emit_to(self, request: &[u8; 8]) -> [u8; 8] {
         const ADDRESS: u64 = 0xFFFF_FF00;
         let [request, own] = [*request, self.emit()].map(u64::from_le_bytes);

@@ -72,7 +72,6 @@ pub fn block_segment(sequence: u8, rest: &[u8], last: bool) -> [u8; 8] {
 }
 
 /// A frame of a byte and up to seven of others, as a number.
-#[inline(never)] // one copy in a microcontroller
 fn led_by(head: u8, rest: &[u8]) -> u64 {
     let rest = rest.iter().take(7).rev();
     let number = rest.fold(0, |number, byte| number << 8 | u64::from(*byte));
@@ -80,7 +79,6 @@ fn led_by(head: u8, rest: &[u8]) -> u64 {
 }
 
 /// Segments of a block transfer that carry `len` bytes; an empty value needs one.
-#[inline(never)] // one copy in a microcontroller
 pub const fn block_segments(len: usize) -> usize {
     if len == 0 { 1 } else { len.div_ceil(7) }
 }

@@ -26,9 +26,13 @@ fn main() {
         Event::Written(started, Ok(())),
     ];
     assert!(rig.run() == expected, "the program did not arrive");
-    let arrived = rig.loader.program().map(|program| program.len as usize);
+    let arrived = rig
+        .node
+        .application
+        .program()
+        .map(|program| program.len as usize);
     assert_eq!(arrived, Some(loader::SIZE));
-    assert!(rig.loader.is_running());
+    assert!(rig.node.application.is_running());
     println!(
         "{} bytes written, read back and started: {} frames in {} ms",
         loader::SIZE,

@@ -2,7 +2,7 @@
 
 use od_client::Client;
 use odkit::storage::NoStorage;
-use odkit::{Frame, Instant, Lent, NodeId, Profile};
+use odkit::{Frame, Instant, Node, NodeId};
 
 use crate::loader::{BootLoader, device};
 
@@ -11,9 +11,7 @@ const FRAME_US: u64 = 130;
 
 /// The bus and its ends.
 pub struct Rig {
-    node: device::Node,
-    values: [u8; device::STORE_LEN],
-    pub loader: BootLoader,
+    pub node: device::Node<BootLoader>,
     pub client: Client,
     pub now: Instant,
     /// Frames so far.
@@ -26,16 +24,13 @@ impl Rig {
     /// A device that has sent its boot-up message.
     pub fn new() -> Self {
         let mut rig = Self {
-            node: device::Node::new(NodeId::ONE),
-            values: [0; device::STORE_LEN],
-            loader: BootLoader::new(),
+            node: Node::new(device::Device, NodeId::ONE, BootLoader::new(), NoStorage),
             client: Client::new(),
             now: Instant::ZERO,
             frames: 0,
             loses: |_, _| false,
         };
-        let started = rig.lend(|node, device, now| node.power_on(device, now));
-        assert_eq!(started, Ok(()));
+        rig.node.power_on(rig.now);
         assert_eq!(
             rig.poll().map(|frame| frame.to_string()),
             Some("701#00".into())
@@ -43,25 +38,14 @@ impl Rig {
         rig
     }
 
-    fn lend<R>(&mut self, call: impl FnOnce(&mut device::Node, &mut Lent<'_>, Instant) -> R) -> R {
-        let mut device = Lent {
-            dictionary: device::DICTIONARY,
-            values: &mut self.values,
-            application: &mut self.loader,
-            storage: &mut NoStorage,
-            profile: Some(&Profile::CIA301),
-        };
-        call(&mut self.node, &mut device, self.now)
-    }
-
     /// The next frame of the device.
     pub fn poll(&mut self) -> Option<Frame> {
-        self.lend(|node, device, now| node.poll_transmit(device, now))
+        self.node.poll_transmit(self.now)
     }
 
     /// The device receives a frame.
     pub fn receive(&mut self, frame: &Frame) {
-        self.lend(|node, device, now| node.handle_frame(device, now, frame));
+        self.node.handle_frame(self.now, frame);
     }
 
     /// Time when the device has something to do.
@@ -72,7 +56,7 @@ impl Rig {
     /// Time goes on until then; the device does what is due.
     pub fn wait_until(&mut self, now: Instant) {
         self.now = self.now.max(now);
-        self.lend(|node, device, now| node.handle_timeout(device, now));
+        self.node.handle_timeout(self.now);
     }
 
     /// Runs until nothing is sent and nothing is due; what the master learnt.

@@ -12,7 +12,7 @@ fn program_control_wants_a_program() {
     assert_eq!(rig.ask("2F511F0101000000"), "80511F0124000008");
     round_trip(&mut rig, 300);
     assert_eq!(rig.ask("2F511F0101000000"), "60511F0100000000");
-    assert!(rig.loader.is_running());
+    assert!(rig.node.application.is_running());
     assert_eq!(rig.ask("40511F0100000000"), "4F511F0101000000");
     assert_eq!(rig.ask("21501F0105000000"), "80501F0122000008", "it runs");
     assert_eq!(rig.ask("2F511F0103000000"), "80511F0122000008");

@@ -3,7 +3,7 @@
 use std::hint::black_box;
 
 use crate::contender::{Pdo, Subject, Upload, request};
-use crate::odkit::Odkit;
+use crate::odkit::Turning;
 
 /// 6004h of gxmm at 60 revolutions per minute, 250 ms after the start at 0: 1/4 of 8,192 steps.
 const POSITION: u32 = 0x0800;
@@ -11,7 +11,7 @@ const ADDRESS: (u16, u8) = (0x6004, 0);
 
 /// The position by SDO.
 #[allow(missing_debug_implementations)] // nobody looks into it
-pub struct Reading(pub Odkit);
+pub struct Reading(pub Turning);
 
 impl Subject for Reading {
     fn verify(&mut self) {
@@ -29,7 +29,7 @@ impl Subject for Reading {
 
 /// The position by the TPDO on each SYNC.
 #[allow(missing_debug_implementations)] // nobody looks into it
-pub struct Cycle(pub Odkit);
+pub struct Cycle(pub Turning);
 
 impl Subject for Cycle {
     fn verify(&mut self) {

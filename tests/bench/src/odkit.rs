@@ -1,21 +1,54 @@
 //! odkit: a node with tables made at run time, as `odkit sim` makes them from an EDS file.
 
+use od_bench::shaft::Shaft;
 use od_eds::{Description, EntryDescription, ObjectDescription, Spanned, Tables, Value};
 use od_model::{Access, DataType, Dictionary, ObjectCode};
-use od_runtime::storage::Memory;
-use od_runtime::{Application, CanId, Frame, Instant, Lent, NoApplication, Node, NodeId, Profile};
+use od_runtime::encoder::Encoder;
+use od_runtime::rooms::{LoadedRooms, LoadedValues};
+use od_runtime::storage::NoStorage;
+use od_runtime::{
+    Application, CanId, Device, Frame, Instant, NoApplication, Node, NodeId, Profile, Services,
+};
 
 use crate::contender::{Pdo, Subject, Upload};
 use crate::discipline::Simulated;
 use crate::objects;
 
-/// A node and its device, created once, as in the `main` of a firmware.
-#[allow(missing_debug_implementations)] // nobody looks into it
-pub struct Odkit {
-    node: Node,
-    device: Lent<'static>,
+/// Tables that are known at run time, with every service.
+#[derive(Clone, Copy, Debug)]
+struct Loaded {
+    dictionary: Dictionary<'static>,
+    profile: &'static Profile,
+}
+
+impl Services for Loaded {
+    const SERVERS: bool = true;
+    const SYNC_PRODUCER: bool = true;
+    const TIME: bool = true;
+}
+
+impl Device for Loaded {
+    type Values = LoadedValues;
+    type Rooms = LoadedRooms;
+
+    fn dictionary(&self) -> Dictionary<'_> {
+        self.dictionary
+    }
+
+    fn profile(&self) -> &Profile {
+        self.profile
+    }
+}
+
+/// A node, and the time.
+#[derive(Debug)]
+pub struct Odkit<A = NoApplication> {
+    node: Node<Loaded, A>,
     now: Instant,
 }
+
+/// A gxmm on its shaft.
+pub type Turning = Odkit<Encoder<Shaft>>;
 
 impl Odkit {
     /// A started node with `size` application objects.
@@ -32,14 +65,14 @@ impl Odkit {
                 add(&mut description, (index, sub), DataType::Unsigned32, value);
             }
         }
-        let tables = leak(Tables::new(&description));
+        let tables = Box::leak(Box::new(Tables::new(&description)));
         let mut odkit = Self::start(tables.dictionary(), NoApplication, &Profile::CIA301);
         odkit.tell(0x000, &[0x01, objects::NODE_ID]);
         odkit
     }
 }
 
-impl Odkit {
+impl Turning {
     /// A gxmm in Operational that has turned at 60 revolutions per minute for 250 ms, with its
     /// position in a TPDO on each SYNC. Time stops from now on.
     pub fn turning() -> Self {
@@ -56,28 +89,23 @@ impl Odkit {
         odkit.now = Instant::from_millis(250);
         odkit
     }
+}
 
-    fn start(
-        dictionary: Dictionary<'static>,
-        application: impl Application + 'static,
-        profile: &'static Profile,
-    ) -> Self {
-        let mut odkit = Self {
-            node: Node::new(NodeId::new(objects::NODE_ID).expect("a node-ID")),
-            device: Lent {
-                dictionary,
-                values: leak(vec![0; dictionary.store_len()]),
-                application: leak(application),
-                storage: leak(Memory::new(Vec::new())),
-                profile: Some(profile),
-            },
-            now: Instant::ZERO,
+impl<A: Application> Odkit<A> {
+    fn start(dictionary: Dictionary<'static>, application: A, profile: &'static Profile) -> Self {
+        let device = Loaded {
+            dictionary,
+            profile,
         };
-        let Self { node, device, now } = &mut odkit;
-        node.power_on(device, *now).expect("the values fit");
-        node.boot_at_once(device, *now);
-        while node.poll_transmit(device, *now).is_some() {}
-        odkit
+        let node_id = NodeId::new(objects::NODE_ID).expect("a node-ID");
+        let (mut node, now) = (
+            Node::new(device, node_id, application, NoStorage),
+            Instant::ZERO,
+        );
+        node.power_on(now);
+        node.boot_at_once(now);
+        while node.poll_transmit(now).is_some() {}
+        Self { node, now }
     }
 
     /// Writes an object by SDO.
@@ -92,35 +120,26 @@ impl Odkit {
 
     /// Sends a frame and ignores the response.
     fn tell(&mut self, id: u16, data: &[u8]) {
-        let Self { node, device, now } = self;
-        node.handle_frame(
-            device,
-            *now,
-            &Frame::new(CanId::standard(id), data).expect("8 bytes at most"),
-        );
-        while node.poll_transmit(device, *now).is_some() {}
+        let frame = Frame::new(CanId::standard(id), data).expect("8 bytes at most");
+        self.node.handle_frame(self.now, &frame);
+        while self.node.poll_transmit(self.now).is_some() {}
     }
 
     /// Sends a frame and returns the response as the host reads it; no frame follows,
     /// and no time passes.
     #[inline(always)]
     fn exchange<R>(&mut self, frame: &Frame, read: impl FnOnce(&Frame) -> R) -> R {
-        let Self { node, device, now } = self;
-        node.handle_frame(device, *now, frame);
-        let answer = node.poll_transmit(device, *now).expect("an answer");
+        let Self { node, now } = self;
+        node.handle_frame(*now, frame);
+        let answer = node.poll_transmit(*now).expect("an answer");
         let answer = read(&answer);
-        let next = node.poll_transmit(device, *now);
+        let next = node.poll_transmit(*now);
         assert!(next.is_none(), "one answer");
         answer
     }
 }
 
-/// Makes a static variable, as in a firmware.
-fn leak<T>(value: T) -> &'static mut T {
-    Box::leak(Box::new(value))
-}
-
-impl Upload for Odkit {
+impl<A: Application> Upload for Odkit<A> {
     #[inline]
     fn upload(&mut self, request: &[u8; 8]) -> [u8; 8] {
         let id = CanId::standard(0x600 + u16::from(objects::NODE_ID));
@@ -128,7 +147,7 @@ impl Upload for Odkit {
     }
 }
 
-impl Pdo for Odkit {
+impl<A: Application> Pdo for Odkit<A> {
     #[inline]
     fn sync(&mut self) -> (u16, [u8; 4]) {
         self.exchange(&Frame::standard(0x080, &[]), |tpdo| {
@@ -190,7 +209,7 @@ fn add(
 
 /// One operation is one second of virtual time: a PDO every millisecond.
 #[allow(missing_debug_implementations)] // nobody looks into it
-pub struct Seconds(Odkit);
+pub struct Seconds(Turning);
 
 impl Seconds {
     /// A device at 60 rpm in Operational whose TPDO 1 is cyclic with 1 ms and
@@ -229,13 +248,13 @@ impl Seconds {
     /// Work of a host for a second: sleep until the deadline, pass the time, send the frames.
     /// Returns the number of frames.
     fn second(&mut self) -> u32 {
-        let Odkit { node, device, now } = &mut self.0;
+        let Odkit { node, now } = &mut self.0;
         let end = now.plus_millis(1_000);
         let mut frames = 0;
         while let Some(at) = node.poll_timeout().filter(|at| *at <= end) {
             *now = at.max(*now);
-            node.handle_timeout(device, *now);
-            while let Some(frame) = node.poll_transmit(device, *now) {
+            node.handle_timeout(*now);
+            while let Some(frame) = node.poll_transmit(*now) {
                 std::hint::black_box(frame);
                 frames += 1;
             }

@@ -4,7 +4,7 @@ use crate::contender::{Cycles, Nothing, Subject, Uploads};
 use crate::discipline::{Discipline, Simulated};
 use crate::live::{Cycle, Reading};
 use crate::objects::{PDO_SIZE, values};
-use crate::odkit::{Odkit, Seconds};
+use crate::odkit::{Odkit, Seconds, Turning};
 use crate::peers::canopen_rs::{CanopenRs, room};
 use crate::peers::canopen_sdo::CanopenSdo;
 use crate::peers::zencan::Zencan;
@@ -38,8 +38,8 @@ pub fn subject(name: &str, discipline: Discipline) -> Option<Box<dyn Subject>> {
     let mut subject = match discipline {
         Discipline::Upload(size) => upload(name, size)?,
         Discipline::Pdo => pdo(name)?,
-        Discipline::Live if name == ODKIT => Box::new(Reading(Odkit::turning())),
-        Discipline::LivePdo if name == ODKIT => Box::new(Cycle(Odkit::turning())),
+        Discipline::Live if name == ODKIT => Box::new(Reading(Turning::turning())),
+        Discipline::LivePdo if name == ODKIT => Box::new(Cycle(Turning::turning())),
         Discipline::Live | Discipline::LivePdo => return None,
         Discipline::Simulation(simulated) => simulation(name, simulated)?,
     };

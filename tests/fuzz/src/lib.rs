@@ -9,5 +9,6 @@ pub mod harness;
 pub mod made;
 pub mod mutate;
 pub mod random;
+pub mod sent;
 pub mod target;
 pub mod targets;

@@ -2,11 +2,11 @@
 
 use od_client::{Client, Event, Frame, Instant, NodeId};
 use od_eds::{Description, EntryDescription, ObjectDescription, Spanned, Tables, Value};
-use od_model::Address;
-use od_model::{Access, DataType, ObjectCode};
+use od_model::{Access, Address, DataType, Dictionary, ObjectCode};
+use od_runtime::rooms::{LoadedRooms, LoadedValues};
 use od_runtime::storage::Memory;
 use od_runtime::{
-    AbortCode, AnyDevice, Application, Chunk, Context, Halt, Lent, LssProfile, Node, Profile,
+    AbortCode, Application, Chunk, Context, Device, Halt, LssProfile, Node, Profile, Services,
     Store, Stream,
 };
 
@@ -16,13 +16,27 @@ use super::pattern_at;
 pub(crate) const ROOM: usize = 8192;
 
 /// One device on the bus.
-pub(crate) struct Peer {
+pub(crate) type Peer = Node<Loaded, Stored, Memory<Vec<u8>>>;
+
+/// A dictionary that is made at run time.
+pub(crate) struct Loaded {
     tables: Tables,
-    values: Vec<u8>,
-    storage: Memory<Vec<u8>>,
     pub(crate) profile: Profile,
-    pub(crate) node: Node<AnyDevice, 4, ROOM>,
-    pub(crate) application: Stored,
+}
+
+impl Services for Loaded {}
+
+impl Device for Loaded {
+    type Values = LoadedValues;
+    type Rooms = LoadedRooms;
+
+    fn dictionary(&self) -> Dictionary<'_> {
+        self.tables.dictionary()
+    }
+
+    fn profile(&self) -> &Profile {
+        &self.profile
+    }
 }
 
 /// The node starts with the node ID in 2101h. What goes through 2004h is [`pattern`], of which
@@ -113,18 +127,6 @@ const LSS: LssProfile = LssProfile {
     second_delay: false,
 };
 
-macro_rules! device {
-    ($peer:expr) => {
-        &mut Lent {
-            dictionary: $peer.tables.dictionary(),
-            values: &mut $peer.values,
-            application: &mut $peer.application,
-            storage: &mut $peer.storage,
-            profile: Some(&$peer.profile),
-        }
-    };
-}
-
 fn tables(node: u8, identity: [u32; 4]) -> Tables {
     use DataType::*;
     let unsigned = |value: u32| Some(Value::Unsigned(value.into()));
@@ -166,39 +168,20 @@ fn tables(node: u8, identity: [u32; 4]) -> Tables {
     Tables::new(&description)
 }
 
-impl Peer {
-    /// A node with power that has sent its boot-up message.
-    pub(crate) fn new(node: u8, identity: [u32; 4]) -> Self {
-        let tables = tables(node, identity);
-        let mut peer = Self {
-            values: vec![0; tables.dictionary().store_len()],
-            tables,
-            storage: Memory::new(vec![0xFF; 4 * ROOM]),
-            profile: Profile {
-                lss: Some(LSS),
-                ..Profile::CIA301
-            },
-            node: Node::new(NodeId::ONE),
-            application: Stored::default(),
-        };
-        peer.node
-            .power_on(device!(peer), Instant::ZERO)
-            .expect("the values fit");
-        while peer.poll(Instant::ZERO).is_some() {}
-        peer
-    }
-
-    fn handle(&mut self, now: Instant, frame: &Frame) {
-        self.node.handle_frame(device!(self), now, frame);
-    }
-
-    fn timeout(&mut self, now: Instant) {
-        self.node.handle_timeout(device!(self), now);
-    }
-
-    fn poll(&mut self, now: Instant) -> Option<Frame> {
-        self.node.poll_transmit(device!(self), now)
-    }
+/// A node with power that has sent its boot-up message.
+pub(crate) fn peer(node: u8, identity: [u32; 4]) -> Peer {
+    let device = Loaded {
+        tables: tables(node, identity),
+        profile: Profile {
+            lss: Some(LSS),
+            ..Profile::CIA301
+        },
+    };
+    let storage = Memory::new(vec![0xFF; 4 * ROOM]);
+    let mut peer = Node::new(device, NodeId::ONE, Stored::default(), storage);
+    peer.power_on(Instant::ZERO);
+    while peer.poll_transmit(Instant::ZERO).is_some() {}
+    peer
 }
 
 /// The client, its peers, and all frames so far.
@@ -224,14 +207,17 @@ impl Bus {
 
     /// Node 1 only.
     pub(crate) fn one(client: Client) -> Self {
-        Self::new(client, vec![Peer::new(1, [1, 2, 3, 4])])
+        Self::new(client, vec![peer(1, [1, 2, 3, 4])])
     }
 
     /// One frame goes over the bus. The nodes' come first, so that the client sees its
     /// segments one by one.
     fn step(&mut self) -> bool {
         let Self { peers, now, .. } = self;
-        let mut from = peers.iter_mut().map(|peer| peer.poll(*now)).enumerate();
+        let mut from = peers
+            .iter_mut()
+            .map(|peer| peer.poll_transmit(*now))
+            .enumerate();
         let sent = from.find_map(|(from, frame)| Some((Some(from), frame?)));
         let sent = sent.or_else(|| Some((None, self.client.poll_transmit(*now)?)));
         let Some((from, frame)) = sent else {
@@ -248,7 +234,7 @@ impl Bus {
         }
         for (at, peer) in self.peers.iter_mut().enumerate() {
             if from != Some(at) {
-                peer.handle(self.now, &frame);
+                peer.handle_frame(self.now, &frame);
             }
         }
         true
@@ -261,10 +247,7 @@ impl Bus {
                 assert!(self.frames.len() < 400_000, "frames without end");
             }
             assert!(turn < 10_000, "deadlines without end");
-            let peers = self
-                .peers
-                .iter()
-                .filter_map(|peer| peer.node.poll_timeout());
+            let peers = self.peers.iter().filter_map(Peer::poll_timeout);
             let next = peers.chain(self.client.poll_timeout()).min();
             let Some(next) = next.filter(|at| *at <= end) else {
                 break;
@@ -272,7 +255,7 @@ impl Bus {
             self.now = self.now.max(next);
             self.client.handle_timeout(self.now);
             for peer in &mut self.peers {
-                peer.timeout(self.now);
+                peer.handle_timeout(self.now);
             }
         }
         self.now = self.now.max(end);

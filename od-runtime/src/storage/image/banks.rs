@@ -31,7 +31,6 @@ pub(super) struct Bank {
 
 impl Bank {
     /// Bytes that codes and set take.
-    #[inline(always)]
     pub(super) fn used(&self, word: usize) -> usize {
         self.set.map_or(2 * word, |set| set.len.get())
     }
@@ -77,7 +76,6 @@ impl Banks {
     }
 
     /// State of two banks together.
-    #[inline(never)]
     pub(super) fn judge(&mut self, stays: &Bank, target: &Bank) {
         let was_withdrawn = stays.mark == Code::WITHDRAWN;
         // A save began that was not completed.

@@ -14,7 +14,6 @@ pub(super) const fn is_saved(row: &Row) -> bool {
 /// saved objects of the manufacturer that no master can write.
 ///
 /// Every save includes them, and no restore takes them back.
-#[inline(never)]
 pub const fn is_life_record(row: &Row) -> bool {
     matches!(row.group(), Group::Manufacturer) && !row.writable()
 }

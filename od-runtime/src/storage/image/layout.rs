@@ -47,7 +47,6 @@ impl Code {
     pub(super) const UNCLEAR: Self = Self(10);
 
     /// Reads a word; `false` if a bit is wrong. One may be.
-    #[inline(always)]
     pub(super) fn read(word: &[u8]) -> (Self, bool) {
         for (place, code) in (0..).zip(&CODES) {
             let mut wrong = 0;
@@ -81,7 +80,6 @@ impl Code {
 
     /// Returns how many saves later than another a set was complete: 1, or 2 if the other did not
     /// count any more. 0: it was not later, or is not complete.
-    #[inline(never)]
     pub(super) fn later_than(self, other: Self) -> u8 {
         match () {
             () if !self.is_complete() => 0,

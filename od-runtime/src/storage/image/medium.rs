@@ -18,7 +18,6 @@ pub(crate) struct Medium<'m> {
 }
 
 impl<'m> Medium<'m> {
-    #[inline(never)]
     pub(crate) fn new(storage: &'m mut dyn Storage, banks: &'m mut Banks) -> Self {
         Self {
             storage,
@@ -34,7 +33,6 @@ impl<'m> Medium<'m> {
     }
 
     /// Fills `to`, which stays as it is behind a failure.
-    #[inline(never)]
     pub(super) fn read(&mut self, at: usize, to: &mut [u8]) {
         if self.outcome.is_ok() {
             self.outcome = self.storage.read(at, to);
@@ -42,7 +40,6 @@ impl<'m> Medium<'m> {
     }
 
     /// Reads into the buffer, up to its length.
-    #[inline(never)]
     fn fetch(&mut self, at: usize, len: usize) -> &[u8] {
         let part = self.buffer.get_mut(..len).unwrap_or_default();
         if self.outcome.is_ok() {
@@ -52,7 +49,6 @@ impl<'m> Medium<'m> {
     }
 
     /// Writes this number of bytes of the buffer.
-    #[inline(never)]
     pub(super) fn write(&mut self, at: usize, len: usize) {
         if self.outcome.is_ok() {
             let part = self.buffer.get(..len).unwrap_or_default();
@@ -73,7 +69,6 @@ impl<'m> Medium<'m> {
     }
 
     /// Whether all bytes of a range are this one.
-    #[inline(never)]
     pub(super) fn holds(&mut self, mut at: usize, end: usize, byte: u8) -> bool {
         let word = [byte; 4];
         self.buffer = [byte; MAX_WORD];
@@ -94,7 +89,6 @@ impl<'m> Medium<'m> {
     }
 
     /// Prepares a bank for a set of `len` bytes with its header.
-    #[inline(never)]
     pub(super) fn clear(&mut self, bank: usize, len: usize) {
         let Layout { page, word, .. } = self.banks.layout;
         if page == 0 {
@@ -127,13 +121,11 @@ impl<'m> Medium<'m> {
     }
 
     /// Reads the code in the word at `at`; `false` if a bit is wrong.
-    #[inline(never)]
     pub(super) fn code(&mut self, at: usize) -> (Code, bool) {
         Code::read(self.fetch(at, self.banks.layout.word))
     }
 
     /// Writes a code into the word at `at`, and reads it back.
-    #[inline(never)]
     pub(super) fn stamp(&mut self, at: usize, code: Code) {
         let (byte, end) = (code.byte(), at + self.banks.layout.word);
         // A word of flash is written once.
@@ -157,7 +149,6 @@ impl<'m> Medium<'m> {
     }
 
     /// Returns the set of a bank, if fields and records are whole.
-    #[inline(never)]
     pub(super) fn content(&mut self, bank: usize) -> Option<Set> {
         let mut content = self.open(bank)?;
         content.go_on(self, usize::MAX);
@@ -165,7 +156,6 @@ impl<'m> Medium<'m> {
     }
 
     /// The records of a bank, if its fields can be those of a set.
-    #[inline(always)]
     pub(super) fn open(&mut self, bank: usize) -> Option<Content> {
         let Layout {
             word, header, size, ..
@@ -203,7 +193,6 @@ pub(super) struct Content {
 
 impl Content {
     /// Reads this number of bytes, in whole buffers. Returns whether these were the last.
-    #[inline(always)]
     pub(super) fn go_on(&mut self, medium: &mut Medium<'_>, most: usize) -> bool {
         let end = self.at + most.min(self.end - self.at);
         while self.at < end {
@@ -215,7 +204,6 @@ impl Content {
     }
 
     /// The set, if its checksum is right.
-    #[inline(always)]
     pub(super) fn set(self, medium: &Medium<'_>) -> Option<Set> {
         let len = NonZeroUsize::new(medium.banks.layout.header + self.len)?;
         let device = self.device;

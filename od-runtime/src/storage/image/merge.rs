@@ -50,7 +50,6 @@ pub(crate) fn write(
 impl Medium<'_> {
     /// Writes the next set into the older one of two [surveyed](Banks::survey) banks, all but the commit word.
     /// Without a next set they are [none](Banks::is_some).
-    #[inline(never)]
     pub(crate) fn begin(
         &mut self,
         store: &Store<'_>,
@@ -111,7 +110,6 @@ impl Medium<'_> {
     }
 
     /// Whether there is to be a next set, of banks that were surveyed.
-    #[inline(always)]
     pub(super) fn admits(&mut self, plan: &Plan<'_>) -> Result<bool, StorageError> {
         match (plan, self.banks.state) {
             // The device itself writes nothing over the set of another one.
@@ -126,7 +124,6 @@ impl Medium<'_> {
     }
 
     /// Marks the newest set: a save that replaces it begins.
-    #[inline(always)]
     pub(super) fn mark(&mut self, profile: &StoreProfile, plan: &Plan<'_>) {
         // The device's own saves, and a restore, take nothing away when they are cut. Once the set does not
         // count, only a complete one ends that.
@@ -186,7 +183,6 @@ pub(super) enum Source<'b> {
 
 impl Set<'_, '_> {
     /// Goes through the newest set and the dictionary side by side, both by address.
-    #[inline(never)]
     fn records(&mut self, profile: &StoreProfile) {
         if let Plan::Own(own) = self.plan {
             self.put(Source::Bytes(own), own.len());
@@ -230,7 +226,6 @@ impl Set<'_, '_> {
     }
 
     /// Whether the plan is about a value.
-    #[inline(never)]
     pub(super) fn is_meant(&self, profile: &StoreProfile, row: &Row) -> bool {
         match *self.plan {
             Plan::Save(_) if is_life_record(row) => true,
@@ -252,7 +247,6 @@ impl Set<'_, '_> {
     }
 
     /// The record of a value of the store.
-    #[inline(never)]
     pub(super) fn value(&mut self, profile: &StoreProfile, row: &Row) {
         let bytes = self.store.stored(row);
         if bytes.len() > MAX_VALUE {
@@ -278,7 +272,6 @@ impl Set<'_, '_> {
     }
 
     /// A value less its default.
-    #[inline(never)]
     fn difference(&mut self, bytes: &[u8], base: u64) {
         let less = number_in(bytes).wrapping_sub(base).to_le_bytes();
         self.put(Source::Bytes(&less), bytes.len());
@@ -291,7 +284,6 @@ impl Set<'_, '_> {
     }
 
     /// Puts this number of bytes.
-    #[inline(never)]
     pub(super) fn put(&mut self, source: Source<'_>, len: usize) {
         if self.only_counts {
             self.at += len;

@@ -10,7 +10,6 @@ use crate::storage::crc::Crc32;
 
 impl Medium<'_> {
     /// Reads both banks to their end, for this device.
-    #[inline(never)]
     pub(crate) fn survey(&mut self, device: u32) -> Result<(), StorageError> {
         *self.banks = Banks {
             layout: Layout::of(self.storage),
@@ -26,7 +25,6 @@ impl Medium<'_> {
     }
 
     /// Both banks were looked at.
-    #[inline(always)]
     pub(super) fn pair(&mut self, first: &Bank, second: &Bank) {
         let size = self.banks.layout.size;
         let first_stays = match (first.set, second.set) {
@@ -43,7 +41,6 @@ impl Medium<'_> {
     }
 
     /// Returns the node ID and the bit rate that this device saved by [`Plan::Own`](super::Plan::Own).
-    #[inline(never)]
     pub(crate) fn own(&mut self, device: u32) -> Result<[Option<u8>; 2], StorageError> {
         self.survey(device)?;
         let (mut own, mut records) = ([None; 2], self.records());
@@ -65,7 +62,6 @@ impl Medium<'_> {
     }
 
     /// Content of the bank from here on.
-    #[inline(never)]
     fn look(&mut self, start: usize) -> Bank {
         let Layout { word, size, .. } = self.banks.layout;
         let mut bank = self.head(start);
@@ -78,7 +74,6 @@ impl Medium<'_> {
     }
 
     /// Content of the bank from here on, as far as its codes tell.
-    #[inline(always)]
     pub(super) fn head(&mut self, start: usize) -> Bank {
         let word = self.banks.layout.word;
         let ((code, is_exact), (mark, is_right)) = (self.code(start), self.code(start + word));
@@ -94,7 +89,6 @@ impl Medium<'_> {
     }
 
     /// The records of the newest set; none if it is another device's.
-    #[inline(never)]
     pub(super) fn records(&self) -> Records {
         let banks = &self.banks;
         let header = banks.layout.header;
@@ -154,7 +148,6 @@ pub(super) const END: u32 = u32::MAX;
 
 impl Records {
     /// Goes to the next record, or to the [`END`] if the rest is not a record.
-    #[inline(never)]
     pub(super) fn next(&mut self, medium: &mut Medium<'_>) {
         self.key = END;
         let start = self.at + self.len;

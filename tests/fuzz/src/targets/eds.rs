@@ -6,6 +6,7 @@ use od_eds::{Description, Finding, Tables};
 use od_runtime::{Frame, Instant};
 
 use crate::files::files;
+use crate::sent::owner;
 use crate::target::Target;
 
 pub(super) const TARGET: Target = Target {
@@ -107,12 +108,17 @@ fn run(input: &[u8]) {
         bus.receive(&Frame::standard(0x600 + u16::from(node), &request));
     }
     bus.receive(&Frame::standard(0x80, &[]));
-    let mut sent = 0;
-    while bus.poll().is_some() {
-        sent += 1;
+    let own = bus.devices()[0].node_id();
+    let mut count = 0;
+    while let Some(sent) = bus.poll() {
+        owner(own, &sent.frame);
+        count += 1;
     }
-    assert!(sent < 1000, "{sent} answers to 52 frames");
+    assert!(count < 1000, "{count} answers to 52 frames");
     bus.advance(Instant::ZERO.plus_millis(20));
+    while let Some(sent) = bus.poll() {
+        owner(own, &sent.frame);
+    }
     bus.with(number, VirtualDevice::power_off);
 }
 

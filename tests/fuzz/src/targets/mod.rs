@@ -2,6 +2,7 @@
 
 mod bench;
 mod candump;
+mod cob_ids;
 mod console;
 mod eds;
 mod eeprom;
@@ -24,6 +25,7 @@ pub const ALL: &[Target] = &[
     sdo::TARGET,
     node::TARGET,
     eeprom::TARGET,
+    cob_ids::TARGET,
     structure::TARGET,
     eds::TARGET,
     xdd::TARGET,

@@ -13,6 +13,7 @@ use crate::generate::Device;
 use crate::harness::trace;
 use crate::made::{Made, NODE, integer};
 use crate::random::Random;
+use crate::sent::owner;
 use crate::target::Target;
 
 pub(super) const TARGET: Target = Target {
@@ -114,6 +115,10 @@ impl Master {
         self.0.receive(&frame);
         let sent = std::iter::from_fn(|| self.0.poll()).map(|sent| sent.frame);
         let sent: Vec<Frame> = sent.collect();
+        let node = self.0.devices()[0].node_id();
+        for frame in &sent {
+            owner(node, frame);
+        }
         assert!(sent.len() < 1000, "{} answers to {frame}", sent.len());
         sent
     }

@@ -1,56 +1,67 @@
-//! The owner as a static, its time, and its changes.
+//! The node as a static, its time, and its changes.
 
 mod support;
 
 use std::sync::Mutex;
 
-use odkit::board::{Board, Clock, Owner};
+use odkit::board::{Clock, Owner};
 use odkit::storage::Memory;
-use odkit::{Device, Instant, NodeId};
+use odkit::{Instant, Node, NodeId, Services};
 use support::{Heater, frame, sent, thermometer};
 
-type Thermometer = thermometer::Board<Heater, Memory<[u8; 256]>>;
+type Thermometer = thermometer::Node<Heater, Memory<[u8; 256]>>;
 
-static BOARD: Mutex<Thermometer> = Mutex::new(Thermometer::new(
+static NODE: Mutex<Thermometer> = Mutex::new(Thermometer::new(
+    thermometer::Device,
     NodeId::ONE,
     Heater::new(),
     Memory::new([0; 256]),
 ));
 
 #[test]
-fn a_board_is_a_static_and_sends_what_changes() {
-    let mut board = BOARD.lock().expect("one test has it");
+fn a_node_is_a_static_and_sends_what_changes() {
+    let mut node = NODE.lock().expect("one test has it");
     let now = Instant::ZERO;
-    board.power_on(now).expect("it fits");
-    assert_eq!(sent(&mut *board, now), ["701#00"]);
-    board.handle_frame(now, &frame("000#0100"));
-    assert_eq!(sent(&mut *board, now), ["181#D700"]);
-    board.set(now, thermometer::TEMPERATURE, 220);
-    assert_eq!(sent(&mut *board, now), ["181#DC00"]);
-    assert_eq!(board.get(thermometer::TEMPERATURE), 220);
-    let ticks = board.change(now, |heater, store| {
+    node.power_on(now);
+    assert_eq!(sent(&mut *node, now), ["701#00"]);
+    node.handle_frame(now, &frame("000#0100"));
+    assert_eq!(sent(&mut *node, now), ["181#D700"]);
+    node.set(now, thermometer::TEMPERATURE, 220);
+    assert_eq!(sent(&mut *node, now), ["181#DC00"]);
+    assert_eq!(node.get(thermometer::TEMPERATURE), 220);
+    let ticks = node.change(now, |heater, store| {
         store.set(thermometer::TEMPERATURE, 221);
         heater.ticks
     });
-    assert_eq!(ticks, Some(2));
-    assert_eq!(board.application.ticks, 3);
-    assert_eq!(sent(&mut *board, now), ["181#DD00"]);
+    assert_eq!(ticks, 2);
+    assert_eq!(node.application.ticks, 3);
+    assert_eq!(sent(&mut *node, now), ["181#DD00"]);
     // A master's value.
-    board.handle_frame(now, &frame("201#0500"));
-    assert_eq!(board.get(thermometer::TARGET), 5);
+    node.handle_frame(now, &frame("201#0500"));
+    assert_eq!(node.get(thermometer::TARGET), 5);
 }
 
 #[test]
-fn a_board_saves_and_loads() {
+fn a_node_saves_and_loads() {
     let now = Instant::ZERO;
-    let mut board = Thermometer::new(NodeId::ONE, Heater::new(), Memory::new([0; 256]));
-    board.power_on(now).expect("it fits");
-    board.handle_frame(now, &frame("601#2B17100064000000"));
-    board.handle_frame(now, &frame("601#2310100173617665"));
+    let mut node = Thermometer::new(
+        thermometer::Device,
+        NodeId::ONE,
+        Heater::new(),
+        Memory::new([0; 256]),
+    );
+    node.power_on(now);
+    node.handle_frame(now, &frame("601#2B17100064000000"));
+    node.handle_frame(now, &frame("601#2310100173617665"));
     let answers = ["701#00", "581#6017100000000000", "581#6010100100000000"];
-    assert_eq!(sent(&mut board, now), answers);
-    let mut again = Thermometer::new(NodeId::ONE, Heater::new(), board.storage);
-    again.power_on(now).expect("it fits");
+    assert_eq!(sent(&mut node, now), answers);
+    let mut again = Thermometer::new(
+        thermometer::Device,
+        NodeId::ONE,
+        Heater::new(),
+        node.storage,
+    );
+    again.power_on(now);
     assert_eq!(again.poll_timeout(), Some(Instant::from_millis(100)));
 }
 
@@ -60,19 +71,19 @@ fn a_board_saves_and_loads() {
 fn heartbeats_go_on_when_the_counter_wraps() {
     fn run<const HZ: u32, const BITS: u32>(first: u32, millis: u64) -> Vec<u64> {
         let mut clock = Clock::<HZ, BITS>::new();
-        let mut board: Board<thermometer::Device, _, _, 1, 8, { thermometer::STORE_LEN }> =
-            Board::new(NodeId::ONE, Heater::new(), Memory::new([0; 256]));
+        let memory = Memory::new([0; 256]);
+        let mut node = Node::new(thermometer::Device, NodeId::ONE, Heater::new(), memory);
         let start = clock.at(first);
-        board.power_on(start).expect("it fits");
-        board.handle_frame(start, &frame("601#2B17100064000000"));
-        sent(&mut board, start);
+        node.power_on(start);
+        node.handle_frame(start, &frame("601#2B17100064000000"));
+        sent(&mut node, start);
         let mut beats = Vec::new();
         for milli in 0..millis {
             let passed = milli * u64::from(HZ) / 1000;
             let ticks = first.wrapping_add(passed as u32);
             let now = clock.at(ticks & u32::MAX >> (32 - BITS));
-            board.catch_up(now);
-            let frames = sent(&mut board, now);
+            node.catch_up(now);
+            let frames = sent(&mut node, now);
             beats.extend(frames.iter().map(|_| milli));
         }
         beats
