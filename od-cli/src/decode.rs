@@ -9,7 +9,7 @@ use crate::bus::names::Names;
 use crate::bus::words::{CSV, Narrator};
 use crate::failure::{Failure, read_error};
 use crate::output::{self, Output, note};
-use crate::report::plural;
+use crate::report::{plural, plural_of};
 
 /// Show logs in words, as CSV or as JSON
 ///
@@ -69,6 +69,10 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         let mut narrator = Narrator::new(Names::read(&args.eds)?, &args.filter)?;
         for problem in &log.skipped {
             note!("{path}: {problem}");
+        }
+        if log.others > 0 {
+            let entries = plural_of(log.others, "entry", "entries");
+            note!("{path}: not CAN frames (events, other protocols): {entries}");
         }
         if log.lacks_times {
             note!("{path}: the log has no times; `candump -ta` or `candump -L` writes them");

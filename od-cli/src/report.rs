@@ -190,6 +190,11 @@ pub(crate) fn count<'d>(findings: impl Iterator<Item = &'d Finding>) -> Option<S
     (!parts.is_empty()).then(|| parts.join(", "))
 }
 
+/// `1 entry`, `2 entries`.
+pub(crate) fn plural_of(count: usize, one: &str, many: &str) -> String {
+    format!("{count} {}", if count == 1 { one } else { many })
+}
+
 /// `1 file`, `2 files`.
 pub(crate) fn plural(count: usize, what: &str) -> String {
     if count == 1 {

@@ -6,7 +6,7 @@ pub use od_wire::emcy::Emcy;
 
 /// Returns the EMCY message in a frame with the default CAN-ID, 80h plus the node ID.
 ///
-/// `None` for every other frame. Nodes whose 1014h has another COB-ID are not recognised.
+/// `None` for any other frame. Nodes with another COB-ID in 1014h are not recognised.
 pub fn parse(frame: &Frame) -> Option<(NodeId, Emcy)> {
     let id = frame.id().as_standard()?.checked_sub(0x80)?;
     let node = NodeId::new(u8::try_from(id).ok()?)?;
@@ -20,7 +20,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn messages_are_those_of_81h_to_ffh_with_eight_bytes() {
+    fn an_emcy_message_has_a_can_id_of_81h_to_ffh_and_eight_bytes() {
         let bytes = [0x30, 0x81, 0x11, 1, 2, 3, 4, 5];
         let node_of = |id| parse(&Frame::standard(id, &bytes)).map(|(node, _)| node.raw());
         assert_eq!((node_of(0x81), node_of(0xFF)), (Some(1), Some(127)));

@@ -1,8 +1,8 @@
 //! Client side of a CANopen bus: SDO client, NMT commands, heartbeat and EMCY consumers, LSS
 //! master, PDO decoding.
 //!
-//! Sans-io, as the node in `od-runtime` is: time and frames are arguments, and nothing here reads
-//! a clock or knows a bus. [`Client`] (feature `alloc`, on by default) does everything for all
+//! Sans-io like the node in `od-runtime`: time and frames are arguments, and this crate reads no
+//! clock and no bus. [`Client`] (feature `alloc`, on by default) serves all
 //! nodes of a bus; [`sdo::Upload`], [`sdo::Download`], [`lss::Master`] and [`watch::Watch`] are
 //! its parts, for a microcontroller without an allocator.
 //!

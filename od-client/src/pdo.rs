@@ -1,4 +1,4 @@
-//! PDOs taken apart by their mapping (CiA 301, chapters 7.2.2 and 7.4.9).
+//! Decodes PDOs by their mapping (CiA 301, chapters 7.2.2 and 7.4.9).
 
 use core::fmt;
 
@@ -8,9 +8,9 @@ use od_model::{Address, DataType, Dictionary, Entry, Literal};
 /// The data of a PDO is shorter than its mapping.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub struct TooShort {
-    /// Bits that the mapping has.
+    /// Bits of the mapping.
     pub mapped: u32,
-    /// Bits that came.
+    /// Bits of the data.
     pub received: u32,
 }
 
@@ -51,7 +51,7 @@ impl Field {
         }
     }
 
-    /// The bits as little-endian bytes, as an SDO would carry them; the first
+    /// The bits as little-endian bytes, as in an SDO; the first
     /// [`len`](Self::len) count.
     pub const fn bytes(&self) -> [u8; 8] {
         self.value.to_le_bytes()
@@ -93,7 +93,7 @@ pub fn bits(data: &[u8], first: u8, bits: u8) -> Option<u64> {
     Some(value >> first & (u64::MAX >> (64 - bits)))
 }
 
-/// Takes the data of a PDO apart.
+/// Decodes the data of a PDO.
 ///
 /// `mapping` are the mapping entries, 1600h:01 or 1A00h:01 and so on, as many as sub-index 0
 /// counts. Bytes after the mapped ones are ignored (CiA 301, chapter 7.2.2.5), as are bytes after
@@ -134,7 +134,7 @@ pub fn decode<'d, 'm>(
     })
 }
 
-/// The values of a PDO, in the order of the mapping. Made by [`decode`].
+/// The values of a PDO, in the order of the mapping; [`decode`] returns it.
 #[derive(Clone, Debug)]
 pub struct Fields<'d, 'm> {
     dictionary: Dictionary<'d>,
@@ -169,7 +169,7 @@ impl Iterator for Fields<'_, '_> {
 
 impl ExactSizeIterator for Fields<'_, '_> {}
 
-/// A mapping that was read from a dictionary.
+/// The mapping entries of a dictionary.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Mapping {
     entries: [u32; 64],

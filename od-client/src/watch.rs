@@ -13,7 +13,7 @@ pub enum Event {
     Back(NodeId),
     /// The boot-up message.
     BootUp(NodeId),
-    /// A heartbeat with another state than the one before.
+    /// A heartbeat with a changed state.
     State(NodeId, State),
     /// No heartbeat came in time.
     Lost(NodeId),
@@ -36,15 +36,15 @@ impl core::error::Error for Full {}
 struct Slot {
     node: NodeId,
     heartbeat: Option<Duration>,
-    /// From the first heartbeat on.
+    /// It is set from the first heartbeat on.
     deadline: Option<Instant>,
     state: Option<State>,
     is_lost: bool,
-    /// Not taken by the caller yet.
+    /// The caller has not taken them yet.
     news: News,
 }
 
-/// At most one event of each kind waits, whatever the bus does.
+/// At most one event of each kind waits, whatever comes from the bus.
 #[derive(Clone, Copy, Default, Debug)]
 struct News {
     back: bool,
@@ -93,8 +93,8 @@ impl Slot {
 
 /// Watches up to `N` nodes.
 ///
-/// Take the events with [`poll_event`](Self::poll_event) after each input: of events of one
-/// kind and one node only the newest waits.
+/// Call [`poll_event`](Self::poll_event) after each input: of several events of one
+/// kind and node only the newest is kept.
 #[derive(Clone, Debug)]
 pub struct Watch<const N: usize> {
     slots: [Option<Slot>; N],
@@ -107,7 +107,7 @@ impl<const N: usize> Default for Watch<N> {
 }
 
 impl<const N: usize> Watch<N> {
-    /// Watches no node yet.
+    /// Watches no node at first.
     pub const fn new() -> Self {
         Self { slots: [None; N] }
     }
@@ -138,7 +138,7 @@ impl<const N: usize> Watch<N> {
         Ok(())
     }
 
-    /// Watches a node no longer.
+    /// Stops watching a node.
     pub fn remove(&mut self, node: NodeId) {
         for slot in &mut self.slots {
             if slot.is_some_and(|slot| slot.node == node) {
@@ -154,7 +154,7 @@ impl<const N: usize> Watch<N> {
     }
 
     /// Returns the state in the node's last heartbeat, [`State::Initialising`] after its boot-up
-    /// message; `None` if it was not heard or is lost.
+    /// message; `None` if there was none or the node is lost.
     pub fn state(&self, node: NodeId) -> Option<State> {
         let slot = self.slots.iter().flatten().find(|slot| slot.node == node)?;
         slot.state.filter(|_| !slot.is_lost)
@@ -176,7 +176,7 @@ impl<const N: usize> Watch<N> {
         }
     }
 
-    /// Returns when [`handle_timeout`](Self::handle_timeout) has to be called, if at all.
+    /// Returns when to call [`handle_timeout`](Self::handle_timeout), if at all.
     pub fn poll_timeout(&self) -> Option<Instant> {
         let deadlines = self.slots.iter().flatten().filter_map(|slot| slot.deadline);
         deadlines.min()
@@ -195,8 +195,8 @@ impl<const N: usize> Watch<N> {
     }
 }
 
-/// Returns node and state in a boot-up message, a heartbeat or the answer to a node guarding
-/// request (700h plus the node ID); `None` for every other frame.
+/// Returns node and state of a boot-up message, a heartbeat or the response to a node guarding
+/// request (700h plus the node ID); `None` for any other frame.
 pub fn parse(frame: &Frame) -> Option<(NodeId, State)> {
     let id = frame.id().as_standard()?.checked_sub(0x700)?;
     let node = NodeId::new(u8::try_from(id).ok()?)?;

@@ -1,9 +1,9 @@
 //! Findings that a file allows: `;odkit-allow=W0311 reason` in a comment of its own.
 //!
-//! Before the first section and in `[FileInfo]` it holds for the whole file. In the section of an
-//! object or a sub-object it holds for the findings there and for all findings about that object;
-//! in any other section for the findings there. A reason is required, because the next person who
-//! reads the file has to judge it.
+//! Before the first section and in `[FileInfo]` such a comment applies to the whole file. In the section of an
+//! object or a sub-object it applies to the findings there and to all findings about that object;
+//! in any other section to the findings there. A reason is required, because the next reader of the
+//! file has to judge it.
 
 use alloc::format;
 use alloc::vec::Vec;
@@ -17,7 +17,7 @@ use crate::rules::rule;
 use crate::scan::{lines::lines, names::object_of};
 use crate::span::Span;
 
-/// The word that makes a comment one of ours.
+/// The word that begins such a comment.
 const WORD: &str = "odkit-allow";
 
 /// One code that is allowed somewhere.
@@ -34,11 +34,11 @@ struct Allow {
 #[derive(Clone, Debug)]
 enum Scope {
     File,
-    /// From this line up to the one before that, and all about this object.
+    /// From this line up to the line before that one, and all findings about this object.
     Section(u32, u32, Option<u16>),
 }
 
-/// All that a text allows, and the findings about the comments that say so.
+/// All allowances of a text, and the findings about their comments.
 #[derive(Clone, Debug, Default)]
 pub struct Allows {
     allows: Vec<Allow>,
@@ -49,7 +49,7 @@ impl Allows {
     /// Reads the comments of a text.
     pub fn of(text: &str) -> Self {
         let mut allows = Self::default();
-        // Most files have none, and a search for one character is fast.
+        // Most files have none, and searching for one character is fast.
         let is_word = |dash: usize| {
             let start = dash.checked_sub("odkit".len());
             let word = start.and_then(|start| text.as_bytes().get(start..start + WORD.len()));
@@ -85,7 +85,7 @@ impl Allows {
         allows
     }
 
-    /// The section of the newest entries, from number `open` on, ends before this line.
+    /// Ends the section of the newest entries, from number `open` on, before this line.
     fn close(&mut self, open: usize, number: u32) {
         for allow in &mut self.allows[open..] {
             if let Scope::Section(_, end, _) = &mut allow.scope {
@@ -120,10 +120,10 @@ impl Allows {
         }
     }
 
-    /// Removes what is allowed, and adds the findings about the comments themselves.
+    /// Removes allowed findings, and adds the findings about the comments themselves.
     pub fn apply(mut self, findings: &mut Vec<Finding>) {
         self.filter(findings);
-        // If a tool is asked at all, its findings come later.
+        // The findings for other tools, if there are any, come later.
         let unused = self.allows.iter();
         let unused = unused.filter(|allow| !allow.used && !allow.code.starts_with('T'));
         let unused =
@@ -135,7 +135,7 @@ impl Allows {
         }
     }
 
-    /// Removes what is allowed.
+    /// Removes allowed findings.
     pub fn filter(&mut self, findings: &mut Vec<Finding>) {
         if !self.allows.is_empty() {
             findings.retain(|finding| !self.allowed(finding));
@@ -163,14 +163,14 @@ impl Allows {
     }
 }
 
-/// The rule of a code that can be allowed: all but those about edits and about allowing.
+/// The rule of a code that can be allowed: all except those about edits and about allowing.
 fn known(code: &str) -> Option<&'static Rule> {
     rule(code).filter(|rule| {
         rule.code.starts_with('T') || !matches!(&rule.code[1..3], "07" | "08" | "11" | "12")
     })
 }
 
-/// `E0310`, or `E0310:2000` for one object: what a command line allows.
+/// Reads an allowance of a command line: `E0310`, or `E0310:2000` for one object.
 ///
 /// # Errors
 ///
@@ -219,7 +219,7 @@ mod tests {
                            [2001]\nParameterName=b\nDataType:5\nAccessType=ro\n";
 
     #[test]
-    fn a_file_an_object_or_a_section() {
+    fn a_code_is_allowed_in_a_file_an_object_or_a_section() {
         assert_eq!(codes(OBJECTS), ["W0108", "W0108"]);
         let file = format!("; Odkit-Allow = w0108 an old editor\n{OBJECTS}");
         assert_eq!(codes(&file), [""; 0]);
@@ -232,7 +232,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_wrong_with_it_is_said() {
+    fn a_wrong_allowance_is_reported() {
         let file = format!(";odkit-allow=W0108\n{OBJECTS}");
         assert_eq!(codes(&file), ["W0802", "W0108", "W0108"]);
         let file = format!(";odkit-allow=W99,E0701 x y\n{OBJECTS}");
@@ -246,7 +246,7 @@ mod tests {
     }
 
     #[test]
-    fn on_the_command_line() {
+    fn a_code_is_allowed_on_the_command_line() {
         assert_eq!(parse_allow("w0108"), Ok(("W0108", None)));
         assert_eq!(parse_allow("E0310:2000"), Ok(("E0310", Some(0x2000))));
         assert_eq!(parse_allow("E0310:0x20A0"), Ok(("E0310", Some(0x20A0))));

@@ -1,14 +1,14 @@
-//! From a finding to a sentence: the only place where blanks are filled.
+//! Makes the sentence of a finding. Blanks of sentences are filled only here.
 //!
 //! A sentence of a rule has blanks between braces:
 //!
-//! | blank | what it becomes |
+//! | blank | is replaced by |
 //! |---|---|
 //! | `{low}` | the fact of this name |
 //! | `{id:03X}` | a number or an index, hexadecimal with at least three digits |
 //! | `{count:entry\|entries}` | a count and its noun: "1 entry", "2 entries" |
-//! | `{LowLimit}`, `{key}` | this key, and the one that the finding is about |
-//! | `{DataType={right}}` | this key set to a value, which may have blanks too |
+//! | `{LowLimit}`, `{key}` | this key, and the key of the finding |
+//! | `{DataType={right}}` | this key with a value, which may contain blanks, too |
 //! | `{fix}` | " (safe fix)" or " (unsafe fix)", if the finding has one |
 //! | `{{`, `}}` | a brace |
 
@@ -23,19 +23,19 @@ use crate::finding::{Finding, Severity};
 use crate::fix::{Applicability, Fix};
 use crate::span::Span;
 
-/// The words of a finding: those of an EDS file, of a macro call, or of a language.
+/// The terms of a sentence: those of an EDS file, of a macro call, or of a language.
 pub trait Vocabulary {
     /// A key in a sentence.
     fn key(&self, key: Key) -> &'static str {
         key.name()
     }
 
-    /// A key set to a value, as it is to be written.
+    /// A key with the value to write.
     fn set(&self, key: Key, value: &str) -> String {
         format!("{}={value}", key.name())
     }
 
-    /// An object, or one of its sub-indices, that is to be written.
+    /// An object or a sub-index to write.
     fn section(&self, index: u16, sub: Option<u8>) -> String {
         match sub {
             Some(sub) => format!("a section [{index:04X}sub{sub:X}]"),
@@ -64,7 +64,7 @@ pub trait Vocabulary {
         }
     }
 
-    /// The words after an advice that odkit can apply.
+    /// The words after a help text that odkit can apply itself.
     fn fix(&self, fix: Applicability) -> &'static str {
         match fix {
             Applicability::Safe => " (safe fix)",
@@ -72,13 +72,13 @@ pub trait Vocabulary {
         }
     }
 
-    /// A sentence with its blanks, from the one in English; a language replaces it.
+    /// Returns the English sentence with its blanks; a translation replaces it.
     fn sentence(&self, english: &'static str) -> &'static str {
         english
     }
 }
 
-/// The words of an EDS file: `LowLimit=5`.
+/// The terms of an EDS file: `LowLimit=5`.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Eds;
 
@@ -94,7 +94,7 @@ pub struct Label {
     pub text: String,
 }
 
-/// A finding in words.
+/// The text of a finding.
 #[derive(Clone, PartialEq, Eq, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Sentence {
@@ -102,21 +102,21 @@ pub struct Sentence {
     pub code: &'static str,
     /// Severity of the finding.
     pub severity: Severity,
-    /// The fault, one clause without a full stop.
+    /// The problem, one clause without a full stop.
     pub message: String,
     /// Place in the text; `None` if something is missing.
     pub span: Option<Span>,
-    /// The object it is about, if it is about one.
+    /// The object of the finding, if it has one.
     pub address: Option<Address>,
     /// Second places.
     pub labels: Vec<Label>,
-    /// The text to write instead, or the values allowed; empty if the message says it.
+    /// The text to write instead, or the allowed values; empty if the message contains them.
     pub help: String,
     /// Automatic fix, if there is one.
     pub fix: Option<Fix>,
 }
 
-/// The finding in these words.
+/// Returns the finding in these terms.
 pub fn say(finding: &Finding, words: &dyn Vocabulary) -> Sentence {
     let filled = |english| Blanks { finding, words }.fill(words.sentence(english), false);
     let labels = finding.related.iter().map(|related| Label {
@@ -135,14 +135,14 @@ pub fn say(finding: &Finding, words: &dyn Vocabulary) -> Sentence {
     }
 }
 
-/// Source of the blanks of one finding.
+/// Provides the values for the blanks of one finding.
 struct Blanks<'a> {
     finding: &'a Finding,
     words: &'a dyn Vocabulary,
 }
 
 impl Blanks<'_> {
-    /// The text with its blanks filled; `written` if it is the value of a key.
+    /// Returns the text with its blanks filled; `written` if it is the value of a key.
     fn fill(&self, text: &str, written: bool) -> String {
         let mut out = String::with_capacity(text.len() + 32);
         for piece in pieces(text) {
@@ -180,7 +180,7 @@ impl Blanks<'_> {
                 own.unwrap_or_else(|| self.shown(fact, form))
             }
             Some((_, fact)) => self.shown(fact, form),
-            // A test sees that this does not happen.
+            // A test makes sure that this does not happen.
             None => format!("{{{blank}}}"),
         }
     }
@@ -229,13 +229,13 @@ fn counted(number: i128, form: &str) -> String {
     }
 }
 
-/// A piece of a sentence with blanks.
+/// A part of a sentence with blanks.
 enum Piece<'a> {
     Text(&'a str),
     Blank(&'a str),
 }
 
-/// A sentence taken apart at its blanks.
+/// The parts of a sentence with blanks.
 fn pieces(mut text: &str) -> impl Iterator<Item = Piece<'_>> {
     core::iter::from_fn(move || {
         if text.is_empty() {

@@ -1,4 +1,4 @@
-//! Checks: the walk that shows objects and values to the rules.
+//! Checks: passes each object and value to the rules.
 
 use alloc::collections::BTreeSet;
 use alloc::vec::Vec;
@@ -56,7 +56,7 @@ pub(crate) fn run(description: &Description, log: &mut Log) {
     }
 }
 
-/// Keeps the first of the same findings about sub-objects that one section describes (CompactSubObj).
+/// Keeps only the first of equal findings about sub-objects that one section describes (CompactSubObj).
 fn once(description: &Description, findings: &mut Vec<Finding>) {
     let mut known = BTreeSet::new();
     findings.retain(|finding| {

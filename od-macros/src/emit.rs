@@ -140,9 +140,25 @@ fn item(out: &mut String, root: &str, item: &Item, family: Option<&Item>) {
                 "#[doc = {:?}] pub mod {} {{ use {root}::*;",
                 item.doc, item.name
             );
+            let series = item.series();
+            if let [first, .., last] = series {
+                self::series(out, item.index, first, last, series.len());
+            }
+            // The handles with a constant of their own.
+            let own = |handles, series: &[Handle]| -> Vec<&Handle> {
+                let handles: &[Handle] = handles;
+                let (first, len) = (series.first().map(|first| first.sub), series.len());
+                let is_one = |handle: &&Handle| {
+                    let from = |first| handle.sub.checked_sub(first);
+                    handle.is_renamed()
+                        || first.and_then(from).is_none_or(|at| usize::from(at) >= len)
+                };
+                handles.iter().filter(is_one).collect()
+            };
+            let others =
+                family.map_or_else(Vec::new, |family| own(family.members(), family.series()));
             let mut handed_on = Vec::new();
-            for handle in handles {
-                let others = family.map(Item::members).unwrap_or_default();
+            for handle in own(handles, series) {
                 match others.iter().find(|other| other.alike(handle)) {
                     Some(other) => handed_on.push(hand_on(&other.name, &handle.name)),
                     None => constant(out, item.index, handle),
@@ -155,6 +171,25 @@ fn item(out: &mut String, root: &str, item: &Item, family: Option<&Item>) {
             out.push_str("}\n");
         }
     }
+}
+
+/// The handles of a long ARRAY as one constant: a constant for each takes the compiler too long.
+fn series(out: &mut String, index: u16, first: &Handle, last: &Handle, count: usize) {
+    let rust_type = first.rust_type().replacen("Var<", "Series<", 1);
+    let doc = format!(
+        "{index:04X}h:{:02X} {:?} to {index:04X}h:{:02X} {:?}; `at(sub)` is the handle of one.",
+        first.sub,
+        first.label(),
+        last.sub,
+        last.label()
+    );
+    let (sub, offset, len) = (first.sub, first.slot.offset, first.slot.len);
+    let bits = first.data_type.bits().unwrap_or_default();
+    let _ = writeln!(
+        out,
+        "#[doc = {doc:?}] pub const ENTRIES: {rust_type} = \
+         __s(__v({index:#06X}, {sub}, {offset}, {len}, {bits}), {count});"
+    );
 }
 
 fn constant(out: &mut String, index: u16, handle: &Handle) {

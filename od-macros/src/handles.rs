@@ -44,6 +44,8 @@ pub(crate) struct Handle {
     pub(crate) access: Access,
     pub(crate) mappable: bool,
     pub(crate) slot: Slot,
+    /// Does the call give its name?
+    is_renamed: bool,
 }
 
 /// Names that the module needs for itself.
@@ -94,6 +96,7 @@ pub(crate) fn items(
                     access: entry.access,
                     mappable: entry.mappable,
                     slot: entry.slot,
+                    is_renamed: false,
                 })
             })
             .collect();
@@ -184,6 +187,7 @@ fn name_items(items: &mut [Item], naming: &Naming<'_>, report: &mut Report) {
                     if let Some(name) = named.get(&Target::member(index, handle.sub)) {
                         handle.name.clone_from(name);
                     }
+                    handle.is_renamed = renames.contains_key(&Target::member(index, handle.sub));
                 }
             }
         }
@@ -333,6 +337,32 @@ impl Item {
             }
     }
 
+    /// The handles of a long ARRAY that one [`od_model::typed::Series`] stands for: more than 64, of one type, with
+    /// their values one behind the other.
+    pub(crate) fn series(&self) -> &[Handle] {
+        const LONG: usize = 64;
+        let [_, handles @ ..] = self.members() else {
+            return &[];
+        };
+        let follows = |pair: &[Handle]| {
+            let [one, next] = pair else { return false };
+            one.data_type == next.data_type
+                && one.access == next.access
+                && one.mappable == next.mappable
+                && one.sub.checked_add(1) == Some(next.sub)
+                && one.slot.len == next.slot.len
+                && one.slot.offset + u32::from(one.slot.len) == next.slot.offset
+        };
+        let is_scalar = handles
+            .first()
+            .is_some_and(|first| scalar(first.data_type).is_some());
+        if handles.len() > LONG && is_scalar && handles.windows(2).all(follows) {
+            handles
+        } else {
+            &[]
+        }
+    }
+
     /// The handles of a module; none of a constant.
     pub(crate) fn members(&self) -> &[Handle] {
         match &self.body {
@@ -347,6 +377,16 @@ impl Handle {
     pub(crate) fn alike(&self, other: &Self) -> bool {
         let all = |h: &Self| (h.sub, h.data_type, h.access, h.mappable, h.slot);
         all(self) == all(other) && self.doc == other.doc
+    }
+
+    /// Its name in the description.
+    pub(crate) fn label(&self) -> &str {
+        &self.label
+    }
+
+    /// Does it have a constant of its own, beside the series of its object?
+    pub(crate) fn is_renamed(&self) -> bool {
+        self.is_renamed
     }
 
     /// The handle's Rust type, as generated code names it.

@@ -91,6 +91,9 @@
 //! error. A module with the name of a variant gets its index too. The documentation of every item gives index, type,
 //! access, default, limits and its place in the EDS.
 //!
+//! An ARRAY of more than 64 sub-objects of one type has one constant for them, `ENTRIES`, and
+//! `ENTRIES.at(5)` is the handle of sub-index 5; a `rename` of one of them gives it a constant, too.
+//!
 //! A variant is a module inside this module: `thermometer::outdoor` has its own `DICTIONARY` and
 //! re-exports the handles of objects that it keeps, so a removed object has no handle there.
 //! The family has one storage layout: **a handle of the family works with the store of every

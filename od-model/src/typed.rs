@@ -192,6 +192,73 @@ impl<T, A, M> Var<T, A, M> {
     }
 }
 
+/// Handles of the sub-objects of a long ARRAY, which follow each other and have one type.
+///
+/// The macro makes one for an ARRAY of more than 64 sub-objects, instead of a constant for each.
+///
+/// ```
+/// use od_model::typed::{Ro, Series, Var};
+/// use od_model::{Address, Slot};
+///
+/// let slot = Slot { offset: 8, len: 2 };
+/// let samples: Series<u16, Ro> = Series::new(Var::new(Address::new(0x2100, 1), slot, 16), 100);
+/// let last = samples.at(100).unwrap();
+/// assert_eq!((last.address().sub, last.slot().offset), (100, 206));
+/// assert!(samples.at(0).is_none() && samples.at(101).is_none());
+/// assert_eq!(samples.iter().count(), 100);
+/// ```
+pub struct Series<T, A, M = NoPdo> {
+    first: Var<T, A, M>,
+    count: u8,
+}
+
+impl<T, A, M> Clone for Series<T, A, M> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+impl<T, A, M> Copy for Series<T, A, M> {}
+impl<T, A, M> core::fmt::Debug for Series<T, A, M> {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        write!(
+            f,
+            "{:?} and {} more",
+            self.first,
+            self.count.saturating_sub(1)
+        )
+    }
+}
+
+impl<T, A, M> Series<T, A, M> {
+    /// For generated code: `count` handles from the first one on.
+    pub const fn new(first: Var<T, A, M>, count: u8) -> Self {
+        Self { first, count }
+    }
+
+    /// Number of handles.
+    pub const fn count(self) -> u8 {
+        self.count
+    }
+
+    /// The handle of a sub-index; `None` if the series does not have it.
+    pub const fn at(self, sub: u8) -> Option<Var<T, A, M>> {
+        let Address { index, sub: first } = self.first.address;
+        if sub < first || sub - first >= self.count {
+            return None;
+        }
+        let Slot { offset, len } = self.first.slot;
+        let offset = offset + (sub - first) as u32 * len as u32;
+        let slot = Slot { offset, len };
+        Some(Var::new(Address::new(index, sub), slot, self.first.bits))
+    }
+
+    /// All handles, by ascending sub-index.
+    pub fn iter(self) -> impl Iterator<Item = Var<T, A, M>> {
+        let first = self.first.address.sub;
+        (0..self.count).filter_map(move |at| self.at(first.saturating_add(at)))
+    }
+}
+
 /// Handle of a string or domain: VISIBLE_STRING, OCTET_STRING, UNICODE_STRING, DOMAIN.
 pub struct Text<A> {
     address: Address,

@@ -4,7 +4,7 @@ use std::prelude::v1::*;
 
 use od_wire::Instant;
 
-use super::record::{Reader, Record, frame, id};
+use super::record::{Entry, FD, Reader, Record, frame, id};
 use super::stamp;
 
 /// Returns whether this line shows that the text is an ASC log.
@@ -22,8 +22,8 @@ pub(super) fn is_one(line: &str) -> bool {
 /// Words that begin a line about the log itself.
 const HEADS: [&str; 6] = ["date", "base", "internal", "no", "begin", "end"];
 
-/// Words after a time stamp for events that are not frames.
-const OTHERS: [&str; 5] = ["canfd", "log", "start", "trigger", "comment"];
+/// Words after a time stamp that begin a note about the log.
+const NOTES: [&str; 4] = ["log", "start", "trigger", "comment"];
 
 pub(super) fn reader<'t>(lines: &[&'t str]) -> Reader<'t> {
     let base = lines
@@ -38,7 +38,7 @@ pub(super) fn reader<'t>(lines: &[&'t str]) -> Reader<'t> {
         let mut words = line.split_whitespace();
         let first = words.next().unwrap_or_default();
         if first.starts_with("//") || HEADS.contains(&first.to_ascii_lowercase().as_str()) {
-            return Ok(None);
+            return Ok(Entry::Nothing);
         }
         let time = stamp::seconds(first).filter(|_| first.contains('.'));
         let time = time.ok_or("the time stamp is missing")?;
@@ -55,37 +55,94 @@ pub(super) fn reader<'t>(lines: &[&'t str]) -> Reader<'t> {
     })
 }
 
-/// `1  601  Rx  d 8 40 04 …`, `1  64x  Rx  r 2`, `1  ErrorFrame`.
-fn record(at: Instant, words: &[&str], radix: u32) -> Result<Option<Record>, String> {
+/// `1  601  Rx  d 8 40 04 …`, `1  64x  Rx  r 2`, `1  ErrorFrame`; all others are events.
+fn record(at: Instant, words: &[&str], radix: u32) -> Result<Entry, String> {
     let lower = |at: usize| words.get(at).map(|word| word.to_ascii_lowercase());
     let (channel, second) = (lower(0).unwrap_or_default(), lower(1).unwrap_or_default());
-    let is_other = OTHERS.contains(&channel.as_str())
-        || second == "statistic:"
-        || second.starts_with("statistic")
-        || second.starts_with("j1939")
-        || channel == "can" && lower(2).as_deref() == Some("status");
-    if is_other {
-        return Ok(None);
+    if NOTES.contains(&channel.as_str()) {
+        return Ok(Entry::Nothing);
+    }
+    if channel == "canfd" {
+        return fd_channel(at, &words[1..], radix);
     }
     if second.starts_with("errorframe") {
-        return Ok(Some(Record::error(at)));
+        return Ok(Entry::Record(Record::error(at)));
     }
-    let (sent, kind) = match (lower(2).as_deref(), lower(3).as_deref()) {
-        (Some("rx"), Some(kind)) => (false, kind.to_owned()),
-        (Some("tx"), Some(kind)) => (true, kind.to_owned()),
-        _ => return Err("a frame such as `1  601  Rx  d 8 40 04 …` is missing".into()),
+    let is_channel = channel.parse::<u8>().is_ok();
+    let (sent, kind) = match (lower(2).as_deref(), lower(3)) {
+        (Some("rx"), Some(kind)) if is_channel => (false, kind),
+        (Some("tx"), Some(kind)) if is_channel => (true, kind),
+        (Some("rx" | "tx"), None) if is_channel => {
+            return Err("a frame such as `1  601  Rx  d 8 40 04 …` is cut".into());
+        }
+        // TxRq, Status, SV, OverloadFrame and all other events of the format.
+        _ => return Ok(Entry::Other),
     };
-    let extended = second.ends_with('x');
-    let id = id(second.trim_end_matches('x'), radix, extended)?;
     let dlc = words
         .get(4)
         .and_then(|word| u8::from_str_radix(word, 16).ok());
     let (remote, dlc) = match (kind.as_str(), dlc) {
         ("r", dlc) => (true, dlc.unwrap_or(0).min(8)),
         ("d", Some(dlc)) => (false, dlc.min(8)),
-        _ => return Err("the length of the data is missing".into()),
+        ("d", None) => return Err("the length of the data is missing".into()),
+        // An event of another protocol, such as J1939.
+        _ => return Ok(Entry::Other),
     };
+    let id = asc_id(&second, radix)?;
     let data = words.iter().skip(5).copied();
     let frame = frame(id, dlc, remote, data, radix)?;
-    Ok(Some(Record::received(at, frame).sent(sent)))
+    Ok(Entry::Record(Record::received(at, frame).sent(sent)))
+}
+
+fn asc_id(word: &str, radix: u32) -> Result<od_wire::CanId, String> {
+    id(word.trim_end_matches('x'), radix, word.ends_with('x'))
+}
+
+/// Bit 4 of the flags of a `CANFD` line: a remote frame.
+const FLAG_REMOTE: u32 = 1 << 4;
+/// Bit 12: a frame in the format of CAN FD (FDF). Without it the frame is a classic one.
+const FLAG_FD: u32 = 1 << 12;
+
+/// Reads the words after `CANFD`, which interfaces with CAN FD write for each frame: channel, direction,
+/// CAN-ID, a name or none, BRS, ESI, DLC, length, data, duration, length of the message in bits, flags.
+fn fd_channel(at: Instant, words: &[&str], radix: u32) -> Result<Entry, String> {
+    let lower = |at: usize| words.get(at).map(|word| word.to_ascii_lowercase());
+    let sent = match lower(1).as_deref() {
+        Some("rx") => false,
+        Some("tx") => true,
+        _ => return Ok(Entry::Other),
+    };
+    let second = lower(2).ok_or("the CAN-ID is missing")?;
+    if second.starts_with("errorframe") {
+        return Ok(Entry::Record(Record::error(at)));
+    }
+    // The name of the message is optional.
+    let is_bit = |at: usize| matches!(words.get(at), Some(&"0" | &"1"));
+    let first = if is_bit(3) && is_bit(4) { 3 } else { 4 };
+    let rest = words.get(first..).unwrap_or_default();
+    let [brs, _, dlc, length, data @ ..] = rest else {
+        return Err("a frame such as `CANFD 1 Rx 601 0 0 8 8 40 04 …` is cut".into());
+    };
+    let length: usize = length
+        .parse()
+        .ok()
+        .filter(|length| *length <= 64)
+        .ok_or_else(|| format!("`{length}` is not a valid length"))?;
+    // Duration and length of the message come before the flags.
+    let flags = data.get(length + 2);
+    let flags = flags.map_or(Ok(0), |word| {
+        u32::from_str_radix(word, 16).map_err(|_| format!("the flags `{word}` are not valid"))
+    })?;
+    if flags & FLAG_FD != 0 || *brs == "1" || length > 8 {
+        return Err(FD.into());
+    }
+    let remote = flags & FLAG_REMOTE != 0;
+    let dlc = if remote {
+        u8::from_str_radix(dlc, 16).unwrap_or(0).min(8)
+    } else {
+        length as u8
+    };
+    let id = asc_id(&second, radix)?;
+    let frame = frame(id, dlc, remote, data.iter().copied(), radix)?;
+    Ok(Entry::Record(Record::received(at, frame).sent(sent)))
 }

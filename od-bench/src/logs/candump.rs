@@ -268,6 +268,13 @@ fn screen(column: usize, id: &str, rest: &mut Cursor<'_>) -> Result<Frame, Error
     let length = length
         .strip_prefix('[')
         .and_then(|rest| rest.strip_suffix(']'));
+    if length.is_some_and(|digits| digits.len() == 2 && digits.parse::<u8>().is_ok()) {
+        return Err(Error::new(
+            column,
+            "a length of two digits belongs to a CAN FD frame",
+            "remove the line; CANopen does not use CAN FD",
+        ));
+    }
     let dlc = length.and_then(|digits| digits.parse().ok());
     let Some(request) = dlc.and_then(|dlc| Frame::remote(id, dlc)) else {
         return Err(Error::new(

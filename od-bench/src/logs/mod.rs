@@ -13,6 +13,6 @@ pub(crate) mod stamp;
 mod trc;
 mod write;
 
-pub use read::{Log, Problem, read};
-pub use record::{Record, What};
+pub use read::{Log, read};
+pub use record::{Problem, Record, What};
 pub use write::Format;

@@ -4,13 +4,91 @@ use std::prelude::v1::*;
 
 use od_wire::{CanId, Frame, Instant};
 
-use super::record::{ERROR, EXTENDED, REMOTE, Record};
+use super::record::{ERROR, EXTENDED, FD, Problem, REMOTE, Record};
 
 /// The link type of SocketCAN frames in a capture.
 pub(super) const LINK: u16 = 227;
+/// Link types of a capture on all interfaces: a header of Linux, then the frame.
+const COOKED: u16 = 113;
+const COOKED_2: u16 = 276;
+/// Protocols in these headers.
+const CAN: u16 = 0x000C;
+const CAN_FD: u16 = 0x000D;
+/// Type of a packet in these headers: sent by this computer.
+const OUTGOING: u8 = 4;
 
 /// Message for a capture without CAN frames.
-pub(super) const OTHER_LINK: &str = "its frames are not SocketCAN frames (link type 227)";
+const OTHER_LINK: &str = "its frames are not SocketCAN frames (link type 227; of a capture on all interfaces 113 or 276)";
+
+fn is_can(link: u16) -> bool {
+    matches!(link, LINK | COOKED | COOKED_2)
+}
+
+/// Content of a capture.
+#[derive(Default)]
+pub(super) struct Capture {
+    pub(super) records: Vec<Record>,
+    pub(super) skipped: Vec<Problem>,
+    /// Packets of other protocols.
+    pub(super) others: usize,
+    /// Packets so far.
+    count: u32,
+}
+
+impl Capture {
+    /// Adds a packet of an interface with this link type.
+    pub(super) fn packet(&mut self, at: Instant, link: u16, bytes: &[u8]) {
+        self.count = self.count.saturating_add(1);
+        let half = |at: usize| Some(u16::from_be_bytes(bytes.get(at..at + 2)?.try_into().ok()?));
+        let (protocol, sent, start) = match link {
+            LINK => (Some(CAN), false, 0),
+            COOKED => (half(14), half(0) == Some(OUTGOING.into()), 16),
+            COOKED_2 => (half(0), bytes.get(10) == Some(&OUTGOING), 20),
+            _ => (None, false, 0),
+        };
+        let frame = bytes.get(start..).unwrap_or_default();
+        match protocol {
+            Some(CAN) if !is_fd(frame) => match socketcan(at, frame) {
+                Some(record) => self.records.push(record.sent(sent)),
+                None => self.skip("it is too short for a CAN frame".into()),
+            },
+            Some(CAN | CAN_FD) => self.skip(FD.into()),
+            _ => self.others += 1,
+        }
+    }
+
+    /// Notes that the current packet cannot be read.
+    pub(super) fn skip(&mut self, why: String) {
+        self.skipped.push(Problem {
+            line: self.count.max(1),
+            is_frame: true,
+            why,
+        });
+    }
+
+    /// Ends the capture. It is an error if it has no CAN frame at all.
+    pub(super) fn finish(mut self, cut: Option<String>) -> Result<Self, String> {
+        match cut {
+            Some(why) if self.records.is_empty() => return Err(why),
+            Some(why) => self.skip(why),
+            None => {}
+        }
+        if self.records.is_empty() && self.skipped.is_empty() && self.others > 0 {
+            return Err(OTHER_LINK.into());
+        }
+        Ok(self)
+    }
+}
+
+/// Length of the largest CAN FD frame with its head.
+const FD_FRAME: usize = 72;
+/// Flag of a CAN FD frame, beside its length.
+const FLAG_FD: u8 = 4;
+
+fn is_fd(bytes: &[u8]) -> bool {
+    let is_long = bytes.len() == FD_FRAME || bytes.get(4).is_some_and(|length| *length > 8);
+    is_long || bytes.get(5).is_some_and(|flags| flags & FLAG_FD != 0)
+}
 
 /// A file, little or big endian.
 #[derive(Clone, Copy)]
@@ -40,7 +118,7 @@ impl File<'_> {
 }
 
 /// The records of a pcap file; `None` if the bytes are not one.
-pub(super) fn read(bytes: &[u8]) -> Option<Result<Vec<Record>, String>> {
+pub(super) fn read(bytes: &[u8]) -> Option<Result<Capture, String>> {
     let magic = u32::from_le_bytes(bytes.get(..4)?.try_into().ok()?);
     let (is_little, nanos) = match magic {
         0xA1B2_C3D4 => (true, false),
@@ -50,14 +128,16 @@ pub(super) fn read(bytes: &[u8]) -> Option<Result<Vec<Record>, String>> {
         _ => return None,
     };
     let file = File { bytes, is_little };
-    Some(match file.word(20) {
-        Some(link) if link & 0xFFFF == u32::from(LINK) => records(file, nanos),
-        _ => Err(OTHER_LINK.into()),
+    // The upper half has other bits.
+    let link = file.word(20).map(|link| (link & 0xFFFF) as u16);
+    Some(match link.filter(|link| is_can(*link)) {
+        Some(link) => records(file, nanos, link),
+        None => Err(OTHER_LINK.into()),
     })
 }
 
-fn records(file: File<'_>, nanos: bool) -> Result<Vec<Record>, String> {
-    let mut records = Vec::new();
+fn records(file: File<'_>, nanos: bool, link: u16) -> Result<Capture, String> {
+    let mut capture = Capture::default();
     let mut at = 24;
     while let (Some(seconds), Some(fraction), Some(length), Some(_)) = (
         file.word(at),
@@ -68,18 +148,19 @@ fn records(file: File<'_>, nanos: bool) -> Result<Vec<Record>, String> {
         let data = at + 16;
         let end = data.saturating_add(length as usize);
         let Some(bytes) = file.bytes.get(data..end) else {
-            return Err(format!("it ends in the middle of a frame, at byte {at}"));
+            let cut = format!("it ends in the middle of a frame, at byte {at}");
+            return capture.finish(Some(cut));
         };
         let micros = u64::from(fraction) / if nanos { 1000 } else { 1 };
         let time = Instant::from_micros(u64::from(seconds) * 1_000_000 + micros);
-        records.extend(socketcan(time, bytes));
+        capture.packet(time, link, bytes);
         at = end;
     }
-    Ok(records)
+    capture.finish(None)
 }
 
 /// One frame of a capture: identifier with flags, big endian, then length and data.
-pub(super) fn socketcan(at: Instant, bytes: &[u8]) -> Option<Record> {
+fn socketcan(at: Instant, bytes: &[u8]) -> Option<Record> {
     let raw = u32::from_be_bytes(bytes.get(..4)?.try_into().ok()?);
     let dlc = (*bytes.get(4)?).min(8);
     let data = bytes.get(8..)?;

@@ -4,7 +4,7 @@ use std::prelude::v1::*;
 
 use od_wire::Instant;
 
-use super::pcap::{File, LINK, OTHER_LINK, socketcan};
+use super::pcap::{Capture, File, LINK};
 use super::record::{ERROR, EXTENDED, REMOTE, Record, What};
 
 const SECTION: u32 = 0x0A0D_0D0A;
@@ -21,7 +21,7 @@ struct Interface {
 }
 
 /// The records of a pcapng file; `None` if the bytes are not one.
-pub(super) fn read(bytes: &[u8]) -> Option<Result<Vec<Record>, String>> {
+pub(super) fn read(bytes: &[u8]) -> Option<Result<Capture, String>> {
     let file = File {
         bytes,
         is_little: true,
@@ -29,55 +29,52 @@ pub(super) fn read(bytes: &[u8]) -> Option<Result<Vec<Record>, String>> {
     (file.word(0)? == SECTION).then(|| records(file))
 }
 
-fn records(mut file: File<'_>) -> Result<Vec<Record>, String> {
+fn records(mut file: File<'_>) -> Result<Capture, String> {
     let mut interfaces: Vec<Interface> = Vec::new();
-    let mut records = Vec::new();
-    let mut others = 0;
+    let mut capture = Capture::default();
     let mut at = 0;
     while at + 12 <= file.bytes.len() {
-        let cut = || format!("it ends in the middle of a block, at byte {at}");
         if file.word(at) == Some(SECTION) {
             file.is_little = true;
             file.is_little = file.word(at + 8) == Some(LITTLE);
             interfaces.clear();
         }
-        let kind = file.word(at).ok_or_else(cut)?;
-        let size = file.word(at + 4).ok_or_else(cut)? as usize;
+        let size = file.word(at + 4).unwrap_or(0) as usize;
         let end = at.saturating_add(size);
         if size < 12 || !size.is_multiple_of(4) || end > file.bytes.len() {
-            return Err(cut());
+            return capture.finish(Some(cut(at)));
         }
-        match kind {
-            INTERFACE => interfaces.push(Interface {
-                link: file.half(at + 8).ok_or_else(cut)?,
+        match (file.word(at), file.half(at + 8), file.word(at + 8)) {
+            (Some(INTERFACE), Some(link), _) => interfaces.push(Interface {
+                link,
                 resolution: resolution(file, at + 16, end - 4),
             }),
-            PACKET => {
-                let owner = file.word(at + 8).ok_or_else(cut)? as usize;
-                match interfaces.get(owner).filter(|one| one.link == LINK) {
-                    Some(owner) => records.extend(packet(file, at, end, owner)),
-                    None => others += 1,
-                }
-            }
+            (Some(PACKET), _, Some(owner)) => match interfaces.get(owner as usize) {
+                Some(owner) => packet(&mut capture, file, at, end, owner),
+                None => capture.others += 1,
+            },
             _ => {}
         }
         at = end;
     }
-    if records.is_empty() && others > 0 {
-        Err(OTHER_LINK.into())
-    } else {
-        Ok(records)
-    }
+    capture.finish(None)
 }
 
-fn packet(file: File<'_>, at: usize, end: usize, owner: &Interface) -> Option<Record> {
-    let (high, low) = (file.word(at + 12)?, file.word(at + 16)?);
+fn cut(at: usize) -> String {
+    format!("it ends in the middle of a block, at byte {at}")
+}
+
+fn packet(capture: &mut Capture, file: File<'_>, at: usize, end: usize, owner: &Interface) {
+    let head = (file.word(at + 12), file.word(at + 16), file.word(at + 20));
+    let bytes = file.bytes.get(at + 28..end.saturating_sub(4));
+    let ((Some(high), Some(low), Some(length)), Some(bytes)) = (head, bytes) else {
+        return capture.skip(cut(at));
+    };
     let ticks = u64::from(high) << 32 | u64::from(low);
     let micros = ticks as f64 / owner.resolution * 1e6;
-    let length = file.word(at + 20)? as usize;
-    let bytes = file.bytes.get(at + 28..end.checked_sub(4)?)?;
-    let bytes = bytes.get(..length).unwrap_or(bytes);
-    socketcan(Instant::from_micros(micros.round() as u64), bytes)
+    let bytes = bytes.get(..length as usize).unwrap_or(bytes);
+    let time = Instant::from_micros(micros.round() as u64);
+    capture.packet(time, owner.link, bytes);
 }
 
 /// Ticks per second of an interface: its option `if_tsresol`, otherwise a million.

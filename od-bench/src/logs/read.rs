@@ -1,12 +1,12 @@
 //! Reads the records of a log in any supported format.
 
 use od_model::Refused;
-use std::fmt;
 use std::prelude::v1::*;
 
 use od_wire::Instant;
 
-use super::record::{Reader, Record};
+use super::pcap::Capture;
+use super::record::{Entry, Problem, Reader, Record};
 use super::{asc, candump, foreign, pcap, pcapng, stamp, trc};
 use crate::cursor::Cursor;
 
@@ -15,25 +15,12 @@ use crate::cursor::Cursor;
 pub struct Log {
     /// Records, in the order of their times.
     pub records: Vec<Record>,
-    /// Lines that could not be read.
+    /// Lines or frames that could not be read.
     pub skipped: Vec<Problem>,
+    /// Number of the entries that are not frames: events of an ASC or a TRC, packets of other protocols.
+    pub others: usize,
     /// Whether the log has no times, as `candump` prints it without `-t`. All records then have time 0.
     pub lacks_times: bool,
-}
-
-/// A line that could not be read.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Problem {
-    /// Counted from 1.
-    pub line: u32,
-    /// The problem of the line.
-    pub why: String,
-}
-
-impl fmt::Display for Problem {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "line {}: {}", self.line, self.why)
-    }
 }
 
 /// Converts times of day to times from the start, in microseconds; a log that starts near 0 keeps its times.
@@ -47,8 +34,17 @@ const HEAD: usize = 200;
 /// # Errors
 /// The reason why it is not a log, or the first line if no line can be read.
 pub fn read(bytes: &[u8]) -> Result<Log, Refused> {
-    if let Some(records) = pcapng::read(bytes).or_else(|| pcap::read(bytes)) {
-        return Ok(finish(records?, Vec::new()));
+    if let Some(capture) = pcapng::read(bytes).or_else(|| pcap::read(bytes)) {
+        let Capture {
+            records,
+            skipped,
+            others,
+            ..
+        } = capture?;
+        return Ok(Log {
+            others,
+            ..finish(records, skipped)
+        });
     }
     let text = String::from_utf8_lossy(bytes);
     let lines: Vec<&str> = lines(text.trim_start_matches('\u{feff}')).collect();
@@ -61,20 +57,27 @@ pub fn read(bytes: &[u8]) -> Result<Log, Refused> {
     };
     let mut records = Vec::new();
     let mut skipped = Vec::new();
+    let mut others = 0;
     for (line, text) in (1..).zip(&lines) {
         if text.trim().is_empty() {
             continue;
         }
         match reader(text) {
-            Ok(Some(record)) => records.push(record),
-            Ok(None) => {}
-            Err(why) => skipped.push(Problem { line, why }),
+            Ok(Entry::Record(record)) => records.push(record),
+            Ok(Entry::Other) => others += 1,
+            Ok(Entry::Nothing) => {}
+            Err(why) => skipped.push(Problem {
+                line,
+                is_frame: false,
+                why,
+            }),
         }
     }
     match skipped.first() {
         Some(first) if records.is_empty() => Err(first.to_string().into()),
         _ => Ok(Log {
             lacks_times,
+            others,
             ..finish(records, skipped)
         }),
     }
@@ -98,6 +101,7 @@ fn finish(mut records: Vec<Record>, skipped: Vec<Problem>) -> Log {
         records,
         skipped,
         lacks_times: false,
+        others: 0,
     }
 }
 
@@ -124,9 +128,9 @@ fn choose<'t>(lines: &[&'t str], lacks_times: bool) -> Option<Reader<'t>> {
 }
 
 /// Reads a line of candump, in the log or the screen form.
-fn line(text: &str, lacks_times: bool) -> Result<Option<Record>, String> {
+fn line(text: &str, lacks_times: bool) -> Result<Entry, String> {
     if text.trim_start().starts_with(['#', ';']) {
-        return Ok(None);
+        return Ok(Entry::Nothing);
     }
     let missing = "the time stamp in parentheses is missing";
     if !text.trim_start().starts_with('(') && !lacks_times {
@@ -137,7 +141,7 @@ fn line(text: &str, lacks_times: bool) -> Result<Option<Record>, String> {
         None if lacks_times => Instant::ZERO,
         at => at.ok_or(missing)?,
     };
-    Ok(Some(Record {
+    Ok(Entry::Record(Record {
         at,
         sent: logged.sent,
         what: logged.frame.what,

@@ -1,5 +1,8 @@
 //! One record of a log.
 
+use std::fmt;
+use std::prelude::v1::*;
+
 use od_wire::{CanId, Frame, Instant};
 
 /// Entry of a log.
@@ -95,5 +98,36 @@ fn too_long(dlc: u8) -> String {
     format!("the length {dlc} is more than 8")
 }
 
-/// Reads one line: a record, nothing (a comment, a header), or an error.
-pub(super) type Reader<'t> = Box<dyn FnMut(&'t str) -> Result<Option<Record>, String> + 't>;
+/// Content of a line.
+pub(super) enum Entry {
+    /// A frame or an error frame.
+    Record(Record),
+    /// An event that is not a frame: a change of the controller's state, a request to send.
+    Other,
+    /// A comment or a header.
+    Nothing,
+}
+
+/// Reads one line, or says what is wrong with it.
+pub(super) type Reader<'t> = Box<dyn FnMut(&'t str) -> Result<Entry, String> + 't>;
+
+/// Message for a CAN FD frame.
+pub(super) const FD: &str = "it is a CAN FD frame, and CANopen does not use CAN FD";
+
+/// A line of a text, or a frame of a capture, that could not be read.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Problem {
+    /// Number of the line, or of the frame, from 1.
+    pub line: u32,
+    /// Whether it is a frame of a capture.
+    pub is_frame: bool,
+    /// The problem.
+    pub why: String,
+}
+
+impl fmt::Display for Problem {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let unit = if self.is_frame { "frame" } else { "line" };
+        write!(f, "{unit} {}: {}", self.line, self.why)
+    }
+}

@@ -4,7 +4,7 @@ use std::prelude::v1::*;
 
 use od_wire::Instant;
 
-use super::record::{Reader, Record, frame, id};
+use super::record::{Entry, FD, Reader, Record, frame, id};
 
 /// Returns whether this line shows that the text is a TRC log.
 pub(super) fn is_one(line: &str) -> bool {
@@ -49,7 +49,7 @@ pub(super) fn reader<'t>(lines: &[&'t str]) -> Reader<'t> {
     let has_version = version.is_some();
     Box::new(move |line| {
         if line.trim_start().starts_with(';') {
-            return Ok(None);
+            return Ok(Entry::Nothing);
         }
         let (at, words) = numbered(line).ok_or("the message number or the time is missing")?;
         let mut words = words.skip(usize::from(has_bus)).peekable();
@@ -62,10 +62,10 @@ pub(super) fn reader<'t>(lines: &[&'t str]) -> Reader<'t> {
         });
         let direction = direction.unwrap_or_default().to_ascii_lowercase();
         if direction.starts_with("error") {
-            return Ok(Some(Record::error(at)));
+            return Ok(Entry::Record(Record::error(at)));
         }
         if direction.starts_with("warng") {
-            return Ok(None);
+            return Ok(Entry::Other);
         }
         let id = words.next().unwrap_or_default();
         let mut words: Vec<&str> = words.skip(usize::from(has_reserved)).collect();
@@ -77,7 +77,7 @@ pub(super) fn reader<'t>(lines: &[&'t str]) -> Reader<'t> {
                 .first()
                 .is_some_and(|word| word.trim_start_matches('0') == "4")
         {
-            return Ok(None);
+            return Ok(Entry::Other);
         }
         let remote = words
             .get(1)
@@ -94,7 +94,7 @@ pub(super) fn reader<'t>(lines: &[&'t str]) -> Reader<'t> {
             data: &words,
         }
         .frame()?;
-        Ok(Some(
+        Ok(Entry::Record(
             Record::received(at, frame).sent(direction.starts_with("tx")),
         ))
     })
@@ -113,7 +113,7 @@ fn second<'t>(lines: &[&'t str]) -> Reader<'t> {
     let place = move |name: &str| columns.iter().position(|column| *column == name);
     Box::new(move |line| {
         if line.trim_start().starts_with(';') {
-            return Ok(None);
+            return Ok(Entry::Nothing);
         }
         let words: Vec<&str> = line.split_whitespace().collect();
         let field = |name: &str| place(name).and_then(|at| words.get(at).copied());
@@ -121,11 +121,11 @@ fn second<'t>(lines: &[&'t str]) -> Reader<'t> {
             .and_then(millis)
             .ok_or("the time offset is missing")?;
         let remote = match field("T").unwrap_or_default() {
-            "ER" => return Ok(Some(Record::error(at))),
+            "ER" => return Ok(Entry::Record(Record::error(at))),
             "DT" => false,
             "RR" => true,
-            "ST" | "EC" | "EV" => return Ok(None),
-            "FD" | "FB" | "FE" | "BI" => return Err("CAN FD is not supported".into()),
+            "ST" | "EC" | "EV" => return Ok(Entry::Other),
+            "FD" | "FB" | "FE" | "BI" => return Err(FD.into()),
             other => return Err(format!("`{other}` is not a valid type of message")),
         };
         let data = place("D")
@@ -141,7 +141,7 @@ fn second<'t>(lines: &[&'t str]) -> Reader<'t> {
         }
         .frame()?;
         let sent = field("d").is_some_and(|word| word.to_ascii_lowercase().starts_with("tx"));
-        Ok(Some(Record::received(at, frame).sent(sent)))
+        Ok(Entry::Record(Record::received(at, frame).sent(sent)))
     })
 }
 

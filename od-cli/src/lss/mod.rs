@@ -225,10 +225,6 @@ fn scan(args: &bus::Args) -> Result<(), Failure> {
         output::print(&format!("{report:#}"))?;
     }
     if found.is_empty() {
-        output::note!(
-            "a slave with a node ID does not respond to fastscan: `odkit scan` finds it, and \
-             `odkit lss set 7 --of 5` changes its node ID"
-        );
         Err(Failure::Reported(1))
     } else {
         Ok(())

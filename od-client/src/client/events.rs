@@ -1,4 +1,4 @@
-//! Events of the client for its host.
+//! Events of the client, for its host.
 
 use alloc::collections::VecDeque;
 use alloc::vec::Vec;
@@ -11,10 +11,10 @@ use crate::lss::{Answer, LssError};
 use crate::sdo::SdoError;
 use crate::watch;
 
-/// Events of the bus that wait at most.
+/// Limit of waiting events of the bus.
 const NEWS: usize = 256;
 
-/// Job of the host: a number that comes back with the event that ends it.
+/// Job of the host: a number that is repeated in the event of its end.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub struct Job(u32);
 
@@ -23,7 +23,7 @@ impl Job {
         Self(number)
     }
 
-    /// The number: 1 for a client's first job, and one more for each.
+    /// The number: 1 for the first job of a client, then counting up.
     pub const fn number(self) -> u32 {
         self.0
     }
@@ -41,11 +41,11 @@ pub enum Event {
     Lss(Job, Result<Answer, LssError>),
     /// A boot-up message, of any node.
     BootUp(NodeId),
-    /// The state in a heartbeat of any node, if it is another one than before.
+    /// The state in a heartbeat of any node, if it changed.
     State(NodeId, State),
-    /// No heartbeat of a watched node came in time.
+    /// A watched node sent no heartbeat in time.
     Lost(NodeId),
-    /// A heartbeat of a node that was lost.
+    /// A heartbeat of a lost node.
     Back(NodeId),
     /// An EMCY message, of any node.
     Emcy(NodeId, Emcy),
@@ -62,7 +62,7 @@ impl From<watch::Event> for Event {
     }
 }
 
-/// Events on their way to the host. Ends of jobs are never dropped: there are as many as the
+/// Events for the host. Ends of jobs are never dropped: there are as many as the
 /// host began.
 #[derive(Debug)]
 pub(super) struct Events {
@@ -81,12 +81,12 @@ impl Events {
         }
     }
 
-    /// A job is over.
+    /// Adds the end of a job.
     pub(super) fn end(&mut self, event: Event) {
         self.waiting.push_back(event);
     }
 
-    /// Something happened on the bus.
+    /// Adds an event of the bus.
     pub(super) fn tell(&mut self, event: Event) {
         if self.news < NEWS {
             self.news += 1;

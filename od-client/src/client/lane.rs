@@ -1,4 +1,4 @@
-//! The SDO transfers to one node: one at a time, the others wait.
+//! The SDO transfers with one node: one at a time, the others wait.
 
 use alloc::collections::VecDeque;
 use alloc::vec::Vec;
@@ -9,14 +9,14 @@ use od_wire::{Frame, Instant, NodeId};
 use super::events::{Event, Events, Job};
 use crate::sdo::{Channel, Download, Options, SdoError, Upload};
 
-/// A transfer under way.
+/// A transfer in progress.
 #[derive(Debug)]
 enum Transfer {
     Upload(Upload<Vec<u8>>),
     Download(Download<Vec<u8>>),
 }
 
-/// A job that waits; `bytes`: it writes them.
+/// A waiting job; it writes `bytes` if there are some.
 #[derive(Debug)]
 struct Waiting {
     job: Job,
@@ -31,7 +31,7 @@ pub(super) struct Lane {
     node: NodeId,
     active: Option<(Job, Transfer)>,
     waiting: VecDeque<Waiting>,
-    /// The node does not know block transfers; it is not asked again before its next boot-up.
+    /// The node does not support block transfers; they are not tried again before its next boot-up.
     has_no_block: bool,
 }
 
@@ -49,12 +49,12 @@ impl Lane {
         self.node
     }
 
-    /// The node restarts, perhaps as another device.
+    /// Notes a restart of the node, which may now be another device.
     pub(super) fn forget(&mut self) {
         self.has_no_block = false;
     }
 
-    /// Adds a job to those that wait: writes `bytes`, or reads.
+    /// Adds a waiting job: it writes `bytes`, or reads.
     pub(super) fn push(
         &mut self,
         job: Job,
@@ -133,7 +133,7 @@ impl Lane {
         }
     }
 
-    /// Begins the next job if none is under way.
+    /// Begins the next job if none is in progress.
     fn begin(&mut self) {
         if self.active.is_some() {
             return;
@@ -154,8 +154,8 @@ impl Lane {
         self.active = Some((next.job, transfer));
     }
 
-    /// Ends the transfer if it is over: the frames that it still has go out before the next
-    /// one's.
+    /// Ends a completed transfer. Its remaining frames are sent before those of the next
+    /// one.
     fn settle(&mut self, now: Instant, out: &mut VecDeque<Frame>, events: &mut Events) {
         let Some((job, transfer)) = &mut self.active else {
             return;

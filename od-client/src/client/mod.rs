@@ -1,4 +1,4 @@
-//! Everything for all nodes of a bus, with queues.
+//! A client for all nodes of a bus, with queues.
 
 mod events;
 mod lane;
@@ -26,18 +26,18 @@ const NODES: usize = 127;
 
 /// A CANopen client for all nodes of a bus.
 ///
-/// Jobs for one node wait for each other; those for several nodes run side by side. Each ends
-/// with exactly one event of its own. The crate's page shows the loop around it: send what
-/// [`poll_transmit`](Self::poll_transmit) has, take what [`poll_event`](Self::poll_event) has,
+/// Jobs for one node run one after the other; jobs for several nodes run at the same time. Each ends
+/// with exactly one event of its own. The crate documentation shows the loop: send the frames of
+/// [`poll_transmit`](Self::poll_transmit), take the events of [`poll_event`](Self::poll_event),
 /// wait for a frame or [`poll_timeout`](Self::poll_timeout).
-///
-/// Nothing grows by what comes from the bus: values have a limit, and of boot-up messages,
+/// Input from the bus cannot make memory grow: values have a limit, and up to 256 boot-up messages,
+/// states and EMCY messages wait; further ones are dropped and counted.
 /// states and EMCY messages 256 wait; while they do, new ones are dropped and counted.
 #[derive(Debug)]
 pub struct Client {
     options: Options,
     jobs: u32,
-    /// One a node that was ever asked, in the order of their first jobs.
+    /// One lane for each node with a job so far, in the order of their first jobs.
     lanes: Vec<Lane>,
     /// The lane that sends next.
     turn: usize,
@@ -78,8 +78,8 @@ impl Client {
         self.transfer(node, object, None, self.options)
     }
 
-    /// As [`read`](Self::read), of an object whose data type is known: an answer without a size has the
-    /// bytes of the type, and a DOMAIN comes in blocks.
+    /// Like [`read`](Self::read), for an object with a known data type: a response without a size has the
+    /// length of the type, and a DOMAIN is read in blocks.
     pub fn read_as(&mut self, node: NodeId, object: Address, data_type: DataType) -> Job {
         let mut options = self.options;
         options.type_size = data_type.size();
@@ -92,9 +92,9 @@ impl Client {
         self.transfer(node, object, Some(bytes.to_vec()), self.options)
     }
 
-    /// Runs an LSS service after those that wait; ends with [`Event::Lss`].
+    /// Runs an LSS service after the waiting ones; ends with [`Event::Lss`].
     ///
-    /// To give node IDs to several slaves that have none: fastscan until it finds no other
+    /// To give node IDs to several slaves without one: run fastscan until it finds no other
     /// slave, switch all to waiting state, then for each LSS address switch state selective,
     /// configure node ID, store, and switch to waiting state again.
     pub fn lss(&mut self, task: lss::Task) -> Job {
@@ -103,8 +103,8 @@ impl Client {
         job
     }
 
-    /// Ends a job without an event, with an SDO abort if it is under way. Returns whether the
-    /// job was there.
+    /// Ends a job without an event. A transfer in progress is aborted. Returns whether the
+    /// job existed.
     pub fn cancel(&mut self, now: Instant, job: Job) -> bool {
         let Self { lanes, out, .. } = self;
         lanes.iter_mut().any(|lane| lane.cancel(now, job, out)) || self.tasks.cancel(job)
@@ -115,10 +115,10 @@ impl Client {
         self.out.push_back(nmt::frame(node, command));
     }
 
-    /// Watches a node: without a heartbeat for so long it is [`Event::Lost`]. The time starts
+    /// Watches a node: without a heartbeat for this time it is [`Event::Lost`]. The time starts
     /// with the first heartbeat.
     pub fn watch(&mut self, node: NodeId, heartbeat: Duration) {
-        // There is a place for each node ID.
+        // This cannot fail: there is room for each node ID.
         _ = self.watch.add(node, Some(heartbeat));
     }
 
@@ -128,7 +128,7 @@ impl Client {
     }
 
     /// Returns the state in the node's last heartbeat, [`State::Initialising`] after its boot-up
-    /// message; `None` if it was not heard or is lost.
+    /// message; `None` if there was none or the node is lost.
     pub fn state(&self, node: NodeId) -> Option<State> {
         self.watch.state(node)
     }
@@ -155,7 +155,7 @@ impl Client {
         }
     }
 
-    /// Acts on what is overdue; does nothing before [`poll_timeout`](Self::poll_timeout).
+    /// Handles deadlines that have passed; does nothing before [`poll_timeout`](Self::poll_timeout).
     pub fn handle_timeout(&mut self, now: Instant) {
         for lane in &mut self.lanes {
             lane.handle_timeout(now, &mut self.out, &mut self.events);
@@ -165,7 +165,7 @@ impl Client {
         self.take_news();
     }
 
-    /// Returns the next frame to send; the time for its answer starts at `now`. Nodes take
+    /// Returns the next frame to send; the time for its response starts at `now`. Nodes take
     /// turns.
     pub fn poll_transmit(&mut self, now: Instant) -> Option<Frame> {
         if let Some(frame) = self.out.pop_front() {
@@ -184,7 +184,7 @@ impl Client {
         None
     }
 
-    /// Returns when [`handle_timeout`](Self::handle_timeout) has to be called, if at all.
+    /// Returns when to call [`handle_timeout`](Self::handle_timeout), if at all.
     pub fn poll_timeout(&self) -> Option<Instant> {
         let lanes = self.lanes.iter().filter_map(Lane::poll_timeout);
         let others = [self.tasks.poll_timeout(), self.watch.poll_timeout()];
@@ -196,7 +196,7 @@ impl Client {
         self.events.pop()
     }
 
-    /// Returns how many events of the bus were dropped because 256 waited.
+    /// Returns the number of events of the bus that were dropped because 256 waited.
     pub const fn dropped_events(&self) -> u64 {
         self.events.dropped()
     }

@@ -1,4 +1,4 @@
-//! The LSS services that wait for each other.
+//! The queue of LSS services.
 
 use alloc::collections::VecDeque;
 
@@ -7,7 +7,7 @@ use od_wire::{Frame, Instant};
 use super::events::{Event, Events, Job};
 use crate::lss::{Master, Options, Task};
 
-/// One under way, the others in order.
+/// The service in progress, then the waiting ones.
 #[derive(Debug)]
 pub(super) struct Tasks {
     master: Master,
@@ -29,7 +29,7 @@ impl Tasks {
         self.begin();
     }
 
-    /// Returns whether the job was here.
+    /// Returns whether the job existed.
     pub(super) fn cancel(&mut self, job: Job) -> bool {
         if self.active == Some(job) {
             self.master.cancel();

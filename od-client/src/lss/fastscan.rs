@@ -1,20 +1,20 @@
-//! Fastscan: the LSS address of a slave, bit by bit (CiA 305, chapter 6.7).
+//! Fastscan: finds the LSS address of a slave bit by bit (CiA 305, chapter 6.7).
 
 use od_wire::lss::Request;
 
 use super::task::{Answer, Identity, LssError};
 
-/// `bit` of the request that begins a scan.
+/// Value of `bit` in the first request of a scan.
 const BEGIN: u8 = 0x80;
 
 /// Step of a scan.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Step {
-    /// Is there a slave at all?
+    /// Asks whether there is a slave.
     Begin,
-    /// Is this bit 0, and those above it as they were found?
+    /// Asks whether this bit is 0 and the higher bits are those found.
     Bit(u8),
-    /// Is the number as it was found? Then slaves go on to the next one.
+    /// Asks whether the number is the one found. Then slaves continue with the next number.
     Confirm,
 }
 
@@ -52,8 +52,8 @@ impl Fastscan {
         }
     }
 
-    /// The time of this step is over: did a slave answer? Returns what the scan brought, once
-    /// it is at its end.
+    /// Ends a step: `true` if a slave responded. Returns the result of the scan at
+    /// its end.
     pub(super) fn step(&mut self, answered: bool) -> Option<Result<Answer, LssError>> {
         self.step = match self.step {
             Step::Begin if !answered => return Some(Ok(Answer::Found(None))),

@@ -1,4 +1,4 @@
-//! The master: one service at a time.
+//! The LSS master: one service at a time.
 
 use core::fmt;
 
@@ -12,13 +12,13 @@ use super::task::{Answer, LssError, Task};
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[non_exhaustive]
 pub struct Options {
-    /// Longest time from a request to its answer. Storing takes the longest.
+    /// Longest time from a request to its response. Storing takes longest.
     pub timeout: Duration,
-    /// Time that a step of fastscan waits for an answer. 65 to 133 steps find a slave; each bit
+    /// Time that a step of fastscan waits for a response. Finding a slave takes 65 to 133 steps; each bit
     /// that is 1 takes the whole time.
     pub scan: Duration,
-    /// Time that a step of fastscan or identification waits after an answer, as further slaves
-    /// may send the same. A late answer would count for the next step.
+    /// Time that a step of fastscan or identification waits after a response, because other slaves
+    /// may send the same one. A late response would count for the next step.
     pub settle: Duration,
 }
 
@@ -37,7 +37,7 @@ impl Default for Options {
     }
 }
 
-/// The master is still at work on another service.
+/// The master still works on another service.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub struct Busy;
 
@@ -49,16 +49,16 @@ impl fmt::Display for Busy {
 
 impl core::error::Error for Busy {}
 
-/// Service under way.
+/// Service in progress.
 #[derive(Clone, Copy, Debug)]
 struct Work {
     task: Task,
     scan: Fastscan,
-    /// The next frame; for a fastscan 0 where one is due.
+    /// The next frame; for a fastscan a placeholder 0.
     step: u8,
-    /// End of the wait for an answer.
+    /// End of the wait for a response.
     deadline: Option<Instant>,
-    /// A slave has answered; the time for others runs.
+    /// A slave has responded; the time for other slaves runs.
     heard: bool,
 }
 
@@ -83,7 +83,7 @@ pub struct Master {
 }
 
 impl Master {
-    /// A master that does nothing yet.
+    /// A master without a service in progress.
     pub const fn new(options: Options) -> Self {
         Self {
             options,
@@ -92,10 +92,10 @@ impl Master {
         }
     }
 
-    /// Begins a service. An answer that was not taken is forgotten.
+    /// Begins a service. A result that was not taken is dropped.
     ///
     /// # Errors
-    /// [`Busy`] while another one is under way.
+    /// [`Busy`] while another service is in progress.
     pub fn begin(&mut self, task: Task) -> Result<(), Busy> {
         if self.work.is_some() {
             return Err(Busy);
@@ -111,17 +111,17 @@ impl Master {
         Ok(())
     }
 
-    /// Returns whether a service is under way.
+    /// Returns whether a service is in progress.
     pub const fn is_busy(&self) -> bool {
         self.work.is_some()
     }
 
-    /// Ends the service that is under way, without an answer.
+    /// Ends the service in progress, without a result.
     pub fn cancel(&mut self) {
         self.work = None;
     }
 
-    /// Takes a frame from the bus; only LSS slaves' answers to the service count.
+    /// Takes a frame from the bus; only responses of LSS slaves to the service count.
     pub fn handle_frame(&mut self, now: Instant, frame: &Frame) {
         let Some(work) = &mut self.work else { return };
         if frame.id() != CanId::standard(SLAVE) || work.deadline.is_none() {
@@ -162,7 +162,7 @@ impl Master {
         self.end(answer);
     }
 
-    /// Goes on, or gives up, if the time of a step is over; does nothing before
+    /// Continues or gives up if the time of a step is over; does nothing before
     /// [`poll_timeout`](Self::poll_timeout).
     pub fn handle_timeout(&mut self, now: Instant) {
         let Some(work) = &mut self.work else { return };
@@ -184,7 +184,7 @@ impl Master {
         }
     }
 
-    /// Returns the next frame to send; the time for the answer starts at `now`.
+    /// Returns the next frame to send; the time for the response starts at `now`.
     pub fn poll_transmit(&mut self, now: Instant) -> Option<Frame> {
         let work = self.work.as_mut()?;
         let (request, wait) = match work.task {
@@ -201,12 +201,12 @@ impl Master {
         Some(Frame::full(CanId::standard(MASTER), request.emit()))
     }
 
-    /// Returns when [`handle_timeout`](Self::handle_timeout) has to be called, if at all.
+    /// Returns when to call [`handle_timeout`](Self::handle_timeout), if at all.
     pub fn poll_timeout(&self) -> Option<Instant> {
         self.work.as_ref()?.deadline
     }
 
-    /// Returns what the service brought, once.
+    /// Returns the result of the service, once.
     pub fn poll_answer(&mut self) -> Option<Result<Answer, LssError>> {
         self.answer.take()
     }
@@ -217,7 +217,7 @@ impl Master {
     }
 }
 
-/// The command that a slave's confirmation repeats.
+/// The command in a slave's confirmation.
 const fn command_of(task: Task) -> Option<u8> {
     match task {
         Task::ConfigureNodeId(_) => Some(0x11),

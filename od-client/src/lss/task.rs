@@ -37,7 +37,7 @@ impl Identity {
 
 /// One service of the LSS master (CiA 305, chapter 6).
 ///
-/// Those for a single slave need one in configuration state, and no second.
+/// A service for a single slave needs exactly one slave in configuration state.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[non_exhaustive]
 pub enum Task {
@@ -71,8 +71,8 @@ pub enum Task {
     },
     /// Store configuration.
     Store,
-    /// Identify remote slave: does a slave with these numbers exist? The last two are ranges,
-    /// both ends included.
+    /// Identify remote slave: asks whether a slave with these numbers exists. The last two are ranges
+    /// that include both ends.
     Identify {
         /// Vendor-ID.
         vendor: u32,
@@ -83,15 +83,15 @@ pub enum Task {
         /// Lowest and highest serial number.
         serial: [u32; 2],
     },
-    /// Identify non-configured remote slave: does a slave without node ID exist?
+    /// Identify non-configured remote slave: asks whether a slave without node ID exists.
     IdentifyNonConfigured,
-    /// Fastscan: find the LSS address of one slave in waiting state. The slave found is in
-    /// configuration state then, and the next fastscan finds another one.
+    /// Fastscan: finds the LSS address of one slave in waiting state. This slave is then in
+    /// configuration state, so the next fastscan finds another one.
     Fastscan,
 }
 
 impl Task {
-    /// The frame of a step, as long as there are steps. Fastscan has its own.
+    /// The frame of a step, while there are further steps. Fastscan has frames of its own.
     pub(super) fn request(self, step: u8) -> Option<Request> {
         let at = usize::from(step);
         match self {
@@ -132,7 +132,7 @@ impl Task {
         })
     }
 
-    /// Whether no slave answers.
+    /// Returns whether no slave responds.
     pub(super) const fn is_unconfirmed(self) -> bool {
         matches!(
             self,
@@ -140,7 +140,7 @@ impl Task {
         )
     }
 
-    /// Whether silence is an answer: no such slave exists.
+    /// Returns whether no response is a result, too: no such slave exists.
     pub(super) const fn is_question(self) -> bool {
         matches!(self, Self::Identify { .. } | Self::IdentifyNonConfigured)
     }
@@ -150,15 +150,15 @@ impl Task {
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[non_exhaustive]
 pub enum Answer {
-    /// It is done; of a service that no slave answers: it was sent.
+    /// Success; for a service without a response: it was sent.
     Done,
     /// A number of the LSS address.
     Number(u32),
-    /// The node ID; `None` if the slave has none (FFh), or one that is not valid.
+    /// The node ID; `None` if the slave has none (FFh) or an invalid one.
     NodeId(Option<NodeId>),
     /// Whether such a slave exists.
     Exists(bool),
-    /// The slave that fastscan found; `None` if none is left.
+    /// The slave that fastscan found; `None` if there are no more.
     Found(Option<Identity>),
 }
 
@@ -166,11 +166,11 @@ pub enum Answer {
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[non_exhaustive]
 pub enum LssError {
-    /// No slave answered in time.
+    /// No slave responded in time.
     Silent,
-    /// The slave answers with an error code (CiA 305, chapters 6.4.2 and 6.4.3).
+    /// The slave responded with an error code (CiA 305, chapters 6.4.2 and 6.4.3).
     Refused {
-        /// Error code; 255: the manufacturer's own follows.
+        /// Error code; 255: the code of the manufacturer follows.
         error: u8,
         /// Specific error of the manufacturer.
         specific: u8,

@@ -1,4 +1,4 @@
-//! Block download: sends the segments, block by block (CiA 301, chapters 7.2.4.3.9 to 7.2.4.3.11).
+//! Block download: sends the segments block by block (CiA 301, chapters 7.2.4.3.9 to 7.2.4.3.11).
 
 use od_wire::AbortCode;
 use od_wire::sdo::{Request, Response, block_segment, block_segments, crc16, unused};
@@ -11,19 +11,19 @@ use super::line::Line;
 pub(super) struct Blocks {
     /// The server checks a CRC.
     crc: bool,
-    /// Segments that the server takes before it answers.
+    /// Segments that the server accepts before it responds.
     block_size: u8,
     /// Bytes that the server confirmed.
     done: usize,
-    /// Segments of this block that were sent.
+    /// Number of segments of this block that were sent.
     sent: u8,
-    /// Blocks in a row of which the server took nothing.
+    /// Number of consecutive blocks without an accepted segment.
     stalls: u8,
-    /// Everything is confirmed; the end is on its way.
+    /// All data is confirmed; the end request was sent.
     is_complete: bool,
 }
 
-/// Checks a server's block size; fails unless it is 1 to 127.
+/// Checks the block size of a server; fails unless it is 1 to 127.
 fn check(line: &mut Line, block_size: u8, expected: Expected, got: Response) -> bool {
     let fits = (1..=127).contains(&block_size);
     if !fits {
@@ -33,7 +33,7 @@ fn check(line: &mut Line, block_size: u8, expected: Expected, got: Response) -> 
 }
 
 impl Blocks {
-    /// The server agreed. `None` if its block size is not valid.
+    /// Starts after the response of the server. `None` if its block size is invalid.
     pub(super) fn new(line: &mut Line, crc: bool, block_size: u8) -> Option<Self> {
         let got = Response::InitiateBlockDownload {
             address: line.address,
@@ -50,7 +50,7 @@ impl Blocks {
         })
     }
 
-    /// Segments that are left at the start of this block.
+    /// Number of segments that were left at the start of this block.
     fn segments_left(&self, data: &[u8]) -> usize {
         block_segments(data.len().saturating_sub(self.done))
     }
@@ -68,7 +68,7 @@ impl Blocks {
         Some(block_segment(self.sent, rest, last))
     }
 
-    /// An answer of the server.
+    /// Handles a response of the server.
     pub(super) fn handle(&mut self, line: &mut Line, data: &[u8], response: Response) {
         match response {
             Response::EndBlockDownload if self.is_complete => line.finish(),
@@ -90,7 +90,7 @@ impl Blocks {
         }
     }
 
-    /// The server has the first `ack` segments of the block; the others are sent again.
+    /// The server has the first `ack` segments of the block; the others are repeated.
     fn confirmed(&mut self, line: &mut Line, data: &[u8], ack: u8, block_size: u8) {
         if usize::from(ack) >= self.segments_left(data) {
             self.is_complete = true;

@@ -1,4 +1,4 @@
-//! Block upload: takes the segments, block by block (CiA 301, chapters 7.2.4.3.13 to 7.2.4.3.15).
+//! Block upload: receives the segments block by block (CiA 301, chapters 7.2.4.3.13 to 7.2.4.3.15).
 
 use od_wire::sdo::{Request, Response, crc16};
 use od_wire::{AbortCode, Instant};
@@ -10,19 +10,19 @@ use super::line::{Line, parse};
 /// A block upload after its initiation.
 #[derive(Debug)]
 pub(super) struct Blocks {
-    /// The server makes a CRC.
+    /// The server computes a CRC.
     crc: bool,
     /// Announced length in bytes.
     size: Option<u32>,
     /// Segments in a block.
     block_size: u8,
-    /// The last segment of this block that came in sequence.
+    /// Number of the last segment of this block that came in sequence.
     ack: u8,
-    /// A segment of this block came.
+    /// A segment of this block has come.
     heard: bool,
-    /// The last segment of all; how much of it is data comes with the end.
+    /// The last segment of the value; the end response tells how many of its bytes are data.
     tail: Option<[u8; 7]>,
-    /// Blocks in a row that brought nothing.
+    /// Number of consecutive blocks without a new segment.
     stalls: u8,
 }
 
@@ -43,14 +43,14 @@ impl Blocks {
         self.tail.is_none()
     }
 
-    /// Whether segments of the current block came. If the rest of them is lost, the block can be
-    /// confirmed as far as it came.
+    /// Returns whether segments of the current block came. If the others are lost, the client can
+    /// confirm the received part of the block.
     pub(super) const fn heard(&self) -> bool {
         self.heard
     }
 
-    /// A frame while segments are due. One that is out of sequence is passed over: the answer
-    /// at the end of the block tells the server where to go on.
+    /// Handles a frame while segments are due. A segment out of sequence is ignored: the response
+    /// at the end of the block tells the server where to continue.
     pub(super) fn segment(
         &mut self,
         line: &mut Line,
@@ -80,7 +80,7 @@ impl Blocks {
         }
     }
 
-    /// Tells the server how far the block came.
+    /// Tells the server how much of the block came.
     pub(super) fn confirm(&mut self, line: &mut Line) {
         if self.ack > 0 {
             self.stalls = 0;
@@ -97,7 +97,7 @@ impl Blocks {
         self.heard = false;
     }
 
-    /// The answer after the last segment.
+    /// The response after the last segment.
     pub(super) fn end(&mut self, line: &mut Line, buffer: &mut impl Buffer, response: Response) {
         let Response::EndBlockUpload { unused, crc } = response else {
             let expected = Expected::BlockUploadEnd;

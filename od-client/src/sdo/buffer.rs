@@ -11,12 +11,12 @@ pub trait Buffer {
     /// Removes all bytes.
     fn clear(&mut self);
 
-    /// Appends `bytes` as a whole. Returns `false` and appends nothing if they do not fit.
+    /// Appends all `bytes`. Returns `false` and appends nothing if they do not fit.
     #[must_use]
     fn push(&mut self, bytes: &[u8]) -> bool;
 }
 
-/// A buffer on memory of the caller.
+/// A buffer in memory of the caller.
 #[derive(Debug)]
 pub struct Slice<'b> {
     room: &'b mut [u8],
@@ -60,7 +60,7 @@ impl Buffer for alloc::vec::Vec<u8> {
         self
     }
 
-    /// No limit of its own: [`Options::limit`](super::Options::limit) rules.
+    /// No limit of its own: [`Options::limit`](super::Options::limit) applies.
     fn capacity(&self) -> usize {
         usize::MAX
     }
@@ -80,7 +80,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_slice_takes_what_fits_as_a_whole() {
+    fn a_slice_takes_all_bytes_or_none() {
         let mut room = [0; 5];
         let mut slice = Slice::new(&mut room);
         assert_eq!(slice.capacity(), 5);

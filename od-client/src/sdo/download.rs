@@ -12,19 +12,19 @@ use super::options::Options;
 
 #[derive(Debug)]
 enum State {
-    /// Initiate download is on its way, with the data or without.
+    /// The initiate request was sent, with or without data.
     Initiate { expedited: bool },
-    /// A segment is on its way; all data before `end` was sent.
+    /// A segment was sent; all data before `end` was sent.
     Segment { toggle: bool, end: usize },
-    /// Initiate block download is on its way.
+    /// The initiate request of a block download was sent.
     InitiateBlock,
-    /// Blocks are on their way.
+    /// Blocks are being sent.
     Blocks(Blocks),
 }
 
 /// The download of one object: the client writes, the server receives.
 ///
-/// The data stays where it is until the transfer is over, as a block may have to be repeated.
+/// The data must stay available until the transfer is over, because a block may have to be repeated.
 #[derive(Debug)]
 pub struct Download<D> {
     line: Line,
@@ -75,15 +75,15 @@ impl<D: AsRef<[u8]>> Download<D> {
         }
     }
 
-    /// Gives up if the answer is overdue; does nothing before [`poll_timeout`](Self::poll_timeout).
+    /// Gives up if the response is overdue; does nothing before [`poll_timeout`](Self::poll_timeout).
     pub fn handle_timeout(&mut self, now: Instant) {
         if self.line.is_due(now) {
             self.line.fail(AbortCode::Timeout, SdoError::Silent);
         }
     }
 
-    /// Returns the next frame to send; the time for its answer starts at `now`. In a block
-    /// download there are up to 127 at once.
+    /// Returns the next frame to send; the time for its response starts at `now`. In a block
+    /// download there are up to 127 frames at once.
     pub fn poll_transmit(&mut self, now: Instant) -> Option<Frame> {
         if let Some(frame) = self.line.pull(now) {
             return Some(frame);
@@ -98,12 +98,12 @@ impl<D: AsRef<[u8]>> Download<D> {
         }
     }
 
-    /// Returns when [`handle_timeout`](Self::handle_timeout) has to be called, if at all.
+    /// Returns when to call [`handle_timeout`](Self::handle_timeout), if at all.
     pub fn poll_timeout(&self) -> Option<Instant> {
         self.line.deadline()
     }
 
-    /// Returns how the download ended; `None` while it is under way.
+    /// Returns the result of the download; `None` while it is in progress.
     pub const fn outcome(&self) -> Option<Result<(), SdoError>> {
         self.line.outcome()
     }
@@ -123,7 +123,7 @@ impl<D: AsRef<[u8]>> Download<D> {
         self.data
     }
 
-    /// Length of the data; not indicated where 32 bits do not hold it.
+    /// Length of the data; not indicated if it does not fit into 32 bits.
     fn size(&self) -> Option<u32> {
         u32::try_from(self.data.as_ref().len()).ok()
     }
@@ -131,7 +131,7 @@ impl<D: AsRef<[u8]>> Download<D> {
     fn initiate(&mut self) {
         let bytes = self.data.as_ref();
         let mut data = [0; 4];
-        // No bytes cannot be expedited: the protocol has no way to say so.
+        // An empty value cannot be sent expedited: the protocol cannot express it.
         let expedited = match data.get_mut(..bytes.len()) {
             Some(room) if !bytes.is_empty() => {
                 room.copy_from_slice(bytes);

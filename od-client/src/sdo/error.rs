@@ -7,20 +7,20 @@ use od_wire::sdo::Response;
 
 /// Reason why a transfer failed.
 ///
-/// In every case but [`Abort`](Self::Abort) the client gives up, and tells the server by an
-/// abort of its own.
+/// In all cases except [`Abort`](Self::Abort) the client gives up and aborts the
+/// transfer at the server.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[non_exhaustive]
 pub enum SdoError {
-    /// The server aborts with this code (CiA 301, table 22); [`AbortCode::from_code`] knows its text.
+    /// The server aborts with this code (CiA 301, table 22); [`AbortCode::from_code`] has its text.
     Abort(u32),
-    /// No answer came in time.
+    /// No response came in time.
     Silent,
-    /// The answer is about another object, has another command or the wrong toggle bit.
+    /// The response is for another object, has another command or the wrong toggle bit.
     OutOfTurn {
-        /// The answer that was due.
+        /// The expected response.
         expected: Expected,
-        /// The answer that came.
+        /// The received response.
         got: Response,
     },
     /// The value is longer than the buffer or than [`Options::limit`](super::Options::limit).
@@ -68,29 +68,29 @@ impl fmt::Display for SdoError {
 
 impl core::error::Error for SdoError {}
 
-/// The answer that a client waits for.
+/// The response that a client waits for.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[non_exhaustive]
 pub enum Expected {
-    /// Answer to initiate upload.
+    /// Response to initiate upload.
     Upload,
     /// Segment of an upload.
     UploadSegment,
-    /// Answer to initiate download.
+    /// Response to initiate download.
     Download,
-    /// Answer to a segment of a download.
+    /// Response to a segment of a download.
     DownloadSegment,
-    /// Answer to initiate block upload.
+    /// Response to initiate block upload.
     BlockUpload,
     /// Segment of a block.
     BlockSegment,
     /// End of a block upload.
     BlockUploadEnd,
-    /// Answer to initiate block download.
+    /// Response to initiate block download.
     BlockDownload,
-    /// Answer to the segments of a block.
+    /// Response to the segments of a block.
     BlockConfirmation,
-    /// Answer to the end of a block download.
+    /// Response to the end of a block download.
     BlockDownloadEnd,
 }
 

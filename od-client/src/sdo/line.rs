@@ -1,4 +1,4 @@
-//! Common part of both directions: the frames to send, the deadline, the outcome.
+//! The common part of both directions: the frames to send, the deadline, the result.
 
 use od_model::Address;
 use od_wire::sdo::{Request, Response};
@@ -12,8 +12,8 @@ use super::options::Options;
 /// First byte of an abort.
 const ABORT: u8 = 0x80;
 
-/// The meaning of an answer. An abort has no other bits in its command than these: what looks
-/// like one may be the last segment of a block.
+/// The meaning of a response. The command of an abort has no other bits set: a similar
+/// byte may be that of the last segment of a block.
 pub(super) const fn parse(data: &[u8; 8]) -> Response {
     match data[0] {
         0x81..=0x9F => Response::Unknown,
@@ -21,17 +21,17 @@ pub(super) const fn parse(data: &[u8; 8]) -> Response {
     }
 }
 
-/// One transfer's end of the channel.
+/// The client side of a channel during one transfer.
 #[derive(Debug)]
 pub(super) struct Line {
     channel: Channel,
     pub(super) address: Address,
     pub(super) options: Options,
-    /// The frame that waits.
+    /// The waiting frame.
     out: Option<[u8; 8]>,
     deadline: Option<Instant>,
     outcome: Option<Result<(), SdoError>>,
-    /// A request was sent. What comes before it answers something else.
+    /// A request waits to be sent. A frame that comes before is no response to it.
     is_open: bool,
 }
 
@@ -60,17 +60,17 @@ impl Line {
         self.deadline.is_some_and(|at| at <= now)
     }
 
-    /// Waits for the answer from `now` on.
+    /// Waits for the response from `now` on.
     pub(super) fn wait(&mut self, now: Instant) {
         self.deadline = Some(now + self.options.timeout);
     }
 
-    /// Nothing is due until the host takes the next frame.
+    /// No deadline until the host takes the next frame.
     pub(super) fn stop_waiting(&mut self) {
         self.deadline = None;
     }
 
-    /// Queues a request; the time for its answer starts when the host takes it.
+    /// Queues a request; the time for its response starts when the host takes it.
     pub(super) fn send(&mut self, request: Request) {
         self.deadline = None;
         self.out = Some(request.emit());
@@ -91,8 +91,8 @@ impl Line {
         Frame::full(self.channel.request, data)
     }
 
-    /// The bytes of a frame of this channel's server, missing ones as 0, if it can be an answer.
-    /// While a request waits, only an abort can.
+    /// The bytes of a frame of this channel's server, with missing ones as 0, if it can be a response.
+    /// While a request waits, only an abort can be one.
     pub(super) fn receive(&self, frame: &Frame) -> Option<[u8; 8]> {
         let data = *frame.bytes();
         let is_ours = frame.id() == self.channel.response && !frame.data().is_empty();
@@ -105,7 +105,7 @@ impl Line {
         self.outcome = Some(Ok(()));
     }
 
-    /// Gives up, and tells the server unless it has not heard of the transfer.
+    /// Gives up, and aborts at the server unless no frame was sent yet.
     pub(super) fn fail(&mut self, code: AbortCode, error: SdoError) {
         if self.outcome.is_some() {
             return;
@@ -121,8 +121,8 @@ impl Line {
         self.outcome = Some(Err(error));
     }
 
-    /// The answer is not the one that is due, or an abort. One for another object belongs to
-    /// another transfer; 0000h:00 is what servers write that do not know which one they abort.
+    /// Handles an unexpected response, or an abort. An abort for another object belongs to
+    /// another transfer; servers send 0000h:00 if they do not know which one they abort.
     pub(super) fn refuse(&mut self, code: AbortCode, expected: Expected, got: Response) {
         match got {
             Response::Abort { address, code } if self.is_about(address) => {
@@ -138,18 +138,18 @@ impl Line {
         address == self.address || address == Address::new(0, 0)
     }
 
-    /// Whether the server aborts because it does not know the command.
+    /// Returns whether the server aborts because it does not know the command.
     pub(super) fn is_unknown_command(&self, response: Response) -> bool {
         matches!(response, Response::Abort { address, code }
             if code == AbortCode::InvalidCommand.code() && self.is_about(address))
     }
 
-    /// Most bytes that an upload into `buffer` may have.
+    /// Limit of the bytes of an upload into `buffer`.
     fn limit(&self, buffer: &impl Buffer) -> usize {
         self.options.limit.min(buffer.capacity())
     }
 
-    /// Fails if the announced size is beyond the limit.
+    /// Fails if the announced size is above the limit.
     pub(super) fn check_size(&mut self, buffer: &impl Buffer, size: Option<u32>) -> bool {
         let limit = self.limit(buffer) as u64;
         let fits = size.is_none_or(|size| u64::from(size) <= limit);
@@ -159,7 +159,7 @@ impl Line {
         fits
     }
 
-    /// Puts bytes into the buffer; fails if they are beyond the limit or the announced size.
+    /// Appends bytes to the buffer; fails if they are above the limit or the announced size.
     pub(super) fn keep(
         &mut self,
         buffer: &mut impl Buffer,
@@ -178,7 +178,7 @@ impl Line {
         true
     }
 
-    /// Fails if fewer bytes came than the server announced.
+    /// Fails if fewer bytes came than announced.
     pub(super) fn check_complete(&mut self, buffer: &impl Buffer, size: Option<u32>) -> bool {
         let received = buffer.bytes().len();
         match size {

@@ -1,4 +1,4 @@
-//! SDO client (CiA 301, chapter 7.2.4): expedited, segmented and block transfers, both ways.
+//! SDO client (CiA 301, chapter 7.2.4): expedited, segmented and block transfers, in both directions.
 //!
 //! [`Upload`] reads one object, [`Download`] writes one. Each is a state machine without a
 //! clock, a bus or an allocator:
@@ -25,7 +25,7 @@
 //! assert_eq!(upload.outcome(), Some(Ok(())));
 //! assert_eq!(upload.bytes(), [0xEC, 0, 0, 0]);
 //! ```
-//! When [`Upload::outcome`] is there, `poll_transmit` may still hold one frame: the abort of a
+//! After the [`Upload::outcome`], `poll_transmit` may still have one frame: the abort of a
 //! transfer that the client gave up, or the confirmation at the end of a block upload.
 
 mod block_download;

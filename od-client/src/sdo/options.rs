@@ -6,23 +6,23 @@ use od_wire::Duration;
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[non_exhaustive]
 pub struct Options {
-    /// Longest time from a request to its answer. A block upload waits that long for each segment.
+    /// Longest time from a request to its response. A block upload waits for each segment this long.
     pub timeout: Duration,
-    /// Most bytes that an upload accepts; a longer value is [`SdoError::TooLong`](super::SdoError::TooLong).
+    /// Limit of bytes of an upload; a longer value is [`SdoError::TooLong`](super::SdoError::TooLong).
     pub limit: usize,
-    /// Downloads of this many bytes and more go by block transfer; `None`: always segmented. A server
-    /// that aborts the block transfer with 0504 0001h gets a segmented one.
+    /// Downloads of this many bytes or more use block transfer; `None`: always segmented. If the server
+    /// aborts the block transfer with 0504 0001h, the client repeats it segmented.
     pub block_from: Option<u32>,
-    /// Uploads begin as block transfers: for long values, such as a DOMAIN. A server that aborts with
-    /// 0504 0001h gets a segmented one. Without it an upload is one expedited or segmented transfer,
-    /// however long the value is.
+    /// Uploads begin as block transfers, which suits long values such as a DOMAIN. If the server aborts with
+    /// 0504 0001h, the client repeats it segmented. Otherwise an upload is one expedited or segmented transfer,
+    /// whatever the length of the value.
     pub block_upload: bool,
-    /// Bytes of the object's data type, for an expedited answer that does not name its size (42h; CiA 301,
+    /// Length of the object's data type, for an expedited response without a size (42h; CiA 301,
     /// 7.2.4.3.6: the number of bytes is not specified). `None`: all four.
     pub type_size: Option<usize>,
-    /// Segments in a block of an upload, 1 to 127; other numbers count as the nearest of these.
+    /// Segments in a block of an upload, 1 to 127; other numbers are changed to the nearest of these.
     pub block_size: u8,
-    /// Number of blocks in a row that may bring no new segment before the transfer is
+    /// Number of consecutive blocks that may bring no new segment before the transfer is
     /// [`SdoError::NoProgress`](super::SdoError::NoProgress).
     pub repeats: u8,
 }
@@ -45,12 +45,12 @@ impl Options {
         ..Self::DEFAULT
     };
 
-    /// Whether a download of `size` bytes goes by block transfer; `None`: the size is not known.
+    /// Returns whether a download of `size` bytes uses block transfer; `None`: the size is unknown.
     pub(super) fn blocks(&self, size: Option<u32>) -> bool {
         matches!((self.block_from, size), (Some(from), Some(size)) if size >= from)
     }
 
-    /// Segments in a block, within 1 to 127.
+    /// Segments in a block, limited to 1 to 127.
     pub(super) fn segments(&self) -> u8 {
         self.block_size.clamp(1, 127)
     }

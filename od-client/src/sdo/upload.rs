@@ -13,13 +13,13 @@ use super::options::Options;
 
 #[derive(Debug)]
 enum State {
-    /// Initiate upload is on its way.
+    /// The initiate request was sent.
     Initiate,
     /// The segment with this toggle bit is due.
     Segment { toggle: bool, size: Option<u32> },
-    /// Initiate block upload is on its way.
+    /// The initiate request of a block upload was sent.
     InitiateBlock,
-    /// Segments of blocks come, or the end of all.
+    /// Segments of blocks come, or the end response.
     Blocks(Blocks),
 }
 
@@ -82,7 +82,7 @@ impl<B: Buffer> Upload<B> {
         }
     }
 
-    /// Gives up if the answer is overdue; does nothing before [`poll_timeout`](Self::poll_timeout).
+    /// Gives up if the response is overdue; does nothing before [`poll_timeout`](Self::poll_timeout).
     pub fn handle_timeout(&mut self, now: Instant) {
         if !self.line.is_due(now) {
             return;
@@ -93,17 +93,17 @@ impl<B: Buffer> Upload<B> {
         }
     }
 
-    /// Returns the next frame to send; the time for its answer starts at `now`.
+    /// Returns the next frame to send; the time for its response starts at `now`.
     pub fn poll_transmit(&mut self, now: Instant) -> Option<Frame> {
         self.line.pull(now)
     }
 
-    /// Returns when [`handle_timeout`](Self::handle_timeout) has to be called, if at all.
+    /// Returns when to call [`handle_timeout`](Self::handle_timeout), if at all.
     pub fn poll_timeout(&self) -> Option<Instant> {
         self.line.deadline()
     }
 
-    /// Returns how the upload ended; `None` while it is under way.
+    /// Returns the result of the upload; `None` while it is in progress.
     pub const fn outcome(&self) -> Option<Result<(), SdoError>> {
         self.line.outcome()
     }
@@ -118,7 +118,7 @@ impl<B: Buffer> Upload<B> {
         self.refused_block
     }
 
-    /// Returns the bytes so far: the value, once the outcome is `Ok`.
+    /// Returns the bytes so far: the whole value after the outcome `Ok`.
     pub fn bytes(&self) -> &[u8] {
         self.buffer.bytes()
     }
@@ -153,7 +153,7 @@ impl<B: Buffer> Upload<B> {
         self.ask(false, size);
     }
 
-    /// Asks for the segment with this toggle bit.
+    /// Requests the segment with this toggle bit.
     fn ask(&mut self, toggle: bool, size: Option<u32>) {
         self.line.send(Request::UploadSegment { toggle });
         self.state = State::Segment { toggle, size };
@@ -203,7 +203,7 @@ impl<B: Buffer> Upload<B> {
                 self.line.send(Request::InitiateUpload { address });
                 self.state = State::Initiate;
             }
-            // A server may change over to the other protocol.
+            // A server may change to the other protocol.
             other => self.initiated(other, Expected::BlockUpload),
         }
     }

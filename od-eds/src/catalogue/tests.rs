@@ -1,4 +1,4 @@
-//! Every sentence against the findings that say it: in all cases of this crate and of the tests.
+//! Compares every sentence with the findings that use it, in all cases of this crate and of the tests.
 
 extern crate std;
 
@@ -14,7 +14,7 @@ use crate::patch::{self, Edit, Raw, Target};
 use crate::rules::RULES;
 use od_model::ObjectCode;
 
-/// The names of the facts that a text has blanks for; `key` for one that the finding must have.
+/// The names of the facts in the blanks of a text; `key` stands for the key of the finding.
 fn blanks<'a>(text: &'a str, names: &mut BTreeSet<&'a str>) {
     for piece in pieces(text) {
         let Piece::Blank(blank) = piece else { continue };
@@ -27,7 +27,7 @@ fn blanks<'a>(text: &'a str, names: &mut BTreeSet<&'a str>) {
     }
 }
 
-/// Blanks without a fact, and facts without a blank.
+/// Returns blanks without a fact, and facts without a blank.
 fn gaps(finding: &Finding) -> Vec<String> {
     let mut names = BTreeSet::new();
     let labels = finding.related.iter().map(|related| related.says);
@@ -60,7 +60,7 @@ fn files(folder: &Path, found: &mut Vec<PathBuf>) {
 }
 
 #[test]
-fn every_sentence_is_said_and_filled() {
+fn every_sentence_is_used_and_filled() {
     let crate_folder = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut paths = Vec::new();
     files(&crate_folder.join("cases"), &mut paths);
@@ -81,7 +81,7 @@ fn every_sentence_is_said_and_filled() {
         let forms = said.entry(finding.code()).or_default();
         forms.insert((finding.form.says, finding.form.help));
     }
-    // Without the feature no XDD is read.
+    // Without the feature no XDD can be read.
     let is_said =
         |code: &str| cfg!(feature = "xdd") || !["E0113", "E0114", "E0115"].contains(&code);
     for rule in RULES.iter().filter(|rule| is_said(rule.code)) {

@@ -1,4 +1,4 @@
-//! A description as a C header: what a master's firmware needs to know of a device.
+//! A description as a C header with the constants that the firmware of a master needs.
 
 use alloc::collections::BTreeSet;
 use alloc::string::String;
@@ -41,7 +41,7 @@ pub fn write(description: &Description, name: &str, source: &str) -> String {
     out
 }
 
-/// Returns the text of a header with a macro for each value, index and sub-index as two arguments:
+/// Returns the text of a header with a macro for each value that expands to index and sub-index as two arguments:
 /// `OD_POSITION_VALUE 0x6004u, 0x00u`. For the firmware of the device itself (`od-capi`).
 pub fn addresses(description: &Description, name: &str, source: &str) -> String {
     let prefix = macro_name(name);
@@ -125,7 +125,7 @@ fn one(out: &mut String, sub: u8, entry: &EntryDescription, prefix: &str, stem: 
     }
 }
 
-/// A C constant; defaults that hang on the node ID are a macro's argument away.
+/// A C constant; a default that depends on the node ID is a macro with an argument.
 fn constant(data_type: DataType, value: &Value) -> Option<String> {
     let wide = data_type.bits().is_some_and(|bits| bits > 32);
     let (unsigned, signed) = if wide { ("ull", "ll") } else { ("u", "") };
@@ -136,7 +136,7 @@ fn constant(data_type: DataType, value: &Value) -> Option<String> {
         Value::Unsigned(value) => format!("0x{value:X}{unsigned}"),
         // It fits an unsigned type, so it is not negative.
         Value::Signed(value) if !is_signed => format!("0x{value:X}{unsigned}"),
-        // The smallest number of a type has no literal of its own in C.
+        // C has no literal for the smallest number of a type.
         Value::Signed(i64::MIN) => "(-9223372036854775807ll - 1ll)".into(),
         Value::Signed(value @ -0x8000_0000) => format!("({}{signed} - 1{signed})", value + 1),
         Value::Signed(value) => format!("({value}{signed})"),
@@ -155,7 +155,7 @@ fn c_string(text: &str) -> String {
                 out.push('\\');
                 out.push(char::from(byte));
             }
-            // Three octal digits end by themselves; a hex escape would run on. `?` might
+            // Octal escapes end after three digits; a hex escape would continue. `?` might
             // begin a trigraph.
             b' '..=b'~' if byte != b'?' => out.push(char::from(byte)),
             _ => {
@@ -192,7 +192,7 @@ fn macro_name(text: &str) -> String {
     }
 }
 
-/// A name that came before gets its address behind it.
+/// Appends the address to a name that exists already.
 fn unique(names: &mut BTreeSet<String>, name: String, index: u16, sub: Option<u8>) -> String {
     if names.insert(name.clone()) {
         return name;
@@ -210,7 +210,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn names_and_texts_are_ones_that_c_takes() {
+    fn names_and_texts_are_valid_in_c() {
         assert_eq!(macro_name("Position value (raw)"), "POSITION_VALUE_RAW");
         assert_eq!(macro_name("1st mapped object"), "X1ST_MAPPED_OBJECT");
         assert_eq!(macro_name("§°"), "X");
@@ -223,7 +223,7 @@ mod tests {
     }
 
     #[test]
-    fn an_address_is_two_arguments() {
+    fn an_address_expands_to_two_arguments() {
         let eds = "[1017]\nParameterName=Producer heartbeat time\nDataType=6\nAccessType=rw\n\
                    [1018]\nParameterName=Identity\nObjectType=9\nSubNumber=2\n\
                    [1018sub0]\nParameterName=Last\nDataType=5\nAccessType=const\n\

@@ -1,4 +1,4 @@
-//! The content of a DCF that an EDS lacks: one device, configured (CiA 306-1, chapter 5).
+//! Turns an EDS into a DCF: one configured device (CiA 306-1, chapter 5).
 
 use alloc::format;
 use alloc::string::{String, ToString};
@@ -9,11 +9,11 @@ use crate::description::tables::Tables;
 use crate::description::{Description, Value};
 use crate::span::Spanned;
 
-/// Sets the ParameterValue of one object, `6001h` or `1800sub1`, from a value as people write it.
+/// Sets the ParameterValue of one object, `6001h` or `1800sub1`, to a value typed by a user.
 ///
 /// # Errors
 ///
-/// The object does not exist, is not writable, or the value is not valid; in words.
+/// The object does not exist or is not writable, or the value is invalid; in words.
 pub fn set(description: &mut Description, object: &str, text: &str) -> Result<(), Refused> {
     let tables = Tables::new(description);
     let entry = values::find(tables.dictionary(), object)?;

@@ -1,4 +1,4 @@
-//! A description as JSON: for tools that want tables and no parser.
+//! A description as JSON, for tools that need tables instead of a parser.
 //!
 //! `docs/odkit-dictionary-2.schema.json` is the schema of the text.
 
@@ -16,19 +16,19 @@ use crate::span::Spanned;
 use crate::subject::start_value;
 use od_model::{Address, Group, Visible};
 
-/// The format's name; its number counts changes that break its readers.
+/// The name of the format; its number changes with each change that breaks readers.
 const FORMAT: &str = "odkit-dictionary/2";
 
-/// Returns the text of one JSON object with all that the description says: file, identity, device,
+/// Returns a JSON object with the whole content of the description: file, identity, device,
 /// commissioning, sections and objects. `source` is named in it.
 ///
-/// The text is written object by object, so a large description needs no more memory than its text.
+/// The text is written object by object, so a large description needs little more memory than its text.
 pub fn write(description: &Description, source: &str) -> String {
     let whole = Whole {
         description,
         source,
     };
-    // A String takes all, and no map here has a key that is not a text.
+    // This cannot fail: a String takes all text, and all maps have text keys.
     let text = serde_json::to_string_pretty(&whole).unwrap_or_default();
     Visible(&text).json().into_owned()
 }
@@ -148,7 +148,7 @@ fn commissioning(description: &Description) -> Option<serde_json::Value> {
     }))
 }
 
-/// A section as it is, key by key: the same key may be there twice.
+/// A section key by key: the same key may occur twice.
 fn section(section: &Section) -> serde_json::Value {
     let keys = section.pairs.iter();
     let keys = keys.map(|(key, value)| json!({ "key": key.value, "value": value.value }));
@@ -221,7 +221,7 @@ fn maps(address: Address, entry: &EntryDescription) -> Option<serde_json::Value>
     }))
 }
 
-/// Texts of other keys, and those that are not valid, by key.
+/// Texts of other keys, and invalid ones, by key.
 fn extra(pairs: &[(String, String)]) -> serde_json::Value {
     let pairs = pairs.iter();
     pairs
@@ -245,7 +245,7 @@ fn value(value: &Option<Spanned<Value>>) -> serde_json::Value {
     }
 }
 
-/// A number as one where every JSON reader keeps it exact, else as text.
+/// A number in the range that every JSON reader keeps exact, otherwise a text.
 fn exact(number: i128) -> serde_json::Value {
     const EXACT: i128 = 1 << 53;
     match i64::try_from(number) {

@@ -1,4 +1,4 @@
-//! The objects of a file that another form of it lacks.
+//! Findings about objects that another format cannot express.
 
 use alloc::vec::Vec;
 
@@ -7,7 +7,7 @@ use crate::finding::Finding;
 use crate::rules::values::e0401_data_type_missing;
 use od_model::{Address, Kind};
 
-/// The findings of all objects that were left out while a file was read: what no form has.
+/// The findings about all objects that were left out while a file was read; no format has them.
 pub fn unread(findings: &[Finding]) -> Vec<Finding> {
     let lost = findings
         .iter()
@@ -15,8 +15,8 @@ pub fn unread(findings: &[Finding]) -> Vec<Finding> {
     lost.cloned().collect()
 }
 
-/// The findings of all values without a usable type, which [`Tables`](crate::Tables) and all that
-/// is made of it leave out; `findings` are those of the description. Each value has one finding.
+/// The findings about all values without a usable type, which [`Tables`](crate::Tables) and all formats
+/// made from it leave out; `findings` are those of the description. Each value has one finding.
 pub fn untyped(description: &Description, findings: &[Finding]) -> Vec<Finding> {
     let is_lost = |address: Address| {
         let data_type = description.entry(address)?.data_type;
@@ -29,7 +29,7 @@ pub fn untyped(description: &Description, findings: &[Finding]) -> Vec<Finding> 
         .filter(|finding| finding.object.and_then(is_lost) == Some(true));
     lost.extend(about.cloned());
     let known: alloc::collections::BTreeSet<_> = lost.iter().map(|one| one.object).collect();
-    // The description of a type needs no type, and has no finding.
+    // The description of a type needs no type itself, and has no finding.
     let others = description
         .entries()
         .filter(|(address, _)| is_lost(*address) == Some(true) && !known.contains(&Some(*address)));

@@ -15,9 +15,9 @@ pub const HEAD: [&str; 9] = [
 /// One row.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Cells {
-    /// Address of the value; `None` for the head of an object with sub-objects.
+    /// Address of the value; `None` for the heading of an object with sub-objects.
     pub address: Option<Address>,
-    /// By [`HEAD`]. Names of members are indented by two blanks.
+    /// The columns of [`HEAD`]. Names of members are indented by two blanks.
     pub cells: [String; 9],
 }
 
@@ -83,8 +83,8 @@ fn row(dictionary: Dictionary<'_>, entry: &Entry, member: bool) -> Cells {
     }
 }
 
-/// A value in a cell: decimal where the number is small, hex where it is a code, as the
-/// manuals write them.
+/// A value in a cell: a small number is decimal, a code is hexadecimal, as in the
+/// manuals.
 pub fn literal(dictionary: Dictionary<'_>, entry: &Entry, value: Literal) -> String {
     match value {
         Literal::None => String::new(),
@@ -102,7 +102,7 @@ pub fn literal(dictionary: Dictionary<'_>, entry: &Entry, value: Literal) -> Str
     }
 }
 
-/// Returns the page of any dictionary: its identity and its object table.
+/// Returns the page of a dictionary: its identity and its object table.
 pub fn page(title: &str, dictionary: Dictionary<'_>) -> String {
     let mut page = format!("# {}\n", escape(title));
     section(&mut page, "Identity", &["", ""], &identity(dictionary));
@@ -158,7 +158,7 @@ pub fn identity(dictionary: Dictionary<'_>) -> Vec<Vec<String>> {
     lines
 }
 
-/// Adds a section with a table to a page; nothing without lines.
+/// Adds a section with a table to a page; nothing if there are no lines.
 pub fn section(page: &mut String, title: &str, head: &[&str], lines: &[Vec<String>]) {
     if !lines.is_empty() {
         page.push_str(&format!("\n## {title}\n\n"));
@@ -179,7 +179,7 @@ pub fn fact(name: &str, value: impl Into<String>) -> Vec<String> {
     [name.to_owned(), value.into()].to_vec()
 }
 
-/// Returns a text that Markdown shows as it is.
+/// Escapes a text for Markdown.
 pub fn escape(text: &str) -> String {
     Visible(text).markdown()
 }

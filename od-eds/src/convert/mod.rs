@@ -1,4 +1,4 @@
-//! A device description in the forms of other programs.
+//! Writes a device description in the formats of other programs.
 
 pub mod c_header;
 pub mod canopennode;

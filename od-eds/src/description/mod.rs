@@ -1,7 +1,7 @@
-//! A device description as it was read: owned, editable, with the place of everything.
+//! A device description: owned, editable, with the position of each part in the text.
 //!
-//! [`Description`] is what the EDS reader, the macro's spec table and a variant's
-//! patches produce, what the checks read, and what the writer writes. The
+//! [`Description`] is made by the EDS reader, by the spec table of the macro and by the
+//! patches of a variant. The checks read it, and the writer writes it. The
 //! dictionary that runs is made from it by [`Tables`](crate::Tables).
 
 pub(crate) mod tables;
@@ -33,7 +33,7 @@ pub enum Value {
 }
 
 impl Value {
-    /// The number that this is for a node with this ID; `None` for texts, bytes and reals.
+    /// The number for a node with this ID; `None` for texts, bytes and reals.
     pub fn integer(&self, node_id: u8) -> Option<i128> {
         match self {
             Self::Unsigned(v) => Some(i128::from(*v)),
@@ -43,7 +43,7 @@ impl Value {
         }
     }
 
-    /// Is this a value of the type, whatever the node ID?
+    /// Returns whether this is a value of the type, whatever the node ID.
     pub fn fits(&self, data_type: DataType) -> bool {
         match (data_type.kind(), self) {
             (Kind::Text, Self::Text(_)) | (Kind::Bytes, Self::Bytes(_)) => true,
@@ -66,14 +66,14 @@ impl Value {
     }
 }
 
-/// One value of an object: what an EDS section with a DataType says.
+/// One value of an object: a section of an EDS with a DataType.
 ///
-/// Two are equal if they say the same, in any place of a text.
+/// Two are equal if they have the same content, wherever they are in a text.
 #[derive(Clone, Debug)]
 pub struct EntryDescription {
     /// ParameterName.
     pub name: Spanned<String>,
-    /// DataType; `None` where it is missing or unknown, which is an error.
+    /// DataType; `None` if it is missing or unknown, which is an error.
     pub data_type: Option<Spanned<DataType>>,
     /// AccessType.
     pub access: Spanned<Access>,
@@ -87,23 +87,23 @@ pub struct EntryDescription {
     pub high: Option<Spanned<Value>>,
     /// ParameterValue of a DCF.
     pub parameter: Option<Spanned<Value>>,
-    /// Sub-index of 1010h that saves it; `None` where the text does not say,
-    /// which means the group of the index for what a master can write.
+    /// Sub-index of 1010h that saves it. `None` if the text gives none: then a value that a master
+    /// can write belongs to the group of its index.
     pub group: Option<Spanned<Group>>,
-    /// Bytes of a string or DOMAIN that the store holds, if its default is not longer; 0: none, as the
+    /// Bytes of a string or DOMAIN in the store, if its default is not longer; 0: none, because the
     /// application streams the value. `None`: 64 bytes, or 1,024 of a DOMAIN that a master can write.
     pub capacity: Option<u16>,
-    /// ObjFlags, 0 where missing.
+    /// ObjFlags; 0 if missing.
     pub flags: u32,
-    /// Keys that this version of odkit has no field for, in file order.
+    /// Keys without a field in this version of odkit, in file order.
     pub extra: Vec<(String, String)>,
-    /// The section header, or the token that made it.
+    /// The section header, or the macro token in its place.
     pub span: Span,
 }
 
 impl PartialEq for EntryDescription {
     fn eq(&self, other: &Self) -> bool {
-        // All fields by name, so that a new one is not forgotten.
+        // List all fields by name, so that a new one is not forgotten.
         let Self {
             name,
             data_type,
@@ -180,7 +180,7 @@ impl EntryDescription {
     pub fn group_at(&self, address: Address) -> Group {
         match &self.group {
             Some(group) => group.value,
-            // Commands and logs are written too, but hold nothing to save.
+            // Commands and logs can be written, too, but hold nothing to save.
             None if matches!(address.index, 0x1003 | 0x1010 | 0x1011 | 0x1F50..=0x1F5F) => {
                 Group::None
             }
@@ -192,24 +192,24 @@ impl EntryDescription {
     }
 }
 
-/// One object: a VAR with its one entry, or an ARRAY or RECORD with its members.
+/// One object: a VAR with one entry, or an ARRAY or RECORD with its members.
 ///
-/// Two are equal if they say the same, in any place of a text.
+/// Two are equal if they have the same content, wherever they are in a text.
 #[derive(Clone, Debug)]
 pub struct ObjectDescription {
-    /// ObjectType; VAR where the text says nothing.
+    /// ObjectType; VAR if the text gives none.
     pub code: Spanned<ObjectCode>,
     /// ParameterName of the object.
     pub name: Spanned<String>,
-    /// SubNumber as given; counted where a text gives none for an object with members.
+    /// SubNumber as given; counted if the text gives none for an object with members.
     pub sub_number: Option<Spanned<u32>>,
     /// The values by sub-index; a VAR has exactly sub-index 0.
     pub entries: BTreeMap<u8, EntryDescription>,
-    /// ObjFlags, 0 where missing.
+    /// ObjFlags; 0 if missing.
     pub flags: u32,
-    /// Keys that this version of odkit has no field for, in file order.
+    /// Keys without a field in this version of odkit, in file order.
     pub extra: Vec<(String, String)>,
-    /// The section header, or the token that made it.
+    /// The section header, or the macro token in its place.
     pub span: Span,
 }
 
@@ -258,7 +258,7 @@ pub struct Section {
 }
 
 impl Section {
-    /// The first value under `key`, in any case.
+    /// The first value of `key`, in upper or lower case.
     pub fn get(&self, key: &str) -> Option<&Spanned<String>> {
         self.pairs
             .iter()
@@ -267,7 +267,7 @@ impl Section {
     }
 }
 
-/// Everything that an EDS or DCF says.
+/// The whole content of an EDS or DCF.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct Description {
     /// The sections that describe no object, in file order.
@@ -277,7 +277,7 @@ pub struct Description {
 }
 
 impl Description {
-    /// The first section with this name, in any case.
+    /// The first section with this name, in upper or lower case.
     pub fn section(&self, name: &str) -> Option<&Section> {
         self.sections
             .iter()
@@ -299,8 +299,8 @@ impl Description {
         })
     }
 
-    /// The node and its network by a DCF's `[DeviceComissioning]`, in either
-    /// spelling; what is empty or none of its kind is missing.
+    /// The node and its network in a DCF's `[DeviceComissioning]`, in either
+    /// spelling; empty or invalid values are left out.
     pub fn commissioning(&self) -> Option<Commissioning<'_>> {
         let section = self
             .section("DeviceComissioning")
@@ -341,17 +341,17 @@ pub struct Commissioning<'a> {
     pub network: Option<u32>,
     /// NetworkName.
     pub network_name: Option<&'a str>,
-    /// Is the node the CANopen manager?
+    /// Whether the node is the CANopen manager.
     pub is_manager: Option<bool>,
     /// LSS_SerialNumber.
     pub serial_number: Option<u32>,
 }
 
-/// kbit/s at each index of the LSS bit timing table (CiA 305, chapter 6.4.3); index 5 is reserved.
+/// Bit rate in kbit/s at each index of the LSS bit timing table (CiA 305, chapter 6.4.3); index 5 is reserved.
 const KBIT: [u16; 9] = [1000, 800, 500, 250, 125, 0, 50, 20, 10];
 
 impl Description {
-    /// Returns whether a key of `[DeviceInfo]` is there and not 0.
+    /// Returns whether a key of `[DeviceInfo]` is present and not 0.
     pub fn info_is_set(&self, key: &str) -> bool {
         let info = self.section("DeviceInfo");
         let value = info.and_then(|info| info.get(key));
@@ -377,7 +377,7 @@ impl Description {
 const COMMISSIONING: &str = "DeviceComissioning";
 
 impl Description {
-    /// Sets a key of `[DeviceComissioning]`, whichever spelling the file has.
+    /// Sets a key of `[DeviceComissioning]`, in the spelling of the file.
     ///
     /// ```
     /// let mut description = od_eds::Description::default();
@@ -410,7 +410,7 @@ impl Description {
 }
 
 impl Value {
-    /// A value as it goes over the bus, as a description has it.
+    /// A value from its bytes on the bus.
     ///
     /// ```
     /// use od_eds::Value;
@@ -444,7 +444,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_configuration_says_what_node_it_is_for() {
+    fn a_configuration_names_its_node() {
         let text = "[DeviceCommissioning]\nNodeId=0x11\nNodeName=Left\nBaudrate=500\nNetNumber=\n\
             CANopenManager=1\nLSS_SerialNumber=42\n\
             [2000]\nParameterName=a\nObjectType=2\nDenotation=Image\nUploadFile=a.bin\nDownloadFile=\n";

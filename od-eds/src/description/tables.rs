@@ -1,4 +1,4 @@
-//! From a description to the tables that run: order, arenas, storage layout.
+//! Makes the running tables of a description: order, arenas, storage layout.
 
 use alloc::collections::BTreeMap;
 use alloc::string::String;
@@ -16,12 +16,12 @@ use od_model::{
     Access, Address, DataType, Dictionary, Entry, Kind, Literal, Names, ObjectCode, Range, Slot,
 };
 
-/// Capacity in bytes of a string that a master may write, where its default is shorter.
+/// Capacity in bytes of a string that a master may write, if its default is shorter.
 const STRING_CAPACITY: usize = 64;
-/// Capacity in bytes of a DOMAIN that a master may write, where its default is shorter.
+/// Capacity in bytes of a DOMAIN that a master may write, if its default is shorter.
 const DOMAIN_CAPACITY: usize = 1024;
 
-/// The owned twin of a compiled dictionary: what [`Dictionary`] is a view of.
+/// The owned form of a compiled dictionary; [`Dictionary`] is a view of it.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct Tables {
     buckets: Vec<u16>,
@@ -35,15 +35,15 @@ pub struct Tables {
     names_text: String,
 }
 
-/// Texts of which each is kept once.
+/// Texts, each kept only once.
 type Interned = BTreeMap<String, Range>;
 
 impl Tables {
     /// The tables of everything in `description` that can run.
     ///
-    /// Total: an entry without a usable type, an object without entries and a value
-    /// that does not fit its type are left out; the checks have named them. Where a
-    /// DCF gives a ParameterValue, that is the default.
+    /// This never fails: an entry without a usable type, an object without entries and a value
+    /// that does not fit its type are left out; the checks have reported them. A
+    /// ParameterValue of a DCF is used as the default.
     pub fn new(description: &Description) -> Self {
         let mut tables = Self::default();
         let (mut texts, mut names) = (Interned::new(), Interned::new());
@@ -72,7 +72,7 @@ impl Tables {
         tables
     }
 
-    /// The view that runs; it costs nothing to make.
+    /// The view that runs; making it costs nothing.
     pub fn dictionary(&self) -> Dictionary<'_> {
         Dictionary::trusted(
             Buckets::Words(&self.buckets),
@@ -87,8 +87,8 @@ impl Tables {
         )
     }
 
-    /// Gives stored values another place: for variants that share one store layout.
-    /// Values that are not stored keep none.
+    /// Moves stored values to other places: for variants that share one store layout.
+    /// Values that are not stored stay without a place.
     pub fn place(&mut self, mut place: impl FnMut(&Entry) -> Slot) {
         let codes: Vec<ObjectCode> = self.rows.iter().map(|row| row.code()).collect();
         let entries = self.dictionary().entries().zip(codes);
@@ -102,7 +102,7 @@ impl Tables {
         self.pack(&entries);
     }
 
-    /// Makes the rows of the entries, and what follows from them.
+    /// Makes the rows of the entries, and the parts that depend on them.
     fn pack(&mut self, entries: &[(Entry, ObjectCode)]) {
         self.rows.clear();
         self.pool.clear();
@@ -119,7 +119,7 @@ impl Tables {
         self.store_len = ends.max().unwrap_or(0);
     }
 
-    /// The word of the default: its bits, or where they are in the pool.
+    /// The word of the default: its bits, or their position in the pool.
     fn default_word(&mut self, entry: &Entry) -> u32 {
         let (kind, bits) = literal(entry.default);
         let at = self.pool.len() as u32;
@@ -135,7 +135,7 @@ impl Tables {
         at
     }
 
-    /// The limits as a row has them; each pair of limits is in the pool once.
+    /// The limits in the form of a row; each pair of limits is in the pool once.
     fn limits(&mut self, entry: &Entry, known: &mut BTreeMap<Vec<u32>, u32>) -> u32 {
         let mut all = vec![0];
         for (limit, shift) in [(entry.low, 0), (entry.high, 3)] {
@@ -144,7 +144,7 @@ impl Tables {
             all.extend([bits as u32, (bits >> 32) as u32].iter().take(words(kind)));
         }
         let next = self.pool.len() as u32 + 1;
-        // No device has 80,000 pairs of limits; a file that claims them causes no panic.
+        // No device has 80,000 pairs of limits; a file with more must not cause a panic.
         if all == [0] || next >= 1 << 18 {
             return 0;
         }
@@ -154,7 +154,7 @@ impl Tables {
         })
     }
 
-    /// The rows, and the pool of what has no room in them.
+    /// The rows, and the pool for content that does not fit into them.
     pub fn parts(&self) -> (&[Row], &[u32]) {
         (&self.rows, &self.pool)
     }
@@ -195,7 +195,7 @@ impl Tables {
             offset: if len == 0 { 0 } else { *offset },
             len,
         };
-        // No device has four gigabytes of values; a file that claims them causes no panic.
+        // No device has four gigabytes of values; a file with more must not cause a panic.
         *offset = offset.saturating_add(u32::from(len));
         Some(Entry {
             address,
@@ -219,7 +219,7 @@ impl Tables {
     ) -> Literal {
         match value {
             None => Literal::None,
-            // What fits a type fits its literal: neither cast changes the value.
+            // A value that fits its type fits its literal: neither cast changes it.
             Some(Value::Unsigned(v)) if data_type.kind() == Kind::Signed => {
                 Literal::Signed(*v as i64)
             }
@@ -240,7 +240,7 @@ impl Tables {
     }
 }
 
-/// The place of a text in the arena, into which it is put unless it is there.
+/// The position of a text in the arena; it is added if it is not there yet.
 fn intern(arena: &mut String, text: &str, known: &mut Interned) -> Range {
     if let Some(range) = known.get(text) {
         return *range;
@@ -251,7 +251,7 @@ fn intern(arena: &mut String, text: &str, known: &mut Interned) -> Range {
     range
 }
 
-/// The value, if it is one of the type.
+/// The value, if it is valid for the type.
 pub(crate) fn fitting(value: &Option<Spanned<Value>>, data_type: DataType) -> Option<&Value> {
     value
         .as_ref()
@@ -259,7 +259,7 @@ pub(crate) fn fitting(value: &Option<Spanned<Value>>, data_type: DataType) -> Op
         .filter(|value| value.fits(data_type))
 }
 
-/// Bytes that a value takes in the store; see [`Slot`].
+/// Number of bytes of a value in the store; see [`Slot`].
 fn slot_len(data_type: DataType, from: &EntryDescription, value: Option<&Value>) -> u16 {
     if *from.access == Access::Const {
         return 0;
@@ -306,7 +306,7 @@ mod tests {
     }
 
     #[test]
-    fn a_literal_is_one_of_its_entrys_type() {
+    fn a_literal_has_the_type_of_its_entry() {
         use DataType::*;
         check(Unsigned8, Value::Signed(5), Literal::Unsigned(5));
         check(Integer8, Value::Unsigned(5), Literal::Signed(5));
@@ -343,7 +343,7 @@ mod tests {
     }
 
     #[test]
-    fn whatever_a_description_holds_there_are_tables() {
+    fn every_description_has_tables() {
         let mut description = Description::default();
         let mut odd = ObjectDescription::var(entry(DataType::Identity, Value::Unsigned(1)));
         odd.entries
@@ -359,7 +359,7 @@ mod tests {
     }
 
     #[test]
-    fn a_configured_value_is_the_default_if_it_is_one() {
+    fn a_valid_configured_value_is_the_default() {
         let mut value = entry(DataType::Unsigned8, Value::Unsigned(1));
         for (parameter, expected) in [(2, 2), (300, 1)] {
             value.parameter = Some(Spanned::from(Value::Unsigned(parameter)));

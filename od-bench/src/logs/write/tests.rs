@@ -238,3 +238,143 @@ fn times_of_day_become_times_from_the_start() {
     let times: Vec<_> = log.records.iter().map(|one| one.at.as_micros()).collect();
     assert_eq!(times, [0, 500_000]);
 }
+
+/// The frames of a log as text.
+#[track_caller]
+fn shown(log: &Log) -> Vec<String> {
+    let shown = log.records.iter().map(|record| match record.what {
+        What::Frame(frame) => frame.to_string(),
+        What::Error => String::from("error"),
+    });
+    shown.collect()
+}
+
+#[test]
+fn frames_of_an_interface_with_can_fd_are_classic_ones() {
+    let text = "base hex  timestamps absolute\n\
+        0.000000 Start of measurement\n\
+        0.001000 CANFD   1 Rx        701                     0 0 1  1 00   107914  58   200000 46500250\n\
+        0.002000 CANFD   1 Tx        601  Sdo_Request        0 0 8  8 40 18 10 01 00 00 00 00   242136  125   200000\n\
+        0.003000 CANFD   1 Rx        18DA0201x               0 0 2  2 01 02   242136  125   200000\n\
+        0.004000 CANFD   1 Rx        701                     0 0 0  0   107914  58   200010\n\
+        0.005000 CANFD   1 Rx   ErrorFrame\n\
+        0.006000 CANFD   1 Rx        123                     1 0 9 12 01 02 03 04 05 06 07 08 09 0A 0B 0C   107914  58   303000\n\
+        0.007000 CANFD   1 Rx        123                     0 0 8  8 01 02 03 04 05 06 07 08   107914  58   301000\n\
+        0.008000 CANFD   Start of measurement\n\
+        0.009000 CANFD   1 Rx        701                     0 0 1\n";
+    let log = read(text.as_bytes()).expect("a log");
+    assert_eq!(
+        shown(&log),
+        [
+            "701#00",
+            "601#4018100100000000",
+            "18DA0201#0102",
+            "701#R",
+            "error"
+        ]
+    );
+    assert!(log.records[1].sent && !log.records[0].sent);
+    let lines: Vec<u32> = log.skipped.iter().map(|problem| problem.line).collect();
+    assert_eq!(lines, [8, 9, 11]);
+    assert!(log.skipped[0].why.contains("CAN FD"), "{}", log.skipped[0]);
+    assert_eq!(log.others, 1);
+}
+
+#[test]
+fn events_of_an_asc_are_counted_and_no_problem() {
+    let text = "base hex  timestamps absolute\n\
+        0.001231 1  701             Rx   d 1 05  Length = 107915 BitCount = 58 ID = 1793\n\
+        0.024998 CAN 1 Status:chip status error active\n\
+        0.031903 1  181             TxRq d 4 01 02 03 04 Length = 0 BitCount = 0 ID = 385\n\
+        0.032903 1  181             Tx   d 4 01 02 03 04 Length = 0 BitCount = 0 ID = 385\n\
+        1.100000 SV: 2 0 1 ::Sys::Var = 1\n\
+        1.200000 1 OverloadFrame\n\
+        1.300000 1 J1939TP FEE3p 6 0 0 - Rx d 23 A0\n\
+        1.400000 1  zzz             Rx   d 1 05\n";
+    let log = read(text.as_bytes()).expect("a log");
+    assert_eq!(shown(&log), ["701#05", "181#01020304"]);
+    assert_eq!((log.others, log.skipped.len()), (5, 1));
+    assert_eq!(log.skipped[0].line, 9);
+}
+
+/// A pcap file of this link type with these packets, a microsecond from each to the next.
+fn pcap(link: u32, packets: &[Vec<u8>]) -> Vec<u8> {
+    let words = [0xA1B2_C3D4, 0x0004_0002, 0, 0, 0xFFFF, link];
+    let mut out: Vec<u8> = words
+        .iter()
+        .flat_map(|word: &u32| word.to_le_bytes())
+        .collect();
+    for (at, packet) in (0..).zip(packets) {
+        let length = packet.len() as u32;
+        out.extend(
+            [1, at, length, length]
+                .iter()
+                .flat_map(|word: &u32| word.to_le_bytes()),
+        );
+        out.extend(packet);
+    }
+    out
+}
+
+const BOOT_UP: [u8; 16] = [0, 0, 7, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0];
+
+/// A packet of a capture on all interfaces: the header of this link type, then the frame.
+fn cooked(link: u32, kind: u8, protocol: u8, frame: &[u8]) -> Vec<u8> {
+    let mut header = match link {
+        113 => vec![0; 16],
+        _ => vec![0; 20],
+    };
+    if link == 113 {
+        (header[1], header[15]) = (kind, protocol);
+    } else {
+        (header[10], header[1]) = (kind, protocol);
+    }
+    header.extend(frame);
+    header
+}
+
+#[test]
+fn a_capture_on_all_interfaces_has_its_can_frames() {
+    for link in [113, 276] {
+        let mut long = BOOT_UP.to_vec();
+        long.resize(72, 0);
+        let packets = [
+            cooked(link, 0, 0x0C, &BOOT_UP),
+            cooked(link, 4, 0x0C, &BOOT_UP),
+            cooked(link, 0, 0x0D, &long),
+            // IPv4.
+            cooked(link, 0, 0x08, &[0; 40]),
+            cooked(link, 0, 0x0C, &[0; 3]),
+        ];
+        let mut bytes = pcap(link, &packets);
+        let log = read(&bytes).expect("a log");
+        assert_eq!(shown(&log), ["701#00", "701#00"], "{link}");
+        assert_eq!(log.records.iter().filter(|record| record.sent).count(), 1);
+        assert_eq!(log.others, 1);
+        let said: Vec<String> = log.skipped.iter().map(ToString::to_string).collect();
+        assert!(
+            said[0].starts_with("frame 3: it is a CAN FD frame"),
+            "{said:?}"
+        );
+        assert!(said[1].starts_with("frame 5: "), "{said:?}");
+        // A capture that was killed keeps what it has.
+        bytes.pop();
+        let cut = read(&bytes).expect("a log");
+        assert_eq!((cut.records.len(), cut.skipped.len()), (2, 2));
+    }
+    let other = read(&pcap(113, &[cooked(113, 0, 0x08, &[0; 40])])).expect_err("no CAN");
+    assert!(other.to_string().contains("not SocketCAN"), "{other}");
+}
+
+#[test]
+fn a_long_frame_of_candump_is_named() {
+    let text = "(0.1) can0  123  [12]  00 01 02 03 04 05 06 07 08 09 0A 0B\n(0.2) can0  123  [08]  \
+        00 01 02 03 04 05 06 07\n(0.3) can0  123   [1]  00\n";
+    let log = read(text.as_bytes()).expect("a log");
+    assert_eq!((log.records.len(), log.skipped.len()), (1, 2));
+    assert!(
+        log.skipped.iter().all(|one| one.why.contains("CAN FD")),
+        "{:?}",
+        log.skipped
+    );
+}

@@ -1,4 +1,4 @@
-//! One value as a C variable: its type, its length, its first value.
+//! A value as a C variable: its type, its length, its initial value.
 
 use alloc::format;
 use alloc::string::String;
@@ -8,7 +8,7 @@ use crate::description::tables::fitting;
 use crate::description::{EntryDescription, Value};
 use od_model::{DataType, Kind};
 
-/// Bytes that a string has if its default is shorter and it can change; as on a node of odkit.
+/// Length of a string that can change and has a shorter default; the same as in a node of odkit.
 const STRING_CAPACITY: usize = 64;
 
 /// A C variable.
@@ -18,16 +18,16 @@ pub(super) struct Data {
     pub(super) c_type: &'static str,
     /// Elements of the C array; `None` if it is a plain variable.
     pub(super) elements: Option<usize>,
-    /// The first value; `None` for a value without storage.
+    /// The initial value; `None` for a value without storage.
     pub(super) first: Option<String>,
     /// Bytes on the bus.
     pub(super) length: usize,
-    /// Attributes that the type gives it, such as ` | ODA_MB`.
+    /// Attributes of the type, such as ` | ODA_MB`.
     pub(super) attributes: &'static str,
 }
 
 impl Data {
-    /// The declaration's array: `[65]`, or nothing.
+    /// The array part of the declaration: `[65]`, or nothing.
     pub(super) fn array(&self) -> String {
         self.elements
             .map_or(String::new(), |count| format!("[{count}]"))
@@ -39,10 +39,10 @@ impl Data {
     }
 }
 
-/// The variable of a value whose type has values; `None` for records and unknown types.
+/// The variable of a value; `None` for records and unknown types.
 ///
-/// A value of a known size without a default begins with 0: CANopenNode answers the request for a
-/// variable without storage as if the sub-index did not exist.
+/// A value of a known size without a default gets 0: CANopenNode answers a request for a
+/// variable without storage with the abort code of a missing sub-index.
 pub(super) fn data(entry: &EntryDescription, number: Option<i128>) -> Option<Data> {
     let data_type = entry.data_type?.value;
     let value = fitting(&entry.parameter, data_type).or(fitting(&entry.default, data_type));
@@ -98,12 +98,12 @@ fn number(kind: Kind, bits: u8, value: i128) -> Data {
         (_, 16) => "uint16_t",
         (_, 32) => "uint32_t",
         (_, 64) => "uint64_t",
-        // C has no variable of this size.
+        // C has no integer of this size.
         _ => return bytes(&value.to_le_bytes()[..usize::from(bits) / 8]),
     };
     let length = usize::from(bits) / 8;
     let first = match kind {
-        // The smallest number of 64 bits has no literal of its own in C.
+        // C has no literal for the smallest number of 64 bits.
         Kind::Signed if value == i64::MIN.into() => "(-9223372036854775807 - 1)".into(),
         Kind::Signed => format!("{value}"),
         _ => format!("0x{value:0width$X}", width = 2 * length),
@@ -120,7 +120,7 @@ fn real(value: f64) -> String {
     }
 }
 
-/// A sequence of bytes, which is not empty.
+/// A sequence of bytes that is not empty.
 fn bytes(bytes: &[u8]) -> Data {
     let texts: Vec<String> = bytes.iter().map(|byte| format!("0x{byte:02X}")).collect();
     Data {
@@ -142,7 +142,7 @@ fn text(entry: &EntryDescription, data_type: DataType, kind: Kind, given: &[u8])
     };
     if kind == Kind::Text {
         let mut texts: Vec<String> = given.iter().copied().map(character).collect();
-        // A character more than the value has ends it.
+        // An additional character ends it.
         texts.resize(length + 1, "0".into());
         return Data {
             c_type: "char",
@@ -163,7 +163,7 @@ fn text(entry: &EntryDescription, data_type: DataType, kind: Kind, given: &[u8])
             elements: Some(length + 1),
             first: Some(format!("{{{}}}", texts.join(", "))),
             length: 2 * length,
-            // CANopenNode ends such a string at the first byte of 0 when a master reads it.
+            // CANopenNode ends such a string at its first zero byte when a master reads it.
             attributes: if can_change { " | ODA_STR" } else { "" },
         };
     }
@@ -188,7 +188,7 @@ fn character(byte: u8) -> String {
     }
 }
 
-/// The first values of the elements of an array.
+/// The initial values of the elements of an array.
 pub(super) fn list(values: &[&Data]) -> String {
     let values = values.iter().filter_map(|data| data.first.as_deref());
     format!("{{{}}}", values.collect::<Vec<_>>().join(", "))

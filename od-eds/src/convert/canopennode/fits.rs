@@ -71,7 +71,7 @@ pub(super) fn findings(
     found
 }
 
-/// Has the object all 256 sub-indices?
+/// Returns whether the object has all 256 sub-indices.
 fn is_full(description: &Description, index: u16) -> bool {
     let object = description.objects.get(&index);
     object.is_some_and(|object| object.entries.len() > usize::from(u8::MAX))

@@ -90,7 +90,7 @@ fn count(objects: &[Planned], first: u16, last: u16) -> usize {
         .count()
 }
 
-/// The arrays with their numbers of elements; those that became records, too.
+/// The arrays with their numbers of elements, including those that became records.
 fn arrays(description: &Description, objects: &[Planned]) -> Vec<(u16, usize)> {
     let code = |object: &&Planned| {
         let described = description.objects.get(&object.index);

@@ -1,6 +1,6 @@
 //! A description as the object dictionary of CANopenNode, version 4: `OD.c` and `OD.h`.
 //!
-//! The files have the shape that CANopenEditor writes, so that the sources of a device need no
+//! The files have the form of CANopenEditor, so the sources of a device need no
 //! change: names of variables, storage groups, counters and shortcuts are the same.
 
 mod data;
@@ -17,21 +17,21 @@ use alloc::vec::Vec;
 use crate::description::Description;
 use crate::finding::Finding;
 
-/// The two files, and what they do not express.
+/// The two files, and the content that they lack.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Files {
     /// The text of `OD.c`.
     pub source: String,
     /// The text of `OD.h`.
     pub header: String,
-    /// Findings about content that CANopenNode cannot express; a remark has no effect for a master.
+    /// Findings about content that CANopenNode cannot express; one with severity "info" makes no difference to a master.
     pub findings: Vec<Finding>,
 }
 
 /// Returns the texts of `STEM.c` and `STEM.h`. `file` is named in the header.
 ///
-/// CANopenNode adds the node ID to the COB-IDs of the pre-defined connection set itself. Other
-/// values that depend on it are those of `node`, or are findings.
+/// CANopenNode itself adds the node ID to the COB-IDs of the pre-defined connection set. Other
+/// values that depend on it are computed for `node`, or are findings.
 pub fn write(description: &Description, stem: &str, file: &str, node: Option<u8>) -> Files {
     let objects = plan::plan(description, node);
     let name = names::dictionary(stem);

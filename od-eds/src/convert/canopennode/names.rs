@@ -1,10 +1,10 @@
-//! Names of C variables, as CANopenEditor makes them of object names.
+//! Names of C variables, made from object names in the same way as CANopenEditor does.
 
 use alloc::collections::BTreeSet;
 use alloc::format;
 use alloc::string::String;
 
-/// Words that C or C++ keeps for itself, or that compilers define.
+/// Reserved words of C or C++, and names that compilers define.
 const RESERVED: &str = " alignas alignof and asm auto bitand bitor bool break case catch char class \
     compl const constexpr continue decltype default delete do double else enum explicit export \
     extern false float for friend goto if inline int linux long mutable namespace new noexcept not \
@@ -12,7 +12,7 @@ const RESERVED: &str = " alignas alignof and asm auto bitand bitor bool break ca
     static struct switch template this throw true try typedef typeid typename typeof union unix \
     unsigned using virtual void volatile while xor ";
 
-/// `COB ID used by RPDO` is `COB_IDUsedByRPDO`; empty if the name has no letter and no digit.
+/// Turns `COB ID used by RPDO` into `COB_IDUsedByRPDO`; empty if the name has no letter and no digit.
 pub(super) fn c_name(name: &str) -> String {
     let name = name.replace('-', "_");
     let words = name.split(|c: char| !c.is_ascii_alphanumeric() && c != '_');
@@ -34,13 +34,13 @@ pub(super) fn c_name(name: &str) -> String {
         [] => out,
         [first, ..] if first.is_ascii_digit() => format!("_{out}"),
         [_] => out.to_ascii_lowercase(),
-        // A word in capitals stays as it is.
+        // A word in capitals does not change.
         [_, second, ..] if second.is_ascii_lowercase() => out[..1].to_ascii_lowercase() + &out[1..],
         _ => out,
     }
 }
 
-/// The name of a member of a struct: valid, and not one of those before it.
+/// The name of a struct member: valid, and different from the previous ones.
 pub(super) fn member(names: &mut BTreeSet<String>, name: &str, sub: u8) -> String {
     let mut name = c_name(name);
     if name.is_empty() {
@@ -55,7 +55,7 @@ pub(super) fn member(names: &mut BTreeSet<String>, name: &str, sub: u8) -> Strin
     name
 }
 
-/// The name of the dictionary, which begins all that its files define: of `OD.c` it is `OD`.
+/// The name of the dictionary, with which all definitions of its files begin: `OD` for `OD.c`.
 pub(super) fn dictionary(stem: &str) -> String {
     let valid = |c: char| c.is_ascii_alphanumeric() || c == '_';
     let name = stem.replace(|c: char| !valid(c), "_");
@@ -70,9 +70,9 @@ pub(super) fn dictionary(stem: &str) -> String {
 mod tests {
     use super::*;
 
-    /// The names that CANopenEditor's own tests expect, and those that it gets wrong.
+    /// The names that CANopenEditor's own tests expect, and those that it makes wrong.
     #[test]
-    fn names_are_those_of_the_editor() {
+    fn names_are_those_of_canopeneditor() {
         for (name, expected) in [
             (
                 "axle 0 wheel right controlword",

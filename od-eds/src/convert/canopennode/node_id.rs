@@ -1,11 +1,11 @@
-//! Values that depend on the node ID: CANopenNode adds it to a few COB-IDs, and to nothing else.
+//! Values that depend on the node ID: CANopenNode adds it only to a few COB-IDs.
 
 use crate::description::{EntryDescription, Value};
 use crate::subject::start_value;
 use od_model::Address;
 
-/// The CAN-ID without node ID to which CANopenNode adds it, at this address; as the standard has
-/// it in the pre-defined connection set (CiA 301, chapter 7.3.3).
+/// The CAN-ID at this address to which CANopenNode adds the node ID: that of
+/// the pre-defined connection set (CiA 301, chapter 7.3.3).
 pub(super) fn predefined(address: Address) -> Option<u32> {
     let Address { index, sub } = address;
     Some(match (index, sub) {
@@ -18,18 +18,18 @@ pub(super) fn predefined(address: Address) -> Option<u32> {
     })
 }
 
-/// Does CANopenNode add the node ID to this number here?
+/// Returns whether CANopenNode adds the node ID to this number.
 pub(super) fn is_added(address: Address, number: i128) -> bool {
     predefined(address).is_some_and(|base| number & 0x7FF == base.into())
 }
 
-/// The number of a value as the file has it: without the node ID where CANopenNode adds it, else
-/// with the one given, if there is one.
+/// The number of a value for the file: without the node ID if CANopenNode adds it, otherwise
+/// with the given one, if there is one.
 pub(super) fn number(address: Address, entry: &EntryDescription, node: Option<u8>) -> Option<i128> {
     let value = start_value(entry)?;
     let data_type = entry.data_type?.value;
     if !value.fits(data_type) {
-        // A ParameterValue that is not valid leaves the default.
+        // An invalid ParameterValue leaves the default.
         let default = entry
             .default
             .as_ref()

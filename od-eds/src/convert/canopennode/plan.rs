@@ -1,4 +1,4 @@
-//! The objects of a description as CANopenNode has them: variables, arrays, records.
+//! The objects of a description in the types of CANopenNode: variables, arrays, records.
 
 use alloc::collections::BTreeSet;
 use alloc::format;
@@ -48,7 +48,7 @@ impl Planned {
         self.members.get(1..).unwrap_or_default()
     }
 
-    /// The variable of a member, from the dictionary's first word on: `RAM.x2000_name`.
+    /// The variable of a member, with the name of the dictionary: `RAM.x2000_name`.
     pub(super) fn pointer(&self, dictionary: &str, member: &Member) -> String {
         let Planned { name, group, .. } = self;
         let to_first = member.data.to_first();
@@ -64,11 +64,11 @@ impl Planned {
     }
 }
 
-/// The objects that an object dictionary of CANopenNode can have, in order; `node` is the node ID
-/// of the one device that it is for.
+/// The objects for a dictionary of CANopenNode, in order; `node` is the node ID of the device if
+/// the dictionary is for one device only.
 pub(super) fn plan(description: &Description, node: Option<u8>) -> Vec<Planned> {
     let objects = description.objects.iter();
-    // A row with index 0 ends the list.
+    // A row with index 0 marks the end of the list.
     let objects = objects.filter(|(index, _)| **index != 0);
     let planned = objects.map(|(index, object)| planned(*index, object, node));
     planned
@@ -108,7 +108,7 @@ fn planned(index: u16, object: &ObjectDescription, node: Option<u8>) -> Planned 
     }
 }
 
-/// The storage group of an object: that of its first value which is saved.
+/// The storage group of an object: that of its first saved value.
 fn group(index: u16, object: &ObjectDescription) -> Group {
     let groups = object.entries.iter().map(|(&sub, entry)| {
         let mut entry = entry.clone();
@@ -124,12 +124,12 @@ fn group(index: u16, object: &ObjectDescription) -> Group {
         .unwrap_or(Group::None)
 }
 
-/// Is it an array, or one of those that CANopenNode expects to be one?
+/// Returns whether it is an array, or an object that CANopenNode expects to be one.
 pub(super) fn is_array(index: u16, code: ObjectCode) -> bool {
     code == ObjectCode::Array || matches!(index, 0x1003 | 0x1010 | 0x1011 | 0x1016)
 }
 
-/// Can the members be an array of C? Otherwise they are a record, which a master cannot tell from it.
+/// Returns whether the members can be a C array. Otherwise they are a record, which looks the same to a master.
 fn is_uniform(members: &[Member]) -> bool {
     let [first, elements @ ..] = members else {
         return false;

@@ -1,4 +1,4 @@
-//! `OD.c`: the variables with their first values, and the table of objects.
+//! `OD.c`: the variables with their initial values, and the table of objects.
 
 use alloc::format;
 use alloc::string::String;
@@ -98,7 +98,7 @@ pub(super) fn chapter(title: &str) -> String {
     format!("\n/{RULER}\n    {title}\n{RULER}/\n")
 }
 
-/// The first values of an object's variables; `None` if it has none.
+/// The initial values of an object's variables; `None` if it has none.
 fn values(object: &Planned) -> Option<String> {
     let name = &object.name;
     let first = object.members.first()?;

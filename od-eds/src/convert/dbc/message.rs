@@ -1,4 +1,4 @@
-//! The messages of a DBC: PDOs as they are mapped, and the frames that every node has.
+//! The messages of a DBC: mapped PDOs, and the frames of every node.
 
 use alloc::collections::BTreeSet;
 use alloc::string::{String, ToString};
@@ -31,7 +31,7 @@ pub(super) struct Signal {
     /// Limits of the object; `None` if it has none.
     pub(super) limits: Option<(i128, i128)>,
     pub(super) unit: String,
-    /// Object and type; empty if the name says it all.
+    /// Object and type; empty if the name is enough.
     pub(super) comment: String,
     /// Values that have names.
     pub(super) values: &'static [(u8, &'static str)],
@@ -44,7 +44,7 @@ pub(super) struct Message {
     /// CAN-ID, with bit 31 for one of 29 bits.
     pub(super) id: u32,
     pub(super) length: u32,
-    /// Does the node send it? Otherwise it receives it.
+    /// Whether the node sends it; otherwise it receives it.
     pub(super) sends: bool,
     pub(super) signals: Vec<Signal>,
     pub(super) comment: String,
@@ -100,7 +100,7 @@ pub(super) fn nmt() -> Message {
     }
 }
 
-/// The message of a service; `None` if it has none to describe, and then perhaps a finding.
+/// The message of a service; `None` if there is none to describe, perhaps with a finding.
 pub(super) fn message(
     description: &Description,
     used: &Used,
@@ -175,7 +175,7 @@ fn sdo(what: &str, server: u8) -> String {
     }
 }
 
-/// The frame that begins a transfer; segments have other content.
+/// The first frame of a transfer; segments have other content.
 fn transfer(values: &'static [(u8, &'static str)]) -> Vec<Signal> {
     let command = Signal {
         values,
@@ -276,7 +276,7 @@ fn signal(
     }
 }
 
-/// The limits of a value; one that is missing is the limit of the type.
+/// The limits of a value; a missing limit is that of the type.
 fn limits(entry: &EntryDescription) -> Option<(i128, i128)> {
     let (smallest, largest) = entry.data_type?.integer_range()?;
     let limit = |limit: &Option<Spanned<Value>>| limit.as_ref()?.integer(0);

@@ -1,4 +1,4 @@
-//! The frames of a node as a DBC, the format in which bus analysers name signals.
+//! The frames of a node as a DBC, the format of bus analysers for the names of signals.
 
 mod message;
 mod names;
@@ -16,19 +16,19 @@ use crate::rules::convert::w1113_same_can_id;
 use message::{Message, Sign, Signal};
 use names::{quoted, symbol};
 
-/// Longest name that every tool reads; a longer one has an attribute with all of it.
+/// Longest name that every tool reads; a longer one is also stored completely in an attribute.
 const SHORT: usize = 32;
 
-/// Returns the DBC of a node with this node ID, and what it does not express.
+/// Returns the DBC of a node with this node ID, and findings about content that it lacks.
 ///
-/// PDOs are as the description maps them, those that are not valid included, unless another message
+/// PDOs have the mapping of the description. PDOs that are not valid are included, unless another message
 /// has their CAN-ID.
 pub fn write(description: &Description, node: u8) -> (String, Vec<Finding>) {
     let mut found = Vec::new();
     let mut messages = alloc::vec![message::nmt()];
     let mut ids = BTreeSet::from([0]);
     let mut all = used(description, node);
-    // A service that is not valid leaves its CAN-ID to those that are.
+    // An invalid service leaves its CAN-ID to valid services.
     all.sort_by_key(|used| !used.is_valid);
     for used in all {
         let Some(message) = message::message(description, &used, node, &mut found) else {
@@ -45,7 +45,7 @@ pub fn write(description: &Description, node: u8) -> (String, Vec<Finding>) {
     (text(description, node, &messages), found)
 }
 
-/// Whether the loss of a message is reported: that of a PDO, or of a service with a valid CAN-ID.
+/// Whether to report a lost message: a PDO, or a service with a valid CAN-ID.
 fn is_lost(used: &Used) -> bool {
     match used.service {
         Service::Tpdo(_) | Service::Rpdo(_) => true,
@@ -109,7 +109,7 @@ fn text(description: &Description, node: u8, messages: &[Message]) -> String {
         );
         out.push_str(&long);
     }
-    // Tables of values come before the types of reals.
+    // Tables of values must come before the types of reals.
     let (tables, reals): (Vec<&str>, Vec<&str>) =
         kinds.lines().partition(|line| line.starts_with("VAL_ "));
     for line in tables.into_iter().chain(reals) {
@@ -118,7 +118,7 @@ fn text(description: &Description, node: u8, messages: &[Message]) -> String {
     out
 }
 
-/// A name that fits, and is not one of those before it.
+/// A name that is short enough and different from the previous ones.
 fn short(name: &str, taken: &mut BTreeSet<String>) -> String {
     let mut candidate: String = name.chars().take(SHORT).collect();
     let mut number = 2;

@@ -1,4 +1,4 @@
-//! Names and texts that a DBC can have.
+//! Names and texts that are valid in a DBC.
 
 use alloc::collections::BTreeSet;
 use alloc::format;
@@ -22,7 +22,7 @@ pub(super) fn symbol(name: &str) -> String {
     }
 }
 
-/// A name that is not one of those before it.
+/// A name that differs from the previous ones.
 pub(super) fn unique(names: &mut BTreeSet<String>, name: String) -> String {
     let mut candidate = name.clone();
     let mut number = 2;
@@ -33,11 +33,11 @@ pub(super) fn unique(names: &mut BTreeSet<String>, name: String) -> String {
     candidate
 }
 
-/// A text between quotes: ASCII, since tools read a DBC in different encodings.
+/// A text in quotes: ASCII, because tools read a DBC in different encodings.
 pub(super) fn quoted(text: &str) -> String {
     let characters = text.chars().map(|character| match character {
         '"' => '\'',
-        // A backslash at the end would take the quote along.
+        // A backslash at the end would escape the quote.
         '\\' => '/',
         ' '..='~' => character,
         _ => '?',
