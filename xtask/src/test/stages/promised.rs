@@ -2,6 +2,7 @@
 
 use std::process::Command;
 
+use crate::console::ask;
 use crate::error::Result;
 use crate::files;
 use crate::packages::UNPUBLISHED;
@@ -62,13 +63,23 @@ pub(super) fn minimal(context: &Context<'_>) -> Result<()> {
     console.run("what is published, with them", &mut check)
 }
 
-/// Advisories, licences and sources of all dependencies.
+/// Where cargo-deny gets the advisories from.
+const ADVISORIES: &str = "https://github.com/rustsec/advisory-db";
+
+/// Licences and sources of all dependencies, and advisories about them where these can be fetched.
 pub(super) fn deny(context: &Context<'_>) -> Result<()> {
     let (repo, console) = (context.repo, context.console);
     let tool = installed::get(repo, console, &DENY)?;
     let mut check = Command::new(tool);
-    check.args(["--locked", "check"]).current_dir(&repo.root);
-    console.run("advisories, licences and sources", &mut check)
+    check.args(["--locked", "check", "bans", "licenses", "sources"]);
+    if ask("git", &["ls-remote", "--exit-code", ADVISORIES, "HEAD"]).is_some() {
+        check.arg("advisories");
+    } else {
+        console.note(&format!(
+            "advisories are not checked: {ADVISORIES} cannot be read"
+        ));
+    }
+    console.run("dependencies", check.current_dir(&repo.root))
 }
 
 /// Spelling of code and documents; `typos.toml` has the words that are right here.
