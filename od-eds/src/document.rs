@@ -1,4 +1,4 @@
-//! The text of a file with a way back to its bytes: edits that touch nothing else.
+//! The text of a file, with edits that leave all other bytes of the file unchanged.
 
 use alloc::borrow::ToOwned;
 use alloc::string::String;
@@ -13,7 +13,7 @@ mod keys;
 mod objects;
 pub(crate) mod offsets;
 
-/// Another text for a stretch of a document.
+/// A replacement of a range of a document.
 ///
 /// `range` counts the bytes of [`Document::text`], as the [`Span`]s of the
 /// findings of that text do. An empty range inserts, an empty text deletes.
@@ -21,12 +21,12 @@ pub(crate) mod offsets;
 pub struct Edit {
     /// Bytes to replace.
     pub range: Range<usize>,
-    /// By what.
+    /// The new text.
     pub text: String,
 }
 
 impl Edit {
-    /// Puts `text` in the place of `span`.
+    /// Replaces `span` with `text`.
     pub fn replace(span: Span, text: impl Into<String>) -> Self {
         Self {
             range: span.start as usize..span.end as usize,
@@ -35,11 +35,11 @@ impl Edit {
     }
 }
 
-/// Reason why a document was left as it was.
+/// Reason why a document was left unchanged.
 #[derive(Clone, PartialEq, Eq, Debug)]
 #[non_exhaustive]
 pub enum EditError {
-    /// A range is outside the text, runs backwards, or cuts a character in two.
+    /// A range is outside the text, ends before its start, or cuts a character.
     NoPlace(Range<usize>),
     /// Two edits touch the same text.
     Overlap(Range<usize>, Range<usize>),
@@ -82,10 +82,10 @@ impl fmt::Display for EditError {
 
 impl core::error::Error for EditError {}
 
-/// A file as it is: every byte of it, its text, and edits that keep the rest.
+/// A file: all its bytes, its text, and edits that keep the rest.
 ///
-/// Encoding, byte order mark, line ends, comments, order and whatever nobody
-/// understands stay as they are; a file that is not edited is written as it was read.
+/// Encoding, byte order mark, line ends, comments, order and all unknown
+/// text stay unchanged; a file without edits is written as it was read.
 ///
 /// ```
 /// use od_eds::Document;
@@ -119,14 +119,14 @@ impl Document {
         }
     }
 
-    /// The document of a file with this name, which tells an EDS from a DCF; without one, FileName does.
+    /// The document of a file with this name, which tells an EDS from a DCF; without a name, FileName does.
     #[must_use]
     pub fn named(mut self, name: impl Into<String>) -> Self {
         self.file_name = Some(name.into());
         self
     }
 
-    /// The text, without a byte order mark; what [`parse`](crate::parse) reads.
+    /// The text without a byte order mark, for [`parse`](crate::parse).
     pub fn text(&self) -> &str {
         &self.text
     }
@@ -141,12 +141,12 @@ impl Document {
         self.encoding
     }
 
-    /// Does it begin with a byte order mark?
+    /// Returns whether it begins with a byte order mark.
     pub fn has_mark(&self) -> bool {
         self.mark > 0
     }
 
-    /// Place of the first byte that is not valid in the encoding.
+    /// Place of the first byte that is invalid in the encoding.
     pub(crate) fn first_wrong(&self) -> Option<usize> {
         if self.encoding == Encoding::Utf8 {
             let error = core::str::from_utf8(&self.bytes[self.mark..]).err()?;
@@ -155,13 +155,13 @@ impl Document {
         self.text.find(char::REPLACEMENT_CHARACTER)
     }
 
-    /// Carries out edits of the text as it is now, in any order: all or none.
+    /// Applies edits to the present text, in any order: all of them or none.
     ///
     /// # Errors
     ///
-    /// A place outside the text, edits that overlap, or a character that the file's
-    /// encoding has not; then nothing has changed. Two insertions at one place stay in
-    /// the order they are given in.
+    /// A place outside the text, overlapping edits, or a character that the encoding of the file
+    /// lacks; then nothing has changed. Two insertions at one place keep
+    /// their order.
     pub fn apply(&mut self, edits: &[Edit]) -> Result<(), EditError> {
         let mut order: Vec<&Edit> = edits.iter().collect();
         order.sort_by_key(|edit| (edit.range.start, edit.range.end));
@@ -203,7 +203,7 @@ impl Document {
         Ok(())
     }
 
-    /// Are the bytes of the file those of the text, behind the mark?
+    /// Returns whether the bytes of the file are those of the text, after the byte order mark.
     fn is_plain(&self) -> bool {
         self.bytes.len() - self.mark == self.text.len()
             && matches!(self.encoding, Encoding::Ascii | Encoding::Utf8)
@@ -220,7 +220,7 @@ impl Document {
         at - byte
     }
 
-    /// Line end of the line at `at`, else the first line end of the file.
+    /// Line end of the line at `at`, otherwise the first line end of the file.
     fn line_end(&self, at: usize) -> &'static str {
         let behind = &self.text[at..];
         let found = behind
@@ -244,7 +244,7 @@ impl Document {
         }
     }
 
-    /// Lines to put behind the line at `at`.
+    /// Lines to insert after the line at `at`.
     fn lines_behind(&self, at: usize, lines: &[String]) -> Edit {
         let end = self.line_end(at);
         let start = self.next_line(at);
@@ -252,7 +252,7 @@ impl Document {
         if start == 0 || self.text[..start].ends_with(['\r', '\n']) {
             text.push_str(end)
         } else {
-            // The last line has no line end, and the new last line has none either.
+            // If the last line has no line end, the new last line has none either.
             text.insert_str(0, end)
         }
         Edit {
@@ -262,7 +262,7 @@ impl Document {
     }
 }
 
-/// A place in a document, in its text and in its bytes.
+/// A place in a document, both in its text and in its bytes.
 struct Place<'a> {
     document: &'a Document,
     text: usize,
@@ -270,7 +270,7 @@ struct Place<'a> {
 }
 
 impl Place<'_> {
-    /// The byte that belongs to a place in the text, which lies ahead.
+    /// The byte of a later place in the text.
     fn find(&self, text: usize) -> usize {
         if self.document.is_plain() {
             text + self.document.mark
@@ -292,7 +292,7 @@ impl Place<'_> {
     }
 }
 
-/// A piece of a line that must come back as it is.
+/// A part of a line that must be read back unchanged.
 fn one_line(text: &str, forbidden: &[char]) -> Result<(), EditError> {
     let fits = !text.contains(['\r', '\n']) && !text.contains(forbidden) && text == text.trim();
     if fits {
@@ -315,7 +315,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_edited_is_as_it_was() {
+    fn text_without_edits_is_unchanged() {
         for bytes in [
             &b"[a]\nx=1"[..],
             b"\xEF\xBB\xBF[a]\r\nx=\xC2\xB5\xB5\r\r\n",
@@ -333,7 +333,7 @@ mod tests {
     }
 
     #[test]
-    fn edits_are_in_the_files_encoding() {
+    fn edits_are_in_the_encoding_of_the_file() {
         use Encoding::*;
         let before = "[é]\r\nx=µ\r\ny=2\r\n";
         let after = "[é]\r\nx=ä1\r\ny=\r\n";
@@ -361,7 +361,7 @@ mod tests {
     }
 
     #[test]
-    fn bytes_that_are_no_character_stay() {
+    fn bytes_that_are_no_character_are_kept() {
         let mut document = Document::new(&b"\xFF\xFEa\0\0\xD8b\0c"[..]);
         assert_eq!(document.text(), "a\u{FFFD}b\u{FFFD}");
         let at = document.text().find('b').unwrap();
@@ -374,7 +374,7 @@ mod tests {
     }
 
     #[test]
-    fn an_edit_that_cannot_be_leaves_all_as_it_was() {
+    fn an_impossible_edit_changes_nothing() {
         let document = Document::new(&b"x=\xB5\n"[..]);
         let edit = |range: Range<usize>, text: &str| Edit {
             range,

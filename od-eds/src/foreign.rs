@@ -1,6 +1,6 @@
-//! Device files of other fieldbuses, which have the endings or the form of CANopen's.
+//! Device files of other fieldbuses, with the same endings or form as those of CANopen.
 
-/// Names of other files, by texts that all have to be in them.
+/// Names of other files, and texts that all must be in them.
 const KINDS: [(&[&str], &str); 8] = [
     (
         &["[File]", "[Device]", "VendCode"],
@@ -14,7 +14,7 @@ const KINDS: [(&[&str], &str); 8] = [
     (&["VERSION", "BS_:", "BU_:"], "a DBC file of CAN messages"),
     (&["<PLCopen"], "a PLCopen project"),
 ];
-/// Bytes in which a file shows its kind.
+/// Number of bytes in which a file must show its kind.
 const HEAD: usize = 8192;
 
 /// Returns what a text is if it is a device file of another fieldbus: `an ESI file of EtherCAT`.

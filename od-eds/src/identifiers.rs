@@ -1,4 +1,4 @@
-//! CAN-IDs that a node uses, and what its PDOs carry, by the values that it starts with.
+//! CAN-IDs of a node and contents of its PDOs, by its start values.
 
 use alloc::vec::Vec;
 
@@ -36,11 +36,11 @@ pub struct Used {
     pub address: Address,
     /// CAN-ID, 11 or 29 bits.
     pub id: u32,
-    /// Is it one of 29 bits?
+    /// Whether it has 29 bits.
     pub is_extended: bool,
-    /// Is the service used, by bit 31 of a COB-ID, or bit 30 of those of SYNC and TIME?
+    /// Whether the service is used: by bit 31 of a COB-ID, or bit 30 for SYNC and TIME.
     pub is_valid: bool,
-    /// Does the node send frames with this CAN-ID?
+    /// Whether the node sends frames with this CAN-ID.
     pub sends: bool,
 }
 
@@ -48,7 +48,7 @@ pub struct Used {
 pub fn used(description: &Description, node: u8) -> Vec<Used> {
     let mut found = Vec::new();
     let number = |index, sub| number(description, Address::new(index, sub), node);
-    // Of SYNC and TIME bit 30 says who produces; TIME has bit 31 for its consumer.
+    // In SYNC and TIME bit 30 marks a producer; TIME has bit 31 for its consumer.
     for (service, index, valid, produce) in [
         (Service::Sync, 0x1005, 0, 1 << 30),
         (Service::Time, 0x1012, 3 << 30, 1 << 30),
@@ -119,13 +119,13 @@ fn of(service: Service, at: (u16, u8), cob_id: u32, (is_valid, sends): (bool, bo
     }
 }
 
-/// The number that a value starts with on a node with this node ID.
+/// The start value as a number, on a node with this node ID.
 pub fn number(description: &Description, address: Address, node: u8) -> Option<u32> {
     let value = start_value(description.entry(address)?)?;
     u32::try_from(value.integer(node)?).ok()
 }
 
-/// A mapping entry of a PDO: the mapped object and the bits that it has.
+/// A mapping entry of a PDO: the mapped object and its number of bits.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct MappedValue {
     /// The mapped object.
@@ -135,7 +135,7 @@ pub struct MappedValue {
 }
 
 impl MappedValue {
-    /// Does it only fill a gap (dummy mapping)?
+    /// Returns whether it only fills a gap (dummy mapping).
     pub fn is_dummy(&self) -> bool {
         self.address.index < 0x20
     }

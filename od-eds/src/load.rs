@@ -1,4 +1,4 @@
-//! Reading and checking. Only this file asks if a text is an EDS or XML.
+//! Reading and checking. Only this file decides whether a text is an EDS or XML.
 
 use alloc::vec::Vec;
 
@@ -17,23 +17,23 @@ use crate::scan::placed::Placed;
 #[cfg(feature = "xdd")]
 use crate::xdd;
 
-/// Returns if a text is XML, so an XDD or an XDC, not an EDS.
+/// Returns whether a text is XML, so an XDD or an XDC instead of an EDS.
 pub fn is_xml(text: &str) -> bool {
     let text = text.trim_start_matches('\u{FEFF}');
     text.trim_start().starts_with('<')
 }
 
-/// Reads an EDS or a DCF; with feature `xdd`, an XDD or an XDC too.
+/// Reads an EDS or a DCF; with feature `xdd`, also an XDD or an XDC.
 ///
-/// Never fails, never panics: what it cannot read is a finding, and text in the `extra` of where
-/// it was. It does not check: see [`check`](crate::check::check) and [`load`].
+/// It never fails and never panics: each unreadable part becomes a finding, and text in the `extra` of its
+/// object or section. It does not check: see [`check`](crate::check::check) and [`load`].
 pub fn parse(text: &str) -> Parsed {
     let mut log = Log::default();
     let description = read(text, None, &mut |_| {}, &mut log);
     ordered(description, log.finish(), text)
 }
 
-/// Reads and checks a text: [`parse`], then [`check`](crate::check::check), without what the
+/// Reads and checks a text: [`parse`], then [`check`](crate::check::check), without the findings that the
 /// text [allows](crate::check::Allows).
 pub fn load(text: &str) -> Parsed {
     let mut log = Log::default();
@@ -42,18 +42,18 @@ pub fn load(text: &str) -> Parsed {
 }
 
 impl Document {
-    /// Reads the file as [`parse`](crate::parse()) does. Reports its encoding too.
+    /// Reads the file like [`parse`](crate::parse()), and reports problems of its encoding.
     pub fn parse(&self) -> Parsed {
         let (description, log) = self.read(&mut |_| {});
         ordered(description, log.finish(), self.text())
     }
 
-    /// Reads and checks the file as [`load`](crate::load()) does. Reports its encoding too.
+    /// Reads and checks the file like [`load`](crate::load()), and reports problems of its encoding.
     pub fn load(&self) -> Parsed {
         self.load_with(&mut |_| {})
     }
 
-    /// As [`load`](Self::load). `see` gets the sections that [`outline::sections`](crate::outline::sections)
+    /// Like [`load`](Self::load). `see` receives the sections that [`outline::sections`](crate::outline::sections)
     /// finds, unless the file is XML.
     pub fn load_with(&self, see: &mut dyn FnMut(&[Placed<'_>])) -> Parsed {
         let (description, log) = self.read(see);
@@ -84,7 +84,7 @@ fn read(
     description
 }
 
-/// Checks what was read.
+/// Checks the description.
 fn checked(description: Description, mut log: Log, text: &str) -> Parsed {
     run(&description, &mut log);
     let mut findings = log.finish();
@@ -100,7 +100,7 @@ fn ordered(description: Description, findings: Vec<Finding>, text: &str) -> Pars
     };
     sort(&mut parsed.findings);
     if cfg!(feature = "xdd") && is_xml(text) {
-        // Of the keys of an EDS an XDD has other elements, and a fix of an EDS would break an XML.
+        // An XDD has other elements in place of the keys of an EDS, and a fix for an EDS would break XML.
         parsed
             .findings
             .retain(|finding| finding.code() != W0216.code);
@@ -115,7 +115,7 @@ fn ordered(description: Description, findings: Vec<Finding>, text: &str) -> Pars
 fn encoded(document: &Document) -> Vec<Finding> {
     let (text, encoding) = (document.text(), document.encoding());
     let mut found = Vec::new();
-    // XML says how it is written, and every tool that reads XML knows these.
+    // XML names its encoding, and every XML reader supports these.
     if encoding != Encoding::Ascii && !is_xml(text) {
         let first = text.find(|c: char| !c.is_ascii());
         let first = lines::span(text, first.unwrap_or(0));
@@ -134,8 +134,8 @@ fn encoded(document: &Document) -> Vec<Finding> {
 /// A description, and the findings about its text.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct Parsed {
-    /// All that odkit understood.
+    /// Everything that odkit could read.
     pub description: Description,
-    /// All that it did not, in file order.
+    /// The problems, in file order.
     pub findings: Vec<Finding>,
 }

@@ -1,4 +1,4 @@
-//! Findings of one text while it is read: no more of one rule than a person can look at.
+//! Collects the findings of one text, with a limit for each rule.
 
 use alloc::collections::BTreeMap;
 use alloc::collections::btree_map::Entry;
@@ -8,12 +8,12 @@ use crate::finding::{Finding, Rule};
 use crate::rules::text::w0116_too_many_findings;
 use crate::span::Span;
 
-/// Findings of one rule that are kept.
+/// Limit of findings of one rule.
 pub(crate) const KEPT: usize = 10_000;
-/// Sub-objects that a text may have without a section of their own.
+/// Limit of sub-objects without a section of their own in a text.
 pub(crate) const EXPANDED: usize = 1_000_000;
 
-/// Findings in no order, and what is left of the limits.
+/// Findings in no order, and the rest of the limits.
 #[derive(Default)]
 pub(crate) struct Log {
     findings: Vec<Finding>,
@@ -25,17 +25,17 @@ pub(crate) struct Log {
 struct Count {
     rule: &'static Rule,
     all: usize,
-    /// Place of the first that was left out.
+    /// Place of the first finding that was left out.
     first: Span,
 }
 
 impl Log {
-    /// Keeps a finding, unless there are too many of its rule.
+    /// Keeps a finding, unless its rule has too many.
     pub(crate) fn push(&mut self, finding: Finding) {
         self.add(finding.rule, || finding);
     }
 
-    /// As [`push`](Self::push), for a finding that is made only if it is kept.
+    /// Like [`push`](Self::push), for a finding that is only made if it is kept.
     pub(crate) fn add(&mut self, rule: &'static Rule, make: impl FnOnce() -> Finding) {
         let count = match self.counts.entry(rule.code) {
             Entry::Occupied(entry) => entry.into_mut(),
@@ -53,25 +53,25 @@ impl Log {
         }
     }
 
-    /// Keeps findings, as [`push`](Self::push) does.
+    /// Keeps findings, like [`push`](Self::push).
     pub(crate) fn extend(&mut self, findings: impl IntoIterator<Item = Finding>) {
         findings.into_iter().for_each(|finding| self.push(finding));
     }
 
-    /// Takes over the findings of another.
+    /// Takes over the findings of another log.
     #[cfg(feature = "xdd")]
     pub(crate) fn append(&mut self, other: Self) {
         self.extend(other.finish());
     }
 
-    /// Counts sub-objects without a section if the limit has room for them. Returns whether it has.
+    /// Counts sub-objects without a section. Returns whether the limit allows them.
     pub(crate) fn expand(&mut self, count: usize) -> bool {
         let fits = count <= EXPANDED - self.expanded;
         self.expanded += if fits { count } else { 0 };
         fits
     }
 
-    /// The findings, and one for each rule that has too many.
+    /// The findings, with an additional one for each rule that has too many.
     pub(crate) fn finish(mut self) -> Vec<Finding> {
         let counts = self.counts.into_values();
         for count in counts.filter(|count| count.all > KEPT) {

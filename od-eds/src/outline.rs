@@ -1,5 +1,5 @@
 //! The text of an EDS for a tool that edits it: sections, keys and values with their places, and
-//! what CiA 306 and CiA 301 say about them.
+//! their descriptions in CiA 306 and CiA 301.
 
 pub use crate::rules::profile::table::profile_types;
 pub use crate::rules::standard::table::{Specified, data_type, specified};

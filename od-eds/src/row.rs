@@ -1,4 +1,4 @@
-//! The words of a macro call, `object_dictionary!`: for the macro itself and for an editor.
+//! The words of a macro call, `object_dictionary!`, for the macro and for an editor.
 
 use alloc::format;
 use alloc::string::String;
@@ -55,7 +55,7 @@ pub const CODES: [(&str, ObjectCode); 4] = [
     ("domain", ObjectCode::Domain),
 ];
 
-/// The word of a value, if it has one.
+/// The word for a value, if it has one.
 fn word<T: Copy + PartialEq>(words: &[(&'static str, T)], value: T) -> Option<&'static str> {
     let mut all = words.iter();
     all.find(|(_, known)| *known == value)
@@ -124,7 +124,7 @@ impl Vocabulary for Row {
 mod tests {
     use super::*;
 
-    /// The macro and an editor say the same: what a row of a call takes, not what an EDS does.
+    /// The macro and an editor use the same words, which differ from those of an EDS.
     #[test]
     fn a_call_has_words_of_its_own() {
         assert_eq!(Row.set(Key::PdoMapping, "0"), "mappable = false");

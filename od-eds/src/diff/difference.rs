@@ -4,7 +4,7 @@ use alloc::string::{String, ToString};
 
 use od_model::{Address, Visible};
 
-/// Would a master that was set up for the first device work with the second?
+/// Whether a master that was configured for the first device works with the second.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 #[cfg_attr(
     feature = "serde",
@@ -12,9 +12,9 @@ use od_model::{Address, Visible};
     serde(rename_all = "lowercase")
 )]
 pub enum Impact {
-    /// Yes.
+    /// It works.
     Compatible,
-    /// It may fail, or read something else than it expects.
+    /// It may fail, or read an unexpected value.
     Breaking,
 }
 
@@ -73,15 +73,15 @@ impl Field {
     }
 }
 
-/// One thing that is different.
+/// One difference.
 #[derive(Clone, PartialEq, Eq, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Difference {
     /// Index.
     pub index: u16,
-    /// Sub-index; `None` where it is about a whole object, as it always is for a VAR.
+    /// Sub-index; `None` for a whole object, and always for a VAR.
     pub sub: Option<u8>,
-    /// Name of the entry or object; the second's, if it has one.
+    /// Name of the entry or object; that of the second dictionary if it has one.
     pub name: String,
     /// Property that differs.
     pub field: Field,
@@ -94,7 +94,7 @@ pub struct Difference {
 }
 
 impl Difference {
-    /// `6001h`, or `1018h:02` where it is about one of several entries.
+    /// `6001h`, or `1018h:02` for one of several entries.
     pub fn place(&self) -> String {
         match self.sub {
             Some(sub) => Address::new(self.index, sub).to_string(),

@@ -1,4 +1,4 @@
-//! Two entries at the same address, field by field.
+//! Compares two entries at the same address, field by field.
 
 use alloc::format;
 use alloc::string::{String, ToString};
@@ -59,7 +59,7 @@ pub(super) fn compare(
         (Field::LowLimit, old.low, new.low, low),
         (Field::HighLimit, old.high, new.high, high),
     ] {
-        // A number of another type is written with other digits, and is the same.
+        // A number of another type has other digits but may be the same.
         if !is_same_number(a, b) {
             say(field, show(before, old, a), show(after, new, b), impact);
         }
@@ -95,7 +95,7 @@ const fn storage(group: Group) -> &'static str {
     }
 }
 
-/// As an EDS writes it; empty if missing.
+/// In the form of an EDS; empty if missing.
 fn show(dictionary: Dictionary<'_>, entry: &Entry, literal: Literal) -> String {
     let digits = entry.data_type.size().unwrap_or(1) * 2;
     match literal {

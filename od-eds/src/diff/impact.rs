@@ -1,4 +1,4 @@
-//! Differences that break a master that was set up for the first device.
+//! Differences that break a master configured for the first device.
 
 use crate::diff::difference::Impact;
 use od_model::{Access, Address, Dictionary, Entry, Group, Literal, ObjectCode};
@@ -11,7 +11,7 @@ const fn breaking(if_so: bool) -> Impact {
     }
 }
 
-/// ARRAY and RECORD are the same on the bus; a VAR is another thing than both.
+/// ARRAY and RECORD are the same on the bus; a VAR differs from both.
 pub(super) fn object_code(before: ObjectCode, after: ObjectCode) -> Impact {
     breaking(before.has_members() != after.has_members())
 }
@@ -21,7 +21,7 @@ pub(super) fn access(before: Access, after: Access) -> Impact {
     breaking(before.readable() && !after.readable() || before.writable() && !after.writable())
 }
 
-/// It cannot be mapped any more in a direction that it could.
+/// The value can no longer be mapped in one of its directions.
 pub(super) fn mapping(before: &Entry, after: &Entry) -> Impact {
     breaking(
         before.maps_to_tpdo() && !after.maps_to_tpdo()
@@ -34,8 +34,8 @@ pub(super) fn storage(after: Group) -> Impact {
     breaking(after == Group::None)
 }
 
-/// The limits of what a master writes became narrower, at the lower and the upper end. A
-/// limit that is not there is the type's; values that a device gives out are its own.
+/// The range of values from a master became narrower at its lower or upper end. A
+/// missing limit is that of the type. For values that only the device sets, limits do not matter.
 pub(super) fn limits(before: &Entry, after: &Entry) -> (Impact, Impact) {
     if !before.access.writable() || before.data_type != after.data_type {
         return (Impact::Compatible, Impact::Compatible);
@@ -71,22 +71,22 @@ fn reals(entry: &Entry) -> (f64, f64) {
     )
 }
 
-/// A new default breaks a master where the bus depends on it: what the device is, which
-/// identifiers it uses, when it sends and what its PDOs contain.
+/// A new default breaks a master if the bus depends on it: the device type, the
+/// identifiers in use, the times of frames and the contents of the PDOs.
 pub(super) fn default(after: Dictionary<'_>, address: Address) -> Impact {
     let is_record = after
         .object(address.index)
         .is_some_and(|object| object.code.has_members());
     breaking(match (address.index, address.sub) {
-        // Device type; vendor and product. Revision and serial number may differ.
+        // Device type, vendor and product. Revision and serial number may differ.
         (0x1000, 0) | (0x1018, 1 | 2) => true,
         (0x1018, _) => false,
         (0x1005 | 0x1012 | 0x1014, 0) => true,
         (0x1200..=0x12FF, 1 | 2) => true,
         (0x1400..=0x15FF | 0x1800..=0x19FF, 1 | 2) => true,
         (0x1600..=0x17FF | 0x1A00..=0x1BFF, _) => true,
-        // Bit rate and node ID of most devices are objects of their makers; a count says
-        // what additions and removals have said.
+        // Bit rate and node ID of most devices are objects of the manufacturer. A count adds
+        // no information to added and removed objects.
         (_, 0) if is_record => false,
         _ => false,
     })

@@ -1,6 +1,6 @@
 //! Differences of two dictionaries, and their impact on a master.
 //!
-//! [`compare`] reads two dictionaries entry by entry, whatever they were made from: a file, a
+//! [`compare`] reads two dictionaries entry by entry, whatever their source: a file, a
 //! compiled device, a variant. Order, spelling and comments of a text do not count.
 
 mod difference;
@@ -14,7 +14,7 @@ use alloc::vec::Vec;
 
 use od_model::{Address, Dictionary, Entry, Object};
 
-/// Everything that is different, by address.
+/// All differences, by address.
 pub fn compare(before: Dictionary<'_>, after: Dictionary<'_>) -> Vec<Difference> {
     let mut found = Vec::new();
     let (old, new): (Vec<_>, Vec<_>) = (before.objects().collect(), after.objects().collect());
@@ -112,7 +112,7 @@ fn gone_or_new(index: u16, sub: Option<u8>, name: &str, field: Field, text: Stri
     }
 }
 
-/// Two sorted lists side by side, those of one key together.
+/// Goes through two sorted lists in parallel; entries with the same key come together.
 fn merge<'a, 'b, T, K: Ord>(
     left: &'a [T],
     right: &'b [T],

@@ -73,7 +73,7 @@ fn check(from: &str, to: &str, expected: &[&str]) {
 }
 
 #[test]
-fn a_text_that_says_the_same_is_no_difference() {
+fn another_spelling_is_no_difference() {
     check("0x00020196", "131478", &[]);
     check(
         "DataType=0x7\nAccessType=ro",
@@ -83,7 +83,7 @@ fn a_text_that_says_the_same_is_no_difference() {
 }
 
 #[test]
-fn what_a_master_relies_on_breaks() {
+fn a_change_that_masters_rely_on_breaks() {
     check(
         "0x00020196",
         "0x00010196",
@@ -149,7 +149,7 @@ fn names_and_plain_defaults_do_not() {
 }
 
 #[test]
-fn objects_and_members_come_and_go() {
+fn objects_and_members_are_added_and_removed() {
     check(
         "SupportedObjects=2\n1=0x1017\n2=0x1800",
         "SupportedObjects=1\n1=0x1800",

@@ -13,8 +13,8 @@ use crate::scan::placed::{Placed, Text};
 use crate::span::Span;
 
 impl Document {
-    /// The value of a key in the sections of a name, both in any case; of keys that are there
-    /// twice the first counts. With what is behind it on its line, if that is a comment.
+    /// The value of a key in the sections of a name, ignoring case; of duplicate keys the first
+    /// counts. It includes the rest of its line if that is a comment.
     pub fn get(&self, section: &str, key: &str) -> Option<&str> {
         let sections = lines::sections(&self.text);
         let (_, value) = pairs(&sections, section, key).next()?;
@@ -22,9 +22,9 @@ impl Document {
         self.text.get(start as usize..end as usize)
     }
 
-    /// Gives a key its value: in its place where there is one, else as the last key of its section.
+    /// Sets the value of a key: an existing key keeps its place, a new one becomes the last of its section.
     ///
-    /// Spaces around the `=` stay, and so does a comment behind a number.
+    /// Spaces around the `=` stay, and so does a comment after a number.
     ///
     /// # Errors
     ///
@@ -66,7 +66,7 @@ impl Document {
         Ok(self.lines_behind(last.start as usize, &[format!("{key}={value}")]))
     }
 
-    /// Removes a key, however often the sections of the name have it; `false` if none has.
+    /// Removes a key from all sections of the name; `false` if none has it.
     pub fn remove(&mut self, section: &str, key: &str) -> bool {
         let sections = lines::sections(&self.text);
         let edits: Vec<Edit> = pairs(&sections, section, key)
@@ -75,11 +75,11 @@ impl Document {
         !edits.is_empty() && self.apply(&edits).is_ok()
     }
 
-    /// Adds a section behind all others.
+    /// Adds a section at the end.
     ///
     /// # Errors
     ///
-    /// A section of the name exists, or a name, key or value does not fit into a line.
+    /// A section of the name exists already, or a name, key or value does not fit into a line.
     pub fn add_section(&mut self, name: &str, pairs: &[(&str, &str)]) -> Result<(), EditError> {
         one_line(name, &['[', ']'])?;
         let sections = lines::sections(&self.text);
@@ -105,14 +105,14 @@ impl Document {
         !edits.is_empty() && self.apply(&edits).is_ok()
     }
 
-    /// A section behind all others, with a blank line before it.
+    /// A section at the end, with a blank line before it.
     pub(super) fn section_at_end(&self, mut lines: Vec<String>) -> Edit {
         let end = self.text.len();
         let last = self.text.trim_end().len();
         if last > 0 && self.text[last..].matches(self.line_end(end)).count() < 2 {
             lines.insert(0, String::new());
         }
-        // In the last line, unless that has an end: then behind it.
+        // In the last line, or after it if it has a line end.
         let at = if self.text.ends_with(['\r', '\n']) {
             end
         } else {
@@ -130,7 +130,7 @@ impl Document {
         }
     }
 
-    /// The deletion of a section: its lines up to a blank one behind its last key, and blank lines then.
+    /// Deletes a section: its lines up to a blank line after its last key, and the blank lines that follow.
     pub(super) fn without_section(&self, section: &Placed<'_>) -> Edit {
         let last = section
             .pairs
@@ -158,7 +158,7 @@ impl Document {
     }
 }
 
-/// The sections of a name in any case.
+/// The sections of a name, ignoring case.
 pub(super) fn named<'s, 'a>(
     sections: &'s [Placed<'a>],
     name: &'s str,
@@ -178,7 +178,7 @@ fn pairs<'s, 'a>(
         .filter(move |(own, _)| own.eq_ignore_ascii_case(key))
 }
 
-/// Is what follows the value a comment? Behind a number or a word of CiA 306 it is.
+/// Returns whether the text after the value is a comment, as it is after a number or a word of CiA 306.
 fn holds_comment(key: &str, before: &str) -> bool {
     let not_text =
         |known: &Key| known.is_coded() || matches!(known, Key::LowLimit | Key::HighLimit);
@@ -205,7 +205,7 @@ mod tests {
     }
 
     #[test]
-    fn a_value_changes_in_its_place() {
+    fn a_changed_value_keeps_its_place() {
         let set = |section: &'static str, key: &'static str, value: &'static str| {
             move |document: &mut Document| document.set(section, key, value).unwrap()
         };
@@ -242,7 +242,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_removed_takes_its_lines_along() {
+    fn a_removed_part_takes_its_lines_along() {
         let key = |document: &mut Document| assert!(document.remove("A", "x"));
         check("[a]\nX=1\nY=2\nX=3\n", key, "[a]\nY=2\n");
         check("[b]\nY=2\n[a]\nX=1", key, "[b]\nY=2\n[a]\n");
@@ -258,7 +258,7 @@ mod tests {
     }
 
     #[test]
-    fn sections_come_last() {
+    fn a_new_section_comes_last() {
         let add = |document: &mut Document| document.add_section("N", &[("a", "1")]).unwrap();
 
         check("[a]\nX=1\n", add, "[a]\nX=1\n\n[N]\na=1\n");
@@ -270,7 +270,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_stand_in_a_line_is_refused() {
+    fn a_text_that_does_not_fit_into_a_line_is_refused() {
         let mut document = Document::new(&b"[a]\nX=1\n"[..]);
         let before = document.clone();
         for (key, value) in [

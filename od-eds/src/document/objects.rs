@@ -14,7 +14,7 @@ use crate::scan::placed::Placed;
 use crate::write::eds;
 
 impl Document {
-    /// Adds an object: its sections behind all others, and its entry in its list.
+    /// Adds an object: its sections at the end, and its entry in its list.
     ///
     /// # Errors
     ///
@@ -42,8 +42,8 @@ impl Document {
         self.apply(&edits)
     }
 
-    /// Removes an object: its sections, its members', and its entries in the lists, which
-    /// are numbered from there. `false` if the object does not exist.
+    /// Removes an object: its sections, those of its members, and its entries in the lists, which
+    /// are renumbered from there. `false` if the object does not exist.
     pub fn remove_object(&mut self, index: u16) -> bool {
         let sections = lines::sections(&self.text);
         let mut edits = Vec::new();
@@ -113,7 +113,7 @@ fn read(text: &str) -> Option<i128> {
     number::integer(text, &mut Vec::new()).map(|number| number.value)
 }
 
-/// SupportedObjects as it must be, written as it was.
+/// The correct SupportedObjects, in the same spelling as before.
 fn count_edit(section: &Placed<'_>, count: usize, edits: &mut Vec<Edit>) {
     let found = section
         .pairs
@@ -142,7 +142,7 @@ mod tests {
         [2000]\nParameterName=A\n[2000sub0]\nDataType=5\n\n;keep\n[2001]\nParameterName=B\n";
 
     #[test]
-    fn an_object_goes_with_its_members_and_its_entry() {
+    fn an_object_is_removed_with_its_members_and_its_entry() {
         let mut document = Document::new(TEXT);
         assert!(document.remove_object(0x2000));
         assert_eq!(
@@ -154,7 +154,7 @@ mod tests {
     }
 
     #[test]
-    fn an_object_comes_with_its_entry() {
+    fn an_object_is_added_with_its_entry() {
         let mut document = Document::new(TEXT);
         let entry = EntryDescription::new("C", DataType::Unsigned8);
         let object = ObjectDescription::var(entry);

@@ -1,14 +1,14 @@
-//! Places of a document's text as bytes of the file.
+//! Converts places of a document's text into bytes of the file.
 
 use alloc::vec::Vec;
 
 use super::Document;
 use crate::span::Span;
 
-/// Bytes of text between two places that are known.
+/// Bytes of text between two known places.
 const STEP: usize = 512;
 
-/// Place of a document's text in the file, including byte order mark and encoding.
+/// Place of a document's text in the file, with its byte order mark and encoding.
 #[derive(Clone, Debug)]
 pub struct Offsets<'a> {
     document: &'a Document,
@@ -17,7 +17,7 @@ pub struct Offsets<'a> {
 }
 
 impl Document {
-    /// Leads from the places of findings to bytes of the file as it is on the disk.
+    /// Converts the places of findings into bytes of the file on the disk.
     ///
     /// ```
     /// use od_eds::Document;
@@ -48,8 +48,8 @@ impl Document {
 }
 
 impl Offsets<'_> {
-    /// The byte of the file at a byte of the text. A place in the middle of a character is its
-    /// start, one behind the text the end of the file.
+    /// The byte of the file at a byte of the text. A place inside a character is its
+    /// start, a place after the text the end of the file.
     pub fn byte(&self, at: usize) -> usize {
         let document = self.document;
         let at = (0..=at.min(document.text.len()))
@@ -63,7 +63,7 @@ impl Offsets<'_> {
         }
     }
 
-    /// A span of the text as one of the file; line and column stay.
+    /// Converts a span of the text into one of the file; line and column stay.
     #[must_use]
     pub fn span(&self, span: Span) -> Span {
         let byte = |at: u32| self.byte(at as usize) as u32;
@@ -83,7 +83,7 @@ mod tests {
     use crate::scan::encoding::Encoding;
 
     #[test]
-    fn every_character_is_where_the_file_has_it() {
+    fn every_character_has_its_place_in_the_file() {
         let text: String = "[é]\r\nx=µ😀\n".repeat(300);
         for (encoding, mark) in [
             (Encoding::Utf8, &b""[..]),
@@ -110,7 +110,7 @@ mod tests {
             assert_eq!(offsets.byte(end), document.bytes().len());
             assert_eq!(offsets.byte(end + 9), document.bytes().len());
         }
-        // A UTF-8 file with one byte that is not.
+        // A UTF-8 file with one invalid byte.
         let document = Document::new(&b"\xEF\xBB\xBF\xC2\xB5\xB5a"[..]);
         let places: Vec<_> = (0..=5).map(|at| document.offsets().byte(at)).collect();
         assert_eq!(places, [3, 3, 5, 5, 6, 7]);

@@ -1,4 +1,4 @@
-//! Edits applied: strictly, in their order, with a finding for each that cannot be.
+//! Applies edits strictly and in their order, with a finding for each one that is impossible.
 
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
@@ -17,15 +17,15 @@ use crate::rules::edits::{
 use crate::span::{Span, Spanned};
 use od_model::DataType;
 
-/// Applies the edits in their order and returns what was wrong with them.
+/// Applies the edits in their order and returns the problems.
 ///
-/// An edit with a fault does what of it makes sense, so that one mistake is one
+/// A wrong edit is applied as far as it makes sense, so that one mistake is one
 /// finding.
 ///
-/// Sub-index 0 follows: an object that the patch adds without one gets one
-/// (UNSIGNED8, `const`), and where it held the highest sub-index before the patch
+/// Sub-index 0 is updated: an object that the patch adds without one gets one
+/// (UNSIGNED8, `const`), and if it held the highest sub-index before the patch
 /// added or removed members, it does so afterwards. An edit of sub-index 0 itself
-/// has the last word.
+/// has priority.
 #[must_use]
 pub fn apply(description: &mut Description, edits: &[Edit]) -> Vec<Finding> {
     let mut findings = Vec::new();
@@ -188,7 +188,7 @@ fn name_of(edit: &Edit, findings: &mut Vec<Finding>) -> Spanned<String> {
     Spanned::new(edit.target.to_string(), edit.target.span)
 }
 
-/// The entry that an `add` describes, without its name; `None` if it has no type.
+/// The entry of an `add`, without its name; `None` if it has no type.
 fn make(edit: &Edit, findings: &mut Vec<Finding>) -> Option<EntryDescription> {
     let Some(data_type) = edit.changes.iter().find_map(|change| match change.value {
         Change::Type(data_type) => Some(data_type),
@@ -204,7 +204,7 @@ fn make(edit: &Edit, findings: &mut Vec<Finding>) -> Option<EntryDescription> {
     Some(entry)
 }
 
-/// Writes the fields of an edit into an entry; the values after the type that they are of.
+/// Writes the fields of an edit into an entry, the type before the values.
 fn fill(entry: &mut EntryDescription, edit: &Edit, findings: &mut Vec<Finding>) {
     let gives = |key: Key| edit.changes.iter().any(|change| change.key() == key);
     for change in &edit.changes {
@@ -262,13 +262,13 @@ fn fill(entry: &mut EntryDescription, edit: &Edit, findings: &mut Vec<Finding>) 
             },
         }
     }
-    // A DCF's value would hide the default that the edit gives.
+    // The value of a DCF would hide the default of the edit.
     if gives(Key::DefaultValue) {
         entry.parameter = None;
     }
 }
 
-/// Writes what depends on whether values of the type have a fixed length.
+/// Writes the fields that depend on whether values of the type have a fixed length.
 fn fill_length(entry: &mut EntryDescription, edit: &Edit, findings: &mut Vec<Finding>) {
     let data_type = entry.data_type.map(|given| given.value);
     let fixed = data_type.map(|data_type| (data_type, data_type.bits().is_some()));
@@ -293,7 +293,7 @@ fn fill_length(entry: &mut EntryDescription, edit: &Edit, findings: &mut Vec<Fin
     }
 }
 
-/// Gives a value that stays the form that the entry's new type wants.
+/// Converts a value that stays into the new type of the entry.
 fn retype(
     target: &Spanned<Target>,
     at: Span,

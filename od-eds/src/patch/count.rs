@@ -1,4 +1,4 @@
-//! Sub-index 0 and SubNumber follow what a patch adds and removes.
+//! Updates sub-index 0 and SubNumber after a patch adds or removes members.
 
 use alloc::collections::BTreeMap;
 
@@ -7,8 +7,8 @@ use crate::description::{Description, EntryDescription, ObjectDescription, Value
 use crate::span::{Span, Spanned};
 use od_model::{Access, DataType};
 
-/// The objects that get or lose members and whose sub-index 0 follows, with the place
-/// of the last edit that makes it.
+/// The objects that get or lose members and whose sub-index 0 is updated, with the place
+/// of the last edit that causes it.
 pub(super) fn counted(description: &Description, edits: &[Edit]) -> BTreeMap<u16, Span> {
     let mut counted = BTreeMap::new();
     for edit in edits {
@@ -28,7 +28,7 @@ pub(super) fn counted(description: &Description, edits: &[Edit]) -> BTreeMap<u16
     counted
 }
 
-/// Does sub-index 0 hold the highest sub-index?
+/// Returns whether sub-index 0 holds the highest sub-index.
 fn is_counted(object: &ObjectDescription) -> bool {
     let highest = object.entries.keys().next_back().copied();
     let count = object
@@ -41,7 +41,7 @@ fn is_counted(object: &ObjectDescription) -> bool {
     }
 }
 
-/// Makes sub-index 0 hold the highest sub-index, and be there.
+/// Sets sub-index 0 to the highest sub-index; it is added if it is missing.
 pub(super) fn count_members(object: &mut ObjectDescription, span: Span) {
     if !object.code.has_members() {
         return;
@@ -56,7 +56,7 @@ pub(super) fn count_members(object: &mut ObjectDescription, span: Span) {
     entry.default = Some(Spanned::new(Value::Unsigned(u64::from(highest)), span));
 }
 
-/// Is SubNumber the number of sub-indices?
+/// Returns whether SubNumber is the number of sub-indices.
 pub(super) fn counts_sections(object: &ObjectDescription) -> bool {
     let number = object
         .sub_number

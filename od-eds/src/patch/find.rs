@@ -1,4 +1,4 @@
-//! Does the base have what an edit names? If not: what is near it?
+//! Checks that the base has the target of an edit, and otherwise looks for a similar one.
 
 use alloc::format;
 use alloc::string::String;
@@ -10,7 +10,7 @@ use crate::patch::target::Target;
 use crate::rules::edits::{e0701_object_missing, e0704_object_without_sub_objects};
 use crate::span::Spanned;
 
-/// The finding that `target` is not in `description`; `None` if it is.
+/// The finding that `target` is missing in `description`; `None` if it is there.
 pub fn missing(description: &Description, target: &Spanned<Target>) -> Option<Finding> {
     let Some(object) = description.objects.get(&target.index) else {
         return Some(match near_index(description, target.value) {
@@ -30,10 +30,10 @@ pub fn missing(description: &Description, target: &Spanned<Target>) -> Option<Fi
     missing.then(|| e0701_object_missing::sub_index(target, &subs(object)))
 }
 
-/// The target whose index differs in one digit or has one more, and the name of its object.
+/// The object whose index differs in one digit or has one digit more, with its name.
 fn near_index(description: &Description, target: Target) -> Option<(Target, &str)> {
     let digits = |index: u16| [index >> 12, index >> 8 & 15, index >> 4 & 15, index & 15];
-    // `0x200` for 2000h: without one of its digits, the other is the same number.
+    // `0x200` for 2000h: 2000h without one of its digits is the given number.
     let has_lost_one = |index: u16| {
         let all = digits(index);
         let without = |lost: usize| {
@@ -53,7 +53,7 @@ fn near_index(description: &Description, target: Target) -> Option<(Target, &str
                 .sub
                 .is_none_or(|sub| object.entries.contains_key(&sub) && object.code.has_members())
     });
-    // Of several that differ in one digit, the numerically nearest.
+    // Of several candidates, the numerically nearest.
     let (index, object) = near.min_by_key(|(index, _)| index.abs_diff(target.index))?;
     let meant = Target {
         index: *index,
@@ -62,7 +62,7 @@ fn near_index(description: &Description, target: Target) -> Option<(Target, &str
     Some((meant, &object.name))
 }
 
-/// "sub0–sub4, sub6": the sub-indices of an object, in runs.
+/// "sub0–sub4, sub6": the sub-indices of an object as ranges.
 fn subs(object: &ObjectDescription) -> String {
     let mut runs: Vec<(u8, u8)> = Vec::new();
     for &sub in object.entries.keys() {

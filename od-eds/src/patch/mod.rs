@@ -1,9 +1,9 @@
-//! Edits to a description: how a spec table is built and how a variant differs.
+//! Edits of a description: they build a spec table and define a variant.
 //!
-//! A patch is strict. Editing or removing what the base lacks is an error, and so
-//! is adding what is there already; a patch that says nothing false is the only
-//! one that applies without a word. Every finding is a [`Finding`](crate::Finding) whose span
-//! is the one that the edit carries, so the caller can point at its own token:
+//! A patch is strict. It is an error to edit or remove an object that the base lacks, or
+//! to add one that exists already; only a patch without such errors has no
+//! findings. Every finding is a [`Finding`](crate::Finding) with the span
+//! of its edit, so the caller can point at its own token:
 //! see [`token`](crate::token).
 //!
 //! ```
@@ -44,15 +44,15 @@ pub use target::Target;
 /// Action of an edit.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Action {
-    /// Makes an object or a member that is not there yet.
+    /// Adds an object or a member.
     Add,
-    /// Changes some fields of one that is.
+    /// Changes fields of an existing one.
     Modify,
-    /// Takes it away; an object goes with its members.
+    /// Removes it; an object is removed with its members.
     Remove,
 }
 
-/// One field of an edit, and what it becomes.
+/// One field of an edit, with its new value.
 #[derive(Clone, PartialEq, Debug)]
 #[allow(missing_docs)] // the variants are the fields' names
 pub enum Change {
@@ -64,16 +64,16 @@ pub enum Change {
     Save(Group),
     /// In bytes.
     Capacity(u16),
-    /// `None` takes the default away.
+    /// `None` removes the default.
     Default(Option<Raw>),
-    /// `None` takes the limit away.
+    /// `None` removes the limit.
     Low(Option<Raw>),
-    /// `None` takes the limit away.
+    /// `None` removes the limit.
     High(Option<Raw>),
 }
 
 impl Change {
-    /// The key that it is in an EDS.
+    /// Its key in an EDS.
     pub const fn key(&self) -> Key {
         match self {
             Self::Code(_) => Key::ObjectType,
@@ -97,7 +97,7 @@ pub struct Edit {
     pub action: Action,
     /// Object or sub-object.
     pub target: Spanned<Target>,
-    /// The fields given, in the order they were given; the span is the value's.
+    /// The given fields, in their order; each span is that of the value.
     pub changes: Vec<Spanned<Change>>,
 }
 
@@ -113,7 +113,7 @@ macro_rules! setters {
 }
 
 impl Edit {
-    /// An edit without fields yet.
+    /// An edit without fields.
     pub fn new(action: Action, target: Target) -> Self {
         Self {
             action,
@@ -122,12 +122,12 @@ impl Edit {
         }
     }
 
-    /// `add`, without fields yet.
+    /// `add`, without fields.
     pub fn add(target: Target) -> Self {
         Self::new(Action::Add, target)
     }
 
-    /// `modify`, without fields yet.
+    /// `modify`, without fields.
     pub fn modify(target: Target) -> Self {
         Self::new(Action::Modify, target)
     }
@@ -138,25 +138,25 @@ impl Edit {
     }
 
     setters! {
-        /// Says the object code; VAR unless said.
+        /// Sets the object code; the default is VAR.
         code(ObjectCode) => Change::Code;
-        /// Says the name.
+        /// Sets the name.
         name(&str) => Change::Name;
-        /// Says the data type.
+        /// Sets the data type.
         data_type(DataType) => Change::Type;
-        /// Says the access; `ro` unless said.
+        /// Sets the access; the default is `ro`.
         access(Access) => Change::Access;
-        /// Says whether a PDO can carry it; no unless said.
+        /// Sets whether a PDO can map it; the default is no.
         mappable(bool) => Change::Mappable;
-        /// Says which sub-index of 1010h saves it.
+        /// Sets the sub-index of 1010h that saves it.
         save(Group) => Change::Save;
-        /// Says how many bytes of a string or DOMAIN the store holds.
+        /// Sets the capacity of a string or DOMAIN in the store, in bytes.
         capacity(u16) => Change::Capacity;
-        /// Says the default.
+        /// Sets the default.
         default(Raw) => |raw: Raw| Change::Default(Some(raw));
-        /// Says the smallest value.
+        /// Sets the smallest value.
         low(Raw) => |raw: Raw| Change::Low(Some(raw));
-        /// Says the largest value.
+        /// Sets the largest value.
         high(Raw) => |raw: Raw| Change::High(Some(raw));
     }
 }

@@ -1,4 +1,4 @@
-//! A value as it is written, before it is known of which type it is.
+//! A value as written, before its type is known.
 
 use alloc::string::String;
 use alloc::vec::Vec;
@@ -7,7 +7,7 @@ use core::fmt;
 use crate::description::Value;
 use od_model::{DataType, Kind};
 
-/// A default or a limit as a spec table writes it.
+/// A default or a limit as written in a spec table.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Raw {
     /// `42`, `-1`, `0x1F`.
@@ -25,7 +25,7 @@ pub enum Raw {
 }
 
 impl Raw {
-    /// The value as one of `data_type`; `None` if it is not valid for it.
+    /// The value in the type `data_type`; `None` if it is not valid for it.
     pub(super) fn value_for(&self, data_type: DataType) -> Option<Value> {
         match (data_type.kind(), self) {
             (Kind::Boolean, Raw::Bool(b)) => Some(Value::Unsigned(u64::from(*b))),
@@ -43,7 +43,7 @@ impl Raw {
     }
 }
 
-/// As it is written in a macro call.
+/// The spelling in a macro call.
 impl fmt::Display for Raw {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -73,7 +73,7 @@ impl From<&Value> for Raw {
 
 fn integer(i: i128, data_type: DataType) -> Option<Value> {
     let (low, high) = data_type.integer_range()?;
-    // In range of the type: at most 64 bits with its sign, so neither cast cuts.
+    // It is in the range of the type, at most 64 bits with its sign, so neither cast changes it.
     (low..=high).contains(&i).then(|| match data_type.kind() {
         Kind::Signed => Value::Signed(i as i64),
         _ => Value::Unsigned(i as u64),

@@ -1,4 +1,4 @@
-//! The object or sub-object that an edit is about.
+//! The object or sub-object of an edit.
 
 use alloc::string::ToString;
 use core::fmt;
@@ -13,7 +13,7 @@ use od_model::Address;
 pub struct Target {
     /// Index.
     pub index: u16,
-    /// The member; `None` for the object, which is how the value of a VAR is named too.
+    /// The member; `None` for the object, and for the value of a VAR.
     pub sub: Option<u8>,
 }
 
@@ -31,7 +31,7 @@ impl Target {
         }
     }
 
-    /// The value it names, with sub-index 0 for an object.
+    /// The address of its value, with sub-index 0 for an object.
     pub const fn address(self) -> Address {
         Address::new(
             self.index,
@@ -42,7 +42,7 @@ impl Target {
         )
     }
 
-    /// In a sentence: `1018h`, or `1018h:02`.
+    /// In a sentence: `1018h` or `1018h:02`.
     pub(crate) fn shown(self) -> Fact {
         match self.sub {
             Some(_) => Fact::Object(self.address()),
@@ -57,13 +57,13 @@ impl Spanned<Target> {
         rule.at(at).about(self.address())
     }
 
-    /// A finding about the target, which is its fact `target`.
+    /// A finding about the target, with the target as its fact `target`.
     pub(crate) fn named(&self, rule: &'static Rule, at: Span) -> Finding {
         self.finding(rule, at).fact("target", self.to_string())
     }
 }
 
-/// As it is written in a macro call, `0x1018sub2`: the EDS section's own spelling behind `0x`.
+/// The spelling in a macro call, `0x1018sub2`: that of the EDS section after `0x`.
 impl fmt::Display for Target {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.sub {

@@ -42,7 +42,7 @@ fn check(edit: Edit, expected: &[(&str, &str, &str)]) {
 }
 
 #[test]
-fn a_record_gets_the_sub_index_0_that_it_lacks() {
+fn a_record_without_sub_index_0_gets_one() {
     let base = base();
     let count = base.entry(Address::new(0x1018, 0)).unwrap();
     assert_eq!(count.default, Some(Spanned::from(Value::Unsigned(2))));
@@ -50,7 +50,7 @@ fn a_record_gets_the_sub_index_0_that_it_lacks() {
 }
 
 #[test]
-fn sub_index_0_follows_unless_it_is_told() {
+fn sub_index_0_is_updated_unless_it_is_given() {
     let count = |edits: &[Edit]| {
         let mut edited = base();
         edited.objects.get_mut(&0x1018).unwrap().sub_number = Some(Spanned::from(3));
@@ -72,7 +72,7 @@ fn sub_index_0_follows_unless_it_is_told() {
 }
 
 #[test]
-fn edits_change_what_they_name_and_nothing_else() {
+fn edits_change_only_their_target() {
     let mut edited = base();
     let edits = [
         Edit::modify(Target::member(0x1018, 2))
@@ -93,7 +93,7 @@ fn edits_change_what_they_name_and_nothing_else() {
 }
 
 #[test]
-fn what_is_not_there_is_not_edited() {
+fn a_missing_object_is_not_edited() {
     check(
         Edit::modify(Target::member(0x1019, 2)),
         &[(
@@ -129,7 +129,7 @@ fn what_is_not_there_is_not_edited() {
 }
 
 #[test]
-fn what_is_there_is_not_added() {
+fn an_existing_object_is_not_added() {
     check(
         Edit::add(Target::member(0x1018, 1)),
         &[(
@@ -141,7 +141,7 @@ fn what_is_there_is_not_added() {
 }
 
 #[test]
-fn a_value_is_one_of_its_type() {
+fn a_value_has_the_type_of_its_entry() {
     check(
         Edit::modify(Target::object(0x1000)).default(Raw::Integer(-1)),
         &[(
@@ -169,7 +169,7 @@ fn a_value_is_one_of_its_type() {
 }
 
 #[test]
-fn a_type_that_changes_takes_its_values_along() {
+fn a_changed_type_converts_its_values() {
     let mut edited = base();
     let edit = Edit::modify(Target::object(0x1000)).data_type(DataType::Integer16);
     assert_eq!(apply(&mut edited, &[edit]), vec![]);
@@ -178,7 +178,7 @@ fn a_type_that_changes_takes_its_values_along() {
 }
 
 #[test]
-fn fields_stand_where_they_belong() {
+fn fields_must_fit_their_target() {
     check(
         Edit::modify(Target::object(0x1018)).default(Raw::Integer(1)),
         &[(
@@ -198,7 +198,7 @@ fn fields_stand_where_they_belong() {
 }
 
 #[test]
-fn an_add_says_name_and_type() {
+fn an_add_needs_name_and_type() {
     check(
         Edit::add(Target::object(0x2110)),
         &[
@@ -225,7 +225,7 @@ fn an_add_says_name_and_type() {
 }
 
 #[test]
-fn a_finding_leads_back_to_the_token() {
+fn a_finding_points_at_its_token() {
     let mut edit = Edit::remove(Target::object(0x2110));
     edit.target.span = token(7);
     let findings = apply(&mut base(), &[edit]);

@@ -1,8 +1,8 @@
-//! The rules: every code that odkit reports, once, in a file of its own.
+//! The rules: every code of odkit is defined once, in a file of its own.
 
 use crate::finding::Rule;
 
-/// The rule with this code, in any case.
+/// The rule with this code, ignoring case.
 pub fn rule(code: &str) -> Option<&'static Rule> {
     all().find(|r| r.code.eq_ignore_ascii_case(code))
 }
@@ -15,7 +15,7 @@ pub fn all() -> impl Iterator<Item = &'static Rule> {
     rules
 }
 
-/// The rules of a folder, each under the name of its code, and all of them. Their modules are declared below the
+/// The rules of a folder, each under the name of its code, and a list of them. Their modules are declared below the
 /// call, where cargo-mutants finds them; the compiler reports a rule that is declared and not listed.
 macro_rules! catalogue {
     ($($file:ident $code:ident $(($kind:tt))?)*) => {
@@ -23,13 +23,13 @@ macro_rules! catalogue {
             pub(crate) use $file::RULE as $code;
         )*
         pub(crate) static ALL: &[&crate::finding::Rule] = &[$(&$code),*];
-        /// The pair of files of each rule, in the same order.
+        /// The pairs of example files of all rules, in the same order.
         #[cfg(feature = "explain")]
         pub(crate) static PAIRS: &[super::Pair] = &[$(pair!($code $($kind)?)),*];
     };
 }
 
-/// The pair of files that explains a rule: one that breaks it, and the same one fixed.
+/// The pair of example files of a rule: one that breaks it, and the same file fixed.
 #[cfg(feature = "explain")]
 pub struct Pair {
     /// The rule's code.
