@@ -353,8 +353,8 @@ impl Source {
             Some(device) if !device.dictionary().objects().is_empty() => {
                 let count = report::plural(findings.len(), "error");
                 output::error(&format!(
-                    "{path} has {count}; the simulation leaves out the invalid objects \
-                     (`odkit check` shows all findings)"
+                    "{path} has {count}; odkit leaves out the invalid objects (`odkit check` shows all \
+                     findings)"
                 ));
                 Ok(device)
             }

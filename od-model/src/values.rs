@@ -33,6 +33,28 @@ pub fn show(data_type: DataType, bytes: &[u8]) -> String {
     }
 }
 
+/// A value of which a PDO carries `bits`, which may be fewer than its type has: a number with a sign keeps it.
+pub fn show_bits(data_type: DataType, bytes: &[u8], bits: u8) -> String {
+    let is_number = matches!(data_type.kind(), Kind::Unsigned | Kind::Signed);
+    let Some(size) = data_type
+        .size()
+        .filter(|size| is_number && (1..8 * *size).contains(&usize::from(bits)))
+    else {
+        return show(data_type, bytes);
+    };
+    let mut wide = [0; 8];
+    let len = bytes.len().min(8);
+    wide[..len].copy_from_slice(&bytes[..len]);
+    let unused = 64 - u32::from(bits);
+    let raw = u64::from_le_bytes(wide) << unused;
+    let value = if data_type.kind() == Kind::Signed {
+        (raw as i64 >> unused) as u64
+    } else {
+        raw >> unused
+    };
+    show(data_type, &value.to_le_bytes()[..size.min(8)])
+}
+
 /// Two hex digits a byte, blanks between: `43 02 60 00`.
 pub fn hex(bytes: &[u8]) -> String {
     bytes
@@ -219,6 +241,13 @@ mod tests {
         );
         assert_eq!(show(DataType::Integer16, &[0xFB, 0xFF]), "-5");
         assert_eq!(show(DataType::Unsigned32, &[1, 2]), "01 02");
+        assert_eq!(show_bits(DataType::Integer16, &[0xD1, 0x1B], 13), "-1071");
+        assert_eq!(show_bits(DataType::Integer16, &[0xD1, 0x0B], 13), "3025");
+        assert_eq!(
+            show_bits(DataType::Unsigned16, &[0xD1, 0x1B], 13),
+            "7121 (1BD1h)"
+        );
+        assert_eq!(show_bits(DataType::Unsigned8, &[5], 8), "5");
         assert!(parse(DataType::Unsigned8, "256").is_err());
         assert!(parse(DataType::Unsigned8, "").is_err());
     }

@@ -163,7 +163,7 @@ fn mapped(
         let (name, value) = match entry {
             Some((dictionary, entry)) => (
                 dictionary.text(entry.name).to_owned(),
-                values::show(entry.data_type, bytes),
+                values::show_bits(entry.data_type, bytes, *bits as u8),
             ),
             None => (address.to_string(), values::hex(bytes)),
         };

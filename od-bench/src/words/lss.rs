@@ -5,7 +5,7 @@ use std::prelude::v1::*;
 
 use od_runtime::Frame;
 
-use super::said::{Service, Words};
+use super::said::{Service, Words, bytes};
 
 fn name(command: u8) -> Option<&'static str> {
     Some(match command {
@@ -65,12 +65,19 @@ pub(super) fn answer(frame: &Frame) -> Words {
 }
 
 fn words(frame: &Frame, rest: impl Fn(u8, &[u8]) -> String) -> Words {
+    let is_short = frame.dlc() < 8;
     let text = match frame.data() {
+        [command, ..] if is_short => {
+            let name = name(*command).map_or(format!("command {command:02X}h"), str::to_owned);
+            let count = bytes(frame.dlc().into());
+            format!("{name}: {count}, but an LSS message has 8 (CiA 305)")
+        }
         [command, data @ ..] => match name(*command) {
             Some(name) => format!("{name}{}", rest(*command, data)),
             None => format!("unknown command {command:02X}h"),
         },
         [] => String::from("no command"),
     };
-    Words::new(Service::Lss, None, text)
+    let words = Words::new(Service::Lss, None, text);
+    if is_short { words.error() } else { words }
 }

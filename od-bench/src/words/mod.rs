@@ -22,6 +22,7 @@ use od_runtime::Frame;
 
 pub(crate) use control::command_text as command;
 pub use emcy::code_text;
+pub(crate) use emcy::text_of as emcy_text;
 pub use fields::{Field, fields};
 pub use pdo::layout;
 pub(crate) use said::plural;
@@ -58,7 +59,10 @@ impl Decoder {
             0x000 => control::nmt(frame),
             0x080 => control::sync(frame),
             0x100 => Words::new(Service::Time, None, "time stamp"),
-            0x081..=0x0FF => emcy::words(node, frame),
+            0x081..=0x0FF => {
+                let device = devices.iter().find(|device| device.node_id().raw() == node);
+                emcy::words(node, device, frame)
+            }
             0x181..=0x57F => pdo::by_identifier(id, frame),
             0x581..=0x5FF | 0x601..=0x67F => {
                 let device = devices.iter().find(|device| device.node_id().raw() == node);

@@ -93,7 +93,7 @@ fn words(
         let (name, shown) = match field.entry {
             Some(entry) => (
                 values::name(dictionary, &entry),
-                values::show(entry.data_type, bytes),
+                values::show_bits(entry.data_type, bytes, field.bits),
             ),
             None => (field.address.to_string(), values::hex(bytes)),
         };

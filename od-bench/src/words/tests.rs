@@ -72,6 +72,23 @@ fn frames_are_described_in_words() {
                 "081#00FF810000100000",
                 "EMCY node 1: FF00h battery low, error register 81h, 00 00 10 00 00",
             ),
+            // No device with this node ID is known, so only the standard speaks.
+            (
+                "082#00FF810000100000",
+                "EMCY node 2: FF00h device-specific, error register 81h, 00 00 10 00 00",
+            ),
+            (
+                "082#2073010000000000",
+                "EMCY node 2: 7320h additional modules, error register 01h, 00 00 00 00 00",
+            ),
+            (
+                "082#1023010000000000",
+                "EMCY node 2: 2310h current, device output side, error register 01h, 00 00 00 00 00",
+            ),
+            (
+                "7E5#0401",
+                "LSS: switch state global: 2 bytes, but an LSS message has 8 (CiA 305)",
+            ),
             ("7E5#1105000000000000", "LSS: configure node ID 5"),
             ("7E4#5AEC000000000000", "LSS: inquire vendor-ID: ECh"),
             ("385#0102", "PDO node 5: TPDO3 2 bytes"),
@@ -145,6 +162,25 @@ fn transfers_are_followed_to_their_end() {
                 "SDO node 7: write of 2002h Domain confirmed",
             ),
             ("207#0500", "PDO node 7: RPDO1 Integer16 = 5"),
+        ],
+    );
+}
+
+#[test]
+fn an_emergency_is_explained_by_the_profile_of_its_device() {
+    let drive = STRINGS.replacen("DefaultValue=0x0\n", "DefaultValue=0x00020192\n", 1);
+    let device = VirtualDevice::from_eds(&drive, EdsOptions::default());
+    explained(
+        device.expect("a device"),
+        &[
+            (
+                "087#1023010000000000",
+                "EMCY node 7: 2310h continuous over-current, device output side, error register 01h, 00 00 00 00 00",
+            ),
+            (
+                "087#00FF010000000000",
+                "EMCY node 7: FF00h device-specific, error register 01h, 00 00 00 00 00",
+            ),
         ],
     );
 }

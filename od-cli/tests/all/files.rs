@@ -183,8 +183,7 @@ fn a_file_with_errors_runs_with_its_valid_rest() {
     );
     assert_eq!(run.code, 0, "{}", run.err);
     assert!(
-        run.err
-            .contains("the simulation leaves out the invalid objects"),
+        run.err.contains("odkit leaves out the invalid objects"),
         "{}",
         run.err
     );

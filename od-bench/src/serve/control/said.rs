@@ -8,7 +8,7 @@ use crate::bench::Bench;
 use crate::device::VirtualDevice;
 use crate::grammar::deed::{Deed, Shaft, Wire};
 use crate::grammar::shown::duration;
-use crate::words::code_text;
+use crate::words::emcy_text;
 
 /// The effect of an action, on the bench as it is now.
 pub(super) fn said(deed: &Deed, bench: &Bench) -> String {
@@ -50,7 +50,7 @@ pub(super) fn said(deed: &Deed, bench: &Bench) -> String {
         Deed::Fault(name, true) => format!("fault {name} on"),
         Deed::Fault(name, false) => format!("fault {name} off"),
         Deed::RaiseError { code, register, .. } => {
-            let text = code_text(*code);
+            let text = emcy_text(*code, Some(device));
             let silent = match device.state() {
                 State::Stopped => "; a node in Stopped sends no EMCY message",
                 _ => "",
