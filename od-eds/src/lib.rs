@@ -47,6 +47,7 @@ pub mod row;
 mod rules;
 mod scan;
 mod span;
+mod standards;
 mod subject;
 #[cfg(feature = "tools")]
 pub mod tools;

@@ -12,7 +12,6 @@ use crate::read::fields::Fields;
 use crate::read::values;
 use crate::read::words;
 use crate::rules;
-use crate::rules::standard::table;
 use crate::rules::structure::{w0315_name_missing, w0342_obj_flags_reserved};
 use crate::rules::text::w0109_comment_after_value;
 use crate::rules::values::{
@@ -25,6 +24,7 @@ use crate::scan::number::Note;
 use crate::scan::placed;
 use crate::scan::placed::Text;
 use crate::span::{Span, Spanned};
+use crate::standards::cia301;
 use od_model::{Access, Address, DataType, Kind, ObjectCode};
 
 /// Destination of the findings of one section, and its object.
@@ -120,7 +120,7 @@ impl Reader<'_> {
             // An object of code DOMAIN may leave its type out.
             Assumed::Domain => Some(DataType::Domain),
             Assumed::Standard { sub, is_whole } => {
-                let found = table::data_type(self.address.index, sub, is_whole)?;
+                let found = cia301::data_type(self.address.index, sub, is_whole)?;
                 self.report(w0426_standard_type_missing::finding(header, found));
                 Some(found)
             }

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use od_eds::Description;
-use od_eds::outline::Place;
+use od_eds::outline::{Place, profile_objects};
 use od_eds::patch::Target;
 use od_eds::row::{CODES, GROUPS, TYPES};
 use od_model::Access;
@@ -134,7 +134,7 @@ pub(crate) fn complete(file: &File, offset: usize, find: Find<'_>) -> Option<Com
 fn objects(description: &Description, missing: bool) -> Vec<(String, String)> {
     let profile = standard::profile(description);
     if missing {
-        let known = profile.into_iter().flat_map(standard::of_profile);
+        let known = profile.into_iter().flat_map(profile_objects);
         let known = known.filter(|(index, _)| !description.objects.contains_key(index));
         return known
             .map(|(index, name)| (Target::object(index).to_string(), name.to_owned()))

@@ -1,7 +1,6 @@
 //! 09: device profiles. One file per rule.
 
 pub(crate) mod shared;
-pub(crate) mod table;
 
 catalogue! {
     w0901_io_channel_objects_missing W0901

@@ -9,8 +9,8 @@ use crate::description::Description;
 use crate::fact::{Fact, Key};
 use crate::finding::{Finding, Rule};
 use crate::fix::Fix;
-use crate::rules::profile::table::{self, of};
 use crate::span::Spanned;
+use crate::standards::{Checked, checked};
 use crate::subject::{Object, start_number};
 
 /// The device type: the number of the profile, and 16 bits that the profile defines.
@@ -82,7 +82,7 @@ pub(crate) fn is_profile_array(object: &Object<'_>) -> bool {
 
 /// The type that the profile of the device gives a value.
 pub(crate) fn profile_type(description: &Description, address: Address) -> Option<DataType> {
-    let standard = of(device_type(description)?.profile, address.index)?;
+    let standard = checked(device_type(description)?.profile, address.index)?;
     if standard.code.has_members() && address.sub == 0 {
         Some(DataType::Unsigned8)
     } else {
@@ -91,12 +91,12 @@ pub(crate) fn profile_type(description: &Description, address: Address) -> Optio
 }
 
 /// The profile of the device, and what it says of this object.
-fn in_profile(object: &Object<'_>) -> Option<(u16, &'static table::Object)> {
+fn in_profile(object: &Object<'_>) -> Option<(u16, &'static Checked)> {
     if !matches!(object.index, 0x6000..=0x9FFF) {
         return None;
     }
     let profile = device_type(object.description)?.profile;
-    Some((profile, of(profile, object.index)?))
+    Some((profile, checked(profile, object.index)?))
 }
 
 /// Reports code and types of an object of one of these profiles.

@@ -1,7 +1,6 @@
 //! 06: mandatory and standard objects, identity, `[DeviceInfo]`. One file per rule.
 
 mod shared;
-pub(crate) mod table;
 
 catalogue! {
     e0601_device_type_missing E0601

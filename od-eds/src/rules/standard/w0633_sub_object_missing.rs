@@ -2,7 +2,7 @@ use alloc::vec::Vec;
 
 use crate::fact::Fact;
 use crate::finding::{Check, Finding, Rule, Severity::Error};
-use crate::rules::standard::table::{Members, of};
+use crate::standards::cia301::{Members, of};
 use crate::subject::Object;
 use od_model::Address;
 

@@ -2,7 +2,7 @@ use alloc::vec::Vec;
 
 use crate::fact::Fact;
 use crate::finding::{Check, Finding, Rule, Severity::Warning};
-use crate::rules::standard::table::of;
+use crate::standards::cia301::of;
 use crate::subject::Object;
 
 pub(crate) static RULE: Rule = Rule {

@@ -2,7 +2,7 @@ use alloc::vec::Vec;
 
 use crate::finding::{Check, Finding, Fixability, Rule, Severity::Warning};
 use crate::fix::Fix;
-use crate::rules::standard::table::of;
+use crate::standards::cia301::of;
 use crate::subject::Entry;
 
 pub(crate) static RULE: Rule = Rule {

@@ -1,7 +1,7 @@
 use alloc::vec::Vec;
 
 use crate::finding::{Check, Finding, Rule, Severity::Warning};
-use crate::rules::standard::table::of;
+use crate::standards::cia301::of;
 use crate::subject::{Entry, start_value};
 use od_model::Address;
 

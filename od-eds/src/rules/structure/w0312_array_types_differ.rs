@@ -3,7 +3,7 @@ use alloc::vec::Vec;
 use crate::finding::{Check, Finding, Fixability, Form, Rule, Severity::Warning};
 use crate::fix::Fix;
 use crate::rules::profile::shared::is_profile_array;
-use crate::rules::standard::table::is_standard_array;
+use crate::standards::cia301::is_standard_array;
 use crate::subject::Object;
 use od_model::ObjectCode;
 

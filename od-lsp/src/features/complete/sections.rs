@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use od_eds::outline::{List, Place, SECTIONS, data_type, specified};
+use od_eds::outline::{List, Place, SECTIONS, data_type, profile_objects, specified};
 use od_eds::{Description, EntryDescription, ObjectDescription, Spanned};
 use od_model::{Access, DataType, ObjectCode};
 
@@ -41,7 +41,7 @@ pub(super) fn of(seen: &Seen, current: Option<&Section>, is_empty: bool) -> Vec<
         // The first one of a range.
         name(*index).is_some() && name(*index) != name(index - 1)
     });
-    let of_profile = profile.into_iter().flat_map(standard::of_profile);
+    let of_profile = profile.into_iter().flat_map(profile_objects);
     let others = of_standard.chain(of_profile.map(|(index, _)| index));
     let others = others.filter(|index| !has(*index) && !MANDATORY.contains(index));
     choices.extend(others.map(|index| object(index, profile, is_empty)));

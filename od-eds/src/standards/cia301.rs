@@ -1,18 +1,18 @@
-//! Objects 1000h to 1FFFh of the standards, as a table.
+//! Objects 1000h to 1FFFh: CiA 301, and CiA 302.
 
 use od_model::{Access, DataType, ObjectCode};
 
 /// One object, or a range of objects that are alike.
-pub(super) struct Standard {
+pub(crate) struct Standard {
     first: u16,
     last: u16,
     /// The standard's name of it.
-    pub(super) name: &'static str,
-    pub(super) members: Members,
+    pub(crate) name: &'static str,
+    pub(crate) members: Members,
 }
 
 /// Its object code, and the values in it.
-pub(super) enum Members {
+pub(crate) enum Members {
     /// A VAR.
     Var(Value),
     /// An ARRAY; this is each of its sub-objects from sub-index 1 on.
@@ -22,13 +22,13 @@ pub(super) enum Members {
 }
 
 /// Type and access of a value.
-pub(super) struct Value {
-    pub(super) data_type: DataType,
-    pub(super) access: Access,
+pub(crate) struct Value {
+    pub(crate) data_type: DataType,
+    pub(crate) access: Access,
 }
 
 impl Standard {
-    pub(super) const fn code(&self) -> ObjectCode {
+    pub(crate) const fn code(&self) -> ObjectCode {
         match self.members {
             Members::Var(_) => ObjectCode::Var,
             Members::Array(_) => ObjectCode::Array,
@@ -37,7 +37,7 @@ impl Standard {
     }
 
     /// The value that the standard specifies for a sub-index.
-    pub(super) fn value(&self, sub: u8) -> Option<&Value> {
+    pub(crate) fn value(&self, sub: u8) -> Option<&Value> {
         match &self.members {
             Members::Var(value) if sub == 0 => Some(value),
             Members::Array(value) if (1..=254).contains(&sub) => Some(value),
@@ -50,7 +50,7 @@ impl Standard {
     }
 
     /// Does an object of this code have the same values on the bus?
-    pub(super) fn is_like(&self, own: ObjectCode) -> bool {
+    pub(crate) fn is_like(&self, own: ObjectCode) -> bool {
         let right = self.code();
         // An ARRAY and a RECORD of one type are the same on the bus; a VAR of type DOMAIN is
         // what others call a DOMAIN.
@@ -60,7 +60,7 @@ impl Standard {
     }
 
     /// The standard that defines it.
-    pub(super) const fn source(&self) -> &'static str {
+    pub(crate) const fn source(&self) -> &'static str {
         match self.first {
             0x1F00..=0x1F9F => "CiA 302",
             _ => "CiA 301",
@@ -135,7 +135,7 @@ pub(crate) fn is_standard_array(index: u16) -> bool {
 }
 
 /// The entry of an index.
-pub(super) fn of(index: u16) -> Option<&'static Standard> {
+pub(crate) fn of(index: u16) -> Option<&'static Standard> {
     let at = TABLE.partition_point(|entry| entry.last < index);
     TABLE.get(at).filter(|entry| entry.first <= index)
 }

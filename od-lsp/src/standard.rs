@@ -1,12 +1,7 @@
 //! Names of objects in the standards, by index.
 
-mod drive;
-mod encoder;
-mod io;
-mod measuring;
-
 use od_eds::Description;
-use od_eds::outline::specified;
+use od_eds::outline::{profile_name, specified};
 use od_model::Address;
 
 /// Number of the device profile in 1000h; `None` without a profile.
@@ -24,11 +19,11 @@ pub(crate) fn name(index: u16, profile: Option<u16>) -> Option<(&'static str, &'
     if let Some(known) = specified(index) {
         return Some((known.name, known.source));
     }
-    let (table, source, devices): (&[Row], _, _) = match profile? {
-        401 => (io::TABLE, "CiA 401", 8),
-        402 => (drive::TABLE, "CiA 402", 8),
-        404 => (measuring::TABLE, "CiA 404", 1),
-        406 => (encoder::TABLE, "CiA 406", 1),
+    let (profile, source, devices) = match profile? {
+        401 => (401, "CiA 401", 8),
+        402 => (402, "CiA 402", 8),
+        404 => (404, "CiA 404", 1),
+        406 => (406, "CiA 406", 1),
         _ => return None,
     };
     // The objects of the second device of a module are 800h higher, and so on.
@@ -37,22 +32,7 @@ pub(crate) fn name(index: u16, profile: Option<u16>) -> Option<(&'static str, &'
         true if devices > 1 => 0x6000 + own % 0x800,
         _ => index,
     };
-    let row = table
-        .iter()
-        .find(|(first, last, _)| (*first..=*last).contains(&index));
-    row.map(|(_, _, name)| (*name, source))
-}
-
-/// The objects of a profile: index and name.
-pub(crate) fn of_profile(profile: u16) -> impl Iterator<Item = (u16, &'static str)> {
-    let table: &[Row] = match profile {
-        401 => io::TABLE,
-        402 => drive::TABLE,
-        404 => measuring::TABLE,
-        406 => encoder::TABLE,
-        _ => &[],
-    };
-    table.iter().map(|(first, _, name)| (*first, *name))
+    profile_name(profile, index).map(|name| (name, source))
 }
 
 /// Meaning of an index by its range (CiA 301, table 11).
@@ -68,21 +48,9 @@ pub(crate) const fn area(index: u16) -> &'static str {
     }
 }
 
-/// An index, or the first and last one of a range, and the name of the objects there.
-type Row = (u16, u16, &'static str);
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn tables_are_sorted() {
-        for table in [io::TABLE, drive::TABLE, measuring::TABLE, encoder::TABLE] {
-            assert!(table.iter().all(|(first, last, _)| first <= last));
-            let sorted = table.windows(2).all(|pair| pair[0].1 < pair[1].0);
-            assert!(sorted);
-        }
-    }
 
     #[test]
     fn an_index_has_the_name_of_its_profile() {
