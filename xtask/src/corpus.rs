@@ -1,6 +1,6 @@
 //! `cargo xtask corpus DIR`: reads a folder of device files and reports the findings.
 //!
-//! An example of the tests does the work, because xtask has no dependencies. With `--nodes` another example
+//! An example of the tests does the work, because it needs the crates of odkit, and xtask none of them. With `--nodes` another example
 //! simulates each file, learns it and tests it.
 
 use std::path::{Path, absolute};

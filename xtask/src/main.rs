@@ -3,7 +3,7 @@
 //! `play` and `shots` set up, build and serve the browser page, `test` runs every
 //! check, `mutants` checks the tests, `fuzz` runs libFuzzer, `corpus` reads a folder of device
 //! files, `size` says what a node costs, `dist` makes a release, `wasm-pack` the npm package.
-//! Standard library only.
+//! It has few dependencies, so that `cargo xtask --help` answers soon in a fresh clone.
 
 mod bundle;
 mod console;

@@ -3,6 +3,9 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
+use data_encoding::{BASE64, HEXLOWER};
+use serde_json::Value;
+
 use super::dist::Dist;
 use super::systems::SYSTEMS;
 use crate::console::ask_in;
@@ -137,6 +140,7 @@ fn cargo(dist: &Dist<'_>, package: &str, targets: &[&str]) -> Result<Bill> {
     let tree = ask_in(root, "cargo", &tree).ok_or_else(silent)?;
     let metadata = ["metadata", "--locked", "--format-version", "1"];
     let metadata = ask_in(root, "cargo", &metadata).ok_or_else(silent)?;
+    let metadata = json(&metadata, "cargo metadata")?;
     let lock = files::read(&root.join("Cargo.lock"))?;
     let mut bill = of_cargo(&tree, &lock, &metadata);
     let version = ask_in(root, "rustc", &["--version"]).unwrap_or_default();
@@ -152,8 +156,13 @@ fn cargo(dist: &Dist<'_>, package: &str, targets: &[&str]) -> Result<Bill> {
     Ok(bill)
 }
 
+/// Parses the output of a tool, or a file.
+fn json(text: &str, place: &str) -> Result<Value> {
+    serde_json::from_str(text).map_err(|e| Error::Failed(format!("{place}: {e}")))
+}
+
 /// The bill of the output of `cargo tree`, in which each line has its depth.
-fn of_cargo(tree: &str, lock: &str, metadata: &str) -> Bill {
+fn of_cargo(tree: &str, lock: &str, metadata: &Value) -> Bill {
     let (hashes, folders) = (hashes(lock), folders(metadata));
     let (mut bill, mut above): (Bill, Vec<String>) = Default::default();
     for line in tree.lines() {
@@ -209,30 +218,24 @@ fn hashes(lock: &str) -> BTreeMap<(&str, &str), &str> {
 }
 
 /// The folders of the packages in the output of `cargo metadata`, by name and version.
-fn folders(metadata: &str) -> BTreeMap<(&str, &str), PathBuf> {
-    let mut found = BTreeMap::new();
-    let mut package = None;
-    // Dependencies and targets have a name, too, but no version after it.
-    for piece in metadata.split("{\"name\":\"") {
-        if let Some((name, rest)) = piece.split_once("\",\"version\":\"") {
-            package = rest.split('"').next().map(|version| (name, version));
-        }
-        if let (Some((_, rest)), Some(package)) =
-            (piece.split_once("\"manifest_path\":\""), package)
-        {
-            let path = rest.split('"').next().unwrap_or_default();
-            let mut folder = PathBuf::from(path.replace("\\\\", "\\"));
-            folder.pop();
-            found.insert(package, folder);
-        }
-    }
-    found
+fn folders(metadata: &Value) -> BTreeMap<(&str, &str), PathBuf> {
+    let packages = metadata["packages"].as_array().into_iter().flatten();
+    let folder = |package: &'_ Value| {
+        let manifest = PathBuf::from(package["manifest_path"].as_str()?);
+        Some(manifest.parent()?.to_path_buf())
+    };
+    let named = packages.filter_map(|package| {
+        let key = (package["name"].as_str()?, package["version"].as_str()?);
+        Some((key, folder(package)?))
+    });
+    named.collect()
 }
 
 /// The bill of an npm package.
 fn npm(dist: &Dist<'_>, package: &str) -> Result<Bill> {
     let folder = dist.repo.root.join(package);
-    let lock = files::read(&folder.join("package-lock.json"))?;
+    let lock = folder.join("package-lock.json");
+    let lock = json(&files::read(&lock)?, &lock.display().to_string())?;
     let name = format!("odkit-{}", package.rsplit('/').next().unwrap_or(package));
     let mut bill = Bill::new(&name, &dist.version);
     for mut component in of_npm(&lock) {
@@ -245,53 +248,27 @@ fn npm(dist: &Dist<'_>, package: &str) -> Result<Bill> {
 }
 
 /// The packages of a package-lock.json without those for development, as npm installs them.
-fn of_npm(lock: &str) -> Vec<Component> {
+fn of_npm(lock: &Value) -> Vec<Component> {
     let mut found = Vec::new();
-    let (_, packages) = lock.split_once("\"node_modules/").unwrap_or_default();
-    for package in packages.split("\n    \"node_modules/") {
-        let (path, fields) = package.split_once("\": {\n").unwrap_or_default();
-        let field = |key: &str| {
-            let mark = format!("      \"{key}\": ");
-            let line = fields.lines().find_map(|line| line.strip_prefix(&mark))?;
-            Some(line.trim_matches(['"', ',']))
-        };
-        let is_used = field("dev").is_none() && field("devOptional").is_none();
-        if let Some(version) = field("version").filter(|_| is_used) {
-            let name = path.rsplit("node_modules/").next().unwrap_or(path);
+    for (path, package) in lock["packages"].as_object().into_iter().flatten() {
+        let field = |key: &str| package[key].as_str();
+        let is_used = package["dev"].is_null() && package["devOptional"].is_null();
+        // The package itself has no path.
+        let name = path.rsplit_once("node_modules/").map(|(_, name)| name);
+        if let (Some(name), Some(version), true) = (name, field("version"), is_used) {
             let hash = field("integrity").and_then(|text| text.strip_prefix("sha512-"));
+            let bytes = hash.and_then(|hash| BASE64.decode(hash.as_bytes()).ok());
             found.push(Component {
                 name: String::from(name),
                 version: String::from(version),
                 registry: "npm",
                 expression: String::from(field("license").unwrap_or_default()),
-                hash: hash.map(|hash| ("SHA-512", hex(hash))),
-                licence: Licence::Folder(PathBuf::from(format!("node_modules/{path}"))),
+                hash: bytes.map(|bytes| ("SHA-512", HEXLOWER.encode(&bytes))),
+                licence: Licence::Folder(PathBuf::from(path)),
             });
         }
     }
     found
-}
-
-/// Converts Base64 to hexadecimal digits.
-fn hex(base64: &str) -> String {
-    let (mut bits, mut number) = (0_u32, 0_u32);
-    let mut out = String::new();
-    for sign in base64.bytes() {
-        let value = match sign {
-            b'A'..=b'Z' => sign - b'A',
-            b'a'..=b'z' => sign - b'a' + 26,
-            b'0'..=b'9' => sign - b'0' + 52,
-            b'+' => 62,
-            b'/' => 63,
-            _ => break,
-        };
-        (bits, number) = (bits + 6, number << 6 | u32::from(value));
-        if bits >= 8 {
-            bits -= 8;
-            out.push_str(&format!("{:02x}", number >> bits & 0xFF));
-        }
-    }
-    out
 }
 
 /// The components of a list: `== NAME VERSION (LICENCE)`, then the text of the licence. `*` stands for the version of odkit.
@@ -317,16 +294,20 @@ fn of_list(list: &str, this: &str) -> Vec<Component> {
 mod tests {
     use std::path::PathBuf;
 
-    use super::{Licence, folders, hex, of_cargo, of_list, of_npm};
+    use serde_json::json;
+
+    use super::{Licence, folders, of_cargo, of_list, of_npm};
 
     #[test]
     fn a_tree_of_cargo_becomes_a_bill() {
         let tree = "0\ta v0.1.0 (/x)\tMIT\n1\tb v1.2.3\tMIT/Apache-2.0\n2\tc v3.0.0\tZlib\n1\tc v3.0.0\tZlib (*)\n";
         let lock =
             "[[package]]\nname = \"b\"\nversion = \"1.2.3\"\nsource = \"s\"\nchecksum = \"abc\"\n";
-        let metadata = "{\"packages\":[{\"name\":\"b\",\"version\":\"1.2.3\",\"id\":\"i\",\"dependencies\":[{\"name\":\"c\",\
-                        \"source\":null}],\"manifest_path\":\"/r/b-1.2.3/Cargo.toml\"}]}";
-        let bill = of_cargo(tree, lock, metadata);
+        let metadata = json!({ "packages": [{
+            "name": "b", "version": "1.2.3", "dependencies": [{ "name": "c", "source": null }],
+            "manifest_path": "/r/b-1.2.3/Cargo.toml",
+        }] });
+        let bill = of_cargo(tree, lock, &metadata);
         let purls: Vec<String> = bill.components.iter().map(|one| one.purl()).collect();
         let wanted = [
             "pkg:cargo/a@0.1.0",
@@ -341,23 +322,26 @@ mod tests {
         assert_eq!(bill.components[0].licence, Licence::Own);
         assert!(bill.needs[wanted[0]].iter().eq(&wanted[1..]));
         assert!(bill.needs[wanted[1]].iter().eq(&wanted[2..]));
-        assert_eq!(folders(metadata).len(), 1);
+        assert_eq!(folders(&metadata).len(), 1);
     }
 
     #[test]
     fn a_lock_of_npm_becomes_components() {
-        let lock = "{\n  \"packages\": {\n    \"\": {\n      \"version\": \"9\"\n    },\n    \"node_modules/@a/b\": {\n      \
-                    \"version\": \"1.0.0\",\n      \"integrity\": \"sha512-AP8Q\",\n      \"license\": \"ISC\",\n      \"dependencies\": {\n        \"c\": \"2\"\n      }\n    },\n    \
-                    \"node_modules/@a/b/node_modules/c\": {\n      \"version\": \"2.0.0\"\n    },\n    \
-                    \"node_modules/d\": {\n      \"version\": \"3.0.0\",\n      \"dev\": true\n    }\n  }\n}\n";
-        let found = of_npm(lock);
+        let lock = json!({ "packages": {
+            "": { "version": "9" },
+            "node_modules/@a/b": {
+                "version": "1.0.0", "integrity": "sha512-AP8Q", "license": "ISC", "dependencies": { "c": "2" },
+            },
+            "node_modules/@a/b/node_modules/c": { "version": "2.0.0" },
+            "node_modules/d": { "version": "3.0.0", "dev": true },
+        } });
+        let found = of_npm(&lock);
         let purls: Vec<String> = found.iter().map(|one| one.purl()).collect();
         assert_eq!(purls, ["pkg:npm/%40a/b@1.0.0", "pkg:npm/c@2.0.0"]);
         assert_eq!(found[0].expression, "ISC");
         assert_eq!(found[0].hash, Some(("SHA-512", String::from("00ff10"))));
         let folder = PathBuf::from("node_modules/@a/b/node_modules/c");
         assert_eq!(found[1].licence, Licence::Folder(folder));
-        assert_eq!(hex("TQ=="), "4d");
     }
 
     #[test]

@@ -4,6 +4,8 @@
 
 use std::path::Path;
 
+use serde_json::{Value, json};
+
 use super::bill::{self, Bill, Component};
 use super::dist::Dist;
 use crate::error::Result;
@@ -18,70 +20,51 @@ pub(super) fn make(dist: &Dist<'_>, folder: &Path) -> Result<()> {
 
 /// Writes the bill of a part into a file.
 pub(super) fn write(dist: &Dist<'_>, part: &str, file: &Path) -> Result<()> {
-    files::write(file, &json(&bill::of(dist, part)?))
+    files::write(file, &text(&bill::of(dist, part)?))
 }
 
-fn json(bill: &Bill) -> String {
-    let product = bill.components.first().map(|one| line(one, "application"));
-    let others = bill.components.iter().skip(1);
-    let mut others: Vec<String> = others.map(|one| line(one, "library")).collect();
-    others.sort();
-    let needs = bill.needs.iter().map(|(user, used)| {
-        let used: Vec<String> = used.iter().map(|purl| text(purl)).collect();
-        let used = used.join(", ");
-        format!("{{\"ref\": {}, \"dependsOn\": [{used}]}}", text(user))
+fn text(bill: &Bill) -> String {
+    let product = bill
+        .components
+        .first()
+        .map(|one| component(one, "application"));
+    let mut others = Vec::from_iter(bill.components.iter().skip(1));
+    others.sort_by_key(|one| one.purl());
+    let others = others.into_iter().map(|one| component(one, "library"));
+    let needs = bill
+        .needs
+        .iter()
+        .map(|(user, used)| json!({ "ref": user, "dependsOn": used }));
+    let bill = json!({
+        "bomFormat": "CycloneDX",
+        "specVersion": "1.5",
+        "version": 1,
+        "metadata": { "component": product },
+        "components": Vec::from_iter(others),
+        "dependencies": Vec::from_iter(needs),
     });
-    let needs: Vec<String> = needs.collect();
-    format!(
-        "{{\n  \"bomFormat\": \"CycloneDX\",\n  \"specVersion\": \"1.5\",\n  \"version\": 1,\n  \
-         \"metadata\": {{\"component\": {}}},\n  \"components\": [\n    {}\n  ],\n  \
-         \"dependencies\": [\n    {}\n  ]\n}}\n",
-        product.unwrap_or_default(),
-        others.join(",\n    "),
-        needs.join(",\n    ")
-    )
+    format!("{bill:#}\n")
 }
 
-/// A component as one line.
-fn line(one: &Component, kind: &str) -> String {
-    let purl = text(&one.purl());
-    let mut line = format!(
-        "{{\"type\": \"{kind}\", \"bom-ref\": {purl}, \"name\": {}, \"version\": {}",
-        text(&one.name),
-        text(&one.version)
-    );
+fn component(one: &Component, kind: &str) -> Value {
+    let purl = one.purl();
+    let mut component = json!({
+        "type": kind, "bom-ref": purl, "name": one.name, "version": one.version, "purl": purl,
+    });
     if let Some((kind, hash)) = &one.hash {
-        let hash = text(hash);
-        line.push_str(&format!(
-            ", \"hashes\": [{{\"alg\": \"{kind}\", \"content\": {hash}}}]"
-        ));
+        component["hashes"] = json!([{ "alg": kind, "content": hash }]);
     }
     if !one.expression.is_empty() {
-        let expression = text(&one.expression);
-        line.push_str(&format!(
-            ", \"licenses\": [{{\"expression\": {expression}}}]"
-        ));
+        component["licenses"] = json!([{ "expression": one.expression }]);
     }
-    line + &format!(", \"purl\": {purl}}}")
-}
-
-/// A text in JSON.
-fn text(text: &str) -> String {
-    let mut out = String::from('"');
-    for sign in text.chars() {
-        match sign {
-            '"' | '\\' => out.extend(['\\', sign]),
-            sign if sign.is_control() => {}
-            sign => out.push(sign),
-        }
-    }
-    out.push('"');
-    out
+    component
 }
 
 #[cfg(test)]
 mod tests {
-    use super::json;
+    use serde_json::{Value, json};
+
+    use super::text;
     use crate::release::bill::{Bill, Component};
 
     #[test]
@@ -95,21 +78,26 @@ mod tests {
             ..Component::default()
         };
         let (product, part) = ("pkg:npm/a@1.2.3", "pkg:npm/%40b/\"c@1.2.3");
-        let json = json(&Bill {
+        let text = text(&Bill {
             components: vec![
                 one("a", None),
                 one("@b/\"c", Some(("SHA-256", String::from("00ff")))),
             ],
             needs: [(String::from(product), [String::from(part)].into())].into(),
         });
-        let wanted = [
-            "\"metadata\": {\"component\": {\"type\": \"application\", \"bom-ref\": \"pkg:npm/a@1.2.3\"",
-            "{\"type\": \"library\", \"bom-ref\": \"pkg:npm/%40b/\\\"c@1.2.3\", \"name\": \"@b/\\\"c\", \"version\": \"1.2.3\", \
-             \"hashes\": [{\"alg\": \"SHA-256\", \"content\": \"00ff\"}], \"licenses\": [{\"expression\": \"MIT\"}], \"purl\":",
-            "{\"ref\": \"pkg:npm/a@1.2.3\", \"dependsOn\": [\"pkg:npm/%40b/\\\"c@1.2.3\"]}",
-        ];
-        for wanted in wanted {
-            assert!(json.contains(wanted), "{wanted}: {json}");
-        }
+        let bill: Value = serde_json::from_str(&text).expect("it is JSON");
+        assert_eq!(bill["metadata"]["component"]["bom-ref"], product);
+        assert_eq!(bill["metadata"]["component"]["type"], "application");
+        let library = &bill["components"][0];
+        assert_eq!(
+            (&library["name"], &library["purl"]),
+            (&json!("@b/\"c"), &json!(part))
+        );
+        assert_eq!(library["hashes"][0]["content"], "00ff");
+        assert_eq!(library["licenses"][0]["expression"], "MIT");
+        assert_eq!(
+            bill["dependencies"],
+            json!([{ "ref": product, "dependsOn": [part] }])
+        );
     }
 }
