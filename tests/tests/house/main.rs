@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
-use crate::graph::Arrows;
+use crate::graph::{Arrow, Arrows};
 use crate::rooms::ROOMS;
 use crate::rust::Modules;
 
@@ -34,18 +34,18 @@ fn faults(files: &BTreeMap<String, String>) -> Vec<String> {
     modules.arrows(&mut arrows);
     typescript::arrows(files, &mut arrows);
     let mut found = Vec::new();
-    found.extend(arrows.circles().into_iter().map(|(from, to)| {
+    found.extend(arrows.circles().into_iter().map(|Arrow { from, to, line, name }| {
         format!(
-            "{from} names something of {to}, and a way leads back: move what both need into a file \
-             below them"
+            "{from}:{line} takes `{name}` from {to}, and a way leads back: move what both need into \
+             a file below them"
         )
     }));
     found.extend(rooms::arrows_up(files).into_iter().map(|(from, to)| {
         format!("{from} may not depend on {to}: see ROOMS in tests/tests/house/rooms.rs")
     }));
-    found.extend(modules.through_the_root().into_iter().map(|file| {
+    found.extend(modules.through_the_root().into_iter().map(|(file, line, name)| {
         format!(
-            "{file} takes a name from lib.rs that another file defines: write the path of that \
+            "{file}:{line} takes `{name}` from lib.rs that another file defines: write the path of that \
              file, as `crate::frame::Frame`"
         )
     }));

@@ -17,8 +17,10 @@ struct Module<'t> {
     file: &'t str,
     place: Place,
     tokens: Vec<Token<'t>>,
+    /// The line of each token.
+    lines: Vec<usize>,
     uses: Vec<Use>,
-    paths: Vec<Vec<String>>,
+    paths: Vec<(Vec<String>, usize)>,
 }
 
 /// A name that a file brings in.
@@ -26,6 +28,8 @@ struct Use {
     path: Vec<String>,
     name: String,
     is_public: bool,
+    /// The line of the `use`.
+    line: usize,
 }
 
 /// All Rust files.
@@ -46,10 +50,12 @@ impl<'t> Modules<'t> {
                 continue;
             };
             by_place.insert(place.clone(), all.len());
+            let (tokens, lines) = tokens(text);
             all.push(Module {
                 file,
                 place,
-                tokens: tokens(text),
+                tokens,
+                lines,
                 uses: Vec::new(),
                 paths: Vec::new(),
             });
@@ -65,26 +71,28 @@ impl<'t> Modules<'t> {
     /// Adds an arrow for each file that uses something of another.
     pub(crate) fn arrows(&self, arrows: &mut Arrows) {
         for module in &self.all {
-            for path in module.needed() {
+            for (path, line) in module.needed() {
                 if let Some(to) = self.definer(&module.place.0, path, &mut BTreeSet::new()) {
-                    arrows.add(module.file, self.all[to].file);
+                    let name = format!("crate::{}", path.join("::"));
+                    arrows.add(module.file, self.all[to].file, line, &name);
                 }
             }
         }
     }
 
-    /// The files that import a name from the root of their crate although another file defines it.
-    pub(crate) fn through_the_root(&self) -> BTreeSet<&str> {
+    /// The names that a file takes from the root of its crate although another file defines them:
+    /// the file, the line and the name.
+    pub(crate) fn through_the_root(&self) -> BTreeSet<(&str, usize, &str)> {
         let mut found = BTreeSet::new();
         for module in &self.all {
             let Some(root) = self.by_place.get(&(module.place.0.clone(), Vec::new())) else {
                 continue;
             };
-            for path in module.needed().filter(|_| !module.place.1.is_empty()) {
+            for (path, line) in module.needed().filter(|_| !module.place.1.is_empty()) {
                 let direct = self.deepest(&module.place.0, path).map(|(at, _)| at);
                 let definer = self.definer(&module.place.0, path, &mut BTreeSet::new());
                 if direct == Some(*root) && definer != direct {
-                    found.insert(module.file);
+                    found.insert((module.file, line, path[0].as_str()));
                 }
             }
         }
@@ -92,7 +100,7 @@ impl<'t> Modules<'t> {
     }
 
     /// The imports of a file, and the paths in its code, both from the root of the crate.
-    fn names(&self, module: &Module<'_>) -> (Vec<Use>, Vec<Vec<String>>) {
+    fn names(&self, module: &Module<'_>) -> (Vec<Use>, Vec<(Vec<String>, usize)>) {
         let (mut uses, mut paths) = (Vec::new(), Vec::new());
         let tokens = &module.tokens;
         let mut at = 0;
@@ -101,6 +109,7 @@ impl<'t> Modules<'t> {
                 tokens[at] == Token::Word("use") && tokens.get(at + 1) != Some(&Token::Mark('<'));
             if is_use {
                 let is_public = is_public(&tokens[..at]);
+                let line = module.lines[at];
                 let mut found = Vec::new();
                 at += 1 + tree(&tokens[at + 1..], &[], &mut found);
                 for (path, name) in found {
@@ -109,12 +118,14 @@ impl<'t> Modules<'t> {
                             path,
                             name,
                             is_public,
+                            line,
                         });
                     }
                 }
                 continue;
             }
             let begins = at == 0 || tokens[at - 1] != Token::Path;
+            let line = module.lines[at];
             let mut path = Vec::new();
             while let Some(Token::Word(word)) = tokens.get(at) {
                 path.push((*word).to_owned());
@@ -127,7 +138,7 @@ impl<'t> Modules<'t> {
             if path.is_empty() {
                 at += 1;
             } else if begins && path.len() > 1 {
-                paths.extend(self.absolute(&module.place, &path));
+                paths.extend(self.absolute(&module.place, &path).map(|path| (path, line)));
             }
         }
         (uses, paths)
@@ -196,12 +207,13 @@ impl<'t> Modules<'t> {
 }
 
 impl Module<'_> {
-    /// The paths that make arrows.
-    fn needed(&self) -> impl Iterator<Item = &[String]> {
+    /// The paths that make arrows, each with its line.
+    fn needed(&self) -> impl Iterator<Item = (&[String], usize)> {
         let is_window = |used: &Use| used.is_public && used.path.starts_with(&self.place.1);
         let uses = self.uses.iter().filter(move |used| !is_window(used));
-        let uses = uses.map(|used| used.path.as_slice());
-        uses.chain(self.paths.iter().map(Vec::as_slice))
+        let uses = uses.map(|used| (used.path.as_slice(), used.line));
+        let paths = self.paths.iter();
+        uses.chain(paths.map(|(path, line)| (path.as_slice(), *line)))
     }
 
     fn defines(&self, name: &str) -> bool {
@@ -305,8 +317,29 @@ mod tests {
         let files = files(pairs);
         let mut arrows = Arrows::default();
         Modules::of(&files).arrows(&mut arrows);
-        let found: Vec<_> = arrows.circles().into_iter().collect();
+        let circles = arrows.circles();
+        let found: Vec<_> = circles.iter().map(|found| (found.from, found.to)).collect();
         assert_eq!(found, expected);
+    }
+
+    #[test]
+    fn a_circle_names_the_line_and_the_path() {
+        let files = files(&[
+            ("x/src/lib.rs", "mod a; mod b;"),
+            ("x/src/a.rs", "//! a\n\nuse crate::b::{\n    B,\n};\n"),
+            (
+                "x/src/b.rs",
+                "fn f() {\n    super::a::g();\n    super::a::h();\n}",
+            ),
+        ]);
+        let mut arrows = Arrows::default();
+        Modules::of(&files).arrows(&mut arrows);
+        let circles = arrows.circles();
+        let found: Vec<_> = circles
+            .iter()
+            .map(|found| (found.line, found.name))
+            .collect();
+        assert_eq!(found, [(3, "crate::b::B"), (2, "crate::a::g")]);
     }
 
     #[test]
@@ -371,6 +404,6 @@ mod tests {
         ]);
         let modules = Modules::of(&files);
         let found: Vec<_> = modules.through_the_root().into_iter().collect();
-        assert_eq!(found, ["x/src/b.rs"]);
+        assert_eq!(found, [("x/src/b.rs", 1, "A")]);
     }
 }

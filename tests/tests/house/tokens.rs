@@ -11,9 +11,11 @@ pub(crate) enum Token<'t> {
     Mark(char),
 }
 
-/// The tokens of a text without the parts behind `#[cfg(test)]`.
-pub(crate) fn tokens(text: &str) -> Vec<Token<'_>> {
+/// The tokens of a text without the parts behind `#[cfg(test)]`, and the line of each.
+pub(crate) fn tokens(text: &str) -> (Vec<Token<'_>>, Vec<usize>) {
     let mut found = Vec::new();
+    let mut lines = Vec::new();
+    let mut line = 1;
     let mut rest = text;
     while let Some(first) = rest.chars().next() {
         let length = if first.is_alphanumeric() || first == '_' {
@@ -43,9 +45,11 @@ pub(crate) fn tokens(text: &str) -> Vec<Token<'_>> {
             }
             first.len_utf8()
         };
+        lines.resize(found.len(), line);
+        line += rest[..length].matches('\n').count();
         rest = &rest[length..];
     }
-    without_tests(found)
+    without_tests(&found, &lines)
 }
 
 /// Length of a raw string that begins here, as `r"…"`, `r#"…"#` or `br"…"`.
@@ -101,7 +105,7 @@ fn character(text: &str) -> usize {
 }
 
 /// Removes each item after `#[cfg(test)]`.
-fn without_tests(all: Vec<Token<'_>>) -> Vec<Token<'_>> {
+fn without_tests<'t>(all: &[Token<'t>], lines: &[usize]) -> (Vec<Token<'t>>, Vec<usize>) {
     use Token::{Mark, Word};
     const TEST: [Token<'_>; 7] = [
         Mark('#'),
@@ -112,11 +116,12 @@ fn without_tests(all: Vec<Token<'_>>) -> Vec<Token<'_>> {
         Mark(')'),
         Mark(']'),
     ];
-    let mut kept = Vec::with_capacity(all.len());
+    let mut kept = (Vec::new(), Vec::new());
     let mut at = 0;
     while at < all.len() {
         if !all[at..].starts_with(&TEST) {
-            kept.push(all[at]);
+            kept.0.push(all[at]);
+            kept.1.push(lines[at]);
             at += 1;
             continue;
         }
@@ -140,12 +145,14 @@ fn without_tests(all: Vec<Token<'_>>) -> Vec<Token<'_>> {
 fn comments_literals_and_tests_are_left_out() {
     let text = "a::b /* c /* d */ */ // e\n'x' '\\'' 'y \"g\\\"h\" r#\"i\"j\"# br\"k\" l\n\
                 #[cfg(test)]\nmod tests { m {} }\n#[cfg(test)] mod n; o";
-    let words: Vec<_> = tokens(text)
+    let (tokens, lines) = tokens(text);
+    let words: Vec<_> = tokens
         .into_iter()
-        .filter_map(|token| match token {
-            Token::Word(word) => Some(word),
+        .zip(lines)
+        .filter_map(|(token, line)| match token {
+            Token::Word(word) => Some((word, line)),
             _ => None,
         })
         .collect();
-    assert_eq!(words, ["a", "b", "y", "l", "o"]);
+    assert_eq!(words, [("a", 1), ("b", 1), ("y", 2), ("l", 2), ("o", 5)]);
 }

@@ -7,28 +7,29 @@ use crate::graph::Arrows;
 /// Adds the arrows of all `.ts` files: `from './x'`, `import './x'`, `import('./x')`.
 pub(crate) fn arrows(files: &BTreeMap<String, String>, arrows: &mut Arrows) {
     for (path, text) in files.iter().filter(|(path, _)| path.ends_with(".ts")) {
-        for name in imports(text) {
+        for (name, line) in imports(text) {
             let target = joined(path, name);
             let with_ending = [format!("{target}.ts"), format!("{target}/index.ts"), target];
             for found in with_ending
                 .iter()
                 .filter(|found| files.contains_key(*found))
             {
-                arrows.add(path, found);
+                arrows.add(path, found, line, name);
             }
         }
     }
 }
 
-/// The relative paths that a text imports.
-fn imports(text: &str) -> impl Iterator<Item = &str> {
+/// The relative paths that a text imports, each with its line.
+fn imports(text: &str) -> impl Iterator<Item = (&str, usize)> {
     ["from", "import"].into_iter().flat_map(move |word| {
         text.match_indices(word).filter_map(move |(at, _)| {
             let behind = text[at + word.len()..].trim_start();
             let behind = behind.strip_prefix('(').unwrap_or(behind).trim_start();
             let quote = behind.chars().next().filter(|c| matches!(c, '\'' | '"'))?;
             let name = behind[1..].split(quote).next()?;
-            name.starts_with('.').then_some(name)
+            let line = text[..at].matches('\n').count() + 1;
+            name.starts_with('.').then_some((name, line))
         })
     })
 }
@@ -58,11 +59,14 @@ fn every_form_of_an_import_is_an_arrow() {
     ]);
     let mut found = Arrows::default();
     arrows(&files, &mut found);
-    let circles: Vec<_> = found.circles().into_iter().collect();
+    let circles = found.circles();
+    let circles = circles
+        .iter()
+        .map(|found| (found.from, found.line, found.name));
     let expected = [
-        ("w/a.ts", "w/b.ts"),
-        ("w/b.ts", "w/v/c.ts"),
-        ("w/v/c.ts", "w/a.ts"),
+        ("w/a.ts", 1, "./b"),
+        ("w/b.ts", 1, "./v/c"),
+        ("w/v/c.ts", 2, "../a"),
     ];
-    assert_eq!(circles, expected);
+    assert_eq!(circles.collect::<Vec<_>>(), expected);
 }
