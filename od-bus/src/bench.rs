@@ -5,7 +5,7 @@ use std::borrow::BorrowMut;
 use od_bench::bus::Bus;
 use od_wire::{Frame, Instant};
 
-use crate::Error;
+use crate::error::Error;
 use crate::link::{Heard, Link};
 
 /// A link onto a [`Bus`], owned or borrowed: waiting moves the bench's time to the next frame at once.

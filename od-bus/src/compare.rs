@@ -5,7 +5,7 @@ use od_model::values;
 use od_model::{Access, Address, Dictionary, Entry, Object};
 use od_wire::{AbortCode, NodeId};
 
-use crate::Error;
+use crate::error::Error;
 use crate::link::Link;
 use crate::master::Master;
 

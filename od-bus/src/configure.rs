@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use od_model::{Address, DataType, Dictionary};
 
-use crate::Error;
+use crate::error::Error;
 use crate::link::Link;
 use crate::master::Master;
 

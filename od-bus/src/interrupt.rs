@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use od_wire::{Frame, Instant};
 
-use crate::Error;
+use crate::error::Error;
 use crate::link::{Heard, Link};
 
 /// Longest wait before it looks whether it is to stop, in ms.

@@ -2,7 +2,7 @@
 
 use od_wire::{Frame, Instant};
 
-use crate::Error;
+use crate::error::Error;
 
 /// A frame that came over a link.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

@@ -6,7 +6,7 @@ use od_wire::lss::Part;
 use od_wire::nmt::State;
 use od_wire::{Duration, Frame, Instant, NodeId, lss};
 
-use crate::Error;
+use crate::error::Error;
 use crate::link::Link;
 
 /// Longest time for an answer: storing takes the longest.

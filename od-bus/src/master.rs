@@ -8,7 +8,7 @@ use od_eds::outline;
 use od_model::{Address, DataType, Dictionary};
 use od_wire::{Duration, Instant, NodeId};
 
-use crate::Error;
+use crate::error::Error;
 use crate::link::Link;
 
 /// An answer within 1 s, as devices that save or calibrate take their time; a value of at most

@@ -6,7 +6,7 @@ use od_client::{nmt, watch};
 use od_wire::nmt::{Command, State};
 use od_wire::{Duration, NodeId};
 
-use crate::Error;
+use crate::error::Error;
 use crate::link::Link;
 
 /// Sends a command to a node, or to all, and listens for at most `wait`: to all the time for

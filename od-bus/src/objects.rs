@@ -4,7 +4,7 @@ use od_model::values;
 use od_model::{Address, DataType, Dictionary, Entry, Kind, Literal, ObjectCode, Refused};
 use od_wire::AbortCode;
 
-use crate::Error;
+use crate::error::Error;
 use crate::link::Link;
 use crate::master::Master;
 

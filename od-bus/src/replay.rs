@@ -2,7 +2,7 @@
 
 use od_wire::{Duration, Frame, Instant};
 
-use crate::Error;
+use crate::error::Error;
 use crate::link::Link;
 
 /// Sends these frames with their distances in time, `speed` times as fast; 0: without waiting. Frames

@@ -8,7 +8,7 @@ use od_wire::nmt::State;
 use od_wire::sdo::{Request, Response};
 use od_wire::{CanId, Duration, Frame, Instant, NodeId, lss};
 
-use crate::Error;
+use crate::error::Error;
 use crate::link::Link;
 use crate::master::Master;
 

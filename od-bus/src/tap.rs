@@ -2,7 +2,7 @@
 
 use od_wire::{Frame, Instant};
 
-use crate::Error;
+use crate::error::Error;
 use crate::link::{Heard, Link};
 
 /// A link whose frames, both ways, a function sees.

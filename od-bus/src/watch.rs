@@ -6,7 +6,7 @@ use od_model::typed::MapEntry;
 use od_model::{Address, DataType};
 use od_wire::{AbortCode, CanId, Duration, Frame, Instant, NodeId};
 
-use crate::Error;
+use crate::error::Error;
 use crate::link::Link;
 use crate::master::Master;
 

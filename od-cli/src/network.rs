@@ -1,5 +1,6 @@
 //! `odkit network`: a project or a node list, its files and its report.
 
+mod loaded;
 mod nodelist;
 mod project;
 mod table;
@@ -8,12 +9,13 @@ mod yaml;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use od_eds::network::{self, Master, Node};
+use od_eds::network::{self, Node};
 use od_eds::{Description, Document, Finding};
 use od_model::{Visible, is_hidden};
 
 use crate::config::Config;
 use crate::failure::{Failure, read_error};
+use crate::network::loaded::Network;
 use crate::report::{self, Names};
 use crate::{files, output};
 
@@ -147,16 +149,4 @@ fn load(folder: &Path, name: &str) -> Result<Description, String> {
     } else {
         Ok(description)
     }
-}
-
-/// A network that was read.
-#[derive(Default)]
-struct Network {
-    /// Name; empty if it has none.
-    name: String,
-    /// The master of a project; in a node list the master is a node.
-    master: Option<Master>,
-    /// Bit rate in kbit/s, if the file of a node has one.
-    bit_rate: Option<u32>,
-    nodes: Vec<Node>,
 }

@@ -9,11 +9,11 @@ use alloc::format;
 use alloc::vec::Vec;
 use od_model::Refused;
 
+use crate::codes::rule;
 use crate::finding::{Finding, Rule, sort};
 use crate::rules::allow::{
     i0803_allow_without_finding, w0801_allow_without_rule, w0802_allow_without_reason,
 };
-use crate::rules::rule;
 use crate::scan::{lines::lines, names::object_of};
 use crate::span::Span;
 

@@ -9,10 +9,11 @@ use crate::log::Log;
 use crate::subject::objects;
 
 pub use crate::allow::{Allows, parse_allow};
+pub use crate::codes::{all, rule};
 pub use crate::finding::{Fixability, Rule};
+pub use crate::rules::RULES;
 #[cfg(feature = "explain")]
 pub use crate::rules::{Pair, pair};
-pub use crate::rules::{RULES, all, rule};
 
 /// Runs all checks and returns the findings in file order.
 ///

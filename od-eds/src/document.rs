@@ -13,6 +13,12 @@ mod keys;
 mod objects;
 pub(crate) mod offsets;
 
+/// Returns whether a text is XML, so an XDD or an XDC instead of an EDS.
+pub fn is_xml(text: &str) -> bool {
+    let text = text.trim_start_matches('\u{FEFF}');
+    text.trim_start().starts_with('<')
+}
+
 /// A replacement of a range of a document.
 ///
 /// `range` counts the bytes of [`Document::text`], as the [`Span`]s of the

@@ -27,6 +27,7 @@ extern crate std;
 mod allow;
 mod catalogue;
 pub mod check;
+mod codes;
 pub mod convert;
 mod description;
 pub mod diff;
@@ -61,12 +62,12 @@ pub use description::{
     Commissioning, Description, EntryDescription, ObjectDescription, Section, Value,
 };
 pub use document::offsets::Offsets;
-pub use document::{Document, Edit, EditError};
+pub use document::{Document, Edit, EditError, is_xml};
 pub use fact::{Fact, Key};
 pub use finding::{Finding, Form, Place, Related, Severity};
 pub use foreign::foreign;
 pub use load::Parsed;
-pub use load::{is_xml, load, parse};
+pub use load::{load, parse};
 pub use overlay::{Origin, Overlaid, overlay};
 pub use read::modules::{Count, Extension, Module, connected_modules, modules, with_modules};
 pub use scan::encoding::{Encoding, decode};

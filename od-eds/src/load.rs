@@ -1,11 +1,11 @@
-//! Reading and checking. Only this file decides whether a text is an EDS or XML.
+//! Reading and checking.
 
 use alloc::vec::Vec;
 
 use crate::allow::Allows;
 use crate::check::run;
 use crate::description::Description;
-use crate::document::Document;
+use crate::document::{Document, is_xml};
 use crate::finding::{Finding, sort};
 use crate::log::Log;
 use crate::read::{modules, sorted};
@@ -16,12 +16,6 @@ use crate::scan::lines;
 use crate::scan::placed::Placed;
 #[cfg(feature = "xdd")]
 use crate::xdd;
-
-/// Returns whether a text is XML, so an XDD or an XDC instead of an EDS.
-pub fn is_xml(text: &str) -> bool {
-    let text = text.trim_start_matches('\u{FEFF}');
-    text.trim_start().starts_with('<')
-}
 
 /// Reads an EDS or a DCF; with feature `xdd`, also an XDD or an XDC.
 ///

@@ -5,7 +5,7 @@ use std::prelude::v1::*;
 use od_model::Refused;
 use od_wire::Instant;
 
-use super::{Rig, Seen};
+use super::{Rig, Seen, Taken};
 use crate::bench::Bench;
 use crate::bus::Bus;
 use crate::grammar::problem::Problem;
@@ -138,11 +138,4 @@ impl Rig {
         let taken = self.taken.as_ref();
         taken.map_or(0, |taken| taken.progress.reached().len())
     }
-}
-
-/// A lesson in progress, and the names that its set-up gave the devices.
-pub(super) struct Taken {
-    pub(super) progress: Progress,
-    /// Without its bus, which is the rig's.
-    pub(super) names: Bench,
 }

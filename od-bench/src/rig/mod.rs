@@ -17,8 +17,12 @@ use od_wire::{Frame, Instant, NodeId};
 
 use self::client::Asker;
 use self::clockwork::{Clockwork, Tick};
+#[cfg(feature = "lessons")]
+use crate::bench::Bench;
 use crate::bus::{Bus, Sent};
 use crate::device::VirtualDevice;
+#[cfg(feature = "lessons")]
+use crate::lesson::Progress;
 use crate::wire::Disturbance;
 
 pub use self::client::Outcome;
@@ -62,10 +66,30 @@ pub struct Rig {
     pub(crate) describes: bool,
     /// The link to a real bus.
     #[cfg(feature = "real")]
-    port: Option<real::Port>,
+    port: Option<Port>,
     /// The lesson in progress.
     #[cfg(feature = "lessons")]
-    taken: Option<lesson::Taken>,
+    taken: Option<Taken>,
+}
+
+#[cfg(feature = "real")]
+/// Frames that go out, and counts of those that did not.
+#[derive(Default)]
+struct Port {
+    sends: bool,
+    out: VecDeque<Frame>,
+    /// Frames that were held back.
+    held: u64,
+    /// Number of items that were dropped before they were drained.
+    dropped: u64,
+}
+
+#[cfg(feature = "lessons")]
+/// A lesson in progress, and the names that its set-up gave the devices.
+struct Taken {
+    progress: Progress,
+    /// Without its bus, which is the rig's.
+    names: Bench,
 }
 
 impl Rig {

@@ -1,11 +1,10 @@
 //! A rig on a real bus: frames of a link come in as from outside, and what is sent here goes out.
 
-use std::collections::VecDeque;
 use std::prelude::v1::*;
 
 use od_wire::Frame;
 
-use super::{Rig, Seen};
+use super::{Port, Rig, Seen};
 
 /// Most things that wait to be drained; the oldest are dropped.
 const MOST: usize = 20_000;
@@ -85,15 +84,4 @@ impl Rig {
             self.seen.drain(..MOST);
         }
     }
-}
-
-/// Frames that go out, and counts of those that did not.
-#[derive(Default)]
-pub(super) struct Port {
-    pub(super) sends: bool,
-    pub(super) out: VecDeque<Frame>,
-    /// Frames that were held back.
-    pub(super) held: u64,
-    /// Number of items that were dropped before they were drained.
-    pub(super) dropped: u64,
 }

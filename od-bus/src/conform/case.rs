@@ -6,7 +6,7 @@ use std::sync::OnceLock;
 
 use super::check::{self, BuiltIn, Check, Test};
 use super::play::placed;
-use crate::Error;
+use crate::error::Error;
 
 /// One step of a case.
 #[derive(Clone, Debug)]

@@ -1,6 +1,6 @@
 //! Early end of a step of a case.
 
-use crate::Error;
+use crate::error::Error;
 
 /// Reason why a step is the last one.
 #[derive(Clone, PartialEq, Eq, Debug)]

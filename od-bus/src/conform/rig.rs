@@ -5,8 +5,8 @@ use std::process::Command;
 
 use od_bench::bus::Bus;
 
-use crate::Error;
 use crate::bench::OnBench;
+use crate::error::Error;
 use crate::link::{Heard, Link};
 use od_wire::{Frame, Instant};
 

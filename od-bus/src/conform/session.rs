@@ -12,7 +12,7 @@ use super::end::{Checked, End, skip};
 use super::play::play;
 use super::record::{Record, Times, Verdict};
 use super::rig::Rig;
-use crate::Error;
+use crate::error::Error;
 
 /// Permissions of the test.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]

@@ -4,11 +4,11 @@
 mod term;
 mod tokens;
 
-use od_wire::Frame;
-
 use self::term::{Term, term};
-use self::tokens::{Token, tokens};
-use crate::Error;
+use self::tokens::{Token, mistake, tokens};
+use crate::error::Error;
+
+pub use self::term::Seen;
 
 /// A filter of frames; an empty one lets all pass.
 #[derive(Clone, PartialEq, Debug, Default)]
@@ -136,22 +136,6 @@ impl<'t> Parser<'t> {
             }),
         }
     }
-}
-
-/// A frame as a filter looks at it.
-#[derive(Clone, Copy, Debug)]
-pub struct Seen<'f> {
-    /// The frame.
-    pub frame: &'f Frame,
-    /// It was sent from here.
-    pub sent: bool,
-    /// Its meaning in words.
-    pub words: &'f str,
-}
-
-fn mistake(at: usize, what: impl Into<String>) -> Error {
-    let what = what.into();
-    Error::Filter { at, what }
 }
 
 #[cfg(test)]

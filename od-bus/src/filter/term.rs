@@ -2,9 +2,21 @@
 
 use od_bench::words::{TAGS, tag};
 use od_model::{Address, values};
+use od_wire::Frame;
 
-use super::{Seen, mistake};
-use crate::Error;
+use super::tokens::mistake;
+use crate::error::Error;
+
+/// A frame as a filter looks at it.
+#[derive(Clone, Copy, Debug)]
+pub struct Seen<'f> {
+    /// The frame.
+    pub frame: &'f Frame,
+    /// It was sent from here.
+    pub sent: bool,
+    /// Its meaning in words.
+    pub words: &'f str,
+}
 
 /// A condition for a frame.
 #[derive(Clone, PartialEq, Debug)]

@@ -1,7 +1,6 @@
 //! A filter's text in pieces.
 
-use super::mistake;
-use crate::Error;
+use crate::error::Error;
 
 /// A piece, and where it begins.
 #[derive(Clone, Copy, Debug)]
@@ -57,4 +56,10 @@ fn comparison(rest: &str) -> Option<usize> {
     let len = value.find(|c: char| c.is_whitespace() || "()|".contains(c));
     let len = len.unwrap_or(value.len());
     (rest[..name].contains('.') && len > 0).then(|| rest.len() - value.len() + len)
+}
+
+/// The error for a mistake at this place of a filter's text, in bytes from the start.
+pub(super) fn mistake(at: usize, what: impl Into<String>) -> Error {
+    let what = what.into();
+    Error::Filter { at, what }
 }

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use od_eds::{Description, ObjectDescription, Section, Spanned, Value};
 use od_wire::NodeId;
 
-use super::{Options, Today};
+use super::options::{Options, Today};
 
 /// Allows the errors that the file has because the node has them: a learned file says what the node
 /// answers, and no rule shall stop who wants to use it.

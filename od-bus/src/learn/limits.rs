@@ -4,7 +4,7 @@ use od_model::DataType;
 
 use super::probe::{Found, Probe};
 use super::types::with_sign;
-use crate::Error;
+use crate::error::Error;
 use crate::link::Link;
 
 /// Properties of a number that writing shows.

@@ -7,6 +7,7 @@ mod describe;
 mod file;
 mod known;
 mod limits;
+mod options;
 mod probe;
 pub mod record;
 mod types;
@@ -19,33 +20,11 @@ use od_wire::NodeId;
 
 use self::known::Profiles;
 use self::probe::{Found, Probe, There};
-use crate::Error;
 use crate::conform::eds::is_touchy;
+use crate::error::Error;
 use crate::link::Link;
 
-/// Options of [`learn`].
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
-pub struct Options {
-    /// Probe limits by writing, and put the values back.
-    pub writes: bool,
-    /// The moment that the file names as that of its creation.
-    pub today: Option<Today>,
-}
-
-/// A moment of the calendar.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Today {
-    /// Year, as in 2026.
-    pub year: u16,
-    /// Month and day, from 1.
-    pub month: u8,
-    /// See `month`.
-    pub day: u8,
-    /// Hour and minute, from 0.
-    pub hour: u8,
-    /// See `hour`.
-    pub minute: u8,
-}
+pub use self::options::{Options, Today};
 
 /// What a node showed.
 #[derive(Clone, PartialEq, Debug)]

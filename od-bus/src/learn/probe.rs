@@ -7,7 +7,7 @@ use od_wire::AbortCode::{
 };
 use od_wire::{CanId, Duration, Frame, NodeId, lss, sdo};
 
-use crate::Error;
+use crate::error::Error;
 use crate::link::Link;
 use crate::master::Master;
 

@@ -10,7 +10,7 @@ use od_wire::nmt::{Command, Repr};
 use od_wire::{Duration, Frame, Instant, NodeId};
 
 use super::probe::Probe;
-use crate::Error;
+use crate::error::Error;
 use crate::link::Link;
 use crate::master::Master;
 

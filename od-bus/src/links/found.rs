@@ -2,7 +2,7 @@
 
 use od_bench::serve::running;
 
-use crate::Error;
+use crate::error::Error;
 
 /// A network interface of this type is a CAN interface (`ARPHRD_CAN` of Linux).
 const CAN: &str = "280";

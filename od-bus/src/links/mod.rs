@@ -13,7 +13,7 @@ use od_bench::links::address::Address;
 use self::slcan::Slcan;
 use self::socketcand::Socketcand;
 use self::stream::Stream;
-use crate::Error;
+use crate::error::Error;
 use crate::link::Link;
 
 /// Forms of a link's name, for messages.

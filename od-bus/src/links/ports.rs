@@ -7,7 +7,7 @@ use od_wire::Duration;
 use serial2::SerialPort;
 
 use super::stream::Port;
-use crate::Error;
+use crate::error::Error;
 
 /// Longest time until a server accepts a connection.
 const CONNECT: Duration = Duration::from_secs(5);

@@ -7,7 +7,7 @@ use od_bench::links::can_frame;
 use od_wire::{Duration, Frame, Instant};
 use socketcan::{CanSocket, Socket};
 
-use crate::Error;
+use crate::error::Error;
 use crate::link::{Heard, Link};
 
 /// Longest time for a full queue of the interface to get a place.

@@ -6,7 +6,7 @@ use std::time;
 
 use od_wire::{Duration, Frame, Instant};
 
-use crate::Error;
+use crate::error::Error;
 use crate::link::{Heard, Link};
 
 /// Longest time for the first answers of the other side.

@@ -1,5 +1,6 @@
 //! `odkit lss`: node IDs and bit rates by the layer setting services (CiA 305).
 
+mod slave;
 mod wizard;
 
 use od_bus::Error;
@@ -12,9 +13,9 @@ use od_runtime::NodeId;
 use od_wire::Duration;
 use serde_json::json;
 
-use crate::bus::names::Names;
 use crate::bus::{self, Bus, Format};
 use crate::failure::Failure;
+use crate::lss::slave::{fits, title};
 use crate::output::{self, note};
 use crate::report::plural;
 use crate::source;
@@ -352,24 +353,4 @@ fn say(format: Format, text: &str) -> Result<(), Failure> {
         Format::Text => text.to_owned(),
         Format::Json => format!("{:#}", json!({ "done": true, "message": text })),
     })
-}
-
-/// A slave in one line.
-fn title(one: &Identity, names: &Names) -> String {
-    let known = fits(one, names).map_or(String::new(), |name| format!("  {name}"));
-    format!(
-        "serial number {:<10}  vendor-ID {:X}h, product code {:X}h, revision {:X}h{known}",
-        one.serial, one.vendor, one.product, one.revision
-    )
-}
-
-fn fits<'n>(one: &Identity, names: &'n Names) -> Option<&'n str> {
-    // A file for a node ID does not describe a slave without one.
-    let identity = one.parts().map(Some);
-    names.fitting(None, identity).map(|known| known.name)
-}
-
-/// A line of the wizard.
-fn tell(text: &str) {
-    note!("{text}");
 }

@@ -13,10 +13,10 @@ use od_client::lss::Identity;
 use od_runtime::NodeId;
 use serde_json::json;
 
-use super::{tell, title};
+use super::slave::title;
 use crate::bus::{self, Format};
 use crate::failure::Failure;
-use crate::output::{self, Bar};
+use crate::output::{self, Bar, note};
 use crate::report::plural;
 use crate::source;
 
@@ -163,4 +163,9 @@ fn report(format: Format, set_up: &[(Identity, NodeId, bool)]) -> Result<(), Fai
     let mut lines: Vec<String> = lines.collect();
     lines.push(format!("{} set up", plural(set_up.len(), "encoder")));
     output::print(&lines.join("\n"))
+}
+
+/// A line of the wizard.
+fn tell(text: &str) {
+    note!("{text}");
 }

@@ -5,7 +5,7 @@ use od_eds::network::{
 };
 use od_model::Address;
 
-use super::Network;
+use super::loaded::Network;
 use super::yaml::Yaml;
 
 /// A section of a project: its name and its keys.

@@ -7,7 +7,7 @@ use od_eds::network::{self, BIT_RATES, Frame};
 
 use od_model::Visible;
 
-use super::Network;
+use super::loaded::Network;
 use crate::report::plural;
 
 /// The tables of a network, and the files that were written.

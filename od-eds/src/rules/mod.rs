@@ -2,19 +2,6 @@
 
 use crate::finding::Rule;
 
-/// The rule with this code, ignoring case.
-pub fn rule(code: &str) -> Option<&'static Rule> {
-    all().find(|r| r.code.eq_ignore_ascii_case(code))
-}
-
-/// Every rule of odkit, and with feature `tools` those of the tools that read device files, too.
-pub fn all() -> impl Iterator<Item = &'static Rule> {
-    let rules = RULES.iter().copied();
-    #[cfg(feature = "tools")]
-    let rules = rules.chain(crate::tools::rules());
-    rules
-}
-
 /// The rules of a folder, each under the name of its code, and a list of them. Their modules are declared below the
 /// call, where cargo-mutants finds them; the compiler reports a rule that is declared and not listed.
 macro_rules! catalogue {

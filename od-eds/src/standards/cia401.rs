@@ -4,7 +4,7 @@ use od_model::DataType::{
     Boolean, Integer8, Integer16, Integer32, Real32, Unsigned8, Unsigned16, Unsigned32,
 };
 
-use super::{Row, array, named, ro_array, rw, rw_array};
+use super::row::{Row, array, named, ro_array, rw, rw_array};
 
 /// By ascending index.
 #[rustfmt::skip]

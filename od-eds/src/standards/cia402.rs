@@ -2,7 +2,7 @@
 
 use od_model::DataType::{Integer8, Integer16, Integer32, Unsigned8, Unsigned16, Unsigned32};
 
-use super::{Row, array, named, ro, rw, var};
+use super::row::{Row, array, named, ro, rw, var};
 
 /// By ascending index.
 #[rustfmt::skip]

@@ -3,7 +3,7 @@
 use od_model::DataType;
 use od_model::DataType::{Integer16, Integer24, Integer32, Real32};
 
-use super::{Row, named};
+use super::row::{Row, named};
 
 /// By ascending index.
 #[rustfmt::skip]

@@ -4,7 +4,7 @@ use od_model::DataType::{
     Integer8, Integer16, Integer32, Unsigned8, Unsigned16, Unsigned32, Unsigned64,
 };
 
-use super::{Row, array, named, ro, ro_array, rw, rw_array, var};
+use super::row::{Row, array, named, ro, ro_array, rw, rw_array, var};
 
 /// By ascending index.
 #[rustfmt::skip]

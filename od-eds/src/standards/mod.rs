@@ -6,102 +6,15 @@ mod cia401;
 mod cia402;
 mod cia404;
 mod cia406;
+mod row;
 
 use alloc::vec::Vec;
 
-use od_model::{DataType, ObjectCode};
+use od_model::DataType;
 
-/// One object of a device profile, or a range of objects that are alike.
-pub(crate) struct Row {
-    first: u16,
-    last: u16,
-    name: &'static str,
-    checked: Option<Checked>,
-    /// Types that no rule checks: first and last sub-index, type.
-    types: &'static [(u8, u8, DataType)],
-}
+use crate::standards::row::Row;
 
-/// What the rules check of an object.
-pub(crate) struct Checked {
-    /// VAR or ARRAY; an ARRAY may be a RECORD as well.
-    pub(crate) code: ObjectCode,
-    /// The types that the value, or every sub-object, may have.
-    pub(crate) data_types: &'static [DataType],
-    /// May a master write it? `None` where the profile leaves it open.
-    pub(crate) writable: Option<bool>,
-}
-
-/// An object of which no rule checks anything.
-const fn named(first: u16, last: u16, name: &'static str) -> Row {
-    Row {
-        first,
-        last,
-        name,
-        checked: None,
-        types: &[],
-    }
-}
-
-impl Row {
-    const fn checked(
-        self,
-        code: ObjectCode,
-        data_types: &'static [DataType],
-        writable: Option<bool>,
-    ) -> Self {
-        let checked = Some(Checked {
-            code,
-            data_types,
-            writable,
-        });
-        Self { checked, ..self }
-    }
-
-    /// Types that no rule checks: first and last sub-index, type.
-    const fn with(self, types: &'static [(u8, u8, DataType)]) -> Self {
-        Self { types, ..self }
-    }
-}
-
-/// A VAR that is read only.
-const fn ro(index: u16, data_types: &'static [DataType], name: &'static str) -> Row {
-    named(index, index, name).checked(ObjectCode::Var, data_types, Some(false))
-}
-
-/// A VAR that a master writes.
-const fn rw(index: u16, data_types: &'static [DataType], name: &'static str) -> Row {
-    named(index, index, name).checked(ObjectCode::Var, data_types, Some(true))
-}
-
-/// A VAR that a master writes, or that is fixed in a simple device.
-const fn var(index: u16, data_types: &'static [DataType], name: &'static str) -> Row {
-    named(index, index, name).checked(ObjectCode::Var, data_types, None)
-}
-
-/// Sub-objects of one type that are read only.
-const fn ro_array(
-    first: u16,
-    last: u16,
-    data_types: &'static [DataType],
-    name: &'static str,
-) -> Row {
-    named(first, last, name).checked(ObjectCode::Array, data_types, Some(false))
-}
-
-/// Sub-objects of one type that a master writes.
-const fn rw_array(
-    first: u16,
-    last: u16,
-    data_types: &'static [DataType],
-    name: &'static str,
-) -> Row {
-    named(first, last, name).checked(ObjectCode::Array, data_types, Some(true))
-}
-
-/// Sub-objects of one type that a master writes, or that are fixed in a simple device.
-const fn array(first: u16, last: u16, data_types: &'static [DataType], name: &'static str) -> Row {
-    named(first, last, name).checked(ObjectCode::Array, data_types, None)
-}
+pub(crate) use crate::standards::row::Checked;
 
 /// The rows of a profile; none if odkit does not know it.
 const fn table(profile: u16) -> &'static [Row] {

@@ -2,6 +2,7 @@
 
 extern crate std;
 
+use alloc::collections::BTreeSet;
 use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
@@ -10,6 +11,8 @@ use std::path::{Path, PathBuf};
 
 use super::*;
 use crate::catalogue::{Eds, say};
+use crate::document::Document;
+use crate::finding::Finding;
 
 /// The findings of one tool about a text.
 fn found(name: &str, text: &str) -> Vec<Finding> {

@@ -14,6 +14,7 @@ use alloc::vec::Vec;
 use od_model::Visible;
 
 use crate::description::{Description, Section};
+use crate::load;
 use crate::scan::known;
 use crate::scan::known::{Form, Known};
 use crate::scan::number;
@@ -28,7 +29,7 @@ pub fn canonical(description: &Description) -> String {
         Cow::Borrowed(_) => text,
         // Escaped names have other places in the order of keys.
         Cow::Owned(visible) => {
-            let description = crate::parse(&visible).description;
+            let description = load::parse(&visible).description;
             crate::write::eds::write(&complete(&description))
         }
     }

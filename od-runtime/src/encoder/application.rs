@@ -4,7 +4,8 @@ use od_model::{Address, Kind};
 
 use super::configure::STEPS;
 use super::faults::{self, Faults};
-use super::motion::{Angle, Motion};
+use super::motion::Motion;
+use super::position::Angle;
 use super::profile::{Family, Options, Role};
 use super::state::Encoder;
 use super::timer::{EVENT_TIMER, TIMER};

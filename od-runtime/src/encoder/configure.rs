@@ -3,8 +3,8 @@
 use od_model::{Address, Group};
 
 use super::arithmetic::at_least_1;
-use super::motion::{Angle, Gain, Motion};
-use super::position::Scale;
+use super::motion::{Gain, Motion};
+use super::position::{Angle, Scale};
 use super::profile::{Counter, Family, Gear, GearKind, RangeRule, Role, Total};
 use super::state::Encoder;
 use crate::store::Store;

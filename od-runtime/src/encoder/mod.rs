@@ -13,16 +13,17 @@ mod movement;
 mod position;
 mod power;
 mod profile;
+mod report;
 mod sampled;
 mod state;
 mod timer;
 
 pub use configure::{REVERSED, SCALING};
-pub use faults::{Appears, Fault, Report, Until};
-pub use motion::{Angle, Gain, Motion};
-pub use position::{Scale, Sensor};
+pub use motion::{Gain, Motion};
+pub use position::{Angle, Scale, Sensor};
 pub use profile::{AnyFamily, Counter, EncoderProfile, Family, Gear, GearKind, Mirror, Movement};
 pub use profile::{Options, Quantity, RangeRule, Role, Source, Total};
+pub use report::{Appears, Fault, Report, Until};
 pub use sampled::{PositionSource, Sampled};
 pub use state::{Encoder, Switches};
 

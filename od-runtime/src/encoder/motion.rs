@@ -1,48 +1,9 @@
 //! Interface between an encoder and the shaft that it sits on.
 
-use super::faults::Fault;
-use super::position::Sensor;
+use super::position::{Angle, Sensor};
 use super::profile::Counter;
+use super::report::Fault;
 use od_wire::Instant;
-
-/// Angle of a shaft in 2⁻³² revolutions, from the zero of the sensor; it counts whole revolutions,
-/// too.
-///
-/// Whole revolutions are the upper half, −2³¹ to 2³¹−1; past the ends it wraps.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Default, Debug)]
-pub struct Angle(i64);
-
-impl Angle {
-    /// Zero of the sensor.
-    pub const ZERO: Self = Self(0);
-
-    /// Angle of `fractions` 2⁻³² revolutions.
-    pub const fn from_fractions(fractions: i64) -> Self {
-        Self(fractions)
-    }
-
-    /// Returns the angle in 2⁻³² revolutions.
-    pub const fn fractions(self) -> i64 {
-        self.0
-    }
-
-    /// Returns the sum of two angles.
-    #[must_use]
-    pub const fn plus(self, other: Self) -> Self {
-        Self(self.0.wrapping_add(other.0))
-    }
-
-    /// Returns the difference of two angles.
-    #[must_use]
-    pub const fn minus(self, other: Self) -> Self {
-        Self(self.0.wrapping_sub(other.0))
-    }
-
-    /// Returns whole revolutions, rounded down, and the rest in 2⁻³² revolutions.
-    pub const fn split(self) -> (i64, u32) {
-        (self.0 >> 32, self.0 as u32)
-    }
-}
 
 /// Angle, speed and acceleration of a shaft.
 ///

@@ -5,8 +5,8 @@ use core::mem::discriminant;
 
 use od_model::{Address, DataType, Dictionary, Literal};
 
-use super::faults::{Fault, Report};
 use super::position::Sensor;
+use super::report::{Fault, Report};
 use od_wire::AbortCode;
 
 /// Unit of object 6502h (MANUALS.md C-X-01).

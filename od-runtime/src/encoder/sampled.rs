@@ -1,10 +1,10 @@
 //! Shaft whose angle a sensor samples: speed and acceleration are differences of samples.
 
 use super::arithmetic::{Float, fraction, scaled};
-use super::faults::Fault;
-use super::motion::{Angle, Gain, Motion};
-use super::position::Sensor;
+use super::motion::{Gain, Motion};
+use super::position::{Angle, Sensor};
 use super::profile::Counter;
+use super::report::Fault;
 use od_wire::{Duration, Instant};
 
 /// Sensor that samples the angle of a shaft.

@@ -4,10 +4,11 @@ use core::marker::PhantomData;
 
 use od_model::{Address, Dictionary};
 
-use super::faults::{Fault, Faults};
-use super::motion::{Angle, Gain, Motion};
-use super::position::{Scale, Sensor};
+use super::faults::Faults;
+use super::motion::{Gain, Motion};
+use super::position::{Angle, Scale, Sensor};
 use super::profile::{AnyFamily, EncoderProfile, Family, MOVEMENTS, Parts, Role, Total};
+use super::report::Fault;
 use od_wire::Instant;
 
 /// Rotary and DIP switches in the cover.

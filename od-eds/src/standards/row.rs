@@ -1,0 +1,100 @@
+//! A row in the table of a device profile: an object, and what the profile says of it.
+
+use od_model::{DataType, ObjectCode};
+
+/// One object of a device profile, or a range of objects that are alike.
+pub(super) struct Row {
+    pub(super) first: u16,
+    pub(super) last: u16,
+    pub(super) name: &'static str,
+    pub(super) checked: Option<Checked>,
+    /// Types that no rule checks: first and last sub-index, type.
+    pub(super) types: &'static [(u8, u8, DataType)],
+}
+
+/// What the rules check of an object.
+pub(crate) struct Checked {
+    /// VAR or ARRAY; an ARRAY may be a RECORD as well.
+    pub(crate) code: ObjectCode,
+    /// The types that the value, or every sub-object, may have.
+    pub(crate) data_types: &'static [DataType],
+    /// May a master write it? `None` where the profile leaves it open.
+    pub(crate) writable: Option<bool>,
+}
+
+/// An object of which no rule checks anything.
+pub(super) const fn named(first: u16, last: u16, name: &'static str) -> Row {
+    Row {
+        first,
+        last,
+        name,
+        checked: None,
+        types: &[],
+    }
+}
+
+impl Row {
+    pub(super) const fn checked(
+        self,
+        code: ObjectCode,
+        data_types: &'static [DataType],
+        writable: Option<bool>,
+    ) -> Self {
+        let checked = Some(Checked {
+            code,
+            data_types,
+            writable,
+        });
+        Self { checked, ..self }
+    }
+
+    /// Types that no rule checks: first and last sub-index, type.
+    pub(super) const fn with(self, types: &'static [(u8, u8, DataType)]) -> Self {
+        Self { types, ..self }
+    }
+}
+
+/// A VAR that is read only.
+pub(super) const fn ro(index: u16, data_types: &'static [DataType], name: &'static str) -> Row {
+    named(index, index, name).checked(ObjectCode::Var, data_types, Some(false))
+}
+
+/// A VAR that a master writes.
+pub(super) const fn rw(index: u16, data_types: &'static [DataType], name: &'static str) -> Row {
+    named(index, index, name).checked(ObjectCode::Var, data_types, Some(true))
+}
+
+/// A VAR that a master writes, or that is fixed in a simple device.
+pub(super) const fn var(index: u16, data_types: &'static [DataType], name: &'static str) -> Row {
+    named(index, index, name).checked(ObjectCode::Var, data_types, None)
+}
+
+/// Sub-objects of one type that are read only.
+pub(super) const fn ro_array(
+    first: u16,
+    last: u16,
+    data_types: &'static [DataType],
+    name: &'static str,
+) -> Row {
+    named(first, last, name).checked(ObjectCode::Array, data_types, Some(false))
+}
+
+/// Sub-objects of one type that a master writes.
+pub(super) const fn rw_array(
+    first: u16,
+    last: u16,
+    data_types: &'static [DataType],
+    name: &'static str,
+) -> Row {
+    named(first, last, name).checked(ObjectCode::Array, data_types, Some(true))
+}
+
+/// Sub-objects of one type that a master writes, or that are fixed in a simple device.
+pub(super) const fn array(
+    first: u16,
+    last: u16,
+    data_types: &'static [DataType],
+    name: &'static str,
+) -> Row {
+    named(first, last, name).checked(ObjectCode::Array, data_types, None)
+}

@@ -1,0 +1,121 @@
+//! What tools make of a file, and whether it is what odkit reads.
+
+use alloc::collections::BTreeSet;
+use alloc::format;
+use alloc::string::String;
+use alloc::vec::Vec;
+
+use crate::allow::Allows;
+use crate::description::Description;
+use crate::document::{Document, is_xml};
+use crate::finding::{Finding, Place, Severity, sort};
+use crate::tools::compare::Compare;
+use crate::tools::shared;
+use crate::tools::tool::{Input, Reading, Tool};
+
+/// Result of a tool for a file.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Verdict {
+    /// The tool reads all of it, as odkit does.
+    Accepts,
+    /// The tool drops something, or reads it as something else.
+    Differs,
+    /// The tool gives it up.
+    Rejects,
+}
+
+impl Verdict {
+    /// In a word or two.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Accepts => "accepts",
+            Self::Differs => "reads differently",
+            Self::Rejects => "rejects",
+        }
+    }
+}
+
+/// The verdict that the findings of one tool make.
+pub fn verdict(findings: &[Finding]) -> Verdict {
+    match findings {
+        [] => Verdict::Accepts,
+        _ if findings
+            .iter()
+            .any(|finding| finding.rule.severity == Severity::Error) =>
+        {
+            Verdict::Rejects
+        }
+        _ => Verdict::Differs,
+    }
+}
+
+/// Reads a file as a tool does.
+pub fn reading(document: &Document, tool: &Tool) -> Reading {
+    let mark: &[u8] = b"\xEF\xBB\xBF";
+    let bytes = document.bytes();
+    let body = bytes.strip_prefix(mark).unwrap_or(bytes);
+    let input = Input {
+        text: core::str::from_utf8(body).ok(),
+        bytes: body,
+        decoded: document.text(),
+        has_mark: body.len() < bytes.len(),
+    };
+    let is_placed = input.text == Some(document.text());
+    let mut reading = (tool.read)(&input);
+    for finding in &mut reading.findings {
+        if !is_placed {
+            finding.place = Place::Nowhere;
+            finding.related.clear();
+        }
+        if !is_placed || is_xml(document.text()) {
+            finding.fix = None;
+        }
+    }
+    reading
+}
+
+/// Returns what these tools reject, drop or read differently, in file order, without findings that the text
+/// allows. A fix suits all of them.
+///
+/// `description` is what odkit reads of the file.
+pub fn check(
+    document: &Document,
+    description: &Description,
+    tools: &[&'static Tool],
+) -> Vec<Finding> {
+    let mut found = Vec::new();
+    for tool in tools {
+        let reading = reading(document, tool);
+        let mut own = Vec::new();
+        if let Some(rules) = tool.differences.filter(|_| !reading.is_rejected()) {
+            let mut compare = Compare {
+                text: document.text(),
+                tools,
+                rules,
+                node_id: reading.node_id.unwrap_or(shared::NODE_ID),
+                found: Vec::new(),
+            };
+            compare.all(description, &reading);
+            own = compare.found;
+        }
+        let rejected = reading.is_rejected();
+        let of_text = reading.findings.into_iter();
+        own.extend(of_text.filter(|finding| !rejected || finding.is_error()));
+        // Members of CompactSubObj come from one section, and some tools look at a value twice.
+        let mut known = BTreeSet::new();
+        own.retain(|finding| {
+            let is_name = |fact: &&(&str, _)| finding.object.is_none() && fact.0 == "name";
+            let name = finding.facts.iter().find(is_name);
+            let facts = name.map_or(String::new(), |name| format!("{name:?}"));
+            let at = finding.span();
+            at.is_none() || known.insert((finding.code(), at, facts))
+        });
+        found.extend(
+            own.into_iter()
+                .map(|finding| finding.fact("tool", tool.name)),
+        );
+    }
+    Allows::of(document.text()).filter(&mut found);
+    sort(&mut found);
+    found
+}
