@@ -38,7 +38,9 @@ fn each_sub_index_has_its_handle() {
     assert_eq!(samples.count(), 0x42);
     for handle in samples.iter() {
         let address = handle.address();
-        let entry = device::DICTIONARY.entry(address.index, address.sub).unwrap();
+        let entry = device::DICTIONARY
+            .entry(address.index, address.sub)
+            .unwrap();
         assert_eq!((entry.slot, entry.mappable), (handle.slot(), true));
     }
     let third = device::samples::THIRD;
