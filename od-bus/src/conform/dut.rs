@@ -139,6 +139,25 @@ impl Dut<'_> {
         Ok(())
     }
 
+    /// Returns whether the node sends anything: a response to an SDO request, be it an abort, a heartbeat, a
+    /// boot-up message, or a response to node guarding.
+    pub(crate) fn is_alive(&mut self) -> Checked<bool> {
+        let (answer, state) = (self.id(0x580), self.id(0x700));
+        // What was begun before is over, also in a server that waits for a segment.
+        let request = self.node.plus(0x600);
+        self.send(Frame::full(request, [0x80, 0, 0, 0, 0, 0, 0, 8]))?;
+        for index in [0x1000_u16, 0x1001, 0x1018] {
+            let [low, high] = index.to_le_bytes();
+            self.drain()?;
+            self.send(Frame::full(request, [0x40, low, high, 0, 0, 0, 0, 0]))?;
+            let is_its = |frame: &Frame| is_data(frame, answer) || is_data(frame, state);
+            if self.next(ANSWER, is_its)?.is_some() {
+                return Ok(true);
+            }
+        }
+        Ok(self.guarded()?.is_some())
+    }
+
     /// An NMT command to the node, and time for it.
     pub(crate) fn nmt(&mut self, command: Command) -> Checked {
         let node = self.node.raw();

@@ -313,7 +313,8 @@ impl Dut<'_> {
 
     /// Is the server ready for a new transfer?
     pub(crate) fn still_serves(&mut self) -> Checked {
-        self.read(Address::new(0x1000, 0)).map(drop)
+        // An abort is a response, too: whether 1000h is there is another case.
+        self.upload(Address::new(0x1000, 0)).map(drop)
     }
 }
 

@@ -14,6 +14,11 @@ use super::record::{Record, Times, Verdict};
 use super::rig::Rig;
 use crate::error::Error;
 
+/// A node that did not respond to anything so often, in as many cases in a row, is lost.
+const SILENCES: u8 = 3;
+/// Time without power, in microseconds.
+const POWER_OFF: u64 = 500_000;
+
 /// Permissions of the test.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub struct Leave {
@@ -40,6 +45,8 @@ pub struct Session<'s> {
     deviations: Deviations,
     times: Times,
     lost: Option<String>,
+    /// Number of times in a row that the node did not respond to anything.
+    silences: u8,
     simulated: Option<(&'s str, Fresh<'s>)>,
 }
 
@@ -54,6 +61,7 @@ impl<'s> Session<'s> {
             deviations: Deviations::built_in(),
             times: Times::default(),
             lost: None,
+            silences: 0,
             simulated: None,
         }
     }
@@ -73,7 +81,8 @@ impl<'s> Session<'s> {
         self.lost.as_deref()
     }
 
-    /// Runs one case. After the link or the node was lost every case is skipped.
+    /// Runs one case. A node that does not respond costs this case; after [`SILENCES`] in a row, and after
+    /// the link was lost, every case is skipped.
     pub fn run(&mut self, case: &Case) -> Record {
         let from = self.rig.now();
         let mut dut = Dut {
@@ -91,34 +100,40 @@ impl<'s> Session<'s> {
         };
         let mut result = match &self.lost {
             Some(why) => skip(why),
-            None => may(case, self.leave, &self.deviations, &dut, self.simulated).and_then(|()| {
-                let own = self.simulated.filter(|_| !case.devices.is_empty());
-                let done = match (own, &case.steps[..]) {
-                    (Some((_, fresh)), [Step::Script(line, text)]) => {
-                        let (done, frames) = aside::play(fresh, *line, text);
-                        dut.frames = frames;
-                        return done;
+            None => responds(&mut dut, self.silences)
+                .and_then(|()| may(case, self.leave, &self.deviations, &dut, self.simulated))
+                .and_then(|()| {
+                    let own = self.simulated.filter(|_| !case.devices.is_empty());
+                    let done = match (own, &case.steps[..]) {
+                        (Some((_, fresh)), [Step::Script(line, text)]) => {
+                            let (done, frames) = aside::play(fresh, *line, text);
+                            dut.frames = frames;
+                            return done;
+                        }
+                        _ => steps(case, &mut dut),
+                    };
+                    if matches!(done, Err(End::Lost(Error::Interrupted))) {
+                        dut.rig.resume();
                     }
-                    _ => steps(case, &mut dut),
-                };
-                if matches!(done, Err(End::Lost(Error::Interrupted))) {
-                    dut.rig.resume();
-                }
-                let back = dut.put_back();
-                match (done, back) {
-                    (done, Err(End::Lost(fault))) if !matches!(done, Err(End::Lost(_))) => {
-                        done.and(Err(End::Lost(fault)))
+                    let back = dut.put_back();
+                    match (done, back) {
+                        (done, Err(End::Lost(fault))) if !matches!(done, Err(End::Lost(_))) => {
+                            done.and(Err(End::Lost(fault)))
+                        }
+                        (done, _) => done,
                     }
-                    (done, _) => done,
-                }
-            }),
+                }),
         };
         // A node that hangs must not be the failure of all that follow.
-        if matches!(result, Err(End::Fail { .. })) && self.lost.is_none() {
+        let is_in_doubt = matches!(result, Err(End::Fail { .. })) || self.silences > 0;
+        if is_in_doubt && self.lost.is_none() && !matches!(result, Err(End::Lost(_))) {
             match revive(&mut dut) {
-                Ok(true) => {}
-                Ok(false) => self.lost = Some("the node does not respond any more".into()),
+                Ok(true) => self.silences = 0,
+                Ok(false) => self.silences += 1,
                 Err(_) => self.lost = Some("the link is lost".into()),
+            }
+            if self.silences >= SILENCES {
+                self.lost = Some("the node does not respond any more".into());
             }
         }
         if let Err(End::Lost(fault)) = &result {
@@ -204,23 +219,41 @@ fn steps(case: &Case, dut: &mut Dut<'_>) -> Checked {
     Ok(())
 }
 
-/// Does the node still respond, if need be after a reset?
-fn revive(dut: &mut Dut<'_>) -> Result<bool, End> {
-    for attempt in 0..2 {
-        if attempt == 1 {
-            if !dut.may_reset {
-                return Ok(false);
-            }
-            match dut.reset(Command::ResetNode) {
-                Err(End::Lost(fault)) => return Err(End::Lost(fault)),
-                Err(_) => return Ok(false),
-                Ok(()) => dut.notes.push("the node was reset to respond again".into()),
-            }
+/// Checks before a case that a node responds which did not after the case before.
+fn responds(dut: &mut Dut<'_>, silences: u8) -> Checked {
+    if silences == 0 || dut.is_alive()? {
+        Ok(())
+    } else {
+        skip("the node does not respond")
+    }
+}
+
+/// Returns whether the node responds, if need be after a reset or with its power switched off and on.
+fn revive(dut: &mut Dut<'_>) -> Checked<bool> {
+    if dut.is_alive()? {
+        return Ok(true);
+    }
+    let mut resets: Vec<fn(&mut Dut<'_>) -> Checked> = Vec::new();
+    if dut.may_reset {
+        resets.push(|dut| dut.reset(Command::ResetNode));
+    }
+    if dut.rig.has_power() {
+        resets.push(|dut| {
+            dut.power(false)?;
+            dut.wait(POWER_OFF)?;
+            let from = dut.now();
+            dut.power(true)?;
+            dut.booted(from)
+        });
+    }
+    for reset in resets {
+        // A boot-up message that does not come says nothing: the node may be there all the same.
+        if let Err(End::Lost(fault)) = reset(dut) {
+            return Err(End::Lost(fault));
         }
-        match dut.still_serves() {
-            Ok(()) => return Ok(true),
-            Err(End::Lost(fault)) => return Err(End::Lost(fault)),
-            Err(_) => {}
+        if dut.is_alive()? {
+            dut.notes.push("the node was reset to respond again".into());
+            return Ok(true);
         }
     }
     Ok(false)

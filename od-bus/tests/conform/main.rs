@@ -3,6 +3,7 @@
 mod devices;
 mod late;
 mod learn;
+mod living;
 mod mutant;
 mod mutants;
 mod scripts;
