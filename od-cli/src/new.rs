@@ -47,6 +47,9 @@ pub(crate) struct Args {
     /// Accept that the crate lacks objects of the file
     #[arg(long)]
     lossy: bool,
+    /// Make nothing if the copy of the file still has errors that you have to decide about
+    #[arg(long)]
+    strict: bool,
 }
 
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
@@ -69,6 +72,16 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
             args.file
         )));
     }
+    if args.strict && !device.left.is_empty() {
+        for left in &device.left {
+            output::note!("note: {left}");
+        }
+        let count = report::plural(device.left.len(), "error");
+        return Err(Failure::Failed(format!(
+            "the copy of {} would still have {count}; correct the file, or leave out `--strict`",
+            args.file
+        )));
+    }
     let files = match args.firmware {
         Some(board) => firmware::files(&name, &device, &origin, board),
         None => plain::files(&name, &device, &origin),
@@ -76,6 +89,9 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     folder::write(&folder, &files)?;
     for note in &device.notes {
         output::note!("note: {note}");
+    }
+    for left in &device.left {
+        output::note!("still wrong: {left}");
     }
     let folder = folder.display();
     let next = match args.firmware {
@@ -137,11 +153,15 @@ fn device(name: &str) -> Result<(DeviceFile, usize), Failure> {
     } else {
         od_eds::canonical(&description).into_bytes()
     };
+    let left = od_eds::load(od_eds::decode(&bytes).as_ref()).findings;
+    let left = left.iter().filter(|finding| finding.is_error());
+    let left = left.map(repair::left).collect();
     let device = DeviceFile {
         ending,
         bytes,
         description,
         notes: notes.all,
+        left,
     };
     Ok((device, notes.removed.len()))
 }

@@ -160,7 +160,7 @@ impl From<usize> for Fact {
 }
 
 /// A value as an EDS would write it.
-pub(crate) fn shown(value: &Value) -> String {
+pub fn shown(value: &Value) -> String {
     match value {
         Value::Unsigned(v) => v.to_string(),
         Value::Signed(v) => v.to_string(),

@@ -63,7 +63,7 @@ pub use description::{
 };
 pub use document::offsets::Offsets;
 pub use document::{Document, Edit, EditError, is_xml};
-pub use fact::{Fact, Key};
+pub use fact::{Fact, Key, shown};
 pub use finding::{Finding, Form, Place, Related, Severity};
 pub use foreign::foreign;
 pub use load::Parsed;

@@ -18,6 +18,8 @@ pub(super) struct DeviceFile {
     pub(super) description: Description,
     /// Changes that fixed errors of the file.
     pub(super) notes: Vec<String>,
+    /// Errors of the file that the user has to decide about.
+    pub(super) left: Vec<String>,
 }
 
 /// Bit rates of CiA 301 in kbit/s, by their index in the LSS table; 0 if the index has none.
@@ -81,6 +83,7 @@ impl DeviceFile {
             ("own", own.to_owned()),
             ("names", format!("use odkit::{{{names}}};")),
             ("fixed", self.fixed()),
+            ("rust_version", env!("CARGO_PKG_RUST_VERSION").to_owned()),
         ]
     }
 
@@ -133,16 +136,18 @@ impl DeviceFile {
 
     /// The changes in the crate's copy, for its README.
     fn fixed(&self) -> String {
-        if self.notes.is_empty() {
-            return String::new();
-        }
-        let lines: Vec<String> = (self.notes.iter())
-            .map(|note| format!("- {note}\n"))
-            .collect();
-        format!(
-            "\n## Fixed errors\n\nThe EDS file had errors. The copy in this folder was changed:\n\n{}",
-            lines.concat()
-        )
+        let list = |title: &str, text: &str, lines: &[String]| {
+            let lines: Vec<String> = lines.iter().map(|line| format!("- {line}\n")).collect();
+            if lines.is_empty() {
+                String::new()
+            } else {
+                format!("\n## {title}\n\n{text}\n\n{}", lines.concat())
+            }
+        };
+        let fixed = "The EDS file had errors. The copy in this folder was changed, old → new:";
+        let left = "A device can be built with these errors, and a master may fail. Correct the copy; \
+                    `odkit check` shows the lines.";
+        list("Fixed errors", fixed, &self.notes) + &list("Still wrong", left, &self.left)
     }
 }
 

@@ -171,7 +171,7 @@ pub(super) fn files(
             include_str!("template/workspace/device_plain.rs.in"),
             include_str!("template/workspace/sim_plain.rs.in"),
             "",
-            "{{crate}}::Behaviour",
+            "{{crate}}::Behaviour::default()",
         ),
     };
     let parts = board.parts();

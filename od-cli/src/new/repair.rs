@@ -55,6 +55,78 @@ pub(super) fn fix(description: &mut Description) -> Result<Notes, Vec<Finding>> 
     Err(left.into_iter().filter(Finding::is_unsound).collect())
 }
 
+/// An error that is left, in a line.
+pub(super) fn left(error: &Finding) -> String {
+    let said = say(error, &Eds);
+    let place = said
+        .address
+        .map_or(String::new(), |address| format!("{address}: "));
+    let help = if said.help.is_empty() {
+        String::new()
+    } else {
+        format!("; {}", said.help)
+    };
+    format!("{place}{} ({}){help}", said.message, error.code())
+}
+
+/// The access that a value should have: `rww` if an RPDO maps it, else that of the standard's object, else `ro`.
+fn right_access(mapped: &BTreeSet<Address>, address: Address) -> Access {
+    if mapped.contains(&address) {
+        return Access::Rww;
+    }
+    match od_eds::outline::specified(address.index) {
+        Some(_) if address.sub == 0 && has_members(address.index) => Access::Ro,
+        Some(known) => known.access,
+        None => Access::Ro,
+    }
+}
+
+fn has_members(index: u16) -> bool {
+    od_eds::outline::specified(index).is_some_and(|known| known.code.has_members())
+}
+
+/// The values that the RPDOs map by default.
+fn mapped_by_rpdos(description: &Description) -> BTreeSet<Address> {
+    let mappings = description.objects.range(0x1600..=0x17FF);
+    let entries =
+        mappings.filter_map(|(index, _)| od_eds::identifiers::mapping(description, *index));
+    entries.flatten().map(|entry| entry.address).collect()
+}
+
+/// What changed of a value, old → new.
+fn changes(old: &EntryDescription, new: &EntryDescription) -> String {
+    let value = |value: &Option<Spanned<Value>>| {
+        value
+            .as_ref()
+            .map_or("none".into(), |value| match value.value {
+                Value::Unsigned(number) if number > 9 => format!("0x{number:X}"),
+                _ => od_eds::shown(&value.value),
+            })
+    };
+    let mut all = Vec::new();
+    let mut compare = |key: &str, old: String, new: String| {
+        if old != new {
+            all.push(format!("{key} {old} → {new}"));
+        }
+    };
+    compare(
+        "AccessType",
+        old.access.name().into(),
+        new.access.name().into(),
+    );
+    compare("DefaultValue", value(&old.default), value(&new.default));
+    compare(
+        "ParameterValue",
+        value(&old.parameter),
+        value(&new.parameter),
+    );
+    compare("LowLimit", value(&old.low), value(&new.low));
+    compare("HighLimit", value(&old.high), value(&new.high));
+    let mapping = |entry: &EntryDescription| u8::from(*entry.mappable).to_string();
+    compare("PDOMapping", mapping(old), mapping(new));
+    all.join(", ")
+}
+
 /// Removes sub-objects without a valid type, and fields whose text is not valid.
 fn drop_unreadable(description: &mut Description, notes: &mut Notes) {
     const FIELDS: [&str; 9] = [
@@ -68,6 +140,7 @@ fn drop_unreadable(description: &mut Description, notes: &mut Notes) {
         "HighLimit",
         "ParameterValue",
     ];
+    let (mut no_access, mut lost) = (BTreeSet::new(), BTreeSet::new());
     let is_field = |key: &str| FIELDS.iter().any(|field| field.eq_ignore_ascii_case(key));
     for (index, object) in &mut description.objects {
         object.extra.retain(|(key, _)| !is_field(key));
@@ -76,6 +149,9 @@ fn drop_unreadable(description: &mut Description, notes: &mut Notes) {
             let has_text = entry.extra.iter().any(|(key, _)| key == "DataType");
             entry.extra.retain(|(key, value)| {
                 let keep = !is_field(key);
+                if !keep && key.eq_ignore_ascii_case("AccessType") {
+                    no_access.insert(place);
+                }
                 if !keep && !value.trim().is_empty() {
                     let note = format!("{place}: removed the invalid {key} `{value}`");
                     notes.all.push(note);
@@ -93,9 +169,26 @@ fn drop_unreadable(description: &mut Description, notes: &mut Notes) {
                 };
                 let why = format!(" ({code}): it has no valid DataType");
                 notes.removed(place.to_string(), &why);
+                lost.insert(*index);
             }
             usable
         });
+    }
+    let mapped = mapped_by_rpdos(description);
+    for (index, object) in &mut description.objects {
+        for (sub, entry) in &mut object.entries {
+            let place = Address::new(*index, *sub);
+            let right = right_access(&mapped, place);
+            if no_access.contains(&place) && *entry.access != right {
+                let note = format!("{place}: AccessType not valid → {right} (odkit assumed ro)");
+                notes.all.push(note);
+                entry.access = Spanned::from(right);
+            }
+        }
+        let is_mapping = matches!(index, 0x1600..=0x17FF | 0x1A00..=0x1BFF);
+        if is_mapping && lost.contains(index) {
+            map_nothing(*index, object, notes);
+        }
     }
     description.objects.retain(|index, object| {
         let keep = !object.entries.is_empty();
@@ -126,6 +219,8 @@ fn step(
         return Some(());
     }
     let address = error.object?;
+    let mapped = mapped_by_rpdos(description);
+    let before = description.entry(address).cloned();
     let said = format!(" ({}): {}", error.code(), say(error, &Eds).message);
     let Address { index, sub } = address;
     let object = description.objects.get_mut(&index)?;
@@ -150,7 +245,7 @@ fn step(
             switch_off(index, entry)?;
         }
         (code, 1) if code.starts_with("E06") => {
-            object.entries.get_mut(&sub)?.access = Spanned::from(Access::Ro);
+            object.entries.get_mut(&sub)?.access = Spanned::from(right_access(&mapped, address));
         }
         (_, ..=2) if standard(index).is_some() => {
             description.objects.insert(index, standard(index)?);
@@ -158,6 +253,9 @@ fn step(
         (_, 2) if sub > 0 => {
             object.entries.remove(&sub)?;
             count(object);
+            if matches!(index, 0x1600..=0x17FF | 0x1A00..=0x1BFF) {
+                map_nothing(index, object, notes);
+            }
             notes.removed(address.to_string(), &said);
             return Some(());
         }
@@ -168,7 +266,16 @@ fn step(
         }
         _ => return None,
     }
-    notes.all.push(format!("{address}: changed{said}"));
+    let what = match (before, description.entry(address)) {
+        (Some(old), Some(new)) => changes(&old, new),
+        _ => String::new(),
+    };
+    let what = if what.is_empty() {
+        "changed".into()
+    } else {
+        what
+    };
+    notes.all.push(format!("{address}: {what}{said}"));
     Some(())
 }
 
@@ -186,6 +293,20 @@ fn count(object: &mut ObjectDescription) {
     entry.default = Some(Spanned::from(Value::Unsigned(highest.into())));
     object.entries.insert(0, entry);
     object.sub_number = None;
+}
+
+/// A mapping that lost an entry maps nothing: what is left of it is another PDO than the file has.
+fn map_nothing(index: u16, object: &mut ObjectDescription, notes: &mut Notes) {
+    if let Some(entry) = object.entries.get_mut(&0) {
+        let old = entry.clone();
+        (entry.default, entry.parameter) = (Some(Spanned::from(Value::Unsigned(0))), None);
+        let what = changes(&old, entry);
+        if !what.is_empty() {
+            notes.all.push(format!(
+                "{index:04X}h:00: {what}, because the mapping lost an entry"
+            ));
+        }
+    }
 }
 
 /// A service without a CAN-ID that it may not use: SYNC and TIME get their own, any other is not valid (bit 31).

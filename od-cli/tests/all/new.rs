@@ -116,6 +116,43 @@ fn a_cob_id_that_no_device_may_use_is_made_not_valid() {
 }
 
 #[test]
+fn a_fix_gives_the_access_of_the_standard_and_says_old_and_new() {
+    let text = "[DeviceInfo]\nProductName=Valve\n\
+                [1400]\nParameterName=RPDO\nObjectType=0x9\nSubNumber=3\n\
+                [1400sub0]\nParameterName=Count\nDataType=5\nAccessType=const\nDefaultValue=2\n\
+                [1400sub1]\nParameterName=COB-ID\nDataType=7\nAccessType=xx\nDefaultValue=$NODEID+0x680\n\
+                [1400sub2]\nParameterName=Type\nDataType=5\nAccessType=rw\nDefaultValue=255\n\
+                [1600]\nParameterName=Mapping\nObjectType=0x9\nSubNumber=2\n\
+                [1600sub0]\nParameterName=Count\nDataType=5\nAccessType=rw\nDefaultValue=1\n\
+                [1600sub1]\nParameterName=Entry\nDataType=7\nAccessType=rw\nDefaultValue=0x20000008\n\
+                [2000]\nParameterName=Opening\nDataType=5\nAccessType=writable\nPDOMapping=1\n\
+                [1010]\nParameterName=Save\nObjectType=0x8\nSubNumber=2\n\
+                [1010sub0]\nParameterName=Count\nDataType=5\nAccessType=const\nDefaultValue=1\n\
+                [1010sub1]\nParameterName=All\nDataType=7\nAccessType=ro\nDefaultValue=1\n";
+    let eds = file("new-access.eds", text).display().to_string();
+    let folder = fresh("new-access");
+    let path = folder.display().to_string();
+    let arguments = ["new", &eds, "--name", "valve", "--path", &path, "--strict"];
+    let strict = odkit(&arguments, "");
+    assert_eq!(strict.code, 1, "{}", strict.err);
+    let told = strict.err.contains("1010h:01");
+    assert!(told && !folder.exists(), "{}", strict.err);
+    let made = odkit(&arguments[..6], "");
+    assert_eq!(made.code, 0, "{}", made.err);
+    let readme = read(&folder, "README.md");
+    for told in [
+        "2000h:00: AccessType not valid → rww",
+        "1400h:01: AccessType not valid → rw",
+        "DefaultValue $NODEID+0x680 → $NODEID+0x80000000 (W0520)",
+        "## Still wrong",
+        "(E0643)",
+    ] {
+        assert!(readme.contains(told), "{told}\n{readme}");
+    }
+    assert!(read(&folder, "Cargo.toml").contains("rust-version = \"1.89\""));
+}
+
+#[test]
 fn a_merge_conflict_is_left_to_the_user() {
     let text = "[DeviceInfo]\nProductName=Two\n[2000]\nParameterName=T\nDataType=5\nAccessType=rw\n\
                 <<<<<<< HEAD\nDefaultValue=5\n=======\nDefaultValue=6\n>>>>>>> other\n";
