@@ -320,7 +320,7 @@ pub struct Profile {
     /// Options of the LSS slave; `None`: not supported.
     pub lss: Option<LssProfile>,
     /// Object index and bit mask. If any masked bit is set, node guarding replaces heartbeat.
-    /// `None`: node guarding while 1017h is 0 (CiA 301, chapter 7.2.8.2).
+    /// `None`: node guarding while 1017h is 0 (CiA 301, chapter 7.2.8.3.2).
     pub guarding_switch: Option<(u16, u32)>,
     /// Options of the NMT slave.
     pub nmt: NmtProfile,

@@ -10,9 +10,9 @@ use super::state::Encoder;
 use crate::store::Store;
 use od_wire::AbortCode;
 
-/// Measuring units per revolution (CiA 406).
+/// Measuring units per revolution (CiA 406, object 6001h).
 pub(super) const STEPS: Address = Address::new(0x6001, 0);
-/// Offset value (CiA 406).
+/// Offset value (CiA 406, object 6509h).
 pub(super) const OFFSET: Address = Address::new(0x6509, 0);
 
 /// Bit 0 of 6000h: the position value increases counter-clockwise.

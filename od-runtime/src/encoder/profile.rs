@@ -194,7 +194,8 @@ pub enum Quantity {
 pub struct Movement {
     /// Speed or acceleration.
     pub quantity: Quantity,
-    /// Object that selects the source; a value that `sources` lacks is aborted with 06090030h.
+    /// Object that selects the source (CiA 406, objects 6031h and 6041h); a value that `sources` lacks is
+    /// aborted with 06090030h.
     pub selector: Option<Address>,
     /// Sources by the value of the selector; without a selector the first one is used.
     pub sources: &'static [(u8, Source)],
@@ -242,8 +243,9 @@ pub struct EncoderProfile {
     pub gear: Option<Gear>,
     /// Objects with a role; at most 4 of them are movements.
     pub objects: &'static [(Address, Role)],
-    /// Pairs of objects with one value: a download to one changes the other. After a reset the saved
-    /// value of the pair applies, that of the first object if both are saved (MANUALS.md C-EAM-28).
+    /// Pairs of objects with one value, such as preset values (CiA 406, objects 6003h and 6010h): a download
+    /// to one changes the other. After a reset the saved value of the pair applies, that of the first object
+    /// if both are saved (MANUALS.md C-EAM-28).
     pub links: &'static [(Address, Address)],
     /// Abort code for a value below its lower limit (MANUALS.md U-05).
     pub below_limit: AbortCode,
@@ -257,8 +259,8 @@ pub struct EncoderProfile {
     pub switch_rates: &'static [u16],
     /// Reports of faults, at most 31.
     pub reports: &'static [Report],
-    /// The device supports only the reports whose bits are in 6504h and 6506h, by which variants
-    /// differ; else it supports all.
+    /// The device supports only the reports whose bits are set in its supported alarms and warnings (CiA 406,
+    /// objects 6504h and 6506h), by which variants differ; otherwise it supports all.
     pub by_support: bool,
 }
 

@@ -132,9 +132,9 @@ pub struct Report {
     pub code: u16,
     /// Bits of 1001h.
     pub register: u8,
-    /// Bits of 6503h.
+    /// Bits of the alarms (CiA 406, object 6503h).
     pub alarm: u16,
-    /// Bits of 6505h.
+    /// Bits of the warnings (CiA 406, object 6505h).
     pub warning: u16,
     /// Object that counts how often the fault appeared.
     pub counter: Option<Address>,

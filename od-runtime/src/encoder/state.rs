@@ -135,7 +135,7 @@ impl<M: Motion, F: Family> Encoder<M, F> {
     /// Roles that objects of the family may have.
     pub(super) const PARTS: Parts = Parts::of::<F>();
 
-    /// Sets the serial number, which 1018h:04 and 650Bh show from the next reset on (CiA 301, CiA 406).
+    /// Sets the serial number, which 1018h:04 and 650Bh show from the next reset on (CiA 406, object 650Bh).
     #[must_use]
     pub const fn with_serial_number(mut self, serial_number: u32) -> Self {
         self.serial_number = Some(serial_number);

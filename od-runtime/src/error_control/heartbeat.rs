@@ -1,4 +1,4 @@
-//! Heartbeat producer (CiA 301, chapter 7.2.8.2.2, object 1017h).
+//! Heartbeat producer (CiA 301, chapter 7.2.8.3.2.2, object 1017h).
 
 use crate::deadline::Deadline;
 use crate::profile::Profile;

@@ -68,7 +68,7 @@ impl Fastscan {
         Self { part: 0 }
     }
 
-    /// One step (CiA 305, chapter 6.3.6): are bits 31 to `bit` of this number, which is `own`, as asked?
+    /// One step (CiA 305, chapter 6.7): are bits 31 to `bit` of this number, which is `own`, as asked?
     ///
     /// The scan is complete only with the last number, all of its bits, after the
     /// other three.

@@ -10,7 +10,7 @@ use crate::storage::StorageError;
 use crate::storage::image::{self, Banks, Medium, Plan};
 use od_wire::lss::{Request, Response};
 
-/// The node ID of a slave that is not configured (CiA 305, chapter 6.3.1).
+/// The node ID of a slave that is not configured (CiA 305, chapter 6.4.2).
 pub(crate) const UNCONFIGURED: u8 = 0xFF;
 
 /// Error codes of 11h, 13h and 17h.
@@ -73,7 +73,7 @@ impl Slave {
     }
 
     /// Whether a slave that is not configured has a node ID to start with: 11h gave it one, and it
-    /// is back in the waiting state (CiA 305, chapter 6.3.1).
+    /// is back in the waiting state (CiA 305, chapter 6.3.2).
     pub(crate) fn is_ready(&self) -> bool {
         !self.configuration && self.node_id.is_some_and(|id| id != UNCONFIGURED)
     }
@@ -119,7 +119,7 @@ impl Slave {
                 part,
                 next,
             } if profile.fastscan && (active == UNCONFIGURED || !profile.is_own()) => {
-                // Who is being configured was found already (CiA 305, chapter 6.3.6).
+                // Who is being configured was found already (CiA 305, chapter 6.7).
                 if self.configuration {
                     return Action::Answer(None);
                 }

@@ -126,7 +126,7 @@ impl<D: Device> Machines<D> {
     }
 
     /// Node ID of a device without an object for it: a start takes the stored one, NMT reset
-    /// communication the pending one (CiA 305, chapter 6.3.1). Returns the bit rate of a start.
+    /// communication the pending one (CiA 305, chapter 6.4.2). Returns the bit rate of a start.
     fn take_own(
         &mut self,
         objects: &mut Objects<'_, D>,

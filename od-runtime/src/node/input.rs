@@ -173,7 +173,7 @@ impl<D: Device> Machines<D> {
         self.next = self.timers(objects.save_due()).moment();
     }
 
-    /// NMT command (CiA 301, chapter 7.2.8.2.1).
+    /// NMT command (CiA 301, chapter 7.2.8.3.1).
     fn handle_nmt(&mut self, objects: &mut Objects<'_, D>, frame: &Frame) {
         let Some(nmt::Repr { command, node }) = nmt::Repr::parse(frame.data()) else {
             return;
@@ -294,7 +294,7 @@ impl<D: Device> Machines<D> {
         }
     }
 
-    /// The frame of an RPDO, and of those behind it that have the same CAN-ID (CiA 301, chapter 7.2.2.4).
+    /// The frame of an RPDO, and of those behind it that have the same CAN-ID (CiA 301, chapter 7.2.2.5.1).
     fn handle_rpdo(&mut self, objects: &mut Objects<'_, D>, first: u16, frame: &Frame) {
         for at in usize::from(first).. {
             let rooms = self.rooms.all_mut();

@@ -30,7 +30,7 @@ impl<D: Device> Machines<D> {
             let master = CanId::standard(od_wire::lss::MASTER);
             table.add(Some(master), false, Service::Lss);
         }
-        // A node without a node ID knows nothing else (CiA 305, chapter 6.3.1).
+        // A node without a node ID knows nothing else (CiA 305, chapter 6.4.2).
         if !self.unconfigured {
             table.add(Some(CanId::standard(0)), false, Service::Nmt);
             if D::GUARDING {

@@ -1,4 +1,4 @@
-//! One RPDO: when it acts, and on which objects (CiA 301, chapter 7.2.2.4, objects 1400h to 17FFh).
+//! One RPDO: when it acts, and on which objects (CiA 301, chapter 7.2.2.5.1, objects 1400h to 17FFh).
 
 use super::mapping::{Mapped, Mapping};
 use crate::blank::Blank;

@@ -1,4 +1,4 @@
-//! Block download (CiA 301, chapters 7.2.4.3.9–7.2.4.3.12). The value is in the server's buffer.
+//! Block download (CiA 301, chapters 7.2.4.3.9–7.2.4.3.11). The value is in the server's buffer.
 
 use core::cmp::Ordering;
 

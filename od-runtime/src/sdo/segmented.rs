@@ -1,4 +1,4 @@
-//! Segmented transfers (CiA 301, chapters 7.2.4.3.4–7.2.4.3.8). The value is in the server's
+//! Segmented transfers (CiA 301, chapters 7.2.4.3.4 and 7.2.4.3.7). The value is in the server's
 //! buffer.
 
 use od_wire::AbortCode;

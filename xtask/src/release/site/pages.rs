@@ -59,7 +59,7 @@ const PARTS: [(&str, &[&str]); 9] = [
     ("Lessons", &[LESSONS]),
     ("Devices", &["docs/DEVICES.md", "docs/datasheets/", "docs/MANUALS.md"]),
     ("Device files", &[RULES, "docs/COMPATIBILITY.md", "docs/DIFFERENCES.md", "docs/CORPUS.md"]),
-    ("Scripts, lessons, tests", &["od-cli/SCRIPTS.md", "od-cli/LESSONS.md", "od-bus/CASES.md", "docs/RULES.md", "docs/CIA.md"]),
+    ("Scripts, lessons, tests", &["od-cli/SCRIPTS.md", "od-cli/LESSONS.md", "od-bus/CASES.md", "docs/RULES.md", "docs/CIA.md", "docs/COMPLIANCE.md"]),
     ("Packages", &["python/README.md", "examples/python-ci/README.md", "playground/README.md", "od-capi/README.md", "editors/README.md"]),
     ("Project", &[
         "docs/PERFORMANCE.md",
