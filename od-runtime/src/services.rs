@@ -120,16 +120,16 @@ pub(crate) const fn assert_served<D: Services>() {
             0x1029 => D::BEHAVIOUR,
             0x1201..=0x127F => D::SERVERS,
             0x1400..=0x17FF => D::RPDOS,
-            0x1005 => {
-                D::SYNC_PRODUCER
-                    || !CobId::new(row.default(dictionary.pool(), 0) as u32).produces_sync()
-            }
             _ => true,
         };
         assert!(
             is_served,
-            "the dictionary has an object of a service that is switched off by `without`, or bit 30 of 1005h \
-             without 1006h"
+            "the dictionary has an object of a service that is switched off by `without`"
+        );
+        let cob_id = CobId::new(row.default(dictionary.pool(), 0) as u32);
+        assert!(
+            row.index() != 0x1005 || D::SYNC_PRODUCER || !cob_id.produces_sync(),
+            "1005h produces SYNC by default, and the node does not; add 1006h, or clear bit 30"
         );
         rest = others;
     }
