@@ -1,6 +1,7 @@
 //! A dictionary that makes the device a SYNC producer.
 
-use odkit::{NodeId, object_dictionary};
+use odkit::storage::NoStorage;
+use odkit::{NoApplication, NodeId, object_dictionary};
 
 object_dictionary! {
     mod device {
@@ -13,7 +14,8 @@ object_dictionary! {
     }
 }
 
-static NODE: device::Node = odkit::Node::new(NodeId::ONE);
+static NODE: device::Node<NoApplication, NoStorage> =
+    odkit::Node::new(device::Device, NodeId::ONE, NoApplication, NoStorage);
 
 fn main() {
     println!("{}", NODE.node_id());

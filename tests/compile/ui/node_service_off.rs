@@ -1,6 +1,7 @@
 //! A dictionary with an object of a service that is switched off.
 
-use odkit::{NodeId, object_dictionary};
+use odkit::storage::NoStorage;
+use odkit::{NoApplication, NodeId, object_dictionary};
 
 object_dictionary! {
     mod device {
@@ -14,7 +15,8 @@ object_dictionary! {
     }
 }
 
-static NODE: device::Node = odkit::Node::new(NodeId::ONE);
+static NODE: device::Node<NoApplication, NoStorage> =
+    odkit::Node::new(device::Device, NodeId::ONE, NoApplication, NoStorage);
 
 fn main() {
     println!("{}", NODE.node_id());

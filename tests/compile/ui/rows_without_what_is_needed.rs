@@ -20,4 +20,4 @@ object_dictionary! {
     }
 }
 
-fn main() { let _ = device::Node::new(odkit::NodeId::ONE); }
+fn main() { let _ = device::Device; }
