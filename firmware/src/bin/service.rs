@@ -70,7 +70,7 @@ odkit::object_dictionary! {
         variant servers {
             add 0x1201 { code = record; name = "SDO server parameter 2" }
             add 0x1201sub1 { name = "COB-ID client to server"; type = u32; access = rw; default = 0x6A1 }
-            add 0x1201sub2 { name = "COB-ID server to client"; type = u32; access = rw; default = 0x5A1 }
+            add 0x1201sub2 { name = "COB-ID server to client"; type = u32; access = rw; default = 0x6C1 }
         }
         variant sync_producer {
             add 0x1006 { name = "Communication cycle period"; type = u32; access = rw; default = 0 }
