@@ -162,9 +162,9 @@ impl<D: Device, A, S> Node<D, A, S> {
         self.machines.node_id
     }
 
-    /// Sets the node ID that a device of [`LssProfile::CIA305`](crate::LssProfile::CIA305) starts with
-    /// from the next power-on while LSS has stored none. `None`: it is not configured, and there
-    /// is nothing but LSS until a master gives it one.
+    /// Sets the node ID of the next power-on, unless the application or the saved values set another. A device of
+    /// [`LssProfile::CIA305`](crate::LssProfile::CIA305) has it while LSS has stored none. `None`: such a device is
+    /// not configured, and there is nothing but LSS until a master gives it a node ID.
     pub const fn set_node_id(&mut self, node_id: Option<NodeId>) {
         let node = &mut self.machines;
         node.made_unconfigured = node_id.is_none();
@@ -173,6 +173,7 @@ impl<D: Device, A, S> Node<D, A, S> {
         }
         if !node.powered {
             node.unconfigured = node_id.is_none();
+            node.node_id = node.made_with;
         }
     }
 
