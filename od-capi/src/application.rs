@@ -12,9 +12,27 @@ use crate::types::{
 /// The behaviour of a device.
 pub(crate) struct Behaviour {
     pub(crate) device: odkit_device,
-    pub(crate) nested: &'static Nested,
+    /// Before power-on there is none.
+    pub(crate) nested: Option<&'static Nested>,
     /// The firmware writes, and no master: it is not asked.
     pub(crate) own: bool,
+}
+
+impl Behaviour {
+    /// No callbacks.
+    pub(crate) const NONE: Self = Self {
+        device: odkit_device::none(),
+        nested: None,
+        own: false,
+    };
+
+    /// Runs a callback, which may call back.
+    fn during<R>(&self, cx: &mut Context<'_, '_>, callback: impl FnOnce() -> R) -> R {
+        match self.nested {
+            Some(nested) => nested.during(cx, callback),
+            None => callback(),
+        }
+    }
 }
 
 /// The number of a reset in C.
@@ -41,7 +59,7 @@ impl Application for Behaviour {
         if let Some(call) = self.device.reset {
             // SAFETY: see above.
             let call = || unsafe { call(self.device.context, number(reset)) };
-            self.nested.during(cx, call);
+            self.during(cx, call);
         }
     }
 
@@ -57,7 +75,7 @@ impl Application for Behaviour {
         };
         // SAFETY: see above.
         let call = || unsafe { call(self.device.context, address.index, address.sub) };
-        outcome(self.nested.during(cx, call))
+        outcome(self.during(cx, call))
     }
 
     fn validate(
@@ -73,14 +91,14 @@ impl Application for Behaviour {
         let (from, len) = (value.as_ptr(), value.len());
         // SAFETY: see above; `value` has `len` bytes.
         let call = || unsafe { call(self.device.context, index, sub, from, len) };
-        outcome(self.nested.during(cx, call))
+        outcome(self.during(cx, call))
     }
 
     fn written(&mut self, cx: &mut Context<'_, '_>, address: Address) {
         if let Some(call) = self.device.written.filter(|_| !self.own) {
             // SAFETY: see above.
             let call = || unsafe { call(self.device.context, address.index, address.sub) };
-            self.nested.during(cx, call);
+            self.during(cx, call);
         }
     }
 
@@ -88,9 +106,7 @@ impl Application for Behaviour {
         let call = self.device.tick?;
         let now = cx.now;
         // SAFETY: see above.
-        let wait = self
-            .nested
-            .during(cx, || unsafe { call(self.device.context) });
+        let wait = self.during(cx, || unsafe { call(self.device.context) });
         (wait != ODKIT_NEVER).then(|| now.plus_micros(wait.into()))
     }
 }

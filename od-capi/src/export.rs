@@ -6,7 +6,7 @@
 macro_rules! export {
     ($device:ident) => {
         static ODKIT: $crate::instance::Instance<$device::Device> =
-            $crate::instance::Instance::new();
+            $crate::instance::Instance::new($device::Device);
 
         /// Switches the power on: loads the saved values or their defaults, and the node boots up.
         ///

@@ -30,9 +30,9 @@ pub struct Instance<D: Device> {
 /// A node with the callbacks and the memory that C gave it.
 pub(crate) type Slave<D> = Node<D, Behaviour, Memory>;
 
+/// Before the first power-on it is all zeros, so that it takes no flash.
 pub(crate) struct State<D: Device> {
-    /// `None`: it has had no power yet.
-    node: Option<Slave<D>>,
+    node: Slave<D>,
     clock: Clock,
 }
 
@@ -57,15 +57,14 @@ pub(crate) unsafe fn put<T>(to: *mut T, value: T) {
     unsafe { to.write_unaligned(value) };
 }
 
-impl<D: Device + Default> Instance<D> {
+impl<D: Device> Instance<D> {
     /// A node without power.
-    #[allow(clippy::new_without_default)] // for a static
-    pub const fn new() -> Self {
+    pub const fn new(device: D) -> Self {
         Self {
             busy: AtomicBool::new(false),
             nested: Nested::new(),
             state: UnsafeCell::new(State {
-                node: None,
+                node: Node::new(device, NodeId::ONE, Behaviour::NONE, Memory::NONE),
                 clock: Clock::new(),
             }),
         }
@@ -97,9 +96,9 @@ impl<D: Device + Default> Instance<D> {
         &self,
         call: impl FnOnce(&mut Slave<D>, &mut Clock) -> Result<R, u32>,
     ) -> Result<R, u32> {
-        self.enter(|State { node, clock }| match node {
-            Some(node) if node.is_powered() => call(node, clock),
-            _ => Err(ODKIT_STATE),
+        self.enter(|State { node, clock }| match node.is_powered() {
+            true => call(node, clock),
+            false => Err(ODKIT_STATE),
         })
     }
 
@@ -119,28 +118,23 @@ impl<D: Device + Default> Instance<D> {
             // SAFETY: the caller's.
             false => unsafe { device.read_unaligned() },
         };
-        let device = D::default();
-        let has_lss = D::LSS && device.profile().lss.is_some();
         let number = NodeId::new(node_id);
-        let is_valid = number.is_some() || node_id == ODKIT_UNCONFIGURED && has_lss;
+        let is_valid = number.is_some() || node_id == ODKIT_UNCONFIGURED;
         if !is_valid || !callbacks.storage.is_valid() {
             return ODKIT_ARGUMENT;
         }
         answer(self.enter(|State { node, clock }| {
-            if node.as_ref().is_some_and(Node::is_powered) {
+            if node.is_powered() {
                 return Err(ODKIT_STATE);
             }
-            let memory = Memory {
-                context: callbacks.context,
-                storage: callbacks.storage,
-            };
-            let behaviour = Behaviour {
-                device: callbacks,
-                nested: &self.nested,
-                own: false,
-            };
-            let first = number.unwrap_or(NodeId::ONE);
-            let node = node.insert(Node::new(device, first, behaviour, memory));
+            let has_lss = D::LSS && node.device().profile().lss.is_some();
+            if number.is_none() && !has_lss {
+                return Err(ODKIT_ARGUMENT);
+            }
+            node.application.device = callbacks;
+            node.application.nested = Some(&self.nested);
+            node.storage.context = callbacks.context;
+            node.storage.storage = callbacks.storage;
             node.set_node_id(number);
             node.power_on(clock.start(now_us));
             Ok(())
@@ -150,7 +144,7 @@ impl<D: Device + Default> Instance<D> {
     /// See `odkit_power_off`.
     pub fn power_off(&self) -> u32 {
         answer(self.enter(|state| {
-            state.node.iter_mut().for_each(Node::power_off);
+            state.node.power_off();
             Ok(())
         }))
     }
@@ -220,8 +214,7 @@ impl<D: Device + Default> Instance<D> {
     pub fn poll_timeout(&self, now_us: u32) -> u32 {
         let wait = self.enter(|state| {
             let now = state.clock.at(now_us);
-            let due = state.node.as_ref().and_then(Node::poll_timeout);
-            Ok(clock::until(now, due))
+            Ok(clock::until(now, state.node.poll_timeout()))
         });
         wait.unwrap_or(0)
     }
@@ -234,8 +227,9 @@ impl<D: Device + Default> Instance<D> {
         if to.is_null() {
             return false;
         }
-        let event = self.enter(|state| Ok(state.node.as_mut().and_then(Node::poll_event)));
-        let Ok(Some(event)) = event else { return false };
+        let Ok(Some(event)) = self.enter(|state| Ok(state.node.poll_event())) else {
+            return false;
+        };
         // SAFETY: it is not null, and the caller's.
         unsafe { put(to, event.into()) };
         true
@@ -243,17 +237,15 @@ impl<D: Device + Default> Instance<D> {
 
     /// See `odkit_state`.
     pub fn state(&self) -> u8 {
-        let state = self.enter(|state| Ok(state.node.as_ref().map(Node::state)));
-        let state = state.ok().flatten();
+        let state = self.enter(|state| Ok(state.node.state()));
         state.unwrap_or(nmt::State::Initialising) as u8
     }
 
     /// See `odkit_node_id`.
     pub fn node_id(&self) -> u8 {
-        let number = self.enter(|state| match &state.node {
-            Some(node) if !node.is_configured() => Ok(ODKIT_UNCONFIGURED),
-            Some(node) => Ok(node.node_id().raw()),
-            None => Ok(NodeId::ONE.raw()),
+        let number = self.enter(|state| match state.node.is_configured() {
+            true => Ok(state.node.node_id().raw()),
+            false => Ok(ODKIT_UNCONFIGURED),
         });
         number.unwrap_or(0)
     }

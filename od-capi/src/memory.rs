@@ -45,6 +45,12 @@ fn outcome(answer: i32) -> Result<(), StorageError> {
 }
 
 impl Memory {
+    /// No memory.
+    pub(crate) const NONE: Self = Self {
+        context: core::ptr::null_mut(),
+        storage: odkit_storage::none(),
+    };
+
     /// Offset and length as C sees them.
     fn part(&self, offset: usize, len: usize) -> Result<(u32, u32), StorageError> {
         let capacity = self.storage.capacity as usize;

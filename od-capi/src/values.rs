@@ -16,7 +16,7 @@ fn find(store: &Store<'_>, address: Address) -> Result<Entry, u32> {
     found.map_err(|missing| AbortCode::from(missing).code())
 }
 
-impl<D: Device + Default> Instance<D> {
+impl<D: Device> Instance<D> {
     /// Reads values, in a callback or outside.
     fn look<R>(&self, read: impl Fn(&Store<'_>) -> Result<R, u32>) -> Result<R, u32> {
         if let Some(result) = self.nested.with(|cx| read(cx.store)) {
@@ -72,9 +72,10 @@ impl<D: Device + Default> Instance<D> {
             if bytes.len() > size {
                 return Err(ODKIT_SIZE);
             }
+            let to = to.cast::<u8>();
             // SAFETY: there is room for `size` bytes, if not 0 of them; the values are not the
             // caller's memory.
-            unsafe { to.cast::<u8>().copy_from(bytes.as_ptr(), bytes.len()) };
+            unsafe { to.copy_from_nonoverlapping(bytes.as_ptr(), bytes.len()) };
             Ok(())
         }))
     }

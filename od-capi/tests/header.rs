@@ -29,7 +29,7 @@ fn source() -> String {
     };
     let export = read("export.rs");
     let (_, body) = export
-        .split_once("$crate::instance::Instance::new();")
+        .split_once("$crate::instance::Instance::new($device::Device);")
         .unwrap();
     let body = body.trim_end().strip_suffix("};\n}").unwrap();
     let all = [
