@@ -52,6 +52,7 @@ unsafe extern "C" {
     static __bss_end: u32;
     static __stack_top: u32;
     static __flash_end: u32;
+    static mut __eeprom: [u8; 16 * 1024];
 }
 
 /// A static value that the program takes once, and owns from then on.
@@ -72,6 +73,35 @@ impl<T> Once<T> {
         take(&self.1);
         // SAFETY: this is the first call, and interrupts do not exist.
         unsafe { &mut *self.0.get() }
+    }
+}
+
+/// `N` bytes outside of the program's RAM, in place of an EEPROM. It is all zeros itself: a static node that has
+/// it takes no flash.
+pub struct Eeprom<const N: usize>(());
+
+impl<const N: usize> Eeprom<N> {
+    /// The EEPROM.
+    ///
+    /// # Safety
+    /// A program has one, and no other memory in the section `.eeprom`.
+    pub const unsafe fn new() -> Self {
+        const { assert!(N <= 16 * 1024) };
+        Self(())
+    }
+}
+
+impl<const N: usize> AsRef<[u8]> for Eeprom<N> {
+    fn as_ref(&self) -> &[u8] {
+        // SAFETY: `self` owns the bytes, and the linker keeps `N` of them free.
+        unsafe { core::slice::from_raw_parts((&raw const __eeprom).cast(), N) }
+    }
+}
+
+impl<const N: usize> AsMut<[u8]> for Eeprom<N> {
+    fn as_mut(&mut self) -> &mut [u8] {
+        // SAFETY: as above.
+        unsafe { core::slice::from_raw_parts_mut((&raw mut __eeprom).cast(), N) }
     }
 }
 

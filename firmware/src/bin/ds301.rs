@@ -4,8 +4,8 @@
 #![no_main]
 
 use odkit::storage::Memory;
-use odkit::{Frame, NoApplication, NodeId};
-use odkit_firmware::board::Once;
+use odkit::{Frame, NoApplication, Node, NodeId};
+use odkit_firmware::board::{Eeprom, Once};
 use odkit_firmware::master::{self, Step, frame, sdo};
 
 odkit::object_dictionary! {
@@ -17,17 +17,13 @@ odkit::object_dictionary! {
     }
 }
 
-/// The slave, whose EEPROM is there from the start of the program on.
-type Slave = slave::Node<NoApplication, Memory<&'static mut [u8]>>;
-
-static NODE: Once<Slave> = Once::new(Slave::new(
+static NODE: Once<slave::Node<NoApplication, Memory<Eeprom<2048>>>> = Once::new(Node::new(
     slave::Device,
     NodeId::ONE,
     NoApplication,
-    Memory::new(&mut []),
+    // SAFETY: the only one.
+    Memory::new(unsafe { Eeprom::new() }),
 ));
-#[unsafe(link_section = ".eeprom")]
-static EEPROM: Once<[u8; 2048]> = Once::new([0; 2048]);
 
 #[unsafe(link_section = ".script")]
 static UPLOAD: Frame = Frame::standard(0x601, &[0x40, 0x00, 0x64, 0, 0, 0, 0, 0]);
@@ -68,7 +64,5 @@ static SCRIPT: [Step; 27] = [
 
 #[unsafe(no_mangle)]
 extern "C" fn main() -> ! {
-    let node = NODE.take();
-    node.storage = Memory::new(EEPROM.take());
-    master::run(node, &UPLOAD, &SCRIPT)
+    master::run(NODE.take(), &UPLOAD, &SCRIPT)
 }

@@ -6,7 +6,7 @@ use od_devices::bus_cover::{ENCODER, PROFILE, gxmm};
 use odkit::encoder::{Angle, Encoder, EncoderProfile, Family, Sampled};
 use odkit::storage::Memory;
 use odkit::{Device, Dictionary, Duration, Frame, Node, NodeId, Profile, Services};
-use odkit_firmware::board::Once;
+use odkit_firmware::board::{Eeprom, Once};
 use odkit_firmware::master::{self, Step, frame, sdo};
 
 /// No object shows a speed, so no sample is remembered.
@@ -48,18 +48,16 @@ impl Device for Gxmm {
 
 odkit::rooms!(Gxmm);
 
-/// The node, whose EEPROM is there from the start of the program on.
-static NODE: Once<Node<Gxmm, Shaft, Memory<&'static mut [u8]>>> = Once::new(Node::new(
+static NODE: Once<Node<Gxmm, Shaft, Memory<Eeprom<2048>>>> = Once::new(Node::new(
     Gxmm,
     NodeId::ONE,
     Encoder::of_family(Sampled::new(
         Angle::from_fractions(1 << 30),
         Duration::from_millis(1),
     )),
-    Memory::new(&mut []),
+    // SAFETY: the only one.
+    Memory::new(unsafe { Eeprom::new() }),
 ));
-#[unsafe(link_section = ".eeprom")]
-static EEPROM: Once<[u8; 2048]> = Once::new([0; 2048]);
 
 #[unsafe(link_section = ".script")]
 static UPLOAD: Frame = Frame::standard(0x601, &[0x40, 0x00, 0x10, 0, 0, 0, 0, 0]);
@@ -87,7 +85,5 @@ static SCRIPT: [Step; 16] = [
 
 #[unsafe(no_mangle)]
 extern "C" fn main() -> ! {
-    let node = NODE.take();
-    node.storage = Memory::new(EEPROM.take());
-    master::run(node, &UPLOAD, &SCRIPT)
+    master::run(NODE.take(), &UPLOAD, &SCRIPT)
 }

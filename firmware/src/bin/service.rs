@@ -6,7 +6,7 @@ use odkit::storage::Memory;
 use odkit::{
     CanId, Device, Dictionary, Frame, LssProfile, NoApplication, Node, NodeId, Profile, Services,
 };
-use odkit_firmware::board::Once;
+use odkit_firmware::board::{Eeprom, Once};
 use odkit_firmware::master::{self, Step, frame, sdo};
 
 odkit::object_dictionary! {
@@ -50,6 +50,7 @@ odkit::object_dictionary! {
             add 0x1600sub1 { name = "Application object 1"; type = u32; access = const; default = 0x2000_0020 }
         }
         variant guarding {
+            modify 0x1017 { default = 0 }
             add 0x100C { name = "Guard time"; type = u16; access = rw; default = 100 }
             add 0x100D { name = "Life time factor"; type = u8; access = rw; default = 2 }
         }
@@ -148,15 +149,13 @@ impl Device for Measured {
 
 odkit::rooms!(Measured);
 
-/// The node, whose EEPROM is there from the start of the program on.
-static NODE: Once<Node<Measured, NoApplication, Memory<&'static mut [u8]>>> = Once::new(Node::new(
+static NODE: Once<Node<Measured, NoApplication, Memory<Eeprom<1024>>>> = Once::new(Node::new(
     Measured,
     NodeId::ONE,
     NoApplication,
-    Memory::new(&mut []),
+    // SAFETY: the only one.
+    Memory::new(unsafe { Eeprom::new() }),
 ));
-#[unsafe(link_section = ".eeprom")]
-static EEPROM: Once<[u8; 1024]> = Once::new([0; 1024]);
 
 /// The master asks for the state of the node.
 const GUARD: Frame = match Frame::remote(CanId::standard(0x701), 1) {
@@ -213,7 +212,5 @@ static SCRIPT: [Step; 35] = [
 
 #[unsafe(no_mangle)]
 extern "C" fn main() -> ! {
-    let node = NODE.take();
-    node.storage = Memory::new(EEPROM.take());
-    master::run(node, &UPLOAD, &SCRIPT)
+    master::run(NODE.take(), &UPLOAD, &SCRIPT)
 }
