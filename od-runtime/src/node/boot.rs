@@ -10,6 +10,7 @@ use crate::application::{Application, Reset};
 use crate::blank::Blank;
 use crate::deadline::Deadline;
 use crate::device::Device;
+use crate::emcy::RPDO_TIMEOUT;
 use crate::objects::Objects;
 use crate::profile::{CommunicationReset, LssProfile};
 use crate::rooms::{Rooms, Saving, Sizes, Slave, Values};
@@ -319,7 +320,7 @@ impl<D: Device> Machines<D> {
             (changes && sends_changes, live && sends_changes);
     }
 
-    fn configure_rpdos(&mut self, objects: &Objects<'_, D>) {
+    fn configure_rpdos(&mut self, objects: &mut Objects<'_, D>) {
         let dictionary = objects.store.dictionary();
         let entries = |object| usize::from(dictionary.last_sub(object));
         let rooms = self.rooms.all_mut();
@@ -330,6 +331,10 @@ impl<D: Device> Machines<D> {
                 rooms.events.push(Event::CobIdRefused(0x1400 + number));
             }
             first += entries(0x1600 + number);
+        }
+        // 1400h:05 is another one, so a frame that was late is so no more.
+        if D::DEADLINES && !self.rooms.all().rpdos.iter().any(|pdo| pdo.is_late()) {
+            self.end_error(objects, RPDO_TIMEOUT);
         }
     }
 }

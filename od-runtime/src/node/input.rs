@@ -331,7 +331,7 @@ impl<D: Device> Machines<D> {
     }
 
     /// An error of the communication is over, if it was active.
-    fn end_error(&self, objects: &mut Objects<'_, D>, code: u16) {
+    pub(super) fn end_error(&self, objects: &mut Objects<'_, D>, code: u16) {
         if self
             .rooms
             .all()

@@ -53,6 +53,8 @@ pub struct Tpdo {
     inhibited_until: Instant,
     /// To be sent as soon as the inhibit time allows.
     pending: bool,
+    /// The event timer alone is the reason why it is pending.
+    by_timer: bool,
     /// SYNCs since the last transmission.
     syncs: u8,
     /// Waits for the SYNC whose counter is `sync_start`.
@@ -79,6 +81,7 @@ impl Blank for Tpdo {
         event_at: Deadline::NEVER,
         inhibited_until: Instant::ZERO,
         pending: false,
+        by_timer: false,
         syncs: 0,
         waits_for_start: false,
         repeats_left: 0,
@@ -285,6 +288,7 @@ impl Tpdo {
     ) {
         if self.event_at.is_due(objects.now) {
             self.event_at = self.event_at.next_period(self.config.event, objects.now);
+            self.by_timer = !self.pending;
             self.due(objects, mapped);
         }
     }
@@ -338,9 +342,11 @@ impl Tpdo {
             let inhibit = u64::from(self.config.inhibit) * 100;
             self.inhibited_until = objects.now.plus_micros(inhibit);
         }
-        // CiA 301, chapter 7.2.2.3: the timer elapses where no event has occurred.
+        // CiA 301, chapter 7.2.2.3: the timer elapses where no event has occurred. What the timer itself sends
+        // does not shift it, also if the host is late.
+        let by_timer = core::mem::take(&mut self.by_timer);
         let starts_anew = objects.profile.pdo.event_timer == EventTimer::SinceTransmission;
-        if starts_anew && self.event_at.is_set() {
+        if starts_anew && !by_timer && self.event_at.is_set() {
             self.event_at = Deadline::at(objects.now.plus_millis(self.config.event.into()));
         }
         self.frame(data)

@@ -91,6 +91,32 @@ fn the_length_of_sync_is_that_of_1019h() {
 }
 
 #[test]
+fn an_rpdo_that_is_watched_no_more_is_not_late() {
+    let mut bench = watched();
+    bench.send("201#0700");
+    assert_eq!(bench.wait(100), [(20, LATE.into())]);
+    // 1400h:05 = 0
+    assert_eq!(
+        bench.send("601#2B00140500000000"),
+        ["581#6000140500000000", OVER]
+    );
+}
+
+#[test]
+fn a_host_that_is_late_does_not_shift_the_event_timer() {
+    let mut bench = operational(Vec::new());
+    bench.ask("601#2B00180564000000");
+    let mut sent = Vec::new();
+    for _ in 0..3 {
+        let due = bench.node.poll_timeout().expect("the event timer runs");
+        bench.now = due.plus_millis(7);
+        bench.node.handle_timeout(bench.now);
+        sent.push((due.as_micros() / 1000, bench.drain().len()));
+    }
+    assert_eq!(sent, [(100, 1), (200, 1), (300, 1)]);
+}
+
+#[test]
 fn the_event_timer_elapses_after_the_last_transmission() {
     for (timer, expected) in [
         (EventTimer::SinceTransmission, [130, 230]),
