@@ -2,15 +2,16 @@
 
 mod run;
 mod traffic;
+mod wiring;
 
 use std::collections::VecDeque;
 use std::prelude::v1::*;
 
 use od_runtime::{BusEvent, Frame, Instant};
 
+use crate::bus::wiring::Wiring;
 use crate::device::VirtualDevice;
 use crate::wire::{Line, Station};
-use crate::wiring::Wiring;
 
 /// A frame that a device on the bus sent, or on a timed line the outside.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

@@ -8,72 +8,37 @@
 
 #![forbid(unsafe_code)]
 
-mod behaviour;
 mod bench;
-#[cfg(feature = "eds")]
-mod beside;
 pub mod bus;
-#[cfg(feature = "eds")]
-mod clock;
-mod compiled;
-#[cfg(feature = "eds")]
-mod configured;
 mod cursor;
-#[cfg(feature = "real")]
-mod described;
 mod device;
-mod eeprom;
-pub mod faults;
-mod forward;
 pub mod grammar;
-mod identity;
 pub mod journal;
-#[cfg(feature = "real")]
-mod knowledge;
-mod leds;
-#[cfg(feature = "eds")]
-mod left_out;
 pub mod lesson;
 pub mod links;
-#[cfg(feature = "eds")]
-mod loaded;
 pub mod logs;
-pub mod notice;
-mod own;
-pub mod pdos;
-mod plain;
-#[cfg(feature = "eds")]
-mod programs;
 #[cfg(feature = "serve")]
 pub mod recorded;
 pub mod rig;
-mod saved;
 pub mod script;
 mod sdo;
 #[cfg(feature = "serve")]
 pub mod serve;
-mod services;
 pub mod shaft;
 pub mod signal;
-mod size;
-mod source;
 pub mod stats;
 #[cfg(all(test, feature = "eds"))]
 mod tests;
-pub mod twin;
-mod view;
 pub mod wire;
-mod wiring;
 pub mod words;
-mod world;
 
 pub use bus::Bus;
-pub use device::VirtualDevice;
-pub use leds::Led;
+pub use device::leds::Led;
 #[cfg(feature = "eds")]
-pub use loaded::EdsOptions;
+pub use device::loaded::EdsOptions;
+pub use device::saved::{Saved, is_saved};
+pub use device::services::Services;
+pub use device::world::ShaftView;
+pub use device::{VirtualDevice, faults, notice, pdos, twin};
 pub use od_model::Refused;
-pub use saved::{Saved, is_saved};
-pub use services::Services;
 pub use wire::Line;
-pub use world::ShaftView;

@@ -13,8 +13,8 @@ use od_wire::nmt::State;
 
 use crate::bus::Bus;
 use crate::device::VirtualDevice;
-use crate::leds::Led;
-use crate::loaded::EdsOptions;
+use crate::device::leds::Led;
+use crate::device::loaded::EdsOptions;
 use crate::logs::candump;
 use crate::words::Decoder;
 

@@ -12,8 +12,8 @@ use super::test::{SIGNS, Test};
 use super::tokens::Tokens;
 use crate::bus::Bus;
 use crate::device::VirtualDevice;
-use crate::leds::Led;
-use crate::world::ShaftView;
+use crate::device::leds::Led;
+use crate::device::world::ShaftView;
 
 /// A condition about a device or the bus line.
 #[derive(Clone, PartialEq, Debug)]

@@ -4,7 +4,7 @@ use od_wire::nmt::Command;
 
 use super::problem::Problem;
 use super::tokens::Tokens;
-use crate::faults;
+use crate::device::faults;
 
 /// Reads the name of a fault.
 pub(super) fn fault_name(tokens: &mut Tokens<'_>) -> Result<&'static str, Problem> {

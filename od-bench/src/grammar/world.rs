@@ -10,7 +10,7 @@ use super::deed::{Deed, Shaft, Wire};
 use super::names::fault_name;
 use super::problem::Problem;
 use super::tokens::Tokens;
-use crate::size;
+use crate::device::size;
 
 pub(super) fn device(tokens: &mut Tokens<'_>) -> Result<Action, Problem> {
     let head = tokens.split_at_word(&["node", "serial", "domain-size", "as", "on", "off"]);

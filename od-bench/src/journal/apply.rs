@@ -184,7 +184,7 @@ impl Journal {
             Source::Eds { .. } if full(1) => Added::failed(Limits::PAGE.room()),
             #[cfg(feature = "eds")]
             Source::Eds { text, lenient, .. } => {
-                let options = crate::loaded::EdsOptions {
+                let options = crate::device::loaded::EdsOptions {
                     node_id: Some(id),
                     lenient: *lenient,
                 };

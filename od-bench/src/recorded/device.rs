@@ -7,9 +7,9 @@ use od_wire::nmt::State;
 
 use super::Recorded;
 use super::play::{Due, Playing};
-use crate::behaviour::Behind;
 use crate::device::VirtualDevice;
-use crate::plain::Plain;
+use crate::device::behaviour::Behind;
+use crate::device::behaviour::Plain;
 
 impl VirtualDevice {
     /// Plays a recording in the place of all behaviour behind the dictionary. Do it before power comes.

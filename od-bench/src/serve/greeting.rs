@@ -14,7 +14,7 @@ use super::options::Options;
 use super::terminal::{note, print as print_line};
 use crate::bus::Bus;
 use crate::device::VirtualDevice;
-use crate::services::Services;
+use crate::device::services::Services;
 
 /// Prints the greeting to standard output, or to standard error if standard output carries frames.
 pub(super) fn print(

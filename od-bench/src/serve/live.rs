@@ -22,8 +22,8 @@ use super::told::events;
 use crate::bench::Bench;
 use crate::bus::Bus;
 use crate::device::VirtualDevice;
+use crate::device::notice;
 use crate::links::Step;
-use crate::notice;
 use crate::script::Console;
 use crate::words::plural;
 

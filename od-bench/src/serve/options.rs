@@ -8,7 +8,7 @@ use od_runtime::NodeId;
 use super::control::place::Place;
 use super::links::{Link, web_socket};
 use super::log;
-use crate::size;
+use crate::device::size;
 
 /// Options for running devices.
 #[derive(Clone, PartialEq, Debug)]

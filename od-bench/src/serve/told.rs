@@ -4,7 +4,7 @@ use od_runtime::Event;
 
 use super::terminal::{news, note};
 use crate::bench::Bench;
-use crate::notice;
+use crate::device::notice;
 
 /// Prints the `wanted` events of all devices since the last call.
 pub(super) fn events(bench: &mut Bench, wanted: impl Fn(&Event) -> bool) {

@@ -8,7 +8,7 @@ use od_runtime::NodeId;
 use super::heard;
 use crate::bus::Bus;
 use crate::device::VirtualDevice;
-use crate::loaded::EdsOptions;
+use crate::device::loaded::EdsOptions;
 
 /// It has `LSS_Supported=1`.
 const ENCODER: &str = include_str!("../../../devices/eds/GXMM.eds");

@@ -10,7 +10,7 @@ use od_runtime::{AbortCode, Instant, NodeId};
 
 use super::STRINGS;
 use crate::device::VirtualDevice;
-use crate::loaded::EdsOptions;
+use crate::device::loaded::EdsOptions;
 
 const TEXT: Address = Address::new(0x2001, 0);
 const DOMAIN: Address = Address::new(0x2002, 0);

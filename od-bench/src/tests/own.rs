@@ -7,7 +7,7 @@ use std::string::ToString;
 use od_runtime::NodeId;
 
 use crate::device::VirtualDevice;
-use crate::loaded::EdsOptions;
+use crate::device::loaded::EdsOptions;
 use crate::script::{Bare, Host, Origin, Reason, Script, run};
 
 /// An input module: a read-only value with limits that TPDO1 sends when it changes.

@@ -4,7 +4,7 @@ use od_runtime::NodeId;
 
 use super::*;
 use crate::bus::Bus;
-use crate::loaded::EdsOptions;
+use crate::device::loaded::EdsOptions;
 use crate::logs::candump::parse_frame;
 
 const STRINGS: &str = include_str!("../../../tests/interop/strings.eds");

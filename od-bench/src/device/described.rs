@@ -1,18 +1,19 @@
 //! A device that describes a node of a real bus: its names and types are those of its dictionary, its
 //! values and its state are what was seen on the bus. It sends nothing.
 
+use std::collections::BTreeMap;
 use std::prelude::v1::*;
 
 use od_client::watch;
 use od_model::Address;
+use od_model::typed::MapEntry;
 use od_runtime::{Frame, Instant};
+use od_wire::CanId;
 use od_wire::nmt::{self, Command, State};
 use od_wire::sdo::{self, Request, Response};
 
-use crate::device::VirtualDevice;
-use crate::knowledge::{Described, Tpdo};
-use crate::pdos;
-use crate::words::fold;
+use crate::device::{VirtualDevice, pdos};
+use crate::words::fold::{self, Folder};
 
 impl VirtualDevice {
     /// Makes it the description of a node of a real bus, with the values of its file.
@@ -44,7 +45,7 @@ impl VirtualDevice {
     }
 
     /// Returns the value of an object that was seen last.
-    pub(super) fn seen_value(&self, address: Address) -> Option<&[u8]> {
+    pub(crate) fn seen_value(&self, address: Address) -> Option<&[u8]> {
         let described = self.described.as_ref()?;
         described.known.get(&address).map(Vec::as_slice)
     }
@@ -73,7 +74,7 @@ impl VirtualDevice {
     }
 
     /// Returns whether it describes the node that sent this frame.
-    pub(super) fn is_sender(&self, frame: &Frame) -> bool {
+    pub(crate) fn is_sender(&self, frame: &Frame) -> bool {
         let own = u16::from(self.node_id().raw());
         let id = frame.id().as_standard();
         self.is_described()
@@ -107,7 +108,7 @@ impl VirtualDevice {
     }
 
     /// A frame of the bus that the node is on.
-    pub(super) fn observe(&mut self, frame: &Frame) {
+    pub(crate) fn observe(&mut self, frame: &Frame) {
         let node = self.node_id();
         if frame.id().raw() == 0 && !frame.id().is_extended() {
             return self.commanded(frame);
@@ -227,4 +228,26 @@ impl VirtualDevice {
             self.learn(address, &bytes);
         }
     }
+}
+
+/// Knowledge of a node.
+#[derive(Clone, Default)]
+pub(crate) struct Described {
+    pub(crate) state: Option<State>,
+    /// Values that were seen since the node started.
+    pub(crate) known: BTreeMap<Address, Vec<u8>>,
+    pub(crate) folder: Folder,
+    /// SDO frames so far.
+    pub(crate) count: u32,
+    /// The value of a download that is not confirmed.
+    pub(crate) written: Option<(Address, Vec<u8>)>,
+    /// TPDOs by the values that were seen; `None`: to be looked up.
+    pub(crate) tpdos: Option<Vec<Tpdo>>,
+}
+
+/// A TPDO of the node.
+#[derive(Clone)]
+pub(crate) struct Tpdo {
+    pub(crate) id: CanId,
+    pub(crate) entries: Vec<MapEntry>,
 }

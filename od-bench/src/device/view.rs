@@ -6,8 +6,8 @@ use od_model::Address;
 use od_runtime::{Application, Context, Instant, Signals};
 
 use crate::device::VirtualDevice;
-use crate::leds;
-use crate::leds::Led;
+use crate::device::leds;
+use crate::device::leds::Led;
 
 /// Bit 4 of 1001h.
 const COMMUNICATION: u64 = 1 << 4;

@@ -6,12 +6,12 @@ use std::sync::Arc;
 use od_eds::{Description, Finding, Tables};
 use od_runtime::{LssProfile, NodeId, Profile};
 
-use crate::behaviour::Behaviour;
-use crate::beside::Beside;
 use crate::device::VirtualDevice;
-use crate::left_out;
-use crate::services::Services;
-use crate::source::{Loaded, Source};
+use crate::device::behaviour::Behaviour;
+use crate::device::beside::Beside;
+use crate::device::left_out;
+use crate::device::services::Services;
+use crate::device::source::{Loaded, Source};
 
 /// Choices that an EDS file leaves open.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]

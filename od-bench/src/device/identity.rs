@@ -8,9 +8,9 @@ use od_runtime::Store;
 use od_runtime::encoder::{Role, Switches};
 use od_runtime::storage::image;
 
-use crate::behaviour::Behind;
 use crate::device::VirtualDevice;
-use crate::services::Services;
+use crate::device::behaviour::Behind;
+use crate::device::services::Services;
 
 impl VirtualDevice {
     /// With this serial number in 1018h:04, unless its behaviour is of one's own. Do it before
@@ -131,7 +131,7 @@ impl VirtualDevice {
     }
 
     /// Writes the wanted node ID and bit rate into an empty EEPROM, as in a device that was set up.
-    pub(super) fn configure_node_id(&mut self) {
+    pub(crate) fn configure_node_id(&mut self) {
         let Some(encoder) = self.node.application.encoder() else {
             return;
         };

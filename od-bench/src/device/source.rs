@@ -11,14 +11,14 @@ use od_runtime::{Device, Profile, Services};
 
 /// A dictionary and its tables, if they are not compiled in; copies of a device share them.
 #[derive(Clone)]
-pub(super) enum Source {
+pub(crate) enum Source {
     Compiled(Dictionary<'static>),
     #[cfg(feature = "eds")]
     Loaded(Arc<Tables>),
 }
 
 impl Source {
-    pub(super) fn dictionary(&self) -> Dictionary<'_> {
+    pub(crate) fn dictionary(&self) -> Dictionary<'_> {
         match self {
             Self::Compiled(dictionary) => *dictionary,
             #[cfg(feature = "eds")]
@@ -29,9 +29,9 @@ impl Source {
 
 /// A device whose dictionary is known at run time, with every service.
 #[derive(Clone)]
-pub(super) struct Loaded {
-    pub(super) source: Source,
-    pub(super) profile: Profile,
+pub(crate) struct Loaded {
+    pub(crate) source: Source,
+    pub(crate) profile: Profile,
 }
 
 impl Services for Loaded {

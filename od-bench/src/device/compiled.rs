@@ -6,10 +6,10 @@ use od_model::Dictionary;
 use od_runtime::encoder::Encoder;
 use od_runtime::{Application, Device, NodeId, Profile};
 
-use crate::behaviour::{Behaviour, Behind};
 use crate::device::VirtualDevice;
+use crate::device::behaviour::{Behaviour, Behind};
+use crate::device::source::{Loaded, Source};
 use crate::shaft::Shaft;
-use crate::source::{Loaded, Source};
 
 impl VirtualDevice {
     /// A device of one's own with nothing but its dictionary and profile, and an encoder behind it where

@@ -1,4 +1,47 @@
 //! One device: a node and the world around it.
+//!
+//! | file | what it holds |
+//! |---|---|
+//! | `compiled`, `loaded`, `described` | a device that the compiler knows, of a file, of a node on a real bus |
+//! | `source`, `behaviour`, `beside` | its dictionary; what it does; strings and DOMAINs at any length |
+//! | `eeprom`, `saved` | its non-volatile memory, and how it is seen from outside |
+//! | `world`, `leds`, `faults` | its shaft, switches, LEDs, and what breaks |
+//! | `identity`, `own`, `view` | its serial number and LSS address; changes from its side; its values |
+//! | `forward`, `twin` | calls, and the other implementation that receives them, too |
+//! | `services`, `clock`, `programs`, `pdos`, `configured`, `left_out` | what an EDS says beside its objects |
+//! | `notice`, `size` | texts: events of the storage, numbers of bytes |
+
+pub(crate) mod behaviour;
+#[cfg(feature = "eds")]
+pub(crate) mod beside;
+#[cfg(feature = "eds")]
+pub(crate) mod clock;
+pub(crate) mod compiled;
+#[cfg(feature = "eds")]
+pub(crate) mod configured;
+#[cfg(feature = "real")]
+pub(crate) mod described;
+pub(crate) mod eeprom;
+pub mod faults;
+pub(crate) mod forward;
+pub(crate) mod identity;
+pub(crate) mod leds;
+#[cfg(feature = "eds")]
+pub(crate) mod left_out;
+#[cfg(feature = "eds")]
+pub(crate) mod loaded;
+pub mod notice;
+pub(crate) mod own;
+pub mod pdos;
+#[cfg(feature = "eds")]
+pub(crate) mod programs;
+pub(crate) mod saved;
+pub(crate) mod services;
+pub(crate) mod size;
+pub(crate) mod source;
+pub mod twin;
+pub(crate) mod view;
+pub(crate) mod world;
 
 use std::collections::VecDeque;
 use std::prelude::v1::*;
@@ -11,14 +54,14 @@ use od_runtime::{BusEvent, DeviceKind, Event, Frame, Instant, NodeId, Profile, R
 use od_wire::emcy::Emcy;
 use od_wire::nmt::State;
 
-use crate::behaviour::{Behaviour, Behind};
-use crate::eeprom::Eeprom;
+use crate::device::behaviour::{Behaviour, Behind};
+use crate::device::eeprom::Eeprom;
+use crate::device::services::Services;
+use crate::device::source::{Loaded, Source};
+use crate::device::twin::{Call, Twins};
 #[cfg(feature = "serve")]
 use crate::recorded::play::Playing;
-use crate::services::Services;
 use crate::shaft;
-use crate::source::{Loaded, Source};
-use crate::twin::{Call, Twins};
 
 /// The node of a device on a bench.
 pub(crate) type Node = od_runtime::Node<Loaded, Behaviour, Eeprom>;
@@ -50,7 +93,7 @@ pub struct VirtualDevice {
     pub(super) twin: Twins,
     /// Knowledge of the node of a real bus that it describes.
     #[cfg(feature = "real")]
-    pub(super) described: Option<crate::knowledge::Described>,
+    pub(super) described: Option<crate::device::described::Described>,
     /// Behaviour that another device was seen to have.
     #[cfg(feature = "serve")]
     pub(super) recorded: Option<Box<Playing>>,

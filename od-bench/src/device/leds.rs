@@ -39,7 +39,7 @@ impl Led {
 
 /// The green die shows the NMT state, the red one what is wrong; they are independent
 /// (MANUALS.md U-29, C-GX-39).
-pub(super) fn dual(powered: bool, state: State, warning: bool, error: bool) -> (Led, Led) {
+pub(crate) fn dual(powered: bool, state: State, warning: bool, error: bool) -> (Led, Led) {
     if !powered {
         return (Led::Off, Led::Off);
     }

@@ -12,10 +12,9 @@ use od_runtime::{
 use od_runtime::{Chunk, Halt, StreamEnd};
 
 #[cfg(feature = "eds")]
-use crate::beside::{Beside, Long, room};
-use crate::plain::Plain;
+use crate::device::beside::{Beside, Long, room};
 #[cfg(feature = "eds")]
-use crate::programs::Loader;
+use crate::device::programs::Loader;
 use crate::shaft::{self, Shaft};
 
 /// Behaviour behind a dictionary.
@@ -317,5 +316,21 @@ impl Stream for Behaviour {
 
     fn end(&mut self, _: &mut Context<'_, '_>, address: Address, _: StreamEnd) {
         self.long().coming.retain(|(own, _)| *own != address);
+    }
+}
+
+/// A device without behaviour, but with a serial number of its own.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct Plain {
+    /// Replaces the default of 1018h:04.
+    pub(crate) serial_number: Option<u32>,
+}
+
+impl Application for Plain {
+    fn reset(&mut self, cx: &mut Context<'_, '_>, _reset: Reset) {
+        if let Some(number) = self.serial_number {
+            cx.store
+                .set_unsigned(Address::new(0x1018, 4), number.into());
+        }
     }
 }

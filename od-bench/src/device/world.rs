@@ -6,7 +6,7 @@ use od_runtime::Instant;
 use od_runtime::encoder::{Angle, Encoder, Fault};
 
 use crate::device::VirtualDevice;
-use crate::faults;
+use crate::device::faults;
 use crate::shaft::Shaft;
 
 /// 2³², the fractions of a revolution.
@@ -57,12 +57,12 @@ impl VirtualDevice {
     }
 
     /// The shaft as it is, for devices that share it.
-    pub(super) fn shaft_now(&self) -> Option<Shaft> {
+    pub(crate) fn shaft_now(&self) -> Option<Shaft> {
         Some(self.encoder()?.shaft.without_counter())
     }
 
     /// Another device turned the shaft that this one sits on, too.
-    pub(super) fn put_on_shaft(&mut self, shaft: &Shaft, now: Instant) {
+    pub(crate) fn put_on_shaft(&mut self, shaft: &Shaft, now: Instant) {
         self.change(now, |encoder| encoder.shaft.follow(shaft));
     }
 
@@ -175,7 +175,7 @@ impl VirtualDevice {
 
     /// Bit rate in kbit/s of a code of the device (2100h), or without an object for it, of an index of
     /// the LSS table.
-    pub(super) fn bit_rate_of(&self, code: u8) -> Option<u16> {
+    pub(crate) fn bit_rate_of(&self, code: u8) -> Option<u16> {
         if self.profile().lss.is_some_and(|lss| lss.is_own()) {
             return od_wire::lss::kbit(code);
         }
@@ -190,7 +190,7 @@ impl VirtualDevice {
 
     /// While a shaft turns, a device whose PDOs follow their values looks at it every
     /// millisecond.
-    pub(super) fn watches_shaft(&self) -> bool {
+    pub(crate) fn watches_shaft(&self) -> bool {
         let turns = |encoder: &Encoder<Shaft>| encoder.shaft.is_turning();
         self.profile().pdo.event_on_change && self.encoder().is_some_and(turns)
     }

@@ -7,7 +7,7 @@ use od_model::{Address, Kind};
 
 /// Gives values without a default the one of the standards, the number of `[DeviceInfo]`, or the limit that
 /// is nearest to 0: a simulated device is not to contradict its own description.
-pub(super) fn fill(description: &mut Description) {
+pub(crate) fn fill(description: &mut Description) {
     let info = |key| {
         let section = description.section("DeviceInfo")?;
         let number = od_model::values::integer(section.get(key)?.value.trim())?;

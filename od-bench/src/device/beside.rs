@@ -6,8 +6,8 @@ use std::prelude::v1::*;
 use od_model::{Address, DataType, Dictionary, Entry};
 use od_runtime::{AbortCode, Application, Context, Reset, Store, TimeOfDay};
 
-use crate::clock::Clock;
-use crate::programs::{self, Programs};
+use crate::device::clock::Clock;
+use crate::device::programs::{self, Programs};
 
 /// Most bytes of a DOMAIN that a master writes, where nothing says another number.
 pub(crate) const DOMAIN_SIZE: usize = 1 << 20;

@@ -10,13 +10,13 @@ use od_runtime::storage::{Geometry, Memory, Storage, StorageError};
 ///
 /// A copy has a memory of its own, with the same bytes.
 #[derive(Clone)]
-pub(super) struct Eeprom {
+pub(crate) struct Eeprom {
     keeper: Keeper,
     geometry: Geometry,
     /// Nothing can be written.
-    pub(super) broken: bool,
+    pub(crate) broken: bool,
     /// Power will go while it is written.
-    pub(super) fails: bool,
+    pub(crate) fails: bool,
 }
 
 /// Memory of the bytes.
@@ -45,13 +45,13 @@ impl Clone for Keeper {
 
 impl Eeprom {
     /// Bytes in memory.
-    pub(super) fn own(bytes: Vec<u8>) -> Self {
+    pub(crate) fn own(bytes: Vec<u8>) -> Self {
         let geometry = Geometry::eeprom(bytes.len());
         Self::new(Keeper::Own(Memory::new(bytes)), geometry)
     }
 
     /// A storage of the caller.
-    pub(super) fn lent(storage: Box<dyn Storage + Send>) -> Self {
+    pub(crate) fn lent(storage: Box<dyn Storage + Send>) -> Self {
         let geometry = storage.geometry();
         Self::new(Keeper::Lent(RefCell::new(storage)), geometry)
     }
@@ -80,7 +80,7 @@ impl Eeprom {
     }
 
     /// The memory, where it is its own.
-    pub(super) fn memory(&mut self) -> Option<&mut Memory<Vec<u8>>> {
+    pub(crate) fn memory(&mut self) -> Option<&mut Memory<Vec<u8>>> {
         match &mut self.keeper {
             Keeper::Own(memory) => Some(memory),
             Keeper::Lent(_) => None,
@@ -88,7 +88,7 @@ impl Eeprom {
     }
 
     /// Did power go while it was written?
-    pub(super) fn is_cut(&self) -> bool {
+    pub(crate) fn is_cut(&self) -> bool {
         matches!(&self.keeper, Keeper::Own(memory) if memory.is_cut())
     }
 }

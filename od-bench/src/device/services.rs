@@ -55,7 +55,7 @@ const KEYS: [(&str, &str); 3] = [
 impl Services {
     /// Returns the services of a dictionary, of an LSS slave if there is one, and of the keys of
     /// [DeviceInfo] that are set.
-    pub(super) fn of(dictionary: Dictionary<'_>, lss: bool, key: impl Fn(&str) -> bool) -> Self {
+    pub(crate) fn of(dictionary: Dictionary<'_>, lss: bool, key: impl Fn(&str) -> bool) -> Self {
         let has = |(from, to, _): &&(u16, u16, &str)| {
             let mut indices = dictionary.entries().iter().map(|entry| entry.address.index);
             indices.any(|index| (*from..=*to).contains(&index))

@@ -11,7 +11,7 @@ use od_wire::emcy::Emcy;
 use od_wire::nmt::State;
 
 use crate::device::VirtualDevice;
-use crate::twin::Call;
+use crate::device::twin::Call;
 
 /// Most errors of one device that can be active.
 const ERRORS: usize = 32;

@@ -4,8 +4,8 @@ use std::prelude::v1::*;
 
 use od_runtime::Instant;
 
+use crate::device::twin::{Before, Call, Twin};
 use crate::device::{Node, VirtualDevice};
-use crate::twin::{Before, Call, Twin};
 
 impl VirtualDevice {
     /// With a twin. Do it before power comes.
