@@ -38,6 +38,9 @@ pub struct Dut<'d> {
     pub(crate) fresh: Option<Fresh<'d>>,
     /// Whether the case switched the power off.
     pub(crate) is_off: bool,
+    /// Longest time by which the test itself was late, in microseconds: it waited longer than it wanted,
+    /// since the computer had other things to do.
+    pub(crate) late: u64,
 }
 
 impl Dut<'_> {
@@ -75,7 +78,13 @@ impl Dut<'_> {
 
     /// The next frame until a moment.
     pub(crate) fn receive(&mut self, until: Instant) -> Checked<Option<Heard>> {
+        let from = self.now();
         let heard = self.rig.receive(until)?;
+        // Virtual time is never late. A frame that waits is as old as it is.
+        if self.rig.slack() > 0 {
+            let due = heard.map_or(until, |heard| heard.at).max(from);
+            self.late = self.late.max(self.now().micros_since(due));
+        }
         if let Some(Heard { at, frame }) = heard {
             self.frames.push(Traced {
                 at,

@@ -189,8 +189,9 @@ pub(crate) fn is_touchy(address: Address) -> bool {
     let sub = address.sub;
     match address.index {
         0x1003 | 0x1005 | 0x1006 | 0x1010..=0x1015 | 0x1F50..=0x1F5F | 0x1200..=0x12FF => true,
-        // Identifier and inhibit time can be written while the PDO is off.
-        0x1400..=0x15FF | 0x1800..=0x19FF => matches!(sub, 1 | 3),
+        // Identifier, inhibit time and SYNC start value can be written while the PDO is off only (CiA 301,
+        // 7.5.2.37).
+        0x1400..=0x15FF | 0x1800..=0x19FF => matches!(sub, 1 | 3 | 6),
         0x1600..=0x17FF | 0x1A00..=0x1BFF => true,
         0x2000..=0x2FFF => sub == 0 && matches!(address.index, 0x2100 | 0x2101),
         0x6003 => true,

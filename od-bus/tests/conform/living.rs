@@ -1,5 +1,7 @@
 //! A node that lives is never declared dead, and the trouble of one case is not that of the next.
 
+use std::collections::VecDeque;
+
 use od_bench::bus::Bus;
 use od_bus::Error;
 use od_bus::bench::OnBench;
@@ -116,4 +118,77 @@ fn a_dead_node_ends_the_run() {
     });
     assert_eq!(lost.as_deref(), Some("the node does not respond any more"));
     assert!(unheard(&records) > 100, "{}", unheard(&records));
+}
+
+/// A test on a computer with other things to do: one wait of four ends up to 150 ms late, and frames that
+/// came meanwhile have the time at which they were read.
+struct Busy {
+    bus: OnBench<Bus>,
+    waiting: VecDeque<Heard>,
+    random: u64,
+}
+
+impl Link for Busy {
+    fn now(&self) -> Instant {
+        self.bus.now()
+    }
+
+    fn send(&mut self, frame: &Frame) -> Result<(), Error> {
+        self.bus.send(frame)
+    }
+
+    fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Error> {
+        if let Some(heard) = self.waiting.pop_front() {
+            return Ok(Some(heard));
+        }
+        if until <= self.now() {
+            return self.bus.receive(until);
+        }
+        let first = self.bus.receive(until)?;
+        self.random = self
+            .random
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1);
+        if self.random >> 62 == 0 {
+            let end = self.now().plus_micros((self.random >> 33) % 150_000);
+            while let Some(heard) = self.bus.receive(end)? {
+                self.waiting.push_back(Heard { at: end, ..heard });
+            }
+        }
+        Ok(first)
+    }
+}
+
+impl Rig for Busy {
+    fn slack(&self) -> u64 {
+        10_000
+    }
+}
+
+#[test]
+fn a_busy_computer_declares_no_node_wrong() {
+    let kind = od_devices::find("gxmm").expect("a device");
+    let eds = Eds::read(&od_devices::text::eds(kind));
+    for seed in 1..40 {
+        let mut rig = Busy {
+            bus: OnBench(bus("gxmm")),
+            waiting: VecDeque::new(),
+            random: seed,
+        };
+        let leave = Leave {
+            reset: true,
+            store: false,
+        };
+        let mut session = Session::new(&mut rig, &eds, NodeId::ONE, leave);
+        let records: Vec<_> = built_in().iter().map(|case| session.run(case)).collect();
+        let failed = records.iter().filter(|one| one.verdict.is_fail());
+        let failed: Vec<_> = failed.map(|one| (&one.id, &one.verdict)).collect();
+        assert!(failed.is_empty(), "{failed:?}");
+        let open = records.iter().filter(|one| match &one.verdict {
+            Verdict::Skipped(why) => why.starts_with("inconclusive"),
+            _ => false,
+        });
+        assert!(open.count() < 10);
+        assert_eq!(session.lost(), None);
+    }
 }
