@@ -1,19 +1,17 @@
 //! A device that describes a node of a real bus: its names and types are those of its dictionary, its
 //! values and its state are what was seen on the bus. It sends nothing.
 
-use std::collections::BTreeMap;
 use std::prelude::v1::*;
 
 use od_client::watch;
 use od_model::Address;
-use od_model::typed::MapEntry;
 use od_runtime::{Frame, Instant};
-use od_wire::CanId;
 use od_wire::nmt::{self, Command, State};
 use od_wire::sdo::{self, Request, Response};
 
+use crate::device::seen::{Described, Tpdo};
 use crate::device::{VirtualDevice, pdos};
-use crate::words::fold::{self, Folder};
+use crate::words::fold;
 
 impl VirtualDevice {
     /// Makes it the description of a node of a real bus, with the values of its file.
@@ -228,26 +226,4 @@ impl VirtualDevice {
             self.learn(address, &bytes);
         }
     }
-}
-
-/// Knowledge of a node.
-#[derive(Clone, Default)]
-pub(crate) struct Described {
-    pub(crate) state: Option<State>,
-    /// Values that were seen since the node started.
-    pub(crate) known: BTreeMap<Address, Vec<u8>>,
-    pub(crate) folder: Folder,
-    /// SDO frames so far.
-    pub(crate) count: u32,
-    /// The value of a download that is not confirmed.
-    pub(crate) written: Option<(Address, Vec<u8>)>,
-    /// TPDOs by the values that were seen; `None`: to be looked up.
-    pub(crate) tpdos: Option<Vec<Tpdo>>,
-}
-
-/// A TPDO of the node.
-#[derive(Clone)]
-pub(crate) struct Tpdo {
-    pub(crate) id: CanId,
-    pub(crate) entries: Vec<MapEntry>,
 }

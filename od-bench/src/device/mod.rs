@@ -36,6 +36,8 @@ pub mod pdos;
 #[cfg(feature = "eds")]
 pub(crate) mod programs;
 pub(crate) mod saved;
+#[cfg(feature = "real")]
+pub(crate) mod seen;
 pub(crate) mod services;
 pub(crate) mod size;
 pub(crate) mod source;
@@ -93,7 +95,7 @@ pub struct VirtualDevice {
     pub(super) twin: Twins,
     /// Knowledge of the node of a real bus that it describes.
     #[cfg(feature = "real")]
-    pub(super) described: Option<crate::device::described::Described>,
+    pub(super) described: Option<crate::device::seen::Described>,
     /// Behaviour that another device was seen to have.
     #[cfg(feature = "serve")]
     pub(super) recorded: Option<Box<Playing>>,
