@@ -94,7 +94,7 @@ impl<'s> Session<'s> {
         self.lost.as_deref()
     }
 
-    /// Runs one case. A node that does not respond costs this case; after [`SILENCES`] in a row, and after
+    /// Runs one case. A node that does not respond costs this case; after `SILENCES` in a row, and after
     /// the link was lost, every case is skipped.
     ///
     /// A case that fails while the test itself was late is repeated. If it then passes, it is passed; if the

@@ -5,7 +5,7 @@ use odkit::object_dictionary;
 object_dictionary! {
     mod device {
         eds = "eds/sound.eds";
-        modify 0x2300 { low = 5 }
+        modify 0x2300 { default = 300 }
     }
 }
 
