@@ -1,6 +1,6 @@
 //! Memory of a node: arrays as long as its device needs, which the services see as slices.
 //!
-//! [`rooms!`](crate::rooms) writes the two structs of arrays of a compiled device. A device whose dictionary is
+//! The macro `rooms!` writes the two structs of arrays of a compiled device. A device whose dictionary is
 //! known at run time has [`LoadedValues`] and [`LoadedRooms`] (feature `std`).
 
 use core::fmt::Debug;

@@ -24,7 +24,7 @@ pub(crate) enum Effect {
     Restored(u8),
 }
 
-/// The node's part of [`Objects`](super::Objects): filled while a call has the device, emptied
+/// The node's part of `Objects`: filled while a call has the device, emptied
 /// before it returns.
 #[derive(Clone, Debug)]
 pub struct Outbox<Q: ?Sized = [Change]> {
