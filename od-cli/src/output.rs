@@ -51,9 +51,10 @@ impl Output {
 
     /// As [`line`](Self::line), for a text with our colours.
     pub(crate) fn coloured(&mut self, text: &str) -> Result<bool, Failure> {
-        match colours() {
-            true => open(writeln!(self.0, "{}", coloured(text))),
-            false => self.line(text),
+        if colours() {
+            open(writeln!(self.0, "{}", coloured(text)))
+        } else {
+            self.line(text)
         }
     }
 
@@ -130,9 +131,10 @@ pub(crate) fn note_text(text: &str) {
 
 /// As [`note_text`], for a text with our colours.
 pub(crate) fn note_coloured(text: &str) {
-    match error_colours() {
-        true => drop(io::stderr().write_all(coloured(text).as_bytes())),
-        false => note_text(text),
+    if error_colours() {
+        drop(io::stderr().write_all(coloured(text).as_bytes()))
+    } else {
+        note_text(text)
     }
 }
 

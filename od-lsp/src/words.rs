@@ -190,9 +190,10 @@ pub(crate) fn escaped(text: &str) -> String {
         if "\\`*_{}[]<>#|~&!".contains(c) {
             out.push('\\');
         }
-        match od_model::is_hidden(c) {
-            true => out.push_str(&Visible(c.encode_utf8(&mut [0; 4])).line()),
-            false => out.push(c),
+        if od_model::is_hidden(c) {
+            out.push_str(&Visible(c.encode_utf8(&mut [0; 4])).line())
+        } else {
+            out.push(c)
         }
     }
     out

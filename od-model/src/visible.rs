@@ -55,13 +55,15 @@ impl<'t> Visible<'t> {
     pub fn csv(self) -> String {
         let line = self.line();
         let is_formula = line.starts_with(['=', '+', '-', '@']) && line.parse::<f64>().is_err();
-        let cell = match is_formula {
-            true => format!("'{line}"),
-            false => line.into_owned(),
+        let cell = if is_formula {
+            format!("'{line}")
+        } else {
+            line.into_owned()
         };
-        match cell.contains([',', '"']) {
-            true => format!("\"{}\"", cell.replace('"', "\"\"")),
-            false => cell,
+        if cell.contains([',', '"']) {
+            format!("\"{}\"", cell.replace('"', "\"\""))
+        } else {
+            cell
         }
     }
 
@@ -75,12 +77,13 @@ impl<'t> Visible<'t> {
         }
         let mut out = String::with_capacity(text.len() + 16);
         for c in text.chars() {
-            match is_raw(c) {
-                true => c.encode_utf16(&mut [0; 2]).iter().for_each(|unit| {
+            if is_raw(c) {
+                c.encode_utf16(&mut [0; 2]).iter().for_each(|unit| {
                     // Writing to a text does not fail.
                     let _ = write!(out, "\\u{unit:04x}");
-                }),
-                false => out.push(c),
+                })
+            } else {
+                out.push(c)
             }
         }
         Cow::Owned(out)

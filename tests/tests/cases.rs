@@ -104,9 +104,10 @@ fn each_file_of_our_corpus_shows_its_trait() {
         }
         let loaded = document.load();
         let codes: BTreeSet<&str> = loaded.findings.iter().map(|found| found.code()).collect();
-        let found = match codes.is_empty() {
-            true => "nothing".to_owned(),
-            false => Vec::from_iter(codes).join(", "),
+        let found = if codes.is_empty() {
+            "nothing".to_owned()
+        } else {
+            Vec::from_iter(codes).join(", ")
         };
         if expected != found {
             wrong.push(format!(

@@ -394,9 +394,10 @@ fn page() -> (String, Vec<String>) {
                 )),
                 _ => {}
             }
-            let how = match shown.is_empty() {
-                true => format!("– {}", cell(&clause.reason)),
-                false => links(&shown),
+            let how = if shown.is_empty() {
+                format!("– {}", cell(&clause.reason))
+            } else {
+                links(&shown)
             };
             let near = code.near(&clause.place);
             let code = match (clause.reason.is_empty(), near.is_empty()) {

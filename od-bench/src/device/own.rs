@@ -143,9 +143,12 @@ impl VirtualDevice {
     }
 
     fn change_error(&mut self, error: Emcy, on: bool, now: Instant) -> bool {
-        self.call(now, Call::Error(error, on), |node| match on {
-            true => node.raise(now, error),
-            false => node.clear(now, error),
+        self.call(now, Call::Error(error, on), |node| {
+            if on {
+                node.raise(now, error)
+            } else {
+                node.clear(now, error)
+            }
         })
     }
 

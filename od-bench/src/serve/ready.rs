@@ -155,9 +155,10 @@ pub(super) fn report(
 fn link(link: &Opened, with_tokens: bool) -> Link {
     let (link, place) = match link {
         Opened::Listener(Protocol::WebSocket(gate), _, address) => {
-            let url = match with_tokens {
-                true => gate.address(*address),
-                false => format!("ws://{address}/"),
+            let url = if with_tokens {
+                gate.address(*address)
+            } else {
+                format!("ws://{address}/")
             };
             ("ws", Reached::Url(url))
         }

@@ -38,20 +38,17 @@ impl<B: Buffer> Upload<B> {
     pub fn new(channel: Channel, object: Address, mut buffer: B, options: Options) -> Self {
         buffer.clear();
         let mut line = Line::new(channel, object, options);
-        let state = match options.block_upload {
-            true => {
-                line.send(Request::InitiateBlockUpload {
-                    address: object,
-                    crc: true,
-                    block_size: options.segments(),
-                    threshold: 0,
-                });
-                State::InitiateBlock
-            }
-            false => {
-                line.send(Request::InitiateUpload { address: object });
-                State::Initiate
-            }
+        let state = if options.block_upload {
+            line.send(Request::InitiateBlockUpload {
+                address: object,
+                crc: true,
+                block_size: options.segments(),
+                threshold: 0,
+            });
+            State::InitiateBlock
+        } else {
+            line.send(Request::InitiateUpload { address: object });
+            State::Initiate
         };
         Self {
             line,

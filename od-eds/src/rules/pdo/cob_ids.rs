@@ -60,9 +60,10 @@ impl CobId<'_> {
 
     /// The CAN-ID of a device with this node ID.
     pub(super) fn can_id(&self, node: u8) -> u32 {
-        match self.formula {
-            true => self.identifier + u32::from(node),
-            false => self.identifier,
+        if self.formula {
+            self.identifier + u32::from(node)
+        } else {
+            self.identifier
         }
     }
 

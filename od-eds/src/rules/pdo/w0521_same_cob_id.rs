@@ -32,12 +32,13 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
         if let Some((first, node)) = same.or_else(|| met.next()) {
             let finding = cob_id.finding(&RULE).fact("object", cob_id.entry.address);
             let finding = finding.fact("first", first.entry.address);
-            let finding = match same.is_some() {
-                true => finding,
-                false => finding
+            let finding = if same.is_some() {
+                finding
+            } else {
+                finding
                     .form(&ONE)
                     .fact("can", cob_id.can_id(node))
-                    .fact("node", node),
+                    .fact("node", node)
             };
             findings.push(finding.related(first.span, "first used here"));
         }

@@ -126,9 +126,10 @@ fn eds(choices: &mut Choices<'_>) -> String {
     }
     put(0x2010, 0, 7, "rw", "0".into());
     for (index, sub, usual, with_node) in COB_IDS {
-        let (id, with_node) = match choices.once_in(4) {
-            true => (usual, with_node),
-            false => cob_id(choices),
+        let (id, with_node) = if choices.once_in(4) {
+            (usual, with_node)
+        } else {
+            cob_id(choices)
         };
         let node = if with_node { "$NODEID+" } else { "" };
         put(index, sub, 7, "rw", format!("{node}0x{id:X}"));
@@ -255,9 +256,10 @@ impl Seen {
         let ids: Vec<(bool, u32)> = self.owners.keys().copied().collect();
         let others = [0x180, 0x280, 0x380].map(|base| (false, u32::from(base + own)));
         for (is_extended, id) in ids.into_iter().chain(others) {
-            let id = match is_extended {
-                true => CanId::extended(id),
-                false => CanId::standard(id as u16),
+            let id = if is_extended {
+                CanId::extended(id)
+            } else {
+                CanId::standard(id as u16)
             };
             // A TPDO is requested; and an RPDO is too short (8210h).
             self.send(&Frame::remote(id, 4).expect("4 bytes at most"));
