@@ -1,4 +1,4 @@
-//! What a device of a file has beside its behaviour: strings and DOMAINs at any length (the store has
+//! Parts of a device of a file beside its behaviour: strings and DOMAINs of any length (the store has
 //! those that fit into it, and the longer ones take memory when a master writes them), a clock, and programs.
 
 use std::prelude::v1::*;

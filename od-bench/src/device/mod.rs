@@ -367,12 +367,12 @@ impl VirtualDevice {
         }
     }
 
-    /// Has its CAN controller left the bus, with the node still off?
+    /// Returns whether its CAN controller is bus-off.
     pub(crate) fn is_bus_off(&self) -> bool {
         self.node.is_bus_off()
     }
 
-    /// Is there power? A node of a real bus that it describes has some.
+    /// Returns whether it has power. A device that describes a node of a real bus always has.
     pub fn is_powered(&self) -> bool {
         #[cfg(feature = "real")]
         if self.is_described() {

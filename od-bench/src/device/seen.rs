@@ -1,4 +1,4 @@
-//! What was seen of a node on a real bus: a file below the device that keeps it and the code that collects it.
+//! Knowledge of a node on a real bus: a file below the device that keeps it and the code that collects it.
 
 use std::collections::BTreeMap;
 use std::prelude::v1::*;

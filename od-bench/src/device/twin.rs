@@ -43,7 +43,7 @@ pub struct Before<'d> {
     pub state: State,
     /// The active node ID.
     pub node_id: NodeId,
-    /// Is there power?
+    /// Whether the device has power.
     pub is_powered: bool,
     /// The next deadline of the node.
     pub due: Option<Instant>,
