@@ -23,7 +23,7 @@ use crate::{files, output};
 #[derive(clap::Args)]
 #[command(
     long_about = "Check a network: clashes, consumers without producers, heartbeat times, bus load\n\n\
-    FILE is a project of dcfgen (YAML, dcf-tools) or a node list (nodelist.cpj, CiA 306-3). With `-o` \
+    FILE is a project of dcfgen (YAML, dcf-tools), also with the `nodes` and `defaults` of ros2_canopen, or a node list (nodelist.cpj, CiA 306-3). With `-o` \
     odkit writes the concise DCF of each node (NAME.bin, 1F22h) and, for a project, master.dcf and \
     master.bin. Exit code 1 if an error is found."
 )]

@@ -1,4 +1,5 @@
-//! A project of dcfgen (dcf-tools) in YAML.
+//! A project of dcfgen (dcf-tools) in YAML, also in the form of ros2_canopen, whose nodes are below `nodes` and
+//! share `defaults`.
 
 use od_eds::network::{
     Configuration, Master, Node, Options, PdoConfiguration, configure, consume_heartbeats,
@@ -208,6 +209,32 @@ impl Section<'_> {
     }
 }
 
+/// The sections of the slaves, by name. In the form of ros2_canopen each is a node below `nodes` with the keys of
+/// `defaults` that it does not have itself (as `cogen_dcf` merges them: key by key, not below a key).
+fn slaves(whole: &Yaml) -> Vec<(String, Yaml)> {
+    let is_own = |name: &str| matches!(name, "master" | "options") || name.starts_with('.');
+    // A section `nodes` with a file is a slave of this name.
+    let nodes = whole
+        .get("nodes")
+        .filter(|nodes| nodes.get("dcf").is_none());
+    let Some(nodes) = nodes else {
+        let all = whole.entries().iter();
+        let all = all.map(|(name, yaml)| (name.text(), yaml.clone()));
+        return all.filter(|(name, _)| !is_own(name)).collect();
+    };
+    let defaults = whole.get("defaults").map_or(&[][..], Yaml::entries);
+    let merged = |yaml: &Yaml| {
+        let missing = defaults
+            .iter()
+            .filter(|(key, _)| yaml.get(&key.text()).is_none());
+        let own = yaml.entries().iter();
+        Yaml::Map(own.chain(missing).cloned().collect())
+    };
+    let all = nodes.entries().iter();
+    all.map(|(name, yaml)| (name.text(), merged(yaml)))
+        .collect()
+}
+
 /// Reads a project; `load` reads the description at a path.
 ///
 /// # Errors
@@ -236,12 +263,11 @@ pub(super) fn read(
     }
     .master(&options)?;
     let mut nodes = Vec::new();
-    for (name, yaml) in whole.entries() {
-        let name = name.text();
-        if name == "master" || name == "options" || name.starts_with('.') {
-            continue;
-        }
-        let section = Section { name: &name, yaml };
+    for (name, yaml) in slaves(&whole) {
+        let section = Section {
+            name: &name,
+            yaml: &yaml,
+        };
         let path = section
             .text("dcf")
             .ok_or_else(|| format!("{name}: the key `dcf` is missing"))?;

@@ -75,6 +75,31 @@ fn concise_dcfs_are_those_of_dcfgen() {
     }
 }
 
+/// The form of ros2_canopen: nodes below `nodes`, each with the keys of `defaults` that it does not have itself.
+#[test]
+fn nodes_with_defaults_are_those_of_the_plain_form() {
+    let eds = repository("devices/eds/GXMM.eds");
+    let master =
+        "master: {node_id: 1, driver: \"ros2_canopen::MasterDriver\", sync_period: 10000}\n";
+    let tpdo = "tpdo: {1: {enabled: true, cob_id: auto, transmission: 1}}";
+    let merged = format!(
+        "{master}defaults:\n  dcf: {eds}\n  heartbeat_producer: 100\n  {tpdo}\n\
+         nodes:\n  left: {{node_id: 14}}\n  right:\n    node_id: 15\n    heartbeat_producer: 200\n"
+    );
+    let plain = format!(
+        "{master}left:\n  dcf: {eds}\n  node_id: 14\n  heartbeat_producer: 100\n  {tpdo}\n\
+         right:\n  dcf: {eds}\n  node_id: 15\n  heartbeat_producer: 200\n  {tpdo}\n"
+    );
+    let (one, ones) = network("defaults", "bus.yml", &merged);
+    let (other, others) = network("no-defaults", "bus.yml", &plain);
+    assert_eq!((one.code, other.code), (0, 0), "{}{}", one.err, other.err);
+    assert_eq!(one.out, other.out);
+    for file in ["left.bin", "right.bin", "master.bin"] {
+        let written = fs::read(ones.join(file)).expect("a file");
+        assert_eq!(fs::read(others.join(file)).ok(), Some(written), "{file}");
+    }
+}
+
 /// A node of GXMM.eds with further keys.
 fn node(name: &str, id: u8, keys: &str) -> String {
     let eds = repository("devices/eds/GXMM.eds");

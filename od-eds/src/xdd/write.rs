@@ -182,7 +182,7 @@ fn network(out: &mut Xml, description: &Description) {
             }
         });
     });
-    let info = |key: &str| value(description, "DeviceInfo", key);
+    let info = |key: &str| decimal(value(description, "DeviceInfo", key));
     out.element("TransportLayers", &[], |out| {
         out.element("PhysicalLayer", &[], |out| {
             out.element("baudRate", &[], |out| {
@@ -227,11 +227,12 @@ fn commissioning(out: &mut Xml, description: &Description) {
         return;
     };
     let take = |key: &str| text_of(section, key);
-    let rate = match take("Baudrate") {
+    let number = |key: &str| decimal(take(key));
+    let rate = match number("Baudrate") {
         rate if rate.is_empty() => rate,
         rate => format!("{rate} Kbps"),
     };
-    let manager = match take("CANopenManager").as_str() {
+    let manager = match number("CANopenManager").as_str() {
         "" => String::new(),
         "1" => "true".into(),
         _ => "false".into(),
@@ -239,10 +240,10 @@ fn commissioning(out: &mut Xml, description: &Description) {
     out.empty(
         "deviceCommissioning",
         &vec_of([
-            ("nodeID", take("NodeID")),
+            ("nodeID", number("NodeID")),
             ("nodeName", take("NodeName")),
             ("actualBaudRate", rate),
-            ("networkNumber", take("NetNumber")),
+            ("networkNumber", number("NetNumber")),
             ("networkName", take("NetworkName")),
             ("CANopenManager", manager),
         ]),
@@ -358,6 +359,15 @@ fn text_of(section: &Section, key: &str) -> String {
     section
         .get(key)
         .map_or(String::new(), |value| value.value.trim().into())
+}
+
+/// A number as the schema has it (`xsd:unsignedByte` and others), without the hexadecimal digits that an EDS may
+/// have. Other texts stay.
+fn decimal(text: String) -> String {
+    match od_model::values::integer(&text) {
+        Some(number) => number.to_string(),
+        None => text,
+    }
 }
 
 /// `07-14-2026` as `2026-07-14`; `None` for other texts.

@@ -57,6 +57,22 @@ fn what_is_written_is_read_again() {
     }
 }
 
+/// The schema of CiA 311 has decimal numbers only.
+#[test]
+fn hexadecimal_numbers_of_an_eds_are_decimal() {
+    let text = "[DeviceInfo]\nGranularity=0x8\nNrOfRXPDO=0x1\nSimpleBootUpSlave=0x1\nBaudRate_500=0x1\n\
+         [DeviceComissioning]\nNodeID=0x38\nBaudrate=0x3E8\nNetNumber=0x1\nCANopenManager=0x1\n\
+         [1000]\nParameterName=t\nDataType=7\nAccessType=ro\nDefaultValue=0x20196\n";
+    let written = write(&crate::parse(text).description);
+    for part in [
+        "granularity=\"8\" nrOfRxPDO=\"1\" bootUpSlave=\"true\"",
+        "<supportedBaudRate value=\"500 Kbps\"/>",
+        "<deviceCommissioning nodeID=\"56\" actualBaudRate=\"1000 Kbps\" networkNumber=\"1\" CANopenManager=\"true\"/>",
+    ] {
+        assert!(written.contains(part), "{part}\n{written}");
+    }
+}
+
 #[test]
 fn a_file_says_what_it_is() {
     let text = "[FileInfo]\nFileName=a.eds\nFileVersion=1\nFileRevision=7\nCreationTime=02:05PM\nCreationDate=07-14-2026\n\
