@@ -257,14 +257,6 @@ impl<'a> Dictionary<'a> {
         self.locate(address).map(|(_, row)| row)
     }
 
-    /// The row of a number in the store that a master may read and one frame carries, by the
-    /// [key](Address::key) of its address; none where [`search`](index::search) has to find it.
-    #[doc(hidden)]
-    pub fn plain_row(&self, key: u32) -> Option<&'a Row> {
-        let (_, row) = index::hashed(self.buckets, self.rows, key)?;
-        matches!(row.plain().len, 1..=4).then_some(row)
-    }
-
     /// Returns what is absent, the object or its sub-object, where [`row_at`](Self::row_at) finds none.
     #[doc(hidden)]
     pub fn missing(&self, address: Address) -> Missing {

@@ -259,11 +259,6 @@ impl Row {
         size(self.0[0]) == 0
     }
 
-    /// Whether the default may be another than 0 or empty.
-    pub const fn has_default(self) -> bool {
-        self.0[0] & 7 > 2 || self.0[2] != 0
-    }
-
     /// Whether the description gives an integer as the default, also with `$NODEID`.
     pub const fn has_integer_default(self) -> bool {
         matches!(self.0[0] & 7, 1..=5)

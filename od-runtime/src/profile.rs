@@ -140,16 +140,6 @@ impl StoreProfile {
     /// Every value for which `which` is true becomes what the device was delivered with.
     pub fn reset(&self, store: &mut Store<'_>, which: &dyn Fn(&Row) -> bool) {
         store.reset(which);
-        self.give_node_id(store, which);
-    }
-
-    /// As [`reset`](Self::reset), for all values.
-    pub(crate) fn reset_all(&self, store: &mut Store<'_>) {
-        store.reset_all();
-        self.give_node_id(store, &|_| true);
-    }
-
-    fn give_node_id(&self, store: &mut Store<'_>, which: &dyn Fn(&Row) -> bool) {
         if let Some((address, node_id)) = self.node_id
             && let Some(row) = store.dictionary().row_at(address)
             && which(row)

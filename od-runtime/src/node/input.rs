@@ -20,16 +20,16 @@ use crate::storage::Storage;
 impl<D: Device, A: Application, S: Storage> Node<D, A, S> {
     /// Handles a frame that was received.
     pub fn handle_frame(&mut self, now: Instant, frame: &Frame) {
-        match self.machines.service(frame) {
-            Some(service) => {
-                self.call(now, |node, objects| node.serve(objects, service, frame));
-            }
-            // Most frames are for others. A value that changes by itself is looked at whenever one comes.
-            None if self.machines.watches_live => {
-                self.call(now, |node, objects| node.finish(objects));
-            }
-            None => self.machines.now = self.machines.now.max(now),
+        let service = self.machines.service(frame);
+        // Most frames are for others. A value that changes by itself is looked at whenever one comes.
+        if service.is_none() && !self.machines.watches_live {
+            self.machines.now = self.machines.now.max(now);
+            return;
         }
+        self.call(now, |node, objects| match service {
+            Some(service) => node.serve(objects, service, frame),
+            None => node.finish(objects),
+        });
     }
 
     /// Does what is due by now; the moment is that of [`poll_timeout`](Self::poll_timeout), or

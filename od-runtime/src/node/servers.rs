@@ -1,7 +1,7 @@
 //! The SDO servers: the default one, and those of 1201h to 127Fh (CiA 301, chapters 7.2.4 and 7.5.2.33).
 
 use od_wire::sdo::address;
-use od_wire::{AbortCode, Frame};
+use od_wire::{AbortCode, CanId, Frame};
 
 use super::{Event, Machines};
 use crate::device::Device;
@@ -35,19 +35,23 @@ impl<D: Device> Machines<D> {
     }
 
     /// Reads the COB-IDs again; a server that has another channel forgets its transfer.
-    pub(super) fn configure_servers(&mut self, objects: &mut Objects<'_, D>) {
+    /// `senders` are the CAN-IDs by which services send that come before the servers.
+    pub(super) fn configure_servers(
+        &mut self,
+        objects: &mut Objects<'_, D>,
+        senders: [Option<CanId>; 3],
+    ) {
         let node_id = self.node_id;
         if let Some(server) = self.rooms.all_mut().servers.first_mut() {
             server.configure_default(node_id);
         }
-        let others = Self::senders(objects);
         for at in 1..self.server_count() {
             let Some((before, [one, ..])) = self.rooms.all_mut().servers.split_at_mut_checked(at)
             else {
                 break;
             };
             let is_taken = |id| {
-                others.contains(&Some(id)) || before.iter().any(|one| one.sent_by() == Some(id))
+                senders.contains(&Some(id)) || before.iter().any(|one| one.sent_by() == Some(id))
             };
             let index = FURTHER + at as u16 - 1;
             let configured = one.configure(&objects.store, index, &is_taken);
