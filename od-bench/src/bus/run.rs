@@ -45,14 +45,18 @@ impl Bus {
         if line.is_real || !reaches_outside || line.has_plans() {
             return None;
         }
-        let frames = frames.saturating_sub(sent.len());
-        let again = device.run(now, to, frames, |at, frame| {
+        let wanted = frames.saturating_sub(sent.len());
+        let again = device.run(now, to, wanted, |at, frame| {
             sent.push_back(Sent {
                 at,
                 device: Some(0),
                 frame,
             });
         })?;
+        // The time stays that of the last frame, also where the device has nothing to do until `to`.
+        if self.sent.len() >= frames {
+            return Some(true);
+        }
         match self.deadline(0) {
             Some(at) if at <= self.now && again => Some(self.meet(0, 1, to)),
             Some(at) if at <= to => Some(true),
@@ -97,6 +101,23 @@ mod tests {
         }
         bus.receive(&Frame::standard(0, &[1, 1]));
         Some(bus)
+    }
+
+    /// Time goes on from the frame, also where the device has nothing to do until the end.
+    #[test]
+    fn time_is_that_of_the_frame_that_is_waited_for() {
+        let mut bus = bus(false).expect("a device");
+        for (index, sub) in [(0x1800u16, 5), (0x1017, 0)] {
+            let [low, high] = index.to_le_bytes();
+            bus.receive(&Frame::standard(0x601, &[0x2B, low, high, sub, 0, 0, 0, 0]));
+        }
+        bus.poll_all().for_each(drop);
+        // A heartbeat in 30 ms, and none within 20 ms after it.
+        bus.receive(&Frame::standard(0x601, &[0x2B, 0x17, 0x10, 0, 30, 0, 0, 0]));
+        bus.poll_all().for_each(drop);
+        let begin = bus.now();
+        assert!(bus.advance_until_sent(begin.plus_millis(50)));
+        assert_eq!(bus.now(), bus.poll().expect("a frame").at);
     }
 
     #[test]

@@ -36,6 +36,8 @@ pub struct Dut<'d> {
     pub(crate) sync_id: u32,
     /// Makes the device once more, if it is simulated.
     pub(crate) fresh: Option<Fresh<'d>>,
+    /// What was wrong so far in a case that goes through all its objects: expected and actual behaviour.
+    pub(crate) faults: Vec<(String, String)>,
     /// Whether the case switched the power off.
     pub(crate) is_off: bool,
     /// Longest time by which the test itself was late, in microseconds: it waited longer than it wanted,
@@ -139,6 +141,33 @@ impl Dut<'_> {
             Some(heard) => fail(expected, format!("{} came", heard.frame)),
             None => Ok(()),
         }
+    }
+
+    /// Keeps a failure, so that a case can go on with its other objects; any other end stays the end.
+    pub(crate) fn fault(&mut self, done: Checked) -> Checked {
+        match done {
+            Err(End::Fail { expected, got }) => {
+                self.faults.push((expected, got));
+                Ok(())
+            }
+            other => other,
+        }
+    }
+
+    /// The result of a case with what was wrong before its end: the first failure is the verdict, each other one a
+    /// note.
+    pub(crate) fn judged(&mut self, done: Checked) -> Checked {
+        if matches!(done, Err(End::Lost(_))) {
+            return done;
+        }
+        let last = self.fault(done);
+        let mut faults = std::mem::take(&mut self.faults).into_iter();
+        let Some((expected, got)) = faults.next() else {
+            return last;
+        };
+        let more = faults.map(|(expected, got)| format!("also expected {expected}; {got}"));
+        self.notes.extend(more);
+        fail(expected, got)
     }
 
     /// Lets time pass.
@@ -262,13 +291,17 @@ impl Dut<'_> {
         if self.undo.is_empty() && self.frames.is_empty() {
             return Ok(());
         }
+        // A transfer that the case left open would take the first of the values that are put back.
+        let close = [0x80, 0, 0, 0, 0, 0, 0, 8];
         let mut lost = if self.is_off {
             let from = self.now();
             self.power(true).and_then(|()| self.booted(from)).err()
-        } else {
+        } else if self.undo.is_empty() {
             None
+        } else {
+            self.send(Frame::full(self.node.plus(0x600), close)).err()
         };
-        if lost.is_some() {
+        if lost.is_some() && self.is_off {
             self.notes
                 .push("could not switch the power on again".into());
         }

@@ -81,11 +81,25 @@ impl Eds {
             .iter()
             .filter_map(|(index, sub)| self.entry(*index, *sub));
         let rest = self.dictionary().entries().filter(|entry| {
-            !QUIET.contains(&(entry.address.index, entry.address.sub)) && !is_touchy(entry.address)
+            !QUIET.contains(&(entry.address.index, entry.address.sub)) && !self.acts(entry.address)
         });
         let both = quiet.chain(rest);
         both.filter(|entry| matches!(entry.access, Access::Rw | Access::Rwr | Access::Rww))
             .collect()
+    }
+
+    /// Whether writing an object does more than to change its value. 2100h and 2101h, bit rate and node ID of the
+    /// built-in devices, are any objects of other vendors.
+    fn acts(&self, address: Address) -> bool {
+        let vendor = self
+            .entry(0x1018, 1)
+            .and_then(|entry| entry.default.integer(0));
+        let is_built_in = matches!(
+            vendor.or_else(|| self.info("VendorNumber")),
+            Some(0x5F | 0xEC)
+        );
+        let is_own = matches!(address.index, 0x2100 | 0x2101);
+        is_touchy(address) && (is_built_in || !is_own)
     }
 
     /// The value after a restore, as it goes over the bus; `None` where the EDS gives none.

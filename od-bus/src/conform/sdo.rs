@@ -318,6 +318,31 @@ impl Dut<'_> {
     }
 }
 
+/// Fails unless the reserved bytes of the responses since `from`, the number of a frame, are 0.
+///
+/// `first` is the first reserved byte after each command byte; other responses are not looked at.
+pub(crate) fn reserved_are_0(dut: &mut Dut<'_>, from: usize, first: &[(u8, usize)]) -> Checked {
+    let id = dut.id(0x580);
+    let responses = dut.frames.get(from..).unwrap_or_default().iter();
+    let responses: Vec<Frame> = responses
+        .filter(|traced| !traced.ours && is_data(&traced.frame, id))
+        .map(|traced| traced.frame)
+        .collect();
+    for frame in responses {
+        let command = frame.bytes()[0];
+        let Some((_, first)) = first.iter().find(|(known, _)| *known == command) else {
+            continue;
+        };
+        let done = ensure(
+            frame.bytes()[*first..].iter().all(|byte| *byte == 0),
+            format!("0 in the reserved bytes {first} to 7 of the response {command:02X}h"),
+            format!("{frame} came"),
+        );
+        dut.fault(done)?;
+    }
+    Ok(())
+}
+
 /// Fails unless an answer is one of these aborts, or 08000000h.
 pub(crate) fn is_abort(answer: &[u8; 8], codes: &[AbortCode]) -> Checked {
     match abort_of(answer) {

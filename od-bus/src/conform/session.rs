@@ -147,6 +147,7 @@ impl<'s> Session<'s> {
             may_reset: self.leave.reset,
             sync_id: 0x80,
             fresh: self.simulated.map(|(_, fresh)| fresh),
+            faults: Vec::new(),
             is_off: false,
             late: 0,
         };
@@ -162,7 +163,10 @@ impl<'s> Session<'s> {
                             dut.frames = frames;
                             return done;
                         }
-                        _ => steps(case, &mut dut),
+                        _ => {
+                            let done = steps(case, &mut dut);
+                            dut.judged(done)
+                        }
                     };
                     if matches!(done, Err(End::Lost(Error::Interrupted))) {
                         dut.rig.resume();

@@ -99,10 +99,10 @@ fn a_node_without_a_boot_up_message_is_tested_in_whole() {
 #[test]
 fn a_node_that_is_silent_for_a_while_loses_these_cases_only() {
     let mut count = 0;
-    // Its frames 300 to 330 are lost.
+    // Its frames 300 to 319 are lost.
     let (records, lost) = run(|frame| {
         count += 1;
-        (!(300..330).contains(&count)).then_some(frame)
+        (!(300..320).contains(&count)).then_some(frame)
     });
     assert_eq!(lost, None);
     assert!(unheard(&records) <= 2, "{}", unheard(&records));

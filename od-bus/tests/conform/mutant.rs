@@ -1,7 +1,8 @@
 //! A slave that can be made wrong: a bench whose frames are spoiled on their way.
 //!
-//! A rule is `[in STATE] from PATTERN: [once|after N] DEED`, the same with `to`, or
-//! `[in STATE] every MILLIS FRAME`. In a pattern `.` is any digit and `*` any rest.
+//! A rule is `[in STATE] [since <PATTERN>] [until <PATTERN>] from PATTERN: [once|after N] DEED`, the same with `to`,
+//! or `[in STATE] [since …] [until …] every MILLIS FRAME`. In a pattern `.` is any digit and `*` any rest. `since` and
+//! `until` begin and end the rule's time with a frame of either side.
 
 use std::collections::VecDeque;
 
@@ -34,6 +35,8 @@ enum Deed {
     Hang,
     /// Of an RPDO: its bytes by SDO.
     Write,
+    /// Of an expedited download: confirmed and read back, but without an effect.
+    Shadow,
 }
 
 #[derive(Clone, Debug)]
@@ -46,6 +49,9 @@ enum Way {
 #[derive(Clone, Debug)]
 struct Rule {
     state: Option<u8>,
+    since: Option<String>,
+    until: Option<String>,
+    is_active: bool,
     way: Way,
     skip: usize,
     once: bool,
@@ -60,6 +66,8 @@ pub(crate) struct Spoiled {
     rules: Vec<Rule>,
     out: VecDeque<Heard>,
     hangs: bool,
+    /// Objects whose writes have no effect: index and sub-index as in a request, command and bytes of an upload.
+    shadows: Vec<([u8; 3], [u8; 5])>,
 }
 
 fn frame(text: &str) -> Frame {
@@ -93,6 +101,7 @@ fn deed(text: &str) -> Deed {
         "before" => Deed::Before(frame(rest)),
         "hang" => Deed::Hang,
         "write" => Deed::Write,
+        "shadow" => Deed::Shadow,
         other => panic!("deed `{other}`"),
     }
 }
@@ -109,8 +118,19 @@ fn rule(text: &str) -> Rule {
         });
         text = rest;
     }
+    let mut bound = |word: &str| {
+        let rest = text.strip_prefix(word)?.strip_prefix(" <")?;
+        let (pattern, rest) = rest.split_once("> ").expect("a pattern in < >");
+        text = rest;
+        Some(pattern.replace(' ', ""))
+    };
+    let since = bound("since");
+    let until = bound("until");
     let mut made = Rule {
         state,
+        is_active: since.is_none(),
+        since,
+        until,
         way: Way::From(String::new()),
         skip: 0,
         once: false,
@@ -175,6 +195,7 @@ impl Spoiled {
             rules: rules.filter(|text| !text.is_empty()).map(rule).collect(),
             out: VecDeque::new(),
             hangs: false,
+            shadows: Vec::new(),
         }
     }
 
@@ -190,11 +211,21 @@ impl Spoiled {
     fn deed(&mut self, frame: &Frame, is_from: bool) -> Option<Deed> {
         let state = self.state();
         for rule in &mut self.rules {
+            let is_bound =
+                |bound: &Option<String>| bound.as_ref().is_some_and(|it| fits(it, frame));
+            if is_bound(&rule.since) {
+                rule.is_active = true;
+            } else if is_bound(&rule.until) {
+                rule.is_active = false;
+            }
+        }
+        for rule in &mut self.rules {
             let pattern = match (&rule.way, is_from) {
                 (Way::From(pattern), true) | (Way::To(pattern), false) => pattern,
                 _ => continue,
             };
-            if rule.state.is_some_and(|wanted| wanted != state) || !fits(pattern, frame) {
+            let is_now = rule.is_active && rule.state.is_none_or(|wanted| wanted == state);
+            if !is_now || !fits(pattern, frame) {
                 continue;
             }
             rule.seen += 1;
@@ -267,12 +298,42 @@ impl Spoiled {
         }
     }
 
+    /// Takes an expedited download without an effect; returns its confirmation.
+    fn shadow(&mut self, frame: &Frame) -> Frame {
+        let [command, low, high, sub, rest @ ..] = *frame.bytes();
+        let key = [low, high, sub];
+        self.shadows.retain(|(known, _)| *known != key);
+        let [a, b, c, d] = rest;
+        let upload = command & 0x1F | 0x40;
+        self.shadows.push((key, [upload, a, b, c, d]));
+        let id = CanId::standard(frame.id().as_standard().unwrap_or(0) - 0x80);
+        Frame::full(id, [0x60, low, high, sub, 0, 0, 0, 0])
+    }
+
+    /// The response to the upload of an object whose write had no effect.
+    fn shadowed(&self, frame: &Frame) -> Option<Frame> {
+        let [0x40, low, high, sub, ..] = *frame.bytes() else {
+            return None;
+        };
+        let id = frame.id().as_standard().filter(|id| id & 0x780 == 0x600)?;
+        let (_, upload) = self
+            .shadows
+            .iter()
+            .find(|(key, _)| *key == [low, high, sub])?;
+        let [command, a, b, c, d] = *upload;
+        Some(Frame::full(
+            CanId::standard(id - 0x80),
+            [command, low, high, sub, a, b, c, d],
+        ))
+    }
+
     /// The next frame that the rules say by themselves.
     fn due(&mut self, until: Instant) -> Option<Instant> {
         let (state, now) = (self.state(), self.bench.now());
         let mut next: Option<Instant> = None;
         for rule in &mut self.rules {
             if let Way::Every(millis, frame) = rule.way
+                && rule.is_active
                 && rule.state.is_none_or(|wanted| wanted == state)
             {
                 if rule.due <= now {
@@ -295,6 +356,10 @@ impl Link for Spoiled {
 
     fn send(&mut self, frame: &Frame) -> Result<(), Error> {
         let at = self.now();
+        if let Some(answer) = self.shadowed(frame) {
+            self.say(answer, at);
+            return Ok(());
+        }
         match self.deed(frame, false) {
             None => self.bench.send(frame),
             Some(Deed::Drop) => Ok(()),
@@ -309,6 +374,11 @@ impl Link for Spoiled {
             Some(Deed::Also(answer)) => {
                 self.say(answer, at);
                 self.bench.send(frame)
+            }
+            Some(Deed::Shadow) => {
+                let answer = self.shadow(frame);
+                self.say(answer, at);
+                Ok(())
             }
             Some(Deed::Write) => {
                 self.bench.0.with(0, |device, now| {

@@ -14,11 +14,24 @@ use crate::mutant::Spoiled;
 
 const TABLE: &str = include_str!("mutants.txt");
 
+/// Objects that a case is about and `ds301` lacks: limits, a value that is write only, 1020h.
+const EXTENSION: &str = "
+[2001]\nParameterName=Command\nObjectType=7\nDataType=5\nAccessType=wo\n
+[2002]\nParameterName=Long\nObjectType=7\nDataType=9\nAccessType=rw\nDefaultValue=more than twenty letters\n
+[1020]\nParameterName=Verify configuration\nObjectType=8\nSubNumber=3\n
+[1020sub0]\nParameterName=Highest sub-index\nDataType=5\nAccessType=const\nDefaultValue=2\n
+[1020sub1]\nParameterName=Date\nDataType=7\nAccessType=rw\nDefaultValue=0\n
+[1020sub2]\nParameterName=Time\nDataType=7\nAccessType=rw\nDefaultValue=0\n
+";
+
 /// The EDS of a device of the table.
 fn text(name: &str) -> String {
     match name {
         "ds301" => include_str!("../../../firmware/eds/ds301.eds")
             .replace("LSS_Supported=0", "LSS_Supported=1"),
+        "dummies" => text("ds301").replace("Dummy0005=0", "Dummy0005=1"),
+        "limited" => changed(&text("ds301"), "1017 DataType=0x0006\nHighLimit=5000"),
+        "extended" => text("ds301") + EXTENSION,
         "services" => include_str!("../../../tests/eds/services.eds").into(),
         built_in => od_devices::text::eds(od_devices::find(built_in).expect("a device")),
     }
@@ -68,7 +81,14 @@ impl Bench {
 
     /// The device as it is after power-on; a new one where a case writes its memory.
     fn bus(&mut self, case: &str) -> Bus {
-        let is_lasting = ["store", "restore", "object-default", "lss"];
+        let is_lasting = [
+            "store",
+            "restore",
+            "object-default",
+            "lss",
+            "heartbeat-saved",
+            "sync-saved",
+        ];
         let keeps = !is_lasting.iter().any(|start| case.starts_with(start));
         if let Some(mut bus) = self.bus.take().filter(|_| keeps) {
             bus.set_power(0, false);
@@ -89,8 +109,13 @@ impl Bench {
         let case = built_in().iter().find(|one| one.id == id);
         let case = case.expect("a case of the table");
         let mut rig = Spoiled::new(self.bus(id), rules);
-        let other = rules.strip_prefix("eds ");
-        let other = other.map(|change| Eds::read(&changed(&self.text, change)));
+        let changes = rules
+            .split(" ; ")
+            .filter_map(|rule| rule.strip_prefix("eds "));
+        let other = changes.fold(None, |text: Option<String>, change| {
+            Some(changed(text.as_ref().unwrap_or(&self.text), change))
+        });
+        let other = other.map(|text| Eds::read(&text));
         let eds = other.as_ref().unwrap_or(&self.eds);
         let record = Session::new(&mut rig, eds, NodeId::ONE, Leave::ALL).run(case);
         self.bus = Some(rig.into_bus());
@@ -142,7 +167,7 @@ fn what_is_wrong_is_found_by_the_case_about_it() {
     );
 }
 
-/// The table has at least one way for nearly every case.
+/// The table has at least one way for every case.
 #[test]
 fn every_case_has_a_way_to_fail() {
     let named: BTreeSet<&str> = TABLE
@@ -154,5 +179,5 @@ fn every_case_has_a_way_to_fail() {
         .map(|case| case.id.as_str())
         .filter(|id| !named.contains(id))
         .collect();
-    assert!(without.len() * 20 <= built_in().len(), "{without:?}");
+    assert!(without.is_empty(), "{without:?}");
 }

@@ -5,9 +5,10 @@ use od_wire::AbortCode::{self, Crc, InvalidBlockSize, InvalidCommand, InvalidSeq
 use od_wire::Frame;
 
 use super::segments::{long_value, short_value};
-use crate::conform::dut::{ANSWER, Dut};
+use crate::conform::dut::{ANSWER, Dut, is_data};
 use crate::conform::end::{Checked, ensure, fail, lacks};
-use crate::conform::sdo::{abort_of, abort_text, crc, is_abort, request};
+use crate::conform::record::Traced;
+use crate::conform::sdo::{abort_of, abort_text, crc, is_abort, request, reserved_are_0};
 
 /// Variant of a block transfer of a client.
 #[derive(Clone, Copy)]
@@ -365,4 +366,21 @@ pub(super) fn download_wrong_crc(dut: &mut Dut<'_>) -> Checked {
         Ok(()) => fail("abort 05040004h", "a wrong checksum was accepted"),
         Err(code) => is_abort(&request(0x80, address, code.to_le_bytes()), &[Crc]),
     }
+}
+
+/// Bytes that CiA 301 reserves in the responses of a block download, and in the end of a block upload, are 0.
+pub(super) fn reserved(dut: &mut Dut<'_>) -> Checked {
+    let from = dut.frames.len();
+    written(dut, PLAIN)?;
+    reserved_are_0(dut, from, &[(0xA0, 5), (0xA4, 5), (0xA2, 3), (0xA1, 1)])?;
+    let (address, _) = long_value(dut)?;
+    read(dut, address, PLAIN)?;
+    // Before the end come segments, whose first byte may be any.
+    let id = dut.id(0x580);
+    let is_response = |traced: &Traced| !traced.ours && is_data(&traced.frame, id);
+    let Some(end) = dut.frames.iter().rposition(is_response) else {
+        return Ok(());
+    };
+    let command = dut.frames[end].frame.bytes()[0];
+    reserved_are_0(dut, end, &[(command, 3)])
 }

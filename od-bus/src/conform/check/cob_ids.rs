@@ -1,15 +1,14 @@
 //! COB-IDs: that no service of the node has a CAN-ID that is another's, at any node ID.
 
-use od_model::{Address, CanIdOwner, CobIdService, values};
-use od_wire::lss::Request;
+use od_model::{Address, CanIdOwner, CobIdService, Entry, values};
 use od_wire::nmt::Command;
-use od_wire::{CanId, CobId, Frame, NodeId};
+use od_wire::{AbortCode, CanId, CobId, Frame, NodeId};
 
-use super::lss;
+use super::lss::renumber;
 use crate::bench::OnBench;
 use crate::conform::dut::{Dut, QUIET, is_data};
 use crate::conform::end::{Checked, End, ensure, fail, lacks, skip};
-use crate::conform::sdo::{number, request};
+use crate::conform::sdo::{abort_text, number, request};
 
 use od_bench::bus::Bus;
 
@@ -47,14 +46,16 @@ pub(super) fn highest(dut: &mut Dut<'_>) -> Checked {
                 frames: Vec::new(),
                 undo: Vec::new(),
                 notes: Vec::new(),
+                faults: Vec::new(),
                 fresh: None,
                 ..*dut
             };
             let from = other.now();
             let done = other.booted(from).and_then(|()| here(&mut other));
-            let (frames, notes) = (other.frames, other.notes);
+            let (frames, notes, faults) = (other.frames, other.notes, other.faults);
             dut.frames.extend(frames);
             dut.notes.extend(notes);
+            dut.faults.extend(faults);
             done
         }
         None => by_lss(dut),
@@ -87,30 +88,6 @@ fn by_lss(dut: &mut Dut<'_>) -> Checked {
         return fail("the node to take its own node ID again", note);
     }
     done
-}
-
-/// Configures a node ID, without storing it, and resets the communication. Returns whether the node has it then.
-fn renumber(dut: &mut Dut<'_>, node: NodeId) -> Checked<bool> {
-    lss::configured(dut)?;
-    let node_id = node.raw();
-    let answer = lss::ask(dut, Request::ConfigureNodeId { node_id })?;
-    lss::waiting(dut)?;
-    if !matches!(answer, Some([0x11, 0, ..])) {
-        return Ok(false);
-    }
-    dut.drain()?;
-    let before = dut.node;
-    dut.send(Frame::standard(0, &[0x82, before.raw()]))?;
-    let ids = [before, node].map(|node| node.plus(0x700));
-    let is_boot = |frame: &Frame| ids.contains(&frame.id()) && frame.data() == [0];
-    match dut.next(10_000_000, is_boot)? {
-        Some(heard) if heard.frame.id() == ids[1] => {
-            dut.node = node;
-            dut.wait(20_000)?;
-            Ok(true)
-        }
-        _ => Ok(false),
-    }
 }
 
 /// A COB-ID that the node has.
@@ -155,14 +132,16 @@ fn read(dut: &mut Dut<'_>) -> Checked {
         }
     }
     for used in &all {
-        is_free(dut, used)?;
+        let done = is_free(dut, used);
+        dut.fault(done)?;
     }
     let sent: Vec<&Used> = all.iter().filter(|used| used.sends()).collect();
     for (at, used) in sent.iter().enumerate() {
         let same = |other: &&&Used| other.cob_id.can_id() == used.cob_id.can_id();
         if let Some(other) = sent[..at].iter().find(same) {
-            let name = |used: &Used| values::label(dut.eds.dictionary(), used.address);
-            return fail(
+            let eds = dut.eds;
+            let name = |used: &Used| values::label(eds.dictionary(), used.address);
+            let done = fail(
                 format!(
                     "a CAN-ID of {} that no other service of the node sends with",
                     name(used)
@@ -174,9 +153,94 @@ fn read(dut: &mut Dut<'_>) -> Checked {
                     used.cob_id.can_id()
                 ),
             );
+            dut.fault(done)?;
         }
     }
     Ok(())
+}
+
+/// A COB-ID that a master can write, by the EDS, takes its own value.
+pub(super) fn access(dut: &mut Dut<'_>) -> Checked {
+    let entries: Vec<_> = dut.eds.dictionary().entries().collect();
+    let is_one = |entry: &&Entry| {
+        let address = entry.address;
+        entry.access.writable()
+            && entry.access.readable()
+            // Writing an SDO server's or client's own COB-ID may end the transfer that writes it.
+            && matches!(address.index, 0x1005 | 0x1012 | 0x1014 | 0x1400..=0x15FF | 0x1800..=0x19FF)
+            && CobIdService::at(address).is_some()
+    };
+    let mut any = false;
+    for entry in entries.iter().filter(is_one) {
+        let Ok(bytes) = dut.upload(entry.address)? else {
+            continue;
+        };
+        // One that CiA 301 keeps for itself is refused; that it is there is another case.
+        let cob_id = CobId::new(number(&bytes) as u32);
+        if cob_id.is_valid() && (cob_id.is_restricted() || !cob_id.is_consistent()) {
+            continue;
+        }
+        any = true;
+        if let Err(code) = dut.download(entry.address, &bytes)? {
+            let name = values::label(dut.eds.dictionary(), entry.address);
+            let expected = format!("{name}, {} in the EDS, to take its own value", entry.access);
+            dut.fault(fail(expected, abort_text(code)))?;
+        }
+    }
+    if any {
+        Ok(())
+    } else {
+        lacks("no COB-ID can be written")
+    }
+}
+
+/// CAN-IDs that CiA 301 keeps for itself, one of each range of its table of restricted CAN-IDs.
+const RESTRICTED: [u32; 9] = [
+    0x001, 0x07F, 0x101, 0x180, 0x581, 0x601, 0x6E0, 0x701, 0x7FF,
+];
+
+/// COB-IDs of PDO and EMCY refuse CAN-IDs that CiA 301 keeps for itself.
+pub(super) fn restricted(dut: &mut Dut<'_>) -> Checked {
+    let first = |base: u16| {
+        let numbers = dut.eds.pdos(base).into_iter().map(|pdo| base + pdo);
+        numbers
+            .map(|com| Address::new(com, 1))
+            .find(|address| dut.eds.writes(address.index, 1))
+    };
+    let mut all: Vec<Address> = [0x1400, 0x1800].into_iter().filter_map(first).collect();
+    if dut.eds.writes(0x1014, 0) {
+        all.push(Address::new(0x1014, 0));
+    }
+    let mut any = false;
+    for address in all {
+        let before = dut.keep(address)?;
+        let off = number(&before) as u32 | 1 << 31;
+        if dut.download(address, &off.to_le_bytes())?.is_err() {
+            continue;
+        }
+        any = true;
+        for id in RESTRICTED {
+            let codes = [
+                AbortCode::ValueRange,
+                AbortCode::ValueTooHigh,
+                AbortCode::ValueTooLow,
+            ];
+            let done = dut.refuses_value(address, &id.to_le_bytes(), &codes);
+            if done.is_err() {
+                dut.fault(done)?;
+                // It may be on now, with this CAN-ID.
+                for value in [id | 1 << 31, off] {
+                    let _ = dut.download(address, &value.to_le_bytes())?;
+                }
+                break;
+            }
+        }
+    }
+    if any {
+        Ok(())
+    } else {
+        lacks("no COB-ID can be written")
+    }
 }
 
 /// 0 of a client, a consumer or a PDO that maps nothing: it is not used.

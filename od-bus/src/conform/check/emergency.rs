@@ -7,7 +7,7 @@ use od_wire::{CobId, Frame};
 
 use super::heartbeat::{beat, emcy, watch};
 use crate::conform::dut::{Dut, QUIET, is_data};
-use crate::conform::end::{Checked, ensure, fail};
+use crate::conform::end::{Checked, ensure, fail, lacks};
 use crate::conform::sdo::{abort_text, is_abort, request};
 
 const HISTORY: Address = Address::new(0x1003, 0);
@@ -66,11 +66,71 @@ pub(super) fn history_clear(dut: &mut Dut<'_>) -> Checked {
     )
 }
 
+/// 1015h is the shortest time between two EMCY messages.
 pub(super) fn inhibit(dut: &mut Dut<'_>) -> Checked {
+    const TENTHS: u16 = 5000;
     let address = Address::new(0x1015, 0);
-    dut.set(address, &[10, 0])?;
+    dut.set(address, &TENTHS.to_le_bytes())?;
     let is = dut.number(0x1015, 0)?;
-    ensure(is == 10, "10 in 1015h", format!("{is} was read"))
+    let wanted = u64::from(TENTHS);
+    ensure(
+        is == wanted,
+        format!("{wanted} in 1015h"),
+        format!("{is} was read"),
+    )?;
+    if !dut.eds.writes(0x1016, 1) || !dut.eds.has(0x1014) {
+        return Ok(());
+    }
+    let (node, _) = provoked(dut)?;
+    let from = dut.now();
+    let id = dut.id(0x80);
+    // That a heartbeat ends the error is another case.
+    for _ in 0..30 {
+        beat(dut, node)?;
+        if dut.next(50_000, |frame| is_data(frame, id))?.is_some() {
+            let took = dut.now().micros_since(from);
+            return ensure(
+                took + dut.rig.slack() + 5_000 >= 100 * wanted,
+                "500 ms between two EMCY messages, as 1015h is 5000",
+                format!("the second came after {} ms", took / 1000),
+            );
+        }
+    }
+    Ok(())
+}
+
+/// EMCY messages have the CAN-ID of 1014h.
+pub(super) fn cob_id_used(dut: &mut Dut<'_>) -> Checked {
+    const OTHER: u32 = 0x4F3;
+    let address = Address::new(0x1014, 0);
+    let raw = dut.number(0x1014, 0)? as u32;
+    dut.keep(address)?;
+    let off = raw | 1 << 31;
+    for value in [off, OTHER | 1 << 31, OTHER] {
+        if let Err(code) = dut.download(address, &value.to_le_bytes())? {
+            return lacks(format!(
+                "1014h does not take another CAN-ID: {}",
+                abort_text(code)
+            ));
+        }
+    }
+    provoke(dut)?;
+    let ids = [CobId::new(OTHER).can_id(), CobId::new(raw).can_id()];
+    let heard = dut.next(1_000_000, |frame| {
+        ids.contains(&frame.id()) && !frame.is_remote()
+    })?;
+    // Off, so that the old one can come back.
+    for value in [OTHER | 1 << 31, off] {
+        dut.write(address, &value.to_le_bytes())?;
+    }
+    match heard {
+        Some(heard) => ensure(
+            heard.frame.id() == ids[0],
+            "the EMCY with the CAN-ID 4F3h of 1014h",
+            format!("{} came", heard.frame),
+        ),
+        None => fail("the EMCY with the CAN-ID 4F3h of 1014h", "none came"),
+    }
 }
 
 /// An error: a node that is watched falls silent.
@@ -138,12 +198,63 @@ pub(super) fn reset(dut: &mut Dut<'_>) -> Checked {
     fail("EMCY 0000h when the heartbeat comes again", "none came")
 }
 
+/// After the error 1001h has no bit of it, neither in the message nor in the object.
+pub(super) fn register_clears(dut: &mut Dut<'_>) -> Checked {
+    let before = dut.number(0x1001, 0)?;
+    let (node, _) = provoked(dut)?;
+    let id = dut.id(0x80);
+    let mut message = None;
+    for _ in 0..5 {
+        beat(dut, node)?;
+        let heard = dut.next(80_000, |frame| is_data(frame, id))?;
+        message = heard.map(|heard| heard.frame);
+        if message.is_some() {
+            break;
+        }
+    }
+    let after = dut.number(0x1001, 0)?;
+    ensure(
+        after == before,
+        format!("1001h = {before:02X}h after the error, as before it"),
+        format!("{after:02X}h was read"),
+    )?;
+    let Some(message) = message else {
+        return Ok(());
+    };
+    ensure(
+        u64::from(message.bytes()[2]) == after,
+        format!("{after:02X}h in byte 2, the error register"),
+        format!("{message} came"),
+    )
+}
+
+/// An error makes one message, its end another.
+pub(super) fn once(dut: &mut Dut<'_>) -> Checked {
+    let (node, _) = provoked(dut)?;
+    if let Some(frame) = emcy(dut, 0x8130, 1_000_000)? {
+        return fail(
+            "one EMCY 8130h for one error",
+            format!("{frame} came again"),
+        );
+    }
+    let mut ends = 0;
+    for _ in 0..10 {
+        beat(dut, node)?;
+        ends += u8::from(emcy(dut, 0, 50_000)?.is_some());
+    }
+    ensure(
+        ends <= 1,
+        "one EMCY 0000h for the end of the error",
+        format!("{ends} came"),
+    )
+}
+
 pub(super) fn off(dut: &mut Dut<'_>) -> Checked {
     let address = Address::new(0x1014, 0);
     let raw = dut.number(0x1014, 0)? as u32;
     dut.keep(address)?;
     if let Err(code) = dut.download(address, &(raw | 1 << 31).to_le_bytes())? {
-        return super::super::end::lacks(format!(
+        return lacks(format!(
             "1014h cannot be switched off: {}",
             abort_text(code)
         ));
@@ -201,7 +312,7 @@ pub(super) fn behaviour_range(dut: &mut Dut<'_>) -> Checked {
         && dut.download(address, &[0x55])?.is_ok()
     {
         dut.write(address, &before)?;
-        return crate::conform::end::lacks("the node takes values of its own in 1029h:01");
+        return lacks("the node takes values of its own in 1029h:01");
     }
     dut.refuses_value(address, &[0x55], &[ValueRange, ValueTooHigh])
 }

@@ -177,6 +177,64 @@ pub(super) fn consumer_twice(dut: &mut Dut<'_>) -> Checked {
     dut.refuses_value(second, &[200, 0, node, 0], &[AbortCode::Incompatible])
 }
 
+/// Each entry of 1016h monitors a node: the first sixteen and the last.
+pub(super) fn consumer_each(dut: &mut Dut<'_>) -> Checked {
+    let subs: Vec<u8> = (1..=127)
+        .filter(|sub| dut.eds.writes(0x1016, *sub))
+        .collect();
+    if subs.len() < 2 {
+        return lacks("1016h has one entry");
+    }
+    sends_emcy(dut)?;
+    let node = watched(dut);
+    let last = subs.last().copied();
+    let some = subs.iter().copied().take(16);
+    for sub in some.chain(last.filter(|_| subs.len() > 16)) {
+        let address = Address::new(0x1016, sub);
+        let before = dut.keep(address)?;
+        dut.write(address, &[200, 0, node, 0])?;
+        dut.nmt(Command::Start)?;
+        beat(dut, node)?;
+        if emcy(dut, 0x8130, 1_000_000)?.is_none() {
+            let expected = format!("EMCY 8130h by {address} within 1 s of the last heartbeat");
+            dut.fault(fail(expected, "none came"))?;
+        }
+        // The heartbeat ends the error.
+        beat(dut, node)?;
+        dut.wait(20_000)?;
+        dut.write(address, &before)?;
+    }
+    Ok(())
+}
+
+/// An entry of 1016h with the time 0 monitors no node.
+pub(super) fn consumer_off(dut: &mut Dut<'_>) -> Checked {
+    let node = watch(dut, 0)?;
+    dut.nmt(Command::Start)?;
+    beat(dut, node)?;
+    match emcy(dut, 0x8130, 500_000)? {
+        Some(frame) => fail("no EMCY 8130h with the time 0", format!("{frame} came")),
+        None => Ok(()),
+    }
+}
+
+/// After a reset the node monitors what 1016h has then, from its next heartbeat on.
+pub(super) fn consumer_reset(dut: &mut Dut<'_>) -> Checked {
+    let node = watch(dut, 200)?;
+    dut.nmt(Command::Start)?;
+    beat(dut, node)?;
+    dut.wait(50_000)?;
+    dut.reset(Command::ResetCommunication)?;
+    dut.nmt(Command::Start)?;
+    match emcy(dut, 0x8130, 700_000)? {
+        Some(frame) => fail(
+            "no EMCY 8130h after reset communication, as no heartbeat came since",
+            format!("{frame} came"),
+        ),
+        None => Ok(()),
+    }
+}
+
 /// Guards the node once; silence is a failure.
 fn guarded(dut: &mut Dut<'_>) -> Checked<u8> {
     match dut.guarded()? {
@@ -210,6 +268,13 @@ pub(super) fn guarding_toggle(dut: &mut Dut<'_>) -> Checked {
 }
 
 pub(super) fn guarding_after_reset(dut: &mut Dut<'_>) -> Checked {
+    without_heartbeat(dut)?;
+    // The toggle bit would be 1 next, so that a node which goes on with it is seen.
+    for _ in 0..2 {
+        if guarded(dut)? & 0x80 == 0 {
+            break;
+        }
+    }
     dut.reset(Command::ResetCommunication)?;
     without_heartbeat(dut)?;
     for wanted in [0, 0x80] {
@@ -221,6 +286,28 @@ pub(super) fn guarding_after_reset(dut: &mut Dut<'_>) -> Checked {
         )?;
     }
     Ok(())
+}
+
+/// A guarding request to another node is not answered, and does not count.
+pub(super) fn guarding_other_node(dut: &mut Dut<'_>) -> Checked {
+    without_heartbeat(dut)?;
+    let before = guarded(dut)?;
+    let own = dut.node.raw();
+    let other = if own == 127 { 126 } else { own + 1 };
+    dut.drain()?;
+    dut.ask_for(od_wire::CanId::standard(0x700 + u16::from(other)), 1)?;
+    let id = dut.id(0x700);
+    dut.silent(
+        id,
+        QUIET,
+        "no response to a guarding request to another node",
+    )?;
+    let after = guarded(dut)?;
+    ensure(
+        (before ^ after) & 0x80 != 0,
+        "a toggle bit that a request to another node does not change",
+        format!("{before:02X}h and {after:02X}h came"),
+    )
 }
 
 pub(super) fn guarding_states(dut: &mut Dut<'_>) -> Checked {
@@ -276,6 +363,23 @@ pub(super) fn life_guarding(dut: &mut Dut<'_>) -> Checked {
     match emcy(dut, 0x8130, 500_000)? {
         Some(_) => Ok(()),
         None => fail("EMCY 8130h within 500 ms of the last request", "none came"),
+    }
+}
+
+/// Life guarding begins with the first request.
+pub(super) fn life_guarding_waits(dut: &mut Dut<'_>) -> Checked {
+    sends_emcy(dut)?;
+    without_heartbeat(dut)?;
+    dut.set(Address::new(0x100C, 0), &[100, 0])?;
+    dut.set(Address::new(0x100D, 0), &[2])?;
+    // Requests of earlier cases do not count after a reset; what they began may be over by now.
+    dut.nmt(Command::Start)?;
+    match emcy(dut, 0x8130, 600_000)? {
+        Some(frame) => fail(
+            "no EMCY 8130h before the first request",
+            format!("{frame} came"),
+        ),
+        None => Ok(()),
     }
 }
 

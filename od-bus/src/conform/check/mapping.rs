@@ -1,14 +1,16 @@
 //! PDO mapping: the procedure of CiA 301, and what is refused.
 
-use od_model::{Address, Entry};
+use od_model::{Address, Entry, values};
 use od_wire::AbortCode::{
     DeviceState, Incompatible, NoObject, NoSubIndex, NotMappable, PdoTooLong, SubZeroFirst,
     UnsupportedAccess, ValueRange, ValueTooHigh,
 };
 
-use super::transmit::{Tpdo, first, mapping};
+use od_wire::nmt::Command;
+
+use super::transmit::{Tpdo, first, mapping, timed};
 use crate::conform::dut::Dut;
-use crate::conform::end::{Checked, ensure, lacks};
+use crate::conform::end::{Checked, End, ensure, fail, lacks};
 use crate::conform::sdo::{is_abort, request};
 
 /// The first TPDO, off and with an open mapping; afterwards [`close`].
@@ -19,6 +21,11 @@ struct Open {
 
 fn variable(dut: &mut Dut<'_>) -> Checked<Tpdo> {
     let pdo = first(dut)?;
+    changeable(dut, pdo)
+}
+
+/// The PDO, if its mapping and its COB-ID can be written.
+fn changeable(dut: &Dut<'_>, pdo: Tpdo) -> Checked<Tpdo> {
     if !dut.eds.writes(pdo.map(), 0) || !dut.eds.writes(pdo.map(), 1) {
         return lacks("the mapping cannot be written");
     }
@@ -32,6 +39,10 @@ fn switch(dut: &mut Dut<'_>, pdo: &Tpdo, on: bool) -> Checked {
 
 fn open(dut: &mut Dut<'_>) -> Checked<Open> {
     let pdo = variable(dut)?;
+    opened(dut, pdo)
+}
+
+fn opened(dut: &mut Dut<'_>, pdo: Tpdo) -> Checked<Open> {
     let all = mapping(dut, pdo.map())?;
     let raw = |mapped: &super::transmit::Mapped| {
         let Address { index, sub } = mapped.address;
@@ -43,9 +54,10 @@ fn open(dut: &mut Dut<'_>) -> Checked<Open> {
     Ok(Open { pdo, entries })
 }
 
-/// The mapping as it was, and the TPDO on again.
+/// The mapping as it was, and the PDO on again.
 fn close(dut: &mut Dut<'_>, open: &Open) -> Checked {
     let map = open.pdo.map();
+    switch(dut, &open.pdo, false)?;
     dut.write(Address::new(map, 0), &[0])?;
     for (sub, entry) in (1..).zip(&open.entries) {
         dut.write(Address::new(map, sub), &entry.to_le_bytes())?;
@@ -58,8 +70,22 @@ fn close(dut: &mut Dut<'_>, open: &Open) -> Checked {
 
 /// Runs a test with an open mapping, and closes it again.
 fn with(dut: &mut Dut<'_>, test: impl FnOnce(&mut Dut<'_>, u16) -> Checked) -> Checked {
-    let open = open(dut)?;
+    let pdo = variable(dut)?;
+    on(dut, pdo, test)
+}
+
+/// Runs a test with the open mapping of this PDO, and closes it again.
+pub(super) fn on(
+    dut: &mut Dut<'_>,
+    pdo: Tpdo,
+    test: impl FnOnce(&mut Dut<'_>, u16) -> Checked,
+) -> Checked {
+    let pdo = changeable(dut, pdo)?;
+    let open = opened(dut, pdo)?;
     let done = test(dut, open.pdo.map());
+    if let Err(End::Lost(_)) = done {
+        return done;
+    }
     let closed = close(dut, &open);
     done.and(closed)
 }
@@ -140,7 +166,8 @@ fn mappable(dut: &Dut<'_>) -> Option<Entry> {
     entries.filter(fits).max_by_key(bits)
 }
 
-fn raw(entry: &Entry) -> u32 {
+/// A mapping entry for an object with its own length.
+pub(super) fn raw(entry: &Entry) -> u32 {
     let Address { index, sub } = entry.address;
     let bits = entry.data_type.bits().unwrap_or(0);
     u32::from(index) << 16 | u32::from(sub) << 8 | u32::from(bits)
@@ -187,7 +214,13 @@ pub(super) fn not_mappable(dut: &mut Dut<'_>) -> Checked {
 
 /// An entry that no TPDO may have, refused at once or with the number of entries.
 fn refused_entry(dut: &mut Dut<'_>, entry: u32) -> Checked {
-    with(dut, |dut, map| {
+    let pdo = variable(dut)?;
+    refused_by(dut, pdo, entry)
+}
+
+/// An entry that this PDO may not have, refused at once or with the number of entries.
+pub(super) fn refused_by(dut: &mut Dut<'_>, pdo: Tpdo, entry: u32) -> Checked {
+    on(dut, pdo, |dut, map| {
         let codes = [NotMappable, NoObject, NoSubIndex];
         let first = Address::new(map, 1);
         match dut.download(first, &entry.to_le_bytes())? {
@@ -211,5 +244,79 @@ pub(super) fn new_mapping(dut: &mut Dut<'_>) -> Checked {
             format!("{:08X}h in {map:04X}h:01", raw(&entry)),
             format!("{is:08X}h was read"),
         )
+    })
+}
+
+/// An object that only RPDOs may carry is refused by a TPDO.
+pub(super) fn direction(dut: &mut Dut<'_>) -> Checked {
+    let mut entries = dut.eds.dictionary().entries();
+    let is_output = |entry: &Entry| {
+        entry.maps_to_rpdo() && !entry.maps_to_tpdo() && entry.data_type.bits().is_some()
+    };
+    match entries.find(is_output) {
+        Some(entry) => refused_entry(dut, raw(&entry)),
+        None => lacks("every object that an RPDO may carry a TPDO may carry, too"),
+    }
+}
+
+/// A dummy, 0005h, is refused by a TPDO.
+pub(super) fn dummy(dut: &mut Dut<'_>) -> Checked {
+    refused_entry(dut, DUMMY)
+}
+
+/// A mapping entry for a dummy of 8 bits.
+pub(super) const DUMMY: u32 = 0x0005_0008;
+
+/// A TPDO carries what a new mapping says.
+pub(super) fn sent(dut: &mut Dut<'_>) -> Checked {
+    let pdo = timed(dut, 50)?;
+    let now = mapping(dut, pdo.map())?;
+    let bits: usize = now.iter().map(|mapped| mapped.bits).sum();
+    let entries: Vec<Entry> = dut.eds.dictionary().entries().collect();
+    let other = entries.iter().find(|entry| {
+        let own = entry.data_type.bits().map_or(0, usize::from);
+        entry.maps_to_tpdo() && own.is_multiple_of(8) && own > 0 && own <= 64 && own != bits
+    });
+    let Some(other) = other else {
+        return lacks("no object of another length can be mapped");
+    };
+    let (entry, address) = (raw(other), other.address);
+    let len = usize::from(other.data_type.bits().unwrap_or(0)).div_ceil(8);
+    let id = pdo.id();
+    let cob_id = pdo.cob_id;
+    let com = pdo.address(1);
+    on(dut, pdo, |dut, map| {
+        if dut
+            .download(Address::new(map, 1), &entry.to_le_bytes())?
+            .is_err()
+        {
+            return lacks(format!("the node does not map {address} alone"));
+        }
+        dut.write(Address::new(map, 0), &[1])?;
+        dut.write(com, &cob_id.to_le_bytes())?;
+        dut.nmt(Command::Start)?;
+        let before = dut.upload(address)?;
+        // The first may be one that the start brings about.
+        dut.next(500_000, |frame| frame.id() == id && !frame.is_remote())?;
+        let heard = dut.next(500_000, |frame| frame.id() == id && !frame.is_remote())?;
+        let after = dut.upload(address)?;
+        dut.nmt(Command::EnterPreOperational)?;
+        let Some(heard) = heard else {
+            return fail("a TPDO every 50 ms with the new mapping", "none came");
+        };
+        let got = format!("{} came", heard.frame);
+        ensure(
+            usize::from(heard.frame.dlc()) == len,
+            format!("a TPDO of {len} bytes, {address} alone"),
+            got.clone(),
+        )?;
+        match (before, after) {
+            (Ok(before), Ok(after)) if before == after => ensure(
+                heard.frame.data() == before,
+                format!("{} of {address} in the TPDO", values::hex(&before)),
+                got,
+            ),
+            _ => Ok(()),
+        }
     })
 }

@@ -1,11 +1,12 @@
 //! NMT: boot-up, states and commands.
 
 use od_model::{Address, values};
-use od_wire::Frame;
-use od_wire::nmt::Command;
+use od_wire::nmt::{Command, Repr};
+use od_wire::{CanId, CobId, Frame};
 
 use super::transfer::another_value;
-use crate::conform::dut::{Dut, QUIET};
+use super::transmit;
+use crate::conform::dut::{Dut, QUIET, is_data};
 use crate::conform::end::{Checked, ensure, fail, lacks};
 use crate::conform::sdo::request;
 
@@ -46,11 +47,19 @@ pub(super) fn boot_up_after_communication(dut: &mut Dut<'_>) -> Checked {
     dut.reset(Command::ResetCommunication)
 }
 
-/// No service before the boot-up message.
 pub(super) fn boot_up_first(dut: &mut Dut<'_>) -> Checked {
+    first_frame(dut, Command::ResetNode)
+}
+
+pub(super) fn boot_up_first_communication(dut: &mut Dut<'_>) -> Checked {
+    first_frame(dut, Command::ResetCommunication)
+}
+
+/// No service before the boot-up message.
+fn first_frame(dut: &mut Dut<'_>, command: Command) -> Checked {
     dut.drain()?;
     let node = dut.node.raw();
-    dut.send(Frame::standard(0, &[0x81, node]))?;
+    dut.send(Frame::standard(0, &Repr { command, node }.emit()))?;
     let ids = [0x80, 0x180, 0x280, 0x380, 0x480, 0x580, 0x700].map(|base| dut.id(base));
     let ours = |frame: &Frame| frame.id().as_standard().is_some_and(|id| ids.contains(&id));
     let boot = dut.id(0x700);
@@ -68,6 +77,65 @@ pub(super) fn boot_up_first(dut: &mut Dut<'_>) -> Checked {
         ),
         None => fail("the boot-up message within 10 s", "none came"),
     }
+}
+
+/// From boot-up to the first start the node sends heartbeats, SYNC if it produces it, and responses.
+pub(super) fn silent_before_start(dut: &mut Dut<'_>) -> Checked {
+    transmit::learn_sync(dut)?;
+    let mut ids = vec![
+        CanId::standard(dut.id(0x80)),
+        CanId::standard(dut.id(0x580)),
+    ];
+    let mut with_rtr = Vec::new();
+    for pdo in dut.eds.pdos(0x1800) {
+        let cob_id = CobId::new(dut.number(0x1800 + pdo, 1)? as u32);
+        if transmit::is_on(cob_id.raw()) {
+            ids.push(cob_id.can_id());
+            with_rtr.extend(cob_id.allows_rtr().then_some(cob_id.can_id()));
+        }
+    }
+    dut.drain()?;
+    let (boot, node) = (dut.id(0x700), dut.node.raw());
+    dut.send(Frame::standard(0, &[0x81, node]))?;
+    if dut
+        .next(10_000_000, |frame| {
+            is_data(frame, boot) && frame.data() == [0]
+        })?
+        .is_none()
+    {
+        return fail("the boot-up message within 10 s", "none came");
+    }
+    // An EMCY 0000h says that there is no error.
+    let is_own = |frame: &Frame| {
+        ids.contains(&frame.id())
+            && !frame.is_remote()
+            && !(frame.id() == ids[0] && frame.data().starts_with(&[0, 0]))
+    };
+    let mut heard = dut.next(200_000, is_own)?;
+    if heard.is_none() {
+        transmit::sync(dut)?;
+        heard = dut.next(QUIET, is_own)?;
+    }
+    for id in with_rtr {
+        if heard.is_none() {
+            dut.ask_for(id, 8)?;
+            heard = dut.next(50_000, is_own)?;
+        }
+    }
+    let Some(heard) = heard else {
+        return Ok(());
+    };
+    if heard.frame.id() == ids[0] && dut.number(0x1001, 0)? != 0 {
+        dut.notes.push(format!(
+            "{}: an error is present after the reset",
+            heard.frame
+        ));
+        return Ok(());
+    }
+    fail(
+        "no PDO, EMCY or SDO response between boot-up and start",
+        format!("{} came", heard.frame),
+    )
 }
 
 pub(super) fn power_on(dut: &mut Dut<'_>) -> Checked {

@@ -25,28 +25,34 @@ fn entries(dut: &Dut<'_>, from: u16, to: u16) -> Vec<Entry> {
 fn read_all(dut: &mut Dut<'_>, from: u16, to: u16) -> Checked {
     let all = entries(dut, from, to);
     for entry in all.iter().filter(|entry| entry.access.readable()) {
-        let name = values::label(dut.eds.dictionary(), entry.address);
-        match dut.upload(entry.address)? {
-            Ok(bytes) => {
-                if let Some(size) = entry.data_type.size() {
-                    ensure(
-                        bytes.len() == size,
-                        format!("{size} bytes of {name}, {}", entry.data_type.name()),
-                        format!("{} came: {}", bytes.len(), values::hex(&bytes)),
-                    )?;
-                }
-                if entry.data_type.kind() == Kind::Boolean && bytes.first() > Some(&1) {
-                    return fail(format!("0 or 1 in {name}"), values::hex(&bytes));
-                }
-            }
-            Err(code) if is_empty(code) => {}
-            Err(code) => return fail(format!("a value of {name}"), abort_text(code)),
-        }
+        let done = read_one(dut, entry);
+        dut.fault(done)?;
     }
     if all.is_empty() {
         lacks("the EDS has no such object")
     } else {
         Ok(())
+    }
+}
+
+fn read_one(dut: &mut Dut<'_>, entry: &Entry) -> Checked {
+    let name = values::label(dut.eds.dictionary(), entry.address);
+    match dut.upload(entry.address)? {
+        Ok(bytes) => {
+            if let Some(size) = entry.data_type.size() {
+                ensure(
+                    bytes.len() == size,
+                    format!("{size} bytes of {name}, {}", entry.data_type.name()),
+                    format!("{} came: {}", bytes.len(), values::hex(&bytes)),
+                )?;
+            }
+            if entry.data_type.kind() == Kind::Boolean && bytes.first() > Some(&1) {
+                return fail(format!("0 or 1 in {name}"), values::hex(&bytes));
+            }
+            Ok(())
+        }
+        Err(code) if is_empty(code) => Ok(()),
+        Err(code) => fail(format!("a value of {name}"), abort_text(code)),
     }
 }
 
@@ -75,10 +81,11 @@ pub(super) fn read_only(dut: &mut Dut<'_>) -> Checked {
             data[..len].copy_from_slice(&bytes[..len]);
         }
         let command = 0x23 | (4 - size as u8) << 2;
-        dut.refuses(
+        let done = dut.refuses(
             request(command, entry.address, data),
             &[UnsupportedAccess, ReadOnly],
-        )?;
+        );
+        dut.fault(done)?;
     }
     Ok(())
 }
@@ -89,7 +96,8 @@ pub(super) fn write_only(dut: &mut Dut<'_>) -> Checked {
         if entry.access == Access::Wo {
             any = true;
             let read = request(0x40, entry.address, [0; 4]);
-            dut.refuses(read, &[UnsupportedAccess, WriteOnly])?;
+            let done = dut.refuses(read, &[UnsupportedAccess, WriteOnly]);
+            dut.fault(done)?;
         }
     }
     if any {
@@ -102,37 +110,41 @@ pub(super) fn write_only(dut: &mut Dut<'_>) -> Checked {
 /// A writable object accepts its own value.
 pub(super) fn own_value(dut: &mut Dut<'_>) -> Checked {
     for entry in dut.eds.writable() {
-        let Ok(bytes) = dut.upload(entry.address)? else {
-            continue;
-        };
-        if bytes.is_empty() {
-            continue;
-        }
-        if let Err(code) = dut.download(entry.address, &bytes)?
-            && !is_empty(code)
-        {
-            let name = values::label(dut.eds.dictionary(), entry.address);
-            if let Some(why) = dut.eds.excludes(entry.address, &bytes, dut.node) {
-                return fail(
-                    format!("a value that the EDS allows; {why}"),
-                    "the node has it",
-                );
-            }
+        let done = takes_own_value(dut, &entry);
+        dut.fault(done)?;
+    }
+    Ok(())
+}
+
+fn takes_own_value(dut: &mut Dut<'_>, entry: &Entry) -> Checked {
+    let bytes = match dut.upload(entry.address)? {
+        Ok(bytes) if !bytes.is_empty() => bytes,
+        _ => return Ok(()),
+    };
+    if let Err(code) = dut.download(entry.address, &bytes)?
+        && !is_empty(code)
+    {
+        let name = values::label(dut.eds.dictionary(), entry.address);
+        if let Some(why) = dut.eds.excludes(entry.address, &bytes, dut.node) {
             return fail(
-                format!("{name} to take its own value {}", values::hex(&bytes)),
-                abort_text(code),
+                format!("a value that the EDS allows; {why}"),
+                "the node has it",
             );
         }
-        let after = dut.upload(entry.address)?;
-        // What the device computes or counts moves on.
-        if entry.group != Group::None && after.as_ref().is_ok_and(|after| *after != bytes) {
-            let name = values::label(dut.eds.dictionary(), entry.address);
-            let got = after.unwrap_or_default();
-            return fail(
-                format!("{name} = {} again", values::hex(&bytes)),
-                format!("{} was read", values::hex(&got)),
-            );
-        }
+        return fail(
+            format!("{name} to take its own value {}", values::hex(&bytes)),
+            abort_text(code),
+        );
+    }
+    let after = dut.upload(entry.address)?;
+    // What the device computes or counts moves on.
+    if entry.group != Group::None && after.as_ref().is_ok_and(|after| *after != bytes) {
+        let name = values::label(dut.eds.dictionary(), entry.address);
+        let got = after.unwrap_or_default();
+        return fail(
+            format!("{name} = {} again", values::hex(&bytes)),
+            format!("{} was read", values::hex(&got)),
+        );
     }
     Ok(())
 }
@@ -143,7 +155,8 @@ pub(super) fn limits(dut: &mut Dut<'_>) -> Checked {
         for high in [true, false] {
             if let Some(bytes) = outside(&entry, high, dut.node.raw()) {
                 any = true;
-                out_of_range(dut, &entry, &bytes, high)?;
+                let done = out_of_range(dut, &entry, &bytes, high);
+                dut.fault(done)?;
             }
         }
     }
@@ -185,21 +198,29 @@ pub(super) fn sub_indices(dut: &mut Dut<'_>) -> Checked {
         };
         let last = members.iter().rev().find(|entry| entry.address.sub < 0xFF);
         let highest = last.map_or(0, |entry| entry.address.sub);
-        // Of what varies, sub-index 0 counts what is used.
-        let is_fixed = first.access == Access::Const;
+        // The history and the mappings count what is used. Other than there, sub-index 0 that no master can write is
+        // the highest sub-index, whether the EDS has it as `const` or as `ro`.
+        let counts = matches!(object.index, 0x1003 | 0x1600..=0x17FF | 0x1A00..=0x1BFF);
+        let is_fixed = match first.access {
+            Access::Const => true,
+            Access::Ro => !counts,
+            _ => false,
+        };
         if is_fixed {
-            ensure(
+            let done = ensure(
                 count.first() == Some(&highest),
                 format!(
                     "{highest} in {}, the highest sub-index of the EDS",
                     first.address
                 ),
                 format!("{} was read", values::hex(&count)),
-            )?;
+            );
+            dut.fault(done)?;
         }
         if highest < 0xFE {
             let beyond = Address::new(object.index, highest + 1);
-            dut.refuses(request(0x40, beyond, [0; 4]), &[NoSubIndex])?;
+            let done = dut.refuses(request(0x40, beyond, [0; 4]), &[NoSubIndex]);
+            dut.fault(done)?;
         }
     }
     Ok(())
@@ -212,18 +233,19 @@ pub(super) fn sub_index_255(dut: &mut Dut<'_>) -> Checked {
             continue;
         }
         let address = Address::new(object.index, 0xFF);
-        match dut.upload(address)? {
+        let done = match dut.upload(address)? {
             Err(code) => ensure(
                 code == NoSubIndex.code() || is_empty(code),
                 format!("abort 06090011h for {address}, or its structure"),
                 abort_text(code),
-            )?,
+            ),
             Ok(bytes) => ensure(
                 bytes.len() == 4 && bytes[0] == object.code.code(),
                 format!("the structure in {address}, or abort 06090011h"),
                 values::hex(&bytes),
-            )?,
-        }
+            ),
+        };
+        dut.fault(done)?;
     }
     Ok(())
 }
@@ -234,10 +256,10 @@ pub(super) fn unlisted(dut: &mut Dut<'_>) -> Checked {
         if !dut.eds.has(index)
             && let Ok(bytes) = dut.upload(Address::new(index, 0))?
         {
-            return fail(
+            dut.fault(fail(
                 format!("no {index:04X}h, as the EDS has none"),
                 format!("{} was read", values::hex(&bytes)),
-            );
+            ))?;
         }
     }
     Ok(())
@@ -279,19 +301,109 @@ fn defaults(dut: &mut Dut<'_>, which: impl Fn(&Entry) -> bool) -> Checked {
                 let name = values::label(dut.eds.dictionary(), entry.address);
                 // A node that is set to a node ID keeps it.
                 let is_own_id = bytes == [node.raw()] && name.to_ascii_lowercase().contains("node");
-                ensure(
+                let done = ensure(
                     bytes == wanted || is_own_id,
                     format!("{name} = {}, the default", values::hex(&wanted)),
                     format!("{} was read", values::hex(&bytes)),
-                )?;
+                );
+                dut.fault(done)?;
             }
             Ok(Err(code)) if is_empty(code) || code == NoObject.code() => {}
             Ok(Err(code)) => {
-                return fail(format!("a value of {}", entry.address), abort_text(code));
+                let expected = format!("a value of {}", entry.address);
+                dut.fault(fail(expected, abort_text(code)))?;
             }
             Err(End::Lost(fault)) => return Err(End::Lost(fault)),
             Err(other) => return Err(other),
         }
     }
     Ok(())
+}
+
+/// Objects of communication that a case writes to see what else changes, with a value that differs.
+const WRITTEN: [(u16, u8); 7] = [
+    (0x1017, 0),
+    (0x100C, 0),
+    (0x1015, 0),
+    (0x1016, 1),
+    (0x1800, 5),
+    (0x1800, 2),
+    (0x1400, 2),
+];
+
+/// A write changes its object and no other.
+pub(super) fn neighbours(dut: &mut Dut<'_>) -> Checked {
+    let mut any = false;
+    for (index, sub) in WRITTEN {
+        let address = Address::new(index, sub);
+        if !dut.eds.writes(index, sub) {
+            continue;
+        }
+        let Some((other, before)) = different(dut, address)? else {
+            continue;
+        };
+        // Two readings: what changes between them changes without a write.
+        let (first, second) = (snapshot(dut)?, snapshot(dut)?);
+        dut.undo.push((address, before));
+        if dut.download(address, &other)?.is_err() {
+            continue;
+        }
+        any = true;
+        let after = snapshot(dut)?;
+        for (was, (again, is)) in first.iter().zip(second.iter().zip(&after)) {
+            let moves = was.1 != again.1 || was.0 == address;
+            if !moves && again.1 != is.1 {
+                let eds = dut.eds;
+                let name = |address| values::label(eds.dictionary(), address);
+                let (expected, got) = (
+                    format!("{} = {} still", name(was.0), values::hex(&was.1)),
+                    format!(
+                        "{} was read after a write of {}",
+                        values::hex(&is.1),
+                        name(address)
+                    ),
+                );
+                dut.fault(fail(expected, got))?;
+            }
+        }
+        // Before the next object, so that a fault is about one write.
+        if let Some((address, before)) = dut.undo.pop() {
+            dut.write(address, &before)?;
+        }
+    }
+    if any {
+        Ok(())
+    } else {
+        lacks("no parameter of communication can be changed")
+    }
+}
+
+/// Another value of an object, and the one that it has.
+fn different(dut: &mut Dut<'_>, address: Address) -> Checked<Option<(Vec<u8>, Vec<u8>)>> {
+    let Ok(before) = dut.upload(address)? else {
+        return Ok(None);
+    };
+    let mut other = before.clone();
+    match (address.index, address.sub, &mut other[..]) {
+        (0x1016, _, [time, ..]) => *time ^= 0x40,
+        (0x1400..=0x15FF | 0x1800..=0x19FF, 2, [kind]) => *kind = if *kind == 1 { 255 } else { 1 },
+        (_, _, [first, ..]) => *first ^= 0x40,
+        _ => return Ok(None),
+    }
+    let is_allowed = dut.eds.excludes(address, &other, dut.node).is_none();
+    Ok(is_allowed.then_some((other, before)))
+}
+
+/// The values of communication that can be read, but for those that count or report.
+fn snapshot(dut: &mut Dut<'_>) -> Checked<Vec<(Address, Vec<u8>)>> {
+    let mut all = Vec::new();
+    for entry in entries(dut, 0x1005, 0x1FFF) {
+        let is_small = entry.data_type.size().is_some_and(|size| size <= 4);
+        if entry.access.readable() && is_small && !(0x1F50..=0x1F5F).contains(&entry.address.index)
+        {
+            let value = dut.upload(entry.address)?;
+            all.push((entry.address, value.unwrap_or_default()));
+        }
+    }
+    Ok(all)
 }

@@ -1,13 +1,15 @@
 //! RPDOs: values that a master sends.
 
-use od_model::{Address, values};
+use od_model::{Address, Entry, values};
 use od_wire::nmt::Command;
 use od_wire::{CobId, Frame};
 
 use super::heartbeat::{emcy, sends_emcy};
-use super::transmit::{Mapped, contradiction, is_on, learn_sync, mapping, sync};
+use super::mapping::{DUMMY, on, raw, refused_by};
+use super::transmit::{Mapped, Tpdo, contradiction, is_on, learn_sync, mapping, sync};
 use crate::conform::dut::Dut;
-use crate::conform::end::{Checked, ensure, fail, lacks};
+use crate::conform::end::{Checked, End, ensure, fail, lacks};
+use crate::conform::sdo::abort_text;
 
 /// An RPDO that is on, and the first value that it writes.
 struct Rpdo {
@@ -147,4 +149,169 @@ pub(super) fn off(dut: &mut Dut<'_>) -> Checked {
     let (bytes, _) = pdo.other(dut)?;
     pdo.send(dut, &bytes)?;
     pdo.holds(dut, &before, ", as the RPDO is off")
+}
+
+/// The first RPDO that is on, whatever it maps.
+fn any_on(dut: &mut Dut<'_>) -> Checked<Tpdo> {
+    for number in dut.eds.pdos(0x1400) {
+        let com = 0x1400 + number;
+        let cob_id = dut.number(com, 1)? as u32;
+        if is_on(cob_id) && has_sound_mapping(dut, com)? {
+            return Ok(Tpdo { com, cob_id });
+        }
+    }
+    lacks("no RPDO is on with a mapping that the EDS allows")
+}
+
+/// Whether the EDS allows what an RPDO maps. A case of its own is about that (pdo-mapped-objects).
+fn has_sound_mapping(dut: &mut Dut<'_>, com: u16) -> Checked<bool> {
+    let all = mapping(dut, com + 0x200)?;
+    Ok(contradiction(dut.eds, &all, false).is_none())
+}
+
+/// A mapping of an RPDO is written by the procedure of CiA 301.
+pub(super) fn mapping_procedure(dut: &mut Dut<'_>) -> Checked {
+    let pdo = any_on(dut)?;
+    let before = mapping(dut, pdo.map())?.len();
+    let map = pdo.map();
+    on(dut, pdo, |_, _| Ok(()))?;
+    let after = mapping(dut, map)?.len();
+    ensure(
+        after == before,
+        format!("{before} mapped objects in {map:04X}h"),
+        format!("{after} are mapped"),
+    )
+}
+
+/// An object that only TPDOs may carry is refused by an RPDO.
+pub(super) fn direction(dut: &mut Dut<'_>) -> Checked {
+    let mut entries = dut.eds.dictionary().entries();
+    let is_input = |entry: &Entry| {
+        entry.maps_to_tpdo() && !entry.maps_to_rpdo() && entry.data_type.bits().is_some()
+    };
+    let Some(entry) = entries.find(is_input) else {
+        return lacks("every object that a TPDO may carry an RPDO may carry, too");
+    };
+    let pdo = any_on(dut)?;
+    refused_by(dut, pdo, raw(&entry))
+}
+
+/// An object that cannot be mapped is refused by an RPDO.
+pub(super) fn not_mappable(dut: &mut Dut<'_>) -> Checked {
+    let Some(entry) = dut.eds.entry(0x1000, 0).filter(|entry| !entry.mappable) else {
+        return lacks("the EDS lets an RPDO carry 1000h");
+    };
+    let pdo = any_on(dut)?;
+    refused_by(dut, pdo, raw(&entry))
+}
+
+/// Objects of 8, 16 or 32 bits that an RPDO may carry and that can be read, in order.
+fn outputs(dut: &Dut<'_>) -> Vec<Entry> {
+    let fits = |entry: &Entry| {
+        entry.maps_to_rpdo()
+            && entry.access.readable()
+            && matches!(entry.data_type.bits(), Some(8 | 16 | 32))
+    };
+    dut.eds.dictionary().entries().filter(fits).collect()
+}
+
+/// Maps these entries, the last of which is an object, to the RPDO alone, and sends it a value; the object has it
+/// then.
+fn takes(dut: &mut Dut<'_>, pdo: &Tpdo, map: u16, entries: &[u32]) -> Checked {
+    for (sub, entry) in (1..).zip(entries) {
+        if let Err(code) = dut.download(Address::new(map, sub), &entry.to_le_bytes())? {
+            return fail(
+                format!("{entry:08X}h in {map:04X}h:{sub:02X}"),
+                abort_text(code),
+            );
+        }
+    }
+    dut.write(Address::new(map, 0), &[entries.len() as u8])?;
+    dut.keep(pdo.address(2))?;
+    let _ = dut.download(pdo.address(2), &[255])?;
+    dut.write(pdo.address(1), &pdo.cob_id.to_le_bytes())?;
+    let last = entries.last().copied().unwrap_or(0);
+    let address = Address::new((last >> 16) as u16, (last >> 8) as u8);
+    let mut wanted = dut.keep(address)?;
+    if let Some(first) = wanted.first_mut() {
+        *first ^= 1;
+    }
+    let ahead: u32 = entries.iter().map(|entry| entry & 0xFF).sum::<u32>() - (last & 0xFF);
+    let mut bytes = vec![0; ahead as usize / 8];
+    bytes.extend_from_slice(&wanted);
+    dut.nmt(Command::Start)?;
+    if let Some(frame) = Frame::new(pdo.id(), &bytes) {
+        dut.send(frame)?;
+    }
+    dut.wait(20_000)?;
+    let is = dut.read(address)?;
+    dut.nmt(Command::EnterPreOperational)?;
+    ensure(
+        is == wanted,
+        format!(
+            "{} in {address}, as RPDO{} has it",
+            values::hex(&wanted),
+            pdo.com - 0x13FF
+        ),
+        format!("{} was read", values::hex(&is)),
+    )
+}
+
+/// An RPDO writes what a new mapping says.
+pub(super) fn mapping_used(dut: &mut Dut<'_>) -> Checked {
+    let pdo = any_on(dut)?;
+    let now = mapping(dut, pdo.map())?;
+    let first = now.first().map(|mapped| mapped.address);
+    let all = outputs(dut);
+    let Some(other) = all.iter().find(|entry| Some(entry.address) != first) else {
+        return lacks("no other object can be mapped");
+    };
+    let entry = raw(other);
+    on(dut, pdo, |dut, map| takes(dut, &pdo, map, &[entry]))
+}
+
+/// A dummy takes bits of the frame and writes nothing.
+pub(super) fn dummy(dut: &mut Dut<'_>) -> Checked {
+    let section = dut.eds.description.section("DummyUsage");
+    let used = section.and_then(|section| section.get("Dummy0005"));
+    if used.is_none_or(|used| used.value.trim() != "1") {
+        return lacks("the EDS does not have Dummy0005=1 in [DummyUsage]");
+    }
+    let pdo = any_on(dut)?;
+    let Some(entry) = outputs(dut).first().map(raw) else {
+        return lacks("no object can be mapped");
+    };
+    on(dut, pdo, |dut, map| takes(dut, &pdo, map, &[DUMMY, entry]))
+}
+
+/// Every RPDO that is on writes what it maps; one without a mapping gets one.
+pub(super) fn each(dut: &mut Dut<'_>) -> Checked {
+    let all = outputs(dut);
+    let mut any = false;
+    for number in dut.eds.pdos(0x1400) {
+        let com = 0x1400 + number;
+        let cob_id = dut.number(com, 1)? as u32;
+        if !is_on(cob_id) || !has_sound_mapping(dut, com)? {
+            continue;
+        }
+        let now = mapping(dut, com + 0x200)?;
+        let own = now.first().map(|mapped| mapped.address);
+        let own = all.iter().find(|entry| Some(entry.address) == own);
+        let Some(entry) = own.or_else(|| all.first()).map(raw) else {
+            return lacks("no object can be mapped");
+        };
+        let pdo = Tpdo { com, cob_id };
+        match on(dut, pdo, |dut, map| takes(dut, &pdo, map, &[entry])) {
+            Err(End::NotApplicable(_)) => {}
+            done => {
+                dut.fault(done)?;
+                any = true;
+            }
+        }
+    }
+    if any {
+        Ok(())
+    } else {
+        lacks("no RPDO is on whose mapping can be written")
+    }
 }

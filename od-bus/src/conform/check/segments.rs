@@ -8,7 +8,7 @@ use od_wire::Frame;
 
 use crate::conform::dut::{Dut, QUIET};
 use crate::conform::end::{Checked, ensure, lacks, skip};
-use crate::conform::sdo::{abort_of, abort_text, is_abort, request};
+use crate::conform::sdo::{abort_of, abort_text, is_abort, request, reserved_are_0};
 
 /// An object with a value of more than four bytes, if possible of more than seven.
 pub(super) fn long_value(dut: &mut Dut<'_>) -> Checked<(Address, Vec<u8>)> {
@@ -263,4 +263,16 @@ pub(super) fn begin_again(dut: &mut Dut<'_>) -> Checked {
     }
     let again = dut.read(address)?;
     ensure(again == bytes, values::hex(&bytes), values::hex(&again))
+}
+
+/// Bytes that CiA 301 reserves in the responses to a download are 0.
+pub(super) fn reserved(dut: &mut Dut<'_>) -> Checked {
+    let (address, before) = short_value(dut)?;
+    let from = dut.frames.len();
+    dut.write(address, &before)?;
+    let segmented = dut.download_segments(address, &before, true, before.len() / 2)?;
+    let segments: &[(u8, usize)] = &[(0x20, 1), (0x30, 1)];
+    let segments = if segmented.is_ok() { segments } else { &[] };
+    let first = [&[(0x60, 4)], segments].concat();
+    reserved_are_0(dut, from, &first)
 }

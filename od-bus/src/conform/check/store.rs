@@ -1,12 +1,12 @@
 //! Store and restore: 1010h and 1011h.
 
-use od_model::{Address, Group, values};
+use od_model::{Address, Entry, Group, values};
 use od_wire::AbortCode::{LocalControl, NotStored};
 use od_wire::nmt::Command;
 
 use super::transfer::another_saved;
-use crate::conform::dut::Dut;
-use crate::conform::end::{Checked, End, ensure, lacks};
+use crate::conform::dut::{Dut, is_data};
+use crate::conform::end::{Checked, End, ensure, fail, lacks};
 
 /// A node may confirm a save and need time to carry it out.
 const MEMORY: u64 = 600_000;
@@ -175,4 +175,232 @@ fn loaded(dut: &mut Dut<'_>, sub: u8) -> Checked {
         return done;
     }
     done.and(bring_back(dut, &before))
+}
+
+/// Parameters of communication that can be changed, saved and reset without harm.
+fn several(dut: &Dut<'_>) -> Vec<Entry> {
+    let all = dut.eds.writable().into_iter();
+    let is_quiet = |entry: &Entry| {
+        let Address { index, sub } = entry.address;
+        let is_kind = match index {
+            0x100C | 0x100D | 0x1016 | 0x1017 => true,
+            0x1800..=0x19FF => sub == 5,
+            _ => false,
+        };
+        is_kind && (sub > 0 || index != 0x1016) && entry.group.covered_by(1)
+    };
+    let mut all: Vec<Entry> = all.filter(is_quiet).collect();
+    all.sort_by_key(|entry| entry.address);
+    all.dedup_by_key(|entry| entry.address);
+    all
+}
+
+/// Changes values, saves, resets, and compares; then the values from before are saved again.
+pub(super) fn save_all(dut: &mut Dut<'_>) -> Checked {
+    let mut changed = Vec::new();
+    for entry in several(dut) {
+        let address = entry.address;
+        let before = dut.read(address)?;
+        let mut other = before.clone();
+        let number = address.sub;
+        match (address.index, &mut other[..]) {
+            // Each entry monitors a node of its own, which never sends.
+            (0x1016, [low, high, node, _]) => {
+                (*low, *high, *node) = (0x10, 0x27, 100u8.saturating_add(number).min(127));
+            }
+            (_, [first, ..]) => *first ^= 0x30,
+            _ => continue,
+        }
+        if dut.eds.excludes(address, &other, dut.node).is_none()
+            && dut.download(address, &other)?.is_ok()
+        {
+            changed.push((address, before, other));
+        }
+    }
+    if changed.len() < 2 {
+        for (address, before, _) in changed {
+            dut.write(address, &before)?;
+        }
+        return lacks("fewer than two parameters of communication can be changed");
+    }
+    let done = command(dut, 0x1010, 1, b"save").and_then(|()| {
+        dut.reset(Command::ResetNode)?;
+        for (address, _, other) in &changed {
+            let after = dut.read(*address)?;
+            let name = values::label(dut.eds.dictionary(), *address);
+            let kept = ensure(
+                after == *other,
+                format!("{} in {name} after the reset, as saved", values::hex(other)),
+                format!("{} was read", values::hex(&after)),
+            );
+            dut.fault(kept)?;
+        }
+        Ok(())
+    });
+    if let Err(End::Lost(_)) = done {
+        return done;
+    }
+    for (address, before, _) in &changed {
+        dut.write(*address, before)?;
+    }
+    command(dut, 0x1010, 1, b"save")?;
+    dut.notes
+        .push(format!("saved {} values again", changed.len()));
+    done
+}
+
+/// Of two saves the second counts.
+pub(super) fn save_twice(dut: &mut Dut<'_>) -> Checked {
+    let Some((address, bytes)) = another_saved(dut, Some(1))? else {
+        return lacks("no parameter of communication can be written");
+    };
+    let before = dut.read(address)?;
+    let mut second = bytes.clone();
+    second[0] ^= 0x10;
+    let done = (|| {
+        for value in [&bytes, &second] {
+            dut.write(address, value)?;
+            command(dut, 0x1010, 1, b"save")?;
+        }
+        dut.reset(Command::ResetNode)?;
+        let after = dut.read(address)?;
+        ensure(
+            after == second,
+            format!("{} in {address}, as saved last", values::hex(&second)),
+            format!("{} was read", values::hex(&after)),
+        )
+    })();
+    if let Err(End::Lost(_)) = done {
+        return done;
+    }
+    dut.write(address, &before)?;
+    command(dut, 0x1010, 1, b"save")?;
+    done
+}
+
+/// A restore takes effect with the next reset, not before.
+pub(super) fn load_after_reset(dut: &mut Dut<'_>) -> Checked {
+    let before = backup(dut)?;
+    let Some((address, bytes)) = another_saved(dut, Some(1))? else {
+        return lacks("no parameter of communication can be written");
+    };
+    dut.write(address, &bytes)?;
+    let done = (|| {
+        command(dut, 0x1011, 1, b"load")?;
+        let after = dut.read(address)?;
+        ensure(
+            after == bytes,
+            format!("{} in {address} until the reset", values::hex(&bytes)),
+            format!("{} was read", values::hex(&after)),
+        )
+    })();
+    if let Err(End::Lost(_)) = done {
+        return done;
+    }
+    dut.reset(Command::ResetNode)?;
+    done.and(bring_back(dut, &before))
+}
+
+/// A saved heartbeat time is there after a reset, and used.
+pub(super) fn heartbeat_saved(dut: &mut Dut<'_>) -> Checked {
+    let address = Address::new(0x1017, 0);
+    let is_saved = dut
+        .eds
+        .entry(0x1017, 0)
+        .is_some_and(|entry| entry.group.covered_by(1));
+    if !is_saved {
+        return lacks("1010h:01 does not save 1017h, by the EDS");
+    }
+    let before = dut.read(address)?;
+    dut.write(address, &[100, 0])?;
+    let done = command(dut, 0x1010, 1, b"save").and_then(|()| {
+        dut.reset(Command::ResetNode)?;
+        let id = dut.id(0x700);
+        match dut.next(1_000_000, |frame| is_data(frame, id) && frame.data() != [0])? {
+            Some(_) => Ok(()),
+            None => fail(
+                "a heartbeat within 1 s of the boot-up, as 1017h = 100 was saved",
+                "none came",
+            ),
+        }
+    });
+    if let Err(End::Lost(_)) = done {
+        return done;
+    }
+    dut.write(address, &before)?;
+    command(dut, 0x1010, 1, b"save")?;
+    done
+}
+
+/// The period and the counter of SYNC are saved.
+pub(super) fn sync_saved(dut: &mut Dut<'_>) -> Checked {
+    let (period, counter) = (Address::new(0x1006, 0), Address::new(0x1019, 0));
+    let covered = |address: Address| {
+        let entry = dut.eds.entry(address.index, address.sub);
+        entry.is_some_and(|entry| entry.group.covered_by(1))
+    };
+    if !covered(period) || !covered(counter) {
+        return lacks("1010h:01 does not save 1006h and 1019h, by the EDS");
+    }
+    let before = [dut.read(period)?, dut.read(counter)?];
+    // 1019h is written while 1006h is 0.
+    let write = |dut: &mut Dut<'_>, [one, other]: [&[u8]; 2]| {
+        dut.write(period, &[0; 4])?;
+        dut.write(counter, other)?;
+        dut.write(period, one)?;
+        command(dut, 0x1010, 1, b"save")
+    };
+    let wanted: [&[u8]; 2] = [&[0x10, 0x27, 0, 0], &[7]];
+    let done = write(dut, wanted).and_then(|()| {
+        dut.reset(Command::ResetNode)?;
+        for (address, wanted) in [period, counter].into_iter().zip(wanted) {
+            let after = dut.read(address)?;
+            let kept = ensure(
+                after == wanted,
+                format!(
+                    "{} in {address} after the reset, as saved",
+                    values::hex(wanted)
+                ),
+                format!("{} was read", values::hex(&after)),
+            );
+            dut.fault(kept)?;
+        }
+        Ok(())
+    });
+    if let Err(End::Lost(_)) = done {
+        return done;
+    }
+    write(dut, [&before[0], &before[1]])?;
+    done
+}
+
+/// Date and time of the configuration (1020h) are saved.
+pub(super) fn configuration_date(dut: &mut Dut<'_>) -> Checked {
+    let all = [1, 2].map(|sub| Address::new(0x1020, sub));
+    let mut before = Vec::new();
+    for (address, value) in all.into_iter().zip([12_345u32, 678]) {
+        before.push((address, dut.read(address)?));
+        dut.write(address, &value.to_le_bytes())?;
+    }
+    let done = command(dut, 0x1010, 1, b"save").and_then(|()| {
+        dut.reset(Command::ResetNode)?;
+        for (address, value) in all.into_iter().zip([12_345u32, 678]) {
+            let after = dut.read(address)?;
+            let kept = ensure(
+                after == value.to_le_bytes(),
+                format!("{value} in {address} after the reset, as saved"),
+                format!("{} was read", values::hex(&after)),
+            );
+            dut.fault(kept)?;
+        }
+        Ok(())
+    });
+    if let Err(End::Lost(_)) = done {
+        return done;
+    }
+    for (address, bytes) in &before {
+        dut.write(*address, bytes)?;
+    }
+    command(dut, 0x1010, 1, b"save")?;
+    done
 }

@@ -1,8 +1,8 @@
 //! SYNC, TIME: consumer and producer.
 
 use od_model::Address;
-use od_wire::CobId;
 use od_wire::nmt::Command;
+use od_wire::{CobId, Frame};
 
 use super::transmit::{learn_sync, sync, typed};
 use crate::conform::dut::{Dut, QUIET};
@@ -44,8 +44,8 @@ pub(super) fn other_cob_id(dut: &mut Dut<'_>) -> Checked {
     ensure(came.is_some(), "a TPDO with the new SYNC 4F2h", "none came")
 }
 
-/// The node's SYNC messages, when it produces them every 50 ms.
-fn produced(dut: &mut Dut<'_>, count: usize) -> Checked<Vec<Heard>> {
+/// Makes the node produce SYNC every 50 ms; returns 1005h without bit 30.
+fn produce(dut: &mut Dut<'_>) -> Checked<u32> {
     learn_sync(dut)?;
     let raw = dut.number(0x1005, 0)? as u32;
     dut.keep(COB_ID)?;
@@ -58,6 +58,12 @@ fn produced(dut: &mut Dut<'_>, count: usize) -> Checked<Vec<Heard>> {
     }
     dut.nmt(Command::Start)?;
     dut.drain()?;
+    Ok(raw)
+}
+
+/// The node's SYNC messages, when it produces them every 50 ms.
+fn produced(dut: &mut Dut<'_>, count: usize) -> Checked<Vec<Heard>> {
+    let raw = produce(dut)?;
     let id = CobId::new(raw).can_id();
     let mut all = Vec::new();
     for _ in 0..count {
@@ -104,6 +110,75 @@ pub(super) fn producer_off(dut: &mut Dut<'_>) -> Checked {
         ),
         None => Ok(()),
     }
+}
+
+/// A producer that is stopped sends no SYNC.
+pub(super) fn producer_stopped(dut: &mut Dut<'_>) -> Checked {
+    let raw = produce(dut)?;
+    let id = CobId::new(raw).can_id();
+    if dut.next(200_000, |frame| frame.id() == id)?.is_none() {
+        return fail("a SYNC message every 50 ms", "none came for 200 ms");
+    }
+    dut.nmt(Command::Stop)?;
+    dut.drain()?;
+    let heard = dut.next(200_000, |frame| frame.id() == id)?;
+    dut.nmt(Command::EnterPreOperational)?;
+    dut.write(COB_ID, &raw.to_le_bytes())?;
+    match heard {
+        Some(heard) => fail("no SYNC in Stopped", format!("{} came", heard.frame)),
+        None => Ok(()),
+    }
+}
+
+/// While 1006h is not 0, 1019h is not changed.
+pub(super) fn counter_fixed(dut: &mut Dut<'_>) -> Checked {
+    use od_wire::AbortCode::{DeviceState, Incompatible, LocalControl, NotStored};
+    learn_sync(dut)?;
+    let address = Address::new(0x1019, 0);
+    let before = dut.keep(address)?;
+    dut.set(Address::new(0x1006, 0), &100_000u32.to_le_bytes())?;
+    let other = if before == [4] { 5 } else { 4 };
+    let codes = [DeviceState, LocalControl, NotStored, Incompatible];
+    dut.refuses_value(address, &[other], &codes)
+}
+
+/// A TPDO with a SYNC start value waits for the SYNC message with this counter.
+pub(super) fn start_value(dut: &mut Dut<'_>) -> Checked {
+    learn_sync(dut)?;
+    let pdo = typed(dut, 1)?;
+    if !dut.eds.writes(pdo.com, 6) || !dut.eds.writes(pdo.com, 1) {
+        return lacks("the SYNC start value cannot be written");
+    }
+    // Both are put back by hand: 1019h while 1006h is 0, the start value while the PDO is not valid.
+    let counter = Address::new(0x1019, 0);
+    dut.set(Address::new(0x1006, 0), &[0; 4])?;
+    dut.set(counter, &[10])?;
+    let off = (pdo.cob_id | 1 << 31).to_le_bytes();
+    dut.write(pdo.address(1), &off)?;
+    let before = dut.read(pdo.address(6))?;
+    dut.write(pdo.address(6), &[3])?;
+    dut.write(pdo.address(1), &pdo.cob_id.to_le_bytes())?;
+    dut.nmt(Command::Start)?;
+    dut.wait(QUIET)?;
+    let (id, tpdo) = (CobId::new(dut.sync_id).can_id(), pdo.id());
+    let mut came = Vec::new();
+    for count in 1..=5 {
+        if let Some(frame) = Frame::new(id, &[count]) {
+            dut.send(frame)?;
+        }
+        if dut.next(30_000, |frame| frame.id() == tpdo)?.is_some() {
+            came.push(count);
+        }
+    }
+    dut.nmt(Command::EnterPreOperational)?;
+    dut.write(pdo.address(1), &off)?;
+    dut.write(pdo.address(6), &before)?;
+    dut.write(pdo.address(1), &pdo.cob_id.to_le_bytes())?;
+    ensure(
+        came == [3, 4, 5],
+        "TPDOs with the SYNC counters 3, 4 and 5, as the start value is 3",
+        format!("with the counters {came:?}"),
+    )
 }
 
 /// With 1019h the messages count from 1 to its value.

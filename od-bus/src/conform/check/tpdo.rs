@@ -1,22 +1,24 @@
 //! TPDOs: when they come, what they carry, and their communication parameters.
 
-use od_model::{Address, values};
+use od_model::{Address, Entry, values};
 use od_wire::AbortCode::{ValueRange, ValueTooHigh};
-use od_wire::CobId;
 use od_wire::nmt::Command;
+use od_wire::{CanId, CobId};
 
 use super::transmit::{
-    Mapped, Tpdo, first, gaps, learn_sync, mapping, next, none, sync, timed, typed,
+    Mapped, Tpdo, contradiction, first, gaps, is_on, learn_sync, mapping, next, none, sync, timed,
+    typed,
 };
 use crate::conform::dut::{Dut, QUIET};
-use crate::conform::end::{Checked, ensure, fail, lacks};
+use crate::conform::end::{Checked, End, ensure, fail, lacks};
 use crate::conform::sdo::number;
 
 pub(super) fn objects(dut: &mut Dut<'_>) -> Checked {
     for base in [0x1400, 0x1800] {
         for pdo in dut.eds.pdos(base) {
             for (index, sub) in [(base + pdo, 1), (base + pdo, 2), (base + 0x200 + pdo, 0)] {
-                dut.read(Address::new(index, sub))?;
+                let done = dut.read(Address::new(index, sub)).map(drop);
+                dut.fault(done)?;
             }
         }
     }
@@ -126,6 +128,175 @@ pub(super) fn rtr(dut: &mut Dut<'_>) -> Checked {
     match next(dut, &pdo, QUIET)? {
         Some(_) => Ok(()),
         None => fail("a TPDO within 100 ms of the remote frame", "none came"),
+    }
+}
+
+/// With bit 30 of its COB-ID a TPDO does not answer a remote frame.
+pub(super) fn rtr_forbidden(dut: &mut Dut<'_>) -> Checked {
+    learn_sync(dut)?;
+    let mut pdo = typed(dut, 1)?;
+    let before = pdo.cob_id;
+    if CobId::new(before).allows_rtr() {
+        if !dut.eds.writes(pdo.com, 1) {
+            return lacks("the COB-ID allows remote frames (bit 30) and cannot be written");
+        }
+        dut.keep(pdo.address(1))?;
+        pdo.cob_id = before | 1 << 30;
+        for value in [before | 1 << 31, pdo.cob_id | 1 << 31, pdo.cob_id] {
+            if dut.download(pdo.address(1), &value.to_le_bytes())?.is_err() {
+                // Not valid, so that the COB-ID can come back.
+                let _ = dut.download(pdo.address(1), &(before | 1 << 31).to_le_bytes())?;
+                return lacks("the node does not forbid remote frames (bit 30)");
+            }
+        }
+    }
+    dut.nmt(Command::Start)?;
+    dut.wait(QUIET)?;
+    dut.ask_for(pdo.id(), 8)?;
+    let done = none(
+        dut,
+        &pdo,
+        QUIET,
+        "no response to a remote frame with bit 30 of the COB-ID",
+    );
+    dut.nmt(Command::EnterPreOperational)?;
+    if pdo.cob_id != before {
+        dut.write(pdo.address(1), &(before | 1 << 31).to_le_bytes())?;
+    }
+    done
+}
+
+/// A remote frame for the TPDO of another node is not answered.
+pub(super) fn rtr_other_node(dut: &mut Dut<'_>) -> Checked {
+    learn_sync(dut)?;
+    let pdo = typed(dut, 1)?;
+    let own = dut.node.raw();
+    let other = if own == 127 { 126 } else { own + 1 };
+    dut.nmt(Command::Start)?;
+    dut.wait(QUIET)?;
+    dut.ask_for(CanId::standard(0x180 + u16::from(other)), 8)?;
+    none(
+        dut,
+        &pdo,
+        QUIET,
+        "no response to a remote frame for another node",
+    )
+}
+
+/// With 0 in its event timer a TPDO comes with its events only.
+pub(super) fn event_timer_off(dut: &mut Dut<'_>) -> Checked {
+    let pdo = timed(dut, 50)?;
+    dut.nmt(Command::Start)?;
+    if next(dut, &pdo, 500_000)?.is_none() {
+        return fail("a TPDO every 50 ms", "none came");
+    }
+    dut.write(pdo.address(5), &[0, 0])?;
+    dut.drain()?;
+    // A value that changes is an event.
+    let mut last = None;
+    let until = dut.now().plus_micros(500_000);
+    while let Some(heard) = dut.receive(until)? {
+        if !pdo.carries(&heard.frame) {
+            continue;
+        }
+        let data = heard.frame.data().to_vec();
+        if last.replace(data.clone()) == Some(data) {
+            return fail(
+                "no TPDO by an event timer of 0",
+                format!("{} came again", heard.frame),
+            );
+        }
+    }
+    Ok(())
+}
+
+/// Every TPDO that is on is sent with its CAN-ID and the bytes of its mapping; one without a mapping gets one.
+pub(super) fn each(dut: &mut Dut<'_>) -> Checked {
+    learn_sync(dut)?;
+    let mut any = false;
+    for number in dut.eds.pdos(0x1800) {
+        let com = 0x1800 + number;
+        let cob_id = dut.number(com, 1)? as u32;
+        if !is_on(cob_id) {
+            continue;
+        }
+        let pdo = Tpdo { com, cob_id };
+        let all = mapping(dut, pdo.map())?;
+        if contradiction(dut.eds, &all, true).is_some() {
+            continue;
+        }
+        let done = if all.is_empty() {
+            let entries: Vec<_> = dut.eds.dictionary().entries().collect();
+            let fits = |entry: &&Entry| {
+                entry.maps_to_tpdo() && matches!(entry.data_type.bits(), Some(8 | 16 | 32))
+            };
+            let Some(entry) = entries.iter().find(fits) else {
+                continue;
+            };
+            let (raw, bits) = (
+                super::mapping::raw(entry),
+                entry.data_type.bits().unwrap_or(8),
+            );
+            let sent = |dut: &mut Dut<'_>, map| {
+                if dut
+                    .download(Address::new(map, 1), &raw.to_le_bytes())?
+                    .is_err()
+                {
+                    return Ok(());
+                }
+                dut.write(Address::new(map, 0), &[1])?;
+                dut.write(Address::new(com, 1), &cob_id.to_le_bytes())?;
+                is_sent(dut, &Tpdo { com, cob_id }, usize::from(bits).div_ceil(8))
+            };
+            super::mapping::on(dut, Tpdo { com, cob_id }, sent)
+        } else {
+            let bits: usize = all.iter().map(|mapped| mapped.bits).sum();
+            is_sent(dut, &pdo, bits.div_ceil(8))
+        };
+        match done {
+            Err(End::NotApplicable(_)) => continue,
+            done => dut.fault(done)?,
+        }
+        any = true;
+    }
+    if any { Ok(()) } else { lacks("no TPDO is on") }
+}
+
+/// The TPDO comes with SYNC or its event timer, with so many bytes.
+fn is_sent(dut: &mut Dut<'_>, pdo: &Tpdo, len: usize) -> Checked {
+    dut.keep(pdo.address(2))?;
+    let is_synchronous = dut.download(pdo.address(2), &[1])?.is_ok();
+    if !is_synchronous {
+        if !dut.eds.writes(pdo.com, 5) {
+            return lacks("the TPDO is neither synchronous nor has it an event timer");
+        }
+        dut.set(pdo.address(5), &[50, 0])?;
+    }
+    dut.nmt(Command::Start)?;
+    dut.wait(20_000)?;
+    if is_synchronous {
+        sync(dut)?;
+    }
+    let heard = next(dut, pdo, 500_000)?;
+    dut.nmt(Command::EnterPreOperational)?;
+    let name = format!("TPDO{}, {:04X}h,", pdo.com - 0x17FF, pdo.com);
+    match heard {
+        Some(heard) => ensure(
+            usize::from(heard.frame.dlc()) == len,
+            format!("{len} bytes in {name} as mapped"),
+            format!("{} came", heard.frame),
+        ),
+        None => fail(
+            format!(
+                "{name} with {}",
+                if is_synchronous {
+                    "a SYNC"
+                } else {
+                    "its event timer"
+                }
+            ),
+            "none came",
+        ),
     }
 }
 

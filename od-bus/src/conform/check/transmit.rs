@@ -9,9 +9,10 @@ use crate::conform::eds::Eds;
 use crate::conform::end::{Checked, ensure, fail, lacks};
 use crate::link::Heard;
 
-/// A TPDO that is on.
+/// A TPDO that is on; an RPDO where a case says so.
+#[derive(Clone, Copy)]
 pub(super) struct Tpdo {
-    /// Index of the communication parameters, 1800h and up.
+    /// Index of the communication parameters, 1800h and up; 1400h and up of an RPDO.
     pub(super) com: u16,
     /// The COB-ID as it was.
     pub(super) cob_id: u32,
@@ -30,7 +31,7 @@ impl Tpdo {
         CobId::new(self.cob_id).can_id()
     }
 
-    fn carries(&self, frame: &Frame) -> bool {
+    pub(super) fn carries(&self, frame: &Frame) -> bool {
         frame.id() == self.id() && !frame.is_remote()
     }
 }
