@@ -137,10 +137,11 @@ impl Config {
                 *code == own && (object.is_none() || *object == index)
             });
             let mut keep = true;
+            let given = finding.severity;
             for (_, setting) in about {
                 keep = !matches!(setting, Setting::Off);
                 finding.severity = match setting {
-                    Setting::Off | Setting::On => finding.rule.severity,
+                    Setting::Off | Setting::On => given,
                     Setting::Error => Severity::Error,
                     Setting::Warning => Severity::Warning,
                     Setting::Remark => Severity::Info,

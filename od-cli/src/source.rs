@@ -83,7 +83,7 @@ const SHOWN: usize = 5;
 fn canopen(document: Document) -> Result<Document, String> {
     match od_eds::foreign(document.text()) {
         Some(name) => Err(format!(
-            "it is {name}, not of CANopen; odkit reads EDS, DCF, XDD and XDC files of CANopen"
+            "it is {name}, not a device file of CANopen; odkit reads EDS, DCF, XDD and XDC files"
         )),
         None => Ok(document),
     }

@@ -94,7 +94,7 @@ pub struct Rule {
     /// Stable code. The letter is that of the severity that the rule began with; a code never changes its meaning,
     /// nor its letter.
     pub code: &'static str,
-    /// Severity of its findings.
+    /// Severity of its findings, except of one that has another consequence.
     pub severity: Severity,
     /// The class of fault, in a few words.
     pub title: &'static str,
@@ -244,7 +244,7 @@ pub struct Related {
 pub struct Finding {
     /// The rule that reports it.
     pub rule: &'static Rule,
-    /// Severity: that of the rule, unless a project has another opinion.
+    /// Severity: that of the rule, unless this finding has another consequence or a project has another opinion.
     pub severity: Severity,
     /// Its sentences, with blanks.
     pub form: Form,
@@ -304,6 +304,13 @@ impl Finding {
     pub(crate) fn index(self, index: u16) -> Self {
         self.about(Address::new(index, 0))
             .fact("object", Fact::Index(index))
+    }
+
+    /// With the severity of its own consequence, where that is not the one of the rule.
+    #[must_use]
+    pub(crate) fn severity_of(mut self, severity: Severity) -> Self {
+        self.severity = severity;
+        self
     }
 
     /// Says another of the rule's sentences.

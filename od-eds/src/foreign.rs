@@ -1,7 +1,21 @@
-//! Device files of other fieldbuses, with the same endings or form as those of CANopen.
+//! Files that are not of CANopen, but come under the names of its device files.
+
+/// Names of other files, and how they start.
+const STARTS: [(&str, &str); 7] = [
+    ("MDF     ", "an MDF log (MF4)"),
+    ("LOGG", "a BLF log"),
+    ("%PDF-", "a PDF document"),
+    ("PK\u{3}\u{4}", "a ZIP archive; unpack it"),
+    ("<!doctype html", "a page of HTML"),
+    ("<html", "a page of HTML"),
+    (
+        "version https://git-lfs",
+        "a pointer of Git LFS, whose file was not fetched",
+    ),
+];
 
 /// Names of other files, and texts that all must be in them.
-const KINDS: [(&[&str], &str); 8] = [
+const KINDS: [(&[&str], &str); 13] = [
     (
         &["[File]", "[Device]", "VendCode"],
         "an EDS of EtherNet/IP or DeviceNet (ODVA)",
@@ -13,11 +27,16 @@ const KINDS: [(&[&str], &str); 8] = [
     (&["<IODevice"], "an IODD file of IO-Link"),
     (&["VERSION", "BS_:", "BU_:"], "a DBC file of CAN messages"),
     (&["<PLCopen"], "a PLCopen project"),
+    (&["<AUTOSAR"], "an ARXML file of AUTOSAR"),
+    (&["<NetworkDefinition"], "a KCD file of CAN messages"),
+    (&["FIBEX"], "a FIBEX file"),
+    (&["LIN_description_file"], "an LDF file of LIN"),
+    (&["ASAP2_VERSION"], "an A2L file (ASAP2)"),
 ];
 /// Number of bytes in which a file must show its kind.
-const HEAD: usize = 8192;
+const HEAD: usize = 0x1_0000;
 
-/// Returns what a text is if it is a device file of another fieldbus: `an ESI file of EtherCAT`.
+/// Returns what a text is if it is a device file of another fieldbus or another kind of file: `an ESI file of EtherCAT`.
 ///
 /// ```
 /// let text = "<?xml version=\"1.0\"?>\n<EtherCATInfo Version=\"1.2\"></EtherCATInfo>\n";
@@ -34,6 +53,41 @@ pub fn foreign(text: &str) -> Option<&'static str> {
     if head.contains("[DeviceInfo]") || head.contains("www.canopen.org/xml") {
         return None;
     }
+    let start = head.trim_start();
+    let is_start = |(own, _): &&(&str, &str)| {
+        let start = start.get(..own.len());
+        start.is_some_and(|start| start.eq_ignore_ascii_case(own))
+    };
+    if let Some((_, name)) = STARTS.iter().find(is_start) {
+        return Some(name);
+    }
     let is_one = |(texts, _): &&(&[&str], _)| texts.iter().all(|text| head.contains(text));
     KINDS.iter().find(is_one).map(|(_, name)| *name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_is_named_by_its_start_or_its_words() {
+        for (text, name) in [
+            ("MDF     4.10    ", "an MDF log (MF4)"),
+            ("\n<!DOCTYPE HTML>\n<html>", "a page of HTML"),
+            ("PK\u{3}\u{4}\u{14}", "a ZIP archive; unpack it"),
+            (
+                "$ EZ-EDS\n[File]\n[Device]\nVendCode = 46;\n",
+                "an EDS of EtherNet/IP or DeviceNet (ODVA)",
+            ),
+            (
+                "<?xml version=\"1.0\"?>\n<IODevice xmlns=\"http://www.io-link.com/IODD/2010/10\">",
+                "an IODD file of IO-Link",
+            ),
+            ("/* a */ ASAP2_VERSION 1 61\n", "an A2L file (ASAP2)"),
+        ] {
+            assert_eq!(foreign(text), Some(name));
+        }
+        let ours = "; see <html> and %PDF-1.4 of the maker\n[FileInfo]\nFileName=a.eds\n";
+        assert_eq!(foreign(ours), None);
+    }
 }

@@ -9,6 +9,7 @@ use crate::document::{Document, is_xml};
 use crate::finding::{Finding, sort};
 use crate::log::Log;
 use crate::read::{modules, sorted};
+#[cfg(feature = "xdd")]
 use crate::rules::lists::W0216;
 use crate::rules::text::{i0111_not_ascii, w0112_encoding};
 use crate::scan::encoding::Encoding;
@@ -87,19 +88,22 @@ fn checked(description: Description, mut log: Log, text: &str) -> Parsed {
 }
 
 /// Puts the findings in file order.
+#[cfg_attr(not(feature = "xdd"), allow(unused_variables))]
 fn ordered(description: Description, findings: Vec<Finding>, text: &str) -> Parsed {
     let mut parsed = Parsed {
         description,
         findings,
     };
     sort(&mut parsed.findings);
-    if cfg!(feature = "xdd") && is_xml(text) {
-        // An XDD has other elements in place of the keys of an EDS, and a fix for an EDS would break XML.
+    #[cfg(feature = "xdd")]
+    if is_xml(text) {
+        // An XDD has other elements in place of the keys of an EDS.
         parsed
             .findings
             .retain(|finding| finding.code() != W0216.code);
         for finding in &mut parsed.findings {
-            finding.fix = None;
+            let fix = finding.fix.take();
+            finding.fix = fix.and_then(|fix| xdd::fixes::in_xml(fix, text));
         }
     }
     parsed

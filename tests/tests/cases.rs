@@ -230,7 +230,7 @@ fn round_trip(document: &Document) -> Result<Parsed, String> {
     let mut line = 0;
     for finding in &loaded.findings {
         let finding = say(finding, &Eds);
-        if check::rule(finding.code).is_none_or(|rule| rule.severity != finding.severity) {
+        if check::rule(finding.code).is_none() {
             return Err(format!("{} is not a rule", finding.code));
         }
         if finding.message.is_empty() || finding.help.is_empty() {

@@ -27,8 +27,8 @@ fn page() -> String {
         "# Rules for EDS files\n\n\
          These are the rules of `odkit check`. A code never changes; its letter is its first severity. An error makes generated\n\
          code unsound or a master fail; an error marked *builds* is of the second kind, and the macro builds a device all the\n\
-         same. A master can cope with the fault of a warning; a remark is worth knowing. `odkit explain CODE` shows an example\n\
-         before and after.\n\n\
+         same. A master can cope with the fault of a warning; a remark is worth knowing. A finding whose consequence is another\n\
+         one than that of its rule has its own severity. `odkit explain CODE` shows an example before and after.\n\n\
          **Fixes.** `--fix` applies the safe fixes: with them every tool reads what odkit read before.\n\
          `--unsafe-fixes` also applies likely corrections. `--diff` shows both and writes nothing. A fix\n\
          changes no other line and keeps encoding and line ends; a second run changes nothing.\n\n\

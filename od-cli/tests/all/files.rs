@@ -229,12 +229,12 @@ fn a_file_of_another_fieldbus_is_named() {
         (
             "adapter.eds",
             ip,
-            "it is an EDS of EtherNet/IP or DeviceNet (ODVA), not of CANopen",
+            "it is an EDS of EtherNet/IP or DeviceNet (ODVA), not a device file of CANopen",
         ),
         (
             "slave.xml",
             esi,
-            "it is an ESI file of EtherCAT, not of CANopen",
+            "it is an ESI file of EtherCAT, not a device file of CANopen",
         ),
     ] {
         let path = file(name, text).display().to_string();

@@ -1,7 +1,8 @@
-//! Keys and sections of a DCF that are in an EDS.
+//! Keys and sections of a DCF that are in an EDS, and the one that a DCF lacks.
 
 use crate::log::Log;
 use crate::rules::lists::w0217_dcf_key_in_eds;
+use crate::rules::standard::w0658_commissioning_missing;
 use crate::scan::names::{Compact, Place, place};
 use crate::scan::placed::Placed;
 
@@ -21,7 +22,8 @@ const SECTIONS: [&str; 3] = [
     "ConnectedModules",
 ];
 
-/// Reports keys and sections of a DCF if the file is an EDS: by its name on the disk, otherwise by FileName.
+/// Reports keys and sections of a DCF if the file is an EDS, and the missing commissioning if it is a DCF: by its
+/// name on the disk, otherwise by FileName.
 pub(crate) fn check(sections: &[Placed<'_>], file: Option<&str>, log: &mut Log) {
     let info = |section: &&Placed<'_>| section.name.eq_ignore_ascii_case("FileInfo");
     let name = sections
@@ -30,7 +32,19 @@ pub(crate) fn check(sections: &[Placed<'_>], file: Option<&str>, log: &mut Log) 
         .and_then(|info| info.get("FileName"));
     let name = file.or(name.map(|name| &*name.value)).unwrap_or_default();
     let ends = name.len().checked_sub(4).and_then(|at| name.get(at..));
-    if !ends.is_some_and(|ends| ends.eq_ignore_ascii_case(".eds")) {
+    let is = |kind: &str| ends.is_some_and(|ends| ends.eq_ignore_ascii_case(kind));
+    if is(".dcf") {
+        let names = ["DeviceComissioning", "DeviceCommissioning"];
+        let is_one = |section: &Placed<'_>| {
+            names
+                .iter()
+                .any(|name| section.name.eq_ignore_ascii_case(name))
+        };
+        if !sections.iter().any(is_one) {
+            log.push(w0658_commissioning_missing::finding());
+        }
+    }
+    if !is(".eds") {
         return;
     }
     for section in sections {

@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 
 use crate::description::{EntryDescription, Value};
 use crate::fact::Key;
-use crate::finding::Finding;
+use crate::finding::{Finding, Severity};
 use crate::log::Log;
 use crate::read::fields::Fields;
 use crate::read::values;
@@ -15,9 +15,9 @@ use crate::rules;
 use crate::rules::structure::{w0315_name_missing, w0342_obj_flags_reserved};
 use crate::rules::text::w0109_comment_after_value;
 use crate::rules::values::{
-    e0402_data_type_unknown, e0405_access_type_not_valid, e0417_node_id_not_supported, shared,
-    w0404_access_type_missing, w0406_pdo_mapping_not_valid, w0407_obj_flags_not_a_number,
-    w0416_limit_not_valid, w0426_standard_type_missing,
+    e0402_data_type_unknown, e0405_access_type_not_valid, e0417_node_id_not_supported,
+    e0428_node_id_misspelled, shared, w0404_access_type_missing, w0406_pdo_mapping_not_valid,
+    w0407_obj_flags_not_a_number, w0416_limit_not_valid, w0426_standard_type_missing,
 };
 use crate::scan::number;
 use crate::scan::number::Note;
@@ -343,7 +343,14 @@ impl Reader<'_> {
                 Note::Comma => &rules::W0423,
                 Note::Word => &rules::W0421,
             };
-            self.report(shared::read_as(rule, key, given, &canonical()));
+            let finding = shared::read_as(rule, key, given, &canonical());
+            // Case and order are read by most tools, another name by none.
+            let is_name = || given.to_ascii_uppercase().contains("$NODEID");
+            self.report(if *note == Note::NodeId && !is_name() {
+                finding.severity_of(Severity::Error)
+            } else {
+                finding
+            });
         }
     }
 }
@@ -360,12 +367,13 @@ fn unfit(key: Key, given: &Text<'_>, data_type: Spanned<DataType>) -> Finding {
         _ => &rules::W0416,
     };
     let meant = number::meant_node_id(given).filter(|_| data_type.holds_node_id());
-    let finding = match meant {
-        Some(offset) => shared::unfit_formula(rule, key, given, data_type)
-            .form(&shared::MEANT)
-            .fact("offset", offset),
-        None if formula => shared::unfit_formula(rule, key, given, data_type),
-        None => shared::unfit(rule, key, &*given.value, given.span, data_type),
+    if let Some(offset) = meant {
+        return e0428_node_id_misspelled::finding(key, given, offset);
+    }
+    let finding = if formula {
+        shared::unfit_formula(rule, key, given, data_type)
+    } else {
+        shared::unfit(rule, key, &*given.value, given.span, data_type)
     };
     match key {
         Key::LowLimit | Key::HighLimit => w0416_limit_not_valid::emptied(finding),

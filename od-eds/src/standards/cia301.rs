@@ -9,6 +9,8 @@ pub(crate) struct Standard {
     /// The standard's name of it.
     pub(crate) name: &'static str,
     pub(crate) members: Members,
+    /// The object without which it has no use; 0: none.
+    pub(crate) needs: u16,
 }
 
 /// Its object code, and the values in it.
@@ -28,6 +30,14 @@ pub(crate) struct Value {
 }
 
 impl Standard {
+    /// The same object, which needs another one.
+    const fn needs(self, other: u16) -> Self {
+        Self {
+            needs: other,
+            ..self
+        }
+    }
+
     pub(crate) const fn code(&self) -> ObjectCode {
         match self.members {
             Members::Var(_) => ObjectCode::Var,
@@ -150,6 +160,7 @@ const fn var(index: u16, name: &'static str, data_type: DataType, access: Access
         last: index,
         name,
         members: Members::Var(value(data_type, access)),
+        needs: 0,
     }
 }
 
@@ -159,6 +170,7 @@ const fn array(index: u16, name: &'static str, data_type: DataType, access: Acce
         last: index,
         name,
         members: Members::Array(value(data_type, access)),
+        needs: 0,
     }
 }
 
@@ -173,6 +185,7 @@ const fn record(
         last,
         name,
         members: Members::Record(members),
+        needs: 0,
     }
 }
 
@@ -235,8 +248,8 @@ const TABLE: &[Standard] = &[
     var(0x1002, "manufacturer status register", Unsigned32, Ro),
     array(0x1003, "pre-defined error field", Unsigned32, Ro),
     var(0x1005, "COB-ID SYNC message", Unsigned32, Rw),
-    var(0x1006, "communication cycle period", Unsigned32, Rw),
-    var(0x1007, "synchronous window length", Unsigned32, Rw),
+    var(0x1006, "communication cycle period", Unsigned32, Rw).needs(0x1005),
+    var(0x1007, "synchronous window length", Unsigned32, Rw).needs(0x1005),
     var(0x1008, "manufacturer device name", VisibleString, Const),
     var(
         0x1009,
@@ -250,23 +263,23 @@ const TABLE: &[Standard] = &[
         VisibleString,
         Const,
     ),
-    var(0x100C, "guard time", Unsigned16, Rw),
-    var(0x100D, "life time factor", Unsigned8, Rw),
-    array(0x1010, "store parameters", Unsigned32, Rw),
-    array(0x1011, "restore default parameters", Unsigned32, Rw),
+    var(0x100C, "guard time", Unsigned16, Rw).needs(0x100D),
+    var(0x100D, "life time factor", Unsigned8, Rw).needs(0x100C),
+    array(0x1010, "store parameters", Unsigned32, Rw).needs(0x1011),
+    array(0x1011, "restore default parameters", Unsigned32, Rw).needs(0x1010),
     var(0x1012, "COB-ID time stamp message", Unsigned32, Rw),
     var(0x1013, "high resolution time stamp", Unsigned32, Rw),
     var(0x1014, "COB-ID EMCY", Unsigned32, Rw),
-    var(0x1015, "inhibit time EMCY", Unsigned16, Rw),
+    var(0x1015, "inhibit time EMCY", Unsigned16, Rw).needs(0x1014),
     array(0x1016, "consumer heartbeat time", Unsigned32, Rw),
     var(0x1017, "producer heartbeat time", Unsigned16, Rw),
     record(0x1018, 0x1018, "identity object", IDENTITY),
-    var(0x1019, "synchronous counter overflow value", Unsigned8, Rw),
+    var(0x1019, "synchronous counter overflow value", Unsigned8, Rw).needs(0x1005),
     array(0x1020, "verify configuration", Unsigned32, Rw),
     var(0x1021, "store EDS", Domain, Ro),
-    var(0x1022, "store format", Unsigned16, Ro),
+    var(0x1022, "store format", Unsigned16, Ro).needs(0x1021),
     record(0x1023, 0x1023, "OS command", OS_COMMAND),
-    var(0x1024, "OS command mode", Unsigned8, Wo),
+    var(0x1024, "OS command mode", Unsigned8, Wo).needs(0x1023),
     record(0x1025, 0x1025, "OS debugger interface", OS_COMMAND),
     array(0x1027, "module list", Unsigned16, Ro),
     array(0x1028, "emergency consumer object", Unsigned32, Rw),
@@ -281,34 +294,36 @@ const TABLE: &[Standard] = &[
     record(0x1A00, 0x1BFF, "TPDO mapping parameter", &[]),
     array(0x1F20, "store DCF", Domain, Rw),
     array(0x1F22, "concise DCF", Domain, Rw),
-    array(0x1F26, "expected configuration date", Unsigned32, Rw),
-    array(0x1F27, "expected configuration time", Unsigned32, Rw),
+    array(0x1F26, "expected configuration date", Unsigned32, Rw).needs(0x1F27),
+    array(0x1F27, "expected configuration time", Unsigned32, Rw).needs(0x1F26),
     array(0x1F50, "program data", Domain, Wo),
     array(0x1F51, "program control", Unsigned8, Rw),
     array(0x1F55, "expected software identification", Unsigned32, Rw),
     array(0x1F56, "program software identification", Unsigned32, Ro),
     array(0x1F57, "flash status identification", Unsigned32, Ro),
     var(0x1F80, "NMT startup", Unsigned32, Rw),
-    array(0x1F81, "NMT slave assignment", Unsigned32, Rw),
+    array(0x1F81, "NMT slave assignment", Unsigned32, Rw).needs(0x1F80),
     array(0x1F82, "request NMT", Unsigned8, Rw),
     array(0x1F83, "request node guarding", Unsigned8, Rw),
-    array(0x1F84, "device type identification", Unsigned32, Rw),
-    array(0x1F85, "vendor identification", Unsigned32, Rw),
-    array(0x1F86, "product code", Unsigned32, Rw),
-    array(0x1F87, "revision number", Unsigned32, Rw),
-    array(0x1F88, "serial number", Unsigned32, Rw),
-    var(0x1F89, "boot time", Unsigned32, Rw),
+    array(0x1F84, "device type identification", Unsigned32, Rw).needs(0x1F81),
+    array(0x1F85, "vendor identification", Unsigned32, Rw).needs(0x1F81),
+    array(0x1F86, "product code", Unsigned32, Rw).needs(0x1F81),
+    array(0x1F87, "revision number", Unsigned32, Rw).needs(0x1F81),
+    array(0x1F88, "serial number", Unsigned32, Rw).needs(0x1F81),
+    var(0x1F89, "boot time", Unsigned32, Rw).needs(0x1F81),
     Standard {
         first: 0x1FA0,
         last: 0x1FCF,
         name: "object scanner list",
         members: Members::Array(value(Unsigned32, Rw)),
+        needs: 0,
     },
     Standard {
         first: 0x1FD0,
         last: 0x1FFF,
         name: "object dispatching list",
         members: Members::Array(value(Unsigned64, Rw)),
+        needs: 0,
     },
 ];
 

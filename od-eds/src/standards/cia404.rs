@@ -1,62 +1,66 @@
 //! Objects of CiA 404: measuring devices and closed-loop controllers.
 
 use od_model::DataType;
-use od_model::DataType::{Integer16, Integer24, Integer32, Real32};
+use od_model::DataType::{
+    Integer16, Integer24, Integer32, Real32, Unsigned8, Unsigned16, Unsigned32,
+};
 
-use super::row::{Row, named};
+use super::row::{Row, array, named, ro_array, rw_array};
+
+/// The parameters of a channel, which have one type, and the values in each of their ranges.
+pub(super) const TABLES: &[&[Row]] = &[
+    PARAMETERS,
+    &values(0x6000, &[Real32]),
+    &values(0x7000, &[Integer16]),
+    &values(0x8000, &[Integer24]),
+    &values(0x9000, &[Integer32]),
+];
 
 /// By ascending index.
 #[rustfmt::skip]
-pub(super) const TABLE: &[Row] = &[
-    named(0x6100, 0x6100, "AI input FV"),
-    named(0x6110, 0x6110, "AI sensor type"),
-    named(0x6112, 0x6112, "AI operating mode"),
-    named(0x6114, 0x6114, "AI ADC sample rate"),
-    named(0x6120, 0x6120, "AI input scaling 1 FV"),
-    named(0x6121, 0x6121, "AI input scaling 1 PV"),
-    named(0x6122, 0x6122, "AI input scaling 2 FV"),
-    named(0x6123, 0x6123, "AI input scaling 2 PV"),
-    named(0x6124, 0x6124, "AI input offset"),
-    named(0x6125, 0x6125, "AI autozero"),
-    named(0x6130, 0x6130, "AI input PV"),
-    named(0x6131, 0x6131, "AI physical unit PV"),
-    named(0x6132, 0x6132, "AI decimal digits PV"),
-    named(0x6133, 0x6133, "AI interrupt delta input PV"),
-    named(0x6134, 0x6134, "AI interrupt lower limit input PV"),
-    named(0x6135, 0x6135, "AI interrupt upper limit input PV"),
-    named(0x6136, 0x6136, "AI interrupt hysteresis input PV"),
-    named(0x6148, 0x6148, "AI span start"),
-    named(0x6149, 0x6149, "AI span end"),
-    named(0x6150, 0x6150, "AI status"),
-    named(0x61A0, 0x61A0, "AI filter type"),
-    named(0x61A1, 0x61A1, "AI filter constant"),
-    named(0x7100, 0x7100, "AI input FV (INTEGER16)"),
-    named(0x7130, 0x7130, "AI input PV (INTEGER16)"),
-    named(0x9100, 0x9100, "AI input FV (INTEGER32)"),
-    named(0x9130, 0x9130, "AI input PV (INTEGER32)"),
+const PARAMETERS: &[Row] = &[
+    rw_array(0x6110, 0x6110, &[Unsigned16], "AI sensor type"),
+    named(0x6111, 0x6111, "AI autocalibration"),
+    array(0x6112, 0x6112, &[Unsigned8], "AI operating mode"),
+    named(0x6113, 0x6114, "AI ADC sample rate"),
+    array(0x6125, 0x6125, &[Unsigned32], "AI autozero"),
+    array(0x6126, 0x6126, &[Real32], "AI scaling factor"),
+    array(0x6127, 0x6127, &[Real32], "AI scaling offset"),
+    array(0x6131, 0x6131, &[Unsigned32], "AI physical unit PV"),
+    array(0x6132, 0x6132, &[Unsigned8], "AI decimal digits PV"),
+    ro_array(0x6150, 0x6150, &[Unsigned8], "AI status"),
+    array(0x61A0, 0x61A0, &[Unsigned8], "AI filter type"),
+    array(0x61A1, 0x61A1, &[Unsigned8], "AI filter constant"),
+    array(0x6301, 0x6301, &[Unsigned32], "AO physical unit PV"),
+    array(0x6302, 0x6302, &[Unsigned8], "AO decimal digits PV"),
+    array(0x6310, 0x6310, &[Unsigned16], "AO output type"),
+    array(0x6340, 0x6340, &[Unsigned8], "AO fault mode"),
 ];
 
-/// Process and field values, in each of the ranges 6000h (REAL32), 7000h (INTEGER16), 8000h (INTEGER24) and
-/// 9000h (INTEGER32): first and last index without the range.
-const VALUES: [(u16, u16); 6] = [
-    (0x100, 0x100),
-    (0x120, 0x127),
-    (0x130, 0x130),
-    (0x133, 0x137),
-    (0x148, 0x149),
-    (0x300, 0x330),
-];
-
-/// The type of a process or field value; `None` for another object.
-pub(super) fn value_type(index: u16) -> Option<DataType> {
-    let offset = index & 0xFFF;
-    let is_here = |(first, last): &(u16, u16)| (*first..=*last).contains(&offset);
-    let range = VALUES.iter().any(is_here).then_some(index >> 12)?;
-    match range {
-        6 => Some(Real32),
-        7 => Some(Integer16),
-        8 => Some(Integer24),
-        9 => Some(Integer32),
-        _ => None,
+/// Field and process values of one type: 6000h are REAL32, 7000h INTEGER16, 8000h INTEGER24 and 9000h INTEGER32.
+#[rustfmt::skip]
+const fn values(range: u16, types: &'static [DataType]) -> [Row; 18] {
+    const fn at(index: u16, types: &'static [DataType], name: &'static str) -> Row {
+        array(index, index, types, name)
     }
+    [
+        ro_array(range + 0x100, range + 0x100, types, "AI input FV"),
+        at(range + 0x120, types, "AI input scaling 1 FV"),
+        at(range + 0x121, types, "AI input scaling 1 PV"),
+        at(range + 0x122, types, "AI input scaling 2 FV"),
+        at(range + 0x123, types, "AI input scaling 2 PV"),
+        at(range + 0x124, types, "AI input offset"),
+        ro_array(range + 0x130, range + 0x130, types, "AI input PV"),
+        at(range + 0x133, types, "AI interrupt delta input PV"),
+        at(range + 0x134, types, "AI interrupt lower limit input PV"),
+        at(range + 0x135, types, "AI interrupt upper limit input PV"),
+        at(range + 0x136, types, "AI interrupt hysteresis input PV"),
+        at(range + 0x148, types, "AI span start"),
+        at(range + 0x149, types, "AI span end"),
+        rw_array(range + 0x300, range + 0x300, types, "AO output PV"),
+        at(range + 0x320, types, "AO output scaling 1 PV"),
+        at(range + 0x321, types, "AO output scaling 1 FV"),
+        at(range + 0x330, types, "AO output FV"),
+        at(range + 0x341, types, "AO fault FV"),
+    ]
 }

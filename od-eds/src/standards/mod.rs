@@ -16,20 +16,23 @@ use crate::standards::row::Row;
 
 pub(crate) use crate::standards::row::Checked;
 
-/// The rows of a profile; none if odkit does not know it.
-const fn table(profile: u16) -> &'static [Row] {
+/// The tables of a profile; none if odkit does not know it.
+const fn tables(profile: u16) -> &'static [&'static [Row]] {
     match profile {
-        401 => cia401::TABLE,
-        402 => cia402::TABLE,
-        404 => cia404::TABLE,
-        406 => cia406::TABLE,
+        401 => &[cia401::TABLE],
+        402 => &[cia402::TABLE],
+        404 => cia404::TABLES,
+        406 => &[cia406::TABLE],
         _ => &[],
     }
 }
 
+fn rows(profile: u16) -> impl Iterator<Item = &'static Row> {
+    tables(profile).iter().copied().flatten()
+}
+
 fn row(profile: u16, index: u16) -> Option<&'static Row> {
-    let mut rows = table(profile).iter();
-    rows.find(|row| (row.first..=row.last).contains(&index))
+    rows(profile).find(|row| (row.first..=row.last).contains(&index))
 }
 
 /// What the rules check of an object of a profile.
@@ -44,14 +47,11 @@ pub fn profile_name(profile: u16, index: u16) -> Option<&'static str> {
 
 /// The objects of a device profile: first index and name.
 pub fn profile_objects(profile: u16) -> impl Iterator<Item = (u16, &'static str)> {
-    table(profile).iter().map(|row| (row.first, row.name))
+    rows(profile).map(|row| (row.first, row.name))
 }
 
 /// The types that a device profile gives a value.
 pub fn profile_types(profile: u16, index: u16, sub: u8) -> Vec<DataType> {
-    if profile == 404 {
-        return cia404::value_type(index).into_iter().collect();
-    }
     let Some(row) = row(profile, index) else {
         return Vec::new();
     };
@@ -69,9 +69,10 @@ mod tests {
     #[test]
     fn tables_are_sorted() {
         for profile in [401, 402, 404, 406] {
-            let rows = table(profile);
-            assert!(rows.iter().all(|row| row.first <= row.last));
-            assert!(rows.windows(2).all(|two| two[0].last < two[1].first));
+            for rows in tables(profile) {
+                assert!(rows.iter().all(|row| row.first <= row.last));
+                assert!(rows.windows(2).all(|two| two[0].last < two[1].first));
+            }
         }
     }
 
@@ -82,6 +83,7 @@ mod tests {
         assert_eq!(profile_types(406, 0x6004, 0), [DataType::Unsigned32]);
         assert_eq!(profile_types(402, 0x6049, 2), [DataType::Unsigned16]);
         assert_eq!(profile_types(404, 0x7130, 1), [DataType::Integer16]);
-        assert!(checked(404, 0x6130).is_none() && checked(402, 0x6049).is_none());
+        assert_eq!(profile_types(404, 0x6110, 1), [DataType::Unsigned16]);
+        assert!(checked(404, 0x6111).is_none() && checked(402, 0x6049).is_none());
     }
 }

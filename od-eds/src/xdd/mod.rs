@@ -9,6 +9,7 @@
 //! Elements are known by their local names, so the namespaces of CiA 311 1.0 and 1.1
 //! are the same, and so are project files (`.xpd`) that hold one device.
 
+pub(crate) mod fixes;
 mod info;
 mod objects;
 mod parameters;

@@ -6,7 +6,9 @@ use alloc::vec::Vec;
 
 use roxmltree::Node;
 
+use crate::rules::lists::w0204_supported_objects_count;
 use crate::rules::text::{e0114_xdd_index_not_valid, e0115_xdd_parameter_missing};
+use crate::rules::values::{e0429_access_of_parameter, w0406_pdo_mapping_not_valid};
 use crate::scan::placed::Placed;
 use crate::span::{Span, Spanned};
 use crate::xdd::parameters::Parameter;
@@ -19,6 +21,9 @@ use od_model::{DataType, ObjectCode};
 pub(super) fn sections(root: Node<'_, '_>, reader: &mut Reader<'_>) -> Vec<Placed<'static>> {
     let ids = Ids::new(root);
     let mut made = Vec::new();
+    for list in below(root, "CANopenObjectList") {
+        counts(list, reader);
+    }
     for object in below(root, "CANopenObject") {
         let header = reader.tag(object);
         let Some(index) = hex(object, "index", 4, reader, header) else {
@@ -64,6 +69,30 @@ pub(super) fn sections(root: Node<'_, '_>, reader: &mut Reader<'_>) -> Vec<Place
         }
     }
     made
+}
+
+/// Compares the counts of an object list with its objects.
+fn counts(list: Node<'_, '_>, reader: &mut Reader<'_>) {
+    let mut found = [0; 3];
+    for object in children(list, "CANopenObject") {
+        let index = object.attribute("index").map(|text| text.trim());
+        let index = index.and_then(|text| u16::from_str_radix(text, 16).ok());
+        match index {
+            Some(0x1000 | 0x1001 | 0x1018) => found[0] += 1,
+            Some(0x2000..=0x5FFF) => found[2] += 1,
+            Some(_) => found[1] += 1,
+            None => {}
+        }
+    }
+    let names = ["mandatoryObjects", "optionalObjects", "manufacturerObjects"];
+    for (name, found) in names.into_iter().zip(found) {
+        if let Some(given) = reader.attribute(list, name)
+            && given.parse() != Ok(found)
+        {
+            let finding = w0204_supported_objects_count::in_xdd(&given, name, found);
+            reader.log.push(finding);
+        }
+    }
 }
 
 /// An attribute of hexadecimal digits: an index or a sub-index.
@@ -151,7 +180,7 @@ fn value(
     node: Node<'_, '_>,
     parameter: Option<Parameter<'_, '_>>,
     found: Option<Found>,
-    reader: &Reader<'_>,
+    reader: &mut Reader<'_>,
 ) {
     let default = reader
         .attribute(node, "defaultValue")
@@ -212,17 +241,30 @@ fn data_type(
 fn access(
     node: Node<'_, '_>,
     parameter: Option<Parameter<'_, '_>>,
-    reader: &Reader<'_>,
+    reader: &mut Reader<'_>,
     header: Span,
 ) -> (Spanned<String>, Option<Spanned<String>>) {
     let mapping = reader.attribute(node, "PDOmapping");
     let direction = mapping.as_ref().map_or("", |mapping| mapping.as_str());
-    let given = reader
-        .attribute(node, "accessType")
+    // CiA 311 has one set of words for accessType of an object, and another for access of a parameter.
+    let own = reader.attribute(node, "accessType");
+    if let Some(own) = &own {
+        let right = match own.as_str() {
+            "read" | "noAccess" => "ro",
+            "write" => "wo",
+            "readWrite" | "readWriteInput" | "readWriteOutput" => "rw",
+            _ => "",
+        };
+        if !right.is_empty() {
+            let finding = e0429_access_of_parameter::finding(own, right);
+            reader.log.push(finding);
+        }
+    }
+    let given = own
         .or_else(|| parameter?.access(reader))
         .unwrap_or_else(|| Spanned::new("read".into(), header));
     let word = match given.as_str() {
-        "read" => "ro",
+        "read" | "noAccess" => "ro",
         "write" => "wo",
         "readWrite" | "rw" if direction.eq_ignore_ascii_case("TPDO") => "rwr",
         "readWrite" | "rw" if direction.eq_ignore_ascii_case("RPDO") => "rww",
@@ -236,7 +278,12 @@ fn access(
         let flag = match mapping.to_ascii_lowercase().as_str() {
             "no" => "0".into(),
             "default" | "optional" | "tpdo" | "rpdo" => "1".into(),
-            _ => mapping.value,
+            _ => {
+                reader
+                    .log
+                    .push(w0406_pdo_mapping_not_valid::in_xdd(&mapping));
+                "0".into()
+            }
         };
         Spanned::new(flag, mapping.span)
     });

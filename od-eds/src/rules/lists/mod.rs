@@ -33,6 +33,7 @@ catalogue! {
     i0251_dummy_entry_missing I0251
     w0252_bit_rate_unknown W0252
     w0253_dummy_type W0253
+    w0254_object_links W0254
 }
 
 pub(crate) mod e0208_sub_index_without_object;
@@ -67,3 +68,4 @@ pub(crate) mod w0248_module_info;
 pub(crate) mod w0249_extended_object_missing;
 pub(crate) mod w0252_bit_rate_unknown;
 pub(crate) mod w0253_dummy_type;
+pub(crate) mod w0254_object_links;

@@ -5,6 +5,10 @@ use crate::finding::{Finding, Fixability, Form, Rule, Severity::Warning};
 use crate::fix::Fix;
 use crate::scan::placed::Text;
 use crate::span::Span;
+#[cfg(feature = "xdd")]
+use crate::span::Spanned;
+#[cfg(feature = "xdd")]
+use alloc::string::String;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0204",
@@ -15,7 +19,7 @@ pub(crate) static RULE: Rule = Rule {
     fixability: Fixability::Safe,
     says: "SupportedObjects is {given}, but the list has {found:entry|entries}",
     help: "write `SupportedObjects={found}`{fix}",
-    also: &[MISSING],
+    also: &[MISSING, XDD],
     ..Rule::NEW
 };
 
@@ -24,6 +28,20 @@ const MISSING: Form = Form {
     says: "SupportedObjects is missing",
     ..Form::OWN
 };
+
+/// Sentence for the object list of an XDD.
+const XDD: Form = Form {
+    says: "{name} is {given}, but the list has {found:object|objects} of this kind",
+    help: "write `{name}=\"{found}\"`{fix}",
+};
+
+/// The finding about a count in the object list of an XDD.
+#[cfg(feature = "xdd")]
+pub(crate) fn in_xdd(given: &Spanned<String>, name: &'static str, found: usize) -> Finding {
+    let fix = Fix::safe().replace(given.span, found.to_string());
+    let finding = RULE.given(given).form(&XDD).fact("name", name);
+    finding.fact("found", found).fix(fix)
+}
 
 /// The finding about a SupportedObjects that is missing, or not the number of entries.
 pub(crate) fn finding(header: Span, given: Option<&Text<'_>>, found: i128) -> Finding {

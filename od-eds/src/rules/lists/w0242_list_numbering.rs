@@ -1,13 +1,14 @@
 use alloc::string::ToString;
 
-use crate::finding::{Finding, Fixability, Rule, Severity::Warning};
+use crate::finding::{Finding, Fixability, Rule, Severity::Error};
 use crate::fix::Fix;
 use crate::scan::number::number;
 use crate::scan::placed::{Placed, Text};
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0242",
-    severity: Warning,
+    severity: Error,
+    buildable: true,
     title: "list entries are not numbered 1, 2, 3",
     why: "Many tools ask for entries 1, 2, 3 up to SupportedObjects and miss an entry with another number. odkit reads all entries.",
     source: "CiA 306-1, object lists",

@@ -2,13 +2,14 @@ use alloc::format;
 use alloc::vec::Vec;
 
 use crate::description::Description;
-use crate::finding::{Check, Finding, Form, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Form, Rule, Severity};
 use crate::scan::number::number;
 use crate::span::Span;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0243",
-    severity: Warning,
+    severity: Severity::Warning,
+    buildable: true,
     title: "module has no section",
     why: "A configuration tool offers the module but cannot add it. [SupportedModules] counts the modules; [MxModuleInfo] describes module x.",
     source: "CiA 306-1, SupportedModules",
@@ -35,7 +36,14 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
         let section = format!("M{module}ModuleInfo");
         if description.section(&section).is_none() {
             let finding = RULE.at(span).form(form).fact("section", section);
-            findings.push(finding.fact("module", module));
+            let finding = finding.fact("module", module);
+            // The device cannot have it.
+            let is_connected = *form == CONNECTED;
+            findings.push(if is_connected {
+                finding.severity_of(Severity::Error)
+            } else {
+                finding
+            });
         }
     };
     (1..=count).for_each(|module| needs(module, modules.name.span, &Form::OWN));

@@ -27,6 +27,12 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
     {
         let entries = section.pairs.iter();
         let count = entries.filter(|(key, _)| number(key).is_some()).count();
+        // Without a list of names, the sections [MxModuleInfo] are the modules.
+        let count = if count == 0 && section.name.eq_ignore_ascii_case("SupportedModules") {
+            modules(description)
+        } else {
+            count
+        };
         let given = section.get("NrOfEntries");
         if let Some(given) = given.filter(|given| number(given) != Some(count as i128)) {
             let fix = Fix::safe().replace(given.span, format!("{count}"));
@@ -34,6 +40,25 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
             findings.push(finding.fact("count", count).fix(fix));
         }
     }
+}
+
+/// Number of sections `[MxModuleInfo]`.
+fn modules(description: &Description) -> usize {
+    let is_module = |name: &str| {
+        let start = name.len().checked_sub("ModuleInfo".len());
+        let parts = start.and_then(|at| name.split_at_checked(at));
+        parts.is_some_and(|(start, word)| {
+            word.eq_ignore_ascii_case("ModuleInfo")
+                && start
+                    .strip_prefix(['M', 'm'])
+                    .is_some_and(|own| number(own).is_some())
+        })
+    };
+    let names = description
+        .sections
+        .iter()
+        .map(|section| section.name.as_str());
+    names.filter(|name| is_module(name)).count()
 }
 
 /// `[SupportedModules]`, `[ConnectedModules]`, `[M1FixedObjects]`, `[M1SubExtends]`

@@ -37,7 +37,14 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
             continue;
         };
         let finding = RULE.at(section.name.span).fact("section", name);
-        if list.is_none_or(|list| list.get(&format!("{module}")).is_none()) {
+        // A list of names is not needed: the number of modules says which there are.
+        let is_listed = list.is_some_and(|list| {
+            let has_names = list.pairs.iter().any(|(key, _)| number(key).is_some());
+            let count = list.get("NrOfEntries").and_then(|count| number(count));
+            list.get(&format!("{module}")).is_some()
+                || !has_names && count.is_some_and(|count| (1..=count).contains(&module))
+        });
+        if !is_listed {
             findings.push(finding.fact("module", module));
             continue;
         }

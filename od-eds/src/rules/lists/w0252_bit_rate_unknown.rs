@@ -1,9 +1,9 @@
-use crate::finding::{Finding, Rule, Severity::Warning};
+use crate::finding::{Finding, Rule, Severity};
 use crate::scan::placed::Text;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0252",
-    severity: Warning,
+    severity: Severity::Warning,
     title: "bit rate is not one of CiA 306",
     why: "A tool ignores the key and does not offer the bit rate. odkit keeps the key and ignores it.",
     source: "CiA 306-1, DeviceInfo; CiA 301, bit rates",
@@ -20,5 +20,8 @@ pub(crate) fn is_rate(key: &str) -> bool {
 
 /// The finding about the key of another bit rate.
 pub(crate) fn finding(key: &Text<'_>) -> Finding {
-    RULE.at(key.span).fact("name", &*key.value)
+    // Other tools do without it, too.
+    RULE.at(key.span)
+        .severity_of(Severity::Info)
+        .fact("name", &*key.value)
 }

@@ -33,6 +33,9 @@ catalogue! {
     w0534_rtr_not_allowed W0534
     w0535_inhibit_above_event_timer W0535
     w0536_sync_start_without_counter W0536
+    e0537_mpdo_synchronous E0537
+    w0538_sdo_client_other_server W0538
+    w0539_limit_without_flag_bits W0539
 }
 
 pub(crate) mod e0501_mapped_object_missing;
@@ -46,6 +49,7 @@ pub(crate) mod e0510_entry_not_unsigned32;
 pub(crate) mod e0512_mapped_sub_index_missing;
 pub(crate) mod e0532_same_can_id;
 pub(crate) mod e0533_default_sdo_cob_id;
+pub(crate) mod e0537_mpdo_synchronous;
 pub(crate) mod i0515_compact_pdo;
 pub(crate) mod i0528_mapped_twice;
 pub(crate) mod i0531_cob_id_without_node_id;
@@ -64,3 +68,5 @@ pub(crate) mod w0530_default_sdo_without_node_id;
 pub(crate) mod w0534_rtr_not_allowed;
 pub(crate) mod w0535_inhibit_above_event_timer;
 pub(crate) mod w0536_sync_start_without_counter;
+pub(crate) mod w0538_sdo_client_other_server;
+pub(crate) mod w0539_limit_without_flag_bits;

@@ -1,12 +1,12 @@
 use alloc::vec::Vec;
 
 use crate::description::Description;
-use crate::finding::{Check, Finding, Form, Rule, Severity::Error};
+use crate::finding::{Check, Finding, Form, Rule, Severity};
 use crate::rules::pdo::cob_ids::{CobId, cob_ids};
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0521",
-    severity: Error,
+    severity: Severity::Error,
     title: "two PDOs have the same COB-ID",
     why: "A receiver cannot tell two PDOs with the same COB-ID apart.",
     source: "CiA 301, PDO communication parameter",
@@ -39,6 +39,12 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
                     .form(&ONE)
                     .fact("can", cob_id.can_id(node))
                     .fact("node", node)
+            };
+            // A node does not hear itself: only its partner is wrong.
+            let finding = if first.service == cob_id.service {
+                finding
+            } else {
+                finding.severity_of(Severity::Warning)
             };
             findings.push(finding.related(first.span, "first used here"));
         }

@@ -10,7 +10,7 @@ pub(crate) static RULE: Rule = Rule {
     buildable: true,
     title: "access to a profile object is missing",
     why: "A master that reads or writes the object as the profile specifies gets an abort.",
-    source: "CiA 401 and CiA 402, object overview",
+    source: "CiA 401, CiA 402 and CiA 404, object overview",
     fixability: Fixability::Unsafe,
     says: "{AccessType} of {object} is `{given}`, but CiA {profile} specifies `{right}`",
     help: "write `{AccessType={right}}`{fix}",
@@ -19,5 +19,5 @@ pub(crate) static RULE: Rule = Rule {
 };
 
 fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
-    access(&RULE, &[401, 402], true, object, findings);
+    access(&RULE, &[401, 402, 404], true, object, findings);
 }

@@ -10,7 +10,7 @@ pub(crate) static RULE: Rule = Rule {
     buildable: true,
     title: "profile object has another object code or type",
     why: "A master that knows the object from the device profile reads and writes it with another length.",
-    source: "CiA 401 and CiA 402, object overview",
+    source: "CiA 401, CiA 402 and CiA 404, object overview",
     fixability: Fixability::Unsafe,
     says: "{object} is {given}, but CiA {profile} specifies {right}",
     help: "write `{key={right}}`{fix}",
@@ -19,5 +19,5 @@ pub(crate) static RULE: Rule = Rule {
 };
 
 fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
-    types(&RULE, &[401, 402], object, findings);
+    types(&RULE, &[401, 402, 404], object, findings);
 }

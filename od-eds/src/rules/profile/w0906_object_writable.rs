@@ -9,7 +9,7 @@ pub(crate) static RULE: Rule = Rule {
     severity: Warning,
     title: "profile object is writable",
     why: "A master can change a value that only the device sets.",
-    source: "CiA 401 and CiA 402, object overview",
+    source: "CiA 401, CiA 402 and CiA 404, object overview",
     fixability: Fixability::Unsafe,
     says: "{AccessType} of {object} is `{given}`, but CiA {profile} specifies `{right}`",
     help: "write `{AccessType={right}}`{fix}",
@@ -18,5 +18,5 @@ pub(crate) static RULE: Rule = Rule {
 };
 
 fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
-    access(&RULE, &[401, 402], false, object, findings);
+    access(&RULE, &[401, 402, 404], false, object, findings);
 }

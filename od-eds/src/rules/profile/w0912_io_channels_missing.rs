@@ -1,13 +1,13 @@
 use alloc::vec::Vec;
 
 use crate::fact::Fact;
-use crate::finding::{Check, Finding, Form, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Form, Rule, Severity};
 use crate::rules::profile::shared::device;
 use crate::subject::Object;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0912",
-    severity: Warning,
+    severity: Severity::Warning,
     title: "parameters of channels that the I/O module lacks",
     why: "A master that sets the parameter of a channel finds no channel for it.",
     source: "CiA 401, object overview",
@@ -69,7 +69,8 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
             if let Some(entry) = more.filter(|_| last > 0) {
                 let finding = named(RULE.on(&entry, entry.span), *channels).form(&MORE);
                 let finding = finding.fact("sub", entry.address.sub);
-                findings.push(finding.fact("last", last));
+                // Nobody sets the parameter of a channel that is not there.
+                findings.push(finding.fact("last", last).severity_of(Severity::Info));
             }
         }
     }

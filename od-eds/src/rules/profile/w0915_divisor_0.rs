@@ -3,6 +3,7 @@ use alloc::vec::Vec;
 use crate::finding::{Check, Finding, Rule, Severity::Warning};
 use crate::rules::profile::shared::device;
 use crate::subject::{Entry, start_number};
+use od_model::Address;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0915",
@@ -19,13 +20,25 @@ pub(crate) static RULE: Rule = Rule {
 fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
     let profile = match (entry.address.index, entry.address.sub) {
         (0x608F..=0x6092, 2) => 402,
-        (0x6001 | 0x6501, 0) => 406,
+        (0x6001 | 0x6002 | 0x6501, 0) => 406,
         _ => return,
     };
     let number = start_number(entry.description, entry.address);
     if let Some(number) = number.filter(|number| number.value == 0)
         && device(entry.description, profile).is_some()
+        && (entry.address.index != 0x6002 || scales(entry))
     {
         findings.push(RULE.on(entry, number.span).fact("object", entry.shown()));
     }
+}
+
+/// Does the encoder scale its position by 6002h, as bit 2 of 6000h says? A range of 0 is that of 2^32 units in an
+/// encoder that has so many.
+fn scales(entry: &Entry<'_>) -> bool {
+    let number = |index| {
+        let number = start_number(entry.description, Address::new(index, 0));
+        number.map_or(0, |number| number.value)
+    };
+    let units = number(0x6501).saturating_mul(number(0x6502).max(1));
+    number(0x6000) & 4 != 0 && units < 1 << 32
 }

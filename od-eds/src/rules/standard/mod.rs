@@ -36,6 +36,7 @@ catalogue! {
     w0655_error_register_not_0 W0655
     w0656_guarding_and_heartbeat W0656
     i0657_vendor_id_0 I0657
+    w0658_commissioning_missing W0658
 }
 
 pub(crate) mod e0601_device_type_missing;
@@ -71,3 +72,4 @@ pub(crate) mod w0651_consumer_watches_nobody;
 pub(crate) mod w0653_commissioning_incomplete;
 pub(crate) mod w0655_error_register_not_0;
 pub(crate) mod w0656_guarding_and_heartbeat;
+pub(crate) mod w0658_commissioning_missing;

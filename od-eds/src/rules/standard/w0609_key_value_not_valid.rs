@@ -1,10 +1,11 @@
-use crate::finding::{Finding, Form, Rule, Severity::Warning};
+use crate::finding::{Finding, Form, Rule, Severity};
 use crate::scan::known::Form as Wanted;
 use crate::scan::placed::Text;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0609",
-    severity: Warning,
+    severity: Severity::Warning,
+    buildable: true,
     title: "value outside the object sections is not valid",
     why: "A tool cannot use the value. odkit keeps it as text and treats it as missing. A flag is 0 or 1, and each number has a range.",
     source: "CiA 306-1, FileInfo, DeviceInfo, DummyUsage, DeviceComissioning",
@@ -35,6 +36,12 @@ pub(crate) fn finding(section: &str, key: &str, given: &Text<'_>, wanted: Wanted
         Wanted::Number(most) => finding.form(&NUMBER).fact("most", most),
         Wanted::Version => finding.form(&VERSION),
         _ => finding,
+    };
+    // A number of the device that no tool can use; dates and versions of the file are for people.
+    let finding = if section.eq_ignore_ascii_case("DeviceInfo") {
+        finding.severity_of(Severity::Error)
+    } else {
+        finding
     };
     finding
         .fact("section", section)

@@ -1,13 +1,14 @@
 use alloc::vec::Vec;
 
 use crate::fact::Fact;
-use crate::finding::{Check, Finding, Rule, Severity::Error};
-use crate::standards::cia301::of;
+use crate::finding::{Check, Finding, Rule, Severity};
+use crate::standards::cia301::{is_standard_array, of};
 use crate::subject::Object;
+use od_model::ObjectCode;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0630",
-    severity: Error,
+    severity: Severity::Error,
     buildable: true,
     title: "standard object has another object code",
     why: "A master that knows the object from the standard reads sub-indices that do not exist, or misses some that exist.",
@@ -21,10 +22,16 @@ pub(crate) static RULE: Rule = Rule {
 fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
     let own_rule = matches!(object.index, 0x1000 | 0x1001 | 0x1018);
     if let Some(standard) = of(object.index)
-        && !standard.is_like(*object.code)
         && !own_rule
+        && (!standard.is_like(*object.code) || is_record(object))
     {
-        let finding = RULE.on(object, object.code.span);
+        // A RECORD of one type has the same values on the bus.
+        let severity = if standard.is_like(*object.code) {
+            Severity::Warning
+        } else {
+            Severity::Error
+        };
+        let finding = RULE.on(object, object.code.span).severity_of(severity);
         let finding = finding
             .fact("object", Fact::Index(object.index))
             .fact("name", standard.name);
@@ -33,4 +40,10 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
             .fact("given", *object.code);
         findings.push(finding.fact("standard", standard.source()));
     }
+}
+
+/// Is an object a RECORD that the standard specifies as a list of equal values? A tool that reads an ARRAY by the
+/// description of sub-index 1 knows only the sub-objects that the file describes.
+fn is_record(object: &Object<'_>) -> bool {
+    is_standard_array(object.index) && *object.code == ObjectCode::Record
 }

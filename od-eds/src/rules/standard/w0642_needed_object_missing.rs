@@ -1,47 +1,51 @@
 use alloc::vec::Vec;
 
 use crate::fact::Fact;
-use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Form, Rule, Severity};
 use crate::standards::cia301::of;
-use crate::subject::Object;
+use crate::subject::{Object, start_number};
+use od_model::Address;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0642",
-    severity: Warning,
+    severity: Severity::Warning,
     title: "object needs another object that is missing",
     why: "A master that finds one half of a service expects the other half, and cannot use the service.",
-    source: "CiA 301, objects 1005h to 1029h",
+    source: "CiA 301, objects 1005h to 1029h; CiA 302-2 and 302-3",
     says: "{object} needs object {other} ({name}), which is missing",
     help: "add {missing}, or remove {object}",
+    also: &[MASTER],
     check: Check::Object(check),
     ..Rule::NEW
 };
 
-/// Objects, each with the one that it needs.
-const PAIRS: [(u16, u16); 10] = [
-    (0x1006, 0x1005),
-    (0x1007, 0x1005),
-    (0x1019, 0x1005),
-    (0x100C, 0x100D),
-    (0x100D, 0x100C),
-    (0x1010, 0x1011),
-    (0x1011, 0x1010),
-    (0x1015, 0x1014),
-    (0x1022, 0x1021),
-    (0x1024, 0x1023),
-];
+/// Sentence for an NMT master without slaves.
+const MASTER: Form = Form {
+    says: "{object} makes the device an NMT master, but object {other} ({name}) is missing",
+    help: "add {missing}, or clear bit 0 of {object}",
+};
 
 fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
-    let pair = PAIRS.iter().find(|(index, _)| *index == object.index);
-    if let Some((index, other)) = pair
-        && !object.description.objects.contains_key(other)
-    {
-        let finding = RULE.on(object, object.span);
-        let finding = finding.fact("object", Fact::Index(*index));
-        let name = of(*other).map_or("", |standard| standard.name);
-        let finding = finding
-            .fact("other", Fact::Index(*other))
-            .fact("name", name);
-        findings.push(finding.fact("missing", Fact::Section(*other, None)));
+    let report = |other: u16, at, form| {
+        if object.description.objects.contains_key(&other) {
+            return None;
+        }
+        let name = of(other).map_or("", |standard| standard.name);
+        let finding = RULE.on(object, at).form(form);
+        let finding = finding.fact("object", Fact::Index(object.index));
+        let finding = finding.fact("other", Fact::Index(other)).fact("name", name);
+        Some(finding.fact("missing", Fact::Section(other, None)))
+    };
+    let other = of(object.index).map_or(0, |standard| standard.needs);
+    if other != 0 {
+        findings.extend(report(other, object.span, &Form::OWN));
+    }
+    let startup = (object.index == 0x1F80)
+        .then(|| start_number(object.description, Address::new(0x1F80, 0)))
+        .flatten();
+    if let Some(startup) = startup.filter(|startup| startup.value & 1 != 0) {
+        // A master can find its slaves in another way.
+        let found = report(0x1F81, startup.span, &MASTER);
+        findings.extend(found.map(|found| found.severity_of(Severity::Info)));
     }
 }

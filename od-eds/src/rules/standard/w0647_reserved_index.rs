@@ -1,13 +1,14 @@
 use alloc::vec::Vec;
 
 use crate::fact::Fact;
-use crate::finding::{Check, Finding, Form, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Form, Rule, Severity};
 use crate::standards::cia301::of;
 use crate::subject::Object;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0647",
-    severity: Warning,
+    severity: Severity::Warning,
+    buildable: true,
     title: "index or sub-index is reserved by CiA 301",
     why: "A later version of the standard may use it, and a tool for conformance tests rejects it.",
     source: "CiA 301, chapter 7.5",
@@ -28,11 +29,16 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
     let index = object.index;
     let shown = Fact::Index(index);
     if matches!(index, 0x1004 | 0x100B | 0x100E | 0x100F) {
-        findings.push(RULE.on(object, object.span).fact("object", shown));
+        // Earlier versions of CiA 301 had them: a device may keep them.
+        let finding = RULE.on(object, object.span).severity_of(Severity::Info);
+        findings.push(finding.fact("object", shown));
         return;
     }
     // FFh describes the structure of any object.
+    let is_of_nodes = matches!(index, 0x1F20..=0x1F22 | 0x1F25..=0x1F27 | 0x1F81 | 0x1F84..=0x1F88);
     let last = match index {
+        // The sub-index is a node ID.
+        _ if is_of_nodes => 127,
         0x1018 => 4,
         0x1029 => 254,
         0x1200..=0x12FF => 3,
@@ -51,6 +57,11 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
             .form(&SUB)
             .fact("object", shown.clone());
         let finding = finding.fact("name", standard.name);
-        findings.push(finding.fact("sub", entry.address.sub));
+        let finding = finding.fact("sub", entry.address.sub);
+        findings.push(if is_of_nodes {
+            finding.severity_of(Severity::Error)
+        } else {
+            finding
+        });
     }
 }

@@ -1,13 +1,14 @@
 use alloc::vec::Vec;
 
-use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Rule, Severity};
 use crate::standards::cia301::of;
 use crate::subject::{Entry, start_value};
 use od_model::Address;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0648",
-    severity: Warning,
+    severity: Severity::Warning,
+    buildable: true,
     title: "value of a standard object is reserved",
     why: "A device that follows the standard aborts a download of the value, and a master may give the bits another meaning.",
     source: "CiA 301, chapter 7.5; CiA 302-2, object 1F80h",
@@ -55,6 +56,12 @@ fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
             .fact("name", standard.name)
             .fact("given", number)
             .fact("standard", standard.source());
-        findings.push(finding.fact("reserved", what));
+        let finding = finding.fact("reserved", what);
+        // A SYNC producer cannot count to it.
+        findings.push(if entry.address.index == 0x1019 {
+            finding.severity_of(Severity::Error)
+        } else {
+            finding
+        });
     }
 }

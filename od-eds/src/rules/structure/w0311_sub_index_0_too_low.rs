@@ -1,13 +1,14 @@
 use alloc::format;
 use alloc::vec::Vec;
 
-use crate::finding::{Check, Finding, Fixability, Form, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Fixability, Form, Rule, Severity::Error};
 use crate::rules::structure::shared::{Count, counts_in_use, decimal};
 use crate::subject::Object;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0311",
-    severity: Warning,
+    severity: Error,
+    buildable: true,
     title: "sub-index 0 is lower than the highest sub-index",
     why: "A master that reads up to sub-index 0 never sees the sub-objects above it.",
     source: "CiA 301, object structure",

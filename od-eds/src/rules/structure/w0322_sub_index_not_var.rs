@@ -1,11 +1,12 @@
 use crate::fact::Key;
-use crate::finding::{Finding, Fixability, Rule, Severity::Warning};
+use crate::finding::{Finding, Fixability, Rule, Severity::Error};
 use crate::fix::Fix;
 use crate::scan::placed::Text;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0322",
-    severity: Warning,
+    severity: Error,
+    buildable: true,
     title: "sub-index is not a VAR",
     why: "A tool may look for sub-objects of a sub-object. odkit assumes a VAR.",
     source: "CiA 306-1, object sections",

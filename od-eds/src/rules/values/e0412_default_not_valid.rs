@@ -2,7 +2,7 @@ use alloc::vec::Vec;
 
 use crate::fact::Key;
 use crate::finding::{Check, Finding, Rule, Severity::Error};
-use crate::rules::values::shared::{FORMULA, MEANT, NOT_VALID, report_unfit};
+use crate::rules::values::shared::{FORMULA, NOT_VALID, report_unfit};
 use crate::subject::Entry;
 
 pub(crate) static RULE: Rule = Rule {
@@ -13,7 +13,7 @@ pub(crate) static RULE: Rule = Rule {
     source: "CiA 306-1, object sections; CiA 301, data types",
     says: NOT_VALID,
     help: "write {form}",
-    also: &[FORMULA, MEANT],
+    also: &[FORMULA],
     check: Check::Entry(check),
     ..Rule::NEW
 };

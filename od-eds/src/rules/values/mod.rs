@@ -30,6 +30,8 @@ catalogue! {
     i0425_own_data_type I0425
     w0426_standard_type_missing W0426
     w0427_domain_with_number_type W0427
+    e0428_node_id_misspelled E0428
+    e0429_access_of_parameter E0429 (xdd)
     w0445_access_without_mapping W0445
     w0446_text_not_ascii W0446
     i0447_no_pdo_direction I0447
@@ -49,6 +51,8 @@ pub(crate) mod e0414_parameter_value_outside_limits;
 pub(crate) mod e0415_limits_swapped;
 pub(crate) mod e0417_node_id_not_supported;
 pub(crate) mod e0418_node_id_formula_too_large;
+pub(crate) mod e0428_node_id_misspelled;
+pub(crate) mod e0429_access_of_parameter;
 pub(crate) mod i0408_octal;
 pub(crate) mod i0410_twos_complement;
 pub(crate) mod i0411_node_id_formula_spelling;

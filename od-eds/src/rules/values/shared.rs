@@ -33,12 +33,6 @@ pub(super) const FORMULA: Form = Form {
     ..Form::OWN
 };
 
-/// The help for a formula whose name of the node ID is not the one of CiA 306.
-pub(crate) const MEANT: Form = Form {
-    help: "write `$NODEID+0x{offset:X}`",
-    ..Form::OWN
-};
-
 /// The type of an entry's value, if it is one that a value can have.
 pub(super) fn data_type(entry: &Entry<'_>) -> Option<Spanned<DataType>> {
     entry

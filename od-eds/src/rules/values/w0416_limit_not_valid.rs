@@ -3,7 +3,7 @@ use alloc::vec::Vec;
 use crate::fact::Key;
 use crate::finding::{Check, Finding, Fixability, Form, Rule, Severity::Warning};
 use crate::fix::Fix;
-use crate::rules::values::shared::{DECLARED, FORMULA, MEANT, NOT_VALID, report_unfit};
+use crate::rules::values::shared::{DECLARED, FORMULA, NOT_VALID, report_unfit};
 use crate::scan::placed::Text;
 use crate::span::Spanned;
 use crate::subject::Entry;
@@ -18,7 +18,7 @@ pub(crate) static RULE: Rule = Rule {
     fixability: Fixability::Unsafe,
     says: NOT_VALID,
     help: "write {form}, or `{key=}`{fix}",
-    also: &[FORMULA, MEANT, NO_LIMITS],
+    also: &[FORMULA, NO_LIMITS],
     check: Check::Entry(check),
     ..Rule::NEW
 };

@@ -1,0 +1,96 @@
+//! Fixes in an XDD: of a fix for an EDS only what is the same in an attribute.
+
+use alloc::format;
+use alloc::string::String;
+
+use crate::fix::{Action, Edit, Fix};
+use crate::scan::number::number;
+
+/// Returns the fix in the form of CiA 311; `None` if one of its edits is more than the value of an attribute.
+pub(crate) fn in_xml(mut fix: Fix, text: &str) -> Option<Fix> {
+    for edit in &mut fix.edits {
+        edit.text = value(edit, text)?;
+    }
+    Some(fix)
+}
+
+/// The new value of the attribute whose whole value an edit replaces.
+fn value(edit: &Edit, text: &str) -> Option<String> {
+    let before = text.get(..edit.span.start as usize)?;
+    let behind = text.get(edit.span.end as usize..)?;
+    let quote = before
+        .chars()
+        .next_back()
+        .filter(|c| matches!(c, '"' | '\''))?;
+    if edit.action != Action::Replace || !behind.starts_with(quote) {
+        return None;
+    }
+    let name = before[..before.len() - 1]
+        .trim_end()
+        .strip_suffix('=')?
+        .trim_end();
+    let start = name
+        .rfind(|c: char| !c.is_ascii_alphanumeric())
+        .map_or(0, |at| at + 1);
+    let given = edit.text.as_str();
+    let hexadecimal = |digits: usize| {
+        let number = number(given).and_then(|number| u16::try_from(number).ok())?;
+        Some(format!("{number:0digits$X}"))
+    };
+    let decimal = || number(given).map(|number| format!("{number}"));
+    match &name[start..] {
+        "dataType" => hexadecimal(4),
+        "objFlags" => hexadecimal(1),
+        "objectType" | "subNumber" | "nodeID" | "granularity" | "nrOfRxPDO" | "nrOfTxPDO" => {
+            decimal()
+        }
+        "mandatoryObjects" | "optionalObjects" | "manufacturerObjects" => decimal(),
+        "accessType" => ["ro", "wo", "rw", "const"]
+            .contains(&given)
+            .then(|| given.into()),
+        "defaultValue" | "actualValue" | "lowLimit" | "highLimit" | "value" => {
+            let is_plain = !given.contains(['<', '>', '&', '"', '\'']);
+            is_plain.then(|| given.into())
+        }
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use alloc::format;
+
+    use crate::Document;
+    use crate::fix::{Applicability, fix};
+
+    #[test]
+    fn a_fix_of_an_attribute_has_the_form_of_the_schema() {
+        let object = |attributes: &str| {
+            format!(
+                "<ISO15745ProfileContainer xmlns=\"http://www.canopen.org/xml/1.1\">\n\
+                 <CANopenObjectList manufacturerObjects=\"1\">\n\
+                 <CANopenObject index=\"2000\" name=\"a\" {attributes}/>\n\
+                 </CANopenObjectList></ISO15745ProfileContainer>\n"
+            )
+        };
+        for (bad, good) in [
+            (
+                "objectType=\"7\" dataType=\"0007\" accessType=\"readWrite\" defaultValue=\"1\"",
+                "objectType=\"7\" dataType=\"0007\" accessType=\"rw\" defaultValue=\"1\"",
+            ),
+            (
+                "objectType=\"7\" dataType=\"0007\" accessType=\"rw\" defaultValue=\"$NODE+0x10\"",
+                "objectType=\"7\" dataType=\"0007\" accessType=\"rw\" defaultValue=\"$NODEID+0x10\"",
+            ),
+        ] {
+            let find = |document: &Document| document.load().findings;
+            let done = fix(&Document::new(object(bad)), Applicability::Unsafe, find);
+            assert_eq!(done.document.text(), object(good));
+        }
+        let counted = object("objectType=\"7\" dataType=\"0007\" accessType=\"rw\"");
+        let wrong = counted.replace("manufacturerObjects=\"1\"", "manufacturerObjects=\"4\"");
+        let find = |document: &Document| document.load().findings;
+        let done = fix(&Document::new(wrong), Applicability::Safe, find);
+        assert_eq!(done.document.text(), counted);
+    }
+}
