@@ -32,7 +32,7 @@ pub trait Owner {
 
     /// Passes the CAN-IDs that the node listens to on to `each`, if they may have changed since the
     /// last call.
-    fn poll_wanted_ids(&mut self, each: &mut dyn FnMut(CanId));
+    fn each_wanted_id(&mut self, each: &mut dyn FnMut(CanId));
 
     /// Does what is due, if anything is.
     fn catch_up(&mut self, now: Instant) {
@@ -75,7 +75,7 @@ impl<D: Device, A: Application, S: Storage> Owner for Node<D, A, S> {
         self.poll_event()
     }
 
-    fn poll_wanted_ids(&mut self, each: &mut dyn FnMut(CanId)) {
+    fn each_wanted_id(&mut self, each: &mut dyn FnMut(CanId)) {
         if let Some(ids) = self.poll_wanted_ids() {
             ids.for_each(each);
         }

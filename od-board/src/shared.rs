@@ -124,7 +124,7 @@ impl<M: RawMutex, B: Owner> Shared<M, B> {
             }
             let mut filters = None;
             self.owner.lock(|owner| {
-                owner.borrow_mut().poll_wanted_ids(&mut |id| {
+                owner.borrow_mut().each_wanted_id(&mut |id| {
                     let filters: &mut Filters<FILTERS> = filters.get_or_insert_default();
                     filters.add(id);
                 });

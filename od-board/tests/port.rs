@@ -92,7 +92,7 @@ impl Owner for Talker {
     fn poll_event(&mut self) -> Option<Event> {
         None
     }
-    fn poll_wanted_ids(&mut self, _: &mut dyn FnMut(CanId)) {}
+    fn each_wanted_id(&mut self, _: &mut dyn FnMut(CanId)) {}
 }
 
 #[test]

@@ -22,3 +22,12 @@ impl Blank for u32 {
 impl Blank for Frame {
     const BLANK: Self = Self::standard(0, &[]);
 }
+
+impl<T: Blank, const N: usize> Blank for [T; N] {
+    const BLANK: Self = [const { T::BLANK }; N];
+}
+
+#[cfg(any(feature = "std", test))]
+impl<T: Blank> Blank for std::vec::Vec<T> {
+    const BLANK: Self = Self::new();
+}

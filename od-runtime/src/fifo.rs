@@ -1,5 +1,7 @@
 //! A queue of fixed room.
 
+use crate::blank::Blank;
+
 /// First in, first out, as many as `items` has room for. When full, the newest is not taken: what
 /// happened first explains the rest.
 ///
@@ -56,6 +58,10 @@ impl<Q> Fifo<Q> {
             items,
         }
     }
+}
+
+impl<Q: Blank> Blank for Fifo<Q> {
+    const BLANK: Self = Self::new(Q::BLANK);
 }
 
 impl<Q: ?Sized> Fifo<Q> {

@@ -201,6 +201,30 @@ const fn entries(dictionary: &Dictionary<'_>, first: u16, count: usize) -> usize
     entries
 }
 
+/// All arrays of a struct with these fields, as [`Slices`] or as [`Shared`].
+#[doc(hidden)]
+#[macro_export]
+macro_rules! lend_rooms {
+    ($to:ident, $from:expr, $($borrow:tt)+) => {
+        $crate::rooms::$to {
+            listeners: $($borrow)+ $from.listeners,
+            frames: $($borrow)+ $from.frames,
+            events: $($borrow)+ $from.events,
+            errors: $($borrow)+ $from.errors,
+            messages: $($borrow)+ $from.messages,
+            servers: $($borrow)+ $from.servers,
+            buffers: $($borrow)+ $from.buffers,
+            tpdos: $($borrow)+ $from.tpdos,
+            rpdos: $($borrow)+ $from.rpdos,
+            mapped: $($borrow)+ $from.mapped,
+            watches: $($borrow)+ $from.watches,
+            guards: $($borrow)+ $from.guards,
+            lss: $($borrow)+ $from.lss,
+            clocks: $($borrow)+ $from.clocks,
+        }
+    };
+}
+
 /// Writes the structs `Values` and `Rooms` of a device, which has the constant `DICTIONARY`.
 #[doc(hidden)]
 #[macro_export]
@@ -225,13 +249,9 @@ macro_rules! rooms {
 
         impl $crate::rooms::Values for Values {
             const NEW: Self = Self {
-                bytes: [0; __SIZES.values],
-                outbox: $crate::rooms::Outbox::new(
-                    [const { <$crate::rooms::Change as $crate::rooms::Blank>::BLANK };
-                        __SIZES.changes],
-                ),
-                saving: [const { <$crate::rooms::Saving as $crate::rooms::Blank>::BLANK };
-                    __SIZES.saves],
+                bytes: $crate::rooms::Blank::BLANK,
+                outbox: $crate::rooms::Outbox::new($crate::rooms::Blank::BLANK),
+                saving: $crate::rooms::Blank::BLANK,
             };
 
             #[inline]
@@ -276,78 +296,28 @@ macro_rules! rooms {
 
         impl $crate::rooms::Rooms for Rooms {
             const NEW: Self = Self {
-                listeners: [const { <$crate::rooms::Listener as $crate::rooms::Blank>::BLANK };
-                    __SIZES.listeners],
-                frames: $crate::rooms::Fifo::new(
-                    [const { <$crate::rooms::Frame as $crate::rooms::Blank>::BLANK };
-                        __SIZES.frames],
-                ),
-                events: $crate::rooms::Fifo::new(
-                    [const { <$crate::rooms::Event as $crate::rooms::Blank>::BLANK };
-                        __SIZES.events],
-                ),
-                errors: $crate::rooms::Fifo::new(
-                    [const { <$crate::rooms::Emcy as $crate::rooms::Blank>::BLANK };
-                        __SIZES.errors],
-                ),
-                messages: $crate::rooms::Fifo::new(
-                    [const { <$crate::rooms::Emcy as $crate::rooms::Blank>::BLANK };
-                        __SIZES.messages],
-                ),
-                servers: [const { <$crate::rooms::SdoServer as $crate::rooms::Blank>::BLANK };
-                    __SIZES.servers],
-                buffers: [const { <u8 as $crate::rooms::Blank>::BLANK }; __SIZES.buffers],
-                tpdos: [const { <$crate::rooms::Tpdo as $crate::rooms::Blank>::BLANK };
-                    __SIZES.tpdos],
-                rpdos: [const { <$crate::rooms::Rpdo as $crate::rooms::Blank>::BLANK };
-                    __SIZES.rpdos],
-                mapped: [const { <$crate::rooms::Mapped as $crate::rooms::Blank>::BLANK };
-                    __SIZES.mapped],
-                watches: [const { <$crate::rooms::Watch as $crate::rooms::Blank>::BLANK };
-                    __SIZES.watches],
-                guards: [const { <$crate::rooms::Guard as $crate::rooms::Blank>::BLANK };
-                    __SIZES.guards],
-                lss: [const { <$crate::rooms::Slave as $crate::rooms::Blank>::BLANK }; __SIZES.lss],
-                clocks: [const { <$crate::rooms::Clocks as $crate::rooms::Blank>::BLANK };
-                    __SIZES.clocks],
+                listeners: $crate::rooms::Blank::BLANK,
+                frames: $crate::rooms::Blank::BLANK,
+                events: $crate::rooms::Blank::BLANK,
+                errors: $crate::rooms::Blank::BLANK,
+                messages: $crate::rooms::Blank::BLANK,
+                servers: $crate::rooms::Blank::BLANK,
+                buffers: $crate::rooms::Blank::BLANK,
+                tpdos: $crate::rooms::Blank::BLANK,
+                rpdos: $crate::rooms::Blank::BLANK,
+                mapped: $crate::rooms::Blank::BLANK,
+                watches: $crate::rooms::Blank::BLANK,
+                guards: $crate::rooms::Blank::BLANK,
+                lss: $crate::rooms::Blank::BLANK,
+                clocks: $crate::rooms::Blank::BLANK,
             };
 
             fn all(&self) -> $crate::rooms::Shared<'_> {
-                $crate::rooms::Shared {
-                    listeners: &self.listeners,
-                    frames: &self.frames,
-                    events: &self.events,
-                    errors: &self.errors,
-                    messages: &self.messages,
-                    servers: &self.servers,
-                    buffers: &self.buffers,
-                    tpdos: &self.tpdos,
-                    rpdos: &self.rpdos,
-                    mapped: &self.mapped,
-                    watches: &self.watches,
-                    guards: &self.guards,
-                    lss: &self.lss,
-                    clocks: &self.clocks,
-                }
+                $crate::lend_rooms!(Shared, self, &)
             }
 
             fn all_mut(&mut self) -> $crate::rooms::Slices<'_> {
-                $crate::rooms::Slices {
-                    listeners: &mut self.listeners,
-                    frames: &mut self.frames,
-                    events: &mut self.events,
-                    errors: &mut self.errors,
-                    messages: &mut self.messages,
-                    servers: &mut self.servers,
-                    buffers: &mut self.buffers,
-                    tpdos: &mut self.tpdos,
-                    rpdos: &mut self.rpdos,
-                    mapped: &mut self.mapped,
-                    watches: &mut self.watches,
-                    guards: &mut self.guards,
-                    lss: &mut self.lss,
-                    clocks: &mut self.clocks,
-                }
+                $crate::lend_rooms!(Slices, self, &mut)
             }
         }
     };
@@ -370,7 +340,7 @@ const ERRORS: usize = 32;
 impl Values for LoadedValues {
     const NEW: Self = Self {
         bytes: std::vec::Vec::new(),
-        outbox: Outbox::new([Change::BLANK; ERRORS]),
+        outbox: Outbox::new(Blank::BLANK),
         saving: Saving::BLANK,
     };
 
@@ -418,20 +388,20 @@ pub struct LoadedRooms {
 #[cfg(any(feature = "std", test))]
 impl Rooms for LoadedRooms {
     const NEW: Self = Self {
-        listeners: std::vec::Vec::new(),
-        frames: Fifo::new([Frame::BLANK; FRAMES]),
-        events: Fifo::new([Event::BLANK; EVENTS]),
-        errors: Fifo::new([Emcy::BLANK; ERRORS]),
-        messages: Fifo::new([Emcy::BLANK; MESSAGES]),
-        servers: std::vec::Vec::new(),
-        buffers: std::vec::Vec::new(),
-        tpdos: std::vec::Vec::new(),
-        rpdos: std::vec::Vec::new(),
-        mapped: std::vec::Vec::new(),
-        watches: [Watch::BLANK; WATCHES],
-        guards: [Guard::BLANK],
-        lss: [Slave::BLANK],
-        clocks: [Clocks::BLANK],
+        listeners: Blank::BLANK,
+        frames: Blank::BLANK,
+        events: Blank::BLANK,
+        errors: Blank::BLANK,
+        messages: Blank::BLANK,
+        servers: Blank::BLANK,
+        buffers: Blank::BLANK,
+        tpdos: Blank::BLANK,
+        rpdos: Blank::BLANK,
+        mapped: Blank::BLANK,
+        watches: Blank::BLANK,
+        guards: Blank::BLANK,
+        lss: Blank::BLANK,
+        clocks: Blank::BLANK,
     };
 
     fn fit(&mut self, sizes: &Sizes) {
@@ -445,41 +415,11 @@ impl Rooms for LoadedRooms {
 
     #[inline]
     fn all(&self) -> Shared<'_> {
-        Shared {
-            listeners: &self.listeners,
-            frames: &self.frames,
-            events: &self.events,
-            errors: &self.errors,
-            messages: &self.messages,
-            servers: &self.servers,
-            buffers: &self.buffers,
-            tpdos: &self.tpdos,
-            rpdos: &self.rpdos,
-            mapped: &self.mapped,
-            watches: &self.watches,
-            guards: &self.guards,
-            lss: &self.lss,
-            clocks: &self.clocks,
-        }
+        crate::lend_rooms!(Shared, self, &)
     }
 
     #[inline]
     fn all_mut(&mut self) -> Slices<'_> {
-        Slices {
-            listeners: &mut self.listeners,
-            frames: &mut self.frames,
-            events: &mut self.events,
-            errors: &mut self.errors,
-            messages: &mut self.messages,
-            servers: &mut self.servers,
-            buffers: &mut self.buffers,
-            tpdos: &mut self.tpdos,
-            rpdos: &mut self.rpdos,
-            mapped: &mut self.mapped,
-            watches: &mut self.watches,
-            guards: &mut self.guards,
-            lss: &mut self.lss,
-            clocks: &mut self.clocks,
-        }
+        crate::lend_rooms!(Slices, self, &mut)
     }
 }
