@@ -13,13 +13,13 @@ use crate::bus::wiring::Wiring;
 use crate::device::VirtualDevice;
 use crate::wire::{Line, Station};
 
-/// A frame that a device on the bus sent, or on a timed line the outside.
+/// A frame that a device on the bus sent, or on a real line the outside.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Sent {
     /// Time of the frame.
     pub at: Instant,
     /// Number of the device, counted from 0 in the order of [`Bus::add`]; `None` for one from outside,
-    /// when it came through a timed line.
+    /// when it came through a real line.
     pub device: Option<usize>,
     /// The frame.
     pub frame: Frame,
@@ -27,7 +27,7 @@ pub struct Sent {
 
 /// On an ideal line a frame reaches everybody at the moment it is sent, or everybody
 /// with the same bit rate where [`set_bit_rate`](Bus::set_bit_rate) says that it matters. A
-/// real [`line`](Bus::line) lets frames fail as CAN does, and a timed one lets each take its bits.
+/// real [`line`](Bus::line) lets frames fail as CAN does, and each takes its bits.
 ///
 /// Events of one moment have a fixed order: devices in the order they
 /// were added, frames in the order they were sent. The same inputs give the same
@@ -228,32 +228,27 @@ impl Bus {
     }
 
     /// A frame from outside: every device receives it, and each other's answers. Answers
-    /// whether the line let it through. On a timed line it only waits for its turn now, and is
+    /// whether the line let it through. On a real line it only waits for its turn now, and is
     /// [polled](Self::poll) when it came through.
     pub fn receive(&mut self, frame: &Frame) -> bool {
-        if self.line.is_timed() {
+        if self.line.is_real() {
             self.queue(frame);
             return false;
         }
-        let stations = self.stations();
-        let came_through = self.line.transmit(self.now, &stations, 0, frame);
-        if came_through {
-            for device in 0..self.devices.len() {
-                if self.hears_outside(device) && self.line.hears(&stations, 0, device + 1) {
-                    self.devices[device].handle_frame(self.now, frame);
-                    self.settle(device);
-                }
+        if !self.line.is_plugged(0) {
+            return false;
+        }
+        for device in 0..self.devices.len() {
+            if self.hears_outside(device) && self.line.is_plugged(device + 1) {
+                self.devices[device].handle_frame(self.now, frame);
+                self.settle(device);
             }
         }
-        self.tell_controllers();
-        came_through
+        true
     }
 
-    /// The outside and the devices, as the line sees them; an ideal one does not look.
+    /// The outside and the devices, as a real line sees them.
     fn stations(&self) -> Vec<Station> {
-        if !self.line.is_real {
-            return Vec::new();
-        }
         let outside = Station {
             present: true,
             rate: None,
@@ -351,7 +346,7 @@ impl Bus {
 
     /// Takes what a device sends and hands it to the others, whose answers in turn …
     fn settle(&mut self, device: usize) {
-        if self.line.is_timed() {
+        if self.line.is_real() {
             return self.load(device, self.now);
         }
         let mut carry = VecDeque::new();
@@ -362,11 +357,9 @@ impl Bus {
                 return;
             };
             let rate = self.devices[from].bit_rate();
-            let stations = self.stations();
             for other in (0..self.devices.len()).filter(|other| *other != from) {
                 let its = self.devices[other].bit_rate();
-                if !self.wiring.hears(rate, its) || !self.line.hears(&stations, from + 1, other + 1)
-                {
+                if !self.wiring.hears(rate, its) || !self.line.is_plugged(other + 1) {
                     continue;
                 }
                 self.devices[other].handle_frame(self.now, &frame);
@@ -377,12 +370,11 @@ impl Bus {
 
     fn collect(&mut self, device: usize, carry: &mut VecDeque<(usize, Frame)>) {
         while let Some(frame) = self.devices[device].poll_transmit(self.now) {
-            let stations = self.stations();
-            if !self.line.transmit(self.now, &stations, device + 1, &frame) {
+            if !self.line.is_plugged(device + 1) {
                 continue;
             }
             // A device may change its bit rate with what it sent last, so it is asked each time.
-            if self.hears_outside(device) && self.line.hears(&stations, device + 1, 0) {
+            if self.hears_outside(device) && self.line.is_plugged(0) {
                 self.sent.push_back(Sent {
                     at: self.now,
                     device: Some(device),

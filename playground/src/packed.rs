@@ -10,9 +10,9 @@
 //! | 15 | `u8`, reserved |
 //! | 16 | eight bytes of data, the unused ones 0 |
 //!
-//! A frame that was disturbed on the bus line has other data: reason (1 no acknowledge, 2 another
-//! bit rate, 3 reflections), failed attempts, 1 if it was transmitted in the end, 1 if its
-//! sender went bus-off, and the sender's transmit error counter in two bytes.
+//! A failed attempt to send a frame has other data: reason (0 unknown, 1 no acknowledge, 2 another
+//! bit rate, 3 reflections, 4 another frame with the same identifier), 1 if its sender went bus-off, the sender's
+//! transmit error counter in two bytes, and the number of failed attempts in four.
 
 use od_bench::journal;
 use od_bench::rig::Seen;
@@ -59,7 +59,7 @@ pub(crate) fn push(batch: &mut Vec<u8>, at: Instant, device: Option<usize>, fram
 
 /// Adds an event of the bus line.
 pub(crate) fn push_seen(batch: &mut Vec<u8>, seen: &Seen) {
-    let (one, counter) = match seen {
+    let one = match seen {
         Seen::Frame { at, device, frame } => return push(batch, *at, *device, frame),
         Seen::Heard {
             at: when,
@@ -73,17 +73,17 @@ pub(crate) fn push_seen(batch: &mut Vec<u8>, seen: &Seen) {
             }
             return;
         }
-        Seen::Disturbed(one, counter) => (one, counter),
+        Seen::Disturbed(one) => one,
     };
     let why = match one.trouble {
         Trouble::NoAcknowledge => 1,
         Trouble::OtherBitRate => 2,
         Trouble::Reflections => 3,
+        Trouble::SameId => 4,
     };
-    let attempts = u8::try_from(one.attempts).unwrap_or(u8::MAX);
-    let [low, high] = counter.to_le_bytes();
-    let (delivered, bus_off) = (one.delivered.into(), one.bus_off.into());
-    let data = [why, attempts, delivered, bus_off, low, high];
+    let [low, high] = one.transmit_errors.to_le_bytes();
+    let [a, b, c, d] = one.attempts.to_le_bytes();
+    let data = [why, one.bus_off.into(), low, high, a, b, c, d];
     let start = batch.len();
     push(batch, one.at, one.device, &Frame::of(one.frame.id(), &data));
     if let Some(flags) = batch.get_mut(start + at::FLAGS) {
@@ -96,7 +96,7 @@ pub(crate) fn push_seen(batch: &mut Vec<u8>, seen: &Seen) {
 pub(crate) fn push_line(batch: &mut Vec<u8>, line: &od_bench::logs::Record) {
     use od_bench::logs::What;
     let start = batch.len();
-    let nothing = Frame::standard(0, &[0; 6]);
+    let nothing = Frame::standard(0, &[0; 8]);
     let (frame, disturbed) = match &line.what {
         What::Frame(frame) => (frame, 0),
         What::Error => (&nothing, DISTURBED),

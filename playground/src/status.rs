@@ -86,8 +86,6 @@ record! {
     /// The bus line, and the CAN controller of the program side.
     LineStatus {
         real: bool,
-        /// Whether frames take the time of their bits.
-        timed: bool,
         /// Microseconds of all frames so far.
         busy: f64,
         terminators: u8,
@@ -264,8 +262,7 @@ impl Bus {
             .bit_rate
             .or_else(|| self.journal.rig.bus.devices().iter().find_map(powered_rate));
         let status = LineStatus {
-            real: line.is_real,
-            timed: line.is_timed(),
+            real: line.is_real(),
             busy: line.busy() as f64,
             terminators: line.terminators,
             fixed_rate: line.bit_rate,

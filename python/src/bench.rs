@@ -261,7 +261,7 @@ impl Bench {
     /// at once. A change drops the waiting frames.
     #[getter]
     fn get_real_line(&self) -> bool {
-        self.wire.lock().bus.line.is_real
+        self.wire.lock().bus.line.is_real()
     }
 
     #[setter]

@@ -162,7 +162,7 @@ impl State {
         }
         let now = self.now();
         self.acted = now;
-        if self.bus.line.is_timed() {
+        if self.bus.line.is_real() {
             self.senders.push_back(port);
             self.bus.receive(frame);
         } else if self.bus.receive(frame) {
@@ -175,7 +175,7 @@ impl State {
     /// Delivers the sent frames.
     pub(crate) fn collect(&mut self) {
         while let Some(one) = self.bus.line.poll() {
-            if one.device.is_none() && !one.delivered {
+            if one.device.is_none() && one.bus_off {
                 self.senders.pop_front();
             }
             self.hear(one.at, What::Error, None);

@@ -42,7 +42,7 @@ impl Bus {
             return None;
         };
         let reaches_outside = wiring.rate.is_none() && line.is_plugged(0) && line.is_plugged(1);
-        if line.is_real || !reaches_outside || line.has_plans() {
+        if line.is_real() || !reaches_outside || line.has_plans() {
             return None;
         }
         let wanted = frames.saturating_sub(sent.len());

@@ -6,11 +6,13 @@ use std::prelude::v1::*;
 use od_runtime::{Frame, Instant};
 
 use super::{Bus, Sent};
-use crate::wire::{Condition, Disturbance, Due, PROCESSING, Waiting};
+use crate::wire::{Condition, Disturbance, Due, Ended, PROCESSING, Trouble, Waiting};
 
 /// Bits of an extended frame with eight bytes, all stuff bits that there can be, and the three
 /// bits behind it.
 const LONGEST_FRAME: u64 = 163;
+/// Microseconds between two reports of a frame that repeats without a change.
+const BETWEEN_REPORTS: u64 = 1_000_000;
 
 impl Bus {
     /// Puts a frame of the outside in the queue for the wire. It is [polled](Bus::poll) when it
@@ -20,7 +22,7 @@ impl Bus {
     }
 
     /// The next deadline of any device, of a controller that recovers from bus-off, or of a frame
-    /// on a timed line.
+    /// on a real line.
     pub fn next_deadline(&self) -> Option<Instant> {
         let devices = (0..self.devices.len()).filter_map(|device| self.deadline(device));
         let controller = self.line.next_recovery().map(|(at, _)| at);
@@ -37,7 +39,7 @@ impl Bus {
         core::iter::from_fn(|| self.poll()).find(|sent| sent.device.is_some())
     }
 
-    /// Does a frame of this station wait for a timed line, or is it on it? Station 0 is the outside.
+    /// Does a frame of this station wait for a real line, or is it on it? Station 0 is the outside.
     pub fn is_sending(&self, station: usize) -> bool {
         self.line.medium.holds(station)
     }
@@ -45,14 +47,31 @@ impl Bus {
     /// Microseconds by which a frame can come later than it was due, because it takes its bits and
     /// waits for one before it; 0 on a line that takes no time.
     pub(crate) fn longest_wait(&self) -> u64 {
-        if !self.line.is_timed() {
+        if !self.line.is_real() {
             return 0;
         }
         let rate = self.stations().first().and_then(|outside| outside.rate);
         2 * LONGEST_FRAME * 1000 / u64::from(rate.unwrap_or(500).max(1))
     }
 
-    /// Does this frame of the outside wait for a timed line?
+    /// Returns whether a frame is on a real line or waits for it, other than one that repeats without end.
+    pub fn is_busy(&self) -> bool {
+        (0..=self.devices.len()).any(|station| self.is_sending(station) && !self.is_stuck(station))
+    }
+
+    /// Time passes until no frame is on a real line or waits for it, or until this time if there is always one.
+    pub(crate) fn advance_until_quiet(&mut self, until: Instant) {
+        while self.is_busy() && self.next_deadline().is_some_and(|at| at <= until) {
+            self.advance_until_event();
+        }
+    }
+
+    /// Does a frame of this station repeat without end, because no station acknowledges it?
+    pub(crate) fn is_stuck(&self, station: usize) -> bool {
+        self.line.medium.repeats(station)
+    }
+
+    /// Does this frame of the outside wait for a real line?
     pub(crate) fn is_waiting(&self, frame: &Frame) -> bool {
         self.line.medium.waits(frame)
     }
@@ -69,7 +88,7 @@ impl Bus {
     /// Time when a device is due. One that wants to send waits for room in its controller.
     pub(super) fn deadline(&self, device: usize) -> Option<Instant> {
         let at = self.devices[device].poll_timeout()?;
-        let waits = at <= self.now && self.line.is_timed();
+        let waits = at <= self.now && self.line.is_real();
         (!waits || self.line.medium.has_room(device + 1)).then_some(at)
     }
 
@@ -87,42 +106,86 @@ impl Bus {
     pub(super) fn carry(&mut self) {
         while let Some(due) = self.line.medium.take(self.now) {
             match due {
-                Due::Start(waiting) => self.start_frame(waiting),
-                Due::End(waiting, None) => self.deliver(&waiting),
-                Due::End(mut waiting, Some(trouble)) => {
-                    waiting.attempts += 1;
-                    waiting.trouble = Some(trouble);
-                    if self.line.gives_up(&waiting) {
-                        self.end(&waiting, false);
-                    } else {
-                        self.line.medium.again(waiting);
-                    }
-                }
+                Due::Start(starters) => self.start_frames(starters),
+                Due::End(ended) => self.end(ended),
             }
             self.tell_controllers();
         }
     }
 
-    fn start_frame(&mut self, waiting: Waiting) {
+    fn start_frames(&mut self, mut starters: Vec<Waiting>) {
         let stations = self.stations();
-        let is_there = stations.get(waiting.station).is_some_and(|one| one.present);
         // A controller that is bus-off sends nothing, and its frames are lost.
-        if !is_there || self.line.controller(waiting.station).condition() == Condition::BusOff {
-            return;
+        starters.retain(|one| {
+            stations.get(one.station).is_some_and(|it| it.present)
+                && self.line.controller(one.station).condition() != Condition::BusOff
+        });
+        // One that is not connected, or that has another bit rate, does not compare its bits with those of the others.
+        let alone = |one: &Waiting| !self.line.is_plugged(one.station);
+        let rate = |one: &Waiting| stations[one.station].rate;
+        if let Some(first) = starters.first().copied() {
+            let (together, later): (Vec<Waiting>, Vec<Waiting>) =
+                starters.into_iter().partition(|one| {
+                    one.station == first.station
+                        || !alone(one) && !alone(&first) && rate(one) == rate(&first)
+                });
+            starters = together;
+            for one in later {
+                self.line.medium.again(one, false);
+            }
         }
-        let outcome = self.line.try_once(self.now, &stations, waiting.station);
-        let rate = stations[waiting.station].rate.or(stations[0].rate);
-        self.line
-            .medium
-            .begin(waiting, rate.unwrap_or(500), outcome);
+        let frames: Vec<_> = starters
+            .iter()
+            .map(|one| (one.station, one.frame))
+            .collect();
+        let Some((station, _)) = frames.first() else {
+            return;
+        };
+        let attempt = self.line.try_once(self.now, &stations, &frames);
+        let rate = stations[*station].rate.or(stations[0].rate);
+        let (beaten, senders) = starters
+            .into_iter()
+            .partition(|one| attempt.beaten.contains(&one.station));
+        let ended = Ended {
+            senders,
+            beaten,
+            trouble: attempt.trouble,
+        };
+        let medium = &mut self.line.medium;
+        medium.begin(ended, rate.unwrap_or(500), attempt.bits);
     }
 
-    /// Everybody who can hears a frame that came through, and its sender has room for the next.
-    fn deliver(&mut self, waiting: &Waiting) {
-        if waiting.attempts > 0 {
-            self.report(waiting, true);
+    /// A frame ended: it is delivered, or its controllers send it again.
+    fn end(&mut self, ended: Ended) {
+        if ended.trouble.is_none() {
+            self.deliver(&ended);
         }
-        let (station, frame, now) = (waiting.station, waiting.frame, self.now);
+        let failed = ended
+            .senders
+            .iter()
+            .copied()
+            .filter_map(|one| Some((one, ended.trouble?)));
+        let beaten = ended.beaten.iter().map(|one| (*one, Trouble::SameId));
+        for (mut waiting, trouble) in failed.chain(beaten) {
+            waiting.attempts = waiting.attempts.saturating_add(1);
+            waiting.trouble = Some(trouble);
+            let condition = self.line.controller(waiting.station).condition();
+            self.report(&mut waiting, trouble);
+            if condition != Condition::BusOff {
+                let is_passive = condition == Condition::ErrorPassive;
+                self.line.medium.again(waiting, is_passive);
+            } else if let Some(device) = waiting.station.checked_sub(1) {
+                self.load(device, self.now);
+            }
+        }
+    }
+
+    /// Everybody who can hears a frame that came through, and its senders have room for the next.
+    fn deliver(&mut self, ended: &Ended) {
+        let Some(Waiting { station, frame, .. }) = ended.senders.first().copied() else {
+            return;
+        };
+        let now = self.now;
         let stations = self.stations();
         let sender = station.checked_sub(1);
         if sender.is_none_or(|device| {
@@ -134,7 +197,7 @@ impl Bus {
                 frame,
             });
         }
-        for other in (0..self.devices.len()).filter(|other| Some(*other) != sender) {
+        for other in (0..self.devices.len()).filter(|other| !ended.is_of(other + 1)) {
             let hears = match sender {
                 None => self.hears_outside(other),
                 Some(device) => {
@@ -150,31 +213,31 @@ impl Bus {
                 self.load(other, now.plus_micros(PROCESSING));
             }
         }
-        if let Some(device) = sender {
+        for device in ended
+            .senders
+            .iter()
+            .filter_map(|one| one.station.checked_sub(1))
+        {
             self.load(device, now);
         }
     }
 
-    /// A frame is given up.
-    fn end(&mut self, waiting: &Waiting, delivered: bool) {
-        self.report(waiting, delivered);
-        if let Some(device) = waiting.station.checked_sub(1) {
-            self.load(device, self.now);
-        }
-    }
-
-    fn report(&mut self, waiting: &Waiting, delivered: bool) {
-        let Some(trouble) = waiting.trouble else {
+    /// Reports a failed attempt. While nothing changes from one to the next, one a second is enough.
+    fn report(&mut self, waiting: &mut Waiting, trouble: Trouble) {
+        let controller = self.line.controller(waiting.station);
+        let is_soon = |before: Instant| self.now.micros_since(before) < BETWEEN_REPORTS;
+        if waiting.repeats() && waiting.reported.is_some_and(is_soon) {
             return;
-        };
+        }
+        waiting.reported = Some(self.now);
         self.line.keep(Disturbance {
             at: self.now,
             device: waiting.station.checked_sub(1),
             frame: waiting.frame,
             trouble,
             attempts: waiting.attempts,
-            delivered,
-            bus_off: self.line.controller(waiting.station).condition() == Condition::BusOff,
+            transmit_errors: controller.transmit,
+            bus_off: controller.condition() == Condition::BusOff,
         });
     }
 }

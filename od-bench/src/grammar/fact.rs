@@ -14,6 +14,7 @@ use crate::bus::Bus;
 use crate::device::VirtualDevice;
 use crate::device::leds::Led;
 use crate::device::world::ShaftView;
+use crate::wire::Condition;
 
 /// A condition about a device or the bus line.
 #[derive(Clone, PartialEq, Debug)]
@@ -43,6 +44,15 @@ pub enum Fact {
     Broken(&'static str),
     /// Resistors at the ends of the bus line.
     Terminators(Test),
+    /// Error counter of the CAN controller on a real line: of transmit errors, otherwise of receive errors.
+    ErrorCounter {
+        /// The transmit error counter.
+        transmit: bool,
+        /// Condition for its value.
+        test: Test,
+    },
+    /// Error state of the CAN controller on a real line.
+    Controller(Condition),
 }
 
 /// Whether it holds, and the present value.
@@ -53,8 +63,7 @@ pub(crate) struct Found {
 }
 
 /// The first words of conditions, for messages.
-pub(crate) const NAMES: &str =
-    "value, saved, state, led, node-id, bitrate, turned, rpm, broken, terminators";
+pub(crate) const NAMES: &str = "value, saved, state, led, node-id, bitrate, turned, rpm, broken, terminators, tec, rec, controller";
 
 impl Fact {
     /// Reads a condition; `None` if the line begins with another word.
@@ -82,6 +91,18 @@ impl Fact {
             "rpm" => Self::Rpm(Test::number(tokens)?),
             "broken" => Self::Broken(fault_name(tokens)?),
             "terminators" => Self::Terminators(Test::number(tokens)?),
+            counter @ ("tec" | "rec") => Self::ErrorCounter {
+                transmit: counter == "tec",
+                test: Test::number(tokens)?,
+            },
+            "controller" => Self::Controller(tokens.one_of(
+                "error state",
+                &[
+                    ("error-active", Condition::ErrorActive),
+                    ("error-passive", Condition::ErrorPassive),
+                    ("bus-off", Condition::BusOff),
+                ],
+            )?),
             _ => {
                 *tokens = start;
                 return Ok(None);
@@ -149,6 +170,22 @@ impl Fact {
                 bus.with(device, look).ok_or_else(gone)?
             }
             Self::Terminators(test) => numbers(bus.line.terminators, test),
+            Self::ErrorCounter { .. } | Self::Controller(_) if !bus.line.is_real() => {
+                Err("an ideal bus line has no errors; remove `line ideal`".into())
+            }
+            Self::ErrorCounter { transmit, test } => {
+                let controller = bus.line.controller(device + 1);
+                let counter = if *transmit {
+                    controller.transmit
+                } else {
+                    controller.receive
+                };
+                numbers(counter, test)
+            }
+            Self::Controller(wanted) => {
+                let is = bus.line.controller(device + 1).condition();
+                found(is == *wanted, is.name())
+            }
             _ => self.outside(bus.devices().get(device).ok_or_else(gone)?, now, turns),
         }
     }
@@ -194,7 +231,11 @@ impl Fact {
                 found(broken, if broken { "active" } else { "not active" })
             }
             // Handled above.
-            Self::Value(..) | Self::Saved(..) | Self::Terminators(_) => found(false, ""),
+            Self::Value(..)
+            | Self::Saved(..)
+            | Self::Terminators(_)
+            | Self::ErrorCounter { .. }
+            | Self::Controller(_) => found(false, ""),
         }
     }
 
@@ -236,6 +277,13 @@ impl Fact {
             Self::Rpm(test) => format!("the speed{whose} {is} {} rpm", test.words()),
             Self::Broken(name) => format!("the fault {name}{whose} {is} active"),
             Self::Terminators(test) => format!("the number of terminators is {}", test.words()),
+            Self::ErrorCounter { transmit, test } => {
+                let which = if *transmit { "transmit" } else { "receive" };
+                format!("the {which} error counter{whose} {is} {}", test.words())
+            }
+            Self::Controller(state) => {
+                format!("the CAN controller{whose} {is} {}", state.name())
+            }
         }
     }
 }

@@ -155,7 +155,7 @@ impl Journal {
             return self.apply(&input);
         }
         let mut fresh = Self::new(self.roster);
-        fresh.rig.bus.line.is_real = true;
+        fresh.rig.bus.line.set_real(true);
         let added = fresh.apply(&input);
         if added.node.is_some() {
             fresh.rig.take_client(&mut self.rig);

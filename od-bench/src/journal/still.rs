@@ -110,7 +110,7 @@ impl Journal {
         inputs.extend(rhythms(&past));
         let line = &self.rig.bus.line;
         inputs.push(Input::Line {
-            real: line.is_real,
+            real: line.is_real(),
             terminators: line.terminators,
             rate: Rate(line.bit_rate.map(u32::from)),
         });

@@ -160,7 +160,17 @@ fn state(tokens: &mut Tokens<'_>) -> Result<(What, Option<String>, u64), Problem
             tokens.end()?;
         }
     }
-    let what = if head.take("undisturbed") {
+    let what = if head.take("disturbed") {
+        let mut times = 1;
+        if !head.is_empty() {
+            times = head.number(1, 100_000)? as u32;
+            if !head.take("times") {
+                return Err(head.problem("`times` is missing", "write `disturbed 16 times`"));
+            }
+        }
+        head.end()?;
+        return Ok((What::Disturbed(times), device, lasting));
+    } else if head.take("undisturbed") {
         What::Undisturbed
     } else if head.take("quiet") {
         let head = head.take_rest();
@@ -172,7 +182,7 @@ fn state(tokens: &mut Tokens<'_>) -> Result<(What, Option<String>, u64), Problem
         return Err(start.problem(
             format!("`{}` is not a condition", start.peek()),
             format!(
-                "begin the line with sent, came, seen, quiet, undisturbed, {}",
+                "begin the line with sent, came, seen, quiet, undisturbed, disturbed, {}",
                 fact::NAMES
             ),
         ));

@@ -44,6 +44,8 @@ pub(super) enum What {
     Quiet(Pattern),
     /// No frame is disturbed on the bus line.
     Undisturbed,
+    /// This number of error frames came since the step began.
+    Disturbed(u32),
 }
 
 /// Sender of a frame.
@@ -69,7 +71,8 @@ pub(super) struct Seen {
 impl Line {
     /// Returns whether all alternatives are frames.
     pub(super) fn waits(&self) -> bool {
-        let seen = |one: &Alternative| !one.not && matches!(one.what, What::Seen(_));
+        let seen =
+            |one: &Alternative| !one.not && matches!(one.what, What::Seen(_) | What::Disturbed(_));
         self.alternatives.iter().all(seen)
     }
 
@@ -103,6 +106,8 @@ impl Alternative {
             What::Quiet(one) if self.not => format!("`{one}` comes"),
             What::Quiet(one) => format!("`{one}` no longer comes"),
             What::Undisturbed => "no frame is disturbed on the bus line".into(),
+            What::Disturbed(1) => "an error frame comes".into(),
+            What::Disturbed(times) => format!("{times} error frames come"),
         };
         if self.lasting > 0 {
             text.push_str(&format!(", for {}", duration(self.lasting)));

@@ -7,6 +7,9 @@ use super::quiz::Quiz;
 use crate::grammar::problem::Problem;
 use crate::script::{Bench, Host, Script, Stop, run_on};
 
+/// Longest time until the frames of a set-up are through, in microseconds: a full line always has a frame.
+const ON_ITS_WAY: u64 = 100_000;
+
 /// The content of a lesson.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct Lesson {
@@ -79,9 +82,11 @@ impl Lesson {
     /// Like [`set_up`](Self::set_up).
     pub fn set_up_on(&self, mut bench: Bench, host: &mut dyn Host) -> Result<Bench, Problem> {
         // Lessons use a real line unless they choose otherwise.
-        bench.bus.line.is_real = true;
+        bench.bus.line.set_real(true);
         let script = self.set_up.script().map_err(|mut all| all.remove(0))?;
         run_on(&script, &mut bench, host).map_err(|stop| stopped(&stop))?;
+        let until = bench.bus.now().plus_micros(ON_ITS_WAY);
+        bench.bus.advance_until_quiet(until);
         while bench.bus.poll().is_some() {}
         while bench.bus.line.poll().is_some() {}
         Ok(bench)

@@ -6,13 +6,16 @@ use std::prelude::v1::*;
 
 use od_runtime::{Frame, Instant};
 
-use super::condition::{Alternative, Line, What};
+use super::condition::{Alternative, Line, Seen, What};
 use super::content::{Lesson, Step};
 use crate::bench::Bench;
 use crate::bus::Bus;
 use crate::device::VirtualDevice;
 use crate::grammar::fact::Fact;
 use crate::script::Origin;
+
+/// Longest wait for the last frames of a step, in microseconds: a full line always has a frame.
+const ON_ITS_WAY: u64 = 100_000;
 
 /// A condition of the current step.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -53,6 +56,10 @@ pub struct Progress {
     /// Position of each shaft when the step began.
     turns: Vec<Option<f64>>,
     notes: Vec<Vec<Note>>,
+    /// Time since which all conditions hold.
+    met: Option<Instant>,
+    /// Microseconds by which a frame may come late because the line is not free.
+    late: u64,
     /// Time of a disturbed frame.
     disturbed: Option<Instant>,
     reached: Vec<Instant>,
@@ -75,6 +82,8 @@ impl Progress {
             began: Instant::ZERO,
             turns: Vec::new(),
             notes: Vec::new(),
+            met: None,
+            late: 0,
             disturbed: None,
             reached: Vec::new(),
             news: VecDeque::new(),
@@ -122,6 +131,8 @@ impl Progress {
             self.reached.push(bus.now());
         }
         self.began = bus.now();
+        self.late = bus.longest_wait();
+        self.met = None;
         let turns = |device: &VirtualDevice| device.shaft(bus.now()).map(|shaft| shaft.turns);
         self.turns = bus.devices().iter().map(turns).collect();
         self.forget();
@@ -135,9 +146,19 @@ impl Progress {
         });
     }
 
-    /// Notes a disturbed frame.
+    /// Notes an error frame.
     pub fn disturbed(&mut self, at: Instant) {
         self.disturbed = Some(at);
+        let Some(step) = self.lesson.steps.get(self.step) else {
+            return;
+        };
+        for (line, notes) in step.checkpoint.iter().zip(&mut self.notes) {
+            for (one, note) in line.alternatives.iter().zip(notes) {
+                if let What::Disturbed(times) = one.what {
+                    note.count(at, times, None, 0);
+                }
+            }
+        }
     }
 
     /// Notes a frame.
@@ -181,7 +202,7 @@ impl Progress {
                                 continue;
                             }
                         }
-                        note.count(at, seen.times, seen.every);
+                        note.count(at, seen.times, seen.every, self.late);
                     }
                     What::Quiet(pattern) if pattern.matches(frame) => note.last = Some(at),
                     _ => {}
@@ -213,13 +234,18 @@ impl Progress {
             }
             all &= any;
         }
-        if all {
-            let (done, now) = (self.step, bus.now());
+        // The last frames of a step, such as the response to a download, belong to it.
+        let now = bus.now();
+        let met = self.met.filter(|_| all).unwrap_or(now);
+        self.met = all.then_some(met);
+        let is_complete = !bus.is_busy() || now.micros_since(met) >= ON_ITS_WAY;
+        if all && is_complete {
+            let done = self.step;
             self.news.push_back(done);
             self.reached.push(now);
             self.begin(done + 1, bus);
         }
-        all
+        all && is_complete
     }
 
     /// Returns the conditions of the current step, with their state.
@@ -278,9 +304,11 @@ impl Progress {
 }
 
 impl Note {
-    fn count(&mut self, at: Instant, times: u32, every: Option<(u64, u64)>) {
+    fn count(&mut self, at: Instant, times: u32, every: Option<(u64, u64)>, late: u64) {
         let in_time = match (every, self.last) {
-            (Some((low, high)), Some(last)) => (low..=high).contains(&at.micros_since(last)),
+            (Some((low, high)), Some(last)) => {
+                (low.saturating_sub(late)..=high + late).contains(&at.micros_since(last))
+            }
             _ => true,
         };
         self.count = if in_time {
@@ -328,8 +356,8 @@ fn holds(
     note.looked = true;
     let fact = match &one.what {
         What::Seen(_) if one.not => return (true, String::new()),
-        What::Seen(seen) => {
-            let state = match (note.count, seen.times) {
+        What::Seen(Seen { times, .. }) | What::Disturbed(times) => {
+            let state = match (note.count, *times) {
                 (0, _) | (_, 1) => String::new(),
                 (count, times) => format!("{count} of {times} so far"),
             };

@@ -66,14 +66,18 @@ impl Lesson {
 /// Subject of a condition that no frame shows.
 fn virtual_thing(one: &Alternative) -> Option<&'static str> {
     let What::Fact(fact) = &one.what else {
-        return matches!(one.what, What::Undisturbed).then_some("a step looks at the bus line");
+        let is_line = matches!(one.what, What::Undisturbed | What::Disturbed(_));
+        return is_line.then_some("a step looks at the bus line");
     };
     Some(match fact {
         Fact::Value(..) | Fact::State(Some(_)) | Fact::NodeId(_) => return None,
         Fact::Saved(..) => "a step looks into the EEPROM",
         Fact::State(None) => "a step switches the power",
         Fact::Led { .. } => "a step looks at an LED",
-        Fact::BitRate(_) | Fact::Terminators(_) => "a step looks at the bus line",
+        Fact::BitRate(_)
+        | Fact::Terminators(_)
+        | Fact::ErrorCounter { .. }
+        | Fact::Controller(_) => "a step looks at the bus line",
         Fact::Turned(_) | Fact::Rpm(_) => "a step turns the shaft",
         Fact::Broken(_) => "a step looks at a fault",
     })

@@ -31,6 +31,11 @@ impl Host for Watched<'_> {
         self.host.limits()
     }
 
+    /// A learner sees a response before the next step.
+    fn waits_for_responses(&self) -> bool {
+        true
+    }
+
     fn frame(&mut self, at: Instant, origin: Origin, frame: &Frame) {
         self.host.frame(at, origin, frame);
         self.progress.frame(at, origin, frame);

@@ -48,8 +48,8 @@ pub enum Seen {
         /// The frame.
         frame: Frame,
     },
-    /// A frame that was disturbed, and the transmit error counter of its sender.
-    Disturbed(Disturbance, u16),
+    /// A failed attempt to send a frame.
+    Disturbed(Disturbance),
 }
 
 /// A bus with all that goes on around it.
@@ -201,7 +201,7 @@ impl Rig {
             };
             let due = self.clockwork.due().filter(|due| *due <= to);
             // An observer acts after each frame; a real line may have more to say between two.
-            let frames = if self.is_watched() || self.bus.line.is_real {
+            let frames = if self.is_watched() || self.bus.line.is_real() {
                 1
             } else {
                 full - self.seen.len()
@@ -278,9 +278,7 @@ impl Rig {
     fn settle_line(&mut self) {
         while let Some(one) = self.bus.line.poll() {
             self.lost(one.at);
-            let station = one.device.map_or(0, |device| device + 1);
-            let counter = self.bus.line.controller(station).transmit;
-            self.seen.push(Seen::Disturbed(one, counter));
+            self.seen.push(Seen::Disturbed(one));
         }
     }
 

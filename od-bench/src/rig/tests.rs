@@ -31,7 +31,7 @@ fn run(rig: &mut Rig, micros: u64) {
 fn frames(rig: &mut Rig) -> Vec<String> {
     let text = |seen: Seen| match seen {
         Seen::Frame { frame, .. } | Seen::Heard { frame, .. } => frame.to_string(),
-        Seen::Disturbed(one, _) => format!("lost {}", one.frame),
+        Seen::Disturbed(one) => format!("lost {}", one.frame),
     };
     rig.drain().into_iter().map(text).collect()
 }

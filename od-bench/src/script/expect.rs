@@ -5,7 +5,7 @@ use std::prelude::v1::*;
 
 use od_runtime::Instant;
 
-use super::run::{Result, Runner, failed, impossible};
+use super::run::{ON_ITS_WAY, Result, Runner, failed, impossible};
 use crate::bus::Sent;
 use crate::grammar::action::{Expect, Timing};
 use crate::grammar::fact::Fact;
@@ -14,9 +14,6 @@ use crate::grammar::shown::duration;
 
 /// After a failed expectation the script runs for this time to find the frame that comes next.
 const LOOK_AHEAD: u64 = 10_000_000;
-
-/// Longest wait of an expectation without a time on a line that takes time, in microseconds.
-const ON_ITS_WAY: u64 = 100_000;
 
 impl Runner<'_> {
     pub(super) fn expect(&mut self, expect: &Expect) -> Result<()> {
@@ -68,7 +65,7 @@ impl Runner<'_> {
         let late = self.bench.bus.longest_wait();
         let (until, when, exact) = match timing {
             // If frames take time, a frame that is being sent counts as received.
-            Timing::Now if self.bench.bus.line.is_timed() => {
+            Timing::Now if self.bench.bus.line.is_real() => {
                 (from.plus_micros(ON_ITS_WAY), String::new(), None)
             }
             Timing::Now => (from, String::new(), None),

@@ -44,6 +44,11 @@ pub trait Host {
         None
     }
 
+    /// Returns whether a line of a script is done only when the responses to its frames are through.
+    fn waits_for_responses(&self) -> bool {
+        false
+    }
+
     /// Called for each frame on the bus.
     fn frame(&mut self, at: Instant, origin: Origin, frame: &Frame) {
         let _ = (at, origin, frame);

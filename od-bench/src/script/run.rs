@@ -17,6 +17,9 @@ use crate::grammar::action::{Action, Added, When};
 use crate::grammar::deed::{Deed, Wire};
 use crate::grammar::pattern::Pattern;
 
+/// Longest wait for a frame on a line that takes time, in microseconds, where a script names no time.
+pub(super) const ON_ITS_WAY: u64 = 100_000;
+
 /// Result of a line; an error stops the script.
 pub(super) type Result<T> = core::result::Result<T, Reason>;
 
@@ -81,6 +84,9 @@ pub fn run_on(
             (_, Some(limits)) if runner.is_flooded() => impossible(limits.flood()),
             (result, _) => result,
         };
+        if runner.host.waits_for_responses() {
+            runner.settle();
+        }
         runner.host.look(&mut runner.bench.bus);
         if let Err(reason) = result {
             return Err(Box::new(Stop {
@@ -254,10 +260,27 @@ impl Runner<'_> {
         self.send_out(0);
     }
 
-    /// On a line that takes time, a script line is done when its frame was sent or
-    /// given up. Station 0 is the script.
+    /// On a line that takes time, a script line is done when its frame was sent or lost, or repeats
+    /// without end. Station 0 is the script.
     fn send_out(&mut self, station: usize) {
-        while self.bench.bus.is_sending(station) && self.bench.bus.advance_until_event() {
+        while self.bench.bus.is_sending(station)
+            && !self.bench.bus.is_stuck(station)
+            && self.bench.bus.advance_until_event()
+        {
+            self.collect();
+        }
+    }
+
+    /// Lets time pass until the frames on a real line are through, with their responses; not longer than
+    /// [`ON_ITS_WAY`], because a full line always has a frame.
+    fn settle(&mut self) {
+        let bus = &mut self.bench.bus;
+        let end = bus.now().plus_micros(ON_ITS_WAY);
+        while self.bench.bus.is_busy()
+            && !self.is_flooded()
+            && let Some(at) = self.bench.bus.next_deadline().filter(|at| *at <= end)
+        {
+            self.bench.bus.advance_until_sent(at);
             self.collect();
         }
     }

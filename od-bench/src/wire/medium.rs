@@ -6,8 +6,8 @@ use std::prelude::v1::*;
 
 use od_runtime::{Frame, Instant};
 
-use super::Trouble;
 use super::bits::{self, BEHIND_ACKNOWLEDGE, INTERMISSION, arbitration};
+use super::disturbance::Trouble;
 
 /// Mailboxes of a CAN controller: it sends the frame with the lowest identifier first.
 pub(crate) const MAILBOXES: usize = 3;
@@ -15,12 +15,33 @@ pub(crate) const MAILBOXES: usize = 3;
 const QUEUE: usize = 1000;
 /// Time from a frame to the response of a device, in microseconds.
 pub(crate) const PROCESSING: u64 = 200;
-/// Error flag and its delimiter (ISO 11898-1).
-const ERROR_FRAME: u64 = 6 + 8;
+/// Error flag (ISO 11898-1).
+const FLAG: u64 = 6;
+/// Error flag and its delimiter.
+const ERROR_FRAME: u64 = FLAG + 8;
 /// Bits of a frame that another station destroys, with the flags of both: that station sees no valid
 /// bit times within the identifier.
-const DESTROYED: u64 = 20 + 6 + ERROR_FRAME;
+const DESTROYED: u64 = 20 + FLAG + ERROR_FRAME;
+/// Bits that an error passive controller waits after the intermission before it sends again (ISO 11898-1).
+const SUSPENSION: u64 = 8;
+/// Failed attempts without an acknowledgement until the sender is error passive.
+const UNTIL_PASSIVE: u32 = 16;
 const NANOS: u64 = 1000;
+
+/// Bits of an attempt to send a frame, without the intermission.
+pub(super) fn bits_of(frame: &Frame, trouble: Option<Trouble>) -> u64 {
+    match trouble {
+        None => bits::count(frame),
+        Some(Trouble::NoAcknowledge) => bits::count(frame) - BEHIND_ACKNOWLEDGE + ERROR_FRAME,
+        Some(_) => DESTROYED,
+    }
+}
+
+/// Bits of an attempt that ends with an error in the bit with this number, counted from 0: the error flags of the
+/// stations that see it follow one another.
+pub(super) fn bits_until(place: u64) -> u64 {
+    place + 1 + FLAG + ERROR_FRAME
+}
 
 /// A frame that a station wants to send.
 #[derive(Clone, Copy, Debug)]
@@ -29,18 +50,47 @@ pub(crate) struct Waiting {
     pub(crate) station: usize,
     pub(crate) frame: Frame,
     /// Number of failed attempts, and the reason of the last one.
-    pub(crate) attempts: u16,
+    pub(crate) attempts: u32,
     pub(crate) trouble: Option<Trouble>,
-    ready: Instant,
+    /// Time of the last attempt that was reported.
+    pub(crate) reported: Option<Instant>,
+    /// Time from which it may start, in nanoseconds.
+    ready: u64,
     order: u64,
 }
 
+impl Waiting {
+    /// Returns whether the next attempts change nothing: no station acknowledges the frame, and its sender is error
+    /// passive with a counter of 128.
+    pub(crate) fn repeats(&self) -> bool {
+        self.trouble == Some(Trouble::NoAcknowledge) && self.attempts > UNTIL_PASSIVE
+    }
+}
+
 /// The frame on the wire.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 struct Flight {
-    waiting: Waiting,
     end: u64,
-    outcome: Option<Trouble>,
+    ended: Ended,
+}
+
+/// A frame that ended.
+#[derive(Clone, Debug)]
+pub(crate) struct Ended {
+    /// The senders: one, or several that sent frames with the same identifier at the same moment.
+    pub(crate) senders: Vec<Waiting>,
+    /// Senders that failed while the frame of the others went on.
+    pub(crate) beaten: Vec<Waiting>,
+    /// Reason of the failure; `None`: the frame came through.
+    pub(crate) trouble: Option<Trouble>,
+}
+
+impl Ended {
+    /// Returns whether a station sent the frame, or tried to.
+    pub(crate) fn is_of(&self, station: usize) -> bool {
+        let mut all = self.senders.iter().chain(&self.beaten);
+        all.any(|one| one.station == station)
+    }
 }
 
 /// The line, and the frames that wait for it.
@@ -50,6 +100,8 @@ pub(crate) struct Medium {
     flight: Option<Flight>,
     /// Time from which the next frame may start, in nanoseconds.
     free: u64,
+    /// Duration of a bit of the last frame, in nanoseconds.
+    bit: u64,
     /// Time during which the line was not idle, in nanoseconds.
     busy: u64,
     order: u64,
@@ -57,10 +109,10 @@ pub(crate) struct Medium {
 
 /// An event on the line.
 pub(crate) enum Due {
-    /// This station starts its frame, which has the highest priority of all waiting frames.
-    Start(Waiting),
+    /// These stations start their frames, which have the highest priority of all waiting frames.
+    Start(Vec<Waiting>),
     /// A frame ended, with or without success.
-    End(Waiting, Option<Trouble>),
+    End(Ended),
 }
 
 impl Medium {
@@ -76,7 +128,8 @@ impl Medium {
             frame,
             attempts: 0,
             trouble: None,
-            ready,
+            reported: None,
+            ready: ready.as_micros() * NANOS,
             order: self.order,
         });
         true
@@ -88,7 +141,11 @@ impl Medium {
     }
 
     fn count(&self, station: usize) -> usize {
-        let flies = self.flight.iter().map(|flight| flight.waiting.station);
+        let flies = self.flight.iter().flat_map(|flight| {
+            let ended = &flight.ended;
+            let all = ended.senders.iter().chain(&ended.beaten);
+            all.map(|one| one.station)
+        });
         let waits = self.waiting.iter().map(|waiting| waiting.station);
         flies.chain(waits).filter(|one| *one == station).count()
     }
@@ -96,6 +153,13 @@ impl Medium {
     /// Returns whether a frame of this station waits or is being sent.
     pub(crate) fn holds(&self, station: usize) -> bool {
         self.count(station) > 0
+    }
+
+    /// Returns whether no station acknowledges a frame of this station, which it repeats without end.
+    pub(crate) fn repeats(&self, station: usize) -> bool {
+        let flying = self.flight.iter().flat_map(|flight| &flight.ended.senders);
+        let mut all = self.waiting.iter().chain(flying);
+        all.any(|one| one.station == station && one.repeats())
     }
 
     /// Returns whether this frame of the outside waits.
@@ -106,7 +170,7 @@ impl Medium {
 
     /// Time of the next event.
     pub(crate) fn due(&self) -> Option<Instant> {
-        let nanos = match self.flight {
+        let nanos = match &self.flight {
             Some(flight) => flight.end,
             None => self.waiting.iter().map(|one| self.start(one)).min()?,
         };
@@ -115,7 +179,7 @@ impl Medium {
 
     /// Time at which a frame may start if no other frame does, in nanoseconds.
     fn start(&self, waiting: &Waiting) -> u64 {
-        self.free.max(waiting.ready.as_micros() * NANOS)
+        self.free.max(waiting.ready)
     }
 
     /// Takes the event of a time. The caller returns a frame that starts to
@@ -125,7 +189,7 @@ impl Medium {
             return None;
         }
         if let Some(flight) = self.flight.take() {
-            return Some(Due::End(flight.waiting, flight.outcome));
+            return Some(Due::End(flight.ended));
         }
         // All frames that are ready at the first possible start take part. A program sends its frames in
         // order, so only the oldest of the outside does.
@@ -135,37 +199,42 @@ impl Medium {
         let takes_part = |one: &Waiting| {
             self.start(one) <= first && (one.station != 0 || Some(one.order) == oldest)
         };
-        let place = (0..self.waiting.len())
-            .filter(|place| takes_part(&self.waiting[*place]))
-            .min_by_key(|place| {
-                let one = &self.waiting[*place];
-                (arbitration(&one.frame), one.order)
-            })?;
-        Some(Due::Start(self.waiting.remove(place)))
+        let mut parts: Vec<Waiting> = self.waiting.iter().copied().filter(takes_part).collect();
+        let lowest = parts.iter().map(|one| arbitration(&one.frame)).min()?;
+        parts.retain(|one| arbitration(&one.frame) == lowest);
+        parts.sort_by_key(|one| one.order);
+        // A station sends one frame at a time, its oldest.
+        let mut starters: Vec<Waiting> = Vec::with_capacity(1);
+        for one in parts {
+            if starters.iter().all(|other| other.station != one.station) {
+                starters.push(one);
+            }
+        }
+        let starts = |order| starters.iter().any(|one| one.order == order);
+        self.waiting.retain(|one| !starts(one.order));
+        Some(Due::Start(starters))
     }
 
-    /// Puts the frame on the line at this bit rate in kbit/s; it will end with `outcome`.
-    pub(crate) fn begin(&mut self, waiting: Waiting, kbit: u16, outcome: Option<Trouble>) {
-        let whole = bits::count(&waiting.frame);
-        let count = match outcome {
-            None => whole,
-            Some(Trouble::NoAcknowledge) => whole - BEHIND_ACKNOWLEDGE + ERROR_FRAME,
-            Some(_) => DESTROYED,
-        };
+    /// Puts a frame on the line for this number of bits at this bit rate in kbit/s; it will end with `ended`.
+    pub(crate) fn begin(&mut self, ended: Ended, kbit: u16, bits: u64) {
         let nanos = |count: u64| count * 1_000_000 / u64::from(kbit.max(1));
-        let start = self.start(&waiting);
-        let end = start + nanos(count);
-        self.free = start + nanos(count + INTERMISSION);
+        let starts = ended.senders.iter().map(|one| self.start(one));
+        let start = starts.max().unwrap_or(self.free);
+        self.free = start + nanos(bits + INTERMISSION);
+        self.bit = nanos(1);
         self.busy += self.free - start;
         self.flight = Some(Flight {
-            waiting,
-            end,
-            outcome,
+            end: start + nanos(bits),
+            ended,
         });
     }
 
-    /// Queues a failed frame again: its controller repeats it.
-    pub(crate) fn again(&mut self, waiting: Waiting) {
+    /// Queues a failed frame again: its controller repeats it. An error passive one lets others go first
+    /// (ISO 11898-1, suspend transmission).
+    pub(crate) fn again(&mut self, mut waiting: Waiting, is_passive: bool) {
+        if is_passive {
+            waiting.ready = self.free + SUSPENSION * self.bit;
+        }
         self.waiting.push(waiting);
     }
 
@@ -178,18 +247,21 @@ impl Medium {
     /// Forgets the frames of a station that lost its power.
     pub(crate) fn forget(&mut self, station: usize) {
         self.waiting.retain(|one| one.station != station);
-        if self
-            .flight
-            .is_some_and(|flight| flight.waiting.station == station)
-        {
-            self.flight = None;
+        if let Some(Flight { ended, .. }) = &mut self.flight {
+            ended.senders.retain(|one| one.station != station);
+            ended.beaten.retain(|one| one.station != station);
         }
     }
 
     /// Removes a station; later ones move up.
     pub(crate) fn remove(&mut self, station: usize) {
         self.forget(station);
-        let flying = self.flight.iter_mut().map(|flight| &mut flight.waiting);
+        let flying = self.flight.iter_mut().flat_map(|flight| {
+            let Ended {
+                senders, beaten, ..
+            } = &mut flight.ended;
+            senders.iter_mut().chain(beaten)
+        });
         for one in self.waiting.iter_mut().chain(flying) {
             one.station -= usize::from(one.station > station);
         }

@@ -1,14 +1,15 @@
 //! The bus line: bit rates, terminators, and the error counters of the controllers.
 //!
-//! A [`Bus`](crate::bus::Bus) begins with an ideal line, on which every frame reaches all stations.
-//! A real line treats a frame as CAN does. A station with another bit rate destroys
-//! the frame while it is error active. A frame that no station acknowledges is
-//! repeated. A controller with too many errors goes bus-off. Random events are
-//! drawn from a seed, so the next run repeats them. A timed line also needs the time of each bit of
-//! a frame at the bit rate: one frame at a time, the lowest identifier first.
+//! A [`Bus`](crate::bus::Bus) begins with an ideal line, on which every frame reaches all stations
+//! at once. A real line treats a frame as CAN does: it takes the time of its bits, one frame at a time,
+//! the lowest identifier first. A station with another bit rate destroys the frame while it is error active.
+//! Two stations that send different frames with one identifier at the same moment destroy both. A frame that
+//! no station acknowledges is repeated. A controller with too many errors goes bus-off. Random events are
+//! drawn from a seed, so the next run repeats them.
 
 pub mod bits;
 mod controller;
+mod disturbance;
 mod medium;
 
 use std::collections::VecDeque;
@@ -18,11 +19,9 @@ use od_runtime::{BusEvent, Frame, Instant};
 
 use self::controller::PASSIVE;
 pub use self::controller::{Condition, Controller};
-pub(crate) use self::medium::{Due, Medium, PROCESSING, Waiting};
+pub use self::disturbance::{Disturbance, Trouble};
+pub(crate) use self::medium::{Due, Ended, Medium, PROCESSING, Waiting};
 
-/// Attempts after which a frame without an acknowledgement is given up: the transmit counter
-/// is then at [`PASSIVE`] and would stay there for ever.
-const ATTEMPTS: u16 = 16;
 /// Limit of disturbances that are kept until they are read.
 const KEPT: usize = 1000;
 
@@ -35,43 +34,20 @@ pub struct Station {
     pub rate: Option<u16>,
 }
 
-/// Reason why a frame failed.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub enum Trouble {
-    /// Nobody acknowledged it.
-    NoAcknowledge,
-    /// A station with another bit rate destroyed it.
-    OtherBitRate,
-    /// Reflections on a line without its terminators destroyed it.
-    Reflections,
-}
-
-/// A disturbed frame.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Disturbance {
-    /// Time of the disturbance.
-    pub at: Instant,
-    /// Its sender; `None` for the outside.
-    pub device: Option<usize>,
-    /// The frame.
-    pub frame: Frame,
-    /// Reason of the last failed attempt.
-    pub trouble: Trouble,
-    /// Number of failed attempts.
-    pub attempts: u16,
-    /// Whether it was sent successfully in the end.
-    pub delivered: bool,
-    /// Whether its sender went bus-off.
-    pub bus_off: bool,
+/// The result of an attempt of one or more stations with the same identifier.
+pub(super) struct Attempt {
+    /// Reason of the failure; `None` if the frame will get through.
+    pub(super) trouble: Option<Trouble>,
+    /// Bits until the line is free for the intermission.
+    pub(super) bits: u64,
+    /// Stations whose frame was another one, and that could not stop the frame: they are error passive.
+    pub(super) beaten: Vec<usize>,
 }
 
 /// The line between the stations. Station 0 is the outside, then come the devices.
 #[derive(Clone, Debug)]
 pub struct Line {
-    /// Whether frames can fail.
-    pub is_real: bool,
-    /// Whether a frame takes time; only on a real line.
-    is_timed: bool,
+    is_real: bool,
     pub(crate) medium: Medium,
     /// Terminating resistors of 120 Ω; there should be two.
     pub terminators: u8,
@@ -88,7 +64,6 @@ impl Default for Line {
     fn default() -> Self {
         Self {
             is_real: false,
-            is_timed: false,
             medium: Medium::default(),
             terminators: 2,
             bit_rate: None,
@@ -102,20 +77,20 @@ impl Default for Line {
 }
 
 impl Line {
-    /// Makes the line real, with bit times, or ideal. Frames that wait for the line are lost.
+    /// Makes the line real or ideal. Frames that wait for the line are lost.
     pub fn set_real(&mut self, real: bool) {
-        if self.is_timed != real {
+        if self.is_real != real {
             self.medium.clear();
         }
-        (self.is_real, self.is_timed) = (real, real);
+        self.is_real = real;
     }
 
-    /// Returns whether a frame takes time.
-    pub fn is_timed(&self) -> bool {
-        self.is_real && self.is_timed
+    /// Returns whether frames take time and can fail.
+    pub fn is_real(&self) -> bool {
+        self.is_real
     }
 
-    /// Microseconds during which a timed line was not idle; a frame that is being sent counts completely.
+    /// Microseconds during which a real line was not idle; a frame that is being sent counts completely.
     pub fn busy(&self) -> u64 {
         self.medium.busy()
     }
@@ -207,11 +182,8 @@ impl Line {
             .or_else(|| first().and_then(|station| station.rate))
     }
 
-    /// Returns whether `to` understands frames of `from`.
+    /// Returns whether `to` understands frames of `from` on a real line.
     pub(super) fn hears(&self, stations: &[Station], from: usize, to: usize) -> bool {
-        if !self.is_real {
-            return self.is_plugged(to);
-        }
         let (Some(sender), Some(listener)) = (stations.get(from), stations.get(to)) else {
             return false;
         };
@@ -221,67 +193,18 @@ impl Line {
             && same_rate(sender.rate, listener.rate)
     }
 
-    /// Sends a frame of a station. Returns whether it succeeded.
-    pub(super) fn transmit(
-        &mut self,
-        at: Instant,
-        stations: &[Station],
-        from: usize,
-        frame: &Frame,
-    ) -> bool {
-        if !self.is_real {
-            return self.is_plugged(from);
-        }
-        let before = self.events_of(stations.len());
-        let mut attempts = 0;
-        let mut trouble = None;
-        let delivered = loop {
-            if self.controller(from).condition() == Condition::BusOff || attempts > 4 * ATTEMPTS {
-                break false;
-            }
-            let Some(reason) = self.attempt(stations, from) else {
-                break true;
-            };
-            attempts += 1;
-            trouble = Some(reason);
-            if reason == Trouble::NoAcknowledge && attempts >= ATTEMPTS {
-                break false;
-            }
-        };
-        if let Some(trouble) = trouble {
-            self.keep(Disturbance {
-                at,
-                device: from.checked_sub(1),
-                frame: *frame,
-                trouble,
-                attempts,
-                delivered,
-                bus_off: self.controller(from).condition() == Condition::BusOff,
-            });
-        }
-        self.tell_changes(at, stations, before);
-        delivered
-    }
-
-    /// Makes one attempt of a station on a timed line; `None` if it will succeed.
+    /// Makes one attempt on a real line: the stations that start a frame with the same identifier at this moment,
+    /// at least one.
     pub(super) fn try_once(
         &mut self,
         at: Instant,
         stations: &[Station],
-        from: usize,
-    ) -> Option<Trouble> {
+        starters: &[(usize, Frame)],
+    ) -> Attempt {
         let before = self.events_of(stations.len());
-        let trouble = self.attempt(stations, from);
+        let attempt = self.attempt_of(stations, starters);
         self.tell_changes(at, stations, before);
-        trouble
-    }
-
-    /// Returns whether a frame is given up after a failed attempt.
-    pub(super) fn gives_up(&self, waiting: &Waiting) -> bool {
-        let no_one = waiting.trouble == Some(Trouble::NoAcknowledge);
-        self.controller(waiting.station).condition() == Condition::BusOff
-            || waiting.attempts > 4 * ATTEMPTS
-            || no_one && waiting.attempts >= ATTEMPTS
+        attempt
     }
 
     /// Keeps a disturbance until it is read.
@@ -311,17 +234,69 @@ impl Line {
         }
     }
 
-    /// Makes one attempt; `None` if it succeeds.
-    fn attempt(&mut self, stations: &[Station], from: usize) -> Option<Trouble> {
-        let on_line = |line: &Self, station: usize| {
-            line.is_plugged(station)
-                && stations[station].present
-                && line.controller(station).condition() != Condition::BusOff
+    /// All starters have won the arbitration. The first bit in which their frames differ decides (ISO 11898-1, bit
+    /// monitoring): a station that sends it recessive sees a bit error. Error active, it destroys the frame of
+    /// all; error passive, it cannot, and the others go on.
+    fn attempt_of(&mut self, stations: &[Station], starters: &[(usize, Frame)]) -> Attempt {
+        let (mut left, mut beaten) = (starters.to_vec(), Vec::new());
+        while let Some((place, recessive)) = first_difference(&left) {
+            let active = |(station, _): &(usize, Frame)| {
+                self.controller(*station).condition() == Condition::ErrorActive
+            };
+            if recessive.iter().any(active) {
+                let senders: Vec<usize> = starters.iter().map(|(station, _)| *station).collect();
+                for (station, _) in &left {
+                    self.controllers[*station].erred_sending();
+                }
+                for station in self.listeners(stations, &senders) {
+                    if same_rate(stations[senders[0]].rate, stations[station].rate) {
+                        self.controllers[station].erred_receiving(1);
+                    }
+                }
+                return Attempt {
+                    trouble: Some(Trouble::SameId),
+                    bits: medium::bits_until(place),
+                    beaten,
+                };
+            }
+            for (station, _) in recessive {
+                self.controllers[station].erred_sending();
+                left.retain(|(one, _)| *one != station);
+                beaten.push(station);
+            }
+        }
+        let senders: Vec<usize> = left.iter().map(|(station, _)| *station).collect();
+        let trouble = self.attempt(stations, &senders, &beaten);
+        Attempt {
+            trouble,
+            bits: medium::bits_of(&left[0].1, trouble),
+            beaten,
+        }
+    }
+
+    /// The stations on the line that do not send.
+    fn listeners(&self, stations: &[Station], senders: &[usize]) -> Vec<usize> {
+        let on_line = |station: &usize| {
+            self.is_plugged(*station)
+                && stations[*station].present
+                && self.controller(*station).condition() != Condition::BusOff
         };
-        let rate = stations[from].rate;
-        let others: Vec<usize> = (0..stations.len())
-            .filter(|station| *station != from && self.is_plugged(from) && on_line(self, *station))
-            .collect();
+        (0..stations.len())
+            .filter(|station| !senders.contains(station))
+            .filter(|station| on_line(station) && senders.iter().any(|one| self.is_plugged(*one)))
+            .collect()
+    }
+
+    /// Makes one attempt of stations that send the same frame; `None` if it succeeds.
+    fn attempt(
+        &mut self,
+        stations: &[Station],
+        senders: &[usize],
+        beaten: &[usize],
+    ) -> Option<Trouble> {
+        let rate = stations[senders[0]].rate;
+        let mut others = self.listeners(stations, senders);
+        others.retain(|station| !beaten.contains(station));
         let same = |station: &usize| same_rate(rate, stations[*station].rate);
         let strangers: Vec<usize> = others
             .iter()
@@ -345,24 +320,19 @@ impl Line {
         for station in strangers {
             self.controllers[station].erred_receiving(by);
         }
-        match trouble {
-            None => {
-                self.controllers[from].sent();
-                for station in others.into_iter().filter(same) {
-                    self.controllers[station].received();
-                }
-            }
-            Some(Trouble::NoAcknowledge) => {
+        for sender in senders {
+            let controller = &mut self.controllers[*sender];
+            match trouble {
+                None => controller.sent(),
                 // An error passive sender without an acknowledgement does not count further.
-                if self.controllers[from].transmit < PASSIVE {
-                    self.controllers[from].erred_sending();
-                }
+                Some(Trouble::NoAcknowledge) if controller.transmit >= PASSIVE => {}
+                Some(_) => controller.erred_sending(),
             }
-            Some(_) => {
-                self.controllers[from].erred_sending();
-                for station in others.into_iter().filter(same) {
-                    self.controllers[station].erred_receiving(1);
-                }
+        }
+        for station in others.into_iter().filter(same) {
+            match trouble {
+                None => self.controllers[station].received(),
+                Some(_) => self.controllers[station].erred_receiving(1),
             }
         }
         trouble
@@ -386,6 +356,25 @@ impl Line {
         self.chance ^= self.chance >> 27;
         (self.chance.wrapping_mul(0x2545_F491_4F6C_DD1D) >> 33) % 100 < percent
     }
+}
+
+/// Returns the first bit in which frames with one identifier differ, and the frames whose bit is recessive there.
+fn first_difference(frames: &[(usize, Frame)]) -> Option<(u64, Vec<(usize, Frame)>)> {
+    let (_, first) = frames.first()?;
+    if frames.iter().all(|(_, frame)| frame == first) {
+        return None;
+    }
+    let all: Vec<Vec<bits::Bit>> = frames.iter().map(|(_, frame)| bits::bits(frame)).collect();
+    let place = (0..all[0].len()).find(|place| {
+        let level = |bits: &Vec<bits::Bit>| bits.get(*place).map(|bit| bit.recessive);
+        all.iter().any(|bits| level(bits) != level(&all[0]))
+    })?;
+    let is_recessive = |bits: &Vec<bits::Bit>| bits.get(place).is_none_or(|bit| bit.recessive);
+    let recessive = frames
+        .iter()
+        .zip(&all)
+        .filter(|(_, bits)| is_recessive(bits));
+    Some((place as u64, recessive.map(|(frame, _)| *frame).collect()))
 }
 
 /// A station that adapts has every bit rate.

@@ -1,3 +1,5 @@
+use std::vec;
+
 use super::*;
 
 fn real(terminators: u8) -> Line {
@@ -16,51 +18,93 @@ fn stations(rates: &[u16]) -> Vec<Station> {
     rates.iter().map(station).collect()
 }
 
-fn send(line: &mut Line, stations: &[Station], from: usize) -> bool {
-    line.transmit(Instant::ZERO, stations, from, &Frame::standard(0x80, &[]))
+/// Tries to send a frame up to 100 times; returns the reasons of the failed attempts, and whether it got through.
+fn send(line: &mut Line, stations: &[Station], from: usize) -> (Vec<Trouble>, bool) {
+    let mut failed = Vec::new();
+    while failed.len() < 100 && line.controller(from).condition() != Condition::BusOff {
+        let frame = Frame::standard(0x80, &[]);
+        match line
+            .try_once(Instant::ZERO, stations, &[(from, frame)])
+            .trouble
+        {
+            Some(trouble) => failed.push(trouble),
+            None => return (failed, true),
+        }
+    }
+    (failed, false)
 }
 
 #[test]
 fn equal_rates_and_two_terminators_lose_nothing() {
     let (mut line, stations) = (real(2), stations(&[500, 500, 500]));
-    assert!((0..1000).all(|_| send(&mut line, &stations, 1)));
-    assert_eq!(line.poll(), None);
+    assert!((0..1000).all(|_| send(&mut line, &stations, 1) == (Vec::new(), true)));
     assert!(line.hears(&stations, 1, 2));
 }
 
 #[test]
 fn a_station_with_another_rate_disturbs_until_error_passive_and_goes_bus_off_when_it_sends() {
     let (mut line, stations) = (real(2), stations(&[500, 500, 250]));
-    assert!(send(&mut line, &stations, 0));
-    let first = line.poll().expect("the first frame is disturbed");
-    assert_eq!((first.trouble, first.attempts), (Trouble::OtherBitRate, 16));
+    let first = send(&mut line, &stations, 0);
+    assert_eq!(first, (vec![Trouble::OtherBitRate; 16], true));
     assert_eq!(line.controller(2).condition(), Condition::ErrorPassive);
-    assert!(send(&mut line, &stations, 0));
-    assert_eq!(line.poll(), None);
+    assert_eq!(send(&mut line, &stations, 0), (Vec::new(), true));
     assert!(!line.hears(&stations, 0, 2));
-    while line.controller(2).condition() != Condition::BusOff {
-        assert!(!send(&mut line, &stations, 2));
-    }
+    let (failed, through) = send(&mut line, &stations, 2);
+    assert_eq!((failed.len(), through), (32, false));
     assert_eq!(line.controller(2).condition(), Condition::BusOff);
     line.restart(2);
     assert_eq!(line.controller(2).condition(), Condition::ErrorActive);
 }
 
 #[test]
-fn alone_on_the_line_a_frame_is_given_up_and_nobody_goes_bus_off() {
+fn alone_on_the_line_a_node_repeats_and_is_never_bus_off() {
     let (mut line, stations) = (real(2), stations(&[500, 500]));
     line.set_plugged(0, false);
-    for _ in 0..3 {
-        assert!(!send(&mut line, &stations, 1));
-    }
-    let lost = line.poll().expect("it was disturbed");
-    assert_eq!(
-        (lost.trouble, lost.delivered),
-        (Trouble::NoAcknowledge, false)
-    );
+    let alone = (vec![Trouble::NoAcknowledge; 100], false);
+    assert_eq!(send(&mut line, &stations, 1), alone);
+    assert_eq!(line.controller(1).transmit, 128);
     assert_eq!(line.controller(1).condition(), Condition::ErrorPassive);
     line.set_plugged(0, true);
-    assert!(send(&mut line, &stations, 1));
+    assert_eq!(send(&mut line, &stations, 1), (Vec::new(), true));
+    assert_eq!(line.controller(1).transmit, 127);
+}
+
+#[test]
+fn different_frames_with_one_identifier_destroy_each_other_while_error_active() {
+    let (mut line, stations) = (real(2), stations(&[500, 500, 500]));
+    // The first difference is the fourth bit of byte 1, which is recessive in the second frame.
+    let (low, high) = (
+        Frame::standard(0x581, &[0, 0xE5]),
+        Frame::standard(0x581, &[0, 0xF5]),
+    );
+    let mut both = || line.try_once(Instant::ZERO, &stations, &[(1, low), (2, high)]);
+    for _ in 0..16 {
+        let attempt = both();
+        assert_eq!(
+            (attempt.trouble, attempt.beaten),
+            (Some(Trouble::SameId), vec![])
+        );
+        assert!((44..62).contains(&attempt.bits), "{}", attempt.bits);
+    }
+    // Error passive, the one with the recessive bit cannot stop the other.
+    let attempt = both();
+    assert_eq!((attempt.trouble, attempt.beaten), (None, vec![2]));
+    assert_eq!(line.controller(1).transmit, 127);
+    assert_eq!(line.controller(2).transmit, 136);
+    assert_eq!(line.controller(0).receive, 15);
+}
+
+#[test]
+fn equal_frames_of_one_moment_are_one_frame_and_need_a_third_station_to_acknowledge() {
+    let (mut line, stations) = (real(2), stations(&[500, 500, 500]));
+    let boot_up = Frame::standard(0x701, &[0]);
+    let both = [(1, boot_up), (2, boot_up)];
+    let attempt = line.try_once(Instant::ZERO, &stations, &both);
+    assert_eq!((attempt.trouble, attempt.beaten), (None, vec![]));
+    line.set_plugged(0, false);
+    let attempt = line.try_once(Instant::ZERO, &stations, &both);
+    assert_eq!(attempt.trouble, Some(Trouble::NoAcknowledge));
+    assert_eq!(line.controller(2).transmit, 8);
 }
 
 #[test]
@@ -68,11 +112,12 @@ fn a_missing_terminator_disturbs_fast_lines_and_a_seed_repeats_it() {
     let count = |rate, terminators| {
         let (mut line, stations) = (real(terminators), stations(&[rate, rate]));
         line.set_seed(7);
+        let mut failed = 0;
         for _ in 0..200 {
-            send(&mut line, &stations, 0);
+            failed += send(&mut line, &stations, 0).0.len();
             line.restart(0);
         }
-        core::iter::from_fn(|| line.poll()).count()
+        failed
     };
     assert_eq!(count(50, 1), 0);
     assert!(count(500, 1) > 5);

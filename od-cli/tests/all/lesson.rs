@@ -75,10 +75,10 @@ fn a_lesson_run_reports_open_conditions() {
     let lines = "power on\nsdo write 1017h = 500\nhello\nwait 600ms\n";
     let taken = odkit(&["lesson", "run", &path, "--hints", "2"], lines);
     assert_eq!(taken.code, 1);
-    let expected = "(0.000000) can0 705#00\n\
-                    # step 1 is done at 0.000000 s: Power the encoder and find its first frame\n\
-                    (0.000000) can0 585#6017100000000000\n\
-                    (0.500000) can0 705#7F\n\
+    let expected = "(0.001100) can0 705#00\n\
+                    # step 1 is done at 0.001100 s: Power the encoder and find its first frame\n\
+                    (0.006020) can0 585#6017100000000000\n\
+                    (0.504580) can0 705#7F\n\
                     # step 2 of 5 is open: Configure a heartbeat of 500 ms\n\
                     #   holds    1017h is written over the bus\n\
                     #   holds    1017h Producer heartbeat time is 500\n\

@@ -132,22 +132,40 @@ fn the_load_ends_at_100_percent_and_low_priorities_starve() {
 }
 
 #[test]
-fn a_frame_that_nobody_acknowledges_takes_its_attempts_and_is_given_up() {
+fn a_lone_node_repeats_without_end_and_is_error_passive() {
     let mut bus = bus(500, &[1]);
     bus.line.set_plugged(0, false);
-    assert_eq!(seen(&mut bus, 100_000), []);
-    let lost = bus.line.poll().expect("the boot-up is lost");
-    assert_eq!(
-        (lost.trouble, lost.attempts, lost.delivered),
-        (Trouble::NoAcknowledge, 16, false)
+    assert_eq!(seen(&mut bus, 5_000_000), []);
+    let lost: Vec<_> = core::iter::from_fn(|| bus.line.poll()).collect();
+    assert!(
+        lost.iter()
+            .all(|one| one.trouble == Trouble::NoAcknowledge && !one.bus_off)
     );
+    // Each attempt until error passive is reported, then one a second.
+    let counters: Vec<_> = lost.iter().map(|one| one.transmit_errors).collect();
+    let climb: Vec<u16> = (1..=16).map(|attempt| 8 * attempt).collect();
+    assert_eq!(counters[..16], climb);
+    assert_eq!(counters[16..], [128; 4]);
     // Each: 56 bits but for the 8 behind the acknowledge slot, 14 of an error frame, 3 between.
     let bits = 16 * (56 - 8 + 14 + 3) - 3;
-    assert_eq!(lost.at.as_micros(), 2 * bits);
+    assert_eq!(lost[15].at.as_micros(), 2 * bits);
+    // From then on it also suspends its transmission for 8 bits.
+    let (last, before) = (&lost[19], &lost[15]);
+    let time = last.at.micros_since(before.at);
+    let one = 2 * (56 - 8 + 14 + 3 + 8);
+    assert!(time > 4_000_000, "{time}");
+    assert_eq!(
+        u64::from(last.attempts - before.attempts),
+        time.div_ceil(one)
+    );
+    // Once it has company, the attempt after the present one succeeds, and the frame comes through.
+    bus.line.set_plugged(0, true);
+    assert_eq!(seen(&mut bus, 5_001_000), [(5_000_226, "701#00".into())]);
+    assert_eq!(bus.line.controller(1).transmit, 127);
 }
 
 #[test]
-fn a_disturbed_frame_is_sent_again_until_it_comes_through() {
+fn a_failed_frame_is_sent_again_until_it_comes_through() {
     let mut bus = bus(1000, &[127]);
     bus.line.terminators = 1;
     bus.line.set_seed(1);
@@ -160,14 +178,48 @@ fn a_disturbed_frame_is_sent_again_until_it_comes_through() {
     let lost: Vec<_> = core::iter::from_fn(|| bus.line.poll()).collect();
     assert_eq!(came.len(), 100);
     assert!(
-        lost.len() > 5 && lost.iter().all(|one| one.delivered),
+        lost.len() > 5 && lost.iter().all(|one| !one.bus_off),
         "{lost:?}"
     );
-    // Its own end is the end of the frame that came through.
-    assert!(
-        lost.iter()
-            .all(|one| came.iter().any(|(at, _)| *at == one.at.as_micros()))
+    // The next thing on the line is the same frame again.
+    for one in lost {
+        let next = came.iter().find(|(at, _)| *at > one.at.as_micros());
+        assert_eq!(next.map(|(_, frame)| frame.as_str()), Some("123#00"));
+    }
+}
+
+#[test]
+fn two_nodes_with_one_node_id_answer_in_one_frame_or_destroy_each_other() {
+    let mut bus = bus(500, &[1]);
+    let mut other = VirtualDevice::new(&DEVICES[0], NodeId::ONE).with_serial_number(2);
+    other.set_up_for(Some(500));
+    let other = bus.add(other);
+    bus.start(other);
+    assert_eq!(seen(&mut bus, 10_000).len(), 1, "one boot-up message");
+    send(&mut bus, "601#4000100000000000");
+    let came: Vec<_> = seen(&mut bus, 20_000)
+        .into_iter()
+        .map(|(_, frame)| frame)
+        .collect();
+    assert_eq!(came, ["601#4000100000000000", "581#4300100096010200"]);
+    assert_eq!(bus.line.poll(), None, "equal responses disturb nobody");
+    // The serial number differs.
+    send(&mut bus, "601#4018100400000000");
+    let came: Vec<_> = seen(&mut bus, 100_000)
+        .into_iter()
+        .map(|(_, frame)| frame)
+        .collect();
+    let lost: Vec<_> = core::iter::from_fn(|| bus.line.poll()).collect();
+    assert_eq!(
+        came.len(),
+        3,
+        "both responses, one after the other: {came:?}"
     );
+    assert!(lost.iter().all(|one| one.trouble == Trouble::SameId));
+    let of = |device| lost.iter().filter(|one| one.device == Some(device)).count();
+    // 16 attempts of both, until one of them is error passive and cannot stop the other.
+    assert_eq!((of(0).min(of(1)), of(0).max(of(1))), (16, 17), "{lost:?}");
+    assert!((100..=128).contains(&bus.line.controller(1).transmit));
 }
 
 #[test]

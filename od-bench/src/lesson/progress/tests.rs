@@ -60,7 +60,7 @@ fn conditions_hold_when_they_should() {
         ),
         (
             "came 705#7F 3 times",
-            "sdo write 1017h = 100\nwait 299ms",
+            "sdo write 1017h = 100\nwait 290ms",
             false,
         ),
         ("came read 1017h", "sdo read 1017h", true),
@@ -112,7 +112,7 @@ fn conditions_hold_when_they_should() {
         ("value 1017h in 400..600", "sdo write 1017h = 500", true),
         ("value 1017h > 500", "sdo write 1017h = 500", false),
         ("value 1017h >= 500", "sdo write 1017h = 500", true),
-        ("value 1008h = \"GXMM\"", "", false),
+        ("value 1008h = \"GXMM\"", "wait 0ms", false),
         ("saved 1017h = 500", "sdo write 1017h = 500", false),
         (
             "saved 1017h = 500",
@@ -133,6 +133,12 @@ fn conditions_hold_when_they_should() {
         ("broken battery-low", "fault battery-low on", true),
         ("node-id = 9", "switch node 9\npower cycle", true),
         ("bitrate = 50\nsent sync", "sync", true),
+        (
+            "disturbed 16 times\ntec = 128\ncontroller error-passive",
+            "sdo write 1017h = 100\nline unplug\nwait 500ms",
+            true,
+        ),
+        ("disturbed\nsent sync", "sync", false),
         ("quiet 705#* for 1s\nsent sync", "wait 2s\nsync", true),
         (
             "quiet 705#* for 1s\nsent sync",
@@ -140,15 +146,23 @@ fn conditions_hold_when_they_should() {
             false,
         ),
     ] {
-        // Conditions that already hold at the start.
-        let lines = format!("{lines}\nwait 0ms");
+        // A condition that already holds at the start.
         let expected = holds || checkpoint.starts_with("value 1008h");
         assert_eq!(
-            reaches(checkpoint, &lines),
+            reaches(checkpoint, lines),
             expected,
             "{checkpoint}\n{lines}"
         );
     }
+}
+
+#[test]
+fn a_response_takes_its_time_unless_the_set_up_says_line_ideal() {
+    let checkpoint = "sent 605#40 17 10*\nthen came 585#4B 17 10* within 200us";
+    assert!(!reaches(checkpoint, "sdo read 1017h"));
+    assert!(reaches(checkpoint, "line ideal\nsdo read 1017h"));
+    let (bench, _) = begin(checkpoint);
+    assert!(bench.bus.line.is_real());
 }
 
 #[test]

@@ -14,7 +14,7 @@ export interface Packed {
   remote: boolean;
   /** Sent by the page, not by a device. */
   fromPage: boolean;
-  /** Disturbed on the bus line. The data has: reason, attempts, transmitted, sender went bus-off, its counter. */
+  /** A failed attempt. The data has: reason, sender went bus-off, its transmit error counter (2 bytes), attempts (4). */
   disturbed: boolean;
   /** Number of the device that sent it, from 1; 0 for the page. */
   device: number;

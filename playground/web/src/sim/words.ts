@@ -2,7 +2,7 @@
 // those of older frames are requested from the worker when they become visible.
 
 import { effect, signal } from '@preact/signals-core';
-import { cleared, devices, ring } from '../state';
+import { cleared, devices, lesson, ring } from '../state';
 import { askBus, listen } from './link';
 import { T } from '../texts';
 import { FRAME_BYTES, type Packed } from './packed';
@@ -73,8 +73,11 @@ async function ask(numbers: number[]): Promise<void> {
   wordsArrived.value += 1;
 }
 
-/** What happened to a frame that was disturbed on the bus line. */
+/** What a controller sees of a failed attempt to send a frame. The cause is for the free bench: in a lesson it is the question. */
 export function troubleWords({ data }: Packed): string {
-  const [why = 0, attempts = 0, delivered = 0, busOff = 0] = data;
-  return T.trouble.text(T.trouble.why[why] ?? '', attempts, delivered !== 0, busOff !== 0);
+  const [why = 0, busOff = 0, low = 0, high = 0, ...attempts] = data;
+  if (why === 0) return T.trouble.unknown;
+  const count = attempts.reduce((sum, byte, place) => sum + byte * 256 ** place, 0);
+  const cause = lesson.peek() ? '' : (T.trouble.cause[why] ?? '');
+  return T.trouble.text(T.trouble.seen[why] ?? '', cause, count, low + 256 * high, busOff !== 0);
 }

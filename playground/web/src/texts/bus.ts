@@ -84,10 +84,11 @@ export const bus = {
   },
   plot: 'Plot',
   trouble: {
-    why: ['', 'no node acknowledged it', 'a node with another bit rate destroyed it', 'reflections destroyed it: a terminator is missing'],
-    text: (why: string, attempts: number, delivered: boolean, busOff: boolean) =>
-      `${delivered ? 'Came through after' : 'Lost after'} ${attempts} failed attempt${attempts === 1 ? '' : 's'}: ${why}${busOff ? '; its sender is bus-off now' : ''}`,
-    busOff: 'Lost: its sender is bus-off',
+    unknown: 'Error frame',
+    seen: ['', 'no node acknowledged the frame', 'stuff error', 'bit error', 'bit error'],
+    cause: ['', '', 'a node has another bit rate', 'reflections, check the terminators', 'another node sent other data with this CAN-ID at the same moment'],
+    text: (seen: string, cause: string, attempts: number, errors: number, busOff: boolean) =>
+      `Attempt ${attempts} failed, ${seen}${cause ? ` (${cause})` : ''}; transmit error counter ${errors}${busOff ? '. The sender is bus-off, the frame is lost' : ''}`,
   },
   send: {
     frame: 'Frame',

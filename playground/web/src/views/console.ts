@@ -163,7 +163,7 @@ class BusStatus extends View {
     const line = state.line.peek();
     const { frames, bits } = trace.lately(state.now.peek());
     const rate = line?.rate ?? 500;
-    const load = line?.timed ? state.load.peek() : (bits / (rate * 1000)) * 100;
+    const load = line?.real ? state.load.peek() : (bits / (rate * 1000)) * 100;
     const isFull = load >= FULL;
     const t = T.frames;
     const tone = line?.controller === 'bus-off' ? 'bad' : line?.controller === 'error passive' ? 'amber' : '';
