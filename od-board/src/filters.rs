@@ -25,12 +25,12 @@ impl Filter {
         Self { id, mask }
     }
 
-    /// Whether frames with this CAN-ID, data or remote, pass.
+    /// Returns whether frames with this CAN-ID, data or remote, pass.
     pub const fn accepts(&self, id: CanId) -> bool {
         self.id.is_extended() == id.is_extended() && (self.id.raw() ^ id.raw()) & self.mask == 0
     }
 
-    /// Whether all that passes another one passes this one.
+    /// Returns whether all that passes another one passes this one.
     const fn covers(&self, other: &Self) -> bool {
         self.mask & !other.mask == 0 && self.accepts(other.id)
     }

@@ -18,7 +18,7 @@ pub trait Owner {
     /// Reports a state change or frame loss of the CAN controller.
     fn handle_bus(&mut self, now: Instant, event: BusEvent);
 
-    /// Whether the CAN controller is bus-off, as far as [`handle_bus`](Self::handle_bus) reported it.
+    /// Returns whether the CAN controller is bus-off, as far as [`handle_bus`](Self::handle_bus) reported it.
     fn is_bus_off(&self) -> bool;
 
     /// Returns the next frame to send; `None` when all are out.

@@ -35,7 +35,7 @@ impl Port {
         }
     }
 
-    /// Whether no frame waits here; the node may have others.
+    /// Returns whether no frame waits here; the node may have others.
     pub const fn is_empty(&self) -> bool {
         self.len == 0
     }

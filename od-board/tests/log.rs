@@ -33,7 +33,7 @@ fn logged(value: &impl defmt::Format) -> Vec<u8> {
     bytes[3..].to_vec()
 }
 
-/// Whether these bytes are among those of a value.
+/// Returns whether these bytes are among those of a value.
 fn has(value: &impl defmt::Format, numbers: &[u8]) -> bool {
     let bytes = logged(value);
     bytes.windows(numbers.len()).any(|part| part == numbers)

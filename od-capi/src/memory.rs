@@ -17,7 +17,7 @@ pub(crate) struct Memory {
 }
 
 impl odkit_storage {
-    /// Whether the callbacks that the sizes need are there, and the sizes go together.
+    /// Returns whether the callbacks that the sizes need are there, and the sizes go together.
     pub(crate) fn is_valid(&self) -> bool {
         if self.capacity == 0 {
             return true;

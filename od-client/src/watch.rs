@@ -44,7 +44,7 @@ struct Slot {
     news: News,
 }
 
-/// At most one event of each kind waits, whatever comes from the bus.
+/// At most one event of each kind waits, so a busy bus does not fill memory.
 #[derive(Clone, Copy, Default, Debug)]
 struct News {
     back: bool,

@@ -114,12 +114,12 @@ impl<'a> Dictionary<'a> {
         self.rows.len()
     }
 
-    /// Whether it contains no values.
+    /// Returns whether it contains no values.
     pub const fn is_empty(&self) -> bool {
         self.rows.is_empty()
     }
 
-    /// Whether both are views over the same tables.
+    /// Returns whether both are views over the same tables.
     pub fn is_same(&self, other: &Self) -> bool {
         core::ptr::eq(self.rows, other.rows)
     }
@@ -292,7 +292,7 @@ impl<'a> Entries<'a> {
         self.range.clone().nth(at).map(|at| self.dictionary.at(at))
     }
 
-    /// Whether none is left.
+    /// Returns whether none is left.
     pub fn is_empty(&self) -> bool {
         self.range.is_empty()
     }
@@ -337,7 +337,7 @@ impl Objects<'_> {
         self.clone().count()
     }
 
-    /// Whether none is left.
+    /// Returns whether none is left.
     pub fn is_empty(&self) -> bool {
         self.next >= self.dictionary.len()
     }

@@ -28,7 +28,7 @@ impl Dictionary<'_> {
         }
     }
 
-    /// Whether there is an object at `index`.
+    /// Returns whether there is an object at `index`.
     pub const fn has(&self, index: u16) -> bool {
         let first = self.first(index);
         first < self.len() && self.index_at(first) == index
@@ -60,7 +60,7 @@ impl Dictionary<'_> {
 }
 
 impl Dictionary<'_> {
-    /// Whether an application has to stream one of the values ([`Entry::is_streamed`]).
+    /// Returns whether an application has to stream one of the values ([`Entry::is_streamed`]).
     pub const fn has_streams(&self) -> bool {
         let mut at = 0;
         while at < self.len() {
@@ -119,7 +119,7 @@ impl Row {
 }
 
 impl Entry {
-    /// Whether it is a string or domain without a place in the store, which an application streams.
+    /// Returns whether it is a string or domain without a place in the store, which an application streams.
     pub const fn is_streamed(&self) -> bool {
         self.is_variable() && self.slot.len == 0 && !matches!(self.access, Access::Const)
     }

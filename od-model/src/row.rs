@@ -186,34 +186,34 @@ impl Row {
         Address::new(self.index(), (self.0[0] >> 8) as u8)
     }
 
-    /// Whether a master may read the value.
+    /// Returns whether a master may read the value.
     pub const fn readable(self) -> bool {
         self.0[3] >> 4 & 7 != Access::Wo as u32
     }
 
-    /// Whether a master may write the value.
+    /// Returns whether a master may write the value.
     pub const fn writable(self) -> bool {
         self.has_access(1 << Access::Wo as u32 | 1 << Access::Rw as u32)
             || self.has_access(1 << Access::Rwr as u32 | 1 << Access::Rww as u32)
     }
 
-    /// Whether the access is one of those whose bits are set.
+    /// Returns whether the access is one of those whose bits are set.
     const fn has_access(self, of: u32) -> bool {
         of >> (self.0[3] >> 4 & 7) & 1 != 0
     }
 
-    /// Whether the value is never written.
+    /// Returns whether the value is never written.
     pub const fn is_const(self) -> bool {
         self.has_access(1 << Access::Const as u32)
     }
 
-    /// Whether the value may be mapped into a TPDO, as [`Entry::maps_to_tpdo`].
+    /// Returns whether the value may be mapped into a TPDO, as [`Entry::maps_to_tpdo`].
     pub const fn maps_to_tpdo(self) -> bool {
         self.0[3] & 1 << 7 != 0
             && !self.has_access(1 << Access::Wo as u32 | 1 << Access::Rww as u32)
     }
 
-    /// Whether the value may be mapped into an RPDO, as [`Entry::maps_to_rpdo`].
+    /// Returns whether the value may be mapped into an RPDO, as [`Entry::maps_to_rpdo`].
     pub const fn maps_to_rpdo(self) -> bool {
         let of = 1 << Access::Wo as u32 | 1 << Access::Rw as u32 | 1 << Access::Rww as u32;
         self.0[3] & 1 << 7 != 0 && self.has_access(of)
@@ -229,7 +229,7 @@ impl Row {
         }
     }
 
-    /// Whether the store has the value.
+    /// Returns whether the store has the value.
     pub const fn is_stored(self) -> bool {
         self.0[3] & 1 << 13 != 0
     }
@@ -254,17 +254,17 @@ impl Row {
         size(self.0[0])
     }
 
-    /// Whether the length varies (strings, domains) instead of following from the type.
+    /// Returns whether the length varies (strings, domains) instead of following from the type.
     pub const fn is_variable(self) -> bool {
         size(self.0[0]) == 0
     }
 
-    /// Whether the description gives an integer as the default, also with `$NODEID`.
+    /// Returns whether the description gives an integer as the default, also with `$NODEID`.
     pub const fn has_integer_default(self) -> bool {
         matches!(self.0[0] & 7, 1..=5)
     }
 
-    /// Whether the default is `$NODEID` and a number.
+    /// Returns whether the default is `$NODEID` and a number.
     pub const fn follows_node_id(self) -> bool {
         self.0[0] & 7 == 3
     }

@@ -63,7 +63,7 @@ impl Signals {
     pub(crate) const TICK: u8 = 2;
     /// The operating records are to be saved.
     pub(crate) const KEEP: u8 = 4;
-    /// A TIME message is to be sent.
+    /// The application requests a TIME message.
     pub(crate) const SEND_TIME: u8 = 8;
 
     /// No requests, and room for 32 errors.
@@ -83,13 +83,13 @@ impl<Q> Signals<Q> {
 }
 
 impl<Q: ?Sized> Signals<Q> {
-    /// Whether there is nothing to carry out.
+    /// Returns whether there is nothing to carry out.
     #[inline]
     pub(crate) const fn is_idle(&self) -> bool {
         self.errors.is_empty() && self.requests == 0
     }
 
-    /// Whether there is a request of this kind, which is carried out then.
+    /// Returns whether there is a request of this kind, which is carried out then.
     pub(crate) fn take(&mut self, request: u8) -> bool {
         let found = self.requests & request != 0;
         self.requests &= !request;

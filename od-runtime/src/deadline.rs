@@ -28,12 +28,12 @@ impl Deadline {
         at.map_or(Self::NEVER, Self::at)
     }
 
-    /// Whether something will be due.
+    /// Returns whether something will be due.
     pub(crate) const fn is_set(self) -> bool {
         self.0 != 0
     }
 
-    /// Whether it is due by now.
+    /// Returns whether it is due by now.
     pub(crate) const fn is_due(self, now: Instant) -> bool {
         is_due(self.0, now.as_micros())
     }

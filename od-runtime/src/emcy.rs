@@ -144,7 +144,7 @@ impl Producer<'_> {
         }
     }
 
-    /// Whether an error with this code and these bits of 1001h lasts.
+    /// Returns whether an error with this code and these bits of 1001h lasts.
     pub(crate) fn is_active(&self, error: Emcy) -> bool {
         self.position(error.code, Some(error.register)).is_some()
     }

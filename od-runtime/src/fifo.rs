@@ -5,7 +5,7 @@ use crate::blank::Blank;
 /// First in, first out, as many as `items` has room for. When full, the newest is not taken: what
 /// happened first explains the rest.
 ///
-/// Its functions are those of `Fifo<[T]>`, so that they exist once, whatever the room.
+/// The functions are those of `Fifo<[T]>`, so that they exist once for all lengths.
 #[derive(Clone, Copy, Debug)]
 pub struct Fifo<Q: ?Sized> {
     span: Span,
@@ -76,7 +76,7 @@ impl<Q: ?Sized> Fifo<Q> {
 }
 
 impl<T: Copy> Fifo<[T]> {
-    /// Answers whether there was room.
+    /// Returns whether there was room.
     pub(crate) fn push(&mut self, item: T) -> bool {
         let place = self.span.push(self.items.len());
         if let Some(place) = place

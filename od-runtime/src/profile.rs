@@ -70,7 +70,7 @@ pub enum EventTimer {
     /// With each transmission: the PDO is sent when the time has elapsed without an event (CiA 301, chapter
     /// 7.2.2.3).
     SinceTransmission,
-    /// Never: the PDO is sent on a fixed grid, whatever else sends it.
+    /// Never: the PDO is sent on a fixed grid, also when something else sent it in between.
     Cyclic,
 }
 
@@ -98,7 +98,7 @@ pub enum SaveAnswer {
 pub enum CutSave {
     /// The last complete set.
     LastSet,
-    /// The factory values, whatever was saved before. The operating records stay.
+    /// The factory values replace all saved ones. The operating records stay.
     Factory,
 }
 
@@ -205,7 +205,7 @@ impl LssProfile {
         second_delay: true,
     };
 
-    /// Whether the image keeps node ID and bit rate, and not an object each.
+    /// Returns whether the image keeps node ID and bit rate, and not an object each.
     pub const fn is_own(&self) -> bool {
         self.node_id.index == 0
     }

@@ -17,7 +17,7 @@ const DATA: u16 = 0x1F50;
 const CONTROL: u16 = 0x1F51;
 /// Program software identification: the CRC of the program; 0 without one.
 const IDENTIFICATION: u16 = 0x1F56;
-/// Flash status identification: bit 0 while data is on its way, bits 1 to 7 the last fault.
+/// Flash status identification: bit 0 while data is being written, bits 1 to 7 the last fault.
 const STATUS: u16 = 0x1F57;
 
 /// Codes of bits 1 to 7 of 1F57h.
@@ -51,7 +51,7 @@ pub trait ProgramMemory {
     /// Bytes of the longest program.
     fn size(&self) -> u32;
 
-    /// Whether the memory can take the next command.
+    /// Returns whether the memory can take the next command.
     ///
     /// # Errors
     /// It is busy until then; the master is kept waiting.
@@ -103,7 +103,7 @@ pub struct Loader<M, const PAGE: usize> {
     number: u8,
     page: [u8; PAGE],
     filled: usize,
-    /// Bytes that the memory has of a program on its way.
+    /// Bytes of the program that were received so far.
     written: u32,
     crc: Crc32,
     is_loading: bool,
@@ -135,7 +135,7 @@ impl<M: ProgramMemory, const PAGE: usize> Loader<M, PAGE> {
         self.program
     }
 
-    /// Whether a master started the program, and did not stop it since.
+    /// Returns whether a master started the program, and did not stop it since.
     pub const fn is_running(&self) -> bool {
         self.is_running
     }

@@ -70,7 +70,7 @@ pub trait Services: Sized {
     };
 }
 
-/// Whether a device may have a value whose index is one of these, and whose sub-index is this one if it is
+/// Returns whether a device may have a value whose index is one of these, and whose sub-index is this one if it is
 /// named. To be asked at compile time.
 pub(crate) const fn may_have<D: Services>(first: u16, last: u16, sub: Option<u8>) -> bool {
     let Some(dictionary) = &D::DICTIONARY else {

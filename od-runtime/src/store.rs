@@ -121,7 +121,7 @@ impl<'a> Store<'a> {
         row.is_some_and(|row| self.has_default(row))
     }
 
-    /// Whether the value is its default.
+    /// Returns whether the value is its default.
     pub(crate) fn has_default(&self, row: &Row) -> bool {
         let (mut a, mut b) = ([0; 8], [0; 8]);
         let default = match varying(self.dictionary, row) {
@@ -304,7 +304,7 @@ impl<'a> Store<'a> {
         number_in(default.get(..row.size()).unwrap_or_default())
     }
 
-    /// Whether the value of a number is its default, which the node ID is part of.
+    /// Returns whether the value of a number is its default, which the node ID is part of.
     pub(crate) fn follows_node_id(&self, row: &Row) -> bool {
         row.follows_node_id() && self.number_of(row) == self.default_number(row)
     }

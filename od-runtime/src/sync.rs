@@ -114,7 +114,7 @@ impl Length {
     }
 }
 
-/// Whether 1019h can have the value; 1 and 241 to 255 are reserved.
+/// Returns whether 1019h can have the value; 1 and 241 to 255 are reserved.
 pub(crate) const fn is_overflow(value: u8) -> bool {
     matches!(value, 0 | 2..=240)
 }

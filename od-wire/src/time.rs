@@ -8,7 +8,7 @@ pub use core::time::Duration;
 /// A moment, in microseconds since an origin of the caller's choice (power-on, say).
 ///
 /// Nothing below the host reads a clock; a moment comes in as an argument.
-// Packed: whatever has a moment would have gaps of four bytes on a microcontroller otherwise.
+// Packed: without it, every struct with a moment has gaps of four bytes on a microcontroller.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
 #[repr(Rust, packed(4))]
 pub struct Instant(u64);

@@ -55,7 +55,7 @@ impl<const N: usize, const V: usize> Newest<'_, N, V> {
         });
     }
 
-    /// Whether a set is the newest one, or one before it, which need not be compared.
+    /// Returns whether a set is the newest one, or one before it, which need not be compared.
     fn is(&self, stored: &[u8]) -> bool {
         let (mut at, mut is_same) = (0, true);
         // Each lock is short.

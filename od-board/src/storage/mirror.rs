@@ -141,7 +141,7 @@ impl<const N: usize, const V: usize> Mirror<N, V> {
         };
     }
 
-    /// Something is to be kept.
+    /// Returns whether something waits to be kept.
     fn change(&mut self) {
         self.changes = self.changes.wrapping_add(1);
         if let Some(waker) = self.waker.take() {

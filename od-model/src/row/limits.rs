@@ -3,7 +3,7 @@
 use super::{RANGE, Row, bits, number, word, words};
 
 impl Row {
-    /// Whether the value has limits besides those of its type.
+    /// Returns whether the value has limits besides those of its type.
     pub const fn has_limits(self) -> bool {
         self.0[3] >> 14 != 0
     }

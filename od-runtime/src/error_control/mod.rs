@@ -20,7 +20,7 @@ use crate::store::Store;
 use od_wire::Instant;
 use od_wire::nmt::State;
 
-/// Whether node guarding is active instead of heartbeat.
+/// Returns whether node guarding is active instead of heartbeat.
 ///
 /// CiA 301: guarding while 1017h is 0. A family may have a switch for it instead, which
 /// leaves nothing of the heartbeat, neither producer nor consumer.
@@ -31,7 +31,7 @@ pub(crate) fn guards<D: Services>(store: &Store<'_>, profile: &Profile) -> bool 
     }
 }
 
-/// Whether the object at this index configures the monitor.
+/// Returns whether the object at this index configures the monitor.
 pub(crate) fn is_configuration(index: u16, profile: &Profile) -> bool {
     matches!(index, 0x100C | 0x100D | 0x1016 | 0x1017)
         || profile

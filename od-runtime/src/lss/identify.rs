@@ -11,9 +11,9 @@ impl Sequence {
         Self { next: 0 }
     }
 
-    /// Answers whether this step, the `last` one, completes the sequence.
+    /// Returns whether this step, the `last` one, completes the sequence.
     pub(super) fn step(&mut self, step: u8, last: u8, matches: bool) -> bool {
-        // Step 0 restarts, whatever came before.
+        // Step 0 restarts the scan.
         let in_order = step == 0 || step == self.next;
         self.next = if in_order && matches { step + 1 } else { 0 };
         let complete = self.next > last;
@@ -33,7 +33,7 @@ pub(super) const fn part(step: u8) -> u8 {
     }
 }
 
-/// Whether this slave's number is what a step of identify remote slave asks for.
+/// Returns whether this slave's number is what a step of identify remote slave asks for.
 pub(super) const fn in_range(step: u8, value: u32, own: u32) -> bool {
     match step {
         0 | 1 => own == value,

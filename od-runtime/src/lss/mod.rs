@@ -72,7 +72,7 @@ impl Slave {
         };
     }
 
-    /// Whether a slave that is not configured has a node ID to start with: 11h gave it one, and it
+    /// Returns whether a slave that is not configured has a node ID to start with: 11h gave it one, and it
     /// is back in the waiting state (CiA 305, chapter 6.3.2).
     pub(crate) fn is_ready(&self) -> bool {
         !self.configuration && self.node_id.is_some_and(|id| id != UNCONFIGURED)
@@ -119,7 +119,7 @@ impl Slave {
                 part,
                 next,
             } if profile.fastscan && (active == UNCONFIGURED || !profile.is_own()) => {
-                // Who is being configured was found already (CiA 305, chapter 6.7).
+                // The node that is being configured was found already (CiA 305, chapter 6.7).
                 if self.configuration {
                     return Action::Answer(None);
                 }

@@ -40,7 +40,7 @@ impl<D: Device> Machines<D> {
         let send_time = if D::TIME { 0 } else { Signals::SEND_TIME };
         let keep = if D::STORAGE { 0 } else { Signals::KEEP };
         if const { !(D::TIME && D::STORAGE) } {
-            // Nobody carries these out.
+            // The device lacks these services.
             objects.outbox.signals.take(send_time | keep);
         }
         if D::TIME && objects.outbox.signals.take(Signals::SEND_TIME) {
@@ -94,7 +94,7 @@ impl<D: Device> Machines<D> {
     }
 }
 
-/// Whether it is the object that switches from heartbeat to node guarding.
+/// Returns whether it is the object that switches from heartbeat to node guarding.
 fn switches<D: Device>(objects: &Objects<'_, D>, index: u16) -> bool {
     objects
         .profile
@@ -102,7 +102,7 @@ fn switches<D: Device>(objects: &Objects<'_, D>, index: u16) -> bool {
         .is_some_and(|(switch, _)| switch == index)
 }
 
-/// Whether it is an object that configures SYNC, EMCY, TIME, a PDO or a further SDO server.
+/// Returns whether it is an object that configures SYNC, EMCY, TIME, a PDO or a further SDO server.
 fn is_configuration<D: Device>(objects: &Objects<'_, D>, index: u16) -> bool {
     let repeat = objects.profile.pdo.repeat_counter;
     let sync_only = objects.profile.pdo.sync_only;

@@ -34,7 +34,7 @@ impl Notice {
 }
 
 impl<D: Device> Machines<D> {
-    /// Takes over what the monitor has to say.
+    /// Acts when the monitor lost a node, or has all of them back.
     pub(super) fn poll_monitor(&mut self, objects: &mut Objects<'_, D>) {
         if (D::GUARDING || D::CONSUMER)
             && let Some(lost) = self.monitor().poll()

@@ -237,7 +237,7 @@ impl<D: Device, A: Application, S: Storage> Node<D, A, S> {
     /// The top of every call: the machines of the services, and the objects that they work on. `None` without
     /// power.
     ///
-    /// Time does not run backwards here, whatever the host's clock says.
+    /// A moment before the last one counts as the last one: time does not run backwards here.
     fn call<R>(
         &mut self,
         now: Instant,

@@ -66,7 +66,7 @@ impl<D: Device> Machines<D> {
         }
     }
 
-    /// COB-IDs that were assigned dynamically (bit 30) are not kept, whatever was saved.
+    /// COB-IDs that were assigned dynamically (bit 30) become their defaults again, also saved ones.
     pub(super) fn forget_dynamic(objects: &mut Objects<'_, D>) {
         if !D::SERVERS {
             return;

@@ -26,7 +26,7 @@ pub(super) fn command(address: Address) -> Option<[u8; 4]> {
     }
 }
 
-/// Whether it is the number of objects that a PDO maps.
+/// Returns whether it is the number of objects that a PDO maps.
 pub(super) const fn is_mapping_count(address: Address) -> bool {
     matches!(address.index, 0x1600..=0x17FF | 0x1A00..=0x1BFF) && address.sub == 0
 }
@@ -68,7 +68,7 @@ pub(super) fn check<D: Services>(
         (0x1019, 0) => {
             if const { may_have::<D>(0x1019, 0x1019, None) } {
                 allow(sync::is_overflow(value as u8))?;
-                // SYNC may be on its way (chapter 7.5.2.22).
+                // a SYNC may be in transmission (chapter 7.5.2.22).
                 if store.unsigned(0x1006, 0) != 0 {
                     return Err(AbortCode::DeviceState);
                 }
@@ -137,23 +137,23 @@ fn check_mapping(
 const PRODUCER: u32 = 1 << 30;
 const CONSUMER: u32 = 1 << 31;
 
-/// Whether the device can produce SYNC: it has the period, too.
+/// Returns whether the device can produce SYNC: it has the period, too.
 fn produces_sync<D: Services>(store: &Store<'_>) -> bool {
     D::SYNC_PRODUCER && store.try_word(0x1006, 0).is_some()
 }
 
-/// Whether the mapping of a PDO may change.
+/// Returns whether the mapping of a PDO may change.
 const fn can_map<D: Services>() -> bool {
     may_change::<D>(0x1600, 0x17FF) || may_change::<D>(0x1A00, 0x1BFF)
 }
 
-/// Whether one of these bits is set and stays set, and the CAN-ID would change.
+/// Returns whether one of these bits is set and stays set, and the CAN-ID would change.
 fn is_in_use(store: &Store<'_>, index: u16, new: u32, bits: u32) -> bool {
     let old = store.word(index, 0, 0);
     old & bits != 0 && new & bits != 0 && (old ^ new) & 0x3FFF_FFFF != 0
 }
 
-/// Whether another sub-index of 1016h than `sub` has a time for the node of `value`, which has one.
+/// Returns whether another sub-index of 1016h than `sub` has a time for the node of `value`, which has one.
 fn is_watched_elsewhere(store: &Store<'_>, sub: u8, value: u32) -> bool {
     let (node, time) = (value >> 16 & 0xFF, value & 0xFFFF);
     let mut others = (1..0x80).filter(|other| *other != sub);
@@ -185,7 +185,7 @@ fn check_cob_id(
     Ok(())
 }
 
-/// Whether the PDO of a communication parameter exists (bit 31 of its COB-ID clear).
+/// Returns whether the PDO of a communication parameter exists (bit 31 of its COB-ID clear).
 fn is_valid(store: &Store<'_>, parameter: u16) -> bool {
     CobId::new(store.word(parameter, 1, 1 << 31)).is_valid()
 }

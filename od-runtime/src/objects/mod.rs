@@ -61,7 +61,7 @@ impl<'c, D: Services> Objects<'c, D> {
         None => true,
     };
 
-    /// Whether one of these bits of an object is set.
+    /// Returns whether one of these bits of an object is set.
     pub(crate) fn has_bits(&self, (index, bits): (u16, u32)) -> bool {
         self.store.word(index, 0, 0) & bits != 0
     }
@@ -104,7 +104,7 @@ impl<'c, D: Services> Objects<'c, D> {
         Ok(self.store.value(row, number))
     }
 
-    /// Whether a value that is not plain (a number in the store) can be read from the store.
+    /// Returns whether a value that is not plain (a number in the store) can be read from the store.
     fn check_special(&mut self, row: &Row) -> Result<(), Unread> {
         if !row.readable() {
             return Err(Unread::Abort(AbortCode::WriteOnly));
@@ -115,7 +115,7 @@ impl<'c, D: Services> Objects<'c, D> {
         Ok(())
     }
 
-    /// Whether the application streams the value.
+    /// Returns whether the application streams the value.
     pub(crate) fn streams(&mut self, row: &Row) -> bool {
         D::STREAMS && row.is_variable() && self.application.stream(row.address()).is_some()
     }
@@ -147,7 +147,7 @@ impl<'c, D: Services> Objects<'c, D> {
         self.outbox.live = live.fold(0, |bits, row| bits | live_bit(row.address()));
     }
 
-    /// Whether the application may have to bring a value up to date.
+    /// Returns whether the application may have to bring a value up to date.
     pub(crate) fn is_live(&self, address: Address) -> bool {
         self.outbox.is_live(address)
     }

@@ -82,7 +82,7 @@ impl Outbox {
 }
 
 impl<Q: ?Sized> Outbox<Q> {
-    /// Whether the application may have to bring the value at an address up to date.
+    /// Returns whether the application may have to bring the value at an address up to date.
     pub(crate) const fn is_live(&self, address: Address) -> bool {
         is_live(self.live, address)
     }

@@ -81,7 +81,7 @@ impl<D: Services> Objects<'_, D> {
         Ok(())
     }
 
-    /// Whether there is something to [carry out](Self::carry_out).
+    /// Returns whether there is something to [carry out](Self::carry_out).
     pub(crate) fn is_commanded(&self) -> bool {
         let saving = self.saving.as_ref();
         D::STORAGE && saving.is_some_and(|saving| saving.command != Command::None)
@@ -251,7 +251,7 @@ impl<D: Services> Objects<'_, D> {
         Some(done)
     }
 
-    /// All is written, and on its way to the memory that keeps it.
+    /// All is written to RAM, and the memory that keeps it has not confirmed it yet.
     fn await_memory(&mut self, sub: u8) {
         if let Some(saving) = &mut self.saving {
             saving.sub = sub;
@@ -265,7 +265,7 @@ impl<D: Services> Objects<'_, D> {
         }
     }
 
-    /// Whether a save goes on.
+    /// Returns whether a save goes on.
     fn is_saving(&self) -> bool {
         let saving = self.saving.as_ref().filter(|_| D::STORAGE);
         saving.is_some_and(|saving| saving.due.is_set())

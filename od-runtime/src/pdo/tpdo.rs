@@ -22,7 +22,7 @@ mod kind {
 enum Validity {
     /// Never.
     Off,
-    /// Never, whatever bit 31 says: no service may have the CAN-ID, or another one sends by it.
+    /// Never, although bit 31 says so: no service may have the CAN-ID, or another service sends with it.
     Refused,
     On,
     /// A remote frame requests it, too.
@@ -193,7 +193,7 @@ impl Tpdo {
         }
     }
 
-    /// Operational begins: a family that sends changes says first what there is to change.
+    /// Operational begins: a family that sends changes sends the first values at once.
     pub(crate) fn announce<D: Services>(&mut self, objects: &Objects<'_, D>) {
         let sends_changes = objects.profile.pdo.event_on_change;
         self.pending |= sends_changes && self.is_valid() && self.is_event_driven();
@@ -328,7 +328,7 @@ impl Tpdo {
         }
     }
 
-    /// The frame, with the current values. It is to be [ready](Self::is_ready).
+    /// The frame, with the current values. Call it when the TPDO [is ready](Self::is_ready).
     pub(crate) fn send<D: Services>(
         &mut self,
         objects: &mut Objects<'_, D>,

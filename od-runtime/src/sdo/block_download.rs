@@ -44,7 +44,7 @@ impl BlockDownload {
         self.block_size
     }
 
-    /// Whether the next frame is a segment.
+    /// Returns whether the next frame is a segment.
     pub(super) const fn wants_segments(&self) -> bool {
         !self.last
     }

@@ -62,7 +62,7 @@ impl BlockUpload {
         self.len
     }
 
-    /// Whether only the client's end is missing.
+    /// Returns whether only the client's end is missing.
     pub(super) fn is_complete(&self) -> bool {
         self.phase == Phase::Complete
     }

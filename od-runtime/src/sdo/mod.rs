@@ -85,7 +85,7 @@ impl State {
         late: Late::BLANK,
     };
 
-    /// Returns whether the next frame is data, whatever it looks like, or waits.
+    /// Returns whether the next frame is a segment (also if it looks like a request), or has to wait.
     fn takes_anything(&self) -> bool {
         self.late.is_awaited()
             || matches!(&self.transfer, Transfer::BlockDownload(block) if block.wants_segments())
@@ -175,7 +175,7 @@ impl SdoServer {
         self.state = State::IDLE;
     }
 
-    /// Returns whether the next frame is data, whatever it looks like, or waits.
+    /// Returns whether the next frame is a segment (also if it looks like a request), or has to wait.
     pub(crate) fn takes_anything(&self) -> bool {
         self.state.takes_anything()
     }
@@ -256,7 +256,7 @@ impl<'s, D: Services> Server<'s, D> {
         }
     }
 
-    /// Forgets everything without a word to the client, as a change of the NMT state does.
+    /// Ends the transfer without an abort message to the client, as a change of the NMT state does.
     pub(crate) fn cut(&mut self, objects: &mut Objects<'_, D>) {
         self.close(objects, StreamEnd::Cut);
         *self.state = State::IDLE;

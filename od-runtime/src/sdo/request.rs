@@ -181,7 +181,7 @@ impl<D: Services> Server<'_, D> {
         Ok(Some(Response::InitiateDownload { address }.emit_to(data)))
     }
 
-    /// A value is to be written, if it may be, and there is room for it.
+    /// Begins a download, if the value may be written and the buffer has room for it.
     fn open_download(
         &mut self,
         objects: &mut Objects<'_, D>,
@@ -208,7 +208,7 @@ impl<D: Services> Server<'_, D> {
         }
     }
 
-    /// A value is to be read, in blocks. Returns its length.
+    /// Begins a block upload. Returns the length of the value in bytes.
     fn open_upload(&mut self, objects: &mut Objects<'_, D>) -> Result<usize, Stop> {
         let mut number = [0; 8];
         match objects.read(self.state.address, &mut number) {

@@ -32,7 +32,7 @@ impl Upload {
         self.len
     }
 
-    /// Whether the last segment has been sent.
+    /// Returns whether the last segment has been sent.
     pub(super) const fn is_over(&self) -> bool {
         self.sent == self.len
     }

@@ -1,4 +1,4 @@
-//! Values that the application streams: the buffer has the part that is on its way.
+//! Values that the application streams: the buffer holds one part of the value at a time.
 
 use od_wire::AbortCode;
 use od_wire::sdo::Response;
@@ -14,7 +14,7 @@ use crate::objects::Objects;
 use crate::services::Services;
 
 impl<D: Services> Server<'_, D> {
-    /// Whether the application streams the value of the transfer.
+    /// Returns whether the application streams the value of the transfer.
     pub(super) fn streams(&self) -> bool {
         D::STREAMS && self.state.is_streaming
     }

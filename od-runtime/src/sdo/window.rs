@@ -1,4 +1,4 @@
-//! The server's buffer: all of a value, or the part of a streamed one that is on its way.
+//! The server's buffer: it holds a whole value, or one part of a streamed value.
 
 use crate::number::copy;
 use od_wire::AbortCode;

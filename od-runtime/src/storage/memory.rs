@@ -36,7 +36,7 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>> Memory<B> {
         }
     }
 
-    /// Power goes when `bytes` more bytes are written and one more is to be.
+    /// Power fails at the first byte after `bytes` more bytes.
     pub fn cut_after(&mut self, bytes: usize) {
         self.left = Some(bytes);
     }

@@ -123,7 +123,7 @@ pub trait Storage {
         false
     }
 
-    /// Whether written bytes are on their way to the memory that keeps them, where somebody else does
+    /// Returns whether written bytes are on their way to the memory that keeps them, where somebody else does
     /// that in the background. The node answers 1010h and 1011h when they have arrived, and asks
     /// [`flush`](Self::flush) then whether all went well.
     fn is_writing(&mut self) -> bool {

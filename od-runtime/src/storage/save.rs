@@ -24,7 +24,7 @@ impl Save<'_> {
         !self.restores && self.sub != 0
     }
 
-    /// Whether these are values of this [device](super::image::device), laid out by this dictionary.
+    /// Returns whether these are values of this [device](super::image::device), laid out by this dictionary.
     pub fn is_of(&self, device: u32, dictionary: &Dictionary<'_>) -> bool {
         let own = self.store.dictionary();
         self.device == device

@@ -66,7 +66,7 @@ pub(super) fn value_frame(
     )
 }
 
-/// Whether the sender can make or check a CRC, and the size that it indicates, of a block transfer.
+/// Returns whether the sender can make or check a CRC, and the size that it indicates, of a block transfer.
 pub(super) const fn block(data: &[u8; 8]) -> (bool, Option<u32>) {
     let size = if data[0] & 2 != 0 {
         Some(number(data))
@@ -76,7 +76,7 @@ pub(super) const fn block(data: &[u8; 8]) -> (bool, Option<u32>) {
     (wants_crc(data), size)
 }
 
-/// Whether the sender of a frame that begins a block transfer can make or check a CRC.
+/// Returns whether the sender of a frame that begins a block transfer can make or check a CRC.
 pub const fn wants_crc(data: &[u8; 8]) -> bool {
     data[0] & 4 != 0
 }

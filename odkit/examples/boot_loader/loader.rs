@@ -101,7 +101,7 @@ impl BootLoader {
         self.loader.program()
     }
 
-    /// Whether it was started.
+    /// Returns whether it was started.
     pub fn is_running(&self) -> bool {
         self.loader.is_running()
     }

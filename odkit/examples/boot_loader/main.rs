@@ -1,5 +1,5 @@
 //! A boot loader: a master writes a program of 64 KiB to 1F50h:01 and starts it with 1F51h:01
-//! (CiA 302-3). Nobody holds the program: the SDO server has one block of it at a time, the loader
+//! (CiA 302-3). The program is never in RAM as a whole: the SDO server has one block of it at a time, the loader
 //! one page, and while the flash is busy the master waits for its answer.
 //!
 //! `cargo run -p odkit --example boot_loader` plays the master, too.

@@ -44,7 +44,7 @@ pub enum OpenError {
 }
 
 impl OpenError {
-    /// Whether [`File::open_erased`](super::File::open_erased) opens the file.
+    /// Returns whether [`File::open_erased`](super::File::open_erased) opens the file.
     pub fn can_be_erased(&self) -> bool {
         matches!(
             self,

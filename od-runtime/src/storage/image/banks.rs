@@ -70,7 +70,7 @@ impl Banks {
         is_withdrawn: false,
     };
 
-    /// Whether there is a next set, which is written but for its commit word.
+    /// Returns whether there is a next set, which is written but for its commit word.
     pub(crate) fn is_some(&self) -> bool {
         self.next != Code::ERASED
     }

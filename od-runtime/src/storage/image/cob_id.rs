@@ -26,7 +26,7 @@ pub(super) fn restore(store: &Store<'_>, row: &Row, rule: SavedCobIds, bytes: &m
     row.index() >= 0x2000 || CobId::new(value as u32).is_consistent()
 }
 
-/// Whether the value is kept as the difference to its default.
+/// Returns whether the value is kept as the difference to its default.
 fn is_difference(row: &Row, rule: SavedCobIds) -> bool {
     rule == SavedCobIds::Difference && !row.is_variable() && row.follows_node_id()
 }

@@ -21,7 +21,7 @@ use crate::store::Store;
 /// A save or a restore in bounded steps, with the values of the moment at which it began.
 ///
 /// It is for a storage that [takes over](Storage::take) what the node saves. The image goes into memory
-/// that needs no erasure, such as RAM on its way to flash.
+/// that needs no erasure, such as RAM that is copied to flash later.
 #[derive(Clone, Debug)]
 pub struct Job {
     plan: Plan<'static>,
@@ -126,7 +126,7 @@ impl Job {
         self.place.clone()
     }
 
-    /// Whether it is done.
+    /// Returns whether it is done.
     fn go_on(&mut self, medium: &mut Medium<'_>, store: &Store<'_>) -> bool {
         match self.phase.clone() {
             Phase::Head(bank) => {

@@ -68,7 +68,7 @@ impl Code {
         CODES.get(usize::from(self.0)).map_or(ERASED, |code| *code)
     }
 
-    /// Whether it is the commit word of a complete set.
+    /// Returns whether it is the commit word of a complete set.
     pub(super) fn is_complete(self) -> bool {
         self >= Self::FIRST && self < Self::UNCLEAR
     }
@@ -208,7 +208,7 @@ mod tests {
             (64, 32, 8, 32),
             (63, 32, 8, 0),
             (0, 0, 1, 0),
-            // Words that nobody can write.
+            // Words that cannot be written.
             (4096, 0, 3, 0),
             (4096, 0, 0, 0),
             (4096, 64, 64, 0),

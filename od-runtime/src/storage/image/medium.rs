@@ -68,7 +68,7 @@ impl<'m> Medium<'m> {
         }
     }
 
-    /// Whether all bytes of a range are this one.
+    /// Returns whether all bytes of a range are this one.
     pub(super) fn holds(&mut self, mut at: usize, end: usize, byte: u8) -> bool {
         let word = [byte; 4];
         self.buffer = [byte; MAX_WORD];
@@ -83,7 +83,7 @@ impl<'m> Medium<'m> {
         true
     }
 
-    /// Whether nothing was ever written there: all bytes are FFh, or all are 0.
+    /// Returns whether nothing was ever written there: all bytes are FFh, or all are 0.
     pub(super) fn is_blank(&mut self, at: usize, end: usize) -> bool {
         self.holds(at, end, ERASED) || self.holds(at, end, 0)
     }

@@ -32,7 +32,7 @@ pub(crate) enum Plan<'p> {
     Own(&'p [u8]),
 }
 
-/// Writes the next set of a device, if there is to be one.
+/// Writes the next set of a device, if one is needed.
 pub(crate) fn write(
     storage: &mut dyn Storage,
     device: u32,
@@ -109,7 +109,7 @@ impl Medium<'_> {
         set.medium.outcome
     }
 
-    /// Whether there is to be a next set, of banks that were surveyed.
+    /// Returns whether a next set is needed, by the banks that were surveyed.
     pub(super) fn admits(&mut self, plan: &Plan<'_>) -> Result<bool, StorageError> {
         match (plan, self.banks.state) {
             // The device itself writes nothing over the set of another one.
@@ -213,7 +213,7 @@ impl Set<'_, '_> {
         }
     }
 
-    /// Whether a record without an object stays.
+    /// Returns whether a record without an object stays.
     pub(super) fn keeps(&self, key: u32) -> bool {
         let index = (key >> 8) as u16;
         let is_dropped = match *self.plan {
@@ -225,7 +225,7 @@ impl Set<'_, '_> {
         !is_dropped && !self.medium.banks.is_withdrawn && (index == OWN || self.has_orphans)
     }
 
-    /// Whether the plan is about a value.
+    /// Returns whether the plan is about a value.
     pub(super) fn is_meant(&self, profile: &StoreProfile, row: &Row) -> bool {
         match *self.plan {
             Plan::Save(_) if is_life_record(row) => true,
@@ -236,7 +236,7 @@ impl Set<'_, '_> {
         }
     }
 
-    /// Whether a value that the plan is about goes in.
+    /// Returns whether a value that the plan is about goes in.
     pub(super) fn goes_in(&self, row: &Row) -> bool {
         match self.plan {
             Plan::Restore(_) => false,
