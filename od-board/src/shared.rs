@@ -81,6 +81,11 @@ impl<M: RawMutex, B: Owner> Shared<M, B> {
         result
     }
 
+    /// The node, before other tasks have it: for what has to wait, such as loading saved values.
+    pub fn get_mut(&mut self) -> &mut B {
+        self.owner.get_mut().get_mut()
+    }
+
     fn lock<R>(&self, act: impl FnOnce(&mut B, Instant) -> R) -> R {
         let result = self.owner.lock(|owner| {
             let now = embassy_time::Instant::now().as_micros();

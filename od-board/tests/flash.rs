@@ -15,7 +15,7 @@ use embedded_storage::nor_flash::{
     ErrorType, NorFlash, NorFlashError, NorFlashErrorKind, ReadNorFlash,
 };
 use odkit::board::Owner;
-use odkit::board::storage::{Log, Mirror, Nor, Steps};
+use odkit::board::storage::{Joined, Log, Mirror, Nor, Steps};
 use odkit::storage::image::capacity_needed;
 use odkit::storage::{Storage, image};
 use odkit::{Event, Instant, NoApplication, NodeId};
@@ -36,15 +36,15 @@ impl NorFlashError for Failed {
     }
 }
 
-/// The strict flash as a driver. Others look at it beside the log that owns it.
+/// The strict flash as a driver. Others look at it beside the log that owns it, whose pages are `N` of the flash.
 #[derive(Clone)]
-struct Chip<const PAGE: usize, const WORD: usize> {
+struct Chip<const PAGE: usize, const WORD: usize, const N: usize> {
     nor: Rc<RefCell<nor::Nor>>,
     /// Calls that change the flash.
     calls: Rc<Cell<usize>>,
 }
 
-impl<const PAGE: usize, const WORD: usize> Chip<PAGE, WORD> {
+impl<const PAGE: usize, const WORD: usize, const N: usize> Chip<PAGE, WORD, N> {
     fn new(pages: usize) -> Self {
         Self {
             nor: Rc::new(RefCell::new(nor::Nor::new(pages * PAGE, PAGE, WORD))),
@@ -57,11 +57,11 @@ impl<const PAGE: usize, const WORD: usize> Chip<PAGE, WORD> {
     }
 }
 
-impl<const PAGE: usize, const WORD: usize> ErrorType for Chip<PAGE, WORD> {
+impl<const PAGE: usize, const WORD: usize, const N: usize> ErrorType for Chip<PAGE, WORD, N> {
     type Error = Failed;
 }
 
-impl<const PAGE: usize, const WORD: usize> ReadNorFlash for Chip<PAGE, WORD> {
+impl<const PAGE: usize, const WORD: usize, const N: usize> ReadNorFlash for Chip<PAGE, WORD, N> {
     const READ_SIZE: usize = if WORD == 4 { 4 } else { 1 };
 
     fn read(&mut self, offset: u32, bytes: &mut [u8]) -> Result<(), Failed> {
@@ -76,7 +76,7 @@ impl<const PAGE: usize, const WORD: usize> ReadNorFlash for Chip<PAGE, WORD> {
     }
 }
 
-impl<const PAGE: usize, const WORD: usize> NorFlash for Chip<PAGE, WORD> {
+impl<const PAGE: usize, const WORD: usize, const N: usize> NorFlash for Chip<PAGE, WORD, N> {
     const WRITE_SIZE: usize = WORD;
     const ERASE_SIZE: usize = PAGE;
 
@@ -106,16 +106,16 @@ fn wait<T>(future: impl Future<Output = T>, mut between: impl FnMut()) -> T {
     }
 }
 
-fn log<const PAGE: usize, const WORD: usize>(
-    chip: &Chip<PAGE, WORD>,
-) -> Log<Steps<Chip<PAGE, WORD>>, BUFFER> {
-    Log::new(Steps(chip.clone()), 0..chip.end())
+fn log<const PAGE: usize, const WORD: usize, const N: usize>(
+    chip: &Chip<PAGE, WORD, N>,
+) -> Log<Joined<Steps<Chip<PAGE, WORD, N>>, N>, BUFFER> {
+    Log::new(Joined(Steps(chip.clone())), 0..chip.end())
 }
 
 /// Power comes: the saved heartbeat time.
-fn start<const PAGE: usize, const WORD: usize>(
-    chip: &Chip<PAGE, WORD>,
-) -> (Mirrored, Log<Steps<Chip<PAGE, WORD>>, BUFFER>) {
+fn start<const PAGE: usize, const WORD: usize, const N: usize>(
+    chip: &Chip<PAGE, WORD, N>,
+) -> (Mirrored, Log<Joined<Steps<Chip<PAGE, WORD, N>>, N>, BUFFER>) {
     let mut log = log(chip);
     let mut node = Mirrored::new(
         thermometer::Device,
@@ -149,7 +149,7 @@ const NOT_SAVED: &str = "581#8010100100000606";
 
 #[test]
 fn a_save_is_answered_when_the_flash_has_it() {
-    let chip = Chip::<1024, 8>::new(3);
+    let chip = Chip::<1024, 8, 1>::new(3);
     let (node, mut log) = start(&chip);
     let node = RefCell::new(node);
     assert_eq!(command(&mut *node.borrow_mut(), 700), [SET]);
@@ -190,7 +190,7 @@ fn a_save_is_answered_when_the_flash_has_it() {
 
 #[test]
 fn a_task_keeps_what_comes() {
-    let chip = Chip::<1024, 4>::new(4);
+    let chip = Chip::<1024, 4, 1>::new(4);
     let (node, mut log) = start(&chip);
     let node = RefCell::new(node);
     let mut task = pin!(log.run(|act| act(&mut node.borrow_mut().storage)));
@@ -212,7 +212,7 @@ fn a_task_keeps_what_comes() {
 }
 
 fn erasures<const PAGE: usize, const WORD: usize>(pages: usize) -> (usize, Vec<usize>) {
-    let chip = Chip::<PAGE, WORD>::new(pages);
+    let chip = Chip::<PAGE, WORD, 1>::new(pages);
     let (node, mut log) = start(&chip);
     let node = RefCell::new(node);
     let mut places = vec![0; pages];
@@ -251,10 +251,10 @@ fn a_save_erases_one_page_at_most_in_the_mean_and_pages_wear_alike() {
 
 /// Power goes in every step of a save behind `saves` others, and in `cuts` starts and saves after
 /// another.
-fn cut<const PAGE: usize, const WORD: usize>(saves: u16, cuts: u64) {
+fn cut<const PAGE: usize, const WORD: usize, const N: usize>(saves: u16, cuts: u64) {
     let (mut step, mut seed) = (0, 1);
     loop {
-        let chip = Chip::<PAGE, WORD>::new(3);
+        let chip = Chip::<PAGE, WORD, N>::new(3 * N);
         let mut old = None;
         for save in 1..=saves {
             let (mut node, mut log) = start(&chip);
@@ -310,17 +310,19 @@ fn cut<const PAGE: usize, const WORD: usize>(saves: u16, cuts: u64) {
 #[test]
 fn power_can_go_in_any_step_of_a_save_in_the_background() {
     // The sixth save erases the oldest page, whatever the size of a word.
-    cut::<256, 1>(6, 2);
+    cut::<256, 1, 1>(6, 2);
     for saves in [0, 3, 6] {
-        cut::<256, 4>(saves, 2);
-        cut::<512, 8>(saves, 1);
-        cut::<512, 32>(saves, 2);
+        cut::<256, 4, 1>(saves, 2);
+        cut::<512, 8, 1>(saves, 1);
+        cut::<512, 32, 1>(saves, 2);
     }
+    // Pages of which one has no room for a set.
+    cut::<64, 4, 4>(6, 2);
 }
 
 #[test]
 fn a_flash_that_fails_is_an_abort() {
-    let chip = Chip::<1024, 8>::new(3);
+    let chip = Chip::<1024, 8, 1>::new(3);
     let (mut node, mut log) = start(&chip);
     assert_eq!(command(&mut node, 300), [SET]);
     chip.nor.borrow_mut().cut_after(2, 1);
@@ -339,7 +341,7 @@ fn a_flash_that_fails_is_an_abort() {
 fn a_save_on_two_banks_of_flash_is_answered_at_once() {
     fn run<const PAGE: usize, const WORD: usize>() {
         const { assert!(image::capacity_on(&thermometer::DICTIONARY, PAGE, WORD) <= 2 * PAGE) };
-        let chip = Chip::<PAGE, WORD>::new(4);
+        let chip = Chip::<PAGE, WORD, 1>::new(4);
         let place = PAGE as u32;
         for save in 1..5u16 {
             let flash = Nor::new(chip.clone(), place, 2 * place);

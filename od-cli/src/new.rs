@@ -4,6 +4,7 @@
 mod device;
 mod firmware;
 mod folder;
+mod memory;
 mod name;
 mod origin;
 mod plain;
@@ -83,7 +84,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         )));
     }
     let files = match args.firmware {
-        Some(board) => firmware::files(&name, &device, &origin, board),
+        Some(board) => firmware::files(&name, &device, &origin, board).map_err(Failure::Failed)?,
         None => plain::files(&name, &device, &origin),
     };
     folder::write(&folder, &files)?;
@@ -164,4 +165,49 @@ fn device(name: &str) -> Result<(DeviceFile, usize), Failure> {
         left,
     };
     Ok((device, notes.removed.len()))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+
+    use super::*;
+
+    /// Files of the corpus that a board has no room for: 127 configurations of 1 KiB that a master keeps.
+    const TOO_LARGE: [&str; 1] = ["master-302.eds"];
+
+    /// Each file of the corpus fits each board, with its saved values beside the program, or is refused with numbers.
+    #[test]
+    fn every_file_fits_every_board_or_is_refused() {
+        let corpus = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/corpus");
+        let files = fs::read_dir(corpus)
+            .expect("the corpus")
+            .map(|file| file.expect("a file").path());
+        let mut count = 0;
+        for path in files {
+            let name = path
+                .file_name()
+                .unwrap_or_default()
+                .to_string_lossy()
+                .into_owned();
+            let Ok((device, _)) = device(&path.display().to_string()) else {
+                panic!("{name} makes no device");
+            };
+            let refused = firmware::check(&device);
+            assert_eq!(
+                !refused.is_empty(),
+                TOO_LARGE.contains(&&*name),
+                "{name}: {refused:?}"
+            );
+            for why in refused {
+                let numbers = why
+                    .split(|c: char| !c.is_ascii_digit())
+                    .filter(|number| number.len() > 3)
+                    .count();
+                assert!(numbers >= 2 && why.contains("RAM"), "{name}: {why}");
+            }
+            count += 1;
+        }
+        assert!(count > 90, "{count}");
+    }
 }

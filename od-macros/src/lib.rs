@@ -72,8 +72,8 @@
 //! `add` needs `name` and `type`. The defaults of the other fields: `access = ro`, `code = var`,
 //! `mappable = false`, `capacity = 64` (1,024 for a DOMAIN that a master can write, and never less than the default
 //! value needs). With `capacity = 0` the store does not hold the value, and the application streams it. Add a
-//! RECORD or an ARRAY first, then its sub-objects. Sub-index 0 is added automatically unless an `add` gives it,
-//! and it is adapted when a patch adds or removes sub-objects. `none` removes a default or a limit.
+//! RECORD or an ARRAY first, then its sub-objects. Sub-index 0 is added automatically unless an `add` gives it
+//! (of 1003h with 0: no error), and it is adapted when a patch adds or removes sub-objects. `none` removes a default or a limit.
 //!
 //! The statements of the module make the base; each variant starts from it. It is an error to edit a missing
 //! object, or to add an existing one. The checks apply to the result, so a call can correct errors in a file

@@ -101,7 +101,7 @@ impl<F: NorFlash, const B: usize> Log<F, B> {
         const {
             assert!(
                 B + 64 <= F::ERASE_SIZE,
-                "a set fits into a page of the flash"
+                "a set fits into a page of the flash: `Joined` makes one of several"
             )
         };
         assert!(

@@ -23,7 +23,7 @@ pub(super) struct DeviceFile {
 }
 
 /// Bit rates of CiA 301 in kbit/s, by their index in the LSS table; 0 if the index has none.
-const BIT_RATES: [u16; 9] = [1000, 800, 500, 250, 125, 0, 50, 20, 10];
+pub(super) const BIT_RATES: [u16; 9] = [1000, 800, 500, 250, 125, 0, 50, 20, 10];
 
 impl DeviceFile {
     /// Returns the unit of 6502h if the device is an encoder (CiA 406).
@@ -34,18 +34,50 @@ impl DeviceFile {
     }
 
     /// Returns whether something is saved: values by 1010h, or the node ID by LSS.
-    fn saves(&self) -> bool {
+    pub(super) fn saves(&self) -> bool {
         let objects = &self.description.objects;
         let saves = objects.contains_key(&0x1010) || objects.contains_key(&0x1011);
         saves || self.has_lss()
     }
 
-    fn has_lss(&self) -> bool {
+    pub(super) fn has_lss(&self) -> bool {
         is_set(&self.description, "LSS_Supported")
     }
 
+    /// Bit rate in kbit/s: that of a DCF; otherwise 500 if the file supports it or names none, else the
+    /// highest one of the file that the board has, too.
+    ///
+    /// # Errors
+    /// A sentence, if the board has none of them.
+    pub(super) fn bit_rate(&self, board: &[u16]) -> Result<u16, String> {
+        let description = &self.description;
+        let given = description.commissioning().and_then(|node| node.bit_rate);
+        let given = given.filter(|rate| *rate != 0 && BIT_RATES.contains(rate));
+        let has = |rate: &u16| *rate != 0 && is_set(description, &format!("BaudRate_{rate}"));
+        let all = [500].into_iter().chain(BIT_RATES).filter(has);
+        let all: Vec<u16> = match given {
+            Some(rate) => vec![rate],
+            None => all.collect(),
+        };
+        let usual = [500];
+        let all = if all.is_empty() { &usual[..] } else { &all };
+        let rate = all.iter().find(|rate| board.contains(rate));
+        rate.copied().ok_or_else(|| {
+            let list = |rates: &[u16]| {
+                let rates: Vec<String> = rates
+                    .iter()
+                    .filter(|rate| **rate != 0)
+                    .map(u16::to_string)
+                    .collect();
+                rates.join(", ")
+            };
+            let (own, board) = (list(all), list(board));
+            format!("the file names a bit rate of {own} kbit/s, and the board has {board} kbit/s")
+        })
+    }
+
     /// The gaps of the templates and their contents.
-    pub(super) fn gaps(&self, name: &str) -> Vec<Gap> {
+    pub(super) fn gaps(&self, name: &str, bit_rate: u16) -> Vec<Gap> {
         let description = &self.description;
         let node_id = description.commissioned_node_id().unwrap_or(1);
         let tables = Tables::new(description);
@@ -58,8 +90,12 @@ impl DeviceFile {
             }
             _ => "EncoderProfile::CIA406",
         };
+        let image = if self.saves() {
+            "use odkit::storage::image;\n"
+        } else {
+            ""
+        };
         let boot_up = format!("{:03X}#00", 0x700 + u16::from(node_id));
-        let bit_rate = bit_rate(description);
         let (names, own) = if self.has_lss() {
             ("LssProfile, NodeId, Profile", " + image::OWN_CAPACITY")
         } else {
@@ -81,7 +117,7 @@ impl DeviceFile {
             ("without", self.without()),
             ("profile", self.profile(bit_rate)),
             ("own", own.to_owned()),
-            ("names", format!("use odkit::{{{names}}};")),
+            ("names", format!("{image}use odkit::{{{names}}};")),
             ("fixed", self.fixed()),
             ("rust_version", env!("CARGO_PKG_RUST_VERSION").to_owned()),
         ]
@@ -158,16 +194,6 @@ fn is_set(description: &Description, key: &str) -> bool {
     value
         .and_then(|value| values::integer(value.value.trim()))
         .is_some_and(|number| number != 0)
-}
-
-/// Bit rate in kbit/s: that of a DCF; otherwise 500 if the file supports it or names none, else the
-/// highest one of the file.
-fn bit_rate(description: &Description) -> u16 {
-    let given = description.commissioning().and_then(|node| node.bit_rate);
-    let known = |rate: &u16| *rate != 0 && BIT_RATES.contains(rate);
-    let has = |rate: &u16| *rate != 0 && is_set(description, &format!("BaudRate_{rate}"));
-    let supported = [500].into_iter().chain(BIT_RATES).find(has);
-    given.filter(known).or(supported).unwrap_or(500)
 }
 
 /// Lines of the macro call that remove objects that a node does not serve: with them the crate would not

@@ -19,7 +19,7 @@ const FILES: [Template; 7] = [
 
 /// Paths and contents.
 pub(super) fn files(name: &str, device: &DeviceFile, origin: &Origin) -> Vec<(String, Vec<u8>)> {
-    let mut gaps = device.gaps(name);
+    let mut gaps = device.gaps(name, 500);
     let behaviour = match device.encoder() {
         Some(_) => include_str!("template/plain/encoder.rs.in"),
         None => include_str!("template/plain/behaviour.rs.in"),

@@ -130,3 +130,103 @@ fn a_workspace_that_cannot_be_made_leaves_no_file() {
     }
     assert!(!folder.exists());
 }
+
+/// A device with `count` values of the manufacturer that a master writes, and 1010h if it saves them.
+fn device_with(count: u16, saves: bool, rate: u16) -> String {
+    let mut text = format!(
+        "[DeviceInfo]\nProductName=Store\nBaudRate_{rate}=1\n\
+         [1000]\nParameterName=Device type\nDataType=7\nAccessType=ro\nDefaultValue=0\n\
+         [1001]\nParameterName=Error register\nDataType=5\nAccessType=ro\n\
+         [1018]\nParameterName=Identity\nObjectType=9\nSubNumber=2\n\
+         [1018sub0]\nParameterName=Highest\nDataType=5\nAccessType=ro\nDefaultValue=1\n\
+         [1018sub1]\nParameterName=Vendor-ID\nDataType=7\nAccessType=ro\nDefaultValue=0x5F\n"
+    );
+    if saves {
+        text += "[1010]\nParameterName=Store\nObjectType=8\nSubNumber=2\n\
+                 [1010sub0]\nParameterName=Highest\nDataType=5\nAccessType=ro\nDefaultValue=1\n\
+                 [1010sub1]\nParameterName=All\nDataType=7\nAccessType=rw\nDefaultValue=1\n";
+    }
+    for index in 0x2000..0x2000 + count {
+        text += &format!("[{index:X}]\nParameterName=Value {index:X}\nDataType=7\nAccessType=rw\n");
+    }
+    text
+}
+
+#[test]
+fn a_device_that_saves_nothing_needs_no_flash() {
+    let eds = file("new-saves-nothing.eds", &device_with(9, false, 500))
+        .display()
+        .to_string();
+    for board in ["stm32g0", "generic"] {
+        let folder = make(&eds, board, &format!("saves-nothing-{board}"));
+        let files =
+            ["main.rs", "board.rs"].map(|name| read(&folder, &format!("firmware/src/{name}")));
+        let all = files.concat();
+        assert!(
+            all.contains("NoStorage") && !all.contains("storage_len") && !all.contains("SAVED"),
+            "{all}"
+        );
+    }
+    let folder = make(&eds, "stm32g0", "saves-nothing");
+    assert!(read(&folder, "firmware/memory.x").contains("LENGTH = 512K"));
+}
+
+#[test]
+fn a_set_that_is_longer_than_a_page_gets_pages_that_are_joined() {
+    let eds = file("new-saves-much.eds", &device_with(300, true, 500))
+        .display()
+        .to_string();
+    for (board, joined, range, program) in [
+        ("stm32g0", 2, "500 * 1024..512 * 1024", "LENGTH = 500K"),
+        (
+            "rp2040+mcp2515",
+            1,
+            "2032 * 1024..2048 * 1024",
+            "LENGTH = 2032K - 0x100",
+        ),
+        ("stm32f4", 1, "16 * 1024..64 * 1024", "_stext = 0x08010000"),
+    ] {
+        let folder = make(&eds, board, "saves-much");
+        let main = read(&folder, "firmware/src/main.rs");
+        assert_eq!(
+            main.contains("Joined::<_, 2>(Steps(flash))"),
+            joined == 2,
+            "{main}"
+        );
+        let code = read(&folder, "firmware/src/board.rs");
+        assert!(code.contains(range), "{code}");
+        let memory = read(&folder, "firmware/memory.x");
+        assert!(memory.contains(program), "{memory}");
+    }
+}
+
+#[test]
+fn a_device_that_does_not_fit_is_refused_with_numbers_and_a_board_that_has_room() {
+    let large = device_with(2500, true, 500);
+    let fast = device_with(9, true, 800);
+    let cases = [
+        (
+            "large",
+            "stm32f4",
+            &large,
+            ["131072", "`--firmware rp2040+mcp2515`"],
+        ),
+        (
+            "fast",
+            "rp2040+mcp2515",
+            &fast,
+            ["800 kbit/s", "`--firmware stm32g0` or `--firmware generic`"],
+        ),
+    ];
+    for (name, board, text, told) in cases {
+        let eds = file(&format!("new-{name}.eds"), text).display().to_string();
+        let folder = fresh(&format!("new-{name}"));
+        let path = folder.display().to_string();
+        let run = odkit(&["new", &eds, "--firmware", board, "--path", &path], "");
+        assert_eq!(run.code, 1, "{}", run.err);
+        for told in told {
+            assert!(run.err.contains(told), "{told}\n{}", run.err);
+        }
+        assert!(!folder.exists());
+    }
+}

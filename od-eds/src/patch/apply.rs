@@ -40,7 +40,7 @@ pub fn apply(description: &mut Description, edits: &[Edit]) -> Vec<Finding> {
     }
     for (index, span) in counted {
         if let Some(object) = description.objects.get_mut(&index) {
-            count_members(object, span);
+            count_members(index, object, span);
         }
     }
     findings

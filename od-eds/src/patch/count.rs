@@ -41,19 +41,26 @@ fn is_counted(object: &ObjectDescription) -> bool {
     }
 }
 
-/// Sets sub-index 0 to the highest sub-index; it is added if it is missing.
-pub(super) fn count_members(object: &mut ObjectDescription, span: Span) {
+/// Index of the error history. Its sub-index 0 is the number of errors, and a master clears it by writing 0.
+const ERROR_HISTORY: u16 = 0x1003;
+
+/// Sets sub-index 0 to the highest sub-index, of 1003h to 0; it is added if it is missing.
+pub(super) fn count_members(index: u16, object: &mut ObjectDescription, span: Span) {
     if !object.code.has_members() {
         return;
     }
     let highest = object.entries.keys().next_back().copied().unwrap_or(0);
+    let (name, access, value) = match index {
+        ERROR_HISTORY => ("Number of errors", Access::Rw, 0),
+        _ => ("Highest sub-index supported", Access::Const, highest),
+    };
     let entry = object.entries.entry(0).or_insert_with(|| {
-        let mut entry = EntryDescription::new("Highest sub-index supported", DataType::Unsigned8);
-        entry.access = Spanned::new(Access::Const, span);
+        let mut entry = EntryDescription::new(name, DataType::Unsigned8);
+        entry.access = Spanned::new(access, span);
         entry.span = span;
         entry
     });
-    entry.default = Some(Spanned::new(Value::Unsigned(u64::from(highest)), span));
+    entry.default = Some(Spanned::new(Value::Unsigned(u64::from(value)), span));
 }
 
 /// Returns whether SubNumber is the number of sub-indices.

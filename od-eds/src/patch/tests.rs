@@ -50,6 +50,23 @@ fn a_record_without_sub_index_0_gets_one() {
 }
 
 #[test]
+fn an_error_history_without_sub_index_0_is_empty_and_can_be_cleared() {
+    let mut description = base();
+    let edits = [
+        Edit::add(Target::object(0x1003))
+            .code(ObjectCode::Array)
+            .name("Pre-defined error field"),
+        Edit::add(Target::member(0x1003, 1))
+            .name("Standard error field")
+            .data_type(DataType::Unsigned32),
+    ];
+    assert_eq!(apply(&mut description, &edits), vec![]);
+    let count = description.entry(Address::new(0x1003, 0)).unwrap();
+    assert_eq!(count.default, Some(Spanned::from(Value::Unsigned(0))));
+    assert_eq!(*count.access, Access::Rw);
+}
+
+#[test]
 fn sub_index_0_is_updated_unless_it_is_given() {
     let count = |edits: &[Edit]| {
         let mut edited = base();

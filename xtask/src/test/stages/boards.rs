@@ -2,7 +2,7 @@
 
 use std::fs;
 use std::io::{BufRead, BufReader, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Child, ChildStdout, Command, Stdio};
 use std::sync::mpsc;
 use std::thread;
@@ -16,6 +16,15 @@ use crate::repo::program;
 use crate::setup::{apt, target};
 use crate::test::context::Context;
 
+/// Device that the boards are tried with.
+const DEVICE: &str = "devices/eds/GXMM.eds";
+/// Files of the corpus that are built for each board with `--long`: one that saves nothing and has values of every type,
+/// one that saves, and one with more PDOs than usual.
+const FILES: [&str; 3] = [
+    "tests/corpus/types-all.eds",
+    "tests/corpus/storage.eds",
+    "tests/corpus/pdos-32.eds",
+];
 const EMULATOR: &str = "qemu-system-arm";
 /// The board that an ordinary run builds. The crates of manufacturers that the others need take minutes, and what
 /// odkit writes for these boards seldom changes.
@@ -49,7 +58,8 @@ const DIALOGUE: [(&str, &str); 4] = [
 ];
 
 /// Makes the workspace of `odkit new` for each board. The firmware of `generic` is built for a Cortex-M0, and for a
-/// Cortex-M3 that runs in an emulator and responds; with `--long`, clippy checks each board, and each is built.
+/// Cortex-M3 that runs in an emulator and responds; with `--long`, clippy checks each board, and each is built, also of
+/// files of the corpus.
 pub(super) fn boards(context: &Context<'_>) -> Result<()> {
     let (repo, console) = (context.repo, context.console);
     let odkit = odkit(context)?.join(program(CLI.1));
@@ -57,17 +67,7 @@ pub(super) fn boards(context: &Context<'_>) -> Result<()> {
     let _ = fs::remove_dir_all(&folder);
     fs::create_dir_all(&folder).map_err(|e| Error::io("create", &folder, &e))?;
     for (board, targets) in BOARDS {
-        let workspace = folder.join(board);
-        let mut new = Command::new(&odkit);
-        new.args(["new", "devices/eds/GXMM.eds", "--name", "encoder"]);
-        new.args(["--firmware", board, "--odkit", ".", "--path"]);
-        new.arg(&workspace).current_dir(&repo.root);
-        console.run(&format!("a firmware for {board}"), &mut new)?;
-        let (from, to) = (
-            repo.root.join("tests/boards/Cargo.lock"),
-            workspace.join("Cargo.lock"),
-        );
-        fs::copy(from, &to).map_err(|e| Error::io("write", &to, &e))?;
+        let workspace = make(context, &odkit, &folder, DEVICE, board)?;
         let mut fmt = cargo(&workspace, &["fmt", "--check"]);
         console.run("formatting", &mut fmt)?;
         if !context.long && board != GENERIC {
@@ -83,17 +83,59 @@ pub(super) fn boards(context: &Context<'_>) -> Result<()> {
                 check.args(["--", "-D", "warnings"]);
                 console.run(&format!("{board} for {name}, checked"), &mut check)?;
             }
-            let mut build = cargo(&firmware, &["build", "--quiet", "--release", "--target"]);
-            build.arg(name).arg("--target-dir").arg(&repo.target);
-            console.run(&format!("{board} for {name}"), &mut build)?;
+            build(context, &workspace, name, board)?;
             // Calls for doubles and atomics on a Cortex-M0 are visible only in the linked program.
             if *name == target::SMALLEST {
                 let program = repo.target.join(name).join("release/encoder-firmware");
                 needs_no_help(&program)?;
             }
         }
+        if let (true, [target, ..]) = (context.long, targets) {
+            for file in FILES {
+                let workspace = make(context, &odkit, &folder.join("corpus"), file, board)?;
+                build(context, &workspace, target, &format!("{board} with {file}"))?;
+                fs::remove_dir_all(&workspace).map_err(|e| Error::io("remove", &workspace, &e))?;
+            }
+        }
     }
     emulate(context, &folder.join(GENERIC).join("firmware"))
+}
+
+/// Makes a workspace for a board in a folder, with the versions of tests/boards.
+fn make(
+    context: &Context<'_>,
+    odkit: &Path,
+    folder: &Path,
+    file: &str,
+    board: &str,
+) -> Result<PathBuf> {
+    let (repo, workspace) = (context.repo, folder.join(board));
+    let mut new = Command::new(odkit);
+    new.args(["new", file, "--name", "encoder"]);
+    new.args(["--firmware", board, "--odkit", ".", "--path"]);
+    new.arg(&workspace).current_dir(&repo.root);
+    context
+        .console
+        .run(&format!("a firmware of {file} for {board}"), &mut new)?;
+    let (from, to) = (
+        repo.root.join("tests/boards/Cargo.lock"),
+        workspace.join("Cargo.lock"),
+    );
+    fs::copy(from, &to).map_err(|e| Error::io("write", &to, &e))?;
+    Ok(workspace)
+}
+
+/// Builds the firmware of a workspace for a target.
+fn build(context: &Context<'_>, workspace: &Path, target: &str, what: &str) -> Result<()> {
+    let firmware = workspace.join("firmware");
+    let mut build = cargo(&firmware, &["build", "--quiet", "--release", "--target"]);
+    build
+        .arg(target)
+        .arg("--target-dir")
+        .arg(&context.repo.target);
+    context
+        .console
+        .run(&format!("{what} for {target}"), &mut build)
 }
 
 /// A firmware for a Cortex-M0 calls no functions for doubles and atomics: gxmm has no REAL64.
