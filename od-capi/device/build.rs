@@ -14,9 +14,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!("cargo::rerun-if-env-changed=ODKIT_WITHOUT");
     let files = std::env::var("ODKIT_EDS").unwrap_or_else(|_| String::from(EXAMPLE));
     // An overlay may follow the file, as everywhere.
-    let mut paths = match Path::new(&files).is_file() {
-        true => vec![find(&files)],
-        false => files.split('+').map(find).collect(),
+    let mut paths = if Path::new(&files).is_file() {
+        vec![find(&files)]
+    } else {
+        files.split('+').map(find).collect()
     };
     for path in &paths {
         println!("cargo::rerun-if-changed={}", path.display());

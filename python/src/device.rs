@@ -44,9 +44,10 @@ impl Device {
         py: Python<'_>,
         act: impl FnOnce(&mut VirtualDevice, Instant) -> bool,
     ) -> PyResult<()> {
-        match self.act(py, act)? {
-            true => Ok(()),
-            false => Err(Fault::value("this device has no shaft").into()),
+        if self.act(py, act)? {
+            Ok(())
+        } else {
+            Err(Fault::value("this device has no shaft").into())
         }
     }
 

@@ -155,9 +155,10 @@ impl Party {
             }
         }
         if let Some(until) = self.hidden {
-            self.outside = match self.is_still() {
-                true => Outside::Waits(until),
-                false => Outside::Runs,
+            self.outside = if self.is_still() {
+                Outside::Waits(until)
+            } else {
+                Outside::Runs
             };
         }
         over
@@ -208,9 +209,10 @@ impl Party {
         let spent = |seen: Seen| seen.ran + seen.waited;
         // A thread that waits for the interpreter gets processor time every 5 ms, and is in a lock.
         let is_blocked = seen.locked && seen.turns != before.turns && so_far < LOCKED;
-        match !is_blocked && spent(seen).saturating_sub(spent(before)) < elapsed / 2 {
-            true => Some(self.since),
-            false => is_busy.then_some(now),
+        if !is_blocked && spent(seen).saturating_sub(spent(before)) < elapsed / 2 {
+            Some(self.since)
+        } else {
+            is_busy.then_some(now)
         }
     }
 }

@@ -119,10 +119,12 @@ impl<'w> Pass<'w> {
                 state = locked;
             }
             wait.seen = wait.seen.map(|_| state.journal.end());
-            let end = match done(&mut state)? {
-                true => Some(End::Done),
-                false if wait.until.is_some_and(|until| until <= state.now()) => Some(End::Late),
-                false => None,
+            let end = if done(&mut state)? {
+                Some(End::Done)
+            } else if wait.until.is_some_and(|until| until <= state.now()) {
+                Some(End::Late)
+            } else {
+                None
             };
             if let Some(end) = end {
                 state.leave(own);

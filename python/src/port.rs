@@ -305,9 +305,10 @@ impl Port {
             }
             What::Error => (PROTOCOL_ERROR, false, false, true, 8, &ERROR_DATA[..]),
         };
-        let data = match remote {
-            true => PyByteArray::new(py, &[]),
-            false => PyByteArray::new(py, data),
+        let data = if remote {
+            PyByteArray::new(py, &[])
+        } else {
+            PyByteArray::new(py, data)
         };
         let channel = self.channel.bind(py);
         (

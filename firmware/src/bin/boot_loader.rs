@@ -51,9 +51,10 @@ impl ProgramMemory for Flash {
     }
 
     fn ready(&mut self, now: Instant) -> Result<(), Instant> {
-        match self.ready_at <= now {
-            true => Ok(()),
-            false => Err(self.ready_at),
+        if self.ready_at <= now {
+            Ok(())
+        } else {
+            Err(self.ready_at)
         }
     }
 

@@ -65,9 +65,10 @@ impl Storage for Eeprom {
     }
 
     fn write(&mut self, offset: usize, bytes: &[u8]) -> Result<(), StorageError> {
-        match self.broken {
-            true => Err(StorageError::Device),
-            false => self.memory.write(offset, bytes),
+        if self.broken {
+            Err(StorageError::Device)
+        } else {
+            self.memory.write(offset, bytes)
         }
     }
 }

@@ -32,12 +32,13 @@ pub(crate) fn conform_cases(
         )
     };
     let found: Vec<_> = built_in().iter().filter(wanted).map(parts).collect();
-    match found.is_empty() {
-        true => Err(PyValueError::new_err(format!(
+    if found.is_empty() {
+        Err(PyValueError::new_err(format!(
             "no case has this name: {}; `odkit conform --list` lists all cases",
             only.join(", ")
-        ))),
-        false => Ok(found),
+        )))
+    } else {
+        Ok(found)
     }
 }
 

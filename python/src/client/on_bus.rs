@@ -31,9 +31,10 @@ impl OnBus {
         message.set_item("arbitration_id", frame.id().raw())?;
         message.set_item("is_extended_id", frame.id().is_extended())?;
         message.set_item("is_remote_frame", frame.is_remote())?;
-        match frame.is_remote() {
-            true => message.set_item("dlc", frame.dlc())?,
-            false => message.set_item("data", frame.data())?,
+        if frame.is_remote() {
+            message.set_item("dlc", frame.dlc())?
+        } else {
+            message.set_item("data", frame.data())?
         }
         let message = py
             .import("can")?
@@ -57,9 +58,10 @@ impl OnBus {
             }
             let id: u32 = message.getattr("arbitration_id")?.extract()?;
             let is_remote = flag("is_remote_frame")?;
-            let data: Vec<u8> = match is_remote {
-                true => vec![0; message.getattr("dlc")?.extract()?],
-                false => message.getattr("data")?.extract()?,
+            let data: Vec<u8> = if is_remote {
+                vec![0; message.getattr("dlc")?.extract()?]
+            } else {
+                message.getattr("data")?.extract()?
             };
             if let Some(frame) = frame(id, &data, flag("is_extended_id")?, is_remote) {
                 let at = self.now();

@@ -31,12 +31,13 @@ impl Read {
     /// # Errors
     /// It does not define any object.
     pub(crate) fn has_objects(&self) -> Result<(), Fault> {
-        match self.description.objects.is_empty() {
-            false => Ok(()),
-            true => Err(Fault::value(format!(
+        if self.description.objects.is_empty() {
+            Err(Fault::value(format!(
                 "{} does not define any object; is it an EDS, DCF or XDD file?",
                 self.source.shown()
-            ))),
+            )))
+        } else {
+            Ok(())
         }
     }
 }
@@ -115,9 +116,10 @@ pub(crate) fn overlay(
 }
 
 fn valid(node_id: Option<u8>) -> Result<Option<u8>, Fault> {
-    match node_id.is_none_or(|id| (1..=127).contains(&id)) {
-        true => Ok(node_id),
-        false => Err(Fault::value("`node_id` must be 1 to 127")),
+    if node_id.is_none_or(|id| (1..=127).contains(&id)) {
+        Ok(node_id)
+    } else {
+        Err(Fault::value("`node_id` must be 1 to 127"))
     }
 }
 
@@ -153,10 +155,12 @@ impl Description {
     /// `xdd` for XML, `dcf` for a configured device, else `eds`.
     #[getter]
     fn kind(&self) -> &'static str {
-        match is_xml(self.text()) {
-            true => "xdd",
-            false if self.read.description.commissioning().is_some() => "dcf",
-            false => "eds",
+        if is_xml(self.text()) {
+            "xdd"
+        } else if self.read.description.commissioning().is_some() {
+            "dcf"
+        } else {
+            "eds"
         }
     }
 

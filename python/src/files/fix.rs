@@ -149,9 +149,10 @@ pub(crate) fn fix(
         let name = source.shown();
         return Err(Fault::value(format!("{name}: fix base and overlay one by one")).into());
     }
-    let level = match r#unsafe {
-        true => Applicability::Unsafe,
-        false => Applicability::Safe,
+    let level = if r#unsafe {
+        Applicability::Unsafe
+    } else {
+        Applicability::Safe
     };
     let done = fixed(&source.document, level, |document| find(document, &tools));
     let source = source.with_document(done.document);

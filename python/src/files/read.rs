@@ -57,10 +57,13 @@ impl Read {
             values::address(text).map(|address| (address, has_sub))
         };
         match address {
-            Some((Address { index, .. }, false)) => match objects.contains_key(&index) {
-                true => Ok(Found::Object(index)),
-                false => Err(missing(format!("object {index:04X}h"))),
-            },
+            Some((Address { index, .. }, false)) => {
+                if objects.contains_key(&index) {
+                    Ok(Found::Object(index))
+                } else {
+                    Err(missing(format!("object {index:04X}h")))
+                }
+            }
             Some((address, true)) => match self.description.entry(address) {
                 Some(_) => Ok(Found::Entry(address)),
                 None => Err(missing(format!("object {address}"))),

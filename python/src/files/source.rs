@@ -44,9 +44,10 @@ impl Source {
         }
         if given.is_instance_of::<PyString>() {
             let text: String = given.extract()?;
-            return match text.contains(['\n', '\r']) {
-                true => Ok(Self::plain(None, Document::new(text))),
-                false => Ok(Self::find(&text)?),
+            return if text.contains(['\n', '\r']) {
+                Ok(Self::plain(None, Document::new(text)))
+            } else {
+                Ok(Self::find(&text)?)
             };
         }
         let path: PathBuf = given.extract()?;
@@ -149,9 +150,10 @@ impl Source {
             let (file, finding) = self.place((*finding).clone());
             let file = file.unwrap_or("text").to_owned();
             let line = finding.span().map_or(0, |span| span.line);
-            let head = match last.as_ref() == Some(&file) {
-                true => String::new(),
-                false => format!("{file}: "),
+            let head = if last.as_ref() == Some(&file) {
+                String::new()
+            } else {
+                format!("{file}: ")
             };
             let at = match line {
                 0 => String::new(),

@@ -67,9 +67,10 @@ pub(super) fn build(
 /// Sends a program to the boot loader and starts it.
 pub(super) fn boot(program: &Path) -> Result<()> {
     let text = emulate(program)?;
-    match text.lines().any(|line| line == "the program runs") {
-        true => Ok(()),
-        false => Err(failed(program, &text)),
+    if text.lines().any(|line| line == "the program runs") {
+        Ok(())
+    } else {
+        Err(failed(program, &text))
     }
 }
 
@@ -105,9 +106,10 @@ fn emulate(program: &Path) -> Result<String> {
     let output = command.stdin(std::process::Stdio::null()).output();
     let output = output.map_err(|e| Error::Missing(format!("{EMULATOR}: {e}")))?;
     let text = String::from_utf8_lossy(&output.stderr).into_owned();
-    match output.status.success() {
-        true => Ok(text),
-        false => Err(failed(program, &text)),
+    if output.status.success() {
+        Ok(text)
+    } else {
+        Err(failed(program, &text))
     }
 }
 

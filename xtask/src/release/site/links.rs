@@ -85,9 +85,10 @@ impl<'a> Places<'a> {
             .iter()
             .any(|ending| source.ends_with(ending));
         // A server and a browser can show a text. mdBook replaces `.md` anywhere in a name.
-        let name = match is_picture || source.ends_with(".txt") {
-            true => format!("{FILES}/{source}"),
-            false => format!("{FILES}/{}.txt", source.trim_end_matches(".md")),
+        let name = if is_picture || source.ends_with(".txt") {
+            format!("{FILES}/{source}")
+        } else {
+            format!("{FILES}/{}.txt", source.trim_end_matches(".md"))
         };
         self.files.borrow_mut().insert((source, name.clone()));
         Ok(Some(name))

@@ -86,9 +86,10 @@ pub(super) fn build(context: &Context<'_>) -> Result<()> {
 /// The tests of all packages except the integration tests; in a quick run only those inside the sources. Without
 /// the packages of the other stages, some would have fewer features and would be built again.
 pub(super) fn unit(context: &Context<'_>) -> Result<()> {
-    let names = match context.quick {
-        true => Vec::new(),
-        false => beside_sources(context)?,
+    let names = if context.quick {
+        Vec::new()
+    } else {
+        beside_sources(context)?
     };
     let what = ["--lib", "--bins", "--examples", "--no-fail-fast"];
     test(context, "unit tests", &[&ALL[..], &what].concat(), &names)
