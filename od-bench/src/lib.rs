@@ -12,6 +12,7 @@ mod bench;
 pub mod bus;
 mod cursor;
 mod device;
+pub mod diagnose;
 pub mod grammar;
 pub mod journal;
 pub mod lesson;

@@ -14,6 +14,7 @@ mod conform;
 mod convert;
 mod ctl;
 mod decode;
+mod diagnose;
 mod diff;
 mod dump;
 mod explain;
@@ -99,6 +100,7 @@ enum Command {
     Record(record::Args),
     Replay(record::Replay),
     Decode(decode::Args),
+    Diagnose(diagnose::Args),
 }
 
 /// Commands in groups, as `--help` lists them; commands that are missing here come last.
@@ -120,7 +122,10 @@ const GROUPS: [(&str, &[&str]); 4] = [
             "conform", "learn",
         ],
     ),
-    ("Frames", &["monitor", "record", "replay", "decode"]),
+    (
+        "Frames",
+        &["monitor", "record", "replay", "decode", "diagnose"],
+    ),
 ];
 
 /// The grouped list of commands, for `--help`.
@@ -205,6 +210,7 @@ pub fn main() -> ExitCode {
         Command::Record(args) => record::record(&args),
         Command::Replay(args) => record::replay(&args),
         Command::Decode(args) => decode::run(&args),
+        Command::Diagnose(args) => diagnose::run(&args),
     };
     exit(result)
 }

@@ -15,6 +15,7 @@ mod conform;
 mod control;
 mod convert;
 mod dbc;
+mod diagnose;
 mod diff;
 mod eeprom;
 mod export;

@@ -34,6 +34,7 @@ const PARTS: [(&str, &[&str]); 9] = [
         "docs/how-to/real-bus-in-the-page.md",
         "docs/how-to/set-up-new-encoders.md",
         "docs/how-to/test-your-code-in-ci.md",
+        "docs/how-to/diagnose-a-log.md",
         "docs/how-to/check-a-network.md",
         "docs/how-to/get-an-eds-from-a-device.md",
     ]),

@@ -1,0 +1,398 @@
+//! What a log says, in the order of its frames: the input of the rules.
+
+use std::collections::BTreeMap;
+use std::prelude::v1::*;
+
+use od_model::{Address, Dictionary};
+use od_wire::sdo::{Request, Response};
+use od_wire::{Frame, Instant};
+
+use super::known::Known;
+use crate::logs::{Record, What};
+use crate::sdo::{Message, Observer, default_sdo};
+use crate::wire::bits::bits;
+
+/// Window in which the load is measured, in microseconds.
+pub(super) const WINDOW: u64 = 100_000;
+/// Bit rates of CiA 301 in kbit/s.
+const RATES: [u16; 9] = [10, 20, 50, 100, 125, 250, 500, 800, 1000];
+
+/// A frame and its place in the log.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Seen {
+    pub(super) at: Instant,
+    pub(super) place: usize,
+}
+
+/// An EMCY message.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Emcy {
+    pub(super) seen: Seen,
+    pub(super) code: u16,
+}
+
+/// The end of an SDO exchange.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Outcome {
+    /// The response came.
+    Answered,
+    /// The server aborted.
+    Refused(u32),
+    /// A response about another object came.
+    Other,
+    /// The client aborted, or sent the next request, before a response came.
+    GaveUp,
+    /// The log ended before.
+    Open,
+}
+
+/// A request of a client and what became of it.
+#[derive(Clone, Debug)]
+pub(super) struct Exchange {
+    pub(super) request: Seen,
+    pub(super) address: Option<Address>,
+    pub(super) is_download: bool,
+    pub(super) outcome: Outcome,
+    /// Time of the end: the response, the abort, or the next request.
+    pub(super) end: Seen,
+    /// Responses after the end and before the next request.
+    pub(super) extra: Vec<Seen>,
+}
+
+/// What the frames of one node ID say.
+#[derive(Clone, Default, Debug)]
+pub(super) struct Node {
+    /// Frames of error control: boot-up (0), heartbeats, responses to guarding.
+    pub(super) states: Vec<(Seen, u8)>,
+    /// Guarding requests.
+    pub(super) guards: Vec<Seen>,
+    pub(super) emcys: Vec<Emcy>,
+    pub(super) exchanges: Vec<Exchange>,
+    /// Frames that only this node sends.
+    pub(super) sent: Vec<Seen>,
+    /// Values that a client wrote, by expedited download.
+    pub(super) writes: Vec<(Seen, Address, u32)>,
+    observer: Observer,
+    is_pending: bool,
+}
+
+impl Node {
+    pub(super) fn boots(&self) -> impl Iterator<Item = Seen> + '_ {
+        self.states
+            .iter()
+            .filter(|(_, state)| *state == 0)
+            .map(|(seen, _)| *seen)
+    }
+
+    /// Heartbeats, without boot-up messages.
+    pub(super) fn beats(&self) -> Vec<Seen> {
+        let beats = self.states.iter().filter(|(_, state)| *state != 0);
+        beats.map(|(seen, _)| *seen).collect()
+    }
+
+    /// Whether a client wrote an object between two moments.
+    pub(super) fn is_written(&self, index: u16, from: Instant, to: Instant) -> bool {
+        self.writes
+            .iter()
+            .any(|(seen, address, _)| address.index == index && seen.at >= from && seen.at <= to)
+    }
+}
+
+/// The facts of a log.
+pub(super) struct Facts<'a> {
+    pub(super) begin: Instant,
+    pub(super) end: Instant,
+    pub(super) records: &'a [Record],
+    pub(super) errors: Vec<Seen>,
+    /// Frames, without error frames.
+    pub(super) frames: Vec<Seen>,
+    pub(super) nodes: BTreeMap<u8, Node>,
+    /// NMT commands: code and node ID, 0 for all.
+    pub(super) commands: Vec<(Seen, u8, u8)>,
+    pub(super) syncs: Vec<Seen>,
+    /// Data frames of the PDOs, by CAN-ID.
+    pub(super) pdos: BTreeMap<u16, Vec<Seen>>,
+    /// Bit rate in kbit/s, given or estimated.
+    pub(super) rate: Option<u16>,
+    /// Bits in each window of [`WINDOW`] microseconds from the beginning.
+    windows: Vec<u32>,
+    pub(super) known: Known<'a>,
+}
+
+impl<'a> Facts<'a> {
+    pub(super) fn of(records: &'a [Record], known: Known<'a>) -> Self {
+        let mut facts = Self {
+            begin: records.first().map_or(Instant::ZERO, |record| record.at),
+            end: records.last().map_or(Instant::ZERO, |record| record.at),
+            records,
+            errors: Vec::new(),
+            frames: Vec::new(),
+            nodes: BTreeMap::new(),
+            commands: Vec::new(),
+            syncs: Vec::new(),
+            pdos: BTreeMap::new(),
+            rate: known.bit_rate,
+            windows: Vec::new(),
+            known,
+        };
+        let mut lengths = Vec::new();
+        for (place, record) in records.iter().enumerate() {
+            let seen = Seen {
+                at: record.at,
+                place,
+            };
+            match &record.what {
+                What::Error => facts.errors.push(seen),
+                What::Frame(frame) => {
+                    let len = bits(frame).len() as u32 + 3;
+                    lengths.push((record.at, len));
+                    let window = (record.at.micros_since(facts.begin) / WINDOW) as usize;
+                    // A log of a year has 315 million windows: only those up to an hour are measured.
+                    if window < 36_000 {
+                        facts.windows.resize(facts.windows.len().max(window + 1), 0);
+                        facts.windows[window] += len;
+                    }
+                    facts.frames.push(seen);
+                    facts.take(seen, frame);
+                }
+            }
+        }
+        facts.rate = facts.rate.or_else(|| estimated(&lengths));
+        facts
+    }
+
+    fn take(&mut self, seen: Seen, frame: &Frame) {
+        let Some(id) = frame.id().as_standard() else {
+            return;
+        };
+        let node = (id & 0x7F) as u8;
+        match (id, frame.is_remote(), frame.data()) {
+            (0, false, [code, node, ..]) => self.commands.push((seen, *code, *node)),
+            (0x80, false, _) => self.syncs.push(seen),
+            (0x81..=0xFF, false, [low, high, ..]) => {
+                let code = u16::from_le_bytes([*low, *high]);
+                let it = self.nodes.entry(node).or_default();
+                it.emcys.push(Emcy { seen, code });
+                it.sent.push(seen);
+            }
+            (0x181..=0x57F, false, _) => {
+                self.pdos.entry(id).or_default().push(seen);
+                // TPDOs of the predefined connection set: 180h, 280h, 380h, 480h plus the node ID.
+                if id & 0x80 != 0 && node != 0 {
+                    self.nodes.entry(node).or_default().sent.push(seen);
+                }
+            }
+            (0x581..=0x67F, false, _) => {
+                if let Some((node, is_response)) = default_sdo(frame) {
+                    let it = self.nodes.entry(node).or_default();
+                    if is_response {
+                        it.sent.push(seen);
+                    }
+                    it.sdo(seen, frame, is_response);
+                }
+            }
+            (0x701..=0x77F, true, _) => self.nodes.entry(node).or_default().guards.push(seen),
+            (0x701..=0x77F, false, [state, ..]) => {
+                let it = self.nodes.entry(node).or_default();
+                it.states.push((seen, *state));
+                it.sent.push(seen);
+            }
+            _ => {}
+        }
+    }
+
+    /// Load of each window, 0 to 1; `None` if the bit rate is not known.
+    pub(super) fn loads(&self) -> Option<Vec<(Instant, f64)>> {
+        let room = f64::from(self.rate?) * 1000.0 * WINDOW as f64 / 1e6;
+        let loads = self.windows.iter().enumerate().map(|(number, bits)| {
+            let at = self.begin.plus_micros(number as u64 * WINDOW);
+            (at, f64::from(*bits) / room)
+        });
+        Some(loads.collect())
+    }
+
+    /// The NMT commands to a node between two moments.
+    pub(super) fn commands_to(&self, node: u8, from: Instant, to: Instant) -> Vec<u8> {
+        let all = self.commands.iter();
+        let to_it = all.filter(|(seen, _, target)| {
+            (*target == node || *target == 0) && seen.at >= from && seen.at <= to
+        });
+        to_it.map(|(_, code, _)| *code).collect()
+    }
+
+    /// Whether anything but frames of this node came between two moments: the log went on.
+    pub(super) fn goes_on(&self, node: u8, from: Instant, to: Instant) -> bool {
+        let sent = self.nodes.get(&node).map_or(&[][..], |node| &node.sent);
+        let count = |all: &[Seen]| {
+            let first = all.partition_point(|seen| seen.at <= from);
+            all.partition_point(|seen| seen.at < to)
+                .saturating_sub(first)
+        };
+        count(&self.frames) + count(&self.errors) > count(sent)
+    }
+
+    pub(super) fn frame(&self, place: usize) -> Option<&Frame> {
+        match &self.records.get(place)?.what {
+            What::Frame(frame) => Some(frame),
+            What::Error => None,
+        }
+    }
+
+    pub(super) fn dictionary(&self, node: u8) -> Option<Dictionary<'a>> {
+        self.known.dictionary.and_then(|of| of(node))
+    }
+
+    /// Default value of an object by the EDS, or what a client wrote last before a moment.
+    pub(super) fn value(&self, node: u8, address: Address, before: Instant) -> Option<u32> {
+        let writes = self.nodes.get(&node).map_or(&[][..], |node| &node.writes);
+        let written = writes
+            .iter()
+            .rev()
+            .find(|(seen, own, _)| *own == address && seen.at <= before);
+        if let Some((_, _, value)) = written {
+            return Some(*value);
+        }
+        let entry = self.dictionary(node)?.entry(address.index, address.sub)?;
+        u32::try_from(entry.default.integer(node)?).ok()
+    }
+}
+
+impl Node {
+    fn sdo(&mut self, seen: Seen, frame: &Frame, is_response: bool) {
+        let Some(message) = self.observer.read(is_response, frame) else {
+            return;
+        };
+        match message {
+            Message::Request(Request::Abort { .. }) => self.end(seen, Outcome::GaveUp),
+            Message::Request(Request::EndBlockUpload) | Message::Segment { .. } => {}
+            Message::Request(request) => {
+                self.end(seen, Outcome::GaveUp);
+                let is_download = matches!(
+                    request,
+                    Request::InitiateDownload { .. } | Request::InitiateBlockDownload { .. }
+                );
+                let [command, low, high, sub, value @ ..] = *frame.bytes();
+                let address = Address::new(u16::from_le_bytes([low, high]), sub);
+                if command & 0xE2 == 0x22 {
+                    let unused = if command & 1 == 1 {
+                        command >> 2 & 3
+                    } else {
+                        0
+                    };
+                    let value = u32::from_le_bytes(value) & (u32::MAX >> (8 * u32::from(unused)));
+                    self.writes.push((seen, address, value));
+                }
+                self.exchanges.push(Exchange {
+                    request: seen,
+                    address: self.observer.object,
+                    is_download,
+                    outcome: Outcome::Open,
+                    end: seen,
+                    extra: Vec::new(),
+                });
+                self.is_pending = true;
+            }
+            Message::Response(response) => {
+                if !self.is_pending {
+                    if let Some(last) = self.exchanges.last_mut() {
+                        last.extra.push(seen);
+                    }
+                    return;
+                }
+                let named = named(&response, frame);
+                let wanted = self.exchanges.last().and_then(|exchange| exchange.address);
+                let outcome = match response {
+                    Response::Abort { .. } => {
+                        let [_, _, _, _, a, b, c, d] = *frame.bytes();
+                        Outcome::Refused(u32::from_le_bytes([a, b, c, d]))
+                    }
+                    _ if named.is_some() && wanted.is_some() && named != wanted => Outcome::Other,
+                    _ => Outcome::Answered,
+                };
+                self.end(seen, outcome);
+            }
+        }
+    }
+
+    fn end(&mut self, seen: Seen, outcome: Outcome) {
+        if core::mem::take(&mut self.is_pending)
+            && let Some(last) = self.exchanges.last_mut()
+        {
+            (last.outcome, last.end) = (outcome, seen);
+        }
+    }
+}
+
+/// The object that a response names.
+fn named(response: &Response, frame: &Frame) -> Option<Address> {
+    let [command, low, high, sub, ..] = *frame.bytes();
+    let is_first = match response {
+        Response::UploadSegment(_) | Response::DownloadSegment { .. } => false,
+        _ => matches!(command >> 5, 2 | 3),
+    };
+    is_first.then(|| Address::new(u16::from_le_bytes([low, high]), sub))
+}
+
+/// The bit rate by frames that follow each other without a pause, if there are enough of them.
+fn estimated(lengths: &[(Instant, u32)]) -> Option<u16> {
+    let mut rates: Vec<f64> = lengths
+        .windows(2)
+        .filter_map(|pair| {
+            let micros = pair[1].0.micros_since(pair[0].0);
+            (micros > 0).then(|| f64::from(pair[1].1) * 1000.0 / micros as f64)
+        })
+        .collect();
+    rates.sort_by(f64::total_cmp);
+    // The fastest are without a pause; a few are faster than the bus, by the time stamps of an adapter.
+    let fast = *rates.get(rates.len().saturating_sub(rates.len() / 50 + 1))?;
+    let near = rates
+        .iter()
+        .filter(|rate| (**rate / fast - 1.0).abs() < 0.1)
+        .count();
+    if near < 10 {
+        return None;
+    }
+    let rate = RATES
+        .into_iter()
+        .find(|rate| (fast / f64::from(*rate) - 1.0).abs() < 0.1)?;
+    Some(rate)
+}
+
+/// The gap in the middle, in microseconds; 0 without gaps.
+pub(super) fn middle(all: &[Seen]) -> u64 {
+    let mut gaps: Vec<u64> = all
+        .windows(2)
+        .map(|pair| pair[1].at.micros_since(pair[0].at))
+        .collect();
+    gaps.sort_unstable();
+    gaps.get(gaps.len() / 2).copied().unwrap_or(0)
+}
+
+/// Whether two senders take turns: every second frame has the same distance, and neighbours have not.
+pub(super) fn is_interleaved(all: &[Seen]) -> bool {
+    if all.len() < 8 {
+        return false;
+    }
+    let seconds: Vec<Seen> = all.iter().step_by(2).copied().collect();
+    let period = middle(&seconds);
+    let is_off = |gap: u64, wanted: u64| gap.abs_diff(wanted) * 20 > wanted;
+    let steady = all
+        .windows(3)
+        .filter(|three| !is_off(three[2].at.micros_since(three[0].at), period));
+    let uneven = all.windows(2).filter(|pair| {
+        let gap = pair[1].at.micros_since(pair[0].at);
+        gap.abs_diff(period / 2) * 8 > period / 2
+    });
+    period > 0
+        && steady.count() * 10 >= (all.len() - 2) * 8
+        && uneven.count() * 10 >= (all.len() - 1) * 8
+}
+
+/// Microseconds as a text.
+pub(super) fn millis(micros: u64) -> String {
+    match micros {
+        0..10_000 => std::format!("{}.{} ms", micros / 1000, micros % 1000 / 100),
+        10_000..10_000_000 => std::format!("{} ms", micros / 1000),
+        _ => std::format!("{} s", micros / 1_000_000),
+    }
+}

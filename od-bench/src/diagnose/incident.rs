@@ -1,0 +1,88 @@
+//! An incident: a fault, from its first sign to its last.
+
+use std::prelude::v1::*;
+
+use od_wire::Instant;
+
+/// A likely cause of an incident.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Cause {
+    /// Its name for programs, such as `same-node-id`.
+    pub id: &'static str,
+    /// The cause, in one sentence.
+    pub text: String,
+    /// What to check first.
+    pub check: String,
+}
+
+impl Cause {
+    pub(super) fn new(id: &'static str, text: impl Into<String>, check: impl Into<String>) -> Self {
+        Self {
+            id,
+            text: text.into(),
+            check: check.into(),
+        }
+    }
+}
+
+/// A fault in a log.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Incident {
+    /// Name of the rule that found it.
+    pub rule: &'static str,
+    /// What happened, in one sentence.
+    pub text: String,
+    /// The nodes that it is about; empty: the whole bus.
+    pub nodes: Vec<u8>,
+    /// Time of the first sign.
+    pub begin: Instant,
+    /// Time of the last sign, or of the recovery.
+    pub end: Instant,
+    /// Whether the bus was as before when the log ended.
+    pub recovered: bool,
+    /// Likely causes, the likeliest first.
+    pub causes: Vec<Cause>,
+    /// Places in the log of the records that show it, at most [`Incident::SHOWN`].
+    pub records: Vec<usize>,
+}
+
+impl Incident {
+    /// Most records that an incident shows.
+    pub const SHOWN: usize = 8;
+
+    pub(super) fn new(text: impl Into<String>, begin: Instant, end: Instant) -> Self {
+        Self {
+            rule: "",
+            text: text.into(),
+            nodes: Vec::new(),
+            begin,
+            end,
+            recovered: false,
+            causes: Vec::new(),
+            records: Vec::new(),
+        }
+    }
+
+    pub(super) fn node(mut self, node: u8) -> Self {
+        self.nodes.push(node);
+        self
+    }
+
+    pub(super) fn recovered(mut self, recovered: bool) -> Self {
+        self.recovered = recovered;
+        self
+    }
+
+    pub(super) fn cause(mut self, cause: Cause) -> Self {
+        self.causes.push(cause);
+        self
+    }
+
+    pub(super) fn shows(mut self, records: impl IntoIterator<Item = usize>) -> Self {
+        self.records.extend(records);
+        self.records.sort_unstable();
+        self.records.dedup();
+        self.records.truncate(Self::SHOWN);
+        self
+    }
+}

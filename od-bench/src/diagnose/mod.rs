@@ -1,0 +1,38 @@
+//! Finds the faults in a log of a bus, and their likely causes: what a specialist says after an hour with it.
+//!
+//! [`diagnose`] reads the frames once into facts (which node sent what and when, which request had which response),
+//! asks each rule, and joins what belongs to one fault: a cable that came loose, the EMCY of its consumer and the
+//! requests without a response are one incident.
+
+mod facts;
+mod incident;
+mod known;
+mod merge;
+mod rule;
+mod rules;
+
+use std::prelude::v1::*;
+
+pub use incident::{Cause, Incident};
+pub use known::Known;
+
+use crate::logs::Record;
+
+/// The incidents of a log, in the order of their beginning. A healthy log has none.
+pub fn diagnose<'k>(records: &'k [Record], known: Known<'k>) -> Vec<Incident> {
+    let facts = facts::Facts::of(records, known);
+    let found = rules::ALL.iter().flat_map(|rule| {
+        let mut all = (rule.check)(&facts);
+        all.sort_by_key(|incident| incident.begin);
+        for incident in &mut all {
+            incident.rule = rule.name;
+        }
+        all
+    });
+    merge::merge(found.collect())
+}
+
+/// Names and titles of the rules.
+pub fn rules() -> impl Iterator<Item = (&'static str, &'static str)> {
+    rules::ALL.iter().map(|rule| (rule.name, rule.title))
+}

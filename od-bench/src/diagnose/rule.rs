@@ -1,0 +1,13 @@
+//! A rule of the diagnosis.
+
+use std::prelude::v1::*;
+
+use super::facts::Facts;
+use super::incident::Incident;
+
+/// A rule: what it finds in the facts of a log.
+pub(super) struct Rule {
+    pub(super) name: &'static str,
+    pub(super) title: &'static str,
+    pub(super) check: fn(&Facts<'_>) -> Vec<Incident>,
+}

@@ -1,0 +1,62 @@
+//! A CAN controller with too many errors: error passive, bus-off, frames that it lost.
+
+use std::format;
+use std::prelude::v1::*;
+
+use crate::diagnose::facts::Facts;
+use crate::diagnose::incident::{Cause, Incident};
+use crate::diagnose::rule::Rule;
+use crate::words::code_text;
+
+pub(super) const RULE: Rule = Rule {
+    name: "bus-off",
+    title: "A node's CAN controller has errors",
+    check,
+};
+
+fn check(facts: &Facts<'_>) -> Vec<Incident> {
+    let mut found = Vec::new();
+    for (id, node) in &facts.nodes {
+        for (place, emcy) in node.emcys.iter().enumerate() {
+            if !matches!(emcy.code, 0x8110 | 0x8120 | 0x8140) {
+                continue;
+            }
+            let ended = node.emcys[place..].iter().find(|later| later.code == 0);
+            let cause = if emcy.code == 0x8110 {
+                Cause::new(
+                    "overrun",
+                    format!("node {id} takes frames too slowly, and lost some"),
+                    format!(
+                        "acceptance filters and interrupt load of node {id}, and bursts on the bus"
+                    ),
+                )
+            } else {
+                Cause::new(
+                    "controller-errors",
+                    format!(
+                        "node {id} has seen many errors, the others have not: its own connection is bad"
+                    ),
+                    format!(
+                        "connector, stub and ground of node {id}, then its bit timing (sample point)"
+                    ),
+                )
+            };
+            found.push(
+                Incident::new(
+                    format!(
+                        "node {id} reports {:04X}h, {}",
+                        emcy.code,
+                        code_text(emcy.code)
+                    ),
+                    emcy.seen.at,
+                    ended.map_or(emcy.seen.at, |ended| ended.seen.at),
+                )
+                .node(*id)
+                .recovered(ended.is_some() || emcy.code == 0x8140)
+                .shows([emcy.seen.place])
+                .cause(cause),
+            );
+        }
+    }
+    found
+}

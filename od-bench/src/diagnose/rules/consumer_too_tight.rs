@@ -1,0 +1,118 @@
+//! A heartbeat consumer that reports an error although the heartbeat came.
+
+use std::format;
+use std::prelude::v1::*;
+
+use od_model::Address;
+
+use crate::diagnose::facts::{Facts, Seen, middle, millis};
+use crate::diagnose::incident::{Cause, Incident};
+use crate::diagnose::rule::Rule;
+
+pub(super) const RULE: Rule = Rule {
+    name: "consumer-too-tight",
+    title: "A heartbeat consumer is too tight",
+    check,
+};
+
+fn check(facts: &Facts<'_>) -> Vec<Incident> {
+    let mut found = Vec::new();
+    for (id, node) in &facts.nodes {
+        let own: Vec<_> = node
+            .emcys
+            .iter()
+            .filter(|emcy| emcy.code == 0x8130)
+            .collect();
+        let [first, ..] = own[..] else {
+            continue;
+        };
+        // A node that is guarded reports its master.
+        if node
+            .guards
+            .iter()
+            .filter(|seen| seen.at < first.seen.at)
+            .count()
+            >= 3
+        {
+            continue;
+        }
+        let last = own[own.len() - 1];
+        let ended = node
+            .emcys
+            .iter()
+            .rev()
+            .find(|emcy| emcy.code == 0 && emcy.seen.at >= last.seen.at);
+        let mut incident = Incident::new(
+            format!("node {id} reports a heartbeat error (EMCY 8130h)"),
+            first.seen.at,
+            ended.map_or(last.seen.at, |ended| ended.seen.at),
+        )
+        .node(*id)
+        .recovered(ended.is_some())
+        .shows(own.iter().map(|emcy| emcy.seen.place));
+        let watched = watched(facts, *id, first.seen);
+        let Some((other, time)) = watched else {
+            found.push(incident.cause(Cause::new(
+                "heartbeat-missing",
+                format!("a node that node {id} monitors sends no heartbeat in time"),
+                format!("1016h of node {id}: which node, and what time"),
+            )));
+            continue;
+        };
+        let beats = facts
+            .nodes
+            .get(&other)
+            .map(|node| node.beats())
+            .unwrap_or_default();
+        let before: Vec<Seen> = beats
+            .iter()
+            .copied()
+            .filter(|seen| seen.at <= first.seen.at)
+            .collect();
+        let period = middle(&beats);
+        let silent = before
+            .last()
+            .map(|last| first.seen.at.micros_since(last.at));
+        incident = incident.shows(before.iter().rev().take(2).map(|seen| seen.place));
+        let time = u64::from(time) * 1000;
+        if period > 0
+            && (time < period * 3 / 2 || silent.is_some_and(|silent| silent < period * 3 / 2))
+        {
+            incident = incident.cause(Cause::new(
+                "consumer-too-tight",
+                format!(
+                    "node {id} allows node {other} {}, and its heartbeat comes every {}",
+                    millis(time),
+                    millis(period)
+                ),
+                format!("1016h of node {id}: at least 1.5 times, better twice, the time in 1017h of node {other}"),
+            ));
+        } else {
+            // The loss of the heartbeat is the fault, and this its sign.
+            incident.nodes.push(other);
+            incident = incident.cause(Cause::new(
+                "heartbeat-missing",
+                format!("node {other}, which node {id} monitors, sends no heartbeat"),
+                format!("1017h of node {other}, its power and its connector"),
+            ));
+        }
+        found.push(incident);
+    }
+    found
+}
+
+/// The node that a consumer misses, and its time in milliseconds: of the entries of 1016h the one whose heartbeat is
+/// missing longest.
+fn watched(facts: &Facts<'_>, id: u8, emcy: Seen) -> Option<(u8, u32)> {
+    let entries = (1..=127).filter_map(|sub| facts.value(id, Address::new(0x1016, sub), emcy.at));
+    let entries = entries.filter(|raw| raw & 0xFFFF != 0 && raw >> 16 & 0x7F != 0);
+    let entries = entries.map(|raw| ((raw >> 16 & 0x7F) as u8, raw & 0xFFFF));
+    let silent = |node: u8| {
+        let beats = facts.nodes.get(&node)?.beats();
+        let last = beats.iter().rev().find(|seen| seen.at <= emcy.at)?;
+        Some(emcy.at.micros_since(last.at))
+    };
+    entries.max_by_key(|(node, time)| {
+        silent(*node).map(|micros| micros as i64 - i64::from(*time) * 1000)
+    })
+}

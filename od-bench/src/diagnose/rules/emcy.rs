@@ -1,0 +1,48 @@
+//! Errors that a device reports of itself.
+
+use std::format;
+use std::prelude::v1::*;
+
+use crate::diagnose::facts::{Emcy, Facts};
+use crate::diagnose::incident::{Cause, Incident};
+use crate::diagnose::rule::Rule;
+use crate::words::code_text;
+
+pub(super) const RULE: Rule = Rule {
+    name: "emcy",
+    title: "A device reports an error",
+    check,
+};
+
+fn check(facts: &Facts<'_>) -> Vec<Incident> {
+    let mut found = Vec::new();
+    for (id, node) in &facts.nodes {
+        // From an error to the message that all are over.
+        for group in node.emcys.split_inclusive(|emcy| emcy.code == 0) {
+            let errors: Vec<&Emcy> = group.iter().filter(|emcy| emcy.code != 0).collect();
+            let (Some(first), Some(last)) = (errors.first(), group.last()) else {
+                continue;
+            };
+            let meaning = code_text(first.code);
+            found.push(
+                Incident::new(
+                    format!("node {id} reports {:04X}h, {meaning}", first.code),
+                    first.seen.at,
+                    last.seen.at,
+                )
+                .node(*id)
+                .recovered(last.code == 0)
+                .shows(group.iter().map(|emcy| emcy.seen.place))
+                .cause(Cause::new(
+                    "device-error",
+                    format!("the device has an error of its own: {meaning}"),
+                    format!(
+                        "the manual of node {id} for code {:04X}h, and its history 1003h",
+                        first.code
+                    ),
+                )),
+            );
+        }
+    }
+    found
+}

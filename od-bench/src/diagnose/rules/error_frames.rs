@@ -1,0 +1,94 @@
+//! Error frames and their rhythm: no acknowledge, a node with another bit rate, a line without its terminators.
+
+use std::format;
+use std::prelude::v1::*;
+
+use crate::diagnose::facts::{Facts, Seen};
+use crate::diagnose::incident::{Cause, Incident};
+use crate::diagnose::rule::Rule;
+
+pub(super) const RULE: Rule = Rule {
+    name: "error-frames",
+    title: "Error frames",
+    check,
+};
+
+/// Error frames this far apart belong to one incident, in microseconds.
+const APART: u64 = 5_000_000;
+
+fn check(facts: &Facts<'_>) -> Vec<Incident> {
+    let clusters = facts
+        .errors
+        .chunk_by(|a, b| b.at.micros_since(a.at) <= APART);
+    clusters.map(|errors| incident(facts, errors)).collect()
+}
+
+fn incident(facts: &Facts<'_>, errors: &[Seen]) -> Incident {
+    let (begin, end) = match errors {
+        [first, .., last] => (first.at, last.at),
+        [only] => (only.at, only.at),
+        [] => (facts.begin, facts.begin),
+    };
+    let first = facts.frames.partition_point(|seen| seen.at < begin);
+    let last = facts.frames.partition_point(|seen| seen.at <= end);
+    let good = last.saturating_sub(first);
+    let count = errors.len();
+    // Runs of error frames without a frame between them.
+    let runs = errors.chunk_by(|a, b| {
+        facts.frames.partition_point(|seen| seen.place < a.place)
+            == facts.frames.partition_point(|seen| seen.place < b.place)
+    });
+    let longest = runs.map(<[Seen]>::len).max().unwrap_or(0);
+    let is_over = facts
+        .frames
+        .last()
+        .is_some_and(|seen| seen.at > end.plus_micros(200_000));
+    let text = format!(
+        "{count} error {} and {good} {} between them",
+        if count == 1 { "frame" } else { "frames" },
+        if good == 1 { "frame" } else { "frames" },
+    );
+    let silence = Cause::new(
+        "no-acknowledge",
+        "no other node acknowledges: one node sends its frame again and again",
+        "whether another node has power, is connected, and has the same bit rate; CAN_H and CAN_L may be swapped",
+    );
+    let rate = Cause::new(
+        "bit-rate",
+        "a node with another bit rate destroys frames",
+        "the bit rate of the node that was switched on or connected last (switches, LSS, EDS)",
+    );
+    let terminator = Cause::new(
+        "terminator",
+        "reflections: a terminator is missing, or a stub is too long",
+        "the resistance between CAN_H and CAN_L without power: 60 ohms with both terminators, 120 with one",
+    );
+    let noise = Cause::new(
+        "noise",
+        "disturbances from outside, or a bad contact",
+        "shield, ground and connectors, and whether the errors come with a drive or a valve that switches",
+    );
+    let is_noise = count < 5 && good > 20 * count;
+    let causes = if is_noise {
+        [noise, terminator, rate]
+    } else if good == 0 && !had_frames_before(facts, errors) {
+        [silence, rate, terminator]
+    } else if longest >= 8 {
+        // Frame after frame fails, retries included, until the wrong node is off the bus.
+        [rate, terminator, silence]
+    } else {
+        [terminator, noise, rate]
+    };
+    let mut incident = Incident::new(text, begin, end)
+        .recovered(is_over)
+        .shows(errors.iter().take(Incident::SHOWN).map(|seen| seen.place));
+    incident.causes.extend(causes);
+    incident
+}
+
+fn had_frames_before(facts: &Facts<'_>, errors: &[Seen]) -> bool {
+    let begin = errors.first().map_or(facts.begin, |seen| seen.at);
+    let before = facts.frames.partition_point(|seen| seen.at < begin);
+    // A node that is alone may have sent a frame before the other was unplugged.
+    before > 2
+}

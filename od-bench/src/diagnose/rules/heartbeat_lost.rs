@@ -1,0 +1,139 @@
+//! A node whose heartbeat stops.
+
+use std::format;
+use std::prelude::v1::*;
+
+use crate::diagnose::facts::{Facts, Node, Seen, middle, millis};
+use crate::diagnose::incident::{Cause, Incident};
+use crate::diagnose::rule::Rule;
+
+pub(super) const RULE: Rule = Rule {
+    name: "heartbeat-lost",
+    title: "A heartbeat stops",
+    check,
+};
+
+fn check(facts: &Facts<'_>) -> Vec<Incident> {
+    let mut found = Vec::new();
+    for (id, node) in &facts.nodes {
+        let beats = node.beats();
+        if beats.len() < 4 || node.guards.len() * 2 > beats.len() {
+            continue;
+        }
+        for (last, next) in gaps(facts, node, &beats) {
+            found.extend(incident(facts, *id, node, &beats, last, next));
+        }
+    }
+    found
+}
+
+/// The times without a heartbeat: the last before and the first after. Period and threshold are those of the beats
+/// before, since 1017h was written last.
+fn gaps(facts: &Facts<'_>, node: &Node, beats: &[Seen]) -> Vec<(Seen, Option<Seen>)> {
+    let mut all = Vec::new();
+    let writes = node
+        .writes
+        .iter()
+        .filter(|(_, address, _)| address.index == 0x1017);
+    let writes: Vec<_> = writes.map(|(seen, ..)| seen.at).collect();
+    for number in 3..=beats.len() {
+        let last = beats[number - 1];
+        let next = beats.get(number).copied();
+        let written = writes.iter().rev().find(|at| **at <= last.at);
+        let since = written.map_or(0, |at| beats.partition_point(|seen| seen.at <= *at));
+        let own = beats
+            .get(since.max(number.saturating_sub(12))..number)
+            .unwrap_or_default();
+        let period = middle(own);
+        let until = next.map_or(facts.end, |next| next.at);
+        let longest = (period * 5 / 2).max(period + 20_000);
+        let is_off = node.is_written(0x1017, last.at, until.max(last.at));
+        if period > 0 && until.micros_since(last.at) > longest && !is_off {
+            all.push((last, next));
+        }
+    }
+    all
+}
+
+fn incident(
+    facts: &Facts<'_>,
+    id: u8,
+    node: &Node,
+    beats: &[Seen],
+    last: Seen,
+    next: Option<Seen>,
+) -> Option<Incident> {
+    let until = next.map_or(facts.end, |next| next.at);
+    let period = middle(beats);
+    // A reset explains a pause, and a recorder that stopped explains one of all nodes.
+    let is_reset = facts
+        .commands_to(id, last.at, until)
+        .iter()
+        .any(|code| matches!(code, 0x81 | 0x82));
+    if is_reset && node.boots().any(|boot| boot.at > last.at) || !facts.goes_on(id, last.at, until)
+    {
+        return None;
+    }
+    let others = facts.nodes.iter().filter(|(other, node)| {
+        **other != id && {
+            let beats = node.beats();
+            beats.len() >= 4
+                && beats.iter().any(|seen| seen.at <= last.at)
+                && !beats.iter().any(|seen| {
+                    seen.at > last.at.plus_micros(3 * middle(&beats)) && seen.at < until
+                })
+        }
+    });
+    let together: Vec<u8> = others.map(|(other, _)| *other).collect();
+    let still = node
+        .sent
+        .iter()
+        .filter(|seen| seen.at > last.at.plus_micros(period) && seen.at < until);
+    let still: Vec<usize> = still.map(|seen| seen.place).collect();
+    let text = match next {
+        Some(next) => format!(
+            "node {id}: no heartbeat for {}, it came every {} before",
+            millis(next.at.micros_since(last.at)),
+            millis(period)
+        ),
+        None => format!(
+            "node {id}: the heartbeat, every {} until then, stops",
+            millis(period)
+        ),
+    };
+    let power = Cause::new(
+        "connection",
+        format!("node {id} has no power, or its cable came loose"),
+        format!("power and connector of node {id}"),
+    );
+    let segment = Cause::new(
+        "segment",
+        format!(
+            "nodes {id} and {together:?} fall silent together: their supply, or the cable between them and the others"
+        ),
+        "what these nodes share: a fuse, a power supply, a connector",
+    );
+    let busy = Cause::new(
+        "node-busy",
+        format!(
+            "node {id} is alive but sends no heartbeat: its firmware is busy, or 1017h changed"
+        ),
+        format!("1017h of node {id}, and what its firmware does at this time"),
+    );
+    let mut incident = Incident::new(text, last.at, until)
+        .node(id)
+        .recovered(next.is_some())
+        .shows([last.place])
+        .shows(next.map(|next| next.place))
+        .shows(still.iter().take(2).copied());
+    // What fell silent together is one incident.
+    incident.nodes.extend(&together);
+    incident
+        .causes
+        .extend(match (together.is_empty(), still.is_empty()) {
+            (_, false) => [busy, power].into_iter().take(2),
+            (false, _) => [segment, power].into_iter().take(2),
+            (true, true) => [power, busy].into_iter().take(2),
+        });
+    Some(incident)
+}

@@ -1,0 +1,46 @@
+//! The rules, one file each. A rule explains the signs of those behind it in the list.
+
+mod bus_load;
+mod bus_off;
+mod consumer_too_tight;
+mod emcy;
+mod error_frames;
+mod guarding;
+mod heartbeat_lost;
+mod inhibit_time;
+mod mapping_differs;
+mod nmt_not_followed;
+mod pdo_lost;
+mod reboots;
+mod same_node_id;
+mod sdo_refused;
+mod sdo_timeout;
+mod state_changed;
+mod sync_irregular;
+mod two_clients;
+mod two_sync_producers;
+
+use super::rule::Rule;
+
+/// All rules. The first explain most: a bus without its terminators loses heartbeats, PDOs and responses.
+pub(super) const ALL: &[Rule] = &[
+    error_frames::RULE,
+    same_node_id::RULE,
+    bus_load::RULE,
+    bus_off::RULE,
+    reboots::RULE,
+    heartbeat_lost::RULE,
+    guarding::RULE,
+    two_sync_producers::RULE,
+    sync_irregular::RULE,
+    consumer_too_tight::RULE,
+    mapping_differs::RULE,
+    inhibit_time::RULE,
+    pdo_lost::RULE,
+    two_clients::RULE,
+    sdo_timeout::RULE,
+    sdo_refused::RULE,
+    state_changed::RULE,
+    nmt_not_followed::RULE,
+    emcy::RULE,
+];

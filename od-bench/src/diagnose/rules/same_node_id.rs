@@ -1,0 +1,117 @@
+//! Two nodes with one node ID.
+
+use std::format;
+use std::prelude::v1::*;
+
+use crate::diagnose::facts::{Facts, Node, Outcome, Seen, is_interleaved};
+use crate::diagnose::incident::{Cause, Incident};
+use crate::diagnose::rule::Rule;
+
+pub(super) const RULE: Rule = Rule {
+    name: "same-node-id",
+    title: "Two nodes with one node ID",
+    check,
+};
+
+/// A second response comes this soon, in microseconds; a late one after a time-out does not.
+const SOON: u64 = 50_000;
+
+fn check(facts: &Facts<'_>) -> Vec<Incident> {
+    let mut found = Vec::new();
+    for (id, node) in &facts.nodes {
+        let mut signs = twice(facts, node);
+        let mut why = "a request has two responses";
+        if signs.len() < 2 {
+            signs = boots(facts, *id, node);
+            why = "one reset brings two boot-up messages";
+        }
+        if signs.len() < 2 {
+            signs = beats(node);
+            why = "two heartbeats take turns";
+        }
+        let [first, .., last] = signs[..] else {
+            continue;
+        };
+        found.push(
+            Incident::new(format!("node {id}: {why}"), first.at, last.at)
+                .node(*id)
+                .shows(signs.iter().map(|seen| seen.place))
+                .cause(Cause::new(
+                    "same-node-id",
+                    format!("two devices have node ID {id}"),
+                    format!("take one device off the bus; node {id} still answers. Then give it another node ID"),
+                )),
+        );
+    }
+    found
+}
+
+/// The second responses to one request, each with the first one: both about the same object.
+fn twice(facts: &Facts<'_>, node: &Node) -> Vec<Seen> {
+    let mut signs = Vec::new();
+    let head = |seen: &Seen| {
+        facts
+            .frame(seen.place)
+            .map(|frame| frame.bytes()[1..4].to_vec())
+    };
+    for exchange in &node.exchanges {
+        let is_done = matches!(exchange.outcome, Outcome::Answered | Outcome::Refused(_));
+        let second = exchange.extra.iter().find(|extra| {
+            extra.at.micros_since(exchange.end.at) <= SOON && head(extra) == head(&exchange.end)
+        });
+        if let Some(second) = second.filter(|_| is_done) {
+            signs.extend([exchange.end, *second]);
+        }
+    }
+    signs
+}
+
+/// Boot-up messages beyond one for each reset, within a second.
+fn boots(facts: &Facts<'_>, id: u8, node: &Node) -> Vec<Seen> {
+    let boots: Vec<Seen> = node.boots().collect();
+    let mut signs = Vec::new();
+    for pair in boots.windows(2) {
+        let [first, second] = [pair[0], pair[1]];
+        let is_near = second.at.micros_since(first.at) < 1_000_000;
+        // A device that restarts by itself sends nothing for the time of its start: some milliseconds.
+        let commands = facts.commands_to(id, first.at.max(facts.begin), second.at);
+        let between = node
+            .sent
+            .iter()
+            .filter(|seen| seen.at > first.at && seen.at < second.at);
+        if is_near && commands.is_empty() && between.count() == 0 && is_by_command(facts, id, first)
+        {
+            signs.extend([first, second]);
+        }
+    }
+    signs
+}
+
+/// Whether a reset command came shortly before.
+fn is_by_command(facts: &Facts<'_>, id: u8, boot: Seen) -> bool {
+    facts.commands.iter().any(|(seen, code, node)| {
+        let is_reset = matches!(code, 0x81 | 0x82) && (*node == id || *node == 0);
+        is_reset && seen.at <= boot.at && boot.at.micros_since(seen.at) < 3_000_000
+    })
+}
+
+/// Heartbeats of two senders: they take turns, or their states do.
+fn beats(node: &Node) -> Vec<Seen> {
+    let beats = node.beats();
+    let states: Vec<u8> = node
+        .states
+        .iter()
+        .filter(|(_, state)| *state != 0)
+        .map(|(_, state)| *state)
+        .collect();
+    let turns = states
+        .windows(3)
+        .filter(|three| three[0] == three[2] && three[0] & 0x7F != three[1] & 0x7F);
+    let is_turning = states.len() >= 6 && turns.count() * 2 >= states.len();
+    let is_guarded = node.guards.len() * 2 > beats.len();
+    if !is_guarded && (is_turning || is_interleaved(&beats)) {
+        beats
+    } else {
+        Vec::new()
+    }
+}

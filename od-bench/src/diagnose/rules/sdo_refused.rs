@@ -1,0 +1,88 @@
+//! SDO downloads that the server refuses.
+
+use std::format;
+use std::prelude::v1::*;
+
+use od_runtime::AbortCode;
+
+use crate::diagnose::facts::{Exchange, Facts, Outcome};
+use crate::diagnose::incident::{Cause, Incident};
+use crate::diagnose::rule::Rule;
+
+pub(super) const RULE: Rule = Rule {
+    name: "sdo-refused",
+    title: "A node refuses a value",
+    check,
+};
+
+fn check(facts: &Facts<'_>) -> Vec<Incident> {
+    let mut found = Vec::new();
+    for (id, node) in &facts.nodes {
+        let refused: Vec<&Exchange> = node
+            .exchanges
+            .iter()
+            .filter(|one| one.is_download && matches!(one.outcome, Outcome::Refused(_)))
+            .collect();
+        for group in refused.chunk_by(|a, b| a.address == b.address && a.outcome == b.outcome) {
+            let (Some(first), Some(last)) = (group.first(), group.last()) else {
+                continue;
+            };
+            let Outcome::Refused(code) = first.outcome else {
+                continue;
+            };
+            let object = first
+                .address
+                .map_or(String::from("an object"), |address| address.to_string());
+            let meaning = AbortCode::from_code(code).map_or("an unknown code", |code| code.text());
+            let after = node.exchanges.iter().any(|one| {
+                one.is_download
+                    && one.address == first.address
+                    && one.request.at > last.request.at
+                    && one.outcome == Outcome::Answered
+            });
+            found.push(
+                Incident::new(
+                    format!("node {id} refuses a value for {object}: {code:08X}h, {meaning}"),
+                    first.request.at,
+                    last.end.at,
+                )
+                .node(*id)
+                .recovered(after)
+                .shows(
+                    group
+                        .iter()
+                        .take(3)
+                        .flat_map(|one| [one.request.place, one.end.place]),
+                )
+                .cause(Cause::new(
+                    "refused",
+                    reason(code),
+                    format!("the value against the EDS of node {id}, and the order of the writes"),
+                )),
+            );
+        }
+    }
+    found
+}
+
+/// What usually stands behind an abort code.
+fn reason(code: u32) -> String {
+    let text = match code {
+        0x0601_0002 | 0x0601_0000 => {
+            "the object cannot be written, or not while its PDO is valid or its mapping is active"
+        }
+        0x0602_0000 | 0x0609_0011 => {
+            "the device does not have the object: another revision than the configuration is for"
+        }
+        0x0604_0041 | 0x0604_0042 => {
+            "the mapping names an object that cannot be mapped, or more than 64 bits"
+        }
+        0x0607_0010 | 0x0607_0012 | 0x0607_0013 => {
+            "the length of the value is not that of the object"
+        }
+        0x0609_0030..=0x0609_0032 => "the value is outside the range of the object",
+        0x0800_0020..=0x0800_0022 => "the state of the device does not allow the value now",
+        _ => "the device does not accept the value",
+    };
+    text.into()
+}

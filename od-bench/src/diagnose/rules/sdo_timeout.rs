@@ -1,0 +1,140 @@
+//! SDO requests without a response in time.
+
+use std::format;
+use std::prelude::v1::*;
+
+use crate::diagnose::facts::{Exchange, Facts, Node, Outcome, millis};
+use crate::diagnose::incident::{Cause, Incident};
+use crate::diagnose::rule::Rule;
+
+pub(super) const RULE: Rule = Rule {
+    name: "sdo-timeout",
+    title: "An SDO request has no response in time",
+    check,
+};
+
+/// Failures this far apart are one incident, in microseconds.
+const APART: u64 = 10_000_000;
+
+fn check(facts: &Facts<'_>) -> Vec<Incident> {
+    let mut found = Vec::new();
+    for (id, node) in &facts.nodes {
+        let failed: Vec<&Exchange> = node
+            .exchanges
+            .iter()
+            .filter(|one| is_failed(facts, one))
+            .collect();
+        for group in failed.chunk_by(|a, b| b.request.at.micros_since(a.request.at) <= APART) {
+            found.extend(incident(facts, *id, node, group));
+        }
+    }
+    found
+}
+
+fn is_failed(facts: &Facts<'_>, one: &Exchange) -> bool {
+    match one.outcome {
+        Outcome::GaveUp | Outcome::Other => true,
+        // The log may end before the response.
+        Outcome::Open => facts.end.micros_since(one.request.at) > 500_000,
+        Outcome::Answered | Outcome::Refused(_) => false,
+    }
+}
+
+fn incident(facts: &Facts<'_>, id: u8, node: &Node, group: &[&Exchange]) -> Option<Incident> {
+    let (first, last) = (group.first()?, group.last()?);
+    let count = group.len();
+    let text = format!(
+        "node {id}: {count} SDO {} no response in time",
+        if count == 1 {
+            "request has"
+        } else {
+            "requests have"
+        }
+    );
+    let after = node
+        .exchanges
+        .iter()
+        .any(|one| one.request.at > last.request.at && !is_failed(facts, one));
+    let late = group.iter().find_map(|one| Some((one, one.extra.first()?)));
+    let other = group.iter().find(|one| one.outcome == Outcome::Other);
+    let is_known = !node.sent.is_empty();
+    let state = node
+        .states
+        .iter()
+        .rev()
+        .find(|(seen, _)| seen.at <= first.request.at);
+    let is_stopped = state.is_some_and(|(_, state)| state & 0x7F == 4);
+    let begin = first.request.at;
+    let is_alive = node
+        .sent
+        .iter()
+        .any(|seen| seen.at >= begin && seen.at <= last.end.at.plus_micros(1_000_000));
+    let cause = if other.is_some() {
+        Cause::new(
+            "other-response",
+            format!(
+                "node {id} responds about another object: the response to an earlier request, or of another client"
+            ),
+            "whether two programs use the channel, or the client's time-out is too short",
+        )
+    } else if let Some((one, extra)) = late {
+        Cause::new(
+            "late-response",
+            format!(
+                "node {id} responds after {}, and the client waits for {}",
+                millis(extra.at.micros_since(one.request.at)),
+                millis(one.end.at.micros_since(one.request.at))
+            ),
+            "the time-out of the client: some objects take long (save, restore, block transfers)",
+        )
+    } else if is_stopped {
+        Cause::new(
+            "stopped",
+            format!("node {id} is in Stopped, where SDO does not work"),
+            format!("the NMT command to node {id}: enter Pre-operational first"),
+        )
+    } else if !is_known {
+        Cause::new(
+            "node-missing",
+            format!(
+                "no frame of node {id} is in the log: it is off, not connected, or has another node ID or bit rate"
+            ),
+            format!(
+                "power of the device, its node ID (`odkit scan`), its bit rate; node {id} may be a slip of the client"
+            ),
+        )
+    } else if is_alive {
+        Cause::new(
+            "server-silent",
+            format!(
+                "node {id} is alive and does not respond: its SDO server is busy, or its COB-IDs were changed"
+            ),
+            format!("1200h of node {id}, and what its firmware does at this time"),
+        )
+    } else {
+        Cause::new(
+            "connection",
+            format!("node {id} fell silent: it has no power, or its cable came loose"),
+            format!("power and connector of node {id}"),
+        )
+    };
+    let mut incident = Incident::new(text, begin, last.end.at)
+        .node(id)
+        .recovered(after)
+        .shows(
+            group
+                .iter()
+                .take(3)
+                .flat_map(|one| [one.request.place, one.end.place]),
+        )
+        .shows(late.map(|(_, extra)| extra.place))
+        .cause(cause);
+    if !is_known {
+        incident = incident.cause(Cause::new(
+            "bit-rate",
+            format!("node {id} has another bit rate, and its controller has gone bus-off"),
+            "the bit rate of the device alone on a bus, with each rate in turn",
+        ));
+    }
+    Some(incident)
+}

@@ -1,0 +1,52 @@
+//! A node that changes its NMT state without a command.
+
+use std::format;
+use std::prelude::v1::*;
+
+use crate::diagnose::facts::Facts;
+use crate::diagnose::incident::{Cause, Incident};
+use crate::diagnose::rule::Rule;
+
+pub(super) const RULE: Rule = Rule {
+    name: "state-changed",
+    title: "A node leaves Operational without a command",
+    check,
+};
+
+fn check(facts: &Facts<'_>) -> Vec<Incident> {
+    let mut found = Vec::new();
+    for (id, node) in &facts.nodes {
+        for pair in node.states.windows(2) {
+            let [(before, was), (after, is)] = [pair[0], pair[1]];
+            let is_left = was & 0x7F == 5 && matches!(is & 0x7F, 4 | 0x7F);
+            if !is_left || !facts.commands_to(*id, before.at, after.at).is_empty() {
+                continue;
+            }
+            let state = if is & 0x7F == 4 {
+                "Stopped"
+            } else {
+                "Pre-operational"
+            };
+            let back = node
+                .states
+                .iter()
+                .find(|(seen, state)| seen.at > after.at && state & 0x7F == 5);
+            found.push(
+                Incident::new(
+                    format!("node {id} goes to {state} without a command"),
+                    before.at,
+                    after.at,
+                )
+                .node(*id)
+                .recovered(back.is_some())
+                .shows([before.place, after.place])
+                .cause(Cause::new(
+                    "error-behaviour",
+                    format!("an error of node {id} changes its NMT state (1029h)"),
+                    format!("EMCY and 1003h of node {id}, and what 1029h says"),
+                )),
+            );
+        }
+    }
+    found
+}

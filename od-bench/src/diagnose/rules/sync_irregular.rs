@@ -1,0 +1,92 @@
+//! SYNC that does not keep its period.
+
+use std::format;
+use std::prelude::v1::*;
+
+use crate::diagnose::facts::{Facts, Seen, is_interleaved, middle, millis};
+use crate::diagnose::incident::{Cause, Incident};
+use crate::diagnose::rule::Rule;
+
+pub(super) const RULE: Rule = Rule {
+    name: "sync-irregular",
+    title: "SYNC does not keep its period",
+    check,
+};
+
+fn check(facts: &Facts<'_>) -> Vec<Incident> {
+    let all = &facts.syncs;
+    let period = middle(all);
+    if all.len() < 20 || period == 0 || is_interleaved(all) {
+        return Vec::new();
+    }
+    let gap = |pair: &[Seen]| pair[1].at.micros_since(pair[0].at);
+    let near = all
+        .windows(2)
+        .filter(|pair| gap(pair).abs_diff(period) * 2 <= period);
+    let near: Vec<&[Seen]> = near.collect();
+    // SYNCs of a program that was not meant to be periodic.
+    if near.len() * 10 < (all.len() - 1) * 8 {
+        return Vec::new();
+    }
+    let mut found = Vec::new();
+    let off: Vec<&&[Seen]> = near
+        .iter()
+        .filter(|pair| gap(pair).abs_diff(period) * 10 > period)
+        .collect();
+    if off.len() * 20 >= near.len() {
+        let most = off
+            .iter()
+            .map(|pair| gap(pair).abs_diff(period))
+            .max()
+            .unwrap_or(0);
+        let (first, last) = (off[0][0], off[off.len() - 1][1]);
+        found.push(
+            Incident::new(
+                format!("SYNC every {} is off by up to {}", millis(period), millis(most)),
+                first.at,
+                last.at,
+            )
+            .shows(off.iter().take(3).flat_map(|pair| pair.iter().map(|seen| seen.place)))
+            .cause(Cause::new(
+                "sync-jitter",
+                "the producer sends SYNC from a task that is not punctual",
+                "priority and timer of the producer's task; a controller that sends SYNC by hardware timer is exact",
+            ))
+            .cause(Cause::new(
+                "bus-load",
+                "frames of lower CAN-IDs, or long frames, delay SYNC",
+                "the bus load around the frames below",
+            )),
+        );
+    }
+    let lost: Vec<&[Seen]> = all
+        .windows(2)
+        .filter(|pair| gap(pair) * 10 >= period * 18)
+        .collect();
+    if let [first, ..] = lost[..] {
+        let last = lost[lost.len() - 1];
+        found.push(
+            Incident::new(
+                format!(
+                    "SYNC every {} is missing {} times",
+                    millis(period),
+                    lost.len()
+                ),
+                first[0].at,
+                last[1].at,
+            )
+            .recovered(true)
+            .shows(
+                lost.iter()
+                    .take(3)
+                    .flat_map(|pair| pair.iter().map(|seen| seen.place)),
+            )
+            .cause(Cause::new(
+                "sync-lost",
+                "the producer of SYNC paused",
+                "the producer: its task, its restarts, its NMT state",
+            )),
+        );
+    }
+    found
+}

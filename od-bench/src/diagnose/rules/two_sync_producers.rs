@@ -1,0 +1,42 @@
+//! Two producers of SYNC.
+
+use std::prelude::v1::*;
+
+use crate::diagnose::facts::{Facts, is_interleaved};
+use crate::diagnose::incident::{Cause, Incident};
+use crate::diagnose::rule::Rule;
+
+pub(super) const RULE: Rule = Rule {
+    name: "two-sync-producers",
+    title: "Two producers of SYNC",
+    check,
+};
+
+fn check(facts: &Facts<'_>) -> Vec<Incident> {
+    // With a counter each producer counts for itself.
+    let counts: Vec<u8> = facts
+        .syncs
+        .iter()
+        .filter_map(|seen| facts.frame(seen.place)?.data().first().copied())
+        .collect();
+    let breaks = counts
+        .windows(2)
+        .filter(|pair| pair[1] != pair[0] + 1 && pair[1] != 1)
+        .count();
+    let is_mixed = counts.len() >= 8 && breaks * 3 > counts.len();
+    let [first, .., last] = facts.syncs[..] else {
+        return Vec::new();
+    };
+    if !is_interleaved(&facts.syncs) && !is_mixed {
+        return Vec::new();
+    }
+    Vec::from([
+        Incident::new("two series of SYNC messages take turns", first.at, last.at)
+            .shows(facts.syncs.iter().take(6).map(|seen| seen.place))
+            .cause(Cause::new(
+                "two-sync-producers",
+                "two nodes produce SYNC",
+                "bit 30 of 1005h in each node: it may be set in one only",
+            )),
+    ])
+}
