@@ -3,8 +3,8 @@
 //!
 //! `OD_RANDOM_FRAMES=10000000` sets the total number of frames.
 
-use od_bench::shaft::{self, Shaft};
 use od_devices::DEVICES;
+use od_sim::shaft::{self, Shaft};
 use odkit::DeviceKind;
 use odkit::Kind;
 use odkit::encoder::Encoder;

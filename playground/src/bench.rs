@@ -1,6 +1,6 @@
 //! Actions of a user at the bench: power, shafts, switches, faults, EEPROMs, bus line.
 
-use od_bench::journal::frame;
+use od_sim::journal::frame;
 use wasm_bindgen::prelude::*;
 
 use crate::bus::Bus;

@@ -1,9 +1,9 @@
 //! The bus, and its time.
 
-use od_bench::VirtualDevice;
-use od_bench::journal::Journal;
-use od_bench::rig::Rig;
 use od_runtime::Instant;
+use od_sim::VirtualDevice;
+use od_sim::journal::Journal;
+use od_sim::rig::Rig;
 use wasm_bindgen::prelude::*;
 
 use crate::packed;

@@ -1,12 +1,12 @@
 //! Functions without a bench: typed frames, values as bytes and back,
 //! services, and transfers of several frames.
 
-use od_bench::script::{Known, frame_of, typed};
-use od_bench::wire::bits::{Bit, Part, bits};
-use od_bench::words::fold::{Folder, State};
-use od_bench::words::{TAGS, tag};
 use od_model::{Address, DataType};
 use od_runtime::NodeId;
+use od_sim::script::{Known, frame_of, typed};
+use od_sim::wire::bits::{Bit, Part, bits};
+use od_sim::words::fold::{Folder, State};
+use od_sim::words::{TAGS, tag};
 use wasm_bindgen::prelude::*;
 
 use crate::crossing::{Absent, Bytes, Crosses, choice, record, words};

@@ -1,6 +1,6 @@
 //! A configured device as a file.
 
-use od_bench::journal::Source;
+use od_sim::journal::Source;
 use wasm_bindgen::prelude::*;
 
 use crate::bus::Bus;

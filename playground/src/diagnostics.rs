@@ -1,8 +1,8 @@
 //! Findings of a text, for a list.
 
-use od_bench::script::Problem;
 #[cfg(feature = "eds")]
 use od_eds::{Eds, Finding, say};
+use od_sim::script::Problem;
 
 use crate::crossing::{record, words};
 use crate::fixes::Fix;

@@ -1,9 +1,9 @@
 //! Adds devices and sends frames without the journal, for a page that needs none.
 
 #[cfg(feature = "eds")]
-use od_bench::VirtualDevice;
-use od_bench::journal::frame;
-use od_bench::words;
+use od_sim::VirtualDevice;
+use od_sim::journal::frame;
+use od_sim::words;
 use wasm_bindgen::prelude::*;
 
 use crate::bus::Bus;
@@ -60,7 +60,7 @@ impl Bus {
         lenient: Option<bool>,
         place: Option<usize>,
     ) -> Result<JsValue, JsError> {
-        let options = od_bench::EdsOptions {
+        let options = od_sim::EdsOptions {
             node_id: Some(valid(node_id)?),
             lenient: lenient.unwrap_or_default(),
         };

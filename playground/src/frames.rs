@@ -1,8 +1,8 @@
 //! Frames in words.
 
-use od_bench::words;
-use od_bench::words::{Service, Words};
 use od_model::Address;
+use od_sim::words;
+use od_sim::words::{Service, Words};
 use wasm_bindgen::prelude::*;
 
 use crate::bus::Bus;

@@ -1,8 +1,8 @@
 //! The inputs of a bench, kept so that the run can be repeated.
 
-use od_bench::VirtualDevice;
-use od_bench::journal::{self, Fault, Fields, Input, Placed, Source, Trouble, Value, check};
 use od_runtime::Instant;
+use od_sim::VirtualDevice;
+use od_sim::journal::{self, Fault, Fields, Input, Placed, Source, Trouble, Value, check};
 use wasm_bindgen::prelude::*;
 
 use crate::bus::Bus;

@@ -1,8 +1,8 @@
 //! Lessons on a bus: their steps, and the progress of a learner.
 
-use od_bench::lesson::{self, Problem};
-use od_bench::script::{Bare, Pattern};
 use od_runtime::Instant;
+use od_sim::lesson::{self, Problem};
+use od_sim::script::{Bare, Pattern};
 use wasm_bindgen::prelude::*;
 
 use crate::bus::Bus;
@@ -194,7 +194,7 @@ pub fn parse_lesson(text: &str) -> JsValue {
 #[wasm_bindgen(js_name = judgeAnswer, unchecked_return_type = "Judgement")]
 pub fn judge_answer(answer: &str, given: &str) -> Result<JsValue, JsError> {
     let answer = Pattern::parse(answer).map_err(|found| JsError::new(&found.to_string()))?;
-    let judgement = od_bench::lesson::judge(&answer, given).map_err(|found| error(Some(&found)))?;
+    let judgement = od_sim::lesson::judge(&answer, given).map_err(|found| error(Some(&found)))?;
     let judgement = Judgement {
         right: judgement.right,
         wrong_identifier: judgement.wrong_identifier,

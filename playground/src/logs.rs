@@ -1,7 +1,7 @@
 //! Reads and writes logs of other tools.
 
-use od_bench::logs::{Format, Record, What, read};
 use od_runtime::Instant;
+use od_sim::logs::{Format, Record, What, read};
 use wasm_bindgen::prelude::*;
 
 use crate::crossing::{Bytes, Crosses, record};

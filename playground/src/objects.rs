@@ -1,7 +1,7 @@
 //! The objects of a device.
 
-use od_bench::VirtualDevice;
 use od_model::Address;
+use od_sim::VirtualDevice;
 use wasm_bindgen::prelude::*;
 
 use crate::bus::Bus;

@@ -14,10 +14,10 @@
 //! bit rate, 3 reflections, 4 another frame with the same identifier), 1 if its sender went bus-off, the sender's
 //! transmit error counter in two bytes, and the number of failed attempts in four.
 
-use od_bench::journal;
-use od_bench::rig::Seen;
-use od_bench::wire::Trouble;
 use od_runtime::{Frame, Instant};
+use od_sim::journal;
+use od_sim::rig::Seen;
+use od_sim::wire::Trouble;
 
 /// Bytes of a packed frame.
 pub(crate) const LEN: usize = 24;
@@ -93,8 +93,8 @@ pub(crate) fn push_seen(batch: &mut Vec<u8>, seen: &Seen) {
 
 /// Adds a line of a log.
 #[cfg(feature = "logs")]
-pub(crate) fn push_line(batch: &mut Vec<u8>, line: &od_bench::logs::Record) {
-    use od_bench::logs::What;
+pub(crate) fn push_line(batch: &mut Vec<u8>, line: &od_sim::logs::Record) {
+    use od_sim::logs::What;
     let start = batch.len();
     let nothing = Frame::standard(0, &[0; 8]);
     let (frame, disturbed) = match &line.what {

@@ -1,11 +1,11 @@
 //! A real bus behind a link: frames of the adapter are received by the bench, and frames of this side are sent.
 
-use od_bench::VirtualDevice;
-use od_bench::links::adapter::{self, Said};
-use od_bench::links::slcan;
 use od_client::watch;
 use od_model::Address;
 use od_runtime::DeviceKind;
+use od_sim::VirtualDevice;
+use od_sim::links::adapter::{self, Said};
+use od_sim::links::slcan;
 use wasm_bindgen::prelude::*;
 
 use crate::bus::Bus;
@@ -177,7 +177,7 @@ impl Adapter {
 
 #[cfg(test)]
 mod tests {
-    use od_bench::journal::{Input, Source};
+    use od_sim::journal::{Input, Source};
 
     use super::*;
 
@@ -323,7 +323,7 @@ mod tests {
     }
 
     fn begin(bus: &mut Bus, text: &str) -> Result<(), String> {
-        use od_bench::journal::Trouble;
+        use od_sim::journal::Trouble;
         let added = bus.journal.act(Input::Lesson { text: text.into() });
         match added.trouble {
             Trouble::Problems(all) => Err(all.iter().map(|one| one.message.clone()).collect()),

@@ -1,6 +1,6 @@
 //! Plain JavaScript values: objects, byte arrays, numbers of any width.
 
-use od_bench::journal::{Sink, Value};
+use od_sim::journal::{Sink, Value};
 use wasm_bindgen::JsCast;
 use wasm_bindgen::prelude::*;
 

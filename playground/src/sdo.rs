@@ -1,10 +1,10 @@
 //! Reads and writes objects over the bus; PDO mappings.
 
-use od_bench::rig;
-use od_bench::{pdos, words};
 use od_client::sdo::{Channel, SdoError};
 use od_model::Address;
 use od_model::typed::MapEntry;
+use od_sim::rig;
+use od_sim::{pdos, words};
 use od_wire::sdo::Response;
 use od_wire::{CobId, Frame};
 use wasm_bindgen::prelude::*;

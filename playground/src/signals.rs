@@ -1,7 +1,7 @@
 //! Values in captured frames, as numbers.
 
-use od_bench::signal::{Place, Signal};
 use od_model::{Address, DataType};
+use od_sim::signal::{Place, Signal};
 use od_wire::{CanId, NodeId};
 use wasm_bindgen::prelude::*;
 

@@ -1,7 +1,7 @@
 //! Figures of captured frames.
 
-use od_bench::stats::{Clients, Ids, Times};
 use od_runtime::Instant;
+use od_sim::stats::{Clients, Ids, Times};
 use wasm_bindgen::prelude::*;
 
 use crate::packed;

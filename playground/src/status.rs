@@ -2,12 +2,12 @@
 
 use std::iter;
 
-use od_bench::notice::of_storage;
-use od_bench::wire::Condition;
-use od_bench::{Led, VirtualDevice};
 use od_model::Address;
 use od_model::typed::Scalar;
 use od_runtime::encoder;
+use od_sim::notice::of_storage;
+use od_sim::wire::Condition;
+use od_sim::{Led, VirtualDevice};
 use od_wire::nmt::State;
 use wasm_bindgen::prelude::*;
 

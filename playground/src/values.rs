@@ -1,8 +1,8 @@
 //! Values and dictionary rows as plain records.
 
-use od_bench::pdos;
 use od_model::typed::Scalar;
 use od_model::{DataType, Dictionary, Entry, Kind, Literal};
+use od_sim::pdos;
 use wasm_bindgen::JsValue;
 
 use crate::crossing::{Crosses, Made, declaration, names, record};
@@ -115,7 +115,7 @@ pub(crate) fn dictionary(dictionary: Dictionary<'_>, node_id: u8) -> Vec<JsValue
                 fits_tpdo,
                 fits_rpdo,
                 is_mapping,
-                is_saved: od_bench::is_saved(&entry),
+                is_saved: od_sim::is_saved(&entry),
                 default: number(entry.default),
                 low: number(entry.low),
                 high: number(entry.high),

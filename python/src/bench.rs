@@ -4,7 +4,7 @@ use std::fs;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use od_bench::logs::Format;
+use od_sim::logs::Format;
 use od_wire::Instant;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyList, PyString};

@@ -3,9 +3,9 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use od_bench::VirtualDevice;
 use od_model::{Address, values};
 use od_runtime::Instant;
+use od_sim::VirtualDevice;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
@@ -58,7 +58,7 @@ impl Device {
         Ok(look(device.ok_or_else(gone)?, state.now()))
     }
 
-    fn shaft(&self) -> PyResult<od_bench::ShaftView> {
+    fn shaft(&self) -> PyResult<od_sim::ShaftView> {
         let shaft = self.look(|device, now| device.shaft(now))?;
         Ok(shaft.ok_or_else(|| Fault::value("this device has no shaft"))?)
     }

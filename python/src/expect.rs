@@ -1,6 +1,6 @@
 //! Waiting for a frame.
 
-use od_bench::script::Pattern;
+use od_sim::script::Pattern;
 use pyo3::exceptions::PyAssertionError;
 use pyo3::prelude::*;
 

@@ -2,9 +2,9 @@
 
 use std::collections::VecDeque;
 
-use od_bench::VirtualDevice;
-use od_bench::logs::{Record, What};
-use od_bench::words::Decoder;
+use od_sim::VirtualDevice;
+use od_sim::logs::{Record, What};
+use od_sim::words::Decoder;
 use od_wire::{Frame, Instant};
 
 /// Maximum number of frames; the oldest ones are dropped.

@@ -3,8 +3,8 @@
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
-use od_bench::logs::What;
-use od_bench::wire::Condition;
+use od_sim::logs::What;
+use od_sim::wire::Condition;
 use od_wire::Frame;
 use pyo3::prelude::*;
 use pyo3::types::{PyByteArray, PyString, PyTuple};

@@ -2,7 +2,7 @@
 
 use std::sync::{Mutex, PoisonError};
 
-use od_bench::bus::Bus;
+use od_sim::bus::Bus;
 use pyo3::prelude::*;
 
 use crate::cyclic::Cyclic;

@@ -2,11 +2,11 @@
 
 use std::fs;
 
-use od_bench::bus::Bus;
-use od_bench::{EdsOptions, VirtualDevice};
 use od_devices::DEVICES;
 use od_eds::Finding;
 use od_runtime::{DeviceKind, NodeId};
+use od_sim::bus::Bus;
+use od_sim::{EdsOptions, VirtualDevice};
 use pyo3::prelude::*;
 
 use crate::faults::Fault;

@@ -4,9 +4,9 @@ use std::collections::VecDeque;
 use std::thread::{self, Thread, ThreadId};
 use std::time::Instant as Clock;
 
-use od_bench::bus::Bus;
-use od_bench::logs::What;
-use od_bench::wire::Condition;
+use od_sim::bus::Bus;
+use od_sim::logs::What;
+use od_sim::wire::Condition;
 use od_wire::{Frame, Instant};
 use pyo3::{Py, PyAny};
 

@@ -1,7 +1,7 @@
 //! Converts frames and values to and from Python.
 
-use od_bench::journal::frame;
 use od_model::{DataType, Kind, values};
+use od_sim::journal::frame;
 use od_wire::Frame;
 use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;

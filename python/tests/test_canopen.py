@@ -81,7 +81,7 @@ def kinds(own, theirs):
 
 def test_the_projects_own_files_are_equal():
     both = 0
-    own = [ROOT / folder for folder in ("devices/eds", "tests/interop", "firmware/eds", "od-cli/tests")]
+    own = [ROOT / folder for folder in ("devices/eds", "tests/interop", "firmware/eds", "crates/od-cli/tests")]
     for path in sum(map(files, own), []):
         unknown, read = compare(path)
         assert unknown == [], path.name
@@ -92,7 +92,7 @@ def test_the_projects_own_files_are_equal():
 def test_files_that_python_canopen_refuses():
     """Examples of the rules about text and structure: what is wrong there stops python-canopen, and not odkit."""
     refused = 0
-    for path in sorted((ROOT / "od-eds/cases").glob("[EW]0[1-3]*/bad.eds")):
+    for path in sorted((ROOT / "crates/od-eds/cases").glob("[EW]0[1-3]*/bad.eds")):
         described = odkit.read(path)
         if len(described) > 0:
             assert set(odkit.to_canopen(path)) >= {one.index for one in described}, path

@@ -1,13 +1,13 @@
-//! Calls of a device of the bench, in the format that `od-capi/examples/c/virtual.c` reads, and the
+//! Calls of a device of the bench, in the format that `crates/od-capi/examples/c/virtual.c` reads, and the
 //! responses of the device.
 
 use std::sync::{Arc, Mutex};
 
-use od_bench::VirtualDevice;
-use od_bench::twin::{Before, Call, Twin};
 use od_model::Address;
 use od_runtime::storage::Storage;
 use od_runtime::{BusEvent, Event, Frame, Instant};
+use od_sim::VirtualDevice;
+use od_sim::twin::{Before, Call, Twin};
 
 /// Frame as it is written: CAN-ID with flags, length, data.
 pub(crate) type Bytes = [u8; 13];

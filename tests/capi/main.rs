@@ -1,4 +1,4 @@
-//! A firmware in C (`od-capi/examples/c`) receives the calls that a device of the bench receives while
+//! A firmware in C (`crates/od-capi/examples/c`) receives the calls that a device of the bench receives while
 //! a script runs, and must respond equally: frames, their times, bit rates, all values, the EEPROM.
 //!
 //! It runs on this computer with sanitizers, and on an emulated Cortex-M3.
@@ -17,9 +17,9 @@ use std::process::ExitCode;
 use std::sync::{Arc, Mutex};
 use std::time::Instant;
 
-use od_bench::script::{Bench, Host, Script, run_on};
-use od_bench::{EdsOptions, VirtualDevice};
 use od_runtime::NodeId;
+use od_sim::script::{Bench, Host, Script, run_on};
+use od_sim::{EdsOptions, VirtualDevice};
 use od_tests::scripts;
 
 use crate::log::{Log, Writer};

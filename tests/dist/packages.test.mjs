@@ -40,7 +40,7 @@ def test_interface():
   );
   assert.match(run(python, ['-m', 'pytest', '-q', '--color=no']), /2 passed/);
   const sources = run('tar', ['-tzf', file('python', /\.tar\.gz$/)]);
-  for (const name of ['PKG-INFO', 'pyproject.toml', 'python/Cargo.toml', 'od-bench/Cargo.toml']) assert.match(sources, new RegExp(`/${name}$`, 'm'));
+  for (const name of ['PKG-INFO', 'pyproject.toml', 'python/Cargo.toml', 'crates/od-sim/Cargo.toml']) assert.match(sources, new RegExp(`/${name}$`, 'm'));
 });
 
 test('the npm package boots an encoder', () => {
@@ -146,7 +146,7 @@ test('no part names a folder of the computer that built it', () => {
   const unpacked = [file('npm', /\.tgz$/), ...readdirSync(join(dist, 'crates')).map((name) => join(dist, 'crates', name))];
   for (const archive of unpacked) run('tar', ['-xzf', archive]);
   for (const archive of [file('python', /\.whl$/), file('vscode', /\.vsix$/)]) run('python3', ['-m', 'zipfile', '-e', archive, '.']);
-  const folders = [`${process.env.CARGO_HOME ?? join(homedir(), '.cargo')}/`, `${resolve(import.meta.dirname, '../..')}/od-`];
+  const folders = [`${process.env.CARGO_HOME ?? join(homedir(), '.cargo')}/`, ...['crates/', 'od-m'].map((name) => `${resolve(import.meta.dirname, '../..')}/${name}`)];
   let seen = 0;
   for (const place of [dir, join(dist, 'bin'), join(dist, 'site/playground'), join(dist, 'sbom')]) {
     for (const one of readdirSync(place, { recursive: true, withFileTypes: true }).filter((one) => one.isFile())) {

@@ -14,18 +14,18 @@ use std::path::Path;
 use std::process::ExitCode;
 use std::{env, fs};
 
-use od_bench::bus::Bus;
-use od_bench::{EdsOptions, VirtualDevice};
-use od_bus::bench::OnBench;
-use od_bus::compare::compare;
-use od_bus::conform::case::built_in;
-use od_bus::conform::eds::Eds;
-use od_bus::conform::record::Verdict;
-use od_bus::conform::session::{Leave, Session};
-use od_bus::learn::{Options, learn};
-use od_bus::master::Master;
 use od_eds::{Description, Document, Tables};
 use od_model::{Address, Entry, Refused};
+use od_sim::bus::Bus;
+use od_sim::{EdsOptions, VirtualDevice};
+use od_tools::bench::OnBench;
+use od_tools::compare::compare;
+use od_tools::conform::case::built_in;
+use od_tools::conform::eds::Eds;
+use od_tools::conform::record::Verdict;
+use od_tools::conform::session::{Leave, Session};
+use od_tools::learn::{Options, learn};
+use od_tools::master::Master;
 use od_wire::NodeId;
 
 fn main() -> ExitCode {

@@ -5,13 +5,13 @@
 
 use std::sync::{Arc, Mutex};
 
-use od_bench::VirtualDevice;
-use od_bench::shaft::Shaft;
-use od_bench::twin::{Before, Call, Twin};
 use od_model::Address;
 use od_runtime::encoder::{Angle, Encoder, Fault, Motion, Role};
 use od_runtime::storage::Storage;
 use od_runtime::{BusEvent, Event, Frame, Instant};
+use od_sim::VirtualDevice;
+use od_sim::shaft::Shaft;
+use od_sim::twin::{Before, Call, Twin};
 
 /// Between two calls the shaft is sampled every millisecond, at most this number of times.
 const SAMPLES: u64 = 2000;

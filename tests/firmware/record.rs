@@ -5,18 +5,18 @@ use od_model::Refused;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
 
-use od_bench::bus::Bus;
-use od_bench::script::{Bare, Bench, Host, Script, run_on};
-use od_bench::twin::Call;
-use od_bench::{EdsOptions, VirtualDevice};
-use od_bus::bench::OnBench;
-use od_bus::conform::case::built_in;
-use od_bus::conform::eds::Eds;
-use od_bus::conform::session::{Leave, Session};
 use od_fuzz::random::Random;
 use od_fuzz::targets;
 use od_runtime::{Instant, NodeId};
+use od_sim::bus::Bus;
+use od_sim::script::{Bare, Bench, Host, Script, run_on};
+use od_sim::twin::Call;
+use od_sim::{EdsOptions, VirtualDevice};
 use od_tests::scripts::Header;
+use od_tools::bench::OnBench;
+use od_tools::conform::case::built_in;
+use od_tools::conform::eds::Eds;
+use od_tools::conform::session::{Leave, Session};
 
 use crate::log::{Log, Writer};
 

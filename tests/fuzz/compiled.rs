@@ -81,7 +81,7 @@ fn compile(folder: &Path, batch: &[String]) -> Result<(), String> {
     }
     write("src/main.rs", &(main + "}\n"))?;
     let room = |name: &str| repository(name).canonicalize().unwrap_or_default();
-    let rooms: [PathBuf; 3] = ["odkit", "od-eds", "od-model"].map(room);
+    let rooms: [PathBuf; 3] = ["crates/odkit", "crates/od-eds", "od-model"].map(room);
     let [odkit, eds, model] = &rooms;
     let manifest = format!(
         "[package]\nname = \"compiled\"\nedition = \"2024\"\n[workspace]\n[dependencies]\n\

@@ -9,7 +9,7 @@ import jsonschema
 from bench import ROOT, odkit
 
 SCHEMA = ROOT / "docs" / "odkit-dictionary-2.schema.json"
-FOLDERS = [ROOT / "devices" / "eds", ROOT / "od-eds" / "cases", ROOT / "tests" / "cases"]
+FOLDERS = [ROOT / "devices" / "eds", ROOT / "crates/od-eds/cases", ROOT / "tests" / "cases"]
 ENDINGS = {".eds", ".dcf", ".xdd", ".xdc"}
 
 

@@ -8,7 +8,7 @@ import unittest
 
 import tools
 
-CASES = tools.ROOT / "od-eds" / "cases"
+CASES = tools.ROOT / "crates/od-eds/cases"
 
 
 class Tool:

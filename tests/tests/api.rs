@@ -20,8 +20,8 @@ const CRATES: [&str; 10] = [
     "od-board",
     "odkit",
     "od-lsp",
-    "od-bench",
-    "od-bus",
+    "od-sim",
+    "od-tools",
 ];
 
 #[test]

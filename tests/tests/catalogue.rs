@@ -1,6 +1,6 @@
 //! Every rule has a pair of files: one with the error, and the same one fixed.
 //!
-//! `od-eds/cases/CODE/bad.eds` has the finding, `fixed.eds` has none; for rules about
+//! `crates/od-eds/cases/CODE/bad.eds` has the finding, `fixed.eds` has none; for rules about
 //! XDD they end in `.xdd`. `odkit explain CODE` shows the lines in which the two differ. Rules
 //! about edits of a macro call have their cases in `compile/ui`.
 
@@ -15,7 +15,7 @@ use od_eds::{Description, Eds, Finding, say};
 use od_tests::corpus;
 
 fn folder() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../od-eds/cases")
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../crates/od-eds/cases")
 }
 
 /// `bad` or `fixed`, an EDS or an XDD.

@@ -13,9 +13,9 @@ use od_tests::scripts::{self, Header, cell, compare_page};
 
 /// Rooms whose code carries out clauses: the node, its frames, and a master.
 const CODE: [&str; 4] = [
-    "od-wire/src",
-    "od-runtime/src",
-    "od-client/src",
+    "crates/od-wire/src",
+    "crates/od-runtime/src",
+    "crates/od-client/src",
     "devices/src",
 ];
 /// Documents with clauses, in the order of the page.
@@ -210,7 +210,7 @@ fn shown(clauses: &[Clause]) -> Evidence {
             evidence.add(place, &link);
         }
     }
-    for case in od_bus::conform::case::built_in() {
+    for case in od_tools::conform::case::built_in() {
         for place in named(&case.clause) {
             evidence.add(place, &format!("`odkit conform --only {}`", case.id));
         }

@@ -9,10 +9,10 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
 
-use od_bench::logs::candump::format_line;
-use od_bench::script::{Bare, Host, Origin, Script, run};
-use od_bench::{EdsOptions, VirtualDevice};
 use od_runtime::{Frame, NodeId};
+use od_sim::logs::candump::format_line;
+use od_sim::script::{Bare, Host, Origin, Script, run};
+use od_sim::{EdsOptions, VirtualDevice};
 use od_tests::scripts::{self, Header};
 
 /// The built-in devices, and EDS files beside the script.

@@ -3,8 +3,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use od_bench::lesson::{Lesson, prove};
-use od_bench::script::Bare;
+use od_sim::lesson::{Lesson, prove};
+use od_sim::script::Bare;
 
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../playground/lessons")

@@ -48,7 +48,7 @@ fn a_change_of_the_file_rebuilds() {
     std::fs::create_dir_all(scratch.join("eds")).unwrap();
     let manifest = format!(
         "[package]\nname = \"rebuild\"\nedition = \"2024\"\n[dependencies]\nodkit = {{ path = {:?} }}\n[workspace]\n",
-        workspace.join("odkit")
+        workspace.join("crates/odkit")
     );
     std::fs::write(scratch.join("Cargo.toml"), manifest).unwrap();
     std::fs::copy(workspace.join("Cargo.lock"), scratch.join("Cargo.lock")).unwrap();

@@ -42,7 +42,7 @@ struct Sums {
 fn rust_ini_reads_the_same_in_every_case() {
     let here = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut sums = Sums::default();
-    for folder in ["../od-eds/cases", "cases", "../devices/eds"] {
+    for folder in ["../crates/od-eds/cases", "cases", "../devices/eds"] {
         for file in corpus::files(&here.join(folder), corpus::ALL) {
             compare_file(&file, &mut sums);
         }

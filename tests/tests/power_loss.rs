@@ -6,14 +6,14 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use od_bench::{Bus, VirtualDevice};
 use od_devices::DEVICES;
 use od_model::{Address, Group};
 use od_runtime::DeviceKind;
 use od_runtime::storage::{Geometry, Memory, Storage, StorageError, image};
 use od_runtime::{CutSave, Frame, NodeId};
+use od_sim::{Bus, VirtualDevice};
 
-#[path = "../../od-runtime/tests/all/nor.rs"]
+#[path = "../../crates/od-runtime/tests/all/nor.rs"]
 mod nor;
 
 use nor::Nor;

@@ -41,7 +41,7 @@ fn page() -> String {
          more is read as it is written. A decimal number is its value: 255 is not a valid INTEGER8.\n\n\
          **Exit codes** of `odkit check`: 0 no errors, 1 errors are left, a file could not be read or\n\
          written, or `--diff` shows something, 2 wrong usage. `--strict` counts warnings as errors.\n\n\
-         This page is generated from the catalogue in `od-eds/src/rules`:\n\
+         This page is generated from the catalogue in `crates/od-eds/src/rules`:\n\
          `ODKIT_ACCEPT=1 cargo test -p od-tests --test rules_eds`.\n",
     );
     for (number, title) in FOLDERS {

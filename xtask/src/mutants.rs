@@ -94,7 +94,7 @@ pub(crate) fn run(repo: &Repo, console: &Console, options: &Options) -> Result<(
         }
         let others = tests.iter().map(|(other, _)| *other);
         let packages: Vec<&str> = [*package].into_iter().chain(others).collect();
-        let own = own_tests(&repo.root.join(package).join("tests"));
+        let own = own_tests(&repo.root.join("crates").join(package).join("tests"));
         let others = tests.iter().flat_map(|(_, names)| names.iter().copied());
         let names = own.iter().map(String::as_str).chain(others);
         let names: Vec<&str> = names.flat_map(|name| ["--test", name]).collect();
@@ -206,7 +206,7 @@ mod tests {
             Options::parse(&args).ok()
         };
         assert_eq!(parse(""), Some(Options::default()));
-        let options = parse("--shard=2/8 --file od-runtime/src/fifo.rs");
+        let options = parse("--shard=2/8 --file crates/od-runtime/src/fifo.rs");
         assert!(options.is_some_and(|o| o.files.len() == 1 && o.shard.is_some()));
         for wrong in ["--shard", "--shard 2", "--file README.md", "fifo.rs"] {
             assert_eq!(parse(wrong), None, "{wrong}");

@@ -31,16 +31,16 @@ pub(crate) const UNPUBLISHED: [&str; 9] =
 pub(crate) const MUTATED: [Mutated; 3] = [
     (
         "od-runtime",
-        "od-runtime/src/",
+        "crates/od-runtime/src/",
         &[
             (TESTS, &["conformance", "power_loss"]),
             ("od-devices", &["encoders"]),
         ],
     ),
-    ("od-client", "od-client/src/", &[]),
+    ("od-client", "crates/od-client/src/", &[]),
     (
         "od-eds",
-        "od-eds/src/rules/",
+        "crates/od-eds/src/rules/",
         &[(TESTS, &["catalogue", "cases", "rules_eds"])],
     ),
 ];

@@ -1,7 +1,7 @@
 //! A device with node ID 1, switches at 0 and an empty EEPROM, used by frames.
 
-use od_bench::shaft::{self, Shaft};
 use od_devices::find;
+use od_sim::shaft::{self, Shaft};
 use odkit::DeviceKind;
 use odkit::encoder::Encoder;
 use odkit::storage::{Memory, image};

@@ -1,8 +1,8 @@
 //! Save, restore and power cycles of a gxmm (manual 000, objects 1010h and 1011h,
 //! chapter 7.2.1).
 
-use od_bench::shaft;
 use od_devices::find;
+use od_sim::shaft;
 use odkit::Frame;
 use odkit::encoder::{Fault, Switches};
 

@@ -2,8 +2,8 @@
 //!
 //! Values that the print has lost are restored as in MANUALS.md C-GX-52.
 
-use od_bench::shaft;
 use od_devices::find;
+use od_sim::shaft;
 use odkit::storage::{Memory, image};
 use odkit::{CanId, Frame, Instant, Node, NodeId};
 

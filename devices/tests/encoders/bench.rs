@@ -1,7 +1,7 @@
 //! A device with node ID 1 and an empty EEPROM, used by frames of eight bytes.
 
-use od_bench::shaft::Shaft;
 use od_devices::find;
+use od_sim::shaft::Shaft;
 use odkit::DeviceKind;
 use odkit::encoder::{Angle, Encoder, Motion};
 use odkit::nmt::State;

@@ -1,7 +1,7 @@
 //! A host that only sets positions, which the device samples.
 
-use od_bench::VirtualDevice;
 use od_devices::DEVICES;
+use od_sim::VirtualDevice;
 use odkit::Address;
 use odkit::encoder::{Angle, Fault, PositionSource, Role, Sampled};
 use odkit::{DeviceKind, Duration, Instant, NodeId};

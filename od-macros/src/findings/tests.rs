@@ -14,7 +14,7 @@ use super::*;
 
 /// All cases of the rules, broken.
 fn cases() -> Vec<PathBuf> {
-    let rules = Path::new(env!("CARGO_MANIFEST_DIR")).join("../od-eds/cases");
+    let rules = Path::new(env!("CARGO_MANIFEST_DIR")).join("../crates/od-eds/cases");
     let folders = RULES.iter().map(|rule| rules.join(rule.code));
     let files = folders
         .flat_map(|folder| ["eds", "xdd"].map(|kind| folder.join("bad").with_extension(kind)));

@@ -2,11 +2,11 @@
 
 use std::sync::{Arc, Mutex, MutexGuard};
 
-use od_bus::Error;
-use od_bus::link::Link;
-use od_bus::lss::{Lss, Slaves};
-use od_bus::scan::{Options, scan};
 use od_client::lss::Identity;
+use od_tools::Error;
+use od_tools::link::Link;
+use od_tools::lss::{Lss, Slaves};
+use od_tools::scan::{Options, scan};
 use od_wire::{Frame, NodeId};
 use pyo3::exceptions::{PyOSError, PyTimeoutError, PyValueError};
 use pyo3::prelude::*;
@@ -322,7 +322,7 @@ impl Client {
     /// Sends a data frame of up to 8 bytes. Raises `ValueError` if the CAN-ID or the data is too long.
     #[pyo3(signature = (can_id, data=Vec::new(), *, extended=false))]
     fn send(&self, py: Python<'_>, can_id: u32, data: Vec<u8>, extended: bool) -> PyResult<()> {
-        let frame = od_bench::journal::frame(can_id, &data, extended, false);
+        let frame = od_sim::journal::frame(can_id, &data, extended, false);
         let frame = frame.ok_or_else(|| {
             PyValueError::new_err(format!(
                 "CAN-ID {can_id:X}h with {} bytes is not a frame",

@@ -1,10 +1,10 @@
 //! The conformance test, case by case.
 
-use od_bench::words::Decoder;
-use od_bus::conform::case::{Case, built_in};
-use od_bus::conform::eds::Eds;
-use od_bus::conform::record::Verdict;
-use od_bus::conform::session::{Leave, Session};
+use od_sim::words::Decoder;
+use od_tools::conform::case::{Case, built_in};
+use od_tools::conform::eds::Eds;
+use od_tools::conform::record::Verdict;
+use od_tools::conform::session::{Leave, Session};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 

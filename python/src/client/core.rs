@@ -3,12 +3,12 @@
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
 
-use od_bus::Error;
-use od_bus::link::{Heard, Link};
 use od_client::emcy::Emcy;
 use od_client::sdo::{Options, SdoError};
 use od_client::{Client, Event, Job, lss, nmt, watch};
 use od_model::{Address, DataType};
+use od_tools::Error;
+use od_tools::link::{Heard, Link};
 use od_wire::nmt::{Command, State};
 use od_wire::{Duration, Instant, NodeId};
 

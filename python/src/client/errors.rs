@@ -1,8 +1,8 @@
 //! Errors on a bus, as Python exceptions.
 
-use od_bus::Error;
 use od_client::sdo::SdoError;
 use od_model::Address;
+use od_tools::Error;
 use od_wire::{AbortCode, NodeId};
 use pyo3::create_exception;
 use pyo3::exceptions::{PyException, PyKeyboardInterrupt, PyOSError, PyTimeoutError, PyValueError};

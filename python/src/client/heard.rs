@@ -1,7 +1,7 @@
 //! Messages of the nodes of a bus: PDOs, EMCY messages, and the nodes that a scan found.
 
-use od_bus::scan;
 use od_client::emcy;
+use od_tools::scan;
 use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};

@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use od_bus::Error;
-use od_bus::conform::rig::Rig;
-use od_bus::link::{Heard, Link};
-use od_bus::links;
+use od_tools::Error;
+use od_tools::conform::rig::Rig;
+use od_tools::link::{Heard, Link};
+use od_tools::links;
 use od_wire::{Frame, Instant};
 use pyo3::prelude::*;
 

@@ -2,9 +2,9 @@
 
 use std::time::Instant as Clock;
 
-use od_bench::journal::frame;
-use od_bus::Error;
-use od_bus::link::{Heard, Link};
+use od_sim::journal::frame;
+use od_tools::Error;
+use od_tools::link::{Heard, Link};
 use od_wire::{Frame, Instant};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;

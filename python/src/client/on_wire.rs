@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use od_bench::logs::What;
-use od_bus::Error;
-use od_bus::link::{Heard, Link};
+use od_sim::logs::What;
+use od_tools::Error;
+use od_tools::link::{Heard, Link};
 use od_wire::{Frame, Instant};
 use pyo3::prelude::*;
 

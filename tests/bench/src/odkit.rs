@@ -1,6 +1,5 @@
 //! odkit: a node with tables made at run time, as `odkit sim` makes them from an EDS file.
 
-use od_bench::shaft::Shaft;
 use od_eds::{Description, EntryDescription, ObjectDescription, Spanned, Tables, Value};
 use od_model::{Access, DataType, Dictionary, ObjectCode};
 use od_runtime::encoder::Encoder;
@@ -9,6 +8,7 @@ use od_runtime::storage::NoStorage;
 use od_runtime::{
     Application, CanId, Device, Frame, Instant, NoApplication, Node, NodeId, Profile, Services,
 };
+use od_sim::shaft::Shaft;
 
 use crate::contender::{Pdo, Subject, Upload};
 use crate::discipline::Simulated;
@@ -77,7 +77,7 @@ impl Turning {
     /// position in a TPDO on each SYNC. Time stops from now on.
     pub fn turning() -> Self {
         let device = od_devices::find("gxmm").expect("one of the devices");
-        let mut encoder = od_bench::shaft::encoder(device);
+        let mut encoder = od_sim::shaft::encoder(device);
         encoder.shaft.set_milli_rpm(Instant::ZERO, 60_000);
         let mut odkit = Self::start(device.dictionary, encoder, device.profile);
         let node = objects::NODE_ID;
@@ -216,7 +216,7 @@ impl Seconds {
     /// whose TPDO 2 is off.
     pub fn new(Simulated { device, is_moving }: Simulated) -> Self {
         let device = od_devices::find(device).expect("one of the devices");
-        let mut encoder = od_bench::shaft::encoder(device);
+        let mut encoder = od_sim::shaft::encoder(device);
         encoder.shaft.set_milli_rpm(Instant::ZERO, 60_000);
         let mut odkit = Odkit::start(device.dictionary, encoder, device.profile);
         let node = objects::NODE_ID;

@@ -4,7 +4,7 @@ use odkit::object_dictionary;
 
 object_dictionary! {
     mod device {
-        eds = "../../../od-eds/cases/E0305/bad.eds";
+        eds = "../../../crates/od-eds/cases/E0305/bad.eds";
     }
 }
 

@@ -20,19 +20,19 @@ const fn room(name: &'static str, storey: u8) -> Room {
 /// All rooms, from the lowest storey up.
 pub(crate) const ROOMS: [Room; 19] = [
     room("od-model", 1),
-    room("od-wire", 2),
-    room("od-eds", 2),
-    room("od-client", 3),
-    room("od-runtime", 3),
+    room("crates/od-wire", 2),
+    room("crates/od-eds", 2),
+    room("crates/od-client", 3),
+    room("crates/od-runtime", 3),
     room("od-macros", 3),
-    room("od-lsp", 3),
-    room("od-board", 4),
-    room("od-bench", 4),
-    room("odkit", 5),
-    room("od-bus", 5),
+    room("crates/od-lsp", 3),
+    room("crates/od-board", 4),
+    room("crates/od-sim", 4),
+    room("crates/odkit", 5),
+    room("crates/od-tools", 5),
     room("devices", 6),
-    room("od-capi", 6),
-    room("od-cli", 7),
+    room("crates/od-capi", 6),
+    room("crates/od-cli", 7),
     room("playground", 7),
     room("python", 7),
     room("firmware", 7),
@@ -75,9 +75,14 @@ pub(crate) fn is_code(path: &str) -> bool {
     path.ends_with(".rs") || (path.ends_with(".ts") && !path.ends_with(".d.ts"))
 }
 
-/// The room of a file: its first folder.
+/// The room that contains a file; of another file its first folder.
 fn room_of(path: &str) -> &str {
-    path.split('/').next().unwrap_or(path)
+    let is_in = |room: &&Room| {
+        path.strip_prefix(room.name)
+            .is_some_and(|rest| rest.starts_with('/'))
+    };
+    let room = ROOMS.iter().find(is_in).map(|room| room.name);
+    room.or_else(|| path.split('/').next()).unwrap_or(path)
 }
 
 fn storey(name: &str) -> Option<u8> {
@@ -113,7 +118,7 @@ fn an_arrow_to_the_side_leads_up_too() {
     let files = BTreeMap::from([
         file("Cargo.toml", "[workspace.dependencies]\nod-cli = 1"),
         file(
-            "od-wire/Cargo.toml",
+            "crates/od-wire/Cargo.toml",
             "[package]\nname = \"od-wire\"\n[dependencies]\nod-model = 1",
         ),
         file(
@@ -121,18 +126,24 @@ fn an_arrow_to_the_side_leads_up_too() {
             "[package]\nname = \"od-model\"\n[dependencies]\nserde = 1",
         ),
         file(
-            "od-eds/Cargo.toml",
+            "crates/od-eds/Cargo.toml",
             "[package]\nname = \"od-eds\"\n[dependencies]\nod-model.workspace = true\n\
              [target.'cfg(unix)'.dependencies]\nod-wire = { path = \"\" }\n\
-             [dev-dependencies]\nod-bench.workspace = true\n\
+             [dev-dependencies]\nod-sim.workspace = true\n\
              [build-dependencies]\nod-cli.workspace = true",
         ),
-        file("od-bench/Cargo.toml", "[package]\nname = \"od-bench\"\n"),
+        file("crates/od-sim/Cargo.toml", "[package]\nname = \"od-sim\"\n"),
         file(
-            "od-cli/Cargo.toml",
+            "crates/od-cli/Cargo.toml",
             "[package]\nname = \"od-cli\"\n[dependencies]\nod-eds = 1",
         ),
     ]);
     let found: Vec<_> = arrows_up(&files).into_iter().collect();
-    assert_eq!(found, [("od-eds", "od-cli"), ("od-eds", "od-wire")]);
+    assert_eq!(
+        found,
+        [
+            ("crates/od-eds", "crates/od-cli"),
+            ("crates/od-eds", "crates/od-wire")
+        ]
+    );
 }

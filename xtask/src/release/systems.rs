@@ -23,10 +23,10 @@ pub(super) const SYSTEMS: [System; 3] = [
 mod tests {
     use super::SYSTEMS;
 
-    /// `cargo binstall` finds the files by the names that od-cli/Cargo.toml says.
+    /// `cargo binstall` finds the files by the names that crates/od-cli/Cargo.toml says.
     #[test]
     fn binstall_knows_the_files_of_each_system() {
-        let manifest = include_str!("../../../od-cli/Cargo.toml");
+        let manifest = include_str!("../../../crates/od-cli/Cargo.toml");
         let made = "odkit-{ version }-{ target }{ binary-ext }\"";
         assert!(manifest.contains(made));
         for system in SYSTEMS {

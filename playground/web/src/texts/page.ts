@@ -137,7 +137,7 @@ export const page = {
     other: 'Other lessons',
     finished: 'You did it: every step of this lesson is done.',
     open: 'Open a lesson from a file',
-    openHint: 'Markdown, as od-cli/LESSONS.md describes it. It stays on this computer.',
+    openHint: 'Markdown, as crates/od-cli/LESSONS.md describes it. It stays on this computer.',
     tooLarge: 'it is too large for a lesson',
     slow: (name: string) => `The lesson ${name} is still loading. It opens when it is there.`,
     tooSlow: 'its server does not answer',

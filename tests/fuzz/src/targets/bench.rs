@@ -1,10 +1,10 @@
 //! Bytes as events of a device: frames that are valid more often than random ones,
 //! time, power, and inputs of the application.
 
-use od_bench::{EdsOptions, VirtualDevice};
 use od_devices::DEVICES;
 use od_model::Entry;
 use od_runtime::{CanId, Frame, NodeId};
+use od_sim::{EdsOptions, VirtualDevice};
 
 /// Bytes of one step.
 pub(super) const STEP: usize = 10;

@@ -1,8 +1,8 @@
 //! candump text: a parsed frame that is written again parses to the same frame, and an error
 //! points into the line.
 
-use od_bench::logs::candump::{format_line, parse_frame, parse_line};
 use od_runtime::Instant;
+use od_sim::logs::candump::{format_line, parse_frame, parse_line};
 
 use crate::target::Target;
 

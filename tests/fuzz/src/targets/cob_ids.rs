@@ -4,10 +4,10 @@
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
-use od_bench::{Bus, EdsOptions, VirtualDevice};
 use od_model::Address;
 use od_runtime::storage::{Memory, image};
 use od_runtime::{CanId, Frame, NodeId, Profile, Store};
+use od_sim::{Bus, EdsOptions, VirtualDevice};
 
 use crate::choices::Choices;
 use crate::harness::trace;

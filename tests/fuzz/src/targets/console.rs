@@ -1,8 +1,8 @@
 //! Lines for a running bench: each is carried out or refused, and none stops the
 //! others.
 
-use od_bench::Bus;
-use od_bench::script::{Bench, Console};
+use od_sim::Bus;
+use od_sim::script::{Bench, Console};
 
 use super::bench;
 use super::script::WORDS;

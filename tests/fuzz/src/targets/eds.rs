@@ -1,9 +1,9 @@
 //! EDS and DCF text: any text is read, a written text reads the same, and its valid part runs
 //! as a device.
 
-use od_bench::{Bus, EdsOptions, VirtualDevice};
 use od_eds::{Description, Finding, Tables};
 use od_runtime::{Frame, Instant};
+use od_sim::{Bus, EdsOptions, VirtualDevice};
 
 use crate::files::files;
 use crate::sent::owner;
@@ -22,7 +22,7 @@ pub(super) const TARGET: Target = Target {
 /// EDS and DCF files of the project.
 pub(super) fn seeds() -> Vec<Vec<u8>> {
     let mut seeds = files("tests/cases", &["input.eds", "input.dcf"], 16_384);
-    for folder in ["tests/eds", "tests/interop", "od-eds/cases"] {
+    for folder in ["tests/eds", "tests/interop", "crates/od-eds/cases"] {
         seeds.extend(files(folder, &[".eds", ".dcf"], 16_384));
     }
     assert!(seeds.len() > 10, "where are the cases?");

@@ -3,10 +3,10 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use od_bench::{Bus, VirtualDevice};
 use od_model::{Access, Address};
 use od_runtime::Frame;
 use od_runtime::storage::{Memory, Storage, StorageError};
+use od_sim::{Bus, VirtualDevice};
 
 use super::bench;
 use crate::target::Target;

@@ -1,7 +1,7 @@
 //! Lessons: every text is read, or refused with line numbers; a valid lesson sets up a bench,
 //! asks questions, and judges any answer.
 
-use od_bench::lesson::{Lesson, Progress, pass};
+use od_sim::lesson::{Lesson, Progress, pass};
 
 use super::script::{Bounded, WORDS as LINES, is_short};
 use crate::files::files;

@@ -1,8 +1,8 @@
 //! Logs of other tools: candump, ASC, TRC, pcap, pcapng. Records are read in the order of time,
 //! and a log written in any format reads the same.
 
-use od_bench::logs::{Format, Log, Record, What, read};
 use od_runtime::{CanId, Frame, Instant};
+use od_sim::logs::{Format, Log, Record, What, read};
 
 use crate::target::Target;
 

@@ -2,8 +2,8 @@
 //! panics, never floods the bus, sends nothing in Stopped that is not allowed, and works again after it
 //! was repaired and power-cycled.
 
-use od_bench::{Bus, VirtualDevice};
 use od_runtime::{Frame, Instant};
+use od_sim::{Bus, VirtualDevice};
 use od_wire::nmt::State;
 
 use super::bench::{self, Act, STEP};

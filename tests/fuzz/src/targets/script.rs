@@ -1,10 +1,10 @@
 //! Scripts of `odkit run`: every text is read, or refused with a place in it, and a valid script
 //! runs to its end or to a line with an error.
 
-use od_bench::VirtualDevice;
-use od_bench::script::{Bare, Host, Origin, Script, run as run_script};
 use od_model::Refused;
 use od_runtime::{Frame, Instant, NodeId};
+use od_sim::VirtualDevice;
+use od_sim::script::{Bare, Host, Origin, Script, run as run_script};
 
 use crate::files::files;
 use crate::target::{Enough, Target};

@@ -1,7 +1,7 @@
 //! slcan: the same bytes in several parts mean the same, and every frame is written as it was read.
 
-use od_bench::links::{Codec, Step, slcan};
 use od_runtime::Instant;
+use od_sim::links::{Codec, Step, slcan};
 
 use crate::target::Target;
 

@@ -1,9 +1,9 @@
 //! socketcand: the same bytes in several parts mean the same, no time value causes a loop, and every frame
 //! is written as it was read.
 
-use od_bench::links::socketcand::Session;
-use od_bench::links::{Codec, Step};
 use od_runtime::{Frame, Instant};
+use od_sim::links::socketcand::Session;
+use od_sim::links::{Codec, Step};
 
 use crate::target::Target;
 

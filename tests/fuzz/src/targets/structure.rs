@@ -1,11 +1,11 @@
 //! A made device from end to end: EDS, description, tables, node, frames. The content of the EDS is
 //! what a master reads, writes and receives in PDOs; a damaged EDS must only do no harm.
 
-use od_bench::{Bus, EdsOptions, VirtualDevice};
 use od_eds::{Finding, Tables};
 use od_model::Address;
 use od_model::typed::emit::table;
 use od_runtime::Frame;
+use od_sim::{Bus, EdsOptions, VirtualDevice};
 
 use super::eds;
 use crate::choices::Choices;

@@ -11,7 +11,7 @@ pub(super) const TARGET: Target = Target {
     run,
     seeds: || {
         let mut seeds = files("tests/cases", &["input.xdd"], 16_384);
-        seeds.extend(files("od-eds/cases", &[".xdd"], 16_384));
+        seeds.extend(files("crates/od-eds/cases", &[".xdd"], 16_384));
         // The project has few; others are made from EDS files.
         seeds.extend(eds::seeds().iter().map(|bytes| {
             let parsed = od_eds::parse(&od_eds::decode(bytes));

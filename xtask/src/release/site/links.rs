@@ -206,18 +206,18 @@ mod tests {
         );
         check(
             "docs/how-to/node-from-c.md",
-            "../../od-capi/examples/c",
+            "../../crates/od-capi/examples/c",
             None,
         );
         check(
-            "od-cli/LESSONS.md",
-            "../playground/lessons",
+            "crates/od-cli/LESSONS.md",
+            "../../playground/lessons",
             Some("lessons/boot-up-and-heartbeat.html"),
         );
         check(
-            "od-cli/LESSONS.md",
+            "crates/od-cli/LESSONS.md",
             "#checks",
-            Some("od-cli/LESSONS.html#checks"),
+            Some("crates/od-cli/LESSONS.html#checks"),
         );
         check("docs/CIA.md", "../README.md", Some("index.html"));
         let script = "tests/conformance/cia/sdo-01.script";

@@ -54,7 +54,7 @@ pub(super) fn c(context: &Context<'_>) -> Result<()> {
     }
     target::add(context.repo, context.console, target::BARE)?;
     let root = &context.repo.root;
-    let examples = root.join("od-capi/examples/c");
+    let examples = root.join("crates/od-capi/examples/c");
     let programs = context.repo.target.join("capi");
     std::fs::create_dir_all(&programs).map_err(|e| Error::io("create", &programs, &e))?;
     for (name, eds) in DEVICES {
@@ -152,7 +152,10 @@ fn library(context: &Context<'_>, eds: &str, target: Option<&str>) -> Result<Pat
         .split('+')
         .map(|file| root.join(file).display().to_string())
         .collect();
-    let mut build = cargo(&root.join("od-capi/device"), &["build", "--target-dir"]);
+    let mut build = cargo(
+        &root.join("crates/od-capi/device"),
+        &["build", "--target-dir"],
+    );
     build
         .arg(&context.repo.target)
         .env("ODKIT_EDS", files.join("+"));

@@ -10,7 +10,7 @@ use crate::setup::installed::{self, Package};
 use crate::setup::{python, toolchain};
 use crate::test::context::Context;
 
-/// What checks advisories, licences and sources; `deny.toml` has the settings.
+/// What checks advisories, licences and sources; `.cargo/deny.toml` has the settings.
 const DENY: Package = Package {
     name: "cargo-deny",
     version: "0.20.2",
@@ -82,7 +82,7 @@ pub(super) fn deny(context: &Context<'_>) -> Result<()> {
     console.run("dependencies", check.current_dir(&repo.root))
 }
 
-/// Spelling of code and documents; `typos.toml` has the words that are right here.
+/// Spelling of code and documents; `.typos.toml` has the words that are right here.
 pub(super) fn typos(context: &Context<'_>) -> Result<()> {
     let (repo, console) = (context.repo, context.console);
     let requirements = repo.root.join("xtask/tools/typos.txt");

@@ -32,7 +32,7 @@ pub(super) fn fmt(context: &Context<'_>) -> Result<()> {
     run(context, "formatting", &[&bindgen[..], &check].concat())?;
     let firmware = ["fmt", "--all", "--manifest-path", "firmware/Cargo.toml"];
     run(context, "formatting", &[&firmware[..], &check].concat())?;
-    let device = ["fmt", "--manifest-path", "od-capi/device/Cargo.toml"];
+    let device = ["fmt", "--manifest-path", "crates/od-capi/device/Cargo.toml"];
     run(context, "formatting", &[&device[..], &check].concat())?;
     run(
         context,
@@ -98,8 +98,8 @@ pub(super) fn unit(context: &Context<'_>) -> Result<()> {
 /// The test targets of the packages that [`unit`] tests.
 fn beside_sources(context: &Context<'_>) -> Result<Vec<String>> {
     let mut names = Vec::new();
-    for parent in [&context.repo.root, &context.repo.root.join("tests")] {
-        for member in folder(parent)? {
+    for parent in ["", "crates", "tests"] {
+        for member in folder(&context.repo.root.join(parent))? {
             let dir = member.join("tests");
             if !OUTSIDE
                 .map(|it| context.repo.root.join(it))

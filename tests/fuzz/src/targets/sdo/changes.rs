@@ -1,7 +1,7 @@
 //! Objects that may change: by a frame that is not an SDO request, and together with others.
 
-use od_bench::VirtualDevice;
 use od_runtime::Frame;
+use od_sim::VirtualDevice;
 use od_wire::lss;
 
 use super::input::COUPLED;

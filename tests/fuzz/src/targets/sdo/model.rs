@@ -6,9 +6,9 @@
 
 use std::collections::{BTreeMap, VecDeque};
 
-use od_bench::Bus;
 use od_model::{Access, Address, Entry};
 use od_runtime::{Event, Frame};
+use od_sim::Bus;
 use od_wire::nmt::State;
 
 use super::super::bench;

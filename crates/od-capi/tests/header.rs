@@ -1,0 +1,90 @@
+//! `include/odkit.h` is what cbindgen makes of the sources.
+//!
+//! `ODKIT_ACCEPT=1 cargo test -p od-capi --test header` writes it again.
+
+use std::fs;
+use std::path::Path;
+
+const HEAD: &str = "/* A CANopen node: odkit for C.
+ *
+ * Made by cbindgen; see crates/od-capi/tests/header.rs.
+ *
+ * Functions that return uint32_t return ODKIT_OK, an error of the call (ODKIT_NULL and so on), or an
+ * SDO abort code of CiA 301 (0x05030000 and above).
+ *
+ * One thread at a time may call; an interrupt or a thread that calls while another call is not over
+ * gets ODKIT_BUSY, as long as that call is not inside a callback. Pointers are used during the call
+ * only, but for the callbacks and the context of odkit_power_on.
+ *
+ * The library uses static memory only. If it finds an error in itself, it calls
+ * `void odkit_panic(void)`, which the firmware defines and which must not return; a linker that drops
+ * unused functions asks for it only if the library can get there.
+ */";
+
+/// The functions are those in the body of `export!`.
+fn source() -> String {
+    let read = |name: &str| {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("src").join(name);
+        fs::read_to_string(path).unwrap()
+    };
+    let export = read("export.rs");
+    let (_, body) = export
+        .split_once("$crate::instance::Instance::new($device::Device);")
+        .unwrap();
+    let body = body.trim_end().strip_suffix("};\n}").unwrap();
+    let all = [
+        read("answer.rs"),
+        read("types.rs"),
+        body.replace("$crate::types::", ""),
+    ]
+    .join("\n");
+    // What is said of a whole file.
+    let is_inner = |line: &&str| line.starts_with("//!") || line.starts_with("#![");
+    let lines = all.lines().filter(|line| !is_inner(line));
+    lines.collect::<Vec<_>>().join("\n")
+}
+
+fn header() -> String {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
+    let path = folder.join("edge.rs");
+    fs::write(&path, source()).unwrap();
+    let config = cbindgen::Config {
+        language: cbindgen::Language::C,
+        style: cbindgen::Style::Both,
+        cpp_compat: true,
+        header: Some(String::from(HEAD)),
+        include_guard: Some(String::from("ODKIT_H")),
+        no_includes: true,
+        sys_includes: ["stdbool.h", "stddef.h", "stdint.h"]
+            .map(String::from)
+            .to_vec(),
+        usize_is_size_t: true,
+        documentation_style: cbindgen::DocumentationStyle::C99,
+        line_length: 100,
+        ..cbindgen::Config::default()
+    };
+    let bindings = cbindgen::Builder::new().with_config(config).with_src(path);
+    let mut text = Vec::new();
+    bindings.generate().unwrap().write(&mut text);
+    String::from_utf8(text).unwrap()
+}
+
+#[test]
+fn the_header_is_current() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("include/odkit.h");
+    let made = header();
+    if std::env::var_os("ODKIT_ACCEPT").is_some() {
+        fs::write(&path, &made).unwrap();
+    }
+    let listed = fs::read_to_string(&path).unwrap_or_default();
+    assert_eq!(
+        listed, made,
+        "ODKIT_ACCEPT=1 cargo test -p od-capi --test header renews it"
+    );
+    // Every function of the macro is in it.
+    let source = source();
+    let functions = source.split("extern \"C\" fn ").skip(1);
+    let mut names = functions.filter_map(|text| text.split('(').next());
+    assert!(names.clone().count() > 10);
+    assert!(names.all(|name| made.contains(&format!(" {name}("))));
+}

@@ -1,0 +1,127 @@
+//! A value of a node, as lines and as JSON.
+
+use od_model::{Address, DataType, Dictionary, Entry, Kind, values};
+use od_runtime::AbortCode;
+use od_tools::objects;
+use serde_json::{Value, json};
+
+/// A value that was read or written, or the SDO abort code instead.
+pub(crate) struct Shown {
+    pub(crate) address: Address,
+    place: String,
+    name: String,
+    pub(crate) result: Result<(DataType, Vec<u8>), u32>,
+}
+
+impl Shown {
+    pub(crate) fn new(
+        dictionary: Option<Dictionary<'_>>,
+        (address, entry): (Address, Option<&Entry>),
+        result: Result<Vec<u8>, u32>,
+    ) -> Self {
+        let typed = |bytes: Vec<u8>| {
+            let data_type = entry.map(|entry| entry.data_type);
+            (
+                data_type.unwrap_or_else(|| objects::type_of(address, &bytes)),
+                bytes,
+            )
+        };
+        Self {
+            address,
+            place: objects::place(dictionary, address),
+            name: objects::name(dictionary, entry),
+            result: result.map(typed),
+        }
+    }
+
+    /// Returns whether the object has no value at the moment, such as an empty error history.
+    pub(crate) fn has_no_data(&self) -> bool {
+        self.result.as_ref().err() == Some(&AbortCode::NoData.code())
+    }
+
+    /// The value in words, or the abort.
+    pub(crate) fn text(&self) -> String {
+        match &self.result {
+            Ok((_, bytes)) if bytes.is_empty() => "empty".into(),
+            Ok((data_type, bytes)) => values::show(*data_type, bytes),
+            Err(_) if self.has_no_data() => "no data".into(),
+            Err(code) => abort(*code),
+        }
+    }
+
+    fn json(&self) -> Value {
+        let mut value = json!({
+            "object": self.place,
+            "index": self.address.index,
+            "sub": self.address.sub,
+        });
+        if !self.name.is_empty() {
+            value["name"] = json!(self.name);
+        }
+        match &self.result {
+            Ok((data_type, bytes)) => {
+                value["type"] = json!(data_type.name());
+                value["value"] = plain(*data_type, bytes);
+                value["bytes"] = json!(values::hex(bytes));
+            }
+            Err(code) => {
+                value["abort"] = json!(format!("{code:08X}h"));
+                value["message"] = json!(self.text());
+            }
+        }
+        value
+    }
+}
+
+/// A value in JSON: a number, a boolean or a text; bytes in hexadecimal digits.
+pub(crate) fn plain(data_type: DataType, bytes: &[u8]) -> Value {
+    if data_type.size().is_some_and(|size| size != bytes.len()) {
+        return json!(values::hex(bytes));
+    }
+    let mut wide = [0; 8];
+    let size = bytes.len().min(8);
+    wide[..size].copy_from_slice(&bytes[..size]);
+    let unused = 64 - 8 * size.max(1) as u32;
+    match data_type.kind() {
+        Kind::Boolean => json!(bytes != [0]),
+        Kind::Unsigned => json!(u64::from_le_bytes(wide)),
+        Kind::Signed => json!(i64::from_le_bytes(wide) << unused >> unused),
+        Kind::Real => match *bytes {
+            [a, b, c, d] => json!(f32::from_le_bytes([a, b, c, d])),
+            _ => json!(f64::from_le_bytes(wide)),
+        },
+        Kind::Text => json!(String::from_utf8_lossy(bytes)),
+        Kind::Bytes | Kind::Record => json!(values::hex(bytes)),
+    }
+}
+
+/// An SDO abort code in words.
+pub(crate) fn abort(code: u32) -> String {
+    match AbortCode::from_code(code) {
+        Some(code) => format!("SDO abort {code}"),
+        None => format!("SDO abort {code:08X}h"),
+    }
+}
+
+/// A table of values: place, name, value.
+pub(crate) fn lines(values: &[Shown]) -> String {
+    let width = |text: fn(&Shown) -> &str| {
+        let widths = values.iter().map(|value| text(value).chars().count());
+        widths.max().unwrap_or(0)
+    };
+    let (place, name) = (width(|value| &value.place), width(|value| &value.name));
+    let line = |value: &Shown| {
+        let text = value.text();
+        match name {
+            0 => format!("{:<place$}  {text}", value.place),
+            _ => format!("{:<place$}  {:<name$}  {text}", value.place, value.name),
+        }
+    };
+    values.iter().map(line).collect::<Vec<_>>().join("\n")
+}
+
+/// The report of a node's values.
+pub(crate) fn json(node: u8, values: &[Shown]) -> String {
+    let values: Vec<Value> = values.iter().map(Shown::json).collect();
+    format!("{:#}", json!({ "node": node, "values": values }))
+}

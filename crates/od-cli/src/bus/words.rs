@@ -1,0 +1,153 @@
+//! Frames in words, with names from the given files.
+
+use std::collections::BTreeSet;
+
+use od_model::Visible;
+use od_runtime::NodeId;
+use od_sim::VirtualDevice;
+use od_sim::words::{self, Decoder, Field, Words, tag};
+use od_tools::filter::{Filter, Seen};
+use od_wire::{Frame, Instant};
+use serde_json::{Value, json};
+
+use super::names::Names;
+use crate::failure::Failure;
+
+/// Explains the frames of a bus, in order.
+pub(crate) struct Narrator {
+    names: Names,
+    /// Devices without a bus, which supply names and mappings.
+    devices: Vec<VirtualDevice>,
+    /// Nodes of which a frame was received.
+    seen: BTreeSet<u8>,
+    decoder: Decoder,
+    filter: Filter,
+}
+
+/// A frame and its meaning.
+pub(crate) struct Told {
+    pub(crate) at: Instant,
+    pub(crate) frame: Frame,
+    pub(crate) sent: bool,
+    pub(crate) words: Words,
+}
+
+impl Narrator {
+    pub(crate) fn new(names: Names, filter: &str) -> Result<Self, Failure> {
+        let filter = Filter::parse(filter)
+            .map_err(|mistake| Failure::Usage(format!("--filter: {mistake}")))?;
+        let mut narrator = Self {
+            names,
+            devices: Vec::new(),
+            seen: BTreeSet::new(),
+            decoder: Decoder::default(),
+            filter,
+        };
+        let named: Vec<NodeId> = narrator.names.nodes().collect();
+        for node in named {
+            narrator.meet(node)?;
+        }
+        Ok(narrator)
+    }
+
+    /// Explains the next frame; `None`: the filter excludes it.
+    pub(crate) fn tell(&mut self, at: Instant, frame: Frame, sent: bool) -> Option<Told> {
+        let node = tag(&frame).node;
+        if let Some(node) = NodeId::new(node).filter(|node| !self.seen.contains(&node.raw())) {
+            // A file that describes no device has no names; its errors were reported when it was read.
+            let _ = self.meet(node);
+        }
+        let words = self.decoder.explain(&self.devices, &frame);
+        let text = words.to_string();
+        let seen = Seen {
+            frame: &frame,
+            sent,
+            words: &text,
+        };
+        let passes = self.filter.passes(&seen);
+        passes.then_some(Told {
+            at,
+            frame,
+            sent,
+            words,
+        })
+    }
+
+    /// The values that a frame contains.
+    pub(crate) fn fields(&self, frame: &Frame) -> Vec<Field> {
+        words::fields(&self.devices, frame)
+    }
+
+    fn meet(&mut self, node: NodeId) -> Result<(), Failure> {
+        self.seen.insert(node.raw());
+        if let Some(mut device) = self.names.device(node)? {
+            device.power_on(Instant::ZERO);
+            self.devices.push(device);
+        }
+        Ok(())
+    }
+}
+
+impl Told {
+    /// `   0.100000  181  92 95 07 00              PDO node 1: TPDO1 …`
+    pub(crate) fn line(&self) -> String {
+        let at = self.at.as_micros();
+        let (seconds, micros) = (at / 1_000_000, at % 1_000_000);
+        let data = if self.frame.is_remote() {
+            format!("RTR {}", self.frame.dlc())
+        } else {
+            od_model::values::hex(self.frame.data())
+        };
+        let id = self.frame.id().to_string();
+        let mark = if self.words.error { "! " } else { "" };
+        format!(
+            "{seconds:>5}.{micros:06}  {id:>3}  {data:<23}  {mark}{}",
+            self.words
+        )
+    }
+
+    pub(crate) fn json(&self, fields: &[Field]) -> Value {
+        let fields = fields.iter().map(|field| {
+            json!({
+                "name": field.name,
+                "value": field.value,
+                "object": field.object.map(|object| object.to_string()),
+            })
+        });
+        json!({
+            "time": self.at.as_micros() as f64 / 1e6,
+            "id": self.frame.id().to_string(),
+            "data": od_model::values::hex(self.frame.data()),
+            "remote": self.frame.is_remote(),
+            "sent": self.sent,
+            "service": self.words.service.name(),
+            "node": self.words.node,
+            "object": self.words.address.map(|address| address.to_string()),
+            "error": self.words.error,
+            "text": self.words.text,
+            "fields": fields.collect::<Vec<_>>(),
+        })
+    }
+
+    /// The columns of [`CSV`].
+    pub(crate) fn csv(&self) -> String {
+        let at = self.at.as_micros();
+        let words = &self.words;
+        let cells = [
+            format!("{}.{:06}", at / 1_000_000, at % 1_000_000),
+            self.frame.id().to_string(),
+            od_model::values::hex(self.frame.data()),
+            words.service.name().to_owned(),
+            words.node.map_or(String::new(), |node| node.to_string()),
+            words
+                .address
+                .map_or(String::new(), |address| address.to_string()),
+            words.error.to_string(),
+            words.text.clone(),
+        ];
+        cells.map(|cell| Visible(&cell).csv()).join(",")
+    }
+}
+
+/// The first line of a CSV file of frames.
+pub(crate) const CSV: &str = "time,id,data,service,node,object,error,text";

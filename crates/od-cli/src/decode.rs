@@ -1,0 +1,118 @@
+//! `odkit decode`: logs in words, CSV or JSON.
+
+use std::io::Read;
+use std::path::PathBuf;
+
+use od_sim::logs::{self, What};
+
+use crate::bus::names::Names;
+use crate::bus::words::{CSV, Narrator};
+use crate::failure::{Failure, read_error};
+use crate::output::{self, Output, note};
+use crate::report::{plural, plural_of};
+
+/// Show logs in words, as CSV or as JSON
+///
+/// Reads candump, ASC, TRC (1.0 to 2.1), pcap and pcapng. With --eds values have names and types.
+///
+/// Exit code 0: all lines were read; 1: a file is not a log, or lines of it could not be read.
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    /// Logs; `-` is standard input
+    #[arg(value_name = "LOG", required = true)]
+    logs: Vec<PathBuf>,
+    /// Names and types: built-in device, or EDS or DCF file, of the node with this ID, or of all nodes;
+    /// may be repeated
+    #[arg(long, value_name = "[ID=]FILE")]
+    eds: Vec<String>,
+    /// Frames that are shown: `node:5 sdo`, `185:7FF`, `position`, `!hb`
+    #[arg(long, value_name = "FILTER", default_value = "")]
+    filter: String,
+    /// Format of the output
+    #[arg(long, value_enum, default_value = "text")]
+    format: Format,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+enum Format {
+    /// A line for each frame
+    Text,
+    /// A row for each frame
+    Csv,
+    /// One JSON object with all frames and their values
+    Json,
+}
+
+pub(crate) fn run(args: &Args) -> Result<(), Failure> {
+    let mut read = Vec::new();
+    for path in &args.logs {
+        let shown = path.display();
+        let bytes = if path.as_os_str() == "-" {
+            let mut bytes = Vec::new();
+            std::io::stdin().read_to_end(&mut bytes)?;
+            bytes
+        } else {
+            crate::files::read(path)
+                .map_err(|error| Failure::Failed(format!("{shown}: {}", read_error(&error))))?
+        };
+        let log = logs::read(&bytes).map_err(|why| Failure::Failed(format!("{shown}: {why}")))?;
+        read.push((shown.to_string(), log));
+    }
+    let mut skipped = 0;
+    let mut output = Output::new();
+    let mut frames = Vec::new();
+    if args.format == Format::Csv {
+        output.line(CSV)?;
+    }
+    for (path, log) in read {
+        // A transfer does not continue in the next log.
+        let mut narrator = Narrator::new(Names::read(&args.eds)?, &args.filter)?;
+        for problem in &log.skipped {
+            note!("{path}: {problem}");
+        }
+        if log.others > 0 {
+            let entries = plural_of(log.others, "entry", "entries");
+            note!("{path}: not CAN frames (events, other protocols): {entries}");
+        }
+        if log.lacks_times {
+            note!("{path}: the log has no times; `candump -ta` or `candump -L` writes them");
+        }
+        skipped += log.skipped.len();
+        for record in &log.records {
+            let What::Frame(frame) = record.what else {
+                let is_all = args.filter.is_empty() && args.format == Format::Text;
+                if is_all {
+                    output.line(&format!("{:>12}  error frame", format!("{:?}", record.at)))?;
+                }
+                continue;
+            };
+            let Some(told) = narrator.tell(record.at, frame, record.sent) else {
+                continue;
+            };
+            let goes_on = match args.format {
+                Format::Text => output.line(&told.line())?,
+                Format::Csv => output.line(&told.csv())?,
+                Format::Json => {
+                    frames.push(told.json(&narrator.fields(&told.frame)));
+                    true
+                }
+            };
+            if !goes_on {
+                return Ok(());
+            }
+        }
+    }
+    output.flush()?;
+    drop(output);
+    if args.format == Format::Json {
+        let report = serde_json::json!({ "frames": frames, "skipped": skipped });
+        output::print(&format!("{report:#}"))?;
+    }
+    match skipped {
+        0 => Ok(()),
+        count => Err(Failure::Failed(format!(
+            "{} could not be read",
+            plural(count, "line")
+        ))),
+    }
+}

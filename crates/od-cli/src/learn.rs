@@ -1,0 +1,132 @@
+//! `odkit learn`: makes an EDS from a device.
+
+use std::path::PathBuf;
+use std::time::{SystemTime, UNIX_EPOCH};
+
+use od_model::Visible;
+use od_tools::interrupt::Interruptible;
+use od_tools::learn::record::{Watch, record};
+use od_tools::learn::{Learned, Options, Today, learn};
+use od_tools::link::Link;
+use od_tools::links;
+use od_wire::{Duration, NodeId};
+
+use crate::failure::Failure;
+use crate::source;
+use crate::{bus, conform, files, output};
+
+/// Make an EDS from a node on a bus
+///
+/// Reads all objects from 1000h to 9FFFh, and tries which can be written without changing a value.
+/// Comments in the file list what odkit could not find out: types of objects that no standard
+/// defines, limits, which values are saved.
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    /// Node ID
+    #[arg(value_name = "NODE", value_parser = source::node_id)]
+    node: NodeId,
+    /// Bus of the node: slcan:HOST:PORT, slcan:DEVICE[@BAUD], socketcan:INTERFACE,
+    /// socketcand:HOST:PORT[/BUS], or bench:DEVICE for a simulated device [default: the running
+    /// `odkit sim`]
+    #[arg(long, value_name = "LINK")]
+    link: Option<String>,
+    /// Write to this file instead of standard output
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// Probe limits by writing values, and restore the values, also after Ctrl-C
+    #[arg(long)]
+    allow_writes: bool,
+    /// Also record the behaviour for `odkit sim`: responses, refused reads, values that change,
+    /// periods of heartbeat and TPDOs; it is added to the file as comments
+    #[arg(long)]
+    twin: bool,
+    /// With `--twin`: how long to listen, and then how long to read the values that change
+    #[arg(long, value_name = "SECONDS", default_value = "10", value_parser = clap::value_parser!(u64).range(1..=600), requires = "twin")]
+    seconds: u64,
+    /// With `--twin`: reset and start the node, for boot-up time, errors at start, and PDOs
+    #[arg(long, requires = "twin")]
+    allow_reset: bool,
+}
+
+pub(crate) fn run(args: &Args) -> Result<(), Failure> {
+    args.output.as_deref().map(files::claim).transpose()?;
+    let link = match &args.link {
+        Some(link) => link.clone(),
+        None => links::found::default()?,
+    };
+    let link: Box<dyn Link> = match link.strip_prefix("bench:") {
+        Some(device) => Box::new(conform::bench(device, Some(args.node))?),
+        None => {
+            let link = links::open(&link)?;
+            Box::new(Interruptible::new(link, bus::stop()?))
+        }
+    };
+    learned(args, link)
+}
+
+/// The present moment, in UTC.
+fn today() -> Today {
+    let now = SystemTime::now().duration_since(UNIX_EPOCH);
+    let minutes = now.unwrap_or_default().as_secs() / 60;
+    // Days from 1 March 0000 (Howard Hinnant's civil_from_days).
+    let days = minutes / 1440 + 719_468;
+    let (era, day) = (days / 146_097, days % 146_097);
+    let year = (day - day / 1460 + day / 36_524 - day / 146_096) / 365;
+    let day = day - (365 * year + year / 4 - year / 100);
+    let month = (5 * day + 2) / 153;
+    let first = (153 * month + 2) / 5;
+    let (month, carry) = if month < 10 {
+        (month + 3, 0)
+    } else {
+        (month - 9, 1)
+    };
+    Today {
+        year: (era * 400 + year + carry) as u16,
+        month: month as u8,
+        day: (day - first + 1) as u8,
+        hour: (minutes / 60 % 24) as u8,
+        minute: (minutes % 60) as u8,
+    }
+}
+
+fn learned(args: &Args, mut link: Box<dyn Link>) -> Result<(), Failure> {
+    let options = Options {
+        writes: args.allow_writes,
+        today: Some(today()),
+    };
+    let told = |index: u16| {
+        if args.output.is_some() {
+            output::note!("reading {index:04X}h to {:04X}h", index | 0xFFF);
+        }
+    };
+    let Learned { description, left } = learn(&mut link, args.node, options, told)?;
+    if description.objects.is_empty() {
+        return Err(Failure::Failed(format!(
+            "node {} has no objects from 1000h to 9FFFh",
+            args.node.raw()
+        )));
+    }
+    let mut text = od_eds::write(&description);
+    if args.twin && left.is_none() {
+        let watch = Watch {
+            length: Duration::from_secs(args.seconds),
+            reset: args.allow_reset,
+        };
+        let seen = record(&mut link, args.node, &description, watch)?;
+        text.push('\n');
+        text.push_str(&seen.recorded.to_string());
+        for lacking in seen.lacking {
+            output::note!("the twin does not have {lacking}");
+        }
+    }
+    output::save(args.output.as_deref(), &Visible(&text).lines())?;
+    match left {
+        Some(fault) => {
+            output::note!(
+                "not all limits were probed; the file has all objects and the limits found so far"
+            );
+            Err(fault.into())
+        }
+        None => Ok(()),
+    }
+}

@@ -1,0 +1,74 @@
+//! The embedded lessons; they are available without the repository.
+
+/// Name and text of each lesson, in order.
+pub(super) const LESSONS: &[(&str, &str)] = &[
+    (
+        "boot-up-and-heartbeat",
+        include_str!("../../lessons/01-boot-up-and-heartbeat.md"),
+    ),
+    ("nmt", include_str!("../../lessons/02-nmt.md")),
+    ("sdo", include_str!("../../lessons/03-sdo.md")),
+    ("aborts", include_str!("../../lessons/04-aborts.md")),
+    ("guarding", include_str!("../../lessons/05-guarding.md")),
+    ("pdo-sync", include_str!("../../lessons/06-pdo-sync.md")),
+    ("mapping", include_str!("../../lessons/07-mapping.md")),
+    ("scaling", include_str!("../../lessons/08-scaling.md")),
+    ("store", include_str!("../../lessons/09-store.md")),
+    ("lss", include_str!("../../lessons/10-lss.md")),
+    ("emcy", include_str!("../../lessons/11-emcy.md")),
+    ("gear", include_str!("../../lessons/12-gear.md")),
+    (
+        "find-silent-node",
+        include_str!("../../lessons/13-find-silent-node.md"),
+    ),
+    (
+        "find-terminator",
+        include_str!("../../lessons/14-find-terminator.md"),
+    ),
+    (
+        "find-two-nodes",
+        include_str!("../../lessons/15-find-two-nodes.md"),
+    ),
+    ("byte-order", include_str!("../../lessons/16-byte-order.md")),
+    (
+        "new-encoder",
+        include_str!("../../lessons/17-new-encoder.md"),
+    ),
+    (
+        "preset-then-save",
+        include_str!("../../lessons/18-preset-then-save.md"),
+    ),
+    (
+        "silent-event-timer",
+        include_str!("../../lessons/19-silent-event-timer.md"),
+    ),
+    ("plc-1000h", include_str!("../../lessons/20-plc-1000h.md")),
+    (
+        "three-with-one-id",
+        include_str!("../../lessons/21-three-with-one-id.md"),
+    ),
+    ("bus-at-95", include_str!("../../lessons/22-bus-at-95.md")),
+];
+
+/// Returns the text of the lesson with this name.
+pub(super) fn find(name: &str) -> Option<&'static str> {
+    let (_, text) = LESSONS.iter().find(|(known, _)| *known == name)?;
+    Some(text)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_lesson_of_the_repository_is_embedded() {
+        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../playground/lessons");
+        let files = std::fs::read_dir(folder).expect("the lessons are there");
+        for file in files {
+            let file = file.expect("an entry").file_name();
+            let name = file.to_str().and_then(|name| name.strip_suffix(".md"));
+            let name = name.and_then(|name| name.get(3..)).expect("`01-name.md`");
+            assert!(find(name).is_some(), "{name} is missing in LESSONS");
+        }
+    }
+}

@@ -1,0 +1,89 @@
+//! `odkit run`: a script on a device in virtual time.
+
+use std::io::{self, Read};
+use std::path::Path;
+
+use od_runtime::NodeId;
+use od_sim::script;
+use od_sim::script::{Reason, Script};
+
+use crate::failure::{Failure, read_error};
+use crate::files;
+use crate::output::{self, Output, note};
+use crate::terminal::Terminal;
+use crate::{report, source};
+
+/// Run a script in virtual time: candump lines in, candump lines out
+///
+/// Exit code 0: every expectation held; 1: an expectation failed (it is shown with the frame or
+/// value that came instead); 2: the script cannot be read or carried out. The same script gives the
+/// same output.
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    /// The script, or `-` for standard input
+    script: String,
+    /// Built-in device or EDS file for a script without a `device` line
+    #[arg(long, default_value = "gxmm", value_name = "DEVICE|FILE")]
+    device: String,
+    /// Node ID of that device
+    #[arg(long, value_name = "N", value_parser = source::node_id)]
+    node_id: Option<NodeId>,
+    /// Also print the frames that the script sends
+    #[arg(long)]
+    echo: bool,
+}
+
+pub(crate) fn run(args: &Args) -> Result<(), Failure> {
+    let text = read(&args.script)?;
+    let script = Script::parse(&text).map_err(|problems| {
+        for problem in &problems {
+            note!("{}:{problem}", args.script);
+        }
+        let count = report::plural(problems.len(), "line");
+        Failure::Usage(format!(
+            "{}: {count} cannot be read; see SCRIPTS.md",
+            args.script
+        ))
+    })?;
+    let unnamed = (args.device.as_str(), args.node_id);
+    let mut host = Terminal::beside(Path::new(&args.script), unnamed);
+    host.output = Some(Output::new());
+    host.echo = args.echo;
+    let result = script::run(&script, &mut host);
+    if let Some(mut output) = host.output {
+        output.flush()?;
+    }
+    if let Some(Failure::Failed(message)) = host.broken {
+        return Err(Failure::Failed(message));
+    }
+    match result {
+        Ok(summary) => {
+            if summary.held > 0 {
+                let count = report::plural(summary.held, "expectation");
+                note!("{count} held, {:?} s", summary.end);
+            }
+            Ok(())
+        }
+        Err(stop) => {
+            let message = format!("{}: {stop}", args.script);
+            output::error(&message);
+            Err(Failure::Reported(match stop.reason {
+                Reason::Failed { .. } => 1,
+                Reason::Impossible(_) => 2,
+            }))
+        }
+    }
+}
+
+fn read(path: &str) -> Result<String, Failure> {
+    let mut bytes = Vec::new();
+    let result = match path {
+        "-" => io::stdin().lock().read_to_end(&mut bytes).map(|_| ()),
+        path => files::read(path).map(|read| bytes = read),
+    };
+    match result {
+        Ok(()) => String::from_utf8(bytes)
+            .map_err(|_| Failure::Usage(format!("{path}: the file is not UTF-8"))),
+        Err(error) => Err(Failure::Usage(format!("{path}: {}", read_error(&error)))),
+    }
+}

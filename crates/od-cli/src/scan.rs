@@ -1,0 +1,200 @@
+//! `odkit scan`: the nodes of a bus.
+
+use od_model::Visible;
+use od_tools::link::Link;
+use od_tools::scan::{self, Found, Options, Scan};
+use od_wire::Duration;
+use serde_json::{Value, json};
+
+use crate::bus::{self, Format, names::Names};
+use crate::failure::Failure;
+use crate::output::{self, note};
+use crate::report::plural;
+
+/// Find the nodes on a bus
+///
+/// Listens to heartbeats and boot-up messages, then asks each node ID from 1 to 127 by SDO: state,
+/// identity, device name, and which built-in device or file of --eds fits. Two nodes with one node
+/// ID are reported. Nothing changes on the bus.
+///
+/// Exit code 0: nodes were found; 1: no node was found, or two have the same node ID.
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    #[command(flatten)]
+    bus: bus::Args,
+    /// Find the bit rate first, by listening only (slcan adapters)
+    #[arg(long, conflicts_with = "bit_rate")]
+    detect: bool,
+    /// Time to listen before the first request, in ms; with --detect at each bit rate
+    #[arg(long, value_name = "MS")]
+    listen: Option<u64>,
+    /// Time for each answer, in ms
+    #[arg(long, value_name = "MS", default_value = "200")]
+    answer: u64,
+}
+
+pub(crate) fn run(args: &Args) -> Result<(), Failure> {
+    let names = args.bus.names()?;
+    let times = Options::default();
+    let options = Options {
+        listen: args.listen.map_or(times.listen, Duration::from_millis),
+        answer: Duration::from_millis(args.answer),
+    };
+    let rate = if args.detect {
+        Some(detect(args)?)
+    } else {
+        None
+    };
+    let mut bus = match rate {
+        Some(rate) => args.bus.open_at(Some(rate))?,
+        None => args.bus.open()?,
+    };
+    let scan = look(&mut bus, options)?;
+    drop(bus);
+    output::print(&match args.bus.format {
+        Format::Text => text(&scan, rate, &names),
+        Format::Json => format!("{:#}", report(&scan, rate, &names)),
+    })?;
+    let has_conflict = scan.nodes.iter().any(|node| !node.conflict.is_empty());
+    if scan.nodes.is_empty() || has_conflict {
+        Err(Failure::Reported(1))
+    } else {
+        Ok(())
+    }
+}
+
+fn look(link: &mut impl Link, options: Options) -> Result<Scan, Failure> {
+    let mut bar = output::Bar::new("scanning");
+    let scan = scan::scan(link, options, |percent| bar.show(percent))?;
+    bar.clear();
+    Ok(scan)
+}
+
+/// The bit rate in kbit/s.
+fn detect(args: &Args) -> Result<u16, Failure> {
+    let mut bus = args.bus.open()?;
+    let wait = Duration::from_millis(args.listen.unwrap_or(2000));
+    let rate = scan::detect(&mut bus, wait, |rate| {
+        note!("listening at {rate} kbit/s");
+    })?;
+    rate.ok_or_else(|| {
+        Failure::Failed(
+            "no frame came at any bit rate; switch the power of a node off and on for its boot-up \
+             message, or listen longer with `--listen 10000`"
+                .into(),
+        )
+    })
+}
+
+fn text(scan: &Scan, rate: Option<u16>, names: &Names) -> String {
+    let mut lines = Vec::new();
+    if let Some(rate) = rate {
+        lines.push(format!("bit rate {rate} kbit/s"));
+    }
+    for one in &scan.nodes {
+        let known = names
+            .fitting(Some(one.node), one.identity)
+            .map(|known| known.name);
+        lines.push(format!(
+            "node {:<3}  {:<16}  {}",
+            one.node.raw(),
+            state(one),
+            title(one)
+        ));
+        let numbers = ["vendor-ID", "product code", "revision", "serial number"];
+        let numbers = numbers.iter().zip(one.identity).filter_map(|(name, part)| {
+            let part = part?;
+            Some(match *name {
+                "serial number" => format!("{name} {part}"),
+                name => format!("{name} {part:X}h"),
+            })
+        });
+        let numbers: Vec<String> = numbers.collect();
+        if !numbers.is_empty() {
+            lines.push(format!("          {}", numbers.join(", ")));
+        }
+        if let Some(known) = known {
+            lines.push(format!("          fits {known}"));
+        }
+        if !one.conflict.is_empty() {
+            let serials: Vec<String> = one.conflict.iter().map(u32::to_string).collect();
+            lines.push(format!(
+                "          conflict: {} answer with this node ID (serial numbers {})",
+                plural(serials.len(), "node"),
+                serials.join(", ")
+            ));
+        }
+    }
+    if scan.has_unconfigured {
+        lines.push("the bus has LSS slaves without a node ID; `odkit lss scan` finds them".into());
+    }
+    lines.push(match scan.nodes.len() {
+        0 => "no node answers; check power, bit rate and terminators".into(),
+        count => plural(count, "node"),
+    });
+    lines.join("\n")
+}
+
+/// The state, if it is known.
+fn state(one: &Found) -> String {
+    match (one.state, one.has_booted, one.answers) {
+        (Some(state), _, _) => state.to_string(),
+        (None, true, _) => "booted".into(),
+        // A node in Stopped would not respond.
+        (None, false, _) => "no heartbeat".into(),
+    }
+}
+
+fn title(one: &Found) -> String {
+    let mut parts: Vec<String> = Vec::new();
+    let [name, hardware, software] = &one.texts;
+    let is_shown = |text: &&String| !text.is_empty();
+    parts.extend(
+        name.as_ref()
+            .filter(is_shown)
+            .map(|name| Visible(name).to_string()),
+    );
+    if let Some(device_type) = one.device_type {
+        parts.push(match device_type & 0xFFFF {
+            0 => "no device profile".into(),
+            profile => format!("CiA {profile}"),
+        });
+    }
+    for (what, text) in [("hardware", hardware), ("software", software)] {
+        if let Some(text) = text.as_ref().filter(is_shown) {
+            parts.push(format!("{what} {}", Visible(text)));
+        }
+    }
+    if !one.answers {
+        parts.push("does not answer SDO requests".into());
+    }
+    parts.join(", ")
+}
+
+fn report(scan: &Scan, rate: Option<u16>, names: &Names) -> Value {
+    let node = |one: &Found| {
+        let [vendor, product, revision, serial] = one.identity;
+        let [name, hardware, software] = &one.texts;
+        json!({
+            "node": one.node.raw(),
+            "state": one.state.map(|state| state.name()),
+            "booted": one.has_booted,
+            "sdo": one.answers,
+            "device_type": one.device_type,
+            "vendor_id": vendor,
+            "product_code": product,
+            "revision_number": revision,
+            "serial_number": serial,
+            "name": name,
+            "hardware_version": hardware,
+            "software_version": software,
+            "fits": names.fitting(Some(one.node), one.identity).map(|known| known.name),
+            "conflict": one.conflict,
+        })
+    };
+    json!({
+        "bit_rate": rate,
+        "nodes": scan.nodes.iter().map(node).collect::<Vec<_>>(),
+        "unconfigured": scan.has_unconfigured,
+    })
+}

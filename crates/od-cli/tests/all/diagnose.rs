@@ -1,0 +1,287 @@
+//! Diagnosis of logs that the bench recorded: faults with the right cause first, healthy logs without an incident.
+
+use od_eds::Tables;
+use od_model::{Dictionary, Refused};
+use od_sim::EdsOptions;
+use od_sim::VirtualDevice;
+use od_sim::bus::Bus;
+use od_sim::diagnose::{Incident, Known, diagnose, rules};
+use od_sim::logs::{Record, What};
+use od_sim::script::{Host, Origin, Script, run};
+use od_wire::{Frame, Instant, NodeId};
+
+use crate::support::odkit;
+
+const FAULTS: &str = include_str!("../diagnose/faults.txt");
+const HEALTHY: &str = include_str!("../diagnose/healthy.txt");
+const DS301: &str = include_str!("../../../../firmware/eds/ds301.eds");
+const SERVICES: &str = include_str!("../../../../tests/eds/services.eds");
+
+/// A log with its title.
+struct Case<'t> {
+    title: &'t str,
+    script: String,
+    /// Frames of foreign nodes.
+    also: Vec<Record>,
+    /// Node and built-in device of `eds 5=gxmm`.
+    eds: Option<(u8, &'t str)>,
+}
+
+fn cases(text: &str) -> Vec<Case<'_>> {
+    let parts = text.split("\n## ").skip(1);
+    parts.map(case).collect()
+}
+
+fn case(text: &str) -> Case<'_> {
+    let (title, lines) = text.split_once('\n').expect("a title");
+    let mut case = Case {
+        title,
+        script: String::new(),
+        also: Vec::new(),
+        eds: None,
+    };
+    for line in lines.lines() {
+        if let Some(rest) = line.strip_prefix("also ") {
+            case.also.extend(foreign(rest));
+        } else if let Some(rest) = line.strip_prefix("eds ") {
+            let (node, name) = rest.split_once('=').expect("a node and a name");
+            case.eds = Some((node.parse().expect("a node ID"), name));
+        } else {
+            case.script += line;
+            case.script.push('\n');
+        }
+    }
+    case
+}
+
+/// `FRAME FROM TO PERIOD JITTER`, in ms: the jitter is off by a different part of it each time.
+fn foreign(text: &str) -> Vec<Record> {
+    let words: Vec<&str> = text.split(' ').collect();
+    let [frame, from, to, period, jitter] = words[..] else {
+        panic!("{text}");
+    };
+    let number = |word: &str| word.parse::<u64>().expect("a number") * 1000;
+    let (from, to, period, jitter) = (number(from), number(to), number(period), number(jitter));
+    let frame = od_sim::logs::candump::parse_frame(frame).expect("a frame");
+    let mut all = Vec::new();
+    let mut seed = 7u64;
+    for at in (from..to).step_by(period as usize) {
+        seed = seed
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        let off = if jitter == 0 {
+            0
+        } else {
+            (seed >> 33) % (2 * jitter)
+        };
+        all.push(record(at + off, What::Frame(frame)));
+    }
+    all
+}
+
+fn record(micros: u64, what: What) -> Record {
+    Record {
+        at: Instant::from_micros(micros),
+        sent: false,
+        what,
+    }
+}
+
+/// Records what is on the bus.
+#[derive(Default)]
+struct Recorder(Vec<Record>);
+
+impl Host for Recorder {
+    fn device(
+        &mut self,
+        name: Option<&str>,
+        node: Option<NodeId>,
+    ) -> Result<VirtualDevice, Refused> {
+        let name = name.unwrap_or("gxmm");
+        let text = match name {
+            "ds301" => DS301,
+            "services" => SERVICES,
+            _ => {
+                let kind = od_devices::find(name).ok_or_else(|| Refused::from(name.to_owned()))?;
+                return Ok(VirtualDevice::new(kind, node.unwrap_or(NodeId::ONE)));
+            }
+        };
+        let options = EdsOptions {
+            node_id: node,
+            lenient: true,
+        };
+        let (device, _) = VirtualDevice::read_eds(text, options);
+        device.ok_or_else(|| Refused::from(name.to_owned()))
+    }
+
+    fn frame(&mut self, at: Instant, _: Origin, frame: &Frame) {
+        self.0.push(record(at.as_micros(), What::Frame(*frame)));
+    }
+
+    fn look(&mut self, bus: &mut Bus) {
+        while let Some(one) = bus.line.poll() {
+            // Each attempt ends in an error frame, some 200 us apart.
+            for attempt in (0..u64::from(one.attempts.min(32))).rev() {
+                let at = one.at.as_micros().saturating_sub(200 * attempt);
+                self.0.push(record(at, What::Error));
+            }
+        }
+    }
+}
+
+/// The log of a case.
+fn log(case: &Case<'_>) -> Vec<Record> {
+    let mut recorder = Recorder::default();
+    if !case.script.trim().is_empty() {
+        let script = Script::parse(&case.script)
+            .unwrap_or_else(|problems| panic!("{}: {problems:?}", case.title));
+        if let Err(stop) = run(&script, &mut recorder) {
+            panic!("{}: {stop:?}", case.title);
+        }
+    }
+    let mut all = recorder.0;
+    all.extend(&case.also);
+    all.sort_by_key(|record| record.at);
+    all
+}
+
+fn diagnosed(case: &Case<'_>) -> (Vec<Record>, Vec<Incident>) {
+    let records = log(case);
+    let tables = case.eds.map(|(node, name)| {
+        let text = od_devices::text::eds(od_devices::find(name).expect("a device"));
+        (node, Tables::new(&od_eds::parse(&text).description))
+    });
+    let incidents = {
+        let of = |node: u8| -> Option<Dictionary<'_>> {
+            let (own, tables) = tables.as_ref()?;
+            (*own == node).then(|| tables.dictionary())
+        };
+        let known = Known {
+            bit_rate: None,
+            dictionary: Some(&of),
+        };
+        diagnose(&records, known)
+    };
+    (records, incidents)
+}
+
+#[test]
+fn the_cause_of_a_fault_is_named_first() {
+    let all = cases(FAULTS);
+    assert!(all.len() >= 40, "{} faults", all.len());
+    let mut missed = Vec::new();
+    let mut shown = std::collections::BTreeSet::new();
+    for case in &all {
+        let (wanted, _) = case.title.split_once(": ").expect("a cause");
+        let (records, incidents) = diagnosed(case);
+        shown.extend(incidents.iter().map(|incident| incident.rule));
+        // The fault is one incident, and its cause the first.
+        let is_found = matches!(&incidents[..], [only] if only.causes.first().is_some_and(|cause| cause.id == wanted));
+        let is_shown = incidents
+            .iter()
+            .all(|one| !one.records.is_empty() && one.begin <= one.end);
+        assert!(is_shown, "{}: {incidents:#?}", case.title);
+        if !is_found {
+            let lines: Vec<String> = incidents
+                .iter()
+                .map(|one| {
+                    let ids: Vec<&str> = one.causes.iter().map(|cause| cause.id).collect();
+                    format!("    {}: {} {ids:?}", one.rule, one.text)
+                })
+                .collect();
+            missed.push(format!(
+                "{} ({} records)\n{}",
+                case.title,
+                records.len(),
+                lines.join("\n")
+            ));
+        }
+    }
+    let found = all.len() - missed.len();
+    assert!(
+        found == all.len(),
+        "{found} of {} causes first:\n{}",
+        all.len(),
+        missed.join("\n")
+    );
+    let unseen: Vec<&str> = rules()
+        .map(|(name, _)| name)
+        .filter(|name| !shown.contains(name))
+        .collect();
+    assert!(
+        unseen.is_empty(),
+        "rules without a log that shows them: {unseen:?}"
+    );
+}
+
+/// The formats of the command, its exit code, and a log without times.
+#[test]
+fn the_command_shows_causes_and_sets_the_exit_code() {
+    let path = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("diagnose.log");
+    let all = cases(FAULTS);
+    let case = all
+        .iter()
+        .find(|case| case.title.starts_with("watchdog: a node restarts"));
+    let lines = log(case.expect("a case"))
+        .into_iter()
+        .filter_map(|record| match record.what {
+            What::Frame(frame) => Some(format!("({:?}) can0 {frame}\n", record.at)),
+            What::Error => None,
+        });
+    std::fs::write(&path, lines.collect::<String>()).expect("a log");
+    let path = path.display().to_string();
+    let run = |more: &[&str]| odkit(&[&["diagnose", &path], more].concat(), "");
+    let text = run(&[]);
+    assert_eq!(text.code, 0, "{}", text.err);
+    for part in [
+        "1 incident in 113 records",
+        "1. node 5 restarts 4 times without a command",
+        "cause 1: the firmware of node 5 fails, and its watchdog restarts it, every 2000 ms",
+        "705  00                       NMT EC node 5: boot-up",
+    ] {
+        assert!(text.out.contains(part), "{part}\n{}", text.out);
+    }
+    assert_eq!(run(&["--check"]).code, 1);
+    let json = run(&["--format", "json"]);
+    let json: serde_json::Value = serde_json::from_str(&json.out).expect("JSON");
+    let incident = &json["logs"][0]["incidents"][0];
+    assert_eq!(incident["causes"][0]["id"], "watchdog");
+    assert_eq!(incident["recovered"], true);
+    let markdown = run(&["--format", "md"]);
+    assert!(
+        markdown.out.contains("## 1. node 5 restarts 4 times"),
+        "{}",
+        markdown.out
+    );
+    let untimed = odkit(&["diagnose", "-"], "  can0  701   [1]  00\n");
+    assert_eq!(untimed.code, 1);
+    assert!(
+        untimed.err.contains("record it with `candump -L`"),
+        "{}",
+        untimed.err
+    );
+}
+
+#[test]
+fn a_healthy_log_has_no_incident() {
+    let all = cases(HEALTHY);
+    assert!(all.len() >= 20, "{} logs", all.len());
+    let mut wrong = Vec::new();
+    for case in &all {
+        let (_, incidents) = diagnosed(case);
+        if !incidents.is_empty() {
+            let lines: Vec<String> = incidents
+                .iter()
+                .map(|one| format!("    {}: {}", one.rule, one.text))
+                .collect();
+            wrong.push(format!("{}\n{}", case.title, lines.join("\n")));
+        }
+    }
+    assert!(
+        wrong.is_empty(),
+        "{} of {}:\n{}",
+        wrong.len(),
+        all.len(),
+        wrong.join("\n")
+    );
+}

@@ -1,0 +1,43 @@
+//! A link onto a bus of the bench, in virtual time.
+
+use std::borrow::BorrowMut;
+
+use od_sim::bus::Bus;
+use od_wire::{Frame, Instant};
+
+use crate::error::Error;
+use crate::link::{Heard, Link};
+
+/// A link onto a [`Bus`], owned or borrowed: waiting moves the bench's time to the next frame at once.
+#[derive(Debug)]
+pub struct OnBench<B>(pub B);
+
+impl<B: BorrowMut<Bus>> Link for OnBench<B> {
+    fn now(&self) -> Instant {
+        self.0.borrow().now()
+    }
+
+    fn send(&mut self, frame: &Frame) -> Result<(), Error> {
+        // Where a line does not let it through, nobody answers, as on a real bus.
+        self.0.borrow_mut().receive(frame);
+        Ok(())
+    }
+
+    fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Error> {
+        let bus = self.0.borrow_mut();
+        loop {
+            bus.advance_until_sent(until.max(bus.now()));
+            match bus.poll() {
+                // A frame from outside, told again when it came through a timed line: ours.
+                Some(sent) if sent.device.is_none() => {}
+                Some(sent) => {
+                    return Ok(Some(Heard {
+                        at: sent.at,
+                        frame: sent.frame,
+                    }));
+                }
+                None => return Ok(None),
+            }
+        }
+    }
+}

@@ -1,0 +1,98 @@
+//! A link to the node under test, which may also switch its power.
+
+use std::borrow::BorrowMut;
+use std::process::Command;
+
+use od_sim::bus::Bus;
+
+use crate::bench::OnBench;
+use crate::error::Error;
+use crate::link::{Heard, Link};
+use od_wire::{Frame, Instant};
+
+/// A link to the node under test, and what else can be done with the node.
+pub trait Rig: Link {
+    /// Whether [`power`](Self::power) does something.
+    fn has_power(&self) -> bool {
+        false
+    }
+
+    /// Switches the supply of the node.
+    ///
+    /// # Errors
+    /// The command fails.
+    fn power(&mut self, _on: bool) -> Result<(), Error> {
+        Ok(())
+    }
+
+    /// Longest delay with which an event may be seen, in microseconds; 0 in virtual time.
+    fn slack(&self) -> u64 {
+        0
+    }
+}
+
+impl<B: BorrowMut<Bus>> Rig for OnBench<B> {
+    fn has_power(&self) -> bool {
+        true
+    }
+
+    fn power(&mut self, on: bool) -> Result<(), Error> {
+        self.0.borrow_mut().set_power(0, on);
+        Ok(())
+    }
+}
+
+/// A real bus, with a command that switches the power of the node.
+pub struct RealBus {
+    /// The link.
+    pub link: Box<dyn Link>,
+    /// A command line; `on` or `off` is appended to it. `None`: the power is not switched.
+    pub power: Option<String>,
+}
+
+impl Link for RealBus {
+    fn now(&self) -> Instant {
+        self.link.now()
+    }
+
+    fn send(&mut self, frame: &Frame) -> Result<(), Error> {
+        self.link.send(frame)
+    }
+
+    fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Error> {
+        self.link.receive(until)
+    }
+
+    fn resume(&mut self) {
+        self.link.resume();
+    }
+}
+
+impl Rig for RealBus {
+    fn has_power(&self) -> bool {
+        self.power.is_some()
+    }
+
+    fn power(&mut self, on: bool) -> Result<(), Error> {
+        let Some(command) = &self.power else {
+            return Ok(());
+        };
+        let line = format!("{command} {}", if on { "on" } else { "off" });
+        let (shell, flag) = if cfg!(windows) {
+            ("cmd", "/C")
+        } else {
+            ("sh", "-c")
+        };
+        let fail = |why: String| Error::Usage(format!("`{line}`: {why}"));
+        let status = Command::new(shell).args([flag, &line]).status();
+        match status {
+            Ok(status) if status.success() => Ok(()),
+            Ok(status) => Err(fail(status.to_string())),
+            Err(error) => Err(fail(error.to_string())),
+        }
+    }
+
+    fn slack(&self) -> u64 {
+        10_000
+    }
+}

@@ -1,0 +1,85 @@
+//! The client's side of slcan: an adapter on a serial line, a server of one, or `odkit sim`.
+
+use od_sim::links::adapter::{self, Adapter, RATES};
+use od_sim::links::slcan;
+use od_wire::{Duration, Frame};
+
+use super::stream::{Protocol, Said, shown};
+
+/// Adapters that answer at all answer in this time.
+const PATIENCE: Duration = Duration::from_millis(300);
+
+/// State of the conversation with an adapter.
+#[derive(Default)]
+pub(super) struct Slcan {
+    /// Bit rate in kbit/s that was asked for; `None`: the adapter keeps its own.
+    rate: Option<u16>,
+    adapter: Adapter,
+}
+
+impl Slcan {
+    pub(super) fn new(rate: Option<u16>) -> Self {
+        Self {
+            rate,
+            ..Self::default()
+        }
+    }
+}
+
+impl Protocol for Slcan {
+    fn begin(&mut self, listen_at: Option<u16>) -> Result<Vec<u8>, String> {
+        let rate = listen_at.or(self.rate);
+        self.adapter
+            .begin(rate, listen_at.is_some())
+            .ok_or_else(|| {
+                let rates = RATES.map(|rate| rate.to_string()).join(", ");
+                let rate = rate.unwrap_or_default();
+                format!("slcan does not support {rate} kbit/s; write one of {rates}")
+            })
+    }
+
+    fn take(&mut self, bytes: &mut Vec<u8>) -> Result<Option<Said>, String> {
+        let Some(end) = bytes.iter().position(|byte| matches!(byte, b'\r' | 0x07)) else {
+            return Ok(None);
+        };
+        let line: Vec<u8> = bytes.drain(..=end).filter(|byte| *byte != b'\n').collect();
+        let (line, is_right) = match line.split_last() {
+            Some((last, line)) => (line, *last == b'\r'),
+            None => return Ok(None),
+        };
+        Ok(Some(match self.adapter.line(line, is_right) {
+            adapter::Said::Frame(frame) => Said::Frame(frame),
+            adapter::Said::Open => Said::Open,
+            adapter::Said::Nothing => Said::Nothing,
+            adapter::Said::Closed => {
+                return Err(
+                    "the adapter does not open its CAN channel; give it a bit rate, such as with \
+                     `--bit-rate 500`"
+                        .into(),
+                );
+            }
+            adapter::Said::Refused => {
+                return Err("the adapter refuses a frame; it may be bus-off".into());
+            }
+            adapter::Said::Noise(line) => {
+                let line = shown(&line);
+                return Err(format!(
+                    "unexpected line `{line}`; is an slcan adapter there, at this baud rate?"
+                ));
+            }
+        }))
+    }
+
+    fn write(&self, frame: &Frame, out: &mut Vec<u8>) {
+        slcan::write_frame(frame, out);
+        out.push(b'\r');
+    }
+
+    fn patience(&self) -> (Duration, bool) {
+        (PATIENCE, true)
+    }
+
+    fn end(&self) -> &'static [u8] {
+        b"C\r"
+    }
+}

@@ -1,0 +1,194 @@
+//! A node that lives is never declared dead, and the trouble of one case is not that of the next.
+
+use std::collections::VecDeque;
+
+use od_sim::bus::Bus;
+use od_tools::Error;
+use od_tools::bench::OnBench;
+use od_tools::conform::case::built_in;
+use od_tools::conform::eds::Eds;
+use od_tools::conform::record::{Record, Verdict};
+use od_tools::conform::rig::Rig;
+use od_tools::conform::session::{Leave, Session};
+use od_tools::link::{Heard, Link};
+use od_wire::{Frame, Instant, NodeId};
+
+use crate::simulated::bus;
+
+/// A node whose frames `change` replaces or drops.
+struct Odd<F> {
+    bus: OnBench<Bus>,
+    change: F,
+}
+
+impl<F: FnMut(Frame) -> Option<Frame>> Link for Odd<F> {
+    fn now(&self) -> Instant {
+        self.bus.now()
+    }
+
+    fn send(&mut self, frame: &Frame) -> Result<(), Error> {
+        self.bus.send(frame)
+    }
+
+    fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Error> {
+        while let Some(heard) = self.bus.receive(until)? {
+            if let Some(frame) = (self.change)(heard.frame) {
+                return Ok(Some(Heard { frame, ..heard }));
+            }
+        }
+        Ok(None)
+    }
+}
+
+impl<F: FnMut(Frame) -> Option<Frame>> Rig for Odd<F> {}
+
+/// A run of all cases with resets: the records, and why it ended early.
+fn run(change: impl FnMut(Frame) -> Option<Frame>) -> (Vec<Record>, Option<String>) {
+    let kind = od_devices::find("gxmm").expect("a device");
+    let eds = Eds::read(&od_devices::text::eds(kind));
+    let mut rig = Odd {
+        bus: OnBench(bus("gxmm")),
+        change,
+    };
+    let leave = Leave {
+        reset: true,
+        store: false,
+    };
+    let mut session = Session::new(&mut rig, &eds, NodeId::ONE, leave);
+    let records = built_in().iter().map(|case| session.run(case)).collect();
+    let lost = session.lost().map(str::to_owned);
+    (records, lost)
+}
+
+/// Number of cases that were skipped for want of a response.
+fn unheard(records: &[Record]) -> usize {
+    let is_one = |record: &&Record| match &record.verdict {
+        Verdict::Skipped(why) => why.contains("respond"),
+        _ => false,
+    };
+    records.iter().filter(is_one).count()
+}
+
+fn passed(records: &[Record]) -> usize {
+    let passed = records.iter().filter(|one| one.verdict == Verdict::Pass);
+    passed.count()
+}
+
+#[test]
+fn a_node_without_1000h_is_tested_in_whole() {
+    let (records, lost) = run(|frame| match *frame.bytes() {
+        [_, 0, 0x10, 0, ..] if frame.id().as_standard() == Some(0x581) => {
+            Some(Frame::standard(0x581, &[0x80, 0, 0x10, 0, 0, 0, 2, 6]))
+        }
+        _ => Some(frame),
+    });
+    assert_eq!((lost, unheard(&records)), (None, 0));
+    assert!(passed(&records) > 100, "{}", passed(&records));
+}
+
+#[test]
+fn a_node_without_a_boot_up_message_is_tested_in_whole() {
+    let (records, lost) = run(|frame| {
+        let is_boot_up = frame.id().as_standard() == Some(0x701) && frame.data() == [0];
+        (!is_boot_up).then_some(frame)
+    });
+    assert_eq!((lost, unheard(&records)), (None, 0));
+    assert!(passed(&records) > 100, "{}", passed(&records));
+}
+
+#[test]
+fn a_node_that_is_silent_for_a_while_loses_these_cases_only() {
+    let mut count = 0;
+    // Its frames 300 to 319 are lost.
+    let (records, lost) = run(|frame| {
+        count += 1;
+        (!(300..320).contains(&count)).then_some(frame)
+    });
+    assert_eq!(lost, None);
+    assert!(unheard(&records) <= 2, "{}", unheard(&records));
+    assert!(passed(&records) > 100, "{}", passed(&records));
+}
+
+#[test]
+fn a_dead_node_ends_the_run() {
+    let mut count = 0;
+    let (records, lost) = run(|frame| {
+        count += 1;
+        (count < 300).then_some(frame)
+    });
+    assert_eq!(lost.as_deref(), Some("the node does not respond any more"));
+    assert!(unheard(&records) > 100, "{}", unheard(&records));
+}
+
+/// A test on a computer with other things to do: one wait of four ends up to 150 ms late, and frames that
+/// came meanwhile have the time at which they were read.
+struct Busy {
+    bus: OnBench<Bus>,
+    waiting: VecDeque<Heard>,
+    random: u64,
+}
+
+impl Link for Busy {
+    fn now(&self) -> Instant {
+        self.bus.now()
+    }
+
+    fn send(&mut self, frame: &Frame) -> Result<(), Error> {
+        self.bus.send(frame)
+    }
+
+    fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Error> {
+        if let Some(heard) = self.waiting.pop_front() {
+            return Ok(Some(heard));
+        }
+        if until <= self.now() {
+            return self.bus.receive(until);
+        }
+        let first = self.bus.receive(until)?;
+        self.random = self
+            .random
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1);
+        if self.random >> 62 == 0 {
+            let end = self.now().plus_micros((self.random >> 33) % 150_000);
+            while let Some(heard) = self.bus.receive(end)? {
+                self.waiting.push_back(Heard { at: end, ..heard });
+            }
+        }
+        Ok(first)
+    }
+}
+
+impl Rig for Busy {
+    fn slack(&self) -> u64 {
+        10_000
+    }
+}
+
+#[test]
+fn a_busy_computer_declares_no_node_wrong() {
+    let kind = od_devices::find("gxmm").expect("a device");
+    let eds = Eds::read(&od_devices::text::eds(kind));
+    for seed in 1..40 {
+        let mut rig = Busy {
+            bus: OnBench(bus("gxmm")),
+            waiting: VecDeque::new(),
+            random: seed,
+        };
+        let leave = Leave {
+            reset: true,
+            store: false,
+        };
+        let mut session = Session::new(&mut rig, &eds, NodeId::ONE, leave);
+        let records: Vec<_> = built_in().iter().map(|case| session.run(case)).collect();
+        let failed = records.iter().filter(|one| one.verdict.is_fail());
+        let failed: Vec<_> = failed.map(|one| (&one.id, &one.verdict)).collect();
+        assert!(failed.is_empty(), "{failed:?}");
+        let open = records.iter().filter(|one| match &one.verdict {
+            Verdict::Skipped(why) => why.starts_with("inconclusive"),
+            _ => false,
+        });
+        assert!(open.count() < 10);
+        assert_eq!(session.lost(), None);
+    }
+}

@@ -1,0 +1,183 @@
+//! The table of ways to be wrong: at least 95 % are found, each by the case that is about it.
+
+use std::collections::BTreeSet;
+
+use od_sim::bus::Bus;
+use od_sim::{EdsOptions, VirtualDevice};
+use od_tools::conform::case::built_in;
+use od_tools::conform::eds::Eds;
+use od_tools::conform::record::{Record, Verdict};
+use od_tools::conform::session::{Leave, Session};
+use od_wire::NodeId;
+
+use crate::mutant::Spoiled;
+
+const TABLE: &str = include_str!("mutants.txt");
+
+/// Objects that a case is about and `ds301` lacks: limits, a value that is write only, 1020h.
+const EXTENSION: &str = "
+[2001]\nParameterName=Command\nObjectType=7\nDataType=5\nAccessType=wo\n
+[2002]\nParameterName=Long\nObjectType=7\nDataType=9\nAccessType=rw\nDefaultValue=more than twenty letters\n
+[1020]\nParameterName=Verify configuration\nObjectType=8\nSubNumber=3\n
+[1020sub0]\nParameterName=Highest sub-index\nDataType=5\nAccessType=const\nDefaultValue=2\n
+[1020sub1]\nParameterName=Date\nDataType=7\nAccessType=rw\nDefaultValue=0\n
+[1020sub2]\nParameterName=Time\nDataType=7\nAccessType=rw\nDefaultValue=0\n
+";
+
+/// The EDS of a device of the table.
+fn text(name: &str) -> String {
+    match name {
+        "ds301" => include_str!("../../../../firmware/eds/ds301.eds")
+            .replace("LSS_Supported=0", "LSS_Supported=1"),
+        "dummies" => text("ds301").replace("Dummy0005=0", "Dummy0005=1"),
+        "limited" => changed(&text("ds301"), "1017 DataType=0x0006\nHighLimit=5000"),
+        "extended" => text("ds301") + EXTENSION,
+        "services" => include_str!("../../../../tests/eds/services.eds").into(),
+        built_in => od_devices::text::eds(od_devices::find(built_in).expect("a device")),
+    }
+}
+
+/// The text with `SECTION KEY=VALUE`.
+fn changed(text: &str, change: &str) -> String {
+    let (section, line) = change.split_once(' ').expect("a section and a line");
+    let (key, _) = line.split_once('=').expect("a key");
+    let header = format!("[{section}]");
+    let at = text.find(&header).expect("the section");
+    let from = at + text[at..].find(&format!("\n{key}=")).expect("the key") + 1;
+    let to = from + text[from..].find('\n').expect("an end");
+    format!("{}{line}{}", &text[..from], &text[to..])
+}
+
+/// A device of the table, switched on, and its EDS; read once, since that takes the most time.
+struct Bench {
+    name: &'static str,
+    text: String,
+    eds: Eds,
+    bus: Option<Bus>,
+}
+
+impl Bench {
+    fn new(name: &'static str) -> Self {
+        let text = text(name);
+        Self {
+            name,
+            eds: Eds::read(&text),
+            text,
+            bus: None,
+        }
+    }
+
+    fn device(&self) -> VirtualDevice {
+        if let Some(kind) = od_devices::find(self.name) {
+            return VirtualDevice::new(kind, NodeId::ONE);
+        }
+        let options = EdsOptions {
+            node_id: None,
+            lenient: true,
+        };
+        let (device, _) = VirtualDevice::read_eds(&self.text, options);
+        device.expect("a device")
+    }
+
+    /// The device as it is after power-on; a new one where a case writes its memory.
+    fn bus(&mut self, case: &str) -> Bus {
+        let is_lasting = [
+            "store",
+            "restore",
+            "object-default",
+            "lss",
+            "heartbeat-saved",
+            "sync-saved",
+        ];
+        let keeps = !is_lasting.iter().any(|start| case.starts_with(start));
+        if let Some(mut bus) = self.bus.take().filter(|_| keeps) {
+            bus.set_power(0, false);
+            bus.set_power(0, true);
+            let now = bus.now();
+            bus.advance(now.plus_millis(3000));
+            while bus.poll().is_some() {}
+            return bus;
+        }
+        let mut bus = Bus::new();
+        let number = bus.add(self.device());
+        bus.start(number);
+        bus
+    }
+
+    /// One case with these rules.
+    fn run(&mut self, id: &str, rules: &str) -> Record {
+        let case = built_in().iter().find(|one| one.id == id);
+        let case = case.expect("a case of the table");
+        let mut rig = Spoiled::new(self.bus(id), rules);
+        let changes = rules
+            .split(" ; ")
+            .filter_map(|rule| rule.strip_prefix("eds "));
+        let other = changes.fold(None, |text: Option<String>, change| {
+            Some(changed(text.as_ref().unwrap_or(&self.text), change))
+        });
+        let other = other.map(|text| Eds::read(&text));
+        let eds = other.as_ref().unwrap_or(&self.eds);
+        let record = Session::new(&mut rig, eds, NodeId::ONE, Leave::ALL).run(case);
+        self.bus = Some(rig.into_bus());
+        record
+    }
+}
+
+#[test]
+fn what_is_wrong_is_found_by_the_case_about_it() {
+    let lines = TABLE.lines().filter(|line| !line.starts_with('#'));
+    let mut right = BTreeSet::new();
+    let mut benches: Vec<Bench> = Vec::new();
+    let (mut all, mut missed, mut broken) = (0, Vec::new(), Vec::new());
+    for line in lines {
+        let mut parts = line.splitn(3, " | ");
+        let mut part = || parts.next().expect("case, device, rules");
+        let (case, device, rules) = (part(), part(), part());
+        let at = benches.iter().position(|bench| bench.name == device);
+        let at = at.unwrap_or_else(|| {
+            benches.push(Bench::new(device));
+            benches.len() - 1
+        });
+        let bench = &mut benches[at];
+        // On the device as it is the case passes.
+        if right.insert((case, device)) {
+            let record = bench.run(case, "");
+            if !record.verdict.is_pass() {
+                let frames = record.frames.iter().rev().take(14).rev();
+                let frames: Vec<String> = frames.map(|one| one.frame.to_string()).collect();
+                broken.push(format!(
+                    "{case} on {device}: {:?} {frames:?}",
+                    record.verdict
+                ));
+            }
+        }
+        all += 1;
+        let record = bench.run(case, rules);
+        if !matches!(record.verdict, Verdict::Fail { .. }) {
+            missed.push(format!("{line}: {:?}", record.verdict));
+        }
+    }
+    assert!(broken.is_empty(), "{}", broken.join("\n"));
+    assert!(all >= 200, "{all} ways to be wrong");
+    let found = all - missed.len();
+    assert!(
+        found * 100 >= all * 95,
+        "{found} of {all} found; not by its case:\n{}",
+        missed.join("\n")
+    );
+}
+
+/// The table has at least one way for every case.
+#[test]
+fn every_case_has_a_way_to_fail() {
+    let named: BTreeSet<&str> = TABLE
+        .lines()
+        .filter_map(|line| line.split(" | ").next())
+        .collect();
+    let without: Vec<&str> = built_in()
+        .iter()
+        .map(|case| case.id.as_str())
+        .filter(|id| !named.contains(id))
+        .collect();
+    assert!(without.is_empty(), "{without:?}");
+}

@@ -1,0 +1,98 @@
+//! Answers that come late: a machine that is busy, a node that is slow.
+
+use std::collections::VecDeque;
+
+use od_model::Address;
+use od_tools::Error;
+use od_tools::bench::OnBench;
+use od_tools::link::{Heard, Link};
+use od_tools::master::Master;
+use od_tools::scan::{Options, scan};
+use od_wire::{Duration, Frame, Instant, NodeId};
+
+use crate::bus;
+
+/// A link on which frames come later.
+pub(crate) struct Late<'f, L> {
+    link: L,
+    /// By how many ms this frame does.
+    by: Box<dyn FnMut(&Frame) -> u64 + 'f>,
+    held: VecDeque<Heard>,
+}
+
+impl<'f, L: Link> Late<'f, L> {
+    pub(crate) fn new(link: L, by: impl FnMut(&Frame) -> u64 + 'f) -> Self {
+        Self {
+            link,
+            by: Box::new(by),
+            held: VecDeque::new(),
+        }
+    }
+
+    /// Delays every SDO response by `millis` ms.
+    fn responses(link: L, millis: u64) -> Self {
+        let is_response = |frame: &Frame| (0x581..0x600).contains(&frame.id().raw());
+        Self::new(
+            link,
+            move |frame| if is_response(frame) { millis } else { 0 },
+        )
+    }
+}
+
+impl<L: Link> Link for Late<'_, L> {
+    fn now(&self) -> Instant {
+        self.link.now()
+    }
+
+    fn send(&mut self, frame: &Frame) -> Result<(), Error> {
+        self.link.send(frame)
+    }
+
+    fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Error> {
+        loop {
+            let due = self.held.front().map(|heard| heard.at);
+            if due.is_some_and(|at| at <= self.now()) {
+                return Ok(self.held.pop_front());
+            }
+            let next = due.map_or(until, |at| at.min(until));
+            match self.link.receive(next)? {
+                Some(heard) => match (self.by)(&heard.frame) {
+                    0 => return Ok(Some(heard)),
+                    millis => {
+                        let at = heard.at.plus_millis(millis);
+                        self.held.push_back(Heard { at, ..heard });
+                    }
+                },
+                None if due.is_some_and(|at| at <= self.now()) => {}
+                None if self.now() >= until => return Ok(None),
+                None => {}
+            }
+        }
+    }
+}
+
+#[test]
+fn a_scan_neither_misses_a_node_nor_sees_two() {
+    for node in [1, 127] {
+        let mut bus = bus(&[("gxmm", node)]);
+        let mut link = Late::responses(OnBench(&mut bus), 250);
+        let found = scan(&mut link, Options::default(), |_| {}).expect("a scan");
+        let nodes = found.nodes.iter();
+        let all: Vec<_> = nodes
+            .map(|one| (one.node.raw(), one.conflict.len()))
+            .collect();
+        assert_eq!(all, [(node, 0)]);
+        assert_eq!(found.nodes[0].identity[3], Some(1));
+    }
+}
+
+#[test]
+fn an_answer_to_an_earlier_request_is_not_the_answer() {
+    let mut bus = bus(&[("gxmm", 1)]);
+    let link = Late::responses(OnBench(&mut bus), 600);
+    let mut master = Master::patient(link, NodeId::ONE, Duration::from_millis(500));
+    let late = master.upload(Address::new(0x1000, 0));
+    assert!(matches!(late, Err(Error::Node(_))), "{late:?}");
+    let vendor = master.upload(Address::new(0x1018, 1));
+    assert_eq!(vendor, Ok(vec![0xEC, 0, 0, 0]));
+}

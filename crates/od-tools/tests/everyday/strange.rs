@@ -1,0 +1,202 @@
+//! Slaves that no standard has: what a master believes, and when it gives up.
+
+use od_model::Address;
+use od_tools::Error;
+use od_tools::link::{Heard, Link};
+use od_tools::master::Master;
+use od_tools::scan::{Options, scan};
+use od_tools::watch::{By, Source, watch};
+use od_wire::{Duration, Frame, Instant};
+
+use crate::id;
+
+/// A slave with node ID 5 that answers each SDO request after 1 ms with what `answer` says, or not.
+pub(crate) struct Slave<F> {
+    now: Instant,
+    waiting: Vec<Heard>,
+    answer: F,
+    /// Requests that it got.
+    pub(crate) heard: Vec<[u8; 8]>,
+}
+
+impl<F: FnMut(&[u8; 8]) -> Option<[u8; 8]>> Slave<F> {
+    pub(crate) fn new(answer: F) -> Self {
+        Self {
+            now: Instant::ZERO,
+            waiting: Vec::new(),
+            answer,
+            heard: Vec::new(),
+        }
+    }
+}
+
+impl<F: FnMut(&[u8; 8]) -> Option<[u8; 8]>> Link for Slave<F> {
+    fn now(&self) -> Instant {
+        self.now
+    }
+
+    fn send(&mut self, frame: &Frame) -> Result<(), Error> {
+        if frame.id().as_standard() == Some(0x605) {
+            self.heard.push(*frame.bytes());
+            if let Some(bytes) = (self.answer)(frame.bytes()) {
+                self.waiting.push(Heard {
+                    at: self.now.plus_millis(1),
+                    frame: Frame::standard(0x585, &bytes),
+                });
+            }
+        }
+        Ok(())
+    }
+
+    fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Error> {
+        let due = self.waiting.first().map(|heard| heard.at);
+        if due.is_some_and(|due| due <= until.max(self.now)) {
+            let heard = self.waiting.remove(0);
+            self.now = self.now.max(heard.at);
+            return Ok(Some(heard));
+        }
+        self.now = self.now.max(until);
+        Ok(None)
+    }
+}
+
+/// An answer with the object of its request.
+pub(crate) fn about(request: &[u8; 8], command: u8, data: [u8; 4]) -> [u8; 8] {
+    let [_, low, high, sub, ..] = *request;
+    let [a, b, c, d] = data;
+    [command, low, high, sub, a, b, c, d]
+}
+
+/// 1000h and 1018h as any slave has them; every other object is a text without end.
+fn endless(request: &[u8; 8]) -> Option<[u8; 8]> {
+    let index = u16::from_le_bytes([request[1], request[2]]);
+    Some(match (request[0] >> 5, index) {
+        (2, 0x1000 | 0x1018) => about(request, 0x43, [1, 2, 3, 4]),
+        (2, _) => about(request, 0x40, [0; 4]),
+        (3, _) => [request[0] & 0x10, b'a', b'b', b'c', b'd', b'e', b'f', b'g'],
+        _ => return None,
+    })
+}
+
+#[test]
+fn a_scan_ends_whatever_a_node_sends() {
+    let mut slave = Slave::new(endless);
+    let scan = scan(&mut slave, Options::default(), |_| {}).expect("a link");
+    assert_eq!(scan.nodes.len(), 1);
+    assert_eq!(scan.nodes[0].device_type, Some(0x0403_0201));
+    assert_eq!(scan.nodes[0].texts, [None, None, None]);
+    let seconds = slave.now.as_micros() as f64 / 1e6;
+    assert!(seconds < 5.0, "{seconds}");
+    // The node hears that the transfer is over.
+    assert_eq!(slave.heard.last().map(|request| request[0]), Some(0x80));
+}
+
+#[test]
+fn a_watch_ends_when_it_said_it_would() {
+    let mut slave = Slave::new(endless);
+    let source = Source {
+        address: Address::new(0x1008, 0),
+        by: By::Poll,
+        data_type: None,
+    };
+    let until = Instant::ZERO.plus_millis(2000);
+    let every = Duration::from_millis(200);
+    let mut samples = 0;
+    let done = watch(&mut slave, id(5), &[source], every, until, |_| {
+        samples += 1;
+        true
+    });
+    assert_eq!((done, samples), (Ok(()), 0));
+    assert!(slave.now <= until.plus_millis(5), "{:?}", slave.now);
+    assert_eq!(slave.heard.last().map(|request| request[0]), Some(0x80));
+}
+
+#[test]
+fn a_read_with_a_time_limit_names_it() {
+    let mut slave = Slave::new(endless);
+    let mut master = Master::new(&mut slave, id(5)).within(Duration::from_secs(2));
+    let Err(Error::Node(why)) = master.upload(Address::new(0x1008, 0)) else {
+        panic!("it came to an end");
+    };
+    assert!(why.contains("within 2 s"), "{why}");
+    assert_eq!(slave.heard.last().map(|request| request[0]), Some(0x80));
+}
+
+/// A server that never names the size of an expedited value: 2001h is 1000, an UNSIGNED16.
+fn without_size(request: &[u8; 8]) -> Option<[u8; 8]> {
+    let command = if request[0] >> 5 == 2 { 0x42 } else { 0x60 };
+    Some(about(request, command, [0xE8, 3, 0, 0]))
+}
+
+#[test]
+fn a_value_without_a_size_is_read_by_its_type() {
+    const EDS: &str = "[MandatoryObjects]\nSupportedObjects=1\n1=0x1000\n[1000]\nParameterName=Type\n\
+        DataType=7\nAccessType=ro\n[ManufacturerObjects]\nSupportedObjects=1\n1=0x2001\n[2001]\n\
+        ParameterName=Gain\nDataType=6\nAccessType=rw\n";
+    let tables = od_eds::Tables::new(&od_eds::parse(EDS).description);
+    let gain = Address::new(0x2001, 0);
+    let mut slave = Slave::new(without_size);
+    let mut master = Master::new(&mut slave, id(5));
+    assert_eq!(master.upload(gain), Ok(vec![0xE8, 3, 0, 0]));
+    // The standard gives the type of 1017h.
+    assert_eq!(master.upload(Address::new(0x1017, 0)), Ok(vec![0xE8, 3]));
+    master.know(tables.dictionary());
+    assert_eq!(master.upload(gain), Ok(vec![0xE8, 3]));
+    let found = od_tools::compare::compare(tables.dictionary(), &mut master, false);
+    assert_eq!(found, Ok(Vec::new()));
+    let setting = od_tools::configure::Setting {
+        address: gain,
+        bytes: vec![0xE8, 3],
+    };
+    let applied = od_tools::configure::apply(&mut master, &[setting], |_| {}).expect("a node");
+    assert_eq!(
+        (applied.equal, applied.written, applied.wrong.len()),
+        (1, 0, 0)
+    );
+    drop(master);
+    let source = Source {
+        address: gain,
+        by: By::Poll,
+        data_type: Some(od_model::DataType::Unsigned16),
+    };
+    let mut value = None;
+    let until = slave.now.plus_millis(50);
+    let every = Duration::from_millis(200);
+    watch(&mut slave, id(5), &[source], every, until, |sample| {
+        value = sample.value.ok();
+        false
+    })
+    .expect("a link");
+    assert_eq!(value, Some(vec![0xE8, 3]));
+}
+
+#[test]
+fn a_long_value_is_one_transfer() {
+    let text = b"a text that is so long that a client could think of a block transfer for it, though it asked";
+    let mut left: Vec<u8> = Vec::new();
+    let mut slave = Slave::new(move |request| match request[0] >> 5 {
+        2 => {
+            left = text.to_vec();
+            Some(about(request, 0x41, (text.len() as u32).to_le_bytes()))
+        }
+        3 => {
+            let rest = left.split_off(left.len().min(7));
+            let last = u8::from(rest.is_empty());
+            let mut answer = [0; 8];
+            answer[0] = request[0] & 0x10 | ((7 - left.len() as u8) << 1) | last;
+            answer[1..=left.len()].copy_from_slice(&left);
+            left = rest;
+            Some(answer)
+        }
+        _ => None,
+    });
+    let mut master = Master::new(&mut slave, id(5));
+    assert_eq!(master.upload(Address::new(0x1008, 0)), Ok(text.to_vec()));
+    drop(master);
+    let begins: Vec<u8> = slave.heard.iter().map(|request| request[0] >> 5).collect();
+    assert_eq!(
+        begins.iter().filter(|command| **command != 3).count(),
+        1,
+        "{begins:?}"
+    );
+}
