@@ -9,7 +9,7 @@ use crate::bus::Bus;
 use crate::device::VirtualDevice;
 
 /// A bus, with the names that scripts gave its devices.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub struct Bench {
     /// The bus.
     pub bus: Bus,

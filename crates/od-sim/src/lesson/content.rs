@@ -19,6 +19,8 @@ pub struct Lesson {
     pub summary: String,
     /// Language of its text; `en` if it names none.
     pub language: String,
+    /// Built-in devices that can take the place of the first device of the set-up.
+    pub also: Vec<String>,
     /// Level: 1 for beginners, 2, 3.
     pub level: u8,
     /// Approximate duration in minutes.
@@ -63,6 +65,8 @@ pub struct Step {
     pub quiz: Option<Quiz>,
     /// The lines that solve it.
     pub solution: Block,
+    /// Scripts that show the facts in its texts, each on a copy of the bench as it is when the step is done.
+    pub facts: Vec<Block>,
     /// Conditions; all must hold.
     pub(super) checkpoint: Vec<Line>,
 }
@@ -90,6 +94,25 @@ impl Lesson {
         while bench.bus.poll().is_some() {}
         while bench.bus.line.poll().is_some() {}
         Ok(bench)
+    }
+}
+
+impl Lesson {
+    /// The lesson with another built-in device in the place of the first one of its set-up.
+    pub fn with_device(&self, name: &str) -> Self {
+        let mut lesson = self.clone();
+        let mut is_first = true;
+        let lines = self.set_up.text.lines().map(|line| {
+            let rest = line.strip_prefix("device ").filter(|_| is_first);
+            let Some(rest) = rest else {
+                return String::from(line);
+            };
+            is_first = false;
+            let (_, rest) = rest.split_once(' ').unwrap_or((rest, ""));
+            std::format!("device {name} {rest}")
+        });
+        lesson.set_up.text = lines.collect::<Vec<_>>().join("\n");
+        lesson
     }
 }
 

@@ -8,7 +8,7 @@ use od_model::values;
 use super::content::Lesson;
 use crate::grammar::problem::Problem;
 
-const KEYS: &str = "write title, summary, level, minutes, language or absent";
+const KEYS: &str = "write title, summary, level, minutes, language, also or absent";
 
 /// Reads one line.
 pub(super) fn line(lesson: &mut Lesson, number: u32, text: &str) -> Result<(), Problem> {
@@ -32,6 +32,9 @@ pub(super) fn line(lesson: &mut Lesson, number: u32, text: &str) -> Result<(), P
         ("title", Some(title)) => lesson.title = title.into(),
         ("summary", Some(summary)) => lesson.summary = summary.into(),
         ("language", Some(language)) => lesson.language = language.into(),
+        ("also", Some(list)) => {
+            lesson.also = list.split(',').map(|name| name.trim().into()).collect();
+        }
         ("absent", Some(list)) => {
             for word in list.split(',') {
                 match values::address(word) {
@@ -45,7 +48,7 @@ pub(super) fn line(lesson: &mut Lesson, number: u32, text: &str) -> Result<(), P
                 }
             }
         }
-        ("title" | "summary" | "language" | "absent", None) => {
+        ("title" | "summary" | "language" | "also" | "absent", None) => {
             return problem(
                 format!("`{key}` is not a text"),
                 "write a text that is not empty, in quotes",

@@ -28,7 +28,7 @@ struct Fence {
     line: u32,
     /// Number of backticks at its start.
     ticks: usize,
-    /// `set-up`, `checkpoint`, `solution`, `answer`; any other block is part of the text.
+    /// One of [`BLOCKS`]; any other block is part of the text.
     name: String,
     lines: Vec<String>,
 }
@@ -42,7 +42,7 @@ struct Reader {
     seen: Vec<&'static str>,
 }
 
-const BLOCKS: [&str; 4] = ["set-up", "checkpoint", "solution", "answer"];
+const BLOCKS: [&str; 5] = ["set-up", "checkpoint", "solution", "answer", "facts"];
 
 impl Lesson {
     /// Reads a lesson.
@@ -210,7 +210,7 @@ impl Reader {
             return self.prose(&ticks);
         };
         let line = fence.line - 1;
-        if self.seen.contains(&name) {
+        if name != "facts" && self.seen.contains(&name) {
             let message = format!("a second `{name}` block");
             return self.problem(line, message, "add its lines to the first block");
         }
@@ -238,6 +238,7 @@ impl Reader {
                     self.problems.extend(problems);
                 }
                 match self.lesson.steps.last_mut() {
+                    Some(step) if name == "facts" => step.facts.push(block),
                     Some(step) => step.solution = block,
                     None => self.lesson.set_up = block,
                 }

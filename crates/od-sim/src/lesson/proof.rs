@@ -25,8 +25,27 @@ const NEEDS_ACTION: &str = "add a condition that needs an action";
 /// - each step's solution reaches its checkpoint and no other;
 /// - without any one line of the solutions the lesson does not come to its end;
 /// - the frame of a question comes during its step;
+/// - the facts of its texts hold: each `facts` block can be carried out when its step is done;
+/// - all of this with each device that can take the place of the first one;
 /// - all objects in the text exist in a device, and the title and the hints exist.
 pub fn prove(lesson: &Lesson, host: &mut dyn Host) -> Vec<Problem> {
+    let mut problems = prove_one(lesson, host, true);
+    for name in &lesson.also {
+        let on_it = lesson.with_device(name);
+        problems.extend(
+            prove_one(&on_it, host, false)
+                .into_iter()
+                .map(|mut problem| {
+                    problem.message = format!("with device {name}: {}", problem.message);
+                    problem
+                }),
+        );
+    }
+    problems
+}
+
+/// Only the device of the set-up is examined without an action and without each line of the solutions.
+fn prove_one(lesson: &Lesson, host: &mut dyn Host, is_first: bool) -> Vec<Problem> {
     let mut problems = match lesson.set_up(host) {
         Ok(mut bench) => {
             let progress = Progress::new(lesson.clone(), &mut bench);
@@ -45,9 +64,11 @@ pub fn prove(lesson: &Lesson, host: &mut dyn Host) -> Vec<Problem> {
             .iter()
             .map(|step| step.solution.clone())
             .collect();
-        nothing_by_itself(lesson, host, &mut problems);
-        solved(lesson, host, &solutions, &mut problems);
-        if problems.is_empty() {
+        if is_first {
+            nothing_by_itself(lesson, host, &mut problems);
+        }
+        solved(lesson, host, &solutions, is_first, &mut problems);
+        if problems.is_empty() && is_first {
             every_line_is_needed(lesson, host, &solutions, &mut problems);
         }
     }
@@ -91,7 +112,13 @@ fn nothing_by_itself(lesson: &Lesson, host: &mut dyn Host, problems: &mut Vec<Pr
 }
 
 /// Plays the solutions in order.
-fn solved(lesson: &Lesson, host: &mut dyn Host, solutions: &[Block], problems: &mut Vec<Problem>) {
+fn solved(
+    lesson: &Lesson,
+    host: &mut dyn Host,
+    solutions: &[Block],
+    is_first: bool,
+    problems: &mut Vec<Problem>,
+) {
     let Ok((mut bench, mut progress)) = played(lesson, host, &[]) else {
         return;
     };
@@ -123,13 +150,30 @@ fn solved(lesson: &Lesson, host: &mut dyn Host, solutions: &[Block], problems: &
             return problems.push(Problem::new(solution.line, message, help));
         }
         if let Some(quiz) = &step.quiz
+            && quiz.answer.is_open()
+        {
+            let message = format!("the answer {} leaves the length open", quiz.answer);
+            let help = "write `..` for each byte that does not matter";
+            problems.push(Problem::new(quiz.line, message, help));
+        }
+        if let Some(quiz) = &step.quiz
             && !frames.iter().any(|frame| quiz.answer.matches(frame))
         {
             let message = format!("the answer {} does not occur in this step", quiz.answer);
             let help = "correct the answer or the solution";
             problems.push(Problem::new(quiz.line, message, help));
         }
-        if let Err(found) = waits(lesson, host, solutions, number + 1) {
+        for facts in &step.facts {
+            let mut copy = bench.clone();
+            let script = facts.script().map_err(|mut all| all.remove(0));
+            let run = script
+                .and_then(|script| run_on(&script, &mut copy, host).map_err(|stop| stopped(&stop)));
+            if let Err(mut problem) = run {
+                problem.help = "correct the text, or the facts below it".into();
+                problems.push(problem);
+            }
+        }
+        if is_first && let Err(found) = waits(lesson, host, solutions, number + 1) {
             problems.push(found);
         }
     }

@@ -12,6 +12,7 @@ use od_wire::{Frame, emcy, nmt};
 use super::pdo::layout;
 use super::said::bytes;
 use super::tag::{TAGS, answered, requested, tag};
+use super::value;
 use crate::device::VirtualDevice;
 
 /// A field of a frame.
@@ -218,7 +219,7 @@ fn sdo(fields: &mut Fields, device: Option<&VirtualDevice>, frame: &Frame) {
     } else if let Some(data) = expedited {
         let len = expedited_len(size, entry.and_then(|entry| entry.data_type.size()));
         let value = match entry {
-            Some(entry) => values::show(entry.data_type, &data[..len]),
+            Some(entry) => value::show(object, entry.data_type, &data[..len]),
             None => values::hex(&data[..len]),
         };
         fields.about(4, 4 + len, "Data", value, object);

@@ -15,6 +15,7 @@ mod sorted;
 mod tag;
 #[cfg(all(test, feature = "eds"))]
 mod tests;
+mod value;
 
 use std::prelude::v1::*;
 

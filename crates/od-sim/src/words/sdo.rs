@@ -8,6 +8,7 @@ use od_runtime::{AbortCode, Frame};
 use od_wire::sdo::{Request, Response, expedited_len};
 
 use super::said::{Service, Words, bytes};
+use super::value;
 use crate::device::VirtualDevice;
 use crate::sdo::{Message, Observer};
 
@@ -108,13 +109,15 @@ impl Explainer<'_> {
 
     fn show(&self, data: &[u8]) -> String {
         // The signatures of 1010h and 1011h are ASCII words.
-        let index = self.transfer.observer.object.map(|address| address.index);
-        if matches!(index, Some(0x1010 | 0x1011)) && data.iter().all(u8::is_ascii_lowercase) {
+        let object = self.transfer.observer.object;
+        if matches!(object.map(|address| address.index), Some(0x1010 | 0x1011))
+            && data.iter().all(u8::is_ascii_lowercase)
+        {
             return format!("\"{}\"", String::from_utf8_lossy(data));
         }
         let find = |address| self.device?.dictionary().find(address).ok();
-        match self.transfer.observer.object.and_then(find) {
-            Some(entry) => values::show(entry.data_type, data),
+        match object.and_then(find) {
+            Some(entry) => value::show(entry.address, entry.data_type, data),
             None => values::hex(data),
         }
     }
