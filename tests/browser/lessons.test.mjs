@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { readdir, readFile } from 'node:fs/promises';
 import { test } from 'node:test';
-import { becomes, booted, clock, nmt, sdo, sdoNote, sendRaw, state, until } from './bench.mjs';
+import { becomes, booted, clock, nmt, rows, sdo, sdoNote, sendRaw, state, until } from './bench.mjs';
 import { browser, open } from './check.mjs';
 import { URL_OF_PAGE } from './harness.mjs';
 
@@ -314,5 +314,56 @@ test('a wrong answer names its wrong parts and does not print the right ones', a
     await becomes(`an answer to ${wrong}`, () => quiz.locator('[role=status]').textContent(), /./);
     assert.doesNotMatch(`${await quiz.textContent()} ${await answer.getAttribute('placeholder')}`, /705#00/, wrong);
   }
+  await close();
+});
+
+test('a reload resumes a lesson where it was; the list says how far, and what was shown; the inputs of the last lesson are gone', async () => {
+  const { page, faults, close } = await open({ hash: '#lesson=nmt', own: true });
+  const lesson = page.locator('od-lesson');
+  const stepNumber = () => lesson.locator('.lesson-step h3 .num').textContent();
+  await becomes('the step', stepNumber, '1');
+  await takeHints(lesson);
+  await lesson.getByRole('button', { name: 'Show me' }).click();
+  await lesson.getByText('What just happened').waitFor();
+  await lesson.getByRole('button', { name: 'Continue' }).click();
+  await sendRaw(page, '000#01 00');
+  await lesson.getByText('What just happened').waitFor();
+  await lesson.getByRole('button', { name: 'Continue' }).click();
+  await becomes('the step', stepNumber, '3');
+  // The bench is stored a moment after its last change.
+  await pass(page, 2500);
+  await page.reload();
+  await becomes('the step after the reload', stepNumber, '3');
+  await page.getByRole('heading', { name: 'NMT states and commands' }).waitFor();
+  await page.locator('#sdo-object').fill('1018:02');
+  await part(page, 'Hardware');
+  await lesson.getByRole('button', { name: 'Other lessons' }).first().click();
+  const list = page.getByRole('dialog', { name: 'Lessons' });
+  await list.getByRole('button', { name: /^NMT states and commands 2 of 4.*1 step shown/s }).waitFor();
+  await list.getByRole('heading', { name: /^First steps 0 of \d/ }).waitFor();
+  await list.getByRole('button', { name: /^Preset, then save/ }).click();
+  await page.getByRole('heading', { name: 'Preset, then save' }).waitFor();
+  await becomes('the object of the last lesson', () => page.locator('#sdo-object').inputValue(), '');
+  await becomes('the view of the encoder', () => page.getByRole('group', { name: 'Encoder views' }).getByRole('button', { name: 'Shaft' }).getAttribute('aria-pressed'), 'true');
+  assert.deepEqual(faults, []);
+  await close();
+});
+
+test('a finished lesson offers the next one', async () => {
+  const { page, faults, close } = await open({ hash: '#lesson=gear' });
+  const lesson = page.locator('od-lesson');
+  for (let step = 1; step <= 3; step++) {
+    await becomes('the step', () => lesson.locator('.lesson-step h3 .num').textContent(), String(step));
+    await takeHints(lesson);
+    await lesson.getByRole('button', { name: 'Show me' }).click();
+    await lesson.getByText('What just happened').waitFor();
+    if (step < 3) await lesson.getByRole('button', { name: 'Continue' }).click();
+  }
+  await lesson.getByRole('button', { name: /^Next: Find the fault: the silent node/ }).click();
+  await page.getByRole('heading', { name: 'Find the fault: the silent node' }).waitFor();
+  // Before anything is diagnosed, no condition and no row names the cause.
+  await becomes('error frames', async () => (await rows(page)).some((one) => one.tag === 'ERR'), true);
+  for (const words of [await lesson.innerText(), ...(await rows(page)).map((one) => one.words)]) assert.doesNotMatch(words, /bit rate|250/);
+  assert.deepEqual(faults, []);
   await close();
 });

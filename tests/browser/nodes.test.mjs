@@ -45,14 +45,16 @@ check('up to four nodes, each with its own panels', {}, async (page) => {
   await row(page, 'all boot-ups after loading', (one) => one.id === '703');
 });
 
-check('two nodes with one node ID both answer', {}, async (page) => {
+check('two nodes with one node ID destroy each other’s answers, until one of them cannot any more', {}, async (page) => {
   await page.getByRole('button', { name: 'Add a node' }).click();
   await page.getByRole('dialog').getByRole('spinbutton', { name: 'Node ID' }).fill('1');
   await page.getByText('both nodes will respond').waitFor();
   await page.getByRole('dialog').getByRole('button', { name: 'gxam' }).click();
   await becomes('boot-ups', async () => (await rows(page)).filter((one) => one.id === '701').length, 2);
   await sendRaw(page, '601#4000100000000000');
-  await becomes('answers', async () => (await rows(page)).filter((one) => one.id === '581').length, 2);
+  const answers = async (isError) => (await rows(page)).filter((one) => one.id === '581' && (one.tag === 'ERR') === isError);
+  await becomes('answers', async () => (await answers(false)).length, 2);
+  await until('an error frame that says why', async () => (await answers(true)).some((one) => /same moment.*counter \d+/.test(one.words)));
 });
 
 check('the send line takes what a script says of the world', {}, async (page) => {

@@ -200,6 +200,10 @@ export async function openLesson(name: string, text: string, solutions: string[]
   dropFrames();
   state.tour.value = null;
   state.lessonFailed.value = null;
+  // What was typed and chosen before belongs to another bench.
+  state.draft.value = null;
+  state.selected.value = null;
+  state.chosenFrame.value = null;
   for (const solution of solutions) await playScript(solution);
   state.lessonRun.value = { name, count: state.lessonRun.value.count + 1, step: solutions.length };
   select(0);

@@ -28,6 +28,8 @@ async function open(): Promise<void> {
   }
   const lesson = new URLSearchParams(hash.slice(1)).get('lesson') ?? (hash.length > 1 ? null : new URLSearchParams(location.search).get('lesson'));
   if (lesson) {
+    const { resume } = await import('./share/keep');
+    if (state.devices.value.length === 0 && (await resume(lesson).catch(() => false))) return;
     const { openNamed } = await import('./lessons/open');
     let isThere = false;
     const meanwhile = async (): Promise<void> => {

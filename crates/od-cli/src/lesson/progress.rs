@@ -20,8 +20,8 @@ pub(super) struct Args {
     files: Vec<PathBuf>,
 }
 
-/// Steps that are done and all steps, by lesson.
-type Lessons = BTreeMap<String, (u32, u32)>;
+/// Steps that are done, all steps, and how many of them the page showed, by lesson.
+type Lessons = BTreeMap<String, (u32, u32, u32)>;
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let mut learners: BTreeMap<String, Lessons> = BTreeMap::new();
@@ -40,7 +40,12 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
                     let known = learners.entry(learner).or_default();
                     for (name, steps) in lessons {
                         let best = known.entry(name).or_insert(steps);
-                        *best = (*best).max(steps);
+                        // Of two codes the one with more steps counts, and of these the one with fewer shown.
+                        let rank =
+                            |(done, all, shown): (u32, u32, u32)| (done, all, u32::MAX - shown);
+                        if rank(steps) > rank(*best) {
+                            *best = steps;
+                        }
                     }
                 }
                 None => {
@@ -104,7 +109,9 @@ fn parse(code: &str) -> Option<(String, Lessons)> {
         let (name, steps) = word.split_once('=')?;
         let (steps, _day) = steps.split_once('@')?;
         let (done, all) = steps.split_once('/')?;
-        lessons.insert(decoded(name)?, (done.parse().ok()?, all.parse().ok()?));
+        let (all, shown) = all.split_once('~').unwrap_or((all, "0"));
+        let steps = (done.parse().ok()?, all.parse().ok()?, shown.parse().ok()?);
+        lessons.insert(decoded(name)?, steps);
     }
     Some((learner, lessons))
 }
@@ -151,13 +158,18 @@ fn table(learners: &BTreeMap<String, Lessons>) -> String {
     }
     text.push('\n');
     for (learner, lessons) in learners {
-        let done = lessons.values().filter(|(done, all)| done >= all).count();
-        let steps: u32 = lessons.values().map(|(done, _)| done).sum();
+        let done = lessons
+            .values()
+            .filter(|(done, all, _)| done >= all)
+            .count();
+        let steps: u32 = lessons.values().map(|(done, ..)| done).sum();
         let _ = write!(text, "{learner:first$}  {done:>7}  {steps:>5}");
         for (_, name) in &columns {
             let cell = match lessons.get(*name) {
-                Some((done, all)) if done >= all => String::from("done"),
-                Some((done, all)) => format!("{done}/{all}"),
+                Some((done, all, 0)) if done >= all => String::from("done"),
+                Some((done, all, shown)) if done >= all => format!("done~{shown}"),
+                Some((done, all, 0)) => format!("{done}/{all}"),
+                Some((done, all, shown)) => format!("{done}/{all}~{shown}"),
                 None => String::from("-"),
             };
             let _ = write!(text, "  {cell:>5}");
@@ -166,6 +178,13 @@ fn table(learners: &BTreeMap<String, Lessons>) -> String {
     }
     let class = report::plural(learners.len(), "learner");
     let _ = writeln!(text, "\n{class}, {builtin} lessons come with odkit");
+    if learners
+        .values()
+        .flat_map(BTreeMap::values)
+        .any(|(_, _, shown)| *shown > 0)
+    {
+        text.push_str("  ~  steps that the page did for the learner\n");
+    }
     for (number, name) in columns {
         let _ = writeln!(text, "{number:>3}  {name}");
     }

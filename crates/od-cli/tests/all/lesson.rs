@@ -185,6 +185,21 @@ fn codes_of_learners_become_a_table_and_a_truncated_one_is_reported() {
          Bob            1      6      -   done\n\
          \n2 learners, 22 lessons come with odkit\n  2  nmt\n  3  sdo\n"
     );
+    // The page did two of these steps.
+    let shown = "odkit-progress/1 learner=Eva nmt=5/5~2@2026-11-22 sum=";
+    let sum = shown
+        .trim_end_matches(" sum=")
+        .bytes()
+        .fold(0x811C_9DC5_u32, |hash, byte| {
+            (hash ^ u32::from(byte)).wrapping_mul(0x0100_0193)
+        });
+    let table = odkit(&["lesson", "progress", "-"], &format!("{shown}{sum:08X}\n"));
+    assert_eq!(table.code, 0, "{}", table.err);
+    assert!(
+        table.out.contains("done~2") && table.out.contains("  ~  steps that the page did"),
+        "{}",
+        table.out
+    );
     let cut = odkit(
         &["lesson", "progress", "-"],
         &CODES.replace("sdo=2/6", "sdo=6/6"),

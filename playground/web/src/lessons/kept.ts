@@ -1,7 +1,7 @@
 // The progress in lessons, kept in this browser, and the code with which a learner reports it. Nothing is sent.
 
-/** Steps done, all steps, and the day of the last one. */
-export type Done = [done: number, all: number, day: string];
+/** Steps done, all steps, the day of the last one, and the number of steps that `Show me` did. */
+export type Done = [done: number, all: number, day: string, shown?: number];
 export type Progress = Record<string, Done>;
 
 /** Lessons that are done, as earlier versions of the page kept them. */
@@ -17,7 +17,7 @@ const read = <T>(key: string, none: T): T => {
 };
 
 const isDone = (value: unknown): value is Done =>
-  Array.isArray(value) && value.length === 3 && value.slice(0, 2).every((count) => Number.isSafeInteger(count) && count >= 0) && /^\d{4}-\d\d-\d\d$/.test(String(value[2]));
+  Array.isArray(value) && (value.length === 3 || value.length === 4) && [value[0], value[1], value[3] ?? 0].every((count) => Number.isSafeInteger(count) && count >= 0) && /^\d{4}-\d\d-\d\d$/.test(String(value[2]));
 
 /** Other content of the storage is ignored. */
 export const progress = (): Progress => {
@@ -33,13 +33,13 @@ const old = (): string[] => {
 export const finished = (): Set<string> =>
   new Set([...old(), ...Object.entries(progress()).filter(([, [done, all]]) => done >= all).map(([name]) => name)]);
 
-/** Records the number of completed steps; repeating a lesson does not reduce it. */
-export function reached(name: string, done: number, all: number): void {
+/** Records the number of completed steps, and whether `Show me` did the last one; repeating a lesson does not reduce it. */
+export function reached(name: string, done: number, all: number, wasShown: boolean): void {
   const known = progress();
-  const [before = 0, of] = Object.hasOwn(known, name) ? known[name]! : [];
+  const [before = 0, of, , shown = 0] = Object.hasOwn(known, name) ? known[name]! : [];
   if (done === 0 || (done <= before && of === all)) return;
   try {
-    localStorage.setItem(KEY, JSON.stringify({ ...known, [name]: [done, all, new Date().toISOString().slice(0, 10)] }));
+    localStorage.setItem(KEY, JSON.stringify({ ...known, [name]: [done, all, new Date().toISOString().slice(0, 10), shown + (wasShown ? 1 : 0)] }));
   } catch {
     // Storage is not allowed: nothing is kept.
   }
@@ -57,7 +57,7 @@ const word = (text: string): string => encodeURIComponent(text.trim()).replaceAl
 
 /** The code of a learner, which `odkit lesson progress` reads. */
 export function codeOf(learner: string, known: Progress): string {
-  const lessons = Object.entries(known).map(([name, [done, all, day]]) => `${word(name)}=${done}/${all}@${day}`);
+  const lessons = Object.entries(known).map(([name, [done, all, day, shown = 0]]) => `${word(name)}=${done}/${all}${shown ? `~${shown}` : ''}@${day}`);
   const text = ['odkit-progress/1', `learner=${word(learner)}`, ...lessons].join(' ');
   return `${text} sum=${sum(text)}`;
 }

@@ -1,8 +1,10 @@
 // Opens a lesson by its name, from an address, or from a file.
 
+import { effect } from '@preact/signals-core';
 import { openLesson } from '../actions';
 import * as state from '../state';
 import { T } from '../texts';
+import { finished } from './kept';
 
 /** A built-in lesson. */
 export interface Listed {
@@ -79,6 +81,28 @@ export async function openFile(file: File): Promise<boolean> {
 }
 
 let last = '';
+
+/** The lesson that follows this one in the list: the next that is not done, or null. */
+export async function following(name: string): Promise<Listed | null> {
+  const all = await lessons().catch(() => []);
+  const done = finished();
+  const at = all.findIndex((one) => one.name === name);
+  return [...all.slice(at + 1), ...all.slice(0, Math.max(at, 0))].find((one) => !done.has(one.name)) ?? null;
+}
+
+/** Continues a lesson on a bench that is restored with it; its last step is shown when the run is there. */
+export function resumed(name: string, text: string): void {
+  last = text;
+  state.tab.value = 'lesson';
+  const stop = effect(() => {
+    const { value: progress } = state.lessonState;
+    if (!progress || state.replaying.value) return;
+    queueMicrotask(() => {
+      stop();
+      state.lessonRun.value = { name, count: state.lessonRun.peek().count + 1, step: progress.step };
+    });
+  });
+}
 
 /** Restarts the lesson in progress. */
 export const again = (): Promise<boolean> => tried(state.lessonRun.value.name, last);

@@ -1,11 +1,13 @@
 // Keeps the last bench in this browser, so that closing a tab loses no work.
 
 import { effect } from '@preact/signals-core';
+import { loaded } from '../codec';
 import { createStore, del, entries, set } from 'idb-keyval';
 import * as state from '../state';
 import { T } from '../texts';
-import { write } from './bench';
-import { now, openText } from './make';
+import { resumed } from '../lessons/open';
+import { read, write } from './bench';
+import { now, open, openText } from './make';
 
 /** Milliseconds between two saves. */
 const PAUSE = 2000;
@@ -18,6 +20,8 @@ interface Kept {
   at: number;
   /** Names of the devices. */
   names: string[];
+  /** Name of the lesson in progress; empty without one. */
+  lesson?: string;
   text: string;
 }
 
@@ -47,6 +51,40 @@ async function left(patience = 0): Promise<{ key: IDBValidKey; kept: Kept }[]> {
     .sort((a, b) => b.kept.at - a.kept.at);
 }
 
+/** The stored bench of this tab before it was loaded again. */
+const KEY_OF_TAB = 'odkit.bench';
+
+function ofTab(): string | null {
+  try {
+    const key = sessionStorage.getItem(KEY_OF_TAB);
+    sessionStorage.setItem(KEY_OF_TAB, own);
+    return key;
+  } catch {
+    // Storage is not allowed: nothing is kept.
+    return null;
+  }
+}
+
+/** Continues the lesson of this name where this tab was before it was loaded again; false if there is none. */
+export async function resume(name: string): Promise<boolean> {
+  const key = ofTab();
+  if (!key) return false;
+  const all = await left(4).catch(() => []);
+  const kept = all.find((one) => one.key === key)?.kept;
+  if (kept?.lesson !== name) return false;
+  await loaded;
+  const bench = read(kept.text);
+  const lesson = bench.entries.find(({ input }) => input.op === 'lesson')?.input;
+  if (lesson?.op !== 'lesson') return false;
+  open(bench);
+  resumed(name, lesson.text);
+  resumedKey = key;
+  return true;
+}
+
+/** The bench that this visit continues; it is not offered again. */
+let resumedKey: string | null = null;
+
 const lockOf = (key: IDBValidKey): string => `odkit bench ${String(key)}`;
 
 /** Returns whether anything was done except putting devices on the bus. */
@@ -56,9 +94,10 @@ const isWorth = (): boolean => state.journal.entries.some(({ input }) => input.o
 export async function start(): Promise<void> {
   // The lock is held while this tab is open.
   void navigator.locks?.request(lockOf(own), () => new Promise(() => undefined));
+  ofTab();
   let last: Kept | undefined;
   try {
-    last = (await left(4))[0]?.kept;
+    last = (await left(4)).find((one) => one.key !== resumedKey)?.kept;
   } catch {
     // Storage is not allowed: nothing is kept.
     return;
@@ -72,7 +111,7 @@ export async function start(): Promise<void> {
     const bench = await now(!isLong);
     if (bench.entries.length === 0) return;
     try {
-      await set(own, { at: Date.now(), names: state.devices.peek().map((one) => one.name), text: write(bench) }, store);
+      await set(own, { at: Date.now(), names: state.devices.peek().map((one) => one.name), lesson: state.lesson.peek() ? state.lessonRun.peek().name : '', text: write(bench) }, store);
       await Promise.all((await left()).slice(MOST_KEPT).map(({ key }) => del(key, store)));
     } catch {
       // The disk is full, or the browser forbids it: the page works without.

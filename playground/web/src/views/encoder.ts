@@ -1,6 +1,7 @@
 // The encoder: shaft, power, state, LEDs, and the steps from angle to PDO.
 
 import { html, nothing, type TemplateResult } from 'lit';
+import { effect } from '@preact/signals-core';
 import * as state from '../state';
 import { sendLine, setPower, setRpm, turnTo } from '../actions';
 import type { Lamp } from '../sim/api';
@@ -24,10 +25,27 @@ class Encoder extends View {
   /** The text for a custom profile; null while another profile is selected. */
   declare own: string | null;
 
+  private unfollow: (() => void) | undefined;
+
   constructor() {
     super();
     this.shown = 'shaft';
     this.own = null;
+  }
+
+  override connectedCallback(): void {
+    super.connectedCallback();
+    // A lesson begins with the shaft: another view may show the fault that is to be found.
+    this.unfollow = effect(() => {
+      void state.lessonRun.value;
+      this.shown = 'shaft';
+      this.own = null;
+    });
+  }
+
+  override disconnectedCallback(): void {
+    super.disconnectedCallback();
+    this.unfollow?.();
   }
 
   protected override render() {

@@ -6,7 +6,7 @@ import { keyed } from 'lit/directives/keyed.js';
 import { effect } from '@preact/signals-core';
 import { leaveLesson, playScript, setRunning } from '../actions';
 import { reached } from '../lessons/kept';
-import { again, backTo } from '../lessons/open';
+import { again, backTo, following, openNamed, type Listed } from '../lessons/open';
 import type { Lesson, LessonState } from '../sim/api';
 import * as state from '../state';
 import { T } from '../texts';
@@ -24,10 +24,12 @@ type Step = Lesson['steps'][number];
 const choose = (): void => void (state.lessonDialog.value = true);
 
 class LessonPanel extends View {
-  static override properties = { seen: { state: true }, hints: { state: true } };
+  static override properties = { seen: { state: true }, hints: { state: true }, upNext: { state: true } };
   /** The step that is shown: a completed step stays until the learner continues. */
   declare seen: number;
   declare hints: number;
+  /** The lesson after this one, when this one is done. */
+  declare upNext: Listed | null;
   /** Whether the solution was played for this step. */
   private isShown = false;
   private unfollow: (() => void) | undefined;
@@ -36,6 +38,7 @@ class LessonPanel extends View {
     super();
     this.seen = 0;
     this.hints = 0;
+    this.upNext = null;
   }
 
   override connectedCallback(): void {
@@ -44,6 +47,7 @@ class LessonPanel extends View {
       this.seen = state.lessonRun.value.step;
       this.hints = 0;
       this.isShown = false;
+      this.upNext = null;
     });
   }
 
@@ -81,7 +85,7 @@ class LessonPanel extends View {
   private goOn(number: number, isLast: boolean): TemplateResult {
     const t = T.lessons;
     return isLast
-      ? html`<div class="button-row"><button class="primary" @click=${choose}>${t.other}</button><button @click=${() => void again()}>${t.again}</button></div>`
+      ? html`<div class="button-row">${this.upNext ? html`<button class="primary" @click=${() => void openNamed(this.upNext!.name)}>${t.following(this.upNext.title)}</button>` : nothing}<button @click=${choose}>${t.other}</button><button @click=${() => void again()}>${t.again}</button></div>`
       : html`<div class="button-row"><button class="primary" @click=${() => this.next(number + 1)}>${t.next}</button>
           ${state.running.value ? nothing : html`<span class="still">${icons.pause} ${t.still}</span>`}</div>`;
   }
@@ -127,7 +131,10 @@ class LessonPanel extends View {
     const isLast = shown === all - 1;
     // The reason comes first; the rest can be opened if the window is low.
     const [why, ...more] = lesson.intro.trim().split(/\n\s*\n/);
-    reached(state.lessonRun.value.name, progress.step, all);
+    const { name } = state.lessonRun.value;
+    // A lesson that resumes has no name until its run is there.
+    if (name) reached(name, progress.step, all, this.isShown);
+    if (isDone && isLast && !this.upNext) void following(name).then((next) => (this.upNext = next));
     return html`
       <header class="panel-head">
         <h2>${lesson.title}</h2>

@@ -2,7 +2,7 @@
 
 import { html, nothing, type PropertyValues } from 'lit';
 import { effect } from '@preact/signals-core';
-import { codeOf, finished, progress } from '../lessons/kept';
+import { codeOf, finished, progress, type Done } from '../lessons/kept';
 import { lessons, openFile, openNamed, type Listed } from '../lessons/open';
 import * as state from '../state';
 import { T } from '../texts';
@@ -70,9 +70,22 @@ class Lessons extends View {
     </section>`;
   }
 
+  private card(one: Listed, isDone: boolean, kept: Done | undefined) {
+    const t = T.lessons;
+    const [steps = 0, all = 0, , shown = 0] = kept ?? [];
+    const state = isDone
+      ? html` <span class="done-mark" title=${t.done}>${icons.tick}<span class="sr">${t.done}</span></span>`
+      : steps > 0 ? html` <span class="muted num">${t.count(steps, all)}</span>` : nothing;
+    return html`<li><button class="card" @click=${() => void openNamed(one.name)}>
+      <strong>${one.title}${state}</strong>
+      ${one.summary ? html`<span>${one.summary}</span>` : nothing}
+      <span class="muted">${t.minutes(one.minutes)}${shown ? `, ${t.shown(shown)}` : ''}</span></button></li>`;
+  }
+
   protected override render() {
     const t = T.lessons;
     const done = finished();
+    const known = progress();
     const close = (): void => {
       state.lessonDialog.value = false;
       state.lessonFailed.value = null;
@@ -82,10 +95,12 @@ class Lessons extends View {
         <header class="dialog-head"><h2 id="lessons-title">${t.title}</h2><button class="icon-button" aria-label=${T.close} @click=${close}>${icons.close}</button></header>
         ${this.failed()}
         ${this.list === null ? html`<p class="note" role="alert">${t.noList}</p>` : nothing}
-        <ol class="lesson-list">${(this.list ?? []).map((one) => html`<li><button class="card" @click=${() => void openNamed(one.name)}>
-          <strong>${one.title}${done.has(one.name) ? html` <span class="done-mark" title=${t.done}>${icons.tick}<span class="sr">${t.done}</span></span>` : nothing}</strong>
-          ${one.summary ? html`<span>${one.summary}</span>` : nothing}
-          <span class="muted">${t.about(t.levels[one.level] ?? '', one.minutes)}</span></button></li>`)}</ol>
+        ${t.levels.map((level, number) => {
+          const group = (this.list ?? []).filter((one) => one.level === number);
+          if (group.length === 0) return nothing;
+          return html`<h3 id=${`level-${number}`} class="lesson-level">${level} <span class="muted num">${t.count(group.filter((one) => done.has(one.name)).length, group.length)}</span></h3>
+            <ol class="lesson-list" aria-labelledby=${`level-${number}`}>${group.map((one) => this.card(one, done.has(one.name), known[one.name]))}</ol>`;
+        })}
         ${this.code()}
         <label class="drop">${icons.file}<span><strong>${t.open}</strong><span class="muted">${t.openHint}</span></span>
           <input class="sr" type="file" accept=".md,.markdown,text/markdown,text/plain" aria-label=${t.open} @change=${(event: Event) => {

@@ -9,10 +9,10 @@ import { View } from './view';
 
 type Asked = NonNullable<Lesson['steps'][number]['quiz']>;
 
-/** Bytes to check again. */
+/** Bytes to check again, counted from 0 as everywhere. */
 function wrongParts(found: Judgement): string {
   const t = T.lessons;
-  const bytes = found.wrongBytes.map((at) => at + 1).join(', ');
+  const bytes = found.wrongBytes.join(', ');
   return [found.wrongIdentifier ? t.wrongId : '', found.wrongLength ? t.wrongLength : '', bytes ? t.wrongBytes(bytes) : ''].filter(Boolean).join(t.and);
 }
 

@@ -1,6 +1,7 @@
 // The area below the frames: a raw frame, an SDO by name, and the NMT commands.
 
 import { html } from 'lit';
+import { keyed } from 'lit/directives/keyed.js';
 import { effect } from '@preact/signals-core';
 import * as state from '../state';
 import { doLine, isDeed, readTyped, sendFrame, sendLine } from '../actions';
@@ -19,8 +20,7 @@ const MOST_REMEMBERED = 50;
 class Send extends View {
   protected override render() {
     return html`
-      <od-raw-frame></od-raw-frame>
-      <od-sdo-form></od-sdo-form>
+      ${keyed(state.lessonRun.value.count, html`<od-raw-frame></od-raw-frame><od-sdo-form></od-sdo-form>`)}
       <div class="dock-row">
         <span class="dock-label" id="nmt-label">NMT</span>
         <div class="button-row" role="group" aria-labelledby="nmt-label">
