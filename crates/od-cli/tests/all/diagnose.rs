@@ -120,11 +120,7 @@ impl Host for Recorder {
 
     fn look(&mut self, bus: &mut Bus) {
         while let Some(one) = bus.line.poll() {
-            // Each attempt ends in an error frame, some 200 us apart.
-            for attempt in (0..u64::from(one.attempts.min(32))).rev() {
-                let at = one.at.as_micros().saturating_sub(200 * attempt);
-                self.0.push(record(at, What::Error));
-            }
+            self.0.push(record(one.at.as_micros(), What::Error));
         }
     }
 }

@@ -83,6 +83,7 @@ fn summary(info: &str) -> Option<&'static str> {
         "checkpoint" => Some("Checkpoint"),
         "answer" => Some("Answer"),
         "solution" => Some("Solution"),
+        "facts" => Some("Shown by"),
         _ => None,
     }
 }
