@@ -8,6 +8,7 @@ use super::{Action, Change, Edit, Raw, Target, missing};
 use crate::description::{Description, EntryDescription, ObjectDescription, Value};
 use crate::fact::Key;
 use crate::finding::Finding;
+use crate::read::fields::STORAGE;
 use crate::rules::edits::{
     e0702_object_exists, e0703_sub_object_without_object, e0704_object_without_sub_objects,
     e0705_name_missing, e0706_type_missing, e0707_value_not_valid, e0708_value_of_base_not_valid,
@@ -212,7 +213,10 @@ fn fill(entry: &mut EntryDescription, edit: &Edit, findings: &mut Vec<Finding>) 
         match &change.value {
             Change::Name(name) => entry.name = Spanned::new(name.clone(), span),
             Change::Access(access) => entry.access = Spanned::new(*access, span),
-            Change::Save(group) => entry.group = Some(Spanned::new(*group, span)),
+            Change::Save(group) => {
+                entry.group = Some(Spanned::new(*group, span));
+                entry.extra.retain(|(key, _)| key != STORAGE);
+            }
             Change::Type(data_type) => {
                 entry.data_type = Some(Spanned::new(*data_type, span));
                 for (key, value) in [

@@ -23,6 +23,8 @@ pub(crate) struct Fields<'a> {
     pub(crate) header: Span,
     /// The group of the `;StorageLocation=` comment, if it is a known one.
     pub(crate) group: Option<Spanned<Group>>,
+    /// The text of that comment.
+    storage: Option<String>,
 }
 
 impl<'a> Fields<'a> {
@@ -53,13 +55,15 @@ impl<'a> Fields<'a> {
                 value.value = Cow::Borrowed("");
             }
         }
-        let group = placed
-            .storage
-            .and_then(|storage| group(&storage).map(|group| Spanned::new(group, storage.span)));
+        let storage = placed.storage;
+        let group = storage
+            .as_ref()
+            .and_then(|storage| group(storage).map(|group| Spanned::new(group, storage.span)));
         Self {
             pairs,
             header: placed.header,
             group,
+            storage: storage.map(|storage| storage.value.into_owned()),
         }
     }
 
@@ -87,14 +91,37 @@ impl<'a> Fields<'a> {
             .any(|(k, v)| k.eq_ignore_ascii_case(key) && !v.is_empty())
     }
 
-    /// The keys that were not read, in file order; unknown ones are reported.
-    pub(crate) fn rest(self, address: Address, log: &mut Log) -> Vec<(String, String)> {
+    /// The keys that were not read, in file order; unknown ones are reported. The comment about the storage is one
+    /// of them if its group does not say it all: with a word of another tool, or for the sub-objects of an object.
+    pub(crate) fn rest(
+        self,
+        address: Address,
+        has_members: bool,
+        log: &mut Log,
+    ) -> Vec<(String, String)> {
         unknown_object_keys(&self.pairs, address, log);
+        let group = self.group;
+        let is_said = |word: &String| {
+            group.is_some_and(|group| location(*group) == word.as_str()) && !has_members
+        };
+        let storage = self
+            .storage
+            .filter(|word| !word.is_empty() && !is_said(word));
         self.pairs
             .into_iter()
             .map(|(key, value)| (key.value.into_owned(), value.value.into_owned()))
+            .chain(storage.map(|word| (STORAGE.into(), word)))
             .collect()
     }
+}
+
+/// The comment of CANopenEditor about the storage of a value, as a key that odkit keeps.
+pub(crate) const STORAGE: &str = ";StorageLocation";
+
+/// The word of a comment that is kept, and the group that it means.
+pub(crate) fn kept(extra: &[(String, String)]) -> Option<(&str, Option<Group>)> {
+    let (_, word) = extra.iter().find(|(key, _)| key == STORAGE)?;
+    Some((word, group(word)))
 }
 
 /// The words of CANopenEditor for the storage of a value; other words belong to other tools.

@@ -132,7 +132,7 @@ pub(crate) fn object(
         sub_number: Some(sub_number),
         entries,
         flags,
-        extra: extra(fields.rest(address, reader.log), unread),
+        extra: extra(fields.rest(address, true, reader.log), unread),
         span,
     })
 }
@@ -193,7 +193,7 @@ fn member(address: Address, section: Placed<'_>, log: &mut Log) -> EntryDescript
     }
     let (mut entry, mut more) = reader.entry(&mut fields, name, assumed);
     unread.append(&mut more);
-    entry.extra = extra(fields.rest(address, reader.log), unread);
+    entry.extra = extra(fields.rest(address, false, reader.log), unread);
     entry
 }
 
@@ -214,7 +214,7 @@ fn var(
     };
     let (mut entry, mut more) = reader.entry(&mut fields, name, assumed);
     unread.append(&mut more);
-    entry.extra = extra(fields.rest(reader.address, reader.log), unread);
+    entry.extra = extra(fields.rest(reader.address, false, reader.log), unread);
     ObjectDescription {
         code,
         sub_number,

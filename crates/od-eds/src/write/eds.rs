@@ -9,6 +9,7 @@ use crate::read::{fields, values};
 use crate::scan::either;
 use crate::scan::names::List;
 use crate::span::Spanned;
+use od_model::Group;
 
 /// The text of a description: what it says, no more and no less.
 ///
@@ -106,7 +107,7 @@ impl Text {
                 self.field("SubNumber", &number.to_string(), extra);
             }
             if let Some(entry) = entry {
-                self.entry(entry);
+                self.entry(entry, None);
             }
             return;
         }
@@ -123,19 +124,23 @@ impl Text {
         for (key, value) in extra {
             self.pair(key, value);
         }
+        let group = fields::kept(extra).and_then(|(_, group)| group);
         for (sub, entry) in &object.entries {
             self.section(&alloc::format!("{index:04X}sub{sub:X}"));
             self.pair("ParameterName", &entry.name);
             self.field("ObjectType", "0x7", &entry.extra);
-            self.entry(entry);
+            self.entry(entry, group);
         }
     }
 
-    fn entry(&mut self, entry: &EntryDescription) {
+    /// The keys of a value; `inherited` is the group that its object gives to its sub-objects.
+    fn entry(&mut self, entry: &EntryDescription, inherited: Option<Group>) {
         let extra = &entry.extra;
-        if let Some(group) = &entry.group {
-            self.0.push(';');
-            self.pair("StorageLocation", fields::location(**group));
+        if let Some(group) = entry.group.map(|group| group.value)
+            && fields::kept(extra).is_none()
+            && Some(group) != inherited
+        {
+            self.pair(fields::STORAGE, fields::location(group));
         }
         let data_type = entry.data_type.map(|t| t.value);
         if let Some(data_type) = data_type {
@@ -204,6 +209,32 @@ mod tests {
         assert_eq!(crate::canonical(&again), written);
         let plain = crate::parse(text).description;
         assert_eq!(crate::parse(&write(&plain)).description, plain);
+    }
+
+    #[test]
+    fn the_storage_of_an_object_and_other_words_are_kept() {
+        let text = "[2000]\nParameterName=a\nObjectType=0x9\nSubNumber=3\n;StorageLocation=PERSIST_COMM\n\n\
+            [2000sub0]\nParameterName=n\nObjectType=0x7\nDataType=0x0005\nAccessType=ro\nDefaultValue=2\nPDOMapping=0\n\n\
+            [2000sub1]\nParameterName=b\nObjectType=0x7\n;StorageLocation=RAM\nDataType=0x0005\nAccessType=rw\nPDOMapping=0\n\n\
+            [2000sub2]\nParameterName=c\nObjectType=0x7\nDataType=0x0005\nAccessType=rw\nPDOMapping=0\n;StorageLocation=ROM\n\n\
+            [2001]\nParameterName=d\nObjectType=0x7\nDataType=0x0005\nAccessType=rw\nPDOMapping=0\n;StorageLocation=EEPROM\n";
+        let description = crate::parse(text).description;
+        let written = write(&description);
+        assert!(written.ends_with(text), "{written}");
+        assert_eq!(
+            crate::parse(&written).description.objects,
+            description.objects
+        );
+        let groups = |sub| {
+            description.objects[&0x2000].entries[&sub]
+                .group
+                .map(|group| group.value)
+        };
+        assert_eq!(groups(0), Some(Group::Communication));
+        assert_eq!(
+            (groups(1), groups(2)),
+            (Some(Group::None), Some(Group::None))
+        );
     }
 
     #[test]

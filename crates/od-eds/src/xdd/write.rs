@@ -12,6 +12,7 @@ use data_types::elementary;
 use xml::{Attributes, Xml, escape, vec_of};
 
 use crate::description::{Description, EntryDescription, ObjectDescription, Section, Value};
+use crate::read::fields;
 use crate::read::values::text as value_text;
 use crate::span::Spanned;
 use od_model::{Access, Address};
@@ -136,7 +137,9 @@ fn device(out: &mut Xml, description: &Description) {
 
 /// Does an entry have something to say that the list of objects has no place for?
 fn has_parameter(entry: &EntryDescription) -> bool {
-    entry.group.is_some() || matches!(*entry.access, Access::Rwr | Access::Rww) && !*entry.mappable
+    entry.group.is_some()
+        || fields::kept(&entry.extra).is_some()
+        || matches!(*entry.access, Access::Rwr | Access::Rww) && !*entry.mappable
 }
 
 /// The parameter of an entry: its name, its type, and which group saves it.
@@ -158,9 +161,13 @@ fn parameter(out: &mut Xml, address: Address, entry: &EntryDescription) {
         ));
         let data_type = entry.data_type.map(|data_type| data_type.value);
         out.empty(elementary(data_type), &[]);
-        if let Some(group) = &entry.group {
-            let storage = crate::read::fields::location(**group).into();
-            let property = [("name", "CO_storageGroup".into()), ("value", storage)];
+        let word = fields::kept(&entry.extra).map(|(word, _)| word);
+        let storage = word.or_else(|| Some(fields::location(**entry.group.as_ref()?)));
+        if let Some(storage) = storage {
+            let property = [
+                ("name", "CO_storageGroup".into()),
+                ("value", storage.into()),
+            ];
             out.empty("property", &vec_of(property));
         }
     });
