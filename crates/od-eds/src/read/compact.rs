@@ -103,11 +103,14 @@ fn entry_count(section: &Placed<'_>, address: Address, log: &mut Log) {
         .iter()
         .filter(|(key, value)| !key.eq_ignore_ascii_case("NrOfEntries") && !value.is_empty())
         .count();
+    let has_empty = section.pairs.iter().any(|(_, value)| value.is_empty());
     let given = section.get("NrOfEntries");
     if given.and_then(|given| crate::scan::number::number(given)) == i128::try_from(entries).ok() {
         return;
     }
-    log.push(w0321_nr_of_entries::finding(section.header, given, entries).about(address));
+    log.push(
+        w0321_nr_of_entries::finding(section.header, given, entries, has_empty).about(address),
+    );
 }
 
 fn give(mut reader: Reader<'_>, entry: &mut EntryDescription, compact: Compact, value: &Text<'_>) {

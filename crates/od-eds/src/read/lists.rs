@@ -1,6 +1,6 @@
 //! Compares the three lists of objects with the sections.
 
-use alloc::collections::BTreeMap;
+use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::vec::Vec;
 
 use crate::description::{Description, ObjectDescription};
@@ -55,8 +55,12 @@ fn entries(
     let (mut found, mut invalid) = (0, 0);
     let mut numbers: BTreeMap<i128, Span> = BTreeMap::new();
     let mut ordered = true;
-    // Each of these fixes renumbers all entries, so one of them is enough.
-    let mut fixes = 0..8;
+    // Each of these fixes renumbers all entries, so one of them is enough; an object that is listed twice goes first.
+    let mut fixes = if names_twice(placed, description, listed) {
+        0..0
+    } else {
+        0..8
+    };
     let mut renumbered = || match fixes.next() {
         Some(_) => w0242_list_numbering::renumbered(placed),
         None => Fix::safe(),
@@ -109,12 +113,26 @@ fn entries(
     // An invalid entry still counts as one.
     let counted = given == Some(found) || given == Some(found + invalid);
     if !counted && (found > 0 || count.is_some()) {
+        let highest = numbers.keys().next_back().copied().unwrap_or(0);
         log.push(w0204_supported_objects_count::finding(
             placed.header,
             count,
             found,
+            highest,
         ));
     }
+}
+
+/// Does a list name an object that it or an earlier one has named?
+fn names_twice(
+    placed: &Placed<'_>,
+    description: &Description,
+    listed: &BTreeMap<u16, Span>,
+) -> bool {
+    let mut seen = BTreeSet::new();
+    let entries = placed.pairs.iter().filter(|(key, _)| number(key).is_some());
+    let mut indices = entries.filter_map(|(_, value)| index(value, description));
+    indices.any(|index| !seen.insert(index) || listed.contains_key(&index))
 }
 
 /// The index in a list entry, in any spelling; without `0x` it is decimal, unless only

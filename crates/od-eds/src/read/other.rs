@@ -31,7 +31,12 @@ pub(crate) fn check(placed: &Placed<'_>, log: &mut Log) {
         return;
     };
     if known.name == "DeviceCommissioning" {
-        log.push(i0611_commissioning_spelling::finding(placed.header));
+        let mut pairs = placed.pairs.iter();
+        let is_valid = |(key, value): &(Text<'_>, Text<'_>)| {
+            known::key(known, key).is_none_or(|(_, form)| value.is_empty() || fits(value, form))
+        };
+        let finding = i0611_commissioning_spelling::finding(placed.header, pairs.all(is_valid));
+        log.push(finding);
     }
     for (key, value) in &placed.pairs {
         match known::key(known, key) {
@@ -98,26 +103,27 @@ pub(crate) fn unknown_object_keys(rest: &[(Text<'_>, Text<'_>)], address: Addres
 }
 
 fn check_value(known: &Known, key: &str, value: &Text<'_>, form: Form, log: &mut Log) {
-    if value.is_empty() || matches!(form, Form::Text) {
-        return;
-    }
-    let text = number::before_comment(value);
-    let read = number::integer(text, &mut Vec::new()).map(|number| number.value);
-    let fits = match form {
-        Form::Text => true,
-        Form::Flag => matches!(read, Some(0 | 1)),
-        Form::Number(most) => read.is_some_and(|n| (0..=i128::from(most)).contains(&n)),
-        Form::Version => is_version(text),
-        Form::Date => is_date(value),
-        Form::Time => is_time(value),
-    };
-    if !fits {
+    if !value.is_empty() && !fits(value, form) {
         log.push(match form {
             Form::Date | Form::Time => i0610_date_or_time::finding(key, value, form),
             _ => {
                 w0609_key_value_not_valid::finding(&known.name.replace('#', "1"), key, value, form)
             }
         });
+    }
+}
+
+/// Does a value have its form?
+fn fits(value: &str, form: Form) -> bool {
+    let text = number::before_comment(value);
+    let read = number::integer(text, &mut Vec::new()).map(|number| number.value);
+    match form {
+        Form::Text => true,
+        Form::Flag => matches!(read, Some(0 | 1)),
+        Form::Number(most) => read.is_some_and(|n| (0..=i128::from(most)).contains(&n)),
+        Form::Version => is_version(text),
+        Form::Date => is_date(value),
+        Form::Time => is_time(value),
     }
 }
 

@@ -114,11 +114,9 @@ pub fn place(name: &str) -> Place {
 /// The likely subject of a section whose name is not quite right: `0x1018`,
 /// `1018 sub 2`, `1018_sub2`, `1018h`, `5`; `A0` only if the section describes something.
 pub(crate) fn intended(name: &str, describes: bool) -> Option<Place> {
-    let plain: String = name
-        .chars()
-        .filter(|c| !c.is_whitespace() && !matches!(c, '_' | '.' | '-'))
-        .map(|c| c.to_ascii_lowercase())
-        .collect();
+    let plain = name.trim().to_ascii_lowercase();
+    // Between the index and the sub-index, not within one of them.
+    let is_separator = |c: char| c.is_whitespace() || matches!(c, '_' | '.' | '-');
     let number = |text: &str| {
         let text = text.strip_prefix("0x").unwrap_or(text);
         let text = text.strip_suffix('h').unwrap_or(text);
@@ -132,7 +130,10 @@ pub(crate) fn intended(name: &str, describes: bool) -> Option<Place> {
         }
     };
     let (index, rest) = match plain.find("sub") {
-        Some(at) => (&plain[..at], Some(&plain[at + 3..])),
+        Some(at) => (
+            plain[..at].trim_end_matches(is_separator),
+            Some(plain[at + 3..].trim_start_matches(is_separator)),
+        ),
         None => (&plain[..], None),
     };
     let index = u16::try_from(number(index)?).ok()?;

@@ -43,9 +43,16 @@ pub(crate) fn in_xdd(given: &Spanned<String>, name: &'static str, found: usize) 
     finding.fact("found", found).fix(fix)
 }
 
-/// The finding about a SupportedObjects that is missing, or not the number of entries.
-pub(crate) fn finding(header: Span, given: Option<&Text<'_>>, found: i128) -> Finding {
+/// The finding about a SupportedObjects that is missing, or not the number of entries. A tool that counts would lose
+/// an entry whose number is above a lower count, so the finding has no fix then.
+pub(crate) fn finding(
+    header: Span,
+    given: Option<&Text<'_>>,
+    found: i128,
+    highest: i128,
+) -> Finding {
     let finding = match given {
+        Some(given) if highest > found => RULE.given(given),
         Some(given) => RULE
             .given(given)
             .fix(Fix::safe().replace(given.span, found.to_string())),

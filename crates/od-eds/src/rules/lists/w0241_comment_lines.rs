@@ -31,15 +31,22 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
     let Some(section) = section.filter(|_| !description.objects.is_empty()) else {
         return;
     };
-    let is_line = |key: &str| {
-        let word = key.get(.."Line".len());
-        word.is_some_and(|word| word.eq_ignore_ascii_case("Line"))
-            && key["Line".len()..].parse::<u32>().is_ok()
+    let line = |key: &str| {
+        let word = key.get(.."Line".len())?;
+        let is_line = word.eq_ignore_ascii_case("Line");
+        is_line
+            .then(|| key["Line".len()..].parse::<u32>().ok())
+            .flatten()
     };
-    let lines = section.pairs.iter().filter(|(key, _)| is_line(key)).count();
+    let numbers = section.pairs.iter().filter_map(|(key, _)| line(key));
+    let (lines, highest) = numbers.fold((0, 0), |(lines, highest), number| {
+        (lines + 1, number.max(highest))
+    });
     let name = section.name.span;
     let finding = match section.get("Lines") {
-        Some(given) if number(given) == Some(lines as i128) => return,
+        Some(given) if number(given) == Some(i128::from(lines)) => return,
+        // A tool that counts would lose a line with a higher number.
+        Some(given) if highest > lines => RULE.at(given.span).fact("given", given.as_str()),
         Some(given) => RULE
             .at(given.span)
             .fact("given", given.as_str())

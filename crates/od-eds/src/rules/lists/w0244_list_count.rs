@@ -35,9 +35,13 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
         };
         let given = section.get("NrOfEntries");
         if let Some(given) = given.filter(|given| number(given) != Some(count as i128)) {
-            let fix = Fix::safe().replace(given.span, format!("{count}"));
             let finding = RULE.at(given.span).fact("given", given.as_str());
-            findings.push(finding.fact("count", count).fix(fix));
+            let finding = finding.fact("count", count);
+            // A tool that counts would lose an entry with a higher number.
+            let numbers = section.pairs.iter().filter_map(|(key, _)| number(key));
+            let is_safe = numbers.max().is_none_or(|highest| highest <= count as i128);
+            let fix = Fix::safe().replace(given.span, format!("{count}"));
+            findings.push(if is_safe { finding.fix(fix) } else { finding });
         }
     }
 }

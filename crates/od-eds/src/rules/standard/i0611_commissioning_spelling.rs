@@ -8,14 +8,19 @@ pub(crate) static RULE: Rule = Rule {
     title: "DeviceCommissioning is spelled with two m",
     why: "Many tools know only the spelling of the standard, `DeviceComissioning`. odkit reads both.",
     source: "CiA 306-1, DCF",
-    fixability: Fixability::Safe,
+    fixability: Fixability::Either,
     says: "CiA 306 spells `DeviceCommissioning` with one m",
     help: "write `[DeviceComissioning]`{fix}",
     ..Rule::NEW
 };
 
-/// The finding about the header.
-pub(crate) fn finding(header: Span) -> Finding {
-    let fix = Fix::safe().replace(header, "[DeviceComissioning]");
-    RULE.at(header).fix(fix)
+/// The finding about the header. A tool that ignores the section now may stop at a value that is not valid.
+pub(crate) fn finding(header: Span, is_valid: bool) -> Finding {
+    let fix = if is_valid {
+        Fix::safe()
+    } else {
+        Fix::unsafe_fix()
+    };
+    RULE.at(header)
+        .fix(fix.replace(header, "[DeviceComissioning]"))
 }

@@ -14,11 +14,14 @@ pub(crate) static RULE: Rule = Rule {
     ..Rule::NEW
 };
 
-/// The finding about a key without the value that it needs. If the key follows once more,
-/// odkit would read that one if the line were removed, so the finding has no fix.
+/// The finding about a key without the value that it needs. There is no fix if the key follows once more, which odkit
+/// would read then, or if tools stop at an object without the key: AccessType and DataType need a value.
 pub(crate) fn finding(key: &Text<'_>, is_single: bool) -> Finding {
     let finding = RULE.at(key.span).fact("name", &*key.value);
-    if is_single {
+    let is_needed = ["AccessType", "DataType"]
+        .iter()
+        .any(|needed| key.eq_ignore_ascii_case(needed));
+    if is_single && !is_needed {
         finding.fix(Fix::safe().remove_line(key.span))
     } else {
         finding

@@ -25,9 +25,16 @@ const MISSING: Form = Form {
     ..Form::OWN
 };
 
-/// The finding about an NrOfEntries that is missing, or not the number of entries.
-pub(crate) fn finding(header: Span, given: Option<&Text<'_>>, found: usize) -> Finding {
+/// The finding about an NrOfEntries that is missing, or not the number of entries. It is not lowered where an entry
+/// without a value is left, for which a tool may have room.
+pub(crate) fn finding(
+    header: Span,
+    given: Option<&Text<'_>>,
+    found: usize,
+    has_empty: bool,
+) -> Finding {
     let finding = match given {
+        Some(given) if has_empty => RULE.given(given),
         Some(given) => RULE
             .given(given)
             .fix(Fix::safe().replace(given.span, found.to_string())),
