@@ -38,6 +38,7 @@ from odkit._odkit import (
     to_canopen,
     wires,
 )
+from odkit._waits import patch_time
 
 __all__ = [
     "Bench",
@@ -67,6 +68,7 @@ __all__ = [
     "diff",
     "fix",
     "overlay",
+    "patch_time",
     "read",
     "to_canopen",
     "wires",

@@ -1,4 +1,6 @@
 import os
+import threading
+import weakref
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from types import TracebackType
 from typing import Any, Literal, final, overload
@@ -16,11 +18,13 @@ _Source = str | os.PathLike[str] | bytes
 _Described = _Source | Description
 _Severity = Literal["error", "warning", "info"]
 _Command = Literal["start", "stop", "pre-operational", "reset", "reset-communication"]
+_Time = Literal["virtual", "strict", "real"]
 _LssAddress = tuple[int, int, int, int]
 _Form = Literal["eds", "dcf", "xdd", "xdc", "md", "c", "h", "dbc", "json"]
 
 __all__ = [
     "Bench",
+    "Child",
     "Client",
     "Conform",
     "Description",
@@ -41,20 +45,31 @@ __all__ = [
     "Relative",
     "SdoAbort",
     "Snapshot",
+    "Waiting",
     "check",
     "conform_cases",
     "convert",
     "devices",
     "diff",
+    "end_program",
     "fix",
+    "moment",
     "overlay",
+    "patch",
     "read",
+    "takes_part",
     "to_canopen",
+    "wake",
     "wires",
 ]
 
 def devices() -> list[tuple[str, str]]: ...
 def wires() -> list[str]: ...
+def takes_part() -> bool: ...
+def moment() -> tuple[int, int] | None: ...
+def patch(on: bool) -> None: ...
+def wake(ident: int) -> None: ...
+def end_program() -> None: ...
 def read(source: _Described, node_id: int | None = None, *, strict: bool = False) -> Description: ...
 def overlay(base: _Described, overlay: _Source, node_id: int | None = None) -> Description: ...
 def check(source: _Described, *, for_: str | Sequence[str] | None = None) -> list[Finding]: ...
@@ -479,7 +494,8 @@ class Bench:
         devices: _Path | Sequence[_Path] | Snapshot | None = None,
         *,
         name: str | None = None,
-        time: str = "virtual",
+        time: _Time = "virtual",
+        pace: float = 1.0,
     ) -> Bench: ...
     @property
     def name(self) -> str: ...
@@ -515,6 +531,20 @@ class Bench:
     def __len__(self) -> int: ...
 
 @final
+class Child:
+    def __new__(cls, object: weakref.ref[threading.Thread]) -> Child: ...
+    def begin(self) -> None: ...
+    def end(self) -> None: ...
+
+@final
+class Waiting:
+    def __new__(
+        cls, timeout: float | None, paced: bool = True, target: threading.Thread | None = None
+    ) -> Waiting: ...
+    def pause(self) -> float | None: ...
+    def end(self) -> None: ...
+
+@final
 class Port:
     def __new__(
         cls,
@@ -523,6 +553,7 @@ class Port:
         own: bool = False,
         bitrate: int | None = None,
         bench: Bench | None = None,
+        pace: float | None = None,
     ) -> Port: ...
     def send(self, frame: _Frame) -> None: ...
     def recv(self, timeout: float | None = None) -> tuple[Any, ...] | None: ...

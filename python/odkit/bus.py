@@ -25,7 +25,8 @@ class OdkitBus(BusABC):
     :param can_filters: The filters of python-can.
     :param receive_own_messages: Whether the bus receives what it sends.
     :param time: ``virtual``, the default of a new wire: time moves while all that take part wait.
-        ``real``: time follows the clock.
+        ``strict``: so, too, but a wait that lets time follow the clock raises. ``real``: time follows the clock.
+    :param pace: Seconds on a new wire for each second of the clock while time follows the clock; 1 by default.
     :param bitrate: In bit/s. Devices with another bit rate do not hear the bus. Without it they do.
     :raises can.CanInitializationError: A device does not exist, a file cannot be read.
     """
@@ -39,13 +40,14 @@ class OdkitBus(BusABC):
         bitrate=None,
         bench=None,
         fd=False,
+        pace=None,
         **kwargs,
     ):
         if fd:
             raise CanInitializationError("odkit does not support CAN FD; leave out `fd`")
         channel = "" if channel is None else str(channel)
         try:
-            self._port = _odkit.Port(channel, time, receive_own_messages, bitrate, bench)
+            self._port = _odkit.Port(channel, time, receive_own_messages, bitrate, bench, pace)
         except (ValueError, OSError) as error:
             raise CanInitializationError(str(error)) from None
         self.channel = channel
@@ -69,8 +71,7 @@ class OdkitBus(BusABC):
     def recv(self, timeout=None):
         """The next message, or ``None`` when ``timeout`` seconds of the bus's time are over.
 
-        In virtual time they are over at once, unless other threads take part on the wire: time moves
-        while all of them wait.
+        In virtual time they are over as soon as the other threads that take part on the wire wait, too.
 
         :raises can.CanOperationError: The bus is closed.
         """

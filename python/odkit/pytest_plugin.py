@@ -97,7 +97,17 @@ def odkit_bench(request):
         os.makedirs(folder, exist_ok=True)
         name = re.sub(r"[^\w.-]+", "-", request.node.nodeid).strip("-")
         bench.save_log(os.path.join(folder, f"{name}.log"))
+    bench.close()
     del request.node.stash[_benches]
+
+
+@pytest.fixture
+def odkit_time():
+    """The waits of Python take no time on the clock; see :func:`odkit.patch_time`."""
+    import odkit
+
+    with odkit.patch_time() as patched:
+        yield patched
 
 
 @pytest.fixture

@@ -18,6 +18,7 @@ use crate::registry;
 use crate::snapshot::Snapshot;
 use crate::spec;
 use crate::state::State;
+use crate::time::{self as times, Time};
 use crate::wire::{Wire, micros};
 
 /// Devices on a CAN bus in virtual time, with shafts, power supplies and faults.
@@ -27,8 +28,9 @@ use crate::wire::{Wire, micros};
 /// on at once. A snapshot in their place makes a bench with its state. `can.Bus(interface="odkit", channel=bench.name)` connects to the bench, and
 /// `bench.bus()` does so, too.
 ///
-/// Time moves while a thread waits: in `run`, `until`, `expect`, or in `recv` of a bus. With
-/// `time="real"` it follows the clock.
+/// Time moves while every thread that takes part waits: in `run`, `until`, `expect`, in `recv` of a bus, or in
+/// Python. A wait in Python takes as long on the clock as on the bus, divided by `pace`. With `time="strict"` it is
+/// an error if time follows the clock; with `time="real"` it always does.
 ///
 /// Raises `ValueError` if a device cannot be made, `OSError` if a file cannot be read.
 #[pyclass(frozen, module = "odkit")]
@@ -48,11 +50,12 @@ impl Bench {
     fn wait(&self, py: Python<'_>, until: Instant, or_frame: bool) -> PyResult<End> {
         let before = self.wire.lock().journal.end();
         let wait = Wait {
-            port: None,
             until: Some(until),
             seen: or_frame.then_some(before),
+            is_last: !or_frame,
+            ..Wait::default()
         };
-        pass(py, &self.wire, wait, (None, false), &mut |state| {
+        pass(py, &self.wire, wait, false, &mut |state| {
             Ok(or_frame && state.journal.end() != before)
         })
     }
@@ -61,19 +64,21 @@ impl Bench {
 #[pymethods]
 impl Bench {
     #[new]
-    #[pyo3(signature = (devices=None, *, name=None, time="virtual"))]
+    #[pyo3(signature = (devices=None, *, name=None, time="virtual", pace=1.0))]
     fn new(
         py: Python<'_>,
         devices: Option<&Bound<'_, PyAny>>,
         name: Option<&str>,
         time: &str,
+        pace: f64,
     ) -> PyResult<Self> {
-        let real = registry::is_real(Some(time))? == Some(true);
+        let time = Time::parse(time)?;
         let name = name.map_or_else(registry::free_name, str::to_owned);
         let mut state = State::default();
+        state.pace = times::pace(pace)?;
         let snapshot = devices.and_then(|devices| devices.cast::<Snapshot>().ok());
         match snapshot {
-            Some(_) if real => {
+            Some(_) if time == Time::Real => {
                 return Err(Fault::value("a snapshot goes on in virtual time").into());
             }
             Some(snapshot) => snapshot.get().restore(&mut state),
@@ -88,7 +93,7 @@ impl Bench {
             return Err(Fault::value(format!("a wire named `{name}` is open already")).into());
         }
         state.collect();
-        let wire = registry::add(py, name, state, real, false)?;
+        let wire = registry::add(py, name, state, time, false)?;
         Ok(Self { wire })
     }
 
@@ -103,7 +108,7 @@ impl Bench {
 
     /// Frees the name for another bench. Open buses stay open.
     fn close(&self) {
-        registry::release(&self.wire);
+        self.wire.release();
     }
 
     /// The name of the bus: the `channel` of `can.Bus(interface="odkit", channel=…)`.

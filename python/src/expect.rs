@@ -32,11 +32,11 @@ pub(crate) fn expect(py: Python<'_>, wire: &Wire, text: &str, within: f64) -> Py
     };
     let (mut next, mut found) = (from, None);
     let wait = Wait {
-        port: None,
         until: Some(until),
         seen: Some(0),
+        ..Wait::default()
     };
-    let end = pass(py, wire, wait, (None, false), &mut |state| {
+    let end = pass(py, wire, wait, false, &mut |state| {
         let mut records = state.journal.since(next).enumerate();
         let at =
             records.find(|(_, record)| frame(record).is_some_and(|frame| pattern.matches(&frame)));

@@ -22,15 +22,16 @@ mod registry;
 mod snapshot;
 mod spec;
 mod state;
-mod system;
+mod time;
 mod value;
+mod waits;
 mod wire;
 
 use pyo3::prelude::*;
 
 /// The compiled part of `odkit`.
 ///
-/// It needs the interpreter's lock: the thread that moves time reads the frames of running threads.
+/// It needs the interpreter's lock: a free-threaded build of Python turns it on when it imports this module.
 #[pymodule(gil_used = true)]
 mod _odkit {
     #[pymodule_export]
@@ -68,6 +69,8 @@ mod _odkit {
     #[pymodule_export]
     use crate::files::value::Relative;
     #[pymodule_export]
+    use crate::pass::end_program;
+    #[pymodule_export]
     use crate::port::Port;
     #[pymodule_export]
     use crate::registry::wires;
@@ -75,4 +78,6 @@ mod _odkit {
     use crate::snapshot::Snapshot;
     #[pymodule_export]
     use crate::spec::devices;
+    #[pymodule_export]
+    use crate::waits::{Child, Waiting, moment, patch, takes_part, wake};
 }

@@ -1,20 +1,22 @@
-//! Selects the thread that moves the time of a bus.
+//! Moves the time of a bus.
 //!
-//! Time moves when every thread that takes part on the bus waits: in a call of this package, or in
-//! Python (`_who.py`). The thread that detects this moves time to the next frame. While one of them
-//! runs, no thread moves time. If a thread sleeps in a way that Python does not show, its reason is unknown:
-//! time then follows the clock.
+//! Time moves when every thread that takes part on the bus waits: in a call of this package, or in a wait of
+//! Python that `odkit/_waits.py` reports. The thread that detects this moves time to the next frame or to the
+//! first time-out. While one of them runs, no thread moves time. Time follows the clock while the
+//! thread that opened the bus waits in Python, up to the time-out of any wait in Python, and while a thread
+//! waits for something that Python does not report.
 
-use std::sync::MutexGuard;
-use std::thread;
+use std::sync::OnceLock;
+use std::thread::{self, ThreadId};
 use std::time::{Duration, Instant as Clock};
 
 use od_wire::Instant;
+use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 
-use crate::party::{Known, Outside, Wait};
+use crate::party::Wait;
 use crate::state::{State, Step};
-use crate::wire::Wire;
+use crate::wire::{self, Wire};
 
 /// End of a wait.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -25,24 +27,26 @@ pub(crate) enum End {
     Late,
 }
 
-/// Changes of the bus between two checks for signals such as Ctrl-C, by any thread: each of the
-/// steps of a client is a wait of its own.
-const LOOK: u64 = 1024;
-/// Maximum pause of a thread that waits for others.
-const NAP: Duration = Duration::from_millis(2);
-
-/// How far time can move.
-enum Way {
-    /// To the next frame, or to this moment if it comes first.
-    Free(Option<Instant>),
-    /// Like `Free`, but not to the end of a time-out.
-    Frames(Option<Instant>),
-    /// A thread runs.
-    Closed,
+/// Result of an attempt to move time.
+pub(crate) enum Moved {
+    Yes,
+    /// It cannot move for this time, or until a thread acts.
+    No(Duration),
 }
 
+/// Maximum pause of a thread that waits for others.
+pub(crate) const NAP: Duration = Duration::from_millis(2);
+/// Maximum time for which a thread lets others run first.
+const TURN: Duration = Duration::from_secs(1);
+/// Time on the clock between two checks for signals such as Ctrl-C.
+const LOOK: Duration = Duration::from_millis(10);
+/// Maximum time that passes on the bus in one step, in ms: without frames a step costs up to 1 ms per second.
+const STEP: u64 = 10_000;
+/// Number of steps after which a thread that is alone lets other threads of Python run.
+const ALONE: u32 = 64;
+
 /// Waits until `done` or until `wait` is over. `done` is called after each event; frames
-/// for a bus are delivered `in_turn`, while no other thread runs. After `patience` on the clock it ends in any case.
+/// for a bus are delivered `in_turn`, while no other thread runs.
 ///
 /// # Errors
 /// An exception in Python, such as `KeyboardInterrupt`.
@@ -50,41 +54,44 @@ pub(crate) fn pass(
     py: Python<'_>,
     wire: &Wire,
     wait: Wait,
-    (patience, in_turn): (Option<Duration>, bool),
+    in_turn: bool,
     done: &mut dyn FnMut(&mut State) -> PyResult<bool>,
 ) -> PyResult<End> {
-    let mut pass = Pass::new(wire, patience);
-    pass.in_turn = in_turn;
+    let others = wire::others(wire);
+    let id = thread::current().id();
+    let set = |elsewhere: bool| {
+        for other in &others {
+            let mut state = other.lock();
+            let own = state.parties.iter_mut().find(|party| party.is(id));
+            own.into_iter().for_each(|own| own.elsewhere = elsewhere);
+        }
+    };
+    set(true);
+    let mut pass = Pass::new(wire, in_turn);
     let result = pass.run(py, wait, done);
-    let mut state = wire.lock();
-    state.leave(thread::current().id());
-    let over = std::mem::take(&mut state.over);
-    drop(state);
-    // Objects dropped with them may use the bus.
-    drop(over);
+    wire.lock().leave(id);
+    set(false);
     result
 }
 
-struct Pass<'w> {
+pub(crate) struct Pass<'w> {
     wire: &'w Wire,
-    began: Clock,
-    patience: Option<Duration>,
-    idle: u32,
-    /// No thread has started since the check.
-    knows_threads: bool,
+    /// Its wait is over, but others come first, since this moment.
+    pub(crate) blocked: Option<Clock>,
+    pub(crate) idle: u32,
+    steps: u32,
     /// A frame is received only while no other thread runs.
     in_turn: bool,
 }
 
 impl<'w> Pass<'w> {
-    fn new(wire: &'w Wire, patience: Option<Duration>) -> Self {
+    pub(crate) fn new(wire: &'w Wire, in_turn: bool) -> Self {
         Self {
             wire,
-            began: Clock::now(),
-            patience,
+            blocked: None,
             idle: 0,
-            knows_threads: false,
-            in_turn: false,
+            steps: 0,
+            in_turn,
         }
     }
 
@@ -99,24 +106,14 @@ impl<'w> Pass<'w> {
         loop {
             let mut state = self.wire.lock();
             if let Some(clock) = state.clock() {
-                self.catch_up(py, state, clock)?;
-                state = self.wire.lock();
-            } else if let Some(turn) = state.turn(wait)
-                && state.parties.len() > 1
-                && (turn.0 == 1
-                    || (turn.0 == 0 && self.in_turn)
-                    || (turn.0 == 2 && state.now() > began))
-                && !self.is_out_of_patience()
-            {
-                state.begin(own, wait);
                 drop(state);
-                let (locked, is_next) = self.is_next(py, turn)?;
-                if !is_next {
-                    drop(locked);
-                    self.rest(py)?;
-                    continue;
-                }
-                state = locked;
+                self.advance(py, clock)?;
+                state = self.wire.lock();
+            } else if state.parties.len() > 1 && !self.is_next(&mut state, wait, began) {
+                drop(state);
+                self.forget_ended(py)?;
+                self.rest(py, NAP)?;
+                continue;
             }
             wait.seen = wait.seen.map(|_| state.journal.end());
             let end = if done(&mut state)? {
@@ -135,153 +132,169 @@ impl<'w> Pass<'w> {
                 let next = [state.next(), wait.until].into_iter().flatten().min();
                 let left = next.map(|next| next.micros_since(state.now()));
                 drop(state);
-                self.sleep(
-                    py,
-                    left.map_or(NAP * 25, Duration::from_micros).min(NAP * 25),
-                )?;
+                let most = NAP * 25;
+                sleep(py, left.map_or(most, Duration::from_micros).min(most))?;
                 continue;
             }
             drop(state);
-            let (state, way) = self.survey(py, wait)?;
-            let to = match way {
-                Way::Free(to) => to,
-                Way::Frames(to)
-                    if state
-                        .next()
-                        .is_some_and(|next| to.is_none_or(|to| next <= to)) =>
-                {
-                    to
-                }
-                // No frame will come, or another thread is about to act.
-                _ if self.is_out_of_patience() => {
-                    if let Some(until) = wait.until {
-                        drop(state);
-                        self.advance(py, until)?;
-                    }
-                    return Ok(End::Late);
-                }
-                _ => {
-                    drop(state);
-                    self.rest(py)?;
-                    continue;
-                }
-            };
-            let Some(to) = to.or_else(|| state.next()) else {
-                drop(state);
-                self.rest(py)?;
-                continue;
-            };
-            if to < state.now() || (to == state.now() && state.next().is_none_or(|next| next > to))
-            {
-                drop(state);
-                self.rest(py)?;
-                continue;
+            match self.move_time(py, wait)? {
+                Moved::Yes => self.idle = 0,
+                Moved::No(most) => self.rest(py, most)?,
             }
-            self.idle = 0;
-            self.step(py, state, to)?;
         }
     }
 
-    /// Checks all threads that take part. The result is valid while the lock is held.
-    fn survey(&mut self, py: Python<'_>, own: Wait) -> PyResult<(MutexGuard<'w, State>, Way)> {
+    /// Returns whether this thread may go on if its wait is over: no thread runs, and none comes before it.
+    pub(crate) fn is_next(&mut self, state: &mut State, wait: Wait, began: Instant) -> bool {
         let id = thread::current().id();
-        let mut limit = own.until;
-        if !self.knows_threads {
-            self.knows_threads = !self.wire.notice_threads(py, false)?;
-        }
-        let mut state = self.wire.lock();
-        let (mut outside, mut knows, mut wanted, mut daemon) =
-            (Vec::new(), true, own.port.is_none(), false);
-        for party in &state.parties {
-            match party.wait {
-                _ if party.is(id) => daemon = party.daemon,
-                Some(wait) if state.is_over(wait) => return Ok((state, Way::Closed)),
-                Some(wait) => {
-                    limit = earlier(limit, wait.until);
-                    wanted |= wait.port.is_none();
-                }
-                None => {
-                    outside.push(party.ident);
-                    knows &= party.outside != Outside::Runs;
-                }
-            }
-        }
-        if outside.is_empty() && self.knows_threads {
-            return Ok((state, Way::Free(limit)));
-        }
-        // A thread that ran a moment ago usually still does.
-        if (!knows || !self.knows_threads) && self.idle == 0 {
-            return Ok((state, Way::Closed));
-        }
-        let changes = state.changes;
-        drop(state);
-        let found = Wire::look(py, &outside)?;
-        self.knows_threads = !self.wire.notice_threads(py, false)?;
-        state = self.wire.lock();
-        if !self.knows_threads || state.changes != changes {
-            return Ok((state, Way::Closed));
-        }
-        let way = match state.learn(&outside, found) {
-            Known::Run => match follow(&mut state) {
-                Some(clock) => Way::Free(earlier(limit, Some(clock))),
-                None => Way::Closed,
-            },
-            Known::Wait(until) => Way::Free(earlier(limit, Some(until))),
-            Known::WaitForEver if daemon && !wanted => Way::Frames(limit),
-            Known::WaitForEver => Way::Free(limit),
+        let place = state.parties.iter().position(|party| party.is(id));
+        let Some(turn) = state.turn(wait, place.unwrap_or(0)) else {
+            return true;
         };
-        Ok((state, way))
+        let has_turns = match turn.0 {
+            0 => self.in_turn,
+            1 => true,
+            _ => state.now() > began,
+        };
+        let waited = self.blocked.get_or_insert_with(Clock::now).elapsed();
+        if !has_turns {
+            return true;
+        }
+        state.begin(id, wait);
+        let mut others = state.parties.iter().enumerate();
+        let is_next = others.all(|(at, party)| match party.wait {
+            _ if party.is(id) => true,
+            None => party.elsewhere || party.is_asleep || waited >= TURN,
+            Some(other) => state.turn(other, at).is_none_or(|other| other >= turn),
+        });
+        if is_next {
+            self.blocked = None;
+        }
+        is_next
     }
 
-    /// Returns whether no thread runs, and none comes before this one.
-    fn is_next(&self, py: Python<'_>, turn: (u8, u32)) -> PyResult<(MutexGuard<'w, State>, bool)> {
+    /// Forgets threads that have ended, if this one has waited for others a while.
+    pub(crate) fn forget_ended(&self, py: Python<'_>) -> PyResult<()> {
+        if self.idle > 1 {
+            self.wire.look(py)?;
+        }
+        Ok(())
+    }
+
+    /// Moves time by one event if no thread that takes part runs.
+    pub(crate) fn move_time(&mut self, py: Python<'_>, own: Wait) -> PyResult<Moved> {
         let id = thread::current().id();
-        let state = self.wire.lock();
-        let mut outside = Vec::new();
-        for party in state.parties.iter().filter(|party| !party.is(id)) {
-            match party.wait.map(|wait| state.turn(wait)) {
-                Some(Some(other)) if other < turn => return Ok((state, false)),
-                Some(_) => {}
-                None => outside.push(party.ident),
+        let mut state = self.wire.lock();
+        if state.parties.len() > 1 {
+            let busy = |state: &State| {
+                let mut parties = state.parties.iter().enumerate();
+                parties.any(|(at, party)| {
+                    let over = |wait| state.turn(wait, at).is_some();
+                    !party.is(id) && party.wait.is_some_and(over)
+                })
+            };
+            let asks = |state: &State| {
+                let mut others = state.parties.iter().filter(|party| !party.is(id));
+                others.any(|party| party.wait.is_none() || party.target.is_some())
+                    || state.parties.iter().any(|party| party.target.is_some())
+            };
+            if busy(&state) {
+                return Ok(Moved::No(NAP));
+            }
+            if asks(&state) {
+                // A thread that ran a moment ago usually still does.
+                if self.idle == 0 {
+                    return Ok(Moved::No(NAP));
+                }
+                let changes = state.changes;
+                drop(state);
+                let runs = self.wire.look(py)?;
+                state = self.wire.lock();
+                if runs || state.changes != changes || busy(&state) {
+                    return Ok(Moved::No(NAP));
+                }
+            } else {
+                state.follows = None;
             }
         }
-        if outside.is_empty() {
-            return Ok((state, true));
+        let now = state.now();
+        let ends = state.parties.iter().filter_map(|party| party.wait?.until);
+        let end = ends.chain(own.until).min();
+        let Some(to) = [end, state.next()].into_iter().flatten().min() else {
+            return Ok(Moved::No(NAP));
+        };
+        if let Some(left) = state.ahead_of_the_clock(to) {
+            if own.paced.is_some() && state.strict {
+                drop(state);
+                return Err(PyRuntimeError::new_err(
+                    "this wait in Python lets time follow the clock, and the bus has time=\"strict\"; use \
+                     `odkit.patch_time()`, or wait in a call of odkit",
+                ));
+            }
+            return Ok(Moved::No(left));
         }
-        let changes = state.changes;
-        drop(state);
-        let found = Wire::look(py, &outside)?;
-        let mut state = self.wire.lock();
-        let is_next = state.changes == changes
-            && (state.learn(&outside, found) != Known::Run || follow(&mut state).is_some());
-        Ok((state, is_next))
+        let to = to.min(now.plus_millis(STEP));
+        if self.steps > ALONE && state.parties.len() == 1 {
+            drop(state);
+            self.run_alone(py, own)?;
+            return Ok(Moved::Yes);
+        }
+        self.step(py, state, to)?;
+        Ok(Moved::Yes)
+    }
+
+    /// Lets time pass without the interpreter's lock while no Python takes part, for at most `LOOK`.
+    fn run_alone(&mut self, py: Python<'_>, own: Wait) -> PyResult<()> {
+        let (wire, began) = (self.wire, Clock::now());
+        let call = detached(py, || {
+            let mut state = wire.lock();
+            let mut call = None;
+            while state.parties.len() == 1
+                && call.is_none()
+                && state.turn(own, 0).is_none()
+                && began.elapsed() < LOOK
+            {
+                let next = [own.until, state.next()].into_iter().flatten().min();
+                let Some(next) = next else { break };
+                let to = next.min(state.now().plus_millis(STEP));
+                if let Step::Call(task, place) = state.step(to) {
+                    call = Some((task, place));
+                }
+            }
+            call
+        });
+        if let Some((task, place)) = call {
+            self.wire.lock().leave(thread::current().id());
+            wire::call(py, self.wire, task, place)?;
+        }
+        py.check_signals()
     }
 
     /// One step in time.
     fn step(
         &mut self,
         py: Python<'_>,
-        mut state: MutexGuard<'_, State>,
+        mut state: std::sync::MutexGuard<'_, State>,
         to: Instant,
     ) -> PyResult<Step> {
         let step = state.step(to);
         state.wake();
-        let looks = state.changes - state.looked >= LOOK;
+        self.steps += 1;
+        let looks = state.looked.elapsed() >= LOOK;
         if looks {
-            state.looked = state.changes;
+            state.looked = Clock::now();
         }
         if let Step::Call(task, place) = step {
             // Python runs in this thread now.
             state.leave(thread::current().id());
             drop(state);
-            self.knows_threads = false;
-            call(py, self.wire, task, place)?;
+            wire::call(py, self.wire, task, place)?;
         } else {
             drop(state);
         }
         if looks {
             py.check_signals()?;
-            py.detach(|| ());
+            detached(py, || ());
         }
         Ok(step)
     }
@@ -296,101 +309,42 @@ impl<'w> Pass<'w> {
         }
     }
 
-    /// Time follows the clock.
-    fn catch_up(
-        &mut self,
-        py: Python<'_>,
-        state: MutexGuard<'_, State>,
-        clock: Instant,
-    ) -> PyResult<()> {
-        drop(state);
-        self.advance(py, clock)
-    }
-
-    fn is_out_of_patience(&self) -> bool {
-        self.patience
-            .is_some_and(|most| self.began.elapsed() >= most)
-    }
-
-    /// Lets the others run: the longer it takes, the longer the pause.
-    fn rest(&mut self, py: Python<'_>) -> PyResult<()> {
-        self.idle = self.idle.saturating_add(1);
+    /// Lets the others run.
+    fn rest(&mut self, py: Python<'_>, most: Duration) -> PyResult<()> {
         // A frame ends the pause at once. Without one the running thread gets the interpreter.
-        let micros = 25 << self.idle.min(8);
-        self.sleep(py, Duration::from_micros(micros).min(NAP))
-    }
-
-    fn sleep(&mut self, py: Python<'_>, time: Duration) -> PyResult<()> {
-        let time = match self.patience {
-            Some(most) => time.min(
-                most.saturating_sub(self.began.elapsed())
-                    .max(Duration::from_micros(50)),
-            ),
-            None => time,
-        };
-        py.detach(|| thread::park_timeout(time));
-        py.check_signals()
+        let pause = length(self.idle, most);
+        self.idle = self.idle.saturating_add(1);
+        sleep(py, pause)
     }
 }
 
-/// The earlier of two moments, of which none may be.
-fn earlier(a: Option<Instant>, b: Option<Instant>) -> Option<Instant> {
-    match (a, b) {
-        (Some(a), Some(b)) => Some(a.min(b)),
-        (a, b) => a.or(b),
-    }
+fn sleep(py: Python<'_>, time: Duration) -> PyResult<()> {
+    detached(py, || thread::park_timeout(time));
+    py.check_signals()
 }
 
-/// Time follows the clock if every running thread sleeps; returns the moment that the clock shows.
-fn follow(state: &mut State) -> Option<Instant> {
-    if state.follows.is_none() {
-        let own = thread::current().id();
-        let (mut latest, mut is_closed) = (None, false);
-        state.parties.retain_mut(|party| {
-            if party.is(own) || !party.runs() {
-                return true;
-            }
-            let since = party.lets_time_follow();
-            let takes_part = party.thread.is_some();
-            is_closed |= since.is_none();
-            if takes_part {
-                latest = latest.max(since);
-            }
-            // A thread that never took part may sleep or compute.
-            takes_part || since.is_none()
-        });
-        if is_closed {
-            return None;
+/// The length of a pause: the longer it takes, the longer.
+pub(crate) fn length(idle: u32, most: Duration) -> Duration {
+    let pause = Duration::from_micros(25 << idle.saturating_add(1).min(8));
+    pause.min(NAP).min(most.max(Duration::from_micros(50)))
+}
+
+/// The program ends: a thread that is not attached to the interpreter stays so.
+#[pyfunction]
+pub(crate) fn end_program() {
+    let _ = ENDS.set(thread::current().id());
+}
+
+/// The thread that ends the program.
+static ENDS: OnceLock<ThreadId> = OnceLock::new();
+
+/// Does something without the interpreter's lock.
+fn detached<T: Send>(py: Python<'_>, act: impl Send + FnOnce() -> T) -> T {
+    py.detach(|| {
+        let result = act();
+        while ENDS.get().is_some_and(|one| *one != thread::current().id()) {
+            thread::park();
         }
-        let now = state.now();
-        for party in &mut state.parties {
-            party.leads = !party.is(own) && party.runs();
-        }
-        state.follows = Some((latest?, now));
-    }
-    let (clock, from) = state.follows?;
-    Some(from.plus_micros(u64::try_from(clock.elapsed().as_micros()).ok()?))
-}
-
-/// Python makes the frame of a task.
-fn call(py: Python<'_>, wire: &Wire, task: u32, place: usize) -> PyResult<()> {
-    let Some(maker) = wire.maker(py, task) else {
-        return Ok(());
-    };
-    let frame = maker
-        .call1(py, (place,))?
-        .extract::<crate::value::Parts>(py)?
-        .frame()?;
-    let mut state = wire.lock();
-    let port = state
-        .cyclics
-        .iter()
-        .find(|one| one.id == task)
-        .map(|one| one.port);
-    if let Some(port) = port {
-        // A frame that the line does not accept is lost, like that of a timer.
-        drop(state.transmit(port, &frame));
-        state.wake();
-    }
-    Ok(())
+        result
+    })
 }

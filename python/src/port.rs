@@ -1,7 +1,6 @@
 //! A bus of python-can.
 
 use std::sync::{Arc, Mutex, PoisonError};
-use std::time::Duration;
 
 use od_sim::logs::What;
 use od_sim::wire::Condition;
@@ -15,8 +14,9 @@ use crate::faults::Fault;
 use crate::filter::Filter;
 use crate::party::Wait;
 use crate::pass::pass;
-use crate::registry::{self, is_real};
+use crate::registry;
 use crate::state::Heard;
+use crate::time::{self as times, Time};
 use crate::value::Parts;
 use crate::wire::{Wire, micros};
 
@@ -44,7 +44,7 @@ impl Port {
 #[pymethods]
 impl Port {
     #[new]
-    #[pyo3(signature = (channel, time=None, own=false, bitrate=None, bench=None))]
+    #[pyo3(signature = (channel, time=None, own=false, bitrate=None, bench=None, pace=None))]
     fn new(
         py: Python<'_>,
         channel: &str,
@@ -52,11 +52,13 @@ impl Port {
         own: bool,
         bitrate: Option<u32>,
         bench: Option<&Bench>,
+        pace: Option<f64>,
     ) -> PyResult<Self> {
-        is_real(time)?;
+        let time = time.map(Time::parse).transpose()?;
+        let pace = pace.map(times::pace).transpose()?;
         let wire = match bench {
             Some(bench) => Arc::clone(&bench.wire),
-            None => registry::open(py, channel, time)?,
+            None => registry::open(py, channel, time, pace)?,
         };
         let mut state = wire.enter(py)?;
         let id = state.listen(own);
@@ -116,22 +118,16 @@ impl Port {
             let wait = Wait {
                 port: Some(self.id),
                 until: time.map(|micros| now.plus_micros(micros)),
-                seen: None,
+                ..Wait::default()
             };
             let mut is_closed = false;
-            pass(
-                py,
-                &wire,
-                wait,
-                (time.map(Duration::from_micros), in_turn),
-                &mut |state| {
-                    match state.listener(self.id) {
-                        Some(own) => heard = own.queue.pop_front(),
-                        None => is_closed = true,
-                    }
-                    Ok(heard.is_some() || is_closed)
-                },
-            )?;
+            pass(py, &wire, wait, in_turn, &mut |state| {
+                match state.listener(self.id) {
+                    Some(own) => heard = own.queue.pop_front(),
+                    None => is_closed = true,
+                }
+                Ok(heard.is_some() || is_closed)
+            })?;
             if is_closed {
                 return Err(Fault::system("the bus was closed while it received").into());
             }
@@ -275,7 +271,7 @@ impl Port {
         state.wake();
         drop(state);
         if is_empty && wire.of_channel {
-            registry::release(&wire);
+            wire.release();
         }
         own.iter()
             .try_for_each(|one| wire.set_maker(py, one.id, None))

@@ -9,7 +9,8 @@ use pyo3::prelude::*;
 use crate::faults::Fault;
 use crate::spec;
 use crate::state::State;
-use crate::wire::Wire;
+use crate::time::Time;
+use crate::wire::{Wire, waits};
 
 static WIRES: Mutex<Vec<Weak<Wire>>> = Mutex::new(Vec::new());
 static NUMBER: AtomicU32 = AtomicU32::new(1);
@@ -20,27 +21,24 @@ fn open_wires() -> MutexGuard<'static, Vec<Weak<Wire>>> {
     wires
 }
 
+/// The buses that exist.
+pub(crate) fn all() -> Vec<Arc<Wire>> {
+    open_wires().iter().filter_map(Weak::upgrade).collect()
+}
+
 /// Names of the open buses.
 #[pyfunction]
 pub(crate) fn wires() -> Vec<String> {
-    let open = open_wires();
-    open.iter()
-        .filter_map(Weak::upgrade)
-        .map(|wire| wire.name.clone())
-        .collect()
+    let all = all();
+    let named = all.iter().filter(|wire| wire.has_name());
+    named.map(|wire| wire.name.clone()).collect()
 }
 
 /// The open bus with this name.
 pub(crate) fn find(name: &str) -> Option<Arc<Wire>> {
-    let open = open_wires();
-    open.iter()
-        .filter_map(Weak::upgrade)
-        .find(|wire| wire.name == name)
-}
-
-/// Frees the name of a bus.
-pub(crate) fn release(wire: &Arc<Wire>) {
-    open_wires().retain(|one| one.as_ptr() != Arc::as_ptr(wire));
+    all()
+        .into_iter()
+        .find(|wire| wire.has_name() && wire.name == name)
 }
 
 /// A name that no open bus has.
@@ -52,19 +50,20 @@ pub(crate) fn free_name() -> String {
 ///
 /// # Errors
 /// A device of the channel cannot be made, or the bus is open with another kind of time.
-pub(crate) fn open(py: Python<'_>, channel: &str, time: Option<&str>) -> PyResult<Arc<Wire>> {
-    let real = is_real(time)?;
+pub(crate) fn open(
+    py: Python<'_>,
+    channel: &str,
+    time: Option<Time>,
+    pace: Option<f64>,
+) -> PyResult<Arc<Wire>> {
     let (name, devices) = spec::split(channel);
     let name = name.unwrap_or(devices).trim();
     if let Some(wire) = find(name) {
-        if real.is_some_and(|real| real != wire.lock().real.is_some()) {
-            let other = if real == Some(true) {
-                "virtual"
-            } else {
-                "real"
-            };
+        let own = wire.lock().time();
+        if time.is_some_and(|time| time != own) {
             let why = format!(
-                "the wire `{name}` is open in {other} time; open all its buses with the same `time`"
+                "the wire `{name}` is open in {} time; open all its buses with the same `time`",
+                own.name()
             );
             return Err(Fault::Value(why).into());
         }
@@ -72,12 +71,13 @@ pub(crate) fn open(py: Python<'_>, channel: &str, time: Option<&str>) -> PyResul
     }
     let bare = channel == devices && !devices.trim().is_empty() && !spec::is_list(devices);
     let mut state = State::default();
+    state.pace = pace.unwrap_or(state.pace);
     // A name that is neither a device nor a file is reported here.
     if bare || !devices.trim().is_empty() {
         spec::add(&mut state.bus, &mut state.names, devices)?;
     }
     state.start();
-    add(py, name.to_owned(), state, real == Some(true), true)
+    add(py, name.to_owned(), state, time.unwrap_or_default(), true)
 }
 
 /// Registers a bus by its name.
@@ -88,34 +88,21 @@ pub(crate) fn add(
     py: Python<'_>,
     name: String,
     mut state: State,
-    real: bool,
+    time: Time,
     of_channel: bool,
 ) -> PyResult<Arc<Wire>> {
     let mut epoch = 0.0;
-    if real {
+    state.strict = time == Time::Strict;
+    if time == Time::Real {
         state.real = Some(Clock::now());
         let now = SystemTime::now().duration_since(UNIX_EPOCH);
         epoch = now.map_or(0.0, |since| since.as_secs_f64());
+    } else {
+        waits(py)?.call_method0("install")?;
     }
-    let mut wire = Wire::new(py, name, epoch, state);
-    wire.of_channel = of_channel;
-    wire.notice_threads(py, true)?;
-    let wire = Arc::new(wire);
+    let wire = Wire::new(py, name, (epoch, of_channel), state);
+    // The thread that opens it is the first that takes part.
+    drop(wire.enter(py)?);
     open_wires().push(Arc::downgrade(&wire));
     Ok(wire)
-}
-
-/// Whether `time` is `real`; `None`: either.
-///
-/// # Errors
-/// It is another word.
-pub(crate) fn is_real(time: Option<&str>) -> Result<Option<bool>, Fault> {
-    match time {
-        None => Ok(None),
-        Some("virtual") => Ok(Some(false)),
-        Some("real") => Ok(Some(true)),
-        Some(other) => Err(Fault::value(format!(
-            "time `{other}` is not known; write `virtual` or `real`"
-        ))),
-    }
 }

@@ -2,19 +2,19 @@
 
 use std::collections::VecDeque;
 use std::thread::{self, Thread, ThreadId};
-use std::time::Instant as Clock;
+use std::time::{Duration, Instant as Clock};
 
 use od_sim::bus::Bus;
 use od_sim::logs::What;
 use od_sim::wire::Condition;
 use od_wire::{Frame, Instant};
-use pyo3::{Py, PyAny};
 
 use crate::cyclic::Cyclic;
 use crate::faults::Fault;
 use crate::filter::{Filter, passes};
 use crate::journal::Journal;
-use crate::party::{Found, Known, Outside, Party, Wait};
+use crate::party::{Party, Wait};
+use crate::time::Time;
 
 /// Maximum number of frames that wait for a bus; the newest ones are lost, as in a controller.
 const QUEUED: usize = 1_000_000;
@@ -50,7 +50,6 @@ pub(crate) enum Step {
 }
 
 /// The state of one bus.
-#[derive(Default)]
 pub(crate) struct State {
     pub(crate) bus: Bus,
     /// Names of the devices.
@@ -58,8 +57,6 @@ pub(crate) struct State {
     pub(crate) listeners: Vec<Listener>,
     pub(crate) cyclics: Vec<Cyclic>,
     pub(crate) parties: Vec<Party>,
-    /// The threads that existed before, by their numbers in the system.
-    pub(crate) threads: Vec<u64>,
     pub(crate) journal: Journal,
     /// The number of the first record that `expect` looks at.
     pub(crate) seen: usize,
@@ -69,17 +66,46 @@ pub(crate) struct State {
     senders: VecDeque<u32>,
     /// Time is that of the clock since this moment.
     pub(crate) real: Option<Clock>,
-    /// Time follows the clock: the moment of the clock and of the bus at its start.
+    /// Time follows the clock because of a wait that Python does not report: both at its start.
     pub(crate) follows: Option<(Clock, Instant)>,
-    /// Waits that have ended.
-    pub(crate) over: Vec<Py<PyAny>>,
+    /// Seconds that pass on the bus in a second of the clock while time follows it.
+    pub(crate) pace: f64,
+    /// It is an error if time follows the clock.
+    pub(crate) strict: bool,
+    /// The program was warned that time follows the clock.
+    pub(crate) warned: bool,
     /// Counts all changes of the bus.
     pub(crate) changes: u64,
-    /// Value of `changes` at the last check for signals such as Ctrl-C.
-    pub(crate) looked: u64,
+    /// The last check for signals such as Ctrl-C.
+    pub(crate) looked: Clock,
     ids: u32,
     /// The process that its threads are in.
     process: u32,
+}
+
+impl Default for State {
+    fn default() -> Self {
+        Self {
+            bus: Bus::default(),
+            names: Vec::new(),
+            listeners: Vec::new(),
+            cyclics: Vec::new(),
+            parties: Vec::new(),
+            journal: Journal::default(),
+            seen: 0,
+            acted: Instant::ZERO,
+            senders: VecDeque::new(),
+            real: None,
+            follows: None,
+            pace: 1.0,
+            strict: false,
+            warned: false,
+            changes: 0,
+            looked: Clock::now(),
+            ids: 0,
+            process: std::process::id(),
+        }
+    }
 }
 
 impl State {
@@ -225,9 +251,9 @@ impl State {
     }
 
     /// Whose turn it is among the waits that have ended: buses that receive, in the order in which they
-    /// were opened; then threads that wait for any frame; then those whose moment has come. `None`: the
-    /// wait is not over.
-    pub(crate) fn turn(&self, wait: Wait) -> Option<(u8, u32)> {
+    /// were opened; then threads that wait for any frame; then those whose moment has come, in the order in
+    /// which they took part, and `run` after all others. `None`: the wait is not over.
+    pub(crate) fn turn(&self, wait: Wait, place: usize) -> Option<(u8, u32)> {
         let heard = |port| match self.listeners.iter().find(|one| one.id == port) {
             Some(one) => !one.queue.is_empty(),
             // It was closed.
@@ -236,34 +262,46 @@ impl State {
         match wait.port {
             Some(port) if heard(port) => Some((0, port)),
             _ if wait.seen.is_some_and(|seen| seen != self.journal.end()) => Some((1, 0)),
-            _ => wait
-                .until
-                .filter(|until| *until <= self.now())
-                .map(|_| (2, 0)),
+            _ => wait.until.filter(|until| *until <= self.now()).map(|_| {
+                (
+                    2 + u8::from(wait.is_last),
+                    u32::try_from(place).unwrap_or(u32::MAX),
+                )
+            }),
         }
-    }
-
-    /// Returns whether the condition of this wait is met.
-    pub(crate) fn is_over(&self, wait: Wait) -> bool {
-        self.turn(wait).is_some()
-    }
-
-    /// The threads whose waits have ended, except this one.
-    pub(crate) fn over(&self) -> Vec<Thread> {
-        let own = thread::current().id();
-        let others = self.parties.iter().filter(|party| !party.is(own));
-        let over = others.filter(|party| party.wait.is_some_and(|wait| self.is_over(wait)));
-        over.filter_map(|party| party.thread.clone()).collect()
     }
 
     /// Wakes the threads whose waits have ended.
     pub(crate) fn wake(&self) {
-        if self.parties.len() > 1 {
-            self.over().iter().for_each(Thread::unpark);
+        let own = thread::current().id();
+        for (at, party) in self.parties.iter().enumerate() {
+            let is_over = |wait| self.turn(wait, at).is_some();
+            if self.parties.len() > 1 && !party.is(own) && party.wait.is_some_and(is_over) {
+                party.thread.as_ref().into_iter().for_each(Thread::unpark);
+            }
         }
     }
 
-    /// A thread acts, or ends a wait.
+    /// How long the clock takes to a moment that it has not reached yet, if time follows it: while the thread
+    /// that opened the bus waits in Python, and otherwise to the end of any wait in Python.
+    pub(crate) fn ahead_of_the_clock(&self, to: Instant) -> Option<Duration> {
+        let waits = self.parties.iter().enumerate().filter_map(|(at, party)| {
+            let wait = party.wait?;
+            let counts = at == 0 || wait.until.is_some();
+            wait.paced.filter(|_| counts)
+        });
+        let pace = self.pace;
+        waits
+            .chain(self.follows)
+            .filter_map(|(clock, from)| {
+                let left =
+                    to.micros_since(from) as f64 / 1e6 / pace - clock.elapsed().as_secs_f64();
+                (left > 0.0).then(|| Duration::from_secs_f64(left.min(1e6)))
+            })
+            .max()
+    }
+
+    /// A thread acts, or ends a wait. Returns whether it takes part.
     pub(crate) fn touch(&mut self, id: ThreadId) -> bool {
         // After a fork only one thread exists.
         let process = std::process::id();
@@ -274,10 +312,7 @@ impl State {
         let Some(own) = self.parties.iter_mut().find(|party| party.is(id)) else {
             return false;
         };
-        self.over.extend(own.touch());
-        if own.leads {
-            self.follows = None;
-        }
+        own.touch();
         true
     }
 
@@ -291,42 +326,19 @@ impl State {
     /// A thread ends its wait.
     pub(crate) fn leave(&mut self, id: ThreadId) {
         let own = self.parties.iter_mut().find(|party| party.is(id));
-        if let Some(own) = own.filter(|own| own.wait.is_some()) {
-            own.wait = None;
+        if let Some(own) = own.filter(|own| own.wait.is_some() || own.target.is_some()) {
+            (own.wait, own.target) = (None, None);
             self.touch(id);
         }
     }
 
-    /// Stores the observations of `odkit._who` for the threads with these numbers.
-    pub(crate) fn learn(&mut self, idents: &[u64], found: Vec<Found>) -> Known {
-        let now = self.now();
-        for (ident, found) in idents.iter().zip(found) {
-            let is = |party: &Party| party.ident == *ident && party.wait.is_none();
-            if found.is_gone() {
-                self.parties.retain(|party| !is(party));
-            } else if let Some(party) = self.parties.iter_mut().find(|party| is(party)) {
-                self.over.extend(party.learn(found, now));
-            }
+    /// How its time moves.
+    pub(crate) fn time(&self) -> Time {
+        match self.real {
+            Some(_) => Time::Real,
+            None if self.strict => Time::Strict,
+            None => Time::Virtual,
         }
-        // A thread that never took part is ignored.
-        self.parties
-            .retain(|party| party.thread.is_some() || !party.is_of_its_own());
-        let own = thread::current().id();
-        let others = self
-            .parties
-            .iter()
-            .filter(|party| !party.is(own) && party.wait.is_none());
-        let mut known = Known::WaitForEver;
-        for party in others {
-            known = match (party.outside, known) {
-                (Outside::Runs, _) => return Known::Run,
-                (Outside::Waits(Some(until)), Known::Wait(first)) => Known::Wait(until.min(first)),
-                (Outside::Waits(Some(until)), _) => Known::Wait(until),
-                (Outside::Waits(None), known) => known,
-            };
-        }
-        self.follows = None;
-        known
     }
 
     /// The moment from which a time-out is counted: in real time that of the clock, which may be ahead of the bus.

@@ -1,7 +1,10 @@
 //! A bus that several threads and python-can buses share.
 
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::cell::RefCell;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 use std::thread;
+use std::time::Instant as Clock;
 
 use pyo3::intern;
 use pyo3::prelude::*;
@@ -9,43 +12,46 @@ use pyo3::sync::PyOnceLock;
 use pyo3::types::PyDict;
 
 use crate::faults::Fault;
-use crate::party::{Found, Party};
+use crate::party::Party;
 use crate::state::State;
 
 /// A bus with a name. Its lock is held with the interpreter attached, and never while a thread
-/// waits, so that a fork finds it free.
+/// waits, so that a fork finds it free; but a thread that is alone on its bus holds it without.
 pub(crate) struct Wire {
     /// The name by which python-can buses share it.
     pub(crate) name: String,
+    /// A number that no other bus has.
+    pub(crate) number: usize,
     /// Seconds since 1970 at which its time began, in real time; else 0.
     pub(crate) epoch: f64,
     /// A channel opened it, so it ends with the last python-can bus.
     pub(crate) of_channel: bool,
     state: Mutex<State>,
+    me: Weak<Self>,
+    /// Another bus can have its name.
+    is_released: AtomicBool,
     /// The Python functions that make the frames of tasks, by their numbers.
     makers: Py<PyDict>,
 }
 
 impl Wire {
-    pub(crate) fn new(py: Python<'_>, name: String, epoch: f64, state: State) -> Self {
-        Self {
-            of_channel: false,
+    pub(crate) fn new(
+        py: Python<'_>,
+        name: String,
+        (epoch, of_channel): (f64, bool),
+        state: State,
+    ) -> Arc<Self> {
+        static NUMBER: AtomicUsize = AtomicUsize::new(0);
+        Arc::new_cyclic(|me| Self {
+            number: NUMBER.fetch_add(1, Ordering::Relaxed),
+            of_channel,
             name,
             epoch,
             state: Mutex::new(state),
+            me: me.clone(),
+            is_released: AtomicBool::new(false),
             makers: PyDict::new(py).unbind(),
-        }
-    }
-
-    /// State of the threads with these numbers, as `odkit._who.waits` reports it.
-    ///
-    /// # Errors
-    /// An exception in Python.
-    pub(crate) fn look(py: Python<'_>, threads: &[u64]) -> PyResult<Vec<Found>> {
-        static WHO: PyOnceLock<Py<PyAny>> = PyOnceLock::new();
-        let load = || PyResult::Ok(py.import("odkit._who")?.getattr("waits")?.unbind());
-        let who = WHO.get_or_try_init(py, load)?;
-        who.call1(py, (threads.to_vec(),))?.extract(py)
+        })
     }
 
     /// The function that makes the frames of a task.
@@ -68,6 +74,16 @@ impl Wire {
         }
     }
 
+    /// Returns whether python-can buses can share it by its name.
+    pub(crate) fn has_name(&self) -> bool {
+        !self.is_released.load(Ordering::Relaxed)
+    }
+
+    /// Frees its name.
+    pub(crate) fn release(&self) {
+        self.is_released.store(true, Ordering::Relaxed);
+    }
+
     /// Its state, to read.
     pub(crate) fn lock(&self) -> MutexGuard<'_, State> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
@@ -84,48 +100,87 @@ impl Wire {
             return Ok(state);
         }
         drop(state);
-        let party = Party::this(py.import("odkit._who")?.call_method0("this")?.extract()?);
+        let this = waits(py)?.call_method0(intern!(py, "this"))?.extract()?;
+        let party = Party::new(Some(thread::current()), this);
+        OWN.with_borrow_mut(|own| {
+            own.retain(|one| one.strong_count() > 0);
+            own.push(self.me.clone());
+        });
         let mut state = self.lock();
-        state.parties.retain(|one| one.native != party.native);
+        // The number of a thread that has ended is used again.
+        state.parties.retain(|one| one.ident != party.ident);
         state.parties.push(party);
         Ok(state)
     }
 
-    /// Registers the threads that were started since the last call; from now on they take part. Returns
-    /// whether there is one. `is_first`: all existing threads existed before.
+    /// Returns whether a thread that takes part runs. Forgets those that have ended. If all that run wait for
+    /// something that Python does not report, time follows the clock from now on.
     ///
     /// # Errors
-    /// An exception in Python.
-    pub(crate) fn notice_threads(&self, py: Python<'_>, is_first: bool) -> PyResult<bool> {
-        let (active, limbo) = threads(py)?;
-        if !limbo.is_empty() && !is_first {
-            return Ok(true);
+    /// `RuntimeError` if the bus forbids it; an exception in Python.
+    pub(crate) fn look(&self, py: Python<'_>) -> PyResult<bool> {
+        let id = thread::current().id();
+        let mut asked = Vec::new();
+        for party in &self.lock().parties {
+            if party.thread.is_none() {
+                return Ok(true);
+            }
+            let target = party.target.as_ref().map(|target| target.clone_ref(py));
+            if party.wait.is_some() && target.is_none() || party.is(id) && target.is_none() {
+                continue;
+            }
+            asked.push((
+                party.ident,
+                party.object.clone_ref(py),
+                party.processor,
+                target,
+            ));
         }
-        let mut natives = Vec::with_capacity(4);
-        for thread in active.values() {
-            natives.push(
-                thread
-                    .getattr(intern!(py, "_native_id"))?
-                    .extract::<u64>()?,
-            );
-        }
-        let mut state = self.lock();
-        let known = std::mem::replace(&mut state.threads, natives.clone());
-        natives.retain(|one| !known.contains(one));
-        if natives.is_empty() || is_first {
-            return Ok(false);
-        }
-        drop(state);
-        let all: Vec<(u64, u64, bool)> = py
-            .import("odkit._who")?
-            .call_method0("threads")?
+        let known: Vec<(bool, Option<f64>, bool)> = waits(py)?
+            .call_method1(
+                intern!(py, "look"),
+                (asked
+                    .iter()
+                    .map(|(_, object, processor, target)| (object, processor, target))
+                    .collect::<Vec<_>>(),),
+            )?
             .extract()?;
         let mut state = self.lock();
-        for (ident, native, daemon) in all {
-            let takes_part = state.parties.iter().any(|one| one.native == native);
-            if natives.contains(&native) && !takes_part {
-                state.parties.push(Party::new(ident, native, daemon));
+        let (mut runs, mut silent) = (false, None);
+        for ((ident, object, ..), (lives, time, is_awaited)) in asked.iter().zip(known) {
+            let at = state.parties.iter().position(|party| party.ident == *ident);
+            let Some(at) = at else { continue };
+            let party = &mut state.parties[at];
+            if party.wait.is_some() || party.is(id) {
+                // The thread that it waits for has ended, so it goes on.
+                runs |= party.target.is_some() && !is_awaited;
+                continue;
             }
+            let is_silent = lives && party.is_silent(time);
+            if !lives || (is_silent && !party.is_known) {
+                state.parties.remove(at);
+                // A thread that waited for its end may have been asked before it ended.
+                runs = true;
+            } else if is_silent {
+                party.is_asleep = true;
+                silent = Some(object.clone_ref(py));
+            } else {
+                runs = true;
+            }
+        }
+        let Some(silent) = silent else {
+            state.follows = None;
+            return Ok(runs);
+        };
+        if runs || state.follows.is_some() {
+            return Ok(runs);
+        }
+        let now = state.now();
+        state.follows = Some((Clock::now(), now));
+        let (strict, warned) = (state.strict, std::mem::replace(&mut state.warned, true));
+        drop(state);
+        if strict || !warned {
+            waits(py)?.call_method1(intern!(py, "report"), (silent, strict))?;
         }
         Ok(true)
     }
@@ -136,17 +191,76 @@ impl Wire {
     }
 }
 
-/// The threads of `threading`, and those that are just starting.
-fn threads(py: Python<'_>) -> PyResult<(&Bound<'_, PyDict>, &Bound<'_, PyDict>)> {
-    static THREADS: PyOnceLock<(Py<PyDict>, Py<PyDict>)> = PyOnceLock::new();
-    let load = || {
-        let threading = py.import("threading")?;
-        let dict =
-            |name: &str| PyResult::Ok(threading.getattr(name)?.cast_into::<PyDict>()?.unbind());
-        PyResult::Ok((dict("_active")?, dict("_limbo")?))
+thread_local! {
+    /// The buses on which this thread takes part.
+    static OWN: RefCell<Vec<Weak<Wire>>> = const { RefCell::new(Vec::new()) };
+}
+
+/// The open buses in virtual time on which this thread takes part.
+pub(crate) fn own() -> Vec<Arc<Wire>> {
+    let id = thread::current().id();
+    let takes_part = |wire: &Arc<Wire>| {
+        let state = wire.lock();
+        let is_open = wire.has_name() || !state.listeners.is_empty();
+        is_open && state.real.is_none() && state.parties.iter().any(|party| party.is(id))
     };
-    let (active, limbo) = THREADS.get_or_try_init(py, load)?;
-    Ok((active.bind(py), limbo.bind(py)))
+    OWN.with_borrow(|own| {
+        own.iter()
+            .filter_map(Weak::upgrade)
+            .filter(takes_part)
+            .collect()
+    })
+}
+
+/// Returns whether this thread has ever taken part on a bus that exists, by a look that costs nothing.
+pub(crate) fn is_known() -> bool {
+    OWN.with_borrow(|own| !own.is_empty())
+}
+
+/// The other buses in virtual time on which this thread takes part.
+pub(crate) fn others(wire: &Wire) -> Vec<Arc<Wire>> {
+    if OWN.with_borrow(|own| own.len() < 2) {
+        return Vec::new();
+    }
+    let mut others = own();
+    others.retain(|other| other.number != wire.number);
+    others
+}
+
+/// The Python module that reports waits of Python.
+///
+/// # Errors
+/// An exception in Python.
+pub(crate) fn waits(py: Python<'_>) -> PyResult<&Bound<'_, PyModule>> {
+    static WAITS: PyOnceLock<Py<PyModule>> = PyOnceLock::new();
+    let load = || PyResult::Ok(py.import("odkit._waits")?.unbind());
+    Ok(WAITS.get_or_try_init(py, load)?.bind(py))
+}
+
+/// Python makes the frame of a cyclic task.
+///
+/// # Errors
+/// An exception in Python.
+pub(crate) fn call(py: Python<'_>, wire: &Wire, task: u32, place: usize) -> PyResult<()> {
+    let Some(maker) = wire.maker(py, task) else {
+        return Ok(());
+    };
+    let frame = maker
+        .call1(py, (place,))?
+        .extract::<crate::value::Parts>(py)?
+        .frame()?;
+    let mut state = wire.lock();
+    let port = state
+        .cyclics
+        .iter()
+        .find(|one| one.id == task)
+        .map(|one| one.port);
+    if let Some(port) = port {
+        // A frame that the line does not accept is lost, like that of a timer.
+        drop(state.transmit(port, &frame));
+        state.wake();
+    }
+    Ok(())
 }
 
 /// Microseconds of a number of seconds.

@@ -192,7 +192,7 @@ def test_what_cannot_be_says_so():
         open_bus("gxmm@0")
     with pytest.raises(can.CanInitializationError, match="does not support CAN FD"):
         open_bus("gxmm@1", fd=True)
-    with pytest.raises(can.CanInitializationError, match="write `virtual` or `real`"):
+    with pytest.raises(can.CanInitializationError, match="write `virtual`, `strict` or `real`"):
         open_bus("gxmm@1", time="fast")
     with open_bus("") as bus:
         with pytest.raises(can.CanOperationError, match="CAN FD"):

@@ -1,8 +1,10 @@
 """Programs with several threads: each run has the same frames, at the same times."""
 
+import asyncio
 import concurrent.futures
 import os
 import queue
+import subprocess
 import sys
 import threading
 
@@ -11,10 +13,10 @@ import canopen
 import pytest
 
 import odkit
-from odkit import _who
 
 EDS = os.path.join(os.path.dirname(__file__), "../../devices/eds/GXMM.eds")
-RUNS = 1000 if os.environ.get("ODKIT_LONG") else 20
+LONG = bool(os.environ.get("ODKIT_LONG"))
+RUNS, LOADED = (1000, 500) if LONG else (20, 3)
 UPLOAD = bytes.fromhex("4018100100000000")
 
 
@@ -131,6 +133,98 @@ def two_notifiers_and_a_queue():
             return told(bench)
 
 
+def a_timer_beside_a_notifier():
+    with odkit.Bench("gxmm@1") as bench, bench.bus() as bus:
+        bench["gxmm"][0x1017] = 100
+        at = []
+        with can.Notifier(bus, [lambda message: None]):
+            for delay in (0.55, 0.3, 0.2):
+                timer = threading.Timer(delay, lambda: at.append(bench.now))
+                timer.start()
+                timer.join()
+            assert at == [0.55, 0.85, 1.05]
+        return at, told(bench)[:10]
+
+
+def a_control_loop():
+    with odkit.Bench("gxmm@1") as bench, bench.bus() as bus:
+        bench["gxmm"][0x1017] = 10
+        stop, cycles = threading.Event(), []
+
+        def control():
+            while not stop.wait(0.1):
+                bus.send(frame(0x80))
+                cycles.append(bench.now)
+
+        thread = threading.Thread(target=control)
+        thread.start()
+        bench.run(1)
+        stop.set()
+        thread.join()
+        assert cycles == [round(n / 10, 6) for n in range(1, 11)]
+        return told(bench)
+
+
+def an_event_loop():
+    async def main():
+        bench = odkit.Bench("gxmm@1")
+        bench["gxmm"][0x1017] = 100
+        got = []
+        with bench.bus() as bus:
+            reader = can.AsyncBufferedReader()
+            notifier = can.Notifier(bus, [reader], loop=asyncio.get_running_loop())
+
+            async def ask():
+                while True:
+                    await asyncio.sleep(0.07)
+                    bus.send(frame(0x601, UPLOAD))
+
+            asking = asyncio.ensure_future(ask())
+            while len(got) < 20:
+                got.append((await reader.get_message()).timestamp)
+            asking.cancel()
+            await asyncio.sleep(0.5)
+            notifier.stop()
+        return got, told(bench)[:30]
+
+    return asyncio.run(main())
+
+
+def an_executor_of_callbacks():
+    """As in ROS: a thread spins on a queue that a notifier and timers fill."""
+    with odkit.Bench("gxmm@1,eam_mt@2") as bench, bench.bus() as bus:
+        for device in bench.devices:
+            device[0x1017] = 50
+        ready, done = queue.Queue(), threading.Event()
+
+        def spin():
+            while not done.is_set():
+                try:
+                    ready.get(timeout=0.25)()
+                except queue.Empty:
+                    bus.send(frame(0x7E5))
+
+        def timer():
+            bus.send(frame(0x80))
+            clock = threading.Timer(0.035, lambda: ready.put(timer))
+            clock.daemon = True
+            clock.start()
+
+        def answer(message):
+            if message.arbitration_id == 0x702:
+                ready.put(lambda: bus.send(frame(0x601, UPLOAD)))
+
+        with can.Notifier(bus, [answer]):
+            spinner = threading.Thread(target=spin)
+            spinner.start()
+            ready.put(timer)
+            bench.run(1)
+            log = told(bench)
+            done.set()
+            spinner.join()
+        return log
+
+
 PROGRAMS = [
     a_program_of_python_canopen,
     a_listener_that_answers,
@@ -138,37 +232,43 @@ PROGRAMS = [
     a_thread_of_its_own,
     a_pool_of_threads,
     two_notifiers_and_a_queue,
+    a_timer_beside_a_notifier,
+    a_control_loop,
+    an_event_loop,
+    an_executor_of_callbacks,
 ]
 
 
 @pytest.mark.parametrize("program", PROGRAMS, ids=lambda program: program.__name__)
 def test_each_run_is_the_same(program):
-    first = program()
-    for _ in range(RUNS):
-        assert program() == first
+    with odkit.patch_time():
+        first = program()
+        for _ in range(RUNS):
+            assert program() == first
 
 
-def test_a_thread_that_was_notified_does_not_wait():
-    """Not even while the one that notified it still has the lock that it needs to go on."""
-    condition = threading.Condition()
+@pytest.mark.parametrize("program", PROGRAMS, ids=lambda program: program.__name__)
+def test_it_is_the_same_with_the_clock(program):
+    """The waits of Python take their time, and the frames are those of `patch_time`."""
+    own = program()
+    with odkit.patch_time():
+        assert program() == own
 
-    def wait():
-        with condition:
-            condition.wait()
 
-    thread = threading.Thread(target=wait)
-    thread.start()
-    while True:
-        with condition:
-            if condition._waiters:
-                break
-    with condition:
-        (waiter,) = condition._waiters
-        while _who.waits([thread.ident])[0][0] != float("inf"):
-            pass
-        condition.notify()
-        # It closes its lock again, and now waits for the condition's.
-        while not waiter.locked():
-            pass
-        assert _who.waits([thread.ident])[0][0] == -1
-    thread.join()
+@pytest.fixture
+def burners():
+    """Eight programs that compute."""
+    burn = "while True: pass"
+    running = [subprocess.Popen([sys.executable, "-c", burn]) for _ in range(8)]
+    yield
+    for one in running:
+        one.kill()
+        one.wait()
+
+
+def test_it_is_the_same_on_a_busy_computer(burners):
+    for program in PROGRAMS:
+        with odkit.patch_time():
+            first = program()
+            for _ in range(LOADED):
+                assert program() == first

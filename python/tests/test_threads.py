@@ -1,9 +1,16 @@
 """Several threads on one wire: time moves while all of them wait."""
 
+import gc
+import hashlib
 import os
 import queue
+import socket
+import subprocess
+import sys
 import threading
 import time
+import warnings
+from time import monotonic
 
 import can
 import canopen
@@ -39,7 +46,8 @@ def test_an_hour_of_heartbeats_while_the_program_waits(connected):
             done.set()
 
     network.subscribe(0x701, beat)
-    assert done.wait(5000)
+    with odkit.patch_time():
+        assert done.wait(5000)
     assert beats == [float(second) for second in range(1, 3601)]
     network.bus.bench.run(60)
     assert len(beats) == 3660
@@ -187,3 +195,121 @@ def test_asyncio():
         return times
 
     assert asyncio.run(main()) == [0.0, 0.0] + [float(second) for second in range(1, 11)]
+
+
+def notified(bench):
+    """A bus with a heartbeat every 100 ms and a notifier, and the messages that it received."""
+    bench["gxmm"][0x1017] = 100
+    bus, got = bench.bus(), []
+    return bus, can.Notifier(bus, [got.append]), got
+
+
+def test_a_wait_that_odkit_does_not_see_lets_time_follow_the_clock():
+    with odkit.Bench("gxmm@1") as bench:
+        bus, reader, got = notified(bench)
+        own, other = socket.socketpair()
+        own.settimeout(2)
+        with pytest.warns(RuntimeWarning, match=r"MainThread waits for something .* at .*test_threads.py"):
+            with pytest.raises(TimeoutError):
+                own.recv(1)
+            reader.stop()
+        # The first second of it is that after which odkit believes it.
+        assert 0.5 <= bench.now <= 4 and len(got) >= 5
+        for one in (bus.shutdown, own.close, other.close):
+            one()
+
+
+def test_a_lock_that_a_waiting_thread_holds_does_not_stop_time_for_ever():
+    lock = threading.Lock()
+
+    def hold():
+        with lock:
+            time.sleep(0.5)
+
+    with odkit.Bench("gxmm@1") as bench, warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        threading.Thread(target=hold).start()
+        began = time.perf_counter()
+        with lock:
+            assert bench.now == 0.5
+        assert time.perf_counter() - began < 60
+
+
+def test_strict_time_does_not_follow_the_clock():
+    with odkit.Bench("gxmm@1", time="strict") as bench, bench.bus() as bus:
+        with pytest.raises(RuntimeError, match="patch_time"):
+            time.sleep(0.5)
+        with odkit.patch_time():
+            time.sleep(0.5)
+        assert bench.now == 0.5
+        bench.run(0.5)
+        assert bus.recv(1) is None and bench.now == 2
+    with pytest.raises(ValueError, match="pace is -1; it must be 0 or more"):
+        odkit.Bench("gxmm@1", pace=-1)
+
+
+def test_the_pace_of_the_clock():
+    # Benches of other tests have another pace.
+    gc.collect()
+    with odkit.Bench("gxmm@1", pace=100) as bench:
+        began = time.perf_counter()
+        time.sleep(20)
+        assert bench.now == 20 and 0.15 <= time.perf_counter() - began < 15
+
+
+@odkit.patch_time()
+def test_clocks_show_the_time_of_the_bench():
+    with odkit.Bench("gxmm@1") as bench:
+        clock, imported, wall = time.perf_counter(), monotonic(), time.time_ns()
+        bench.run(1000)
+        for passed in (time.perf_counter() - clock, monotonic() - imported, (time.time_ns() - wall) / 1e9):
+            assert passed == pytest.approx(1000, abs=1e-3)
+        deadline = time.monotonic() + 0.2
+        while time.monotonic() < deadline:
+            pass
+        assert bench.now == pytest.approx(1000.2, abs=0.01)
+    assert monotonic is not time.monotonic or monotonic() >= imported
+
+
+def test_asyncio_at_full_speed(odkit_bench, odkit_time):
+    import asyncio
+
+    async def main():
+        with odkit_bench.bus() as bus:
+            got = []
+            notifier = can.Notifier(bus, [got.append], loop=asyncio.get_running_loop())
+            await asyncio.sleep(10)
+            with pytest.raises(asyncio.TimeoutError):
+                await asyncio.wait_for(asyncio.Event().wait(), 5)
+            notifier.stop()
+            return [one.timestamp for one in got]
+
+    odkit_bench["gxmm"][0x1017] = 1000
+    clock = odkit_time.real()
+    assert asyncio.run(main())[:15] == [float(second) for second in range(1, 16)]
+    assert odkit_time.real() - clock < 10
+
+
+def test_a_thread_computes_beside_others():
+    """Time stands still, with the interpreter's lock and without it."""
+    for burn in (lambda: sum(range(1000)), lambda: hashlib.pbkdf2_hmac("sha1", b"a", b"b", 2000)):
+        with odkit.Bench("gxmm@1") as bench:
+            bus, reader, _ = notified(bench)
+            end = time.perf_counter() + 1.3
+            while time.perf_counter() < end:
+                burn()
+            assert bench.now == 0
+            reader.stop()
+            bus.shutdown()
+
+
+def test_a_program_ends_while_threads_wait():
+    program = """
+import can, odkit, threading
+bench = odkit.Bench("gxmm@1")
+can.Notifier(bench.bus(), [print])
+for wait in (threading.Event().wait, lambda: bench.run(1e12), lambda: threading.Event().wait(1e6)):
+    threading.Thread(target=wait, daemon=True).start()
+"""
+    done = subprocess.run([sys.executable, "-c", program], stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=100)
+    assert done.returncode == 0, done.stderr

@@ -51,10 +51,10 @@ impl OnWire {
         let wait = Wait {
             port: Some(self.id),
             until: Some(until),
-            seen: None,
+            ..Wait::default()
         };
         let id = self.id;
-        pass(py, &self.wire, wait, (None, false), &mut |state| {
+        pass(py, &self.wire, wait, false, &mut |state| {
             Ok(state.listener(id).is_none_or(|own| !own.queue.is_empty()))
         })?;
         Ok(())

@@ -1,0 +1,330 @@
+"""The waits of Python, as a bench sees them.
+
+While a bench in virtual time is open, ``time.sleep``, the conditions and threads of ``threading``, the queues, and the
+event loops of ``asyncio`` report to it that a thread waits, for how long, and that it was woken. Everything
+else of ``threading``, ``queue`` and ``concurrent.futures`` waits in a condition. Threads that do not
+take part on a bus wait as ever.
+"""
+
+import asyncio
+import atexit
+import collections
+import contextlib
+import faulthandler
+import queue
+import re
+import selectors
+import sys
+import tempfile
+import threading
+import time
+import types
+import warnings
+import weakref
+
+import can.listener
+
+from odkit import _odkit
+
+_sleep = time.sleep
+_wait = threading.Condition.wait
+_notify = threading.Condition.notify
+_start = threading.Thread.start
+_join = threading.Thread.join
+_call_soon_threadsafe = asyncio.BaseEventLoop.call_soon_threadsafe
+_loop_time = asyncio.BaseEventLoop.time
+_processor_of = getattr(time, "pthread_getcpuclockid", None)
+
+
+def this():
+    """The calling thread: its number, a reference to it, and the clock of its processor time."""
+    ident = threading.get_ident()
+    processor = _processor_of(ident) if _processor_of else None
+    return ident, weakref.ref(threading.current_thread()), processor
+
+
+def look(threads):
+    """For each thread: whether it lives, its processor time, and whether the thread that it waits for lives."""
+    return [_look(*one) for one in threads]
+
+
+def _look(reference, processor, target):
+    thread = reference()
+    lives = _lives(thread)
+    seconds = None
+    if lives and processor is not None:
+        try:
+            seconds = time.clock_gettime(processor)
+        except OSError:
+            lives = False
+    return lives, seconds, _lives(target)
+
+
+def _lives(thread):
+    # While another thread joins it, `is_alive` may say that a thread lives that has ended.
+    return thread is not None and not hasattr(thread, "odkit_ended") and thread.is_alive()
+
+
+def report(reference, strict):
+    """Warns that a thread waits for something that no call reports; with ``strict`` that is an error."""
+    thread = reference()
+    if thread is None:
+        return
+    text = (
+        f"{thread.name} waits for something that odkit does not see, at {_place(thread)}: the time of the bus "
+        "follows the clock until it goes on"
+    )
+    if strict:
+        raise RuntimeError(f'{text}, and the bus has time="strict"')
+    warnings.warn(text, RuntimeWarning, stacklevel=2)
+
+
+def _place(thread):
+    with tempfile.TemporaryFile("w+") as file:
+        faulthandler.dump_traceback(file, all_threads=True)
+        file.seek(0)
+        text = file.read()
+    found = re.search(rf"hread 0x0*{thread.ident:x} .*\n\s*File (.*)", text)
+    return found[1] if found else "an unknown line"
+
+
+def _pauses(timeout, paced=True, target=None):
+    """The pauses of a wait of Python until its time is over."""
+    waiting = _odkit.Waiting(timeout, paced, target)
+    try:
+        while (pause := waiting.pause()) is not None:
+            yield pause
+    finally:
+        waiting.end()
+
+
+class _Sleeper:
+    """A thread that waits for a condition."""
+
+    __slots__ = ("ident", "woken")
+
+    def __init__(self):
+        self.ident, self.woken = threading.get_ident(), False
+
+
+def wait(self, timeout=None):
+    if (timeout is not None and timeout <= 0) or not _odkit.takes_part():
+        return _wait(self, timeout)
+    own = _Sleeper()
+    sleepers = vars(self).setdefault("odkit_sleepers", [])
+    sleepers.append(own)
+
+    try:
+        for pause in _pauses(timeout):
+            _wait(self, pause)
+            if own.woken:
+                return True
+        return own.woken
+    finally:
+        sleepers.remove(own)
+
+
+def notify(self, n=1):
+    sleepers = vars(self).get("odkit_sleepers")
+    if not sleepers:
+        return _notify(self, n)
+    # Raises if the lock is not held.
+    _notify(self, n + len(sleepers))
+    for one in [one for one in sleepers if not one.woken][:n]:
+        one.woken = True
+        _odkit.wake(one.ident)
+
+
+def sleep(seconds):
+    if not seconds > 0 or not _odkit.takes_part():
+        return _sleep(seconds)
+    for pause in _pauses(seconds):
+        _sleep(pause)
+
+
+def start(self):
+    if not _odkit.takes_part():
+        return _start(self)
+    child, run = _odkit.Child(weakref.ref(self)), self.run
+
+    def begin():
+        del self.run
+        child.begin()
+        try:
+            run()
+        finally:
+            self.odkit_ended = True
+
+    self.run = begin
+    try:
+        _start(self)
+    except BaseException:
+        child.end()
+        raise
+
+
+def join(self, timeout=None):
+    # Its own thread and one that has not started raise.
+    if not (self.is_alive() and _odkit.takes_part()) or self is threading.current_thread():
+        return _join(self, timeout)
+
+    for pause in _pauses(None if timeout is None else max(timeout, 0), False, self):
+        _join(self, pause)
+        if not self.is_alive():
+            return _join(self)
+
+
+def _selecting(select):
+    def wrapped(self, timeout=None):
+        if (timeout is not None and timeout <= 0) or not _odkit.takes_part():
+            return select(self, timeout)
+        for pause in _pauses(timeout):
+            ready = select(self, pause)
+            if ready:
+                return ready
+        return select(self, 0)
+
+    return wrapped
+
+
+def loop_time(self):
+    own = vars(self)
+    clock = own.get("odkit_clock")
+    if clock is None:
+        clock = own["odkit_clock"] = Clock(lambda: round(_loop_time(self) * 1e9))
+    own["odkit_ident"] = threading.get_ident()
+    return clock() / 1e9
+
+
+def call_soon_threadsafe(self, *args, **keywords):
+    handle = _call_soon_threadsafe(self, *args, **keywords)
+    ident = vars(self).get("odkit_ident")
+    if ident is not None:
+        _odkit.wake(ident)
+    return handle
+
+
+class SimpleQueue:
+    """``queue.SimpleQueue`` that waits in a condition. A garbage collection during ``get`` may ``put``."""
+
+    def __init__(self):
+        self._items, self._filled = collections.deque(), threading.Condition()
+
+    def put(self, item, block=True, timeout=None):
+        with self._filled:
+            self._items.append(item)
+            self._filled.notify()
+
+    def get(self, block=True, timeout=None):
+        if timeout is not None and timeout < 0:
+            raise ValueError("'timeout' must be a non-negative number")
+        with self._filled:
+            if not self._items and block:
+                self._filled.wait_for(lambda: self._items, timeout)
+            if not self._items:
+                raise queue.Empty
+            return self._items.popleft()
+
+    def put_nowait(self, item):
+        self.put(item)
+
+    def get_nowait(self):
+        return self.get(False)
+
+    def empty(self):
+        return not self._items
+
+    def qsize(self):
+        return len(self._items)
+
+
+class Clock:
+    """A clock in nanoseconds that follows the bench of the calling thread while that takes part on one."""
+
+    def __init__(self, real):
+        self._real, self._last, self._ahead = real, real(), {None: 0}
+        self.moment = None
+
+    def __call__(self):
+        self.moment = bench, micros = _odkit.moment() or (None, None)
+        now = self._real() if bench is None else micros * 1000
+        ahead = self._ahead.setdefault(bench, self._last - now)
+        # Without a bench the clock goes on from where the last one was.
+        self._last = max(self._last, now + ahead) if bench is None else now + ahead
+        return self._last
+
+
+def install():
+    """Lets the waits of Python report to benches. Nothing else about them changes."""
+    if threading.Condition.wait is wait:
+        return
+    threading.Condition.wait, threading.Condition.notify = wait, notify
+    threading.Thread.start, threading.Thread.join = start, join
+    time.sleep = sleep
+    atexit.register(_odkit.end_program)
+    asyncio.BaseEventLoop.time = loop_time
+    asyncio.BaseEventLoop.call_soon_threadsafe = call_soon_threadsafe
+    for name in ("SelectSelector", "PollSelector", "EpollSelector", "DevpollSelector", "KqueueSelector"):
+        selector = getattr(selectors, name, None)
+        if selector is not None:
+            selector.select = _selecting(selector.select)
+    queue.SimpleQueue = can.listener.SimpleQueue = SimpleQueue
+
+
+class _Shown(Clock):
+    """A clock of ``time`` during ``patch_time``."""
+
+    #: Readings in a row that let 1 ms pass, so that a loop which only reads the clock comes to an end.
+    READINGS = 1000
+
+    def __init__(self, real):
+        super().__init__(real)
+        self._readings = 0
+
+    def __call__(self):
+        before = self.moment
+        now = super().__call__()
+        self._readings = self._readings + 1 if self.moment == before else 0
+        if self._readings >= self.READINGS and _odkit.takes_part():
+            self._readings = 0
+            sleep(0.001)
+            now = super().__call__()
+        # Each reading is later than the one before: what is left of a time-out comes to an end.
+        return now + self._readings
+
+
+class patch_time(contextlib.ContextDecorator):
+    """The waits of Python take no time on the clock, and the clocks of ``time`` show the time of the bench.
+
+    For the length of a ``with`` block, or of a function that it decorates. ``time.time``, ``monotonic``,
+    ``perf_counter`` and their ``_ns`` are replaced in every module that has imported them. They
+    follow the bench on which the calling thread takes part, or else the oldest one, and
+    stand still while the program computes; each 1000th reading in a row lets 1 ms pass.
+    """
+
+    def __enter__(self):
+        install()
+        shown = {}
+        for name in ("time", "monotonic", "perf_counter"):
+            nanos = _Shown(getattr(time, f"{name}_ns"))
+            shown[getattr(time, f"{name}_ns")] = nanos
+            shown[getattr(time, name)] = lambda nanos=nanos: nanos() / 1e9
+        shown[_sleep] = sleep
+        self._replaced = []
+        for module in list(sys.modules.values()):
+            if getattr(module, "__name__", "").split(".")[0] in ("_pytest", "odkit"):
+                continue
+            for name, value in list(getattr(module, "__dict__", {}).items()):
+                if type(value) is types.BuiltinFunctionType and value in shown:
+                    self._replaced.append((module, name, value))
+                    setattr(module, name, shown[value])
+        _odkit.patch(True)
+        return self
+
+    #: The computer's own clock, in seconds.
+    real = staticmethod(time.perf_counter)
+
+    def __exit__(self, *_error):
+        _odkit.patch(False)
+        for module, name, value in reversed(self._replaced):
+            setattr(module, name, value)
