@@ -17,7 +17,7 @@ pub(super) const TARGET: Target = Target {
     ..Target::PLAIN
 };
 
-fn run(input: &[u8]) {
+pub(super) fn run(input: &[u8]) {
     let before = Document::new(input);
     let loaded = before.load();
     let errors = |findings: &[od_eds::Finding]| findings.iter().filter(|f| f.is_error()).count();
