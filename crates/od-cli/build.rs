@@ -9,12 +9,13 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Folders of the embedded crates, if they exist. In a new crate they lie side by side.
-const CRATES: [&str; 9] = [
+const CRATES: [&str; 10] = [
     "crates/od-board",
     "crates/od-client",
     "crates/od-eds",
     "crates/od-runtime",
     "crates/od-sim",
+    "crates/od-thumb",
     "crates/od-wire",
     "crates/odkit",
     "od-macros",

@@ -6,4 +6,5 @@
 
 pub mod board;
 pub mod master;
-mod memory;
+
+use od_thumb as _;

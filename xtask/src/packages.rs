@@ -54,12 +54,13 @@ pub(crate) type Mutated = (
 );
 
 /// Packages that build without the standard library.
-pub(crate) const NO_STD: [&str; 8] = [
+pub(crate) const NO_STD: [&str; 9] = [
     "od-model",
     "od-wire",
     "od-client",
     "od-runtime",
     "od-board",
+    "od-thumb",
     "odkit",
     "od-capi",
     "od-devices",

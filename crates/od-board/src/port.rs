@@ -1,5 +1,7 @@
 //! A CAN controller of the `embedded-can` ecosystem, and the frames that wait for it.
 
+use core::mem::swap;
+
 use embedded_can::{ErrorKind, blocking};
 use od_runtime::{BusEvent, Frame, Instant};
 use od_wire::CanId;
@@ -56,15 +58,19 @@ impl Port {
         {
             self.insert(frame, false);
         }
-        self.frames[..self.len].first()
+        self.waiting().first()
+    }
+
+    /// The frames that wait, the first one to be sent next.
+    fn waiting(&self) -> &[Frame] {
+        self.frames.get(..self.len).unwrap_or_default()
     }
 
     /// The controller has no room for the frame that was [`peek`](Self::peek)ed. Returns whether the node
     /// has one of higher priority, for which it may have room. Nothing overtakes a boot-up message.
     pub fn has_higher(&mut self, owner: &mut impl Owner, now: Instant) -> bool {
-        let waiting = &self.frames[..self.len];
-        let first = waiting.first().map(Frame::id);
-        if waiting.iter().any(is_boot_up) {
+        let first = self.waiting().first().map(Frame::id);
+        if self.waiting().iter().any(is_boot_up) {
             return false;
         }
         while self.len < ROOM
@@ -72,15 +78,17 @@ impl Port {
         {
             self.insert(frame, false);
         }
-        self.frames[..self.len].first().map(Frame::id) != first
+        self.waiting().first().map(Frame::id) != first
     }
 
     /// The controller took a frame that was [`peek`](Self::peek)ed, and threw another one out for it or
     /// not.
     pub fn sent(&mut self, frame: &Frame, thrown_out: Option<Frame>) {
-        let waiting = &mut self.frames[..self.len];
-        if let Some(at) = waiting.iter().position(|other| other == frame) {
-            waiting[at..].rotate_left(1);
+        if let Some(at) = self.waiting().iter().position(|other| other == frame) {
+            // Those behind it move up.
+            let mut behind = *frame;
+            let from = self.frames.iter_mut().take(self.len).skip(at);
+            from.rev().for_each(|room| swap(room, &mut behind));
             self.len -= 1;
         }
         if let Some(frame) = thrown_out {
@@ -90,19 +98,21 @@ impl Port {
 
     /// `before`: it is older than those with its CAN-ID.
     fn insert(&mut self, frame: Frame, before: bool) {
+        if self.len == ROOM {
+            return;
+        }
         let key = rank(frame.id());
-        let waiting = self.frames[..self.len].iter();
-        let at = waiting
+        let at = (self.waiting().iter())
             .take_while(|other| match rank(other.id()) {
                 rank if rank == key => !before,
                 rank => rank < key,
             })
             .count();
-        if let Some(room) = self.frames.get_mut(at..=self.len) {
-            room.rotate_right(1);
-            room[0] = frame;
-            self.len += 1;
-        }
+        self.len += 1;
+        // Those behind it move back.
+        let mut next = frame;
+        let from = self.frames.iter_mut().take(self.len).skip(at);
+        from.for_each(|room| swap(room, &mut next));
     }
 
     /// Handles all frames that came and what is due, and sends as long as there is room: for a loop,

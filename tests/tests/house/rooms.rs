@@ -18,8 +18,9 @@ const fn room(name: &'static str, storey: u8) -> Room {
 }
 
 /// All rooms, from the lowest storey up.
-pub(crate) const ROOMS: [Room; 19] = [
+pub(crate) const ROOMS: [Room; 20] = [
     room("od-model", 1),
+    room("crates/od-thumb", 1),
     room("crates/od-wire", 2),
     room("crates/od-eds", 2),
     room("crates/od-client", 3),

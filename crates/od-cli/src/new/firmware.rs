@@ -26,7 +26,7 @@ pub(super) enum Board {
 }
 
 /// The files that do not depend on the board.
-const FILES: [Template; 13] = [
+const FILES: [Template; 14] = [
     (
         "Cargo.toml",
         include_str!("template/workspace/Cargo.toml.in"),
@@ -62,6 +62,10 @@ const FILES: [Template; 13] = [
     (
         "tests/scripts/boot-up.script",
         include_str!("template/boot-up.script.in"),
+    ),
+    (
+        "firmware/no-panic.x",
+        include_str!("template/workspace/no-panic.x"),
     ),
     (
         "firmware/build.rs",
@@ -308,8 +312,13 @@ pub(super) fn files(
         ),
     };
     let parts = board.parts();
-    let dependencies = [("od-sim", ", features = [\"serve\"]"), ("odkit", "")];
+    let has_thumb = parts.target.starts_with("thumbv7");
+    let mut dependencies = vec![("od-sim", ", features = [\"serve\"]")];
+    dependencies.extend(has_thumb.then_some(("od-thumb", "")));
+    dependencies.push(("odkit", ""));
+    let dependencies = dependencies.iter();
     let dependencies = dependencies.map(|(name, features)| origin.dependency(name, features));
+    let dependencies: Vec<String> = dependencies.collect();
     gaps.extend([
         ("behaviour", text(behaviour.trim_end(), &gaps)),
         ("sim", text(sim.trim_end(), &gaps)),
@@ -334,6 +343,23 @@ pub(super) fn files(
             ("runner", parts.runner),
             ("link", parts.link),
             ("crates", parts.dependencies.trim_end()),
+            (
+                "thumb",
+                if has_thumb {
+                    "use od_thumb as _;\n"
+                } else {
+                    ""
+                },
+            ),
+            // The drivers of the others panic.
+            (
+                "default",
+                if board == Board::Generic {
+                    "\"no-panic\""
+                } else {
+                    ""
+                },
+            ),
         ]
         .map(|(name, text)| (name, text.to_owned())),
     );

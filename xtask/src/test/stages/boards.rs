@@ -98,7 +98,33 @@ pub(super) fn boards(context: &Context<'_>) -> Result<()> {
             }
         }
     }
-    emulate(context, &folder.join(GENERIC).join("firmware"))
+    let generic = folder.join(GENERIC).join("firmware");
+    emulate(context, &generic)?;
+    refuses_panics(context, &generic)
+}
+
+/// The firmware of `generic` with a function that can panic does not link, and the linker names the function.
+fn refuses_panics(context: &Context<'_>, firmware: &Path) -> Result<()> {
+    const FUNCTION: &str = "third_of_two";
+    let main = firmware.join("src/main.rs");
+    let text = fs::read_to_string(&main).map_err(|e| Error::io("read", &main, &e))?;
+    let text = text.replacen(
+        "board::start();",
+        "board::start();\n    third_of_two(NODE_ID.raw());",
+        1,
+    ) + "\n#[inline(never)]\nfn third_of_two(at: u8) {\n    let two = [1u8, 2];\n    \
+           core::hint::black_box(two[usize::from(core::hint::black_box(at))]);\n}\n";
+    fs::write(&main, text).map_err(|e| Error::io("write", &main, &e))?;
+    let mut build = cargo(firmware, &["build", "--quiet", "--release", "--target-dir"]);
+    let output = build.arg(&context.repo.target).output();
+    let output = output.map_err(|e| Error::Missing(format!("cargo: {e}")))?;
+    let said = String::from_utf8_lossy(&output.stderr);
+    if output.status.success() || !said.contains("discarded section") || !said.contains(FUNCTION) {
+        return Err(Error::Failed(format!(
+            "a firmware with a path to a panic links, or nothing names its function:\n{said}"
+        )));
+    }
+    Ok(())
 }
 
 /// Makes a workspace for a board in a folder, with the versions of tests/boards.
