@@ -39,8 +39,10 @@ from odkit._odkit import (
     wires,
 )
 from odkit._waits import patch_time
+from odkit.aio import AsyncClient
 
 __all__ = [
+    "AsyncClient",
     "Bench",
     "Client",
     "Conform",

@@ -6,6 +6,8 @@ else of ``threading``, ``queue`` and ``concurrent.futures`` waits in a condition
 take part on a bus wait as ever.
 """
 
+from __future__ import annotations
+
 import asyncio
 import atexit
 import collections
@@ -21,6 +23,8 @@ import time
 import types
 import warnings
 import weakref
+from collections.abc import Callable, Iterator
+from typing import Any
 
 import can.listener
 
@@ -36,19 +40,21 @@ _loop_time = asyncio.BaseEventLoop.time
 _processor_of = getattr(time, "pthread_getcpuclockid", None)
 
 
-def this():
+def this() -> tuple[int, weakref.ref[threading.Thread], int | None]:
     """The calling thread: its number, a reference to it, and the clock of its processor time."""
     ident = threading.get_ident()
     processor = _processor_of(ident) if _processor_of else None
     return ident, weakref.ref(threading.current_thread()), processor
 
 
-def look(threads):
+def look(threads: list[tuple[Any, int | None, threading.Thread | None]]) -> list[tuple[bool, float | None, bool]]:
     """For each thread: whether it lives, its processor time, and whether the thread that it waits for lives."""
     return [_look(*one) for one in threads]
 
 
-def _look(reference, processor, target):
+def _look(
+    reference: weakref.ref[threading.Thread], processor: int | None, target: threading.Thread | None
+) -> tuple[bool, float | None, bool]:
     thread = reference()
     lives = _lives(thread)
     seconds = None
@@ -60,12 +66,12 @@ def _look(reference, processor, target):
     return lives, seconds, _lives(target)
 
 
-def _lives(thread):
+def _lives(thread: threading.Thread | None) -> bool:
     # While another thread joins it, `is_alive` may say that a thread lives that has ended.
     return thread is not None and not hasattr(thread, "odkit_ended") and thread.is_alive()
 
 
-def report(reference, strict):
+def report(reference: weakref.ref[threading.Thread], strict: bool) -> None:
     """Warns that a thread waits for something that no call reports; with ``strict`` that is an error."""
     thread = reference()
     if thread is None:
@@ -79,7 +85,7 @@ def report(reference, strict):
     warnings.warn(text, RuntimeWarning, stacklevel=2)
 
 
-def _place(thread):
+def _place(thread: threading.Thread) -> str:
     with tempfile.TemporaryFile("w+") as file:
         faulthandler.dump_traceback(file, all_threads=True)
         file.seek(0)
@@ -88,7 +94,7 @@ def _place(thread):
     return found[1] if found else "an unknown line"
 
 
-def _pauses(timeout, paced=True, target=None):
+def _pauses(timeout: float | None, paced: bool = True, target: threading.Thread | None = None) -> Iterator[float]:
     """The pauses of a wait of Python until its time is over."""
     waiting = _odkit.Waiting(timeout, paced, target)
     try:
@@ -103,11 +109,11 @@ class _Sleeper:
 
     __slots__ = ("ident", "woken")
 
-    def __init__(self):
+    def __init__(self) -> None:
         self.ident, self.woken = threading.get_ident(), False
 
 
-def wait(self, timeout=None):
+def wait(self: threading.Condition, timeout: float | None = None) -> bool:
     if (timeout is not None and timeout <= 0) or not _odkit.takes_part():
         return _wait(self, timeout)
     own = _Sleeper()
@@ -124,10 +130,11 @@ def wait(self, timeout=None):
         sleepers.remove(own)
 
 
-def notify(self, n=1):
+def notify(self: threading.Condition, n: int = 1) -> None:
     sleepers = vars(self).get("odkit_sleepers")
     if not sleepers:
-        return _notify(self, n)
+        _notify(self, n)
+        return
     # Raises if the lock is not held.
     _notify(self, n + len(sleepers))
     for one in [one for one in sleepers if not one.woken][:n]:
@@ -135,27 +142,29 @@ def notify(self, n=1):
         _odkit.wake(one.ident)
 
 
-def sleep(seconds):
+def sleep(seconds: float) -> None:
     if not seconds > 0 or not _odkit.takes_part():
-        return _sleep(seconds)
+        _sleep(seconds)
+        return
     for pause in _pauses(seconds):
         _sleep(pause)
 
 
-def start(self):
+def start(self: threading.Thread) -> None:
     if not _odkit.takes_part():
-        return _start(self)
+        _start(self)
+        return
     child, run = _odkit.Child(weakref.ref(self)), self.run
 
-    def begin():
-        del self.run
+    def begin() -> None:
+        del vars(self)["run"]
         child.begin()
         try:
             run()
         finally:
-            self.odkit_ended = True
+            vars(self)["odkit_ended"] = True
 
-    self.run = begin
+    vars(self)["run"] = begin
     try:
         _start(self)
     except BaseException:
@@ -163,19 +172,21 @@ def start(self):
         raise
 
 
-def join(self, timeout=None):
+def join(self: threading.Thread, timeout: float | None = None) -> None:
     # Its own thread and one that has not started raise.
     if not (self.is_alive() and _odkit.takes_part()) or self is threading.current_thread():
-        return _join(self, timeout)
+        _join(self, timeout)
+        return
 
     for pause in _pauses(None if timeout is None else max(timeout, 0), False, self):
         _join(self, pause)
         if not self.is_alive():
-            return _join(self)
+            _join(self)
+            return
 
 
-def _selecting(select):
-    def wrapped(self, timeout=None):
+def _selecting(select: Callable[..., Any]) -> Callable[..., Any]:
+    def wrapped(self: Any, timeout: float | None = None) -> Any:
         if (timeout is not None and timeout <= 0) or not _odkit.takes_part():
             return select(self, timeout)
         for pause in _pauses(timeout):
@@ -187,7 +198,7 @@ def _selecting(select):
     return wrapped
 
 
-def loop_time(self):
+def loop_time(self: asyncio.BaseEventLoop) -> float:
     own = vars(self)
     clock = own.get("odkit_clock")
     if clock is None:
@@ -196,7 +207,7 @@ def loop_time(self):
     return clock() / 1e9
 
 
-def call_soon_threadsafe(self, *args, **keywords):
+def call_soon_threadsafe(self: asyncio.BaseEventLoop, *args: Any, **keywords: Any) -> Any:
     handle = _call_soon_threadsafe(self, *args, **keywords)
     ident = vars(self).get("odkit_ident")
     if ident is not None:
@@ -207,15 +218,16 @@ def call_soon_threadsafe(self, *args, **keywords):
 class SimpleQueue:
     """``queue.SimpleQueue`` that waits in a condition. A garbage collection during ``get`` may ``put``."""
 
-    def __init__(self):
-        self._items, self._filled = collections.deque(), threading.Condition()
+    def __init__(self) -> None:
+        self._items: collections.deque[Any] = collections.deque()
+        self._filled = threading.Condition()
 
-    def put(self, item, block=True, timeout=None):
+    def put(self, item: Any, block: bool = True, timeout: float | None = None) -> None:
         with self._filled:
             self._items.append(item)
             self._filled.notify()
 
-    def get(self, block=True, timeout=None):
+    def get(self, block: bool = True, timeout: float | None = None) -> Any:
         if timeout is not None and timeout < 0:
             raise ValueError("'timeout' must be a non-negative number")
         with self._filled:
@@ -225,28 +237,29 @@ class SimpleQueue:
                 raise queue.Empty
             return self._items.popleft()
 
-    def put_nowait(self, item):
+    def put_nowait(self, item: Any) -> None:
         self.put(item)
 
-    def get_nowait(self):
+    def get_nowait(self) -> Any:
         return self.get(False)
 
-    def empty(self):
+    def empty(self) -> bool:
         return not self._items
 
-    def qsize(self):
+    def qsize(self) -> int:
         return len(self._items)
 
 
 class Clock:
     """A clock in nanoseconds that follows the bench of the calling thread while that takes part on one."""
 
-    def __init__(self, real):
-        self._real, self._last, self._ahead = real, real(), {None: 0}
-        self.moment = None
+    def __init__(self, real: Callable[[], int]) -> None:
+        self._real, self._last = real, real()
+        self._ahead: dict[int | None, int] = {None: 0}
+        self.moment: tuple[int | None, int] | None = None
 
-    def __call__(self):
-        self.moment = bench, micros = _odkit.moment() or (None, None)
+    def __call__(self) -> int:
+        self.moment = bench, micros = _odkit.moment() or (None, 0)
         now = self._real() if bench is None else micros * 1000
         ahead = self._ahead.setdefault(bench, self._last - now)
         # Without a bench the clock goes on from where the last one was.
@@ -254,21 +267,28 @@ class Clock:
         return self._last
 
 
-def install():
+def install() -> None:
     """Lets the waits of Python report to benches. Nothing else about them changes."""
     if threading.Condition.wait is wait:
         return
-    threading.Condition.wait, threading.Condition.notify = wait, notify
-    threading.Thread.start, threading.Thread.join = start, join
-    time.sleep = sleep
-    atexit.register(_odkit.end_program)
-    asyncio.BaseEventLoop.time = loop_time
-    asyncio.BaseEventLoop.call_soon_threadsafe = call_soon_threadsafe
+    replaced: list[tuple[Any, str, Any]] = [
+        (threading.Condition, "wait", wait),
+        (threading.Condition, "notify", notify),
+        (threading.Thread, "start", start),
+        (threading.Thread, "join", join),
+        (time, "sleep", sleep),
+        (asyncio.BaseEventLoop, "time", loop_time),
+        (asyncio.BaseEventLoop, "call_soon_threadsafe", call_soon_threadsafe),
+        (queue, "SimpleQueue", SimpleQueue),
+        (can.listener, "SimpleQueue", SimpleQueue),
+    ]
     for name in ("SelectSelector", "PollSelector", "EpollSelector", "DevpollSelector", "KqueueSelector"):
         selector = getattr(selectors, name, None)
         if selector is not None:
-            selector.select = _selecting(selector.select)
-    queue.SimpleQueue = can.listener.SimpleQueue = SimpleQueue
+            replaced.append((selector, "select", _selecting(selector.select)))
+    for owner, name, own in replaced:
+        setattr(owner, name, own)
+    atexit.register(_odkit.end_program)
 
 
 class _Shown(Clock):
@@ -277,11 +297,11 @@ class _Shown(Clock):
     #: Readings in a row that let 1 ms pass, so that a loop which only reads the clock comes to an end.
     READINGS = 1000
 
-    def __init__(self, real):
+    def __init__(self, real: Callable[[], int]) -> None:
         super().__init__(real)
         self._readings = 0
 
-    def __call__(self):
+    def __call__(self) -> int:
         before = self.moment
         now = super().__call__()
         self._readings = self._readings + 1 if self.moment == before else 0
@@ -302,15 +322,15 @@ class patch_time(contextlib.ContextDecorator):
     stand still while the program computes; each 1000th reading in a row lets 1 ms pass.
     """
 
-    def __enter__(self):
+    def __enter__(self) -> patch_time:
         install()
-        shown = {}
+        shown: dict[Any, Any] = {}
         for name in ("time", "monotonic", "perf_counter"):
             nanos = _Shown(getattr(time, f"{name}_ns"))
             shown[getattr(time, f"{name}_ns")] = nanos
             shown[getattr(time, name)] = lambda nanos=nanos: nanos() / 1e9
         shown[_sleep] = sleep
-        self._replaced = []
+        self._replaced: list[tuple[Any, str, Any]] = []
         for module in list(sys.modules.values()):
             if getattr(module, "__name__", "").split(".")[0] in ("_pytest", "odkit"):
                 continue
@@ -324,7 +344,7 @@ class patch_time(contextlib.ContextDecorator):
     #: The computer's own clock, in seconds.
     real = staticmethod(time.perf_counter)
 
-    def __exit__(self, *_error):
+    def __exit__(self, *_error: object) -> None:
         _odkit.patch(False)
         for module, name, value in reversed(self._replaced):
             setattr(module, name, value)

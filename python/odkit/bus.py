@@ -1,6 +1,10 @@
 """The interface ``odkit`` of python-can."""
 
+from __future__ import annotations
+
 import logging
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import can
 from can import BusABC, CanInitializationError, CanOperationError, Message
@@ -12,6 +16,11 @@ from can.broadcastmanager import (
 
 from odkit import _odkit
 
+if TYPE_CHECKING:
+    from can.typechecking import AutoDetectedConfig, CanFilters
+
+_T = TypeVar("_T")
+_Frame = tuple[int, bool, bool, int, bytes]
 _LOG = logging.getLogger("can.odkit")
 _STATES = (can.BusState.ACTIVE, can.BusState.PASSIVE, can.BusState.ERROR)
 
@@ -33,16 +42,16 @@ class OdkitBus(BusABC):
 
     def __init__(
         self,
-        channel="",
-        can_filters=None,
-        receive_own_messages=False,
-        time=None,
-        bitrate=None,
-        bench=None,
-        fd=False,
-        pace=None,
-        **kwargs,
-    ):
+        channel: Any = "",
+        can_filters: CanFilters | None = None,
+        receive_own_messages: bool = False,
+        time: _odkit._Time | None = None,
+        bitrate: int | None = None,
+        bench: _odkit.Bench | None = None,
+        fd: bool = False,
+        pace: float | None = None,
+        **kwargs: Any,
+    ) -> None:
         if fd:
             raise CanInitializationError("odkit does not support CAN FD; leave out `fd`")
         channel = "" if channel is None else str(channel)
@@ -55,20 +64,20 @@ class OdkitBus(BusABC):
         super().__init__(channel=channel, can_filters=can_filters, **kwargs)
 
     @property
-    def bench(self):
+    def bench(self) -> _odkit.Bench:
         """The :class:`odkit.Bench` of the wire."""
         return self._call(self._port.bench)
 
     @property
-    def state(self):
+    def state(self) -> can.BusState:
         """The state of the CAN controller. Only a real line of the bench changes it."""
         return _STATES[self._call(self._port.condition)]
 
     @state.setter
-    def state(self, new_state):
+    def state(self, new_state: can.BusState) -> None:
         raise NotImplementedError("the line decides which state the controller has")
 
-    def recv(self, timeout=None):
+    def recv(self, timeout: float | None = None) -> Message | None:
         """The next message, or ``None`` when ``timeout`` seconds of the bus's time are over.
 
         In virtual time they are over as soon as the other threads that take part on the wire wait, too.
@@ -86,10 +95,10 @@ class OdkitBus(BusABC):
             can.bus.LOG.log(self.RECV_LOGGING_LEVEL, "Received: %s", message)
         return message
 
-    def _recv_internal(self, timeout):
+    def _recv_internal(self, timeout: float | None) -> tuple[Message | None, bool]:
         return OdkitBus.recv(self, timeout), True
 
-    def send(self, msg, timeout=None):
+    def send(self, msg: Message, timeout: float | None = None) -> None:
         """Sends a message. It does not wait: ``timeout`` is ignored.
 
         :raises can.CanOperationError: The bus is closed, the controller is bus-off, or the message is
@@ -101,34 +110,39 @@ class OdkitBus(BusABC):
         except (OSError, ValueError) as error:
             raise CanOperationError(str(error)) from None
 
-    def flush_tx_buffer(self):
+    def flush_tx_buffer(self) -> None:
         """Does nothing: every sent message is already on the line."""
 
-    def shutdown(self):
+    def shutdown(self) -> None:
         """Leaves the wire. Its devices go with the last bus or bench of the wire."""
         super().shutdown()
         self._port.close()
 
-    def _apply_filters(self, filters):
+    def _apply_filters(self, filters: CanFilters | None) -> None:
         passing = None
         if filters:
             passing = [(f["can_id"], f["can_mask"], f.get("extended")) for f in filters]
         self._call(self._port.set_filters, passing)
 
     def _send_periodic_internal(
-        self, msgs, period, duration=None, autostart=True, modifier_callback=None
-    ):
+        self,
+        msgs: Sequence[Message] | Message,
+        period: float,
+        duration: float | None = None,
+        autostart: bool = True,
+        modifier_callback: Callable[[Message], None] | None = None,
+    ) -> CyclicTask:
         return CyclicTask(self._port, msgs, period, duration, autostart, modifier_callback)
 
     @staticmethod
-    def _call(function, *args):
+    def _call(function: Callable[..., _T], *args: Any) -> _T:
         try:
             return function(*args)
         except OSError as error:
             raise CanOperationError(str(error)) from None
 
     @staticmethod
-    def _detect_available_configs():
+    def _detect_available_configs() -> Sequence[AutoDetectedConfig]:
         channels = _odkit.wires()
         channels += [f"{name}@1" for name, _ in _odkit.devices()]
         return [{"interface": "odkit", "channel": channel} for channel in channels]
@@ -139,7 +153,15 @@ class CyclicTask(
 ):
     """Messages that are sent periodically, in the time of the bus."""
 
-    def __init__(self, port, messages, period, duration, autostart, modifier_callback):
+    def __init__(
+        self,
+        port: _odkit.Port,
+        messages: Sequence[Message] | Message,
+        period: float,
+        duration: float | None,
+        autostart: bool,
+        modifier_callback: Callable[[Message], None] | None,
+    ) -> None:
         super().__init__(messages, period, duration)
         self._port = port
         self._modify = modifier_callback
@@ -152,20 +174,21 @@ class CyclicTask(
         if autostart:
             self.start()
 
-    def _make(self, place):
+    def _make(self, place: int) -> _Frame:
         message = self.messages[place]
-        self._modify(message)
+        if self._modify:
+            self._modify(message)
         return _parts(message)
 
-    def start(self):
+    def start(self) -> None:
         """Starts, or starts again, with the first message."""
         OdkitBus._call(self._port.start_task, self._task)
 
-    def stop(self):
+    def stop(self) -> None:
         """Stops sending."""
         self._port.stop_task(self._task)
 
-    def modify_data(self, messages):
+    def modify_data(self, messages: Sequence[Message] | Message) -> None:
         """From now on sends other data with the same CAN-IDs.
 
         :raises ValueError: The CAN-IDs differ.
@@ -176,7 +199,7 @@ class CyclicTask(
         OdkitBus._call(self._port.change_task, self._task, [_parts(one) for one in messages])
 
 
-def _parts(msg):
+def _parts(msg: Message) -> _Frame:
     if not isinstance(msg, Message):
         raise TypeError(f"send a can.Message, not {type(msg).__name__}")
     if msg.is_fd:

@@ -22,7 +22,7 @@ class Node(pytest.Collector):
             raise pytest.UsageError("add --odkit-eds FILE: the EDS of the node")
         device, _, node = (simulated or "").partition("@")
         self.link, self.eds = link, eds or device
-        self.node_id = option("--node-id") or (int(node) if node.isdigit() else 1)
+        self.node_id = option("--odkit-node-id") or (int(node) if node.isdigit() else 1)
         if simulated is not None and not node:
             self.link = f"{link}@{self.node_id}"
         #: A simulated device can take everything.

@@ -8,13 +8,14 @@ Without a marker the bench has a GXMM encoder at node ID 1::
     @pytest.mark.odkit_eds("drive.eds", node_id=5)
     def test_drive(odkit_bench, odkit_bus): ...
 
-A failing test shows the last frames of its bus in words. ``--odkit-record DIR`` saves the frames of
+A failing test or fixture shows the last frames of its bus in words. ``--odkit-record DIR`` saves the frames of
 each test as ``DIR/TEST.log``, as candump does.
 
-``--odkit-conform LINK --odkit-eds FILE --node-id N`` adds the conformance test of a node: each case is a
+``--odkit-conform LINK --odkit-eds FILE --odkit-node-id N`` adds the conformance test of a node: each case is a
 test with its clause in the name. Without a file or folder on the command line these are all tests.
 """
 
+import hashlib
 import os
 import re
 from typing import Any
@@ -23,6 +24,9 @@ import pytest
 
 #: Frames that a failing test shows.
 SHOWN = 100
+
+#: Characters of the name of a test in the name of a file.
+LONGEST = 150
 
 _benches: "pytest.StashKey[Any]" = pytest.StashKey()
 
@@ -45,7 +49,7 @@ def pytest_addoption(parser):
         metavar="FILE",
         help="EDS, DCF or XDD of the node; of a simulated device its own by default",
     )
-    group.addoption("--node-id", metavar="N", type=int, help="node ID, 1 to 127; 1 by default")
+    group.addoption("--odkit-node-id", metavar="N", type=int, help="node ID, 1 to 127; 1 by default")
     group.addoption(
         "--odkit-only",
         metavar="GLOB",
@@ -84,6 +88,14 @@ def _of_file(request, path, node_id=None):
     return path if node_id is None else f"{path}@{node_id}"
 
 
+def _file_name(nodeid):
+    """A name that no other test has; one that is long, or that loses characters, ends with a number of its own."""
+    name = re.sub(r"[^\w.]+", "-", nodeid).strip("-")
+    if re.fullmatch(r"[\w./]+(::\w+)+", nodeid) and len(name) <= LONGEST:
+        return name
+    return f"{name[:LONGEST]}-{hashlib.sha256(nodeid.encode()).hexdigest()[:8]}"
+
+
 @pytest.fixture
 def odkit_bench(request):
     """An :class:`odkit.Bench` in virtual time, with the devices of the markers."""
@@ -95,10 +107,8 @@ def odkit_bench(request):
     folder = request.config.getoption("--odkit-record")
     if folder:
         os.makedirs(folder, exist_ok=True)
-        name = re.sub(r"[^\w.-]+", "-", request.node.nodeid).strip("-")
-        bench.save_log(os.path.join(folder, f"{name}.log"))
+        bench.save_log(os.path.join(folder, f"{_file_name(request.node.nodeid)}.log"))
     bench.close()
-    del request.node.stash[_benches]
 
 
 @pytest.fixture
@@ -121,9 +131,11 @@ def odkit_bus(odkit_bench):
 @pytest.hookimpl(hookwrapper=True)
 def pytest_runtest_makereport(item, call):
     report = (yield).get_result()
-    if call.when != "call" or not report.failed:
-        return
     bench = item.stash.get(_benches, None)
+    if bench is not None and call.when == "teardown":
+        del item.stash[_benches]
+    if not report.failed:
+        return
     lines = bench.log if bench is not None else []
     if lines:
         hidden = len(lines) - SHOWN

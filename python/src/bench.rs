@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use od_sim::logs::Format;
 use od_wire::Instant;
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyList, PyString};
 
@@ -289,8 +290,18 @@ impl Bench {
     }
 
     /// Seeds the random disturbances of a real line. The same seed gives the same sequence.
-    fn seed(&self, py: Python<'_>, seed: u64) -> PyResult<()> {
-        self.wire.enter(py)?.bus.line.set_seed(seed);
+    ///
+    /// Raises `ValueError` if it is negative or has more than 64 bits.
+    fn seed(&self, py: Python<'_>, seed: &Bound<'_, PyAny>) -> PyResult<()> {
+        let number: u64 = match seed.extract() {
+            Ok(number) => number,
+            Err(error) if error.is_instance_of::<PyTypeError>(py) => return Err(error),
+            Err(_) => {
+                let why = format!("seed is {seed}; it must be 0 to {}", u64::MAX);
+                return Err(Fault::value(why).into());
+            }
+        };
+        self.wire.enter(py)?.bus.line.set_seed(number);
         Ok(())
     }
 

@@ -11,7 +11,7 @@ use pyo3::types::PyBytes;
 
 use crate::faults::Fault;
 use crate::value::{from_python, to_python};
-use crate::wire::{Wire, micros};
+use crate::wire::{Wire, finite, micros};
 
 /// A device of a bench, from `bench["gxmm"]` or `bench.devices`.
 ///
@@ -164,6 +164,7 @@ impl Device {
 
     #[setter]
     fn set_turns(&self, py: Python<'_>, turns: f64) -> PyResult<()> {
+        let turns = finite(turns, "a position in revolutions")?;
         self.turn_something(py, |device, now| device.turn_to(turns, now))
     }
 
@@ -188,16 +189,22 @@ impl Device {
 
     #[setter]
     fn set_rpm(&self, py: Python<'_>, rpm: f64) -> PyResult<()> {
+        let rpm = finite(rpm, "a speed")?;
         self.turn_something(py, |device, now| device.set_rpm(rpm, now))
     }
 
     /// Turns the shaft by a number of revolutions at once; the speed stays.
     fn turn(&self, py: Python<'_>, turns: f64) -> PyResult<()> {
+        let turns = finite(turns, "a number of revolutions")?;
         self.turn_something(py, |device, now| device.turn(turns, now))
     }
 
     /// Changes the speed evenly to `rpm` revolutions per minute within `seconds`, at most 4295 s.
     fn ramp(&self, py: Python<'_>, rpm: f64, seconds: f64) -> PyResult<()> {
+        let (rpm, seconds) = (
+            finite(rpm, "a speed")?,
+            finite(seconds, "the time of a ramp")?,
+        );
         let time = micros(seconds, "the time of a ramp")?;
         self.turn_something(py, |device, now| device.ramp_to_rpm(rpm, time, now))
     }

@@ -276,6 +276,13 @@ impl Port {
         own.iter()
             .try_for_each(|one| wire.set_maker(py, one.id, None))
     }
+
+    fn __repr__(&self) -> String {
+        match self.wire() {
+            Ok(wire) => format!("<odkit.Port {} of {}>", self.id, wire.name),
+            Err(_) => String::from("<odkit.Port closed>"),
+        }
+    }
 }
 
 impl Port {

@@ -49,4 +49,12 @@ impl Snapshot {
         let bus = self.bus.lock().unwrap_or_else(PoisonError::into_inner);
         bus.now().as_micros() as f64 / 1e6
     }
+
+    fn __repr__(&self) -> String {
+        format!(
+            "<odkit.Snapshot of {} at {} s>",
+            self.names.join(", "),
+            self.now()
+        )
+    }
 }

@@ -263,6 +263,19 @@ pub(crate) fn call(py: Python<'_>, wire: &Wire, task: u32, place: usize) -> PyRe
     Ok(())
 }
 
+/// A number that is neither infinite nor `nan`.
+///
+/// # Errors
+/// It is.
+pub(crate) fn finite(number: f64, what: &str) -> Result<f64, Fault> {
+    if number.is_finite() {
+        return Ok(number);
+    }
+    Err(Fault::value(format!(
+        "{what} must be a finite number, not {number}"
+    )))
+}
+
 /// Microseconds of a number of seconds.
 ///
 /// # Errors

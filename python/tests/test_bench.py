@@ -3,6 +3,9 @@
 import gc
 import os
 import resource
+import subprocess
+import sys
+import threading
 
 import pytest
 
@@ -244,3 +247,92 @@ def test_benches_leave_no_memory_behind():
     before = make(50)
     assert make(10_000 if LONG else 100) - before < 8_000
     assert not [name for name in odkit.wires() if name.startswith("bench-")]
+
+
+@pytest.mark.parametrize("value", [float("nan"), float("inf"), -float("inf")])
+def test_a_shaft_turns_by_finite_numbers(gxmm, value):
+    for act in (
+        lambda: setattr(gxmm, "turns", value),
+        lambda: setattr(gxmm, "rpm", value),
+        lambda: gxmm.turn(value),
+        lambda: gxmm.ramp(value, 1),
+        lambda: gxmm.ramp(1, value),
+    ):
+        with pytest.raises(ValueError, match="must be a finite number, not"):
+            act()
+
+
+def test_a_seed_is_not_negative(bench):
+    for seed in (-1, 2**64):
+        with pytest.raises(ValueError, match=f"seed is {seed}; it must be 0 to"):
+            bench.seed(seed)
+    with pytest.raises(TypeError):
+        bench.seed("a")
+
+
+def test_everything_says_what_it_is(bench):
+    with bench.bus() as bus, odkit.Client(bench) as client:
+        conform = odkit.Conform(client, 1, "gxmm")
+        for one in (bench, bench.snapshot(), client, conform, client.node(1), bench.devices[0], bus._port):
+            assert repr(one).startswith("<odkit.") and " at 0x" not in repr(one)
+    assert repr(client) == "<odkit.Client closed>"
+
+
+@pytest.mark.skipif(os.name == "nt", reason="the system has no SIGINT of a single process")
+def test_ctrl_c_ends_every_call():
+    calls = """
+        bench.bus().recv(inf)
+        bench.bus().recv()
+        bench.run(inf)
+        bench.expect("123#", within=inf)
+        bench.until(lambda: False, inf)
+        client.run(inf)
+        client.heartbeat(1, inf)
+        client.emcy(inf)
+        client.scan(inf)
+        time.sleep(1e6)
+        threading.Event().wait()
+    """
+    program = """if True:
+        import odkit, os, signal, sys, threading, time
+        inf = float("inf")
+        for call in sys.argv[1].split("\\n"):
+            bench = odkit.Bench("gxmm@1")
+            client = odkit.Client(bench)
+            sent = []
+            def interrupt():
+                real(0.1)
+                sent.append(clock())
+                os.kill(os.getpid(), signal.SIGINT)
+            threading.Thread(target=interrupt).start()
+            try:
+                exec(call.strip() or "time.sleep(1e6)")
+            except KeyboardInterrupt:
+                print(round(clock() - sent[0], 3), call.strip())
+    """
+    program = program.replace("inf = ", "real, clock = time.sleep, time.perf_counter\n        inf = ", 1)
+    done = subprocess.run([sys.executable, "-c", program, calls.strip()], stdout=subprocess.PIPE, text=True, timeout=200)
+    delays = [float(line.split()[0]) for line in done.stdout.splitlines()]
+    # The computer may be busy.
+    assert len(delays) == 11 and sorted(delays)[5] < 0.1 and max(delays) < 1, done.stdout
+
+
+def test_benches_on_threads_run_side_by_side():
+    """A thread that is alone on its bench moves time without the interpreter's lock."""
+    turns, seen = [0], []
+
+    def run():
+        with odkit.Bench("gxmm@1,eam_mt@2") as bench:
+            for device in bench.devices:
+                device[0x1017] = 1
+            before = turns[0]
+            bench.run(60)
+            seen.append(turns[0] - before)
+
+    thread = threading.Thread(target=run)
+    thread.start()
+    while not seen:
+        turns[0] += 1
+    thread.join()
+    # Without that, a turn comes every 5 ms.
+    assert seen[0] > 10_000

@@ -251,3 +251,27 @@ def test_over_slcan():
             assert case.verdict == "pass"
     finally:
         sim.stop()
+
+
+def test_a_client_of_asyncio():
+    import asyncio
+
+    async def main():
+        bench = odkit.Bench("gxmm@1,eam_mt@2")
+        async with odkit.AsyncClient(bench) as client:
+            await client.describe(1, "gxmm")
+            await client.download(1, 0x1017, 100)
+            names, state = await asyncio.gather(
+                asyncio.gather(client.upload(1, 0x1008), client.upload(2, 0x1008)), client.heartbeat(1)
+            )
+            with pytest.raises(TimeoutError):
+                await client.emcy(0.1)
+            with pytest.raises(odkit.SdoAbort):
+                await client.upload(2, 0x5FFF)
+            assert await client.lost() == []
+        with pytest.raises(AttributeError):
+            client.nothing
+        return names, state
+
+    names, state = asyncio.run(main())
+    assert names[0] == "GXMM" and state == "Pre-operational"

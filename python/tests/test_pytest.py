@@ -50,7 +50,7 @@ def test_a_failing_test_shows_its_frames_and_all_are_recorded(pytester):
 def test_the_conformance_test_of_a_node(pytester):
     pytester.makepyfile(test_other="def test_other(): assert False")
     result = pytester.runpytest(
-        "--odkit-conform", "bench:gxmm", "--odkit-eds", EDS, "--node-id", "5", "--odkit-only", "nmt-s*", "-v"
+        "--odkit-conform", "bench:gxmm", "--odkit-eds", EDS, "--odkit-node-id", "5", "--odkit-only", "nmt-s*", "-v"
     )
     outcomes = result.parseoutcomes()
     assert outcomes["passed"] >= 3 and set(outcomes) <= {"passed", "skipped"}
@@ -70,3 +70,41 @@ def test_a_case_that_fails_says_why(pytester):
     result.stdout.fnmatch_lines(["*expected*", "*odkit bus log*", "*601#40001000*"])
     result = pytester.runpytest("--odkit-conform", "slcan:127.0.0.1:1")
     result.stderr.fnmatch_lines(["*add --odkit-eds FILE*"])
+
+
+def test_tests_with_long_or_equal_names_are_recorded(pytester):
+    pytester.makepyfile(
+        """
+        import pytest
+
+        @pytest.mark.parametrize("text", ["a/b", "a-b", "a:b", "x" * 400, "x" * 400 + "y"])
+        def test_it(text, odkit_bench):
+            odkit_bench.run(0.1)
+        """
+    )
+    pytester.runpytest("--odkit-record", "logs").assert_outcomes(passed=5)
+    logs = [path.name for path in (pytester.path / "logs").iterdir()]
+    assert len(logs) == 5 and all(len(name) < 200 for name in logs)
+
+
+def test_a_failing_fixture_shows_its_frames(pytester):
+    pytester.makepyfile(
+        """
+        import pytest
+
+        @pytest.fixture
+        def started(odkit_bench):
+            assert odkit_bench["gxmm"].state == "Operational"
+
+        @pytest.fixture
+        def stopped(odkit_bench):
+            yield
+            assert odkit_bench["gxmm"].state == "Stopped"
+
+        def test_first(started): ...
+        def test_second(stopped): ...
+        """
+    )
+    result = pytester.runpytest()
+    result.assert_outcomes(errors=2, passed=1)
+    result.stdout.fnmatch_lines(["*odkit bus log*", "0.000000 <- 701#00*", "*odkit bus log*", "0.000000 <- 701#00*"])

@@ -396,4 +396,12 @@ impl Client {
             Lss::new(&mut core.line).set_bit_rate(slaves, kbit, store, activate)
         })
     }
+
+    fn __repr__(&self, py: Python<'_>) -> String {
+        let text = match &*self.lock(py) {
+            Some(core) => core.line.to_string(),
+            None => String::from("closed"),
+        };
+        format!("<odkit.Client {text}>")
+    }
 }

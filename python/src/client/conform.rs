@@ -181,4 +181,8 @@ impl Conform {
             seconds: record.micros as f64 / 1e6,
         })
     }
+
+    fn __repr__(&self) -> String {
+        format!("<odkit.Conform of node {}>", self.node)
+    }
 }

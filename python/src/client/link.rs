@@ -1,5 +1,6 @@
 //! The link of a client: a bench, a bus of python-can, or a real one by its name.
 
+use std::fmt;
 use std::sync::Arc;
 
 use od_tools::Error;
@@ -62,6 +63,16 @@ impl Line {
             Self::Real(_, error) => error.take(),
         };
         own.unwrap_or_else(|| raised(fault))
+    }
+}
+
+impl fmt::Display for Line {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Wire(one) => write!(f, "on {}", one.wire.name),
+            Self::Bus(_) => f.write_str("on a bus of python-can"),
+            Self::Real(..) => f.write_str("on a link"),
+        }
     }
 }
 
