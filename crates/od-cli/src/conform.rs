@@ -2,19 +2,25 @@
 
 use std::path::{Path, PathBuf};
 
+use od_model::Address;
 use od_sim::bus::Bus;
+use od_tools::Error;
 use od_tools::bench::OnBench;
 use od_tools::conform::case::{Case, built_in, in_folder};
 use od_tools::conform::eds::Eds;
 use od_tools::conform::record::{Record, Verdict};
-use od_tools::conform::report::{Format, Report};
+use od_tools::conform::report::{About, Format, Report};
 use od_tools::conform::rig::{RealBus, Rig};
 use od_tools::conform::session::{Leave, Session};
 use od_tools::interrupt::Interruptible;
+use od_tools::link::Link;
 use od_tools::links;
+use od_tools::master::Master;
 use od_wire::NodeId;
+use sha2::{Digest, Sha256};
 
 use crate::bus;
+use crate::clock::today;
 use crate::failure::Failure;
 use crate::files;
 use crate::output;
@@ -57,6 +63,12 @@ pub(crate) struct Args {
     /// Write a report: .txt, .json, .xml (JUnit), .md or .html; may be repeated
     #[arg(long, value_name = "FILE")]
     report: Vec<PathBuf>,
+    /// Name of the person or company that runs the test, for the report
+    #[arg(long, value_name = "NAME")]
+    tester: Option<String>,
+    /// Bit rate of the bus in kbit/s, for the report
+    #[arg(long, value_name = "KBIT")]
+    bit_rate: Option<u16>,
     /// Format of the output
     #[arg(long, value_enum, default_value = "text")]
     format: Shown,
@@ -170,6 +182,7 @@ fn tested(args: &Args, cases: &[Case]) -> Result<Report, Failure> {
     }
     let report =
         |link: &str, node: NodeId, (records, session): (Vec<Record>, &Session<'_>)| Report {
+            about: about(args, eds.text()),
             device: parsed.title(),
             eds: name.into(),
             link: link.into(),
@@ -186,7 +199,9 @@ fn tested(args: &Args, cases: &[Case]) -> Result<Report, Failure> {
         let mut session = Session::new(&mut rig, &parsed, node, Leave::ALL);
         session.simulates(simulated, &fresh);
         let records = all(&mut session, cases, false);
-        return Ok(report("simulated, virtual time", node, (records, &session)));
+        let mut report = report("simulated, virtual time", node, (records, &session));
+        report.about.identity = identity(&mut Master::new(rig, node));
+        return Ok(report);
     }
     let node = args.node_id.unwrap_or(NodeId::ONE);
     let leave = Leave {
@@ -201,7 +216,91 @@ fn tested(args: &Args, cases: &[Case]) -> Result<Report, Failure> {
     };
     let mut session = Session::new(&mut rig, &parsed, node, leave);
     let records = all(&mut session, cases, true);
-    Ok(report(link, node, (records, &session)))
+    let mut report = report(link, node, (records, &session));
+    if report.lost.is_none() {
+        report.about.identity = identity(&mut Master::new(rig.link, node));
+    }
+    Ok(report)
+}
+
+/// Where, when, by whom and with what the test is run.
+fn about(args: &Args, eds: &str) -> About {
+    let today = today();
+    let hash = Sha256::digest(eds.as_bytes());
+    let mut options = vec![];
+    options.extend(args.only.iter().map(|only| format!("--only {only}")));
+    let flags = [
+        (args.allow_reset, "--allow-reset"),
+        (args.allow_store, "--allow-store"),
+    ];
+    options.extend(
+        flags
+            .iter()
+            .filter(|(set, _)| *set)
+            .map(|(_, name)| String::from(*name)),
+    );
+    options.extend(args.power.iter().map(|_| String::from("--power")));
+    options.extend(
+        args.cases
+            .iter()
+            .map(|folder| format!("--cases {}", folder.display())),
+    );
+    About {
+        date: format!(
+            "{:04}-{:02}-{:02} {:02}:{:02} UTC",
+            today.year, today.month, today.day, today.hour, today.minute
+        ),
+        tester: args.tester.clone(),
+        version: format!("odkit {}", env!("CARGO_PKG_VERSION")),
+        options: options.join(" "),
+        bit_rate: args.bit_rate,
+        eds_hash: hash.iter().map(|byte| format!("{byte:02x}")).collect(),
+        identity: Vec::new(),
+        eds_text: eds.into(),
+    }
+}
+
+/// What the node says of itself; objects that it does not have are left out.
+fn identity<L: Link>(master: &mut Master<L>) -> Vec<(String, String)> {
+    let number = |bytes: &[u8]| {
+        let mut wide = [0; 4];
+        wide.iter_mut()
+            .zip(bytes)
+            .for_each(|(to, byte)| *to = *byte);
+        format!("{:08X}h", u32::from_le_bytes(wide))
+    };
+    let text = |bytes: &[u8]| {
+        String::from_utf8_lossy(bytes)
+            .trim_end_matches('\0')
+            .to_owned()
+    };
+    let objects = [
+        ("Device type (1000h)", 0x1000, 0, true),
+        ("Vendor-ID (1018h:01)", 0x1018, 1, true),
+        ("Product code (1018h:02)", 0x1018, 2, true),
+        ("Revision number (1018h:03)", 0x1018, 3, true),
+        ("Serial number (1018h:04)", 0x1018, 4, true),
+        ("Device name (1008h)", 0x1008, 0, false),
+        ("Hardware version (1009h)", 0x1009, 0, false),
+        ("Software version (100Ah)", 0x100A, 0, false),
+    ];
+    let mut found = Vec::new();
+    for (name, index, sub, is_number) in objects {
+        match master.upload(Address::new(index, sub)) {
+            Ok(bytes) => found.push((
+                name.into(),
+                if is_number {
+                    number(&bytes)
+                } else {
+                    text(&bytes)
+                },
+            )),
+            Err(Error::Abort(_)) => {}
+            // A node that does not respond any more has no identity.
+            Err(_) => break,
+        }
+    }
+    found
 }
 
 /// A simulated device that was just switched on.

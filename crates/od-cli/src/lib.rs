@@ -9,6 +9,7 @@ mod backup;
 mod bridge;
 mod bus;
 mod check;
+mod clock;
 mod config;
 mod conform;
 mod convert;

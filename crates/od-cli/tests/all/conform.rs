@@ -35,7 +35,16 @@ fn every_report_has_every_case() {
         let name = format!("conform-all.{extension}");
         file(&name, "").display().to_string()
     });
-    let mut args = vec!["conform", "en580c", "--only", "NMT", "--format", "json"];
+    let mut args = vec![
+        "conform",
+        "en580c",
+        "--only",
+        "NMT",
+        "--format",
+        "json",
+        "--tester",
+        "A. Tester",
+    ];
     for name in &names {
         args.extend(["--report", name]);
     }
@@ -44,6 +53,22 @@ fn every_report_has_every_case() {
     for name in &names {
         let text = std::fs::read_to_string(name).expect("a report");
         assert!(text.contains("nmt-boot-up-first"), "{name}: {text}");
+        // What was tested, by whom and with what; the official cases.
+        for part in [
+            "A. Tester",
+            "SHA-256 of the EDS",
+            "Vendor-ID (1018h:01)",
+            "odkit 0.",
+        ] {
+            assert!(text.contains(part), "{name}: {part}");
+        }
+        let official = if name.ends_with(".json") {
+            "\"9.1, 10.1\""
+        } else {
+            "CiA test 9.1, 10.1"
+        };
+        let has_clauses = !name.ends_with(".txt") && !name.ends_with(".xml");
+        assert_eq!(text.contains(official), has_clauses, "{name}");
         // Reports show the frames below each case, except those with one line per case.
         let has_frames = text.contains("000#8101");
         assert_eq!(
@@ -57,6 +82,13 @@ fn every_report_has_every_case() {
     for outside in ["http", "src=", "<link", "@import", "url("] {
         assert!(!page.contains(outside), "{outside}");
     }
+    // Frames in words, failures before the groups, and a style for the printer.
+    assert!(
+        page.contains("701#00") && page.contains("boot-up"),
+        "{page}"
+    );
+    assert!(page.find("Failures</h2>") < page.find(">NMT</h2>"));
+    assert!(page.contains("@media print"));
     let junit = std::fs::read_to_string(&names[2]).expect("JUnit");
     assert!(junit.contains("<testsuite name=\"NMT\""), "{junit}");
 }

@@ -32,6 +32,7 @@
 //! | `check/` | the table of the built-in cases, and their checks in Rust, a file for each service |
 //! | `cases/` | the built-in cases that are scripts |
 //! | `play`, `aside` | the steps that are lines of a script: on any link, or on a bench of their own |
+//! | `official` | the cases of the official test that ours cover |
 //! | `session` | one case after the other, and what each changed put back |
 //! | `report/` | the records as text, JSON, JUnit, Markdown, HTML |
 
@@ -42,6 +43,7 @@ mod deviations;
 pub mod dut;
 pub mod eds;
 mod end;
+pub mod official;
 mod play;
 pub mod record;
 pub mod report;

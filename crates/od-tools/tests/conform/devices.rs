@@ -5,7 +5,7 @@ use od_tools::bench::OnBench;
 use od_tools::conform::case::built_in;
 use od_tools::conform::eds::Eds;
 use od_tools::conform::record::Record;
-use od_tools::conform::report::{Format, Report};
+use od_tools::conform::report::{About, Format, Report};
 use od_tools::conform::session::{Leave, Session};
 use od_wire::NodeId;
 
@@ -20,6 +20,7 @@ fn run(device: VirtualDevice, text: &str) -> Report {
     let mut session = Session::new(&mut rig, &eds, node, Leave::ALL);
     let records: Vec<Record> = built_in().iter().map(|case| session.run(case)).collect();
     Report {
+        about: About::default(),
         device: eds.title(),
         eds: "the built-in EDS".into(),
         link: "bench".into(),

@@ -18,6 +18,11 @@ const TABLE: &str = include_str!("mutants.txt");
 const EXTENSION: &str = "
 [2001]\nParameterName=Command\nObjectType=7\nDataType=5\nAccessType=wo\n
 [2002]\nParameterName=Long\nObjectType=7\nDataType=9\nAccessType=rw\nDefaultValue=more than twenty letters\n
+[1280]\nParameterName=SDO client\nObjectType=9\nSubNumber=4\n
+[1280sub0]\nParameterName=Highest sub-index\nDataType=5\nAccessType=const\nDefaultValue=3\n
+[1280sub1]\nParameterName=To server\nDataType=7\nAccessType=rw\nDefaultValue=0x80000000\n
+[1280sub2]\nParameterName=To client\nDataType=7\nAccessType=rw\nDefaultValue=0x80000000\n
+[1280sub3]\nParameterName=Server\nDataType=5\nAccessType=rw\nDefaultValue=2\n
 [1020]\nParameterName=Verify configuration\nObjectType=8\nSubNumber=3\n
 [1020sub0]\nParameterName=Highest sub-index\nDataType=5\nAccessType=const\nDefaultValue=2\n
 [1020sub1]\nParameterName=Date\nDataType=7\nAccessType=rw\nDefaultValue=0\n
@@ -88,6 +93,7 @@ impl Bench {
             "lss",
             "heartbeat-saved",
             "sync-saved",
+            "sdo-clients",
         ];
         let keeps = !is_lasting.iter().any(|start| case.starts_with(start));
         if let Some(mut bus) = self.bus.take().filter(|_| keeps) {
@@ -180,4 +186,24 @@ fn every_case_has_a_way_to_fail() {
         .filter(|id| !named.contains(id))
         .collect();
     assert!(without.is_empty(), "{without:?}");
+}
+
+/// Each of the 127 official cases has one of ours that covers it.
+#[test]
+fn every_official_case_is_covered() {
+    let text = include_str!("../../../../tests/conformance/cia/cases.txt");
+    let numbers = text.lines().filter(|line| !line.starts_with('#'));
+    let numbers: Vec<&str> = numbers
+        .filter_map(|line| line.split(" | ").next())
+        .collect();
+    assert_eq!(numbers.len(), 127);
+    let covered: BTreeSet<&str> = built_in()
+        .iter()
+        .flat_map(|case| od_tools::conform::official::numbers(&case.id).split(", "))
+        .collect();
+    let missing: Vec<&&str> = numbers
+        .iter()
+        .filter(|number| !covered.contains(**number))
+        .collect();
+    assert!(missing.is_empty(), "{missing:?}");
 }

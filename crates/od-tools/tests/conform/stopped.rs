@@ -10,7 +10,7 @@ use od_tools::bench::OnBench;
 use od_tools::conform::case::built_in;
 use od_tools::conform::eds::Eds;
 use od_tools::conform::record::{Record, Verdict};
-use od_tools::conform::report::{Format, Report};
+use od_tools::conform::report::{About, Format, Report};
 use od_tools::conform::rig::{RealBus, Rig};
 use od_tools::conform::session::{Leave, Session};
 use od_tools::interrupt::Interruptible;
@@ -59,6 +59,7 @@ fn run(rig: &mut dyn Rig, eds: &Eds) -> Report {
     let mut session = Session::new(rig, eds, NodeId::ONE, Leave::default());
     let records: Vec<Record> = built_in().iter().map(|case| session.run(case)).collect();
     Report {
+        about: About::default(),
         device: eds.title(),
         eds: "the built-in EDS".into(),
         link: "bench".into(),

@@ -404,3 +404,50 @@ pub(super) fn configuration_date(dut: &mut Dut<'_>) -> Checked {
     command(dut, 0x1010, 1, b"save")?;
     done
 }
+
+/// The parameters of SDO servers and clients from these indices on.
+fn channels(dut: &mut Dut<'_>, from: u16, to: u16) -> Checked<Vec<(Address, Vec<u8>)>> {
+    let mut all = Vec::new();
+    let entries: Vec<Entry> = dut.eds.dictionary().entries().collect();
+    for entry in entries {
+        if (from..=to).contains(&entry.address.index) && entry.access.readable() {
+            all.push((
+                entry.address,
+                dut.upload(entry.address)?.unwrap_or_default(),
+            ));
+        }
+    }
+    if all.is_empty() {
+        return lacks("the EDS has no further SDO channel");
+    }
+    Ok(all)
+}
+
+/// Fails for each value that is not the same any more.
+fn are_kept(dut: &mut Dut<'_>, before: &[(Address, Vec<u8>)]) -> Checked {
+    for (address, was) in before {
+        let is = dut.upload(*address)?.unwrap_or_default();
+        let kept = ensure(
+            is == *was,
+            format!("{} in {address} after the reset", values::hex(was)),
+            format!("{} was read", values::hex(&is)),
+        );
+        dut.fault(kept)?;
+    }
+    Ok(())
+}
+
+/// SDO servers are the same after reset communication.
+pub(super) fn servers_reset(dut: &mut Dut<'_>) -> Checked {
+    let before = channels(dut, 0x1201, 0x127F)?;
+    dut.reset(Command::ResetCommunication)?;
+    are_kept(dut, &before)
+}
+
+/// SDO clients are the same after a save and reset communication.
+pub(super) fn clients_saved(dut: &mut Dut<'_>) -> Checked {
+    let before = channels(dut, 0x1280, 0x12FF)?;
+    command(dut, 0x1010, 1, b"save")?;
+    dut.reset(Command::ResetCommunication)?;
+    are_kept(dut, &before)
+}

@@ -1,8 +1,8 @@
-//! The report as one HTML page, with every frame behind its case.
+//! The report as one HTML page, with every frame behind its case; it can be printed.
 
 use super::junit::escape;
-use super::run::{self, Report, groups, millis};
-use crate::conform::record::Record;
+use super::run::{Narrator, Report, groups, millis, source};
+use crate::conform::record::{Record, Verdict};
 
 const STYLE: &str = "\
 :root{color-scheme:light dark}\
@@ -12,18 +12,17 @@ details{border-bottom:1px solid #8884;padding:.3rem 0}summary{cursor:pointer}\
 .v{display:inline-block;width:5.5rem;font-weight:600}\
 .pass .v{color:#1a7f37}.fail .v{color:#cf222e}.skipped .v,.na .v{color:#888}\
 code{font-size:.9rem}pre{overflow:auto;background:#8881;padding:.5rem}\
-table{border-collapse:collapse}td,th{padding:.2rem .8rem;text-align:left;border-bottom:1px solid #8884}";
+table{border-collapse:collapse}h2{break-after:avoid}\
+@media print{:root{color-scheme:light}body{max-width:none;margin:0;font-size:10pt}details{break-inside:avoid-page}\
+pre{white-space:pre-wrap;font-size:8pt}a{color:inherit;text-decoration:none}}\
+td,th{padding:.2rem .8rem;text-align:left;border-bottom:1px solid #8884}";
 
 pub(super) fn render(report: &Report) -> String {
     let title = format!("Conformance test of {}", escape(&report.device));
     let mut page = format!(
         "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width\">\n<title>{title}</title>\n\
-         <style>{STYLE}</style>\n</head>\n<body>\n<h1>{title}</h1>\n<p>Node {} on {}, against \
-         <code>{}</code>.</p>\n<p>{}</p>\n",
-        report.node,
-        escape(&report.link),
-        escape(&report.eds),
+         <style>{STYLE}</style>\n</head>\n<body>\n<h1>{title}</h1>\n<p>{}</p>\n",
         escape(&report.summary())
     );
     if let Some(why) = &report.lost {
@@ -32,7 +31,36 @@ pub(super) fn render(report: &Report) -> String {
             escape(why)
         );
     }
-    page += "<table>\n<tr><th>Time</th><th>Measured</th><th>50 %</th><th>95 %</th><th>Longest</th></tr>\n";
+    page += "<table>\n";
+    for (name, value) in report.head() {
+        page += &format!(
+            "<tr><th>{}</th><td>{}</td></tr>\n",
+            escape(name),
+            escape(&value)
+        );
+    }
+    page += "</table>\n<h2>Contents</h2>\n<table>\n<tr><th>Group</th><th>Passed</th><th>Failed</th>\
+             <th>Skipped</th><th>Not applicable</th></tr>\n";
+    for (number, (group, counts)) in report.by_group().into_iter().enumerate() {
+        page += &format!(
+            "<tr><td><a href=\"#g{number}\">{}</a></td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
+            escape(group),
+            counts.pass,
+            counts.fail,
+            counts.skipped,
+            counts.not_applicable
+        );
+    }
+    page += "</table>\n<p><a href=\"#failures\">Failures</a>, <a href=\"#times\">times</a>, \
+             <a href=\"#na\">not applicable</a></p>\n<h2 id=\"failures\">Failures</h2>\n";
+    let mut narrator = Narrator::new(report);
+    if report.failures().next().is_none() {
+        page += "<p>None.</p>\n";
+    }
+    for record in report.failures() {
+        page += &case(record, &mut narrator);
+    }
+    page += "<h2 id=\"times\">Times</h2>\n<table>\n<tr><th>Time</th><th>Measured</th><th>50 %</th><th>95 %</th><th>Longest</th></tr>\n";
     for (name, count, all) in report.timings() {
         let [middle, most, longest] = all.map(millis);
         page += &format!(
@@ -40,29 +68,41 @@ pub(super) fn render(report: &Report) -> String {
         );
     }
     page += "</table>\n";
-    for (group, records) in groups(report) {
-        page += &format!("<h2>{}</h2>\n", escape(group));
-        for record in records {
-            page += &case(record);
+    let is_na = |record: &Record| matches!(record.verdict, Verdict::NotApplicable(_));
+    for (number, (group, records)) in groups(report).into_iter().enumerate() {
+        page += &format!("<h2 id=\"g{number}\">{}</h2>\n", escape(group));
+        for record in records
+            .into_iter()
+            .filter(|record| !is_na(record) && !record.verdict.is_fail())
+        {
+            page += &case(record, &mut narrator);
         }
     }
-    page + "</body>\n</html>"
+    page += "<h2 id=\"na\">Not applicable</h2>\n<table>\n";
+    for record in report.records.iter().filter(|record| is_na(record)) {
+        page += &format!(
+            "<tr><td><code>{}</code></td><td>{}</td><td>{}</td></tr>\n",
+            escape(&record.id),
+            escape(&record.title),
+            escape(&record.verdict.reason())
+        );
+    }
+    page + "</table>\n</body>\n</html>"
 }
 
-fn case(record: &Record) -> String {
+fn case(record: &Record, narrator: &mut Narrator) -> String {
     let word = record.verdict.word();
-    let class = word.replace('/', "");
     let open = if record.verdict.is_fail() {
         " open"
     } else {
         ""
     };
     let mut text = format!(
-        "<details class=\"{class}\"{open}><summary><span class=\"v\">{word}</span> \
+        "<details class=\"{word}\"{open}><summary><span class=\"v\">{word}</span> \
          <code>{}</code> {}</summary>\n<p>{}",
         escape(&record.id),
         escape(&record.title),
-        escape(&record.clause)
+        escape(&source(record))
     );
     let reason = record.verdict.reason();
     if !reason.is_empty() {
@@ -71,10 +111,9 @@ fn case(record: &Record) -> String {
     for note in &record.notes {
         text += &format!("<br>{}", escape(note));
     }
-    let frames: Vec<String> = record.frames.iter().map(run::frame).collect();
     text += &format!(
         "</p>\n<pre>{}</pre>\n</details>\n",
-        escape(&frames.join("\n"))
+        escape(&narrator.lines(record).join("\n"))
     );
     text
 }

@@ -3,11 +3,13 @@
 use od_model::Visible;
 use serde_json::{Value, json};
 
-use super::run::Report;
+use super::run::{Narrator, Report};
+use crate::conform::official::numbers;
 use crate::conform::record::{Record, Verdict};
 
 pub(super) fn render(report: &Report) -> String {
     let counts = report.counts();
+    let mut narrator = Narrator::new(report);
     let timings: Vec<Value> = report
         .timings()
         .into_iter()
@@ -23,6 +25,7 @@ pub(super) fn render(report: &Report) -> String {
         "eds": report.eds,
         "link": report.link,
         "node": report.node,
+        "about": report.head().into_iter().map(|(name, value)| (name.to_owned(), Value::from(value))).collect::<serde_json::Map<_, _>>(),
         "pass": report.is_pass(),
         "lost": report.lost,
         "counts": {
@@ -32,12 +35,12 @@ pub(super) fn render(report: &Report) -> String {
             "not_applicable": counts.not_applicable,
         },
         "timings": timings,
-        "cases": report.records.iter().map(case).collect::<Vec<_>>(),
+        "cases": report.records.iter().map(|record| case(record, &mut narrator)).collect::<Vec<_>>(),
     });
     Visible(&format!("{value:#}")).json().into_owned()
 }
 
-fn case(record: &Record) -> Value {
+fn case(record: &Record, narrator: &mut Narrator) -> Value {
     let (expected, got, reason) = match &record.verdict {
         Verdict::Pass => (None, None, None),
         Verdict::Fail { expected, got } => (Some(expected), Some(got), None),
@@ -51,6 +54,7 @@ fn case(record: &Record) -> Value {
                 "us": traced.at.as_micros(),
                 "from": if traced.ours { "test" } else { "bus" },
                 "frame": traced.frame.to_string(),
+                "words": narrator.words(traced),
             })
         })
         .collect();
@@ -58,6 +62,7 @@ fn case(record: &Record) -> Value {
         "id": record.id,
         "group": record.group,
         "clause": record.clause,
+        "official": numbers(&record.id),
         "title": record.title,
         "verdict": record.verdict.word(),
         "expected": expected,

@@ -2,7 +2,7 @@
 
 use od_model::{Visible, is_hidden};
 
-use super::run::{self, Report, groups};
+use super::run::{Narrator, Report, groups, source};
 use crate::conform::record::{Record, Verdict};
 
 pub(super) fn render(report: &Report) -> String {
@@ -20,6 +20,16 @@ pub(super) fn render(report: &Report) -> String {
             seconds(total)
         ),
     ];
+    let mut narrator = Narrator::new(report);
+    lines.push("  <properties>".into());
+    for (name, value) in report.head() {
+        lines.push(format!(
+            r#"    <property name="{}" value="{}"/>"#,
+            escape(name),
+            escape(&value)
+        ));
+    }
+    lines.push("  </properties>".into());
     for (group, records) in groups(report) {
         let fails = records.iter().filter(|record| record.verdict.is_fail());
         let spared = |record: &&&Record| {
@@ -49,7 +59,7 @@ pub(super) fn render(report: &Report) -> String {
                 Verdict::Pass => {}
                 Verdict::Fail { .. } => lines.push(format!(
                     r#"      <failure message="{reason}">{}</failure>"#,
-                    escape(&record.clause)
+                    escape(&source(record))
                 )),
                 Verdict::Skipped(_) => {
                     lines.push(format!(r#"      <skipped message="{reason}"/>"#));
@@ -58,7 +68,7 @@ pub(super) fn render(report: &Report) -> String {
                     r#"      <skipped message="not applicable: {reason}"/>"#
                 )),
             }
-            let frames: Vec<String> = record.frames.iter().map(run::frame).collect();
+            let frames = narrator.lines(record);
             lines.push(format!(
                 "      <system-out>{}</system-out>",
                 escape(&frames.join("\n"))

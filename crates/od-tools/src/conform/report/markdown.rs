@@ -1,8 +1,8 @@
-//! The report as Markdown: a table for each group, then what failed.
+//! The report as Markdown: what was tested, a summary, the failures, a table for each group, and what does not apply.
 
 use od_model::Visible;
 
-use super::run::{self, Report, groups, millis};
+use super::run::{Narrator, Report, groups, millis, source};
 use crate::conform::record::Verdict;
 
 pub(super) fn render(report: &Report) -> String {
@@ -10,17 +10,35 @@ pub(super) fn render(report: &Report) -> String {
     let mut lines = vec![
         format!("# Conformance test of {}", cell(&report.device)),
         String::new(),
-        format!(
-            "Node {} on {}, against {}. {}.",
-            report.node,
-            cell(&report.link),
-            cell(&report.eds),
-            report.summary()
-        ),
+        format!("{}.", report.summary()),
     ];
     if let Some(why) = &report.lost {
         lines.push(String::new());
         lines.push(format!("**The run ended early: {}.**", cell(why)));
+    }
+    lines.extend(["", "| | |", "|---|---|"].map(String::from));
+    for (name, value) in report.head() {
+        lines.push(format!("| {name} | {} |", cell(&value)));
+    }
+    lines.extend(
+        [
+            "",
+            "## Summary",
+            "",
+            "| Group | Passed | Failed | Skipped | Not applicable |",
+            "|---|---|---|---|---|",
+        ]
+        .map(String::from),
+    );
+    for (group, counts) in report.by_group() {
+        lines.push(format!(
+            "| {} | {} | {} | {} | {} |",
+            cell(group),
+            counts.pass,
+            counts.fail,
+            counts.skipped,
+            counts.not_applicable
+        ));
     }
     if !report.timings().is_empty() {
         lines.push(String::new());
@@ -33,6 +51,28 @@ pub(super) fn render(report: &Report) -> String {
             "| {name} | {count} | {middle} | {most} | {longest} |"
         ));
     }
+    let mut narrator = Narrator::new(report);
+    for record in report.failures() {
+        lines.push(String::new());
+        lines.push(format!("## {} failed", record.id));
+        lines.push(String::new());
+        lines.push(format!(
+            "{} ({})",
+            cell(&record.title),
+            cell(&source(record))
+        ));
+        lines.push(String::new());
+        lines.push(format!("{}.", cell(&record.verdict.reason())));
+        for note in &record.notes {
+            lines.push(String::new());
+            lines.push(format!("{}.", cell(note)));
+        }
+        lines.push(String::new());
+        lines.push("```".into());
+        let frames = narrator.lines(record);
+        lines.extend(frames.iter().map(|line| Visible(line).line().into_owned()));
+        lines.push("```".into());
+    }
     for (group, records) in groups(report) {
         lines.push(String::new());
         lines.push(format!("## {}", cell(group)));
@@ -42,28 +82,37 @@ pub(super) fn render(report: &Report) -> String {
         for record in records {
             let word = match record.verdict {
                 Verdict::Fail { .. } => "**fail**",
+                Verdict::NotApplicable(_) => continue,
                 _ => record.verdict.word(),
             };
             lines.push(format!(
                 "| {word} | {} | {} | {} | {} |",
                 record.id,
                 cell(&record.title),
-                cell(&record.clause),
+                cell(&source(record)),
                 cell(&record.verdict.reason())
             ));
         }
     }
-    for record in report
-        .records
-        .iter()
-        .filter(|record| record.verdict.is_fail())
-    {
-        lines.push(String::new());
-        lines.push(format!("## {} failed", record.id));
-        lines.push(String::new());
-        lines.push("```".into());
-        lines.extend(record.frames.iter().map(run::frame));
-        lines.push("```".into());
+    lines.extend(
+        [
+            "",
+            "## Not applicable",
+            "",
+            "| Case | What is right | Why not |",
+            "|---|---|---|",
+        ]
+        .map(String::from),
+    );
+    for record in &report.records {
+        if let Verdict::NotApplicable(why) = &record.verdict {
+            lines.push(format!(
+                "| {} | {} | {} |",
+                record.id,
+                cell(&record.title),
+                cell(why)
+            ));
+        }
     }
     lines.join("\n")
 }

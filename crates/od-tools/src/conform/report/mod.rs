@@ -7,7 +7,7 @@ mod markdown;
 mod run;
 mod text;
 
-pub use run::{Counts, Report};
+pub use run::{About, Counts, Report};
 
 /// The formats, by the extension of a file.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

@@ -1,10 +1,38 @@
 //! A run of the conformance test, and what its reports have in common.
 
+use od_sim::words::Decoder;
+use od_sim::{EdsOptions, VirtualDevice};
+use od_wire::{Instant, NodeId};
+
+use crate::conform::official::numbers;
 use crate::conform::record::{Record, Times, Traced, Verdict, percentile};
+
+/// Where, when, by whom and with what the test was run.
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
+pub struct About {
+    /// Date and time, UTC.
+    pub date: String,
+    /// Who ran the test.
+    pub tester: Option<String>,
+    /// Name and version of the program.
+    pub version: String,
+    /// The options of the run, as they are typed.
+    pub options: String,
+    /// Bit rate in kbit/s, if it is known.
+    pub bit_rate: Option<u16>,
+    /// SHA-256 of the EDS, in hexadecimal digits.
+    pub eds_hash: String,
+    /// What the node says of itself: object and value.
+    pub identity: Vec<(String, String)>,
+    /// The text of the EDS, which names the values of frames.
+    pub eds_text: String,
+}
 
 /// A run of the conformance test.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Report {
+    /// Where, when, by whom and with what.
+    pub about: About,
     /// The device, as the EDS names it.
     pub device: String,
     /// The EDS.
@@ -42,16 +70,7 @@ impl Report {
 
     /// Number of cases with each verdict.
     pub fn counts(&self) -> Counts {
-        let mut counts = Counts::default();
-        for record in &self.records {
-            *match record.verdict {
-                Verdict::Pass => &mut counts.pass,
-                Verdict::Fail { .. } => &mut counts.fail,
-                Verdict::Skipped(_) => &mut counts.skipped,
-                Verdict::NotApplicable(_) => &mut counts.not_applicable,
-            } += 1;
-        }
-        counts
+        count(self.records.iter())
     }
 
     /// `12 passed, 1 failed, 2 skipped, 3 not applicable`.
@@ -103,10 +122,128 @@ pub(super) fn millis(micros: u64) -> String {
     format!("{}.{:03} ms", micros / 1000, micros % 1000)
 }
 
-/// A frame as a line: when, whose, what.
-pub(super) fn frame(traced: &Traced) -> String {
-    let mark = if traced.ours { "->" } else { "<-" };
-    format!("{:?} {mark} {}", traced.at, traced.frame)
+/// Frames in words, by the EDS.
+pub(super) struct Narrator {
+    devices: Vec<VirtualDevice>,
+    decoder: Decoder,
+}
+
+impl Narrator {
+    /// With the names of a report's EDS.
+    pub(super) fn new(report: &Report) -> Self {
+        let options = EdsOptions {
+            node_id: NodeId::new(report.node),
+            lenient: true,
+        };
+        let (device, _) = VirtualDevice::read_eds(&report.about.eds_text, options);
+        let mut devices = Vec::from_iter(device);
+        for device in &mut devices {
+            device.power_on(Instant::ZERO);
+        }
+        Self {
+            devices,
+            decoder: Decoder::default(),
+        }
+    }
+
+    /// A frame as a line: when, whose, what, and in words.
+    pub(super) fn line(&mut self, traced: &Traced) -> String {
+        let mark = if traced.ours { "->" } else { "<-" };
+        let words = self.words(traced);
+        let frame = traced.frame.to_string();
+        format!("{:?} {mark} {frame:<21} {words}", traced.at)
+    }
+
+    /// A frame in words.
+    pub(super) fn words(&mut self, traced: &Traced) -> String {
+        self.decoder
+            .explain(&self.devices, &traced.frame)
+            .to_string()
+    }
+
+    /// The lines of all frames of a case.
+    pub(super) fn lines(&mut self, record: &Record) -> Vec<String> {
+        // A transfer does not continue in the next case.
+        self.decoder = Decoder::default();
+        record
+            .frames
+            .iter()
+            .map(|traced| self.line(traced))
+            .collect()
+    }
+}
+
+impl Report {
+    /// The head of a report: what was tested, when, by whom and with what; name and value.
+    pub(super) fn head(&self) -> Vec<(&str, String)> {
+        let About {
+            date,
+            tester,
+            version,
+            options,
+            bit_rate,
+            eds_hash,
+            identity,
+            ..
+        } = &self.about;
+        let mut head = vec![("Device", self.device.clone())];
+        head.extend(
+            identity
+                .iter()
+                .map(|(name, value)| (&**name, value.clone())),
+        );
+        head.push(("Node ID", self.node.to_string()));
+        head.push(("Link", self.link.clone()));
+        head.extend(bit_rate.map(|kbit| ("Bit rate", format!("{kbit} kbit/s"))));
+        head.push(("EDS", self.eds.clone()));
+        let texts = [
+            ("SHA-256 of the EDS", eds_hash),
+            ("Date", date),
+            ("Program", version),
+            ("Options", options),
+        ];
+        let given = texts.into_iter().filter(|(_, text)| !text.is_empty());
+        head.extend(given.map(|(name, text)| (name, text.clone())));
+        head.extend(tester.iter().map(|tester| ("Tester", tester.clone())));
+        head
+    }
+
+    /// Cases that failed.
+    pub(super) fn failures(&self) -> impl Iterator<Item = &Record> {
+        self.records
+            .iter()
+            .filter(|record| record.verdict.is_fail())
+    }
+
+    /// The number of cases with each verdict, for each group.
+    pub(super) fn by_group(&self) -> Vec<(&str, Counts)> {
+        let groups = groups(self).into_iter();
+        groups
+            .map(|(group, records)| (group, count(records.into_iter())))
+            .collect()
+    }
+}
+
+/// Number of cases with each verdict.
+fn count<'r>(records: impl Iterator<Item = &'r Record>) -> Counts {
+    let mut counts = Counts::default();
+    for record in records {
+        *match record.verdict {
+            Verdict::Pass => &mut counts.pass,
+            Verdict::Fail { .. } => &mut counts.fail,
+            Verdict::Skipped(_) => &mut counts.skipped,
+            Verdict::NotApplicable(_) => &mut counts.not_applicable,
+        } += 1;
+    }
+    counts
+}
+
+/// Clause of a case, with the numbers of the official cases that it covers.
+pub(super) fn source(record: &Record) -> String {
+    match numbers(&record.id) {
+        "" => record.clause.clone(),
+        numbers => format!("{}; CiA test {numbers}", record.clause),
+    }
 }
 
 /// The groups in order, each with its cases.

@@ -2,7 +2,7 @@
 
 use od_model::Visible;
 
-use super::run::{self, Report, millis};
+use super::run::{Narrator, Report, millis, source};
 use crate::conform::record::{Record, Verdict};
 
 /// Number of frames of a failed case that are shown, the last ones.
@@ -13,6 +13,13 @@ pub(super) fn render(report: &Report) -> String {
         "{} (node {}, {}) against {}",
         report.device, report.node, report.link, report.eds
     )];
+    let known = ["Device", "Node ID", "Link", "EDS"];
+    let head = report
+        .head()
+        .into_iter()
+        .filter(|(name, _)| !known.contains(name));
+    lines.extend(head.map(|(name, value)| format!("{name}: {value}")));
+    let mut narrator = Narrator::new(report);
     let width = report.records.iter().map(|record| record.id.len()).max();
     let width = width.unwrap_or(0);
     let mut group = "";
@@ -27,7 +34,18 @@ pub(super) fn render(report: &Report) -> String {
             "  {word:<7}  {:<width$}  {}",
             record.id, record.title
         ));
-        details(record, &mut lines);
+        details(record, &mut narrator, &mut lines);
+    }
+    lines.push(String::new());
+    for (group, counts) in report.by_group() {
+        lines.push(format!(
+            "{group:<18} {:>3} passed {:>3} failed {:>3} skipped {:>3} not applicable",
+            counts.pass, counts.fail, counts.skipped, counts.not_applicable
+        ));
+    }
+    let failures: Vec<&str> = report.failures().map(|record| &*record.id).collect();
+    if !failures.is_empty() {
+        lines.push(format!("failed: {}", failures.join(", ")));
     }
     lines.push(String::new());
     for (name, count, [middle, most, longest]) in report.timings() {
@@ -46,17 +64,20 @@ pub(super) fn render(report: &Report) -> String {
     Visible(&lines.join("\n")).lines().into_owned()
 }
 
-fn details(record: &Record, lines: &mut Vec<String>) {
+fn details(record: &Record, narrator: &mut Narrator, lines: &mut Vec<String>) {
     match &record.verdict {
         Verdict::Pass => {}
         Verdict::Fail { expected, got } => {
-            lines.push(format!("             clause    {}", record.clause));
+            lines.push(format!("             clause    {}", source(record)));
             lines.push(format!("             expected  {expected}"));
             lines.push(format!("             but       {got}"));
             let from = record.frames.len().saturating_sub(SHOWN);
-            for traced in &record.frames[from..] {
-                lines.push(format!("             {}", run::frame(traced)));
-            }
+            let frames = narrator.lines(record);
+            lines.extend(
+                frames[from..]
+                    .iter()
+                    .map(|line| format!("             {line}")),
+            );
             for note in &record.notes {
                 lines.push(format!("             {note}"));
             }
