@@ -42,9 +42,10 @@ impl Filter {
         }
         let mask = self.mask & other.mask & !(self.id.raw() ^ other.id.raw());
         let raw = self.id.raw() & mask;
-        let id = match self.id.is_extended() {
-            true => CanId::extended(raw),
-            false => CanId::standard(raw as u16),
+        let id = if self.id.is_extended() {
+            CanId::extended(raw)
+        } else {
+            CanId::standard(raw as u16)
         };
         Some(Self { id, mask })
     }

@@ -35,9 +35,10 @@ struct Overrun(bool);
 
 impl embedded_can::Error for Overrun {
     fn kind(&self) -> embedded_can::ErrorKind {
-        match self.0 {
-            true => embedded_can::ErrorKind::Overrun,
-            false => embedded_can::ErrorKind::Acknowledge,
+        if self.0 {
+            embedded_can::ErrorKind::Overrun
+        } else {
+            embedded_can::ErrorKind::Acknowledge
         }
     }
 }

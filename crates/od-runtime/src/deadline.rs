@@ -63,9 +63,10 @@ const fn is_due(at: u64, now: u64) -> bool {
 
 /// [`Deadline::or`].
 const fn earlier(one: u64, other: u64) -> u64 {
-    match one.wrapping_sub(1) <= other.wrapping_sub(1) {
-        true => one,
-        false => other,
+    if one.wrapping_sub(1) <= other.wrapping_sub(1) {
+        one
+    } else {
+        other
     }
 }
 

@@ -38,9 +38,10 @@ pub(crate) fn check_with(
     if reals.is_some() && kind == Kind::Real && !matches!(bytes.len(), 4 | 8) {
         return Err(Outside::Length);
     }
-    match row.has_limits() {
-        true => compare(store, row, bytes, kind, reals),
-        false => Ok(()),
+    if row.has_limits() {
+        compare(store, row, bytes, kind, reals)
+    } else {
+        Ok(())
     }
 }
 

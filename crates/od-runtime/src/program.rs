@@ -310,9 +310,10 @@ impl<M: ProgramMemory, const PAGE: usize> Application for Loader<M, PAGE> {
     }
 
     fn stream(&mut self, address: Address) -> Option<&mut dyn Stream> {
-        match self.is(address, DATA) {
-            true => Some(self),
-            false => None,
+        if self.is(address, DATA) {
+            Some(self)
+        } else {
+            None
         }
     }
 

@@ -150,9 +150,10 @@ impl Sizes {
         let servers = 1 + if D::SERVERS { dictionary.servers() } else { 0 };
         let tpdos = dictionary.tpdos();
         let rpdos = if D::RPDOS { dictionary.rpdos() } else { 0 };
-        let watches = match D::CONSUMER {
-            true => least(dictionary.last_sub(0x1016) as usize, WATCHES),
-            false => 0,
+        let watches = if D::CONSUMER {
+            least(dictionary.last_sub(0x1016) as usize, WATCHES)
+        } else {
+            0
         };
         let mapped = entries(dictionary, 0x1A00, tpdos) + entries(dictionary, 0x1600, rpdos);
         let mut buffer = dictionary.longest();
@@ -170,9 +171,10 @@ impl Sizes {
             frames: if is_small { FRAMES / 2 + 1 } else { FRAMES },
             events: if D::EVENTS { EVENTS } else { 0 },
             errors: D::ERRORS,
-            messages: match dictionary.has(0x1014) {
-                true => least(D::ERRORS, MESSAGES),
-                false => 0,
+            messages: if dictionary.has(0x1014) {
+                least(D::ERRORS, MESSAGES)
+            } else {
+                0
             },
             servers,
             buffers: servers * buffer,

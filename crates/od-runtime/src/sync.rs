@@ -44,9 +44,10 @@ impl Producer {
     /// another period; the counter begins at 1 whenever it starts.
     pub(crate) fn configure(&mut self, store: &Store<'_>, now: Instant, may_send: bool) {
         let is_on = CobId::new(store.unsigned(0x1005, 0) as u32).produces_sync();
-        let period_us = match is_on && may_send {
-            true => store.unsigned(0x1006, 0) as u32,
-            false => 0,
+        let period_us = if is_on && may_send {
+            store.unsigned(0x1006, 0) as u32
+        } else {
+            0
         };
         if period_us == self.period_us {
             return;

@@ -175,9 +175,10 @@ impl<F: NorFlash, const B: usize> Log<F, B> {
             is_empty = bytes.is_empty();
             newest.number.set(number);
         });
-        let result = match is_empty {
-            true => Ok(()),
-            false => self.append(&newest).await,
+        let result = if is_empty {
+            Ok(())
+        } else {
+            self.append(&newest).await
         };
         let number = newest.number.get();
         with(&mut |mirror| mirror.stored(number, result));

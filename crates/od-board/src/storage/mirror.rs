@@ -196,9 +196,10 @@ impl<const N: usize, const V: usize> Storage for Mirror<N, V> {
         if self.is_writing() {
             return Ok(());
         }
-        match core::mem::take(&mut self.failed) {
-            true => Err(StorageError::Device),
-            false => Ok(()),
+        if core::mem::take(&mut self.failed) {
+            Err(StorageError::Device)
+        } else {
+            Ok(())
         }
     }
 }

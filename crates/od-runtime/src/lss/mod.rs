@@ -107,9 +107,10 @@ impl Slave {
                 complete.then_some(Response::Identified)
             }
             Request::IdentifyNonConfigured if profile.non_configured => {
-                let node_id = match profile.is_own() {
-                    true => Some(active),
-                    false => self.node_id,
+                let node_id = if profile.is_own() {
+                    Some(active)
+                } else {
+                    self.node_id
                 };
                 (node_id == Some(UNCONFIGURED)).then_some(Response::NonConfigured)
             }
@@ -159,9 +160,10 @@ impl Slave {
                 })
             }
             Request::ActivateBitTiming { delay_ms } => {
-                let stored = |objects: &mut Objects<'_, D>| match profile.is_own() {
-                    true => stored(objects)[1],
-                    false => {
+                let stored = |objects: &mut Objects<'_, D>| {
+                    if profile.is_own() {
+                        stored(objects)[1]
+                    } else {
                         let LssProfile { bit_rate, .. } = profile;
                         Some(objects.store.unsigned(bit_rate.index, bit_rate.sub) as u8)
                     }
@@ -173,9 +175,10 @@ impl Slave {
                 return Action::Activate { delay_ms, bit_rate };
             }
             Request::Store => {
-                let error = match profile.is_own() {
-                    true => self.store_own(objects, active),
-                    false => self.store(objects, profile),
+                let error = if profile.is_own() {
+                    self.store_own(objects, active)
+                } else {
+                    self.store(objects, profile)
                 };
                 Some(Response::Configured {
                     command: 0x17,

@@ -140,9 +140,10 @@ impl<D: Device> Machines<D> {
         let (node_id, bit_rate) = match reset {
             Reset::PowerOn | Reset::Node => {
                 let [node_id, bit_rate] = lss::stored(objects);
-                let made_with = match self.made_unconfigured {
-                    true => lss::UNCONFIGURED,
-                    false => self.made_with.raw(),
+                let made_with = if self.made_unconfigured {
+                    lss::UNCONFIGURED
+                } else {
+                    self.made_with.raw()
                 };
                 (node_id.or(Some(made_with)), bit_rate)
             }
@@ -178,9 +179,10 @@ impl<D: Device> Machines<D> {
         };
         for pass in 0..2 {
             profile.store.reset(&mut objects.store, &which);
-            let loaded = match D::STORAGE {
-                true => objects.load(&which),
-                false => Loaded::Blank,
+            let loaded = if D::STORAGE {
+                objects.load(&which)
+            } else {
+                Loaded::Blank
             };
             Self::forget_dynamic(objects);
             let news = match loaded {

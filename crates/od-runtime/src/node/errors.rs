@@ -66,9 +66,10 @@ impl<D: Device> Machines<D> {
         if self.state == State::Initialising || profile.operational_only && !operational {
             return;
         }
-        let mut gravest = match lost {
-            true => asked(&objects.store, 1, operational),
-            false => Behaviour::Nothing,
+        let mut gravest = if lost {
+            asked(&objects.store, 1, operational)
+        } else {
+            Behaviour::Nothing
         };
         for (_, sub) in profile.behaviour.iter().filter(|(of, _)| of & bits != 0) {
             gravest = gravest.max(asked(&objects.store, *sub, operational));

@@ -43,9 +43,12 @@ pub(super) fn check<D: Services>(
     // What is longer than a word (of another dictionary) is too great.
     let value = u32::try_from(number_in(bytes)).unwrap_or(u32::MAX);
     let check_cob_id = |has_valid_bit| check_cob_id(store, profile, row, value, has_valid_bit);
-    let allow = |is_allowed| match is_allowed {
-        true => Ok(()),
-        false => Err(AbortCode::ValueRange),
+    let allow = |is_allowed| {
+        if is_allowed {
+            Ok(())
+        } else {
+            Err(AbortCode::ValueRange)
+        }
     };
     // Each index has one arm, and what the device lacks is asked for in it: as a guard it would lead on to
     // all arms below.
@@ -76,18 +79,24 @@ pub(super) fn check<D: Services>(
             Ok(())
         }
         // A node has one heartbeat time (chapter 7.5.2.13).
-        (0x1016, 1..) => match D::CONSUMER && is_watched_elsewhere(store, sub, value) {
-            true => Err(AbortCode::Incompatible),
-            false => Ok(()),
-        },
+        (0x1016, 1..) => {
+            if D::CONSUMER && is_watched_elsewhere(store, sub, value) {
+                Err(AbortCode::Incompatible)
+            } else {
+                Ok(())
+            }
+        }
         // CiA 301 reserves 03h to 7Fh; the bus covers have a meaning for 03h (chapter 7.5.2.32).
         (0x1029, 1..) => allow(!D::BEHAVIOUR || !matches!(value, 4..=0x7F)),
         (0x1014, 0) => check_cob_id(true),
         // An SDO exists while both COB-IDs are valid (chapter 7.5.2.33).
-        (0x1201..=0x127F, 1 | 2) => match D::SERVERS {
-            true => check_cob_id(true),
-            false => Ok(()),
-        },
+        (0x1201..=0x127F, 1 | 2) => {
+            if D::SERVERS {
+                check_cob_id(true)
+            } else {
+                Ok(())
+            }
+        }
         (0x1400..=0x15FF, _) => match sub {
             1 if D::RPDOS => check_cob_id(true),
             2 => allow(!D::RPDOS || !matches!(value, 241..=253)),
@@ -105,10 +114,13 @@ pub(super) fn check<D: Services>(
             }
             _ => Ok(()),
         },
-        (0x1600..=0x17FF | 0x1A00..=0x1BFF, _) => match const { can_map::<D>() } {
-            true => check_mapping(store, profile, row.address(), value),
-            false => Ok(()),
-        },
+        (0x1600..=0x17FF | 0x1A00..=0x1BFF, _) => {
+            if const { can_map::<D>() } {
+                check_mapping(store, profile, row.address(), value)
+            } else {
+                Ok(())
+            }
+        }
         _ => Ok(()),
     }
 }
@@ -222,15 +234,17 @@ pub(crate) fn check_mapped(store: &Store<'_>, index: u16, raw: u32) -> Result<()
             3 | 6 => 16,
             _ => 32,
         };
-        return match transmits {
-            false if bits == mapped.bits => Ok(()),
-            _ => Err(AbortCode::NotMappable),
+        return if !transmits && bits == mapped.bits {
+            Ok(())
+        } else {
+            Err(AbortCode::NotMappable)
         };
     }
     let row = store.row(mapped.address)?;
-    let direction = match transmits {
-        true => row.maps_to_tpdo(),
-        false => row.maps_to_rpdo(),
+    let direction = if transmits {
+        row.maps_to_tpdo()
+    } else {
+        row.maps_to_rpdo()
     };
     if direction && !row.is_variable() && row.bits() == mapped.bits {
         Ok(())

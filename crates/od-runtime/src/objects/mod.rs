@@ -154,9 +154,10 @@ impl<'c, D: Services> Objects<'c, D> {
 
     /// Has the application bring a live value up to date.
     pub(crate) fn refresh(&mut self, address: Address) -> Result<(), AbortCode> {
-        match self.is_live(address) {
-            true => self.refresh_live(address),
-            false => Ok(()),
+        if self.is_live(address) {
+            self.refresh_live(address)
+        } else {
+            Ok(())
         }
     }
 
@@ -167,9 +168,10 @@ impl<'c, D: Services> Objects<'c, D> {
     /// Returns the row of a value, if it can be written.
     pub(crate) fn writable(&self, address: Address) -> Result<&'c Row, AbortCode> {
         let row = self.row(address)?;
-        match row.writable() {
-            true => Ok(row),
-            false => Err(AbortCode::ReadOnly),
+        if row.writable() {
+            Ok(row)
+        } else {
+            Err(AbortCode::ReadOnly)
         }
     }
 

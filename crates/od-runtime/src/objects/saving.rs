@@ -152,9 +152,10 @@ impl<D: Services> Objects<'_, D> {
             saving.banks = Banks::NONE;
             return true;
         }
-        let plan = match restores {
-            true => Plan::Restore(sub),
-            false => Plan::Save(sub),
+        let plan = if restores {
+            Plan::Restore(sub)
+        } else {
+            Plan::Save(sub)
         };
         let mut medium = Medium::new(self.storage, &mut saving.banks);
         let mut begun = medium.survey(device);
@@ -223,9 +224,10 @@ impl<D: Services> Objects<'_, D> {
     /// Ends a save that goes on, if there is one; `Some(false)` where it failed, `None` while the
     /// memory is still writing.
     pub(crate) fn complete_save(&mut self) -> Option<bool> {
-        match self.is_saving() {
-            true => self.end_save(true),
-            false => Some(true),
+        if self.is_saving() {
+            self.end_save(true)
+        } else {
+            Some(true)
         }
     }
 

@@ -33,9 +33,10 @@ impl Application for Counter {
                 info: [0; 5],
             });
         }
-        match self.fails {
-            true => Err(AbortCode::DeviceState),
-            false => Ok(()),
+        if self.fails {
+            Err(AbortCode::DeviceState)
+        } else {
+            Ok(())
         }
     }
 }

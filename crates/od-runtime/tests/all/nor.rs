@@ -142,9 +142,10 @@ impl Storage for Nor {
         }
         let words = offset / self.word..(offset + self.page) / self.word;
         self.written[words].fill(goes);
-        match goes {
-            true => Err(StorageError::PowerCut),
-            false => Ok(()),
+        if goes {
+            Err(StorageError::PowerCut)
+        } else {
+            Ok(())
         }
     }
 }

@@ -275,9 +275,12 @@ fn a_pause_of_71_minutes_ends_what_is_known_of_a_speed() {
     assert_eq!(speed(&slept, AROUND + 61 * MS), None, "nobody asked");
 
     let failed = core::cell::Cell::new(false);
-    let sensor = |now: Instant| match failed.get() {
-        true => Err(Fault::Internal),
-        false => Ok(Angle::from_fractions((now.as_micros() as i64) << 12)),
+    let sensor = |now: Instant| {
+        if failed.get() {
+            Err(Fault::Internal)
+        } else {
+            Ok(Angle::from_fractions((now.as_micros() as i64) << 12))
+        }
     };
     let mut shaft: Sampled<_, 64> = Sampled::new(sensor, Duration::from_millis(1));
     shaft.look_back(50_000);

@@ -108,9 +108,10 @@ impl Banks {
             None if is_clean => Loaded::Blank,
             None => Loaded::Damaged,
         };
-        self.next = match stays.code.is_complete() {
-            true => stays.code.plus(if is_withdrawn { 2 } else { 1 }),
-            false => Code::FIRST,
+        self.next = if stays.code.is_complete() {
+            stays.code.plus(if is_withdrawn { 2 } else { 1 })
+        } else {
+            Code::FIRST
         };
         self.newest = stays.set;
         self.is_withdrawn = is_withdrawn;

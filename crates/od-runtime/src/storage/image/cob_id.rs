@@ -9,9 +9,10 @@ use od_wire::CobId;
 
 /// Number that is subtracted from a saved value; 0: it is saved as it is.
 pub(super) fn base(store: &Store<'_>, row: &Row, rule: SavedCobIds) -> u64 {
-    match is_difference(row, rule) {
-        true => default(store, row),
-        false => 0,
+    if is_difference(row, rule) {
+        default(store, row)
+    } else {
+        0
     }
 }
 

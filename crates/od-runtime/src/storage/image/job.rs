@@ -72,9 +72,10 @@ impl Job {
         if let Some(to) = values.get_mut(..now.len()) {
             to.copy_from_slice(now);
         }
-        let plan = match save.restores {
-            true => Plan::Restore(save.sub),
-            false => Plan::Save(save.sub),
+        let plan = if save.restores {
+            Plan::Restore(save.sub)
+        } else {
+            Plan::Save(save.sub)
         };
         Self {
             plan,
@@ -184,9 +185,10 @@ impl Job {
             return self.begin(medium);
         }
         let bank = medium.head(at);
-        let content = match bank.code.is_complete() {
-            true => medium.open(at),
-            false => None,
+        let content = if bank.code.is_complete() {
+            medium.open(at)
+        } else {
+            None
         };
         match content {
             Some(content) => self.phase = Phase::Records(at, bank, content),
@@ -254,22 +256,20 @@ impl Job {
             return false;
         }
         let header = medium.banks.layout.header;
-        match self.at > medium.banks.layout.size - header {
-            true if self.has_orphans => {
-                self.has_orphans = false;
-                self.start(medium, 0);
-            }
-            true => medium.fail(StorageError::Full),
-            false => {
-                self.len = self.at;
-                medium.mark(&self.profile, &self.plan);
-                let target = medium.banks.target;
-                medium.clear(target, header + self.len);
-                self.crc = Crc32::new();
-                self.crc.update(self.fields(medium)[..2].as_flattened());
-                self.start(medium, target + header);
-                self.phase = Phase::Write;
-            }
+        if self.at <= medium.banks.layout.size - header {
+            self.len = self.at;
+            medium.mark(&self.profile, &self.plan);
+            let target = medium.banks.target;
+            medium.clear(target, header + self.len);
+            self.crc = Crc32::new();
+            self.crc.update(self.fields(medium)[..2].as_flattened());
+            self.start(medium, target + header);
+            self.phase = Phase::Write;
+        } else if self.has_orphans {
+            self.has_orphans = false;
+            self.start(medium, 0);
+        } else {
+            medium.fail(StorageError::Full);
         }
         false
     }

@@ -32,9 +32,10 @@ impl Medium<'_> {
             (None, Some(_)) => false,
             _ => first.code.is_complete() && second.code.later_than(first.code) == 0,
         };
-        match first_stays {
-            true => self.banks.judge(first, second),
-            false => self.banks.judge(second, first),
+        if first_stays {
+            self.banks.judge(first, second)
+        } else {
+            self.banks.judge(second, first)
         }
         self.banks.stays = if first_stays { 0 } else { size };
         self.banks.target = size - self.banks.stays;

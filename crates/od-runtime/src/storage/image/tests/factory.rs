@@ -97,9 +97,10 @@ fn only_the_masters_own_saves_can_take_values_away() {
         memory.cut_after(cut);
         let record = save(&mut memory, &bench.store(), FACTORY, 0);
         memory.restore_power();
-        let whole = match cut > 0 && record.is_err() {
-            true => Loaded::Cut { factory: false },
-            false => Loaded::Complete,
+        let whole = if cut > 0 && record.is_err() {
+            Loaded::Cut { factory: false }
+        } else {
+            Loaded::Complete
         };
         assert_eq!(bench.start(&mut memory), whole, "cut at {cut}");
         assert_eq!(bench.store().unsigned(0x6003, 0), 5);
