@@ -7,6 +7,8 @@ use std::fmt::Write;
 
 use od_eds::Tables;
 use od_model::owned::SMALL;
+use od_model::real::Reals;
+use od_model::varying::Varying;
 use proc_macro2::TokenStream;
 use quote::quote;
 
@@ -62,7 +64,7 @@ fn root(input: &Input) -> String {
         Some(path) => quote!(#path).to_string(),
         None => String::from("::odkit"),
     };
-    format!("{odkit}::__private5")
+    format!("{odkit}::__private6")
 }
 
 fn about(source: &Source, family: &Family) -> String {
@@ -215,25 +217,22 @@ fn dictionary(out: &mut String, root: &str, tables: &Tables) {
     let (rows, pool) = tables.parts();
     let (entries, words) = (rows.len(), pool.len());
     let names = tables.names();
-    let row_bytes = rows.iter().flat_map(|row| row.0).flat_map(u32::to_le_bytes);
-    let name_words = names
-        .rows
-        .iter()
-        .flatten()
-        .flat_map(|name| [name.start, name.len]);
-    let store_len = tables.dictionary().store_len();
+    let name_bytes = names.rows.iter().flatten().copied();
+    let shape = tables.shape();
     let _ = write!(
         out,
         "#[doc = \"The object dictionary: {objects} objects, {entries} values.\"]
 pub const DICTIONARY: {root}::Dictionary<'static> = {{
 use {root}::table::*;
-static ROWS: [Row; {entries}] = rows("
+static ROWS: [Row; {entries}] = rows(&["
     );
-    bytes(out, row_bytes);
-    let _ = write!(out, ");\nstatic POOL: [u32; {words}] = words(");
-    bytes(out, pool.iter().flat_map(|word| word.to_le_bytes()));
-    let _ = write!(out, ");\nstatic NAMES: [[Range; 2]; {entries}] = names(");
-    bytes(out, name_words.flat_map(u32::to_le_bytes));
+    for row in rows {
+        let _ = write!(out, "{:#x},", row.number());
+    }
+    let _ = write!(out, "]);\nstatic POOL: [u32; {words}] = [");
+    for word in pool {
+        let _ = write!(out, "{word},");
+    }
     let (number, make, kind) = if entries <= SMALL {
         ("u8", "small_buckets", "Bytes")
     } else {
@@ -241,15 +240,30 @@ static ROWS: [Row; {entries}] = rows("
     };
     let _ = write!(
         out,
-        ");
+        "];
 static BUCKETS: [{number}; bucket_count({entries})] = {make}(&ROWS);
-dictionary(Buckets::{kind}(&BUCKETS), &ROWS, &POOL, {:?}, ",
+Dictionary::trusted(Buckets::{kind}(&BUCKETS), &ROWS, &POOL, {:?}, ",
         tables.text()
     );
     bytes(out, tables.blob().iter().copied());
+    let functions = |kind: &str, is_some| match is_some {
+        true => format!("{kind}::SOME"),
+        false => String::from("::core::option::Option::None"),
+    };
+    let (reals, varying) = (
+        functions("Reals", Reals::of(rows).is_some()),
+        functions("Varying", Varying::of(rows).is_some()),
+    );
+    let (store_len, longest, has_streams) = (shape.store_len, shape.longest, shape.has_streams);
     let _ = write!(
         out,
-        ", {store_len}, Names {{ rows: &NAMES, text: {:?} }})
+        ", Shape {{ store_len: {store_len}, longest: {longest}, has_streams: {has_streams}, reals: {reals}, \
+         varying: {varying} }}, Names {{ rows: names("
+    );
+    bytes(out, name_bytes);
+    let _ = write!(
+        out,
+        "), text: {:?} }})
 }};
 #[doc = \"Bytes that a store of the values needs.\"]
 pub const STORE_LEN: usize = DICTIONARY.store_len();

@@ -182,16 +182,17 @@ mod tests {
         let (_, base) = made.split_once("pubmoddevice").unwrap();
         let (base, variant) = base.split_once("pubmodblind").unwrap();
         for part in [
-            "pub const DICTIONARY: ::odkit::__private5::Dictionary<'static> =",
-            "static ROWS: [Row; 5] = rows(b\"1\\0\\0\\x10",
-            "static NAMES: [[Range; 2]; 5] = names(b\"",
+            "pub const DICTIONARY: ::odkit::__private6::Dictionary<'static> =",
+            "static ROWS: [Row; 5] = rows(&[0x",
+            "Shape { store_len: 7, longest: 4, has_streams: false, reals: ::core::option::Option::None,",
+            "Names { rows: names(b\"",
             "pub const ERROR_REGISTER: Var<u8, Ro, Pdo> = __v(0x1001, 0, 4, 1, 8);",
             "pub mod identity {",
             "pub const VENDOR_ID: Var<u32, Const> = __v(0x1018, 1, 0, 0, 32);",
             "pub const STORE_LEN: usize = DICTIONARY.store_len();",
-            "::odkit::__private5::rooms!(Device);",
-            "pub type Node<A = ::odkit::__private5::NoApplication, S = ::odkit::__private5::NoStorage> =
-             ::odkit::__private5::Node<Device, A, S>;",
+            "::odkit::__private6::rooms!(Device);",
+            "pub type Node<A = ::odkit::__private6::NoApplication, S = ::odkit::__private6::NoStorage> =
+             ::odkit::__private6::Node<Device, A, S>;",
         ] {
             assert!(base.contains(&tight(part)), "{part}\n\n{base}");
         }

@@ -24,20 +24,60 @@ pub struct Dictionary<'a> {
     buckets: Buckets<'a>,
     rows: &'a [Row],
     arenas: Arenas<'a>,
-    store_len: usize,
-    reals: Option<&'static Reals>,
-    varying: Option<&'static Varying>,
+    pub(crate) shape: Shape,
     #[cfg(feature = "names")]
     names: Names<'a>,
+}
+
+/// Facts about all values of a dictionary, which are found once: by `od_eds::Tables`.
+#[doc(hidden)]
+#[derive(Clone, Copy, Debug)]
+pub struct Shape {
+    /// Bytes that a store of the values needs.
+    pub store_len: usize,
+    /// Bytes of the longest value that one SDO transfer carries.
+    pub longest: usize,
+    /// Whether an application has to stream one of the values.
+    pub has_streams: bool,
+    /// Functions for REALs, if there are some.
+    pub reals: Option<&'static Reals>,
+    /// Functions for strings and DOMAINs, if there are some.
+    pub varying: Option<&'static Varying>,
+}
+
+impl Shape {
+    /// Of rows and their pool; the functions are for REALs and strings even if there are none.
+    pub fn of(rows: &[Row], pool: &[u32], store_len: usize) -> Self {
+        Self {
+            store_len,
+            longest: rows.iter().map(|row| row.longest(pool)).max().unwrap_or(0),
+            has_streams: rows.iter().any(Row::is_streamed),
+            reals: Reals::SOME,
+            varying: Varying::SOME,
+        }
+    }
 }
 
 /// Names of the objects and entries of a dictionary.
 #[derive(Clone, Copy, Debug)]
 pub struct Names<'a> {
-    /// For each entry its own name and its object's.
-    pub rows: &'a [[Range; 2]],
+    /// For each entry start and length of its own name, then of its object's: little-endian numbers of four bytes, as a
+    /// compiled dictionary has them.
+    pub rows: &'a [[u8; 16]],
     /// The text of the names, each once.
     pub text: &'a str,
+}
+
+impl Names<'_> {
+    /// The row of an entry's name and of its object's.
+    pub fn row([own, object]: [Range; 2]) -> [u8; 16] {
+        let words = [own.start, own.len, object.start, object.len];
+        let mut row = [0; 16];
+        for (to, word) in row.as_chunks_mut::<4>().0.iter_mut().zip(words) {
+            *to = word.to_le_bytes();
+        }
+        row
+    }
 }
 
 /// Bit of [`Range::start`] that distinguishes a name from a text of the dictionary.
@@ -51,9 +91,13 @@ impl<'a> Dictionary<'a> {
         &[],
         "",
         &[],
-        0,
-        None,
-        None,
+        Shape {
+            store_len: 0,
+            longest: 0,
+            has_streams: false,
+            reals: None,
+            varying: None,
+        },
         Names {
             rows: &[],
             text: "",
@@ -69,9 +113,7 @@ impl<'a> Dictionary<'a> {
         pool: &'a [u32],
         text: &'a str,
         blob: &'a [u8],
-        store_len: usize,
-        reals: Option<&'static Reals>,
-        varying: Option<&'static Varying>,
+        shape: Shape,
         names: Names<'a>,
     ) -> Self {
         #[cfg(not(feature = "names"))]
@@ -80,9 +122,7 @@ impl<'a> Dictionary<'a> {
             buckets,
             rows,
             arenas: Arenas { pool, text, blob },
-            store_len,
-            reals,
-            varying,
+            shape,
             #[cfg(feature = "names")]
             names,
         }
@@ -106,7 +146,7 @@ impl<'a> Dictionary<'a> {
 
     /// Bytes that a store of this dictionary's values needs.
     pub const fn store_len(&self) -> usize {
-        self.store_len
+        self.shape.store_len
     }
 
     /// Number of values.
@@ -141,10 +181,15 @@ impl<'a> Dictionary<'a> {
     /// The names of an entry and of its object.
     #[cfg(feature = "names")]
     const fn names_at(&self, position: usize) -> [Range; 2] {
-        let [entry, object] = self.names.rows[position];
+        let [start, len, start_of_object, len_of_object] =
+            *self.names.rows[position].as_chunks::<4>().0
+        else {
+            return [Range::new(NAME, 0); 2];
+        };
+        let number = u32::from_le_bytes;
         [
-            Range::new(entry.start | NAME, entry.len),
-            Range::new(object.start | NAME, object.len),
+            Range::new(number(start) | NAME, number(len)),
+            Range::new(number(start_of_object) | NAME, number(len_of_object)),
         ]
     }
 
@@ -180,13 +225,13 @@ impl<'a> Dictionary<'a> {
     /// Functions for REALs; `None` if it has no REALs.
     #[doc(hidden)]
     pub const fn reals(&self) -> Option<&'static Reals> {
-        self.reals
+        self.shape.reals
     }
 
     /// Functions for values whose length varies; `None` if it has none.
     #[doc(hidden)]
     pub const fn varying(&self) -> Option<&'static Varying> {
-        self.varying
+        self.shape.varying
     }
 
     /// The object at `index`.

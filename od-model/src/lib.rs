@@ -56,5 +56,6 @@ pub use visible::{Visible, is_hidden};
 /// Parts that owned tables are built with by `od-eds`; not an API.
 #[doc(hidden)]
 pub mod owned {
+    pub use crate::dictionary::Shape;
     pub use crate::index::{Buckets, EMPTY, SMALL, bucket_count, fill};
 }

@@ -46,30 +46,14 @@ impl Dictionary<'_> {
     /// Bytes of the longest value, which one SDO transfer carries: the size of a number, the
     /// capacity of a string or domain, the length of a `const` one; of a streamed one a segment.
     pub const fn longest(&self) -> usize {
-        let mut longest = 0;
-        let mut at = 0;
-        while at < self.len() {
-            let len = self.rows()[at].longest(self.pool());
-            if len > longest {
-                longest = len;
-            }
-            at += 1;
-        }
-        longest
+        self.shape.longest
     }
 }
 
 impl Dictionary<'_> {
     /// Returns whether an application has to stream one of the values ([`Entry::is_streamed`]).
     pub const fn has_streams(&self) -> bool {
-        let mut at = 0;
-        while at < self.len() {
-            if self.rows()[at].is_streamed() {
-                return true;
-            }
-            at += 1;
-        }
-        false
+        self.shape.has_streams
     }
 }
 
@@ -105,7 +89,7 @@ impl Row {
 
     /// Bytes of the longest value that the entry can have, without the two of a string's length
     /// in the store; the seven of a segment where the value is streamed.
-    const fn longest(&self, pool: &[u32]) -> usize {
+    pub(crate) const fn longest(&self, pool: &[u32]) -> usize {
         if !self.is_variable() {
             return self.size();
         }

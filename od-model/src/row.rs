@@ -176,6 +176,12 @@ impl Row {
         ])
     }
 
+    /// All words as one number, the first one lowest: as the macro writes a row.
+    pub const fn number(self) -> u128 {
+        let [a, b, c, d] = self.0;
+        a as u128 | (b as u128) << 32 | (c as u128) << 64 | (d as u128) << 96
+    }
+
     /// The address as one number.
     pub const fn key(self) -> u32 {
         self.0[0] >> 8

@@ -137,6 +137,7 @@ pub(crate) const fn assert_served<D: Services>() {
 
 #[cfg(test)]
 pub(crate) mod tests {
+    use od_model::owned::{Buckets, Shape};
     use od_model::row::Row;
     use od_model::{
         Access, Address, DataType, Entry, Group, Literal, Names, ObjectCode, Range, Slot,
@@ -191,8 +192,15 @@ pub(crate) mod tests {
             rows: &[],
             text: "",
         };
-        let buckets = od_model::owned::Buckets::Words(&[]);
-        Dictionary::trusted(buckets, rows, &[], "", &[], 4, None, None, names)
+        let buckets = Buckets::Words(&[]);
+        let shape = Shape {
+            store_len: 4,
+            longest: 4,
+            has_streams: false,
+            reals: None,
+            varying: None,
+        };
+        Dictionary::trusted(buckets, rows, &[], "", &[], shape, names)
     }
 
     #[test]

@@ -8,7 +8,7 @@ use alloc::vec::Vec;
 use crate::description::{Description, EntryDescription, Value};
 use crate::span::Spanned;
 use od_model::Visible;
-use od_model::owned::{Buckets, EMPTY, bucket_count, fill};
+use od_model::owned::{Buckets, EMPTY, Shape, bucket_count, fill};
 use od_model::real::Reals;
 use od_model::row::{Row, literal, words};
 use od_model::varying::Varying;
@@ -30,8 +30,10 @@ pub struct Tables {
     text: String,
     blob: Vec<u8>,
     store_len: usize,
+    longest: usize,
+    has_streams: bool,
     /// For each entry its own name and its object's.
-    names: Vec<[Range; 2]>,
+    names: Vec<[u8; 16]>,
     names_text: String,
 }
 
@@ -64,7 +66,7 @@ impl Tables {
                         &Visible(&object.name).line(),
                         &mut names,
                     );
-                    tables.names.push([own, objects]);
+                    tables.names.push(Names::row([own, objects]));
                 }
             }
         }
@@ -80,11 +82,20 @@ impl Tables {
             &self.pool,
             &self.text,
             &self.blob,
-            self.store_len,
-            Reals::SOME,
-            Varying::SOME,
+            self.shape(),
             self.names(),
         )
+    }
+
+    /// Facts about all values.
+    pub fn shape(&self) -> Shape {
+        Shape {
+            store_len: self.store_len,
+            longest: self.longest,
+            has_streams: self.has_streams,
+            reals: Reals::SOME,
+            varying: Varying::SOME,
+        }
     }
 
     /// Moves stored values to other places: for variants that share one store layout.
@@ -117,6 +128,8 @@ impl Tables {
         let end = |slot: Slot| slot.offset as usize + usize::from(slot.len);
         let ends = entries.iter().map(|(entry, _)| end(entry.slot));
         self.store_len = ends.max().unwrap_or(0);
+        let shape = Shape::of(&self.rows, &self.pool, self.store_len);
+        (self.longest, self.has_streams) = (shape.longest, shape.has_streams);
     }
 
     /// The word of the default: its bits, or their position in the pool.
