@@ -48,6 +48,38 @@ check('a filter that cannot be read says so as it is typed', {}, async (page) =>
   await until('no error', async () => (await page.locator('#filter-note').count()) === 0);
 });
 
+check('a filter takes lists and says how many frames pass; these can be saved alone', {}, async (page) => {
+  await traffic(page);
+  await filter(page, '701h,000');
+  await until('frames that pass', async () => /^\d+ of \d+ pass$/.test(await page.locator('.passing').textContent()));
+  await becomes('what passes', () => ids(page), '000 701');
+  const [download] = await Promise.all([page.waitForEvent('download'), page.getByRole('button', { name: 'Save these' }).click()]);
+  const lines = (await readFile(await download.path(), 'utf8')).trim().split('\n');
+  assert.ok(lines.length >= 2 && lines.every((line) => / (701|000)#/.test(line)), lines.join('\n'));
+  await filter(page, '18FF50E5x');
+  await becomes('the note', () => page.locator('#filter-note').textContent(), /neither a CAN-ID/);
+});
+
+const TEXT_LOG = ` (1.000000)  can0  705   [1]  00\n (1.100000)  can0  20000004   [8]  00 04 00 00 00 00 00 00   ERRORFRAME\n${Array.from({ length: 300 }, (_, i) => ` (${(1.2 + i / 100).toFixed(6)})  can0  185   [4]  0${i % 10} 00 00 00`).join('\n')}\n`;
+
+check('a candump log called .txt is a log: it opens at its beginning, with its error frames, and is plotted from the log', {}, async (page) => {
+  await page.getByLabel('Open log').setInputFiles({ name: 'machine.txt', mimeType: 'text/plain', buffer: Buffer.from(TEXT_LOG) });
+  const replace = page.getByRole('button', { name: 'Replace the capture' });
+  await replace.click();
+  await becomes('the first row', async () => (await rows(page))[0]?.id, '705');
+  await row(page, 'the error frame', (one) => one.tag === 'ERR' && one.words === 'Error frame');
+  assert.equal(await page.getByText('is not an EDS').count(), 0);
+  await page.getByRole('button', { name: 'Plot' }).click();
+  await page.locator('od-plot select').first().waitFor();
+  await becomes('values of the live bench', () => page.locator('od-plot optgroup[label^="From the simulation"]').count(), 0);
+});
+
+check('a negative value for an unsigned object is refused', {}, async (page) => {
+  await page.locator('#sdo-object').fill('1017');
+  await page.getByRole('textbox', { name: 'Value', exact: true }).fill('-1');
+  await becomes('the note', () => sdoNote(page), /-1 does not fit UNSIGNED16/);
+});
+
 check('one row for each identifier, and back to order without loss', {}, async (page) => {
   await traffic(page);
   await page.getByRole('button', { name: 'By CAN-ID' }).click();

@@ -91,13 +91,12 @@ export function clearConsole(): void {
 }
 
 /** Saves the capture in a format of other tools. */
-export async function saveLog(format: string): Promise<void> {
-  const { ring } = state;
-  if (ring.first === ring.end) {
+export async function saveLog(format: string, frames = state.ring.slice(state.ring.first, state.ring.end)): Promise<void> {
+  if (frames.length === 0) {
     state.toast.value = { text: T.frames.noFrames, tone: 'info' };
     return;
   }
-  const file = await use('writeLog', format, ring.slice(ring.first, ring.end));
+  const file = await use('writeLog', format, frames);
   if ('value' in file) download(file.value as Uint8Array<ArrayBuffer>, `odkit-${state.device.value?.name ?? 'capture'}.${format}`);
 }
 

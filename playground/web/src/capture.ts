@@ -4,6 +4,7 @@ import { effect, signal } from '@preact/signals-core';
 import { parseFilter } from './trace/filter';
 import { Trace } from './trace/trace';
 import { knownWords, learnWords, wordsArrived } from './sim/words';
+import { FRAME_BYTES } from './sim/packed';
 import * as state from './state';
 
 export const trace = new Trace(state.ring);
@@ -93,6 +94,14 @@ export function reveal(number: number): void {
 
 /** The frame to scroll to. */
 export const revealed = signal<{ number: number } | null>(null);
+
+/** The frames that pass the filter, packed. */
+export function passing(): Uint8Array {
+  const frames = Array.from({ length: trace.count }, (_, row) => trace.numberAt(row)).flatMap((number) => trace.fold(number)?.frames ?? [number]);
+  const packed = new Uint8Array(frames.length * FRAME_BYTES);
+  frames.forEach((number, place) => packed.set(state.ring.raw(number), place * FRAME_BYTES));
+  return packed;
+}
 
 /** Selects the next frame that passes the filter; returns the error, or whether there is one. */
 export async function find(text: string, direction: 1 | -1): Promise<string | boolean> {

@@ -48,6 +48,19 @@ pub(super) const LESSONS: &[(&str, &str)] = &[
         include_str!("../../lessons/21-three-with-one-id.md"),
     ),
     ("bus-at-95", include_str!("../../lessons/22-bus-at-95.md")),
+    (
+        "error-counters",
+        include_str!("../../lessons/23-error-counters.md"),
+    ),
+    (
+        "transmission-types",
+        include_str!("../../lessons/24-transmission-types.md"),
+    ),
+    ("sdo-block", include_str!("../../lessons/25-sdo-block.md")),
+    (
+        "without-a-master",
+        include_str!("../../lessons/26-without-a-master.md"),
+    ),
 ];
 
 /// Returns the text of the lesson with this name.

@@ -246,12 +246,29 @@ impl Journal {
                 };
             }
         }
+        let own = self
+            .lesson
+            .as_ref()
+            .map_or(Vec::new(), |lesson| lesson.eds.clone());
         let kind_of = |title: &str| self.roster.iter().find(|kind| kind.title == title);
         let placed = |device: &VirtualDevice| {
             let name = kind_of(device.title()).map_or(device.title(), |kind| kind.name);
             let name = String::from(name);
+            // The title of a device of an EDS is its product name.
+            let is_own = |(_, text): &&(String, String)| {
+                let mut lines = text.lines();
+                kind_of(&name).is_none() && lines.any(|line| line == format!("ProductName={name}"))
+            };
+            let source = match own.iter().find(is_own) {
+                Some((file, text)) => Source::Eds {
+                    name: file.clone(),
+                    text: text.clone(),
+                    lenient: false,
+                },
+                None => Source::Builtin { name: name.clone() },
+            };
             Placed {
-                source: Source::Builtin { name: name.clone() },
+                source,
                 node_id: device.node_id(),
                 name,
             }

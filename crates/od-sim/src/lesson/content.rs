@@ -2,10 +2,15 @@
 
 use std::prelude::v1::*;
 
+use od_model::Refused;
+use od_runtime::{Frame, Instant, NodeId};
+
 use super::condition::Line;
 use super::quiz::Quiz;
+use crate::bus::Bus;
+use crate::device::VirtualDevice;
 use crate::grammar::problem::Problem;
-use crate::script::{Bench, Host, Script, Stop, run_on};
+use crate::script::{Bench, Host, Limits, Origin, Script, Stop, run_on};
 
 /// Longest time until the frames of a set-up are through, in microseconds: a full line always has a frame.
 const ON_ITS_WAY: u64 = 100_000;
@@ -29,6 +34,8 @@ pub struct Lesson {
     pub absent: Vec<od_model::Address>,
     /// Text before the first step, as Markdown.
     pub intro: String,
+    /// Devices of the lesson: the name in the set-up, and the EDS text.
+    pub eds: Vec<(String, String)>,
     /// The script that sets up the bench.
     pub set_up: Block,
     /// Steps, in order.
@@ -88,7 +95,8 @@ impl Lesson {
         // Lessons use a real line unless they choose otherwise.
         bench.bus.line.set_real(true);
         let script = self.set_up.script().map_err(|mut all| all.remove(0))?;
-        run_on(&script, &mut bench, host).map_err(|stop| stopped(&stop))?;
+        let mut own = OwnDevices { lesson: self, host };
+        run_on(&script, &mut bench, &mut own).map_err(|stop| stopped(&stop))?;
         let until = bench.bus.now().plus_micros(ON_ITS_WAY);
         bench.bus.advance_until_quiet(until);
         while bench.bus.poll().is_some() {}
@@ -114,6 +122,59 @@ impl Lesson {
         lesson.set_up.text = lines.collect::<Vec<_>>().join("\n");
         lesson
     }
+}
+
+/// A host that makes the devices of a lesson's EDS texts; another host makes the others.
+struct OwnDevices<'a> {
+    lesson: &'a Lesson,
+    host: &'a mut dyn Host,
+}
+
+impl Host for OwnDevices<'_> {
+    fn device(
+        &mut self,
+        name: Option<&str>,
+        node_id: Option<NodeId>,
+    ) -> Result<VirtualDevice, Refused> {
+        let own = |(known, _): &&(String, String)| name == Some(known.as_str());
+        match self.lesson.eds.iter().find(own) {
+            Some((name, text)) => of_eds(name, text, node_id),
+            None => self.host.device(name, node_id),
+        }
+    }
+
+    fn limits(&self) -> Option<Limits> {
+        self.host.limits()
+    }
+
+    fn frame(&mut self, at: Instant, origin: Origin, frame: &Frame) {
+        self.host.frame(at, origin, frame);
+    }
+
+    fn look(&mut self, bus: &mut Bus) {
+        self.host.look(bus);
+    }
+}
+
+#[cfg(feature = "eds")]
+fn of_eds(name: &str, text: &str, node_id: Option<NodeId>) -> Result<VirtualDevice, Refused> {
+    let options = crate::device::loaded::EdsOptions {
+        node_id,
+        lenient: false,
+    };
+    VirtualDevice::from_eds(text, options).map_err(|findings| {
+        let count = findings
+            .iter()
+            .filter(|finding| finding.is_unsound())
+            .count();
+        let help = "save it as a file and check it with `odkit check`";
+        std::format!("the EDS of `{name}` has errors ({count}); {help}").into()
+    })
+}
+
+#[cfg(not(feature = "eds"))]
+fn of_eds(name: &str, _: &str, _: Option<NodeId>) -> Result<VirtualDevice, Refused> {
+    Err(std::format!("`{name}` needs EDS texts, which are not supported").into())
 }
 
 impl Block {

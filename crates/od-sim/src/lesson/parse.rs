@@ -199,6 +199,15 @@ impl Reader {
     }
 
     fn block(&mut self, fence: Fence) {
+        if let Some(name) = fence.name.strip_prefix("eds ") {
+            let line = fence.line - 1;
+            if !self.lesson.steps.is_empty() {
+                let help = "move it before the first `## `";
+                return self.problem(line, "an `eds` block is inside a step", help);
+            }
+            let device = (name.trim().to_owned(), fence.lines.join("\n"));
+            return self.lesson.eds.push(device);
+        }
         let Some(name) = BLOCKS.into_iter().find(|name| *name == fence.name) else {
             let ticks = "`".repeat(fence.ticks);
             self.prose(&format!("{ticks}{}", fence.name));

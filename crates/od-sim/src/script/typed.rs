@@ -236,9 +236,13 @@ fn integer(data_type: DataType, text: &str) -> Result<Vec<u8>, Refused> {
     };
     let value =
         value.ok_or_else(|| format!("“{text}” is not a whole number (decimal, 0x1F or 1Fh)"))?;
-    // All bits may be given, for signed types, too.
+    // All bits may be given, for signed types, too; an unsigned type has no negative values.
     let bits = data_type.bits().unwrap_or(8);
-    if value < -(1 << (bits - 1)) || value >= 1 << bits {
+    let low = match data_type.kind() {
+        Kind::Signed => -(1 << (bits - 1)),
+        _ => 0,
+    };
+    if value < low || value >= 1 << bits {
         return Err(format!("{value} does not fit {data_type}").into());
     }
     let size = data_type.size().unwrap_or(1).clamp(1, 16);
@@ -347,6 +351,13 @@ mod tests {
         }
         for (data_type, text, why) in [
             (DataType::Unsigned8, "256", "256 does not fit UNSIGNED8"),
+            (DataType::Unsigned16, "-1", "-1 does not fit UNSIGNED16"),
+            (
+                DataType::Unsigned16,
+                "70000",
+                "70000 does not fit UNSIGNED16",
+            ),
+            (DataType::Integer8, "-129", "-129 does not fit INTEGER8"),
             (DataType::Unsigned8, "twelve", "not a whole number"),
             (DataType::Unsigned8, "", "missing"),
             (DataType::Unsigned16, "\"save\"", "longer than 2 bytes"),

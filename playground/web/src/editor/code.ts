@@ -1,10 +1,10 @@
 // The text of an EDS in CodeMirror, connected to the language server. It has a shadow root: there
 // its style sheets are objects, which the page's policy allows, and not elements.
 
-import { autocompletion, type CompletionContext, type CompletionResult } from '@codemirror/autocomplete';
-import { defaultKeymap, history, historyKeymap } from '@codemirror/commands';
+import { autocompletion, closeCompletion, selectedCompletion, type CompletionContext, type CompletionResult } from '@codemirror/autocomplete';
+import { defaultKeymap, history, historyKeymap, insertNewlineAndIndent } from '@codemirror/commands';
 import { openSearchPanel, search, searchKeymap } from '@codemirror/search';
-import { ChangeSet, EditorSelection, EditorState, type Text, type TransactionSpec } from '@codemirror/state';
+import { ChangeSet, EditorSelection, EditorState, Prec, type Text, type TransactionSpec } from '@codemirror/state';
 import { drawSelection, EditorView, highlightActiveLine, highlightActiveLineGutter, hoverTooltip, keymap, lineNumbers, type Tooltip, type ViewUpdate } from '@codemirror/view';
 import { render } from 'lit';
 import { markdown } from '../views/markdown';
@@ -60,6 +60,7 @@ export class Code {
         search({ top: true }),
         autocompletion({ override: [(context) => this.complete(context)], icons: false }),
         hoverTooltip((_, at) => this.hover(at), { hoverTime: 250 }),
+        Prec.highest(keymap.of([{ key: 'Enter', run: (view) => this.isWhole(view) && closeCompletion(view) && insertNewlineAndIndent(view) }])),
         keymap.of([
           { key: 'F12', run: () => (void this.jump(), true) },
           { key: 'F8', run: () => this.next(1), shift: () => this.next(-1) },
@@ -150,6 +151,13 @@ export class Code {
     this.unchecked = this.unchecked.filter(({ version }) => version >= found.version);
     if (own) this.view.dispatch({ effects: setMarks.of({ places: found.places, doc: own.doc, since: own.since?.desc ?? null }) });
     this.on.found(found);
+  }
+
+  /** Whether the selected completion is typed already: then Enter begins a new line. */
+  private isWhole(view: EditorView): boolean {
+    const chosen = selectedCompletion(view.state);
+    const { head } = view.state.selection.main;
+    return chosen !== null && view.state.doc.lineAt(head).text.slice(0, head - view.state.doc.lineAt(head).from).endsWith(chosen.label);
   }
 
   /** Moves the cursor, and scrolls to it. */

@@ -1,16 +1,24 @@
 // Shows an opened log in the console: beside the capture, or in its place.
 
 import { clearConsole, saveLog, setRunning } from '../actions';
+import { revealed } from '../capture';
 import type { Log } from '../sim/api';
 import * as state from '../state';
 import { Ring } from '../trace/ring';
 import { forget, start } from './player';
-import { close, putBeside, showLive } from './shelf';
+import { beside as besideLog, close, putBeside, showLive } from './shelf';
 import './shelf-tabs';
 import { S } from './texts';
 
 /** The end of the capture while a log is shown and no frame has followed. */
 let onlyLog: { cleared: number; end: number } | null = null;
+
+/** Whether the frames that are shown are those of a log only. */
+export function isLog(): boolean {
+  void state.captured.value;
+  const isAlone = onlyLog !== null && onlyLog.end === state.ring.end && onlyLog.cleared === state.cleared.value;
+  return isAlone || (besideLog.value?.isShown ?? false);
+}
 
 /** Shows a log. The user is asked before a capture is replaced. */
 export function opened(name: string, log: Log): void {
@@ -35,6 +43,8 @@ const skipped = (log: Log): string => (log.skipped ? ` ${S.log.skipped(log.skipp
 
 function tell(name: string, log: Log, isBeside: boolean): void {
   forget();
+  // A log is read from its beginning.
+  revealed.value = { number: state.ring.first };
   state.log.value = { name, frames: log.frames, count: log.count };
   const text = S.log.opened(name, log.count, isBeside) + skipped(log);
   state.toast.value = { text, tone: log.skipped ? 'error' : 'info', action: { text: S.log.send, run: () => start('bus') } };

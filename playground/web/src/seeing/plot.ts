@@ -13,6 +13,7 @@ import { csv, png } from './export';
 import { keepLearning, live, mapped, type Plottable } from './signals';
 import './style';
 import { S } from './texts';
+import { isLog } from './log';
 import { follow, inFull, plotted } from './tracks';
 
 /** Maximum number of areas; more would be too flat to read. */
@@ -24,6 +25,9 @@ const PERIOD = 50;
 const seconds = signal(10);
 const isShared = signal(false);
 const cursors = signal<Cursors>({ a: null, b: null });
+
+/** Values of the simulation. A log has only those of its own frames. */
+const sources = (): Plottable[] => (isLog() ? [] : live());
 
 class Plot extends View {
   private readonly charts = new Charts(() => this.window(), () => cursors.peek(), (at) => this.choose(at));
@@ -58,7 +62,7 @@ class Plot extends View {
 
   /** The plotted and the available values: the devices may have changed. */
   private shown(): Plottable[] {
-    const all = new Map([...live(), ...mapped.value].map((one) => [one.key, one]));
+    const all = new Map([...sources(), ...mapped.value].map((one) => [one.key, one]));
     return plotted.value.flatMap((key) => all.get(key) ?? []).slice(0, MOST);
   }
 
@@ -169,7 +173,7 @@ class Plot extends View {
         <label class="select bordered grow"><select aria-label=${t.add} ?disabled=${shown.length >= MOST} @change=${(event: Event) => this.add(event)}>
           <option value="">${t.add}</option>
           ${mapped.value.length ? html`<optgroup label=${t.fromFrames}>${mapped.value.map(option)}</optgroup>` : nothing}
-          <optgroup label=${t.live}>${live().map(option)}</optgroup>
+          ${sources().length ? html`<optgroup label=${t.live}>${sources().map(option)}</optgroup>` : nothing}
         </select></label>
         <label class="select bordered"><select aria-label=${t.window} @change=${(event: Event) => (seconds.value = Number((event.target as HTMLSelectElement).value))}>
           ${[1, 10, 60, 0].map((span) => html`<option value=${span} ?selected=${span === seconds.value}>${t.windows[span]}</option>`)}

@@ -26,7 +26,9 @@ export const bench = {
     slow: 'As fast as possible with this many frames',
   },
   encoder: {
-    title: 'Encoder',
+    title: 'Device',
+    /** By device profile. */
+    titles: { 401: 'I/O module', 402: 'Drive', 404: 'Measuring device', 406: 'Encoder', 410: 'Inclinometer', 418: 'Battery', 419: 'Charger' } as Record<number, string>,
     fold: 'The encoder in full',
     tabs: { shaft: 'Shaft', hardware: 'Hardware', eeprom: 'EEPROM' },
     tabsLabel: 'Encoder views',

@@ -50,6 +50,28 @@ test('services, nodes, identifiers', () => {
   }
 });
 
+test('CAN-IDs with h, of 29 bits, and in lists', () => {
+  const extended = frame(0x18ff50e5, [1], { extended: true });
+  for (const [text, expected] of [
+    ['181h', [false, true, false, false]],
+    ['18FF50E5', [false, false, false, true]],
+    ['0x18ff50e5', [false, false, false, true]],
+    ['id:18FF50E5h', [false, false, false, true]],
+    ['00000181', [false, false, false, false]],
+    ['181,705', [false, true, true, false]],
+    ['id:181h,585h', [true, true, false, false]],
+    ['sdo,hb', [true, false, true, false]],
+    ['!181,705', [true, false, false, true]],
+    ['180-18F,700:780', [false, true, true, false]],
+  ] as const) {
+    assert.deepEqual([answer, pdo, heartbeat, extended].map((one) => passes(text, one)), expected, text);
+  }
+});
+
+test('a number that is neither is an error', () => {
+  for (const text of ['181x', '1G', '5..', '123456789', 'id:2FFFFFFF']) assert.ok('error' in parseFilter(text), text);
+});
+
 test('words', () => {
   assert.ok(passes('position', pdo, 'TPDO1 Position value = 5'));
   assert.ok(!passes('position', pdo, 'Heartbeat'));

@@ -133,6 +133,12 @@ class Parser {
     const field = /^([a-z_]+(?:\.[a-z_]+)?)\s*(:|==|!=)\s*(.*)$/i.exec(text);
     if (field && !/^[0-9a-f]{1,3}$/i.test(field[1]!)) return this.field(field[1]!.toLowerCase(), field[2]!, field[3]!, at + text.length - field[3]!.length, at);
     const plain = text.toLowerCase();
+    if (plain.includes(',') && !plain.includes('"')) {
+      const parts = text.split(',').filter((part) => part !== '');
+      if (parts.length === 0) throw new Failure(T.filter.missing, at);
+      const tests = parts.map((part) => this.term({ text: part, at: at + text.indexOf(part) }));
+      return (frame, words) => tests.some((test) => test(frame, words));
+    }
     const service = SERVICES[plain] ?? /^r?pdo[1-4]$/.test(plain);
     if (service) return Array.isArray(service) ? (frame) => service.includes(frame.tag.service) : (frame) => frame.tag.text.toLowerCase() === plain;
     if (plain === 'tx' || plain === 'rx') return (frame) => frame.fromPage === (plain === 'tx');
@@ -150,9 +156,12 @@ class Parser {
       if (low > high) throw new Failure(T.filter.range, at);
       return (frame) => frame.id >= low && frame.id <= high;
     }
-    // Three digits are a COB-ID, four an object.
-    if (/^(?:0x)?[0-9a-f]{3}$/i.test(plain) && /\d/.test(plain)) return this.identifier(plain, at);
+    // Three digits are a CAN-ID, four an object, more a CAN-ID of 29 bits.
+    if (/^(?:0x)?[0-9a-f]{3}h?$/i.test(plain) && /\d/.test(plain)) return this.identifier(plain, at);
     if (/^(?:0x)?[0-9a-f]{4}h?(?:[:.][0-9a-f]{1,2})?$/i.test(plain) && /\d/.test(plain)) return this.object(plain, at);
+    if (/^(?:0x)?[0-9a-f]{5,8}h?$/i.test(plain) && /\d/.test(plain)) return this.identifier(plain, at);
+    // A number in no known form is a mistake, not a word of a text.
+    if (/^\d/.test(plain) && !/^[0-9a-f]{1,2}$/.test(plain)) throw new Failure(T.filter.number, at);
     return this.words(text);
   }
 
@@ -175,7 +184,7 @@ class Parser {
       case 'cob':
       case 'can.id':
       case 'canopen.cob_id':
-        return value.includes(':') || value.includes('-') ? this.term({ text: value, at }) : this.identifier(value, at);
+        return /[:,-]|\.\./.test(value) ? this.term({ text: value, at }) : this.identifier(value, at);
       case 'data': {
         const digits = value.replace(/["\s]/g, '').toUpperCase();
         if (!/^([0-9A-F]{2}|\.\.|XX)+$/.test(digits)) throw new Failure(T.filter.bytes, at);
@@ -200,7 +209,9 @@ class Parser {
   private identifier(text: string, at: number): Test {
     const id = hex(text);
     if (id === null || id > 0x1fffffff) throw new Failure(T.filter.id, at);
-    return (frame) => frame.id === id;
+    // More than three digits are 29 bits, so that 00000181 is another CAN-ID than 181.
+    const isLong = text.replace(/^0x|h$/gi, '').length > 4;
+    return (frame) => frame.id === id && (frame.extended || !isLong);
   }
 
   /** SDO frames about an object, and frames whose text names it. */

@@ -3,7 +3,7 @@
 import { html, nothing } from 'lit';
 import { effect } from '@preact/signals-core';
 import * as state from '../state';
-import { find, filterError, filterText, folds, nextBookmark, setFilter, setFolds, trace, view } from '../capture';
+import { find, filterError, filterText, folds, nextBookmark, passing, refiltered, setFilter, setFolds, trace, view } from '../capture';
 import { clearConsole, saveLog, togglePause } from '../actions';
 import { grouped } from '../format';
 import { T } from '../texts';
@@ -53,7 +53,11 @@ class Console extends View {
     }
     if (event.key !== 'Enter') return;
     event.preventDefault();
-    const found = await find(this.finding, event.shiftKey ? -1 : 1);
+    await this.findNext(event.shiftKey ? -1 : 1);
+  }
+
+  private async findNext(direction: 1 | -1): Promise<void> {
+    const found = await find(this.finding, direction);
     this.findNote = typeof found === 'string' ? found : found ? '' : T.frames.notFound;
   }
 
@@ -74,9 +78,10 @@ class Console extends View {
       ${state.bookmarks.value.size ? html`<button class="icon-button" aria-label=${t.nextMark} title=${t.nextMark} @click=${() => nextBookmark(1)}>${icons.mark}</button>` : nothing}
       ${error ? html`<p id="filter-note" class="note" data-tone="error" role="status">${caret(filterText.value, error.at)} ${error.error}</p>` : nothing}
       ${this.isFinding
-        ? html`<div class="find"><input class="num" aria-label=${t.find} placeholder=${t.findTitle} autocomplete="off" spellcheck="false" .value=${this.finding}
+        ? html`<div class="find"><input class="num grow" aria-label=${t.find} title=${t.findTitle} placeholder=${t.findHint} autocomplete="off" spellcheck="false" .value=${this.finding}
             @input=${(event: Event) => { this.finding = (event.target as HTMLInputElement).value; this.findNote = ''; }} @keydown=${(event: KeyboardEvent) => void this.onFind(event)}>
-            <span class="note" data-tone="error" role="status">${this.findNote}</span></div>`
+            <button class="small" title=${t.findTitle} @click=${() => void this.findNext(1)}>${icons.down}<span class="sr">${t.find}</span></button>
+            <span class="note" data-tone="error" role="status" ?hidden=${!this.findNote}>${this.findNote}</span></div>`
         : nothing}
       ${this.hasTrigger ? html`<od-trigger></od-trigger>` : nothing}
     </div>`;
@@ -86,6 +91,7 @@ class Console extends View {
     const paused = state.pausedAt.value;
     void state.captured.value;
     void state.cleared.value;
+    void refiltered.value;
     const kept = state.ring.end - state.ring.first;
     const waiting = paused === null ? 0 : state.ring.end - Math.max(paused, state.ring.first);
     const t = T.frames;
@@ -94,6 +100,8 @@ class Console extends View {
       <header class="panel-head">
         <h2>${t.title}</h2><od-shelf></od-shelf>
         <span class="muted num count" aria-label=${t.captured}>${grouped(kept)}</span>
+        ${trace.filter ? html`<span class="muted num passing" role="status">${t.passing(grouped(trace.count), grouped(kept))}</span>
+          <button class="small" title=${t.saveFilteredTitle} ?disabled=${trace.count === 0} @click=${() => void saveLog('log', passing())}>${icons.save} ${t.saveFiltered}</button>` : nothing}
         ${paused === null ? nothing : html`<span class="pill" data-tone="amber">${t.paused}${waiting ? html`, <span class="num">${grouped(waiting)}</span> ${t.fresh}` : nothing}</span>`}
         ${trigger ? html`<button class="pill" data-tone=${trigger.phase === 'armed' ? '' : 'amber'} title=${trigger.text} @click=${() => { this.hasTrigger = true; }}>${t.triggers[trigger.phase]}</button>` : nothing}
         <div class="spacer"></div>
@@ -106,7 +114,7 @@ class Console extends View {
           if (select.value) void saveLog(select.value as (typeof FORMATS)[number]);
           select.value = '';
         }}><option value="">…</option>${FORMATS.map((format) => html`<option value=${format}>${t.formats[format]}</option>`)}</select></label>
-        <label class="button small" title=${t.open}>${icons.file} <span class="wide">${t.open}</span><input class="sr" type="file" accept=".log,.asc,.trc,.pcap,.pcapng" aria-label=${t.open} @change=${(event: Event) => {
+        <label class="button small" title=${t.open}>${icons.file} <span class="wide">${t.open}</span><input class="sr" type="file" accept=".log,.asc,.trc,.pcap,.pcapng,.candump,.dump,.txt" aria-label=${t.open} @change=${(event: Event) => {
           const input = event.target as HTMLInputElement;
           if (input.files?.[0]) void openFile(input.files[0], 1, 'new').then(() => (input.value = ''));
         }}></label>

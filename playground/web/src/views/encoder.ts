@@ -17,6 +17,12 @@ import './eeprom';
 
 const FASTEST = 6000;
 
+/** The device profile: the low 16 bits of 1000h. */
+function profile(): number {
+  const type = state.objectsByKey.value.get(state.keyOf(0x1000, 0))?.default;
+  return typeof type === 'number' || typeof type === 'bigint' ? Number(BigInt(type) & 0xffffn) : 406;
+}
+
 type Part = keyof typeof T.encoder.tabs;
 
 class Encoder extends View {
@@ -55,7 +61,7 @@ class Encoder extends View {
     return html`
       <header class="panel-head">
         ${state.lesson.value ? html`<button class="icon-button fold-button" aria-expanded=${state.encoderOpen.value} aria-label=${T.encoder.fold} title=${T.encoder.fold} @click=${() => (state.encoderOpen.value = !state.encoderOpen.value)}>${icons.chevron}</button>` : nothing}
-        <h2>${T.encoder.title}</h2>
+        <h2>${T.encoder.titles[profile()] ?? T.encoder.title}</h2>
         <span class="pill" data-nmt=${nmtState} role="status" aria-label=${T.encoder.nmt}>${T.encoder.states[nmtState]}</span>
         <div class="spacer"></div>
         <button class="small" aria-label=${T.encoder.resetLabel} title=${T.encoder.resetTitle} ?disabled=${!isOn} @click=${() => sendLine('nmt reset')}>${icons.reset} ${T.encoder.reset}</button>

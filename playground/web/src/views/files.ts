@@ -6,6 +6,8 @@ import { T } from '../texts';
 
 /** Recognises a bus log by its name. */
 const LOG = /\.(log|asc|trc|pcap|pcapng|candump|dump)$/i;
+/** Name of a text of any kind. */
+const TEXT = /\.(txt|csv|out|text)$|^[^.]+$/i;
 const LONGEST_LOG = 100_000_000;
 
 /** Maximum size of a file: the largest known EDS files have about 2 MB. */
@@ -22,6 +24,15 @@ export async function openFile(file: File, nodeId: number, place: number | 'new'
   if (LOG.test(file.name) && file.size < LONGEST_LOG) {
     await openLog(file.name, new Uint8Array(await file.arrayBuffer()));
     return true;
+  }
+  // A log may have any name: what the log readers accept is one.
+  if (TEXT.test(file.name) && file.size < LONGEST_LOG) {
+    const bytes = new Uint8Array(await file.arrayBuffer());
+    const [read, { opened }] = await Promise.all([use('readLog', bytes), import('../seeing/log')]);
+    if ('value' in read && read.value.count > 0) {
+      opened(file.name, read.value);
+      return true;
+    }
   }
   if (file.size > LONGEST) {
     state.toast.value = { text: T.files.tooLarge(file.name), tone: 'error' };
