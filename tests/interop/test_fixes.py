@@ -46,13 +46,13 @@ class SafeFixes(unittest.TestCase):
         return compared
 
     def test_cases(self):
-        files = sorted((tools.ROOT / "od-eds" / "cases").glob("*/*.eds"))
+        files = sorted((tools.ROOT / "crates" / "od-eds" / "cases").glob("*/*.eds"))
         self.assertGreater(self.hold(files), 20)
 
     def test_mutants(self):
         built = os.environ.get("ODKIT_TOOLS", tools.ROOT / "target" / "debug" / "examples" / "tools")
         with tempfile.TemporaryDirectory() as folder:
-            cases = tools.ROOT / "od-eds" / "cases"
+            cases = tools.ROOT / "crates" / "od-eds" / "cases"
             subprocess.run([built, "mutants", cases, folder, str(MUTANTS), "32"], check=True)
             self.assertGreater(self.hold(sorted(Path(folder).glob("*.eds"))), 2)
 

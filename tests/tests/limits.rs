@@ -70,3 +70,44 @@ fn a_text_that_claims_millions_of_sub_objects_gets_a_million() {
     assert_eq!(parsed.description.objects.len(), 4_000);
     assert_eq!(count(&parse(&lines("", 1_000, array)), "E0353"), 0);
 }
+
+/// Processor time of this thread in hundredths of a second; `None` on a system that does not tell it.
+fn processor_time() -> Option<u64> {
+    let text = std::fs::read_to_string("/proc/thread-self/stat").ok()?;
+    let fields: Vec<&str> = text.rsplit(')').next()?.split_whitespace().collect();
+    let number = |at: usize| fields.get(at)?.parse::<u64>().ok();
+    Some(number(11)? + number(12)?)
+}
+
+#[test]
+fn time_grows_with_the_length_of_a_text() {
+    let attributes: String = (0..300_000).map(|n| format!(" a{n}=\"1\"")).collect();
+    let crowded = format!("<ISO15745ProfileContainer><a{attributes}/></ISO15745ProfileContainer>");
+    let long = format!("{VAR}DefaultValue={}\n", "z".repeat(10_000_000));
+    let noise: String = (0..5_000_000_u32)
+        .map(|n| char::from((n.wrapping_mul(2_654_435_761) >> 25) as u8))
+        .collect();
+    for (name, text, code) in [
+        ("300,000 attributes", crowded, "E0113"),
+        ("a value of 10 MB", long, "E0412"),
+        ("5 MB of noise", noise, "E0210"),
+    ] {
+        let start = processor_time();
+        let parsed = load(&text);
+        // A build without optimisation needs ten times as long.
+        let most = if cfg!(debug_assertions) { 2_000 } else { 200 };
+        if let (Some(start), Some(end)) = (start, processor_time()) {
+            assert!(end - start <= most, "{name}: {} ms", (end - start) * 10);
+        }
+        assert!(count(&parsed, code) > 0, "{name}: {code} is missing");
+        for finding in &parsed.findings {
+            let said = od_eds::say(finding, &od_eds::Eds);
+            let length = said.message.chars().count().max(said.help.chars().count());
+            assert!(
+                length < 600,
+                "{name}: {} has {length} characters",
+                said.code
+            );
+        }
+    }
+}

@@ -42,7 +42,7 @@ struct Sums {
 fn what_was_read_before_a_safe_fix_is_read_after_it() {
     let here = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut files = corpus::files(&corpus::folder(), corpus::TEXTS);
-    for folder in ["../od-eds/cases", "cases", "../devices/eds"] {
+    for folder in ["../crates/od-eds/cases", "cases", "../devices/eds"] {
         files.extend(corpus::files(&here.join(folder), corpus::TEXTS));
     }
     let files: Vec<(String, Vec<u8>)> = files

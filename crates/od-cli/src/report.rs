@@ -30,13 +30,21 @@ pub(crate) fn names(description: &Description, findings: &[Finding]) -> Names {
         Some((
             address,
             if named {
-                format!("{shown} \"{}\"", Visible(&name.value))
+                format!("{shown} \"{}\"", Visible(&of_a_line(name)))
             } else {
                 shown
             },
         ))
     });
     named.collect()
+}
+
+/// A name that fits into a line.
+fn of_a_line(name: &str) -> Cow<'_, str> {
+    match name.char_indices().nth(100) {
+        Some((at, _)) => Cow::Owned(format!("{}…", &name[..at])),
+        None => Cow::Borrowed(name),
+    }
 }
 
 /// `object 2001h "Temperature" (CiA 306-1, object sections)`

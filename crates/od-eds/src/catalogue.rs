@@ -192,7 +192,7 @@ impl Blanks<'_> {
     fn shown(&self, fact: &Fact, form: &str) -> String {
         match fact {
             Fact::Number(number) => counted(*number, form),
-            Fact::Value(value) => shown(value),
+            Fact::Value(value) => cut(&shown(value)),
             Fact::Type(data_type) => data_type.name().into(),
             Fact::FormOf(data_type) => self.words.form_of(*data_type),
             Fact::Code(code) => code.name().into(),
@@ -202,7 +202,7 @@ impl Blanks<'_> {
             Fact::Object(address) => address.to_string(),
             Fact::Section(index, sub) => self.words.section(*index, *sub),
             Fact::Key(key) => self.words.key(*key).into(),
-            Fact::Text(text) => Visible(text).line().into_owned(),
+            Fact::Text(text) => Visible(&cut(text)).line().into_owned(),
             Fact::List(facts) => self.all(facts, form).join(", "),
             Fact::OneOf(facts) => {
                 let mut all = self.all(facts, form);
@@ -214,6 +214,17 @@ impl Blanks<'_> {
                 }
             }
         }
+    }
+}
+
+/// Maximum number of characters of a text of the file in a sentence.
+const LONGEST: usize = 100;
+
+/// A text of the file, cut where nobody reads on.
+fn cut(text: &str) -> String {
+    match text.char_indices().nth(LONGEST) {
+        Some((at, _)) => format!("{}…", &text[..at]),
+        None => text.into(),
     }
 }
 

@@ -1,5 +1,6 @@
 //! Descriptions of values of an EDS.
 
+use od_eds::outline::meaning;
 use od_eds::{Description, EntryDescription, Value};
 use od_model::{Access, Address, DataType, ObjectCode, Visible};
 
@@ -72,6 +73,19 @@ pub(crate) fn value(
     if let Some(special) = special(at, number) {
         return Some(special);
     }
+    let profile = standard::profile(description);
+    let meaning = number
+        .and_then(|number| i64::try_from(number).ok())
+        .and_then(|number| meaning(profile, at.index, at.sub, number));
+    let shown = plain(entry, value);
+    match meaning {
+        Some(meaning) => Some(format!("{}: {meaning}", shown?)),
+        None => shown,
+    }
+}
+
+/// A value without the meaning of its object.
+fn plain(entry: &EntryDescription, value: &Value) -> Option<String> {
     match value {
         Value::NodeId(offset) => Some(format!("{offset:X}h + node ID")),
         Value::Unsigned(number @ 0..=9) => Some(number.to_string()),

@@ -6,6 +6,7 @@ mod cia401;
 mod cia402;
 mod cia404;
 mod cia406;
+mod meanings;
 mod row;
 
 use alloc::vec::Vec;
@@ -14,6 +15,7 @@ use od_model::DataType;
 
 use crate::standards::row::Row;
 
+pub use crate::standards::meanings::meaning;
 pub(crate) use crate::standards::row::Checked;
 
 /// The tables of a profile; none if odkit does not know it.

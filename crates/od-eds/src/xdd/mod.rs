@@ -17,6 +17,7 @@ mod source;
 mod types;
 mod write;
 
+use alloc::format;
 use alloc::string::ToString;
 
 use roxmltree::Document;
@@ -29,11 +30,42 @@ use crate::xdd::source::{Places, Reader};
 
 pub use write::write;
 
+/// Maximum number of attributes of an element. Those of CiA 311 have 12; the XML parser compares each attribute with
+/// all others.
+const ATTRIBUTES: usize = 1_000;
+
+/// The place of an element with too many attributes, each of which has a `="` or a `='`.
+fn crowded(text: &str) -> Option<usize> {
+    let (mut start, mut count) = (0, 0);
+    let bytes = text.as_bytes();
+    for (at, pair) in bytes.windows(2).enumerate() {
+        match pair {
+            [b'<', _] => (start, count) = (at, 0),
+            [b'=', b'"' | b'\''] => count += 1,
+            _ => {}
+        }
+        if count > ATTRIBUTES {
+            return Some(start);
+        }
+    }
+    None
+}
+
 /// Reads an XDD or an XDC.
 ///
 /// Never fails, never panics. A text that is not well-formed XML gives an empty
 /// description and the place where it breaks.
 pub(crate) fn parse(text: &str, log: &mut Log) -> Description {
+    if let Some(at) = crowded(text) {
+        let places = Places::new(text);
+        let line = text[..at].matches('\n').count() as u32 + 1;
+        let error = format!("an element has more than {ATTRIBUTES} attributes");
+        log.push(e0113_xml_not_well_formed::finding(
+            places.at(line, 1),
+            &error,
+        ));
+        return Description::default();
+    }
     let xml = match Document::parse(text) {
         Ok(xml) => xml,
         Err(error) => {

@@ -39,6 +39,12 @@ fn a_hover_describes_the_place() {
         client.at("textDocument/hover", TEXT, "|\n[FileInfo]"),
         Value::Null
     );
+    let drive = "[1000]\nDataType=7\nAccessType=ro\nDefaultValue=0x00020192\n\
+        [6060]\nParameterName=Modes of operation\nDataType=2\nAccessType=rw\nDefaultValue=1\n";
+    client.change(URI, json!({ "text": drive }));
+    let found = client.at("textDocument/hover", drive, "[60|60]");
+    let said = found["contents"]["value"].as_str().unwrap();
+    assert!(said.contains("profile position"), "{said}");
     let text = "[2000]\nParameterName=a\nDataType=5\nDefaultValue=300\n";
     client.change(URI, json!({ "text": text }));
     let found = client.at("textDocument/hover", text, "=3|00");

@@ -1,0 +1,265 @@
+//! The meaning of values: what a number, or a bit of it, says in an object of the documents of CiA.
+
+use alloc::string::{String, ToString};
+use alloc::vec::Vec;
+
+/// Values of one object, or of a range of objects that are alike.
+struct Row {
+    /// Number of the device profile; 0 for CiA 301 and CiA 302.
+    profile: u16,
+    first: u16,
+    last: u16,
+    /// The sub-indices.
+    subs: (u8, u8),
+    what: What,
+}
+
+/// The way in which a value says something.
+enum What {
+    /// First and last value, and their meaning.
+    Values(&'static [(i64, i64, &'static str)]),
+    /// The bits that are set, and what each says.
+    Bits(&'static [(u8, &'static str)]),
+    /// Bits that are looked at, their pattern, and its meaning; the first that fits.
+    Patterns(&'static [(i64, i64, &'static str)]),
+}
+
+use What::{Bits, Patterns, Values};
+
+const fn row(profile: u16, first: u16, last: u16, subs: (u8, u8), what: What) -> Row {
+    Row {
+        profile,
+        first,
+        last,
+        subs,
+        what,
+    }
+}
+
+const VAR: (u8, u8) = (0, 0);
+const ALL: (u8, u8) = (1, 254);
+
+const MODES: &[(i64, i64, &str)] = &[
+    (-128, -1, "mode of the manufacturer"),
+    (0, 0, "no mode"),
+    (1, 1, "profile position"),
+    (2, 2, "velocity (frequency converter)"),
+    (3, 3, "profile velocity"),
+    (4, 4, "profile torque"),
+    (6, 6, "homing"),
+    (7, 7, "interpolated position"),
+    (8, 8, "cyclic synchronous position"),
+    (9, 9, "cyclic synchronous velocity"),
+    (10, 10, "cyclic synchronous torque"),
+    (11, 11, "cyclic synchronous torque with commutation angle"),
+];
+
+const STOPS: &[(i64, i64, &str)] = &[
+    (-32768, -1, "reaction of the manufacturer"),
+    (0, 0, "disable the drive function"),
+    (1, 1, "slow down on the slow down ramp"),
+];
+
+const OPERATING: &[(u8, &str)] = &[
+    (0, "code sequence counter-clockwise"),
+    (1, "commissioning diagnostics enabled"),
+    (2, "scaling enabled"),
+    (3, "measuring direction reversed"),
+];
+
+/// The meanings, by profile.
+#[rustfmt::skip]
+const TABLE: &[Row] = &[
+    row(0, 0x1001, 0x1001, VAR, Bits(&[
+        (0, "generic error"), (1, "current"), (2, "voltage"), (3, "temperature"), (4, "communication error"),
+        (5, "device profile specific"), (7, "manufacturer-specific"),
+    ])),
+    row(0, 0x1029, 0x1029, ALL, Values(&[
+        (0, 0, "Pre-operational, if the node is Operational"), (1, 1, "no change of the NMT state"), (2, 2, "Stopped"),
+    ])),
+    row(0, 0x1F80, 0x1F80, VAR, Bits(&[
+        (0, "NMT master"), (1, "starts all nodes at once"), (2, "does not start itself"),
+        (3, "does not start the slaves"), (4, "resets all nodes if a mandatory slave fails"), (5, "flying master"),
+        (6, "stops all nodes if a mandatory slave fails"),
+    ])),
+    row(0, 0x1F81, 0x1F81, ALL, Bits(&[
+        (0, "slave of this master"), (2, "is booted again after an error control event"), (3, "mandatory slave"),
+        (4, "is not reset while it is Operational"), (5, "its program is verified"), (6, "its program is updated"),
+    ])),
+    row(0, 0x1F51, 0x1F51, ALL, Values(&[
+        (0, 0, "stop the program"), (1, 1, "start the program"), (2, 2, "reset the program"), (3, 3, "clear the program"),
+    ])),
+    row(401, 0x6005, 0x6005, VAR, Values(&[(0, 0, "interrupts disabled"), (1, 1, "interrupts enabled")])),
+    row(401, 0x6421, 0x6421, ALL, Bits(&[
+        (0, "above the upper limit"), (1, "below the lower limit"), (2, "changed by more than the delta"),
+        (3, "reduced by more than the negative delta"), (4, "increased by more than the positive delta"),
+    ])),
+    row(401, 0x6423, 0x6423, VAR, Values(&[(0, 0, "interrupts disabled"), (1, 1, "interrupts enabled")])),
+    row(401, 0x6443, 0x6443, ALL, Values(&[
+        (0, 0, "the output keeps its value after an error"), (1, 1, "the output takes the error value (6444h, 6445h)"),
+    ])),
+    row(402, 0x6007, 0x6007, VAR, Values(&[
+        (0, 0, "no action"), (1, 1, "fault"), (2, 2, "disable voltage"), (3, 3, "quick stop"),
+    ])),
+    row(402, 0x6040, 0x6040, VAR, Patterns(&[
+        (0x80, 0x80, "fault reset"), (0x07, 0x06, "shutdown"), (0x0F, 0x07, "switch on"),
+        (0x0F, 0x0F, "enable operation"), (0x02, 0x00, "disable voltage"), (0x06, 0x02, "quick stop"),
+    ])),
+    row(402, 0x6041, 0x6041, VAR, Patterns(&[
+        (0x4F, 0x00, "Not ready to switch on"), (0x4F, 0x40, "Switch on disabled"), (0x6F, 0x21, "Ready to switch on"),
+        (0x6F, 0x23, "Switched on"), (0x6F, 0x27, "Operation enabled"), (0x6F, 0x07, "Quick stop active"),
+        (0x4F, 0x0F, "Fault reaction active"), (0x4F, 0x08, "Fault"),
+    ])),
+    row(402, 0x605A, 0x605A, VAR, Values(&[
+        (-32768, -1, "reaction of the manufacturer"), (0, 0, "disable the drive function"),
+        (1, 1, "slow down ramp, then Switch on disabled"), (2, 2, "quick stop ramp, then Switch on disabled"),
+        (3, 3, "current limit, then Switch on disabled"), (4, 4, "voltage limit, then Switch on disabled"),
+        (5, 5, "slow down ramp, stay in Quick stop active"), (6, 6, "quick stop ramp, stay in Quick stop active"),
+        (7, 7, "current limit, stay in Quick stop active"), (8, 8, "voltage limit, stay in Quick stop active"),
+    ])),
+    row(402, 0x605B, 0x605C, VAR, Values(STOPS)),
+    row(402, 0x605D, 0x605D, VAR, Values(&[
+        (-32768, -1, "reaction of the manufacturer"), (1, 1, "slow down ramp, stay in Operation enabled"),
+        (2, 2, "quick stop ramp, stay in Operation enabled"), (3, 3, "current limit, stay in Operation enabled"),
+        (4, 4, "voltage limit, stay in Operation enabled"),
+    ])),
+    row(402, 0x605E, 0x605E, VAR, Values(&[
+        (-32768, -1, "reaction of the manufacturer"), (0, 0, "disable the drive function, the motor is free"),
+        (1, 1, "slow down ramp"), (2, 2, "quick stop ramp"), (3, 3, "current limit"), (4, 4, "voltage limit"),
+    ])),
+    row(402, 0x6060, 0x6061, VAR, Values(MODES)),
+    row(402, 0x607E, 0x607E, VAR, Bits(&[(6, "velocity inverted"), (7, "position inverted")])),
+    row(402, 0x6086, 0x6086, VAR, Values(&[
+        (-32768, -1, "profile of the manufacturer"), (0, 0, "linear ramp (trapezoidal)"), (1, 1, "sin² ramp"),
+        (2, 2, "jerk-free ramp"), (3, 3, "jerk-limited ramp"),
+    ])),
+    row(402, 0x6098, 0x6098, VAR, Values(&[
+        (-128, -1, "method of the manufacturer"), (0, 0, "no homing"), (1, 1, "negative limit switch and index pulse"),
+        (2, 2, "positive limit switch and index pulse"), (3, 4, "positive home switch and index pulse"),
+        (5, 6, "negative home switch and index pulse"), (7, 14, "home switch and index pulse"),
+        (17, 17, "negative limit switch"), (18, 18, "positive limit switch"), (19, 20, "positive home switch"),
+        (21, 22, "negative home switch"), (23, 30, "home switch"), (33, 33, "index pulse in negative direction"),
+        (34, 34, "index pulse in positive direction"), (35, 35, "current position"), (37, 37, "current position"),
+    ])),
+    row(402, 0x6502, 0x6502, VAR, Bits(&[
+        (0, "profile position"), (1, "velocity"), (2, "profile velocity"), (3, "profile torque"), (5, "homing"),
+        (6, "interpolated position"), (7, "cyclic synchronous position"), (8, "cyclic synchronous velocity"),
+        (9, "cyclic synchronous torque"), (10, "cyclic synchronous torque with commutation angle"),
+    ])),
+    row(406, 0x6000, 0x6000, VAR, Bits(OPERATING)),
+    row(406, 0x6500, 0x6500, VAR, Bits(OPERATING)),
+    row(406, 0x6503, 0x6504, VAR, Bits(&[(0, "position error"), (1, "commissioning diagnostics")])),
+    row(406, 0x6505, 0x6506, VAR, Bits(&[
+        (0, "frequency exceeded"), (1, "light control reserve"), (2, "watchdog"), (3, "operating time limit"),
+        (4, "battery charge"), (5, "reference point"),
+    ])),
+];
+
+/// Returns what a value of an object says in a device of this profile: `profile position` for 1 in 6060h of CiA 402.
+/// `None` if the documents give the number no meaning of its own.
+pub fn meaning(profile: Option<u16>, index: u16, sub: u8, number: i64) -> Option<String> {
+    let rows = TABLE.iter();
+    let found = rows
+        .filter(|row| row.profile == 0 || Some(row.profile) == profile)
+        .find(|row| {
+            // The objects of the second device of a module, and of the second axis, are 800h higher.
+            let own = match row.profile {
+                401 | 402 if index >= 0x6000 => 0x6000 + (index - 0x6000) % 0x800,
+                _ => index,
+            };
+            (row.first..=row.last).contains(&own) && (row.subs.0..=row.subs.1).contains(&sub)
+        })?;
+    match found.what {
+        Values(values) => {
+            let mut values = values.iter();
+            let value = values.find(|(first, last, _)| (*first..=*last).contains(&number))?;
+            Some(value.2.to_string())
+        }
+        Bits(bits) => {
+            let set = bits.iter().filter(|(bit, _)| number >> bit & 1 != 0);
+            let set: Vec<&str> = set.map(|(_, name)| *name).collect();
+            (!set.is_empty()).then(|| set.join(", "))
+        }
+        Patterns(patterns) => {
+            let mut patterns = patterns.iter();
+            let found = patterns.find(|(mask, pattern, _)| number & mask == *pattern)?;
+            Some(found.2.to_string())
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::standards::{cia301, profile_name};
+
+    #[test]
+    fn each_row_is_about_an_object_of_the_tables() {
+        for row in TABLE {
+            for index in [row.first, row.last] {
+                let known = match row.profile {
+                    0 => cia301::of(index).is_some(),
+                    profile => profile_name(profile, index).is_some(),
+                };
+                assert!(known, "CiA {}: {index:04X}h", row.profile);
+            }
+        }
+    }
+
+    #[test]
+    fn a_value_has_the_meaning_of_its_profile() {
+        for (profile, index, sub, number, expected) in [
+            (402, 0x6060, 0, 1, Some("profile position")),
+            (402, 0x6861, 0, 6, Some("homing")),
+            (402, 0x6060, 0, -3, Some("mode of the manufacturer")),
+            (402, 0x6060, 0, 5, None),
+            (402, 0x6040, 0, 0x1F, Some("enable operation")),
+            (402, 0x6040, 0, 0x86, Some("fault reset")),
+            (402, 0x6041, 0, 0x0637, Some("Operation enabled")),
+            (402, 0x6041, 0, 0x0250, Some("Switch on disabled")),
+            (402, 0x6502, 0, 0x21, Some("profile position, homing")),
+            (
+                401,
+                0x6421,
+                1,
+                7,
+                Some(
+                    "above the upper limit, below the lower limit, changed by more than the delta",
+                ),
+            ),
+            (
+                401,
+                0x6443,
+                1,
+                0,
+                Some("the output keeps its value after an error"),
+            ),
+            (
+                406,
+                0x6000,
+                0,
+                5,
+                Some("code sequence counter-clockwise, scaling enabled"),
+            ),
+            (406, 0x6060, 0, 1, None),
+            (
+                402,
+                0x1001,
+                0,
+                0x11,
+                Some("generic error, communication error"),
+            ),
+            (402, 0x1029, 1, 2, Some("Stopped")),
+            (402, 0x1029, 0, 2, None),
+        ] {
+            let found = meaning(Some(profile), index, sub, number);
+            assert_eq!(
+                found.as_deref(),
+                expected,
+                "{index:04X}h:{sub:02X} = {number}"
+            );
+        }
+        assert_eq!(meaning(None, 0x6060, 0, 1), None);
+        assert_eq!(meaning(None, 0x1F80, 0, 1).as_deref(), Some("NMT master"));
+    }
+}
