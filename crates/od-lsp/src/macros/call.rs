@@ -15,6 +15,8 @@ pub(crate) struct Call {
     pub(crate) eds: Option<Range<usize>>,
     pub(crate) overlay: Option<Range<usize>>,
     pub(crate) statements: Vec<Statement>,
+    /// Whether the call has `warnings = off;`.
+    pub(crate) is_quiet: bool,
 }
 
 /// `add`, `modify`, `remove` or `rename`.
@@ -109,6 +111,10 @@ fn call(source: &str, tokens: &[Token], body: Range<usize>) -> Call {
                 if kind(at + 3) == Some(Kind::Sign(b'+')) {
                     call.overlay = call.overlay.or(text(at + 4));
                 }
+                at += 2;
+            }
+            "warnings" if tokens.get(at + 2).is_some_and(|off| is(source, off, "off")) => {
+                call.is_quiet = true;
                 at += 2;
             }
             "variant" => {

@@ -1,11 +1,12 @@
 //! Findings about a call of the macro: errors of the file, and of the statements.
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 use od_eds::check::check;
 use od_eds::patch::{self, Action, Change, Edit, Raw};
 use od_eds::row::{CODES, GROUPS, Row, TYPES};
-use od_eds::{Description, Finding, Span, Spanned, say, token, token_of};
+use od_eds::{Description, Finding, Severity, Span, Spanned, say, token, token_of};
 use od_model::{Access, DataType};
 
 use crate::file::File;
@@ -14,6 +15,9 @@ use crate::macros::call::{self, Call, Statement};
 use crate::macros::scan::{Kind, Token};
 use crate::types::{Diagnostic, RelatedInformation};
 
+/// Severities of the protocol.
+const ERROR: u8 = 1;
+const WARNING: u8 = 2;
 /// Limit of shown errors of the file; the others are counted.
 const SHOWN: usize = 20;
 
@@ -36,43 +40,79 @@ fn of_call(file: &File, call: &Call, find: Find<'_>) -> Vec<Diagnostic> {
     };
     let mut found = Vec::new();
     if let Some(base) = &base {
-        let unsound: Vec<_> = base
-            .findings
-            .iter()
-            .filter(|one| one.is_unsound())
-            .collect();
-        for finding in unsound.iter().take(SHOWN) {
-            let mut told = told(file, home.clone(), finding);
-            let location = base.place(finding);
-            told.related_information
-                .extend(location.map(|location| RelatedInformation {
-                    location,
-                    message: "here".into(),
-                }));
-            found.push(told);
-        }
-        if let Some(more @ 1..) = unsound.len().checked_sub(SHOWN) {
-            let said = format!("{more} more errors; open the file, or run `odkit check`");
-            found.push(diagnostic(file, home.clone(), "", said));
-        }
+        of_file(file, base, &home, &mut found);
     }
     let mut whole = base.map(|base| base.description).unwrap_or_default();
-    patched(file, call, None, &mut whole, &mut found);
+    let before = if whole.objects.is_empty() {
+        Vec::new()
+    } else {
+        check(&whole)
+    };
+    let before = patched(file, call, None, &mut whole, &before, &mut found);
     let variants = call.statements.iter().filter_map(|own| own.variant).max();
     for variant in 0..variants.map_or(0, |last| last + 1) {
-        patched(file, call, Some(variant), &mut whole.clone(), &mut found);
+        patched(
+            file,
+            call,
+            Some(variant),
+            &mut whole.clone(),
+            &before,
+            &mut found,
+        );
     }
+    found.retain(|one| !call.is_quiet || one.severity == ERROR);
     found
 }
 
-/// Applies the statements of a variant, or those outside variants; findings are at their tokens.
+/// Findings about the file, at its path: each error that no device can be built with, and of others one for each
+/// rule with their number.
+fn of_file(file: &File, base: &Base, home: &Range<usize>, found: &mut Vec<Diagnostic>) {
+    let mut show = |finding: &Finding, more: usize| {
+        let mut told = told(file, home.clone(), finding);
+        if more > 0 {
+            told.message
+                .push_str(&format!("\nnote: {more} more of this rule"));
+        }
+        let location = base.place(finding);
+        told.related_information
+            .extend(location.map(|location| RelatedInformation {
+                location,
+                message: "here".into(),
+            }));
+        found.push(told);
+    };
+    let all = base.findings.iter();
+    let all = all.filter(|finding| finding.severity() >= Severity::Warning);
+    let (unsound, others): (Vec<&Finding>, Vec<&Finding>) = all.partition(|one| one.is_unsound());
+    for finding in unsound.iter().take(SHOWN) {
+        show(finding, 0);
+    }
+    let mut by_rule: BTreeMap<&str, (&Finding, usize)> = BTreeMap::new();
+    for finding in others {
+        by_rule
+            .entry(finding.code())
+            .and_modify(|(_, more)| *more += 1)
+            .or_insert((finding, 0));
+    }
+    for (finding, more) in by_rule.into_values() {
+        show(finding, more);
+    }
+    if let Some(more @ 1..) = unsound.len().checked_sub(SHOWN) {
+        let said = format!("{more} more errors; open the file, or run `odkit check`");
+        found.push(diagnostic(file, home.clone(), "", said));
+    }
+}
+
+/// Applies the statements of a variant, or those outside variants, to a description of which the checks found `before`;
+/// findings are at their tokens. Returns what the checks find in the result.
 fn patched(
     file: &File,
     call: &Call,
     variant: Option<usize>,
     description: &mut Description,
+    before: &[Finding],
     found: &mut Vec<Diagnostic>,
-) {
+) -> Vec<Finding> {
     let mut places = Vec::new();
     let own = call.statements.iter().filter(|own| own.variant == variant);
     let own: Vec<&Statement> = own.collect();
@@ -80,21 +120,48 @@ fn patched(
         .iter()
         .filter_map(|own| edit(file.str(), own, &mut places))
         .collect();
-    let mut findings = patch::apply(description, &edits);
+    let mut faults = patch::apply(description, &edits);
     for statement in own.iter().filter(|own| own.action.is_none()) {
         if let Some((target, bytes)) = &statement.target {
             let target = Spanned::new(*target, mark(bytes, &mut places));
-            findings.extend(patch::missing(description, &target));
+            faults.extend(patch::missing(description, &target));
         }
     }
-    let checked = check(description).into_iter().filter(Finding::is_unsound);
-    findings.extend(checked);
-    findings.sort_by_key(|finding| finding.span().and_then(token_of));
-    for finding in &findings {
-        let id = finding.span().and_then(token_of);
-        let place = id.and_then(|id| places.get(id as usize));
-        found.extend(place.map(|bytes| told(file, bytes.clone(), finding)));
+    let checked = check(description);
+    let index = |finding: &Finding| finding.object.map(|address| address.index);
+    // All else may be a consequence of a fault.
+    let is_own = |finding: &&Finding| {
+        let of_one = finding.rule.is_of_one_value()
+            && !faults.iter().any(|fault| index(fault) == index(finding));
+        finding.severity() >= Severity::Warning
+            && (faults.is_empty() || finding.is_unsound() || of_one)
+            && !before.contains(finding)
+    };
+    // The last edit of the object, for a finding whose place is in the file, or that has none.
+    let culprit = |finding: &Finding| {
+        let of_object = |edit: &&Edit| Some(edit.target.index) == index(finding);
+        edits
+            .iter()
+            .rev()
+            .find(of_object)
+            .map(|edit| edit.target.span)
+    };
+    let new = checked.iter().filter(is_own);
+    let mut placed: Vec<(u32, &Finding)> = faults
+        .iter()
+        .chain(new)
+        .filter_map(|finding| {
+            let own = finding.span().and_then(token_of);
+            let id = own.or_else(|| culprit(finding).and_then(token_of))?;
+            Some((id, finding))
+        })
+        .collect();
+    placed.sort_by_key(|(id, _)| *id);
+    for (id, finding) in placed {
+        let bytes = places.get(id as usize);
+        found.extend(bytes.map(|bytes| told(file, bytes.clone(), finding)));
     }
+    checked
 }
 
 fn mark(bytes: &Range<usize>, places: &mut Vec<Range<usize>>) -> Span {
@@ -203,13 +270,16 @@ fn told(file: &File, bytes: Range<usize>, finding: &Finding) -> Diagnostic {
         message.push_str("\nhelp: ");
         message.push_str(&said.help);
     }
-    diagnostic(file, bytes, said.code, message)
+    Diagnostic {
+        severity: if finding.is_unsound() { ERROR } else { WARNING },
+        ..diagnostic(file, bytes, said.code, message)
+    }
 }
 
 fn diagnostic(file: &File, bytes: Range<usize>, code: &'static str, message: String) -> Diagnostic {
     Diagnostic {
         range: file.text.range(bytes),
-        severity: 1,
+        severity: ERROR,
         code,
         source: "odkit",
         message,

@@ -19,15 +19,20 @@ fn calls_of_the_macro_use_the_objects_of_their_file() {
         .iter()
         .map(|one| (one["code"].as_str().unwrap(), covered(text, &one["range"])))
         .collect();
-    // Two PDOs of the file have the same COB-ID.
+    // Two PDOs of the file have the same COB-ID, and a device can be built with the three that follow.
     assert_eq!(
         said,
         [
             ("W0521", "../eds/a.eds"),
+            ("W0216", "../eds/a.eds"),
+            ("W0635", "../eds/a.eds"),
+            ("W0904", "../eds/a.eds"),
             ("E0707", "300"),
             ("E0701", "0x7777")
         ]
     );
+    let severities: Vec<_> = found.iter().map(|one| one["severity"].clone()).collect();
+    assert_eq!(severities, [1, 2, 2, 2, 1, 1]);
     let at = |client: &mut Client, method: &str, mark: &str| {
         client.request(
             method,
@@ -65,4 +70,29 @@ fn calls_of_the_macro_use_the_objects_of_their_file() {
     client.change(uri, json!({ "text": text.replace("a.eds", "b.eds") }));
     let found = client.diagnostics(uri);
     assert_eq!(found[0]["message"], "../eds/b.eds cannot be read");
+}
+
+#[test]
+fn a_warning_that_a_statement_brings_about_is_at_the_statement() {
+    let mut files = Files::default();
+    files.0.insert("/w/a.eds".into(), TEXT.into());
+    let mut client = Client::new(files, json!({}));
+    let uri = "file:///w/lib.rs";
+    let text = "object_dictionary! {\n    mod a {\n        eds = \"a.eds\";\n        \
+                modify 0x2001 { low = 9 }\n        variant v { modify 0x2001 { low = 0; high = 5 } }\n    }\n}\n";
+    client.open(uri, text);
+    let found = client.diagnostics(uri);
+    let limits: Vec<_> = found
+        .iter()
+        .filter(|one| one["code"] == "W0452")
+        .map(|one| (one["severity"].clone(), covered(text, &one["range"])))
+        .collect();
+    // The default of the file is 7.
+    assert_eq!(limits, [(json!(2), "0x2001"), (json!(2), "0x2001")]);
+    client.change(
+        uri,
+        json!({ "text": text.replace("eds = ", "warnings = off;\n        eds = ") }),
+    );
+    let found = client.diagnostics(uri);
+    assert!(found.iter().all(|one| one["severity"] == 1), "{found:?}");
 }
