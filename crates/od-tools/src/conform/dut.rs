@@ -36,6 +36,9 @@ pub struct Dut<'d> {
     pub(crate) sync_id: u32,
     /// Makes the device once more, if it is simulated.
     pub(crate) fresh: Option<Fresh<'d>>,
+    /// How long the node was silent at last: the length of a wait for a frame that did not come, in microseconds; 0 if
+    /// anything was sent or received since.
+    pub(crate) silence: u64,
     /// What was wrong so far in a case that goes through all its objects: expected and actual behaviour.
     pub(crate) faults: Vec<(String, String)>,
     /// Whether the case switched the power off.
@@ -53,6 +56,7 @@ impl Dut<'_> {
     /// Sends a frame.
     pub(crate) fn send(&mut self, frame: Frame) -> Checked {
         let at = self.now();
+        self.silence = 0;
         self.rig.send(&frame)?;
         self.frames.push(Traced {
             at,
@@ -110,11 +114,13 @@ impl Dut<'_> {
         wanted: impl Fn(&Frame) -> bool,
     ) -> Checked<Option<Heard>> {
         let until = self.now().plus_micros(micros + self.rig.slack());
+        self.silence = 0;
         while let Some(heard) = self.receive(until)? {
             if wanted(&heard.frame) {
                 return Ok(Some(heard));
             }
         }
+        self.silence = micros;
         Ok(None)
     }
 

@@ -18,6 +18,8 @@ use crate::error::Error;
 const SILENCES: u8 = 3;
 /// A test that is later than this does not judge a node by one run, in microseconds.
 const LATE: u64 = 5_000;
+/// A frame that is missing for this many times the test's own lateness is missing.
+const PATIENCE: u64 = 50;
 /// Groups whose cases measure time, or act in time: the test's own lateness can be what fails.
 const TIMED: [&str; 6] = [
     "NMT",
@@ -147,10 +149,12 @@ impl<'s> Session<'s> {
             may_reset: self.leave.reset,
             sync_id: 0x80,
             fresh: self.simulated.map(|(_, fresh)| fresh),
+            silence: 0,
             faults: Vec::new(),
             is_off: false,
             late: 0,
         };
+        let mut silence = 0;
         let mut result = match &self.lost {
             Some(why) => skip(why),
             None => responds(&mut dut, self.silences)
@@ -165,6 +169,7 @@ impl<'s> Session<'s> {
                         }
                         _ => {
                             let done = steps(case, &mut dut);
+                            silence = dut.silence;
                             dut.judged(done)
                         }
                     };
@@ -200,7 +205,11 @@ impl<'s> Session<'s> {
             self.lost = Some(why.clone());
             result = Err(End::Skip(why));
         }
-        let (notes, frames, late) = (dut.notes, dut.frames, dut.late);
+        let (notes, frames, mut late) = (dut.notes, dut.frames, dut.late);
+        // What does not come for so much longer than the test was late does not come.
+        if silence >= PATIENCE * late {
+            late = 0;
+        }
         let record = Record {
             id: case.id.clone(),
             group: case.group.clone(),

@@ -207,3 +207,20 @@ fn every_official_case_is_covered() {
         .collect();
     assert!(missing.is_empty(), "{missing:?}");
 }
+
+/// What CiA 305 leaves open is a remark: the case passes.
+#[test]
+fn a_fastscan_that_ends_early_is_a_remark() {
+    let mut bench = Bench::new("ds301");
+    let early = "since <7E5#51 .. .. .. .. 00 01 00> until <7E5#04 *> to 7E5#5A *: \
+                 reply 7E4#5A 01 00 00 00 00 00 00";
+    for (rules, is_there) in [("", false), (early, true)] {
+        let record = bench.run("lss-fastscan", rules);
+        assert!(record.verdict.is_pass(), "{rules}: {:?}", record.verdict);
+        let remark = record
+            .notes
+            .iter()
+            .any(|note| note.starts_with("remark, CiA 305 6.7"));
+        assert_eq!(remark, is_there, "{rules}: {:?}", record.notes);
+    }
+}

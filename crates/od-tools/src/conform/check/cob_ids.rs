@@ -46,6 +46,7 @@ pub(super) fn highest(dut: &mut Dut<'_>) -> Checked {
                 frames: Vec::new(),
                 undo: Vec::new(),
                 notes: Vec::new(),
+                silence: 0,
                 faults: Vec::new(),
                 fresh: None,
                 ..*dut

@@ -113,6 +113,8 @@ fn saved(dut: &mut Dut<'_>, sub: u8) -> Checked {
     let before = dut.read(address)?;
     dut.write(address, &bytes)?;
     let done = command(dut, 0x1010, sub, b"save").and_then(|()| {
+        // A node that keeps its values over a reset would have the saved one, too.
+        dut.write(address, &before)?;
         dut.reset(Command::ResetNode)?;
         let after = dut.read(address)?;
         ensure(
@@ -224,6 +226,10 @@ pub(super) fn save_all(dut: &mut Dut<'_>) -> Checked {
         return lacks("fewer than two parameters of communication can be changed");
     }
     let done = command(dut, 0x1010, 1, b"save").and_then(|()| {
+        // A node that keeps its values over a reset would have the saved ones, too.
+        for (address, before, _) in &changed {
+            dut.write(*address, before)?;
+        }
         dut.reset(Command::ResetNode)?;
         for (address, _, other) in &changed {
             let after = dut.read(*address)?;
@@ -262,6 +268,7 @@ pub(super) fn save_twice(dut: &mut Dut<'_>) -> Checked {
             dut.write(address, value)?;
             command(dut, 0x1010, 1, b"save")?;
         }
+        dut.write(address, &before)?;
         dut.reset(Command::ResetNode)?;
         let after = dut.read(address)?;
         ensure(
