@@ -3,6 +3,14 @@
 use core::fmt;
 
 /// Access types of CiA 306-1, seen from the bus.
+///
+/// ```
+/// use od_model::Access;
+///
+/// assert!(Access::Rw.readable() && Access::Rw.writable());
+/// assert!(Access::Rww.maps_to_rpdo() && !Access::Rww.maps_to_tpdo());
+/// assert_eq!(Access::Const.name(), "const");
+/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
 pub enum Access {
     /// Read only on the bus; the device changes it.
@@ -74,6 +82,14 @@ impl fmt::Display for Access {
 ///
 /// CiA 301, objects 1010h and 1011h: sub-index 1 covers all groups, 2 the
 /// communication, 3 the application, 4 the manufacturer parameters.
+///
+/// ```
+/// use od_model::Group;
+///
+/// assert_eq!(Group::of_index(0x1017), Group::Communication);
+/// // 1010h:02 saves the communication parameters.
+/// assert!(Group::Communication.covered_by(2) && !Group::Application.covered_by(2));
+/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
 pub enum Group {
     /// Not saved.

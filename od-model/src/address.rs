@@ -6,6 +6,14 @@ use core::fmt;
 ///
 /// Ordered by index, then sub-index, which is the order of every table here.
 /// Shown as `1018h:02`.
+///
+/// ```
+/// use od_model::Address;
+///
+/// let address = Address::new(0x1018, 4);
+/// assert_eq!(address.to_string(), "1018h:04");
+/// assert_eq!((address.index, address.sub), (0x1018, 4));
+/// ```
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Address {

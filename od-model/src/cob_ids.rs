@@ -3,6 +3,15 @@
 use crate::address::Address;
 
 /// A service with a COB-ID of its own. Of two that collide, the later one in this order gives way.
+///
+/// ```
+/// use od_model::{Address, CobIdService};
+///
+/// let service = CobIdService::at(Address::new(0x1800, 1)).expect("the COB-ID of a TPDO");
+/// assert_eq!(service, CobIdService::Tpdo);
+/// // Bit 31: the PDO is not valid.
+/// assert!(service.is_used(0x185) && !service.is_used(0x8000_0185));
+/// ```
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub enum CobIdService {
     /// SYNC, 1005h.

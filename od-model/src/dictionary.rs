@@ -19,6 +19,15 @@ use crate::varying::{Arenas, Varying};
 ///
 /// Names are there with the feature `names`; without it they are empty, and a firmware does not
 /// hold their text.
+///
+/// ```
+/// # let description = od_eds::parse(include_str!("../../devices/eds/GXMM.eds")).description;
+/// # let tables = od_eds::Tables::new(&description);
+/// let dictionary = tables.dictionary();
+/// let entry = dictionary.entry(0x1000, 0).expect("the device type");
+/// assert_eq!(entry.default.integer(32), Some(0x0002_0196));
+/// assert!(dictionary.has(0x6004) && !dictionary.has(0x6400));
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Dictionary<'a> {
     buckets: Buckets<'a>,
@@ -59,6 +68,15 @@ impl Shape {
 }
 
 /// Names of the objects and entries of a dictionary.
+///
+/// ```
+/// # let description = od_eds::parse(include_str!("../../devices/eds/GXMM.eds")).description;
+/// # let tables = od_eds::Tables::new(&description);
+/// let names = tables.names();
+/// // A row for each entry: the names of the object and of the entry.
+/// assert_eq!(names.rows.len(), tables.dictionary().len());
+/// assert!(names.text.contains("Position value"));
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Names<'a> {
     /// For each entry start and length of its own name, then of its object's: little-endian numbers of four bytes, as a
@@ -319,6 +337,15 @@ impl<'a> Dictionary<'a> {
 }
 
 /// Values of a dictionary, by ascending address.
+///
+/// ```
+/// # let description = od_eds::parse(include_str!("../../devices/eds/GXMM.eds")).description;
+/// # let tables = od_eds::Tables::new(&description);
+/// use od_model::Access;
+///
+/// let read_only = tables.dictionary().entries().filter(|entry| entry.access == Access::Ro);
+/// assert!(read_only.count() > 0);
+/// ```
 #[derive(Clone, Debug)]
 pub struct Entries<'a> {
     dictionary: Dictionary<'a>,
@@ -364,6 +391,13 @@ impl DoubleEndedIterator for Entries<'_> {
 impl ExactSizeIterator for Entries<'_> {}
 
 /// Objects of a dictionary, by ascending index.
+///
+/// ```
+/// # let description = od_eds::parse(include_str!("../../devices/eds/GXMM.eds")).description;
+/// # let tables = od_eds::Tables::new(&description);
+/// let indices: Vec<u16> = tables.dictionary().objects().map(|object| object.index).collect();
+/// assert!(indices.is_sorted() && indices.first() == Some(&0x1000));
+/// ```
 #[derive(Clone, Debug)]
 pub struct Objects<'a> {
     dictionary: Dictionary<'a>,

@@ -8,6 +8,17 @@ use crate::types::{DataType, Kind, ObjectCode};
 use crate::value::{Literal, Range};
 
 /// One object: its index, its name and the range of its entries.
+///
+/// ```
+/// # let description = od_eds::parse(include_str!("../../devices/eds/GXMM.eds")).description;
+/// # let tables = od_eds::Tables::new(&description);
+/// use od_model::ObjectCode;
+///
+/// let dictionary = tables.dictionary();
+/// let identity = dictionary.object(0x1018).expect("each device has one");
+/// assert_eq!(identity.code, ObjectCode::Record);
+/// assert_eq!(dictionary.members(&identity).count(), usize::from(identity.count));
+/// ```
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Object {
     /// Index.
@@ -23,6 +34,16 @@ pub struct Object {
 }
 
 /// One value of an object: the data behind one multiplexer (CiA 301, chapter 7.4).
+///
+/// ```
+/// # let description = od_eds::parse(include_str!("../../devices/eds/GXMM.eds")).description;
+/// # let tables = od_eds::Tables::new(&description);
+/// use od_model::{Access, DataType};
+///
+/// let position = tables.dictionary().entry(0x6004, 0).expect("an encoder has a position");
+/// assert_eq!((position.data_type, position.access), (DataType::Unsigned32, Access::Ro));
+/// assert!(position.maps_to_tpdo() && !position.maps_to_rpdo());
+/// ```
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Entry {
     /// Index and sub-index.
@@ -52,6 +73,15 @@ pub struct Entry {
 /// A fixed-size value takes `len` bytes, little-endian. A string takes `len`
 /// bytes too: two for the current length, the rest is capacity. `len` 0 means
 /// that nothing is stored and the default is the value (access `const`).
+///
+/// ```
+/// # let description = od_eds::parse(include_str!("../../devices/eds/GXMM.eds")).description;
+/// # let tables = od_eds::Tables::new(&description);
+/// let dictionary = tables.dictionary();
+/// let slot = dictionary.entry(0x1017, 0).expect("the heartbeat time").slot;
+/// assert_eq!(slot.len, 2);
+/// assert!(slot.offset as usize + 2 <= dictionary.store_len());
+/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub struct Slot {
     /// First byte.
@@ -67,6 +97,16 @@ impl Slot {
 }
 
 /// Reason why an address has no entry.
+///
+/// ```
+/// # let description = od_eds::parse(include_str!("../../devices/eds/GXMM.eds")).description;
+/// # let tables = od_eds::Tables::new(&description);
+/// use od_model::{Address, Missing};
+///
+/// let find = |index, sub| tables.dictionary().find(Address::new(index, sub)).map(|entry| entry.address);
+/// assert_eq!(find(0x5FFF, 0), Err(Missing::Object));
+/// assert_eq!(find(0x1018, 9), Err(Missing::SubIndex));
+/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Missing {
     /// No object with this index: SDO abort 06020000h.

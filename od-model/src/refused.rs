@@ -5,6 +5,13 @@ use core::error::Error;
 use core::fmt;
 
 /// Why an input was refused, in words: what is wrong, and what to write instead.
+///
+/// ```
+/// use od_model::{DataType, values};
+///
+/// let refused = values::parse(DataType::Unsigned8, "300").expect_err("the largest is 255");
+/// assert_eq!(refused.to_string(), "UNSIGNED8 goes from 0 to 255");
+/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Refused(String);
 

@@ -3,6 +3,14 @@
 use core::ops::RangeInclusive;
 
 /// Owner of a restricted CAN-ID.
+///
+/// ```
+/// use od_model::{CanIdOwner, restricted};
+///
+/// let (range, owner) = restricted(0x605).expect("it belongs to the default SDO");
+/// assert_eq!((range, owner), (0x601..=0x67F, CanIdOwner::SdoRequest));
+/// assert!(restricted(0x185).is_none());
+/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum CanIdOwner {
     /// NMT commands, 000h.

@@ -16,6 +16,13 @@ mod sealed {
 type Marker<T> = PhantomData<fn() -> T>;
 
 /// A Rust type that an entry can have.
+///
+/// ```
+/// use od_model::typed::Scalar;
+///
+/// assert_eq!(500_u16.to_wire()[..2], [0xF4, 0x01]);
+/// assert_eq!(i16::from_wire(&[0xFF, 0xFF]), -1);
+/// ```
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not the Rust type of any CANopen data type",
     note = "bool, u8–u64, i8–i64, f32 and f64 are; strings go through `Text`"
@@ -106,6 +113,13 @@ markers! {
 }
 
 /// An access type under which the device may change the value: all but `const`.
+///
+/// ```
+/// use od_model::typed::{DeviceWritable, NoPdo, Scalar, Var};
+///
+/// /// Accepts a handle of an object that is not `const`; for another it does not compile.
+/// fn set<T: Scalar, A: DeviceWritable>(_: Var<T, A, NoPdo>, _: T) {}
+/// ```
 #[diagnostic::on_unimplemented(
     message = "this object is `const` in the EDS: the device may not change it",
     label = "AccessType=const",
@@ -119,6 +133,15 @@ impl DeviceWritable for Rwr {}
 impl DeviceWritable for Rww {}
 
 /// A PDOMapping flag under which a PDO can carry the value.
+///
+/// ```
+/// use od_model::typed::{MapEntry, Mappable, Var};
+///
+/// /// Only a mappable object has an entry for the mapping of a PDO.
+/// fn entry<T, A, M: Mappable>(var: Var<T, A, M>) -> MapEntry {
+///     var.map()
+/// }
+/// ```
 #[diagnostic::on_unimplemented(
     message = "this object cannot be mapped into a PDO",
     label = "it has PDOMapping=0",
@@ -140,6 +163,15 @@ pub trait FixedLength {}
 ///
 /// The 24-, 40-, 48- and 56-bit types are the next larger Rust integer; setting
 /// one keeps the bits that the object has.
+///
+/// ```
+/// use od_model::typed::{NoPdo, Rw, Var};
+/// use od_model::{Address, Slot};
+///
+/// // The macro makes such constants, with the place of the value.
+/// const HEARTBEAT: Var<u16, Rw, NoPdo> = Var::new(Address::new(0x1017, 0), Slot { offset: 4, len: 2 }, 16);
+/// assert_eq!(HEARTBEAT.address().to_string(), "1017h:00");
+/// ```
 pub struct Var<T, A, M = NoPdo> {
     address: Address,
     slot: Slot,
@@ -260,6 +292,14 @@ impl<T, A, M> Series<T, A, M> {
 }
 
 /// Handle of a string or domain: VISIBLE_STRING, OCTET_STRING, UNICODE_STRING, DOMAIN.
+///
+/// ```
+/// use od_model::typed::{Ro, Text};
+/// use od_model::{Address, Slot};
+///
+/// const NAME: Text<Ro> = Text::new(Address::new(0x1008, 0), Slot { offset: 8, len: 16 });
+/// assert_eq!(NAME.slot().len, 16);
+/// ```
 pub struct Text<A> {
     address: Address,
     slot: Slot,
@@ -312,6 +352,15 @@ impl<A> Text<A> {
 }
 
 /// One entry of a PDO mapping (CiA 301, objects 1600h–17FFh and 1A00h–1BFFh).
+///
+/// ```
+/// use od_model::Address;
+/// use od_model::typed::MapEntry;
+///
+/// let entry = MapEntry::parse(0x6004_0020);
+/// assert_eq!((entry.address, entry.bits), (Address::new(0x6004, 0), 32));
+/// assert_eq!(entry.raw(), 0x6004_0020);
+/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct MapEntry {
     /// Address of the mapped value.
@@ -337,6 +386,13 @@ impl MapEntry {
 }
 
 /// A PDO mapping of `N` entries, known to fit into one frame.
+///
+/// ```
+/// use od_model::typed::{MapEntry, pdo};
+///
+/// let mapping = pdo([MapEntry::parse(0x6004_0020), MapEntry::parse(0x6030_0110)]);
+/// assert_eq!(mapping.entries().iter().map(|entry| u32::from(entry.bits)).sum::<u32>(), 48);
+/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Mapping<const N: usize> {
     entries: [MapEntry; N],

@@ -4,6 +4,14 @@ use core::fmt;
 
 /// The static data types of CiA 301 (table 44, object indices 0001h–001Bh) and
 /// the predefined records 0020h–0023h.
+///
+/// ```
+/// use od_model::DataType;
+///
+/// assert_eq!(DataType::from_code(0x0007), Some(DataType::Unsigned32));
+/// assert_eq!((DataType::Unsigned24.name(), DataType::Unsigned24.bits()), ("UNSIGNED24", Some(24)));
+/// assert_eq!(DataType::Integer8.integer_range(), Some((-128, 127)));
+/// ```
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 #[repr(u16)]
 #[allow(missing_docs)] // the variants are the standard's own names
@@ -40,6 +48,13 @@ pub enum DataType {
 }
 
 /// Meaning of the bytes of a value.
+///
+/// ```
+/// use od_model::{DataType, Kind};
+///
+/// assert_eq!(DataType::Integer40.kind(), Kind::Signed);
+/// assert_eq!(DataType::VisibleString.kind(), Kind::Text);
+/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Kind {
     /// One bit in a PDO, one byte in an SDO: 0 or 1.
@@ -214,6 +229,13 @@ impl fmt::Display for DataType {
 }
 
 /// Object codes of CiA 301 (table 42).
+///
+/// ```
+/// use od_model::ObjectCode;
+///
+/// assert_eq!(ObjectCode::from_code(9), Some(ObjectCode::Record));
+/// assert!(ObjectCode::Record.has_members() && !ObjectCode::Var.has_members());
+/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
 #[repr(u8)]
 #[allow(missing_docs)] // the variants are the standard's own names

@@ -2,6 +2,12 @@
 
 /// A stretch of [`Dictionary::text`](crate::Dictionary::text) or
 /// [`Dictionary::blob`](crate::Dictionary::blob): start and length in bytes.
+///
+/// ```
+/// use od_model::Range;
+///
+/// assert_eq!(Range::new(2, 3).of(b"abcdefg"), b"cde");
+/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub struct Range {
     /// First byte.
@@ -29,6 +35,12 @@ impl Range {
 ///
 /// Texts and byte strings are ranges into the dictionary's two arenas, so a
 /// table of these has no lifetime and is the same compiled or loaded.
+///
+/// ```
+/// use od_model::Literal;
+///
+/// assert_eq!(Literal::Signed(-1).integer(8), Some(-1));
+/// ```
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub enum Literal {
     /// The description gives no value.

@@ -8,6 +8,12 @@ use core::fmt::{self, Write};
 /// A text of a device, a file or a peer. Its forms escape what a reader would not see: control
 /// characters (ESC, BEL, C1, line ends), marks that turn the direction of a text, and characters
 /// without a width become `\n` or `\u{1b}`.
+///
+/// ```
+/// use od_model::Visible;
+///
+/// assert_eq!(Visible("red\u{1b}[31m").to_string(), "red\\u{1b}[31m");
+/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Visible<'t>(pub &'t str);
 

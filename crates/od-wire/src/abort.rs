@@ -8,6 +8,13 @@ macro_rules! abort_codes {
     ($($(#[$doc:meta])* $name:ident = $code:literal, $text:literal;)*) => {
         /// SDO abort code (CiA 301, table 22), by its position in [`ALL`](Self::ALL); [`code`](Self::code) is the value
         /// on the bus.
+        ///
+        /// ```
+        /// use od_wire::AbortCode;
+        ///
+        /// assert_eq!(AbortCode::from_code(0x0602_0000), Some(AbortCode::NoObject));
+        /// assert_eq!(AbortCode::ReadOnly.code(), 0x0601_0002);
+        /// ```
         // A small number is one short instruction; in a word, it and a pointer are returned in registers.
         #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
         #[repr(u32)]

@@ -1,6 +1,13 @@
 //! EMCY frames (CiA 301, chapter 7.2.7.1): error code, error register, five bytes of the manufacturer's.
 
 /// An EMCY message: an error that comes, or with code 0000h one that goes.
+///
+/// ```
+/// use od_wire::emcy::Emcy;
+///
+/// let emcy = Emcy::parse(&[0x10, 0x82, 0x11, 0, 0, 0, 0, 0]).expect("8 bytes");
+/// assert_eq!((emcy.code, emcy.register), (0x8210, 0x11));
+/// ```
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
 pub struct Emcy {

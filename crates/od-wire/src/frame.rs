@@ -7,6 +7,13 @@ use embedded_can::{ExtendedId, Id, StandardId};
 ///
 /// The largest standard one is 7FFh, the largest extended one 1FFF_FFFFh; a value
 /// of this type cannot hold more.
+///
+/// ```
+/// use od_wire::CanId;
+///
+/// assert_eq!(CanId::standard(0x185).to_string(), "185");
+/// assert_eq!(CanId::extended(0x185).as_standard(), None);
+/// ```
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct CanId(u32);
 
@@ -78,6 +85,14 @@ impl fmt::Debug for CanId {
 /// A classical CAN frame: a data frame of 0–8 bytes, or a remote frame with a DLC of 0–8.
 ///
 /// The bytes behind the data are always 0, so equal frames are equal field by field.
+///
+/// ```
+/// use od_wire::{CanId, Frame};
+///
+/// let frame = Frame::standard(0x601, &[0x40, 0x04, 0x60, 0, 0, 0, 0, 0]);
+/// assert_eq!(frame.to_string(), "601#4004600000000000");
+/// assert!(Frame::new(CanId::standard(0x181), &[0; 9]).is_none());
+/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Frame {
     id: CanId,

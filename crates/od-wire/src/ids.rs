@@ -5,6 +5,14 @@ use core::fmt;
 use crate::frame::CanId;
 
 /// A node ID, 1–127 (CiA 301). One less is kept: the usual one is all zeros.
+///
+/// ```
+/// use od_wire::{CanId, NodeId};
+///
+/// let node = NodeId::new(5).expect("1 to 127");
+/// assert_eq!(node.plus(0x700), CanId::standard(0x705));
+/// assert!(NodeId::new(128).is_none());
+/// ```
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct NodeId(u8);
 
@@ -52,6 +60,14 @@ impl fmt::Debug for NodeId {
 
 /// The value of a COB-ID object: identifier and its three flag bits
 /// (CiA 301, objects 1005h, 1014h, 1400h, 1800h).
+///
+/// ```
+/// use od_wire::{CanId, CobId};
+///
+/// let cob_id = CobId::new(0x4000_0185);
+/// assert!(cob_id.is_valid() && !cob_id.allows_rtr());
+/// assert_eq!(cob_id.can_id(), CanId::standard(0x185));
+/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub struct CobId(u32);
 

@@ -22,6 +22,12 @@ pub const fn kbit(index: u8) -> Option<u16> {
 }
 
 /// The four numbers of the LSS address, in the order of 1018h.
+///
+/// ```
+/// use od_wire::lss::Part;
+///
+/// assert_eq!(Part::ALL.map(|part| part as u8), [0, 1, 2, 3]);
+/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[repr(u8)]
 pub enum Part {
@@ -51,6 +57,14 @@ impl Part {
 }
 
 /// Frame of an LSS master.
+///
+/// ```
+/// use od_wire::lss::Request;
+///
+/// let request = Request::SwitchGlobal { configuration: true };
+/// assert_eq!(request.emit(), [0x04, 1, 0, 0, 0, 0, 0, 0]);
+/// assert_eq!(Request::parse(&request.emit()), Some(request));
+/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[allow(missing_docs)] // the fields are the protocol's own
 pub enum Request {
@@ -155,6 +169,13 @@ impl Request {
 }
 
 /// Frame of an LSS slave.
+///
+/// ```
+/// use od_wire::lss::Response;
+///
+/// let response = Response::parse(&[0x5E, 5, 0, 0, 0, 0, 0, 0]);
+/// assert_eq!(response, Some(Response::NodeId { node_id: 5 }));
+/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[allow(missing_docs)] // the fields are the protocol's own
 pub enum Response {

@@ -3,6 +3,12 @@
 use core::fmt;
 
 /// The NMT commands.
+///
+/// ```
+/// use od_wire::nmt::Command;
+///
+/// assert_eq!(Command::from_code(0x81), Some(Command::ResetNode));
+/// ```
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[repr(u8)]
@@ -34,6 +40,12 @@ impl Command {
 }
 
 /// The states of an NMT slave; the number is the one a heartbeat carries.
+///
+/// ```
+/// use od_wire::nmt::State;
+///
+/// assert_eq!(State::from_code(0x7F), Some(State::PreOperational));
+/// ```
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[repr(u8)]
@@ -78,6 +90,15 @@ impl fmt::Display for State {
 }
 
 /// NMT message (CAN-ID 000h): a command for one node or for all.
+///
+/// ```
+/// use od_wire::nmt::{Command, Repr};
+///
+/// // Node 0 addresses all nodes.
+/// let start = Repr { command: Command::Start, node: 0 };
+/// assert_eq!(start.emit(), [1, 0]);
+/// assert_eq!(Repr::parse(&[1, 0]), Some(start));
+/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub struct Repr {
     /// The command.

@@ -8,6 +8,14 @@ pub use core::time::Duration;
 /// A moment, in microseconds since an origin of the caller's choice (power-on, say).
 ///
 /// Nothing below the host reads a clock; a moment comes in as an argument.
+///
+/// ```
+/// use od_wire::{Duration, Instant};
+///
+/// let at = Instant::from_millis(100) + Duration::from_millis(5);
+/// assert_eq!(at.as_micros(), 105_000);
+/// assert_eq!(at - Instant::from_millis(100), Duration::from_millis(5));
+/// ```
 // Packed: without it, every struct with a moment has gaps of four bytes on a microcontroller.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
 #[repr(Rust, packed(4))]

@@ -4,6 +4,14 @@
 const DAY: u64 = 24 * 60 * 60 * 1000;
 
 /// A moment as TIME messages carry it (TIME_OF_DAY).
+///
+/// ```
+/// use od_wire::time_of_day::TimeOfDay;
+///
+/// // Days since 1984-01-01, milliseconds since midnight.
+/// let time = TimeOfDay { days: 1, millis: 86_399_999 };
+/// assert_eq!(time.plus_millis(1), TimeOfDay { days: 2, millis: 0 });
+/// ```
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default)]
 pub struct TimeOfDay {
     /// Days since January 1, 1984.

@@ -6,6 +6,15 @@ use super::fields::{self, head, short};
 use super::segment::Segment;
 
 /// Frame of an SDO client.
+///
+/// ```
+/// use od_model::Address;
+/// use od_wire::sdo::Request;
+///
+/// let request = Request::InitiateUpload { address: Address::new(0x6004, 0) };
+/// assert_eq!(request.emit(), [0x40, 0x04, 0x60, 0, 0, 0, 0, 0]);
+/// assert_eq!(Request::parse(&request.emit()), request);
+/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[allow(missing_docs)] // the fields are the protocol's own
 pub enum Request {

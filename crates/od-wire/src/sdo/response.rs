@@ -6,6 +6,16 @@ use super::fields::{self, head, short};
 use super::segment::Segment;
 
 /// Frame of an SDO server.
+///
+/// ```
+/// use od_model::Address;
+/// use od_wire::AbortCode;
+/// use od_wire::sdo::Response;
+///
+/// let response = Response::parse(&[0x80, 0x00, 0x20, 0, 0, 0, 0x02, 0x06]);
+/// let (address, code) = (Address::new(0x2000, 0), AbortCode::NoObject.code());
+/// assert_eq!(response, Response::Abort { address, code });
+/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[allow(missing_docs)] // the fields are the protocol's own
 pub enum Response {

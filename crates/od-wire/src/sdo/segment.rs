@@ -3,6 +3,14 @@
 use super::fields::{toggle, toggled};
 
 /// A segment of a segmented transfer.
+///
+/// ```
+/// use od_wire::sdo::{Response, Segment};
+///
+/// let segment = Segment::first_of(b"GXMM", false);
+/// assert!(segment.last && segment.bytes() == b"GXMM");
+/// assert_eq!(Response::UploadSegment(segment).emit()[0], 0x07);
+/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Segment {
     /// Toggle bit.
