@@ -263,7 +263,7 @@ fn has_sub(text: &str) -> bool {
 }
 
 /// Whether a text is a glob.
-pub fn is_glob(text: &str) -> bool {
+fn is_glob(text: &str) -> bool {
     text.contains(['*', '?'])
 }
 

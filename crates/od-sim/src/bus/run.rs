@@ -15,7 +15,7 @@ impl Bus {
 
     /// As [`advance_until_sent`](Self::advance_until_sent), until this number of frames wait to be
     /// [polled](Self::poll).
-    pub fn advance_until_full(&mut self, to: Instant, frames: usize) -> bool {
+    pub(crate) fn advance_until_full(&mut self, to: Instant, frames: usize) -> bool {
         while self.sent.len() < frames {
             let goes_on = match self.run(to, frames) {
                 Some(goes_on) => goes_on,

@@ -91,7 +91,11 @@ impl Lesson {
     ///
     /// # Errors
     /// Like [`set_up`](Self::set_up).
-    pub fn set_up_on(&self, mut bench: Bench, host: &mut dyn Host) -> Result<Bench, Problem> {
+    pub(crate) fn set_up_on(
+        &self,
+        mut bench: Bench,
+        host: &mut dyn Host,
+    ) -> Result<Bench, Problem> {
         // Lessons use a real line unless they choose otherwise.
         bench.bus.line.set_real(true);
         let script = self.set_up.script().map_err(|mut all| all.remove(0))?;

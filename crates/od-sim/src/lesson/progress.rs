@@ -117,11 +117,6 @@ impl Progress {
         self.news.pop_front()
     }
 
-    /// Returns whether a reached checkpoint waits for a poll. A live bench pauses then.
-    pub fn has_news(&self) -> bool {
-        !self.news.is_empty()
-    }
-
     /// Goes to a step as if the previous ones had just been done; earlier frames do
     /// not count for it.
     pub fn begin(&mut self, step: usize, bus: &Bus) {

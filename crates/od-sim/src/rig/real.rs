@@ -11,12 +11,12 @@ const MOST: usize = 20_000;
 
 impl Rig {
     /// Puts the rig on a real bus. Nothing is sent until [`set_sending`](Self::set_sending).
-    pub fn open_port(&mut self) {
+    pub(crate) fn open_port(&mut self) {
         self.port = Some(Port::default());
     }
 
     /// Returns whether it is on a real bus.
-    pub fn has_port(&self) -> bool {
+    pub(crate) fn has_port(&self) -> bool {
         self.port.is_some()
     }
 

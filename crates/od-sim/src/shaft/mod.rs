@@ -53,7 +53,7 @@ impl Shaft {
 
     /// Returns the shaft without the state of its encoder's counter.
     #[must_use]
-    pub fn without_counter(&self) -> Self {
+    pub(crate) fn without_counter(&self) -> Self {
         let unseen = Unseen::NOTHING;
         Self {
             unseen,
@@ -146,7 +146,7 @@ impl Shaft {
 
     /// Returns the speed at a moment after its last change, in thousandths of a revolution per
     /// minute, rounded on a ramp.
-    pub fn milli_rpm_at(&self, now: Instant) -> i32 {
+    pub(crate) fn milli_rpm_at(&self, now: Instant) -> i32 {
         let micros = now.micros_since(self.since);
         self.ramp.speed(self.milli_rpm, micros)
     }
@@ -158,7 +158,7 @@ impl Shaft {
     }
 
     /// Puts the shaft at an angle; it goes on with its speed.
-    pub fn set_angle(&mut self, now: Instant, angle: Angle) {
+    fn set_angle(&mut self, now: Instant, angle: Angle) {
         self.rebase(now);
         self.angle = angle;
     }
@@ -264,7 +264,7 @@ pub fn encoder(kind: &DeviceKind) -> Encoder<Shaft> {
 }
 
 /// Returns the encoder of an unknown family, see [`EncoderProfile::for_dictionary`].
-pub fn encoder_of(dictionary: Dictionary<'_>) -> Option<Encoder<Shaft>> {
+pub(crate) fn encoder_of(dictionary: Dictionary<'_>) -> Option<Encoder<Shaft>> {
     let profile = EncoderProfile::for_dictionary(dictionary)?;
     Some(Encoder::new(profile, Shaft::default()).with_sensor_of(dictionary))
 }

@@ -27,7 +27,7 @@ const KEPT: usize = 1000;
 
 /// The state of a station at one time.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Station {
+pub(crate) struct Station {
     /// It has power and is connected.
     pub present: bool,
     /// Its bit rate in kbit/s; `None` adapts to any.
@@ -171,7 +171,7 @@ impl Line {
     }
 
     /// The bit rate of the outside.
-    pub fn outside_rate(&self, stations: &[Station]) -> Option<u16> {
+    pub(crate) fn outside_rate(&self, stations: &[Station]) -> Option<u16> {
         let first = || {
             stations
                 .iter()

@@ -12,7 +12,7 @@ use crate::device::VirtualDevice;
 const MANUALS: u32 = 0xEC;
 
 /// Meaning of an error code for any device: CiA 301, table 26.
-pub fn code_text(code: u16) -> &'static str {
+pub(crate) fn code_text(code: u16) -> &'static str {
     match code {
         0x8110 => return "CAN overrun",
         0x8120 => return "CAN error passive",
