@@ -1,6 +1,6 @@
 //! Reads and writes objects over the bus; PDO mappings.
 
-use od_client::sdo::{Channel, SdoError};
+use od_client::sdo::Channel;
 use od_model::Address;
 use od_model::typed::MapEntry;
 use od_sim::rig;
@@ -164,8 +164,8 @@ impl Bus {
     fn outcome(&self, one: rig::Outcome) -> Outcome {
         let (kind, bytes, words, code) = match one.result {
             Ok(value) => (OutcomeKind::Done, Some(Bytes(value)), String::new(), 0),
-            Err(SdoError::Silent) => (OutcomeKind::Silent, None, String::new(), 0),
-            Err(SdoError::Abort(code)) => {
+            Err(od_client::Error::Silent) => (OutcomeKind::Silent, None, String::new(), 0),
+            Err(od_client::Error::Abort(code)) => {
                 let address = one.address;
                 let abort = Response::Abort { address, code }.emit();
                 let frame = Frame::full(Channel::of(one.node).response, abort);
@@ -173,7 +173,7 @@ impl Bus {
                 (OutcomeKind::Aborted, None, text, code)
             }
             // The words of a `Response` would be much code for something that no node does.
-            Err(SdoError::OutOfTurn { expected, .. }) => {
+            Err(od_client::Error::OutOfTurn { expected, .. }) => {
                 let text = format!("{expected} was expected");
                 (OutcomeKind::Failed, None, text, 0)
             }

@@ -1,17 +1,24 @@
-//! Errors of a transfer.
+//! The error of this crate.
 
 use core::fmt;
 
 use od_wire::AbortCode;
 use od_wire::sdo::Response;
 
-/// Reason why a transfer failed.
+/// Reason why an SDO transfer or an LSS service failed.
 ///
-/// In all cases except [`Abort`](Self::Abort) the client gives up and aborts the
-/// transfer at the server.
+/// Of a transfer that fails for another reason than [`Abort`](Self::Abort) the client sends an abort to the
+/// server.
+///
+/// ```
+/// use od_client::{AbortCode, Error};
+///
+/// let error = Error::Abort(AbortCode::NoObject.code());
+/// assert_eq!(error.to_string(), "SDO abort 06020000h object does not exist");
+/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[non_exhaustive]
-pub enum SdoError {
+pub enum Error {
     /// The server aborts with this code (CiA 301, table 22); [`AbortCode::from_code`] has its text.
     Abort(u32),
     /// No response came in time.
@@ -23,7 +30,7 @@ pub enum SdoError {
         /// The received response.
         got: Response,
     },
-    /// The value is longer than the buffer or than [`Options::limit`](super::Options::limit).
+    /// The value is longer than the buffer or than [`Options::limit`](crate::sdo::Options::limit).
     TooLong,
     /// The value has another length than the server announced.
     Length {
@@ -38,16 +45,25 @@ pub enum SdoError {
     NoProgress,
     /// The caller cancelled the transfer.
     Cancelled,
+    /// The LSS slave responded with an error code (CiA 305, chapters 6.4.2 and 6.4.3).
+    Refused {
+        /// Error code; 255: the code of the manufacturer follows.
+        error: u8,
+        /// Specific error of the manufacturer.
+        specific: u8,
+    },
+    /// The LSS slave that fastscan was looking for did not confirm its LSS address.
+    ScanFailed,
 }
 
-impl fmt::Display for SdoError {
+impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Abort(code) => match AbortCode::from_code(*code) {
                 Some(code) => write!(f, "SDO abort {code}"),
                 None => write!(f, "SDO abort {code:08X}h"),
             },
-            Self::Silent => f.write_str("the SDO server does not answer in time"),
+            Self::Silent => f.write_str("no response comes in time"),
             Self::OutOfTurn { expected, got } => {
                 write!(f, "{expected} was expected, but {got:?} came")
             }
@@ -62,13 +78,27 @@ impl fmt::Display for SdoError {
             Self::Crc => f.write_str("the checksum of the block transfer does not match"),
             Self::NoProgress => f.write_str("the SDO server brings the transfer no further"),
             Self::Cancelled => f.write_str("the transfer was cancelled"),
+            Self::Refused {
+                error: 0xFF,
+                specific,
+            } => write!(f, "the LSS slave responds with specific error {specific}"),
+            Self::Refused { error, .. } => write!(f, "the LSS slave responds with error {error}"),
+            Self::ScanFailed => {
+                f.write_str("no LSS slave confirms the LSS address that fastscan found")
+            }
         }
     }
 }
 
-impl core::error::Error for SdoError {}
+impl core::error::Error for Error {}
 
 /// The response that a client waits for.
+///
+/// ```
+/// use od_client::sdo::Expected;
+///
+/// assert_eq!(Expected::UploadSegment.to_string(), "an upload segment");
+/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[non_exhaustive]
 pub enum Expected {

@@ -53,6 +53,7 @@ extern crate std;
 #[cfg(feature = "alloc")]
 mod client;
 pub mod emcy;
+mod error;
 pub mod lss;
 pub mod nmt;
 pub mod pdo;
@@ -61,6 +62,7 @@ pub mod watch;
 
 #[cfg(feature = "alloc")]
 pub use client::{Client, Event, Job};
+pub use error::Error;
 pub use od_wire::{AbortCode, CanId, Duration, Frame, Instant, NodeId};
 
 /// The README's example is a test too.

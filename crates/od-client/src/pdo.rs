@@ -6,6 +6,14 @@ use od_model::typed::MapEntry;
 use od_model::{Address, DataType, Dictionary, Entry, Literal};
 
 /// The data of a PDO is shorter than its mapping.
+///
+/// ```
+/// use od_client::pdo::{TooShort, decode};
+/// use od_model::Dictionary;
+///
+/// let received = decode(&Dictionary::EMPTY, &[0x6004_0020], &[1, 2]).map(|_| ());
+/// assert_eq!(received, Err(TooShort { mapped: 32, received: 16 }));
+/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub struct TooShort {
     /// Bits of the mapping.
@@ -24,6 +32,15 @@ impl fmt::Display for TooShort {
 impl core::error::Error for TooShort {}
 
 /// One mapped value in a PDO.
+///
+/// ```
+/// use od_client::pdo::decode;
+/// use od_model::{Address, Dictionary};
+///
+/// let mut fields = decode(&Dictionary::EMPTY, &[0x6030_0110], &[0xFE, 0xFF]).expect("16 bits");
+/// let speed = fields.next().expect("one entry");
+/// assert_eq!((speed.address, speed.signed()), (Address::new(0x6030, 1), -2));
+/// ```
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Field {
     /// The mapped object. One below 0020h is a dummy entry: a data type that fills a gap.
@@ -135,6 +152,14 @@ pub fn decode<'d, 'm>(
 }
 
 /// The values of a PDO, in the order of the mapping; [`decode`] returns it.
+///
+/// ```
+/// use od_client::pdo::decode;
+/// use od_model::Dictionary;
+///
+/// let fields = decode(&Dictionary::EMPTY, &[0x6004_0020, 0x6030_0110], &[1, 0, 0, 0, 2, 0]).expect("48 bits");
+/// assert_eq!(fields.map(|field| field.unsigned()).collect::<Vec<_>>(), [1, 2]);
+/// ```
 #[derive(Clone, Debug)]
 pub struct Fields<'d, 'm> {
     dictionary: Dictionary<'d>,
@@ -170,6 +195,16 @@ impl Iterator for Fields<'_, '_> {
 impl ExactSizeIterator for Fields<'_, '_> {}
 
 /// The mapping entries of a dictionary.
+///
+/// ```
+/// use od_client::pdo::Mapping;
+///
+/// # let description = od_eds::parse(include_str!("../../../devices/eds/GXMM.eds")).description;
+/// # let tables = od_eds::Tables::new(&description);
+/// // 1A00h: what the device sends in TPDO1 by default.
+/// let mapping = Mapping::of(&tables.dictionary(), 0x1A00).expect("the device has a TPDO");
+/// assert_eq!(mapping.entries(), [0x6004_0020]);
+/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Mapping {
     entries: [u32; 64],

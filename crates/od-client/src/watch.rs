@@ -6,6 +6,16 @@ use od_wire::nmt::State;
 use od_wire::{Duration, Frame, Instant, NodeId};
 
 /// Event of a node.
+///
+/// ```
+/// use od_client::watch::{Event, Watch};
+/// use od_client::{Frame, Instant, NodeId};
+///
+/// let mut watch = Watch::<1>::new();
+/// watch.add(NodeId::ONE, None).expect("there is room for one");
+/// watch.handle_frame(Instant::ZERO, &Frame::standard(0x701, &[0]));
+/// assert_eq!(watch.poll_event(), Some(Event::BootUp(NodeId::ONE)));
+/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[non_exhaustive]
 pub enum Event {
@@ -20,6 +30,14 @@ pub enum Event {
 }
 
 /// The table of watched nodes has no free place.
+///
+/// ```
+/// use od_client::NodeId;
+/// use od_client::watch::{Full, Watch};
+///
+/// let mut watch = Watch::<0>::new();
+/// assert_eq!(watch.add(NodeId::ONE, None), Err(Full));
+/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub struct Full;
 
@@ -95,6 +113,20 @@ impl Slot {
 ///
 /// Call [`poll_event`](Self::poll_event) after each input: of several events of one
 /// kind and node only the newest is kept.
+///
+/// ```
+/// use od_client::watch::{Event, Watch};
+/// use od_client::{Duration, Frame, Instant, NodeId};
+///
+/// let mut watch = Watch::<1>::new();
+/// let heartbeat = Some(Duration::from_millis(100));
+/// watch.add(NodeId::ONE, heartbeat).expect("there is room for one");
+/// watch.handle_frame(Instant::ZERO, &Frame::standard(0x701, &[5]));
+/// watch.poll_event();
+/// let late = watch.poll_timeout().expect("a heartbeat is due");
+/// watch.handle_timeout(late);
+/// assert_eq!(watch.poll_event(), Some(Event::Lost(NodeId::ONE)));
+/// ```
 #[derive(Clone, Debug)]
 pub struct Watch<const N: usize> {
     slots: [Option<Slot>; N],

@@ -1,6 +1,6 @@
 //! LSS: which slaves are there, and their node IDs and bit rates (CiA 305).
 
-use od_client::lss::{Answer, Identity, LssError, Options, Task};
+use od_client::lss::{Answer, Identity, Options, Task};
 use od_client::{Client, Event, sdo, watch};
 use od_wire::lss::Part;
 use od_wire::nmt::State;
@@ -85,7 +85,7 @@ impl<L: Link> Lss<L> {
                         }
                         all.push(identity);
                     }
-                    Err(LssError::ScanFailed) if paces.peek().is_some() => break true,
+                    Err(od_client::Error::ScanFailed) if paces.peek().is_some() => break true,
                     Err(error) => return Err(Error::Node(words(Task::Fastscan, error))),
                     Ok(_) => break false,
                 }
@@ -236,7 +236,7 @@ impl<L: Link> Lss<L> {
     }
 
     /// Runs a service; the error outside is the link's.
-    fn ask(&mut self, task: Task) -> Result<Result<Answer, LssError>, Error> {
+    fn ask(&mut self, task: Task) -> Result<Result<Answer, od_client::Error>, Error> {
         self.client.lss(task);
         let mut refused = None;
         loop {
@@ -258,7 +258,7 @@ impl<L: Link> Lss<L> {
     }
 
     /// Listens to the slaves that answer after the first.
-    fn others(&mut self, refused: &mut Option<LssError>) -> Result<(), Error> {
+    fn others(&mut self, refused: &mut Option<od_client::Error>) -> Result<(), Error> {
         let until = self.link.now().plus_millis(100);
         while let Some(heard) = self.link.receive(until)? {
             if heard.frame.id().as_standard() == Some(lss::SLAVE)
@@ -267,7 +267,7 @@ impl<L: Link> Lss<L> {
                 && error != 0
             {
                 let specific = heard.frame.bytes()[2];
-                *refused = Some(LssError::Refused { error, specific });
+                *refused = Some(od_client::Error::Refused { error, specific });
             }
             if heard.at > until {
                 break;
@@ -307,25 +307,26 @@ fn twice(identity: Identity) -> String {
 }
 
 /// An error of a service, with what to do about it.
-fn words(task: Task, error: LssError) -> String {
+fn words(task: Task, error: od_client::Error) -> String {
     match (task, error) {
-        (Task::SwitchSelective(identity), LssError::Silent) => format!(
+        (Task::SwitchSelective(identity), od_client::Error::Silent) => format!(
             "no LSS slave has the LSS address with serial number {}; `odkit lss scan` lists those \
              without a node ID",
             identity.serial
         ),
-        (Task::ConfigureNodeId(_), LssError::Refused { error: 1, .. }) => {
+        (Task::ConfigureNodeId(_), od_client::Error::Refused { error: 1, .. }) => {
             "the LSS slave does not accept the node ID".into()
         }
-        (Task::ConfigureBitTiming { .. }, LssError::Refused { error: 1, .. }) => {
+        (Task::ConfigureBitTiming { .. }, od_client::Error::Refused { error: 1, .. }) => {
             "an LSS slave does not support the bit rate".into()
         }
-        (Task::Store, LssError::Refused { error: 1, .. }) => {
+        (Task::Store, od_client::Error::Refused { error: 1, .. }) => {
             "an LSS slave does not support storing".into()
         }
-        (Task::Store, LssError::Refused { error: 2, .. }) => {
+        (Task::Store, od_client::Error::Refused { error: 2, .. }) => {
             "an LSS slave cannot write its memory".into()
         }
+        (_, od_client::Error::Silent) => "no LSS slave responds in time".into(),
         (_, error) => error.to_string(),
     }
 }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use od_client::sdo::{Options, SdoError};
+use od_client::sdo::Options;
 use od_client::{Client, Event, Job, lss};
 use od_eds::outline;
 use od_model::{Address, DataType, Dictionary};
@@ -108,7 +108,7 @@ impl<L: Link> Master<L> {
             };
             tries -= 1;
             // A response to an earlier request, or to another program: the read can be repeated.
-            if !matches!(result, Err(SdoError::OutOfTurn { .. })) || tries == 0 {
+            if !matches!(result, Err(od_client::Error::OutOfTurn { .. })) || tries == 0 {
                 return self.outcome(address, result);
             }
         }
@@ -175,21 +175,25 @@ impl<L: Link> Master<L> {
         Ok(())
     }
 
-    fn outcome<T>(&self, address: Address, result: Result<T, SdoError>) -> Result<T, Error> {
+    fn outcome<T>(
+        &self,
+        address: Address,
+        result: Result<T, od_client::Error>,
+    ) -> Result<T, Error> {
         let node = self.node;
         Err(Error::Node(match result {
             Ok(done) => return Ok(done),
-            Err(SdoError::Abort(code)) => return Err(Error::Abort(code)),
-            Err(SdoError::Silent) => format!(
+            Err(od_client::Error::Abort(code)) => return Err(Error::Abort(code)),
+            Err(od_client::Error::Silent) => format!(
                 "node {node} does not respond to SDO requests within {} s; check its power, its NMT \
                  state (not Stopped) and its node ID",
                 self.timeout.as_secs_f32()
             ),
-            Err(SdoError::OutOfTurn { expected, .. }) => format!(
+            Err(od_client::Error::OutOfTurn { expected, .. }) => format!(
                 "node {node}: {address}: {expected} was expected, and another SDO response came; does \
                  another program read or write this node?"
             ),
-            Err(SdoError::TooLong) => {
+            Err(od_client::Error::TooLong) => {
                 let limit = OPTIONS.limit;
                 format!("node {node}: {address} is longer than {limit} bytes")
             }

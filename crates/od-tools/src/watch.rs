@@ -1,6 +1,5 @@
 //! Values of a node over time: from its TPDOs where they are mapped, else polled by SDO.
 
-use od_client::sdo::SdoError;
 use od_client::{Client, Event, Job, pdo};
 use od_model::typed::MapEntry;
 use od_model::{Address, DataType};
@@ -53,7 +52,7 @@ pub struct Sample {
     /// Its place among the sources.
     pub source: usize,
     /// The value, or the reason why it is missing.
-    pub value: Result<Vec<u8>, SdoError>,
+    pub value: Result<Vec<u8>, od_client::Error>,
 }
 
 /// Finds where values come from: the valid TPDOs that the node has now, by their mapping.

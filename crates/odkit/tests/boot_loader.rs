@@ -9,7 +9,7 @@ mod loader;
 mod rig;
 
 use loader::{PROGRAM, SIZE};
-use od_client::sdo::{Options, SdoError};
+use od_client::sdo::Options;
 use od_client::{Client, Event, lss};
 use odkit::{AbortCode, Frame, Instant, NodeId, StreamEnd, sdo};
 use rig::Rig;
@@ -91,7 +91,7 @@ fn one_byte_more_than_the_flash_has() {
     for options in [Options::SEGMENTED, Options::DEFAULT] {
         let mut rig = rig(options);
         let long = rig.client.write(NodeId::ONE, PROGRAM, &pattern(SIZE + 1));
-        let abort = SdoError::Abort(AbortCode::TooLong.code());
+        let abort = od_client::Error::Abort(AbortCode::TooLong.code());
         assert_eq!(rig.run(), [Event::Written(long, Err(abort))]);
         // It did not even begin.
         assert_eq!((rig.frames, rig.node.application.ends.len()), (2, 0));

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
 
 use od_client::emcy::Emcy;
-use od_client::sdo::{Options, SdoError};
+use od_client::sdo::Options;
 use od_client::{Client, Event, Job, lss, nmt, watch};
 use od_model::{Address, DataType};
 use od_tools::Error;
@@ -67,7 +67,7 @@ impl Core {
         node: NodeId,
         address: Address,
         data_type: Option<DataType>,
-    ) -> Result<Result<Vec<u8>, SdoError>, Error> {
+    ) -> Result<Result<Vec<u8>, od_client::Error>, Error> {
         let job = match data_type {
             Some(data_type) => self.client.read_as(node, address, data_type),
             None => self.client.read(node, address),
@@ -85,7 +85,7 @@ impl Core {
         node: NodeId,
         address: Address,
         bytes: &[u8],
-    ) -> Result<Result<(), SdoError>, Error> {
+    ) -> Result<Result<(), od_client::Error>, Error> {
         let job = self.client.write(node, address, bytes);
         loop {
             if let Event::Written(_, result) = self.end(job)? {
@@ -98,7 +98,7 @@ impl Core {
     pub(crate) fn read_mapping(
         &mut self,
         node: NodeId,
-    ) -> Result<Result<Vec<u16>, (Address, SdoError)>, Error> {
+    ) -> Result<Result<Vec<u16>, (Address, od_client::Error)>, Error> {
         let mut found = Vec::new();
         for number in 0..0x200_u16 {
             let cob_id = match self.number(node, Address::new(0x1800 + number, 1))? {
@@ -141,7 +141,7 @@ impl Core {
         &mut self,
         node: NodeId,
         address: Address,
-    ) -> Result<Result<Option<u32>, (Address, SdoError)>, Error> {
+    ) -> Result<Result<Option<u32>, (Address, od_client::Error)>, Error> {
         Ok(match self.upload(node, address, None)? {
             Ok(bytes) if bytes.len() <= 4 => {
                 let bytes = bytes.iter().rev();
@@ -149,7 +149,7 @@ impl Core {
                     bytes.fold(0, |number, byte| number << 8 | u32::from(*byte)),
                 ))
             }
-            Ok(_) | Err(SdoError::Abort(_)) => Ok(None),
+            Ok(_) | Err(od_client::Error::Abort(_)) => Ok(None),
             Err(error) => Err((address, error)),
         })
     }

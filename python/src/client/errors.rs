@@ -1,6 +1,5 @@
 //! Errors on a bus, as Python exceptions.
 
-use od_client::sdo::SdoError;
 use od_model::Address;
 use od_tools::Error;
 use od_wire::{AbortCode, NodeId};
@@ -37,11 +36,11 @@ pub(crate) fn of_transfer(
     py: Python<'_>,
     node: NodeId,
     address: Address,
-    error: SdoError,
+    error: od_client::Error,
     seconds: f32,
 ) -> PyErr {
     match error {
-        SdoError::Abort(code) => {
+        od_client::Error::Abort(code) => {
             let text = match AbortCode::from_code(code) {
                 Some(known) => format!(": {}", known.text()),
                 None => String::new(),
@@ -52,7 +51,7 @@ pub(crate) fn of_transfer(
             _ = error.value(py).setattr("code", code);
             error
         }
-        SdoError::Silent => PyTimeoutError::new_err(format!(
+        od_client::Error::Silent => PyTimeoutError::new_err(format!(
             "node {node} does not respond to SDO requests within {seconds} s; check its power, its NMT \
              state (not Stopped) and its node ID"
         )),

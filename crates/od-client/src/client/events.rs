@@ -7,14 +7,24 @@ use od_wire::NodeId;
 use od_wire::nmt::State;
 
 use crate::emcy::Emcy;
-use crate::lss::{Answer, LssError};
-use crate::sdo::SdoError;
+use crate::error::Error;
+use crate::lss::Answer;
 use crate::watch;
 
 /// Limit of waiting events of the bus.
 const NEWS: usize = 256;
 
 /// Job of the host: a number that is repeated in the event of its end.
+///
+/// ```
+/// use od_client::{Client, NodeId};
+/// use od_model::Address;
+///
+/// let mut client = Client::new();
+/// let first = client.read(NodeId::ONE, Address::new(0x1000, 0));
+/// let second = client.read(NodeId::ONE, Address::new(0x1018, 1));
+/// assert!(first != second);
+/// ```
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub struct Job(u32);
 
@@ -30,15 +40,24 @@ impl Job {
 }
 
 /// End of a job, or an event of the bus.
+///
+/// ```
+/// use od_client::{Client, Event, Frame, Instant, NodeId};
+///
+/// let mut client = Client::new();
+/// client.handle_frame(Instant::ZERO, &Frame::standard(0x705, &[0]));
+/// let node = NodeId::new(5).expect("1 to 127");
+/// assert_eq!(client.poll_event(), Some(Event::BootUp(node)));
+/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 #[non_exhaustive]
 pub enum Event {
     /// The end of [`Client::read`](crate::Client::read), with the value.
-    Read(Job, Result<Vec<u8>, SdoError>),
+    Read(Job, Result<Vec<u8>, Error>),
     /// The end of [`Client::write`](crate::Client::write).
-    Written(Job, Result<(), SdoError>),
+    Written(Job, Result<(), Error>),
     /// The end of [`Client::lss`](crate::Client::lss).
-    Lss(Job, Result<Answer, LssError>),
+    Lss(Job, Result<Answer, Error>),
     /// A boot-up message, of any node.
     BootUp(NodeId),
     /// The state in a heartbeat of any node, if it changed.

@@ -7,7 +7,8 @@ use od_model::Address;
 use od_wire::{Frame, Instant, NodeId};
 
 use super::events::{Event, Events, Job};
-use crate::sdo::{Channel, Download, Options, SdoError, Upload};
+use crate::error::Error;
+use crate::sdo::{Channel, Download, Options, Upload};
 
 /// A transfer in progress.
 #[derive(Debug)]
@@ -190,7 +191,7 @@ impl Transfer {
         }
     }
 
-    const fn outcome(&self) -> Option<Result<(), SdoError>> {
+    const fn outcome(&self) -> Option<Result<(), Error>> {
         match self {
             Self::Upload(upload) => upload.outcome(),
             Self::Download(download) => download.outcome(),

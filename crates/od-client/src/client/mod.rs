@@ -33,6 +33,15 @@ const NODES: usize = 127;
 /// Input from the bus cannot make memory grow: values have a limit, and up to 256 boot-up messages,
 /// states and EMCY messages wait; further ones are dropped and counted.
 /// states and EMCY messages 256 wait; while they do, new ones are dropped and counted.
+///
+/// ```
+/// use od_client::{Client, Instant, NodeId, nmt};
+///
+/// let mut client = Client::new();
+/// client.nmt(Some(NodeId::ONE), nmt::Command::Start);
+/// let frame = client.poll_transmit(Instant::ZERO).expect("the NMT command");
+/// assert_eq!(frame.to_string(), "000#0101");
+/// ```
 #[derive(Debug)]
 pub struct Client {
     options: Options,

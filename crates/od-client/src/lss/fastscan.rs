@@ -2,7 +2,8 @@
 
 use od_wire::lss::Request;
 
-use super::task::{Answer, Identity, LssError};
+use super::task::{Answer, Identity};
+use crate::error::Error;
 
 /// Value of `bit` in the first request of a scan.
 const BEGIN: u8 = 0x80;
@@ -54,7 +55,7 @@ impl Fastscan {
 
     /// Ends a step: `true` if a slave responded. Returns the result of the scan at
     /// its end.
-    pub(super) fn step(&mut self, answered: bool) -> Option<Result<Answer, LssError>> {
+    pub(super) fn step(&mut self, answered: bool) -> Option<Result<Answer, Error>> {
         self.step = match self.step {
             Step::Begin if !answered => return Some(Ok(Answer::Found(None))),
             Step::Begin => Step::Bit(31),
@@ -64,7 +65,7 @@ impl Fastscan {
                 }
                 bit.checked_sub(1).map_or(Step::Confirm, Step::Bit)
             }
-            Step::Confirm if !answered => return Some(Err(LssError::ScanFailed)),
+            Step::Confirm if !answered => return Some(Err(Error::ScanFailed)),
             Step::Confirm if self.part == 3 => {
                 return Some(Ok(Answer::Found(Some(Identity::new(self.found)))));
             }

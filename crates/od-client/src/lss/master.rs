@@ -6,9 +6,20 @@ use od_wire::lss::{MASTER, Response, SLAVE};
 use od_wire::{CanId, Duration, Frame, Instant, NodeId};
 
 use super::fastscan::Fastscan;
-use super::task::{Answer, LssError, Task};
+use super::task::{Answer, Task};
+use crate::error::Error;
 
 /// Settings of the master.
+///
+/// ```
+/// use od_client::Duration;
+/// use od_client::lss::{Master, Options};
+///
+/// let mut options = Options::DEFAULT;
+/// options.timeout = Duration::from_millis(500);
+/// let master = Master::new(options);
+/// assert!(!master.is_busy());
+/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[non_exhaustive]
 pub struct Options {
@@ -38,6 +49,14 @@ impl Default for Options {
 }
 
 /// The master still works on another service.
+///
+/// ```
+/// use od_client::lss::{Busy, Master, Options, Task};
+///
+/// let mut master = Master::new(Options::DEFAULT);
+/// assert_eq!(master.begin(Task::Fastscan), Ok(()));
+/// assert_eq!(master.begin(Task::Store), Err(Busy));
+/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub struct Busy;
 
@@ -79,7 +98,7 @@ struct Work {
 pub struct Master {
     options: Options,
     work: Option<Work>,
-    answer: Option<Result<Answer, LssError>>,
+    answer: Option<Result<Answer, Error>>,
 }
 
 impl Master {
@@ -151,7 +170,7 @@ impl Master {
             {
                 match error {
                     0 => Ok(Answer::Done),
-                    error => Err(LssError::Refused {
+                    error => Err(Error::Refused {
                         error,
                         specific: frame.bytes()[2],
                     }),
@@ -177,7 +196,7 @@ impl Master {
                 work.scan.step(heard)
             }
             task if task.is_question() => Some(Ok(Answer::Exists(heard))),
-            _ => Some(Err(LssError::Silent)),
+            _ => Some(Err(Error::Silent)),
         };
         if let Some(answer) = answer {
             self.end(answer);
@@ -207,11 +226,11 @@ impl Master {
     }
 
     /// Returns the result of the service, once.
-    pub fn poll_answer(&mut self) -> Option<Result<Answer, LssError>> {
+    pub fn poll_answer(&mut self) -> Option<Result<Answer, Error>> {
         self.answer.take()
     }
 
-    fn end(&mut self, answer: Result<Answer, LssError>) {
+    fn end(&mut self, answer: Result<Answer, Error>) {
         self.work = None;
         self.answer = Some(answer);
     }

@@ -6,4 +6,4 @@ mod task;
 
 pub use master::{Busy, Master, Options};
 pub use od_wire::lss::Part;
-pub use task::{Answer, Identity, LssError, Task};
+pub use task::{Answer, Identity, Task};

@@ -1,11 +1,16 @@
 //! Services of an LSS master, and their results.
 
-use core::fmt;
-
 use od_wire::NodeId;
 use od_wire::lss::{Part, Request};
 
 /// The LSS address: the four numbers of 1018h (CiA 305).
+///
+/// ```
+/// use od_client::lss::Identity;
+///
+/// let identity = Identity::new([0xEC, 0x0A, 0x1_0000, 4712]);
+/// assert_eq!((identity.vendor, identity.serial), (0xEC, 4712));
+/// ```
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default)]
 pub struct Identity {
     /// 1018h:01, vendor-ID.
@@ -38,6 +43,16 @@ impl Identity {
 /// One service of the LSS master (CiA 305, chapter 6).
 ///
 /// A service for a single slave needs exactly one slave in configuration state.
+///
+/// ```
+/// use od_client::Instant;
+/// use od_client::lss::{Master, Options, Task};
+///
+/// let mut master = Master::new(Options::DEFAULT);
+/// master.begin(Task::InquireNodeId).expect("it has no other task");
+/// let frame = master.poll_transmit(Instant::ZERO).expect("the request");
+/// assert_eq!(frame.to_string(), "7E5#5E00000000000000");
+/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[non_exhaustive]
 pub enum Task {
@@ -147,6 +162,17 @@ impl Task {
 }
 
 /// Result of a service.
+///
+/// ```
+/// use od_client::lss::{Answer, Master, Options, Task};
+/// use od_client::{Frame, Instant, NodeId};
+///
+/// let mut master = Master::new(Options::DEFAULT);
+/// master.begin(Task::InquireNodeId).expect("it has no other task");
+/// master.poll_transmit(Instant::ZERO);
+/// master.handle_frame(Instant::ZERO, &Frame::standard(0x7E4, &[0x5E, 1, 0, 0, 0, 0, 0, 0]));
+/// assert_eq!(master.poll_answer(), Some(Ok(Answer::NodeId(Some(NodeId::ONE)))));
+/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[non_exhaustive]
 pub enum Answer {
@@ -161,38 +187,3 @@ pub enum Answer {
     /// The slave that fastscan found; `None` if there are no more.
     Found(Option<Identity>),
 }
-
-/// Reason why a service failed.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-#[non_exhaustive]
-pub enum LssError {
-    /// No slave responded in time.
-    Silent,
-    /// The slave responded with an error code (CiA 305, chapters 6.4.2 and 6.4.3).
-    Refused {
-        /// Error code; 255: the code of the manufacturer follows.
-        error: u8,
-        /// Specific error of the manufacturer.
-        specific: u8,
-    },
-    /// The slave that fastscan was looking for did not confirm its LSS address.
-    ScanFailed,
-}
-
-impl fmt::Display for LssError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Silent => f.write_str("no LSS slave answers in time"),
-            Self::Refused {
-                error: 0xFF,
-                specific,
-            } => write!(f, "the LSS slave answers with specific error {specific}"),
-            Self::Refused { error, .. } => write!(f, "the LSS slave answers with error {error}"),
-            Self::ScanFailed => {
-                f.write_str("no LSS slave confirms the LSS address that fastscan found")
-            }
-        }
-    }
-}
-
-impl core::error::Error for LssError {}

@@ -3,8 +3,8 @@
 use od_wire::AbortCode;
 use od_wire::sdo::{Request, Response, block_segment, block_segments, crc16, unused};
 
-use super::error::{Expected, SdoError};
 use super::line::Line;
+use crate::error::{Error, Expected};
 
 /// A block download after its initiation.
 #[derive(Debug)]
@@ -107,7 +107,7 @@ impl Blocks {
         } else if self.stalls < line.options.repeats {
             self.stalls += 1;
         } else {
-            return line.fail(AbortCode::InvalidSequence, SdoError::NoProgress);
+            return line.fail(AbortCode::InvalidSequence, Error::NoProgress);
         }
         self.done += usize::from(ack) * 7;
         self.sent = 0;

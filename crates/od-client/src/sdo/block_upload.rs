@@ -4,8 +4,8 @@ use od_wire::sdo::{Request, Response, crc16};
 use od_wire::{AbortCode, Instant};
 
 use super::buffer::Buffer;
-use super::error::{Expected, SdoError};
 use super::line::{Line, parse};
+use crate::error::{Error, Expected};
 
 /// A block upload after its initiation.
 #[derive(Debug)]
@@ -87,7 +87,7 @@ impl Blocks {
         } else if self.stalls < line.options.repeats {
             self.stalls += 1;
         } else {
-            return line.fail(AbortCode::InvalidSequence, SdoError::NoProgress);
+            return line.fail(AbortCode::InvalidSequence, Error::NoProgress);
         }
         line.send(Request::BlockUploadResponse {
             ack: self.ack,
@@ -109,7 +109,7 @@ impl Blocks {
             return;
         }
         if self.crc && crc16(buffer.bytes()) != crc {
-            return line.fail(AbortCode::Crc, SdoError::Crc);
+            return line.fail(AbortCode::Crc, Error::Crc);
         }
         line.send(Request::EndBlockUpload);
         line.finish();

@@ -1,6 +1,14 @@
 //! Buffer for the value of an upload.
 
 /// Receives the bytes of a value in their order.
+///
+/// ```
+/// use od_client::sdo::Buffer;
+///
+/// let mut buffer = Vec::new();
+/// assert!(Buffer::push(&mut buffer, &[1, 2]));
+/// assert_eq!(Buffer::bytes(&buffer), [1, 2]);
+/// ```
 pub trait Buffer {
     /// Returns the bytes so far.
     fn bytes(&self) -> &[u8];
@@ -17,6 +25,15 @@ pub trait Buffer {
 }
 
 /// A buffer in memory of the caller.
+///
+/// ```
+/// use od_client::sdo::{Buffer, Slice};
+///
+/// let mut room = [0; 4];
+/// let mut buffer = Slice::new(&mut room);
+/// assert!(buffer.push(b"GX") && !buffer.push(b"MM5"));
+/// assert_eq!(buffer.capacity(), 4);
+/// ```
 #[derive(Debug)]
 pub struct Slice<'b> {
     room: &'b mut [u8],

@@ -6,9 +6,9 @@ use od_wire::{AbortCode, Frame, Instant};
 
 use super::Channel;
 use super::block_download::Blocks;
-use super::error::{Expected, SdoError};
 use super::line::{Line, parse};
 use super::options::Options;
+use crate::error::{Error, Expected};
 
 #[derive(Debug)]
 enum State {
@@ -25,6 +25,19 @@ enum State {
 /// The download of one object: the client writes, the server receives.
 ///
 /// The data must stay available until the transfer is over, because a block may have to be repeated.
+///
+/// ```
+/// use od_client::sdo::{Channel, Download, Options};
+/// use od_client::{Frame, Instant, NodeId};
+/// use od_model::Address;
+///
+/// let (channel, address) = (Channel::of(NodeId::ONE), Address::new(0x1017, 0));
+/// let mut download = Download::new(channel, address, [0xE8, 0x03], Options::DEFAULT);
+/// let request = download.poll_transmit(Instant::ZERO).expect("the request");
+/// assert_eq!(request.to_string(), "601#2B171000E8030000");
+/// download.handle_frame(Instant::ZERO, &Frame::standard(0x581, &[0x60, 0x17, 0x10, 0, 0, 0, 0, 0]));
+/// assert_eq!(download.outcome(), Some(Ok(())));
+/// ```
 #[derive(Debug)]
 pub struct Download<D> {
     line: Line,
@@ -78,7 +91,7 @@ impl<D: AsRef<[u8]>> Download<D> {
     /// Gives up if the response is overdue; does nothing before [`poll_timeout`](Self::poll_timeout).
     pub fn handle_timeout(&mut self, now: Instant) {
         if self.line.is_due(now) {
-            self.line.fail(AbortCode::Timeout, SdoError::Silent);
+            self.line.fail(AbortCode::Timeout, Error::Silent);
         }
     }
 
@@ -104,13 +117,13 @@ impl<D: AsRef<[u8]>> Download<D> {
     }
 
     /// Returns the result of the download; `None` while it is in progress.
-    pub const fn outcome(&self) -> Option<Result<(), SdoError>> {
+    pub const fn outcome(&self) -> Option<Result<(), Error>> {
         self.line.outcome()
     }
 
-    /// Ends the download as [`SdoError::Cancelled`], with an abort to the server.
+    /// Ends the download as [`Error::Cancelled`], with an abort to the server.
     pub fn cancel(&mut self) {
-        self.line.fail(AbortCode::General, SdoError::Cancelled);
+        self.line.fail(AbortCode::General, Error::Cancelled);
     }
 
     /// Returns whether the server aborted the block download because it does not know the command.

@@ -6,8 +6,8 @@ use od_wire::{AbortCode, Frame, Instant};
 
 use super::Channel;
 use super::buffer::Buffer;
-use super::error::{Expected, SdoError};
 use super::options::Options;
+use crate::error::{Error, Expected};
 
 /// First byte of an abort.
 const ABORT: u8 = 0x80;
@@ -30,7 +30,7 @@ pub(super) struct Line {
     /// The waiting frame.
     out: Option<[u8; 8]>,
     deadline: Option<Instant>,
-    outcome: Option<Result<(), SdoError>>,
+    outcome: Option<Result<(), Error>>,
     /// A request waits to be sent. A frame that comes before is no response to it.
     is_open: bool,
 }
@@ -48,7 +48,7 @@ impl Line {
         }
     }
 
-    pub(super) const fn outcome(&self) -> Option<Result<(), SdoError>> {
+    pub(super) const fn outcome(&self) -> Option<Result<(), Error>> {
         self.outcome
     }
 
@@ -106,7 +106,7 @@ impl Line {
     }
 
     /// Gives up, and aborts at the server unless no frame was sent yet.
-    pub(super) fn fail(&mut self, code: AbortCode, error: SdoError) {
+    pub(super) fn fail(&mut self, code: AbortCode, error: Error) {
         if self.outcome.is_some() {
             return;
         }
@@ -128,9 +128,9 @@ impl Line {
             Response::Abort { address, code } if self.is_about(address) => {
                 self.out = None;
                 self.deadline = None;
-                self.outcome = Some(Err(SdoError::Abort(code)));
+                self.outcome = Some(Err(Error::Abort(code)));
             }
-            got => self.fail(code, SdoError::OutOfTurn { expected, got }),
+            got => self.fail(code, Error::OutOfTurn { expected, got }),
         }
     }
 
@@ -154,7 +154,7 @@ impl Line {
         let limit = self.limit(buffer) as u64;
         let fits = size.is_none_or(|size| u64::from(size) <= limit);
         if !fits {
-            self.fail(AbortCode::OutOfMemory, SdoError::TooLong);
+            self.fail(AbortCode::OutOfMemory, Error::TooLong);
         }
         fits
     }
@@ -172,7 +172,7 @@ impl Line {
             return false;
         }
         if received > self.limit(buffer) || !buffer.push(bytes) {
-            self.fail(AbortCode::OutOfMemory, SdoError::TooLong);
+            self.fail(AbortCode::OutOfMemory, Error::TooLong);
             return false;
         }
         true
@@ -191,7 +191,7 @@ impl Line {
     }
 
     fn fail_length(&mut self, announced: u32, received: usize) {
-        let error = SdoError::Length {
+        let error = Error::Length {
             announced,
             received,
         };

@@ -32,20 +32,27 @@ mod block_download;
 mod block_upload;
 mod buffer;
 mod download;
-mod error;
 mod line;
 mod options;
 mod upload;
 
 use od_wire::{CanId, NodeId};
 
+pub use crate::error::Expected;
 pub use buffer::{Buffer, Slice};
 pub use download::Download;
-pub use error::{Expected, SdoError};
 pub use options::Options;
 pub use upload::Upload;
 
 /// The CAN-IDs between a client and a server (CiA 301, chapter 7.2.4).
+///
+/// ```
+/// use od_client::sdo::Channel;
+/// use od_client::{CanId, NodeId};
+///
+/// let channel = Channel::of(NodeId::ONE);
+/// assert_eq!((channel.request, channel.response), (CanId::standard(0x601), CanId::standard(0x581)));
+/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub struct Channel {
     /// From client to server: 1200h:01.

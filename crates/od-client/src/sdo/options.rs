@@ -3,12 +3,22 @@
 use od_wire::Duration;
 
 /// Settings of a transfer.
+///
+/// ```
+/// use od_client::sdo::Options;
+/// use od_client::{Client, Duration, lss};
+///
+/// let mut options = Options::DEFAULT;
+/// options.timeout = Duration::from_millis(200);
+/// let client = Client::with(options, lss::Options::DEFAULT);
+/// assert_eq!(client.poll_timeout(), None);
+/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[non_exhaustive]
 pub struct Options {
     /// Longest time from a request to its response. A block upload waits for each segment this long.
     pub timeout: Duration,
-    /// Limit of bytes of an upload; a longer value is [`SdoError::TooLong`](super::SdoError::TooLong).
+    /// Limit of bytes of an upload; a longer value is [`Error::TooLong`](crate::Error::TooLong).
     pub limit: usize,
     /// Downloads of this many bytes or more use block transfer; `None`: always segmented. If the server
     /// aborts the block transfer with 0504 0001h, the client repeats it segmented.
@@ -23,7 +33,7 @@ pub struct Options {
     /// Segments in a block of an upload, 1 to 127; other numbers are changed to the nearest of these.
     pub block_size: u8,
     /// Number of consecutive blocks that may bring no new segment before the transfer is
-    /// [`SdoError::NoProgress`](super::SdoError::NoProgress).
+    /// [`Error::NoProgress`](crate::Error::NoProgress).
     pub repeats: u8,
 }
 

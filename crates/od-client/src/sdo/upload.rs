@@ -7,9 +7,9 @@ use od_wire::{AbortCode, Frame, Instant};
 use super::Channel;
 use super::block_upload::Blocks;
 use super::buffer::Buffer;
-use super::error::{Expected, SdoError};
 use super::line::{Line, parse};
 use super::options::Options;
+use crate::error::{Error, Expected};
 
 #[derive(Debug)]
 enum State {
@@ -24,6 +24,19 @@ enum State {
 }
 
 /// The upload of one object: the client reads, the server sends.
+///
+/// ```
+/// use od_client::sdo::{Channel, Options, Slice, Upload};
+/// use od_client::{Frame, Instant, NodeId};
+/// use od_model::Address;
+///
+/// let mut room = [0; 4];
+/// let (channel, address) = (Channel::of(NodeId::ONE), Address::new(0x1000, 0));
+/// let mut upload = Upload::new(channel, address, Slice::new(&mut room), Options::SEGMENTED);
+/// upload.poll_transmit(Instant::ZERO).expect("the request");
+/// upload.handle_frame(Instant::ZERO, &Frame::standard(0x581, &[0x43, 0, 0x10, 0, 0x96, 1, 2, 0]));
+/// assert_eq!((upload.outcome(), upload.bytes()), (Some(Ok(())), &[0x96, 1, 2, 0][..]));
+/// ```
 #[derive(Debug)]
 pub struct Upload<B> {
     line: Line,
@@ -86,7 +99,7 @@ impl<B: Buffer> Upload<B> {
         }
         match &mut self.state {
             State::Blocks(blocks) if blocks.heard() => blocks.confirm(&mut self.line),
-            _ => self.line.fail(AbortCode::Timeout, SdoError::Silent),
+            _ => self.line.fail(AbortCode::Timeout, Error::Silent),
         }
     }
 
@@ -101,13 +114,13 @@ impl<B: Buffer> Upload<B> {
     }
 
     /// Returns the result of the upload; `None` while it is in progress.
-    pub const fn outcome(&self) -> Option<Result<(), SdoError>> {
+    pub const fn outcome(&self) -> Option<Result<(), Error>> {
         self.line.outcome()
     }
 
-    /// Ends the upload as [`SdoError::Cancelled`], with an abort to the server.
+    /// Ends the upload as [`Error::Cancelled`], with an abort to the server.
     pub fn cancel(&mut self) {
-        self.line.fail(AbortCode::General, SdoError::Cancelled);
+        self.line.fail(AbortCode::General, Error::Cancelled);
     }
 
     /// Returns whether the server aborted the block upload because it does not know the command.
@@ -163,7 +176,7 @@ impl<B: Buffer> Upload<B> {
                 self.line.refuse(AbortCode::ToggleBit, expected, response);
             }
             Response::UploadSegment(segment) if segment.len == 0 && !segment.last => {
-                self.line.fail(AbortCode::General, SdoError::NoProgress);
+                self.line.fail(AbortCode::General, Error::NoProgress);
             }
             Response::UploadSegment(segment) => {
                 let (bytes, last) = (segment.bytes(), segment.last);

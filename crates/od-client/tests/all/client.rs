@@ -2,10 +2,11 @@
 
 use crate::support::bus::{Bus, peer};
 use crate::support::{OBJECT, at, frame, pattern};
+use od_client::Error;
 use od_client::emcy::Emcy;
 use od_client::lss::{self, Answer, Task};
 use od_client::nmt::{Command, State};
-use od_client::sdo::{Options, SdoError};
+use od_client::sdo::Options;
 use od_client::{CanId, Client, Duration, Event, Frame, NodeId};
 use od_model::Address;
 
@@ -56,12 +57,12 @@ fn the_next_job_begins_after_one_that_failed() {
     client.handle_timeout(at(1000));
     assert_eq!(
         events(&mut client),
-        [Event::Read(silent, Err(SdoError::Silent))]
+        [Event::Read(silent, Err(Error::Silent))]
     );
     let sent = out(&mut client, 1000);
     assert_eq!(sent, ["601#8003200000000405", "601#4003200000000000"]);
     client.handle_frame(at(1001), &frame("581#4F04200001"));
-    let Some(Event::Read(job, Err(SdoError::OutOfTurn { .. }))) = client.poll_event() else {
+    let Some(Event::Read(job, Err(Error::OutOfTurn { .. }))) = client.poll_event() else {
         panic!("an answer for another object");
     };
     assert_eq!(job, wrong);
@@ -104,10 +105,7 @@ fn options_rule_every_transfer() {
     assert_eq!(out(&mut client, 0).len(), 1);
     assert_eq!(client.poll_timeout(), Some(at(50)));
     client.handle_frame(at(1), &frame("581#4103200009"));
-    assert_eq!(
-        events(&mut client),
-        [Event::Read(job, Err(SdoError::TooLong))]
-    );
+    assert_eq!(events(&mut client), [Event::Read(job, Err(Error::TooLong))]);
     assert_eq!(out(&mut client, 1), ["601#8003200005000405"]);
     client.write(node(1), OBJECT, &[0; 1000]);
     assert_eq!(out(&mut client, 1), ["601#21032000E8030000"]);

@@ -3,7 +3,8 @@
 use crate::support::bus::{Bus, peer};
 use crate::support::slave::Slave;
 use crate::support::{at, frame};
-use od_client::lss::{Answer, Identity, LssError, Master, Options, Part, Task};
+use od_client::Error;
+use od_client::lss::{Answer, Identity, Master, Options, Part, Task};
 use od_client::{Client, Event, NodeId};
 
 const IDENTITY: Identity = Identity {
@@ -20,7 +21,7 @@ fn begun(task: Task) -> Master {
 }
 
 /// Slaves on a bus that answer each request, one after the other, `delay` ms after it.
-fn run(master: &mut Master, slaves: &mut [Slave], delay: u64) -> (Result<Answer, LssError>, u64) {
+fn run(master: &mut Master, slaves: &mut [Slave], delay: u64) -> (Result<Answer, Error>, u64) {
     let mut now = 0;
     for _ in 0..1000 {
         while let Some(request) = master.poll_transmit(at(now)) {
@@ -38,7 +39,7 @@ fn run(master: &mut Master, slaves: &mut [Slave], delay: u64) -> (Result<Answer,
     panic!("no end");
 }
 
-fn scan(slaves: &mut [Slave]) -> (Result<Answer, LssError>, u64) {
+fn scan(slaves: &mut [Slave]) -> (Result<Answer, Error>, u64) {
     run(&mut begun(Task::Fastscan), slaves, 2)
 }
 
@@ -106,7 +107,7 @@ fn a_slave_that_leaves_during_the_scan() {
         master.handle_timeout(master.poll_timeout().expect("a deadline"));
     }
     let (answer, _) = run(&mut master, &mut [], 0);
-    assert_eq!(answer, Err(LssError::ScanFailed));
+    assert_eq!(answer, Err(Error::ScanFailed));
 }
 
 #[test]

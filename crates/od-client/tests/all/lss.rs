@@ -2,7 +2,8 @@
 
 use crate::support::bus::Bus;
 use crate::support::{at, frame};
-use od_client::lss::{Answer, Busy, Identity, LssError, Master, Options, Part, Task};
+use od_client::Error;
+use od_client::lss::{Answer, Busy, Identity, Master, Options, Part, Task};
 use od_client::{Client, Event, Frame, NodeId};
 
 const IDENTITY: Identity = Identity {
@@ -26,7 +27,7 @@ fn out(master: &mut Master, millis: u64) -> Vec<String> {
 
 /// A service that sends these frames, and what this answer makes of it.
 #[track_caller]
-fn check(task: Task, requests: &[&str], answer: &str, wanted: Result<Answer, LssError>) {
+fn check(task: Task, requests: &[&str], answer: &str, wanted: Result<Answer, Error>) {
     let mut master = begun(task);
     let requests: Vec<_> = requests.iter().map(|data| format!("7E5#{data}")).collect();
     assert_eq!(out(&mut master, 0), requests);
@@ -105,7 +106,7 @@ fn each_service_has_its_frames() {
 
 #[test]
 fn error_codes_of_the_slave() {
-    let refused = |error, specific| Err(LssError::Refused { error, specific });
+    let refused = |error, specific| Err(Error::Refused { error, specific });
     check(
         Task::ConfigureNodeId(None),
         &["11FF"],
@@ -212,7 +213,7 @@ fn other_answers_do_not_count() {
         master.handle_timeout(at(1000));
         let wanted = match task {
             Task::IdentifyNonConfigured => Ok(Answer::Exists(false)),
-            _ => Err(LssError::Silent),
+            _ => Err(Error::Silent),
         };
         assert_eq!(master.poll_answer(), Some(wanted));
     }
@@ -257,7 +258,7 @@ fn identification_against_real_nodes() {
         Event::Lss(timing, Ok(Answer::Done)),
         Event::Lss(
             refused,
-            Err(LssError::Refused {
+            Err(Error::Refused {
                 error: 1,
                 specific: 0,
             }),

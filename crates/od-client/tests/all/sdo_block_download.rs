@@ -2,7 +2,8 @@
 
 use crate::support::blocks::{COMMAND, SEQUENCE, crc, fails, options, refuses, segment};
 use crate::support::{Machine, at, download, frame, pattern};
-use od_client::sdo::{Download, Expected, SdoError};
+use od_client::Error;
+use od_client::sdo::{Download, Expected};
 
 /// A block download of 37 bytes in blocks of four segments: the first block is out.
 #[track_caller]
@@ -37,10 +38,10 @@ fn small_values_go_in_segments() {
 fn other_aborts_end_a_block_download() {
     let mut download = download(&pattern(8), options(4));
     download.talk(&[("", "C603200008"), ("8003200000000106", "-")]);
-    assert_eq!(download.outcome(), Some(Err(SdoError::Abort(0x0601_0000))));
+    assert_eq!(download.outcome(), Some(Err(Error::Abort(0x0601_0000))));
     let mut block = downloading(true);
     block.talk(&[("8003200004000405", "-")]);
-    assert_eq!(block.outcome(), Some(Err(SdoError::Abort(0x0504_0004))));
+    assert_eq!(block.outcome(), Some(Err(Error::Abort(0x0504_0004))));
 }
 
 #[test]
@@ -52,7 +53,7 @@ fn a_block_that_is_cancelled_sends_no_more_segments() {
     assert_eq!(first.as_ref(), block(&pattern(37), 0, 1).first());
     download.cancel();
     assert_eq!(download.out(at(0)), ["601#8003200000000008"]);
-    assert_eq!(download.outcome(), Some(Err(SdoError::Cancelled)));
+    assert_eq!(download.outcome(), Some(Err(Error::Cancelled)));
 }
 
 #[test]
@@ -110,7 +111,7 @@ fn a_server_that_takes_nothing_is_given_up() {
     for _ in 0..3 {
         assert_eq!(download.on(at(0), "581#A20004"), block(&data, 7, 4));
     }
-    fails(&mut download, "A20004", SEQUENCE, SdoError::NoProgress);
+    fails(&mut download, "A20004", SEQUENCE, Error::NoProgress);
 }
 
 #[test]
@@ -195,6 +196,6 @@ fn a_block_download_waits_for_its_answer() {
     assert_eq!(download.poll_timeout(), None, "the host is at turn");
     download.out(at(2000));
     download.handle_timeout(at(3000));
-    assert_eq!(download.outcome(), Some(Err(SdoError::Silent)));
+    assert_eq!(download.outcome(), Some(Err(Error::Silent)));
     assert_eq!(download.out(at(3000)), ["601#8003200000000405"]);
 }

@@ -2,7 +2,8 @@
 
 use crate::support::blocks::{COMMAND, SEQUENCE, crc, fails, options, refuses, segment};
 use crate::support::{Machine, at, frame, pattern, upload};
-use od_client::sdo::{Expected, SdoError, Upload};
+use od_client::Error;
+use od_client::sdo::{Expected, Upload};
 
 /// A block upload of `len` bytes after its start: blocks of four segments, with CRC.
 #[track_caller]
@@ -85,7 +86,7 @@ fn a_block_whose_end_is_lost_is_confirmed_after_the_timeout() {
     // The server says nothing any more.
     assert_eq!(upload.poll_timeout(), Some(at(2700)));
     upload.handle_timeout(at(2700));
-    assert_eq!(upload.outcome(), Some(Err(SdoError::Silent)));
+    assert_eq!(upload.outcome(), Some(Err(Error::Silent)));
     assert_eq!(upload.out(at(2700)), ["601#8003200000000405"]);
 }
 
@@ -100,7 +101,7 @@ fn a_server_that_never_sends_the_first_segment_is_given_up() {
     for _ in 0..3 {
         upload.talk(&[("84", "A20004")]);
     }
-    fails(&mut upload, "84", SEQUENCE, SdoError::NoProgress);
+    fails(&mut upload, "84", SEQUENCE, Error::NoProgress);
 }
 
 #[test]
@@ -115,7 +116,7 @@ fn the_checksum_is_checked_where_the_server_makes_one() {
     };
     let mut wrong = uploading(28);
     segments(&mut wrong);
-    fails(&mut wrong, "C1", "04000405", SdoError::Crc);
+    fails(&mut wrong, "C1", "04000405", Error::Crc);
     let mut without = upload(options(4));
     without.talk(&[("", "A403200004"), ("C20320001C", "A3")]);
     segments(&mut without);
@@ -125,7 +126,7 @@ fn the_checksum_is_checked_where_the_server_makes_one() {
 
 #[test]
 fn a_block_upload_keeps_its_announced_length() {
-    let error = |announced, received| SdoError::Length {
+    let error = |announced, received| Error::Length {
         announced,
         received,
     };
@@ -149,13 +150,8 @@ fn a_block_upload_keeps_the_limit() {
         upload.talk(&[("", "A403200004")]);
         upload
     };
-    fails(
-        &mut begun(),
-        "C6032000FFFFFFFF",
-        "05000405",
-        SdoError::TooLong,
-    );
-    fails(&mut begun(), "C603200065", "05000405", SdoError::TooLong);
+    fails(&mut begun(), "C6032000FFFFFFFF", "05000405", Error::TooLong);
+    fails(&mut begun(), "C603200065", "05000405", Error::TooLong);
     // Without a size, and without an end.
     let mut upload = begun();
     upload.talk(&[("C4032000", "A3")]);
@@ -163,7 +159,7 @@ fn a_block_upload_keeps_the_limit() {
         let last = if block == 3 { "80032000" } else { "A20404" };
         upload.talk(&[("01", "-"), ("02", "-")]);
         if block == 3 {
-            fails(&mut upload, "03", "05000405", SdoError::TooLong);
+            fails(&mut upload, "03", "05000405", Error::TooLong);
         } else {
             upload.talk(&[("03", "-"), ("04", last)]);
         }
@@ -199,10 +195,10 @@ fn a_server_may_change_over_to_segments_itself() {
 fn other_aborts_end_a_block_upload() {
     let mut upload = asked();
     upload.talk(&[("8003200000000106", "-")]);
-    assert_eq!(upload.outcome(), Some(Err(SdoError::Abort(0x0601_0000))));
+    assert_eq!(upload.outcome(), Some(Err(Error::Abort(0x0601_0000))));
     let mut segments = uploading(28);
     segments.talk(&[("01", "-"), ("8003200000000008", "-")]);
-    assert_eq!(segments.outcome(), Some(Err(SdoError::Abort(0x0800_0000))));
+    assert_eq!(segments.outcome(), Some(Err(Error::Abort(0x0800_0000))));
     // The code that means "no block transfers", from another transfer.
     refuses(
         &mut asked(),

@@ -1,7 +1,8 @@
 //! Download by hand: a frame in, a frame out, and servers that misbehave.
 
 use crate::support::{Machine, at, download, frame, pattern};
-use od_client::sdo::{Channel, Download, Expected, Options, SdoError};
+use od_client::Error;
+use od_client::sdo::{Channel, Download, Expected, Options};
 use od_client::{Frame, NodeId};
 use od_model::Address;
 use od_wire::sdo::Response;
@@ -27,7 +28,7 @@ fn in_segments() -> Download<Vec<u8>> {
 #[track_caller]
 fn ends(mut download: Download<Vec<u8>>, answer: &str, abort: &str, expected: Expected) {
     let got = Response::parse(frame(&format!("581#{answer}")).bytes());
-    let error = SdoError::OutOfTurn { expected, got };
+    let error = Error::OutOfTurn { expected, got };
     download.talk(&[(answer, &format!("80032000{abort}"))]);
     assert_eq!(download.outcome(), Some(Err(error)));
     assert_eq!(download.poll_timeout(), None);
@@ -92,7 +93,7 @@ fn an_empty_value_is_one_empty_segment() {
 fn aborts_of_the_server_are_reported_as_they_are() {
     for mut download in [begun(&[1], "2F03200001"), in_segments()] {
         download.talk(&[("8003200030000906", "-")]);
-        assert_eq!(download.outcome(), Some(Err(SdoError::Abort(0x0609_0030))));
+        assert_eq!(download.outcome(), Some(Err(Error::Abort(0x0609_0030))));
         assert_eq!(download.poll_timeout(), None);
     }
 }
@@ -124,7 +125,7 @@ fn silence_ends_a_transfer_after_the_timeout() {
     download.handle_timeout(at(999));
     assert_eq!(download.outcome(), None);
     download.handle_timeout(at(1000));
-    assert_eq!(download.outcome(), Some(Err(SdoError::Silent)));
+    assert_eq!(download.outcome(), Some(Err(Error::Silent)));
     assert_eq!(download.out(at(1000)), ["601#8003200000000405"]);
 }
 
@@ -133,7 +134,7 @@ fn cancelling_aborts_what_was_begun() {
     let mut download = in_segments();
     download.cancel();
     download.talk(&[("", "8003200000000008"), ("20", "-")]);
-    assert_eq!(download.outcome(), Some(Err(SdoError::Cancelled)));
+    assert_eq!(download.outcome(), Some(Err(Error::Cancelled)));
 }
 
 #[test]

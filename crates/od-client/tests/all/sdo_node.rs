@@ -2,7 +2,8 @@
 
 use crate::support::bus::{Bus, ROOM, peer};
 use crate::support::{OBJECT, pattern};
-use od_client::sdo::{Options, SdoError};
+use od_client::Error;
+use od_client::sdo::Options;
 use od_client::{AbortCode, Client, Event, NodeId, lss};
 use od_model::Address;
 use od_runtime::{Profile, SdoProfile};
@@ -87,7 +88,7 @@ fn one_mebibyte_in_blocks_both_ways() {
     bus.peers[0].application.len = (1 << 20) + 1;
     bus.frames.clear();
     let read = bus.client.read(NodeId::ONE, LONG);
-    assert_eq!(bus.run(), [Event::Read(read, Err(SdoError::TooLong))]);
+    assert_eq!(bus.run(), [Event::Read(read, Err(Error::TooLong))]);
     assert_eq!(bus.frames.len(), 3);
 }
 
@@ -168,7 +169,7 @@ fn aborts_of_the_node_come_with_their_code() {
         .client
         .write(NodeId::ONE, Address::new(0x1000, 0), &[1, 0, 0, 0]);
     let long = bus.client.write(NodeId::ONE, OBJECT, &[0; 8193]);
-    let abort = |code: AbortCode| SdoError::Abort(code.code());
+    let abort = |code: AbortCode| Error::Abort(code.code());
     let wanted = [
         Event::Read(missing, Err(abort(AbortCode::NoObject))),
         Event::Written(constant, Err(abort(AbortCode::ReadOnly))),
@@ -181,7 +182,7 @@ fn aborts_of_the_node_come_with_their_code() {
 fn nobody_answers() {
     let mut bus = Bus::new(Client::new(), Vec::new());
     let job = bus.client.read(NodeId::ONE, OBJECT);
-    assert_eq!(bus.run(), [Event::Read(job, Err(SdoError::Silent))]);
+    assert_eq!(bus.run(), [Event::Read(job, Err(Error::Silent))]);
     let wanted = ["601#4003200000000000", "601#8003200000000405"];
     assert_eq!(bus.frames, wanted);
 }

@@ -1,7 +1,8 @@
 //! Upload by hand: a frame in, a frame out, and servers that misbehave.
 
 use crate::support::{Machine, OBJECT, at, frame, upload};
-use od_client::sdo::{Channel, Expected, Options, SdoError, Slice, Upload};
+use od_client::Error;
+use od_client::sdo::{Channel, Expected, Options, Slice, Upload};
 use od_client::{NodeId, sdo};
 use od_model::Address;
 use od_wire::sdo::Response;
@@ -20,7 +21,7 @@ fn value(answer: &str, wanted: &[u8]) {
 
 /// The answer ends the upload with an error and this abort; nothing more comes out.
 #[track_caller]
-fn ends(mut upload: Upload<impl sdo::Buffer>, answer: &str, abort: &str, error: SdoError) {
+fn ends(mut upload: Upload<impl sdo::Buffer>, answer: &str, abort: &str, error: Error) {
     let code: String = abort
         .as_bytes()
         .rchunks(2)
@@ -37,9 +38,9 @@ fn ends(mut upload: Upload<impl sdo::Buffer>, answer: &str, abort: &str, error: 
     );
 }
 
-fn out_of_turn(expected: Expected, answer: &str) -> SdoError {
+fn out_of_turn(expected: Expected, answer: &str) -> Error {
     let got = Response::parse(frame(&format!("581#{answer}")).bytes());
-    SdoError::OutOfTurn { expected, got }
+    Error::OutOfTurn { expected, got }
 }
 
 fn asked() -> Upload<Vec<u8>> {
@@ -109,13 +110,13 @@ fn an_empty_value_is_one_empty_segment() {
 fn aborts_of_the_server_are_reported_as_they_are() {
     for mut upload in [asked(), in_segments()] {
         upload.talk(&[("8003200011000906", "-")]);
-        assert_eq!(upload.outcome(), Some(Err(SdoError::Abort(0x0609_0011))));
+        assert_eq!(upload.outcome(), Some(Err(Error::Abort(0x0609_0011))));
         assert_eq!(upload.poll_timeout(), None);
     }
     // A server that was reset does not know what it aborts.
     let mut upload = in_segments();
     upload.talk(&[("8000000001000405", "-")]);
-    assert_eq!(upload.outcome(), Some(Err(SdoError::Abort(0x0504_0001))));
+    assert_eq!(upload.outcome(), Some(Err(Error::Abort(0x0504_0001))));
 }
 
 #[test]
@@ -178,7 +179,7 @@ fn an_announced_length_is_kept() {
         upload.talk(&[(&format!("41032000{size}"), NEXT[0])]);
         upload
     };
-    let error = |announced, received| SdoError::Length {
+    let error = |announced, received| Error::Length {
         announced,
         received,
     };
@@ -200,24 +201,14 @@ fn values_beyond_the_limit_are_refused() {
         upload
     };
     // 4 GB announced, or one byte more than the limit.
-    ends(
-        begun(1000),
-        "41032000FFFFFFFF",
-        "05040005",
-        SdoError::TooLong,
-    );
-    ends(
-        begun(1000),
-        "41032000E9030000",
-        "05040005",
-        SdoError::TooLong,
-    );
-    ends(begun(3), "4303200001020304", "05040005", SdoError::TooLong);
+    ends(begun(1000), "41032000FFFFFFFF", "05040005", Error::TooLong);
+    ends(begun(1000), "41032000E9030000", "05040005", Error::TooLong);
+    ends(begun(3), "4303200001020304", "05040005", Error::TooLong);
     let mut exact = begun(1000);
     exact.talk(&[("41032000E8030000", NEXT[0])]);
     let mut without_end = begun(13);
     without_end.talk(&[("40032000", NEXT[0]), ("00", NEXT[1])]);
-    ends(without_end, "10", "05040005", SdoError::TooLong);
+    ends(without_end, "10", "05040005", Error::TooLong);
     let mut to_the_limit = begun(14);
     to_the_limit.talk(&[("40032000", NEXT[0]), ("00", NEXT[1]), ("11", "-")]);
     assert_eq!(to_the_limit.outcome(), Some(Ok(())));
@@ -231,7 +222,7 @@ fn a_buffer_of_the_caller_is_a_limit_too() {
         let mut upload = Upload::new(channel, OBJECT, Slice::new(&mut room), Options::DEFAULT);
         upload.talk(&[("", ASK)]);
         if announced.starts_with("410320000E") {
-            ends(upload, announced, "05040005", SdoError::TooLong);
+            ends(upload, announced, "05040005", Error::TooLong);
         } else {
             upload.talk(&[(announced, NEXT[0]), ("0DAA", "-")]);
             assert_eq!(upload.bytes(), [0xAA]);
@@ -241,7 +232,7 @@ fn a_buffer_of_the_caller_is_a_limit_too() {
 
 #[test]
 fn segments_without_data_are_not_asked_for_again_and_again() {
-    ends(in_segments(), "0E", "08000000", SdoError::NoProgress);
+    ends(in_segments(), "0E", "08000000", Error::NoProgress);
 }
 
 #[test]
@@ -275,7 +266,7 @@ fn only_an_abort_counts_while_a_request_waits() {
     upload.handle_frame(at(0), &frame("581#0001020304050607"));
     assert_eq!((upload.outcome(), upload.bytes().len()), (None, 0));
     upload.handle_frame(at(0), &frame("581#8003200000000008"));
-    assert_eq!(upload.outcome(), Some(Err(SdoError::Abort(0x0800_0000))));
+    assert_eq!(upload.outcome(), Some(Err(Error::Abort(0x0800_0000))));
     assert!(
         upload.out(at(0)).is_empty(),
         "the request is not sent any more"
@@ -292,7 +283,7 @@ fn silence_ends_a_transfer_after_the_timeout() {
     upload.handle_timeout(at(1499));
     assert_eq!(upload.outcome(), None);
     upload.handle_timeout(at(1500));
-    assert_eq!(upload.outcome(), Some(Err(SdoError::Silent)));
+    assert_eq!(upload.outcome(), Some(Err(Error::Silent)));
     assert_eq!(upload.out(at(1500)), ["601#8003200000000405"]);
     assert_eq!(upload.poll_timeout(), None);
     let mut upload = in_segments();
@@ -314,7 +305,7 @@ fn each_request_has_its_own_time() {
 fn cancelling_aborts_what_was_begun() {
     let mut upload = asked();
     upload.cancel();
-    assert_eq!(upload.outcome(), Some(Err(SdoError::Cancelled)));
+    assert_eq!(upload.outcome(), Some(Err(Error::Cancelled)));
     upload.talk(&[("", "8003200000000008")]);
     let mut unsent = crate::support::upload(Options::DEFAULT);
     unsent.cancel();

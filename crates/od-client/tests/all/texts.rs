@@ -1,8 +1,8 @@
 //! Errors in words.
 
-use od_client::lss::LssError;
+use od_client::Error;
 use od_client::pdo::TooShort;
-use od_client::sdo::{Expected, SdoError};
+use od_client::sdo::Expected;
 use od_wire::sdo::Response;
 
 #[test]
@@ -23,7 +23,7 @@ fn every_answer_that_is_due_has_a_name_of_its_own() {
     for (expected, text) in all {
         assert_eq!(expected.to_string(), text);
         let got = Response::EndBlockDownload;
-        let error = SdoError::OutOfTurn { expected, got };
+        let error = Error::OutOfTurn { expected, got };
         let whole = format!("{text} was expected, but EndBlockDownload came");
         assert_eq!(error.to_string(), whole);
     }
@@ -32,22 +32,19 @@ fn every_answer_that_is_due_has_a_name_of_its_own() {
 #[test]
 fn errors_name_their_numbers() {
     let known = "SDO abort 06020000h object does not exist";
-    assert_eq!(SdoError::Abort(0x0602_0000).to_string(), known);
-    assert_eq!(
-        SdoError::Abort(0x0602_0001).to_string(),
-        "SDO abort 06020001h"
-    );
-    let error = SdoError::Length {
+    assert_eq!(Error::Abort(0x0602_0000).to_string(), known);
+    assert_eq!(Error::Abort(0x0602_0001).to_string(), "SDO abort 06020001h");
+    let error = Error::Length {
         announced: 7,
         received: 5,
     };
     let text = "the SDO server announces a length of 7 and sends 5";
     assert_eq!(error.to_string(), text);
-    let refused = |error, specific| LssError::Refused { error, specific }.to_string();
-    assert_eq!(refused(1, 9), "the LSS slave answers with error 1");
+    let refused = |error, specific| Error::Refused { error, specific }.to_string();
+    assert_eq!(refused(1, 9), "the LSS slave responds with error 1");
     assert_eq!(
         refused(255, 9),
-        "the LSS slave answers with specific error 9"
+        "the LSS slave responds with specific error 9"
     );
     let error = TooShort {
         mapped: 32,

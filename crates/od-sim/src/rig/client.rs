@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 use std::prelude::v1::*;
 
-use od_client::sdo::{Options, SdoError};
+use od_client::sdo::Options;
 use od_client::{Client, Event, Job, lss};
 use od_model::Address;
 use od_wire::sdo::Request;
@@ -19,13 +19,13 @@ pub struct Outcome {
     /// The object.
     pub address: Address,
     /// The value that was read, empty after a write; or the error.
-    pub result: Result<Vec<u8>, SdoError>,
+    pub result: Result<Vec<u8>, od_client::Error>,
 }
 
 impl Outcome {
     fn of(
         (_, job, node, address): (Job, u32, NodeId, Address),
-        result: Result<Vec<u8>, SdoError>,
+        result: Result<Vec<u8>, od_client::Error>,
     ) -> Self {
         Self {
             job,
@@ -135,7 +135,7 @@ impl Asker {
         let count = self.count;
         let Self { asked, .. } = std::mem::take(self);
         self.count = count;
-        let silent = |asked| Outcome::of(asked, Err(SdoError::Silent));
+        let silent = |asked| Outcome::of(asked, Err(od_client::Error::Silent));
         asked.into_iter().map(silent).collect()
     }
 

@@ -1,4 +1,3 @@
-use od_client::sdo::SdoError;
 use od_devices::DEVICES;
 
 use super::*;
@@ -82,7 +81,7 @@ fn the_client_reads_and_writes_over_the_bus() {
     let last = rig.outcome().unwrap();
     assert_eq!(
         (last.job, last.result),
-        (wrong, Err(SdoError::Abort(0x0601_0002)))
+        (wrong, Err(od_client::Error::Abort(0x0601_0002)))
     );
     assert_eq!(rig.outcome(), None);
     assert_eq!(
@@ -101,7 +100,7 @@ fn a_silent_node_is_asked_once_and_gets_no_abort() {
     assert_eq!(rig.outcome(), None);
     run(&mut rig, 1);
     let silent = rig.outcome().map(|one| (one.job, one.result));
-    assert_eq!(silent, Some((job, Err(SdoError::Silent))));
+    assert_eq!(silent, Some((job, Err(od_client::Error::Silent))));
     assert_eq!(frames(&mut rig), ["609#4000100000000000"]);
 }
 
@@ -113,7 +112,7 @@ fn what_is_under_way_ends_with_its_bus() {
     assert_eq!(rig.bus.devices().len(), 0);
     assert_eq!(
         rig.outcome().map(|one| (one.job, one.result)),
-        Some((job, Err(SdoError::Silent)))
+        Some((job, Err(od_client::Error::Silent)))
     );
     let next = rig.read(NodeId::ONE, Address::new(0x1000, 0));
     assert_ne!(job, next);

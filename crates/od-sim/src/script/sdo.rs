@@ -3,7 +3,7 @@
 use std::format;
 use std::prelude::v1::*;
 
-use od_client::sdo::{Channel, Options, SdoError};
+use od_client::sdo::{Channel, Options};
 use od_client::{Client, Event, Job, lss};
 use od_model::{DataType, values};
 use od_wire::{AbortCode, CanId, Frame, NodeId};
@@ -101,15 +101,15 @@ impl Runner<'_> {
 }
 
 /// A script may expect an abort; any other error stops the script.
-fn transferred(result: core::result::Result<Vec<u8>, SdoError>) -> Result<Transfer> {
+fn transferred(result: core::result::Result<Vec<u8>, od_client::Error>) -> Result<Transfer> {
     match result {
         Ok(value) => Ok(Ok(value)),
-        Err(SdoError::Abort(code)) => Ok(Err(code)),
-        Err(SdoError::Silent) => failed(
+        Err(od_client::Error::Abort(code)) => Ok(Err(code)),
+        Err(od_client::Error::Silent) => failed(
             "an SDO response",
             format!("none came within {:?}", SDO.timeout),
         ),
-        Err(SdoError::OutOfTurn { expected, got }) => {
+        Err(od_client::Error::OutOfTurn { expected, got }) => {
             failed(expected.to_string(), format!("{got:?} came"))
         }
         Err(other) => failed("an SDO transfer", other.to_string()),

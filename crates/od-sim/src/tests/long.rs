@@ -3,7 +3,7 @@
 use std::prelude::v1::*;
 use std::{format, vec};
 
-use od_client::sdo::{Options, SdoError};
+use od_client::sdo::Options;
 use od_client::{Client, Event, lss};
 use od_model::Address;
 use od_runtime::{AbortCode, Instant, NodeId};
@@ -27,8 +27,8 @@ fn pattern(len: usize) -> Vec<u8> {
     (0..len).map(|at| (at * 31 % 251) as u8).collect()
 }
 
-fn abort<T>(code: AbortCode) -> Result<T, SdoError> {
-    Err(SdoError::Abort(code.code()))
+fn abort<T>(code: AbortCode) -> Result<T, od_client::Error> {
+    Err(od_client::Error::Abort(code.code()))
 }
 
 impl Pair {
@@ -66,7 +66,7 @@ impl Pair {
         }
     }
 
-    fn write(&mut self, object: Address, value: &[u8]) -> Result<(), SdoError> {
+    fn write(&mut self, object: Address, value: &[u8]) -> Result<(), od_client::Error> {
         self.client.write(NodeId::ONE, object, value);
         match self.event() {
             Event::Written(_, result) => result,

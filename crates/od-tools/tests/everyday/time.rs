@@ -110,7 +110,7 @@ fn a_silent_node_is_told_and_asked_again() {
         Duration::from_millis(200),
         NEVER,
         |sample| {
-            assert_eq!(sample.value, Err(od_client::sdo::SdoError::Silent));
+            assert_eq!(sample.value, Err(od_client::Error::Silent));
             count += 1;
             count < 3
         },

@@ -1,6 +1,7 @@
 //! Frames of block transfers.
 
-use od_client::sdo::{Expected, Options, SdoError};
+use od_client::Error;
+use od_client::sdo::{Expected, Options};
 use od_wire::sdo::{Response, crc16};
 
 use super::{Machine, frame};
@@ -32,7 +33,7 @@ pub(crate) fn crc(data: &[u8]) -> String {
 }
 
 #[track_caller]
-pub(crate) fn fails(machine: &mut impl Machine, answer: &str, abort: &str, error: SdoError) {
+pub(crate) fn fails(machine: &mut impl Machine, answer: &str, abort: &str, error: Error) {
     machine.talk(&[(answer, &format!("80032000{abort}"))]);
     assert_eq!(machine.outcome(), Some(Err(error)), "{answer}");
     assert_eq!(machine.poll_timeout(), None);
@@ -46,10 +47,5 @@ pub(crate) fn refuses(machine: &mut impl Machine, answer: &str, abort: &str, exp
         [0x81..=0x9F, ..] => Response::Unknown,
         data => Response::parse(data),
     };
-    fails(
-        machine,
-        answer,
-        abort,
-        SdoError::OutOfTurn { expected, got },
-    );
+    fails(machine, answer, abort, Error::OutOfTurn { expected, got });
 }

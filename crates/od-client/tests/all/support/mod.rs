@@ -4,7 +4,8 @@ pub(crate) mod blocks;
 pub(crate) mod bus;
 pub(crate) mod slave;
 
-use od_client::sdo::{Buffer, Channel, Download, Options, SdoError, Upload};
+use od_client::Error;
+use od_client::sdo::{Buffer, Channel, Download, Options, Upload};
 use od_client::{CanId, Frame, Instant, NodeId};
 use od_model::Address;
 
@@ -45,7 +46,7 @@ pub(crate) trait Machine {
     fn handle_frame(&mut self, now: Instant, frame: &Frame);
     fn poll_transmit(&mut self, now: Instant) -> Option<Frame>;
     fn poll_timeout(&self) -> Option<Instant>;
-    fn outcome(&self) -> Option<Result<(), SdoError>>;
+    fn outcome(&self) -> Option<Result<(), Error>>;
 
     /// Everything that goes out.
     fn out(&mut self, now: Instant) -> Vec<String> {
@@ -89,7 +90,7 @@ macro_rules! machine {
             fn poll_timeout(&self) -> Option<Instant> {
                 self.poll_timeout()
             }
-            fn outcome(&self) -> Option<Result<(), SdoError>> {
+            fn outcome(&self) -> Option<Result<(), Error>> {
                 self.outcome()
             }
         }
