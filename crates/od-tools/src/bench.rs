@@ -1,4 +1,4 @@
-//! A link onto a bus of the bench, in virtual time.
+//! A link to a simulated bus, in virtual time.
 
 use std::borrow::BorrowMut;
 
@@ -8,7 +8,7 @@ use od_wire::{Frame, Instant};
 use crate::error::Error;
 use crate::link::{Heard, Link};
 
-/// A link onto a [`Bus`], owned or borrowed: waiting moves the bench's time to the next frame at once.
+/// A link to a [`Bus`], owned or borrowed: waiting advances the virtual time to the next frame at once.
 #[derive(Debug)]
 pub struct OnBench<B>(pub B);
 
@@ -18,7 +18,7 @@ impl<B: BorrowMut<Bus>> Link for OnBench<B> {
     }
 
     fn send(&mut self, frame: &Frame) -> Result<(), Error> {
-        // Where a line does not let it through, nobody answers, as on a real bus.
+        // A line that loses the frame gives no response, as a real bus.
         self.0.borrow_mut().receive(frame);
         Ok(())
     }

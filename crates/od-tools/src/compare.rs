@@ -1,4 +1,4 @@
-//! A dictionary against a device on a bus: what it has, what it answers.
+//! Compares a dictionary with a device on a bus: its objects and their values.
 
 use od_eds::diff::{Difference, Field, Impact};
 use od_model::values;
@@ -9,8 +9,8 @@ use crate::error::Error;
 use crate::link::Link;
 use crate::master::Master;
 
-/// Reads every object that can be read. Further objects of the device could only be found by
-/// asking for all 65,536 indices, so nothing is ever "added" here.
+/// Reads every object of the dictionary that can be read. Other objects of the device are not reported as
+/// added, since finding them takes a request for each of 65,536 indices.
 ///
 /// With `values` current values that differ from the defaults are differences, too.
 ///
@@ -100,7 +100,7 @@ fn at(dictionary: Dictionary<'_>, object: &Object, address: Address, what: What)
     }
 }
 
-/// Compares a value that was read: its length, and the value itself if it should not change.
+/// Compares the length of a value, and the value itself if it should not change.
 fn value(
     dictionary: Dictionary<'_>,
     entry: &Entry,
@@ -142,7 +142,7 @@ fn value(
     ))
 }
 
-/// The default as it would go over the bus; `None` where the dictionary gives none.
+/// The default value as bytes on the bus; `None` if the dictionary has none.
 fn default_bytes(dictionary: Dictionary<'_>, entry: &Entry, node: NodeId) -> Option<Vec<u8>> {
     if let Some(number) = entry.default.integer(node.raw()) {
         let size = entry.data_type.size()?;

@@ -1,4 +1,4 @@
-//! The configuration of a node: read, and written so that either all of it or none is there.
+//! The configuration of a node: reads it, and writes all of it or nothing.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -20,32 +20,32 @@ pub struct Setting {
     pub bytes: Vec<u8>,
 }
 
-/// A value that is not as it should be.
+/// A difference between a wanted and an actual value.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Wrong {
-    /// The value that was wanted.
+    /// The wanted value.
     pub setting: Setting,
-    /// The value that is there, or the SDO abort code.
+    /// The actual value, or the SDO abort code.
     pub found: Result<Vec<u8>, u32>,
 }
 
 /// Result of [`apply`].
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Applied {
-    /// Values that were right before.
+    /// Number of values that did not have to change.
     pub equal: usize,
     /// Values that were written.
     pub written: usize,
-    /// Values that the node refused, or that are not there after they were written.
+    /// Values that the node refused, or that it did not keep.
     pub wrong: Vec<Wrong>,
-    /// All that was written has its earlier value again.
+    /// Whether all written values were restored.
     pub is_put_back: bool,
-    /// Values that could not be put back.
+    /// Values that could not be restored.
     pub left: Vec<Address>,
 }
 
-/// The values that make up the configuration of a node: those that can be read and written, but
-/// for commands, logs, programs and DOMAINs.
+/// The values that make up the configuration of a node: all that can be read and written, except
+/// commands, logs, programs and DOMAINs.
 pub fn addresses(dictionary: Dictionary<'_>) -> Vec<Address> {
     let entries = dictionary.entries().filter(|entry| {
         let is_command = matches!(
@@ -61,11 +61,11 @@ pub fn addresses(dictionary: Dictionary<'_>) -> Vec<Address> {
 /// An address with its value, or with the SDO abort code.
 pub type Read = (Address, Result<Vec<u8>, u32>);
 
-/// Reads these values; those that the node does not give come with the SDO abort code. `progress` is
-/// told the share that is done, 0 to 100.
+/// Reads these values; a value that the node refuses is its SDO abort code. `progress` receives the
+/// percentage done.
 ///
 /// # Errors
-/// The node is silent, or the link is lost.
+/// The node does not respond, or the link is lost.
 pub fn read(
     master: &mut Master<impl Link>,
     addresses: &[Address],
@@ -80,11 +80,10 @@ pub fn read(
 }
 
 /// Writes values that differ, and reads them back. PDOs are not valid while their mapping changes.
-/// If the node refuses one or the program is to stop, those that were written get their earlier
-/// values again.
+/// If the node refuses a value or the program is interrupted, the written values are restored.
 ///
 /// # Errors
-/// The node is silent, or the link is lost: then the node may have a part of the values.
+/// The node does not respond, or the link is lost; the node may then have some of the new values.
 pub fn apply(
     master: &mut Master<impl Link>,
     settings: &[Setting],
@@ -116,7 +115,7 @@ pub fn apply(
         return Ok(applied);
     }
     for index in old.pdos() {
-        // What changes for a moment has to be put back, too.
+        // A value that changes only for a moment has to be restored, too.
         let (cob_id, count) = (Address::new(index, 1), Address::new(index + 0x200, 0));
         let is_mapped_anew = old.0.keys().any(|one| one.index == count.index);
         for address in [Some(cob_id), is_mapped_anew.then_some(count)]
@@ -181,7 +180,7 @@ fn pdo(address: Address) -> Option<u16> {
     }
 }
 
-/// The address and abort code of a value that the node refuses; `None`: it took all.
+/// The address and abort code of a value that the node refuses; `None` if it accepts all.
 type Refused = Option<Wrong>;
 
 impl Values {
@@ -189,8 +188,8 @@ impl Values {
         self.0.keys().filter_map(|address| pdo(*address)).collect()
     }
 
-    /// A mapping entry behind those that sub-index 0 counts: it maps nothing, and many devices
-    /// do not take its value.
+    /// A mapping entry after those that sub-index 0 counts: it maps nothing, and many devices
+    /// refuse to write it.
     fn is_beyond(&self, address: Address) -> bool {
         let is_mapping = pdo(address).is_some_and(|index| index != address.index);
         let count = self.0.get(&Address::new(address.index, 0));

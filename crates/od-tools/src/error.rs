@@ -5,8 +5,7 @@ use std::fmt;
 use od_model::Refused;
 use od_wire::AbortCode;
 
-/// Reason why a link, a node or an input did not do. The text names the place, the error and the
-/// correction.
+/// Reason why a request on a bus failed. The text names the place, the error and the correction.
 #[derive(Clone, PartialEq, Eq, Debug)]
 #[non_exhaustive]
 pub enum Error {

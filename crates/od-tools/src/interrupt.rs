@@ -8,12 +8,12 @@ use od_wire::{Frame, Instant};
 use crate::error::Error;
 use crate::link::{Heard, Link};
 
-/// Longest wait before it looks whether it is to stop, in ms.
+/// Longest wait between two checks of `stop`, in ms.
 const SLICE: u64 = 50;
 
 /// A link that ends each wait with [`Error::Interrupted`] while `stop` is set.
 ///
-/// It still sends, so that what was begun on the bus can be put back.
+/// It still sends, so that values on the bus can be restored.
 #[derive(Debug)]
 pub struct Interruptible<L> {
     link: L,

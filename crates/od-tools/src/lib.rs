@@ -1,7 +1,7 @@
-//! Client side of a CANopen bus, with I/O, for programs that look at devices.
+//! Client side of a CANopen bus, with I/O: what the commands of odkit do at a bus.
 //!
 //! [`link::Link`] is a bus with a clock of its own, in real or in virtual time;
-//! [`master::Master`] waits for answers on it; [`conform`] is the open conformance test, [`learn`] makes an EDS of a node.
+//! [`master::Master`] waits for responses on it; [`conform`] is the conformance test, [`learn`] makes an EDS from a node.
 
 pub mod bench;
 pub mod compare;

@@ -4,7 +4,7 @@ use od_wire::{Frame, Instant};
 
 use crate::error::Error;
 
-/// A frame that came over a link.
+/// A received frame.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Heard {
     /// Time by the link's clock.
@@ -13,8 +13,8 @@ pub struct Heard {
     pub frame: Frame,
 }
 
-/// A link to a bus, with a clock of its own: real time on a real bus, virtual time on a bench.
-/// A wait on a bench moves its time, so that no time is spent sleeping.
+/// A link to a bus, with a clock of its own: real time on a real bus, virtual time on a simulated one.
+/// A wait on a simulated bus advances its time and does not sleep.
 pub trait Link {
     /// The present moment; [`Instant::ZERO`] is when the link was opened.
     fn now(&self) -> Instant;
@@ -25,15 +25,15 @@ pub trait Link {
     /// [`Error::Link`] if the link is lost.
     fn send(&mut self, frame: &Frame) -> Result<(), Error>;
 
-    /// Waits for the next frame of the others until `until`; with a moment that is past it takes
-    /// what is there and does not wait. Frames sent over this link do not come back.
+    /// Waits until `until` for the next frame of another sender; with a time in the past it returns a frame
+    /// that is there already, and does not wait. Frames sent over this link are not received.
     ///
     /// # Errors
     /// [`Error::Link`] if the link is lost.
     fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Error>;
 
-    /// Goes on at another bit rate, in kbit/s, and only listens there: it acknowledges nothing,
-    /// so a wrong bit rate disturbs no node.
+    /// Changes to another bit rate, in kbit/s, in listen-only mode: it acknowledges nothing,
+    /// so that a wrong bit rate does not disturb a node.
     ///
     /// # Errors
     /// [`Error::Usage`] if this link cannot; [`Error::Link`] if it is lost.
@@ -43,7 +43,7 @@ pub trait Link {
         )))
     }
 
-    /// Waits again after [`Error::Interrupted`], to put back what was begun on the bus.
+    /// Waits again after [`Error::Interrupted`], so that values on the bus can be restored.
     fn resume(&mut self) {}
 }
 

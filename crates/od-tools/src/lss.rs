@@ -1,4 +1,4 @@
-//! LSS: which slaves are there, and their node IDs and bit rates (CiA 305).
+//! LSS master: finds slaves, and sets their node IDs and bit rates (CiA 305).
 
 use od_client::lss::{Answer, Identity, Options, Task};
 use od_client::{Client, Event, sdo, watch};
@@ -9,14 +9,14 @@ use od_wire::{Duration, Frame, Instant, NodeId, lss};
 use crate::error::Error;
 use crate::link::Link;
 
-/// Longest time for an answer: storing takes the longest.
+/// How long to wait for a response; storing takes the longest.
 const PATIENCE: Duration = Duration::from_secs(5);
 /// Longest time until a slave with a new node ID boots.
 const BOOT: Duration = Duration::from_secs(3);
-/// Time in which a second slave would answer, in ms.
+/// Time in which a second slave would respond, in ms.
 const SECOND: u64 = 50;
-/// Time that a step of fastscan waits for an answer, in ms. Silence is an answer, too, so a late one
-/// spoils the search: it is begun again, and waits longer.
+/// Times that a step of fastscan waits for a response, in ms. No response is a result, too, so a late response spoils
+/// the search, which then begins again with the next time.
 const PACES: [u64; 3] = [50, 200, 800];
 
 /// Bit rates in kbit/s by their index in table 0 of CiA 301; index 5 is reserved.
@@ -32,19 +32,19 @@ pub const BIT_RATES: [Option<u16>; 9] = [
     Some(10),
 ];
 
-/// An LSS master on a link. When it goes, all slaves are in waiting state.
+/// An LSS master on a link. When it is dropped, it switches all slaves to LSS waiting state.
 #[derive(Debug)]
 pub struct Lss<L: Link> {
     link: L,
     client: Client,
 }
 
-/// The slaves that a service is for.
+/// The slaves that a service addresses.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Slaves {
-    /// The one with this LSS address.
+    /// The slave with this LSS address.
     One(Identity),
-    /// All on the bus.
+    /// All slaves on the bus.
     All,
 }
 
@@ -57,13 +57,13 @@ impl<L: Link> Lss<L> {
         }
     }
 
-    /// Finds the slaves that have no node ID, by fastscan; `found` gets each at once.
+    /// Finds the slaves without a node ID by fastscan; `found` is called with each at once.
     ///
-    /// If the response of a slave is late, the search begins again and waits longer for each; if
-    /// none responds any more, it asks once more with that patience.
+    /// If a response is late, the search begins again and waits longer. A search that found a late response
+    /// ends with one more search that waits as long.
     ///
     /// # Errors
-    /// The link is lost, or a slave answers and in no search confirms its LSS address.
+    /// The link is lost, or a slave responds but never confirms its LSS address.
     pub fn scan(&mut self, mut found: impl FnMut(&Identity)) -> Result<Vec<Identity>, Error> {
         let mut told = Vec::new();
         let mut all = Vec::new();
@@ -101,8 +101,8 @@ impl<L: Link> Lss<L> {
         Ok(all)
     }
 
-    /// Gives a slave a node ID, has it store it if `store`, and waits for its boot-up message. A slave
-    /// that had a node ID before takes the new one with its next reset, and `false` is returned.
+    /// Sets the node ID of a slave, stores it if `store`, and waits for the boot-up message. A slave that had a node ID
+    /// before uses the new one after its next reset; the result is then `false`.
     ///
     /// # Errors
     /// No slave has the LSS address, the slave refuses, or the link is lost.
@@ -130,12 +130,11 @@ impl<L: Link> Lss<L> {
         Ok(false)
     }
 
-    /// Configures the bit rate in kbit/s of these slaves, and has them store it if `store`. With
-    /// `activate` they all change over after this time, and are silent for it again: the link has to
-    /// follow.
+    /// Sets the bit rate of these slaves in kbit/s, and stores it if `store`. With `activate` they change to it after
+    /// this time and send nothing for the same time again; the caller changes the bit rate of the link.
     ///
     /// # Errors
-    /// [`Error::Usage`] for a bit rate that CiA 301 does not have; a slave refuses, none answers, or
+    /// [`Error::Usage`] for a bit rate that CiA 301 does not define; a slave refuses, none responds, or
     /// the link is lost.
     pub fn set_bit_rate(
         &mut self,
@@ -165,20 +164,20 @@ impl<L: Link> Lss<L> {
         }
     }
 
-    /// Has these slaves store node ID and bit rate.
+    /// Stores node ID and bit rate in these slaves.
     ///
     /// # Errors
-    /// A slave refuses, none answers, or the link is lost.
+    /// A slave refuses, none responds, or the link is lost.
     pub fn store(&mut self, slaves: Slaves) -> Result<(), Error> {
         self.select(slaves)?;
         self.run(Task::Store)?;
         self.wait_all()
     }
 
-    /// Asks a slave for its LSS address and its node ID, which is `None` if it has none.
+    /// Reads LSS address and node ID of a slave; `None` if it has no node ID.
     ///
     /// # Errors
-    /// No slave answers, several do, or the link is lost.
+    /// No slave responds, several do, or the link is lost.
     pub fn inquire(&mut self, slaves: Slaves) -> Result<(Identity, Option<NodeId>), Error> {
         self.select(slaves)?;
         let mut parts = [0; 4];
@@ -195,7 +194,7 @@ impl<L: Link> Lss<L> {
         Ok((Identity::new(parts), node))
     }
 
-    /// Runs a service that only one slave may answer.
+    /// Runs a service to which only one slave may respond.
     fn only(&mut self, task: Task) -> Result<Answer, Error> {
         let answer = self.run(task)?;
         let until = self.link.now().plus_millis(SECOND);
@@ -229,13 +228,13 @@ impl<L: Link> Lss<L> {
         self.run(Task::SwitchGlobal { configuration }).map(drop)
     }
 
-    /// Runs a service. Of several slaves that answer one that refuses counts.
+    /// Runs a service. It fails if one of several slaves refuses.
     fn run(&mut self, task: Task) -> Result<Answer, Error> {
         self.ask(task)?
             .map_err(|error| Error::Node(words(task, error)))
     }
 
-    /// Runs a service; the error outside is the link's.
+    /// Runs a service: the inner result is that of the slaves, the outer one that of the link.
     fn ask(&mut self, task: Task) -> Result<Result<Answer, od_client::Error>, Error> {
         self.client.lss(task);
         let mut refused = None;
@@ -257,7 +256,7 @@ impl<L: Link> Lss<L> {
         }
     }
 
-    /// Listens to the slaves that answer after the first.
+    /// Receives the responses of further slaves.
     fn others(&mut self, refused: &mut Option<od_client::Error>) -> Result<(), Error> {
         let until = self.link.now().plus_millis(100);
         while let Some(heard) = self.link.receive(until)? {
@@ -288,7 +287,7 @@ impl<L: Link> Drop for Lss<L> {
     }
 }
 
-/// A master whose fastscan waits `pace` ms for an answer, and a fifth of it for others.
+/// A master whose fastscan waits `pace` ms for a response, and a fifth of that for further ones.
 fn master(pace: u64) -> Client {
     let mut options = Options::DEFAULT;
     options.timeout = PATIENCE;
@@ -297,7 +296,7 @@ fn master(pace: u64) -> Client {
     Client::with(sdo::Options::DEFAULT, options)
 }
 
-/// Reason why a search ends that finds a slave a second time.
+/// Error text for two slaves with the same LSS address.
 fn twice(identity: Identity) -> String {
     format!(
         "two LSS slaves have the same LSS address (serial number {}), so no master can address one of \
@@ -306,7 +305,7 @@ fn twice(identity: Identity) -> String {
     )
 }
 
-/// An error of a service, with what to do about it.
+/// Error text for a failed service, with a correction if there is one.
 fn words(task: Task, error: od_client::Error) -> String {
     match (task, error) {
         (Task::SwitchSelective(identity), od_client::Error::Silent) => format!(

@@ -1,4 +1,4 @@
-//! A master on a link: it sends what its client has to send, and waits for answers.
+//! A master on a link: sends the frames of its client, and waits for responses.
 
 use std::collections::BTreeMap;
 
@@ -11,14 +11,14 @@ use od_wire::{Duration, Instant, NodeId};
 use crate::error::Error;
 use crate::link::Link;
 
-/// An answer within 1 s, as devices that save or calibrate take their time; a value of at most
-/// 1 MiB, as a longer one is a device gone wild.
+/// A response within 1 s, since devices that save or calibrate are slow; a value of at most 1 MiB, since a longer one
+/// is a fault of the device.
 const OPTIONS: Options = Options::DEFAULT;
 
-/// So often a read is begun if a response to something else comes.
+/// How often a read is tried if a response to another request arrives.
 const TRIES: u8 = 3;
 
-/// Longest time to throw away what came before a request, in ms.
+/// How long to discard frames that arrived before a request, in ms.
 const DRAIN: u64 = 20;
 
 /// A master of one node on a link.
@@ -27,7 +27,7 @@ pub struct Master<L> {
     link: L,
     node: NodeId,
     client: Client,
-    /// Longest time to an answer.
+    /// How long to wait for a response.
     timeout: Duration,
     /// Data types of the node's objects, as far as they are known.
     types: BTreeMap<Address, DataType>,
@@ -47,7 +47,7 @@ impl<L: Link> Master<L> {
         Self::patient(link, node, OPTIONS.timeout)
     }
 
-    /// A master of `node` that waits longer, or less long, for each answer.
+    /// A master of `node` with another time limit for each response.
     pub fn patient(link: L, node: NodeId, timeout: Duration) -> Self {
         let mut options = OPTIONS;
         options.timeout = timeout;
@@ -61,8 +61,8 @@ impl<L: Link> Master<L> {
         }
     }
 
-    /// Tells the master the data types of the node's objects: of a value whose response names no size
-    /// the type says it, and a DOMAIN is read in blocks.
+    /// Sets the data types of the node's objects. The type gives the size of a value whose response does not contain
+    /// one; a DOMAIN is read by block transfer.
     pub fn know(&mut self, dictionary: Dictionary<'_>) {
         let entries = dictionary.entries();
         self.types = entries
@@ -70,8 +70,7 @@ impl<L: Link> Master<L> {
             .collect();
     }
 
-    /// Limits the time of each whole transfer: a node that sends segments without end is left after
-    /// this time.
+    /// Limits the time of each whole transfer, for a node that sends segments without end.
     #[must_use]
     pub fn within(mut self, whole: Duration) -> Self {
         self.whole = Some(whole);
@@ -127,8 +126,8 @@ impl<L: Link> Master<L> {
         }
     }
 
-    /// Waits for the client's next event; only for a client with a job, which ends with one. If the
-    /// program is to stop or the time is over, the node hears that the transfer is over.
+    /// Waits for the client's next event; the client must have a job, which ends with an event. If the program is
+    /// interrupted or the time is over, the transfer is aborted.
     fn event(&mut self, job: Job) -> Result<Event, Error> {
         let until = self.whole.map(|whole| self.link.now() + whole);
         let event = self.wait(until);
@@ -166,8 +165,8 @@ impl<L: Link> Master<L> {
 
     fn send(&mut self) -> Result<(), Error> {
         while let Some(frame) = self.client.poll_transmit(self.link.now()) {
-            // What an earlier, slower answer left behind is not the answer to this. A bus that is
-            // full does not hold the request up.
+            // A late response to an earlier request is not the response to this one. A bus that is
+            // full does not delay the request.
             let until = self.link.now().plus_millis(DRAIN);
             while self.link.receive(Instant::ZERO)?.is_some() && self.link.now() < until {}
             self.link.send(&frame)?;

@@ -1,4 +1,4 @@
-//! NMT commands, and what the nodes make of them.
+//! NMT commands, and the states that follow.
 
 use std::collections::BTreeMap;
 
@@ -9,9 +9,9 @@ use od_wire::{Duration, NodeId};
 use crate::error::Error;
 use crate::link::Link;
 
-/// Sends a command to a node, or to all, and listens for at most `wait`: to all the time for
-/// all nodes, to one until it shows the state that the command leads to. Returns the states
-/// that were heard: [`State::Initialising`] for a boot-up message.
+/// Sends a command to a node or to all nodes, and returns the states that they report;
+/// [`State::Initialising`] stands for a boot-up message. With all nodes it listens for `wait`, with one
+/// node at most until that node reports the state that the command leads to.
 ///
 /// # Errors
 /// The link is lost.

@@ -8,20 +8,19 @@ use crate::error::Error;
 use crate::link::Link;
 use crate::master::Master;
 
-/// A value that was asked for.
+/// A selected value.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Asked {
     /// Its address.
     pub address: Address,
     /// Its entry, if a dictionary has it.
     pub entry: Option<Entry>,
-    /// It is one of several that a glob or an index selects.
+    /// Whether a glob or an index selects several values.
     pub is_one_of_many: bool,
 }
 
-/// The values that `text` names: `6004h`, `1018h:01`, `60*`, `1018:*`, `Position value`, `*position*`.
-/// The index of an ARRAY or RECORD selects all its values. Of a glob, values that cannot be
-/// read are left out.
+/// Returns the values that `text` names: `6004h`, `1018h:01`, `60*`, `1018:*`, `Position value`, `*position*`.
+/// The index of an ARRAY or RECORD selects all its values. A glob leaves out values that cannot be read.
 ///
 /// # Errors
 /// A sentence: no value matches.
@@ -72,7 +71,7 @@ pub fn select(dictionary: Dictionary<'_>, text: &str) -> Result<Vec<Asked>, Refu
     }
 }
 
-/// As [`select`] without a dictionary: the node is asked which of the objects exist.
+/// As [`select`] without a dictionary: finds on the node which of the objects exist.
 ///
 /// # Errors
 /// [`Error::Usage`] if `text` is not an address or a glob of addresses; else as [`Master::upload`].
@@ -125,7 +124,7 @@ pub fn probe(master: &mut Master<impl Link>, text: &str) -> Result<Vec<Asked>, E
     }
 }
 
-/// The value of an object that exists and can be read; empty if it has none now.
+/// Reads an object that exists; empty if it has no value at present.
 fn exists(master: &mut Master<impl Link>, address: Address) -> Result<Option<Vec<u8>>, Error> {
     Ok(match Error::or_abort(master.upload(address))? {
         Ok(bytes) => Some(bytes),
@@ -137,7 +136,7 @@ fn exists(master: &mut Master<impl Link>, address: Address) -> Result<Option<Vec
     })
 }
 
-/// The type of a value without a dictionary: that of CiA 301, else by its size and content.
+/// The type of a value without a dictionary: that of CiA 301, else one that fits size and content.
 pub fn type_of(address: Address, bytes: &[u8]) -> DataType {
     if matches!(address.index, 0x1008..=0x100A) {
         return DataType::VisibleString;
@@ -156,7 +155,7 @@ pub fn type_of(address: Address, bytes: &[u8]) -> DataType {
     }
 }
 
-/// The bytes of a value that a user wrote, after all checks that need no node.
+/// The bytes of a value that a user typed, after all checks that do not need the node.
 ///
 /// # Errors
 /// A sentence: the value cannot be written, or is not of its type or within its limits.
@@ -240,7 +239,7 @@ fn decimal(data_type: DataType, bytes: &[u8]) -> Option<f64> {
     })
 }
 
-/// A name as `get` and `set` show it: of a VAR its own, of a sub-object with that of its object.
+/// The name in the output of `get` and `set`: of a sub-object it follows the name of its object.
 pub fn name(dictionary: Option<Dictionary<'_>>, entry: Option<&Entry>) -> String {
     match (dictionary, entry) {
         (Some(dictionary), Some(entry)) => values::name(dictionary, entry),
@@ -248,7 +247,7 @@ pub fn name(dictionary: Option<Dictionary<'_>>, entry: Option<&Entry>) -> String
     }
 }
 
-/// `6004h` of a VAR, `1018h:01` of every other.
+/// `6004h` for a VAR, `1018h:01` for a sub-object.
 pub fn place(dictionary: Option<Dictionary<'_>>, address: Address) -> String {
     let object = dictionary.and_then(|dictionary| dictionary.object(address.index));
     match object.map(|object| object.code) {
@@ -262,12 +261,12 @@ fn has_sub(text: &str) -> bool {
     text.contains(':') || text.contains("sub")
 }
 
-/// Whether a text is a glob.
+/// Returns whether a text is a glob.
 fn is_glob(text: &str) -> bool {
     text.contains(['*', '?'])
 }
 
-/// A glob of addresses: one of the index, one of the sub-index.
+/// A glob for addresses: one pattern for the index, one for the sub-index.
 struct Pattern {
     index: String,
     sub: String,
@@ -303,7 +302,7 @@ impl Pattern {
     }
 }
 
-/// Whether `*` (any characters) and `?` (one) in a pattern make it the text, in any case.
+/// Returns whether a pattern with `*` (any characters) and `?` (one character) matches the text; case is ignored.
 fn matches(pattern: &str, text: &str) -> bool {
     let pattern: Vec<char> = pattern.to_lowercase().chars().collect();
     let text: Vec<char> = text.to_lowercase().chars().collect();

@@ -1,12 +1,12 @@
-//! A log onto a bus.
+//! Sends the frames of a log to a bus.
 
 use od_wire::{Duration, Frame, Instant};
 
 use crate::error::Error;
 use crate::link::Link;
 
-/// Sends these frames with their distances in time, `speed` times as fast; 0: without waiting. Frames
-/// of the bus are ignored. Returns the number of frames that were sent.
+/// Sends these frames at their intervals, `speed` times as fast; 0 sends them without waiting. Frames from
+/// the bus are ignored. Returns the number of sent frames.
 ///
 /// # Errors
 /// The link is lost.
@@ -20,7 +20,7 @@ pub fn replay(
     for (at, frame) in frames {
         let distance = at.micros_since(first) as f64;
         let wait = if speed > 0.0 { distance / speed } else { 0.0 };
-        // Each from the beginning on, so that no delay adds to the next.
+        // Times count from the start, so that delays do not add up.
         let due = begin + Duration::from_micros(wait as u64);
         while link.now() < due {
             link.receive(due)?;

@@ -12,13 +12,13 @@ use crate::error::Error;
 use crate::link::Link;
 use crate::master::Master;
 
-/// Requests that are out at the same time.
+/// Number of requests without a response at the same time.
 const AT_ONCE: usize = 16;
-/// So long a scan waits for nodes that answered before.
+/// How long a scan waits for nodes that responded before.
 const LATE: Duration = Duration::from_millis(800);
 /// Longest time to read one text of a node: some 1,000 segments.
 const TEXT: Duration = Duration::from_secs(1);
-/// Number of waiting frames that are read at once: they came in time and were not looked at yet.
+/// Number of received frames that are read at once: they arrived in time.
 const WAITING: usize = 4096;
 const DEVICE_TYPE: Address = Address::new(0x1000, 0);
 const SERIAL: Address = Address::new(0x1018, 4);
@@ -28,7 +28,7 @@ const SERIAL: Address = Address::new(0x1018, 4);
 pub struct Options {
     /// Time to listen before the first request.
     pub listen: Duration,
-    /// Longest time for an answer.
+    /// How long to wait for a response.
     pub answer: Duration,
 }
 
@@ -51,7 +51,7 @@ pub struct Found {
     pub state: Option<State>,
     /// It sent a boot-up message during the scan.
     pub has_booted: bool,
-    /// It answers SDO requests; in Stopped it does not.
+    /// Whether it responds to SDO requests; in Stopped it does not.
     pub answers: bool,
     /// 1000h, device type.
     pub device_type: Option<u32>,
@@ -59,7 +59,7 @@ pub struct Found {
     pub identity: [Option<u32>; 4],
     /// 1008h, 1009h, 100Ah: device name, hardware version, software version.
     pub texts: [Option<String>; 3],
-    /// Serial numbers of all nodes with this node ID if several answer; else empty.
+    /// Serial numbers of all nodes with this node ID if several respond; else empty.
     pub conflict: Vec<u32>,
 }
 
@@ -78,15 +78,15 @@ struct Heard {
     states: BTreeMap<NodeId, State>,
     boot_ups: BTreeSet<NodeId>,
     answers: BTreeMap<NodeId, Vec<[u8; 8]>>,
-    /// Index and sub-index of the requests, as in a frame: an answer to an earlier one does not count.
+    /// Index and sub-index of the requests, as in a frame: a response to an earlier request is ignored.
     asked: [u8; 3],
     has_unconfigured: bool,
 }
 
-/// Looks for the nodes of a bus: listens, asks each of the 127 node IDs for 1000h, and those that
-/// answer for who they are. It changes nothing on the bus.
+/// Finds the nodes of a bus: listens, reads 1000h of each of the 127 node IDs, and reads the identity of those that
+/// respond. Changes nothing on the bus.
 ///
-/// `progress` gets the share that is done, 0 to 100.
+/// `progress` receives the percentage done.
 ///
 /// # Errors
 /// The link is lost.
@@ -138,7 +138,7 @@ pub fn scan(
         }
         found.insert(*node, one);
     }
-    // What came while nodes were read.
+    // Frames that arrived while nodes were read.
     heard.listen(link, Duration::ZERO)?;
     for node in heard.states.keys().chain(&heard.boot_ups) {
         found.entry(*node).or_insert_with(|| Found::new(*node));
@@ -167,7 +167,7 @@ impl Found {
         }
     }
 
-    /// Reads who it is.
+    /// Reads identity and texts of a node.
     fn read(&mut self, link: &mut impl Link) -> Result<(), Error> {
         let mut master = Master::new(link, self.node).within(TEXT);
         for (part, sub) in self.identity.iter_mut().zip(1..=3) {
@@ -192,7 +192,7 @@ impl Found {
     }
 }
 
-/// An object that a device may lack; so does a node that falls silent.
+/// Reads an object that a device may lack; a node that stops responding counts as lacking it.
 fn optional(read: Result<Vec<u8>, Error>) -> Result<Option<Vec<u8>>, Error> {
     match read {
         Ok(bytes) => Ok(Some(bytes)),
@@ -202,7 +202,7 @@ fn optional(read: Result<Vec<u8>, Error>) -> Result<Option<Vec<u8>>, Error> {
 }
 
 impl Heard {
-    /// Sends a request to each of these nodes, and collects all answers.
+    /// Sends a request to each of these nodes, and collects the responses.
     fn ask(
         &mut self,
         link: &mut impl Link,
@@ -269,7 +269,7 @@ impl Heard {
     }
 }
 
-/// The number in an expedited answer.
+/// The number in an expedited response.
 fn number(answer: &[u8; 8]) -> Option<u32> {
     match Response::parse(answer) {
         Response::InitiateUpload { .. } => {
@@ -283,8 +283,8 @@ fn number(answer: &[u8; 8]) -> Option<u32> {
 /// Bit rates of CiA 301 in kbit/s, the most common ones first.
 pub const RATES: [u16; 8] = [500, 250, 125, 1000, 800, 50, 20, 10];
 
-/// Finds the bit rate by listening: the first at which a frame comes. `try_` gets each bit rate
-/// before it listens there for `wait`. `None`: no frame came at any.
+/// Finds the bit rate by listening: the first at which a frame arrives. `try_` is called with each bit rate, before
+/// it listens for `wait`. `None` if no frame arrives at any.
 ///
 /// # Errors
 /// The link cannot listen without taking part, or is lost.

@@ -5,7 +5,7 @@ use od_wire::{Frame, Instant};
 use crate::error::Error;
 use crate::link::{Heard, Link};
 
-/// A link whose frames, both ways, a function sees.
+/// A link whose frames in both directions are passed to a function.
 #[derive(Debug)]
 pub struct Tap<L, F> {
     link: L,
@@ -13,7 +13,7 @@ pub struct Tap<L, F> {
 }
 
 impl<L: Link, F: FnMut(&Frame)> Tap<L, F> {
-    /// Shows the frames of `link` to `see`.
+    /// Calls `see` with each frame of `link`.
     pub const fn new(link: L, see: F) -> Self {
         Self { link, see }
     }

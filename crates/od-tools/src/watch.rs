@@ -9,9 +9,9 @@ use crate::error::Error;
 use crate::link::Link;
 use crate::master::Master;
 
-/// A value that comes by TPDO is polled if none came for this time: the node may not be Operational.
+/// A value that is mapped into a TPDO is polled if no TPDO arrives for this time: the node may not be Operational.
 const GRACE: Duration = Duration::from_secs(1);
-/// Bits of a COB-ID that say: not valid, 29 bits.
+/// Bits of a COB-ID: not valid, 29-bit CAN-ID.
 const NOT_VALID: u32 = 1 << 31;
 const EXTENDED: u32 = 1 << 29;
 
@@ -40,25 +40,25 @@ pub struct Source {
     pub address: Address,
     /// Its origin.
     pub by: By,
-    /// Its data type, if it is known: of a response without a size the type says it.
+    /// Its data type, if known; it gives the size of a response that contains none.
     pub data_type: Option<DataType>,
 }
 
-/// A value at a moment.
+/// A value with its time.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Sample {
-    /// Time when it came, by the link's clock.
+    /// Time of arrival, by the link's clock.
     pub at: Instant,
-    /// Its place among the sources.
+    /// Index of its source.
     pub source: usize,
     /// The value, or the reason why it is missing.
     pub value: Result<Vec<u8>, od_client::Error>,
 }
 
-/// Finds where values come from: the valid TPDOs that the node has now, by their mapping.
+/// Finds the source of each value: a valid TPDO of the node that maps it, else SDO.
 ///
 /// # Errors
-/// The node is silent, or the link is lost.
+/// The node does not respond, or the link is lost.
 pub fn sources(
     master: &mut Master<impl Link>,
     addresses: &[Address],
@@ -71,7 +71,7 @@ pub fn sources(
     let mut found: Vec<Source> = addresses.iter().map(polled).collect();
     for (number, index) in (1..).zip(0x1800..=0x19FF_u16) {
         let cob_id = match Error::or_abort(master.upload(Address::new(index, 1)))? {
-            // Those behind a gap are rare, and asking for all 512 takes seconds.
+            // TPDOs after a gap are rare, and reading all 512 takes seconds.
             Err(code) if code == AbortCode::NoObject.code() && number > 4 => break,
             read => number_of(read),
         };
@@ -126,14 +126,14 @@ fn can_id(cob_id: u32) -> CanId {
     }
 }
 
-/// The value in the data of its TPDO; `None`: it is too short.
+/// The value in the data of its TPDO; `None` if the frame is too short.
 fn mapped(frame: &Frame, first: u8, bits: u8) -> Option<Vec<u8>> {
     let value = pdo::bits(frame.data(), first, bits).filter(|_| !frame.is_remote())?;
     Some(value.to_le_bytes()[..usize::from(bits).div_ceil(8)].to_vec())
 }
 
-/// Tells each value as it comes, those that are polled `every` so long, until `tell` returns `false`
-/// or the time is `until`. A node that does not answer is asked again.
+/// Calls `tell` with each value as it arrives, until `tell` returns `false` or the time is `until`. Values without a
+/// TPDO are polled at intervals of `every`. A node that does not respond is asked again.
 ///
 /// # Errors
 /// The link is lost, or the user stops it.
@@ -156,7 +156,7 @@ pub fn watch(
         times,
         &mut tell,
     );
-    // The node hears that transfers are over.
+    // Aborts open transfers at the node.
     for (job, _) in jobs {
         client.cancel(link.now(), job);
     }
@@ -174,7 +174,7 @@ fn follow(
     (every, until): (Duration, Instant),
     tell: &mut impl FnMut(Sample) -> bool,
 ) -> Result<(), Error> {
-    // When the value is asked for; `None`: it is on its way.
+    // Time of the next request for the value; `None` while a response is due.
     let mut due = vec![Some(link.now()); sources.len()];
     loop {
         let now = link.now();
@@ -207,7 +207,7 @@ fn follow(
                 By::Poll => every,
                 By::Pdo { .. } => every.max(GRACE),
             };
-            // From the question on, so that the answer's time does not add up.
+            // From the request on, so that response times do not add up.
             due[source] = Some((now + pause).max(at));
             if !tell(Sample { at, source, value }) {
                 return Ok(());
@@ -219,7 +219,7 @@ fn follow(
             .copied()
             .chain(client.poll_timeout())
             .min();
-        // A moment later than the end, so that its end is seen.
+        // A little later than the end, so that the end is noticed.
         let next = next.unwrap_or(now).min(until + Duration::from_micros(1));
         let Some(heard) = link.receive(next)? else {
             client.handle_timeout(link.now());

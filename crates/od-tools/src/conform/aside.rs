@@ -1,5 +1,5 @@
-//! A case for one built-in device, played on a bench of its own: there it may also act on the world
-//! outside the bus.
+//! A case for one built-in device, played on a simulated bus of its own, where it may also control shaft, power and
+//! switches.
 
 use od_model::Refused;
 use od_sim::VirtualDevice;
@@ -36,7 +36,7 @@ impl Host for Aside<'_> {
     }
 }
 
-/// Plays a whole script; returns its frames, too.
+/// Plays a whole script, and returns its frames.
 pub(crate) fn play(fresh: Fresh<'_>, first_line: u32, text: &str) -> (Checked, Vec<Traced>) {
     let mut host = Aside {
         fresh,

@@ -20,7 +20,7 @@ pub(crate) enum Step {
 /// One case of the conformance test.
 #[derive(Clone, Debug)]
 pub struct Case {
-    /// Its name; that of a script is the name of its file without `.script`.
+    /// Its name; for a script that of its file without `.script`.
     pub id: String,
     /// `SDO`, `NMT` …
     pub group: String,
@@ -30,7 +30,7 @@ pub struct Case {
     pub title: String,
     /// Conditions that the EDS has to meet.
     pub(crate) applies: Vec<String>,
-    /// The built-in devices that it is about; empty: any device.
+    /// The built-in devices that it tests; empty: any device.
     pub(crate) devices: Vec<String>,
     /// Permissions that the case needs: `reset`, `store`, `power`.
     pub(crate) needs: Vec<String>,
@@ -39,7 +39,7 @@ pub struct Case {
 
 const NEEDS: [&str; 3] = ["reset", "store", "power"];
 
-/// The parts of a list with commas.
+/// The parts of a comma-separated list.
 fn list(text: &str) -> Vec<String> {
     let parts = text.split(',').map(|part| part.trim().to_owned());
     parts.filter(|part| !part.is_empty()).collect()
@@ -101,7 +101,7 @@ impl Case {
             let Step::Script(first_line, text) = step else {
                 continue;
             };
-            // Any node ID does: the lines are read again when the node under test is known.
+            // Any node ID will do: the lines are read again when the node under test is known.
             let script = Script::parse_at(&placed(text, 1), *first_line);
             if let Some(problem) = script.err().and_then(|all| all.into_iter().next()) {
                 let message = format!("{}; {}", problem.message, problem.help);
@@ -162,7 +162,7 @@ impl Case {
         Ok(())
     }
 
-    /// Whether a pattern with `*` and `?` names this case or its group, in any case of letters.
+    /// Returns whether a pattern with `*` and `?` matches the name of this case or of its group; case is ignored.
     pub fn is_named_by(&self, pattern: &str) -> bool {
         let pattern = pattern.to_ascii_lowercase();
         let names = [&self.id, &self.group];
@@ -211,7 +211,7 @@ pub fn built_in() -> &'static [Case] {
     static CASES: OnceLock<Vec<Case>> = OnceLock::new();
     CASES.get_or_init(|| {
         let all = check::GROUPS.iter().flat_map(|(group, cases)| {
-            // A test reads the scripts, so none of them has a mistake.
+            // A test reads the scripts, so that none of them has an error.
             let read = cases.iter().map(|case| Case::built_in(group, case));
             read.filter_map(Result::ok)
         });

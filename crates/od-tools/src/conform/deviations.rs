@@ -1,4 +1,4 @@
-//! Deviations that a manual documents: cases that a product is spared, and why.
+//! Deviations that a manual documents: cases that a product may skip, with the reason.
 
 use super::eds::Eds;
 
@@ -15,18 +15,18 @@ struct Deviation {
 }
 
 impl Deviations {
-    /// Those of the built-in devices.
+    /// The deviations of the built-in devices.
     pub(crate) fn built_in() -> Self {
         Self::parse(include_str!("deviations.txt"))
     }
 
-    /// Lines `vendor products | cases | reason`; a line that is not one is left out.
+    /// Reads lines `vendor products | cases | reason`; other lines are ignored.
     fn parse(text: &str) -> Self {
         let lines = text.lines().filter(|line| !line.starts_with('#'));
         Self(lines.filter_map(line).collect())
     }
 
-    /// Reason why the product of this EDS is spared a case.
+    /// Reason why the product of this EDS may skip a case.
     pub(crate) fn reason(&self, eds: &Eds, id: &str) -> Option<&str> {
         let number = |sub| eds.entry(0x1018, sub)?.default.integer(0);
         let (vendor, product) = (number(1)?, number(2)?);

@@ -1,4 +1,4 @@
-//! The node under test: frames, waiting, and what was changed.
+//! The node under test: sends frames, waits for responses, and restores values.
 
 use od_model::Address;
 use od_wire::nmt::{Command, Repr};
@@ -11,13 +11,13 @@ use super::record::{Times, Traced};
 use super::rig::Rig;
 use crate::link::Heard;
 
-/// So long the node may take for an answer, in microseconds.
+/// Time limit for a response, in microseconds.
 pub(crate) const ANSWER: u64 = 1_000_000;
-/// So long the test waits for what must not come.
+/// How long to watch for a forbidden frame.
 pub(crate) const QUIET: u64 = 100_000;
-/// So long a node may take from a reset to its boot-up message.
+/// Time limit from a reset to the boot-up message.
 const BOOT: u64 = 10_000_000;
-/// So long a node may take for an NMT command.
+/// Time limit for an NMT command.
 const SETTLE: u64 = 20_000;
 
 /// The node under test, while a case is run.
@@ -27,14 +27,14 @@ pub struct Dut<'d> {
     pub(crate) node: NodeId,
     pub(crate) times: &'d mut Times,
     pub(crate) frames: Vec<Traced>,
-    /// Values to be put back, the last one first.
+    /// Values to be restored, the last one first.
     pub(crate) undo: Vec<(Address, Vec<u8>)>,
     pub(crate) notes: Vec<String>,
     /// Whether the case may reset the node.
     pub(crate) may_reset: bool,
-    /// The COB-ID of SYNC, as last learned.
+    /// The last known COB-ID of SYNC.
     pub(crate) sync_id: u32,
-    /// Makes the device once more, if it is simulated.
+    /// Makes the device again, if it is simulated.
     pub(crate) fresh: Option<Fresh<'d>>,
     /// How long the node was silent at last: the length of a wait for a frame that did not come, in microseconds; 0 if
     /// anything was sent or received since.
@@ -43,8 +43,8 @@ pub struct Dut<'d> {
     pub(crate) faults: Vec<(String, String)>,
     /// Whether the case switched the power off.
     pub(crate) is_off: bool,
-    /// Longest time by which the test itself was late, in microseconds: it waited longer than it wanted,
-    /// since the computer had other things to do.
+    /// Longest delay of the test itself, in microseconds: a wait that lasted longer than requested, because the
+    /// computer was busy.
     pub(crate) late: u64,
 }
 
@@ -82,11 +82,11 @@ impl Dut<'_> {
         }
     }
 
-    /// The next frame until a moment.
+    /// Waits for the next frame until a moment.
     pub(crate) fn receive(&mut self, until: Instant) -> Checked<Option<Heard>> {
         let from = self.now();
         let heard = self.rig.receive(until)?;
-        // Virtual time is never late. A frame that waits is as old as it is.
+        // Virtual time is never late, and a frame that was waiting is not a delay.
         if self.rig.slack() > 0 {
             let due = heard.map_or(until, |heard| heard.at).max(from);
             self.late = self.late.max(self.now().micros_since(due));
@@ -101,13 +101,13 @@ impl Dut<'_> {
         Ok(heard)
     }
 
-    /// Takes all that came already.
+    /// Discards the frames that arrived already.
     pub(crate) fn drain(&mut self) -> Checked {
         while self.receive(Instant::ZERO)?.is_some() {}
         Ok(())
     }
 
-    /// The next frame that is wanted, within `micros` microseconds.
+    /// Waits for a frame that `wanted` accepts, for `micros` microseconds.
     pub(crate) fn next(
         &mut self,
         micros: u64,
@@ -141,7 +141,7 @@ impl Dut<'_> {
         Ok(all)
     }
 
-    /// Fails if a frame with this identifier comes.
+    /// Fails if a frame with this CAN-ID arrives.
     pub(crate) fn silent(&mut self, id: u16, micros: u64, expected: &str) -> Checked {
         match self.next_of(id, micros)? {
             Some(heard) => fail(expected, format!("{} came", heard.frame)),
@@ -149,7 +149,7 @@ impl Dut<'_> {
         }
     }
 
-    /// Keeps a failure, so that a case can go on with its other objects; any other end stays the end.
+    /// Records a failure so that a case can continue with its other objects; any other end ends the case.
     pub(crate) fn fault(&mut self, done: Checked) -> Checked {
         match done {
             Err(End::Fail { expected, got }) => {
@@ -160,8 +160,7 @@ impl Dut<'_> {
         }
     }
 
-    /// The result of a case with what was wrong before its end: the first failure is the verdict, each other one a
-    /// note.
+    /// The result of a case with its recorded failures: the first is the verdict, each other one a note.
     pub(crate) fn judged(&mut self, done: Checked) -> Checked {
         if matches!(done, Err(End::Lost(_))) {
             return done;
@@ -183,11 +182,11 @@ impl Dut<'_> {
         Ok(())
     }
 
-    /// Returns whether the node sends anything: a response to an SDO request, be it an abort, a heartbeat, a
-    /// boot-up message, or a response to node guarding.
+    /// Returns whether the node sends anything: an SDO response or abort, a heartbeat, a boot-up message, or a
+    /// response to node guarding.
     pub(crate) fn is_alive(&mut self) -> Checked<bool> {
         let (answer, state) = (self.id(0x580), self.id(0x700));
-        // What was begun before is over, also in a server that waits for a segment.
+        // Ends an earlier transfer, also in a server that waits for a segment.
         let request = self.node.plus(0x600);
         self.send(Frame::full(request, [0x80, 0, 0, 0, 0, 0, 0, 8]))?;
         for index in [0x1000_u16, 0x1001, 0x1018] {
@@ -202,7 +201,7 @@ impl Dut<'_> {
         Ok(self.guarded()?.is_some())
     }
 
-    /// An NMT command to the node, and time for it.
+    /// Sends an NMT command to the node, and gives it time.
     pub(crate) fn nmt(&mut self, command: Command) -> Checked {
         let node = self.node.raw();
         self.send(Frame::standard(0, &Repr { command, node }.emit()))?;
@@ -239,7 +238,7 @@ impl Dut<'_> {
         self.wait(SETTLE)
     }
 
-    /// A base of the predefined connection set with the node ID.
+    /// A CAN-ID of the predefined connection set: the base plus the node ID.
     pub(crate) fn id(&self, base: u16) -> u16 {
         base + u16::from(self.node.raw())
     }
@@ -255,7 +254,7 @@ impl Dut<'_> {
         }
     }
 
-    /// The NMT state by heartbeat or node guarding.
+    /// Finds the NMT state by heartbeat or node guarding.
     pub(crate) fn state(&mut self) -> Checked<u8> {
         let id = self.id(0x700);
         if self.eds.writes(0x1017, 0) {
@@ -291,13 +290,13 @@ impl Dut<'_> {
         }
     }
 
-    /// The power on, Pre-operational again, and all values as they were. Of what could not be put back
-    /// there is a note, also where the link is lost.
+    /// Switches the power on, enters Pre-operational, and restores all values. Returns notes about values that could
+    /// not be restored, also if the link is lost.
     pub(crate) fn put_back(&mut self) -> Checked {
         if self.undo.is_empty() && self.frames.is_empty() {
             return Ok(());
         }
-        // A transfer that the case left open would take the first of the values that are put back.
+        // A transfer that the case left open would receive the first restored value.
         let close = [0x80, 0, 0, 0, 0, 0, 0, 8];
         let mut lost = if self.is_off {
             let from = self.now();
@@ -337,7 +336,7 @@ impl Dut<'_> {
     }
 }
 
-/// A data frame with this 11-bit identifier?
+/// Returns whether it is a data frame with this 11-bit CAN-ID.
 pub(crate) fn is_data(frame: &Frame, id: u16) -> bool {
     frame.id().as_standard() == Some(id) && !frame.is_remote()
 }

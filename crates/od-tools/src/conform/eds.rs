@@ -47,12 +47,12 @@ impl Eds {
         self.dictionary().entry(index, sub)
     }
 
-    /// Whether the EDS has an object with this index.
+    /// Returns whether the EDS has an object with this index.
     pub fn has(&self, index: u16) -> bool {
         self.dictionary().object(index).is_some()
     }
 
-    /// Whether a master can write an entry.
+    /// Returns whether a master can write an entry.
     pub fn writes(&self, index: u16, sub: u8) -> bool {
         self.entry(index, sub)
             .is_some_and(|entry| entry.access.writable())
@@ -64,7 +64,7 @@ impl Eds {
         od_model::values::integer(section.get(key)?.value.trim())
     }
 
-    /// Product and vendor as `[DeviceInfo]` has them.
+    /// Product and vendor in `[DeviceInfo]`.
     pub fn title(&self) -> String {
         let key = |key| {
             let section = self.description.section("DeviceInfo")?;
@@ -74,8 +74,8 @@ impl Eds {
         key("ProductName").unwrap_or_else(|| "unnamed device".into())
     }
 
-    /// Entries that can be read and written back without harm, quiet ones first. Commands
-    /// (1003h, 1010h, 1011h, 1F50h to 1F5Fh), identifiers, and the preset are not among them.
+    /// Entries that can be read and written back without harm, those without side effects first. Commands
+    /// (1003h, 1010h, 1011h, 1F50h to 1F5Fh), COB-IDs and the preset are left out.
     pub(crate) fn writable(&self) -> Vec<Entry> {
         let quiet = QUIET
             .iter()
@@ -88,8 +88,8 @@ impl Eds {
             .collect()
     }
 
-    /// Whether writing an object does more than to change its value. 2100h and 2101h, bit rate and node ID of the
-    /// built-in devices, are any objects of other vendors.
+    /// Returns whether writing an object does more than change its value. 2100h and 2101h are bit rate and node ID in
+    /// the built-in devices only.
     fn acts(&self, address: Address) -> bool {
         let vendor = self
             .entry(0x1018, 1)
@@ -102,7 +102,7 @@ impl Eds {
         is_touchy(address) && (is_built_in || !is_own)
     }
 
-    /// The value after a restore, as it goes over the bus; `None` where the EDS gives none.
+    /// The value after a restore, as bytes on the bus; `None` if the EDS has no default value.
     pub(crate) fn default(&self, entry: &Entry, node: NodeId) -> Option<Vec<u8>> {
         let size = entry.data_type.size();
         if let Some(number) = entry.default.integer(node.raw()) {
@@ -116,8 +116,8 @@ impl Eds {
         }
     }
 
-    /// Reason why the EDS does not allow a master to write this: access, length or limits. `None`: it does, or
-    /// it does not have the object.
+    /// Reason why the EDS does not allow a master to write this value: access, length or limits. `None` if it allows
+    /// it, or does not have the object.
     pub(crate) fn excludes(&self, address: Address, bytes: &[u8], node: NodeId) -> Option<String> {
         let entry = self.entry(address.index, address.sub)?;
         let name = values::label(self.dictionary(), address);
@@ -163,7 +163,7 @@ impl Eds {
         candidates.iter().copied().find(|index| !self.has(*index))
     }
 
-    /// Does this condition of an `Applies:` line hold? `None`: it is not one.
+    /// Returns whether a condition of an `Applies:` line is met; `None` if the text is not a condition.
     ///
     /// `1017h`, `1018h:02`, `1017h rw`, `lss`, `tpdo`, `rpdo`, `cia406`.
     pub(crate) fn meets(&self, condition: &str) -> Option<bool> {
@@ -198,12 +198,12 @@ impl Eds {
     }
 }
 
-/// Objects that act when they are written, or that move what the test depends on.
+/// Objects that are commands, or that change what the test depends on.
 pub(crate) fn is_touchy(address: Address) -> bool {
     let sub = address.sub;
     match address.index {
         0x1003 | 0x1005 | 0x1006 | 0x1010..=0x1015 | 0x1F50..=0x1F5F | 0x1200..=0x12FF => true,
-        // Identifier, inhibit time and SYNC start value can be written while the PDO is off only (CiA 301,
+        // COB-ID, inhibit time and SYNC start value can be written only while the PDO is not valid (CiA 301,
         // 7.5.2.37).
         0x1400..=0x15FF | 0x1800..=0x19FF => matches!(sub, 1 | 3 | 6),
         0x1600..=0x17FF | 0x1A00..=0x1BFF => true,
@@ -213,7 +213,7 @@ pub(crate) fn is_touchy(address: Address) -> bool {
     }
 }
 
-/// Is the value a number?
+/// Returns whether the value is a number.
 pub(crate) fn is_number(entry: &Entry) -> bool {
     matches!(
         entry.data_type.kind(),

@@ -2,19 +2,19 @@
 
 use crate::error::Error;
 
-/// Reason why a step is the last one.
+/// Reason why a case ends at a step.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(crate) enum End {
-    /// The node does something else.
+    /// The node behaves differently.
     Fail {
         /// The expected behaviour.
         expected: String,
         /// The actual behaviour.
         got: String,
     },
-    /// It cannot be tested here.
+    /// The step cannot be tested on this link.
     Skip(String),
-    /// The node does not have it.
+    /// The node does not have the object or service.
     NotApplicable(String),
     /// The link is lost.
     Lost(Error),
@@ -29,7 +29,7 @@ impl From<Error> for End {
     }
 }
 
-/// The node does something else.
+/// The node behaves differently.
 pub(crate) fn fail<T>(expected: impl Into<String>, got: impl Into<String>) -> Checked<T> {
     Err(End::Fail {
         expected: expected.into(),
@@ -37,17 +37,17 @@ pub(crate) fn fail<T>(expected: impl Into<String>, got: impl Into<String>) -> Ch
     })
 }
 
-/// The node does not have it.
+/// The node does not have the object or service.
 pub(crate) fn lacks<T>(why: impl Into<String>) -> Checked<T> {
     Err(End::NotApplicable(why.into()))
 }
 
-/// It cannot be tested here.
+/// The step cannot be tested on this link.
 pub(crate) fn skip<T>(why: impl Into<String>) -> Checked<T> {
     Err(End::Skip(why.into()))
 }
 
-/// Fails unless it holds.
+/// Fails unless the condition is true.
 pub(crate) fn ensure(holds: bool, expected: impl Into<String>, got: impl Into<String>) -> Checked {
     if holds { Ok(()) } else { fail(expected, got) }
 }

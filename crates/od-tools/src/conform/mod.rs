@@ -1,4 +1,4 @@
-//! The open conformance test: cases that a CANopen slave passes, fails or is spared.
+//! The conformance test: cases that a node passes, fails or skips.
 //!
 //! ```
 //! use od_sim::VirtualDevice;
@@ -23,7 +23,7 @@
 //! assert!(!record.frames.is_empty());
 //! ```
 //!
-//! | file | what it holds |
+//! | file | contents |
 //! |---|---|
 //! | `case` | a case: head and steps |
 //! | `eds` | what the EDS says of the node: which cases apply |

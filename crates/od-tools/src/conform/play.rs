@@ -13,7 +13,7 @@ use super::end::{Checked, End, ensure, fail, lacks, skip};
 use super::sdo::abort_text;
 use crate::link::Heard;
 
-/// Plays the lines, from the first to the last or to the one that does not hold.
+/// Plays the lines up to the first that fails.
 pub(crate) fn play(dut: &mut Dut<'_>, first_line: u32, text: &str) -> Checked {
     let text = placed(text, dut.node.raw());
     let script = match Script::parse_at(&text, first_line) {
@@ -79,12 +79,12 @@ fn unreadable<T>(line: &Statement, why: impl std::fmt::Display) -> Checked<T> {
     skip(format!("`{}` cannot be read: {why}", line.text))
 }
 
-/// CAN-IDs of the messages that the node sends periodically, whatever a master does: they neither break a
-/// silence nor take the place of a response.
+/// CAN-IDs of the messages that the node sends periodically: they neither count as an unexpected frame nor as a
+/// response.
 struct Periodic {
     /// SYNC, if the node produces it.
     sync: Option<u16>,
-    /// Heartbeats, unless the lines of the case are about them.
+    /// Heartbeats, unless the case tests them.
     heartbeat: Option<u16>,
 }
 
@@ -99,7 +99,7 @@ impl Periodic {
         }
     }
 
-    /// Whether the frame is one of these messages. A boot-up message (state 0) is not.
+    /// Returns whether the frame is one of these messages. A boot-up message (state 0) is not.
     fn has(&self, frame: &Frame) -> bool {
         let id = frame.id().as_standard();
         id.is_some()
@@ -118,7 +118,7 @@ fn own_sync(dut: &Dut<'_>) -> Option<u16> {
 struct Player {
     periodic: Periodic,
     ignored: Vec<Pattern>,
-    /// Frames that came while time passed and no line has expected yet.
+    /// Frames that arrived and that no line has expected yet.
     pending: VecDeque<Heard>,
 }
 
@@ -176,8 +176,8 @@ impl Player {
         Ok(())
     }
 
-    /// The next frame that is neither ignored nor sent periodically, within `micros` microseconds. A frame of
-    /// `wanted` counts in any case.
+    /// The next frame that is neither ignored nor sent periodically, within `micros` microseconds. A frame with
+    /// the CAN-ID `wanted` is never ignored.
     fn next(
         &mut self,
         dut: &mut Dut<'_>,
@@ -211,7 +211,7 @@ impl Player {
             Expect::Fact(_) => return skip(on_a_bench(line)),
         };
         let (micros, exact) = match timing {
-            // What is on its way counts as there.
+            // A frame that is being transmitted counts as received.
             Timing::Now => (super::dut::QUIET, false),
             Timing::Within(micros) => (micros, false),
             Timing::After(micros) | Timing::Every(micros) => (micros, true),
@@ -230,7 +230,7 @@ impl Player {
     }
 }
 
-/// What an `expect` line wants, in its own words.
+/// The expectation of an `expect` line, as written.
 fn expected(line: &Statement) -> &str {
     let (_, expected) = line.text.split_once("expect ").unwrap_or(("", &line.text));
     expected
@@ -280,7 +280,7 @@ fn write(dut: &mut Dut<'_>, line: &Statement, write: &Write, outcome: &Outcome) 
     ended(line, result, outcome, is_excluded)
 }
 
-/// What the case changes is put back after it, if it can be read.
+/// The value is restored after the case, if it can be read.
 fn keep(dut: &mut Dut<'_>, address: Address) -> Checked {
     if matches!(address.index, 0x1003 | 0x1010 | 0x1011) {
         return Ok(());
@@ -291,8 +291,8 @@ fn keep(dut: &mut Dut<'_>, address: Address) -> Checked {
     }
 }
 
-/// Compares the end of a transfer with the expected one. `is_excluded`: the EDS has a limit that the value
-/// breaks, so the node may name the limit.
+/// Compares the result of a transfer with the expected one. `is_excluded`: the value breaks a limit in the EDS, so
+/// the node may abort because of the limit.
 fn ended(
     line: &Statement,
     result: Result<(), u32>,

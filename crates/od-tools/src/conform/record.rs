@@ -16,33 +16,33 @@ pub struct Traced {
 /// The verdict on a case.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Verdict {
-    /// The node is right.
+    /// The node meets the requirement.
     Pass,
-    /// The node is wrong.
+    /// The node violates the requirement.
     Fail {
         /// The expected behaviour.
         expected: String,
         /// The actual behaviour.
         got: String,
     },
-    /// It could not be tested; why, and what to add.
+    /// The case was not tested: the reason, and the option to add.
     Skipped(String),
-    /// The node does not have what the case is about.
+    /// The node does not have the tested object or service.
     NotApplicable(String),
 }
 
 impl Verdict {
-    /// Whether the node is right.
+    /// Returns whether the node meets the requirement.
     pub fn is_pass(&self) -> bool {
         *self == Self::Pass
     }
 
-    /// Whether the node is wrong.
+    /// Returns whether the node violates the requirement.
     pub fn is_fail(&self) -> bool {
         matches!(self, Self::Fail { .. })
     }
 
-    /// In one word: `pass`, `fail`, `skipped`, `n/a`.
+    /// One word: `pass`, `fail`, `skipped`, `n/a`.
     pub fn word(&self) -> &'static str {
         match self {
             Self::Pass => "pass",
@@ -83,7 +83,7 @@ pub struct Record {
     pub micros: u64,
 }
 
-/// Times that the node took, in microseconds.
+/// Response times of the node, in microseconds.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Times {
     /// From an SDO request to its response.
@@ -92,7 +92,7 @@ pub struct Times {
     pub boots: Vec<u64>,
 }
 
-/// The value below which this many percent of the values are, the nearest of them.
+/// Percentile by the nearest-rank method.
 pub fn percentile(values: &[u64], percent: usize) -> Option<u64> {
     let mut sorted = values.to_vec();
     sorted.sort_unstable();

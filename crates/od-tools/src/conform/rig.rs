@@ -10,9 +10,9 @@ use crate::error::Error;
 use crate::link::{Heard, Link};
 use od_wire::{Frame, Instant};
 
-/// A link to the node under test, and what else can be done with the node.
+/// A link to the node under test, with its power supply.
 pub trait Rig: Link {
-    /// Whether [`power`](Self::power) does something.
+    /// Returns whether [`power`](Self::power) switches the supply.
     fn has_power(&self) -> bool {
         false
     }
@@ -25,7 +25,7 @@ pub trait Rig: Link {
         Ok(())
     }
 
-    /// Longest delay with which an event may be seen, in microseconds; 0 in virtual time.
+    /// Longest delay of an observation, in microseconds; 0 in virtual time.
     fn slack(&self) -> u64 {
         0
     }

@@ -1,4 +1,4 @@
-//! Strict SDO transfers: every byte of an answer has to be right.
+//! Strict SDO transfers: every byte of a response is checked.
 
 use od_model::{Address, values};
 use od_wire::{AbortCode, Frame, sdo};
@@ -6,7 +6,7 @@ use od_wire::{AbortCode, Frame, sdo};
 use super::dut::{ANSWER, Dut, is_data};
 use super::end::{Checked, ensure, fail, skip};
 
-/// Bytes of an upload or nothing of a download, or the abort code.
+/// The bytes of an upload, nothing for a download, or the abort code.
 pub(crate) type Transfer<T> = Result<T, u32>;
 
 /// A request about an object.
@@ -24,7 +24,7 @@ pub(crate) fn abort_text(code: u32) -> String {
     }
 }
 
-/// Any of these aborts, in words.
+/// A list of aborts in words.
 fn any_of(codes: &[AbortCode]) -> String {
     let codes: Vec<_> = codes
         .iter()
@@ -33,13 +33,13 @@ fn any_of(codes: &[AbortCode]) -> String {
     format!("abort {}", codes.join(" or "))
 }
 
-/// The code of an answer that is an abort.
+/// The code of a response that is an abort.
 pub(crate) fn abort_of(answer: &[u8; 8]) -> Option<u32> {
     (answer[0] == 0x80).then(|| u32::from_le_bytes([answer[4], answer[5], answer[6], answer[7]]))
 }
 
 impl Dut<'_> {
-    /// Sends a request of the first SDO and waits for the response.
+    /// Sends a request to the default SDO server and waits for the response.
     pub(crate) fn ask(&mut self, data: [u8; 8]) -> Checked<Option<[u8; 8]>> {
         self.ask_within(data, ANSWER)
     }
@@ -56,7 +56,7 @@ impl Dut<'_> {
         Ok(answer)
     }
 
-    /// The next response of the first SDO.
+    /// The next response of the default SDO server.
     pub(crate) fn response(&mut self, micros: u64) -> Checked<Option<[u8; 8]>> {
         let id = self.id(0x580);
         let Some(heard) = self.next(micros, |frame| is_data(frame, id))? else {
@@ -82,7 +82,7 @@ impl Dut<'_> {
         }
     }
 
-    /// A response about the object of the request, or an abort about it.
+    /// Checks that a response or an abort names the object of the request.
     fn about(&mut self, data: [u8; 8]) -> Checked<[u8; 8]> {
         let answer = self.answer(data)?;
         ensure(
@@ -96,7 +96,7 @@ impl Dut<'_> {
         Ok(answer)
     }
 
-    /// Fails unless the server answers with one of these aborts, or 08000000h, about the object.
+    /// Fails unless the server aborts with one of these codes or 08000000h, and names the object.
     pub(crate) fn refuses(&mut self, data: [u8; 8], codes: &[AbortCode]) -> Checked {
         let answer = self.about(data)?;
         is_abort(&answer, codes)
@@ -258,7 +258,7 @@ impl Dut<'_> {
 
     /// Writes an object; an abort is a failure.
     ///
-    /// A value that the EDS excludes is not written: then the case cannot be played on this node.
+    /// Skips the case if the EDS excludes the value.
     pub(crate) fn write(&mut self, address: Address, bytes: &[u8]) -> Checked {
         if let Some(why) = self.eds.excludes(address, bytes, self.node) {
             return skip(why);
@@ -273,7 +273,7 @@ impl Dut<'_> {
         }
     }
 
-    /// Remembers the value of an object, to be put back after the case, and returns it.
+    /// Returns the value of an object, and restores it after the case.
     pub(crate) fn keep(&mut self, address: Address) -> Checked<Vec<u8>> {
         let before = self.read(address)?;
         if !self.undo.iter().any(|(kept, _)| *kept == address) {
@@ -282,14 +282,14 @@ impl Dut<'_> {
         Ok(before)
     }
 
-    /// Writes an object until the case is over.
+    /// Writes an object; its earlier value is restored after the case.
     pub(crate) fn set(&mut self, address: Address, bytes: &[u8]) -> Checked {
         self.keep(address)?;
         self.write(address, bytes)
     }
 
-    /// Fails unless a download is refused with one of these aborts, or 08000000h; the value is
-    /// put back if it was not.
+    /// Fails unless a download is refused with one of these aborts or 08000000h; a value that was written is
+    /// restored.
     pub(crate) fn refuses_value(
         &mut self,
         address: Address,
@@ -311,16 +311,16 @@ impl Dut<'_> {
         }
     }
 
-    /// Is the server ready for a new transfer?
+    /// Fails unless the server is ready for a new transfer.
     pub(crate) fn still_serves(&mut self) -> Checked {
-        // An abort is a response, too: whether 1000h is there is another case.
+        // An abort is a response, too; another case tests whether 1000h exists.
         self.upload(Address::new(0x1000, 0)).map(drop)
     }
 }
 
 /// Fails unless the reserved bytes of the responses since `from`, the number of a frame, are 0.
 ///
-/// `first` is the first reserved byte after each command byte; other responses are not looked at.
+/// `first` is the first reserved byte after each command byte; other responses are not checked.
 pub(crate) fn reserved_are_0(dut: &mut Dut<'_>, from: usize, first: &[(u8, usize)]) -> Checked {
     let id = dut.id(0x580);
     let responses = dut.frames.get(from..).unwrap_or_default().iter();
@@ -343,7 +343,7 @@ pub(crate) fn reserved_are_0(dut: &mut Dut<'_>, from: usize, first: &[(u8, usize
     Ok(())
 }
 
-/// Fails unless an answer is one of these aborts, or 08000000h.
+/// Fails unless a response is one of these aborts, or 08000000h.
 pub(crate) fn is_abort(answer: &[u8; 8], codes: &[AbortCode]) -> Checked {
     match abort_of(answer) {
         Some(code) if is_one_of(code, codes) => Ok(()),

@@ -1,5 +1,5 @@
 //! The filter language of the playground's console: `node:5 sdo`, `185:7FF`, `position`, `!hb`,
-//! `(emcy or nmt) tx`. Terms side by side all have to hold; `or` and parentheses do what they say.
+//! `(emcy or nmt) tx`. Terms without an operator between them are combined by and; `or` and parentheses group them.
 
 mod term;
 mod tokens;
@@ -10,7 +10,7 @@ use crate::error::Error;
 
 pub use self::term::Seen;
 
-/// A filter of frames; an empty one lets all pass.
+/// A filter for frames; an empty filter accepts all.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct Filter(Option<Rule>);
 
@@ -42,7 +42,7 @@ impl Filter {
         }
     }
 
-    /// Whether a frame passes.
+    /// Returns whether the filter accepts a frame.
     pub fn passes(&self, seen: &Seen<'_>) -> bool {
         self.0.as_ref().is_none_or(|rule| rule.passes(seen))
     }

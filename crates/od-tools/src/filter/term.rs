@@ -7,12 +7,12 @@ use od_wire::Frame;
 use super::tokens::mistake;
 use crate::error::Error;
 
-/// A frame as a filter looks at it.
+/// A frame with the properties that a filter tests.
 #[derive(Clone, Copy, Debug)]
 pub struct Seen<'f> {
     /// The frame.
     pub frame: &'f Frame,
-    /// It was sent from here.
+    /// Whether this program sent it.
     pub sent: bool,
     /// Its meaning in words.
     pub words: &'f str,
@@ -21,11 +21,11 @@ pub struct Seen<'f> {
 /// A condition for a frame.
 #[derive(Clone, PartialEq, Debug)]
 pub(super) enum Term {
-    /// Names of services, as a tag has them.
+    /// Names of services, as in a tag.
     Service(&'static [&'static str]),
     /// One PDO: `PDO1`, `RPDO3`.
     Pdo(String),
-    /// An error frame of the bus: no frame of a link is one.
+    /// An error frame of the bus; a link never delivers one.
     Error,
     Sent(bool),
     Remote,
@@ -68,7 +68,7 @@ impl Term {
             Self::Abort => service == "SDO" && frame.data().first() == Some(&0x80),
             Self::Masked { wanted, mask } => id & mask == *wanted,
             Self::Range { low, high } => (*low..=*high).contains(&id),
-            // An NMT command may be for all.
+            // An NMT command may address all nodes.
             Self::Node(node) => tag.node == *node || (service == "NMT" && tag.node == 0),
             Self::Data(wanted) => {
                 let data = frame.data();
@@ -93,7 +93,7 @@ impl Term {
     }
 }
 
-/// Reads a term; with `!=` it is to be denied.
+/// Reads a term; `!=` negates it.
 pub(super) fn term(text: &str, at: usize) -> Result<(Term, bool), Error> {
     if let Some((name, operator, value)) = field(text) {
         let start = at + text.len() - value.len();

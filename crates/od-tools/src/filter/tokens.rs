@@ -1,8 +1,8 @@
-//! A filter's text in pieces.
+//! Splits the text of a filter into tokens.
 
 use crate::error::Error;
 
-/// A piece, and where it begins.
+/// A token, and its place in the text.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Token<'t> {
     pub(super) text: &'t str,
@@ -24,7 +24,7 @@ pub(super) fn tokens(text: &str) -> Result<Vec<Token<'_>>, Error> {
     Ok(found)
 }
 
-/// Length of the first piece; `None`: a quote does not end.
+/// Length of the first token; `None` if a quote is not closed.
 fn length(rest: &str) -> Option<usize> {
     let mut chars = rest.chars();
     match (chars.next(), chars.next()) {

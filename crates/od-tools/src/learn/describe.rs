@@ -1,4 +1,4 @@
-//! An object of the file, from what the node showed of it.
+//! The description of an object, from the values that the node has.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -10,12 +10,12 @@ use od_wire::NodeId;
 use super::probe::Found;
 use super::types::{From, Guess};
 
-/// Is it a VAR?
+/// Returns whether the object is a VAR.
 pub(super) fn is_whole(found: &[Found]) -> bool {
     found.len() == 1 && found[0].address.sub == 0
 }
 
-/// An object with the values that were found, of these types.
+/// The object with its values and their types.
 pub(super) fn describe(found: &[Found], guesses: &[Guess], node: NodeId) -> ObjectDescription {
     let index = found[0].address.index;
     let is_whole = is_whole(found);
@@ -83,7 +83,7 @@ pub(super) fn describe(found: &[Found], guesses: &[Guess], node: NodeId) -> Obje
     }
 }
 
-/// Sets the access that a write showed, and takes it from what is unknown.
+/// Sets the access that a write showed, and removes the value from the unknown ones.
 pub(super) fn set_access(entry: &mut EntryDescription, writable: bool) {
     entry.access = Spanned::from(if writable { Access::Rw } else { Access::Ro });
     for (_, text) in entry.extra.iter_mut().filter(|(key, _)| key == ";Learned") {
@@ -153,7 +153,7 @@ fn name(index: u16) -> String {
     }
 }
 
-/// The value as a default; an identifier of the predefined connection set follows the node ID.
+/// The value as a default value; a COB-ID of the predefined connection set becomes `$NODEID+…`.
 fn default(address: Address, data_type: DataType, bytes: &[u8], node: NodeId) -> Option<Value> {
     let mut wide = [0; 8];
     match data_type.kind() {

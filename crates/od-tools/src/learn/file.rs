@@ -1,4 +1,4 @@
-//! The sections of a learned file besides its objects, and what its node has wrong.
+//! The sections of a learned file besides its objects, and the errors of its node.
 
 use std::collections::BTreeMap;
 
@@ -7,8 +7,8 @@ use od_wire::NodeId;
 
 use super::options::{Options, Today};
 
-/// Allows the errors that the file has because the node has them: a learned file says what the node
-/// answers, and no rule shall stop who wants to use it.
+/// Allows the errors that the node itself has: a learned file describes what the node responds, and must be
+/// usable in spite of them.
 pub(super) fn allow_errors(description: &mut Description) {
     let loaded = od_eds::load(&od_eds::write(description));
     for finding in loaded.findings.iter().filter(|one| one.is_error()) {

@@ -20,8 +20,8 @@ pub(super) struct Profiles {
 }
 
 impl Profiles {
-    /// The profile that 1000h names, or where the objects are not like it, the one that most of them
-    /// are like. `values` has index, sub-index and length of each value.
+    /// The profile that 1000h names, or if the objects do not fit it, the profile that fits most of them.
+    /// `values` has index, sub-index and length of each value.
     pub(super) fn of(named: u16, values: &[(u16, u8, usize)]) -> Self {
         let mut blocks: BTreeMap<u16, Vec<(u16, u8, usize)>> = BTreeMap::new();
         for (index, sub, len) in values {
@@ -53,7 +53,7 @@ impl Profiles {
         Self { named, all }
     }
 
-    /// The types that the profile of its logical device gives a value.
+    /// The types of a value in the profile of its logical device.
     pub(super) fn types(&self, index: u16, sub: u8) -> Vec<DataType> {
         let Some(at) = index.checked_sub(0x6000) else {
             return Vec::new();

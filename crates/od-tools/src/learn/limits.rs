@@ -1,4 +1,4 @@
-//! Limits of a number, by probing; the value is put back.
+//! Probes the limits of a number, and restores the value.
 
 use od_model::DataType;
 
@@ -7,20 +7,20 @@ use super::types::with_sign;
 use crate::error::Error;
 use crate::link::Link;
 
-/// Properties of a number that writing shows.
+/// Properties of a number that were found by writing.
 pub(super) struct Learned {
-    /// The type; with a sign where the limits have one.
+    /// The type; signed if a limit is negative.
     pub(super) data_type: DataType,
     /// The value, in this type.
     pub(super) value: Option<i128>,
-    /// The lowest and the highest number that the node accepts; `None` where the type itself is the
-    /// limit. The numbers between value and limit are assumed to be accepted.
+    /// The lowest and the highest number that the node accepts; `None` if it is that of the type. Numbers between
+    /// the value and a limit are assumed to be accepted.
     pub(super) low: Option<i128>,
     pub(super) high: Option<i128>,
 }
 
-/// Probes the limits. A type that is not sure gets a sign if the node accepts -1, but not the lowest
-/// number that has a sign.
+/// Probes the limits. A type that only the length suggests becomes signed if the node accepts -1 but not the
+/// lowest number of the signed type.
 pub(super) fn limits<L: Link>(
     probe: &mut Probe<L>,
     found: &Found,
@@ -82,7 +82,7 @@ fn probed<L: Link>(
     Ok(())
 }
 
-/// The last number that is accepted on the way from one that is to one that is not.
+/// The last accepted number between an accepted and a refused one, by bisection.
 fn edge(
     mut good: i128,
     mut bad: i128,

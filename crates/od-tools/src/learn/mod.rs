@@ -1,7 +1,7 @@
-//! An EDS from a device: which objects there are, their sizes, access, values and mapping.
+//! Makes an EDS from a device: its objects with their sizes, access, values and mapping.
 //!
-//! Objects of the standards have the names and types of the standards; of the others the type follows
-//! from the size, and a comment says so. A value that the node has is the default.
+//! Objects of the standards have the names and types of the standards. The type of any other object follows
+//! from the size of its value, and a comment says so. The current value becomes the default value.
 
 mod describe;
 mod file;
@@ -26,19 +26,19 @@ use crate::link::Link;
 
 pub use self::options::{Options, Today};
 
-/// What a node showed.
+/// Result of learning a node.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Learned {
-    /// The description of all objects that it has.
+    /// The description of all its objects.
     pub description: Description,
-    /// Reason why not all limits were probed; the description has what was found before.
+    /// Reason why probing stopped early; the description has the limits that were found before.
     pub left: Option<Error>,
 }
 
-/// Reads all objects from 1000h to 9FFFh; `told` hears each index that is a multiple of 1000h.
+/// Reads all objects from 1000h to 9FFFh; `told` is called with each index that is a multiple of 1000h.
 ///
 /// # Errors
-/// The link is lost, or the node falls silent, before all objects are read.
+/// The link is lost, or the node stops responding, before all objects are read.
 pub fn learn(
     link: impl Link,
     node: NodeId,
@@ -86,7 +86,7 @@ pub fn learn(
     Ok(Learned { description, left })
 }
 
-/// Bits 0 to 15 of a value that was found; 0 without one.
+/// Bits 0 to 15 of a value; 0 if the node does not have it.
 fn low_word(all: &BTreeMap<u16, Vec<Found>>, index: u16) -> u16 {
     let bytes = all.get(&index).and_then(|found| found[0].bytes.as_deref());
     match bytes {
@@ -131,7 +131,7 @@ fn members<L: Link>(probe: &mut Probe<L>, index: u16) -> Result<Vec<Found>, Erro
     Ok(all)
 }
 
-/// The four numbers of 1018h; `None`: the node does not have all.
+/// The four numbers of 1018h; `None` if the node lacks one.
 fn identity(all: &BTreeMap<u16, Vec<Found>>) -> Option<[u32; 4]> {
     let number = |sub: u8| {
         let mut found = all.get(&0x1018)?.iter();
@@ -142,7 +142,7 @@ fn identity(all: &BTreeMap<u16, Vec<Found>>) -> Option<[u32; 4]> {
     Some([number(1)?, number(2)?, number(3)?, number(4)?])
 }
 
-/// Finds out what only writing shows: access, and limits.
+/// Finds access and limits by writing.
 fn probe_writes<L: Link>(
     probe: &mut Probe<L>,
     found: &mut [Found],
@@ -199,7 +199,7 @@ fn probe_limits<L: Link>(
     Ok(())
 }
 
-/// Marks objects as mappable that a PDO maps.
+/// Marks the objects that PDOs map as mappable.
 fn map(objects: &mut BTreeMap<u16, ObjectDescription>) {
     let mappings = objects.range(0x1600..=0x1BFF);
     let entries = mappings.flat_map(|(_, object)| object.entries.iter());

@@ -1,15 +1,15 @@
-//! What a user chooses for a learned file.
+//! Options for a learned file.
 
 /// Options of [`learn`](super::learn()).
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub struct Options {
-    /// Probe limits by writing, and put the values back.
+    /// Probe limits by writing; the values are restored.
     pub writes: bool,
-    /// The moment that the file names as that of its creation.
+    /// Creation time in the file.
     pub today: Option<Today>,
 }
 
-/// A moment of the calendar.
+/// A calendar date and time.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Today {
     /// Year, as in 2026.

@@ -1,4 +1,4 @@
-//! Responses of a node about one value.
+//! Requests that find the properties of one value.
 
 use od_eds::outline::specified;
 use od_model::Address;
@@ -11,40 +11,40 @@ use crate::error::Error;
 use crate::link::Link;
 use crate::master::Master;
 
-/// A value as the node shows it.
+/// A value with the properties that the node shows.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(super) struct Found {
     pub(super) address: Address,
-    /// The bytes; `None` while no data is available.
+    /// The bytes; `None` if the node has no data at present.
     pub(super) bytes: Option<Vec<u8>>,
     pub(super) is_write_only: bool,
-    /// `None`: only a write could show it.
+    /// Access; `None` if only a write can show it.
     pub(super) writable: Option<bool>,
-    /// Bytes that a download may have; `None` if it was not tried, or the node does not show it.
+    /// Lengths that a download may have; `None` if not tried, or if the node does not show it.
     pub(super) room: Option<Room>,
 }
 
-/// Bytes that a download may have.
+/// Lengths that a download may have.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Room {
     /// A number of this many bytes.
     Bytes(usize),
-    /// More or fewer than now: a string.
+    /// Any length: a string.
     Some,
-    /// [`LONG`]: a DOMAIN.
+    /// At least [`LONG`]: a DOMAIN.
     Any,
 }
 
 const DEVICE_TYPE: Address = Address::new(0x1000, 0);
 /// A sub-index that no object has.
 const BEYOND: u8 = 0xFE;
-/// Longest time until an LSS slave says that it is selected.
+/// How long to wait for the response of a selected LSS slave.
 const SELECTED: Duration = Duration::from_millis(200);
 
-/// More bytes than a string of a device has.
+/// A length that no string of a device has.
 const LONG: u32 = 1 << 16;
 
-/// A number that nearly every device has, which refuses another length if the node looks at lengths.
+/// A number that nearly every device has: a node that checks lengths refuses another length for it.
 const NUMBERS: [(u16, u8); 5] = [
     (0x1017, 0),
     (0x1800, 2),
@@ -53,7 +53,7 @@ const NUMBERS: [(u16, u8); 5] = [
     (0x1029, 1),
 ];
 
-/// Whether there is something at an address.
+/// Whether an address exists.
 pub(super) enum There {
     NoObject,
     NoSubIndex,
@@ -64,12 +64,11 @@ pub(super) enum There {
 pub(super) struct Probe<L> {
     master: Master<L>,
     node: NodeId,
-    /// Whether the node looks at the announced length; `None`: not known yet.
+    /// Whether the node checks the announced length; `None`: not known yet.
     minds: Option<bool>,
-    /// Whether the node refuses a download to an object that is read-only as soon as it begins; `None`:
-    /// not known yet.
+    /// Whether the node refuses a download to a read-only object at initiate; `None`: not known yet.
     checks_access: Option<bool>,
-    /// Whether the node answers for sub-indices that an object cannot have; `None`: not known yet.
+    /// Whether the node responds to sub-indices that an object cannot have; `None`: not known yet.
     ignores_sub: Option<bool>,
 }
 
@@ -84,7 +83,7 @@ impl<L: Link> Probe<L> {
         }
     }
 
-    /// Reads a value; of one that is there, tries whether it can be written.
+    /// Reads a value, and if it exists, tests whether it can be written.
     pub(super) fn read(&mut self, address: Address) -> Result<There, Error> {
         let (bytes, is_write_only) = match Error::or_abort(self.master.upload(address))? {
             Ok(bytes) => (Some(bytes), false),
@@ -115,7 +114,7 @@ impl<L: Link> Probe<L> {
         }))
     }
 
-    /// Whether the index has no object, by one request: most of the 36,864 indices have none.
+    /// Returns whether the index has no object, by one request: most of the 36,864 indices have none.
     pub(super) fn lacks(&mut self, index: u16) -> Result<bool, Error> {
         let answer = self.ask(request(0x40, Address::new(index, 0), [0; 4]))?;
         // An upload that this began ends here: some servers abort the next request otherwise.
@@ -126,8 +125,8 @@ impl<L: Link> Probe<L> {
         Ok(answer.as_ref().and_then(code) == Some(NoObject.code()))
     }
 
-    /// Whether an object is a VAR: by the standard, or because the node answers with the same value for a
-    /// sub-index that it cannot have.
+    /// Returns whether an object is a VAR: by the standard, or because the node responds with the same value to a
+    /// sub-index that the object cannot have.
     pub(super) fn is_var(&mut self, whole: &Found) -> Result<bool, Error> {
         let index = whole.address.index;
         if specified(index).is_some_and(|known| !known.code.has_members()) {
@@ -143,7 +142,7 @@ impl<L: Link> Probe<L> {
         Ok(self.bytes(Address::new(index, BEYOND))? == whole.bytes)
     }
 
-    /// Writes a value to its object: whether it can be written. `None`: it cannot be read.
+    /// Writes the current value, and returns whether the node accepts it; `None` if it cannot be read.
     pub(super) fn takes_its_value(&mut self, found: &Found) -> Result<Option<bool>, Error> {
         let Some(bytes) = found.bytes.as_deref().filter(|bytes| !bytes.is_empty()) else {
             return Ok(None);
@@ -156,7 +155,7 @@ impl<L: Link> Probe<L> {
         )
     }
 
-    /// Whether an LSS slave has this LSS address. It is in waiting state afterwards.
+    /// Returns whether an LSS slave has this LSS address. The slave is in LSS waiting state afterwards.
     pub(super) fn has_lss(&mut self, identity: &Option<[u32; 4]>) -> Result<bool, Error> {
         let Some(identity) = identity else {
             return Ok(false);
@@ -194,17 +193,17 @@ impl<L: Link> Probe<L> {
         Ok(Error::or_abort(self.master.upload(address))?.ok())
     }
 
-    /// Writes a value; whether it was accepted.
+    /// Writes a value, and returns whether the node accepts it.
     pub(super) fn write(&mut self, address: Address, bytes: &[u8]) -> Result<bool, Error> {
         Ok(Error::or_abort(self.master.download(address, bytes))?.is_ok())
     }
 
-    /// Waits again after Ctrl-C.
+    /// Lets the master wait again after Ctrl-C.
     pub(super) fn resume(&mut self) {
         self.master.link().resume();
     }
 
-    /// Puts a value back.
+    /// Restores a value.
     pub(super) fn put_back(&mut self, address: Address, bytes: &[u8]) -> Result<(), Error> {
         match Error::or_abort(self.master.download(address, bytes))? {
             Ok(()) => Ok(()),
@@ -216,7 +215,7 @@ impl<L: Link> Probe<L> {
         }
     }
 
-    /// Bytes that a download may have, if that is not clear from the value.
+    /// Lengths that a download may have, if the value does not determine them.
     fn room(&mut self, address: Address, bytes: Option<&[u8]>) -> Result<Option<Room>, Error> {
         let is_clear = |bytes: &[u8]| {
             let is_text = bytes.iter().any(|byte| byte.is_ascii_graphic());
@@ -241,7 +240,7 @@ impl<L: Link> Probe<L> {
         Ok(None)
     }
 
-    /// Does the node refuse a number with a length that it cannot have?
+    /// Returns whether the node refuses a number with a wrong length.
     fn minds(&mut self) -> Result<bool, Error> {
         if let Some(minds) = self.minds {
             return Ok(minds);
@@ -261,7 +260,7 @@ impl<L: Link> Probe<L> {
         Ok(false)
     }
 
-    /// Is a download of this length confirmed? It ends there.
+    /// Returns whether the node confirms a download of this length; the download is then aborted.
     fn admits(&mut self, address: Address, size: u32) -> Result<bool, Error> {
         let answer = self.ask(request(0x21, address, size.to_le_bytes()))?;
         let is_confirmed = answer.is_some_and(|answer| answer[0] == 0x60);
@@ -271,7 +270,7 @@ impl<L: Link> Probe<L> {
         Ok(is_confirmed)
     }
 
-    /// Does the node refuse a request because of its command? What it begins ends there.
+    /// Returns whether the node refuses a request because of its command; a transfer that begins is aborted.
     pub(super) fn lacks_command(&mut self, command: u8, address: Address) -> Result<bool, Error> {
         let answer = self.ask(request(command, address, [2, 0, 0, 0]))?;
         match answer.as_ref().map(code) {
@@ -284,8 +283,8 @@ impl<L: Link> Probe<L> {
         self.tell(request(0x80, address, 0x0800_0000u32.to_le_bytes()))
     }
 
-    /// Begins a download that writes nothing: segmented, and aborted as soon as it is confirmed. A
-    /// server without segments refuses one byte for a value of more, and takes the value that it has.
+    /// Begins a download that writes nothing: segmented, and aborted as soon as the node confirms it. With a
+    /// server that has no segments, the test writes one byte to a longer value, which is refused, or the current value.
     fn writable(&mut self, address: Address, bytes: Option<&[u8]>) -> Result<Option<bool>, Error> {
         let bytes = bytes.unwrap_or(&[0]);
         let size = (bytes.len().max(1) as u32).to_le_bytes();
@@ -321,8 +320,8 @@ impl<L: Link> Probe<L> {
         })
     }
 
-    /// Does the node refuse a download to 1000h, 1001h or 1018h:01 as soon as it begins? Then one that it
-    /// confirms shows that an object can be written.
+    /// Returns whether the node refuses a download to 1000h, 1001h or 1018h:01 at initiate. A confirmed initiate then
+    /// shows that an object can be written.
     fn checks_access(&mut self) -> Result<bool, Error> {
         if let Some(checks) = self.checks_access {
             return Ok(checks);
@@ -385,8 +384,8 @@ impl<L: Link> Probe<L> {
     }
 }
 
-/// Is it a response to this request, and not a late one to an earlier request? Who aborts because of a
-/// command may name any object.
+/// Returns whether the response belongs to this request, and not to an earlier one. An abort because of the command
+/// may name any object.
 fn belongs(answer: &[u8; 8], request: &[u8; 8]) -> bool {
     answer[1..4] == request[1..4] || code(answer) == Some(InvalidCommand.code())
 }

@@ -1,4 +1,4 @@
-//! Behaviour of a node over a while, as a twin plays it.
+//! Records the behaviour of a node for some time, for a twin that repeats it.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -16,7 +16,7 @@ use crate::master::Master;
 
 /// Longest time from a reset to the boot-up message.
 const BOOT: Duration = Duration::from_secs(10);
-/// Errors within this time from the boot-up message belong to the start.
+/// EMCY messages within this time after the boot-up message belong to the start.
 const START: Duration = Duration::from_secs(1);
 /// Time between two rounds of reading the values that change, in ms.
 const ROUND: u64 = 50;
@@ -28,24 +28,24 @@ const CHANGES: usize = 10_000;
 pub struct Watch {
     /// Time to listen, and then to read the values that change.
     pub length: Duration,
-    /// Reset the node for its boot-up time and its errors at start, and start it for its PDOs. Afterwards it
-    /// is in Operational if it was, else in Pre-operational.
+    /// Reset the node to measure its boot-up time and to see its EMCY messages, and start it for its PDOs.
+    /// Afterwards it is in Operational if it was before, else in Pre-operational.
     pub reset: bool,
 }
 
-/// A recording, and what it lacks.
+/// A recording, and the behaviour that it does not contain.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Seen {
-    /// For [`od_sim::VirtualDevice::play_recorded`]; its text goes to the end of the EDS.
+    /// The recording, for [`od_sim::VirtualDevice::play_recorded`]; its text is appended to the EDS.
     pub recorded: Recorded,
-    /// Behaviour that a twin lacks, a sentence each.
+    /// Behaviour that the recording does not contain, one sentence each.
     pub lacking: Vec<String>,
 }
 
 /// Records a node that was learned as `description`. Nothing is written.
 ///
 /// # Errors
-/// The link is lost, or the node falls silent.
+/// The link is lost, or the node stops responding.
 pub fn record(
     mut link: impl Link,
     node: NodeId,
@@ -92,7 +92,7 @@ fn nmt(link: &mut impl Link, node: NodeId, command: Command) -> Result<(), Error
     link.send(&Frame::standard(0, &Repr { command, node }.emit()))
 }
 
-/// Resets and starts the node; returns the NMT state that it had, if it shows.
+/// Resets and starts the node; returns its earlier NMT state, if a heartbeat shows it.
 fn begin(
     link: &mut impl Link,
     node: NodeId,
@@ -202,7 +202,7 @@ fn listen(
     Ok(())
 }
 
-/// The mean time between moments, if they are periodic: no gap is more than 1.5 times the mean.
+/// The mean time between these moments if they are periodic, that is, if no gap is more than 1.5 times the mean.
 fn mean(times: &[Instant]) -> Option<u64> {
     let (first, last) = (times.first()?, times.last()?);
     let gaps = times.len() as u64 - 1;

@@ -1,4 +1,4 @@
-//! The type of a value: from the standards, from the profile, or from what the node shows of it.
+//! The type of a value: from the standards, the profile, or the value that the node has.
 
 use od_eds::outline::data_type;
 use od_model::{Address, DataType, Kind};
@@ -6,17 +6,17 @@ use od_model::{Address, DataType, Kind};
 use super::known::Profiles;
 use super::probe::{Found, Room};
 
-/// The type of a value, and how sure it is.
+/// The type of a value, and its source.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct Guess {
     pub(super) data_type: DataType,
     pub(super) from: From,
 }
 
-/// Sources of a type, the surest last.
+/// Source of a type, from the least to the most reliable.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub(super) enum From {
-    /// Only the length.
+    /// The length of the value only.
     Length,
     /// The value: text, a short decimal fraction, a small negative number.
     Value,
@@ -35,7 +35,7 @@ pub(super) fn types(
         .iter()
         .map(|one| guess(profiles, one, is_whole, version))
         .collect();
-    // Where all members have one length, what one of them shows is the type of all.
+    // If all members have the same length, the type that one value shows is the type of all.
     let rest = usize::from(!is_whole && found.first().is_some_and(|one| one.address.sub == 0));
     let members = &all[rest.min(all.len())..];
     let size = members.first().and_then(|one| one.data_type.size());
@@ -85,7 +85,7 @@ fn guess(profiles: &Profiles, one: &Found, is_whole: bool, version: u16) -> Gues
     }
 }
 
-/// Has the value the length of the type?
+/// Returns whether the value has the length of the type.
 fn fits(data_type: DataType, found: &Found) -> bool {
     match (&found.bytes, data_type.size(), found.room) {
         (Some(bytes), Some(size), _) => bytes.len() == size,
@@ -152,13 +152,13 @@ fn by_value(found: &Found) -> Guess {
     }
 }
 
-/// Is it a number that a person would write as a decimal fraction?
+/// Returns whether the number is a short decimal fraction, such as 0.25.
 fn is_real(value: f32) -> bool {
     let size = value.abs();
     (1e-5..1e8).contains(&size) && format!("{size}").len() <= 7
 }
 
-/// The number of this many bytes without sign.
+/// The unsigned integer type of this many bytes.
 fn number(size: usize) -> Option<DataType> {
     Some(match size {
         1 => DataType::Unsigned8,
@@ -173,7 +173,7 @@ fn number(size: usize) -> Option<DataType> {
     })
 }
 
-/// The number with sign of the length of one without.
+/// The signed type with the length of an unsigned one.
 pub(super) fn with_sign(data_type: DataType) -> Option<DataType> {
     Some(match data_type {
         DataType::Unsigned8 => DataType::Integer8,

@@ -1,4 +1,4 @@
-//! Buses that can be reached from here.
+//! Buses that this computer can reach.
 
 use od_sim::serve::running;
 
@@ -7,10 +7,10 @@ use crate::error::Error;
 /// A network interface of this type is a CAN interface (`ARPHRD_CAN` of Linux).
 const CAN: &str = "280";
 
-/// The link to the one `odkit sim` of this user that runs.
+/// The link to the running `odkit sim` of this user.
 ///
 /// # Errors
-/// None runs, or several: the text lists what `--link` can be.
+/// None runs, or several do; the text lists values for `--link`.
 pub fn default() -> Result<String, Error> {
     let mut running = running::links();
     match running.len() {

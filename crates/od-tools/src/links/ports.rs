@@ -11,7 +11,7 @@ use crate::error::Error;
 
 /// Longest time until a server accepts a connection.
 const CONNECT: Duration = Duration::from_secs(5);
-/// Longest time for the other side to take bytes.
+/// How long a write may take.
 const WRITE: Duration = Duration::from_secs(2);
 
 /// Connects to `HOST:PORT`.

@@ -6,13 +6,13 @@ use od_wire::{Duration, Frame};
 
 use super::stream::{Protocol, Said, shown};
 
-/// Adapters that answer at all answer in this time.
+/// How long to wait for the response of an adapter; some never respond.
 const PATIENCE: Duration = Duration::from_millis(300);
 
 /// State of the conversation with an adapter.
 #[derive(Default)]
 pub(super) struct Slcan {
-    /// Bit rate in kbit/s that was asked for; `None`: the adapter keeps its own.
+    /// Requested bit rate in kbit/s; `None`: the adapter keeps its own.
     rate: Option<u16>,
     adapter: Adapter,
 }

@@ -10,7 +10,7 @@ use socketcan::{CanSocket, Socket};
 use crate::error::Error;
 use crate::link::{Heard, Link};
 
-/// Longest time for a full queue of the interface to get a place.
+/// How long to wait while the send queue of the interface is full.
 const FULL: Duration = Duration::from_millis(1000);
 
 // Numbers of the system, the same on every Linux.
@@ -114,7 +114,7 @@ impl Link for Interface {
     }
 }
 
-/// Message for an error, with the commands that solve it.
+/// Error text with the commands that correct the cause.
 fn advice(name: &str, error: &io::Error) -> String {
     match error.raw_os_error() {
         Some(ENETDOWN) => format!("{name} is down; start it with `sudo ip link set {name} up`"),

@@ -9,66 +9,66 @@ use od_wire::{Duration, Frame, Instant};
 use crate::error::Error;
 use crate::link::{Heard, Link};
 
-/// Longest time for the first answers of the other side.
+/// How long to wait for the first responses of the server.
 const OPENING: Duration = Duration::from_secs(2);
-/// Most bytes without an end of line or of command.
+/// Limit of bytes without the end of a line or command.
 const LONGEST: usize = 256;
 
 /// Carries bytes both ways.
 pub(super) trait Port {
-    /// Reads what is there, or waits; 0: the other side has left.
+    /// Reads available bytes, or waits for some; 0: the connection is closed.
     fn read(&mut self, buffer: &mut [u8], wait: Duration) -> io::Result<usize>;
 
     /// Writes all of it, in at most 2 s.
     fn write(&mut self, bytes: &[u8]) -> io::Result<()>;
 }
 
-/// A message of the other side.
+/// A message of the server.
 pub(super) enum Said {
     /// A frame of the bus.
     Frame(Frame),
-    /// It waits for these bytes.
+    /// The server expects these bytes.
     Reply(Vec<u8>),
     /// The bus is open.
     Open,
-    /// Nothing that matters.
+    /// A message without meaning for the link.
     Nothing,
 }
 
 /// The client's side of a protocol.
 pub(super) trait Protocol {
-    /// The first bytes, and those that go on at another bit rate in kbit/s, listening only.
+    /// The first bytes to send, and those that continue at another bit rate in kbit/s in listen-only mode.
     fn begin(&mut self, listen_at: Option<u16>) -> Result<Vec<u8>, String>;
 
-    /// Takes what is whole off the front of `bytes`; `None`: more has to come.
+    /// Removes a complete message from the front of `bytes`; `None` if it is incomplete.
     ///
     /// # Errors
-    /// Reason why the other side cannot be understood.
+    /// Why the message cannot be read.
     fn take(&mut self, bytes: &mut Vec<u8>) -> Result<Option<Said>, String>;
 
     /// Adds the bytes that send a frame.
     fn write(&self, frame: &Frame, out: &mut Vec<u8>);
 
-    /// Longest time until the bus is open, and whether it counts as open after that time.
+    /// How long to wait until the bus is open, and whether it counts as open after that time.
     fn patience(&self) -> (Duration, bool) {
         (OPENING, false)
     }
 
-    /// The bytes that leave the other side as it was.
+    /// The bytes that restore the state of the server.
     fn end(&self) -> &'static [u8] {
         b""
     }
 }
 
-/// A connection whose bytes have a meaning.
+/// A connection with its protocol.
 pub(super) struct Stream<P: Port, S: Protocol> {
     port: P,
     protocol: S,
-    /// For messages: as `--link` names it.
+    /// The name in `--link`, for messages.
     name: String,
     /// Bytes of an incomplete message.
     rest: Vec<u8>,
-    /// Came while the bus was opened.
+    /// Frames that arrived while the bus was being opened.
     early: VecDeque<Heard>,
     /// Origin of the link's time.
     start: time::Instant,
@@ -88,7 +88,7 @@ impl<P: Port, S: Protocol> Stream<P, S> {
         Ok(stream)
     }
 
-    /// Opens the bus, and waits until it is.
+    /// Opens the bus, and waits until it is open.
     fn begin(&mut self, listen_at: Option<u16>) -> Result<(), Error> {
         let first = self.protocol.begin(listen_at).map_err(Error::Usage)?;
         self.write(&first)?;
@@ -112,7 +112,7 @@ impl<P: Port, S: Protocol> Stream<P, S> {
         }
     }
 
-    /// The next message; `None`: none came in time.
+    /// The next message; `None` if none arrives in time.
     fn hear(&mut self, until: Instant) -> Result<Option<Said>, Error> {
         loop {
             match self.protocol.take(&mut self.rest) {
@@ -191,7 +191,7 @@ impl<P: Port, S: Protocol> Link for Stream<P, S> {
 
 impl<P: Port, S: Protocol> Drop for Stream<P, S> {
     fn drop(&mut self) {
-        // If the other side is gone, there is nothing to put back.
+        // Without a connection there is nothing to restore.
         let _ = self.port.write(self.protocol.end());
     }
 }

@@ -119,7 +119,7 @@ pub(super) fn cob_id_used(dut: &mut Dut<'_>) -> Checked {
     let heard = dut.next(1_000_000, |frame| {
         ids.contains(&frame.id()) && !frame.is_remote()
     })?;
-    // Off, so that the old one can come back.
+    // Not valid, so that the old COB-ID can be restored.
     for value in [OTHER | 1 << 31, off] {
         dut.write(address, &value.to_le_bytes())?;
     }

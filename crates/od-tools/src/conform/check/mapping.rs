@@ -1,4 +1,4 @@
-//! PDO mapping: the procedure of CiA 301, and what is refused.
+//! PDO mapping: the procedure of CiA 301, and refused mappings.
 
 use od_model::{Address, Entry, values};
 use od_wire::AbortCode::{
@@ -13,7 +13,7 @@ use crate::conform::dut::Dut;
 use crate::conform::end::{Checked, End, ensure, fail, lacks};
 use crate::conform::sdo::{is_abort, request};
 
-/// The first TPDO, off and with an open mapping; afterwards [`close`].
+/// Makes the first TPDO not valid and its mapping empty; [`close`] restores both.
 struct Open {
     pdo: Tpdo,
     entries: Vec<u32>,
@@ -54,7 +54,7 @@ fn opened(dut: &mut Dut<'_>, pdo: Tpdo) -> Checked<Open> {
     Ok(Open { pdo, entries })
 }
 
-/// The mapping as it was, and the PDO on again.
+/// Restores the mapping, and makes the PDO valid again.
 fn close(dut: &mut Dut<'_>, open: &Open) -> Checked {
     let map = open.pdo.map();
     switch(dut, &open.pdo, false)?;
@@ -118,7 +118,7 @@ pub(super) fn without_procedure(dut: &mut Dut<'_>) -> Checked {
     done
 }
 
-/// Sub-index 0 of a PDO that is on is refused, or 0 empties the PDO.
+/// Writing sub-index 0 of a valid PDO is refused, or 0 empties the PDO.
 pub(super) fn while_on(dut: &mut Dut<'_>) -> Checked {
     let pdo = variable(dut)?;
     let zero = Address::new(pdo.map(), 0);
@@ -153,7 +153,7 @@ pub(super) fn too_many(dut: &mut Dut<'_>) -> Checked {
     })
 }
 
-/// The longest object that the EDS lets a TPDO carry.
+/// The longest object that a TPDO may map according to the EDS.
 fn mappable(dut: &Dut<'_>) -> Option<Entry> {
     let entries = dut.eds.dictionary().entries();
     let bits = |entry: &Entry| {
@@ -186,7 +186,7 @@ pub(super) fn too_long(dut: &mut Dut<'_>) -> Checked {
     with(dut, |dut, map| {
         for sub in 1..=count {
             let address = Address::new(map, sub);
-            // Some servers refuse the entry that is too much already.
+            // Some servers refuse the entry itself.
             match dut.download(address, &raw(&entry).to_le_bytes())? {
                 Ok(()) => {}
                 Err(code) if sub > 1 && code == PdoTooLong.code() => return Ok(()),
@@ -212,13 +212,13 @@ pub(super) fn not_mappable(dut: &mut Dut<'_>) -> Checked {
     }
 }
 
-/// An entry that no TPDO may have, refused at once or with the number of entries.
+/// A mapping entry that no TPDO may have, refused at once or with the number of entries.
 fn refused_entry(dut: &mut Dut<'_>, entry: u32) -> Checked {
     let pdo = variable(dut)?;
     refused_by(dut, pdo, entry)
 }
 
-/// An entry that this PDO may not have, refused at once or with the number of entries.
+/// A mapping entry that this PDO may not have, refused at once or with the number of entries.
 pub(super) fn refused_by(dut: &mut Dut<'_>, pdo: Tpdo, entry: u32) -> Checked {
     on(dut, pdo, |dut, map| {
         let codes = [NotMappable, NoObject, NoSubIndex];
@@ -247,7 +247,7 @@ pub(super) fn new_mapping(dut: &mut Dut<'_>) -> Checked {
     })
 }
 
-/// An object that only RPDOs may carry is refused by a TPDO.
+/// A TPDO refuses an object that only RPDOs may map.
 pub(super) fn direction(dut: &mut Dut<'_>) -> Checked {
     let mut entries = dut.eds.dictionary().entries();
     let is_output = |entry: &Entry| {
@@ -259,7 +259,7 @@ pub(super) fn direction(dut: &mut Dut<'_>) -> Checked {
     }
 }
 
-/// A dummy, 0005h, is refused by a TPDO.
+/// A TPDO refuses the dummy entry 0005h.
 pub(super) fn dummy(dut: &mut Dut<'_>) -> Checked {
     refused_entry(dut, DUMMY)
 }
@@ -267,7 +267,7 @@ pub(super) fn dummy(dut: &mut Dut<'_>) -> Checked {
 /// A mapping entry for a dummy of 8 bits.
 pub(super) const DUMMY: u32 = 0x0005_0008;
 
-/// A TPDO carries what a new mapping says.
+/// A TPDO contains the objects of a new mapping.
 pub(super) fn sent(dut: &mut Dut<'_>) -> Checked {
     let pdo = timed(dut, 50)?;
     let now = mapping(dut, pdo.map())?;
@@ -296,7 +296,7 @@ pub(super) fn sent(dut: &mut Dut<'_>) -> Checked {
         dut.write(com, &cob_id.to_le_bytes())?;
         dut.nmt(Command::Start)?;
         let before = dut.upload(address)?;
-        // The first may be one that the start brings about.
+        // The first may be caused by the start of the node.
         dut.next(500_000, |frame| frame.id() == id && !frame.is_remote())?;
         let heard = dut.next(500_000, |frame| frame.id() == id && !frame.is_remote())?;
         let after = dut.upload(address)?;

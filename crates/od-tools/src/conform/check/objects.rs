@@ -9,7 +9,7 @@ use crate::conform::dut::Dut;
 use crate::conform::end::{Checked, End, ensure, fail, lacks};
 use crate::conform::sdo::{abort_text, request};
 
-/// Whether an abort means that an object has no data now, not that it does not exist.
+/// Returns whether an abort means that an object has no data now, not that it does not exist.
 fn is_empty(code: u32) -> bool {
     (code >> 24) == 8
 }

@@ -163,7 +163,7 @@ fn any_on(dut: &mut Dut<'_>) -> Checked<Tpdo> {
     lacks("no RPDO is on with a mapping that the EDS allows")
 }
 
-/// Whether the EDS allows what an RPDO maps. A case of its own is about that (pdo-mapped-objects).
+/// Returns whether the EDS allows what an RPDO maps. A case of its own is about that (pdo-mapped-objects).
 fn has_sound_mapping(dut: &mut Dut<'_>, com: u16) -> Checked<bool> {
     let all = mapping(dut, com + 0x200)?;
     Ok(contradiction(dut.eds, &all, false).is_none())

@@ -1,4 +1,4 @@
-//! TPDOs: when they come, what they carry, and their communication parameters.
+//! TPDOs: when they are sent, their content, and their communication parameters.
 
 use od_model::{Address, Entry, values};
 use od_wire::AbortCode::{ValueRange, ValueTooHigh};
@@ -77,7 +77,7 @@ pub(super) fn sync_third(dut: &mut Dut<'_>) -> Checked {
     sync_each(dut, 3, 9)
 }
 
-/// One TPDO with every so-manieth SYNC, and none without.
+/// One TPDO with every n-th SYNC, and none without SYNC.
 fn sync_each(dut: &mut Dut<'_>, kind: u8, count: u8) -> Checked {
     learn_sync(dut)?;
     let pdo = typed(dut, kind)?;
@@ -131,7 +131,7 @@ pub(super) fn rtr(dut: &mut Dut<'_>) -> Checked {
     }
 }
 
-/// With bit 30 of its COB-ID a TPDO does not answer a remote frame.
+/// With bit 30 of its COB-ID a TPDO does not respond to a remote frame.
 pub(super) fn rtr_forbidden(dut: &mut Dut<'_>) -> Checked {
     learn_sync(dut)?;
     let mut pdo = typed(dut, 1)?;
@@ -144,7 +144,7 @@ pub(super) fn rtr_forbidden(dut: &mut Dut<'_>) -> Checked {
         pdo.cob_id = before | 1 << 30;
         for value in [before | 1 << 31, pdo.cob_id | 1 << 31, pdo.cob_id] {
             if dut.download(pdo.address(1), &value.to_le_bytes())?.is_err() {
-                // Not valid, so that the COB-ID can come back.
+                // Not valid, so that the COB-ID can be restored.
                 let _ = dut.download(pdo.address(1), &(before | 1 << 31).to_le_bytes())?;
                 return lacks("the node does not forbid remote frames (bit 30)");
             }
@@ -166,7 +166,7 @@ pub(super) fn rtr_forbidden(dut: &mut Dut<'_>) -> Checked {
     done
 }
 
-/// A remote frame for the TPDO of another node is not answered.
+/// The node does not respond to a remote frame for the TPDO of another node.
 pub(super) fn rtr_other_node(dut: &mut Dut<'_>) -> Checked {
     learn_sync(dut)?;
     let pdo = typed(dut, 1)?;
@@ -183,7 +183,7 @@ pub(super) fn rtr_other_node(dut: &mut Dut<'_>) -> Checked {
     )
 }
 
-/// With 0 in its event timer a TPDO comes with its events only.
+/// With event timer 0 the node sends a TPDO with its events only.
 pub(super) fn event_timer_off(dut: &mut Dut<'_>) -> Checked {
     let pdo = timed(dut, 50)?;
     dut.nmt(Command::Start)?;
@@ -210,7 +210,7 @@ pub(super) fn event_timer_off(dut: &mut Dut<'_>) -> Checked {
     Ok(())
 }
 
-/// Every TPDO that is on is sent with its CAN-ID and the bytes of its mapping; one without a mapping gets one.
+/// Every valid TPDO is sent with its CAN-ID and the length of its mapping; a TPDO without a mapping gets one.
 pub(super) fn each(dut: &mut Dut<'_>) -> Checked {
     learn_sync(dut)?;
     let mut any = false;
@@ -262,7 +262,7 @@ pub(super) fn each(dut: &mut Dut<'_>) -> Checked {
     if any { Ok(()) } else { lacks("no TPDO is on") }
 }
 
-/// The TPDO comes with SYNC or its event timer, with so many bytes.
+/// Waits for the TPDO, by SYNC or event timer, and checks its length.
 fn is_sent(dut: &mut Dut<'_>, pdo: &Tpdo, len: usize) -> Checked {
     dut.keep(pdo.address(2))?;
     let is_synchronous = dut.download(pdo.address(2), &[1])?.is_ok();
@@ -404,7 +404,7 @@ fn read(dut: &mut Dut<'_>, all: &[Mapped]) -> Checked<Vec<Option<u64>>> {
     Ok(found)
 }
 
-/// Bit 31 of the COB-ID switches the TPDO off.
+/// Bit 31 of the COB-ID makes the TPDO not valid.
 pub(super) fn off(dut: &mut Dut<'_>) -> Checked {
     let pdo = timed(dut, 50)?;
     if !dut.eds.writes(pdo.com, 1) {
@@ -425,7 +425,7 @@ pub(super) fn off(dut: &mut Dut<'_>) -> Checked {
     }
 }
 
-/// A TPDO comes with the identifier that its COB-ID says.
+/// A TPDO is sent with the CAN-ID of its COB-ID.
 pub(super) fn cob_id(dut: &mut Dut<'_>) -> Checked {
     let pdo = timed(dut, 50)?;
     if !dut.eds.writes(pdo.com, 1) {
@@ -450,7 +450,7 @@ pub(super) fn cob_id(dut: &mut Dut<'_>) -> Checked {
         "none came",
     )?;
     none(dut, &pdo, QUIET, "no TPDO with the old CAN-ID")?;
-    // Off, so that the old one can come back.
+    // Not valid, so that the old COB-ID can be restored.
     dut.nmt(Command::EnterPreOperational)?;
     dut.write(pdo.address(1), &(other | 1 << 31).to_le_bytes())?;
     dut.write(pdo.address(1), &(pdo.cob_id | 1 << 31).to_le_bytes())

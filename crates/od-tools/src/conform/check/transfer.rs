@@ -70,7 +70,7 @@ pub(super) fn read_write_back(dut: &mut Dut<'_>) -> Checked {
     )
 }
 
-/// A value that was written is there.
+/// A written value can be read back.
 pub(super) fn write_holds(dut: &mut Dut<'_>) -> Checked {
     let Some((address, bytes)) = another_value(dut)? else {
         return lacks("no object can be written");
@@ -84,12 +84,12 @@ pub(super) fn write_holds(dut: &mut Dut<'_>) -> Checked {
     )
 }
 
-/// A quiet object and another value for it.
+/// An object without side effects, and another value for it.
 pub(super) fn another_value(dut: &mut Dut<'_>) -> Checked<Option<(Address, Vec<u8>)>> {
     another_saved(dut, None)
 }
 
-/// As [`another_value`], of an object that a sub-index of 1010h saves.
+/// As [`another_value`], for an object that a sub-index of 1010h saves.
 pub(super) fn another_saved(
     dut: &mut Dut<'_>,
     by: Option<u8>,
@@ -256,7 +256,7 @@ pub(super) fn parameters(dut: &mut Dut<'_>) -> Checked {
     Ok(())
 }
 
-/// Servers from 1201h on: those of the EDS are there, and no others.
+/// SDO servers from 1201h on: the node has those of the EDS, and no others.
 pub(super) fn servers(dut: &mut Dut<'_>) -> Checked {
     listed(dut, 0x1201..=0x1208)
 }
@@ -265,7 +265,7 @@ pub(super) fn clients(dut: &mut Dut<'_>) -> Checked {
     listed(dut, 0x1280..=0x1288)
 }
 
-/// Of these objects, those of the EDS are there, and no others.
+/// Of these objects the node has those of the EDS, and no others.
 pub(super) fn listed(dut: &mut Dut<'_>, range: impl Iterator<Item = u16>) -> Checked {
     for index in range {
         let has = dut.eds.has(index);
@@ -288,7 +288,7 @@ pub(super) fn listed(dut: &mut Dut<'_>, range: impl Iterator<Item = u16>) -> Che
     Ok(())
 }
 
-/// A request to another node is not answered.
+/// The node does not respond to a request for another node.
 pub(super) fn other_node(dut: &mut Dut<'_>) -> Checked {
     let raw = dut.node.raw();
     let other = u16::from(if raw == 127 { 126 } else { raw + 1 });
@@ -308,7 +308,7 @@ pub(super) fn no_request(dut: &mut Dut<'_>) -> Checked {
     dut.still_serves()
 }
 
-/// Requests as fast as they are answered.
+/// Requests without a pause after each response.
 pub(super) fn in_a_row(dut: &mut Dut<'_>) -> Checked {
     let first = dut.read(TYPE)?;
     for _ in 0..50 {
@@ -322,7 +322,7 @@ pub(super) fn in_a_row(dut: &mut Dut<'_>) -> Checked {
     Ok(())
 }
 
-/// An abort of the client is not answered.
+/// The node does not respond to an abort of the client.
 pub(super) fn abort_silence(dut: &mut Dut<'_>) -> Checked {
     let abort = request(0x80, TYPE, [0, 0, 0, 8]);
     dut.drain()?;
@@ -334,7 +334,7 @@ pub(super) fn abort_silence(dut: &mut Dut<'_>) -> Checked {
     }
 }
 
-/// A download of the client is refused with the multiplexer of the request, whatever came before.
+/// A refused download names the object of its own request, whatever came before.
 pub(super) fn abort_names_object(dut: &mut Dut<'_>) -> Checked {
     for address in [Address::new(0x1000, 0x33), Address::new(0x1018, 0x77)] {
         let answer = dut.answer(request(0x40, address, [0; 4]))?;

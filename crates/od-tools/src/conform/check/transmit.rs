@@ -86,7 +86,7 @@ pub(super) fn contradiction(eds: &Eds, all: &[Mapped], transmits: bool) -> Optio
     })
 }
 
-/// Whether a PDO has this COB-ID. One that CiA 301 keeps for itself, as 0, comes from an EDS that is wrong.
+/// Returns whether a PDO has this COB-ID. One that CiA 301 keeps for itself, as 0, comes from an EDS that is wrong.
 pub(super) fn is_on(cob_id: u32) -> bool {
     CobId::new(cob_id).is_valid() && !CobId::new(cob_id).is_restricted()
 }

@@ -81,7 +81,7 @@ pub(super) fn render(report: &Report) -> String {
     lines.join("\n")
 }
 
-/// Text in XML and HTML, also inside quotes; what a reader would not see is escaped.
+/// Text for XML and HTML, also inside quotes; invisible characters are escaped.
 pub(super) fn escape(text: &str) -> String {
     let mut out = String::new();
     for c in text.chars() {

@@ -12,7 +12,7 @@ pub use run::{About, Counts, Report};
 /// The formats, by the extension of a file.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Format {
-    /// A line a case.
+    /// One line per case.
     Text,
     /// One JSON object.
     Json,
@@ -43,7 +43,7 @@ impl Format {
 }
 
 impl Report {
-    /// The report in a format.
+    /// Writes the report in a format.
     pub fn render(&self, format: Format) -> String {
         match format {
             Format::Text => text::render(self),

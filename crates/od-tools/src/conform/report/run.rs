@@ -1,4 +1,4 @@
-//! A run of the conformance test, and what its reports have in common.
+//! A run of the conformance test, and the common parts of its reports.
 
 use od_sim::words::Decoder;
 use od_sim::{EdsOptions, VirtualDevice};
@@ -43,27 +43,27 @@ pub struct Report {
     pub node: u8,
     /// The cases, in the order in which they were run.
     pub records: Vec<Record>,
-    /// Times that the node took.
+    /// Response times of the node.
     pub times: Times,
-    /// Reason why the run could not go on, if it could not.
+    /// Reason why the run ended early, if it did.
     pub lost: Option<String>,
 }
 
 /// Number of cases with each verdict.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub struct Counts {
-    /// The node is right.
+    /// The node meets the requirement.
     pub pass: usize,
-    /// The node is wrong.
+    /// The node violates the requirement.
     pub fail: usize,
     /// Not tested.
     pub skipped: usize,
-    /// The node does not have it.
+    /// The node does not have the object or service.
     pub not_applicable: usize,
 }
 
 impl Report {
-    /// Whether no case failed and the run came to its end.
+    /// Returns whether no case failed and the run came to its end.
     pub fn is_pass(&self) -> bool {
         self.lost.is_none() && self.counts().fail == 0
     }
@@ -88,7 +88,7 @@ impl Report {
         )
     }
 
-    /// Values that were changed and put back, and those that could not be; `None` if nothing was changed.
+    /// Sentence about values that were changed and restored, and those that could not be; `None` if none was changed.
     pub(super) fn put_back(&self) -> Option<String> {
         let notes = self.records.iter().flat_map(|record| &record.notes);
         let count = |start: &str| notes.clone().filter(|note| note.starts_with(start)).count();
@@ -103,7 +103,7 @@ impl Report {
         }
     }
 
-    /// The times that the node took, with percentiles; a line each.
+    /// Response times of the node with percentiles, one line each.
     pub(super) fn timings(&self) -> Vec<(&'static str, usize, [u64; 3])> {
         let both = [
             ("SDO response", &self.times.answers),

@@ -1,11 +1,11 @@
-//! The report as text, a line a case, with the frames of what failed.
+//! The report as text, one line per case, with the frames of failed cases.
 
 use od_model::Visible;
 
 use super::run::{Narrator, Report, millis, source};
 use crate::conform::record::{Record, Verdict};
 
-/// Number of frames of a failed case that are shown, the last ones.
+/// Number of the last frames of a failed case that are shown.
 const SHOWN: usize = 12;
 
 pub(super) fn render(report: &Report) -> String {
@@ -86,7 +86,7 @@ fn details(record: &Record, narrator: &mut Narrator, lines: &mut Vec<String>) {
             lines.push(format!("             {why}"));
         }
     }
-    // What could not be put back is worth a line in any case.
+    // A value that could not be restored always has a line.
     if !record.verdict.is_fail() {
         let lost = record
             .notes
