@@ -1,4 +1,4 @@
-//! The words on every generated item: an IDE's hover is the datasheet.
+//! The documentation of every generated item, which an IDE shows as hover text.
 
 use od_eds::patch::Action;
 use od_eds::{EntryDescription, ObjectDescription, Span, Value};
@@ -8,7 +8,7 @@ use crate::input::Statement;
 
 use crate::files::Files;
 
-/// The page on a variant: what of the base is different.
+/// The documentation of a variant: its differences from the base.
 pub(crate) fn variant(family: &str, statements: &[Statement]) -> String {
     let mut text = format!("\n\nA variant of `{family}`");
     let mut join = ": ";
@@ -31,7 +31,7 @@ pub(crate) fn variant(family: &str, statements: &[Statement]) -> String {
     text
 }
 
-/// The page on one value; `member` of an object, or a VAR.
+/// The documentation of a value: of a VAR, or of the sub-object `member`.
 pub(crate) fn entry(
     address: Address,
     member: bool,
@@ -79,7 +79,7 @@ pub(crate) fn entry(
     text
 }
 
-/// The page on a RECORD or an ARRAY.
+/// The documentation of a RECORD or an ARRAY.
 pub(crate) fn object(index: u16, object: &ObjectDescription, files: Option<&Files>) -> String {
     let members = object.entries.len();
     let mut text = format!(
@@ -109,7 +109,7 @@ fn access(access: Access) -> &'static str {
     }
 }
 
-/// Numbers as people look them up: decimal, and hex with the type's digits.
+/// A number in decimal, and in hexadecimal with the digits of its type.
 fn show(value: &Value, data_type: DataType) -> String {
     let digits = data_type.size().unwrap_or(4) * 2;
     match value {
@@ -130,7 +130,7 @@ fn show(value: &Value, data_type: DataType) -> String {
     }
 }
 
-/// A name as Markdown that shows the name.
+/// A name with Markdown characters escaped.
 pub(crate) fn escape(name: &str) -> String {
     let mut text = String::with_capacity(name.len());
     for c in name.chars() {

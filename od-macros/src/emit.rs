@@ -1,7 +1,7 @@
 //! Tokens out: tables, handles, and the tracking include.
 //!
-//! Written as text and lexed once: for thousands of entries that is several times
-//! faster than to build the tokens one by one, and easier to read here.
+//! Written as text and lexed once. For thousands of entries this is several times
+//! faster than building the tokens one by one, and easier to read here.
 
 use std::fmt::Write;
 
@@ -19,7 +19,7 @@ use crate::input::Input;
 use crate::near_names;
 use crate::source::Source;
 
-/// The module that a call makes.
+/// The module that a call generates.
 pub(crate) fn module(input: &Input, source: &Source, family: &Family) -> TokenStream {
     let Input {
         attrs,
@@ -57,8 +57,8 @@ pub(crate) fn module(input: &Input, source: &Source, family: &Family) -> TokenSt
     }
 }
 
-/// The path of what the emitted code is written with: of this version, so that it never meets
-/// another one's.
+/// Path of the items that generated code uses; its number changes with their version, so that a macro and a crate of
+/// different versions do not compile together.
 fn root(input: &Input) -> String {
     let odkit = match &input.root {
         Some(path) => quote!(#path).to_string(),
@@ -81,9 +81,9 @@ fn about(source: &Source, family: &Family) -> String {
     text
 }
 
-/// The tokens of what was written here: escaped strings and checked identifiers.
+/// Lexes generated text, which has only escaped strings and checked identifiers.
 fn lex(text: &str) -> TokenStream {
-    // `proc_macro2` lexes twice, to be safe from input that this is not.
+    // `proc_macro2` would lex twice, as a protection that this text does not need.
     let tokens = if proc_macro::is_available() {
         text.parse::<proc_macro::TokenStream>()
             .map(TokenStream::from)
@@ -98,7 +98,7 @@ fn lex(text: &str) -> TokenStream {
     })
 }
 
-/// Everything in the module of one device; what `family` has alike, a variant hands on.
+/// The contents of the module of one device; a variant re-exports the items that it shares with `family`.
 fn device(out: &mut String, input: &Input, device: &Device, of_variant: Option<&[Item]>) {
     let root = &root(input);
     let family = of_variant.unwrap_or_default();
@@ -146,7 +146,7 @@ fn item(out: &mut String, root: &str, item: &Item, family: Option<&Item>) {
             if let [first, .., last] = series {
                 self::series(out, item.index, first, last, series.len());
             }
-            // The handles with a constant of their own.
+            // Handles that have a constant of their own.
             let own = |handles, series: &[Handle]| -> Vec<&Handle> {
                 let handles: &[Handle] = handles;
                 let (first, len) = (series.first().map(|first| first.sub), series.len());
@@ -175,7 +175,7 @@ fn item(out: &mut String, root: &str, item: &Item, family: Option<&Item>) {
     }
 }
 
-/// The handles of a long ARRAY as one constant: a constant for each takes the compiler too long.
+/// The handles of a long ARRAY as one constant, since one for each handle takes the compiler too long.
 fn series(out: &mut String, index: u16, first: &Handle, last: &Handle, count: usize) {
     let rust_type = first.rust_type().replacen("Var<", "Series<", 1);
     let doc = format!(
@@ -296,7 +296,7 @@ pub type Node<A = {root}::NoApplication, S = {root}::NoStorage> = {root}::Node<D
     );
 }
 
-/// A literal of bytes. Most are 0, which `escape_ascii` would write with four letters.
+/// A byte string literal. Most bytes are 0, which `escape_ascii` would write with four letters.
 fn bytes(out: &mut String, bytes: impl Iterator<Item = u8>) {
     out.push_str("b\"");
     for byte in bytes {

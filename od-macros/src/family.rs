@@ -16,9 +16,9 @@ use crate::{findings, layout, lower};
 /// The devices that a call describes.
 pub(crate) struct Family {
     pub(crate) base: Device,
-    /// In the order of the call's variants.
+    /// The variants, in the order of the call.
     pub(crate) variants: Vec<Device>,
-    /// Services that the call leaves out and that objects need.
+    /// Services that objects need although the call leaves them out.
     pub(crate) needed: Vec<&'static str>,
     /// Number of findings about the file that are not errors.
     pub(crate) remarks: usize,
@@ -30,7 +30,7 @@ pub(crate) struct Device {
     pub(crate) items: Vec<Item>,
 }
 
-/// Builds all there is to build; what is wrong goes to `report`.
+/// Builds all devices of a call; errors go to `report`.
 pub(crate) fn build(input: &Input, source: &Source, report: &mut Report) -> Family {
     let home = match &input.eds {
         Some(path) => path.span(),
@@ -83,8 +83,8 @@ pub(crate) fn build(input: &Input, source: &Source, report: &mut Report) -> Fami
     family
 }
 
-/// Did the module's statements replace what the reader could not read? So a file that
-/// cannot be changed is fixed in the call.
+/// Returns whether statements of the module replace the text that could not be read: a file that
+/// must not be changed can be corrected in the call.
 fn fixed(finding: &Finding, base: &Description, statements: &[Statement]) -> bool {
     let Some(address) = finding.object else {
         return false;
@@ -92,7 +92,7 @@ fn fixed(finding: &Finding, base: &Description, statements: &[Statement]) -> boo
     if base.entry(address).is_none() && !base.objects.contains_key(&address.index) {
         return true;
     }
-    // An edit of the default takes the place of a DCF's value, too.
+    // An edit of the default also replaces the value of a DCF.
     let key = match finding.key {
         Some(Key::ParameterValue) => Key::DefaultValue,
         Some(key) => key,
@@ -160,7 +160,7 @@ fn devices(
 
 /// Findings about a description after a patch.
 struct Checked {
-    /// Those that its base has, too.
+    /// Findings that the base has, too.
     old: Vec<Finding>,
     all: Vec<Finding>,
 }
@@ -171,11 +171,11 @@ struct Findings<'a> {
 }
 
 impl Findings<'_> {
-    /// Applies statements to a description, of which the checks found `before`, and checks the result.
+    /// Applies statements to a description with the findings `before`, and checks the result.
     ///
-    /// Faults of the statements, and what the checks find in the result and did not find before, are reported
-    /// at the edit that made them, or at `home`. While a statement is wrong, only findings about a single value
-    /// that it does not touch are reported: all others may be consequences.
+    /// Errors of the statements and new findings are reported at the edit that caused them, or at `home`. While a
+    /// statement is wrong, only findings about a single value that it does not change are reported, since all others
+    /// may be consequences.
     fn patch(
         &self,
         description: &mut Description,

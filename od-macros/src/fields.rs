@@ -8,7 +8,7 @@ use syn::{Lit, Token, ext::IdentExt};
 use crate::report::{Place, Report};
 use crate::words;
 
-/// One field; the place is its value's.
+/// One field with the place of its value.
 pub(crate) struct Field {
     pub(crate) change: Change,
     pub(crate) place: Place,
@@ -20,7 +20,7 @@ const NAMES: [&str; 10] = [
 const KEYS: &str = "`name`, `type`, `access`, `default`, `low`, `high`, `mappable`, `save`, `code` or \
      `capacity`";
 
-/// Reads the fields up to the closing brace; reports and leaves out invalid ones.
+/// Reads the fields up to the closing brace; invalid fields are reported and ignored.
 pub(crate) fn read(body: ParseStream, report: &mut Report) -> Vec<Field> {
     let mut fields: Vec<Field> = Vec::new();
     while !body.is_empty() {
@@ -103,7 +103,7 @@ fn text(body: ParseStream) -> syn::Result<String> {
         .map_err(|e| syn::Error::new(e.span(), "expected a text\nhelp: `name = \"Gear\"`"))
 }
 
-/// Bytes; two more are the length, which a slot of 16 bits has to have room for.
+/// Limit of bytes: with two more for the length they fit into a slot, whose length has 16 bits.
 fn capacity(body: ParseStream) -> syn::Result<u16> {
     let wrong = |span| syn::Error::new(span, "expected a number of bytes from 0 to 65533");
     let literal: syn::LitInt = body.parse().map_err(|_| wrong(body.span()))?;
@@ -117,7 +117,7 @@ fn boolean(body: ParseStream) -> syn::Result<bool> {
         .map_err(|e| syn::Error::new(e.span(), "expected `true` or `false`"))
 }
 
-/// A default or a limit, and its last token where it has more than one.
+/// A default or a limit, with its last token if it has several.
 fn value(body: ParseStream) -> syn::Result<(Option<Raw>, Option<Span>)> {
     let first = body.span();
     if body.peek(Token![$]) || (body.peek(syn::Ident) && !body.peek(syn::LitBool)) {

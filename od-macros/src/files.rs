@@ -1,9 +1,9 @@
-//! The EDS file of a call, perhaps with an overlay: maps a place to one of the two.
+//! The EDS file of a call with its overlay, if any: maps a place to one of the two files.
 
 use od_eds::Span;
 use od_eds::{Origin, Overlaid};
 
-/// The files as they are written in the call, for messages and pages.
+/// The paths as written in the call, for messages and documentation.
 pub(crate) struct Files {
     eds: String,
     overlay: Option<(String, Overlaid)>,
@@ -18,7 +18,7 @@ impl Files {
         }
     }
 
-    /// With an overlay, and what the two gave.
+    /// A file with an overlay, and the result of the two.
     pub(crate) fn with_overlay(self, overlay: String, made: Overlaid) -> Self {
         Self {
             overlay: Some((overlay, made)),
@@ -26,7 +26,7 @@ impl Files {
         }
     }
 
-    /// All of them, as the command line takes them.
+    /// All files in the form of the command line.
     pub(crate) fn shown(&self) -> String {
         match &self.overlay {
             Some((overlay, _)) => format!("{}+{overlay}", self.eds),

@@ -1,5 +1,5 @@
-//! Findings in rustc's output: at the token that made them, or at the path of the EDS,
-//! with the place in the file in the text.
+//! Findings in the output of rustc: at the token that caused them, or at the path of the EDS with the place in
+//! the file in the text.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -13,11 +13,11 @@ use proc_macro2::Span;
 use crate::files::Files;
 use crate::report::{Place, Report};
 
-/// Errors of one EDS file that are shown; the rest is counted.
+/// Limit of errors that are shown of one EDS file; the rest is counted.
 const SHOWN: usize = 20;
 
-/// Reports the findings about the file: those about
-/// what an edit wrote at its token, the others at `home`, the path. Of warnings one for each rule.
+/// Reports the findings about the file: those about the text of an edit at its token, the others at
+/// `home`, the path. Each rule has one warning.
 pub(crate) fn tell(
     findings: &[Finding],
     home: Span,
@@ -64,12 +64,12 @@ pub(crate) fn tell(
     }
 }
 
-/// The edits of one patch, which made findings that were not there before them.
+/// The edits of one patch, and the findings that they caused.
 pub(crate) struct Patch<'a> {
     pub(crate) edits: &'a [Edit],
-    /// The numbers of their tokens.
+    /// The numbers of the edits' tokens.
     pub(crate) tokens: Range<u32>,
-    /// The place if nothing better is known: the variant's name, or the path.
+    /// The place of other findings: the variant's name, or the path.
     pub(crate) home: Span,
     /// "variant `x`: ", or nothing for the base.
     pub(crate) context: &'a str,
@@ -77,7 +77,7 @@ pub(crate) struct Patch<'a> {
 }
 
 impl Patch<'_> {
-    /// Reports the faults of the edits themselves, at their tokens.
+    /// Reports errors of the edits themselves, at their tokens.
     pub(crate) fn tell(&self, faults: &[Finding], description: &Description, report: &mut Report) {
         for fault in faults {
             let mut told = say(fault, &Row);
@@ -89,7 +89,7 @@ impl Patch<'_> {
         }
     }
 
-    /// The help about an object that is missing: its `add` may come later, and a table has no file to look into.
+    /// The help for a missing object: its `add` may come later, and a table has no file to search.
     fn help_to_find(&self, fault: &Finding, told: &mut Sentence, report: &Report) {
         let own = |edit: &&Edit| Some(edit.target.span) == fault.span();
         let Some(edit) = self.edits.iter().find(own) else {
@@ -106,7 +106,7 @@ impl Patch<'_> {
         }
     }
 
-    /// Reports what the checks find since the edits.
+    /// Reports the findings that the edits caused.
     pub(crate) fn blame(
         &self,
         findings: &[Finding],
@@ -118,7 +118,7 @@ impl Patch<'_> {
             .iter()
             .filter(|f| f.severity() >= Severity::Warning)
         {
-            // What a file lacks: a table has no [FileInfo].
+            // A finding about a missing part of a file: a table has no [FileInfo].
             if self.files.is_none() && finding.object.is_none() && finding.span().is_none() {
                 continue;
             }
@@ -165,7 +165,7 @@ impl Patch<'_> {
         }
     }
 
-    /// The last edit of an object that the finding is about, or that is one of its facts.
+    /// The last edit of the object of the finding, or of an object among its facts.
     fn culprit(&self, finding: &Finding) -> Option<&Edit> {
         let last = |index: u16| self.edits.iter().rev().find(|e| e.target.index == index);
         let about = finding.object.and_then(|address| last(address.index));
@@ -176,7 +176,7 @@ impl Patch<'_> {
     }
 }
 
-/// The help for what a `remove` made.
+/// The help for a finding that a `remove` caused.
 fn without(edit: &Edit, finding: &Sentence) -> String {
     let target = *edit.target;
     let about = finding.address.map(|address| address.index);
@@ -225,8 +225,8 @@ fn in_file(finding: &Finding, description: &Description, files: Option<&Files>) 
     text
 }
 
-/// Code, object and message. Findings of a patch, and those about what is missing,
-/// name their object themselves.
+/// Code, object and message. Findings of a patch, and those about missing parts,
+/// name their object in the message.
 fn heading(finding: &Sentence, description: &Description) -> String {
     let about = finding
         .address

@@ -44,7 +44,7 @@ pub(crate) struct Handle {
     pub(crate) access: Access,
     pub(crate) mappable: bool,
     pub(crate) slot: Slot,
-    /// Does the call give its name?
+    /// Whether the call gives its name.
     is_renamed: bool,
 }
 
@@ -55,15 +55,15 @@ const CONSTANTS: [&str; 2] = ["DICTIONARY", "STORE_LEN"];
 pub(crate) struct Naming<'a> {
     /// The EDS file, for the docs.
     pub(crate) files: Option<&'a Files>,
-    /// The family's items: a variant calls what it keeps by the same names.
+    /// The items of the family: a variant uses the same names for the items that it keeps.
     pub(crate) family: &'a [Item],
-    /// Module names that are not free: the variants'.
+    /// Module names that are taken: those of the variants.
     pub(crate) modules: BTreeSet<String>,
     /// The statements with the renames.
     pub(crate) statements: &'a [Statement],
 }
 
-/// The items of everything in `tables`, which `description` explains.
+/// The items for all values in `tables`; `description` has their names.
 pub(crate) fn items(
     description: &Description,
     tables: &Tables,
@@ -194,14 +194,14 @@ fn name_items(items: &mut [Item], naming: &Naming<'_>, report: &mut Report) {
     }
 }
 
-/// One thing that needs a name.
+/// An item that needs a name.
 struct Wanted {
     target: Target,
     derived: String,
     kept: Option<String>,
 }
 
-/// Names for everything of one scope: the renamed as the user says, the rest derived.
+/// Names for all items of one scope: those of `rename`, else derived ones.
 fn assign(
     wanted: &[Wanted],
     taken: &BTreeSet<String>,
@@ -283,7 +283,7 @@ fn miswritten(name: &str, target: Target, modules: bool) -> Option<String> {
     })
 }
 
-/// Tells the renames of what is not there.
+/// Reports each `rename` of an object that does not exist.
 pub(crate) fn check_renames(
     statements: &[Statement],
     description: &Description,
@@ -309,7 +309,7 @@ pub(crate) fn check_renames(
 }
 
 impl Item {
-    /// The name that the description alone gives, before a suffix for names that repeat or are keywords.
+    /// The name derived from the description, before the suffix for repeated names and keywords.
     pub(crate) fn near_name(&self) -> String {
         if self.is_module() {
             let name = names::module(&self.label, self.index);
@@ -328,7 +328,7 @@ impl Item {
         matches!(self.body, Body::Members(_))
     }
 
-    /// Is it the same but for the name?
+    /// Returns whether it is the same except for the name.
     pub(crate) fn alike(&self, other: &Self) -> bool {
         self.doc == other.doc
             && match (&self.body, &other.body) {
@@ -337,8 +337,8 @@ impl Item {
             }
     }
 
-    /// The handles of a long ARRAY that one [`od_model::typed::Series`] stands for: more than 64, of one type, with
-    /// their values one behind the other.
+    /// The handles of a long ARRAY that one [`od_model::typed::Series`] represents: more than 64 of one type with
+    /// adjacent values.
     pub(crate) fn series(&self) -> &[Handle] {
         const LONG: usize = 64;
         let [_, handles @ ..] = self.members() else {
@@ -363,7 +363,7 @@ impl Item {
         }
     }
 
-    /// The handles of a module; none of a constant.
+    /// The handles of a module; empty for a constant.
     pub(crate) fn members(&self) -> &[Handle] {
         match &self.body {
             Body::Value(_) => &[],
@@ -373,7 +373,7 @@ impl Item {
 }
 
 impl Handle {
-    /// Is it the same but for the name?
+    /// Returns whether it is the same except for the name.
     pub(crate) fn alike(&self, other: &Self) -> bool {
         let all = |h: &Self| (h.sub, h.data_type, h.access, h.mappable, h.slot);
         all(self) == all(other) && self.doc == other.doc
@@ -384,12 +384,12 @@ impl Handle {
         &self.label
     }
 
-    /// Does it have a constant of its own, beside the series of its object?
+    /// Returns whether it has a constant of its own, in addition to the series of its object.
     pub(crate) fn is_renamed(&self) -> bool {
         self.is_renamed
     }
 
-    /// The handle's Rust type, as generated code names it.
+    /// The handle's Rust type in generated code.
     pub(crate) fn rust_type(&self) -> String {
         let access = match self.access {
             Access::Ro => "Ro",

@@ -1,6 +1,6 @@
-//! Tokens to AST: the grammar of `object_dictionary!`, and nothing that it means.
+//! Tokens to AST: the grammar of `object_dictionary!`, without its meaning.
 //!
-//! Parsing goes on after a fault at the next statement, so that all faults of a
+//! After an error the parser continues with the next statement, so that all errors of a
 //! call are reported at once.
 
 use od_eds::patch::Action;
@@ -54,7 +54,7 @@ pub(crate) enum Statement {
 }
 
 impl Input {
-    /// Reads a call; `None` where there is not even a module to make.
+    /// Reads a call; `None` if it has no module.
     pub(crate) fn read(tokens: TokenStream, report: &mut Report) -> Option<Self> {
         let mut input = None;
         let parser = |stream: ParseStream| {
@@ -223,7 +223,7 @@ impl Input {
     }
 }
 
-/// `+ "variant.overlay"` behind the path of an EDS.
+/// `+ "variant.overlay"` after the path of an EDS.
 fn overlay(body: ParseStream) -> syn::Result<Option<LitStr>> {
     if !body.peek(Token![+]) {
         return Ok(None);
@@ -311,7 +311,7 @@ fn statement(body: ParseStream, allowed: &str, report: &mut Report) -> syn::Resu
     if report.faults() > before {
         report.half_read(target.target.index);
     }
-    // A semicolon behind the brace is harmless and easily typed.
+    // A semicolon after the brace is harmless and easily typed.
     let _ = body.parse::<Option<Token![;]>>()?;
     if action == Action::Modify && fields.is_empty() && report.faults() == before {
         report.at(
@@ -329,7 +329,7 @@ fn statement(body: ParseStream, allowed: &str, report: &mut Report) -> syn::Resu
     })
 }
 
-/// The end of a statement. Where only that is missing, the statement still counts.
+/// The end of a statement. If only the semicolon is missing, the statement is kept.
 fn semicolon(body: ParseStream, last: Span, report: &mut Report) -> syn::Result<()> {
     if body.parse::<Option<Token![;]>>()?.is_some() {
         return Ok(());
@@ -350,7 +350,7 @@ fn refuse(attrs: &[Attribute], report: &mut Report) {
     }
 }
 
-/// Tells a fault and goes to where the next statement may begin.
+/// Reports an error and continues at the next place where a statement can begin.
 fn recover<T>(body: ParseStream, result: syn::Result<T>, report: &mut Report) -> Option<T> {
     let error = match result {
         Ok(value) => return Some(value),
@@ -368,7 +368,7 @@ fn recover<T>(body: ParseStream, result: syn::Result<T>, report: &mut Report) ->
     None
 }
 
-/// Does a statement begin here? The word does not tell: `eds` is also the
+/// Returns whether a statement begins here. The word alone is not enough: `eds` is also the
 /// end of `device.eds`.
 fn starts_statement(body: ParseStream) -> bool {
     let ahead = body.fork();

@@ -1,15 +1,15 @@
-//! One storage layout for a whole family.
+//! One storage layout for a family of variants.
 //!
 //! A value has the same place in the store of every variant that has it with the
-//! same type. So a handle of the family is good for all of them, and a variant
-//! can hand it on instead of making its own.
+//! same type. A handle of the family therefore works with all of them, and a variant
+//! re-exports it instead of making its own.
 
 use std::collections::BTreeMap;
 
 use od_eds::Tables;
 use od_model::{Address, Slot};
 
-/// Gives every stored value of the family its place; strings get the room of the longest.
+/// Assigns a place to every stored value of the family; a string has room for its longest default.
 pub(crate) fn lay_out(family: &mut [&mut Tables]) {
     let mut places: BTreeMap<(Address, u16), Slot> = BTreeMap::new();
     let stored = |tables: &Tables| {

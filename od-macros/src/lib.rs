@@ -106,10 +106,10 @@
 //! `file:line:column` in the text. It still makes the module from the valid parts, so that one mistake is
 //! one error.
 //!
-//! What `odkit check` reports and a device can be built with, the compiler warns of: of a file at its path, one
-//! warning for each rule with the first place; of a statement at its token. The warning is the lint `deprecated`
-//! of rustc, the one that a macro can bring about: `use of deprecated constant W0452: …`. `warnings = off;` hides
-//! them, and a comment `;odkit-allow=CODE reason` in the file allows a finding.
+//! Findings of `odkit check` that do not prevent a device become warnings of the compiler: those of a file at its path,
+//! one warning for each rule with its first place; those of a statement at its token. The warning is the lint
+//! `deprecated` of rustc, the only one that a macro can cause: `use of deprecated constant W0452: …`. `warnings = off;`
+//! hides warnings, and a comment `;odkit-allow=CODE reason` in the file allows a finding.
 //!
 //! A change of the EDS causes a rebuild. The binary contains only names, texts and values of the EDS, not its
 //! other text.
@@ -141,7 +141,7 @@ pub fn object_dictionary(input: proc_macro::TokenStream) -> proc_macro::TokenStr
     expand(input.into()).into()
 }
 
-/// Parse, build, emit; faults are reported beside what could be made.
+/// Parses, builds and emits; errors are reported in addition to the valid parts.
 fn expand(tokens: TokenStream) -> TokenStream {
     let mut report = report::Report::default();
     let made = input::Input::read(tokens, &mut report).map(|mut input| {
@@ -164,7 +164,7 @@ mod tests {
 
     use super::*;
 
-    /// The whole of a small module, so that a change of what is emitted is seen.
+    /// The complete output for a small module, so that a change of it is seen.
     #[test]
     fn what_is_made() {
         let made = expand(quote! {
@@ -202,8 +202,7 @@ mod tests {
         assert!(!made.contains("compile_error"), "{made}");
     }
 
-    /// The output that an IDE keeps and the compiler reads for each build: it grows with the
-    /// dictionary by this much and no more.
+    /// Limit of the output for each entry: an IDE keeps it, and the compiler reads it for each build.
     #[test]
     fn an_entry_costs_few_tokens() {
         let made = |count: usize| {
@@ -254,7 +253,7 @@ mod tests {
         assert!(made.contains("SPEED") && made.contains("DICTIONARY"));
     }
 
-    /// Whatever is written: faults, never a panic.
+    /// Any input gives errors, never a panic.
     #[test]
     fn nonsense_is_told() {
         for text in [

@@ -1,6 +1,6 @@
-//! Names that a user would expect and that no handle has: of objects whose names repeat, and of keywords.
+//! Names that a user may expect although no handle has them: of objects with repeated names, and of keywords.
 //!
-//! Each becomes a deprecated item of no use, so that the compiler says the right name where one is written.
+//! Each becomes a deprecated item, so that the compiler reports the right name where it is written.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
@@ -55,7 +55,7 @@ pub(crate) fn write(out: &mut String, items: &[Item]) {
         if syn::parse_str::<syn::Ident>(&name).is_err() {
             continue;
         }
-        // The compiler tells the use of a deprecated constant, not that of its module.
+        // The compiler reports the use of a deprecated constant, not that of its module.
         let members = items.iter().flat_map(|item| item.members());
         let members: BTreeSet<&str> = members.map(|handle| &*handle.name).collect();
         let _ = writeln!(out, "#[doc(hidden)] pub mod {name} {{");

@@ -1,4 +1,4 @@
-//! `profile = cia406;`: the device says the same of itself in 1000h.
+//! `profile = cia406;`: 1000h must have the same device profile number.
 
 use od_eds::{Description, Value};
 use od_model::Address;
@@ -22,11 +22,11 @@ pub(crate) fn check(profile: &Ident, description: &Description, report: &mut Rep
     let entry = description.entry(Address::new(0x1000, 0));
     let default = entry.and_then(|e| e.parameter.as_ref().or(e.default.as_ref()));
     let Some(Value::Unsigned(device_type)) = default.map(|d| &d.value) else {
-        // The missing 1000h is reported already.
+        // A missing 1000h is already reported.
         return;
     };
     let says = device_type & 0xFFFF;
-    // CiA 301 itself is the profile of devices that follow no other: number 0.
+    // Devices without a device profile have number 0: CiA 301 only.
     let wanted = if number == 301 { 0 } else { u64::from(number) };
     if says != wanted {
         let help = match says {

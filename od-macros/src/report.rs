@@ -1,4 +1,4 @@
-//! All faults of a call, each at its token.
+//! All errors and warnings of a call, each at its token.
 
 use std::collections::BTreeSet;
 
@@ -6,13 +6,13 @@ use od_eds::{Finding, token_of};
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{ToTokens, TokenStreamExt, quote};
 
-/// Collects what is wrong with a call.
+/// Collects the errors and warnings of a call.
 #[derive(Default)]
 pub(crate) struct Report {
     errors: Vec<syn::Error>,
     warnings: Vec<Warning>,
     tokens: Vec<Place>,
-    /// Objects with a statement that could not be read in whole.
+    /// Objects with a statement that could not be read completely.
     half_read: BTreeSet<u16>,
     /// Whether a statement, or the file, could not be read at all.
     has_lost: bool,
@@ -57,22 +57,22 @@ impl ToTokens for Place {
 }
 
 impl Report {
-    /// Takes a fault.
+    /// Adds an error.
     pub(crate) fn push(&mut self, error: syn::Error) {
         self.errors.push(error);
     }
 
-    /// A fault at this place.
+    /// Adds an error at this place.
     pub(crate) fn at(&mut self, place: impl Into<Place>, message: impl std::fmt::Display) {
         self.tokens(place.into(), message);
     }
 
-    /// A fault of these tokens.
+    /// Adds an error for these tokens.
     pub(crate) fn tokens(&mut self, tokens: impl ToTokens, message: impl std::fmt::Display) {
         self.errors.push(syn::Error::new_spanned(tokens, message));
     }
 
-    /// A warning at this place.
+    /// Adds a warning at this place.
     pub(crate) fn warn(&mut self, place: impl Into<Place>, code: &'static str, message: String) {
         let place = place.into();
         self.warnings.push(Warning {
@@ -82,12 +82,12 @@ impl Report {
         });
     }
 
-    /// Notes that a statement about this object could not be read in whole.
+    /// Records that a statement about this object could not be read completely.
     pub(crate) fn half_read(&mut self, index: u16) {
         self.half_read.insert(index);
     }
 
-    /// Notes that a statement, or the file, could not be read at all.
+    /// Records that a statement or the file could not be read at all.
     pub(crate) fn lose(&mut self) {
         self.has_lost = true;
     }
@@ -112,7 +112,7 @@ impl Report {
         !self.half_read.contains(&index)
     }
 
-    /// Number of faults so far.
+    /// Number of errors so far.
     pub(crate) fn faults(&self) -> usize {
         self.errors.len()
     }
@@ -126,21 +126,21 @@ impl Report {
 
     /// The number that the next token gets.
     pub(crate) fn numbers(&self) -> u32 {
-        // A call of four thousand million tokens does not come to an end.
+        // No call has four thousand million tokens.
         u32::try_from(self.tokens.len()).unwrap_or(u32::MAX)
     }
 
-    /// The token behind a finding, if it came from one.
+    /// The token of a finding, if it has one.
     pub(crate) fn token(&self, finding: &Finding) -> Option<Place> {
         self.span(finding.span()?)
     }
 
-    /// The token behind a span of the model.
+    /// The token of a span of the model.
     pub(crate) fn span(&self, span: od_eds::Span) -> Option<Place> {
         self.tokens.get(token_of(span)? as usize).copied()
     }
 
-    /// `compile_error!` for each fault; without a fault, the warnings.
+    /// `compile_error!` for each error; without errors, the warnings.
     pub(crate) fn into_tokens(self) -> TokenStream {
         if self.errors.is_empty() {
             return self.warnings.iter().map(Warning::tokens).collect();
@@ -153,7 +153,7 @@ impl Report {
 }
 
 impl Warning {
-    /// The use of a deprecated constant: the one warning that a macro can bring about.
+    /// The use of a deprecated constant: the only warning that a macro can cause.
     fn tokens(&self) -> TokenStream {
         let name = Ident::new(self.code, self.place.first);
         let message = &self.message;

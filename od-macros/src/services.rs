@@ -1,5 +1,5 @@
-//! `without lss, block;`, `behaves = PROFILE;` and `errors = 4;`: what the node of the device has code
-//! and room for.
+//! `without lss, block;`, `behaves = PROFILE;` and `errors = 4;`: the services that the node has code for, and its
+//! room for errors.
 
 use std::fmt::Write;
 use std::ops::RangeInclusive;
@@ -13,7 +13,7 @@ use syn::{LitInt, Path, Token};
 use crate::report::Report;
 use crate::words;
 
-/// The services by their words, the constants of `Device`, and the objects that need them.
+/// Each service: its word, the constant of `Device`, and the objects that need it.
 const SERVICES: [(&str, &str, RangeInclusive<u16>); 15] = [
     ("lss", "LSS", NONE),
     ("segmented", "SEGMENTED", NONE),
@@ -43,12 +43,12 @@ pub(crate) struct Services {
     off: Vec<(&'static str, Ident)>,
     /// Path of the profile, as seen from the call.
     profile: Option<Path>,
-    /// Errors that the node has room for.
+    /// Number of errors that the node has room for.
     errors: Option<u8>,
 }
 
 impl Services {
-    /// The list behind `without`. Returns where it ends.
+    /// Reads the list after `without`. Returns its last token.
     pub(crate) fn without(&mut self, body: ParseStream, report: &mut Report) -> syn::Result<Span> {
         loop {
             let word: Ident = body.parse().map_err(|e| {
@@ -76,7 +76,7 @@ impl Services {
         }
     }
 
-    /// The path behind `behaves =`.
+    /// Reads the path after `behaves =`.
     pub(crate) fn behaves(&mut self, body: ParseStream) -> syn::Result<()> {
         let path = Path::parse_mod_style(body).map_err(|e| {
             let help = "`behaves = PROFILE;`, where PROFILE is a `static` or a `const`";
@@ -86,7 +86,7 @@ impl Services {
         Ok(())
     }
 
-    /// The number behind `errors =`.
+    /// Reads the number after `errors =`.
     pub(crate) fn errors(
         &mut self,
         body: ParseStream,
@@ -127,7 +127,7 @@ impl Services {
             let Some((_, _, range)) = service else {
                 continue;
             };
-            // 1005h needs the producer only if it is one.
+            // 1005h needs the service only if bit 30 is set.
             let needs = |index: u16| {
                 index != 0x1005
                     || dictionary
@@ -157,7 +157,7 @@ impl Services {
         needed
     }
 
-    /// Gives the node these services all the same, so that one mistake is one error.
+    /// Includes these services in spite of `without`, so that one mistake is one error.
     pub(crate) fn keep(&mut self, needed: &[&str]) {
         self.off.retain(|(constant, _)| !needed.contains(constant));
     }
@@ -172,7 +172,7 @@ impl Services {
         self.profile.is_some()
     }
 
-    /// The constants of `Services` that are not the usual ones.
+    /// The constants of `Device` that differ from their defaults.
     pub(crate) fn constants(&self) -> String {
         let off = self.off.iter();
         let mut out: String = off

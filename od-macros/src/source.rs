@@ -1,4 +1,4 @@
-//! The EDS file behind a call: where it is, and what is in it.
+//! The EDS file of a call: finds and reads it.
 
 use std::path::{Path, PathBuf};
 
@@ -9,22 +9,22 @@ use crate::files::Files;
 use crate::input::Input;
 use crate::report::Report;
 
-/// The file of a call, as it was read.
+/// The file of a call after reading.
 #[derive(Default)]
 pub(crate) struct Source {
-    /// The files as they are written in the call, for messages.
+    /// The paths as written in the call, for messages.
     pub(crate) files: Option<Files>,
-    /// The files for `include_bytes!`; empty where none was read.
+    /// The files for `include_bytes!`; empty if none was read.
     pub(crate) paths: Vec<PathBuf>,
     /// The findings of the reader.
     pub(crate) findings: Vec<od_eds::Finding>,
-    /// The file has no errors.
+    /// Whether the file has no errors.
     pub(crate) allows: od_eds::check::Allows,
     /// The description in the file; empty without a file.
     pub(crate) description: Description,
 }
 
-/// Reads the files that the call names, if it names any.
+/// Reads the files that the call names, if any.
 pub(crate) fn read(input: &Input, report: &mut Report) -> Source {
     let Some(literal) = &input.eds else {
         return Source::default();
@@ -89,7 +89,7 @@ pub(crate) fn read(input: &Input, report: &mut Report) -> Source {
     }
 }
 
-/// Path and text of one file; `None` after a report where it cannot be read.
+/// Path and text of one file; `None` if it cannot be read, which is reported.
 fn file(literal: &LitStr, report: &mut Report) -> Option<(PathBuf, String)> {
     let path = locate(literal);
     match std::fs::read(&path) {
@@ -106,8 +106,8 @@ fn file(literal: &LitStr, report: &mut Report) -> Option<(PathBuf, String)> {
 
 /// The path, relative to the source file of the literal.
 ///
-/// If the compiler does not say which file that is (rust-analyzer; sources under a
-/// remapped prefix), it is looked for from the package's usual folders.
+/// If the compiler does not name that source file (rust-analyzer; sources under a
+/// remapped prefix), the search begins in the usual folders of the package.
 fn locate(literal: &LitStr) -> PathBuf {
     let written = PathBuf::from(literal.value());
     if written.is_absolute() {
@@ -145,7 +145,7 @@ fn unreadable(shown: &str, path: &Path, error: &std::io::Error) -> String {
     format!("file `{shown}` does not exist\nhelp: {help}")
 }
 
-/// The EDS file in the same folder whose name is nearest; an error without that folder.
+/// The EDS file in the same folder with the most similar name; an error if the folder does not exist.
 fn beside(path: &Path) -> Result<Option<String>, ()> {
     let wanted = path.file_name().unwrap_or_default().to_string_lossy();
     let folder = std::fs::read_dir(path.parent().ok_or(())?).map_err(|_| ())?;

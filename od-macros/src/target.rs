@@ -1,4 +1,4 @@
-//! `0x1018sub2`: the object that a statement is about.
+//! `0x1018sub2`: the object of a statement.
 
 use od_eds::patch::Target;
 use proc_macro2::Span;

@@ -1,4 +1,4 @@
-//! The words that a field may have, and which one was meant by another.
+//! The words that a field may have, and suggestions for other words.
 
 use od_eds::row;
 use od_model::{Access, DataType, Group, ObjectCode};
@@ -11,7 +11,7 @@ pub(crate) struct Words<T: 'static> {
     what: &'static str,
     /// Words that a help text lists.
     words: &'static [(&'static str, T)],
-    /// Words of other languages, and the words here that mean the same.
+    /// Words of other languages, and the words with the same meaning.
     foreign: &'static [(&'static str, &'static str)],
 }
 
@@ -93,7 +93,7 @@ impl Named for Group {}
 impl Named for ObjectCode {}
 
 impl<T: Named> Words<T> {
-    /// Reads one of the words; for another one says what is allowed.
+    /// Reads one of the words; an error lists the allowed words.
     pub(crate) fn read(&self, body: ParseStream) -> syn::Result<T> {
         let what = self.what;
         let word = Ident::parse_any(body).map_err(|e| {
@@ -131,7 +131,7 @@ impl<T: Named> Words<T> {
     }
 }
 
-/// The word that differs least, if it is not another one altogether; the same word in other case.
+/// The most similar word, if it is similar enough; the same word in other case.
 pub(crate) fn near<'a>(
     text: &str,
     words: impl Iterator<Item = &'a str> + Clone,
