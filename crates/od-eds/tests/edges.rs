@@ -10,7 +10,7 @@ fn variable(index: &str, data_type: &str, value: &str) -> String {
     )
 }
 
-/// Whether a rule has something to say.
+/// Returns whether a rule has something to say.
 fn finds(text: &str, code: &str) -> bool {
     let findings = Document::new(text).load().findings;
     findings.iter().any(|finding| finding.code() == code)

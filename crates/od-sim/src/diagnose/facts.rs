@@ -90,7 +90,7 @@ impl Node {
         beats.map(|(seen, _)| *seen).collect()
     }
 
-    /// Whether a client wrote an object between two moments.
+    /// Returns whether a client wrote an object between two moments.
     pub(super) fn is_written(&self, index: u16, from: Instant, to: Instant) -> bool {
         self.writes
             .iter()
@@ -220,7 +220,7 @@ impl<'a> Facts<'a> {
         to_it.map(|(_, code, _)| *code).collect()
     }
 
-    /// Whether anything but frames of this node came between two moments: the log went on.
+    /// Returns whether anything but frames of this node came between two moments: the log went on.
     pub(super) fn goes_on(&self, node: u8, from: Instant, to: Instant) -> bool {
         let sent = self.nodes.get(&node).map_or(&[][..], |node| &node.sent);
         let count = |all: &[Seen]| {
@@ -368,7 +368,7 @@ pub(super) fn middle(all: &[Seen]) -> u64 {
     gaps.get(gaps.len() / 2).copied().unwrap_or(0)
 }
 
-/// Whether two senders take turns: every second frame has the same distance, and neighbours have not.
+/// Returns whether two senders take turns: every second frame has the same distance, and neighbours have not.
 pub(super) fn is_interleaved(all: &[Seen]) -> bool {
     if all.len() < 8 {
         return false;

@@ -7,7 +7,7 @@ use super::incident::Incident;
 /// Signs of a fault come at most this long before and after it, in microseconds.
 const NEAR: u64 = 1_500_000;
 
-/// Whether `other` is a sign of what `main` is about: at the same time, and of the same node or of the whole bus.
+/// Returns whether `other` is a sign of what `main` is about: at the same time, and of the same node or of the whole bus.
 fn explains(main: &Incident, other: &Incident) -> bool {
     let is_near =
         other.begin <= main.end.plus_micros(NEAR) && main.begin <= other.end.plus_micros(NEAR);

@@ -72,7 +72,7 @@ impl Format {
         self == Self::Candump && !text.is_empty() && lines.all(candump::is_record)
     }
 
-    /// Whether a file of this format can grow record by record.
+    /// Returns whether a file of this format can grow record by record.
     pub const fn grows(self) -> bool {
         matches!(self, Self::Candump | Self::Pcapng)
     }

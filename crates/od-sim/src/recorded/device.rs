@@ -60,7 +60,7 @@ impl VirtualDevice {
         })
     }
 
-    /// Whether the recording answers a request in the place of the node.
+    /// Returns whether the recording answers a request in the place of the node.
     pub(crate) fn refuses_recorded(&mut self, now: Instant, frame: &Frame) -> bool {
         let serves = matches!(self.state(), State::PreOperational | State::Operational);
         let node = self.node_id();

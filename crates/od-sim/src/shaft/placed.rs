@@ -48,7 +48,7 @@ impl Placed {
         }
     }
 
-    /// Whether no position was set.
+    /// Returns whether no position was set.
     #[inline]
     pub(super) fn is_empty(&self) -> bool {
         self.ways.is_empty()

@@ -152,7 +152,7 @@ impl Folder {
     }
 }
 
-/// Whether this response to the request starts a transfer of several frames.
+/// Returns whether this response to the request starts a transfer of several frames.
 fn starts(is_long: bool, is_write: bool, message: Message<'_>) -> bool {
     let Message::Response(response) = message else {
         return false;

@@ -45,7 +45,7 @@ pub fn write(description: &Description, node: u8) -> (String, Vec<Finding>) {
     (text(description, node, &messages), found)
 }
 
-/// Whether to report a lost message: a PDO, or a service with a valid CAN-ID.
+/// Returns whether to report a lost message: a PDO, or a service with a valid CAN-ID.
 fn is_lost(used: &Used) -> bool {
     match used.service {
         Service::Tpdo(_) | Service::Rpdo(_) => true,

@@ -102,7 +102,7 @@ fn incident(facts: &Facts<'_>, id: u16, seen: &[Seen]) -> Option<Incident> {
     Some(incident)
 }
 
-/// Whether most of these frames follow a SYNC within 10 ms.
+/// Returns whether most of these frames follow a SYNC within 10 ms.
 fn synchronous(facts: &Facts<'_>, seen: &[Seen]) -> bool {
     let follows = seen.iter().filter(|seen| {
         let before = facts.syncs.partition_point(|sync| sync.place < seen.place);

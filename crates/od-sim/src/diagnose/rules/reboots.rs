@@ -94,7 +94,7 @@ fn incident(facts: &Facts<'_>, id: u8, node: &Node) -> Option<Incident> {
     Some(incident)
 }
 
-/// Whether a boot-up message comes of itself: the node was there before, and no command explains it.
+/// Returns whether a boot-up message comes of itself: the node was there before, and no command explains it.
 fn is_own(facts: &Facts<'_>, id: u8, node: &Node, boot: Seen) -> bool {
     let Some(before) = node.sent.iter().rev().find(|seen| seen.at < boot.at) else {
         return false;

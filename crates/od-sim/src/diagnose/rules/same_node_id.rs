@@ -87,7 +87,7 @@ fn boots(facts: &Facts<'_>, id: u8, node: &Node) -> Vec<Seen> {
     signs
 }
 
-/// Whether a reset command came shortly before.
+/// Returns whether a reset command came shortly before.
 fn is_by_command(facts: &Facts<'_>, id: u8, boot: Seen) -> bool {
     facts.commands.iter().any(|(seen, code, node)| {
         let is_reset = matches!(code, 0x81 | 0x82) && (*node == id || *node == 0);
