@@ -4,7 +4,7 @@ use core::fmt;
 
 /// Index and sub-index of one value, the multiplexer of CiA 301.
 ///
-/// Ordered by index, then sub-index, which is the order of every table here.
+/// Ordered by index, then sub-index, as every table of this crate.
 /// Shown as `1018h:02`.
 ///
 /// ```
@@ -31,12 +31,12 @@ impl defmt::Format for Address {
 }
 
 impl Address {
-    /// Index and sub-index; every pair is legal.
+    /// An address; every pair of index and sub-index is valid.
     pub const fn new(index: u16, sub: u8) -> Self {
         Self { index, sub }
     }
 
-    /// Both in one number that sorts like the address: `index << 8 | sub`.
+    /// Index and sub-index in one number with the same order: `index << 8 | sub`.
     #[inline]
     pub const fn key(self) -> u32 {
         (self.index as u32) << 8 | self.sub as u32

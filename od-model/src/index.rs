@@ -5,9 +5,9 @@
 
 use crate::row::Row;
 
-/// Content of an empty bucket: not the position of an entry.
+/// Content of an empty bucket, which no position has.
 pub const EMPTY: u16 = u16::MAX;
-/// Most rows whose positions fit into bytes, of which the last one is an empty bucket.
+/// Limit of rows whose positions fit into bytes; 255 is an empty bucket.
 pub const SMALL: usize = u8::MAX as usize;
 
 /// A hash table of positions: as bytes where there are no more than [`SMALL`].
@@ -28,7 +28,7 @@ impl Buckets<'_> {
         }
     }
 
-    /// Content of a bucket: past the last row where it is empty.
+    /// Content of a bucket: a position after the last row if it is empty.
     fn get(self, at: usize) -> Option<usize> {
         match self {
             Self::Bytes(all) => all.get(at).copied().map(usize::from),
@@ -59,10 +59,10 @@ pub const fn buckets<const N: usize>(rows: &[Row]) -> [u16; N] {
     buckets
 }
 
-/// As [`buckets`], for no more than [`SMALL`] rows.
+/// As [`buckets`], for at most [`SMALL`] rows.
 ///
 /// # Panics
-/// Likewise.
+/// As [`buckets`].
 #[must_use]
 pub const fn small_buckets<const N: usize>(rows: &[Row]) -> [u8; N] {
     assert!(rows.len() <= SMALL, "positions that fit into bytes");
@@ -70,15 +70,15 @@ pub const fn small_buckets<const N: usize>(rows: &[Row]) -> [u8; N] {
     let mut buckets = [0; N];
     let mut at = 0;
     while at < N {
-        // An empty one stays one.
+        // An empty bucket stays empty.
         buckets[at] = wide[at] as u8;
         at += 1;
     }
     buckets
 }
 
-/// Puts each row's position into the first bucket from its own on that is empty.
-/// `buckets` are all empty, and as many as [`bucket_count`] says.
+/// Writes the position of each row into its bucket, or into the next empty one.
+/// All `buckets` must be empty; their number must be [`bucket_count`].
 pub const fn fill(buckets: &mut [u16], rows: &[Row]) {
     let Some(mask) = buckets.len().checked_sub(1) else {
         return;
@@ -107,7 +107,7 @@ pub(crate) fn position<'a>(
     }
 }
 
-/// As [`position`], by the buckets only.
+/// As [`position`], in the buckets only.
 pub(crate) fn hashed<'a>(
     buckets: Buckets<'_>,
     rows: &'a [Row],
@@ -117,7 +117,7 @@ pub(crate) fn hashed<'a>(
     let mut at = own_bucket(key);
     loop {
         let position = buckets.get(at & mask)?;
-        // An empty bucket is past the last row.
+        // The position in an empty bucket is after the last row.
         let row = rows.get(position)?;
         if row.key() == key {
             return Some((position, row));

@@ -21,14 +21,14 @@ pub enum CanIdOwner {
     SdoRequest,
     /// Boot-up, heartbeat and node guarding, 701h–77Fh.
     ErrorControl,
-    /// LSS and what CiA leaves for later, 780h–7FFh.
+    /// LSS and CAN-IDs that CiA reserves, 780h–7FFh.
     Lss,
-    /// What CiA leaves for later: 001h–07Fh, 101h–180h, 6E0h–6FFh.
+    /// CAN-IDs that CiA reserves: 001h–07Fh, 101h–180h, 6E0h–6FFh.
     Reserved,
 }
 
 impl CanIdOwner {
-    /// The owner in words, as the end of "CiA 301 reserves it for …".
+    /// The owner as text that completes "CiA 301 reserves it for …".
     pub const fn name(self) -> &'static str {
         match self {
             Self::Nmt => "NMT",

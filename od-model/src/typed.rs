@@ -1,7 +1,7 @@
-//! Typed handles: what the macro makes of every entry.
+//! Typed handles, which the macro makes for every entry.
 //!
-//! A handle knows its Rust type, who may write it, and whether a PDO can carry
-//! it, so the mistakes that an SDO abort would report at run time do not compile.
+//! The type of a handle has the Rust type, the access and the PDO mapping flag of the
+//! value, so that mistakes that an SDO abort would report at run time do not compile.
 
 use core::marker::PhantomData;
 
@@ -12,7 +12,7 @@ mod sealed {
     pub trait Sealed {}
 }
 
-/// Types that a handle knows and does not hold: whatever they are, it is `Send` and `Sync`.
+/// Type parameters of a handle, which is `Send` and `Sync` for all of them.
 type Marker<T> = PhantomData<fn() -> T>;
 
 /// A Rust type that an entry can have.
@@ -28,8 +28,8 @@ type Marker<T> = PhantomData<fn() -> T>;
     note = "bool, u8–u64, i8–i64, f32 and f64 are; strings go through `Text`"
 )]
 pub trait Scalar: Copy + sealed::Sealed {
-    /// The value in `bytes`, little-endian; missing bytes count as 0, for signed
-    /// types the sign goes on.
+    /// The value of little-endian `bytes`; missing bytes are 0, for signed
+    /// types copies of the sign.
     fn from_wire(bytes: &[u8]) -> Self;
     /// The value's eight low bytes, little-endian, sign extended.
     fn to_wire(self) -> [u8; 8];
@@ -106,9 +106,9 @@ markers! {
     Rww,
     /// Access `const`: the value never changes.
     Const,
-    /// PDOMapping=1: a PDO can carry it.
+    /// PDOMapping=1: the value can be mapped into a PDO.
     Pdo,
-    /// PDOMapping=0: no PDO can carry it.
+    /// PDOMapping=0: the value cannot be mapped into a PDO.
     NoPdo
 }
 
@@ -132,7 +132,7 @@ impl DeviceWritable for Rw {}
 impl DeviceWritable for Rwr {}
 impl DeviceWritable for Rww {}
 
-/// A PDOMapping flag under which a PDO can carry the value.
+/// A PDOMapping flag of a value that can be mapped into a PDO.
 ///
 /// ```
 /// use od_model::typed::{MapEntry, Mappable, Var};
@@ -150,7 +150,7 @@ impl DeviceWritable for Rww {}
 pub trait Mappable: sealed::Sealed {}
 impl Mappable for Pdo {}
 
-/// Nothing has it: [`Text::map`] exists to say why.
+/// No type implements it: the error message of [`Text::map`] says why.
 #[doc(hidden)]
 #[diagnostic::on_unimplemented(
     message = "a string or a domain cannot be mapped into a PDO",
@@ -161,8 +161,8 @@ pub trait FixedLength {}
 
 /// Handle of one value: `T` is its Rust type, `A` its access type, `M` its PDO mapping flag.
 ///
-/// The 24-, 40-, 48- and 56-bit types are the next larger Rust integer; setting
-/// one keeps the bits that the object has.
+/// The types of 24, 40, 48 and 56 bits are the next larger Rust integer; higher bits are
+/// lost when such a value is set.
 ///
 /// ```
 /// use od_model::typed::{NoPdo, Rw, Var};
@@ -212,7 +212,7 @@ impl<T, A, M> Var<T, A, M> {
         self.slot
     }
 
-    /// The mapping entry of this value: index, sub-index and length as 1A00h holds them.
+    /// The mapping entry of this value: index, sub-index and length in the form of 1A00h.
     pub const fn map(self) -> MapEntry
     where
         M: Mappable,
@@ -333,7 +333,7 @@ impl<A> Text<A> {
         self.address
     }
 
-    /// Does not compile: no PDO can carry a string. It is here to say so.
+    /// Does not compile, since a string cannot be mapped into a PDO; the error message says so.
     #[doc(hidden)]
     pub const fn map(self) -> MapEntry
     where

@@ -1,6 +1,6 @@
-//! Defaults and limits as a description gives them.
+//! Default values and limits of a description.
 
-/// A stretch of [`Dictionary::text`](crate::Dictionary::text) or
+/// A range of [`Dictionary::text`](crate::Dictionary::text) or
 /// [`Dictionary::blob`](crate::Dictionary::blob): start and length in bytes.
 ///
 /// ```
@@ -22,7 +22,7 @@ impl Range {
         Self { start, len }
     }
 
-    /// The bytes of `arena` that this range names; empty where it reaches outside.
+    /// The bytes of `arena` in this range; empty if the range reaches outside.
     pub fn of(self, arena: &[u8]) -> &[u8] {
         let start = self.start as usize;
         arena
@@ -33,8 +33,8 @@ impl Range {
 
 /// A value of a description: a default or a limit.
 ///
-/// Texts and byte strings are ranges into the dictionary's two arenas, so a
-/// table of these has no lifetime and is the same compiled or loaded.
+/// Texts and byte strings are ranges into the two arenas of the dictionary, so a
+/// table of literals has no lifetime, and is the same for a compiled and a loaded dictionary.
 ///
 /// ```
 /// use od_model::Literal;
@@ -52,7 +52,7 @@ pub enum Literal {
     Signed(i64),
     /// REAL32 and REAL64.
     Real(f64),
-    /// `$NODEID+n`: known when the node ID is. UNSIGNED8–UNSIGNED32 only.
+    /// `$NODEID+n`: depends on the node ID. UNSIGNED8 to UNSIGNED32 only.
     NodeId(u32),
     /// VISIBLE_STRING, in [`Dictionary::text`](crate::Dictionary::text).
     Text(Range),

@@ -1,4 +1,4 @@
-//! Values and addresses as people write and read them.
+//! Values and addresses in the form that users write and read.
 
 use alloc::borrow::ToOwned;
 use alloc::format;
@@ -12,7 +12,7 @@ use crate::refused::Refused;
 use crate::typed::Scalar;
 use crate::types::{DataType, Kind};
 
-/// A value in words, by its type: `497042 (79592h)`, `-5`, `"GXMM"`, `01 02 03`.
+/// A value as text, by its type: `497042 (79592h)`, `-5`, `"GXMM"`, `01 02 03`.
 pub fn show(data_type: DataType, bytes: &[u8]) -> String {
     if data_type.size().is_some_and(|size| size != bytes.len()) {
         return hex(bytes);
@@ -33,7 +33,7 @@ pub fn show(data_type: DataType, bytes: &[u8]) -> String {
     }
 }
 
-/// A value of which a PDO carries `bits`, which may be fewer than its type has: a number with a sign keeps it.
+/// The first `bits` of a value, which a PDO may map; a signed number keeps its sign.
 pub fn show_bits(data_type: DataType, bytes: &[u8], bits: u8) -> String {
     let is_number = matches!(data_type.kind(), Kind::Unsigned | Kind::Signed);
     let Some(size) = data_type
@@ -55,7 +55,7 @@ pub fn show_bits(data_type: DataType, bytes: &[u8], bits: u8) -> String {
     show(data_type, &value.to_le_bytes()[..size.min(8)])
 }
 
-/// Two hex digits a byte, blanks between: `43 02 60 00`.
+/// Two hexadecimal digits per byte, separated by blanks: `43 02 60 00`.
 pub fn hex(bytes: &[u8]) -> String {
     bytes
         .iter()
@@ -64,11 +64,11 @@ pub fn hex(bytes: &[u8]) -> String {
         .join(" ")
 }
 
-/// The bytes of a value that a user wrote: `4096`, `0x1000`, `1000h`, `-5`, `1.5`, `true`,
+/// The bytes of a value that a user typed: `4096`, `0x1000`, `1000h`, `-5`, `1.5`, `true`,
 /// `"text"`, or `[01 02 03]` for bytes of any type.
 ///
 /// # Errors
-/// A sentence that says what to write instead.
+/// A sentence that names the valid values.
 pub fn parse(data_type: DataType, text: &str) -> Result<Vec<u8>, Refused> {
     let text = text.trim();
     if let Some(inner) = text
@@ -114,7 +114,7 @@ pub fn parse(data_type: DataType, text: &str) -> Result<Vec<u8>, Refused> {
     Ok(value.to_le_bytes()[..size].to_vec())
 }
 
-/// Decimal, `0x` or `…h` hex, underscores between digits, a minus in front.
+/// Reads a decimal or hexadecimal number (`0x…`, `…h`) with an optional minus and underscores between digits.
 pub fn integer(text: &str) -> Option<i128> {
     let (sign, text) = match text.strip_prefix('-') {
         Some(rest) => (-1, rest),
@@ -141,8 +141,8 @@ fn parse_hex(text: &str) -> Option<Vec<u8>> {
     text.split_whitespace().map(byte).collect()
 }
 
-/// An address as people write it: `6004h`, `1018h:02`, `0x1018:2`, `1018sub2`. The sub-index
-/// is hex, and 0 where none is given.
+/// Reads an address as users write it: `6004h`, `1018h:02`, `0x1018:2`, `1018sub2`. The sub-index
+/// is hexadecimal, and 0 if missing.
 pub fn address(text: &str) -> Option<Address> {
     let text = text.trim();
     let (index, sub) = match text.split_once(':') {
@@ -164,11 +164,11 @@ pub fn address(text: &str) -> Option<Address> {
     Some(Address::new(index, sub))
 }
 
-/// The entry that a user names: by [`address`], or by name in any case. A member is named
-/// by its own name if there is only one such, else as `object.member`.
+/// Finds an entry by [`address`], or by its name in any case. A sub-object is found by its own name if the name
+/// is unique, else by `object.member`.
 ///
 /// # Errors
-/// A sentence that says why no entry matches.
+/// A sentence about why no entry matches.
 pub fn find(dictionary: Dictionary<'_>, text: &str) -> Result<Entry, Refused> {
     let text = text.trim();
     if let Some(address) = address(text) {
@@ -193,7 +193,7 @@ pub fn find(dictionary: Dictionary<'_>, text: &str) -> Result<Entry, Refused> {
     }
 }
 
-/// An entry's full name: the object's, and for a member its own behind a dot.
+/// The full name of an entry: that of the object, followed by a dot and that of the sub-object.
 pub fn name(dictionary: Dictionary<'_>, entry: &Entry) -> String {
     let own = dictionary.text(entry.name);
     match dictionary.object(entry.address.index) {
@@ -204,7 +204,7 @@ pub fn name(dictionary: Dictionary<'_>, entry: &Entry) -> String {
     }
 }
 
-/// An address with its name, as far as the dictionary knows it: `6004h Position value`.
+/// An address with its name, if the dictionary has one: `6004h Position value`.
 pub fn label(dictionary: Dictionary<'_>, address: Address) -> String {
     let number = match (address.sub, dictionary.object(address.index)) {
         (0, Some(object)) if !object.code.has_members() => format!("{:04X}h", address.index),

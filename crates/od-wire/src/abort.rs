@@ -92,7 +92,7 @@ abort_codes! {
     NoData = 0x0800_0024, "no data available";
 }
 
-/// A code without the digits that are 0 in all of them.
+/// A code without the digits that are 0 in all codes.
 const fn short(code: u32) -> u16 {
     assert!(code & !0xF0F_00FF == 0, "a digit that no abort code has");
     (code >> 12 & 0xF000 | code >> 8 & 0xF00 | code & 0xFF) as u16

@@ -1,6 +1,6 @@
-//! EMCY frames (CiA 301, chapter 7.2.7.1): error code, error register, five bytes of the manufacturer's.
+//! EMCY frames (CiA 301, chapter 7.2.7.1): error code, error register, five manufacturer-specific bytes.
 
-/// An EMCY message: an error that comes, or with code 0000h one that goes.
+/// An EMCY message: a new error, or with code 0000h the end of one.
 ///
 /// ```
 /// use od_wire::emcy::Emcy;
@@ -13,8 +13,8 @@
 pub struct Emcy {
     /// Emergency error code, for example 8130h; 0000h: error reset or no error.
     pub code: u16,
-    /// Error register: the bits of 1001h. In an error that a device raises, those that it sets
-    /// while it lasts.
+    /// Error register: the bits of 1001h. For an error that a device raises, the bits that are set
+    /// while the error lasts.
     pub register: u8,
     /// Manufacturer-specific bytes 3 to 7 of the frame.
     pub info: [u8; 5],
@@ -44,7 +44,7 @@ impl Emcy {
 
     /// The frame's bytes.
     pub const fn emit(self) -> [u8; 8] {
-        // As a number, which is stored in one go.
+        // As a number, which is one store.
         let [a, b, c, d, e] = self.info;
         let low = self.code as u32 | (self.register as u32) << 16 | (a as u32) << 24;
         let high = u32::from_le_bytes([b, c, d, e]);

@@ -5,8 +5,7 @@ use embedded_can::{ExtendedId, Id, StandardId};
 
 /// A CAN identifier, 11 or 29 bits long.
 ///
-/// The largest standard one is 7FFh, the largest extended one 1FFF_FFFFh; a value
-/// of this type cannot hold more.
+/// At most 7FFh if standard, 1FFF_FFFFh if extended.
 ///
 /// ```
 /// use od_wire::CanId;
@@ -84,7 +83,7 @@ impl fmt::Debug for CanId {
 
 /// A classical CAN frame: a data frame of 0–8 bytes, or a remote frame with a DLC of 0–8.
 ///
-/// The bytes behind the data are always 0, so equal frames are equal field by field.
+/// The bytes after the data are always 0, so that equal frames are equal field by field.
 ///
 /// ```
 /// use od_wire::{CanId, Frame};
@@ -155,8 +154,8 @@ impl Frame {
         Self::data_frame(id, data, dlc)
     }
 
-    /// As [`with_dlc`](Self::with_dlc), where nothing has to be cut: `dlc` is 8 at most, and the bytes of
-    /// `data` behind it are 0.
+    /// As [`with_dlc`](Self::with_dlc) without cutting: `dlc` is 8 at most, and the bytes of
+    /// `data` after it are 0.
     #[doc(hidden)]
     pub const fn padded(id: CanId, data: [u8; 8], dlc: u8) -> Self {
         debug_assert!(dlc == 8 || dlc < 8 && u64::from_le_bytes(data) >> (8 * dlc as u32) == 0);
@@ -173,7 +172,7 @@ impl Frame {
         Some(frame)
     }
 
-    /// `dlc` is 8 at most, and the bytes of `data` behind it are 0.
+    /// `dlc` is 8 at most, and the bytes of `data` after it are 0.
     #[inline]
     const fn data_frame(id: CanId, data: [u8; 8], dlc: u8) -> Self {
         Self {
@@ -228,7 +227,7 @@ impl Frame {
         &self.data[..usize::from(len)]
     }
 
-    /// Returns all eight bytes; those past the DLC are 0.
+    /// Returns all eight bytes; those after the DLC are 0.
     #[inline]
     pub const fn bytes(&self) -> &[u8; 8] {
         &self.data

@@ -1,10 +1,10 @@
-//! Node IDs and COB-IDs that cannot hold a wrong value.
+//! Node IDs and COB-IDs, which hold valid values only.
 
 use core::fmt;
 
 use crate::frame::CanId;
 
-/// A node ID, 1–127 (CiA 301). One less is kept: the usual one is all zeros.
+/// A node ID, 1–127 (CiA 301). The number minus one is stored, so that node ID 1 is all zeros.
 ///
 /// ```
 /// use od_wire::{CanId, NodeId};
@@ -17,7 +17,7 @@ use crate::frame::CanId;
 pub struct NodeId(u8);
 
 impl NodeId {
-    /// Node 1, as most devices are delivered.
+    /// Node ID 1, the default of most devices.
     pub const ONE: Self = Self(0);
 
     /// The node ID `raw`; `None` outside 1–127.
@@ -38,8 +38,7 @@ impl NodeId {
     /// The CAN-ID of the predefined connection set (CiA 301, chapter 7.3.3): four bits of
     /// function code, seven bits of node ID. `580h` is that of an SDO response.
     ///
-    /// Only bits 7–10 of `function` count, 080h to 780h, so the CAN-ID never leaves the
-    /// 11 bits.
+    /// Only bits 7–10 of `function` are used, 080h to 780h, so that the CAN-ID has 11 bits.
     #[inline]
     pub const fn plus(self, function: u16) -> CanId {
         CanId::standard(function & 0x780 | self.raw() as u16)
@@ -118,7 +117,7 @@ impl CobId {
 
     /// Returns the CAN-ID that a service may use: [`is_consistent`](Self::is_consistent), and not
     /// [restricted](Self::is_restricted) (CiA 301, table 40). `None`: a service with this COB-ID is not valid,
-    /// whatever its flag bits say.
+    /// whatever its flag bits.
     ///
     /// ```
     /// use od_wire::{CanId, CobId};

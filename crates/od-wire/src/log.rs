@@ -1,4 +1,4 @@
-//! Formats for `defmt`: as the types are displayed, but put together on the host.
+//! Formats for `defmt`: the same text as `Display`, made on the host.
 
 use defmt::{Format, Formatter, write};
 

@@ -140,7 +140,7 @@ impl Request {
         })
     }
 
-    /// The frame's bytes, as a master sends them.
+    /// The bytes of the master's frame.
     pub fn emit(self) -> [u8; 8] {
         match self {
             Self::SwitchGlobal { configuration } => with(0x04, configuration.into()),
@@ -184,9 +184,9 @@ pub enum Response {
     Selected { state: u8 },
     /// 11h, 13h, 17h: done, or an error code.
     Configured { command: u8, error: u8 },
-    /// 4Fh: a slave of this address is here.
+    /// 4Fh: a slave with this LSS address exists.
     Identified,
-    /// 50h: a slave without node ID is here.
+    /// 50h: a slave without a node ID exists.
     NonConfigured,
     /// 5Ah–5Dh: a number of the LSS address.
     Number { part: Part, value: u32 },
@@ -214,7 +214,7 @@ impl Response {
         })
     }
 
-    /// The frame's bytes, as a slave sends them.
+    /// The bytes of the slave's frame.
     pub fn emit(self) -> [u8; 8] {
         match self {
             Self::Selected { state } => with(0x44, state.into()),

@@ -39,7 +39,7 @@ impl Command {
     }
 }
 
-/// The states of an NMT slave; the number is the one a heartbeat carries.
+/// The states of an NMT slave; the number is that in a heartbeat.
 ///
 /// ```
 /// use od_wire::nmt::State;
@@ -56,7 +56,7 @@ pub enum State {
     Stopped = 0x04,
     /// All services, including PDOs (CiA 301, chapter 7.3.2).
     Operational = 0x05,
-    /// All services but PDOs.
+    /// All services except PDOs.
     PreOperational = 0x7F,
 }
 

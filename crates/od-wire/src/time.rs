@@ -59,14 +59,14 @@ impl Instant {
 
     /// The next moment of a period of `micros` that had one at `self`, after `now`.
     ///
-    /// A caller that comes late gets one tick, not one for each that was missed.
+    /// A late caller gets one moment, not one for each missed period.
     pub const fn next_period(self, micros: u64, now: Self) -> Self {
         let next = self.plus_micros(micros);
         if next.0 > now.0 {
             return next;
         }
         let micros = if micros == 0 { 1 } else { micros };
-        // What is left of the last period, bit by bit: a microcontroller has no division of 64 bits.
+        // The rest of the last period, bit by bit: a microcontroller has no division of 64 bits.
         let (mut late, mut rest, mut bits) = (now.0 - self.0, 0, u64::BITS);
         while bits > 0 {
             rest = rest << 1 | late >> 63;
@@ -80,7 +80,7 @@ impl Instant {
     }
 }
 
-/// The sum, or the end of time. A call: in line it costs 248 to 524 bytes of flash (Cortex-M3, `s`).
+/// The sum, or the end of time. Not inlined, which would cost 248 to 524 bytes of flash (Cortex-M3, `s`).
 #[inline(never)]
 const fn later(at: u64, micros: u64) -> u64 {
     at.saturating_add(micros)

@@ -3,7 +3,7 @@
 /// Milliseconds of a day.
 const DAY: u64 = 24 * 60 * 60 * 1000;
 
-/// A moment as TIME messages carry it (TIME_OF_DAY).
+/// A moment in the form of a TIME message (TIME_OF_DAY).
 ///
 /// ```
 /// use od_wire::time_of_day::TimeOfDay;
@@ -21,8 +21,8 @@ pub struct TimeOfDay {
 }
 
 impl TimeOfDay {
-    /// Reads the data of a TIME message; `None` unless they are six bytes, and the time is one of a
-    /// day. The four bits that CiA 301 reserves do not count.
+    /// Reads the data of a TIME message; `None` unless it has six bytes and a valid time of day. The four bits that
+    /// CiA 301 reserves are ignored.
     pub const fn parse(data: &[u8]) -> Option<Self> {
         let [a, b, c, d, low, high] = *data else {
             return None;

@@ -8,7 +8,7 @@ impl Row {
         self.0[3] >> 14 != 0
     }
 
-    /// Lower or upper limit, as [`default`](Self::default) has numbers; `None`: the type limits the value.
+    /// Lower or upper limit in the form of [`default`](Self::default); `None` if only the type limits the value.
     pub const fn limit(&self, is_upper: bool, pool: &[u32], node_id: u8) -> Option<u64> {
         let mut at = (self.0[3] >> 14) as usize;
         if at == 0 {
