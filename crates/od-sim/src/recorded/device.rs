@@ -12,7 +12,7 @@ use crate::device::behaviour::Behind;
 use crate::device::behaviour::Plain;
 
 impl VirtualDevice {
-    /// Plays a recording in the place of all behaviour behind the dictionary. Do it before power comes.
+    /// Plays a recording instead of simulating an application. Call it before the power is switched on.
     pub fn play_recorded(&mut self, recorded: Recorded) {
         let profile = &mut self.node.device_mut().profile;
         if let Some(micros) = recorded
@@ -38,7 +38,7 @@ impl VirtualDevice {
         self.recorded = Some(Box::new(playing));
     }
 
-    /// Takes what the node has to send, and returns what goes out now.
+    /// Takes the frames of the node, and returns the frame that is due now.
     pub(crate) fn poll_recorded(&mut self, now: Instant) -> Option<Frame> {
         let mut playing = self.recorded.take()?;
         playing.look(self.state(), |index, sub| self.stored(index, sub));
@@ -51,7 +51,7 @@ impl VirtualDevice {
         frame
     }
 
-    /// The number of the TPDO that has this identifier, if it has a period.
+    /// The number of the TPDO with this CAN-ID, if it has a period.
     fn tpdo_of(&self, playing: &Playing, frame: &Frame) -> Option<u16> {
         let id = u64::from(frame.id().as_standard()?);
         playing.tpdos().find(|tpdo| {
@@ -60,7 +60,7 @@ impl VirtualDevice {
         })
     }
 
-    /// Returns whether the recording answers a request in the place of the node.
+    /// Returns whether the recording responds to a request instead of the node.
     pub(crate) fn refuses_recorded(&mut self, now: Instant, frame: &Frame) -> bool {
         let serves = matches!(self.state(), State::PreOperational | State::Operational);
         let node = self.node_id();
@@ -77,7 +77,7 @@ impl VirtualDevice {
             .as_mut()
             .and_then(|playing| playing.happens(now))
         {
-            // What the node is not ready for, or cannot have, does not happen.
+            // The node refuses values and errors that it cannot have in its state.
             let _ = match due {
                 Due::Value(address, bytes) => self.set_value(address, &bytes, now),
                 Due::Error(error) => {

@@ -1,4 +1,4 @@
-//! Recorded behaviour that a device of a file repeats: its responses, its times, its errors.
+//! Recorded behaviour that a simulated device repeats: its responses, times and errors.
 //!
 //! It is stored in comments at the end of an EDS, so that every tool can still read the file:
 //!

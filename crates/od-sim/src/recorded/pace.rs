@@ -1,4 +1,4 @@
-//! Frames at the period that was measured, not at the configured one.
+//! Sends frames at the measured instead of the configured period.
 
 use od_runtime::{Frame, Instant};
 
@@ -9,7 +9,7 @@ pub(super) struct Pace {
     period: u64,
     /// The configured period with which it was measured.
     pub(super) configured: u64,
-    /// The frame as the node last had it, and when it is sent next.
+    /// The last frame of the node, and the time when it is sent next.
     next: Option<(Instant, Frame)>,
 }
 
@@ -22,7 +22,7 @@ impl Pace {
         }
     }
 
-    /// The node has this frame now. Only the first one goes out at once.
+    /// Takes a frame of the node. Only the first one is sent at once.
     pub(super) fn passes(&mut self, now: Instant, frame: &Frame) -> bool {
         match &mut self.next {
             Some((_, held)) => {
@@ -36,7 +36,7 @@ impl Pace {
         }
     }
 
-    /// Time when the next frame goes out.
+    /// Time of the next frame.
     pub(super) fn due(&self) -> Option<Instant> {
         self.next.map(|(at, _)| at)
     }
@@ -48,7 +48,7 @@ impl Pace {
         Some(frame)
     }
 
-    /// The node does not send it, or is configured to another period.
+    /// Stops: the node does not send the frame, or with another configured period.
     pub(super) fn forget(&mut self) {
         self.next = None;
     }

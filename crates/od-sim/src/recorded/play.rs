@@ -1,4 +1,4 @@
-//! Plays a recording: frames of the node on their way out, values and errors when they are due.
+//! Plays a recording: delays frames of the node, and reports values and errors when they are due.
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::prelude::v1::*;
@@ -13,28 +13,28 @@ use od_wire::sdo::{Request, Response};
 use super::Recorded;
 use super::pace::Pace;
 
-/// Most frames that wait for their time.
+/// Limit of delayed frames.
 const HELD: usize = 256;
 
-/// A recording that is played.
+/// A recording that is being played.
 #[derive(Clone, Debug)]
 pub(crate) struct Playing {
     recorded: Recorded,
-    /// Time when the boot-up message went out.
+    /// Time of the boot-up message.
     started: Option<Instant>,
-    /// The next value, and when its row began.
+    /// The next value, and the start of the present repetition.
     value: (usize, Option<Instant>),
     /// The next error.
     error: usize,
-    /// Frames on their way out, by their time.
+    /// Delayed frames, by their time.
     held: VecDeque<(Instant, Frame)>,
     heartbeat: Option<Pace>,
     tpdos: BTreeMap<u16, Pace>,
-    /// Frames that go out at their measured periods now: TPDOs, and [`HEARTBEAT`].
+    /// Frames that are sent at their measured periods now: TPDOs and [`HEARTBEAT`].
     paced: BTreeSet<u16>,
 }
 
-/// The heartbeat among the numbers of TPDOs.
+/// Number of the heartbeat, which no TPDO has.
 const HEARTBEAT: u16 = 0;
 
 /// An event that is due.
@@ -44,7 +44,7 @@ pub(crate) enum Due {
 }
 
 impl Playing {
-    /// `configured` has the configured period of an object and sub-index.
+    /// `configured` returns the configured period of an object and sub-index.
     pub(crate) fn new(recorded: Recorded, configured: impl Fn(u16, u8) -> u64) -> Self {
         let tpdo = |(tpdo, period): (&u16, &u64)| {
             (*tpdo, Pace::new(*period, configured(0x17FF + tpdo, 5)))
@@ -63,7 +63,7 @@ impl Playing {
         }
     }
 
-    /// Power goes.
+    /// The power is switched off.
     pub(crate) fn stop(&mut self) {
         self.started = None;
         self.held.clear();
@@ -73,8 +73,8 @@ impl Playing {
             .for_each(Pace::forget);
     }
 
-    /// Looks which frames go out at the measured period: those that are configured as they were then.
-    /// `stored` has the value of an object and sub-index.
+    /// Finds the frames that are sent at the measured period: those with the same configuration as in the recording.
+    /// `stored` returns the value of an object and sub-index.
     pub(crate) fn look(&mut self, state: State, stored: impl Fn(u16, u8) -> Option<u64>) {
         self.paced.clear();
         if let Some(pace) = &mut self.heartbeat {
@@ -103,8 +103,8 @@ impl Playing {
         self.tpdos.keys().copied()
     }
 
-    /// A request to the node. Where the device refused it, the response goes out instead, and the node
-    /// does not see the request.
+    /// Handles a request to the node. If the device refused it, the recorded response is sent, and the node does
+    /// not receive the request.
     pub(crate) fn refuses(&mut self, now: Instant, node: NodeId, frame: &Frame) -> bool {
         if frame.id() != node.plus(0x600) || frame.is_remote() || frame.dlc() != 8 {
             return false;
@@ -123,7 +123,7 @@ impl Playing {
         true
     }
 
-    /// A frame of the node. `tpdo` is its number, if it is one.
+    /// Handles a frame of the node; `tpdo` is the number of a TPDO.
     pub(crate) fn sent(&mut self, now: Instant, node: NodeId, frame: Frame, tpdo: Option<u16>) {
         let id = frame.id();
         let frame = if id == node.plus(0x580) {
@@ -155,7 +155,7 @@ impl Playing {
         }
     }
 
-    /// The response, with a value where the node has no data but the device had one.
+    /// The response, with the recorded value if the node has no data.
     fn filled(&self, node: NodeId, frame: Frame) -> Frame {
         let Response::Abort { address, code } = Response::parse(frame.bytes()) else {
             return frame;
@@ -181,20 +181,20 @@ impl Playing {
         }
     }
 
-    /// The next frame that goes out now.
+    /// The next frame that is due now.
     pub(crate) fn take(&mut self, now: Instant, node: NodeId, state: State) -> Option<Frame> {
         if self.held.front().is_some_and(|(at, _)| *at <= now) {
             return self.held.pop_front().map(|(_, frame)| frame);
         }
         let beat = self.heartbeat.as_mut().and_then(|pace| pace.take(now));
         if beat.is_some() {
-            // The state may be another one since the node had it.
+            // The NMT state may have changed since the node made the frame.
             return Frame::new(node.plus(0x700), &[state as u8]);
         }
         self.tpdos.values_mut().find_map(|pace| pace.take(now))
     }
 
-    /// Time when something goes out or happens next.
+    /// Time of the next frame or event.
     pub(crate) fn due(&self) -> Option<Instant> {
         let held = self.held.front().map(|(at, _)| *at);
         let paces = self.tpdos.values().chain(&self.heartbeat);
@@ -214,7 +214,7 @@ impl Playing {
         self.started.map(|started| started.plus_micros(*offset))
     }
 
-    /// The event in the device that is due now.
+    /// The event that is due now.
     pub(crate) fn happens(&mut self, now: Instant) -> Option<Due> {
         if self.next_error().is_some_and(|at| at <= now) {
             self.error += 1;
@@ -228,7 +228,7 @@ impl Playing {
         let (last, address, bytes) = &self.recorded.values[at];
         self.value.0 += 1;
         if self.value.0 == self.recorded.values.len() {
-            // It begins again, at the earliest a millisecond later.
+            // The values begin again, at least one millisecond later.
             let length = self.recorded.length.max(last + 1000);
             self.value = (0, row.map(|row| row.plus_micros(length)));
         }

@@ -8,14 +8,14 @@ use od_wire::emcy::Emcy;
 
 use super::{BYTES, LINES, LONGEST, Recorded, VERSION};
 
-/// The first line, and what the others begin with.
+/// The first line, and the start of the other lines.
 const FIRST: &str = ";odkit-twin=";
 const START: &str = ";twin ";
 
 /// Reads the recording in the text of an EDS; `None` if it has no recording.
 ///
 /// # Errors
-/// A line that is not valid: its number, and what is wrong with it.
+/// The number of an invalid line, and its error.
 pub fn read(text: &str) -> Result<Option<Recorded>, Refused> {
     let mut recorded: Option<Recorded> = None;
     let mut count = 0;
@@ -152,7 +152,7 @@ fn time(text: &str) -> Result<u64, String> {
     })
 }
 
-/// A time between two frames; not shorter than a frame takes.
+/// A time between two frames, at least the duration of a frame.
 fn period(text: &str) -> Result<u64, String> {
     let valid = time(text)?;
     match valid {

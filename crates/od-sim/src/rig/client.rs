@@ -9,16 +9,16 @@ use od_model::Address;
 use od_wire::sdo::Request;
 use od_wire::{AbortCode, Duration, Frame, Instant, NodeId};
 
-/// A transfer that is over.
+/// A finished transfer.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Outcome {
     /// The number that [`Rig::read`](super::Rig::read) or [`write`](super::Rig::write) returned.
     pub job: u32,
-    /// The node that was asked.
+    /// The node.
     pub node: NodeId,
     /// The object.
     pub address: Address,
-    /// The value that was read, empty after a write; or the error.
+    /// The value of a read, empty after a write; or the error.
     pub result: Result<Vec<u8>, od_client::Error>,
 }
 
@@ -36,12 +36,12 @@ impl Outcome {
     }
 }
 
-/// The client, what it wants to send, and what it was asked.
+/// The client, its frames, and its open transfers.
 #[derive(Debug)]
 pub(super) struct Asker {
     client: Client,
     requests: VecDeque<Frame>,
-    /// Transfers under way, with their numbers.
+    /// Open transfers, with their numbers.
     asked: Vec<(Job, u32, NodeId, Address)>,
     count: u32,
 }
@@ -60,7 +60,7 @@ impl Default for Asker {
 }
 
 impl Asker {
-    /// Asks for a transfer; with bytes it is a write.
+    /// Starts a transfer; with bytes it is a write.
     pub(super) fn ask(
         &mut self,
         now: Instant,
@@ -78,7 +78,7 @@ impl Asker {
         self.count
     }
 
-    /// A device sent a frame.
+    /// Handles a frame of a device.
     pub(super) fn handle_frame(&mut self, now: Instant, frame: &Frame) {
         if !self.asked.is_empty() {
             self.client.handle_frame(now, frame);
@@ -91,8 +91,8 @@ impl Asker {
         self.take(now);
     }
 
-    /// Time when the client is due. One that was asked for nothing is never; the look through all nodes would
-    /// take a third of the time that a simulation takes.
+    /// Next deadline of the client; `None` without open transfers, since a search through all nodes would take a third
+    /// of the time of a simulation.
     pub(super) fn poll_timeout(&self) -> Option<Instant> {
         if self.asked.is_empty() {
             None
@@ -101,12 +101,12 @@ impl Asker {
         }
     }
 
-    /// Is it asked for something?
+    /// Returns whether a transfer is open.
     pub(super) fn is_busy(&self) -> bool {
         !self.asked.is_empty() || self.has_request()
     }
 
-    /// Does a frame wait to be sent?
+    /// Returns whether a frame waits to be sent.
     pub(super) fn has_request(&self) -> bool {
         !self.requests.is_empty()
     }
@@ -116,7 +116,7 @@ impl Asker {
         self.requests.pop_front()
     }
 
-    /// The next transfer that is over.
+    /// The next finished transfer.
     pub(super) fn poll(&mut self) -> Option<Outcome> {
         loop {
             let (job, result) = match self.client.poll_event()? {
@@ -130,7 +130,7 @@ impl Asker {
         }
     }
 
-    /// Ends all that is under way: the bus was exchanged, and nobody answers any more.
+    /// Ends all open transfers, because the bus was replaced and no node will respond.
     pub(super) fn give_up(&mut self) -> Vec<Outcome> {
         let count = self.count;
         let Self { asked, .. } = std::mem::take(self);
@@ -139,8 +139,8 @@ impl Asker {
         asked.into_iter().map(silent).collect()
     }
 
-    /// Takes what the client sends. A silent node gets no abort: it would be one more frame that
-    /// nobody acknowledges.
+    /// Collects the frames of the client, except the abort to a node that did not respond: it would be one more frame
+    /// without an acknowledgement.
     fn take(&mut self, now: Instant) {
         while let Some(frame) = self.client.poll_transmit(now) {
             let abort = frame.data().try_into().map(Request::parse);

@@ -1,22 +1,21 @@
-//! Acts of the passing time: shafts that follow a profile, and frames that
-//! are sent again and again.
+//! Actions over time: profiles of shafts, and cyclic frames.
 
 use std::prelude::v1::*;
 
 use od_wire::{Frame, Instant};
 
-/// A shaft's profile: speeds, each for so long.
+/// A shaft's profile: speeds with their durations.
 #[derive(Clone)]
 struct Motion {
     device: usize,
-    /// Revolutions a minute, and microseconds.
+    /// Revolutions per minute, and microseconds.
     steps: Vec<(f64, u64)>,
     repeats: bool,
     next: usize,
     due: Instant,
 }
 
-/// A frame that is sent in a rhythm.
+/// A cyclic frame.
 #[derive(Clone)]
 struct Cyclic {
     key: u32,
@@ -25,20 +24,20 @@ struct Cyclic {
     due: Instant,
 }
 
-/// Everything that is due at some moment.
+/// All actions with their times.
 #[derive(Clone, Default)]
 pub(super) struct Clockwork {
     motions: Vec<Motion>,
     cyclic: Vec<Cyclic>,
 }
 
-/// Act that is due at a moment.
+/// An action that is due.
 pub(super) enum Tick {
     Rpm(usize, f64),
     Send(Frame),
 }
 
-/// The shortest step of a profile and the shortest rhythm: time must go on in between.
+/// The shortest step of a profile and the shortest interval, so that time advances.
 const SHORTEST: u64 = 100;
 
 impl Clockwork {
@@ -58,12 +57,12 @@ impl Clockwork {
         }
     }
 
-    /// Does the shaft follow a profile?
+    /// Returns whether the shaft follows a profile.
     pub(super) fn moves(&self, device: usize) -> bool {
         self.motions.iter().any(|motion| motion.device == device)
     }
 
-    /// A device went away; those behind it move up.
+    /// Removes a device; later devices move up.
     pub(super) fn remove(&mut self, device: usize) {
         self.motions.retain(|motion| motion.device != device);
         for motion in &mut self.motions {
@@ -71,7 +70,7 @@ impl Clockwork {
         }
     }
 
-    /// Sends a frame at this interval in microseconds from now on; 0 ends it. Each key has one rhythm.
+    /// Sends a frame at this interval in microseconds from now on; 0 ends it. Each key has one frame.
     pub(super) fn repeat(&mut self, key: u32, frame: Frame, every: u64, now: Instant) {
         self.cyclic.retain(|one| one.key != key);
         if every > 0 {
@@ -85,13 +84,13 @@ impl Clockwork {
         }
     }
 
-    /// Time when something is due next.
+    /// Time of the next action.
     pub(super) fn due(&self) -> Option<Instant> {
         let motions = self.motions.iter().map(|motion| motion.due);
         motions.chain(self.cyclic.iter().map(|one| one.due)).min()
     }
 
-    /// Returns the next act that is due now.
+    /// Returns the next action that is due now.
     pub(super) fn take(&mut self, now: Instant) -> Option<Tick> {
         if let Some(place) = self.motions.iter().position(|motion| motion.due <= now) {
             let motion = &mut self.motions[place];

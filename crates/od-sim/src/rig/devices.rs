@@ -1,4 +1,4 @@
-//! Devices come to a rig and leave it.
+//! Adds devices to a rig, and removes them.
 
 use std::prelude::v1::*;
 
@@ -9,8 +9,8 @@ use super::Rig;
 use crate::device::VirtualDevice;
 
 impl Rig {
-    /// Puts a device on the bus, set up for the bit rate of the line, and gives it power. Returns
-    /// its number. With a `place` it takes the place of the device with that number.
+    /// Adds a device to the bus, sets it up for the bit rate of the line, and switches it on. Returns
+    /// its number. With a `place` it replaces the device with that number.
     pub fn put(&mut self, mut device: VirtualDevice, place: Option<usize>) -> usize {
         let devices = self.bus.devices();
         let others = (0..).zip(devices).filter(|(at, _)| Some(*at) != place);
@@ -36,8 +36,8 @@ impl Rig {
         number
     }
 
-    /// Puts a built-in device on the bus, as [`put`](Self::put) does. The further channels of a
-    /// redundant encoder are nodes with the next node IDs on its shaft, behind all devices.
+    /// Adds a built-in device to the bus, as [`put`](Self::put) does. Further channels of a
+    /// redundant encoder are nodes with the next node IDs on the same shaft, after all devices.
     pub fn put_kind(&mut self, kind: &DeviceKind, node_id: NodeId, place: Option<usize>) -> usize {
         let first = self.put(VirtualDevice::new(kind, node_id).delivered(), place);
         for channel in 1..kind.channels {
@@ -62,7 +62,7 @@ impl Rig {
         self.settle();
     }
 
-    /// Takes a device off the bus; the numbers of those behind it go down by one.
+    /// Removes a device from the bus; the numbers of later devices decrease by one.
     pub fn remove(&mut self, device: usize) {
         if self.bus.remove(device).is_some() {
             self.clockwork.remove(device);

@@ -14,10 +14,10 @@ use crate::rig::clockwork::Clockwork;
 use crate::script::{Host, Origin, Recorder, Script, run_on};
 
 impl Rig {
-    /// Starts a lesson: its set-up takes the place of all that is on the bus, and time goes on.
+    /// Starts a lesson: its set-up replaces everything on the bus, and time continues.
     ///
     /// # Errors
-    /// The problems of the text, or of its set-up.
+    /// The problems of the text or of its set-up.
     pub fn start_lesson(
         &mut self,
         text: &str,
@@ -44,23 +44,23 @@ impl Rig {
         Ok(lesson)
     }
 
-    /// Ends the lesson; what is on the bus stays.
+    /// Ends the lesson; the devices stay on the bus.
     pub fn end_lesson(&mut self) {
         self.taken = None;
     }
 
-    /// The lesson in progress as it is now, and its bus.
+    /// The lesson in progress, and its bus.
     pub fn lesson(&mut self) -> Option<(&mut Progress, &mut Bus)> {
         self.look();
         let taken = self.taken.as_mut()?;
         Some((&mut taken.progress, &mut self.bus))
     }
 
-    /// Runs lines of a script, such as the solution of a step; time passes where they say so.
-    /// They are about the first device until `use` names another one.
+    /// Runs lines of a script, such as the solution of a step; time passes as the lines say.
+    /// They apply to the first device until `use` names another one.
     ///
     /// # Errors
-    /// The line that cannot be read or fails; what the lines before it did stays.
+    /// The line that cannot be read or that fails; the effects of earlier lines stay.
     pub fn run_script(&mut self, text: &str, host: &mut dyn Host) -> Result<(), Refused> {
         let script = Script::parse(text).map_err(|all| match all.first() {
             Some(problem) => problem.to_string(),
@@ -97,7 +97,7 @@ impl Rig {
         result.map(|_| ()).map_err(|stop| stop.to_string().into())
     }
 
-    /// A frame came through, from outside or from a device. What came over a link is a device's.
+    /// Passes a transmitted frame to the lesson. A frame from a link counts as that of a device.
     pub(super) fn watched(&mut self, seen: &Seen) {
         let (at, origin, frame) = match *seen {
             Seen::Frame { at, device, frame } => {
@@ -114,26 +114,26 @@ impl Rig {
         }
     }
 
-    /// A frame was disturbed on the bus line.
+    /// Passes a disturbed frame to the lesson.
     pub(super) fn lost(&mut self, at: Instant) {
         if let Some(taken) = &mut self.taken {
             taken.progress.disturbed(at);
         }
     }
 
-    /// Something may have changed.
+    /// Lets the lesson check its conditions again.
     pub(super) fn look(&mut self) {
         if let Some(taken) = &mut self.taken {
             taken.progress.look(&mut self.bus);
         }
     }
 
-    /// Is a lesson taken?
+    /// Returns whether a lesson is in progress.
     pub(super) fn has_pupil(&self) -> bool {
         self.taken.is_some()
     }
 
-    /// Number of checkpoints that were reached.
+    /// Number of reached checkpoints.
     pub(super) fn reached(&self) -> usize {
         let taken = self.taken.as_ref();
         taken.map_or(0, |taken| taken.progress.reached().len())

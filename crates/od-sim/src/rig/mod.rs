@@ -1,5 +1,5 @@
-//! A bench as its user has it: everything on the bus line is seen, shafts follow profiles, frames
-//! are sent in a rhythm, an SDO client asks, and a lesson watches.
+//! A bus with what its user adds: a record of all frames, profiles for shafts, cyclic frames, an SDO client,
+//! and a lesson.
 
 mod client;
 mod clockwork;
@@ -34,12 +34,12 @@ pub enum Seen {
     Frame {
         /// Time of the frame.
         at: Instant,
-        /// The device that sent it; `None` for one from outside.
+        /// The device that sent it; `None` if it came from outside.
         device: Option<usize>,
         /// The frame.
         frame: Frame,
     },
-    /// A frame that came over a link, and the device that describes its sender.
+    /// A frame from a link, with the device that describes its sender.
     Heard {
         /// Time of the event.
         at: Instant,
@@ -52,16 +52,16 @@ pub enum Seen {
     Disturbed(Disturbance),
 }
 
-/// A bus with all that goes on around it.
+/// A bus with its profiles, cyclic frames, SDO client and lesson.
 #[derive(Default)]
 pub struct Rig {
-    /// The bus. What its devices send because of a change is seen with [`settle`](Self::settle).
+    /// The bus. [`settle`](Self::settle) records the frames that devices send because of a change.
     pub bus: Bus,
     clockwork: Clockwork,
     seen: Vec<Seen>,
     asker: Asker,
     outcomes: VecDeque<Outcome>,
-    /// Devices that come describe nodes of the real bus.
+    /// Whether new devices describe nodes of a real bus.
     #[cfg(feature = "real")]
     pub(crate) describes: bool,
     /// The link to a real bus.
@@ -73,7 +73,7 @@ pub struct Rig {
 }
 
 #[cfg(feature = "real")]
-/// Frames that go out, and counts of those that did not.
+/// Frames for the link, and counts of frames that were held back or dropped.
 #[derive(Default)]
 struct Port {
     sends: bool,
@@ -88,7 +88,7 @@ struct Port {
 /// A lesson in progress, and the names that its set-up gave the devices.
 struct Taken {
     progress: Progress,
-    /// Without its bus, which is the rig's.
+    /// The bench without its bus, which belongs to the rig.
     names: Bench,
 }
 
@@ -100,8 +100,7 @@ impl Rig {
         rig
     }
 
-    /// Takes everything off the bus and starts at the origin of time again. Transfers that are
-    /// under way end: nobody answers any more.
+    /// Removes everything from the bus and starts at time 0 again. Open transfers end.
     pub fn clear(&mut self) {
         self.outcomes.extend(self.asker.give_up());
         let Self {
@@ -110,7 +109,7 @@ impl Rig {
         (self.asker, self.outcomes) = (asker, outcomes);
     }
 
-    /// Takes over the SDO client of a bench that goes: its transfers end.
+    /// Takes the SDO client of a replaced bench, and ends its transfers.
     pub(crate) fn take_client(&mut self, before: &mut Self) {
         before.clear();
         std::mem::swap(&mut self.asker, &mut before.asker);
@@ -135,7 +134,7 @@ impl Rig {
         self.settle();
     }
 
-    /// Does something with a device, and takes what it sends. `None` if it does not exist.
+    /// Calls a function with a device, and collects its frames; `None` if the device does not exist.
     pub fn with<R>(
         &mut self,
         device: usize,
@@ -146,8 +145,8 @@ impl Rig {
         result
     }
 
-    /// Lets a shaft follow `steps` from now on, pairs of rpm and milliseconds; with none it goes
-    /// on as it is.
+    /// Lets a shaft follow `steps` from now on, pairs of rpm and milliseconds; without steps it keeps
+    /// its speed.
     pub fn follow(&mut self, device: usize, steps: &[f64], repeats: bool) {
         let now = self.bus.now();
         self.clockwork.follow(device, steps, repeats, now);
@@ -158,14 +157,14 @@ impl Rig {
         self.clockwork.moves(device)
     }
 
-    /// Sends a frame at this interval in microseconds from now on; 0 ends it. `key` tells rhythms apart.
+    /// Sends a frame at this interval in microseconds from now on; 0 ends it. `key` identifies the cyclic frame.
     pub fn repeat(&mut self, key: u32, frame: Frame, micros: u64) {
         let now = self.bus.now();
         self.clockwork.repeat(key, frame, micros, now);
     }
 
-    /// Starts to read an object over the bus; the number comes back in an [`Outcome`]. The
-    /// client waits 500 ms for an answer. What it sends waits in [`request`](Self::request).
+    /// Starts to read an object over the bus; the returned number is that of the [`Outcome`]. The
+    /// client waits 500 ms for a response. [`request`](Self::request) returns its frames.
     pub fn read(&mut self, node: NodeId, address: Address) -> u32 {
         self.asker.ask(self.bus.now(), node, address, None)
     }
@@ -175,24 +174,24 @@ impl Rig {
         self.asker.ask(self.bus.now(), node, address, Some(bytes))
     }
 
-    /// Returns the next frame of the SDO client, which is to be [sent](Self::send) now.
+    /// Returns the next frame of the SDO client, for [`send`](Self::send).
     pub fn request(&mut self) -> Option<Frame> {
         self.asker.request()
     }
 
-    /// Returns the next transfer that is over.
+    /// Returns the next finished transfer.
     pub fn outcome(&mut self) -> Option<Outcome> {
         self.outcomes.pop_front().or_else(|| self.asker.poll())
     }
 
-    /// Lets time pass to `to`, with all that is due. Returns earlier when `full` things were seen
-    /// that nobody drained, a checkpoint of the lesson is reached, or the SDO client wants to send.
+    /// Advances the time to `to`. Returns earlier if `full` items wait to be drained, a checkpoint of the lesson
+    /// is reached, or the SDO client has a frame to send.
     pub fn pass(&mut self, to: Instant, full: usize) {
         let reached = self.reached();
         while self.seen.len() < full && self.reached() == reached {
             let now = self.bus.now();
-            // A request waits until all else of its moment happened, so that a run which is made
-            // again from its requests goes the same way.
+            // A request comes after all other events of its moment, so that a repeated run
+            // is the same.
             let overdue = self.asker.poll_timeout().filter(|due| *due <= to);
             let to = if self.asker.has_request() {
                 now
@@ -200,7 +199,7 @@ impl Rig {
                 overdue.unwrap_or(to)
             };
             let due = self.clockwork.due().filter(|due| *due <= to);
-            // An observer acts after each frame; a real line may have more to say between two.
+            // An observer acts after each frame; a real line may have events between two frames.
             let frames = if self.is_watched() || self.bus.line.is_real() {
                 1
             } else {
@@ -224,7 +223,7 @@ impl Rig {
 
     fn happen(&mut self, tick: Tick) {
         match tick {
-            // What waits for the line already is not sent twice: a busy line makes a rhythm slower.
+            // A cyclic frame that still waits for the line is not sent twice: a busy line makes the cycle longer.
             Tick::Send(frame) if self.bus.is_waiting(&frame) => {}
             Tick::Send(frame) => self.send(&frame),
             Tick::Rpm(device, rpm) => {
@@ -233,23 +232,23 @@ impl Rig {
         }
     }
 
-    /// Number of things that were seen and not drained.
+    /// Number of items that wait to be drained.
     pub fn pending(&self) -> usize {
         self.seen.len()
     }
 
-    /// Takes what was seen since the last call.
+    /// Returns the items since the last call.
     pub fn drain(&mut self) -> Vec<Seen> {
         std::mem::take(&mut self.seen)
     }
 
-    /// As [`drain`](Self::drain), without a list that somebody else has: shows all, and forgets it.
+    /// As [`drain`](Self::drain), without allocating a list: calls a function with each item.
     pub fn drain_to(&mut self, each: impl FnMut(&Seen)) {
         self.seen.iter().for_each(each);
         self.seen.clear();
     }
 
-    /// Takes what the devices sent, and shows it to all who look.
+    /// Collects the frames of the devices, and passes them to record, SDO client, lesson and link.
     pub fn settle(&mut self) {
         self.settle_line();
         if !self.is_watched() {
@@ -270,7 +269,7 @@ impl Rig {
         self.look();
     }
 
-    /// Is there somebody who acts on what is sent: the SDO client, a lesson, a link?
+    /// Returns whether SDO client, lesson or link react to frames.
     fn is_watched(&self) -> bool {
         self.asker.is_busy() || self.has_pupil() || self.has_link()
     }

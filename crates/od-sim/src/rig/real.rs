@@ -1,4 +1,4 @@
-//! A rig on a real bus: frames of a link come in as from outside, and what is sent here goes out.
+//! A rig on a real bus: receives the frames of a link, and sends its own frames over it.
 
 use std::prelude::v1::*;
 
@@ -6,7 +6,7 @@ use od_wire::Frame;
 
 use super::{Port, Rig, Seen};
 
-/// Most things that wait to be drained; the oldest are dropped.
+/// Limit of items that wait to be drained; the oldest are dropped.
 const MOST: usize = 20_000;
 
 impl Rig {
@@ -20,7 +20,7 @@ impl Rig {
         self.port.is_some()
     }
 
-    /// Lets frames of this side go out, or holds them back: those of the person and of every device.
+    /// Sends or holds back the frames of this side: those of the user and of all devices.
     pub fn set_sending(&mut self, on: bool) {
         if let Some(port) = &mut self.port {
             port.sends = on;
@@ -28,7 +28,7 @@ impl Rig {
         }
     }
 
-    /// A frame came over the link.
+    /// Handles a frame from the link.
     pub fn hear(&mut self, frame: &Frame) {
         let now = self.bus.now();
         self.bus.receive(frame);
@@ -43,7 +43,7 @@ impl Rig {
         self.settle();
     }
 
-    /// Returns the next frame that has to go out over the link.
+    /// Returns the next frame to send over the link.
     pub fn outgoing(&mut self) -> Option<Frame> {
         self.port.as_mut()?.out.pop_front()
     }
@@ -58,7 +58,7 @@ impl Rig {
         self.port.as_ref().map_or(0, |port| port.dropped)
     }
 
-    /// May a frame of this side be sent? On a real bus it goes out then.
+    /// Returns whether a frame of this side may be sent; on a real bus it is then queued for the link.
     pub(super) fn passes(&mut self, frame: &Frame) -> bool {
         let Some(port) = &mut self.port else {
             return true;
@@ -75,7 +75,7 @@ impl Rig {
         self.has_port()
     }
 
-    /// Keeps the newest of what was seen.
+    /// Drops the oldest items above the limit.
     pub(super) fn bound(&mut self) {
         if let Some(port) = &mut self.port
             && self.seen.len() >= 2 * MOST

@@ -6,12 +6,12 @@ use od_runtime::encoder::{Angle, Counter, Sensor};
 #[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
 pub(super) struct Unseen {
     angle: Angle,
-    /// Angle of the shaft when power went.
+    /// Angle of the shaft when the power was switched off.
     off: Option<Angle>,
 }
 
 impl Unseen {
-    /// A counter that saw all.
+    /// A counter that missed nothing.
     pub(super) const NOTHING: Self = Self {
         angle: Angle::ZERO,
         off: None,
@@ -23,22 +23,22 @@ impl Unseen {
         self.angle
     }
 
-    /// The counter knows where the shaft is.
+    /// Returns whether the counter has missed nothing.
     pub(super) fn forget(&mut self) {
         self.angle = Angle::ZERO;
     }
 
-    /// Power goes with the shaft at this angle. It may turn on; a counter that misses a crossing
-    /// of its zero does not know of it, which shows where the revolutions are not a power of two.
+    /// Switches the power off with the shaft at this angle. The shaft may continue to turn; a counter that misses a
+    /// zero crossing is then wrong, which shows if the number of revolutions is not a power of two.
     pub(super) fn power_off(&mut self, shaft: Angle) {
         self.off = Some(shaft.minus(self.angle));
     }
 
-    /// The counter starts with the shaft at this angle.
+    /// Switches the power on with the shaft at this angle.
     pub(super) fn power_on(&mut self, shaft: Angle, counter: Counter, sensor: Sensor) {
         let off = self.off.take();
         let on = shaft.minus(self.angle);
-        // Whole ranges that fit into the angle fit into its difference.
+        // Complete ranges that fit into the angle fit into its difference.
         let missed = match (counter, off) {
             (Counter::Volatile, _) => on.fractions() & !0xFFFF_FFFF,
             (_, None) => 0,

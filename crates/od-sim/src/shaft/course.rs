@@ -1,14 +1,14 @@
 //! Course of a shaft: its speed over the integration time of a speed or an acceleration.
 //!
-//! A way is in thousandths of a revolution per minute, times microseconds. Who turns the shaft
-//! by hand moves it in no time, which does not count.
+//! Distances are in thousandths of a revolution per minute times microseconds. A turn of the shaft by a user has no
+//! duration and is not part of the course.
 
 use od_runtime::Instant;
 
-/// The way of one revolution.
+/// The distance of one revolution.
 pub(super) const PER_REVOLUTION: u64 = 60_000_000_000;
 
-/// Changes of speed that are remembered: 640 ms of a change every 10 ms.
+/// Number of remembered changes of speed: 640 ms with a change every 10 ms.
 const PIECES: usize = 64;
 
 /// Factor of a fine speed, so that fractions of a thousandth are not lost.
@@ -17,9 +17,9 @@ pub(super) const FINE: i128 = 1 << 20;
 /// A speed that changes evenly.
 #[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
 pub(super) struct Ramp {
-    /// For this long; 0: it does not change.
+    /// Duration; 0: the speed does not change.
     pub(super) micros: u32,
-    /// By this much in the end.
+    /// Total change.
     pub(super) by: i64,
 }
 
@@ -27,9 +27,9 @@ impl Ramp {
     /// A speed that does not change.
     pub(super) const NONE: Self = Self { micros: 0, by: 0 };
 
-    /// The speed at its end, from `from` on.
+    /// The speed at the end of the change, which begins with the speed `from`.
     pub(super) const fn to(self, from: i32) -> i32 {
-        // The sum is the given speed.
+        // The sum is the requested speed.
         (from as i64 + self.by) as i32
     }
 
@@ -48,7 +48,7 @@ impl Ramp {
         i128::from(from) * FINE + rounded(changed, self.micros.into())
     }
 
-    /// The way of the first `micros`, rounded.
+    /// The distance in the first `micros`, rounded.
     pub(super) fn way(self, from: i32, micros: u64) -> i128 {
         let all = i128::from(self.micros);
         let ramped = i128::from(micros.min(self.micros.into()));
@@ -61,12 +61,12 @@ impl Ramp {
     }
 }
 
-/// A division by a positive number, to the nearest.
+/// Division by a positive number, rounded to the nearest.
 const fn rounded(number: i128, by: i128) -> i128 {
     (number + by / 2).div_euclid(by)
 }
 
-/// A time in which the speed is even, or changes evenly and then stays.
+/// A time in which the speed is constant, or changes evenly and is then constant.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 struct Piece {
     since: Instant,
@@ -102,7 +102,7 @@ impl Course {
         len: 1,
     };
 
-    /// From `since` on it is so. What was said of the same moment before does not count.
+    /// Sets the speed from `since` on; it replaces an earlier change at the same moment.
     pub(super) fn add(&mut self, since: Instant, milli_rpm: i32, ramp: Ramp) {
         let newest = &self.pieces[usize::from(self.newest) % PIECES];
         if newest.since < since {
@@ -120,14 +120,14 @@ impl Course {
         };
     }
 
-    /// Newest first.
+    /// The pieces, newest first.
     fn pieces(&self) -> impl Iterator<Item = &Piece> {
         let at = |back: u8| (usize::from(self.newest) + PIECES - usize::from(back)) % PIECES;
         (0..self.len).map(move |back| &self.pieces[at(back)])
     }
 
-    /// The way from one moment to another. Before the first piece that is remembered the
-    /// shaft turned as at its beginning.
+    /// The distance between two moments. Before the first remembered piece the speed is that at
+    /// its beginning.
     pub(super) fn way(&self, from: Instant, to: Instant) -> i128 {
         let (mut way, mut until) = (0, to);
         for (back, piece) in (1..).zip(self.pieces()) {
@@ -172,7 +172,7 @@ impl Course {
 }
 
 impl Piece {
-    /// The way from `from` to `to`; what lies before the piece counts with its first speed.
+    /// The distance from `from` to `to`; time before the piece has its first speed.
     fn way(&self, from: Instant, to: Instant) -> i128 {
         let before = i128::from(self.since.min(to).micros_since(from.min(self.since)));
         let until = |at: Instant| self.ramp.way(self.milli_rpm, at.micros_since(self.since));

@@ -4,11 +4,11 @@ use od_runtime::encoder::Gain;
 
 /// `amount / by` revolutions, times a gain, in whole units; rounded towards zero.
 pub(super) fn exact(amount: i128, by: i128, gain: Gain) -> i64 {
-    // A division of 128 bits takes its time, and a shaft that turns evenly has no acceleration.
+    // A division of 128 bits is slow, and a shaft at constant speed has no acceleration.
     if amount == 0 {
         return 0;
     }
-    // An amount is 2⁵⁷ at most (a way, or a difference of fine speeds), a rate 2⁶⁴.
+    // An amount is 2⁵⁷ at most (a distance, or a difference of fine speeds), a rate 2⁶⁴.
     let steps = u128::from(gain.steps) << 32;
     let rate = match gain.revolutions {
         0 | 1 => steps,
@@ -22,7 +22,7 @@ pub(super) fn exact(amount: i128, by: i128, gain: Gain) -> i64 {
     value.clamp(i64::MIN.into(), i64::MAX.into()) as i64
 }
 
-/// The speed of a shaft that turns evenly, as [`exact`] has it.
+/// The speed of a shaft at constant speed, with the result of [`exact`].
 pub(super) fn even(milli_rpm: i32, gain: Gain) -> i64 {
     const BY: u64 = 60_000;
     let is_plain = gain.revolutions <= 1 && gain.multiplier == 1 && gain.divider <= 1;
@@ -35,7 +35,7 @@ pub(super) fn even(milli_rpm: i32, gain: Gain) -> i64 {
     if milli_rpm < 0 { -value } else { value }
 }
 
-/// A division to the nearest, halves away from zero; `by` is more than 0.
+/// Division rounded to the nearest, halves away from zero; `by` is more than 0.
 const fn nearest(number: i128, by: i128) -> i128 {
     if number < 0 {
         -((by / 2 - number) / by)
@@ -44,11 +44,11 @@ const fn nearest(number: i128, by: i128) -> i128 {
     }
 }
 
-/// 2⁻¹³ steps. What lies less than that below a whole step is that step: the fractions were
-/// rounded on the way.
+/// 2⁻¹³ steps. A position less than that below a whole step counts as that step, since its fractions were
+/// rounded.
 const NEARLY: u64 = 1 << 19;
 
-/// Whole steps of 2⁻³² steps, towards zero.
+/// Whole steps from 2⁻³² steps, rounded towards zero.
 const fn whole(fractions: i128) -> i128 {
     if fractions < 0 {
         -((NEARLY as i128 - fractions) >> 32)

@@ -19,17 +19,17 @@ use rate::Rate;
 /// A shaft that turns evenly, or speeds up and slows down evenly, between two changes of its
 /// speed.
 ///
-/// It turns whether the encoder has power or not. Positive is clockwise, looking at
+/// It turns with and without power of the encoder. Positive is clockwise, seen on
 /// the encoder's flange.
 #[derive(Clone, PartialEq, Eq, Default, Debug)]
 pub struct Shaft {
     angle: Angle,
     since: Instant,
-    /// At `since`.
+    /// The angle at `since`.
     milli_rpm: i32,
-    /// Change of `milli_rpm` from there; of length 0 without a ramp.
+    /// Change of `milli_rpm` from `since` on; of length 0 without a ramp.
     ramp: Ramp,
-    /// The same while it does not change.
+    /// The same speed, for a shaft without a ramp.
     rate: Rate,
     course: Course,
     placed: Placed,
@@ -61,7 +61,7 @@ impl Shaft {
         }
     }
 
-    /// Takes angle and course of `other`: both are ends of one shaft. The counter stays.
+    /// Copies angle and course of `other`, the other end of the same shaft. The counter stays.
     pub fn follow(&mut self, other: &Self) {
         let unseen = self.unseen;
         *self = Self {
@@ -70,14 +70,14 @@ impl Shaft {
         };
     }
 
-    /// Returns the angle that the electronics know: without the revolutions that an encoder
-    /// did not count while it had no power.
+    /// Returns the angle that the electronics know: without the revolutions that the encoder
+    /// missed without power.
     #[inline]
     pub fn seen(&self, now: Instant) -> Angle {
         self.at(now).minus(self.unseen.angle())
     }
 
-    /// Returns the angle at a moment. Before the last change it is not known any more.
+    /// Returns the angle at a moment, which must not be before the last change.
     #[inline]
     pub fn at(&self, now: Instant) -> Angle {
         match self.rate.turned(now.micros_since(self.since)) {
@@ -99,14 +99,14 @@ impl Shaft {
     fn angle_on_ramp(&self, now: Instant) -> Angle {
         let micros = now.micros_since(self.since);
         let way = self.ramp.way(self.milli_rpm, micros);
-        // Less than 2³² · 2⁶⁴ a way, so 2¹²⁸ is not reached; the angle wraps.
+        // A distance is less than 2³² · 2⁶⁴, so 2¹²⁸ is not reached; the angle wraps.
         let turns = way.div_euclid(PER_REVOLUTION.into());
         let rest = way.rem_euclid(PER_REVOLUTION.into());
         let turned = (turns << 32) + (rest << 32) / i128::from(PER_REVOLUTION);
         self.angle.plus(Angle::from_fractions(turned as i64))
     }
 
-    /// Returns the position of a sensor on the shaft, before scaling, sense of rotation and
+    /// Returns the position of a sensor on the shaft, before scaling, code sequence and
     /// offset.
     pub fn raw(&self, now: Instant, sensor: Sensor) -> u64 {
         sensor.raw(self.seen(now))
@@ -151,21 +151,21 @@ impl Shaft {
         self.ramp.speed(self.milli_rpm, micros)
     }
 
-    /// Turns the shaft by an angle at once; it goes on with its speed.
+    /// Turns the shaft by an angle at once; it keeps its speed.
     pub fn turn(&mut self, now: Instant, by: Angle) {
         self.rebase(now);
         self.angle = self.angle.plus(by);
     }
 
-    /// Puts the shaft at an angle; it goes on with its speed.
+    /// Sets the angle of the shaft; it keeps its speed.
     fn set_angle(&mut self, now: Instant, angle: Angle) {
         self.rebase(now);
         self.angle = angle;
     }
 
-    /// Puts the shaft where a sensor begins to say `raw`; it goes on with its speed.
+    /// Sets the shaft to the first angle at which a sensor reports `raw`; it keeps its speed.
     ///
-    /// A host that does so at least every 20 ms turns the shaft: speed and acceleration are
+    /// Positions that a host sets at least every 20 ms are a movement: speed and acceleration are
     /// those between the positions. A single position is a jump, which has no speed.
     pub fn set_raw(&mut self, now: Instant, sensor: Sensor, raw: u64) {
         self.unseen.forget();
@@ -174,14 +174,14 @@ impl Shaft {
         self.set_angle(now, angle);
     }
 
-    /// The speed, if the shaft turned evenly since `from`, and was not set to a position.
+    /// The speed, if it was constant since `from` and no position was set.
     #[inline]
     fn even_since(&self, from: Instant) -> Option<i32> {
         let even = self.course.even_since(from);
         even.filter(|_| self.placed.is_empty())
     }
 
-    /// It has this speed and this ramp from its last change on.
+    /// Sets speed and ramp from the last change on.
     fn go(&mut self, milli_rpm: i32, ramp: Ramp) {
         (self.milli_rpm, self.ramp) = (milli_rpm, ramp);
         self.rate = match ramp.micros {
@@ -190,7 +190,7 @@ impl Shaft {
         };
     }
 
-    /// The last change is `now`: angle, speed and what is left of the ramp are those of now.
+    /// Makes `now` the last change: angle, speed and the rest of the ramp are those of now.
     fn rebase(&mut self, now: Instant) {
         let micros = now.micros_since(self.since);
         self.angle = self.at(now);
@@ -201,7 +201,7 @@ impl Shaft {
             let ramp = match left {
                 0 => Ramp::NONE,
                 _ => Ramp {
-                    // What is left is not more than what there was.
+                    // The rest of a ramp is not longer than the ramp.
                     micros: left as u32,
                     by: i64::from(to) - i64::from(from),
                 },
@@ -258,7 +258,7 @@ impl Motion for Shaft {
     }
 }
 
-/// Returns the encoder of a device at angle 0, nothing broken.
+/// Returns the encoder of a device at angle 0 without faults.
 pub fn encoder(kind: &DeviceKind) -> Encoder<Shaft> {
     Encoder::new(kind.encoder, Shaft::default()).with_sensor_of(kind.dictionary)
 }
@@ -269,7 +269,7 @@ pub(crate) fn encoder_of(dictionary: Dictionary<'_>) -> Option<Encoder<Shaft>> {
     Some(Encoder::new(profile, Shaft::default()).with_sensor_of(dictionary))
 }
 
-/// The moment `micros` before `now`, the origin at the earliest.
+/// The moment `micros` before `now`, but not before time 0.
 const fn before(now: Instant, micros: u32) -> Instant {
     Instant::from_micros(now.as_micros().saturating_sub(micros as u64))
 }

@@ -8,15 +8,15 @@ use od_runtime::encoder::Angle;
 use super::course::PER_REVOLUTION;
 
 /// The longest time between two positions of one movement, in microseconds. A position that
-/// comes later is a jump, which takes no time and has no speed.
+/// comes later is a jump, which has no duration and no speed.
 const LONGEST: u64 = 20_000;
 
-/// Way of a shaft by the positions that were set, beside the way of its course.
+/// Distance of a shaft by set positions, in addition to that of its course.
 #[derive(Clone, PartialEq, Eq, Default, Debug)]
 pub(super) struct Placed {
-    /// Moments, and the way from the first position to each.
+    /// Moments with the distance from the first position.
     ways: VecDeque<(Instant, Angle)>,
-    /// Microseconds to remember.
+    /// How long positions are remembered, in microseconds.
     interval: u32,
 }
 
@@ -33,7 +33,7 @@ impl Placed {
         self.interval = interval;
     }
 
-    /// Adds a position that lies `by` from the angle that the shaft had.
+    /// Adds a position at a distance of `by` from the previous angle.
     pub(super) fn add(&mut self, now: Instant, by: Angle) {
         let way = match self.ways.back() {
             Some((last, _)) if *last >= now => return,
@@ -48,14 +48,14 @@ impl Placed {
         }
     }
 
-    /// Returns whether no position was set.
+    /// Returns whether no position is remembered.
     #[inline]
     pub(super) fn is_empty(&self) -> bool {
         self.ways.is_empty()
     }
 
-    /// The way from one moment to another in thousandths of a revolution per minute, times
-    /// microseconds. Between two positions the shaft turned evenly.
+    /// The distance between two moments in thousandths of a revolution per minute times
+    /// microseconds, with a constant speed between two positions.
     pub(super) fn way(&self, from: Instant, to: Instant) -> i128 {
         if self.ways.is_empty() {
             return 0;
@@ -64,7 +64,7 @@ impl Placed {
         (fractions * i128::from(PER_REVOLUTION) + (1 << 51)) >> 52
     }
 
-    /// The way up to a moment, in 2⁻⁵² revolutions.
+    /// The distance up to a moment, in 2⁻⁵² revolutions.
     fn fine_way(&self, at: Instant) -> i128 {
         let later = self.ways.partition_point(|(moment, _)| *moment <= at);
         let way = |index| match self.ways.get(index) {

@@ -1,29 +1,29 @@
-//! Angle that a shaft turns by at an even speed: 2⁻³² revolutions, rounded down as the exact way has them.
+//! Angle by which a shaft turns at constant speed, in 2⁻³² revolutions, rounded down as in the exact arithmetic.
 
 use super::course::PER_REVOLUTION;
 
-/// The divisor of a way that is left when the powers of two have gone.
+/// The divisor of a distance without its powers of two.
 const ODD: u64 = PER_REVOLUTION >> PER_REVOLUTION.trailing_zeros();
 
-/// Microseconds for which the products of a [`Rate`] are exact: six days. In as many it is less than one part
-/// of [`ODD`] too fast.
+/// Microseconds for which the products of a [`Rate`] are exact: six days. In this time the error is less than
+/// one part of [`ODD`].
 const MOST: u64 = u64::MAX / ODD;
 
-/// An even speed, by what it turns in a microsecond.
+/// A constant speed, as the angle per microsecond.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct Rate {
-    /// 2⁻³² revolutions a microsecond, whole ones.
+    /// Whole 2⁻³² revolutions per microsecond.
     whole: u64,
-    /// The rest in 2⁻⁶⁴ of one, rounded up.
+    /// The fraction of that unit in 2⁻⁶⁴, rounded up.
     part: u64,
-    /// All ones for a speed less than 0, else 0.
+    /// All bits 1 for a negative speed, else 0.
     sign: i64,
-    /// Microseconds for which it holds; 0 where the speed is not even.
+    /// Microseconds for which it is exact; 0 if the speed is not constant.
     most: u64,
 }
 
 impl Rate {
-    /// Of a speed that is not even.
+    /// The rate of a speed that is not constant.
     pub(super) const NONE: Self = Self {
         whole: 0,
         part: 0,
@@ -31,7 +31,7 @@ impl Rate {
         most: 0,
     };
 
-    /// Of thousandths of a revolution per minute.
+    /// The rate of a speed in thousandths of a revolution per minute.
     pub(super) const fn even(milli_rpm: i32) -> Self {
         const { assert!(PER_REVOLUTION.trailing_zeros() <= 32) };
         let fractions =
@@ -45,7 +45,7 @@ impl Rate {
         }
     }
 
-    /// The angle in so many microseconds, if it holds for them.
+    /// The angle in this many microseconds, if the rate is exact for them.
     #[inline]
     pub(super) fn turned(&self, micros: u64) -> Option<i64> {
         if micros >= self.most {
@@ -66,7 +66,7 @@ impl Default for Rate {
 /// The angle in any time at this speed.
 pub(super) fn turned(milli_rpm: i32, micros: u64) -> i64 {
     let way = u128::from(milli_rpm.unsigned_abs()) * u128::from(micros);
-    // Revolutions past 2³² do not matter: the angle wraps there.
+    // Revolutions above 2³² do not matter, since the angle wraps.
     let turned = ((way << 32) / u128::from(PER_REVOLUTION)) as i64;
     turned.wrapping_mul(milli_rpm.signum().into())
 }
@@ -85,7 +85,7 @@ mod tests {
         for round in 0..100_000 {
             let milli_rpm = (random() as i32) >> (round % 32);
             let micros = (random() % MOST) >> (round % 39);
-            // About whole parts, too, where a quotient begins.
+            // Also near whole quotients.
             let speed = u64::from(milli_rpm.unsigned_abs()).max(1);
             let begins = ((u128::from(micros) * u128::from(speed)) << 21).div_ceil(ODD.into());
             let begins = (begins * u128::from(ODD)).div_ceil(u128::from(speed) << 21) as u64;
@@ -105,7 +105,7 @@ mod tests {
             assert_eq!(rate.turned(MOST), None);
         }
         assert_eq!(Rate::NONE.turned(0), None);
-        // Three hundred thousand years at full speed, and no panic.
+        // Three hundred thousand years at full speed do not panic.
         let _ = turned(i32::MIN, u64::MAX);
     }
 }
