@@ -25,7 +25,7 @@ fn events(client: &mut Client) -> Vec<Event> {
 }
 
 #[test]
-fn jobs_of_one_node_wait_and_those_of_several_run_side_by_side() {
+fn jobs_of_one_node_wait_and_jobs_of_several_nodes_run_at_the_same_time() {
     let mut client = Client::new();
     let first = client.read(node(1), Address::new(0x1000, 0));
     let second = client.write(node(1), Address::new(0x2000, 0), &[1]);
@@ -96,7 +96,7 @@ fn block_downloads_take_turns() {
 }
 
 #[test]
-fn options_rule_every_transfer() {
+fn options_apply_to_every_transfer() {
     let mut options = Options::SEGMENTED;
     options.limit = 8;
     options.timeout = Duration::from_millis(50);
@@ -112,7 +112,7 @@ fn options_rule_every_transfer() {
 }
 
 #[test]
-fn a_node_that_boots_is_asked_again_for_block_transfers() {
+fn block_transfers_are_tried_again_after_a_boot_up() {
     let mut client = Client::new();
     let value = pattern(100);
     let refuse = |client: &mut Client| {
@@ -204,7 +204,7 @@ fn nmt_commands_go_first() {
 }
 
 #[test]
-fn nodes_come_are_lost_and_come_back() {
+fn nodes_boot_are_lost_and_return() {
     let mut client = Client::new();
     client.watch(node(3), Duration::from_millis(100));
     assert_eq!((client.state(node(3)), client.poll_timeout()), (None, None));
@@ -261,7 +261,7 @@ fn nodes_that_are_not_watched_are_reported_too() {
 }
 
 #[test]
-fn events_of_the_bus_are_dropped_when_nobody_takes_them_but_ends_of_jobs_are_not() {
+fn a_full_queue_drops_events_of_the_bus_but_no_end_of_a_job() {
     let mut client = Client::new();
     let job = client.read(node(1), OBJECT);
     out(&mut client, 0);

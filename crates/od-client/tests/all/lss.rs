@@ -119,7 +119,7 @@ fn error_codes_of_the_slave() {
 }
 
 #[test]
-fn some_services_have_no_answer() {
+fn some_services_have_no_response() {
     for (task, request) in [
         (
             Task::SwitchGlobal {
@@ -143,7 +143,7 @@ fn some_services_have_no_answer() {
 }
 
 #[test]
-fn identification_is_answered_by_silence_too() {
+fn identification_without_a_response_finds_no_slave() {
     let ranges = Task::Identify {
         vendor: 0xEC,
         product: 0x0A,
@@ -177,7 +177,7 @@ fn identification_is_answered_by_silence_too() {
 }
 
 #[test]
-fn other_answers_do_not_count() {
+fn other_responses_are_ignored() {
     for (task, answers) in [
         (
             Task::Inquire(Part::Vendor),

@@ -127,7 +127,7 @@ fn every_position_and_length_is_exact() {
 }
 
 #[test]
-fn signs_are_those_of_the_mapped_length() {
+fn the_mapped_length_has_the_sign() {
     let tables = device();
     for (bits, raw, value) in [
         (1, 1u64, -1i64),

@@ -143,7 +143,7 @@ fn random_frames_end_every_job_and_break_nothing() {
 
 /// A server that answers every request with the same frame, for ever.
 #[test]
-fn a_server_with_one_answer_for_everything() {
+fn a_server_with_the_same_response_to_everything() {
     for command in 0..=255u8 {
         for rest in [
             "03200000000000",

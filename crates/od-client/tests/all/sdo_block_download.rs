@@ -92,7 +92,7 @@ fn values_of_whole_segments_leave_nothing_unused() {
 }
 
 #[test]
-fn what_the_server_lacks_is_sent_again() {
+fn segments_that_the_server_did_not_receive_are_sent_again() {
     let data = pattern(37);
     let mut download = downloading(true);
     assert_eq!(download.on(at(0), "581#A20104"), block(&data, 7, 4));
@@ -101,7 +101,7 @@ fn what_the_server_lacks_is_sent_again() {
 }
 
 #[test]
-fn a_server_that_takes_nothing_is_given_up() {
+fn a_server_that_confirms_no_segment_ends_the_download() {
     let data = pattern(37);
     let mut download = downloading(true);
     for _ in 0..3 {
@@ -133,7 +133,7 @@ fn block_sizes_have_to_be_valid() {
 }
 
 #[test]
-fn downloads_refuse_answers_out_of_turn() {
+fn an_unexpected_response_ends_a_block_download() {
     for answer in ["A404200004", "60032000", "C603200004", "A20404"] {
         let mut download = download(&pattern(37), options(4));
         download.talk(&[("", "C603200025")]);
@@ -178,7 +178,7 @@ fn a_server_without_block_downloads_gets_segments() {
 }
 
 #[test]
-fn a_block_download_waits_for_its_answer() {
+fn a_block_download_waits_for_its_response() {
     let mut download = download(&pattern(37), options(4));
     download.out(at(0));
     download.handle_frame(at(100), &frame("581#A403200004"));

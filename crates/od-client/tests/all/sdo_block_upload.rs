@@ -91,7 +91,7 @@ fn a_block_whose_end_is_lost_is_confirmed_after_the_timeout() {
 }
 
 #[test]
-fn a_server_that_never_sends_the_first_segment_is_given_up() {
+fn a_server_that_never_sends_the_first_segment_ends_the_upload() {
     let mut upload = uploading(28);
     for _ in 0..3 {
         upload.talk(&[("03", "-"), ("04", "A20004")]);
@@ -209,7 +209,7 @@ fn other_aborts_end_a_block_upload() {
 }
 
 #[test]
-fn uploads_refuse_answers_out_of_turn() {
+fn an_unexpected_response_ends_a_block_upload() {
     for answer in ["C604200008", "A403200004", "60032000", "C1"] {
         refuses(&mut asked(), answer, COMMAND, Expected::BlockUpload);
     }

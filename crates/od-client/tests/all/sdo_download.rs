@@ -99,7 +99,7 @@ fn aborts_of_the_server_are_reported_as_they_are() {
 }
 
 #[test]
-fn other_answers_are_out_of_turn() {
+fn other_responses_are_unexpected() {
     const CODE: &str = "01000405";
     let short = || begun(&[1], "2F03200001");
     for answer in [
@@ -119,7 +119,7 @@ fn other_answers_are_out_of_turn() {
 }
 
 #[test]
-fn silence_ends_a_transfer_after_the_timeout() {
+fn a_transfer_without_a_response_ends_after_the_timeout() {
     let mut download = in_segments();
     assert_eq!(download.poll_timeout(), Some(at(1000)));
     download.handle_timeout(at(999));
@@ -130,7 +130,7 @@ fn silence_ends_a_transfer_after_the_timeout() {
 }
 
 #[test]
-fn cancelling_aborts_what_was_begun() {
+fn cancelling_aborts_the_transfer_at_the_server() {
     let mut download = in_segments();
     download.cancel();
     download.talk(&[("", "8003200000000008"), ("20", "-")]);

@@ -124,7 +124,7 @@ fn block_sizes_out_of_range_are_the_nearest_ones() {
 }
 
 #[test]
-fn segments_that_the_bus_loses_come_again() {
+fn segments_that_the_bus_loses_are_sent_again() {
     let mut bus = Bus::one(client(blocks(20)));
     // Only segments inside a block: the node is not told that a block is over.
     bus.loses = |number, frame| {
@@ -136,7 +136,7 @@ fn segments_that_the_bus_loses_come_again() {
 }
 
 #[test]
-fn a_node_without_block_transfers_gets_segments_and_is_asked_once() {
+fn a_node_without_block_transfers_gets_segments_and_one_block_request() {
     let mut peer = peer(1, [1, 2, 3, 4]);
     peer.device_mut().profile.sdo = SdoProfile {
         block: false,
@@ -149,7 +149,7 @@ fn a_node_without_block_transfers_gets_segments_and_is_asked_once() {
 }
 
 #[test]
-fn an_upload_finds_out_too_that_a_node_has_no_block_transfers() {
+fn an_upload_also_shows_that_a_node_has_no_block_transfers() {
     let mut peer = peer(1, [1, 2, 3, 4]);
     peer.device_mut().profile.sdo.block = false;
     let mut bus = Bus::new(client(blocks(127)), vec![peer]);

@@ -120,7 +120,7 @@ fn aborts_of_the_server_are_reported_as_they_are() {
 }
 
 #[test]
-fn answers_for_another_object_are_out_of_turn() {
+fn responses_for_another_object_are_unexpected() {
     for answer in [
         "4304200001020304",
         "4303210001020304",
@@ -146,7 +146,7 @@ fn answers_for_another_object_are_out_of_turn() {
 }
 
 #[test]
-fn other_commands_are_out_of_turn() {
+fn other_commands_are_unexpected() {
     for answer in ["60032000", "00", "20", "A4032000", "C6032000", "E0"] {
         ends(
             asked(),
@@ -231,7 +231,7 @@ fn a_buffer_of_the_caller_is_a_limit_too() {
 }
 
 #[test]
-fn segments_without_data_are_not_asked_for_again_and_again() {
+fn segments_without_data_end_the_upload() {
     ends(in_segments(), "0E", "08000000", Error::NoProgress);
 }
 
@@ -260,7 +260,7 @@ fn frames_of_others_are_ignored() {
 }
 
 #[test]
-fn only_an_abort_counts_while_a_request_waits() {
+fn while_a_request_waits_only_an_abort_ends_the_transfer() {
     let mut upload = asked();
     upload.handle_frame(at(0), &frame("581#4003200000000000"));
     upload.handle_frame(at(0), &frame("581#0001020304050607"));
@@ -274,7 +274,7 @@ fn only_an_abort_counts_while_a_request_waits() {
 }
 
 #[test]
-fn silence_ends_a_transfer_after_the_timeout() {
+fn a_transfer_without_a_response_ends_after_the_timeout() {
     let mut upload = upload(Options::DEFAULT);
     assert_eq!(upload.poll_timeout(), None, "the host has not sent it yet");
     upload.handle_timeout(at(10_000));
@@ -302,7 +302,7 @@ fn each_request_has_its_own_time() {
 }
 
 #[test]
-fn cancelling_aborts_what_was_begun() {
+fn cancelling_aborts_the_transfer_at_the_server() {
     let mut upload = asked();
     upload.cancel();
     assert_eq!(upload.outcome(), Some(Err(Error::Cancelled)));

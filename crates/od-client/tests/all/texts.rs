@@ -6,7 +6,7 @@ use od_client::sdo::Expected;
 use od_wire::sdo::Response;
 
 #[test]
-fn every_answer_that_is_due_has_a_name_of_its_own() {
+fn every_expected_response_has_a_name_of_its_own() {
     use Expected::*;
     let all = [
         (Upload, "an upload answer"),
@@ -54,7 +54,7 @@ fn errors_name_their_numbers() {
 }
 
 #[test]
-fn whoever_has_to_wait_or_has_no_room_is_told_why() {
+fn busy_and_full_are_explained() {
     let busy = "the LSS master is at work on another service";
     assert_eq!(od_client::lss::Busy.to_string(), busy);
     assert_eq!(

@@ -34,7 +34,7 @@ fn the_table_has_an_end() {
 }
 
 #[test]
-fn only_watched_nodes_count() {
+fn only_watched_nodes_are_reported() {
     let mut watch: Watch<1> = Watch::new();
     assert_eq!(watch.add(node(1), None), Ok(()));
     beat(&mut watch, 0, 2, 5);
@@ -52,7 +52,7 @@ fn only_watched_nodes_count() {
 }
 
 #[test]
-fn the_first_deadline_of_all_counts() {
+fn the_timeout_is_the_first_deadline_of_all_nodes() {
     let mut watch: Watch<3> = Watch::new();
     for (raw, millis) in [(1, 300), (2, 100), (3, 200)] {
         assert_eq!(
@@ -112,7 +112,7 @@ fn a_boot_up_message_begins_the_states_again() {
 }
 
 #[test]
-fn another_time_counts_from_the_next_heartbeat() {
+fn a_new_time_applies_from_the_next_heartbeat_on() {
     let mut watch: Watch<1> = Watch::new();
     assert_eq!(watch.add(node(1), Some(Duration::from_millis(10))), Ok(()));
     beat(&mut watch, 0, 1, 5);
