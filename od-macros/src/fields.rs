@@ -1,6 +1,7 @@
 //! The fields between the braces of `add` and `modify`: `key = value;`.
 
 use od_eds::patch::{Change, Raw};
+use od_eds::row::FIELDS;
 use proc_macro2::{Delimiter, Ident, Span, TokenTree};
 use syn::parse::{Parse, ParseStream};
 use syn::{Lit, Token, ext::IdentExt};
@@ -14,9 +15,6 @@ pub(crate) struct Field {
     pub(crate) place: Place,
 }
 
-const NAMES: [&str; 10] = [
-    "name", "type", "access", "default", "low", "high", "mappable", "save", "code", "capacity",
-];
 const KEYS: &str = "`name`, `type`, `access`, `default`, `low`, `high`, `mappable`, `save`, `code` or \
      `capacity`";
 
@@ -62,10 +60,10 @@ fn field(body: ParseStream) -> syn::Result<(Ident, Field)> {
     let key = Ident::parse_any(body)
         .map_err(|e| syn::Error::new(e.span(), format!("expected {KEYS}")))?;
     let name = key.to_string();
-    if !NAMES.contains(&name.as_str()) {
+    if !FIELDS.contains(&name.as_str()) {
         return Err(syn::Error::new(
             key.span(),
-            match words::near(&name, NAMES.into_iter()) {
+            match words::near(&name, FIELDS.into_iter()) {
                 Some(meant) => format!("`{key}` is not a field\nhelp: did you mean `{meant}`?"),
                 None => format!("`{key}` is not a field\nhelp: a field is {KEYS}"),
             },

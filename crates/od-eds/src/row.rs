@@ -10,6 +10,11 @@ use crate::fact::{Fact, Key};
 use crate::fix::Applicability;
 use crate::patch::Target;
 
+/// The fields of a row, by their words.
+pub const FIELDS: [&str; 10] = [
+    "name", "type", "access", "default", "low", "high", "mappable", "save", "code", "capacity",
+];
+
 /// The types, each by its word; the macro takes the other names of CiA 301, too.
 pub const TYPES: [(&str, DataType); 25] = [
     ("bool", DataType::Boolean),

@@ -1,7 +1,9 @@
 //! The object or sub-object of an edit.
 
-use alloc::string::ToString;
+use alloc::format;
+use alloc::string::{String, ToString};
 use core::fmt;
+use core::str::FromStr;
 
 use crate::fact::Fact;
 use crate::finding::{Finding, Rule};
@@ -69,6 +71,64 @@ impl fmt::Display for Target {
         match self.sub {
             Some(sub) => write!(f, "0x{:04X}sub{sub:X}", self.index),
             None => write!(f, "0x{:04X}", self.index),
+        }
+    }
+}
+
+/// Reads `0x6004` or `0x1018sub2`, with underscores and in any case. The error is a sentence with a help line.
+impl FromStr for Target {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let lower = text.replace('_', "").to_ascii_lowercase();
+        let Some(hex) = lower.strip_prefix("0x") else {
+            let help = match text.parse::<u16>() {
+                Ok(index) => format!("`0x{text}`; or `0x{index:04X}`, which is {text}"),
+                Err(_) => "for example `0x6004` or `0x1018sub2`".to_string(),
+            };
+            return Err(format!("an index is written in hex\nhelp: {help}"));
+        };
+        let (index, sub) = match hex.split_once("sub") {
+            Some((index, sub)) => (index, Some(sub)),
+            None => (hex, None),
+        };
+        let index = u16::from_str_radix(index, 16).map_err(|_| {
+            format!("`{text}` is not an index\nhelp: four hex digits, `0x0001` to `0xFFFF`")
+        })?;
+        let sub = sub.map(|sub| {
+            u8::from_str_radix(sub, 16).map_err(|_| {
+                format!(
+                    "`{text}` has no sub-index\nhelp: up to two hex digits behind `sub`: \
+                     `0x{index:04X}sub0` to `0x{index:04X}subFF`"
+                )
+            })
+        });
+        Ok(Self {
+            index,
+            sub: sub.transpose()?,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn targets_are_spelled_as_in_the_eds() {
+        let parse = |text: &str| text.parse::<Target>();
+        assert_eq!(parse("0x6004"), Ok(Target::object(0x6004)));
+        assert_eq!(parse("0x1018sub2"), Ok(Target::member(0x1018, 2)));
+        assert_eq!(parse("0x1a00Sub1F"), Ok(Target::member(0x1A00, 0x1F)));
+        for bad in [
+            "6004",
+            "0x1018sub",
+            "0x1018sub100",
+            "0x12345",
+            "0x1018u8",
+            "0x",
+        ] {
+            assert!(parse(bad).is_err(), "{bad}");
         }
     }
 }

@@ -148,7 +148,7 @@ fn statement(source: &str, tokens: &[Token], at: usize, word: &str) -> (Statemen
         .filter(|token| token.kind == Kind::Number);
     let target = number.and_then(|token| {
         let text = source.get(token.bytes.clone())?;
-        Some((target(text)?, token.bytes.clone()))
+        Some((text.parse().ok()?, token.bytes.clone()))
     });
     let mut next = at + 1 + usize::from(number.is_some());
     let mut fields = Vec::new();
@@ -181,22 +181,6 @@ fn statement(source: &str, tokens: &[Token], at: usize, word: &str) -> (Statemen
         variant: None,
     };
     (statement, next)
-}
-
-/// `0x1018sub2`
-pub(crate) fn target(text: &str) -> Option<Target> {
-    let lower = text.replace('_', "").to_ascii_lowercase();
-    let hex = lower.strip_prefix("0x")?;
-    let (index, sub) = match hex.split_once("sub") {
-        Some((index, sub)) => (index, Some(sub)),
-        None => (hex, None),
-    };
-    let index = u16::from_str_radix(index, 16).ok()?;
-    let sub = match sub {
-        Some(sub) => Some(u8::from_str_radix(sub, 16).ok()?),
-        None => None,
-    };
-    Some(Target { index, sub })
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@ use std::ops::Range;
 use od_eds::Description;
 use od_eds::outline::{Place, profile_objects};
 use od_eds::patch::Target;
-use od_eds::row::{CODES, GROUPS, TYPES};
+use od_eds::row::{CODES, FIELDS, GROUPS, TYPES};
 use od_model::Access;
 
 use crate::file::File;
@@ -185,11 +185,7 @@ fn fields(before: &str) -> Vec<(String, String)> {
     let field = before.rsplit([';', '{']).next().unwrap_or_default().trim();
     let owned = |word: &str| (word.to_owned(), String::new());
     let Some(key) = field.strip_suffix('=').map(str::trim_end) else {
-        let names = [
-            "name", "type", "access", "default", "low", "high", "mappable", "save", "code",
-            "capacity",
-        ];
-        return names.into_iter().map(owned).collect();
+        return FIELDS.into_iter().map(owned).collect();
     };
     match key {
         "type" => TYPES
