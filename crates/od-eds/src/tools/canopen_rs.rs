@@ -1,7 +1,7 @@
 //! canopen-rs, whose reader is the crate `canopen-host`.
 //!
-//! It takes no node ID but that of `[DeviceComissioning]`, skips lines that it does not know, and rejects access
-//! types and values that it does not know.
+//! It uses only the node ID of `[DeviceComissioning]`, ignores unknown lines, and rejects unknown access
+//! types and values.
 
 use alloc::collections::BTreeMap;
 use alloc::string::String;
@@ -95,7 +95,7 @@ fn sum(text: &str, node_id: i128) -> Option<i128> {
 /// Reads a value as the tool does.
 fn value(text: &str, data_type: i128, node_id: i128) -> Option<Read> {
     let number = || sum(text, node_id);
-    // It cuts bits off, and takes what is left.
+    // It uses the low bits only.
     Some(match data_type {
         0x8 if text.is_empty() => Read::Real(0.0),
         0x8 => Read::Real(f64::from(text.parse::<f32>().ok()?)),
@@ -115,7 +115,7 @@ fn value(text: &str, data_type: i128, node_id: i128) -> Option<Read> {
     })
 }
 
-/// The bytes that have room in its strings.
+/// The bytes that fit into its strings.
 fn cut(text: &str) -> &[u8] {
     &text.as_bytes()[..text.len().min(32)]
 }
@@ -128,7 +128,7 @@ fn sections<'a>(text: &'a str, has_mark: bool) -> BTreeMap<String, Fields<'a>> {
     for line in lines_by_newline(text) {
         let Line { text, number, .. } = line;
         let trimmed = text.trim();
-        // A byte order mark makes the first line a text that it does not know.
+        // After a byte order mark it does not know the first line.
         if trimmed.is_empty() || trimmed.starts_with(';') || has_mark && number == 1 {
             continue;
         }

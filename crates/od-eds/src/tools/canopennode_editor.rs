@@ -1,6 +1,6 @@
 //! CANopenEditor of CANopenNode (libEDSsharp), by its public source; it was not run.
 //!
-//! An object with a fault is left out without a word to the user, a list with a fault stops the file.
+//! It ignores an object with an error without telling the user; an error in a list stops the file.
 
 use alloc::collections::BTreeMap;
 use alloc::string::String;
@@ -94,7 +94,7 @@ struct Section<'a> {
     pairs: BTreeMap<&'a str, (&'a str, Span)>,
 }
 
-/// The sections in file order; of two keys the first one counts.
+/// The sections in file order; of duplicate keys the first one is used.
 fn sections(text: &str) -> alloc::vec::Vec<Section<'_>> {
     let mut sections: alloc::vec::Vec<Section<'_>> = alloc::vec::Vec::new();
     let mut names: BTreeMap<&str, usize> = BTreeMap::new();
@@ -201,7 +201,7 @@ fn read(input: &Input<'_>) -> Reading {
 
 type Fault = (usize, String, Span);
 
-/// Reads an object's section as the tool does; the number of a sentence if it leaves the section out.
+/// Reads an object's section as the tool does; the number of a sentence if the tool ignores the section.
 fn object(section: &Section<'_>, is_orphan: bool) -> Result<Option<ReadEntry>, Fault> {
     let get = |key: &str| section.pairs.get(key);
     let missing = |key: &str| (0, String::from(key), section.header);

@@ -1,4 +1,4 @@
-//! What tools make of a file, and whether it is what odkit reads.
+//! Compares how tools read a file with how odkit reads it.
 
 use alloc::collections::BTreeSet;
 use alloc::format;
@@ -13,19 +13,19 @@ use crate::tools::compare::Compare;
 use crate::tools::shared;
 use crate::tools::tool::{Input, Reading, Tool};
 
-/// Result of a tool for a file.
+/// Verdict of a tool on a file.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Verdict {
-    /// The tool reads all of it, as odkit does.
+    /// The tool reads all of it in the same way as odkit.
     Accepts,
-    /// The tool drops something, or reads it as something else.
+    /// The tool drops content, or reads it differently.
     Differs,
-    /// The tool gives it up.
+    /// The tool rejects it.
     Rejects,
 }
 
 impl Verdict {
-    /// In a word or two.
+    /// One or two words.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Accepts => "accepts",
@@ -35,7 +35,7 @@ impl Verdict {
     }
 }
 
-/// The verdict that the findings of one tool make.
+/// The verdict that follows from the findings of one tool.
 pub fn verdict(findings: &[Finding]) -> Verdict {
     match findings {
         [] => Verdict::Accepts,
@@ -74,10 +74,10 @@ pub fn reading(document: &Document, tool: &Tool) -> Reading {
     reading
 }
 
-/// Returns what these tools reject, drop or read differently, in file order, without findings that the text
-/// allows. A fix suits all of them.
+/// Returns findings about content that these tools reject, drop or read differently, in file order, without
+/// findings that the text allows. A fix is right for all of the tools.
 ///
-/// `description` is what odkit reads of the file.
+/// `description` is the description that odkit read.
 pub fn check(
     document: &Document,
     description: &Description,
@@ -101,7 +101,7 @@ pub fn check(
         let rejected = reading.is_rejected();
         let of_text = reading.findings.into_iter();
         own.extend(of_text.filter(|finding| !rejected || finding.is_error()));
-        // Members of CompactSubObj come from one section, and some tools look at a value twice.
+        // Sub-objects of CompactSubObj come from one section, and some tools check a value twice.
         let mut known = BTreeSet::new();
         own.retain(|finding| {
             let is_name = |fact: &&(&str, _)| finding.object.is_none() && fact.0 == "name";

@@ -1,4 +1,4 @@
-//! CODESYS, by its public help; it was not tried.
+//! CODESYS, by its public help; it was not run.
 
 use crate::finding::Rule;
 use crate::scan::lines::lines;

@@ -21,7 +21,7 @@ use crate::tools::tool::{
 pub(crate) struct Compare<'a> {
     /// The text of the file.
     pub(crate) text: &'a str,
-    /// The tools that a fix has to suit.
+    /// The tools for which a fix must be right.
     pub(crate) tools: &'a [&'static Tool],
     pub(crate) rules: &'static Differences,
     /// The node ID of the tool.
@@ -171,7 +171,7 @@ impl Compare<'_> {
         );
     }
 
-    /// Adds the fix that writes `text`, under the key as the standard spells it.
+    /// Adds the fix that writes `text`, with the key in the spelling of the standard.
     fn fixed(&mut self, finding: Finding, key: Key, span: Span, text: Option<String>, drops: bool) {
         let edit = text.and_then(|text| {
             let written = self.text.get(span.start as usize..span.end as usize)?;
@@ -200,7 +200,7 @@ impl Compare<'_> {
     }
 }
 
-/// The key in front of a value, and its place.
+/// The key of a value, and its place.
 fn key_before(text: &str, value: Span) -> Option<(Span, &str)> {
     let before = text.get(..value.start as usize)?;
     let start = before.rfind(['\n', '\r']).map_or(0, |at| at + 1);
@@ -216,7 +216,7 @@ fn key_before(text: &str, value: Span) -> Option<(Span, &str)> {
     Some((span, key))
 }
 
-/// Is it the same value?
+/// Returns whether the values are the same.
 fn same(own: &Value, data_type: Option<DataType>, read: &Read, node_id: i128) -> bool {
     match (own, read) {
         (Value::Real(own), Read::Real(read)) => {
@@ -232,7 +232,7 @@ fn same(own: &Value, data_type: Option<DataType>, read: &Read, node_id: i128) ->
     }
 }
 
-/// Texts that say the value, the usual one first.
+/// Texts for the value, the usual one first.
 fn candidates(own: &Value, data_type: Option<DataType>) -> Vec<String> {
     let usual = values::text(own, data_type);
     match own {

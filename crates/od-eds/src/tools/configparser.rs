@@ -1,4 +1,4 @@
-//! Python's `configparser`: the lines of a text as it takes them.
+//! Python's `configparser`: reads the lines of a text as it does.
 
 use alloc::borrow::Cow;
 use alloc::collections::{BTreeMap, BTreeSet};
@@ -10,11 +10,11 @@ use crate::scan::lines::{Line, lines};
 use crate::span::Span;
 use crate::tools::python::{is_space, strip};
 
-/// Options with which a tool sets the parser up.
+/// Options of the parser in a tool.
 pub(crate) struct Dialect {
-    /// Characters that begin a comment behind a blank.
+    /// Characters that begin a comment after a blank.
     pub(crate) inline: &'static [char],
-    /// Are names of sections and keys the same in any case?
+    /// Whether the names of sections and keys are case-insensitive.
     pub(crate) folds: bool,
 }
 
@@ -25,13 +25,13 @@ pub(crate) enum Fault<'a> {
     NoSection(Span),
     /// A line that is not a section, `key=value` or a comment.
     NoPair(Span),
-    /// A section that was there before.
+    /// A duplicate section.
     Section {
         name: &'a str,
         at: Span,
         first: Span,
     },
-    /// A key that its section had before.
+    /// A duplicate key in a section.
     Key {
         key: &'a str,
         line: Span,
@@ -51,7 +51,7 @@ pub(crate) struct Pair<'a> {
     pub(crate) at: Span,
 }
 
-/// One section, with all that sections of its name have.
+/// One section, with the keys of all sections of this name.
 #[derive(Debug, Default)]
 pub(crate) struct Section<'a> {
     pub(crate) name: Cow<'a, str>,
@@ -60,13 +60,13 @@ pub(crate) struct Section<'a> {
     keys: BTreeMap<Cow<'a, str>, usize>,
 }
 
-/// A text as the parser has it.
+/// The parsed text.
 #[derive(Debug, Default)]
 pub(crate) struct Ini<'a> {
     pub(crate) sections: Vec<Section<'a>>,
     pub(crate) faults: Vec<Fault<'a>>,
     names: BTreeMap<Cow<'a, str>, usize>,
-    /// `[DEFAULT]`, whose keys every section has.
+    /// `[DEFAULT]`, whose keys belong to every section.
     default: Option<usize>,
     folds: bool,
 }
@@ -179,9 +179,9 @@ struct Reader<'a> {
     ini: Ini<'a>,
     inline: &'static [char],
     section: Option<usize>,
-    /// The pair that a deeper line continues.
+    /// The pair that an indented line continues.
     option: Option<usize>,
-    /// Empty lines behind it.
+    /// Number of empty lines after it.
     blank: usize,
     indent: usize,
     /// Headers as written, which must be unique.
@@ -295,7 +295,7 @@ impl<'a> Reader<'a> {
             let first = first.map_or(line.span(key), |pair| pair.at);
             let line = line.span(strip(line.text));
             self.ini.faults.push(Fault::Key { key, line, first });
-            // The first one counts where odkit reads the file.
+            // odkit uses the first one.
             return;
         }
         let (span, at) = (line.span(rest), line.span(key));

@@ -1,6 +1,6 @@
 //! dcf-tools, the package of Lely: `dcflint` and `dcfgen`.
 //!
-//! It checks a file before it reads it: keys and sections that it does not know are faults, and so are values beyond
+//! It checks a file before reading it: unknown keys and sections are errors, and so are values outside the range of
 //! their type. A node ID is given, as in `dcflint -n 1 device.eds`.
 
 use crate::span::Span;

@@ -6,7 +6,7 @@ use crate::tools::{
     canopen_rs, canopennode_editor, codesys, dcf_tools, npm_canopen, python_canopen, twincat,
 };
 
-/// Every tool, those that were tried first.
+/// All tools; those that were run come first.
 pub static TOOLS: &[&Tool] = &[
     &python_canopen::TOOL,
     &dcf_tools::TOOL,

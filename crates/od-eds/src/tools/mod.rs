@@ -1,7 +1,7 @@
-//! Tools that read device files: what each rejects, drops, or reads otherwise than the standard says.
+//! Tools that read device files: the content that each rejects, drops or reads differently from the standard.
 //!
-//! A tool reads text, not odkit's description of it. So each has a reader of its own here, which takes the lines
-//! as they are and says what the tool makes of them; what it makes is compared with the description.
+//! A tool reads text, not odkit's description of it. Each therefore has a reader of its own here, which reads the
+//! lines as the tool does; its result is compared with the description.
 //!
 //! ```
 //! use od_eds::{Document, tools};

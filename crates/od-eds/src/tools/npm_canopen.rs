@@ -1,6 +1,6 @@
 //! The package `canopen` of npm, which reads with the package `ini`.
 //!
-//! It takes any text for INI, and rejects objects whose keys it does not expect. Numbers are JavaScript's.
+//! It reads any text as INI, and rejects objects with unexpected keys. Its numbers are those of JavaScript.
 
 use crate::fact::Key;
 use crate::tools::tool::{Read, Tool};

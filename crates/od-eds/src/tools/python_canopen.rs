@@ -1,7 +1,7 @@
 //! python-canopen, the `canopen` package of PyPI.
 //!
-//! It reads with `configparser`, keys in their case, comments behind ` ;`, and gives up a file at the first thing
-//! that it does not expect. A node ID is given, as in `network.add_node(1, "device.eds")`.
+//! It reads with `configparser`, with case-sensitive keys and comments after ` ;`, and rejects a file at the first
+//! unexpected content. A node ID is given, as in `network.add_node(1, "device.eds")`.
 
 use crate::fact::Key;
 use crate::tools::tool::Tool;

@@ -1,4 +1,4 @@
-//! Parts that the readers of several tools share.
+//! Parts of several readers.
 
 use crate::finding::{Fixability, Form, Rule};
 use crate::fix::Fix;
@@ -8,7 +8,7 @@ use crate::tools::tool::{REJECTS, Reading};
 /// The node ID for which a tool reads a file.
 pub(crate) const NODE_ID: i128 = 1;
 
-/// A section by its name, as python-canopen and others that took over its patterns tell them apart.
+/// The kind of a section by its name, with the patterns of python-canopen, which other tools use, too.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) enum Names {
     Object(u32),

@@ -1,4 +1,4 @@
-//! A tool that reads device files, and what it makes of one.
+//! A tool that reads device files, and the result of reading one.
 
 use alloc::collections::BTreeMap;
 use alloc::string::String;
@@ -13,20 +13,20 @@ pub(crate) type ReadValue = fn(Key, &str, i128) -> Option<Read>;
 /// A program or a library that reads EDS and DCF files.
 #[derive(Debug)]
 pub struct Tool {
-    /// Its name, as `--for` takes it.
+    /// Its name in `--for`.
     pub name: &'static str,
-    /// The version whose behaviour the rules have.
+    /// The version that the rules describe.
     pub version: &'static str,
     /// The package that was run, or the public text that describes the behaviour.
     pub source: &'static str,
-    /// Were the rules held against the tool itself?
+    /// Whether the rules were compared with the tool itself.
     pub tried: bool,
     /// Rules about content that it rejects, drops or reads differently.
     pub rules: &'static [&'static Rule],
     pub(crate) read: fn(&Input<'_>) -> Reading,
-    /// Reads the text of a value as the tool does; `None` for a tool of which that is not known.
+    /// Reads the text of a value as the tool does; `None` if this is not known.
     pub(crate) value: Option<ReadValue>,
-    /// Rules of the findings about single values; `None` for a tool of which these are not known.
+    /// Rules for findings about single values; `None` if they are not known.
     pub(crate) differences: Option<&'static Differences>,
 }
 
@@ -36,22 +36,22 @@ impl PartialEq for Tool {
     }
 }
 
-/// A file as a tool finds it.
+/// The text of a file, as a tool receives it.
 pub(crate) struct Input<'a> {
-    /// The text behind a byte order mark; `None` if it is not UTF-8.
+    /// The text after a byte order mark; `None` if it is not UTF-8.
     pub(crate) text: Option<&'a str>,
-    /// The bytes of the file behind the mark.
+    /// The bytes of the file after the mark.
     pub(crate) bytes: &'a [u8],
-    /// The text as odkit reads it, whatever the encoding.
+    /// The text as odkit decodes it.
     pub(crate) decoded: &'a str,
-    /// Does it begin with the byte order mark of UTF-8?
+    /// Whether it begins with the byte order mark of UTF-8.
     pub(crate) has_mark: bool,
 }
 
 /// A value as a tool reads it.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Read {
-    /// A number; what is beyond 127 bits is cut.
+    /// A number, limited to 127 bits.
     Number(i128),
     /// A real.
     Real(f64),
@@ -75,21 +75,21 @@ pub struct ReadEntry {
     pub high: Option<Option<Read>>,
 }
 
-/// All that a tool reads of a file.
+/// The result of reading a file with a tool.
 #[derive(Clone, Debug, Default)]
 pub struct Reading {
-    /// The faults that it stops at, and what else its rules report.
+    /// The errors at which it stops, and other findings of its rules.
     pub findings: Vec<Finding>,
-    /// The values by index and sub-index. Without meaning if the tool rejects the file.
+    /// The values by index and sub-index; not used if the tool rejects the file.
     pub entries: BTreeMap<(u32, u32), ReadEntry>,
-    /// Objects whose members it makes when a program asks for them.
+    /// Objects whose sub-objects it makes when a program accesses them.
     pub on_demand: Vec<u32>,
-    /// The node ID for which it makes values; `None` for the one that it was given.
+    /// The node ID for which it computes values; `None` for the requested one.
     pub node_id: Option<i128>,
 }
 
 impl Reading {
-    /// Does the tool give the file up?
+    /// Returns whether the tool rejects the file.
     pub fn is_rejected(&self) -> bool {
         self.findings.iter().any(Finding::is_error)
     }
@@ -103,7 +103,7 @@ impl Reading {
 /// Rules of a tool's findings about single values.
 #[derive(Debug)]
 pub(crate) struct Differences {
-    /// An object or a member that it does not read.
+    /// An object or a sub-object that it does not read.
     pub(crate) drops: Rule,
     /// A default or configured value that it drops or reads as another one.
     pub(crate) value: Rule,
@@ -113,7 +113,7 @@ pub(crate) struct Differences {
     pub(crate) field: Rule,
 }
 
-/// Sentences of a value: that the tool drops it, and what to write so that all chosen tools read it.
+/// Sentences about a value: the tool drops it, and the text that all chosen tools read.
 pub(crate) const DROPPED: Form = Form {
     says: "{tool} drops {key}, which is {own}",
     ..Form::OWN
@@ -180,7 +180,7 @@ impl Differences {
     }
 }
 
-/// A rule about what a tool stops at.
+/// A rule about an error at which a tool stops.
 pub(crate) const REJECTS: Rule = Rule {
     severity: Severity::Error,
     why: "The tool stops there and reads nothing of the file.",
@@ -188,7 +188,7 @@ pub(crate) const REJECTS: Rule = Rule {
     ..Rule::NEW
 };
 
-/// A rule about what a tool drops or reads otherwise.
+/// A rule about content that a tool drops or reads differently.
 pub(crate) const OTHERWISE: Rule = Rule {
     severity: Severity::Warning,
     why: "The tool reads the file, but a part of it differently from the standard.",

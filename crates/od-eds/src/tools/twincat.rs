@@ -1,4 +1,4 @@
-//! TwinCAT with an EL6751, by its public help; it was not tried.
+//! TwinCAT with an EL6751, by its public help; it was not run.
 
 use crate::finding::Rule;
 use crate::scan::lines::sections;

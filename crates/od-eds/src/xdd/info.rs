@@ -1,4 +1,4 @@
-//! The content of an XDD besides its objects, as the sections that an EDS has for it.
+//! The content of an XDD besides its objects, as sections of an EDS.
 
 use alloc::format;
 use alloc::string::{String, ToString};
@@ -17,7 +17,7 @@ pub(super) const COMMENTS: &str = "Comments";
 /// Name of the characteristic that holds FileRevision.
 pub(super) const REVISION: &str = "File revision";
 
-/// FileInfo, DeviceInfo, DummyUsage, Comments and DeviceComissioning, as far as the file gives them.
+/// FileInfo, DeviceInfo, DummyUsage, Comments and DeviceComissioning, if the file has them.
 pub(super) fn sections(root: Node<'_, '_>, reader: &mut Reader<'_>) -> Vec<Placed<'static>> {
     let mut made = Vec::new();
     let mut bodies = below(root, "ProfileBody");
@@ -67,7 +67,7 @@ fn file_info(root: Node<'_, '_>, body: Node<'_, '_>, reader: &Reader<'_>) -> Pla
     made.placed
 }
 
-/// The place of a characteristic of this name, and its contents.
+/// Place and contents of the characteristic with this name.
 fn characteristic(
     root: Node<'_, '_>,
     name: &str,
@@ -182,7 +182,7 @@ fn dummies(root: Node<'_, '_>, reader: &Reader<'_>) -> Option<Placed<'static>> {
         let Some((key, value)) = entry.split_once('=') else {
             continue;
         };
-        // Anything else could not be a key of an EDS.
+        // Other texts cannot be keys of an EDS.
         let key = key.trim();
         if key.bytes().all(|byte| byte.is_ascii_alphanumeric()) {
             let value = Spanned::new(value.trim().to_string(), entry.span);

@@ -1,4 +1,4 @@
-//! Objects and members: attributes of the object list, with what their parameters say.
+//! Objects and sub-objects: attributes of the object list, completed by their parameters.
 
 use alloc::format;
 use alloc::string::{String, ToString};
@@ -174,7 +174,7 @@ fn storage(made: &mut Made, parameter: Option<Parameter<'_, '_>>, reader: &Reade
     made.placed.storage = group.map(|group| Spanned::new(group.value.into(), group.span));
 }
 
-/// The fields of a value: what the object says, else what its parameter says.
+/// The fields of a value: those of the object, else those of its parameter.
 fn value(
     made: &mut Made,
     node: Node<'_, '_>,
@@ -236,8 +236,8 @@ fn data_type(
     Some(Spanned::new(format!("0x{:04X}", data_type.code()), header))
 }
 
-/// AccessType and PDOMapping. An object that is for one direction only is rwr or rww
-/// where a master can write it too.
+/// AccessType and PDOMapping. An object that is mapped in one direction only is rwr or rww
+/// if a master can write it, too.
 fn access(
     node: Node<'_, '_>,
     parameter: Option<Parameter<'_, '_>>,

@@ -1,4 +1,4 @@
-//! The XML behind a reader: elements, attributes and texts with their places.
+//! The XML of a file: elements, attributes and texts with their places.
 
 use alloc::borrow::Cow;
 use alloc::collections::BTreeMap;
@@ -34,7 +34,7 @@ impl<'a> Places<'a> {
         }
     }
 
-    /// The empty place at a line and a column, both counted from 1.
+    /// The empty range at a line and a column, both counted from 1.
     pub(super) fn at(&self, line: u32, column: u32) -> Span {
         let start = self.lines.get(line as usize - 1).copied().unwrap_or(0);
         let within = self.text[start..]
@@ -79,7 +79,7 @@ impl<'a> Reader<'a> {
         self.places.span(range.start..range.start + end)
     }
 
-    /// An attribute by its local name, with blanks cut off; `None` where it is missing.
+    /// An attribute by its local name, without blanks at its ends; `None` if missing.
     pub(super) fn attribute(&self, node: Node<'_, '_>, name: &str) -> Option<Spanned<String>> {
         let found = node
             .attributes()
@@ -88,7 +88,7 @@ impl<'a> Reader<'a> {
         Some(Spanned::new(one_line(found.value()), span))
     }
 
-    /// The text of an element, with blanks cut off.
+    /// The text of an element, without blanks at its ends.
     pub(super) fn text(&self, node: Node<'_, '_>) -> Option<Spanned<String>> {
         let text = node.children().find(Node::is_text)?;
         let span = self.places.span(text.range());
@@ -96,7 +96,7 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// A text as an EDS can hold it: in one line.
+/// A text in one line, as in an EDS.
 fn one_line(text: &str) -> String {
     let mut words = String::with_capacity(text.len());
     for (at, line) in text.trim().split(['\r', '\n']).enumerate() {
@@ -126,7 +126,7 @@ pub(super) fn below<'a, 'i>(
         .filter(move |child| child.is_element() && child.tag_name().name() == name)
 }
 
-/// Elements by the uniqueID that others refer to.
+/// Elements by their uniqueID, to which others refer.
 pub(super) struct Ids<'a, 'i>(BTreeMap<&'a str, Node<'a, 'i>>);
 
 impl<'a, 'i> Ids<'a, 'i> {
@@ -145,7 +145,7 @@ impl<'a, 'i> Ids<'a, 'i> {
     }
 }
 
-/// A section in the making.
+/// A section that is being built.
 pub(super) struct Made {
     pub(super) placed: Placed<'static>,
 }
@@ -158,7 +158,7 @@ impl Made {
         }
     }
 
-    /// Adds a key, if there is a value for it and the key is not there yet.
+    /// Adds a key if it has a value and does not exist yet.
     pub(super) fn put(&mut self, key: &str, value: Option<Spanned<String>>) {
         if let Some(value) = value
             && self.placed.get(key).is_none()

@@ -25,8 +25,8 @@ const HEAD: &str = "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<ISO15745Profile
 /// The XDD of a description; an XDC, with actual values and commissioning, where it is that of
 /// a configured device (a DCF).
 ///
-/// Reading the text again gives the same objects. Objects say everything themselves; those
-/// that 1010h saves have a parameter besides, which holds the group.
+/// Reading the text again gives the same objects. Objects contain everything themselves; those
+/// that 1010h saves also have a parameter with the group.
 pub fn write(description: &Description) -> String {
     let mut out = Xml::new(HEAD);
     let info = |key: &str| value(description, "FileInfo", key);
@@ -135,14 +135,14 @@ fn device(out: &mut Xml, description: &Description) {
     });
 }
 
-/// Does an entry have something to say that the list of objects has no place for?
+/// Returns whether an entry has content that the list of objects cannot hold.
 fn has_parameter(entry: &EntryDescription) -> bool {
     entry.group.is_some()
         || fields::kept(&entry.extra).is_some()
         || matches!(*entry.access, Access::Rwr | Access::Rww) && !*entry.mappable
 }
 
-/// The parameter of an entry: its name, its type, and which group saves it.
+/// The parameter of an entry: name, type and the group that saves it.
 fn parameter(out: &mut Xml, address: Address, entry: &EntryDescription) {
     let access = match *entry.access {
         Access::Const => "const",
@@ -294,8 +294,8 @@ fn entry_attributes(address: Address, entry: &EntryDescription) -> Attributes {
         Some(value) => value_text(value, data_type),
         None => String::new(),
     };
-    // The list of objects has no word for the two that are for one direction: the direction
-    // says it, or where nothing maps them, their parameter.
+    // The list of objects has no word for `rwr` and `rww`: the mapping direction shows them, or
+    // without a mapping the parameter.
     let (access, mapping) = match (*entry.access, *entry.mappable) {
         (Access::Rwr | Access::Rww, false) => ("", "no"),
         (access, false) => (access.name(), "no"),
@@ -340,7 +340,7 @@ fn unknown_type(entry: &EntryDescription) -> String {
     let text = found.map_or("", |(_, text)| text.as_str());
     let number = crate::scan::number::number(text);
     let number = number.and_then(|number| u64::try_from(number).ok());
-    // What is not a number is read again as it is.
+    // A text that is not a number is read again unchanged.
     number.map_or_else(|| text.into(), |number| format!("{number:04X}"))
 }
 
@@ -368,8 +368,8 @@ fn text_of(section: &Section, key: &str) -> String {
         .map_or(String::new(), |value| value.value.trim().into())
 }
 
-/// A number as the schema has it (`xsd:unsignedByte` and others), without the hexadecimal digits that an EDS may
-/// have. Other texts stay.
+/// A number in the form of the schema (`xsd:unsignedByte` and others), which has no hexadecimal digits. Other texts
+/// are unchanged.
 fn decimal(text: String) -> String {
     match od_model::values::integer(&text) {
         Some(number) => number.to_string(),

@@ -70,7 +70,7 @@ impl<'a> Lint<'a> {
                         self.range(pair, "its type");
                     }
                 }
-                // A text that is not a formula is a warning here; the values and the reader stop at it.
+                // A text that is not a formula is a warning here; for values and in the reader it is an error.
                 None if parts(&pair.value).is_some() => self.not_a_number(pair, None),
                 None => {}
             }

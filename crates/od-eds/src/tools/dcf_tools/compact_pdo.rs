@@ -1,4 +1,4 @@
-//! PDOs of CompactPDO, which dcf-tools writes out before it checks.
+//! PDOs of CompactPDO, which dcf-tools expands before its checks.
 
 use alloc::format;
 use alloc::string::{String, ToString};

@@ -1,4 +1,4 @@
-//! dcf-tools behind its checks: from sections to the objects of a device.
+//! dcf-tools after its checks: from sections to the objects of a device.
 
 use alloc::collections::BTreeMap;
 use alloc::format;
@@ -18,7 +18,7 @@ pub(super) fn unread(reading: &mut Reading, pair: &Pair<'_>) {
     reading.push(finding.fact("name", &*pair.key).fact("value", &*pair.value));
 }
 
-/// A value that was read: its type, and where it is.
+/// A value with its type and place.
 struct Value {
     read: Option<Read>,
     span: Span,
@@ -133,7 +133,7 @@ impl<'a> Device<'a, '_> {
         self.objects.insert(index, members);
     }
 
-    /// One value; of a member of CompactSubObj with the value of its own.
+    /// Reads one value; a sub-object of CompactSubObj has a value of its own.
     fn entry(
         &mut self,
         section: &'a Section<'a>,
@@ -293,7 +293,7 @@ impl<'a> Device<'a, '_> {
     }
 }
 
-/// Has it a name for this type?
+/// Returns whether the tool has a name for this type.
 fn is_type(index: u32) -> bool {
     matches!(index, 1..=0xD | 0xF..=0x16 | 0x18..=0x1B)
 }

@@ -10,7 +10,7 @@ use crate::tools::configparser::{Ini, Pair, Section};
 use crate::tools::python::int;
 use crate::tools::tool::Reading;
 
-/// The checks, and what they found.
+/// The checks and their findings.
 pub(super) struct Lint<'a> {
     pub(super) ini: &'a Ini<'a>,
     pub(super) reading: Reading,
@@ -38,7 +38,7 @@ fn is_one_of(words: &str, word: &str) -> bool {
     !word.contains(' ') && words.contains(&format!(" {} ", word.to_lowercase()))
 }
 
-/// Index, and what follows it in a section's name.
+/// The index in a section's name, and the rest of the name.
 fn object_name(name: &str) -> Option<(u32, &str)> {
     let (index, rest) = name.split_at_checked(4)?;
     let is_hex = |text: &str| text.bytes().all(|byte| byte.is_ascii_hexdigit());
@@ -190,7 +190,7 @@ impl<'a> Lint<'a> {
         }
     }
 
-    /// Keys and access type, which objects and members have alike, and the name.
+    /// Checks keys, access type and name, for objects and sub-objects.
     fn keys(&mut self, section: &'a Section<'a>) {
         for pair in &section.pairs {
             let word = pair.value.to_lowercase();

@@ -1,4 +1,4 @@
-//! Types, numbers and formulas as dcf-tools takes them.
+//! Types, numbers and formulas as in dcf-tools.
 
 use crate::tools::python::int;
 use crate::tools::shared::NODE_ID;

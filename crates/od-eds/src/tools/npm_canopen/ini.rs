@@ -1,4 +1,4 @@
-//! Lines as the package `ini` takes them.
+//! Reads lines as the package `ini` does.
 
 use alloc::collections::BTreeMap;
 use alloc::string::{String, ToString};

@@ -13,7 +13,7 @@ pub(super) fn trim(text: &str) -> &str {
     text.trim_matches(is_space)
 }
 
-/// A value: a text, or what `true`, `false`, `null` and a key without `=` become.
+/// A value: a text, or the value of `true`, `false`, `null` and of a key without `=`.
 #[derive(Clone, PartialEq, Debug)]
 pub(super) enum Given {
     Text(String),

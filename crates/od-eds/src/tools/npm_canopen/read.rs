@@ -1,4 +1,4 @@
-//! The objects of a file as the package `canopen` makes them: first objects, then members.
+//! The objects of a file as in the package `canopen`: first objects, then sub-objects.
 
 use alloc::borrow::Cow;
 use alloc::collections::BTreeMap;
@@ -89,7 +89,7 @@ impl Reader {
         let data_type = section.number("DataType").map(|it| it as i128);
         let compact = section.number("CompactSubObj").is_some();
         let has_type = data_type.is_some();
-        // Keys that it counts only if they are a number other than 0.
+        // Keys that it uses only if they are a number other than 0.
         let numbers = ["DataType", "LowLimit", "HighLimit", "CompactSubObj"];
         let extra = |reading: &mut Reading, keys: &[&str]| {
             for key in keys {
@@ -115,7 +115,7 @@ impl Reader {
         };
         let limit = |key: &str| {
             let read = section.number(key).map(|it| Read::Number(it as i128));
-            // It keeps no limit of 0; most are those of the type.
+            // It ignores a limit of 0; most such limits are those of the type.
             let text = section.text(key);
             let is_zero = text.is_some_and(
                 |(text, _)| matches!(text, Given::Text(text) if parse_int(text) == Some(0.0)),

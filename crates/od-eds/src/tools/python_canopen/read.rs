@@ -1,4 +1,4 @@
-//! The sections of a file as python-canopen takes them, in their order.
+//! Reads the sections of a file as python-canopen does, in their order.
 
 use alloc::collections::BTreeMap;
 use alloc::format;
@@ -57,7 +57,7 @@ pub(super) fn limit(text: &str, data_type: i128) -> Option<Read> {
         3 => 16,
         4 => 32,
         0x15 => 64,
-        // Signed types whose bits it does not know.
+        // Signed types without a known length in this tool.
         0x10 | 0x12..=0x14 => return None,
         _ => return Some(Read::Number(number)),
     };
@@ -215,7 +215,7 @@ impl<'a> Reader<'a> {
             9 => Kind::Record,
             _ => return,
         };
-        // A second section of the same index takes the place of the first.
+        // A second section with the same index replaces the first.
         self.kinds.insert(index, kind);
         let gone: alloc::vec::Vec<_> = self
             .reading
@@ -267,7 +267,7 @@ impl<'a> Reader<'a> {
         let access = self.needed(section, "AccessType", None);
         let access = access.map(|pair| pair.value.to_lowercase());
         if let Some(own) = data_type.filter(|own| *own > 0x1B) {
-            // A type of CANFestival, whose section says what it is based on.
+            // A type of CANFestival; its section names the basic type.
             data_type = match ini.section(&format!("{own:X}sub1")) {
                 Some(base) => {
                     let base = self.needed(base, "DefaultValue", None);
@@ -326,7 +326,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// The pair under a key, without which the file is rejected.
+    /// The value of a key; the file is rejected if the key is missing.
     fn needed(
         &mut self,
         section: &'a Section<'a>,
@@ -343,7 +343,7 @@ impl<'a> Reader<'a> {
     fn missing(&mut self, section: &'a Section<'a>, key: &str, line: Option<&str>) {
         let finding = MISSING.at(section.header);
         let finding = finding.fact("section", &*section.name).fact("name", key);
-        // A key in another case is written as the tool expects it.
+        // The fix writes a key in another case in the way that the tool expects.
         let other = section
             .pairs
             .iter()
@@ -362,7 +362,7 @@ impl<'a> Reader<'a> {
         self.reading.push(finding);
     }
 
-    /// A number, without which the file is rejected; `instead` with a word whether writing it keeps the meaning.
+    /// A number; the file is rejected if it is missing. `instead` is the text of a fix, and whether it keeps the meaning.
     fn number(
         &mut self,
         pair: &Pair<'_>,
