@@ -164,3 +164,16 @@ check('a file that is no EDS says what it is, and the bench stays', async (page)
   // The user is asked before a capture is replaced.
   await becomes('the offer', () => page.getByRole('region', { name: 'Offers' }).textContent(), /trace\.txt/);
 });
+
+check('Enter after a complete word is a new line, also while words are offered', async (page) => {
+  await edit(page);
+  await to(page, '2800h', 'AccessType');
+  const before = await line(page);
+  for (let left = before.length - 'AccessType='.length; left > 0; left--) await page.keyboard.press('Backspace');
+  await page.keyboard.type(before.slice('AccessType='.length), { delay: 30 });
+  await page.locator('.cm-tooltip-autocomplete').waitFor();
+  await page.keyboard.press('Enter');
+  await becomes('the new line', () => line(page), '');
+  await page.keyboard.press('ArrowUp');
+  await becomes('the line above', () => line(page), before);
+});

@@ -61,6 +61,10 @@ pub(super) const LESSONS: &[(&str, &str)] = &[
         "without-a-master",
         include_str!("../../lessons/26-without-a-master.md"),
     ),
+    (
+        "arbitration",
+        include_str!("../../lessons/27-arbitration.md"),
+    ),
 ];
 
 /// Returns the text of the lesson with this name.

@@ -9,7 +9,7 @@ import { icons } from './icons';
 import { View } from './view';
 import { openFile } from './files';
 import './topbar';
-import './encoder';
+import { deviceWord } from './encoder';
 import './console';
 import './send';
 import './objects';
@@ -132,7 +132,7 @@ class App extends View {
       <div class="foot">${this.toast()}<nav aria-label=${T.app.panels}><div class="tabs" role="tablist" aria-label=${T.app.panels}>
         ${TABS.filter((one) => one !== 'lesson' || state.lesson.value).map(
           (one) => html`<button role="tab" aria-selected=${one === tab} @click=${() => (state.tab.value = one)}>
-            ${icons[one]}<span>${T.app.tabs[one]}</span>
+            ${icons[one]}<span>${one === 'encoder' ? deviceWord() : T.app.tabs[one]}</span>
           </button>`,
         )}
       </div></nav></div>

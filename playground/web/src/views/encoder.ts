@@ -25,6 +25,9 @@ function profile(): number {
 
 type Part = keyof typeof T.encoder.tabs;
 
+/** What the selected device is, by its profile. */
+export const deviceWord = (): string => T.encoder.titles[profile()] ?? T.encoder.title;
+
 class Encoder extends View {
   static override properties = { shown: { state: true }, own: { state: true } };
   declare shown: Part;
@@ -61,7 +64,7 @@ class Encoder extends View {
     return html`
       <header class="panel-head">
         ${state.lesson.value ? html`<button class="icon-button fold-button" aria-expanded=${state.encoderOpen.value} aria-label=${T.encoder.fold} title=${T.encoder.fold} @click=${() => (state.encoderOpen.value = !state.encoderOpen.value)}>${icons.chevron}</button>` : nothing}
-        <h2>${T.encoder.titles[profile()] ?? T.encoder.title}</h2>
+        <h2>${deviceWord()}</h2>
         <span class="pill" data-nmt=${nmtState} role="status" aria-label=${T.encoder.nmt}>${T.encoder.states[nmtState]}</span>
         <div class="spacer"></div>
         <button class="small" aria-label=${T.encoder.resetLabel} title=${T.encoder.resetTitle} ?disabled=${!isOn} @click=${() => sendLine('nmt reset')}>${icons.reset} ${T.encoder.reset}</button>
