@@ -122,14 +122,10 @@ impl Patch<'_> {
             if self.files.is_none() && finding.object.is_none() && finding.span().is_none() {
                 continue;
             }
-            // What the file says of an object without a statement, or in [DeviceInfo], no statement has brought about.
+            // What the file says elsewhere, such as in [DeviceInfo], no statement can correct; what it says of the value
+            // itself, such as its default, a statement can.
             let is_in_file = finding.span().is_some_and(|span| token_of(span).is_none());
-            let is_edited = finding.object.is_some_and(|address| {
-                self.edits
-                    .iter()
-                    .any(|edit| edit.target.index == address.index)
-            });
-            if is_in_file && !is_edited && !finding.is_unsound() {
+            if is_in_file && !finding.rule.is_of_one_value() && !finding.is_unsound() {
                 continue;
             }
             let own = finding.span().and_then(token_of);

@@ -191,6 +191,13 @@ impl<T, A, M> core::fmt::Debug for Var<T, A, M> {
     }
 }
 
+/// A handle is compared with the address that an application gets: `address == dictionary::LIMIT`.
+impl<T, A, M> PartialEq<Var<T, A, M>> for Address {
+    fn eq(&self, other: &Var<T, A, M>) -> bool {
+        *self == other.address
+    }
+}
+
 impl<T, A, M> Var<T, A, M> {
     /// For generated code: the handle of the entry at `address`, `bits` long in a PDO.
     pub const fn new(address: Address, slot: Slot, bits: u8) -> Self {
@@ -210,6 +217,25 @@ impl<T, A, M> Var<T, A, M> {
     /// Place of the value in the store.
     pub const fn slot(self) -> Slot {
         self.slot
+    }
+
+    /// The value in bytes that a master sends, little-endian, such as those that `Application::validate` gets. Missing
+    /// bytes count as 0; of a signed type the sign goes on.
+    ///
+    /// ```
+    /// use od_model::typed::{Rw, Var};
+    /// use od_model::{Address, Slot};
+    ///
+    /// const LIMIT: Var<f32, Rw> = Var::new(Address::new(0x2003, 0), Slot { offset: 0, len: 4 }, 32);
+    /// let address = Address::new(0x2003, 0);
+    /// assert!(address == LIMIT);
+    /// assert_eq!(LIMIT.decode(&80.5f32.to_le_bytes()), 80.5);
+    /// ```
+    pub fn decode(self, bytes: &[u8]) -> T
+    where
+        T: Scalar,
+    {
+        T::from_wire(bytes)
     }
 
     /// The mapping entry of this value: index, sub-index and length in the form of 1A00h.

@@ -177,6 +177,7 @@ fn measured(temperature: i16) {
 )]
 #![no_std]
 #![forbid(unsafe_code)]
+#![cfg_attr(docsrs, feature(doc_cfg))]
 
 mod clock;
 mod filters;

@@ -7,6 +7,7 @@
 //! runs a bench in real time.
 
 #![forbid(unsafe_code)]
+#![cfg_attr(docsrs, feature(doc_cfg))]
 
 mod bench;
 pub mod bus;

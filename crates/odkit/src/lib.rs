@@ -34,6 +34,7 @@
 //! their bytes), `od-runtime` (node and encoder). A device needs only this one.
 #![no_std]
 #![forbid(unsafe_code)]
+#![cfg_attr(docsrs, feature(doc_cfg))]
 
 #[doc(inline)]
 pub use od_board as board;

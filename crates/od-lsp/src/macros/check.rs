@@ -137,8 +137,12 @@ fn patched(
             && (faults.is_empty() || finding.is_unsound() || of_one)
             && !before.contains(finding)
     };
-    // The last edit of the object, for a finding whose place is in the file, or that has none.
+    // The last edit of the object, for a finding whose place is in the file, or that has none. What the file says
+    // elsewhere, such as in [DeviceInfo], no statement can correct.
     let culprit = |finding: &Finding| {
+        if !finding.is_unsound() && !finding.rule.is_of_one_value() && finding.span().is_some() {
+            return None;
+        }
         let of_object = |edit: &&Edit| Some(edit.target.index) == index(finding);
         edits
             .iter()

@@ -4,7 +4,10 @@ use std::format;
 use std::string::String;
 use std::vec::Vec;
 
+use od_model::Dictionary;
+
 use crate::storage::crc::Crc32;
+use crate::storage::image;
 
 /// Bytes of a header.
 pub(super) const LEN: usize = 512;
@@ -26,6 +29,27 @@ pub struct Owner<'o> {
     pub identity: &'o str,
     /// [`image::device`](crate::storage::image::device), for a file whose header is damaged.
     pub device: u32,
+}
+
+impl<'o> Owner<'o> {
+    /// A device with this dictionary, by its vendor-ID and product code (1018h); `name` is its name and its identity in
+    /// words.
+    ///
+    /// ```no_run
+    /// # use od_model::Dictionary;
+    /// use od_runtime::storage::{File, Owner, image};
+    ///
+    /// # const DICTIONARY: Dictionary<'static> = Dictionary::EMPTY;
+    /// let owner = Owner::of(&DICTIONARY, "thermometer");
+    /// let eeprom = File::open("thermometer.eeprom", image::capacity_needed(&DICTIONARY), &owner);
+    /// ```
+    pub const fn of(dictionary: &Dictionary<'_>, name: &'o str) -> Self {
+        Self {
+            name,
+            identity: name,
+            device: image::device(dictionary),
+        }
+    }
 }
 
 /// Content of a header.
