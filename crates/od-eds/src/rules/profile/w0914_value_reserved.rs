@@ -10,7 +10,7 @@ pub(crate) static RULE: Rule = Rule {
     severity: Warning,
     title: "value of a profile object is reserved",
     why: "A device that follows the profile aborts a download of the value, and a master may give the bits another meaning.",
-    source: "CiA 401, 6421h and 6443h; CiA 402, 605Ah to 605Eh, 6086h, 6098h, 60C2h, 6502h; CiA 406, 6000h, 6503h to 6506h",
+    source: "CiA 401, 6421h and 6443h; CiA 402, 605Ah to 6061h, 6086h, 6098h, 60C2h, 6502h; CiA 406, 6000h, 6503h to 6506h",
     says: "{object} is {given}, but CiA {profile} reserves {reserved}",
     help: "write a value without {reserved}",
     check: Check::Entry(check),
@@ -32,6 +32,10 @@ fn reserved(address: Address, number: i128) -> Option<(u16, &'static str)> {
         (0x605B | 0x605C, 0) => (402, number > 1, "2 to 32767"),
         (0x605D, 0) => (402, number == 0 || number > 4, "0 and 5 to 32767"),
         (0x605E, 0) => (402, number > 4, "5 to 32767"),
+        (0x6060 | 0x6061, 0) => {
+            let wrong = matches!(number, 5 | 12..);
+            (402, wrong, "5 and 12 to 127")
+        }
         (0x6086, 0) => (402, number > 3, "4 to 32767"),
         (0x6098, 0) => {
             let wrong = matches!(number, 15 | 16 | 31 | 32 | 38..);

@@ -36,7 +36,7 @@ fn reserved(address: Address, number: u64) -> Option<&'static str> {
         (0x1022, 0) => (matches!(number, 1..=0x7F), "1 to 127"),
         (0x1028, 1..=254) => (number & 1 << 30 != 0, "bit 30"),
         (0x1029, 1..=254) => (matches!(number, 3..=0x7F), "3 to 127"),
-        (0x1280..=0x12FF, 3) => (number > 127, "128 to 255"),
+        (0x1201..=0x12FF, 3) => (number > 127, "128 to 255"),
         (0x1F80, 0) => (number >> 7 != 0, "bits 7 to 31"),
         (0x1800..=0x19FF, 6) => (matches!(number, 241..), "241 to 255"),
         _ => return None,
