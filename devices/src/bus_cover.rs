@@ -14,7 +14,8 @@ use odkit::{
 };
 use odkit::{Address, Dictionary};
 
-use odkit::DeviceKind;
+#[cfg(feature = "std")]
+use odkit::{DeviceKind, kind::Behaviour};
 
 odkit::object_dictionary! {
     /// `GXMM`, multivo multiturn: 13 bits a revolution, 16 bits of revolutions.
@@ -107,6 +108,7 @@ odkit::object_dictionary! {
 }
 
 /// A device of the family.
+#[cfg(feature = "std")]
 pub(crate) const fn kind(
     name: &'static str,
     title: &'static str,
@@ -120,7 +122,7 @@ pub(crate) const fn kind(
         leds: true,
         dictionary,
         profile: &PROFILE,
-        encoder: &ENCODER,
+        behaviour: Behaviour::Encoder(&ENCODER),
         channels: 1,
     }
 }

@@ -19,7 +19,8 @@ use odkit::{
 use odkit::{Address, Dictionary};
 
 use crate::eam_diagnosis;
-use odkit::DeviceKind;
+#[cfg(feature = "std")]
+use odkit::{DeviceKind, kind::Behaviour};
 
 odkit::object_dictionary! {
     /// `EAMxxx MT`, multiturn: 16 bits a revolution, of which 14 are used by default, and 18 bits
@@ -49,6 +50,7 @@ odkit::object_dictionary! {
 }
 
 /// A device of the family.
+#[cfg(feature = "std")]
 pub(crate) const fn kind(
     name: &'static str,
     title: &'static str,
@@ -64,7 +66,7 @@ pub(crate) const fn kind(
         leds: false,
         dictionary,
         profile: &PROFILE,
-        encoder,
+        behaviour: Behaviour::Encoder(encoder),
         channels,
     }
 }

@@ -14,7 +14,8 @@ use odkit::{
     PdoProfile, Profile, Restore, SaveAnswer, SavedCobIds, SdoProfile, StoreProfile,
 };
 
-use odkit::DeviceKind;
+#[cfg(feature = "std")]
+use odkit::{DeviceKind, kind::Behaviour};
 
 odkit::object_dictionary! {
     /// `EN580C_M`: 24 bits a revolution, of which 6001h allows 21, and 16 bits of revolutions.
@@ -28,6 +29,7 @@ odkit::object_dictionary! {
 }
 
 /// The device.
+#[cfg(feature = "std")]
 pub(crate) const fn kind(name: &'static str, title: &'static str) -> DeviceKind {
     DeviceKind {
         name,
@@ -37,7 +39,7 @@ pub(crate) const fn kind(name: &'static str, title: &'static str) -> DeviceKind 
         leds: false,
         dictionary: en580c::DICTIONARY,
         profile: &PROFILE,
-        encoder: &ENCODER,
+        behaviour: Behaviour::Encoder(&ENCODER),
         channels: 1,
     }
 }

@@ -1,7 +1,8 @@
-//! Virtual CANopen absolute encoders: their dictionaries, and the differences of their families.
+//! Virtual CANopen devices: twelve absolute encoders, a servo drive, an I/O module.
 //!
 //! Each family is one module, made from one EDS file; [`DEVICES`] lists all devices.
-//! Everything here is `const` data for `od-runtime`.
+//! An encoder is `const` data for `od-runtime`; drive and I/O module have behaviour of their own, as any device
+//! that is made with `odkit`.
 //!
 //! ```
 //! use od_devices::find;
@@ -14,7 +15,7 @@
 #![forbid(unsafe_code)]
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
-#[cfg(feature = "text")]
+#[cfg(feature = "std")]
 extern crate std;
 
 pub mod bus_cover;
@@ -24,11 +25,15 @@ pub mod en580c;
 #[cfg(feature = "text")]
 pub mod text;
 
+#[cfg(feature = "std")]
 use bus_cover::gxmm;
+#[cfg(feature = "std")]
 use eam::eam_mt;
+#[cfg(feature = "std")]
 use odkit::DeviceKind;
 
 /// Every device, by family.
+#[cfg(feature = "std")]
 pub const DEVICES: &[DeviceKind] = &[
     bus_cover::kind("gxmm", "GXMM, multivo multiturn", gxmm::DICTIONARY),
     bus_cover::kind("gxam", "GXAM, multivo singleturn", gxmm::gxam::DICTIONARY),
@@ -71,8 +76,15 @@ pub const DEVICES: &[DeviceKind] = &[
 ];
 
 /// The device with this name, in any case.
+#[cfg(feature = "std")]
 pub fn find(name: &str) -> Option<&'static DeviceKind> {
     DEVICES
         .iter()
         .find(|kind| kind.name.eq_ignore_ascii_case(name))
+}
+
+/// The encoders among the devices.
+#[cfg(feature = "std")]
+pub fn encoders() -> impl Iterator<Item = &'static DeviceKind> {
+    DEVICES.iter().filter(|kind| kind.encoder().is_some())
 }

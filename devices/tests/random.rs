@@ -3,7 +3,7 @@
 //!
 //! `OD_RANDOM_FRAMES=10000000` sets the total number of frames.
 
-use od_devices::DEVICES;
+use od_devices::encoders;
 use od_sim::shaft::{self, Shaft};
 use odkit::DeviceKind;
 use odkit::Kind;
@@ -49,7 +49,12 @@ impl Bench {
         let storage = Memory::new(vec![0xFF; image::capacity_needed(&kind.dictionary)]);
         let mut bench = Self {
             kind,
-            node: Node::new(*kind, NodeId::ONE, shaft::encoder(kind), storage),
+            node: Node::new(
+                *kind,
+                NodeId::ONE,
+                shaft::encoder(kind.encoder().unwrap(), kind.dictionary),
+                storage,
+            ),
             now: Instant::ZERO,
             open: 0,
         };
@@ -209,10 +214,10 @@ impl Bench {
 fn any_frame_at_any_time_on_every_device() {
     let frames = std::env::var("OD_RANDOM_FRAMES").ok();
     let frames: u64 = frames.and_then(|text| text.parse().ok()).unwrap_or(120_000);
-    for (seed, kind) in (1..).zip(DEVICES) {
+    for (seed, kind) in (1..).zip(encoders()) {
         let mut random = Random(0x9E37_79B9_7F4A_7C15 ^ seed);
         let mut bench = Bench::new(kind);
-        for step in 0..frames / DEVICES.len() as u64 {
+        for step in 0..frames / encoders().count() as u64 {
             bench.turn(&mut random);
             if step.is_multiple_of(64) {
                 bench.check_limits();

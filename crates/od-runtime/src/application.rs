@@ -8,6 +8,7 @@ use crate::change::Change;
 use crate::fifo::Fifo;
 use crate::store::Store;
 use od_wire::emcy::Emcy;
+use od_wire::nmt::State;
 use od_wire::time_of_day::TimeOfDay;
 use od_wire::{AbortCode, Instant, NodeId};
 
@@ -264,6 +265,46 @@ pub trait Stream {
     }
 }
 
+/// Connection of a device to the world beside its bus: a terminal, a switch, a shaft.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Pin {
+    /// Name in scripts, as in `in1`.
+    pub name: &'static str,
+    /// Who sets it, and when.
+    pub kind: PinKind,
+}
+
+/// Who sets a [`Pin`], and when.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum PinKind {
+    /// The world.
+    Input,
+    /// The device; 0 without power.
+    Output,
+    /// The device; without power it stays as it is, as the angle of a shaft does.
+    Kept,
+}
+
+impl Pin {
+    /// A connection that the world sets.
+    pub const fn input(name: &'static str) -> Self {
+        let kind = PinKind::Input;
+        Self { name, kind }
+    }
+
+    /// A connection that the device sets; 0 without power.
+    pub const fn output(name: &'static str) -> Self {
+        let kind = PinKind::Output;
+        Self { name, kind }
+    }
+
+    /// A connection that the device sets, and that stays without power.
+    pub const fn kept(name: &'static str) -> Self {
+        let kind = PinKind::Kept;
+        Self { name, kind }
+    }
+}
+
 /// Behaviour of a device: checks writes, reacts to them, and provides live values.
 ///
 /// Every function has an empty default, so a device without behaviour is [`NoApplication`].
@@ -354,6 +395,41 @@ pub trait Application {
     fn time(&mut self, cx: &mut Context<'_, '_>) -> Option<TimeOfDay> {
         let _ = cx;
         None
+    }
+
+    /// Receives the NMT state when it changes after the boot-up.
+    fn state_is(&mut self, cx: &mut Context<'_, '_>, state: State) {
+        let _ = (cx, state);
+    }
+
+    /// The master is lost: life guarding or a heartbeat failed, or the node is bus-off. Called before 1029h
+    /// acts. The next [`state_is`](Self::state_is) with Operational ends it.
+    fn master_lost(&mut self, cx: &mut Context<'_, '_>) {
+        let _ = cx;
+    }
+
+    /// Returns whether the change of a mapped value from `last`, the one that the TPDO sent, to `now` is an
+    /// event that an event-driven TPDO is sent for: a dead band, a mask. Both are the bits of the PDO. Each
+    /// change is one, unless this is implemented.
+    fn is_event(&self, store: &Store<'_>, address: Address, last: u64, now: u64) -> bool {
+        let _ = (store, address, last, now);
+        true
+    }
+
+    /// Connections of the device to the world beside its bus, for a host that simulates this world.
+    fn pins(&self) -> &'static [Pin] {
+        &[]
+    }
+
+    /// Returns the value at a connection, by its number in [`pins`](Self::pins).
+    fn pin(&self, number: usize) -> i64 {
+        let _ = number;
+        0
+    }
+
+    /// The world sets an input. A call of [`Node::handle_change`](crate::Node::handle_change) follows.
+    fn set_pin(&mut self, number: usize, value: i64) {
+        let _ = (number, value);
     }
 
     /// Acts on time or on a change outside the bus, and returns when it wants to be called next.

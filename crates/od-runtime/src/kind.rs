@@ -1,15 +1,16 @@
 //! A finished device as one value, for a host that offers several.
 
+use std::boxed::Box;
+
 use od_model::Dictionary;
 
-#[cfg(feature = "std")]
+use crate::application::Application;
 use crate::device::Device;
-use crate::encoder::{EncoderProfile, Sensor};
+use crate::encoder::EncoderProfile;
 use crate::profile::Profile;
-#[cfg(feature = "std")]
 use crate::services::Services;
 
-/// Product: names, dictionary and family of an encoder.
+/// Product: names, dictionary, family and behaviour.
 #[derive(Clone, Copy, Debug)]
 pub struct DeviceKind {
     /// Name on a command line, in lower case.
@@ -22,8 +23,8 @@ pub struct DeviceKind {
     pub dictionary: Dictionary<'static>,
     /// Options and deviations of its family relative to CiA 301.
     pub profile: &'static Profile,
-    /// Options and deviations of its family relative to CiA 406.
-    pub encoder: &'static EncoderProfile,
+    /// What it does.
+    pub behaviour: Behaviour,
     /// Whether it has the dual LED of the bus cover.
     pub leds: bool,
     /// Number of channels on its shaft, each a node of its own on the same bus: 2 in a redundant
@@ -31,14 +32,43 @@ pub struct DeviceKind {
     pub channels: u8,
 }
 
-impl DeviceKind {
-    /// Returns the sensor that profile and dictionary describe.
-    pub fn sensor(&self) -> Sensor {
-        self.encoder.sensor_of(self.dictionary)
+/// What a product does behind its dictionary.
+#[derive(Clone, Copy, Debug)]
+pub enum Behaviour {
+    /// An encoder with these options and deviations relative to CiA 406. The host has its shaft.
+    Encoder(&'static EncoderProfile),
+    /// An application of its own, which this function makes.
+    Own(fn() -> Box<dyn Own>),
+}
+
+/// Application of a product, of which a host can have copies.
+pub trait Own: Application + Send {
+    /// Returns a copy that goes on as this one would.
+    fn copy(&self) -> Box<dyn Own>;
+}
+
+impl<A: Application + Clone + Send + 'static> Own for A {
+    fn copy(&self) -> Box<dyn Own> {
+        Box::new(self.clone())
     }
 }
 
-#[cfg(feature = "std")]
+impl Clone for Box<dyn Own> {
+    fn clone(&self) -> Self {
+        (**self).copy()
+    }
+}
+
+impl DeviceKind {
+    /// Options and deviations of an encoder relative to CiA 406; `None`: it is not an encoder.
+    pub const fn encoder(&self) -> Option<&'static EncoderProfile> {
+        match self.behaviour {
+            Behaviour::Encoder(profile) => Some(profile),
+            Behaviour::Own(_) => None,
+        }
+    }
+}
+
 impl Services for DeviceKind {
     const SERVERS: bool = true;
     const SYNC_PRODUCER: bool = true;
@@ -46,7 +76,6 @@ impl Services for DeviceKind {
 }
 
 /// On a host, with every service.
-#[cfg(feature = "std")]
 impl Device for DeviceKind {
     type Values = crate::rooms::LoadedValues;
     type Rooms = crate::rooms::LoadedRooms;

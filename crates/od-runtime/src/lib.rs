@@ -81,7 +81,8 @@ mod emcy;
 pub mod encoder;
 mod error_control;
 mod fifo;
-mod kind;
+#[cfg(feature = "std")]
+pub mod kind;
 mod limits;
 mod listening;
 mod lss;
@@ -105,9 +106,11 @@ pub use od_wire::time_of_day::TimeOfDay;
 pub use od_wire::{AbortCode, CanId, CobId, Duration, Frame, Instant, NodeId};
 
 pub use application::{
-    Application, Chunk, Context, Halt, NoApplication, Reset, Signals, Stream, StreamEnd,
+    Application, Chunk, Context, Halt, NoApplication, Pin, PinKind, Reset, Signals, Stream,
+    StreamEnd,
 };
 pub use device::Device;
+#[cfg(feature = "std")]
 pub use kind::DeviceKind;
 pub use node::{BusEvent, Event, Node};
 pub use profile::{

@@ -264,7 +264,20 @@ impl<'a> Store<'a> {
         self.try_unsigned(index, sub).unwrap_or(0)
     }
 
-    /// The number at an address, if there is such an object; signed ones are extended.
+    /// The integer at an address, with its sign if its type has one: 0 where the object is missing or no integer.
+    pub fn signed(&self, index: u16, sub: u8) -> i64 {
+        let Some(row) = self.dictionary.row_at(Address::new(index, sub)) else {
+            return 0;
+        };
+        let number = self.number_of(row);
+        if row.data_type().kind() != Kind::Signed {
+            return number as i64;
+        }
+        let above = u64::BITS.saturating_sub(u32::from(row.bits())).min(63);
+        (number << above) as i64 >> above
+    }
+
+    /// The bits of the number at an address, if there is such an object.
     pub fn try_unsigned(&self, index: u16, sub: u8) -> Option<u64> {
         let row = self.dictionary.row_at(Address::new(index, sub))?;
         Some(self.number_of(row))

@@ -1,5 +1,6 @@
 //! Several devices on one bus, in virtual time.
 
+mod pins;
 mod run;
 mod traffic;
 mod wiring;
@@ -9,7 +10,7 @@ use std::prelude::v1::*;
 
 use od_runtime::{BusEvent, Frame, Instant};
 
-use crate::bus::wiring::Wiring;
+use crate::bus::wiring::{Wire, Wiring};
 use crate::device::VirtualDevice;
 use crate::wire::{Line, Station};
 
@@ -36,6 +37,7 @@ pub struct Sent {
 pub struct Bus {
     devices: Vec<VirtualDevice>,
     wiring: Wiring,
+    wires: Vec<Wire>,
     /// The wire; ideal unless it is set to real.
     pub line: Line,
     now: Instant,
@@ -81,6 +83,7 @@ impl Bus {
         }
         self.line.remove(device + 1);
         self.wiring.remove(device);
+        self.cut_wires(device);
         Some(self.devices.remove(device))
     }
 
@@ -92,6 +95,7 @@ impl Bus {
         };
         *old = device;
         self.wiring.separate(place);
+        self.cut_wires_of(place);
         self.line.restart(place + 1);
         self.settle(place);
         true
@@ -224,6 +228,7 @@ impl Bus {
         if turned {
             self.turn_along(device);
         }
+        self.conduct();
         self.tell_controllers();
     }
 
@@ -244,6 +249,7 @@ impl Bus {
                 self.settle(device);
             }
         }
+        self.conduct();
         true
     }
 
@@ -287,6 +293,12 @@ impl Bus {
 
     /// Meets the next deadline not after `to`, if there is one; else it is `to` now.
     fn step(&mut self, to: Instant) -> bool {
+        let goes_on = self.step_without_wires(to);
+        self.conduct();
+        goes_on
+    }
+
+    fn step_without_wires(&mut self, to: Instant) -> bool {
         let due = (0..self.devices.len())
             .filter_map(|device| Some((self.deadline(device)?, device)))
             .min();

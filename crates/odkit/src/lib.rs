@@ -45,12 +45,14 @@ pub use od_model::{
 };
 pub use od_runtime::{
     AbortCode, Application, BusEvent, BusOffProfile, CanId, Chunk, CobId, CommunicationReset,
-    Context, CutSave, Device, DeviceKind, Duration, Emcy, ErrorProfile, ErrorReset, Event,
-    EventTimer, Frame, Halt, Instant, LengthRule, LssProfile, NmtProfile, NoApplication, Node,
-    NodeId, Notice, PdoProfile, Profile, Reset, Restore, SaveAnswer, SavedCobIds, SdoProfile,
+    Context, CutSave, Device, Duration, Emcy, ErrorProfile, ErrorReset, Event, EventTimer, Frame,
+    Halt, Instant, LengthRule, LssProfile, NmtProfile, NoApplication, Node, NodeId, Notice,
+    PdoProfile, Pin, PinKind, Profile, Reset, Restore, SaveAnswer, SavedCobIds, SdoProfile,
     Services, Signals, Store, StoreProfile, StoreTooSmall, Stream, StreamEnd, TextTooLong,
     TimeOfDay, encoder, program, rooms, storage,
 };
+#[cfg(feature = "std")]
+pub use od_runtime::{DeviceKind, kind};
 pub use od_wire::{emcy, lss, nmt, sdo};
 
 /// The paths that [`object_dictionary!`] emits; not an API. The number changes with the shape of

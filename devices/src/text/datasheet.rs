@@ -24,11 +24,15 @@ pub fn page(kind: &DeviceKind) -> String {
         kind.name, kind.title, kind.name, kind.name, kind.family, kind.name
     );
     section(&mut page, "Identity", &["", ""], &identity(kind.dictionary));
-    section(&mut page, "Encoder", &["", ""], &encoder::facts(kind));
+    if let Some(profile) = kind.encoder() {
+        let facts = encoder::facts(kind, profile);
+        section(&mut page, "Encoder", &["", ""], &facts);
+    }
     section(&mut page, "Services", &["", ""], &services::facts(kind));
-    let faults = encoder::faults(kind);
-    let head = encoder::fault_head(kind);
-    section(&mut page, "Faults", &head, &faults);
+    if let Some(profile) = kind.encoder() {
+        let faults = encoder::faults(kind, profile);
+        section(&mut page, "Faults", &encoder::fault_head(profile), &faults);
+    }
     page.push_str("\n## Objects\n\n");
     page.push_str(&objects(kind.dictionary, |address| {
         notes::note(kind, address)

@@ -13,6 +13,9 @@ const COMMENTS: &[&str] = &[
     "StorageLocation comments name the group of 1010h that saves a value.",
 ];
 
+/// Bit rates of the LSS table, for a device that has no object for its bit rate.
+const LSS_RATES: &[u16] = &[10, 20, 50, 125, 250, 500, 800, 1000];
+
 /// Name of its EDS file: its name in capitals.
 pub fn eds_name(kind: &DeviceKind) -> String {
     format!("{}.eds", kind.name.to_uppercase())
@@ -31,7 +34,7 @@ pub fn eds(kind: &DeviceKind) -> String {
         description: kind.title,
         date: DATE,
         vendor: "odkit virtual devices",
-        bit_rates: kind.encoder.bit_rates,
+        bit_rates: kind.encoder().map_or(LSS_RATES, |encoder| encoder.bit_rates),
         lss: kind.profile.lss.is_some(),
         simple_boot_up: true,
         comments: COMMENTS,

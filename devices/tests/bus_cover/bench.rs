@@ -7,6 +7,11 @@ use odkit::encoder::Encoder;
 use odkit::storage::{Memory, image};
 use odkit::{CanId, Frame, Instant, Node, NodeId};
 
+/// The encoder of a device at angle 0.
+pub(crate) fn encoder(kind: &DeviceKind) -> Encoder<Shaft> {
+    shaft::encoder(kind.encoder().unwrap(), kind.dictionary)
+}
+
 /// A device on a bench of its own.
 pub(crate) struct Bench {
     pub(crate) node: Node<DeviceKind, Encoder<Shaft>, Memory<Vec<u8>>>,
@@ -21,7 +26,7 @@ impl Bench {
         let kind = *find(name).unwrap();
         let storage = Memory::new(vec![0xFF; image::capacity_needed(&kind.dictionary)]);
         let mut bench = Self {
-            node: Node::new(kind, NodeId::ONE, shaft::encoder(&kind), storage),
+            node: Node::new(kind, NodeId::ONE, encoder(&kind), storage),
             now: Instant::ZERO,
             booted: 0,
         };

@@ -200,7 +200,7 @@ fn the_sensor_matches_6501h_and_6502h() {
     for model in &MODELS {
         let kind = find(&model.id()).unwrap();
         assert_eq!(kind.title, format!("{}, {}", model.name, model.family));
-        let sensor = kind.sensor();
+        let sensor = kind.encoder().unwrap().sensor_of(kind.dictionary);
         assert_eq!(
             (sensor.steps, sensor.turns, sensor.range()),
             (model.resolution, model.turns, model.range.into()),

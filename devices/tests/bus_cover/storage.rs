@@ -2,7 +2,6 @@
 //! chapter 7.2.1).
 
 use od_devices::find;
-use od_sim::shaft;
 use odkit::Frame;
 use odkit::encoder::{Fault, Switches};
 
@@ -79,7 +78,7 @@ fn statistics_survive_a_restore() {
     assert_eq!(bench.read(0x2201, 1), 1);
     assert_eq!(bench.read(0x1003, 1), 0x7320);
     bench.write(0x1010, 2, SAVE).unwrap();
-    bench.node.application = shaft::encoder(find("gxmm").unwrap());
+    bench.node.application = crate::bench::encoder(find("gxmm").unwrap());
     bench.power_cycle();
     assert_eq!(bench.read(0x2201, 1), 1, "from the EEPROM");
 }

@@ -3,7 +3,6 @@
 //! Values that the print has lost are restored as in MANUALS.md C-GX-52.
 
 use od_devices::find;
-use od_sim::shaft;
 use odkit::storage::{Memory, image};
 use odkit::{CanId, Frame, Instant, Node, NodeId};
 
@@ -39,7 +38,7 @@ const TRACE: &str = "
 fn every_response_is_the_printed_one() {
     let kind = find("gxmm").unwrap();
     let storage = Memory::new(vec![0xFF; image::capacity_needed(&kind.dictionary)]);
-    let mut encoder = shaft::encoder(kind);
+    let mut encoder = crate::bench::encoder(kind);
     encoder
         .shaft
         .set_raw(Instant::ZERO, encoder.sensor(), 0x7_9592);

@@ -57,7 +57,7 @@ impl<M: Motion> Bench<M> {
     /// The device of this name on a shaft, just switched on at time 0.
     pub(crate) fn on(shaft: M, name: &str) -> Self {
         let kind = *find(name).unwrap();
-        let encoder = Encoder::new(kind.encoder, shaft).with_sensor_of(kind.dictionary);
+        let encoder = Encoder::new(kind.encoder().unwrap(), shaft).with_sensor_of(kind.dictionary);
         let storage = Memory::new(vec![0xFF; image::capacity_needed(&kind.dictionary)]);
         let mut bench = Self {
             node: Node::new(kind, NodeId::ONE, encoder, storage),

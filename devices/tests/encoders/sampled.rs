@@ -1,6 +1,6 @@
 //! A host that only sets positions, which the device samples.
 
-use od_devices::DEVICES;
+use od_devices::encoders;
 use od_sim::VirtualDevice;
 use odkit::Address;
 use odkit::encoder::{Angle, Fault, PositionSource, Role, Sampled};
@@ -25,7 +25,7 @@ type Shaft = Sampled<Set, 255>;
 
 /// A device that samples its shaft every millisecond.
 fn bench(kind: &DeviceKind) -> Bench<Shaft> {
-    let steps = kind.sensor().steps;
+    let steps = kind.encoder().unwrap().sensor_of(kind.dictionary).steps;
     let sensor = Set { steps, raw: Ok(0) };
     Bench::on(Sampled::new(sensor, Duration::from_millis(1)), kind.name)
 }
@@ -33,8 +33,8 @@ fn bench(kind: &DeviceKind) -> Bench<Shaft> {
 /// The devices with a speed in steps, and their integration time in milliseconds.
 fn with_speed() -> impl Iterator<Item = (&'static DeviceKind, u64)> {
     let speed = Address::new(0x6030, 1);
-    DEVICES.iter().filter_map(move |kind| {
-        let Role::Movement(movement) = kind.encoder.role(speed)? else {
+    encoders().filter_map(move |kind| {
+        let Role::Movement(movement) = kind.encoder()?.role(speed)? else {
             return None;
         };
         let entry = kind.dictionary.find(movement.interval).ok()?;
@@ -98,7 +98,7 @@ fn positions_set_on_the_bench_give_a_speed() {
     for (kind, interval) in with_speed() {
         let mut device = VirtualDevice::new(kind, NodeId::ONE);
         device.power_on(Instant::ZERO);
-        let steps = f64::from(kind.sensor().steps);
+        let steps = f64::from(kind.encoder().unwrap().sensor_of(kind.dictionary).steps);
         let shown = kind.dictionary.entry(0x6001, 0).unwrap();
         let scale = shown.default.integer(1).unwrap() as f64 / steps;
         for ms in 0..=3 * interval {
@@ -186,7 +186,7 @@ fn an_acceleration_comes_from_the_samples() {
 
 #[test]
 fn a_sensor_fault_is_an_alarm_until_a_sample_succeeds() {
-    for kind in DEVICES {
+    for kind in encoders() {
         let mut bench = bench(kind);
         bench.set_position(1000);
         bench.wait(1);

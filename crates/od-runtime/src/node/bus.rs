@@ -94,6 +94,7 @@ impl<D: Device> Machines<D> {
         self.rooms.all_mut().frames.clear();
         self.cut_transfers(objects);
         self.stop_pdos();
+        objects.application(|application, cx| application.master_lost(cx));
         let set = self.emcy().set_silent(&mut objects.store, profile.bus_off);
         if !(restarts && profile.off.behaviour_if_off) {
             self.react(objects, set, true);

@@ -49,6 +49,7 @@ impl<D: Device> Machines<D> {
         let info = objects.application.error_info(&objects.store);
         if lost {
             objects.outbox.signals.raise(notice.error(info));
+            objects.application(|application, cx| application.master_lost(cx));
         } else {
             objects.outbox.signals.clear(notice.code, info);
         }

@@ -400,6 +400,7 @@ impl<D: Device> Machines<D> {
         }
         self.state = state;
         self.event(Event::State(state));
+        objects.application(|application, cx| application.state_is(cx, state));
         if D::SYNC_PRODUCER {
             self.configure_clocks(objects);
         }

@@ -130,6 +130,33 @@ impl Mapping {
         self.read(&objects.store, mapped)
     }
 
+    /// Returns whether a value that differs between two frames is an event for the application.
+    pub(super) fn is_event<D: Services>(
+        &self,
+        objects: &Objects<'_, D>,
+        mapped: &[Mapped],
+        last: [u8; 8],
+        now: [u8; 8],
+    ) -> bool {
+        let (mut last, mut now) = (u64::from_le_bytes(last), u64::from_le_bytes(now));
+        for entry in self.entries(mapped) {
+            let bits = entry >> 24;
+            let own = u64::MAX.checked_shr(64 - bits.min(64)).unwrap_or(0);
+            let (was, is) = (last & own, now & own);
+            if was != is
+                && let Some(row) = row(&objects.store, *entry)
+                && objects
+                    .application
+                    .is_event(&objects.store, row.address(), was, is)
+            {
+                return true;
+            }
+            last = last.checked_shr(bits).unwrap_or(0);
+            now = now.checked_shr(bits).unwrap_or(0);
+        }
+        false
+    }
+
     /// Writes the frame's bytes into the objects, each by the rules of its own; one that
     /// refuses its value keeps the old one.
     pub(super) fn apply<D: Services>(

@@ -310,7 +310,9 @@ impl Tpdo {
         mapped: &[Mapped],
     ) {
         if self.watches_changes() && !self.pending {
-            self.pending = self.mapping.sample(objects, mapped) != self.last;
+            let data = self.mapping.sample(objects, mapped);
+            self.pending =
+                data != self.last && self.mapping.is_event(objects, mapped, self.last, data);
         }
     }
 

@@ -34,6 +34,7 @@ impl Bus {
         let Self {
             devices,
             wiring,
+            wires,
             line,
             sent,
             now,
@@ -42,7 +43,7 @@ impl Bus {
             return None;
         };
         let reaches_outside = wiring.rate.is_none() && line.is_plugged(0) && line.is_plugged(1);
-        if line.is_real() || !reaches_outside || line.has_plans() {
+        if !wires.is_empty() || line.is_real() || !reaches_outside || line.has_plans() {
             return None;
         }
         let wanted = frames.saturating_sub(sent.len());

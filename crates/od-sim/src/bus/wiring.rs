@@ -1,4 +1,4 @@
-//! Shared properties of devices besides the bus: a shaft, and a bit rate.
+//! Shared properties of devices besides the bus: a shaft, a bit rate, and wires.
 
 use std::prelude::v1::*;
 
@@ -62,5 +62,27 @@ impl Wiring {
             (Some(_), Some(one), Some(other)) => one == other,
             _ => true,
         }
+    }
+}
+
+/// A wire, from a device and its connection to another.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Wire {
+    pub(super) from: (usize, usize),
+    pub(super) to: (usize, usize),
+    /// The value that it carried last.
+    pub(super) last: Option<i64>,
+}
+
+impl Wire {
+    /// Returns the wire after this device was taken off the bus; `None` if it was one of its own.
+    pub(super) fn without(mut self, device: usize) -> Option<Self> {
+        for (end, _) in [&mut self.from, &mut self.to] {
+            if *end == device {
+                return None;
+            }
+            *end -= usize::from(*end > device);
+        }
+        Some(self)
     }
 }

@@ -1,15 +1,18 @@
-//! The behaviour of a device: the shaft of an encoder, a serial number, or that of its maker, and beside
+//! The behaviour of a device: the shaft of an encoder, none, or that of its maker, and beside
 //! it what only a device of a file has.
 
 use std::prelude::v1::*;
 
 use od_model::{Address, Dictionary};
 use od_runtime::encoder::Encoder;
+use od_runtime::kind::Own;
 use od_runtime::{
-    AbortCode, Application, Context, Instant, NodeId, Reset, Store, Stream, TimeOfDay,
+    AbortCode, Application, Context, Instant, NoApplication, NodeId, Pin, Reset, Store, Stream,
+    TimeOfDay,
 };
 #[cfg(feature = "eds")]
 use od_runtime::{Chunk, Halt, StreamEnd};
+use od_wire::nmt::State;
 
 #[cfg(feature = "eds")]
 use crate::device::beside::{Beside, Long, room};
@@ -21,31 +24,16 @@ use crate::shaft::{self, Shaft};
 #[derive(Clone)]
 pub(crate) enum Behind {
     Encoder(Box<Encoder<Shaft>>),
-    Plain(Plain),
+    Plain(NoApplication),
     Own(Box<dyn Own>),
-}
-
-/// Behaviour of one's own, of which a copy of the bench has a copy.
-pub(crate) trait Own: Application + Send {
-    fn copy(&self) -> Box<dyn Own>;
-}
-
-impl<A: Application + Clone + Send + 'static> Own for A {
-    fn copy(&self) -> Box<dyn Own> {
-        Box::new(self.clone())
-    }
-}
-
-impl Clone for Box<dyn Own> {
-    fn clone(&self) -> Self {
-        (**self).copy()
-    }
 }
 
 /// The application of a bench's node.
 #[derive(Clone)]
 pub(crate) struct Behaviour {
     pub(crate) behind: Behind,
+    /// Replaces the default of 1018h:04 where the behaviour has no serial number of its own.
+    pub(crate) serial_number: Option<u32>,
     /// Of a device of a file.
     #[cfg(feature = "eds")]
     pub(crate) beside: Option<Beside>,
@@ -55,6 +43,7 @@ impl From<Behind> for Behaviour {
     fn from(behind: Behind) -> Self {
         Self {
             behind,
+            serial_number: None,
             #[cfg(feature = "eds")]
             beside: None,
         }
@@ -66,7 +55,7 @@ impl Behaviour {
     pub(crate) fn of(dictionary: Dictionary<'_>) -> Self {
         let behind = match shaft::encoder_of(dictionary) {
             Some(encoder) => Behind::Encoder(Box::new(encoder)),
-            None => Behind::Plain(Plain::default()),
+            None => Behind::Plain(NoApplication),
         };
         behind.into()
     }
@@ -109,6 +98,10 @@ impl Application for Behaviour {
         #[cfg(feature = "eds")]
         if let Some(beside) = &mut self.beside {
             beside.reset(cx, reset);
+        }
+        if let Some(number) = self.serial_number {
+            cx.store
+                .set_unsigned(Address::new(0x1018, 4), number.into());
         }
         self.own_mut().reset(cx, reset);
     }
@@ -164,6 +157,30 @@ impl Application for Behaviour {
 
     fn error_info(&self, store: &Store<'_>) -> [u8; 5] {
         self.own().error_info(store)
+    }
+
+    fn state_is(&mut self, cx: &mut Context<'_, '_>, state: State) {
+        self.own_mut().state_is(cx, state);
+    }
+
+    fn master_lost(&mut self, cx: &mut Context<'_, '_>) {
+        self.own_mut().master_lost(cx);
+    }
+
+    fn is_event(&self, store: &Store<'_>, address: Address, last: u64, now: u64) -> bool {
+        self.own().is_event(store, address, last, now)
+    }
+
+    fn pins(&self) -> &'static [Pin] {
+        self.own().pins()
+    }
+
+    fn pin(&self, number: usize) -> i64 {
+        self.own().pin(number)
+    }
+
+    fn set_pin(&mut self, number: usize, value: i64) {
+        self.own_mut().set_pin(number, value);
     }
 
     fn tick(&mut self, cx: &mut Context<'_, '_>) -> Option<Instant> {
@@ -316,21 +333,5 @@ impl Stream for Behaviour {
 
     fn end(&mut self, _: &mut Context<'_, '_>, address: Address, _: StreamEnd) {
         self.long().coming.retain(|(own, _)| *own != address);
-    }
-}
-
-/// A device without behaviour, but with a serial number of its own.
-#[derive(Clone, Copy, Default)]
-pub(crate) struct Plain {
-    /// Replaces the default of 1018h:04.
-    pub(crate) serial_number: Option<u32>,
-}
-
-impl Application for Plain {
-    fn reset(&mut self, cx: &mut Context<'_, '_>, _reset: Reset) {
-        if let Some(number) = self.serial_number {
-            cx.store
-                .set_unsigned(Address::new(0x1018, 4), number.into());
-        }
     }
 }

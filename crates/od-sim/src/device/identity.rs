@@ -13,7 +13,7 @@ use crate::device::behaviour::Behind;
 use crate::device::services::Services;
 
 impl VirtualDevice {
-    /// With this serial number in 1018h:04, unless its behaviour is of one's own. Do it before
+    /// With this serial number in 1018h:04. Do it before
     /// power comes.
     #[must_use]
     pub fn with_serial_number(mut self, serial_number: u32) -> Self {
@@ -21,8 +21,7 @@ impl VirtualDevice {
             Behind::Encoder(encoder) => {
                 **encoder = encoder.clone().with_serial_number(serial_number);
             }
-            Behind::Plain(plain) => plain.serial_number = Some(serial_number),
-            Behind::Own(_) => {}
+            _ => self.node.application.serial_number = Some(serial_number),
         }
         self
     }
@@ -37,8 +36,7 @@ impl VirtualDevice {
         let mut address = [1, 2, 3, 4].map(|sub| own(sub).unwrap_or_default());
         let serial_number = match &self.node.application.behind {
             Behind::Encoder(encoder) => encoder.serial_number(),
-            Behind::Plain(plain) => plain.serial_number,
-            Behind::Own(_) => None,
+            _ => self.node.application.serial_number,
         };
         address[3] = serial_number.unwrap_or(address[3]);
         address

@@ -5,7 +5,7 @@
 //! | `compiled`, `loaded`, `described` | a device that the compiler knows, of a file, of a node on a real bus |
 //! | `source`, `behaviour`, `beside` | its dictionary; what it does; strings and DOMAINs at any length |
 //! | `eeprom`, `saved` | its non-volatile memory, and how it is seen from outside |
-//! | `world`, `leds`, `faults` | its shaft, switches, LEDs, and what breaks |
+//! | `world`, `pins`, `leds`, `faults` | its shaft, switches, connections, LEDs, and what breaks |
 //! | `identity`, `own`, `view` | its serial number and LSS address; changes from its side; its values |
 //! | `forward`, `twin` | calls, and the other implementation that receives them, too |
 //! | `services`, `clock`, `programs`, `pdos`, `configured`, `left_out` | what an EDS says beside its objects |
@@ -33,6 +33,7 @@ pub(crate) mod loaded;
 pub mod notice;
 pub(crate) mod own;
 pub mod pdos;
+pub(crate) mod pins;
 #[cfg(feature = "eds")]
 pub(crate) mod programs;
 pub(crate) mod saved;
@@ -52,7 +53,7 @@ use std::vec;
 use od_model::Dictionary;
 use od_runtime::encoder::Fault;
 use od_runtime::storage::{Storage, image};
-use od_runtime::{BusEvent, DeviceKind, Event, Frame, Instant, NodeId, Profile, Reset};
+use od_runtime::{BusEvent, DeviceKind, Event, Frame, Instant, NodeId, Profile, Reset, kind};
 use od_wire::emcy::Emcy;
 use od_wire::nmt::State;
 
@@ -107,12 +108,17 @@ const EVENTS: usize = 256;
 impl VirtualDevice {
     /// A built-in device, without power, with an empty EEPROM in memory.
     pub fn new(kind: &DeviceKind, node_id: NodeId) -> Self {
-        let behaviour = Behind::Encoder(Box::new(shaft::encoder(kind))).into();
+        let behaviour = match kind.behaviour {
+            kind::Behaviour::Encoder(profile) => {
+                Behind::Encoder(Box::new(shaft::encoder(profile, kind.dictionary)))
+            }
+            kind::Behaviour::Own(make) => Behind::Own(make()),
+        };
         let loaded = Loaded {
             source: Source::Compiled(kind.dictionary),
             profile: *kind.profile,
         };
-        let device = Self::build(kind.title.into(), loaded, node_id, behaviour);
+        let device = Self::build(kind.title.into(), loaded, node_id, behaviour.into());
         Self {
             channels: kind.channels,
             services: Services::default(),

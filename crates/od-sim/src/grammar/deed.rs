@@ -3,7 +3,7 @@
 use std::format;
 use std::prelude::v1::*;
 
-use od_runtime::{BusEvent, Frame};
+use od_runtime::{BusEvent, Frame, PinKind};
 
 use super::typed::{Typed, Write};
 use crate::bench::Bench;
@@ -75,6 +75,10 @@ pub enum Deed {
     ClearError(u16),
     /// Sets a value of the device.
     Set(Write),
+    /// Sets an input of the device.
+    Pin(String, i64),
+    /// Wires a connection to an input, both as `device.pin` or of the current device.
+    Connect(String, String),
     /// An event of the CAN controller.
     Controller(BusEvent),
     /// Bit rate of the outside in kbit/s; `None`: any.
@@ -157,6 +161,27 @@ impl Deed {
             Self::Set(write) => {
                 let (address, bytes) = write.own(bench.present()?.dictionary())?;
                 bench.with(|device, now| device.set_value(address, &bytes, now))??;
+            }
+            Self::Pin(name, value) => {
+                let number = bench.present()?.pin_named(name)?;
+                if bench.present()?.pins()[number].kind != PinKind::Input {
+                    return Err(format!("`{name}` is not an input"));
+                }
+                bench.with(|device, now| device.set_pin(number, *value, now))?;
+            }
+            Self::Connect(from, to) => {
+                let end = |name: &'_ str| match name.rsplit_once('.') {
+                    Some((device, _)) => bench.named(device),
+                    None => Ok(bench.current),
+                };
+                let ends = (end(from)?, end(to)?);
+                let pin = |name: &'_ str| match name.rsplit_once('.') {
+                    Some((_, pin)) => pin.to_owned(),
+                    None => name.to_owned(),
+                };
+                bench
+                    .bus
+                    .connect((ends.0, &pin(from)), (ends.1, &pin(to)))?;
             }
             Self::Controller(event) => bench.with(|device, now| device.handle_bus(*event, now))?,
             Self::BusRate(kbit) => bench.bus.set_bit_rate(*kbit),

@@ -42,6 +42,8 @@ pub enum Fact {
     Rpm(Test),
     /// This fault is active.
     Broken(&'static str),
+    /// The value at a connection of the device.
+    Pin(String, Test),
     /// Resistors at the ends of the bus line.
     Terminators(Test),
     /// Error counter of the CAN controller on a real line: of transmit errors, otherwise of receive errors.
@@ -63,7 +65,7 @@ pub(crate) struct Found {
 }
 
 /// The first words of conditions, for messages.
-pub(crate) const NAMES: &str = "value, saved, state, led, node-id, bitrate, turned, rpm, broken, terminators, tec, rec, controller";
+pub(crate) const NAMES: &str = "value, saved, state, led, node-id, bitrate, turned, rpm, broken, pin, terminators, tec, rec, controller";
 
 impl Fact {
     /// Reads a condition; `None` if the line begins with another word.
@@ -90,6 +92,14 @@ impl Fact {
             "turned" => Self::Turned(Test::number(tokens)?),
             "rpm" => Self::Rpm(Test::number(tokens)?),
             "broken" => Self::Broken(fault_name(tokens)?),
+            "pin" => {
+                let here = *tokens;
+                let name = tokens.next().to_owned();
+                if name.is_empty() {
+                    return Err(here.problem("the connection is missing", "write `pin out1 = 1`"));
+                }
+                Self::Pin(name, Test::number(tokens)?)
+            }
             "terminators" => Self::Terminators(Test::number(tokens)?),
             counter @ ("tec" | "rec") => Self::ErrorCounter {
                 transmit: counter == "tec",
@@ -230,6 +240,10 @@ impl Fact {
                 let broken = one.is_broken(name);
                 found(broken, if broken { "active" } else { "not active" })
             }
+            Self::Pin(name, test) => {
+                let number = one.pin_named(name)?;
+                numbers(one.pin(number, now) as f64, test)
+            }
             // Handled above.
             Self::Value(..)
             | Self::Saved(..)
@@ -276,6 +290,9 @@ impl Fact {
             }
             Self::Rpm(test) => format!("the speed{whose} {is} {} rpm", test.words()),
             Self::Broken(name) => format!("the fault {name}{whose} {is} active"),
+            Self::Pin(name, test) => {
+                format!("the connection {name}{whose} {is} {}", test.words())
+            }
             Self::Terminators(test) => format!("the number of terminators is {}", test.words()),
             Self::ErrorCounter { transmit, test } => {
                 let which = if *transmit { "transmit" } else { "receive" };

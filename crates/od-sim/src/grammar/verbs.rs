@@ -11,7 +11,7 @@ use super::pattern::Pattern;
 use super::problem::Problem;
 use super::tokens::Tokens;
 use super::typed::{Typed, Write, type_named};
-use super::world::{bus, device, emcy, fault, label, power, shaft, switch, wire};
+use super::world::{bus, connect, device, emcy, fault, label, pin, power, shaft, switch, wire};
 use crate::logs::candump;
 
 /// One verb.
@@ -24,7 +24,7 @@ pub(super) struct Verb {
 
 /// All verbs, in the order of messages.
 #[rustfmt::skip]
-pub(super) const VERBS: [Verb; 20] = [
+pub(super) const VERBS: [Verb; 22] = [
     Verb { name: "device", parse: device,
            usage: "`device gxmm`, `device gxmm node 5 as left`, or a file name" },
     Verb { name: "use", parse: |tokens| Ok(Action::Deed(Deed::Use(label(tokens)?))),
@@ -41,6 +41,9 @@ pub(super) const VERBS: [Verb; 20] = [
            usage: "`emcy 4200h`, `emcy 4200h register 09h info 01 02`, `emcy 4200h off` or \
                    `emcy 0000h` (all off)" },
     Verb { name: "set", parse: set, usage: "`set 6000h:01 = 5`" },
+    Verb { name: "pin", parse: pin, usage: "`pin in3 1`: an input of the device and its value" },
+    Verb { name: "wire", parse: connect,
+           usage: "`wire out1 in3`, or `wire left.out1 right.in3` with names of `device … as` lines" },
     Verb { name: "bus", parse: bus,
            usage: "bus active, warning, passive, off, overrun, bitrate 250 (kbit/s) or bitrate any" },
     Verb { name: "line", parse: wire,

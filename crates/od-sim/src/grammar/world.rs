@@ -177,6 +177,29 @@ fn bytes(tokens: &mut Tokens<'_>) -> Result<[u8; 5], Problem> {
     Ok(bytes)
 }
 
+pub(super) fn pin(tokens: &mut Tokens<'_>) -> Result<Action, Problem> {
+    let name = connection(tokens)?;
+    let here = *tokens;
+    match tokens.next().parse() {
+        Ok(value) => Ok(Action::Deed(Deed::Pin(name, value))),
+        Err(_) => Err(here.wrong("the value of the input is missing")),
+    }
+}
+
+pub(super) fn connect(tokens: &mut Tokens<'_>) -> Result<Action, Problem> {
+    let from = connection(tokens)?;
+    let to = connection(tokens)?;
+    Ok(Action::Deed(Deed::Connect(from, to)))
+}
+
+fn connection(tokens: &mut Tokens<'_>) -> Result<String, Problem> {
+    let here = *tokens;
+    match tokens.next() {
+        "" => Err(here.wrong("the name of a connection is missing")),
+        name => Ok(name.to_owned()),
+    }
+}
+
 pub(super) fn bus(tokens: &mut Tokens<'_>) -> Result<Action, Problem> {
     let here = *tokens;
     Ok(Action::Deed(match tokens.next() {

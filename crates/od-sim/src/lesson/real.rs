@@ -80,5 +80,6 @@ fn virtual_thing(one: &Alternative) -> Option<&'static str> {
         | Fact::Controller(_) => "a step looks at the bus line",
         Fact::Turned(_) | Fact::Rpm(_) => "a step turns the shaft",
         Fact::Broken(_) => "a step looks at a fault",
+        Fact::Pin(..) => "a step looks at a connection",
     })
 }

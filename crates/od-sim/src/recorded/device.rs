@@ -2,14 +2,13 @@
 
 use std::prelude::v1::*;
 
-use od_runtime::{Frame, Instant};
+use od_runtime::{Frame, Instant, NoApplication};
 use od_wire::nmt::State;
 
 use super::Recorded;
 use super::play::{Due, Playing};
 use crate::device::VirtualDevice;
 use crate::device::behaviour::Behind;
-use crate::device::behaviour::Plain;
 
 impl VirtualDevice {
     /// Plays a recording instead of simulating an application. Call it before the power is switched on.
@@ -24,7 +23,7 @@ impl VirtualDevice {
         }
         profile.sdo.segmented_download &= !recorded.no_segments;
         profile.sdo.block &= !recorded.no_blocks;
-        self.node.application.behind = Behind::Plain(Plain::default());
+        self.node.application.behind = Behind::Plain(NoApplication);
         let node = self.node_id().raw();
         let dictionary = self.dictionary();
         let configured = |index, sub| {

@@ -7,8 +7,8 @@ mod placed;
 mod rate;
 
 use od_model::Dictionary;
+use od_runtime::Instant;
 use od_runtime::encoder::{Angle, Counter, Encoder, EncoderProfile, Fault, Gain, Motion, Sensor};
-use od_runtime::{DeviceKind, Instant};
 
 use counter::Unseen;
 use course::{Course, FINE, PER_REVOLUTION, Ramp};
@@ -168,8 +168,12 @@ impl Shaft {
     /// Positions that a host sets at least every 20 ms are a movement: speed and acceleration are
     /// those between the positions. A single position is a jump, which has no speed.
     pub fn set_raw(&mut self, now: Instant, sensor: Sensor, raw: u64) {
+        self.place(now, sensor.angle(raw));
+    }
+
+    /// As [`set_raw`](Self::set_raw), to an angle.
+    pub fn place(&mut self, now: Instant, angle: Angle) {
         self.unseen.forget();
-        let angle = sensor.angle(raw);
         self.placed.add(now, angle.minus(self.at(now)));
         self.set_angle(now, angle);
     }
@@ -258,9 +262,9 @@ impl Motion for Shaft {
     }
 }
 
-/// Returns the encoder of a device at angle 0 without faults.
-pub fn encoder(kind: &DeviceKind) -> Encoder<Shaft> {
-    Encoder::new(kind.encoder, Shaft::default()).with_sensor_of(kind.dictionary)
+/// Returns the encoder of a family with a dictionary, at angle 0 without faults.
+pub fn encoder(profile: &'static EncoderProfile, dictionary: Dictionary<'_>) -> Encoder<Shaft> {
+    Encoder::new(profile, Shaft::default()).with_sensor_of(dictionary)
 }
 
 /// Returns the encoder of an unknown family, see [`EncoderProfile::for_dictionary`].

@@ -4,14 +4,15 @@ use std::format;
 use std::prelude::v1::*;
 
 use odkit::encoder::{
-    Appears, Counter, GearKind, Quantity, RangeRule, Report, Role, Source, Total, Until,
+    Appears, Counter, EncoderProfile, GearKind, Quantity, RangeRule, Report, Role, Source, Total,
+    Until,
 };
 
 use od_eds::convert::markdown::fact;
 use odkit::{Address, DeviceKind};
 
 /// The columns of [`faults`].
-pub(super) fn fault_head(kind: &DeviceKind) -> Vec<&'static str> {
+pub(super) fn fault_head(encoder: &EncoderProfile) -> Vec<&'static str> {
     let mut head = [
         "`fault`",
         "EMCY",
@@ -22,16 +23,15 @@ pub(super) fn fault_head(kind: &DeviceKind) -> Vec<&'static str> {
         "active until",
     ]
     .to_vec();
-    if kind.encoder.object(Role::InjectedError).is_some() {
+    if encoder.object(Role::InjectedError).is_some() {
         head.push("injected by");
     }
     head
 }
 
-pub(super) fn facts(kind: &DeviceKind) -> Vec<Vec<String>> {
+pub(super) fn facts(kind: &DeviceKind, profile: &EncoderProfile) -> Vec<Vec<String>> {
     let mut facts = Vec::new();
-    let profile = kind.encoder;
-    let sensor = kind.sensor();
+    let sensor = profile.sensor_of(kind.dictionary);
     let turns = match sensor.turns {
         1 => "singleturn".to_owned(),
         turns => format!("{turns} revolutions"),
@@ -116,18 +116,17 @@ pub(super) fn facts(kind: &DeviceKind) -> Vec<Vec<String>> {
     facts
 }
 
-pub(super) fn faults(kind: &DeviceKind) -> Vec<Vec<String>> {
+pub(super) fn faults(kind: &DeviceKind, encoder: &EncoderProfile) -> Vec<Vec<String>> {
     let supports = |index, bits: u16| {
         let entry = kind.dictionary.entry(index, 0);
         let supported = entry.and_then(|entry| entry.default.integer(1));
         supported.is_none_or(|supported| supported & i128::from(bits) == i128::from(bits))
     };
     let has = |report: &&Report| {
-        !kind.encoder.by_support
-            || (supports(0x6504, report.alarm) && supports(0x6506, report.warning))
+        !encoder.by_support || (supports(0x6504, report.alarm) && supports(0x6506, report.warning))
     };
-    let reports = kind.encoder.reports.iter().filter(has);
-    let columns = fault_head(kind).len();
+    let reports = encoder.reports.iter().filter(has);
+    let columns = fault_head(encoder).len();
     reports.map(|report| row(report, columns)).collect()
 }
 

@@ -12,25 +12,11 @@ use odkit::DeviceKind;
 
 /// Returns the note on a value; empty if the value has no note.
 pub(super) fn note(kind: &DeviceKind, address: Address) -> String {
-    let encoder = kind.encoder;
-    if let Some(note) = encoder
-        .role(address)
-        .and_then(|role| note_of(role, encoder))
+    if let Some(note) = kind
+        .encoder()
+        .and_then(|encoder| encoder_note(encoder, address))
     {
         return note;
-    }
-    if let Some((one, other)) = encoder
-        .links
-        .iter()
-        .find(|(one, other)| *one == address || *other == address)
-    {
-        let twin = if *one == address { other } else { one };
-        return format!("one value with {twin}");
-    }
-    let mut movements = encoder.movements();
-    if let Some((_, movement)) = movements.find(|(_, movement)| movement.selector == Some(address))
-    {
-        return takes(movement.sources.iter().map(|(number, _)| number));
     }
     match (address.index, address.sub) {
         (0x1010, 1..) => "\"save\": 65766173h".into(),
@@ -46,6 +32,27 @@ pub(super) fn note(kind: &DeviceKind, address: Address) -> String {
         }
         _ => String::new(),
     }
+}
+
+/// The note about a value of an encoder.
+fn encoder_note(encoder: &EncoderProfile, address: Address) -> Option<String> {
+    if let Some(note) = encoder
+        .role(address)
+        .and_then(|role| note_of(role, encoder))
+    {
+        return Some(note);
+    }
+    if let Some((one, other)) = encoder
+        .links
+        .iter()
+        .find(|(one, other)| *one == address || *other == address)
+    {
+        let twin = if *one == address { other } else { one };
+        return Some(format!("one value with {twin}"));
+    }
+    let mut movements = encoder.movements();
+    let (_, movement) = movements.find(|(_, movement)| movement.selector == Some(address))?;
+    Some(takes(movement.sources.iter().map(|(number, _)| number)))
 }
 
 /// The note about the effect of an object on the encoder.

@@ -171,7 +171,9 @@ fn bit_rates(kind: &DeviceKind, facts: &mut Vec<Vec<String>>) {
         let pairs = known.map(|(code, rate)| format!("{code} = {rate}"));
         pairs.collect::<Vec<_>>().join(", ")
     };
-    let encoder = kind.encoder;
+    let Some(encoder) = kind.encoder() else {
+        return;
+    };
     if let Some(address) = encoder.object(Role::BitRate) {
         let rates = list(encoder.bit_rates);
         facts.push(fact(
@@ -233,7 +235,7 @@ fn options(kind: &DeviceKind, facts: &mut Vec<Vec<String>>) {
     add(profile.nmt.self_start, "self-start");
     add(profile.nmt.reset_node_light, "reset node keeps the values");
     add(profile.errors.off.restart, "restarts after bus-off");
-    if let Some(options) = &kind.encoder.options {
+    if let Some(options) = kind.encoder().and_then(|encoder| encoder.options.as_ref()) {
         let at = |mask| Some((options.index, mask));
         add(at(options.keep_offset), "a new resolution keeps the offset");
         add(at(options.delay_timer), "1800h:05 is 6200h plus a delay");

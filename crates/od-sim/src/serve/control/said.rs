@@ -63,6 +63,8 @@ pub(super) fn said(deed: &Deed, bench: &Bench) -> String {
             Ok((address, bytes)) => value(device, address, &bytes),
             Err(_) => String::from("value set"),
         },
+        Deed::Pin(name, number) => format!("{name} = {number}"),
+        Deed::Connect(from, to) => return format!("{from} is wired to {to}"),
         Deed::Controller(event) => String::from(match event {
             BusEvent::Active => "CAN controller error active",
             BusEvent::Warning => "CAN controller at its warning limit",

@@ -1,0 +1,80 @@
+//! Wires between connections of devices: an output sets an input.
+
+use std::format;
+use std::prelude::v1::*;
+
+use od_model::Refused;
+use od_runtime::PinKind;
+
+use super::{Bus, STUCK};
+use crate::bus::wiring::Wire;
+
+impl Bus {
+    /// Wires the connection of a device to an input of a device, which may be the same. An input has one wire:
+    /// the last one replaces others.
+    ///
+    /// # Errors
+    /// A sentence: a device or a connection does not exist, or the second one is not an input.
+    pub fn connect(&mut self, from: (usize, &str), to: (usize, &str)) -> Result<(), Refused> {
+        let pin = |(device, name): (usize, &str)| {
+            let one = self
+                .devices
+                .get(device)
+                .ok_or_else(|| Refused::from(format!("device {} does not exist", device + 1)))?;
+            let number = one.pin_named(name)?;
+            Ok::<_, Refused>(((device, number), one.pins()[number].kind))
+        };
+        let (from, _) = pin(from)?;
+        let name = to.1;
+        let (to, kind) = pin(to)?;
+        if kind != PinKind::Input {
+            return Err(format!("`{name}` is not an input").into());
+        }
+        self.wires.retain(|wire| wire.to != to);
+        self.wires.push(Wire {
+            from,
+            to,
+            last: None,
+        });
+        self.conduct();
+        Ok(())
+    }
+
+    /// Wires carry what changed at their first ends.
+    pub(super) fn conduct(&mut self) {
+        if self.wires.is_empty() {
+            return;
+        }
+        // Two devices whose outputs follow each other for ever would be an oscillator; stop there.
+        for _ in 0..STUCK {
+            let mut is_changed = false;
+            for at in 0..self.wires.len() {
+                let Wire { from, to, last } = self.wires[at];
+                let value = self.devices[from.0].pin(from.1, self.now);
+                if last == Some(value) {
+                    continue;
+                }
+                self.wires[at].last = Some(value);
+                self.devices[to.0].set_pin(to.1, value, self.now);
+                self.settle(to.0);
+                is_changed = true;
+            }
+            if !is_changed {
+                return;
+            }
+        }
+    }
+
+    /// A device is taken off the bus, with its wires.
+    pub(super) fn cut_wires(&mut self, device: usize) {
+        let wires = core::mem::take(&mut self.wires);
+        let left = wires.into_iter().filter_map(|wire| wire.without(device));
+        self.wires = left.collect();
+    }
+
+    /// Another device is in the place of one.
+    pub(super) fn cut_wires_of(&mut self, place: usize) {
+        self.wires
+            .retain(|wire| wire.from.0 != place && wire.to.0 != place);
+    }
+}
