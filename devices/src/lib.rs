@@ -22,6 +22,7 @@ pub mod bus_cover;
 pub mod eam;
 mod eam_diagnosis;
 pub mod en580c;
+pub mod io;
 #[cfg(feature = "text")]
 pub mod text;
 
@@ -73,6 +74,7 @@ pub const DEVICES: &[DeviceKind] = &[
         2,
     ),
     en580c::kind("en580c", "EN580C, optical multiturn"),
+    io::kind("io", "I/O module (CiA 401)"),
 ];
 
 /// The device with this name, in any case.
