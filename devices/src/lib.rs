@@ -19,6 +19,7 @@
 extern crate std;
 
 pub mod bus_cover;
+pub mod drive;
 pub mod eam;
 mod eam_diagnosis;
 pub mod en580c;
@@ -75,6 +76,7 @@ pub const DEVICES: &[DeviceKind] = &[
     ),
     en580c::kind("en580c", "EN580C, optical multiturn"),
     io::kind("io", "I/O module (CiA 401)"),
+    drive::kind("drive", "Servo drive with two axes (CiA 402)"),
 ];
 
 /// The device with this name, in any case.

@@ -39,8 +39,13 @@ fn facts_about_the_device_agree_with_its_objects() {
                 kind.name
             );
         }
-        assert_eq!(value("NrOfTXPDO"), "2");
-        assert_eq!(value("NrOfRXPDO"), "0");
+        let pdos = match kind.name {
+            "io" => ("2", "2"),
+            "drive" => ("4", "4"),
+            _ => ("2", "0"),
+        };
+        let (sent, received) = (value("NrOfTXPDO"), value("NrOfRXPDO"));
+        assert_eq!((&*sent, &*received), pdos, "{}", kind.name);
         assert_eq!(value("LSS_Supported"), "1");
         assert_eq!(value("SimpleBootUpSlave"), "1");
         // 10 kbit/s is code 0 of 2100h, which the EN580C does not support.
@@ -55,6 +60,8 @@ fn the_files_of_the_project_equal_their_exports() {
         ("gxmm", include_str!("../eds/GXMM.eds")),
         ("eam_mt", include_str!("../eds/EAM_MT.eds")),
         ("en580c", include_str!("../eds/EN580C.eds")),
+        ("drive", include_str!("../eds/DRIVE.eds")),
+        ("io", include_str!("../eds/IO.eds")),
     ] {
         let exported =
             od_eds::parse(&od_devices::text::eds(od_devices::find(name).unwrap())).description;

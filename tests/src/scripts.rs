@@ -8,12 +8,14 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Allowed sources of a rule, as the first words of a source.
-pub const SOURCES: [&str; 7] = [
+pub const SOURCES: [&str; 9] = [
     "Manual 000",
     "Manual 001",
     "Manual 003",
     "CiA 301",
     "CiA 302",
+    "CiA 401",
+    "CiA 402",
     "CiA case",
     "MANUALS.md",
 ];

@@ -119,7 +119,7 @@ pub(super) const TABLE: &[Row] = &[
     named(0x60D0, 0x60D0, "Touch probe source"),
     named(0x60E0, 0x60E0, "Positive torque limit value"),
     named(0x60E1, 0x60E1, "Negative torque limit value"),
-    named(0x60E3, 0x60E3, "Supported homing methods"),
+    named(0x60E3, 0x60E3, "Supported homing methods").with(&[(1, 0xFE, Integer8)]),
     named(0x60E4, 0x60E4, "Additional position actual value").with(&[(0, 0xFE, Integer32)]),
     named(0x60E5, 0x60E5, "Additional velocity actual value").with(&[(0, 0xFE, Integer32)]),
     named(0x60F2, 0x60F2, "Positioning option code"),
