@@ -99,7 +99,27 @@ impl Eds {
             Some(0x5F | 0xEC)
         );
         let is_own = matches!(address.index, 0x2100 | 0x2101);
-        is_touchy(address) && (is_built_in || !is_own)
+        self.moves(address) || is_touchy(address) && (is_built_in || !is_own)
+    }
+
+    /// Number of the device profile (1000h).
+    fn profile(&self) -> Option<i128> {
+        let entry = self.entry(0x1000, 0)?;
+        Some(entry.default.integer(0)? & 0xFFFF)
+    }
+
+    /// Whether a value moves a machine: the commands of a drive (CiA 402), the outputs of a module (CiA 401).
+    fn moves(&self, address: Address) -> bool {
+        match (self.profile(), address.index) {
+            (Some(402), index @ 0x6000..=0x9FFF) => matches!(
+                index & 0x7FF,
+                0x40 | 0x42 | 0x60 | 0x71 | 0x7A | 0xC1 | 0xFF
+            ),
+            (Some(401), index @ 0x6200..=0x64FF) => {
+                matches!(index, 0x6200..=0x6237 | 0x6300..=0x6327 | 0x6410..=0x6414)
+            }
+            _ => false,
+        }
     }
 
     /// The value after a restore, as bytes on the bus; `None` if the EDS has no default value.
@@ -165,7 +185,7 @@ impl Eds {
 
     /// Returns whether a condition of an `Applies:` line is met; `None` if the text is not a condition.
     ///
-    /// `1017h`, `1018h:02`, `1017h rw`, `lss`, `tpdo`, `rpdo`, `cia406`.
+    /// `1017h`, `1018h:02`, `1017h rw`, `lss`, `tpdo`, `rpdo`, `cia401`, `cia402`, `cia406`.
     pub(crate) fn meets(&self, condition: &str) -> Option<bool> {
         let mut words = condition.split_whitespace();
         let first = words.next()?;
@@ -173,11 +193,9 @@ impl Eds {
             "lss" => self.info("LSS_Supported").is_some_and(|value| value != 0),
             "tpdo" => !self.pdos(0x1800).is_empty(),
             "rpdo" => !self.pdos(0x1400).is_empty(),
-            "cia406" => {
-                let entry = self.entry(0x1000, 0);
-                let number = entry.and_then(|entry| entry.default.integer(0));
-                number.is_some_and(|number| number & 0xFFFF == 406)
-            }
+            "cia401" => self.profile() == Some(401),
+            "cia402" => self.profile() == Some(402),
+            "cia406" => self.profile() == Some(406),
             object => {
                 let address = od_model::values::address(object)?;
                 let (index, sub) = (address.index, address.sub);

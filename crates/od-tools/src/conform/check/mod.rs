@@ -2,12 +2,14 @@
 
 mod block;
 mod cob_ids;
+mod drive;
 mod emergency;
 mod encoder;
 mod file;
 mod heartbeat;
 mod lss;
 mod mapping;
+mod module;
 mod nmt;
 mod objects;
 mod rpdo;
@@ -479,6 +481,26 @@ pub(super) const GROUPS: &[(&str, &[BuiltIn])] = &[
             "CiA 301 7.5.2.32: With 2 in 1029h:01 an error of communication leads to Stopped.").applies("1029h:01 rw, 1016h"),
         check("error-behaviour-range", emergency::behaviour_range,
             "CiA 301 7.5.2.32: A value in 1029h:01 beyond the limits is refused.").applies("1029h:01 rw"),
+    ]),
+    ("CiA 401", &[
+        check("module-device-type", module::device_type,
+            "CiA 401 1000h: Bits 16 to 19 of the device type say which kinds of inputs and outputs there are.").applies("cia401"),
+        check("module-polarity", module::polarity,
+            "CiA 401 6002h: 6002h inverts the digital inputs of 6000h.").applies("cia401, 6000h:01, 6002h:01").needs("reset"),
+    ]),
+    ("CiA 402", &[
+        check("drive-objects", drive::objects,
+            "CiA 402 6041h: 6040h, 6041h and 6502h are there.").applies("cia402"),
+        check("drive-initial", drive::initial,
+            "CiA 402 6041h: After NMT reset node a drive without a fault is in Switch on disabled.").applies("cia402, 6041h").needs("reset"),
+        check("drive-shutdown", drive::shutdown,
+            "CiA 402 6040h: Shutdown leads to Ready to switch on, and disable voltage back to Switch on disabled.").applies("cia402, 6040h rw, 6041h").needs("reset"),
+        check("drive-order", drive::order,
+            "CiA 402 6040h: Switch on has no effect in Switch on disabled.").applies("cia402, 6040h rw, 6041h").needs("reset"),
+        check("drive-mode", drive::mode,
+            "CiA 402 6061h: 6061h shows the mode that was written to 6060h.").applies("cia402, 6060h rw, 6061h, 6502h").needs("reset"),
+        check("drive-other-mode", drive::other_mode,
+            "CiA 402 6060h: A mode that 6502h lacks does not become the present one.").applies("cia402, 6060h rw, 6061h, 6502h").needs("reset"),
     ]),
     ("CiA 406", &[
         check("encoder-objects", encoder::objects,
