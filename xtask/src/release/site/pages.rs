@@ -44,6 +44,7 @@ const PARTS: [(&str, &[&str]); 9] = [
         "docs/how-to/new-device.md",
         "docs/how-to/new-firmware.md",
         "docs/how-to/device-in-rust.md",
+        "docs/how-to/own-family.md",
         "docs/how-to/node-on-a-board.md",
         "docs/how-to/node-from-c.md",
         "docs/how-to/test-a-device.md",
