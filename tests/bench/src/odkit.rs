@@ -77,10 +77,8 @@ impl Turning {
     /// position in a TPDO on each SYNC. Time stops from now on.
     pub fn turning() -> Self {
         let device = od_devices::find("gxmm").expect("one of the devices");
-        let mut encoder = od_sim::shaft::encoder(
-            device.encoder().expect("an encoder"),
-            device.dictionary,
-        );
+        let mut encoder =
+            od_sim::shaft::encoder(device.encoder().expect("an encoder"), device.dictionary);
         encoder.shaft.set_milli_rpm(Instant::ZERO, 60_000);
         let mut odkit = Self::start(device.dictionary, encoder, device.profile);
         let node = objects::NODE_ID;
@@ -219,10 +217,8 @@ impl Seconds {
     /// whose TPDO 2 is off.
     pub fn new(Simulated { device, is_moving }: Simulated) -> Self {
         let device = od_devices::find(device).expect("one of the devices");
-        let mut encoder = od_sim::shaft::encoder(
-            device.encoder().expect("an encoder"),
-            device.dictionary,
-        );
+        let mut encoder =
+            od_sim::shaft::encoder(device.encoder().expect("an encoder"), device.dictionary);
         encoder.shaft.set_milli_rpm(Instant::ZERO, 60_000);
         let mut odkit = Odkit::start(device.dictionary, encoder, device.profile);
         let node = objects::NODE_ID;
