@@ -6,16 +6,16 @@
 //! family from CiA 301 and CiA 406. Differences between the eight devices are in their
 //! dictionaries only.
 
+use odkit::Address;
 use odkit::encoder::{EncoderProfile, Fault, Options, Report, Role, Total};
 use odkit::{
     AbortCode, BusOffProfile, CommunicationReset, CutSave, ErrorProfile, ErrorReset, EventTimer,
     LengthRule, LssProfile, NmtProfile, Notice, PdoProfile, Profile, Restore, SaveAnswer,
     SavedCobIds, SdoProfile, StoreProfile,
 };
-use odkit::{Address, Dictionary};
 
 #[cfg(feature = "std")]
-use odkit::{DeviceKind, kind::Behaviour};
+use odkit::{DeviceKind, Dictionary, kind::Behaviour};
 
 odkit::object_dictionary! {
     /// `GXMM`, multivo multiturn: 13 bits a revolution, 16 bits of revolutions.

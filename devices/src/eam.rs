@@ -7,6 +7,7 @@
 //! The redundant version is two channels on one shaft, behind one connector: two nodes, each
 //! with its own electronics, battery, memory and serial number (chapter 4.5).
 
+use odkit::Address;
 use odkit::encoder::{
     Counter, EncoderProfile, Gear, GearKind, Movement, Options, Quantity, RangeRule, Role, Sensor,
     Source, Total,
@@ -16,11 +17,10 @@ use odkit::{
     LengthRule, LssProfile, NmtProfile, Notice, PdoProfile, Profile, Restore, SaveAnswer,
     SavedCobIds, SdoProfile, StoreProfile,
 };
-use odkit::{Address, Dictionary};
 
 use crate::eam_diagnosis;
 #[cfg(feature = "std")]
-use odkit::{DeviceKind, kind::Behaviour};
+use odkit::{DeviceKind, Dictionary, kind::Behaviour};
 
 odkit::object_dictionary! {
     /// `EAMxxx MT`, multiturn: 16 bits a revolution, of which 14 are used by default, and 18 bits

@@ -4,7 +4,7 @@ use odkit::{AbortCode, Address, Store};
 
 use super::STEP;
 use super::homing::{Homing, METHODS};
-use super::motion::{Limits, Motion, UNIT};
+use super::motion::{Limits, Motion, UNIT, within};
 use super::state::{Command, FOLLOWING_ERROR, LOST, SAFE_TORQUE_OFF, State, Transition};
 
 /// Modes of operation (CiA 402, 6060h).
@@ -280,7 +280,7 @@ impl Axis {
     /// The speed of an object in the units of the demand.
     pub(super) fn speed(&self, store: &Store<'_>, index: u16, sub: u8) -> i64 {
         let most = self.get(store, 0x607F);
-        self.sub(store, index, sub).clamp(-most, most) * UNIT
+        within(self.sub(store, index, sub), most) * UNIT
     }
 
     /// Limits of the profile modes.
@@ -529,7 +529,7 @@ impl Axis {
         };
         let most = self.get(store, 0x607F) * STEP as i64;
         let wanted = (target - self.demand.position) / left;
-        let way = wanted.clamp(-most, most);
+        let way = within(wanted, most);
         if !self.may_go(store, way) {
             return;
         }
@@ -562,7 +562,8 @@ impl Axis {
         if !self.world.is_held {
             let axis = (self.base / super::AXIS) as u8 + 1;
             let lag = store.signed(0x2001, axis);
-            self.actual.position += (self.demand.position - before) / (lag + 1);
+            let way = self.demand.position - before;
+            self.actual.position += way.checked_div(lag + 1).unwrap_or(way);
         }
         self.actual.speed = (self.actual.position - before) * (UNIT / STEP as i64);
     }

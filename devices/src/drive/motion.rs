@@ -41,7 +41,7 @@ impl Motion {
 
     /// Speeds up or slows down towards a speed by one step, and moves.
     pub(super) fn ramp(&mut self, target: i64, limits: Limits) {
-        let target = target.clamp(-limits.speed, limits.speed);
+        let target = within(target, limits.speed);
         let is_slower =
             target.abs() < self.speed.abs() || target.signum() * self.speed.signum() < 0;
         let rate = if is_slower {
@@ -56,7 +56,7 @@ impl Motion {
             let slower = self.speed.abs() - most;
             self.speed = slower.max(0) * self.speed.signum();
         } else {
-            self.speed += change.clamp(-most, most);
+            self.speed += within(change, most);
         }
         self.go();
     }
@@ -86,6 +86,17 @@ impl Motion {
         let wanted = fastest.min(limits.speed) * way.signum();
         self.ramp(wanted, limits);
         false
+    }
+}
+
+/// The number, or the nearest one that is not beyond `most` in either direction.
+pub(super) const fn within(number: i64, most: i64) -> i64 {
+    if number > most {
+        most
+    } else if number < -most {
+        -most
+    } else {
+        number
     }
 }
 

@@ -34,7 +34,9 @@ pub fn eds(kind: &DeviceKind) -> String {
         description: kind.title,
         date: DATE,
         vendor: "odkit virtual devices",
-        bit_rates: kind.encoder().map_or(LSS_RATES, |encoder| encoder.bit_rates),
+        bit_rates: kind
+            .encoder()
+            .map_or(LSS_RATES, |encoder| encoder.bit_rates),
         lss: kind.profile.lss.is_some(),
         simple_boot_up: true,
         comments: COMMENTS,
