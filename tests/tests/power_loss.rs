@@ -6,7 +6,7 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use od_devices::DEVICES;
+use od_devices::encoders;
 use od_model::{Address, Group};
 use od_runtime::DeviceKind;
 use od_runtime::storage::{Geometry, Memory, Storage, StorageError, image};
@@ -233,7 +233,7 @@ fn cut_everywhere<S: Cut>(kind: &'static DeviceKind, erased: S, least: usize) {
 #[test]
 fn a_power_cut_at_any_byte_or_word_of_a_save() {
     std::thread::scope(|scope| {
-        for kind in DEVICES {
+        for kind in encoders() {
             let thread = std::thread::Builder::new().name(kind.name.into());
             let spawned = thread.spawn_scoped(scope, move || {
                 let capacity = VirtualDevice::new(kind, NodeId::ONE).storage_needed();
