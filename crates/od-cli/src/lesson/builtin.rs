@@ -65,6 +65,11 @@ pub(super) const LESSONS: &[(&str, &str)] = &[
         "arbitration",
         include_str!("../../lessons/27-arbitration.md"),
     ),
+    (
+        "drive-states",
+        include_str!("../../lessons/28-drive-states.md"),
+    ),
+    ("io-process", include_str!("../../lessons/29-io-process.md")),
 ];
 
 /// Returns the text of the lesson with this name.

@@ -183,7 +183,7 @@ fn codes_of_learners_become_a_table_and_a_truncated_one_is_reported() {
         "learner  lessons  steps      2      3\n\
          Ann Ü.         1      7   done    2/6\n\
          Bob            1      6      -   done\n\
-         \n2 learners, 27 lessons come with odkit\n  2  nmt\n  3  sdo\n"
+         \n2 learners, 29 lessons come with odkit\n  2  nmt\n  3  sdo\n"
     );
     // The page did two of these steps.
     let shown = "odkit-progress/1 learner=Eva nmt=5/5~2@2026-11-22 sum=";
