@@ -34,10 +34,12 @@ from odkit._odkit import (
     diff,
     fix,
     overlay,
+    play,
     read,
     to_canopen,
     wires,
 )
+from odkit._campaign import Failure, campaign
 from odkit._waits import patch_time
 from odkit.aio import AsyncClient
 
@@ -51,6 +53,7 @@ __all__ = [
     "Difference",
     "Emcy",
     "Entry",
+    "Failure",
     "Finding",
     "Fixed",
     "Found",
@@ -63,6 +66,7 @@ __all__ = [
     "Relative",
     "SdoAbort",
     "Snapshot",
+    "campaign",
     "check",
     "conform_cases",
     "convert",
@@ -71,6 +75,7 @@ __all__ = [
     "fix",
     "overlay",
     "patch_time",
+    "play",
     "read",
     "to_canopen",
     "wires",

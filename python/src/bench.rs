@@ -85,7 +85,9 @@ impl Bench {
             Some(snapshot) => snapshot.get().restore(&mut state),
             None => {
                 for list in lists(devices)? {
-                    spec::add(&mut state.bus, &mut state.names, &list)?;
+                    for (place, line) in spec::add(&mut state.bus, &mut state.names, &list)? {
+                        state.story.device(line, place);
+                    }
                 }
                 state.start();
             }
@@ -171,13 +173,23 @@ impl Bench {
     fn add(&self, py: Python<'_>, device: &str, power: bool) -> PyResult<Device> {
         let mut state = self.wire.enter(py)?;
         let state = &mut *state;
+        let now = state.now();
+        state.story.reach(now, &state.due());
+        let first_new = state.bus.devices().len();
         let added = spec::add(&mut state.bus, &mut state.names, device)?;
-        for place in added.iter().filter(|_| power) {
-            state.bus.start(*place);
+        for (place, line) in &added {
+            let off = if power { "" } else { " off" };
+            state.story.device(format!("{line}{off}"), *place);
+        }
+        state.story.acted = true;
+        for place in first_new..state.bus.devices().len() {
+            if power {
+                state.bus.start(place);
+            }
         }
         state.collect();
         state.wake();
-        let first = added.first().copied();
+        let first = added.first().map(|(place, _)| *place);
         Ok(self.device_at(first.ok_or_else(|| Fault::value("no device is named"))?))
     }
 
@@ -257,6 +269,8 @@ impl Bench {
     #[setter]
     fn set_bit_rate(&self, py: Python<'_>, kbit: Option<u16>) -> PyResult<()> {
         let mut state = self.wire.enter(py)?;
+        let rate = kbit.map_or(String::from("any"), |kbit| kbit.to_string());
+        state.tell(None, &format!("bus bitrate {rate}"));
         state.bus.set_bit_rate(kbit);
         state.bus.line.bit_rate = kbit;
         Ok(())
@@ -272,7 +286,11 @@ impl Bench {
 
     #[setter]
     fn set_real_line(&self, py: Python<'_>, real: bool) -> PyResult<()> {
-        self.wire.enter(py)?.bus.line.set_real(real);
+        let mut state = self.wire.enter(py)?;
+        if real {
+            state.story.cannot("`real_line`");
+        }
+        state.bus.line.set_real(real);
         Ok(())
     }
 
@@ -311,10 +329,32 @@ impl Bench {
     fn restart(&self, py: Python<'_>, device: Option<&Device>) -> PyResult<()> {
         let station = device.map_or(0, |device| device.place + 1);
         let mut state = self.wire.enter(py)?;
+        state.story.cannot("`restart`");
         state.bus.restart_controller(station);
         state.collect();
         state.wake();
         Ok(())
+    }
+
+    /// What happened so far as a script: `odkit run` plays it with the same frames. Times of a loop that runs beside it do not
+    /// matter, since it contains what programs sent, and when.
+    ///
+    /// Raises `ValueError` if a script has no line for something, such as a real line or a new EEPROM.
+    fn script(&self) -> PyResult<String> {
+        let state = self.wire.lock();
+        let script = state.story.script(state.now(), &state.due());
+        Ok(script.map_err(Fault::Value)?)
+    }
+
+    /// The script as the end of an address of the playground, `#bench=…`: the page repeats it. The page has built-in
+    /// devices only.
+    ///
+    /// Raises what `script` raises.
+    fn link<'p>(&self, py: Python<'p>) -> PyResult<Bound<'p, PyAny>> {
+        let (script, now) = (self.script()?, self.now());
+        py.import("odkit._campaign")?
+            .getattr("link_of")?
+            .call1((script, now))
     }
 
     /// The state of the bench, for `restore`.

@@ -10,6 +10,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
 use crate::faults::Fault;
+use crate::story;
 use crate::value::{from_python, to_python};
 use crate::wire::{Wire, finite, micros};
 
@@ -24,15 +25,25 @@ pub(crate) struct Device {
 }
 
 impl Device {
-    /// Changes something beside the bus, and wakes the waiting threads.
+    /// Changes something beside the bus, and wakes the waiting threads. `line` is its line in a script, or what
+    /// scripts do not have; it counts if the change `is_done`.
     fn act<R>(
         &self,
         py: Python<'_>,
+        line: Result<&str, &str>,
+        is_done: impl FnOnce(&R) -> bool,
         act: impl FnOnce(&mut VirtualDevice, Instant) -> R,
     ) -> PyResult<R> {
         let mut state = self.wire.enter(py)?;
         state.acted = state.now();
+        let due = state.due();
         let result = state.bus.with(self.place, act);
+        let now = state.now();
+        match (result.as_ref().is_some_and(is_done), line) {
+            (true, Ok(line)) => state.story.add(now, &due, Some(self.place), line),
+            (true, Err(what)) => state.story.cannot(what),
+            (false, _) => {}
+        }
         state.collect();
         state.wake();
         Ok(result.ok_or_else(gone)?)
@@ -42,9 +53,10 @@ impl Device {
     fn turn_something(
         &self,
         py: Python<'_>,
+        line: &str,
         act: impl FnOnce(&mut VirtualDevice, Instant) -> bool,
     ) -> PyResult<()> {
-        if self.act(py, act)? {
+        if self.act(py, Ok(line), |turned| *turned, act)? {
             Ok(())
         } else {
             Err(Fault::value("this device has no shaft").into())
@@ -149,6 +161,7 @@ impl Device {
         if self.place >= state.bus.devices().len() {
             return Err(gone().into());
         }
+        state.tell(Some(self.place), if on { "power on" } else { "power off" });
         state.bus.set_power(self.place, on);
         state.collect();
         state.wake();
@@ -165,7 +178,9 @@ impl Device {
     #[setter]
     fn set_turns(&self, py: Python<'_>, turns: f64) -> PyResult<()> {
         let turns = finite(turns, "a position in revolutions")?;
-        self.turn_something(py, |device, now| device.turn_to(turns, now))
+        let way = turns - self.shaft()?.turns;
+        let line = format!("shaft turn {way}");
+        self.turn_something(py, &line, |device, now| device.turn(way, now))
     }
 
     /// The position of the sensor in steps, before scaling and preset. Setting it moves the shaft;
@@ -177,7 +192,8 @@ impl Device {
 
     #[setter]
     fn set_position(&self, py: Python<'_>, raw: u64) -> PyResult<()> {
-        self.turn_something(py, |device, now| device.set_position(raw, now))
+        let line = format!("shaft at {raw}");
+        self.turn_something(py, &line, |device, now| device.set_position(raw, now))
     }
 
     /// The speed of the shaft in revolutions per minute, positive clockwise. Setting it takes effect
@@ -190,13 +206,15 @@ impl Device {
     #[setter]
     fn set_rpm(&self, py: Python<'_>, rpm: f64) -> PyResult<()> {
         let rpm = finite(rpm, "a speed")?;
-        self.turn_something(py, |device, now| device.set_rpm(rpm, now))
+        let line = format!("shaft rpm {rpm}");
+        self.turn_something(py, &line, |device, now| device.set_rpm(rpm, now))
     }
 
     /// Turns the shaft by a number of revolutions at once; the speed stays.
     fn turn(&self, py: Python<'_>, turns: f64) -> PyResult<()> {
         let turns = finite(turns, "a number of revolutions")?;
-        self.turn_something(py, |device, now| device.turn(turns, now))
+        let line = format!("shaft turn {turns}");
+        self.turn_something(py, &line, |device, now| device.turn(turns, now))
     }
 
     /// Changes the speed evenly to `rpm` revolutions per minute within `seconds`, at most 4295 s.
@@ -206,7 +224,8 @@ impl Device {
             finite(seconds, "the time of a ramp")?,
         );
         let time = micros(seconds, "the time of a ramp")?;
-        self.turn_something(py, |device, now| device.ramp_to_rpm(rpm, time, now))
+        let line = format!("shaft ramp {rpm} over {time}us");
+        self.turn_something(py, &line, |device, now| device.ramp_to_rpm(rpm, time, now))
     }
 
     /// The faults that this device supports.
@@ -220,7 +239,13 @@ impl Device {
     /// Raises `ValueError` if the device does not support it.
     #[pyo3(signature = (name, on=true))]
     fn fault(&self, py: Python<'_>, name: &str, on: bool) -> PyResult<()> {
-        if self.act(py, |device, now| device.set_fault(name, on, now))? {
+        let line = format!("fault {name} {}", if on { "on" } else { "off" });
+        if self.act(
+            py,
+            Ok(&line),
+            |known| *known,
+            |device, now| device.set_fault(name, on, now),
+        )? {
             return Ok(());
         }
         let known = self.faults()?.join(", ");
@@ -241,7 +266,13 @@ impl Device {
     /// Raises `ValueError` if the device has no power or no EMCY messages, or if the error is active.
     #[pyo3(signature = (code, register=1, info=None))]
     fn emcy(&self, py: Python<'_>, code: u16, register: u8, info: Option<[u8; 5]>) -> PyResult<()> {
-        let result = self.act(py, |device, now| {
+        let mut line = format!("emcy {code}h register {register}");
+        line = line.replace(&format!("{code}h"), &format!("{code:04X}h"));
+        if let Some(info) = info {
+            line += " info";
+            info.iter().for_each(|byte| line += &format!(" {byte:02X}"));
+        }
+        let result = self.act(py, Ok(&line), Result::is_ok, |device, now| {
             device.raise_error(code, register, info, now)
         })?;
         Ok(result.map_err(Fault::from)?)
@@ -252,7 +283,11 @@ impl Device {
     /// Raises `ValueError` if it is not active.
     #[pyo3(signature = (code=0))]
     fn clear_emcy(&self, py: Python<'_>, code: u16) -> PyResult<()> {
-        let result = self.act(py, |device, now| device.clear_error(code, now))?;
+        let line = format!("emcy {code:04X}h off");
+        let line = if code == 0 { "emcy 0000h" } else { &line };
+        let result = self.act(py, Ok(line), Result::is_ok, |device, now| {
+            device.clear_error(code, now)
+        })?;
         Ok(result.map_err(Fault::from)?)
     }
 
@@ -270,7 +305,13 @@ impl Device {
                 Fault::value(format!("the rotary switches have 0 to 99, not {number}")).into(),
             );
         }
-        self.act(py, |device, now| device.set_node_switch(number, now))
+        let line = format!("switch node {number}");
+        self.act(
+            py,
+            Ok(&line),
+            |_| true,
+            |device, now| device.set_node_switch(number, now),
+        )
     }
 
     /// The DIP switches of the bit rate, 0 to 7. The device reads them when it starts, if the rotary
@@ -285,7 +326,13 @@ impl Device {
         if number > 7 {
             return Err(Fault::value(format!("the DIP switches have 0 to 7, not {number}")).into());
         }
-        self.act(py, |device, now| device.set_bitrate_switch(number, now))
+        let line = format!("switch bitrate {number}");
+        self.act(
+            py,
+            Ok(&line),
+            |_| true,
+            |device, now| device.set_bitrate_switch(number, now),
+        )
     }
 
     /// The value of an object: `device[0x6004]`, `device[0x1018, 2]`, `device["Position value"]`.
@@ -327,7 +374,13 @@ impl Device {
             PyResult::Ok((address, entry.data_type))
         })??;
         let bytes = from_python(data_type, value)?;
-        let result = self.act(py, |device, now| device.set_value(address, &bytes, now))?;
+        let line = story::value(data_type, &bytes).map(|value| format!("set {address} = {value}"));
+        let line = line
+            .as_deref()
+            .ok_or("a text with quotes or control characters");
+        let result = self.act(py, line, Result::is_ok, |device, now| {
+            device.set_value(address, &bytes, now)
+        })?;
         Ok(result.map_err(Fault::from)?)
     }
 
@@ -346,7 +399,12 @@ impl Device {
             let len = bytes.len();
             return Err(Fault::value(format!("the EEPROM has {room} bytes, not {len}")).into());
         }
-        self.act(py, |device, _| device.set_eeprom(&bytes))
+        self.act(
+            py,
+            Err("bytes of an EEPROM"),
+            |_| true,
+            |device, _| device.set_eeprom(&bytes),
+        )
     }
 
     /// Saves the bytes of the EEPROM to a file. Raises `OSError` if it cannot be written.
@@ -363,7 +421,12 @@ impl Device {
 
     /// Cuts the power during the next save, when `after` more bytes have been written.
     fn cut_power(&self, py: Python<'_>, after: usize) -> PyResult<()> {
-        self.act(py, |device, _| device.cut_power_after(after))?;
+        self.act(
+            py,
+            Err("`cut_power`"),
+            |_| true,
+            |device, _| device.cut_power_after(after),
+        )?;
         Ok(())
     }
 
@@ -375,11 +438,12 @@ impl Device {
 
     #[setter]
     fn set_plugged(&self, py: Python<'_>, plugged: bool) -> PyResult<()> {
-        self.wire
-            .enter(py)?
-            .bus
-            .line
-            .set_plugged(self.place + 1, plugged);
+        let mut state = self.wire.enter(py)?;
+        state.tell(
+            Some(self.place),
+            if plugged { "line plug" } else { "line unplug" },
+        );
+        state.bus.line.set_plugged(self.place + 1, plugged);
         Ok(())
     }
 

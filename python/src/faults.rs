@@ -28,6 +28,15 @@ impl Fault {
     }
 }
 
+impl Fault {
+    /// Its sentence.
+    pub(crate) fn text(&self) -> &str {
+        match self {
+            Self::Value(text) | Self::Missing(text) | Self::System(text) | Self::Late(text) => text,
+        }
+    }
+}
+
 impl<T: Into<String>> From<T> for Fault {
     fn from(text: T) -> Self {
         Self::value(text)

@@ -17,11 +17,13 @@ mod filter;
 mod journal;
 mod party;
 mod pass;
+mod play;
 mod port;
 mod registry;
 mod snapshot;
 mod spec;
 mod state;
+mod story;
 mod time;
 mod value;
 mod waits;
@@ -53,7 +55,7 @@ mod _odkit {
     #[pymodule_export]
     use crate::files::convert::convert;
     #[pymodule_export]
-    use crate::files::description::{Description, overlay, read};
+    use crate::files::description::{Description, overlay, read, restore_description};
     #[pymodule_export]
     use crate::files::diff::{Difference, diff};
     #[pymodule_export]
@@ -70,6 +72,8 @@ mod _odkit {
     use crate::files::value::Relative;
     #[pymodule_export]
     use crate::pass::end_program;
+    #[pymodule_export]
+    use crate::play::{play, restore_snapshot};
     #[pymodule_export]
     use crate::port::Port;
     #[pymodule_export]

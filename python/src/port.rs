@@ -63,6 +63,7 @@ impl Port {
         let mut state = wire.enter(py)?;
         let id = state.listen(own);
         if let Some(rate) = bitrate.and_then(|rate| u16::try_from(rate / 1000).ok()) {
+            state.tell(None, &format!("bus bitrate {rate}"));
             state.bus.set_bit_rate(Some(rate));
             state.bus.line.bit_rate = Some(rate);
         }

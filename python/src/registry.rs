@@ -74,7 +74,10 @@ pub(crate) fn open(
     state.pace = pace.unwrap_or(state.pace);
     // A name that is neither a device nor a file is reported here.
     if bare || !devices.trim().is_empty() {
-        spec::add(&mut state.bus, &mut state.names, devices)?;
+        let added = spec::add(&mut state.bus, &mut state.names, devices)?;
+        for (place, line) in added {
+            state.story.device(line, place);
+        }
     }
     state.start();
     add(py, name.to_owned(), state, time.unwrap_or_default(), true)

@@ -41,7 +41,12 @@ pub(crate) fn is_list(devices: &str) -> bool {
 ///
 /// # Errors
 /// A device that does not exist, a file that cannot be read, a node ID that is not valid.
-pub(crate) fn add(bus: &mut Bus, names: &mut Vec<String>, list: &str) -> Result<Vec<usize>, Fault> {
+/// Returns the first place of each, and its line in a script.
+pub(crate) fn add(
+    bus: &mut Bus,
+    names: &mut Vec<String>,
+    list: &str,
+) -> Result<Vec<(usize, String)>, Fault> {
     let mut added = Vec::new();
     for word in list
         .split(',')
@@ -71,10 +76,34 @@ pub(crate) fn add(bus: &mut Bus, names: &mut Vec<String>, list: &str) -> Result<
             };
             let base = name.rsplit(['/', '\\']).next().unwrap_or(name);
             names.push(free_name(names, base, channel));
-            added.push(place);
+            if channel == 0 {
+                added.push((place, line(name, bus, place)));
+            }
         }
     }
     Ok(added)
+}
+
+/// The line of a device in a script.
+fn line(name: &str, bus: &Bus, place: usize) -> String {
+    let Some(device) = bus.devices().get(place) else {
+        return String::new();
+    };
+    let own = device.lss_address();
+    let mut others = bus
+        .devices()
+        .iter()
+        .take(place)
+        .map(VirtualDevice::lss_address);
+    let serial = match others.any(|other| other[..3] == own[..3]) {
+        true => format!(" serial {}", own[3]),
+        false => String::new(),
+    };
+    let name = match name.contains(char::is_whitespace) {
+        true => format!("\"{name}\""),
+        false => name.to_owned(),
+    };
+    format!("device {name} node {}{serial}", device.node_id().raw())
 }
 
 fn node_id(word: &str, node: &str) -> Result<NodeId, Fault> {
@@ -87,7 +116,7 @@ fn node_id(word: &str, node: &str) -> Result<NodeId, Fault> {
 }
 
 /// A name that no other device has: `gxmm`, `gxmm-2`; the second channel of a device is `eam_red.2`.
-fn free_name(names: &[String], base: &str, channel: u8) -> String {
+pub(crate) fn free_name(names: &[String], base: &str, channel: u8) -> String {
     if let (1.., Some(last)) = (channel, names.last()) {
         return format!("{last}.{}", channel + 1);
     }
@@ -101,14 +130,16 @@ fn free_name(names: &[String], base: &str, channel: u8) -> String {
 }
 
 /// Source of devices.
-enum Made {
+pub(crate) enum Made {
     Kind(&'static DeviceKind),
     /// A file, or a base with an overlay.
     Text(Source),
 }
 
 impl Made {
-    fn of(name: &str) -> Result<Self, Fault> {
+    /// # Errors
+    /// It does not exist, or cannot be read.
+    pub(crate) fn of(name: &str) -> Result<Self, Fault> {
         let source = Source::find(name).map_err(|fault| match fault {
             // It may be a name or a path.
             Fault::Missing(why) => Fault::Value(why),
@@ -158,7 +189,9 @@ impl Made {
         })
     }
 
-    fn make(&self, node_id: Option<NodeId>) -> Result<VirtualDevice, Fault> {
+    /// # Errors
+    /// The file is not that of a valid device.
+    pub(crate) fn make(&self, node_id: Option<NodeId>) -> Result<VirtualDevice, Fault> {
         match self {
             Self::Kind(kind) => Ok(VirtualDevice::new(kind, node_id.unwrap_or(NodeId::ONE))),
             Self::Text(source) => {

@@ -12,8 +12,9 @@ use od_wire::{Frame, Instant};
 use crate::cyclic::Cyclic;
 use crate::faults::Fault;
 use crate::filter::{Filter, passes};
-use crate::journal::Journal;
+use crate::journal::{Journal, frame};
 use crate::party::{Party, Wait};
+use crate::story::Story;
 use crate::time::Time;
 
 /// Maximum number of frames that wait for a bus; the newest ones are lost, as in a controller.
@@ -58,6 +59,8 @@ pub(crate) struct State {
     pub(crate) cyclics: Vec<Cyclic>,
     pub(crate) parties: Vec<Party>,
     pub(crate) journal: Journal,
+    /// What happened, as a script.
+    pub(crate) story: Story,
     /// The number of the first record that `expect` looks at.
     pub(crate) seen: usize,
     /// The last frame from a program, or change of the bench.
@@ -92,6 +95,7 @@ impl Default for State {
             cyclics: Vec::new(),
             parties: Vec::new(),
             journal: Journal::default(),
+            story: Story::default(),
             seen: 0,
             acted: Instant::ZERO,
             senders: VecDeque::new(),
@@ -148,9 +152,16 @@ impl State {
     /// Lets time pass to the next frame, or to `to`.
     pub(crate) fn step(&mut self, to: Instant) -> Step {
         self.changes += 1;
+        let (before, end) = (self.now(), self.journal.end());
+        if std::mem::take(&mut self.story.acted) {
+            self.story.fresh = end;
+        }
         let due = self.cyclics.iter().filter_map(Cyclic::due).min();
         let target = due.map_or(to, |due| due.min(to)).max(self.now());
         let sent = self.bus.advance_until_sent(target);
+        if self.now() != before {
+            self.story.fresh = end;
+        }
         self.collect();
         if sent {
             return Step::Moved;
@@ -176,6 +187,28 @@ impl State {
         Step::Moved
     }
 
+    /// The frames that devices have sent at this moment, if others are still due.
+    pub(crate) fn due(&self) -> Vec<Frame> {
+        let now = self.now();
+        if self.story.acted || self.bus.next_deadline().is_none_or(|next| next > now) {
+            return Vec::new();
+        }
+        let records = self.journal.since(self.story.fresh);
+        records
+            .filter(|one| one.at == now && !one.sent)
+            .filter_map(frame)
+            .collect()
+    }
+
+    /// Adds an action to the script of what happened; `device` is the device that it is about.
+    pub(crate) fn tell(&mut self, device: Option<usize>, line: &str) {
+        if self.bus.line.is_real() {
+            self.story.cannot("frames that take time (`real_line`)");
+        }
+        let due = self.due();
+        self.story.add(self.now(), &due, device, line);
+    }
+
     /// A program sends a frame.
     ///
     /// # Errors
@@ -188,6 +221,7 @@ impl State {
         }
         let now = self.now();
         self.acted = now;
+        self.tell(None, &frame.to_string());
         if self.bus.line.is_real() {
             self.senders.push_back(port);
             self.bus.receive(frame);

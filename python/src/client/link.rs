@@ -124,6 +124,7 @@ impl Rig for Line {
         if let Self::Wire(one) = self {
             let mut state = one.wire.lock();
             for device in 0..state.bus.devices().len() {
+                state.tell(Some(device), if on { "power on" } else { "power off" });
                 state.bus.set_power(device, on);
             }
             state.collect();

@@ -16,6 +16,7 @@ use crate::files::identity::Identity;
 use crate::files::object::{Object, count};
 use crate::files::read::{Found, Read};
 use crate::files::source::Source;
+use crate::snapshot::{FORM, Pickled, is_own};
 
 /// A device description: objects, identity, and findings about it.
 ///
@@ -110,6 +111,21 @@ pub(crate) fn overlay(
     node_id: Option<u8>,
 ) -> PyResult<Description> {
     let source = source_of(base)?.with(Source::of(overlay)?)?;
+    Ok(Description {
+        read: Arc::new(Read::checked(source, valid(node_id)?)),
+    })
+}
+
+/// A pickled description.
+#[pyfunction]
+pub(crate) fn restore_description(
+    form: &str,
+    text: String,
+    name: Option<String>,
+    node_id: Option<u8>,
+) -> PyResult<Description> {
+    is_own(form, "description")?;
+    let source = Source::pickled(text, name);
     Ok(Description {
         read: Arc::new(Read::checked(source, valid(node_id)?)),
     })
@@ -271,6 +287,15 @@ impl Description {
     /// written.
     fn save(&self, path: PathBuf) -> PyResult<()> {
         Ok(fs::write(path, self.text())?)
+    }
+
+    /// Pickles the text and its name, with the version of odkit.
+    fn __reduce__<'p>(
+        &self,
+        py: Python<'p>,
+    ) -> Pickled<'p, (&'static str, &str, Option<&str>, Option<u8>)> {
+        let restore = py.import("odkit._odkit")?.getattr("restore_description")?;
+        Ok((restore, (FORM, self.text(), self.path(), self.node_id())))
     }
 
     fn __repr__(&self) -> String {

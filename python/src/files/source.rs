@@ -92,6 +92,14 @@ impl Source {
         }
     }
 
+    /// A text that was read before, with its name.
+    pub(crate) fn pickled(text: String, name: Option<String>) -> Self {
+        let kind = name.as_deref().and_then(od_devices::find);
+        let mut source = Self::plain(name, Document::new(text));
+        source.kind = kind;
+        source
+    }
+
     /// This base with an overlay.
     ///
     /// # Errors
