@@ -108,6 +108,7 @@ fn tests(context: &Context<'_>, python: &Path, site: Option<&Path>) -> Result<()
     pytest
         .args(["-m", "pytest", "-q", "-p", "no:cacheprovider"])
         .args(["python/tests", "examples/python-ci/tests"])
+        .arg("examples/campaign/tests")
         .current_dir(&context.repo.root)
         .env("PYTHONDONTWRITEBYTECODE", "1");
     if let Some(site) = site {
