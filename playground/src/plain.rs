@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use od_eds::outline::{data_type, specified};
 use od_model::DataType;
 use wasm_bindgen::prelude::*;
 
@@ -39,8 +40,15 @@ struct Object {
 }
 
 impl Object {
-    fn var(index: u16, name: &str, data_type: DataType, access: &str, value: &str) -> Self {
-        let text = section(&format!("{index:X}"), name, data_type, access, value);
+    /// A VAR with name, type and access of CiA 301.
+    fn standard(index: u16, value: &str) -> Self {
+        let found = specified(index);
+        let name = found.as_ref().map_or("", |found| found.name);
+        let (first, rest) = name.split_at(name.len().min(1));
+        let name = first.to_uppercase() + rest;
+        let data_type = data_type(index, 0, true).unwrap_or(DataType::Unsigned32);
+        let access = found.map_or("ro", |found| found.access.name());
+        let text = section(&format!("{index:X}"), &name, data_type, access, value);
         Self { index, text }
     }
 
@@ -67,47 +75,35 @@ fn section(place: &str, name: &str, data_type: DataType, access: &str, value: &s
 }
 
 fn communication(objects: &mut Vec<Object>) {
-    use DataType::{Unsigned8, Unsigned16, Unsigned32, VisibleString};
-    let names = [
+    let identity = [
+        "Highest sub-index",
         "Vendor-ID",
         "Product code",
         "Revision number",
         "Serial number",
     ];
-    let number = |name: &str| (name.into(), Unsigned32, "ro", "0".into());
-    let mut identity = vec![("Highest sub-index".into(), Unsigned8, "ro", "4".into())];
-    identity.extend(names.map(number));
+    let identity = (0..).zip(identity).map(|(sub, name)| {
+        let data_type = data_type(0x1018, sub, false).unwrap_or(DataType::Unsigned32);
+        let value = if sub == 0 { "4" } else { "0" };
+        (name.into(), data_type, "ro", value.into())
+    });
+    let identity: Vec<_> = identity.collect();
     objects.extend([
-        Object::var(0x1000, "Device type", Unsigned32, "ro", "0"),
-        Object::var(0x1001, "Error register", Unsigned8, "ro", "0"),
+        Object::standard(0x1000, "0"),
+        Object::standard(0x1001, "0"),
         Object::record(0x1018, "Identity object", &identity),
     ]);
-    let texts = [
-        (0x1008, "Manufacturer device name"),
-        (0x1009, "Manufacturer hardware version"),
-        (0x100A, "Manufacturer software version"),
-    ];
-    for (index, name, data_type, access, value) in [
-        (
-            0x1002,
-            "Manufacturer status register",
-            Unsigned32,
-            "ro",
-            "0",
-        ),
-        (0x1005, "COB-ID SYNC message", Unsigned32, "rw", "0x80"),
-        (
-            0x1014,
-            "COB-ID EMCY message",
-            Unsigned32,
-            "rw",
-            "$NODEID+0x80",
-        ),
-        (0x1017, "Producer heartbeat time", Unsigned16, "rw", "0"),
+    for (index, value) in [
+        (0x1002, "0"),
+        (0x1005, "0x80"),
+        (0x1014, "$NODEID+0x80"),
+        (0x1017, "0"),
+        (0x1008, ""),
+        (0x1009, ""),
+        (0x100A, ""),
     ] {
-        objects.push(Object::var(index, name, data_type, access, value));
+        objects.push(Object::standard(index, value));
     }
-    objects.extend(texts.map(|(index, name)| Object::var(index, name, VisibleString, "const", "")));
 }
 
 fn pdo(
