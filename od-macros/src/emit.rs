@@ -246,9 +246,12 @@ Dictionary::trusted(Buckets::{kind}(&BUCKETS), &ROWS, &POOL, {:?}, ",
         tables.text()
     );
     bytes(out, tables.blob().iter().copied());
-    let functions = |kind: &str, is_some| match is_some {
-        true => format!("{kind}::SOME"),
-        false => String::from("::core::option::Option::None"),
+    let functions = |kind: &str, is_some| {
+        if is_some {
+            format!("{kind}::SOME")
+        } else {
+            String::from("::core::option::Option::None")
+        }
     };
     let (reals, varying) = (
         functions("Reals", Reals::of(rows).is_some()),

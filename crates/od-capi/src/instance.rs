@@ -96,9 +96,12 @@ impl<D: Device> Instance<D> {
         &self,
         call: impl FnOnce(&mut Slave<D>, &mut Clock) -> Result<R, u32>,
     ) -> Result<R, u32> {
-        self.enter(|State { node, clock }| match node.is_powered() {
-            true => call(node, clock),
-            false => Err(ODKIT_STATE),
+        self.enter(|State { node, clock }| {
+            if node.is_powered() {
+                call(node, clock)
+            } else {
+                Err(ODKIT_STATE)
+            }
         })
     }
 
@@ -113,10 +116,11 @@ impl<D: Device> Instance<D> {
         node_id: u8,
         device: *const odkit_device,
     ) -> u32 {
-        let callbacks = match device.is_null() {
-            true => odkit_device::none(),
+        let callbacks = if device.is_null() {
+            odkit_device::none()
+        } else {
             // SAFETY: the caller's.
-            false => unsafe { device.read_unaligned() },
+            unsafe { device.read_unaligned() }
         };
         let number = NodeId::new(node_id);
         let is_valid = number.is_some() || node_id == ODKIT_UNCONFIGURED;
@@ -243,9 +247,12 @@ impl<D: Device> Instance<D> {
 
     /// See `odkit_node_id`.
     pub fn node_id(&self) -> u8 {
-        let number = self.enter(|state| match state.node.is_configured() {
-            true => Ok(state.node.node_id().raw()),
-            false => Ok(ODKIT_UNCONFIGURED),
+        let number = self.enter(|state| {
+            if state.node.is_configured() {
+                Ok(state.node.node_id().raw())
+            } else {
+                Ok(ODKIT_UNCONFIGURED)
+            }
         });
         number.unwrap_or(0)
     }

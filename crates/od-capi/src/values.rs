@@ -201,9 +201,12 @@ impl<D: Device> Instance<D> {
             register,
             info,
         } = error;
-        let nested = self.nested.with(|cx| match comes {
-            true => cx.signals.raise(error),
-            false => cx.signals.clear_one(code, register, info),
+        let nested = self.nested.with(|cx| {
+            if comes {
+                cx.signals.raise(error)
+            } else {
+                cx.signals.clear_one(code, register, info)
+            }
         });
         if nested.is_some() {
             return ODKIT_OK;
@@ -214,9 +217,10 @@ impl<D: Device> Instance<D> {
             }
             let now = clock.at(now_us);
             // One that is active already, or not, needs no message.
-            let _ = match comes {
-                true => node.raise(now, error),
-                false => node.clear(now, error),
+            let _ = if comes {
+                node.raise(now, error)
+            } else {
+                node.clear(now, error)
             };
             Ok(())
         }))
@@ -226,10 +230,11 @@ impl<D: Device> Instance<D> {
 /// # Safety
 /// `info` is null or points to five bytes.
 unsafe fn emcy(code: u16, register: u8, info: *const u8) -> Emcy {
-    let info = match info.is_null() {
-        true => [0; 5],
+    let info = if info.is_null() {
+        [0; 5]
+    } else {
         // SAFETY: the caller's.
-        false => unsafe { info.cast::<[u8; 5]>().read() },
+        unsafe { info.cast::<[u8; 5]>().read() }
     };
     Emcy {
         code,

@@ -28,9 +28,10 @@ pub(crate) fn name(index: u16, profile: Option<u16>) -> Option<(&'static str, &'
     };
     // The objects of the second device of a module are 800h higher, and so on.
     let own = index.checked_sub(0x6000)?;
-    let index = match own / 0x800 < devices {
-        true if devices > 1 => 0x6000 + own % 0x800,
-        _ => index,
+    let index = if devices > 1 && own / 0x800 < devices {
+        0x6000 + own % 0x800
+    } else {
+        index
     };
     profile_name(profile, index).map(|name| (name, source))
 }
