@@ -220,7 +220,7 @@ impl Blanks<'_> {
 /// Maximum number of characters of a text of the file in a sentence.
 const LONGEST: usize = 100;
 
-/// A text of the file, cut where nobody reads on.
+/// A text of the file, shortened to a readable length.
 fn cut(text: &str) -> String {
     match text.char_indices().nth(LONGEST) {
         Some((at, _)) => format!("{}…", &text[..at]),

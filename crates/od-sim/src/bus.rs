@@ -32,7 +32,7 @@ pub struct Sent {
 ///
 /// Events of one moment have a fixed order: devices in the order they
 /// were added, frames in the order they were sent. The same inputs give the same
-/// frames on every run. A copy goes on as this bus would.
+/// frames on every run. A copy continues as this bus would.
 #[derive(Clone, Default)]
 pub struct Bus {
     devices: Vec<VirtualDevice>,
@@ -44,7 +44,7 @@ pub struct Bus {
     sent: VecDeque<Sent>,
 }
 
-/// So often in a row a device may have a deadline that is already due; after that the
+/// How often in a row a device may have a deadline that is already due; after that the
 /// bus moves on by a microsecond, so that no device can stop time.
 const STUCK: u32 = 1000;
 

@@ -29,7 +29,7 @@ impl Bus {
     }
 
     /// A device that is the only one on an ideal line meets many deadlines at once. Answers as `step` does; `None`:
-    /// it is not alone, or somebody looks on.
+    /// it is not alone, or an observer waits for frames.
     fn run(&mut self, to: Instant, frames: usize) -> Option<bool> {
         let Self {
             devices,
@@ -81,7 +81,7 @@ mod tests {
     use super::*;
     use crate::device::VirtualDevice;
 
-    /// A gxmm that turns, with a heartbeat and a PDO every 7 ms; somebody looks on, or nobody does.
+    /// A gxmm that turns, with a heartbeat and a PDO every 7 ms, with and without an observer.
     fn bus(is_watched: bool) -> Option<Bus> {
         let kind = od_devices::find("gxmm")?;
         let mut bus = Bus::new();
@@ -104,7 +104,7 @@ mod tests {
         Some(bus)
     }
 
-    /// Time goes on from the frame, also where the device has nothing to do until the end.
+    /// Time continues from the frame, also if the device has no deadline before the end.
     #[test]
     fn time_is_that_of_the_frame_that_is_waited_for() {
         let mut bus = bus(false).expect("a device");

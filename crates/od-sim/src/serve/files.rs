@@ -56,7 +56,7 @@ impl Files {
     }
 
     fn add(&mut self, title: String, path: &Path, is_written: bool) -> Result<(), Refused> {
-        // A file that was created meanwhile has a new identity.
+        // A file that was created in the meantime has a new identity.
         if let Some(own) = identity(path) {
             let mut others = self.0.iter();
             let clash = others.find(|other| {
@@ -180,7 +180,7 @@ mod tests {
         files.write("`--eeprom`", &folder.join("x")).unwrap();
         assert!(files.write("`--log`", &folder.join("./x")).is_err());
         assert!(files.read("the input", &folder.join("x")).is_err());
-        // It was created meanwhile.
+        // It was created in the meantime.
         fs::write(folder.join("x"), "").unwrap();
         assert!(files.write("`--log`", &folder.join("x")).is_err());
         fs::remove_file(folder.join("x")).unwrap();

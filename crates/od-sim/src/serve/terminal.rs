@@ -20,7 +20,7 @@ pub(super) fn news(line: &str) {
     }
 }
 
-/// Writes a line to standard error. Unlike `eprintln!` it does not panic if nobody reads.
+/// Writes a line to standard error. Unlike `eprintln!` it does not panic if the pipe is closed.
 pub(super) fn note(line: &str) {
     let _ = io::stderr().write_all(format!("{}\n", Visible(line).lines()).as_bytes());
 }

@@ -13,7 +13,7 @@ pub(crate) static RULE: Rule = Rule {
     ..Rule::NEW
 };
 
-/// The finding about an AccessType that there is not.
+/// The finding about an unknown AccessType.
 pub(crate) fn finding(given: &Text<'_>) -> Finding {
     RULE.given(given).key(Key::AccessType)
 }

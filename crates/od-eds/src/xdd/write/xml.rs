@@ -17,7 +17,7 @@ pub(super) fn vec_of<const N: usize>(pairs: [(&'static str, String); N]) -> Attr
 pub(super) struct Xml(pub(super) String, usize);
 
 impl Xml {
-    /// Text that goes on behind `head`, one level deep.
+    /// Text that continues after `head`, one level deeper.
     pub(super) fn new(head: &str) -> Self {
         Self(head.into(), 1)
     }

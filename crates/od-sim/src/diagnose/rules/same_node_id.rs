@@ -73,7 +73,7 @@ fn boots(facts: &Facts<'_>, id: u8, node: &Node) -> Vec<Seen> {
     for pair in boots.windows(2) {
         let [first, second] = [pair[0], pair[1]];
         let is_near = second.at.micros_since(first.at) < 1_000_000;
-        // A device that restarts by itself sends nothing for the time of its start: some milliseconds.
+        // A device that restarts without a command sends nothing while it starts: some milliseconds.
         let commands = facts.commands_to(id, first.at.max(facts.begin), second.at);
         let between = node
             .sent
