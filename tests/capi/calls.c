@@ -186,6 +186,9 @@ static void values(void)
     size_t len = 0;
     uint32_t number = 0;
     int32_t signed_number = 0;
+    float ratio = 0;
+    int64_t distance = 0;
+    uint64_t large = 0;
     /* The whole value, only its length, and too little room. */
     CHECK(odkit_get(DEVICE_NAME, text, sizeof text, &len) == ODKIT_OK && len > 0);
     CHECK(odkit_get(DEVICE_NAME, NULL, 0, &len) == ODKIT_SIZE && len > 0);
@@ -207,6 +210,32 @@ static void values(void)
     CHECK(odkit_set_i32(0, OD_TEMPERATURE, 126) == ODKIT_ABORT_TOO_HIGH);
     CHECK(odkit_set_i32(0, OD_TEMPERATURE, 32768) == ODKIT_ARGUMENT);
     CHECK(odkit_get_i32(OD_TEMPERATURE, &signed_number) == ODKIT_OK && signed_number == -40);
+    CHECK(odkit_get_f32(OD_RATIO, &ratio) == ODKIT_OK && ratio == 0.5f);
+    CHECK(odkit_set_f32(0, OD_RATIO, -1.25f) == ODKIT_OK);
+    CHECK(odkit_get_f32(OD_RATIO, &ratio) == ODKIT_OK && ratio == -1.25f);
+    CHECK(odkit_get_f32(HEARTBEAT, &ratio) == ODKIT_TYPE);
+    CHECK(odkit_set_f32(0, OD_DISTANCE, 1.0f) == ODKIT_TYPE);
+    CHECK(odkit_get_f32(OD_RATIO, NULL) == ODKIT_NULL);
+    CHECK(odkit_get_i64(OD_DISTANCE, &distance) == ODKIT_OK && distance == -5000000000LL);
+    CHECK(odkit_set_i64(0, OD_DISTANCE, 7000000000LL) == ODKIT_OK);
+    CHECK(odkit_get_i64(OD_DISTANCE, &distance) == ODKIT_OK && distance == 7000000000LL);
+    CHECK(odkit_get_i32(OD_DISTANCE, &signed_number) == ODKIT_TYPE);
+    CHECK(odkit_get_u64(OD_DISTANCE, &large) == ODKIT_TYPE);
+    CHECK(odkit_get_i64(OD_TEMPERATURE, &distance) == ODKIT_OK && distance == -40);
+    CHECK(odkit_set_i64(0, OD_TEMPERATURE, 7000000000LL) == ODKIT_ARGUMENT);
+    CHECK(odkit_set_u64(0, HEARTBEAT, 0x100000000ULL) == ODKIT_ARGUMENT);
+    CHECK(odkit_get_u64(OD_IDENTITY_OBJECT_SERIAL_NUMBER, &large) == ODKIT_OK && large == 4712);
+    /* An address in a switch. */
+    switch (ODKIT_KEY(0x2001, 0)) {
+    case ODKIT_KEY(OD_RATIO):
+        CHECK(false);
+        break;
+    case ODKIT_KEY(OD_TEMPERATURE):
+        CHECK(true);
+        break;
+    default:
+        CHECK(false);
+    }
     CHECK(odkit_set(0, HEARTBEAT, bytes, 1) == 0x06070013);
     CHECK(odkit_set(0, HEARTBEAT, bytes, 4) == 0x06070012);
     CHECK(odkit_set(0, HEARTBEAT, NULL, 2) == ODKIT_NULL);

@@ -21,307 +21,538 @@
 #include <stddef.h>
 #include <stdint.h>
 
-// Done.
+/* An address as one number, for `switch (ODKIT_KEY(index, sub))` and `case ODKIT_KEY(OD_TEMPERATURE):`. */
+#define ODKIT_KEY(...) ODKIT_KEY_OF(__VA_ARGS__)
+#define ODKIT_KEY_OF(index, sub) ((uint32_t)(index) << 8 | (uint32_t)(sub))
+
+/*
+ Done.
+ */
 #define ODKIT_OK 0
 
-// A pointer is null.
+/*
+ A pointer is null.
+ */
 #define ODKIT_NULL 1
 
-// Another call has not returned yet: this one came from an interrupt or a thread, or from a callback
-// that may not make it.
+/*
+ Another call has not returned yet: this one came from an interrupt or a thread, or from a callback
+ that may not make it.
+ */
 #define ODKIT_BUSY 2
 
-// Not in this state: the node has no power, or has it already.
+/*
+ Not in this state: the node has no power, or has it already.
+ */
 #define ODKIT_STATE 3
 
-// An argument has a value that it cannot have.
+/*
+ An argument has a value that it cannot have.
+ */
 #define ODKIT_ARGUMENT 4
 
-// The buffer is too short for the value.
+/*
+ The buffer is too short for the value.
+ */
 #define ODKIT_SIZE 5
 
-// The object has another data type.
+/*
+ The object has another data type.
+ */
 #define ODKIT_TYPE 6
 
-// SDO abort code 06060000h: a hardware error.
+/*
+ SDO abort code 06060000h: a hardware error.
+ */
 #define ODKIT_ABORT_HARDWARE 101056512
 
-// SDO abort code 06090030h: the value is not allowed.
+/*
+ SDO abort code 06090030h: the value is not allowed.
+ */
 #define ODKIT_ABORT_VALUE 101253168
 
-// SDO abort code 06090031h: the value is above the upper limit.
+/*
+ SDO abort code 06090031h: the value is above the upper limit.
+ */
 #define ODKIT_ABORT_TOO_HIGH 101253169
 
-// SDO abort code 06090032h: the value is below the lower limit.
+/*
+ SDO abort code 06090032h: the value is below the lower limit.
+ */
 #define ODKIT_ABORT_TOO_LOW 101253170
 
-// SDO abort code 08000000h: a general error.
+/*
+ SDO abort code 08000000h: a general error.
+ */
 #define ODKIT_ABORT_GENERAL 134217728
 
-// SDO abort code 08000021h: the device does not allow it now (local control).
+/*
+ SDO abort code 08000021h: the device does not allow it now (local control).
+ */
 #define ODKIT_ABORT_LOCAL 134217761
 
-// SDO abort code 08000022h: not in the present state of the device.
+/*
+ SDO abort code 08000022h: not in the present state of the device.
+ */
 #define ODKIT_ABORT_STATE 134217762
 
-// Flag of a frame: its identifier has 29 bits.
+/*
+ Flag of a frame: its identifier has 29 bits.
+ */
 #define ODKIT_EXTENDED 1
 
-// Flag of a frame: it is a remote frame.
+/*
+ Flag of a frame: it is a remote frame.
+ */
 #define ODKIT_REMOTE 2
 
-// NMT state: Initialisation, or no power.
+/*
+ NMT state: Initialisation, or no power.
+ */
 #define ODKIT_INITIALISATION 0
 
-// NMT state: Stopped.
+/*
+ NMT state: Stopped.
+ */
 #define ODKIT_STOPPED 4
 
-// NMT state: Operational.
+/*
+ NMT state: Operational.
+ */
 #define ODKIT_OPERATIONAL 5
 
-// NMT state: Pre-operational.
+/*
+ NMT state: Pre-operational.
+ */
 #define ODKIT_PRE_OPERATIONAL 127
 
-// Node ID of a device that waits for LSS to give it one.
+/*
+ Node ID of a device that waits for LSS to give it one.
+ */
 #define ODKIT_UNCONFIGURED 255
 
-// CAN controller: error active again, no more frames are lost; after bus-off: it can restart.
+/*
+ CAN controller: error active again, no more frames are lost; after bus-off: it can restart.
+ */
 #define ODKIT_BUS_ACTIVE 0
 
-// CAN controller: an error counter passed the warning limit (96).
+/*
+ CAN controller: an error counter passed the warning limit (96).
+ */
 #define ODKIT_BUS_WARNING 1
 
-// CAN controller: error passive.
+/*
+ CAN controller: error passive.
+ */
 #define ODKIT_BUS_PASSIVE 2
 
-// CAN controller: bus-off.
+/*
+ CAN controller: bus-off.
+ */
 #define ODKIT_BUS_OFF 3
 
-// CAN controller: a received frame was lost.
+/*
+ CAN controller: a received frame was lost.
+ */
 #define ODKIT_BUS_OVERRUN 4
 
-// Reset at power-on: everything in RAM is lost.
+/*
+ Reset at power-on: everything in RAM is lost.
+ */
 #define ODKIT_RESET_POWER_ON 0
 
-// NMT reset node: all values are loaded again.
+/*
+ NMT reset node: all values are loaded again.
+ */
 #define ODKIT_RESET_NODE 1
 
-// NMT reset communication: 1000h to 1FFFh are loaded again.
+/*
+ NMT reset communication: 1000h to 1FFFh are loaded again.
+ */
 #define ODKIT_RESET_COMMUNICATION 2
 
-// 1011h restored the default values in RAM.
+/*
+ 1011h restored the default values in RAM.
+ */
 #define ODKIT_RESET_DEFAULTS 3
 
-// A deadline that never comes, as the answer of the callback `tick`.
+/*
+ A deadline that never comes, as the answer of the callback `tick`.
+ */
 #define ODKIT_NEVER 4294967295
 
-// Event: the NMT state changed. `value`: the state.
+/*
+ Event: the NMT state changed. `value`: the state.
+ */
 #define ODKIT_EVENT_STATE 1
 
-// Event: a reset. `value`: ODKIT_RESET_POWER_ON to ODKIT_RESET_DEFAULTS; `sub`: the node ID.
+/*
+ Event: a reset. `value`: ODKIT_RESET_POWER_ON to ODKIT_RESET_DEFAULTS; `sub`: the node ID.
+ */
 #define ODKIT_EVENT_RESET 2
 
-// Event: a master wrote the object `index`, `sub`.
+/*
+ Event: a master wrote the object `index`, `sub`.
+ */
 #define ODKIT_EVENT_WRITTEN 3
 
-// Event: 1010h saved values. `sub`: its sub-index.
+/*
+ Event: 1010h saved values. `sub`: its sub-index.
+ */
 #define ODKIT_EVENT_SAVED 4
 
-// Event: 1011h restored default values. `sub`: its sub-index.
+/*
+ Event: 1011h restored default values. `sub`: its sub-index.
+ */
 #define ODKIT_EVENT_RESTORED 5
 
-// Event: LSS activated a bit rate. `value`: kbit/s.
+/*
+ Event: LSS activated a bit rate. `value`: kbit/s.
+ */
 #define ODKIT_EVENT_BIT_RATE 6
 
-// Event: the memory is not as the last save left it. `value`: ODKIT_STORAGE_PARTIAL and so on.
+/*
+ Event: the memory is not as the last save left it. `value`: ODKIT_STORAGE_PARTIAL and so on.
+ */
 #define ODKIT_EVENT_STORAGE 7
 
-// Event: a save failed. The values saved before it remain.
+/*
+ Event: a save failed. The values saved before it remain.
+ */
 #define ODKIT_EVENT_NOT_SAVED 8
 
-// Event: power loss or a reset cut a save. `value`: 1 if the default values were loaded.
+/*
+ Event: power loss or a reset cut a save. `value`: 1 if the default values were loaded.
+ */
 #define ODKIT_EVENT_SAVE_CUT 9
 
-// Event: the node is bus-off. `value`: 1 if it restarts when the bus allows it.
+/*
+ Event: the node is bus-off. `value`: 1 if it restarts when the bus allows it.
+ */
 #define ODKIT_EVENT_BUS_OFF 10
 
-// Event: the node is back from bus-off.
+/*
+ Event: the node is back from bus-off.
+ */
 #define ODKIT_EVENT_BUS_ON 11
 
-// Event: an error came. `value`: its EMCY code.
+/*
+ Event: an error came. `value`: its EMCY code.
+ */
 #define ODKIT_EVENT_ERROR 12
 
-// Event: an error went. `value`: its EMCY code.
+/*
+ Event: an error went. `value`: its EMCY code.
+ */
 #define ODKIT_EVENT_ERROR_CLEARED 13
 
-// Event of a later version of odkit.
+/*
+ Event of a later version of odkit.
+ */
 #define ODKIT_EVENT_OTHER 255
 
-// Memory: some saved values fit no object of this dictionary.
+/*
+ Memory: some saved values fit no object of this dictionary.
+ */
 #define ODKIT_STORAGE_PARTIAL 1
 
-// Memory: the last set was loaded, though bits beside it changed.
+/*
+ Memory: the last set was loaded, though bits beside it changed.
+ */
 #define ODKIT_STORAGE_FLAWED 2
 
-// Memory: the last set is damaged; the one before it was loaded.
+/*
+ Memory: the last set is damaged; the one before it was loaded.
+ */
 #define ODKIT_STORAGE_OLDER 3
 
-// Memory: its content is of another device; default values.
+/*
+ Memory: its content is of another device; default values.
+ */
 #define ODKIT_STORAGE_FOREIGN 4
 
-// Memory: its content cannot be read; default values.
+/*
+ Memory: its content cannot be read; default values.
+ */
 #define ODKIT_STORAGE_DAMAGED 5
 
-// Non-volatile memory for the values that 1010h saves.
-//
-// EEPROM or FRAM: `page` and `word` are 0. NOR flash: `page` is the size of what `erase` erases,
-// `word` that of what is written at once, each once after an erasure.
-//
-// The callbacks answer 0 if they succeeded. They may not call functions of odkit.
+/*
+ Non-volatile memory for the values that 1010h saves.
+
+ EEPROM or FRAM: `page` and `word` are 0. NOR flash: `page` is the size of what `erase` erases,
+ `word` that of what is written at once, each once after an erasure.
+
+ The callbacks answer 0 if they succeeded. They may not call functions of odkit.
+ */
 typedef struct odkit_storage {
-  // Bytes of the memory; 0: none, and a save fails.
+  /*
+   Bytes of the memory; 0: none, and a save fails.
+   */
   uint32_t capacity;
-  // Bytes of a page of flash; 0 for an EEPROM.
+  /*
+   Bytes of a page of flash; 0 for an EEPROM.
+   */
   uint32_t page;
-  // Bytes that are written at once: a power of two up to 32; 0 means 1.
+  /*
+   Bytes that are written at once: a power of two up to 32; 0 means 1.
+   */
   uint32_t word;
-  // Fills `to` with `len` bytes from `offset` on.
+  /*
+   Fills `to` with `len` bytes from `offset` on.
+   */
   int32_t (*read)(void *context, uint32_t offset, uint8_t *to, uint32_t len);
-  // Writes `len` bytes from `offset` on.
+  /*
+   Writes `len` bytes from `offset` on.
+   */
   int32_t (*write)(void *context, uint32_t offset, const uint8_t *from, uint32_t len);
-  // Sets the page at `offset` to FFh; needed if `page` is not 0.
+  /*
+   Sets the page at `offset` to FFh; needed if `page` is not 0.
+   */
   int32_t (*erase)(void *context, uint32_t offset);
-  // Makes sure that all that was written survives a loss of power; may be null.
+  /*
+   Makes sure that all that was written survives a loss of power; may be null.
+   */
   int32_t (*flush)(void *context);
 } odkit_storage;
 
-// Behaviour of the device: callbacks, of which each may be null. Set what is not used to 0.
-//
-// A callback runs inside the call of odkit that caused it. It may call odkit_get, odkit_set (which
-// do not check limits there), odkit_raise and odkit_clear; other functions answer ODKIT_BUSY.
+/*
+ Behaviour of the device: callbacks, of which each may be null. Set what is not used to 0.
+
+ A callback runs inside the call of odkit that caused it. It may call odkit_get, odkit_set (which
+ do not check limits there), odkit_raise and odkit_clear; other functions answer ODKIT_BUSY.
+ */
 typedef struct odkit_device {
-  // First argument of each callback.
+  /*
+   First argument of each callback.
+   */
   void *context;
-  // Values were loaded; `reset` is ODKIT_RESET_POWER_ON and so on. The place to set what the
-  // firmware knows better than the EDS, such as the serial number.
+  /*
+   Values were loaded; `reset` is ODKIT_RESET_POWER_ON and so on. The place to set what the
+   firmware knows better than the EDS, such as the serial number.
+   */
   void (*reset)(void *context, uint8_t reset);
-  // Returns the node ID of the switches at a reset, 1 to 127; 0: the node keeps its own.
+  /*
+   Returns the node ID of the switches at a reset, 1 to 127; 0: the node keeps its own.
+   */
   uint8_t (*node_id)(void *context);
-  // An SDO or a PDO is about to read this value (2000h and above): bring it up to date with
-  // odkit_set. Returns 0, or the abort code of the SDO.
+  /*
+   An SDO or a PDO is about to read this value (2000h and above): bring it up to date with
+   odkit_set. Returns 0, or the abort code of the SDO.
+   */
   uint32_t (*refresh)(void *context, uint16_t index, uint8_t sub);
-  // A master writes this value; it fits the object and its limits. Returns 0, or the abort code
-  // of the SDO: the value stays as it was.
+  /*
+   A master writes this value; it fits the object and its limits. Returns 0, or the abort code
+   of the SDO: the value stays as it was.
+   */
   uint32_t (*validate)(void *context, uint16_t index, uint8_t sub, const uint8_t *value, size_t len);
-  // A value was written; odkit_get has it.
+  /*
+   A value was written; odkit_get has it.
+   */
   void (*written)(void *context, uint16_t index, uint8_t sub);
-  // Acts on time or on odkit_handle_change. Returns the microseconds until it is to be called
-  // again; ODKIT_NEVER: only after a change.
+  /*
+   Acts on time or on odkit_handle_change. Returns the microseconds until it is to be called
+   again; ODKIT_NEVER: only after a change.
+   */
   uint32_t (*tick)(void *context);
-  // Memory for saved values.
+  /*
+   Memory for saved values.
+   */
   struct odkit_storage storage;
 } odkit_device;
 
-// Classical CAN frame.
+/*
+ Classical CAN frame.
+ */
 typedef struct odkit_frame {
-  // Identifier: 11 bits, or 29 with ODKIT_EXTENDED.
+  /*
+   Identifier: 11 bits, or 29 with ODKIT_EXTENDED.
+   */
   uint32_t id;
-  // ODKIT_EXTENDED, ODKIT_REMOTE, both or 0.
+  /*
+   ODKIT_EXTENDED, ODKIT_REMOTE, both or 0.
+   */
   uint8_t flags;
-  // Data length code, 0 to 8.
+  /*
+   Data length code, 0 to 8.
+   */
   uint8_t len;
-  // Data; the bytes past `len` are 0 in a frame to be sent.
+  /*
+   Data; the bytes past `len` are 0 in a frame to be sent.
+   */
   uint8_t data[8];
 } odkit_frame;
 
-// Event of the node.
+/*
+ Event of the node.
+ */
 typedef struct odkit_event {
-  // ODKIT_EVENT_STATE and so on.
+  /*
+   ODKIT_EVENT_STATE and so on.
+   */
   uint8_t kind;
-  // Sub-index, where the kind has one.
+  /*
+   Sub-index, where the kind has one.
+   */
   uint8_t sub;
-  // Index, where the kind has one.
+  /*
+   Index, where the kind has one.
+   */
   uint16_t index;
-  // Number that the kind describes.
+  /*
+   Number that the kind describes.
+   */
   uint32_t value;
 } odkit_event;
 
 #ifdef __cplusplus
 extern "C" {
-#endif // __cplusplus
+#endif /* __cplusplus */
 
-// Switches the power on: loads the saved values or their defaults, and the node boots up.
-//
-// `now_us` is a counter of microseconds that may start anywhere and wraps at 2^32.
-// `node_id` is 1 to 127; or ODKIT_UNCONFIGURED for a device that waits for LSS. A saved node ID
-// or the callback `node_id` replaces it. `device` may be null; it is copied.
+/*
+ Switches the power on: loads the saved values or their defaults, and the node boots up.
+
+ `now_us` is a counter of microseconds that may start anywhere and wraps at 2^32.
+ `node_id` is 1 to 127; or ODKIT_UNCONFIGURED for a device that waits for LSS. A saved node ID
+ or the callback `node_id` replaces it. `device` may be null; it is copied.
+ */
 uint32_t odkit_power_on(uint32_t now_us, uint8_t node_id, const struct odkit_device *device);
 
-// Switches the power off: the node is silent until odkit_power_on.
+/*
+ Switches the power off: the node is silent until odkit_power_on.
+ */
 uint32_t odkit_power_off(void);
 
-// Handles a frame that was received.
+/*
+ Handles a frame that was received.
+ */
 uint32_t odkit_handle_frame(uint32_t now_us, const struct odkit_frame *frame);
 
-// Does what is due by now. To be called when the time of odkit_poll_timeout is over; a call
-// that comes earlier or later does no harm.
+/*
+ Does what is due by now. To be called when the time of odkit_poll_timeout is over; a call
+ that comes earlier or later does no harm.
+ */
 uint32_t odkit_handle_timeout(uint32_t now_us);
 
-// Something outside the bus changed: calls `tick`.
+/*
+ Something outside the bus changed: calls `tick`.
+ */
 uint32_t odkit_handle_change(uint32_t now_us);
 
-// Reports the state of the CAN controller, ODKIT_BUS_ACTIVE to ODKIT_BUS_OVERRUN.
+/*
+ Reports the state of the CAN controller, ODKIT_BUS_ACTIVE to ODKIT_BUS_OVERRUN.
+ */
 uint32_t odkit_handle_bus(uint32_t now_us, uint8_t state);
 
-// Fills `to` with the next frame to send; false if nothing waits. To be called after every
-// other function, and whenever the CAN controller has room, until it answers false.
+/*
+ Fills `to` with the next frame to send; false if nothing waits. To be called after every
+ other function, and whenever the CAN controller has room, until it answers false.
+ */
 bool odkit_poll_frame(struct odkit_frame *to);
 
-// Returns the microseconds until odkit_handle_timeout is to be called, 2^30 (18 minutes) at
-// most, so that no wrap of the counter is missed.
+/*
+ Returns the microseconds until odkit_handle_timeout is to be called, 2^30 (18 minutes) at
+ most, so that no wrap of the counter is missed.
+ */
 uint32_t odkit_poll_timeout(uint32_t now_us);
 
-// Fills `to` with the oldest event; false if nothing waits. The node keeps 16 of them; a
-// firmware that has no use for events need not ask.
+/*
+ Fills `to` with the oldest event; false if nothing waits. The node keeps 16 of them; a
+ firmware that has no use for events need not ask.
+ */
 bool odkit_poll_event(struct odkit_event *to);
 
-// Returns the NMT state, ODKIT_INITIALISATION to ODKIT_PRE_OPERATIONAL.
+/*
+ Returns the NMT state, ODKIT_INITIALISATION to ODKIT_PRE_OPERATIONAL.
+ */
 uint8_t odkit_state(void);
 
-// Returns the node ID, or ODKIT_UNCONFIGURED.
+/*
+ Returns the node ID, or ODKIT_UNCONFIGURED.
+ */
 uint8_t odkit_node_id(void);
 
-// Copies a value as an SDO carries it (numbers little-endian), `size` bytes at most; `len`,
-// if not null, becomes its length also if it is longer.
+/*
+ Copies a value as an SDO carries it (numbers little-endian), `size` bytes at most; `len`,
+ if not null, becomes its length also if it is longer.
+ */
 uint32_t odkit_get(uint16_t index, uint8_t sub, void *to, size_t size, size_t *len);
 
-// Sets a value, read-only ones too: limits and rules hold as for a master. Event-driven TPDOs
-// follow. In a callback limits do not hold, and `now_us` does not count.
+/*
+ Sets a value, read-only ones too: limits and rules hold as for a master. Event-driven TPDOs
+ follow. In a callback limits do not hold, and `now_us` does not count.
+ */
 uint32_t odkit_set(uint32_t now_us, uint16_t index, uint8_t sub, const void *from, size_t len);
 
-// Reads an UNSIGNED8 to UNSIGNED32 or a BOOLEAN.
+/*
+ Reads an UNSIGNED8 to UNSIGNED32 or a BOOLEAN.
+ */
 uint32_t odkit_get_u32(uint16_t index, uint8_t sub, uint32_t *to);
 
-// Reads an INTEGER8 to INTEGER32.
+/*
+ Reads an INTEGER8 to INTEGER32.
+ */
 uint32_t odkit_get_i32(uint16_t index, uint8_t sub, int32_t *to);
 
-// Sets an UNSIGNED8 to UNSIGNED32 or a BOOLEAN, as odkit_set does. ODKIT_ARGUMENT: its type
-// cannot hold the value.
+/*
+ Sets an UNSIGNED8 to UNSIGNED32 or a BOOLEAN, as odkit_set does. ODKIT_ARGUMENT: its type
+ cannot hold the value.
+ */
 uint32_t odkit_set_u32(uint32_t now_us, uint16_t index, uint8_t sub, uint32_t value);
 
-// Sets an INTEGER8 to INTEGER32, as odkit_set does. ODKIT_ARGUMENT: its type cannot hold the
-// value.
+/*
+ Sets an INTEGER8 to INTEGER32, as odkit_set does. ODKIT_ARGUMENT: its type cannot hold the
+ value.
+ */
 uint32_t odkit_set_i32(uint32_t now_us, uint16_t index, uint8_t sub, int32_t value);
 
-// Reports an error: the node sends an EMCY message, unless it is active already. `register` has
-// the bits of 1001h that it sets, `info` five bytes of its own; null means zeros.
+/*
+ Reads an UNSIGNED8 to UNSIGNED64 or a BOOLEAN.
+ */
+uint32_t odkit_get_u64(uint16_t index, uint8_t sub, uint64_t *to);
+
+/*
+ Sets an UNSIGNED8 to UNSIGNED64 or a BOOLEAN, as odkit_set does. ODKIT_ARGUMENT: its type cannot hold the
+ value.
+ */
+uint32_t odkit_set_u64(uint32_t now_us,
+                       uint16_t index,
+                       uint8_t sub,
+                       uint64_t value);
+
+/*
+ Reads an INTEGER8 to INTEGER64.
+ */
+uint32_t odkit_get_i64(uint16_t index, uint8_t sub, int64_t *to);
+
+/*
+ Sets an INTEGER8 to INTEGER64, as odkit_set does. ODKIT_ARGUMENT: its type cannot hold the
+ value.
+ */
+uint32_t odkit_set_i64(uint32_t now_us, uint16_t index, uint8_t sub, int64_t value);
+
+/*
+ Reads a REAL32.
+ */
+uint32_t odkit_get_f32(uint16_t index, uint8_t sub, float *to);
+
+/*
+ Sets a REAL32, as odkit_set does.
+ */
+uint32_t odkit_set_f32(uint32_t now_us, uint16_t index, uint8_t sub, float value);
+
+/*
+ Reports an error: the node sends an EMCY message, unless it is active already. `register` has
+ the bits of 1001h that it sets, `info` five bytes of its own; null means zeros.
+ */
 uint32_t odkit_raise(uint32_t now_us, uint16_t code, uint8_t register_, const uint8_t *info);
 
-// Reports the end of the error with this code and these bits of 1001h.
+/*
+ Reports the end of the error with this code and these bits of 1001h.
+ */
 uint32_t odkit_clear(uint32_t now_us, uint16_t code, uint8_t register_, const uint8_t *info);
 
 #ifdef __cplusplus
-}  // extern "C"
-#endif  // __cplusplus
+}  /* extern "C" */
+#endif  /* __cplusplus */
 
 #endif  /* ODKIT_H */

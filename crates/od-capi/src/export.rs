@@ -141,6 +141,44 @@ macro_rules! export {
             ODKIT.set_i32(now_us, index, sub, value)
         }
 
+        /// Reads an UNSIGNED8 to UNSIGNED64 or a BOOLEAN.
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn odkit_get_u64(index: u16, sub: u8, to: *mut u64) -> u32 {
+            unsafe { ODKIT.get_u64(index, sub, to) }
+        }
+
+        /// Sets an UNSIGNED8 to UNSIGNED64 or a BOOLEAN, as odkit_set does. ODKIT_ARGUMENT: its type cannot hold the
+        /// value.
+        #[unsafe(no_mangle)]
+        pub extern "C" fn odkit_set_u64(now_us: u32, index: u16, sub: u8, value: u64) -> u32 {
+            ODKIT.set_u64(now_us, index, sub, value)
+        }
+
+        /// Reads an INTEGER8 to INTEGER64.
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn odkit_get_i64(index: u16, sub: u8, to: *mut i64) -> u32 {
+            unsafe { ODKIT.get_i64(index, sub, to) }
+        }
+
+        /// Sets an INTEGER8 to INTEGER64, as odkit_set does. ODKIT_ARGUMENT: its type cannot hold the
+        /// value.
+        #[unsafe(no_mangle)]
+        pub extern "C" fn odkit_set_i64(now_us: u32, index: u16, sub: u8, value: i64) -> u32 {
+            ODKIT.set_i64(now_us, index, sub, value)
+        }
+
+        /// Reads a REAL32.
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn odkit_get_f32(index: u16, sub: u8, to: *mut f32) -> u32 {
+            unsafe { ODKIT.get_f32(index, sub, to) }
+        }
+
+        /// Sets a REAL32, as odkit_set does.
+        #[unsafe(no_mangle)]
+        pub extern "C" fn odkit_set_f32(now_us: u32, index: u16, sub: u8, value: f32) -> u32 {
+            ODKIT.set_f32(now_us, index, sub, value)
+        }
+
         /// Reports an error: the node sends an EMCY message, unless it is active already. `register` has
         /// the bits of 1001h that it sets, `info` five bytes of its own; null means zeros.
         #[unsafe(no_mangle)]

@@ -1,46 +1,65 @@
-//! Integers of C, which have 32 bits, as values of an object and back.
+//! Numbers of C, of 32 and 64 bits, as values of an object and back.
 
 use odkit::{DataType, Entry, Kind, Store};
 
 use crate::answer::{ODKIT_ARGUMENT, ODKIT_TYPE};
 
-/// Bits of an integer of up to 32 bits.
-fn bits(data_type: DataType, is_signed: bool) -> Result<u32, u32> {
+/// Bytes of a value, and how many of them count.
+pub(crate) type Wire = ([u8; 8], usize);
+
+/// Bits of an integer of up to `most` bits.
+fn bits(data_type: DataType, is_signed: bool, most: u8) -> Result<u32, u32> {
     let fits = match data_type.kind() {
         Kind::Signed => is_signed,
         Kind::Unsigned | Kind::Boolean => !is_signed,
         _ => false,
     };
-    let bits = data_type.bits().filter(|bits| fits && *bits <= 32);
+    let bits = data_type.bits().filter(|bits| fits && *bits <= most);
     bits.map(u32::from).ok_or(ODKIT_TYPE)
 }
 
-/// The value of an unsigned object or a BOOLEAN.
-pub(crate) fn unsigned(store: &Store<'_>, entry: &Entry) -> Result<u32, u32> {
-    bits(entry.data_type, false)?;
-    Ok(store.number(entry) as u32)
+/// The value of an unsigned object of up to `most` bits, or of a BOOLEAN.
+pub(crate) fn unsigned(store: &Store<'_>, entry: &Entry, most: u8) -> Result<u64, u32> {
+    bits(entry.data_type, false, most)?;
+    Ok(store.number(entry))
 }
 
-/// The value of a signed object.
-pub(crate) fn signed(store: &Store<'_>, entry: &Entry) -> Result<i32, u32> {
-    let unused = 32 - bits(entry.data_type, true)?;
-    Ok((store.number(entry) as i32) << unused >> unused)
+/// The value of a signed object of up to `most` bits.
+pub(crate) fn signed(store: &Store<'_>, entry: &Entry, most: u8) -> Result<i64, u32> {
+    let unused = 64 - bits(entry.data_type, true, most)?;
+    Ok((store.number(entry) as i64) << unused >> unused)
 }
 
-/// The bytes of an unsigned value, and how many of them count.
-pub(crate) fn from_unsigned(data_type: DataType, value: u32) -> Result<([u8; 4], usize), u32> {
-    let bits = bits(data_type, false)?;
-    if u64::from(value) >> bits != 0 {
-        return Err(ODKIT_ARGUMENT);
+/// The value of a REAL32.
+pub(crate) fn single(store: &Store<'_>, entry: &Entry) -> Result<f32, u32> {
+    match entry.data_type {
+        DataType::Real32 => Ok(f32::from_bits(store.number(entry) as u32)),
+        _ => Err(ODKIT_TYPE),
     }
-    Ok((value.to_le_bytes(), data_type.size().unwrap_or(4)))
 }
 
-/// The bytes of a signed value, and how many of them count.
-pub(crate) fn from_signed(data_type: DataType, value: i32) -> Result<([u8; 4], usize), u32> {
-    let unused = 32 - bits(data_type, true)?;
+/// The bytes of an unsigned value of up to `most` bits.
+pub(crate) fn from_unsigned(data_type: DataType, value: u64, most: u8) -> Result<Wire, u32> {
+    let unused = 64 - bits(data_type, false, most)?;
     if value << unused >> unused != value {
         return Err(ODKIT_ARGUMENT);
     }
-    Ok((value.to_le_bytes(), data_type.size().unwrap_or(4)))
+    Ok((value.to_le_bytes(), data_type.size().unwrap_or(8)))
+}
+
+/// The bytes of a signed value of up to `most` bits.
+pub(crate) fn from_signed(data_type: DataType, value: i64, most: u8) -> Result<Wire, u32> {
+    let unused = 64 - bits(data_type, true, most)?;
+    if value << unused >> unused != value {
+        return Err(ODKIT_ARGUMENT);
+    }
+    Ok((value.to_le_bytes(), data_type.size().unwrap_or(8)))
+}
+
+/// The bytes of a REAL32.
+pub(crate) fn from_single(data_type: DataType, value: f32) -> Result<Wire, u32> {
+    match data_type {
+        DataType::Real32 => Ok((u64::from(value.to_bits()).to_le_bytes(), 4)),
+        _ => Err(ODKIT_TYPE),
+    }
 }

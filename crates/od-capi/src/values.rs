@@ -8,7 +8,7 @@ use odkit::{AbortCode, Address, Device, Emcy, Entry, Store, nmt};
 
 use crate::answer::{ODKIT_ARGUMENT, ODKIT_NULL, ODKIT_OK, ODKIT_SIZE};
 use crate::instance::{Instance, answer, put};
-use crate::number;
+use crate::number::{self, Wire};
 
 /// The entry at an address.
 fn find(store: &Store<'_>, address: Address) -> Result<Entry, u32> {
@@ -86,7 +86,11 @@ impl<D: Device> Instance<D> {
     /// `to` is null or points to a number.
     pub unsafe fn get_u32(&self, index: u16, sub: u8, to: *mut u32) -> u32 {
         // SAFETY: the caller's.
-        unsafe { self.get_number(index, sub, to, number::unsigned) }
+        unsafe {
+            self.get_number(index, sub, to, |store, entry| {
+                number::unsigned(store, entry, 32).map(|value| value as u32)
+            })
+        }
     }
 
     /// See `odkit_get_i32`.
@@ -95,7 +99,46 @@ impl<D: Device> Instance<D> {
     /// `to` is null or points to a number.
     pub unsafe fn get_i32(&self, index: u16, sub: u8, to: *mut i32) -> u32 {
         // SAFETY: the caller's.
-        unsafe { self.get_number(index, sub, to, number::signed) }
+        unsafe {
+            self.get_number(index, sub, to, |store, entry| {
+                number::signed(store, entry, 32).map(|value| value as i32)
+            })
+        }
+    }
+
+    /// See `odkit_get_u64`.
+    ///
+    /// # Safety
+    /// `to` is null or points to a number.
+    pub unsafe fn get_u64(&self, index: u16, sub: u8, to: *mut u64) -> u32 {
+        // SAFETY: the caller's.
+        unsafe {
+            self.get_number(index, sub, to, |store, entry| {
+                number::unsigned(store, entry, 64)
+            })
+        }
+    }
+
+    /// See `odkit_get_i64`.
+    ///
+    /// # Safety
+    /// `to` is null or points to a number.
+    pub unsafe fn get_i64(&self, index: u16, sub: u8, to: *mut i64) -> u32 {
+        // SAFETY: the caller's.
+        unsafe {
+            self.get_number(index, sub, to, |store, entry| {
+                number::signed(store, entry, 64)
+            })
+        }
+    }
+
+    /// See `odkit_get_f32`.
+    ///
+    /// # Safety
+    /// `to` is null or points to a number.
+    pub unsafe fn get_f32(&self, index: u16, sub: u8, to: *mut f32) -> u32 {
+        // SAFETY: the caller's.
+        unsafe { self.get_number(index, sub, to, number::single) }
     }
 
     /// # Safety
@@ -105,7 +148,7 @@ impl<D: Device> Instance<D> {
         index: u16,
         sub: u8,
         to: *mut T,
-        read: fn(&Store<'_>, &Entry) -> Result<T, u32>,
+        read: impl Fn(&Store<'_>, &Entry) -> Result<T, u32>,
     ) -> u32 {
         if to.is_null() {
             return ODKIT_NULL;
@@ -148,13 +191,31 @@ impl<D: Device> Instance<D> {
 
     /// See `odkit_set_u32`.
     pub fn set_u32(&self, now_us: u32, index: u16, sub: u8, value: u32) -> u32 {
-        let bytes = |entry: &Entry| number::from_unsigned(entry.data_type, value);
+        let bytes = |entry: &Entry| number::from_unsigned(entry.data_type, value.into(), 32);
         self.set_number(now_us, Address::new(index, sub), bytes)
     }
 
     /// See `odkit_set_i32`.
     pub fn set_i32(&self, now_us: u32, index: u16, sub: u8, value: i32) -> u32 {
-        let bytes = |entry: &Entry| number::from_signed(entry.data_type, value);
+        let bytes = |entry: &Entry| number::from_signed(entry.data_type, value.into(), 32);
+        self.set_number(now_us, Address::new(index, sub), bytes)
+    }
+
+    /// See `odkit_set_u64`.
+    pub fn set_u64(&self, now_us: u32, index: u16, sub: u8, value: u64) -> u32 {
+        let bytes = |entry: &Entry| number::from_unsigned(entry.data_type, value, 64);
+        self.set_number(now_us, Address::new(index, sub), bytes)
+    }
+
+    /// See `odkit_set_i64`.
+    pub fn set_i64(&self, now_us: u32, index: u16, sub: u8, value: i64) -> u32 {
+        let bytes = |entry: &Entry| number::from_signed(entry.data_type, value, 64);
+        self.set_number(now_us, Address::new(index, sub), bytes)
+    }
+
+    /// See `odkit_set_f32`.
+    pub fn set_f32(&self, now_us: u32, index: u16, sub: u8, value: f32) -> u32 {
+        let bytes = |entry: &Entry| number::from_single(entry.data_type, value);
         self.set_number(now_us, Address::new(index, sub), bytes)
     }
 
@@ -162,7 +223,7 @@ impl<D: Device> Instance<D> {
         &self,
         now_us: u32,
         address: Address,
-        bytes: impl Fn(&Entry) -> Result<([u8; 4], usize), u32>,
+        bytes: impl Fn(&Entry) -> Result<Wire, u32>,
     ) -> u32 {
         let wire = self.look(|store| bytes(&find(store, address)?));
         answer(wire.and_then(|(bytes, len)| {

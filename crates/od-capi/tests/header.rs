@@ -21,6 +21,11 @@ const HEAD: &str = "/* A CANopen node: odkit for C.
  * unused functions asks for it only if the library can get there.
  */";
 
+const KEY: &str = "
+/* An address as one number, for `switch (ODKIT_KEY(index, sub))` and `case ODKIT_KEY(OD_TEMPERATURE):`. */
+#define ODKIT_KEY(...) ODKIT_KEY_OF(__VA_ARGS__)
+#define ODKIT_KEY_OF(index, sub) ((uint32_t)(index) << 8 | (uint32_t)(sub))";
+
 /// The functions are those in the body of `export!`.
 fn source() -> String {
     let read = |name: &str| {
@@ -58,15 +63,19 @@ fn header() -> String {
         sys_includes: ["stdbool.h", "stddef.h", "stdint.h"]
             .map(String::from)
             .to_vec(),
+        after_includes: Some(String::from(KEY)),
         usize_is_size_t: true,
-        documentation_style: cbindgen::DocumentationStyle::C99,
+        documentation_style: cbindgen::DocumentationStyle::C,
         line_length: 100,
         ..cbindgen::Config::default()
     };
     let bindings = cbindgen::Builder::new().with_config(config).with_src(path);
     let mut text = Vec::new();
     bindings.generate().unwrap().write(&mut text);
-    String::from_utf8(text).unwrap()
+    // Comments that every compiler of C reads.
+    let text = String::from_utf8(text).unwrap();
+    text.replace("// __cplusplus", "/* __cplusplus */")
+        .replace("// extern \"C\"", "/* extern \"C\" */")
 }
 
 #[test]
@@ -81,6 +90,7 @@ fn the_header_is_current() {
         listed, made,
         "ODKIT_ACCEPT=1 cargo test -p od-capi --test header renews it"
     );
+    assert!(!made.contains("//"));
     // Every function of the macro is in it.
     let source = source();
     let functions = source.split("extern \"C\" fn ").skip(1);
