@@ -61,7 +61,7 @@ const PARTS: [(&str, &[&str]); 9] = [
     ("Lessons", &[LESSONS]),
     ("Devices", &["docs/DEVICES.md", "docs/datasheets/", "docs/MANUALS.md"]),
     ("Device files", &[RULES, "docs/COMPATIBILITY.md", "docs/DIFFERENCES.md", "docs/CORPUS.md"]),
-    ("Scripts, lessons, tests", &["crates/od-cli/SCRIPTS.md", "crates/od-cli/LESSONS.md", "crates/od-tools/CASES.md", "docs/RULES.md", "docs/CIA.md", "docs/COMPLIANCE.md"]),
+    ("Scripts, lessons, tests", &["crates/od-cli/SCRIPTS.md", "crates/od-cli/LESSONS.md", "crates/od-tools/CASES.md", "docs/RULES.md", "docs/CIA.md", "docs/COMPLIANCE.md", "docs/CONFORMANCE.md"]),
     ("Packages", &["python/README.md", "examples/python-ci/README.md", "playground/README.md", "crates/od-capi/README.md", "editors/README.md"]),
     ("Project", &[
         "docs/PERFORMANCE.md",
