@@ -211,7 +211,8 @@ fn cut_everywhere<S: Cut>(kind: &'static DeviceKind, erased: S, least: usize) {
             }),
         );
         if !was_cut {
-            assert_eq!(difference(&now, &after), [], "{name}: the whole save");
+            let differs = difference(&now, &after);
+            assert!(differs.is_empty(), "{name}: the whole save: {differs:?}");
             break;
         }
         cuts += 1;
