@@ -95,13 +95,15 @@ fn line(name: &str, bus: &Bus, place: usize) -> String {
         .iter()
         .take(place)
         .map(VirtualDevice::lss_address);
-    let serial = match others.any(|other| other[..3] == own[..3]) {
-        true => format!(" serial {}", own[3]),
-        false => String::new(),
+    let serial = if others.any(|other| other[..3] == own[..3]) {
+        format!(" serial {}", own[3])
+    } else {
+        String::new()
     };
-    let name = match name.contains(char::is_whitespace) {
-        true => format!("\"{name}\""),
-        false => name.to_owned(),
+    let name = if name.contains(char::is_whitespace) {
+        format!("\"{name}\"")
+    } else {
+        name.to_owned()
     };
     format!("device {name} node {}{serial}", device.node_id().raw())
 }
