@@ -221,7 +221,11 @@ impl State {
         }
         let now = self.now();
         self.acted = now;
-        self.tell(None, &frame.to_string());
+        if self.bus.line.is_real() {
+            self.story.cannot("frames that take time (`real_line`)");
+        }
+        let due = self.due();
+        self.story.send(now, &due, *frame);
         if self.bus.line.is_real() {
             self.senders.push_back(port);
             self.bus.receive(frame);

@@ -1,13 +1,37 @@
 //! What happened on a bench, as a script that `odkit run` plays.
 
-use od_model::DataType;
-use od_model::Kind;
+use std::fmt;
+
+use od_model::{DataType, Kind};
 use od_wire::{Frame, Instant};
+
+/// Maximum number of lines; a longer run has no script.
+const KEPT: usize = 1_000_000;
+
+/// A line of a script.
+#[derive(Clone, Debug)]
+enum Line {
+    /// Time passes to this moment, in microseconds.
+    At(u64),
+    /// A program sends a frame.
+    Send(Frame),
+    Text(String),
+}
+
+impl fmt::Display for Line {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::At(micros) => write!(f, "at {micros}us"),
+            Self::Send(frame) => write!(f, "{frame}"),
+            Self::Text(text) => f.write_str(text),
+        }
+    }
+}
 
 /// The lines of a script so far.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Story {
-    lines: Vec<String>,
+    lines: Vec<Line>,
     /// Time of the last line.
     last: Instant,
     /// The device of the last line.
@@ -24,7 +48,10 @@ impl Story {
     /// Begins with the lines of a script that was played up to a moment.
     pub(crate) fn of(script: &str, last: Instant) -> Self {
         Self {
-            lines: script.lines().map(str::to_owned).collect(),
+            lines: script
+                .lines()
+                .map(|line| Line::Text(line.to_owned()))
+                .collect(),
             last,
             acted: true,
             ..Self::default()
@@ -33,7 +60,7 @@ impl Story {
 
     /// Adds the line of a new device, which gets the next number.
     pub(crate) fn device(&mut self, line: String, first: usize) {
-        self.lines.push(line);
+        self.lines.push(Line::Text(line));
         self.present = Some(first);
         self.acted = true;
     }
@@ -42,11 +69,27 @@ impl Story {
     /// are still due. `device` is the device that it is about.
     pub(crate) fn add(&mut self, now: Instant, due: &[Frame], device: Option<usize>, line: &str) {
         self.reach(now, due);
+        if self.lines.len() >= KEPT {
+            self.cannot("more than 1,000,000 lines");
+        }
+        if self.unplayable.is_some() {
+            return;
+        }
         if let Some(device) = device.filter(|device| self.present != Some(*device)) {
-            self.lines.push(format!("use {}", device + 1));
+            self.lines.push(Line::Text(format!("use {}", device + 1)));
             self.present = Some(device);
         }
-        self.lines.push(line.to_owned());
+        self.lines.push(Line::Text(line.to_owned()));
+    }
+
+    /// Adds a frame that a program sends at this moment; `due` as for `add`.
+    pub(crate) fn send(&mut self, now: Instant, due: &[Frame], frame: Frame) {
+        self.reach(now, due);
+        if self.lines.len() >= KEPT {
+            self.cannot("more than 1,000,000 lines");
+        } else if self.unplayable.is_none() {
+            self.lines.push(Line::Send(frame));
+        }
     }
 
     /// The same at the end of a snapshot: its next line names its device, as after the script was played.
@@ -60,24 +103,29 @@ impl Story {
     /// Adds an action that scripts do not have.
     pub(crate) fn cannot(&mut self, what: &str) {
         self.unplayable.get_or_insert_with(|| what.to_owned());
+        self.lines = Vec::new();
     }
 
     /// Lets time pass to this moment, up to the last of these frames.
     pub(crate) fn reach(&mut self, now: Instant, due: &[Frame]) {
         let (at, last) = (now.as_micros(), self.last.as_micros());
+        if self.unplayable.is_some() {
+            return;
+        }
         if due.is_empty() {
             // Other devices may act at the moment of the last line, too.
             if at > last || !self.acted {
-                self.lines.push(format!("at {at}us"));
+                self.lines.push(Line::At(at));
             }
         } else {
             // The frames of the moment itself are not in the queue yet.
             let before = at.saturating_sub(1).max(last);
-            self.lines.push(format!("at {before}us"));
-            self.lines.push(String::from("skip"));
+            self.lines.push(Line::At(before));
+            self.lines.push(Line::Text(String::from("skip")));
             for frame in due {
-                self.lines
-                    .push(format!("expect {frame} within {}us", at - before));
+                let within = at - before;
+                let line = format!("expect {frame} within {within}us");
+                self.lines.push(Line::Text(line));
             }
         }
         self.last = now;
@@ -99,7 +147,7 @@ impl Story {
     pub(crate) fn text(&self) -> Result<String, String> {
         match &self.unplayable {
             Some(what) => Err(format!("a script has no line for {what}")),
-            None => Ok(self.lines.join("\n") + "\n"),
+            None => Ok(self.lines.iter().map(|line| format!("{line}\n")).collect()),
         }
     }
 }
