@@ -19,7 +19,7 @@ pub use axis::{Axis, World};
 
 use odkit::nmt::State;
 use odkit::{AbortCode, Address, Application, Context, Emcy, Instant, LssProfile, Profile, Reset};
-#[cfg(feature = "std")]
+#[cfg(feature = "machines")]
 use odkit::{DeviceKind, Pin, kind::Behaviour};
 
 odkit::object_dictionary! {
@@ -32,7 +32,7 @@ odkit::object_dictionary! {
 }
 
 /// The device.
-#[cfg(feature = "std")]
+#[cfg(feature = "machines")]
 pub(crate) const fn kind(name: &'static str, title: &'static str) -> DeviceKind {
     DeviceKind {
         name,
@@ -57,12 +57,12 @@ const AXES: usize = 2;
 /// Distance between the objects of two axes (CiA 402, 67FFh).
 const AXIS: u16 = 0x800;
 /// Connections of each axis in `PINS`.
-#[cfg(feature = "std")]
+#[cfg(feature = "machines")]
 const PINS_OF_AXIS: usize = 7;
 
 /// For each axis: limit switches, home switch, safe torque off (1: off), a shaft that is held (1), and the
 /// angle of the shaft in 2⁻³² revolutions, and the brake (1: released).
-#[cfg(feature = "std")]
+#[cfg(feature = "machines")]
 const PINS: &[Pin] = &[
     Pin::input("limit1-"),
     Pin::input("limit1+"),
@@ -194,18 +194,18 @@ impl Application for Drive {
         cx.signals.wake();
     }
 
-    #[cfg(feature = "std")]
+    #[cfg(feature = "machines")]
     fn pins(&self) -> &'static [Pin] {
         PINS
     }
 
-    #[cfg(feature = "std")]
+    #[cfg(feature = "machines")]
     fn pin(&self, number: usize) -> i64 {
         let axis = self.axes.get(number / PINS_OF_AXIS);
         axis.map_or(0, |axis| axis.pin(number % PINS_OF_AXIS))
     }
 
-    #[cfg(feature = "std")]
+    #[cfg(feature = "machines")]
     fn set_pin(&mut self, number: usize, value: i64) {
         if let Some(axis) = self.axes.get_mut(number / PINS_OF_AXIS) {
             axis.world.set(number % PINS_OF_AXIS, value != 0);

@@ -10,7 +10,7 @@ use odkit::nmt::State;
 use odkit::{
     AbortCode, Address, Application, Context, Emcy, Instant, LssProfile, Profile, Reset, Store,
 };
-#[cfg(feature = "std")]
+#[cfg(feature = "machines")]
 use odkit::{DeviceKind, Pin, kind::Behaviour};
 
 odkit::object_dictionary! {
@@ -23,7 +23,7 @@ odkit::object_dictionary! {
 }
 
 /// The device.
-#[cfg(feature = "std")]
+#[cfg(feature = "machines")]
 pub(crate) const fn kind(name: &'static str, title: &'static str) -> DeviceKind {
     DeviceKind {
         name,
@@ -51,17 +51,17 @@ const ANALOGUE_INPUTS: usize = 4;
 const ANALOGUE_OUTPUTS: usize = 2;
 
 /// Places of the connections in `PINS`.
-#[cfg(feature = "std")]
+#[cfg(feature = "machines")]
 const FIRST_ANALOGUE_INPUT: usize = BITS;
-#[cfg(feature = "std")]
+#[cfg(feature = "machines")]
 const SHORT: usize = FIRST_ANALOGUE_INPUT + ANALOGUE_INPUTS;
-#[cfg(feature = "std")]
+#[cfg(feature = "machines")]
 const FIRST_OUTPUT: usize = SHORT + 1;
-#[cfg(feature = "std")]
+#[cfg(feature = "machines")]
 const FIRST_ANALOGUE_OUTPUT: usize = FIRST_OUTPUT + BITS;
 
 /// The terminals, and `short`: 1 is a short circuit at a digital output.
-#[cfg(feature = "std")]
+#[cfg(feature = "machines")]
 #[rustfmt::skip]
 const PINS: &[Pin] = &[
     Pin::input("in1"), Pin::input("in2"), Pin::input("in3"), Pin::input("in4"),
@@ -261,12 +261,12 @@ impl Application for Io {
         }
     }
 
-    #[cfg(feature = "std")]
+    #[cfg(feature = "machines")]
     fn pins(&self) -> &'static [Pin] {
         PINS
     }
 
-    #[cfg(feature = "std")]
+    #[cfg(feature = "machines")]
     fn pin(&self, number: usize) -> i64 {
         let bit = |bits: u16, at: usize| i64::from(bits >> at & 1);
         match number {
@@ -283,7 +283,7 @@ impl Application for Io {
         }
     }
 
-    #[cfg(feature = "std")]
+    #[cfg(feature = "machines")]
     fn set_pin(&mut self, number: usize, value: i64) {
         match number {
             ..FIRST_ANALOGUE_INPUT => {

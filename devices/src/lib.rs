@@ -34,6 +34,12 @@ use eam::eam_mt;
 #[cfg(feature = "std")]
 use odkit::DeviceKind;
 
+/// Name and title of each device that [`DEVICES`] has with the feature `machines` only.
+pub const MACHINES: [(&str, &str); 2] = [
+    ("io", "I/O module (CiA 401)"),
+    ("drive", "Servo drive with two axes (CiA 402)"),
+];
+
 /// Every device, by family.
 #[cfg(feature = "std")]
 pub const DEVICES: &[DeviceKind] = &[
@@ -75,8 +81,10 @@ pub const DEVICES: &[DeviceKind] = &[
         2,
     ),
     en580c::kind("en580c", "EN580C, optical multiturn"),
-    io::kind("io", "I/O module (CiA 401)"),
-    drive::kind("drive", "Servo drive with two axes (CiA 402)"),
+    #[cfg(feature = "machines")]
+    io::kind(MACHINES[0].0, MACHINES[0].1),
+    #[cfg(feature = "machines")]
+    drive::kind(MACHINES[1].0, MACHINES[1].1),
 ];
 
 /// The device with this name, in any case.

@@ -1,6 +1,6 @@
 //! Devices on the bus.
 
-use od_runtime::{DeviceKind, NodeId};
+use od_runtime::NodeId;
 use wasm_bindgen::prelude::*;
 
 use crate::bus::Bus;
@@ -11,6 +11,8 @@ record! {
     Builtin {
         name: &'static str,
         title: &'static str,
+        /// The page's first module lacks it.
+        whole: bool,
     }
 }
 
@@ -26,12 +28,11 @@ impl Bus {
 /// The built-in devices, for `Bus.addDevice`.
 #[wasm_bindgen(js_name = builtinDevices, unchecked_return_type = "Builtin[]")]
 pub fn builtin_devices() -> Vec<JsValue> {
-    let builtin = |kind: &DeviceKind| Builtin {
-        name: kind.name,
-        title: kind.title,
-    };
-    let all = od_devices::DEVICES.iter().map(builtin);
-    all.map(Crosses::value).collect()
+    let builtin =
+        |(name, title): (&'static str, &'static str), whole| Builtin { name, title, whole };
+    let encoders = od_devices::encoders().map(|kind| builtin((kind.name, kind.title), false));
+    let machines = od_devices::MACHINES.map(|one| builtin(one, true));
+    encoders.chain(machines).map(Crosses::value).collect()
 }
 
 pub(crate) fn valid(node_id: u8) -> Result<NodeId, JsError> {

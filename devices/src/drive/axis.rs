@@ -62,7 +62,7 @@ pub struct World {
 }
 
 impl World {
-    #[cfg(feature = "std")]
+    #[cfg(feature = "machines")]
     /// Sets the input with this number among the connections of an axis.
     pub(super) fn set(&mut self, number: usize, on: bool) {
         match number {
@@ -203,7 +203,7 @@ impl Axis {
         ((place << 32) / i128::from(REVOLUTION)) as i64
     }
 
-    #[cfg(feature = "std")]
+    #[cfg(feature = "machines")]
     pub(super) fn pin(&self, number: usize) -> i64 {
         match number {
             5 => self.shaft(),
@@ -212,7 +212,7 @@ impl Axis {
         }
     }
 
-    #[cfg(feature = "std")]
+    #[cfg(feature = "machines")]
     const fn world_pin(&self, number: usize) -> bool {
         match number {
             0 => self.world.negative_limit,

@@ -31,8 +31,6 @@ const MOST_FRAMES = 2000;
 const MOST_STUCK = 1000;
 
 const WHOLE: ReadonlySet<Input['op']> = new Set<Input['op']>(['lesson', 'leave', 'script']);
-const needsWhole = (input: Input): boolean => WHOLE.has(input.op) || (input.op === 'add' && input.source.kind === 'eds');
-
 export class World {
   bus: Simulation;
   /** Callers that wait for the end of transfers, by transfer number. */
@@ -57,9 +55,15 @@ export class World {
     return this.module.builtinDevices();
   }
 
+  private needsWhole(input: Input): boolean {
+    if (input.op !== 'add') return WHOLE.has(input.op);
+    const { source } = input;
+    return source.kind === 'eds' || this.builtins().some((one) => one.whole && source.kind === 'builtin' && one.name === source.name);
+  }
+
   /** Sends an input to the bench. */
   async act(input: Input): Promise<Added & { entry?: number }> {
-    if (needsWhole(input)) await this.enlarge();
+    if (this.needsWhole(input)) await this.enlarge();
     const { bus } = this;
     if (input.op === 'add') {
       // The report gets the findings of a file from the language server.
@@ -74,7 +78,7 @@ export class World {
 
   /** An empty bench, and a run to repeat. */
   async restore(entries: Entry[], quiet: boolean): Promise<void> {
-    if (entries.some(({ input }) => needsWhole(input))) await this.enlarge();
+    if (entries.some(({ input }) => this.needsWhole(input))) await this.enlarge();
     this.bus.restore(entries, quiet);
   }
 
