@@ -197,6 +197,7 @@ pub static PROFILE: Profile = Profile {
         inquire_node_id: false,
         // Silent during the delay, then at the new bit rate (C-GX-57).
         second_delay: false,
+        shows_state: true,
     }),
     // 2110h bit 5: node guarding replaces heartbeat.
     guarding_switch: Some((0x2110, 1 << 5)),

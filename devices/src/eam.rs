@@ -140,6 +140,7 @@ pub static PROFILE: Profile = Profile {
         inquire_node_id: true,
         // As in CiA 305.
         second_delay: true,
+        shows_state: true,
     }),
     guarding_switch: None,
     nmt: NmtProfile {

@@ -110,6 +110,7 @@ pub static PROFILE: Profile = Profile {
         inquire_node_id: true,
         // C-EN-18.
         second_delay: true,
+        shows_state: true,
     }),
     guarding_switch: None,
     nmt: NmtProfile {

@@ -174,6 +174,8 @@ pub struct LssProfile {
     /// After 15h the device is silent for two switch delays, and the bit rate changes between
     /// them (CiA 305); otherwise for one, and the bit rate changes at its end.
     pub second_delay: bool,
+    /// Byte 1 of the response to switch state selective (44h) is the state, 01h; CiA 305 reserves it.
+    pub shows_state: bool,
 }
 
 impl LssProfile {
@@ -203,6 +205,7 @@ impl LssProfile {
         fastscan: true,
         inquire_node_id: true,
         second_delay: true,
+        shows_state: false,
     };
 
     /// Returns whether the image keeps node ID and bit rate, and not an object each.

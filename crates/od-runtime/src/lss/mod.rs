@@ -98,7 +98,9 @@ impl Slave {
                 let matches = number(objects, part as u8) == value;
                 let complete = self.selective.step(part as u8, 3, matches);
                 self.configuration |= complete;
-                complete.then_some(Response::Selected { state: 1 })
+                complete.then_some(Response::Selected {
+                    state: profile.shows_state.into(),
+                })
             }
             Request::IdentifyRemote { step, value } if profile.identify_remote => {
                 let own = number(objects, identify::part(step));

@@ -63,6 +63,7 @@ const ALL: LssProfile = LssProfile {
     fastscan: true,
     inquire_node_id: true,
     second_delay: false,
+    shows_state: true,
 };
 
 fn select(bench: &mut Bench<Device>) {
@@ -306,4 +307,17 @@ fn a_family_may_be_silent_for_two_switch_delays() {
     );
     bench.wait(10);
     assert_eq!(bench.ask("7E5#5E00000000000000"), "7E4#5E01000000000000");
+}
+
+/// CiA 305 reserves byte 1 of the response; two manuals show the state there (MANUALS.md C-GX-40).
+#[test]
+fn a_family_without_a_state_in_the_response_sends_0() {
+    let mut bench = bench(LssProfile {
+        shows_state: false,
+        ..ALL
+    });
+    for frame in ["40EC00000000", "410A00000000", "420000010000"] {
+        assert!(bench.send(&format!("7E5#{frame}0000")).is_empty());
+    }
+    assert_eq!(bench.ask("7E5#4334120000000000"), "7E4#4400000000000000");
 }

@@ -125,6 +125,7 @@ const LSS: LssProfile = LssProfile {
     fastscan: true,
     inquire_node_id: true,
     second_delay: false,
+    shows_state: true,
 };
 
 fn tables(node: u8, identity: [u32; 4]) -> Tables {
