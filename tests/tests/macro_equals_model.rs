@@ -30,6 +30,8 @@ files! {
     gxmm: "../../devices/eds/GXMM.eds",
     eam_mt: "../../devices/eds/EAM_MT.eds",
     en580c: "../../devices/eds/EN580C.eds",
+    io: "../../devices/eds/IO.eds",
+    drive: "../../devices/eds/DRIVE.eds",
 }
 
 #[track_caller]

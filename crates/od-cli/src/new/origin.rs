@@ -17,7 +17,7 @@ pub(super) enum Origin {
     Vendor,
     /// The published crates of this version.
     Registry,
-    /// A checkout, by its path relative to the new crate.
+    /// The crates of a checkout, or of copies that lie side by side, by the path relative to the new crate.
     Checkout(String),
 }
 
@@ -40,17 +40,19 @@ impl Origin {
                 Self::Registry
             });
         };
-        let missing = ["odkit", "od-sim"].into_iter().find(|name| {
-            let manifest = checkout.join("crates").join(name).join("Cargo.toml");
-            !manifest.is_file()
-        });
+        let mut crates = checkout.join("crates");
+        if !crates.is_dir() {
+            crates = checkout.to_path_buf();
+        }
+        let is_missing = |name: &&str| !crates.join(name).join("Cargo.toml").is_file();
+        let missing = ["odkit", "od-sim"].into_iter().find(is_missing);
         if let Some(name) = missing {
             return Err(Failure::Failed(format!(
                 "{} is not a checkout of odkit: it has no crate `{name}`",
                 checkout.display()
             )));
         }
-        let relative = from_to(folder, checkout)?;
+        let relative = from_to(folder, &crates)?;
         // Cargo reads `/` on every system.
         let path = relative.display().to_string().replace('\\', "/");
         Ok(Self::Checkout(path))
@@ -61,7 +63,7 @@ impl Origin {
     pub(super) fn dependency(&self, name: &str, features: &str) -> String {
         let path = match self {
             Self::Vendor => format!("{VENDOR}/{name}"),
-            Self::Checkout(path) => format!("{path}/crates/{name}"),
+            Self::Checkout(path) => format!("{path}/{name}"),
             Self::Registry => {
                 let version = env!("CARGO_PKG_VERSION");
                 return format!("{name} = {{ version = \"{version}\"{features} }}");

@@ -17,7 +17,7 @@ fn look(link: &mut impl Link) -> Scan {
 }
 
 #[test]
-fn the_twelve_devices_are_found_and_say_who_they_are() {
+fn all_devices_are_found_and_say_who_they_are() {
     let names: Vec<(&str, u8)> = od_devices::DEVICES
         .iter()
         .map(|kind| kind.name)
@@ -26,7 +26,7 @@ fn the_twelve_devices_are_found_and_say_who_they_are() {
     let mut bus = bus(&names);
     let found = look(&mut OnBench(&mut bus));
     assert!(!found.has_unconfigured);
-    assert_eq!(found.nodes.len(), 12);
+    assert_eq!(found.nodes.len(), od_devices::DEVICES.len());
     for (kind, one) in od_devices::DEVICES.iter().zip(&found.nodes) {
         let value = |index, sub| {
             let entry = kind.dictionary.entry(index, sub).expect("a value");

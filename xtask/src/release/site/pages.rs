@@ -65,6 +65,7 @@ const PARTS: [(&str, &[&str]); 9] = [
     ("Packages", &["python/README.md", "examples/python-ci/README.md", "playground/README.md", "crates/od-capi/README.md", "editors/README.md"]),
     ("Project", &[
         "docs/PERFORMANCE.md",
+        "docs/SCALE.md",
         "tests/bench/README.md",
         "docs/CONTRIBUTING.md",
         "ARCHITECTURE.md",
