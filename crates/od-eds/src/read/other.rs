@@ -33,7 +33,10 @@ pub(crate) fn check(placed: &Placed<'_>, log: &mut Log) {
     if known.name == "DeviceCommissioning" {
         let mut pairs = placed.pairs.iter();
         let is_valid = |(key, value): &(Text<'_>, Text<'_>)| {
-            known::key(known, key).is_none_or(|(_, form)| value.is_empty() || fits(value, form))
+            // python-canopen takes the bit rate as a decimal number, and stops at `Baudrate=0x7D`.
+            let is_taken = !key.eq_ignore_ascii_case("Baudrate") || value.parse::<u32>().is_ok();
+            let form = known::key(known, key).map(|(_, form)| form);
+            form.is_none_or(|form| value.is_empty() || is_taken && fits(value, form))
         };
         let finding = i0611_commissioning_spelling::finding(placed.header, pairs.all(is_valid));
         log.push(finding);
