@@ -150,7 +150,6 @@ check('a file that is no EDS says what it is, and the bench stays', async (page)
     ['photo.eds', "Uint8Array.from('\\x89PNG\\r\\n\\x1a\\n\\0\\0', (c) => c.charCodeAt())", /photo\.eds is a picture \(PNG\), not an EDS file/],
     ['files.eds', "Uint8Array.from('PK\\x03\\x04\\0\\0', (c) => c.charCodeAt())", /files\.eds is a ZIP archive, not an EDS file of CANopen\. Unpack it/],
     ['none.eds', "''", /none\.eds is empty, not an EDS file/],
-    ['trace.txt', "'(1.0) can0 701#00\\n(1.1) can0 181#0011\\n'", /trace\.txt is a log of a bus with 2 frames, not an EDS file/],
     ['notes.txt', "'Call the plumber.\\n'", /notes\.txt is a text without a section such as \[FileInfo\], not an EDS file/],
     ['data.eds', "'[{\"a\": [1]}]'", /data\.eds is a JSON file, not an EDS file/],
     ['adapter.eds', "'$ EZ-EDS\\n[File]\\n[Device]\\n  VendCode = 46;\\n'", /adapter\.eds is an EDS of EtherNet\/IP or DeviceNet \(ODVA\), not an EDS file of CANopen/],
@@ -160,7 +159,6 @@ check('a file that is no EDS says what it is, and the bench stays', async (page)
   }
   await becomes('the device', () => page.locator('.device-button strong').textContent(), 'gxmm');
   await drop(page, 'trace.txt', "'(1.0) can0 701#00\\n(1.1) can0 181#0011\\n'");
-  await report.getByRole('button', { name: 'Open it as a log' }).click();
   // The user is asked before a capture is replaced.
   await becomes('the offer', () => page.getByRole('region', { name: 'Offers' }).textContent(), /trace\.txt/);
 });
