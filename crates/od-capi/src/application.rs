@@ -12,7 +12,7 @@ use crate::types::{
 /// The behaviour of a device.
 pub(crate) struct Behaviour {
     pub(crate) device: odkit_device,
-    /// Before power-on there is none.
+    /// `None` before power-on.
     pub(crate) nested: Option<&'static Nested>,
     /// The firmware writes, and no master: it is not asked.
     pub(crate) own: bool,

@@ -260,7 +260,7 @@ fn about(args: &Args, eds: &str) -> About {
     }
 }
 
-/// What the node says of itself; objects that it does not have are left out.
+/// Names and values of the objects by which the node identifies itself; objects that it lacks are left out.
 fn identity<L: Link>(master: &mut Master<L>) -> Vec<(String, String)> {
     let number = |bytes: &[u8]| {
         let mut wide = [0; 4];

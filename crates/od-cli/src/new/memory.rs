@@ -1,4 +1,4 @@
-//! What a device needs of a board's memory, and where its saved values go: known before anything is compiled.
+//! Computes, before anything is compiled, how much memory of a board a device needs and where its saved values go.
 
 use std::mem::size_of;
 use std::ops::Range;
@@ -50,7 +50,7 @@ pub(super) struct Need {
     set: usize,
     /// All values.
     values: usize,
-    /// What its services remember.
+    /// The state of its services.
     rooms: usize,
     /// The dictionary in flash.
     dictionary: usize,
@@ -139,7 +139,7 @@ impl Memory {
     /// Divides the memory for a device.
     ///
     /// # Errors
-    /// What does not fit: bytes that the device needs, and that the board has.
+    /// The memory that is too small: the bytes that the device needs, and those that the board has.
     pub(super) fn layout(&self, need: &Need) -> Result<Layout, String> {
         let ram = need.ram(&self.saved);
         if ram > self.ram {

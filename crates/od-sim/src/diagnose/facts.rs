@@ -7,7 +7,6 @@ use od_model::{Address, Dictionary};
 use od_wire::sdo::{Request, Response};
 use od_wire::{Frame, Instant};
 
-use super::known::Known;
 use crate::logs::{Record, What};
 use crate::sdo::{Message, Observer, default_sdo};
 use crate::wire::bits::bits;
@@ -16,6 +15,15 @@ use crate::wire::bits::bits;
 pub(super) const WINDOW: u64 = 100_000;
 /// Bit rates of CiA 301 in kbit/s.
 const RATES: [u16; 9] = [10, 20, 50, 100, 125, 250, 500, 800, 1000];
+
+/// Facts about the bus that its log does not contain.
+#[derive(Clone, Copy, Default)]
+pub struct Known<'k> {
+    /// Bit rate in kbit/s; `None`: it is estimated from frames that follow each other without a pause.
+    pub bit_rate: Option<u16>,
+    /// Dictionary of a node, by its EDS.
+    pub dictionary: Option<&'k dyn Fn(u8) -> Option<Dictionary<'k>>>,
+}
 
 /// A frame and its place in the log.
 #[derive(Clone, Copy, Debug)]

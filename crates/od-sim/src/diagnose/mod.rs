@@ -1,4 +1,4 @@
-//! Finds the faults in a log of a bus, and their likely causes: what a specialist says after an hour with it.
+//! Finds the faults in a log of a bus, and their likely causes.
 //!
 //! [`diagnose`] reads the frames once into facts (which node sent what and when, which request had which response),
 //! asks each rule, and joins what belongs to one fault: a cable that came loose, the EMCY of its consumer and the
@@ -6,15 +6,14 @@
 
 mod facts;
 mod incident;
-mod known;
 mod merge;
 mod rule;
 mod rules;
 
 use std::prelude::v1::*;
 
+pub use facts::Known;
 pub use incident::{Cause, Incident};
-pub use known::Known;
 
 use crate::logs::Record;
 

@@ -22,7 +22,7 @@ pub struct About {
     pub bit_rate: Option<u16>,
     /// SHA-256 of the EDS, in hexadecimal digits.
     pub eds_hash: String,
-    /// What the node says of itself: object and value.
+    /// Objects by which the node identifies itself: name and value.
     pub identity: Vec<(String, String)>,
     /// The text of the EDS, which names the values of frames.
     pub eds_text: String,
