@@ -295,23 +295,27 @@ def test_ctrl_c_ends_every_call():
     """
     program = """if True:
         import odkit, os, signal, sys, threading, time
-        clock, inf = time.perf_counter, float("inf")
-        signal.signal(signal.SIGALRM, lambda *_: os.kill(os.getpid(), signal.SIGINT))
+        # A run in the background of a shell script ignores SIGINT, and its programs inherit that.
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+        clock, inf, real = time.perf_counter, float("inf"), time.sleep
         for call in sys.argv[1].split("\\n"):
             bench = odkit.Bench("gxmm@1")
             client = odkit.Client(bench)
-            begin = clock()
+            sent = []
+            def interrupt():
+                real(0.1)
+                sent.append(clock())
+                os.kill(os.getpid(), signal.SIGINT)
+            threading.Thread(target=interrupt).start()
             try:
-                signal.setitimer(signal.ITIMER_REAL, 0.1, 5)
                 exec(call.strip())
             except KeyboardInterrupt:
-                signal.setitimer(signal.ITIMER_REAL, 0)
-                print(round(clock() - begin - 0.1, 3), call.strip())
+                print(round(clock() - sent[0], 3), call.strip())
     """
     done = subprocess.run([sys.executable, "-c", program, calls.strip()], stdout=subprocess.PIPE, text=True, timeout=200)
-    delays = sorted(float(line.split()[0]) for line in done.stdout.splitlines())
-    # The computer may be busy, and Python drops a KeyboardInterrupt in a finalizer: then the next one counts.
-    assert len(delays) == 11 and delays[5] < 0.1 and delays[-2] < 1, done.stdout
+    delays = [float(line.split()[0]) for line in done.stdout.splitlines()]
+    # The computer may be busy.
+    assert len(delays) == 11 and sorted(delays)[5] < 0.1 and max(delays) < 1, done.stdout
 
 
 def test_benches_on_threads_run_side_by_side():
