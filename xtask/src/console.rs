@@ -1,6 +1,6 @@
 //! Runs programs: in `play` with their output on the terminal, in `test` in a log.
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::env;
 use std::fmt::Write as _;
 use std::fs::File;
@@ -34,6 +34,8 @@ pub(crate) struct Console {
     /// Where another thread says that programs have to stop.
     stop: Arc<AtomicBool>,
     last: RefCell<String>,
+    /// Processor time of the programs that ended.
+    used: Cell<Duration>,
 }
 
 impl Console {
@@ -45,6 +47,7 @@ impl Console {
             yields: false,
             stop: Arc::default(),
             last: RefCell::default(),
+            used: Cell::default(),
         }
     }
 
@@ -57,6 +60,7 @@ impl Console {
             yields,
             stop: Arc::default(),
             last: RefCell::default(),
+            used: Cell::default(),
         }
     }
 
@@ -79,6 +83,11 @@ impl Console {
     /// The last command line that was run, as a user would type it.
     pub(crate) fn last_command(&self) -> String {
         self.last.borrow().clone()
+    }
+
+    /// The processor time of the programs that ended; zero where the system has no `/proc`.
+    pub(crate) fn processor_time(&self) -> Duration {
+        self.used.get()
     }
 
     /// Runs a program to its end; `what` describes it in messages. The program sees `ODKIT_CORPUS` only
@@ -124,7 +133,12 @@ impl Console {
 
     fn wait(&self, child: &mut Child, started: Instant, shown: &str) -> Result<ExitStatus> {
         let lost = |e| Error::Failed(format!("`{shown}` was lost: {e}"));
+        let before = self.used.get();
         while started.elapsed() < self.limit && !self.stop.load(Ordering::Relaxed) {
+            // A program that ended keeps its times until `try_wait` takes note of it.
+            if let Some(time) = processor_time(&child.id().to_string()) {
+                self.used.set(before + time);
+            }
             if let Some(status) = child.try_wait().map_err(lost)? {
                 return Ok(status);
             }
@@ -135,6 +149,17 @@ impl Console {
         let time = seconds(started.elapsed());
         Err(Error::Failed(format!("`{shown}` was stopped after {time}")))
     }
+}
+
+/// The processor time of a process (`self`, or its number) and of its children that ended; `None` where the system
+/// has no `/proc`.
+pub(crate) fn processor_time(process: &str) -> Option<Duration> {
+    let text = std::fs::read_to_string(format!("/proc/{process}/stat")).ok()?;
+    // Behind the name, which may contain anything: fields 14 to 17 of proc_pid_stat(5), in 1/100 s.
+    let (_, fields) = text.rsplit_once(')')?;
+    let ticks = fields.split_whitespace().skip(11).take(4);
+    let ticks: u64 = ticks.filter_map(|field| field.parse::<u64>().ok()).sum();
+    Some(Duration::from_millis(ticks * 10))
 }
 
 fn append(mut log: &File, line: &str) {

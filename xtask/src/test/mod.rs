@@ -139,7 +139,8 @@ fn one(
     let text = fs::read(&path).unwrap_or_default();
     let text = String::from_utf8_lossy(&text);
     let outcome = judge(stage, result, Counts::read(&text));
-    let (took, command) = (started.elapsed(), console.last_command());
+    let took = (started.elapsed(), console.processor_time());
+    let command = console.last_command();
     report().finish(stage.name, &outcome, took, (&text, &path), &command);
     Ok(())
 }

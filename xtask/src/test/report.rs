@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
 use super::counts::Counts;
-use crate::console::{say, seconds};
+use crate::console::{processor_time, say, seconds};
 use crate::repo::is_ci;
 
 /// Number of lines that a failing stage shows at most; the log has all of them.
@@ -64,17 +64,17 @@ impl Report {
     }
 
     /// Prints one line for a stage that ended. A failed stage is followed by its output and the
-    /// commands that repeat it: `log` is its text and path, `command` the last one that ran.
+    /// commands that repeat it: `used` is its processor time, `log` its text and path, `command` the last one that ran.
     pub(super) fn finish(
         &mut self,
         name: &'static str,
         outcome: &Outcome,
-        took: Duration,
+        (took, used): (Duration, Duration),
         (log, place): (&str, &Path),
         command: &str,
     ) {
         self.running.retain(|running| *running != name);
-        say(&line(name, outcome, took));
+        say(&line(name, outcome, took, used));
         match outcome {
             Outcome::Passed(counts) => self.totals.join(counts.unwrap_or(Counts {
                 passed: 1,
@@ -105,7 +105,7 @@ impl Report {
             }
         }
         let took = seconds(self.started.elapsed());
-        say(&match processor_time() {
+        say(&match processor_time("self") {
             Some(time) => format!("finished in {took}, {} of processor time", seconds(time)),
             None => format!("finished in {took}"),
         });
@@ -116,16 +116,6 @@ impl Report {
             ExitCode::FAILURE
         }
     }
-}
-
-/// The processor time of all programs that ended; `None` where the system has no `/proc`.
-fn processor_time() -> Option<Duration> {
-    let text = std::fs::read_to_string("/proc/self/stat").ok()?;
-    // Behind the name, which may contain anything: fields 16 and 17 of proc_pid_stat(5), in 1/100 s.
-    let (_, fields) = text.rsplit_once(')')?;
-    let ticks = fields.split_whitespace().skip(13).take(2);
-    let ticks: u64 = ticks.filter_map(|field| field.parse::<u64>().ok()).sum();
-    Some(Duration::from_millis(ticks * 10))
 }
 
 fn explain(name: &str, why: &str, (log, place): (&str, &Path), command: &str) {
@@ -177,7 +167,7 @@ fn matters<'a>(lines: &[&'a str]) -> Vec<&'a str> {
     found
 }
 
-fn line(name: &str, outcome: &Outcome, took: Duration) -> String {
+fn line(name: &str, outcome: &Outcome, took: Duration, used: Duration) -> String {
     let (mark, what) = match outcome {
         Outcome::Passed(None) => ("ok", String::from("check")),
         Outcome::Passed(Some(counts)) => ("ok", tests(*counts)),
@@ -188,7 +178,15 @@ fn line(name: &str, outcome: &Outcome, took: Duration) -> String {
         Outcome::Skipped(why) => return format!("  skipped  {name:<12} skipped: {why}"),
         Outcome::LeftOut(why) => return format!("  left out {name:<12} {why}"),
     };
-    format!("  {mark:<8} {name:<12} {what:<34} {:>12}", seconds(took))
+    let used = if used.is_zero() {
+        String::new()
+    } else {
+        format!("   processor {:>12}", seconds(used))
+    };
+    format!(
+        "  {mark:<8} {name:<12} {what:<34} {:>12}{used}",
+        seconds(took)
+    )
 }
 
 fn tests(counts: Counts) -> String {
@@ -235,15 +233,19 @@ mod tests {
         assert_eq!(closing(counts), "0 passed, 0 failed");
         (counts.passed, counts.skipped) = (3, 1);
         assert_eq!(closing(counts), "3 passed, 0 failed, 1 skipped");
-        let shown = line(
-            "unit",
-            &Outcome::Passed(Some(counts)),
-            Duration::from_secs(2),
+        let (two, three) = (Duration::from_secs(2), Duration::from_secs(3));
+        let passed = Outcome::Passed(Some(counts));
+        let words = |used| {
+            let shown = line("unit", &passed, two, used);
+            shown.split_whitespace().collect::<Vec<_>>().join(" ")
+        };
+        assert_eq!(words(Duration::ZERO), "ok unit 3 tests, 1 skipped 2.0 s");
+        assert_eq!(
+            words(three),
+            "ok unit 3 tests, 1 skipped 2.0 s processor 3.0 s"
         );
-        let words: Vec<&str> = shown.split_whitespace().collect();
-        assert_eq!(words.join(" "), "ok unit 3 tests, 1 skipped 2.0 s");
         let skipped = Outcome::Skipped(String::from("no browser"));
-        let shown = line("browser", &skipped, Duration::ZERO);
+        let shown = line("browser", &skipped, Duration::ZERO, Duration::ZERO);
         assert!(shown.ends_with("skipped: no browser"), "{shown}");
     }
 }

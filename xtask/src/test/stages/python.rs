@@ -4,10 +4,11 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use super::rust::long;
+use super::rust::{long, odkit};
 use crate::console::cargo;
 use crate::error::{Error, Result};
 use crate::packages::{CLI, PYTHON};
+use crate::repo::program;
 use crate::setup::python;
 use crate::test::context::Context;
 
@@ -21,9 +22,6 @@ const METADATA: &str = "Metadata-Version: 2.1\nName: odkit\nVersion: 0.1.0\n";
 pub(super) fn python(context: &Context<'_>) -> Result<()> {
     let (repo, console) = (context.repo, context.console);
     let (python, site) = package(context)?;
-    // A test plays scripts of a bench with the command.
-    let mut build = cargo(&repo.root, &["build", "--package", CLI.0]);
-    console.run("building odkit", &mut build)?;
     tests(context, &python, Some(&site))?;
     if !context.long {
         return Ok(());
@@ -106,9 +104,9 @@ fn write(path: &PathBuf, text: &str) -> Result<()> {
 
 /// pytest, with the package of a folder if it is not installed.
 fn tests(context: &Context<'_>, python: &Path, site: Option<&Path>) -> Result<()> {
+    // A test plays scripts of a bench with the command.
+    let odkit = odkit(context)?.join(program(CLI.1));
     // Not started in `python/`, whose folder `odkit` lacks the module.
-    let odkit = format!("{}{}", CLI.1, std::env::consts::EXE_SUFFIX);
-    let odkit = context.repo.target.join("debug").join(odkit);
     let mut pytest = Command::new(python);
     pytest
         .args(["-m", "pytest", "-q", "-p", "no:cacheprovider"])
