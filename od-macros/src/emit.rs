@@ -48,7 +48,7 @@ pub(crate) fn module(input: &Input, source: &Source, family: &Family) -> TokenSt
     quote! {
         #(#attrs)*
         #[doc = #about]
-        #[allow(dead_code, unused_imports, unreachable_pub, clippy::all)]
+        #[allow(dead_code, non_snake_case, unused_imports, unreachable_pub, clippy::all)]
         #visibility mod #name {
             #(#track)*
             #body
@@ -64,7 +64,7 @@ fn root(input: &Input) -> String {
         Some(path) => quote!(#path).to_string(),
         None => String::from("::odkit"),
     };
-    format!("{odkit}::__private6")
+    format!("{odkit}::__private7")
 }
 
 fn about(source: &Source, family: &Family) -> String {
@@ -74,6 +74,9 @@ fn about(source: &Source, family: &Family) -> String {
         let _ = write!(text, ", from `{}`", files.shown());
     }
     text.push('.');
+    text.push_str(
+        " A handle `NAME` is compared with an address (`address == NAME`); its address in a pattern is `NAME::ADDRESS`.",
+    );
     if family.remarks > 0 {
         let remarks = family.remarks;
         let _ = write!(text, " `odkit check` has {remarks} remarks on the file.");
@@ -135,7 +138,7 @@ fn hand_on(from: &str, to: &str) -> String {
 
 fn item(out: &mut String, root: &str, item: &Item, family: Option<&Item>) {
     match &item.body {
-        Body::Value(handle) => constant(out, item.index, handle),
+        Body::Value(handle) => constant(out, root, item.index, handle),
         Body::Members(handles) => {
             let _ = writeln!(
                 out,
@@ -163,7 +166,7 @@ fn item(out: &mut String, root: &str, item: &Item, family: Option<&Item>) {
             for handle in own(handles, series) {
                 match others.iter().find(|other| other.alike(handle)) {
                     Some(other) => handed_on.push(hand_on(&other.name, &handle.name)),
-                    None => constant(out, item.index, handle),
+                    None => constant(out, root, item.index, handle),
                 }
             }
             if let (Some(family), false) = (family, handed_on.is_empty()) {
@@ -194,7 +197,8 @@ fn series(out: &mut String, index: u16, first: &Handle, last: &Handle, count: us
     );
 }
 
-fn constant(out: &mut String, index: u16, handle: &Handle) {
+/// The handle of a value, and its address for patterns: `LIMIT`, `LIMIT::ADDRESS`.
+fn constant(out: &mut String, root: &str, index: u16, handle: &Handle) {
     let Handle {
         name,
         doc,
@@ -209,6 +213,12 @@ fn constant(out: &mut String, index: u16, handle: &Handle) {
         Some(bits) => writeln!(out, "__v({index:#06X}, {sub}, {offset}, {len}, {bits});"),
         None => writeln!(out, "__t({index:#06X}, {sub}, {offset}, {len});"),
     };
+    // A module and a constant may have one name. A pattern needs a constant of the type `Address`.
+    let _ = writeln!(
+        out,
+        "#[doc(hidden)] pub mod {name} {{ pub const ADDRESS: {root}::Address = \
+         {root}::Address {{ index: {index:#06X}, sub: {sub} }}; }}"
+    );
 }
 
 /// `DICTIONARY` with its tables inside, so that they need no names outside.

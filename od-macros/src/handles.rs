@@ -57,7 +57,7 @@ pub(crate) struct Naming<'a> {
     pub(crate) files: Option<&'a Files>,
     /// The items of the family: a variant uses the same names for the items that it keeps.
     pub(crate) family: &'a [Item],
-    /// Module names that are taken: those of the variants.
+    /// Names that are taken: those of the variants.
     pub(crate) modules: BTreeSet<String>,
     /// The statements with the renames.
     pub(crate) statements: &'a [Statement],
@@ -133,6 +133,9 @@ fn name_items(items: &mut [Item], naming: &Naming<'_>, report: &mut Report) {
         .iter()
         .map(|item| (item.index, item))
         .collect();
+    // A handle is a constant and a module with its address, so one name is not of a handle and of an object's module.
+    let mut taken = naming.modules.clone();
+    taken.extend(CONSTANTS.map(String::from));
     for modules in [false, true] {
         let wanted: Vec<Wanted> = items
             .iter()
@@ -150,12 +153,8 @@ fn name_items(items: &mut [Item], naming: &Naming<'_>, report: &mut Report) {
                     .map(|kept| kept.name.clone()),
             })
             .collect();
-        let taken = if modules {
-            naming.modules.clone()
-        } else {
-            CONSTANTS.map(String::from).into()
-        };
         let named = assign(&wanted, &taken, &renames, modules, report);
+        taken.extend(named.values().cloned());
         for item in items.iter_mut() {
             if let Some(name) = named.get(&Target::object(item.index)) {
                 item.name.clone_from(name);

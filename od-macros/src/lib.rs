@@ -88,8 +88,11 @@
 //! `identity_object`. Characters other than letters and digits separate words. **Names that
 //! repeat all get their index or sub-index as a suffix**: `RESERVED_2110`, `RESERVED_2111`
 //! or `RESERVED_05`. `rename` gives better names; two renames to the same name are an
-//! error. A module with the name of a variant gets its index too. The documentation of every item gives index, type,
+//! error. A name that a variant or the module itself has gets its index too. The documentation of every item gives index, type,
 //! access, default, limits and its place in the EDS.
+//!
+//! An application that gets an address compares it with a handle, `address == thermometer::TEMPERATURE`. In a pattern it
+//! is a constant beside the handle: `match address { thermometer::TEMPERATURE::ADDRESS => … }`.
 //!
 //! An ARRAY of more than 64 sub-objects of one type has one constant for them, `ENTRIES`, and
 //! `ENTRIES.at(5)` is the handle of sub-index 5; a `rename` of one of them gives it a constant, too.
@@ -182,7 +185,7 @@ mod tests {
         let (_, base) = made.split_once("pubmoddevice").unwrap();
         let (base, variant) = base.split_once("pubmodblind").unwrap();
         for part in [
-            "pub const DICTIONARY: ::odkit::__private6::Dictionary<'static> =",
+            "pub const DICTIONARY: ::odkit::__private7::Dictionary<'static> =",
             "static ROWS: [Row; 5] = rows(&[0x",
             "Shape { store_len: 7, longest: 4, has_streams: false, reals: ::core::option::Option::None,",
             "Names { rows: names(b\"",
@@ -190,9 +193,9 @@ mod tests {
             "pub mod identity {",
             "pub const VENDOR_ID: Var<u32, Const> = __v(0x1018, 1, 0, 0, 32);",
             "pub const STORE_LEN: usize = DICTIONARY.store_len();",
-            "::odkit::__private6::rooms!(Device);",
-            "pub type Node<A = ::odkit::__private6::NoApplication, S = ::odkit::__private6::NoStorage> =
-             ::odkit::__private6::Node<Device, A, S>;",
+            "::odkit::__private7::rooms!(Device);",
+            "pub type Node<A = ::odkit::__private7::NoApplication, S = ::odkit::__private7::NoStorage> =
+             ::odkit::__private7::Node<Device, A, S>;",
         ] {
             assert!(base.contains(&tight(part)), "{part}\n\n{base}");
         }

@@ -54,6 +54,22 @@ fn handles_are_typed_and_named() {
 }
 
 #[test]
+fn an_address_is_matched_against_handles() {
+    let name = |index, sub| match Address::new(index, sub) {
+        bench::POSITION::ADDRESS => "position",
+        bench::identity::VENDOR_ID::ADDRESS | bench::identity::RESERVED_03::ADDRESS => "identity",
+        bench::KEY::ADDRESS => "key",
+        _ => "other",
+    };
+    assert_eq!(name(0x6004, 0), "position");
+    assert_eq!(name(0x1018, 1), "identity");
+    assert_eq!(name(0x1018, 3), "identity");
+    assert_eq!(name(0x2102, 0), "key");
+    assert_eq!(name(0x1018, 2), "other");
+    assert_eq!(name(0x6004, 1), "other");
+}
+
+#[test]
 fn the_rows_contain_all_objects() {
     let d = bench::DICTIONARY;
     let identity = d.object(0x1018).unwrap();

@@ -39,12 +39,15 @@ impl Application for Heater {
         &mut self,
         cx: &mut Context<'_, '_>,
         address: Address,
-        _: &[u8],
+        value: &[u8],
     ) -> Result<(), AbortCode> {
-        if address == HEATER.address() && cx.store.get(TEMPERATURE) > cx.store.get(LIMIT) {
-            return Err(AbortCode::DeviceState);
+        match address {
+            HEATER::ADDRESS if cx.store.get(TEMPERATURE) > cx.store.get(LIMIT) => {
+                Err(AbortCode::DeviceState)
+            }
+            LIMIT::ADDRESS if !LIMIT.decode(value).is_finite() => Err(AbortCode::ValueRange),
+            _ => Ok(()),
         }
-        Ok(())
     }
     fn tick(&mut self, cx: &mut Context<'_, '_>) -> Option<Instant> {
         let celsius = cx.store.get(TEMPERATURE);

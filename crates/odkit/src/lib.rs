@@ -58,9 +58,9 @@ pub use od_wire::{emcy, lss, nmt, sdo};
 /// The paths that [`object_dictionary!`] emits; not an API. The number changes with the shape of
 /// the emitted code, so that a macro and a crate of different versions fail at this name.
 #[doc(hidden)]
-pub mod __private6 {
-    pub use od_model::Dictionary;
+pub mod __private7 {
     pub use od_model::typed::emit::*;
+    pub use od_model::{Address, Dictionary};
     pub use od_runtime::storage::NoStorage;
     pub use od_runtime::{Device, NoApplication, Node, Profile, Services, rooms};
 }
