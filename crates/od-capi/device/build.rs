@@ -1,4 +1,4 @@
-//! The EDS file becomes a module for the compiler and a header for C.
+//! The EDS files become modules for the compiler and a header for C.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -9,44 +9,105 @@ use od_eds::convert::c_header;
 /// The file if `ODKIT_EDS` names none.
 const EXAMPLE: &str = "../../../firmware/eds/ds301.eds";
 
-fn main() -> Result<(), Box<dyn std::error::Error>> {
+type Result<T> = std::result::Result<T, Box<dyn std::error::Error>>;
+
+/// A node of the library.
+struct Node {
+    /// `None` if the library has one node, and `ODKIT_EDS` gives it no name.
+    name: Option<String>,
+    /// An EDS, and an overlay that may follow it.
+    paths: Vec<PathBuf>,
+    /// The files as `ODKIT_EDS` has them.
+    files: String,
+}
+
+fn main() -> Result<()> {
     println!("cargo::rerun-if-env-changed=ODKIT_EDS");
     println!("cargo::rerun-if-env-changed=ODKIT_WITHOUT");
-    let files = std::env::var("ODKIT_EDS").unwrap_or_else(|_| String::from(EXAMPLE));
-    // An overlay may follow the file, as everywhere.
-    let mut paths = if Path::new(&files).is_file() {
-        vec![find(&files)]
-    } else {
-        files.split('+').map(find).collect()
-    };
-    for path in &paths {
-        println!("cargo::rerun-if-changed={}", path.display());
+    let nodes = nodes(&std::env::var("ODKIT_EDS").unwrap_or_else(|_| String::from(EXAMPLE)))?;
+    // Nodes of the same files are of one device.
+    let mut devices: Vec<&[PathBuf]> = Vec::new();
+    let (mut modules, mut exports) = (String::new(), String::new());
+    let (mut handles, mut objects) = (String::new(), String::new());
+    for (handle, node) in nodes.iter().enumerate() {
+        let description = description(&node.paths)?;
+        let device = devices.iter().position(|paths| *paths == node.paths);
+        let device = device.unwrap_or_else(|| {
+            modules += &module(devices.len(), &node.paths, &description);
+            devices.push(&node.paths);
+            devices.len() - 1
+        });
+        let name = node.name.as_deref().unwrap_or("NODE");
+        exports += &format!("{handle} = ODKIT_{name}: device_{device}, ");
+        handles += &format!("#define ODKIT_{name} {handle}u /* {} */\n", comment(&node.files));
+        let prefix = match &node.name {
+            Some(name) => format!("OD_{name}"),
+            None => String::from("OD"),
+        };
+        objects += &c_header::addresses(&description, &prefix, &node.files);
     }
-    let mut texts = paths.iter().map(|path| match fs::read(path) {
-        Ok(bytes) => Ok(od_eds::decode(&bytes).into_owned()),
-        Err(error) => Err(format!("ODKIT_EDS: {}: {error}", path.display())),
-    });
-    let base = texts.next().unwrap_or_else(|| Ok(String::new()))?;
-    // The macro says what is wrong with either.
-    let text = match texts.next().transpose()? {
-        Some(overlay) => od_eds::overlay(&base, &overlay).map_or(base, |made| made.text),
-        None => base,
-    };
-    paths.truncate(2);
-    let description = od_eds::parse(&text).description;
-
     let out = PathBuf::from(std::env::var("OUT_DIR")?);
-    fs::write(out.join("device.rs"), module(&paths, &description))?;
+    fs::write(
+        out.join("device.rs"),
+        format!("{modules}od_capi::export! {{ {exports} }}\n"),
+    )?;
     // OUT_DIR is target/…/release/build/odkit-node-…/out.
     let beside = out
         .ancestors()
         .nth(3)
         .ok_or("OUT_DIR has no folder above")?;
-    let objects = c_header::addresses(&description, "OD", &files);
-    fs::write(beside.join("odkit_objects.h"), objects)?;
+    fs::write(
+        beside.join("odkit_objects.h"),
+        format!(
+            "/* Handles of the nodes. */\n#ifndef ODKIT_NODES_H\n#define ODKIT_NODES_H\n\n{handles}\n\
+             #endif /* ODKIT_NODES_H */\n\n{objects}"
+        ),
+    )?;
     println!("cargo::rerun-if-changed=../include/odkit.h");
     fs::copy("../include/odkit.h", beside.join("odkit.h"))?;
     Ok(())
+}
+
+/// Reads `FILE`, `FILE+OVERLAY`, or a list `NAME=FILE,NAME=FILE+OVERLAY`.
+fn nodes(list: &str) -> Result<Vec<Node>> {
+    let node = |name, files: &str| {
+        // A name of a file may have this character.
+        let paths = if find(files).is_file() {
+            vec![find(files)]
+        } else {
+            files.split('+').map(find).collect()
+        };
+        for path in &paths {
+            println!("cargo::rerun-if-changed={}", path.display());
+        }
+        Node {
+            name,
+            paths,
+            files: files.to_owned(),
+        }
+    };
+    if find(list).is_file() || !list.contains(['=', ',']) {
+        return Ok(vec![node(None, list)]);
+    }
+    let mut nodes: Vec<Node> = Vec::new();
+    for part in list.split(',') {
+        let (name, files) = part.split_once('=').ok_or_else(|| {
+            format!("ODKIT_EDS: `{part}` has no name; write `left=axis.eds,right=axis.eds`")
+        })?;
+        let name = name.trim().to_ascii_uppercase();
+        let is_word = |c: char| c.is_ascii_alphanumeric() || c == '_';
+        if name.is_empty() || !name.chars().all(is_word) {
+            return Err(format!(
+                "ODKIT_EDS: `{name}` is not a name of a node; use letters, digits and `_`"
+            )
+            .into());
+        }
+        if nodes.iter().any(|node| node.name.as_ref() == Some(&name)) {
+            return Err(format!("ODKIT_EDS: two nodes have the name `{name}`").into());
+        }
+        nodes.push(node(Some(name), files.trim()));
+    }
+    Ok(nodes)
 }
 
 /// A relative path begins where cargo was called, or here.
@@ -57,9 +118,23 @@ fn find(name: &str) -> PathBuf {
     std::path::absolute(&path).unwrap_or(path)
 }
 
+/// The description of an EDS with its overlay. The macro reports what is wrong with either.
+fn description(paths: &[PathBuf]) -> Result<Description> {
+    let mut texts = paths.iter().map(|path| match fs::read(path) {
+        Ok(bytes) => Ok(od_eds::decode(&bytes).into_owned()),
+        Err(error) => Err(format!("ODKIT_EDS: {}: {error}", path.display())),
+    });
+    let base = texts.next().unwrap_or_else(|| Ok(String::new()))?;
+    let text = match texts.next().transpose()? {
+        Some(overlay) => od_eds::overlay(&base, &overlay).map_or(base, |made| made.text),
+        None => base,
+    };
+    Ok(od_eds::parse(&text).description)
+}
+
 /// The call of `object_dictionary!`, and the profile: CiA 301 to the letter, with LSS if the file
 /// says so.
-fn module(paths: &[PathBuf], description: &Description) -> String {
+fn module(number: usize, paths: &[PathBuf], description: &Description) -> String {
     let mut without = std::env::var("ODKIT_WITHOUT").unwrap_or_default();
     let lss = match description.lss_bit_rates() {
         Some(rates) => {
@@ -85,12 +160,19 @@ fn module(paths: &[PathBuf], description: &Description) -> String {
         "" => String::new(),
         list => format!("without {list};"),
     };
-    let files: Vec<String> = paths.iter().map(|path| format!("{path:?}")).collect();
+    let files = paths.iter().take(2).map(|path| format!("{path:?}"));
+    let files: Vec<String> = files.collect();
     let files = files.join(" + ");
     format!(
-        "static PROFILE: ::odkit::Profile =
+        "static PROFILE_{number}: ::odkit::Profile =
     ::odkit::Profile {{ lss: {lss}, ..::odkit::Profile::CIA301 }};
-::odkit::object_dictionary! {{ mod device {{ eds = {files}; behaves = PROFILE; {without} }} }}
+::odkit::object_dictionary! {{ mod device_{number} {{ eds = {files}; behaves = PROFILE_{number}; {without} }} }}
 "
     )
+}
+
+/// Text for a comment of C.
+fn comment(text: &str) -> String {
+    let text: String = text.chars().filter(|c| !c.is_control()).collect();
+    text.replace("*/", "* /").replace("/*", "/ *")
 }

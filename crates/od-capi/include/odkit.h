@@ -5,9 +5,12 @@
  * Functions that return uint32_t return ODKIT_OK, an error of the call (ODKIT_NULL and so on), or an
  * SDO abort code of CiA 301 (0x05030000 and above).
  *
- * One thread at a time may call; an interrupt or a thread that calls while another call is not over
- * gets ODKIT_BUSY, as long as that call is not inside a callback. Pointers are used during the call
- * only, but for the callbacks and the context of odkit_power_on.
+ * Each node of the program has a handle, the first argument of all functions: a macro of
+ * odkit_objects.h, ODKIT_NODE of a library with one node.
+ *
+ * One thread at a time may call for a node; an interrupt or a thread that calls while another call is
+ * not over gets ODKIT_BUSY, as long as that call is not inside a callback. Pointers are used during
+ * the call only, but for the callbacks and the context of odkit_power_on.
  *
  * The library uses static memory only. If it finds an error in itself, it calls
  * `void odkit_panic(void)`, which the firmware defines and which must not return; a linker that drops
@@ -60,6 +63,11 @@
  The object has another data type.
  */
 #define ODKIT_TYPE 6
+
+/*
+ The library has no node with this handle.
+ */
+#define ODKIT_NO_NODE 7
 
 /*
  SDO abort code 06060000h: a hardware error.
@@ -277,6 +285,12 @@
 #define ODKIT_STORAGE_DAMAGED 5
 
 /*
+ Handle of a node: a macro of odkit_objects.h, ODKIT_NODE of a library with one node. Without a node of
+ this handle a function does nothing, and answers ODKIT_NO_NODE or false.
+ */
+typedef uint32_t odkit_node;
+
+/*
  Non-volatile memory for the values that 1010h saves.
 
  EEPROM or FRAM: `page` and `word` are 0. NOR flash: `page` is the size of what `erase` erases,
@@ -409,112 +423,135 @@ extern "C" {
 #endif /* __cplusplus */
 
 /*
- Switches the power on: loads the saved values or their defaults, and the node boots up.
+ Switches the power of a node on: loads the saved values or their defaults, and the node boots up.
 
  `now_us` is a counter of microseconds that may start anywhere and wraps at 2^32.
  `node_id` is 1 to 127; or ODKIT_UNCONFIGURED for a device that waits for LSS. A saved node ID
  or the callback `node_id` replaces it. `device` may be null; it is copied.
  */
-uint32_t odkit_power_on(uint32_t now_us, uint8_t node_id, const struct odkit_device *device);
+uint32_t odkit_power_on(odkit_node node,
+                        uint32_t now_us,
+                        uint8_t node_id,
+                        const struct odkit_device *device);
 
 /*
  Switches the power off: the node is silent until odkit_power_on.
  */
-uint32_t odkit_power_off(void);
+uint32_t odkit_power_off(odkit_node node);
 
 /*
  Handles a frame that was received.
  */
-uint32_t odkit_handle_frame(uint32_t now_us, const struct odkit_frame *frame);
+uint32_t odkit_handle_frame(odkit_node node, uint32_t now_us, const struct odkit_frame *frame);
 
 /*
  Does what is due by now. To be called when the time of odkit_poll_timeout is over; a call
  that comes earlier or later does no harm.
  */
-uint32_t odkit_handle_timeout(uint32_t now_us);
+uint32_t odkit_handle_timeout(odkit_node node, uint32_t now_us);
 
 /*
  Something outside the bus changed: calls `tick`.
  */
-uint32_t odkit_handle_change(uint32_t now_us);
+uint32_t odkit_handle_change(odkit_node node, uint32_t now_us);
 
 /*
  Reports the state of the CAN controller, ODKIT_BUS_ACTIVE to ODKIT_BUS_OVERRUN.
  */
-uint32_t odkit_handle_bus(uint32_t now_us, uint8_t state);
+uint32_t odkit_handle_bus(odkit_node node, uint32_t now_us, uint8_t state);
 
 /*
  Fills `to` with the next frame to send; false if nothing waits. To be called after every
  other function, and whenever the CAN controller has room, until it answers false.
  */
-bool odkit_poll_frame(struct odkit_frame *to);
+bool odkit_poll_frame(odkit_node node, struct odkit_frame *to);
 
 /*
  Returns the microseconds until odkit_handle_timeout is to be called, 2^30 (18 minutes) at
- most, so that no wrap of the counter is missed.
+ most, so that no wrap of the counter is missed; 2^30 also without such a node.
  */
-uint32_t odkit_poll_timeout(uint32_t now_us);
+uint32_t odkit_poll_timeout(odkit_node node, uint32_t now_us);
 
 /*
  Fills `to` with the oldest event; false if nothing waits. The node keeps 16 of them; a
  firmware that has no use for events need not ask.
  */
-bool odkit_poll_event(struct odkit_event *to);
+bool odkit_poll_event(odkit_node node, struct odkit_event *to);
 
 /*
- Returns the NMT state, ODKIT_INITIALISATION to ODKIT_PRE_OPERATIONAL.
+ Returns the NMT state, ODKIT_INITIALISATION to ODKIT_PRE_OPERATIONAL; the first of them also
+ without such a node.
  */
-uint8_t odkit_state(void);
+uint8_t odkit_state(odkit_node node);
 
 /*
- Returns the node ID, or ODKIT_UNCONFIGURED.
+ Returns the node ID, or ODKIT_UNCONFIGURED; 0 without such a node.
  */
-uint8_t odkit_node_id(void);
+uint8_t odkit_node_id(odkit_node node);
 
 /*
  Copies a value as an SDO carries it (numbers little-endian), `size` bytes at most; `len`,
  if not null, becomes its length also if it is longer.
  */
-uint32_t odkit_get(uint16_t index, uint8_t sub, void *to, size_t size, size_t *len);
+uint32_t odkit_get(odkit_node node,
+                   uint16_t index,
+                   uint8_t sub,
+                   void *to,
+                   size_t size,
+                   size_t *len);
 
 /*
  Sets a value, read-only ones too: limits and rules hold as for a master. Event-driven TPDOs
  follow. In a callback limits do not hold, and `now_us` does not count.
  */
-uint32_t odkit_set(uint32_t now_us, uint16_t index, uint8_t sub, const void *from, size_t len);
+uint32_t odkit_set(odkit_node node,
+                   uint32_t now_us,
+                   uint16_t index,
+                   uint8_t sub,
+                   const void *from,
+                   size_t len);
 
 /*
  Reads an UNSIGNED8 to UNSIGNED32 or a BOOLEAN.
  */
-uint32_t odkit_get_u32(uint16_t index, uint8_t sub, uint32_t *to);
+uint32_t odkit_get_u32(odkit_node node, uint16_t index, uint8_t sub, uint32_t *to);
 
 /*
  Reads an INTEGER8 to INTEGER32.
  */
-uint32_t odkit_get_i32(uint16_t index, uint8_t sub, int32_t *to);
+uint32_t odkit_get_i32(odkit_node node, uint16_t index, uint8_t sub, int32_t *to);
 
 /*
  Sets an UNSIGNED8 to UNSIGNED32 or a BOOLEAN, as odkit_set does. ODKIT_ARGUMENT: its type
  cannot hold the value.
  */
-uint32_t odkit_set_u32(uint32_t now_us, uint16_t index, uint8_t sub, uint32_t value);
+uint32_t odkit_set_u32(odkit_node node,
+                       uint32_t now_us,
+                       uint16_t index,
+                       uint8_t sub,
+                       uint32_t value);
 
 /*
  Sets an INTEGER8 to INTEGER32, as odkit_set does. ODKIT_ARGUMENT: its type cannot hold the
  value.
  */
-uint32_t odkit_set_i32(uint32_t now_us, uint16_t index, uint8_t sub, int32_t value);
+uint32_t odkit_set_i32(odkit_node node,
+                       uint32_t now_us,
+                       uint16_t index,
+                       uint8_t sub,
+                       int32_t value);
 
 /*
  Reads an UNSIGNED8 to UNSIGNED64 or a BOOLEAN.
  */
-uint32_t odkit_get_u64(uint16_t index, uint8_t sub, uint64_t *to);
+uint32_t odkit_get_u64(odkit_node node, uint16_t index, uint8_t sub, uint64_t *to);
 
 /*
- Sets an UNSIGNED8 to UNSIGNED64 or a BOOLEAN, as odkit_set does. ODKIT_ARGUMENT: its type cannot hold the
- value.
+ Sets an UNSIGNED8 to UNSIGNED64 or a BOOLEAN, as odkit_set does. ODKIT_ARGUMENT: its type
+ cannot hold the value.
  */
-uint32_t odkit_set_u64(uint32_t now_us,
+uint32_t odkit_set_u64(odkit_node node,
+                       uint32_t now_us,
                        uint16_t index,
                        uint8_t sub,
                        uint64_t value);
@@ -522,34 +559,46 @@ uint32_t odkit_set_u64(uint32_t now_us,
 /*
  Reads an INTEGER8 to INTEGER64.
  */
-uint32_t odkit_get_i64(uint16_t index, uint8_t sub, int64_t *to);
+uint32_t odkit_get_i64(odkit_node node, uint16_t index, uint8_t sub, int64_t *to);
 
 /*
  Sets an INTEGER8 to INTEGER64, as odkit_set does. ODKIT_ARGUMENT: its type cannot hold the
  value.
  */
-uint32_t odkit_set_i64(uint32_t now_us, uint16_t index, uint8_t sub, int64_t value);
+uint32_t odkit_set_i64(odkit_node node,
+                       uint32_t now_us,
+                       uint16_t index,
+                       uint8_t sub,
+                       int64_t value);
 
 /*
  Reads a REAL32.
  */
-uint32_t odkit_get_f32(uint16_t index, uint8_t sub, float *to);
+uint32_t odkit_get_f32(odkit_node node, uint16_t index, uint8_t sub, float *to);
 
 /*
  Sets a REAL32, as odkit_set does.
  */
-uint32_t odkit_set_f32(uint32_t now_us, uint16_t index, uint8_t sub, float value);
+uint32_t odkit_set_f32(odkit_node node, uint32_t now_us, uint16_t index, uint8_t sub, float value);
 
 /*
  Reports an error: the node sends an EMCY message, unless it is active already. `register` has
  the bits of 1001h that it sets, `info` five bytes of its own; null means zeros.
  */
-uint32_t odkit_raise(uint32_t now_us, uint16_t code, uint8_t register_, const uint8_t *info);
+uint32_t odkit_raise(odkit_node node,
+                     uint32_t now_us,
+                     uint16_t code,
+                     uint8_t register_,
+                     const uint8_t *info);
 
 /*
  Reports the end of the error with this code and these bits of 1001h.
  */
-uint32_t odkit_clear(uint32_t now_us, uint16_t code, uint8_t register_, const uint8_t *info);
+uint32_t odkit_clear(odkit_node node,
+                     uint32_t now_us,
+                     uint16_t code,
+                     uint8_t register_,
+                     const uint8_t *info);
 
 #ifdef __cplusplus
 }  /* extern "C" */

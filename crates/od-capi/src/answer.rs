@@ -16,6 +16,9 @@ pub const ODKIT_SIZE: u32 = 5;
 /// The object has another data type.
 pub const ODKIT_TYPE: u32 = 6;
 
+/// The library has no node with this handle.
+pub const ODKIT_NO_NODE: u32 = 7;
+
 /// SDO abort code 06060000h: a hardware error.
 pub const ODKIT_ABORT_HARDWARE: u32 = 0x0606_0000;
 /// SDO abort code 06090030h: the value is not allowed.

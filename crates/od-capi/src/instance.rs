@@ -14,10 +14,29 @@ use crate::memory::Memory;
 use crate::nested::Nested;
 use crate::types::{
     ODKIT_BUS_ACTIVE, ODKIT_BUS_OFF, ODKIT_BUS_OVERRUN, ODKIT_BUS_PASSIVE, ODKIT_BUS_WARNING,
-    ODKIT_UNCONFIGURED, odkit_device, odkit_event, odkit_frame,
+    ODKIT_UNCONFIGURED, odkit_device, odkit_event, odkit_frame, odkit_node,
 };
 
-/// A node and its time. [`export!`](crate::export) makes a static one.
+/// Microseconds until a node that does not exist has something to do.
+pub const NO_TIMEOUT: u32 = clock::LONGEST_SLEEP;
+
+/// Returns whether each node has a handle of its own.
+pub const fn is_distinct(handles: &[odkit_node]) -> bool {
+    let mut at = 0;
+    while at < handles.len() {
+        let mut other = at + 1;
+        while other < handles.len() {
+            if handles[at] == handles[other] {
+                return false;
+            }
+            other += 1;
+        }
+        at += 1;
+    }
+    true
+}
+
+/// A node and its time. [`export!`](crate::export) makes a static one for each handle.
 ///
 /// `D` is the type `Device` of a dictionary's module.
 pub struct Instance<D: Device> {

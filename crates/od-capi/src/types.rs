@@ -4,6 +4,10 @@
 
 use core::ffi::c_void;
 
+/// Handle of a node: a macro of odkit_objects.h, ODKIT_NODE of a library with one node. Without a node of
+/// this handle a function does nothing, and answers ODKIT_NO_NODE or false.
+pub type odkit_node = u32;
+
 /// Flag of a frame: its identifier has 29 bits.
 pub const ODKIT_EXTENDED: u8 = 1;
 /// Flag of a frame: it is a remote frame.

@@ -12,9 +12,12 @@ const HEAD: &str = "/* A CANopen node: odkit for C.
  * Functions that return uint32_t return ODKIT_OK, an error of the call (ODKIT_NULL and so on), or an
  * SDO abort code of CiA 301 (0x05030000 and above).
  *
- * One thread at a time may call; an interrupt or a thread that calls while another call is not over
- * gets ODKIT_BUSY, as long as that call is not inside a callback. Pointers are used during the call
- * only, but for the callbacks and the context of odkit_power_on.
+ * Each node of the program has a handle, the first argument of all functions: a macro of
+ * odkit_objects.h, ODKIT_NODE of a library with one node.
+ *
+ * One thread at a time may call for a node; an interrupt or a thread that calls while another call is
+ * not over gets ODKIT_BUSY, as long as that call is not inside a callback. Pointers are used during
+ * the call only, but for the callbacks and the context of odkit_power_on.
  *
  * The library uses static memory only. If it finds an error in itself, it calls
  * `void odkit_panic(void)`, which the firmware defines and which must not return; a linker that drops
@@ -34,13 +37,13 @@ fn source() -> String {
     };
     let export = read("export.rs");
     let (_, body) = export
-        .split_once("$crate::instance::Instance::new($device::Device);")
+        .split_once("// `tests/header.rs` reads what follows.")
         .unwrap();
     let body = body.trim_end().strip_suffix("};\n}").unwrap();
     let all = [
         read("answer.rs"),
         read("types.rs"),
-        body.replace("$crate::types::", ""),
+        body.replace("$crate::types::", "").replace("$crate::", ""),
     ]
     .join("\n");
     // What is said of a whole file.

@@ -1,11 +1,10 @@
-//! A CANopen node for C, of the EDS file that the environment variable `ODKIT_EDS` names.
+//! CANopen nodes for C, of the EDS files that the environment variable `ODKIT_EDS` names.
 //!
-//! `build.rs` makes the dictionary's module, and puts the headers beside the library.
+//! `build.rs` makes the modules of the dictionaries and the call of `od_capi::export!`, and puts the headers beside the
+//! library.
 #![cfg_attr(target_os = "none", no_std)]
 
 include!(concat!(env!("OUT_DIR"), "/device.rs"));
-
-od_capi::export!(device);
 
 /// The library found a fault of its own.
 #[cfg(target_os = "none")]

@@ -23,7 +23,7 @@ static void on_reset(void *context, uint8_t reset)
     (void)reset;
 #ifdef OD_IDENTITY_OBJECT_SERIAL_NUMBER
     if (board_serial_number() != 0) {
-        (void)odkit_set_u32(0, OD_IDENTITY_OBJECT_SERIAL_NUMBER, board_serial_number());
+        (void)odkit_set_u32(ODKIT_NODE, 0, OD_IDENTITY_OBJECT_SERIAL_NUMBER, board_serial_number());
     }
 #endif
 }
@@ -32,7 +32,7 @@ static void on_reset(void *context, uint8_t reset)
 static void send_frames(void)
 {
     odkit_frame frame;
-    while (board_can_send() && odkit_poll_frame(&frame)) {
+    while (board_can_send() && odkit_poll_frame(ODKIT_NODE, &frame)) {
         board_send(&frame);
     }
 }
@@ -41,7 +41,7 @@ static void send_frames(void)
 static void look_at_events(void)
 {
     odkit_event event;
-    while (odkit_poll_event(&event)) {
+    while (odkit_poll_event(ODKIT_NODE, &event)) {
         switch (event.kind) {
         case ODKIT_EVENT_STATE:
             board_led((uint8_t)event.value);
@@ -62,7 +62,7 @@ static void power_on(uint8_t node_id)
     device.storage.capacity = board_eeprom_size();
     device.storage.read = eeprom_read;
     device.storage.write = eeprom_write;
-    if (odkit_power_on(board_now_us(), node_id, &device) != ODKIT_OK) {
+    if (odkit_power_on(ODKIT_NODE, board_now_us(), node_id, &device) != ODKIT_OK) {
         board_fail();
     }
 }
@@ -75,12 +75,12 @@ int main(void)
         uint32_t now = board_now_us();
         send_frames();
         if (board_receive(&frame)) {
-            (void)odkit_handle_frame(now, &frame);
-        } else if (odkit_poll_timeout(now) == 0) {
-            (void)odkit_handle_timeout(now);
+            (void)odkit_handle_frame(ODKIT_NODE, now, &frame);
+        } else if (odkit_poll_timeout(ODKIT_NODE, now) == 0) {
+            (void)odkit_handle_timeout(ODKIT_NODE, now);
         } else {
             look_at_events();
-            board_sleep(odkit_poll_timeout(now));
+            board_sleep(odkit_poll_timeout(ODKIT_NODE, now));
         }
     }
 }

@@ -19,6 +19,7 @@
  * The answers: `f`, time and a frame as above; `g`, the result (4), the length (2) and the value;
  * `d` and the EEPROM; `r`, the kbit/s (4) that LSS activated.
  */
+#include "odkit_objects.h"
 #include "virtual.h"
 
 /* The counter of the board wraps after ten seconds: nothing may depend on where it is. */
@@ -103,7 +104,7 @@ static void set_value(void)
     uint8_t sub = get_byte();
     uint8_t len = get_byte();
     get_bytes(value, len);
-    check(odkit_set(board_now_us(), index, sub, value, len));
+    check(odkit_set(ODKIT_NODE, board_now_us(), index, sub, value, len));
 }
 
 static void change_error(void)
@@ -113,9 +114,9 @@ static void change_error(void)
     uint8_t bits = get_byte();
     get_bytes(info, sizeof info);
     if (get_byte()) {
-        check(odkit_raise(board_now_us(), code, bits, info));
+        check(odkit_raise(ODKIT_NODE, board_now_us(), code, bits, info));
     } else {
-        check(odkit_clear(board_now_us(), code, bits, info));
+        check(odkit_clear(ODKIT_NODE, board_now_us(), code, bits, info));
     }
 }
 
@@ -125,7 +126,7 @@ static void show_value(void)
     size_t len = 0;
     uint16_t index = (uint16_t)get_number(2);
     uint8_t sub = get_byte();
-    uint32_t result = odkit_get(index, sub, value, sizeof value, &len);
+    uint32_t result = odkit_get(ODKIT_NODE, index, sub, value, sizeof value, &len);
     put_letter('g');
     put_number(result, 4);
     put_number(len, 2);
@@ -139,7 +140,7 @@ static void act(void)
     next = 0;
     switch (letter) {
     case 'N':
-        (void)odkit_power_off();
+        (void)odkit_power_off(ODKIT_NODE);
         eeprom_size = (uint32_t)get_number(4);
         if (eeprom_size > sizeof eeprom) {
             board_fail();
@@ -155,7 +156,7 @@ static void act(void)
         device_power_on(get_byte());
         break;
     case '-':
-        check(odkit_power_off());
+        check(odkit_power_off(ODKIT_NODE));
         break;
     case 'F':
         get_frame();
@@ -163,10 +164,10 @@ static void act(void)
     case 'T':
         break;
     case 'C':
-        (void)odkit_handle_change(board_now_us());
+        (void)odkit_handle_change(ODKIT_NODE, board_now_us());
         break;
     case 'B':
-        (void)odkit_handle_bus(board_now_us(), get_byte());
+        (void)odkit_handle_bus(ODKIT_NODE, board_now_us(), get_byte());
         break;
     case 'V':
         set_value();

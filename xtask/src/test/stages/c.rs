@@ -42,9 +42,15 @@ const TOOLS: [(&str, &str); 4] = [
 
 /// The device of the checks, and the one of most scripts.
 const DEVICES: [(&str, &str); 2] = [
-    ("ds301", "firmware/eds/ds301.eds+tests/capi/all.overlay"),
-    ("strings", "tests/interop/strings.eds"),
+    (
+        "ds301",
+        "{root}/firmware/eds/ds301.eds+{root}/tests/capi/all.overlay",
+    ),
+    ("strings", "{root}/tests/interop/strings.eds"),
 ];
+/// The nodes of the program with several.
+const NODES: &str = "left={root}/firmware/eds/ds301.eds,right={root}/firmware/eds/ds301.eds,\
+                     text={root}/tests/interop/strings.eds";
 
 pub(super) fn c(context: &Context<'_>) -> Result<()> {
     let missing = TOOLS.iter().filter(|(name, _)| which(name).is_none());
@@ -57,21 +63,15 @@ pub(super) fn c(context: &Context<'_>) -> Result<()> {
     let examples = root.join("crates/od-capi/examples/c");
     let programs = context.repo.target.join("capi");
     std::fs::create_dir_all(&programs).map_err(|e| Error::io("create", &programs, &e))?;
+    let several = library(context, NODES, None)?;
+    checks(context, &several, &programs, "gcc", "nodes.c")?;
+    zephyr(context, &programs)?;
     for (name, eds) in DEVICES {
         // The checks of calls run on this computer only.
         if name == DEVICES[0].0 {
             let library = library(context, eds, None)?;
             for (compiler, file) in [("gcc", "calls.c"), ("g++", "calls.cpp")] {
-                let file = root.join("tests/capi").join(file);
-                let program = programs.join(format!("calls-{compiler}"));
-                let mut build = compile(root, compiler, &library, &program);
-                build.args(WATCHED).arg(&file);
-                link(&mut build, &library);
-                context
-                    .console
-                    .run(&format!("the checks by {compiler}"), &mut build)?;
-                let mut run = Command::new(&program);
-                context.console.run("the checks", run.current_dir(root))?;
+                checks(context, &library, &programs, compiler, file)?;
             }
             let mut build = compile(root, "gcc", &library, &programs.join("host"));
             let files = ["main.c", "virtual.c", "host.c"].map(|file| examples.join(file));
@@ -103,6 +103,56 @@ pub(super) fn c(context: &Context<'_>) -> Result<()> {
     context.console.run("scripts", &mut test)
 }
 
+/// Builds and runs a program of tests/capi.
+fn checks(
+    context: &Context<'_>,
+    library: &Path,
+    programs: &Path,
+    compiler: &str,
+    file: &str,
+) -> Result<()> {
+    let (root, console) = (&context.repo.root, context.console);
+    let program = programs.join(format!("{file}-{compiler}"));
+    let mut build = compile(root, compiler, library, &program);
+    build.args(WATCHED).arg(root.join("tests/capi").join(file));
+    link(&mut build, library);
+    console.run(&format!("{file} by {compiler}"), &mut build)?;
+    let mut run = Command::new(&program);
+    console.run(file, run.current_dir(root))
+}
+
+/// Compiles the module and the sample of Zephyr against the part of Zephyr's interface in tests/capi/zephyr, and runs them there.
+fn zephyr(context: &Context<'_>, programs: &Path) -> Result<()> {
+    let (root, console) = (&context.repo.root, context.console);
+    let module = root.join("crates/od-capi/zephyr");
+    let tests = root.join("tests/capi/zephyr");
+    let library = library(
+        context,
+        "{root}/crates/od-capi/zephyr/samples/node/thermometer.eds",
+        None,
+    )?;
+    let build = |program: &Path| {
+        let mut build = compile(root, "gcc", &library, program);
+        build.args(WATCHED).arg("-D_POSIX_C_SOURCE=200809L");
+        build.arg("-I").arg(tests.join("fake"));
+        build.arg("-I").arg(module.join("include"));
+        build
+    };
+    let sample = programs.join("sample.o");
+    let mut object = build(&sample);
+    object.args(["-c", "-Dmain=sample_main"]);
+    object.arg(module.join("samples/node/src/main.c"));
+    console.run("the sample of Zephyr", &mut object)?;
+    let program = programs.join("zephyr");
+    let mut build = build(&program);
+    build.arg(module.join("src/odkit_zephyr.c"));
+    build.arg(tests.join("zephyr.c")).arg(&sample);
+    link(&mut build, &library);
+    console.run("the module of Zephyr", &mut build)?;
+    let mut run = Command::new(&program);
+    console.run("the module of Zephyr", run.current_dir(root))
+}
+
 /// The lines of docs/PERFORMANCE.md around the sizes of the example.
 const MARKS: (&str, &str) = ("<!-- size-c -->\n", "<!-- /size-c -->");
 
@@ -119,7 +169,7 @@ fn size(repo: &Repo, program: &Path) -> Result<()> {
         .filter_map(|number| number.parse::<u64>().ok())
         .sum();
     let symbols = ask("arm-none-eabi-nm", &["-S", &program]).unwrap_or_default();
-    let node = symbols.lines().find(|line| line.contains("5ODKIT"));
+    let node = symbols.lines().find(|line| line.contains("10ODKIT_NODE"));
     let ram = node.and_then(|line| u64::from_str_radix(line.split(' ').nth(1)?, 16).ok());
     let ram = ram.ok_or_else(|| Error::Failed(format!("{program} has no node")))?;
     let table = format!(
@@ -148,17 +198,12 @@ fn size(repo: &Repo, program: &Path) -> Result<()> {
 /// Builds the library of an EDS; returns the folder where it is, with its headers.
 fn library(context: &Context<'_>, eds: &str, target: Option<&str>) -> Result<PathBuf> {
     let root = &context.repo.root;
-    let files: Vec<String> = eds
-        .split('+')
-        .map(|file| root.join(file).display().to_string())
-        .collect();
+    let files = eds.replace("{root}", &root.display().to_string());
     let mut build = cargo(
         &root.join("crates/od-capi/device"),
         &["build", "--target-dir"],
     );
-    build
-        .arg(&context.repo.target)
-        .env("ODKIT_EDS", files.join("+"));
+    build.arg(&context.repo.target).env("ODKIT_EDS", files);
     let folder = match target {
         Some(target) => {
             build.args(["--release", "--target", target]);
