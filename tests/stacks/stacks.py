@@ -92,9 +92,9 @@ def page(folder):
     out = [
         "# Open stacks in the conformance test",
         "",
-        "`tests/stacks/stacks.py` builds each stack outside the repository, puts a slave of it behind slcan, and runs `odkit conform`",
-        "with resets and stores allowed. A failure is one of the slave as it was made, with the EDS that it was tested with: what the",
-        "EDS declares and the stack leaves to its application counts, too. Each was judged by its frames.",
+        "`tests/stacks/stacks.py` builds each stack outside the repository, puts a slave made with it behind slcan, and runs",
+        "`odkit conform` with resets and stores allowed. A failure belongs to this slave and the EDS of the test: a service that the EDS declares and",
+        "the stack leaves to its application counts as a failure, too. Each failure was judged by its frames.",
         "",
         "| stack | version | passed | failed | skipped | not applicable |",
         "|---|---|---|---|---|---|",
@@ -111,7 +111,7 @@ def page(folder):
         out += ["", f"## {name}", ""]
         if report["lost"]:
             out += [f"The run ended early: {report['lost']}.", ""]
-        out += ["| what it is | cases |", "|---|---|"]
+        out += ["| behaviour | cases |", "|---|---|"]
         failed = [case["id"] for case in report["cases"] if case["verdict"] == "fail"]
         for stack, patterns, text in rows:
             if stack == name:
