@@ -42,12 +42,12 @@ const CHANGES: usize = 32;
 
 /// Requests of an application to its node, carried out when the call is over.
 ///
-/// `Q` is room for the errors that come and go in a call.
+/// `Q` is the memory for the errors that begin or end in a call.
 #[derive(Clone, Debug)]
 pub struct Signals<Q: ?Sized = [Change; CHANGES]> {
     /// The constants of the type, one bit each.
     requests: u8,
-    /// Errors that came or went, in order.
+    /// Errors that began or ended, in order.
     pub(crate) errors: Fifo<Q>,
 }
 
@@ -62,7 +62,7 @@ impl Signals {
     pub(crate) const RECONFIGURE: u8 = 1;
     /// The application's own deadline may have moved.
     pub(crate) const TICK: u8 = 2;
-    /// The operating records are to be saved.
+    /// The operating records must be saved.
     pub(crate) const KEEP: u8 = 4;
     /// The application requests a TIME message.
     pub(crate) const SEND_TIME: u8 = 8;
@@ -90,7 +90,7 @@ impl<Q: ?Sized> Signals<Q> {
         self.errors.is_empty() && self.requests == 0
     }
 
-    /// Returns whether there is a request of this kind, which is carried out then.
+    /// Returns whether the application made this request, and removes it.
     pub(crate) fn take(&mut self, request: u8) -> bool {
         let found = self.requests & request != 0;
         self.requests &= !request;
@@ -109,8 +109,8 @@ impl<Q: ?Sized> Signals<Q> {
         self.requests |= Signals::KEEP;
     }
 
-    /// Requests a TIME message with the time of [`Application::time`]. It goes out if bit 30 of 1012h
-    /// is set and the NMT state is Pre-operational or Operational.
+    /// Requests a TIME message with the time of [`Application::time`]. The node sends it if bit 30
+    /// of 1012h is set and the NMT state is Pre-operational or Operational.
     pub fn send_time(&mut self) {
         self.requests |= Signals::SEND_TIME;
     }
@@ -155,18 +155,18 @@ impl Signals<[Change]> {
 pub struct Chunk<'b> {
     /// Bytes of the value before this part.
     pub at: u32,
-    /// The bytes; none only where the value is empty.
+    /// The bytes; empty only if the value is empty.
     pub bytes: &'b [u8],
-    /// The value ends with this part, and all of it came whole.
+    /// The value ends with this part, and the server received all parts correctly.
     pub last: bool,
 }
 
-/// Reason why a stream does not do what the SDO server asks.
+/// Reason why a stream does not carry out a request of the SDO server.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub enum Halt {
     /// Never: the transfer ends with this abort code.
     Abort(AbortCode),
-    /// Not now: the server keeps the master waiting for its answer, and asks the same again at this
+    /// Not now: the server delays its response to the master, and repeats the request at this
     /// moment or at [`Node::handle_change`](crate::Node::handle_change), whichever is first.
     Until(Instant),
 }
@@ -192,10 +192,10 @@ impl From<AbortCode> for Halt {
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[non_exhaustive]
 pub enum StreamEnd {
-    /// All bytes went to the stream, or to the master.
+    /// The stream received all bytes, or the master did.
     Complete,
-    /// The server aborted it: a code of the stream itself, a wrong checksum, the end of the
-    /// master's time ([`AbortCode::Timeout`]).
+    /// The server aborted it with this code: a code of the stream itself, a wrong checksum, or a
+    /// time-out of the master ([`AbortCode::Timeout`]).
     Aborted(AbortCode),
     /// The master aborted it, with this code.
     Cancelled(u32),
@@ -205,22 +205,22 @@ pub enum StreamEnd {
     Cut,
 }
 
-/// A value that the application moves part by part, so that nobody has to hold it: a program, a
-/// record of measurements.
+/// A value that the application moves part by part, so that it need not be in memory as a whole: a
+/// program, or a record of measurements.
 ///
 /// [`Application::stream`] says which objects have one. The SDO server checks access, toggle bits,
-/// sequence and CRC; the stream sets the limits of length, and nothing calls
-/// [`validate`](Application::validate) or [`written`](Application::written). A download reaches the
-/// stream before the server knows that all of it comes: that a transfer is all or nothing is the
-/// stream's own business, up to the part that is [`last`](Chunk::last).
+/// sequence and CRC; the stream sets the limits of length, and the node calls neither
+/// [`validate`](Application::validate) nor [`written`](Application::written). The stream gets parts
+/// of a download before the server knows that all of it will arrive. If a transfer has to be all or
+/// nothing, the stream must ensure it until the part that is [`last`](Chunk::last).
 ///
-/// [`end`](Self::end) follows once where a `begin` succeeded. Only the end of power comes without
-/// notice: what is still open at a [`Reset::PowerOn`] is gone.
+/// [`end`](Self::end) follows exactly once after each `begin` that succeeded, except at power-off:
+/// a [`Reset::PowerOn`] drops a transfer without a call.
 pub trait Stream {
-    /// A master begins to write a value, of `size` bytes if it says so.
+    /// A master begins to write a value, of `size` bytes if the master announces a size.
     ///
     /// # Errors
-    /// [`Halt`]; [`AbortCode::TooLong`] where a value of this size does not fit.
+    /// [`Halt`]; [`AbortCode::TooLong`] if a value of this size does not fit.
     fn begin_download(
         &mut self,
         cx: &mut Context<'_, '_>,
@@ -228,11 +228,12 @@ pub trait Stream {
         size: Option<u32>,
     ) -> Result<(), Halt>;
 
-    /// Takes the next part, up to the size of the server's buffer. In a block transfer it is a block or
-    /// less.
+    /// Accepts the next part, up to the size of the server's buffer. In a block transfer a part is
+    /// at most one block.
     ///
     /// # Errors
-    /// [`Halt`]; with [`Halt::Until`] nothing was accepted, and the part comes again.
+    /// [`Halt`]; with [`Halt::Until`] nothing was accepted, and the server passes the same part
+    /// again.
     fn write(
         &mut self,
         cx: &mut Context<'_, '_>,
@@ -246,11 +247,11 @@ pub trait Stream {
     /// [`Halt`].
     fn begin_upload(&mut self, cx: &mut Context<'_, '_>, address: Address) -> Result<u32, Halt>;
 
-    /// Fills `to` with the bytes of the value from `at` on; they are within its length. What a
-    /// master did not confirm is asked for again.
+    /// Fills `to` with the bytes of the value from `at` on; they are within its length. The server
+    /// asks again for bytes that the master did not confirm.
     ///
     /// # Errors
-    /// [`Halt`]; with [`Halt::Until`] the content of `to` does not count.
+    /// [`Halt`]; with [`Halt::Until`] the server ignores the content of `to`.
     fn read(
         &mut self,
         cx: &mut Context<'_, '_>,
@@ -259,13 +260,13 @@ pub trait Stream {
         to: &mut [u8],
     ) -> Result<(), Halt>;
 
-    /// The transfer is over.
+    /// Ends the transfer.
     fn end(&mut self, cx: &mut Context<'_, '_>, address: Address, end: StreamEnd) {
         let _ = (cx, address, end);
     }
 }
 
-/// Connection of a device to the world beside its bus: a terminal, a switch, a shaft.
+/// Connection of a device to the world outside the bus: a terminal, a switch, a shaft.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Pin {
     /// Name in scripts, as in `in1`.
@@ -277,16 +278,16 @@ pub struct Pin {
 /// Who sets a [`Pin`], and when.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum PinKind {
-    /// The world.
+    /// The world outside sets it.
     Input,
-    /// The device; 0 without power.
+    /// The device sets it; 0 without power.
     Output,
-    /// The device; without power it stays as it is, as the angle of a shaft does.
+    /// The device sets it; without power it keeps its value, as the angle of a shaft does.
     Kept,
 }
 
 impl Pin {
-    /// A connection that the world sets.
+    /// A connection that the world outside sets.
     pub const fn input(name: &'static str) -> Self {
         let kind = PinKind::Input;
         Self { name, kind }
@@ -298,7 +299,7 @@ impl Pin {
         Self { name, kind }
     }
 
-    /// A connection that the device sets, and that stays without power.
+    /// A connection that the device sets, and that keeps its value without power.
     pub const fn kept(name: &'static str) -> Self {
         let kind = PinKind::Kept;
         Self { name, kind }
@@ -308,9 +309,10 @@ impl Pin {
 /// Behaviour of a device: checks writes, reacts to them, and provides live values.
 ///
 /// Every function has an empty default, so a device without behaviour is [`NoApplication`].
-/// Nothing here sends a frame: the node does, by the values and the signals.
+/// An application sends no frame itself: the node sends frames because of changed values and
+/// signals.
 pub trait Application {
-    /// Called after a reset, when the values are loaded: brings the rest of the device in line.
+    /// Called after a reset, when the values are loaded: updates the rest of the device.
     fn reset(&mut self, cx: &mut Context<'_, '_>, reset: Reset) {
         let _ = (cx, reset);
     }
@@ -323,9 +325,9 @@ pub trait Application {
         None
     }
 
-    /// Returns whether [`refresh`](Self::refresh) may have something to do for the value at an
-    /// address. Asked after each [`reset`](Self::reset), for all values from 2000h on: a value that is
-    /// not live is read without a call of the application. All are, unless this is implemented.
+    /// Returns whether [`refresh`](Self::refresh) may update the value at an address. The node asks
+    /// after each [`reset`](Self::reset), for all values from 2000h on, and reads a value that is
+    /// not live without a call of the application. By default all values are live.
     fn is_live(&self, address: Address) -> bool {
         let _ = address;
         true
@@ -367,8 +369,8 @@ pub trait Application {
         None
     }
 
-    /// A save takes the values of the store: `begins` before it, else after it. A value that
-    /// the store shows in place of the one to keep steps aside between the two calls.
+    /// Called before (`begins`) and after a save reads the values of the store. An application that
+    /// shows another value in an object than the one to save exchanges the two between these calls.
     fn saving(&mut self, cx: &mut Context<'_, '_>, begins: bool) {
         let _ = (cx, begins);
     }
@@ -402,21 +404,23 @@ pub trait Application {
         let _ = (cx, state);
     }
 
-    /// The master is lost: life guarding or a heartbeat failed, or the node is bus-off. Called before 1029h
-    /// acts. The next [`state_is`](Self::state_is) with Operational ends it.
+    /// Reports that the master is lost: life guarding or a heartbeat failed, or the node is
+    /// bus-off. Called before 1029h acts. The next [`state_is`](Self::state_is) with Operational
+    /// ends this state.
     fn master_lost(&mut self, cx: &mut Context<'_, '_>) {
         let _ = cx;
     }
 
-    /// Returns whether the change of a mapped value from `last`, the one that the TPDO sent, to `now` is an
-    /// event that an event-driven TPDO is sent for: a dead band, a mask. Both are the bits of the PDO. Each
-    /// change is one, unless this is implemented.
+    /// Returns whether a change of a mapped value is an event for which an event-driven TPDO is
+    /// sent, by a dead band or a mask for example. `last` are the bits that the TPDO sent last,
+    /// `now` the current bits. By default each change is an event.
     fn is_event(&self, store: &Store<'_>, address: Address, last: u64, now: u64) -> bool {
         let _ = (store, address, last, now);
         true
     }
 
-    /// Connections of the device to the world beside its bus, for a host that simulates this world.
+    /// Connections of the device to the world outside the bus, for a host that simulates this
+    /// world.
     fn pins(&self) -> &'static [Pin] {
         &[]
     }
@@ -427,7 +431,7 @@ pub trait Application {
         0
     }
 
-    /// The world sets an input. A call of [`Node::handle_change`](crate::Node::handle_change) follows.
+    /// Sets an input. A call of [`Node::handle_change`](crate::Node::handle_change) follows.
     fn set_pin(&mut self, number: usize, value: i64) {
         let _ = (number, value);
     }

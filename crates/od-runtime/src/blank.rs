@@ -1,11 +1,11 @@
-//! What a place of an array holds before anything is put into it: a file of its own, since all that an array holds
-//! needs it, and [`rooms`](crate::rooms) needs all of them.
+//! Content of an empty place of an array. The trait has a file of its own because every type in an
+//! array implements it, and [`rooms`](crate::rooms) imports all of them.
 
 use core::fmt::Debug;
 
 use od_wire::Frame;
 
-/// Content of a place that nothing has been put into.
+/// Content of an empty place.
 pub trait Blank: Clone + Debug + Send {
     /// All zeros where the type allows it, so that a static node takes no flash.
     const BLANK: Self;

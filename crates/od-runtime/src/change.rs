@@ -1,19 +1,19 @@
-//! Errors that came or went, on their way from the application to the node.
+//! Errors that began or ended, as the application reports them to the node.
 
 use od_wire::emcy::Emcy;
 
-/// An error came or went.
+/// An error began or ended.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub enum Change {
-    /// It came.
+    /// The error began.
     Raised(Emcy),
-    /// The one with this code went; `info` goes into the frame that says so.
+    /// The error with this code ended; `info` is in the EMCY message that reports it.
     Cleared {
-        /// Emergency error code.
+        /// EMCY error code.
         code: u16,
-        /// The bits of 1001h that it set, where several errors have this code.
+        /// The bits of 1001h that the error set, if several errors have this code.
         register: Option<u8>,
-        /// Manufacturer-specific bytes 3–7 of the frame.
+        /// Manufacturer-specific bytes 3 to 7 of the message.
         info: [u8; 5],
     },
 }

@@ -1,11 +1,11 @@
-//! A moment at which something is due, or none.
+//! A time at which something is due, or no such time.
 
 use od_wire::Instant;
 
 use crate::blank::Blank;
 
-/// Time when something is due. `Never` is all zeros, so that a static node takes no flash; the end of time
-/// is never, too.
+/// Time when something is due, or never. `NEVER` is all zeros, so that a static node takes no
+/// flash. The last instant also means never.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[repr(Rust, packed(4))] // as `Instant`
 pub(crate) struct Deadline(u64);
@@ -23,7 +23,7 @@ impl Deadline {
         Self(at.as_micros().wrapping_add(1))
     }
 
-    /// Due at this moment, if there is one.
+    /// Due at this time; `None`: never.
     pub(crate) fn of(at: Option<Instant>) -> Self {
         at.map_or(Self::NEVER, Self::at)
     }
@@ -33,28 +33,30 @@ impl Deadline {
         self.0 != 0
     }
 
-    /// Returns whether it is due by now.
+    /// Returns whether it is due at `now`.
     pub(crate) const fn is_due(self, now: Instant) -> bool {
         is_due(self.0, now.as_micros())
     }
 
-    /// The earlier one of two.
+    /// Returns the earlier of two deadlines.
     pub(crate) const fn or(self, other: Self) -> Self {
         Self(earlier(self.0, other.0))
     }
 
-    /// The next one of a period in milliseconds that had one here, after `now`.
+    /// Returns the first time after `now` on the grid of a period in milliseconds that includes
+    /// this deadline.
     pub(crate) const fn next_period(self, millis: u32, now: Instant) -> Self {
         Self(next(self.0, millis, now.as_micros()))
     }
 
-    /// The moment; the end of time for never.
+    /// Returns the time; for never the last instant.
     pub(crate) const fn moment(self) -> Instant {
         Instant::from_micros(self.0.wrapping_sub(1))
     }
 }
 
-// Numbers are in registers, which `Deadline` is not. On a microcontroller they are calls.
+// These functions take numbers, which fit into registers; a `Deadline` does not. On a
+// microcontroller they are not inlined.
 
 /// [`Deadline::is_due`].
 const fn is_due(at: u64, now: u64) -> bool {

@@ -1,4 +1,4 @@
-//! A device, as a node has it.
+//! A device as the node uses it.
 
 use od_model::Dictionary;
 
@@ -6,10 +6,10 @@ use crate::profile::Profile;
 use crate::rooms::{Rooms, Values};
 use crate::services::Services;
 
-/// A device: its dictionary, its family, and the memory that a node of it needs.
+/// A device: its dictionary, its profile, and the memory that a node of it needs.
 ///
-/// `object_dictionary!` implements it for the type `Device` of each module that it makes. A host that loads
-/// dictionaries at run time has a type of its own:
+/// `object_dictionary!` implements this trait for the type `Device` of each module that it makes. A
+/// host that loads dictionaries at run time has a type of its own:
 ///
 /// ```
 /// # #[cfg(feature = "std")] {
@@ -34,7 +34,7 @@ use crate::services::Services;
 pub trait Device: Services {
     /// The current values of a node of this device.
     type Values: Values;
-    /// What the services of a node of this device remember.
+    /// State of the services of a node of this device.
     type Rooms: Rooms;
     /// The dictionary.
     fn dictionary(&self) -> Dictionary<'_>;

@@ -1,4 +1,4 @@
-//! Emergency producer and the error objects 1001h, 1003h, 1014h, 1015h (CiA 301, chapter 7.2.7).
+//! EMCY producer and the error objects 1001h, 1003h, 1014h, 1015h (CiA 301, chapter 7.2.7).
 
 use crate::blank::Blank;
 pub(crate) use crate::change::Change;
@@ -13,11 +13,11 @@ use crate::sync;
 use od_wire::emcy::Emcy;
 use od_wire::{CanId, CobId, Frame, Instant};
 
-/// Emergency error code of an RPDO that is shorter than its mapping (CiA 301, table 26).
+/// EMCY error code of an RPDO that is shorter than its mapping (CiA 301, table 26).
 pub(crate) const PDO_LENGTH: u16 = 0x8210;
-/// That of a SYNC with an unexpected length.
+/// EMCY error code of a SYNC with an unexpected length.
 pub(crate) const SYNC_LENGTH: u16 = 0x8240;
-/// That of an RPDO whose frame is late.
+/// EMCY error code of an RPDO whose frame is late.
 pub(crate) const RPDO_TIMEOUT: u16 = 0x8250;
 
 impl Blank for Emcy {
@@ -32,14 +32,14 @@ impl Blank for Change {
     const BLANK: Self = Self::NONE;
 }
 
-/// Nothing came or went.
+/// No error began or ended.
 const NO_NEWS: Outcome = Outcome {
     is_news: false,
     set: 0,
     is_dropped: false,
 };
 
-/// State of the emergency producer that is no queue.
+/// State of the EMCY producer, except its queues.
 #[derive(Clone, Debug)]
 pub(crate) struct State {
     blocked_until: Instant,
@@ -53,7 +53,7 @@ impl State {
         silent: 0,
     };
 
-    /// 1001h, with these errors.
+    /// Returns 1001h while these errors are active.
     pub(crate) fn register(&self, active: &Fifo<[Emcy]>) -> u8 {
         let bits = active.iter().map(|error| error.register);
         bits.fold(self.silent, |all, bits| all | bits)
@@ -69,37 +69,37 @@ impl State {
     }
 }
 
-/// The emergency producer at work.
+/// The EMCY producer with its queues.
 pub(crate) struct Producer<'p> {
     pub(crate) active: &'p mut Fifo<[Emcy]>,
     pub(crate) waiting: &'p mut Fifo<[Emcy]>,
     pub(crate) state: &'p mut State,
 }
 
-/// Result of a change.
+/// Result of a reported change.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) struct Outcome {
-    /// The error was not there, or was: the change is one.
+    /// The error was not active before, or was active until now, so the report is a change.
     pub(crate) is_news: bool,
     /// Bits of 1001h that became set.
     pub(crate) set: u8,
-    /// Its message is dropped: too many messages wait for the inhibit time already.
+    /// Its message is dropped, because too many messages wait for the inhibit time.
     pub(crate) is_dropped: bool,
 }
 
 impl Producer<'_> {
-    /// Forgets everything: the device starts without errors.
+    /// Resets the state: the device starts without errors.
     pub(crate) fn reset(&mut self) {
         self.active.clear();
         self.waiting.clear();
         *self.state = State::NEW;
     }
 
-    /// Takes a change over into 1001h and 1003h.
+    /// Applies a change to 1001h and 1003h.
     ///
-    /// `send` is false where the NMT state or 1014h forbids the frame; the log
-    /// in 1003h is kept all the same. Messages that wait for the inhibit time keep their order; the
-    /// seventeenth is dropped, and an event says so.
+    /// `send` is false if the NMT state or 1014h forbids the message; 1003h gets the error in any
+    /// case. Messages that wait for the inhibit time keep their order. If 16 messages wait, the
+    /// next one is dropped, and an event reports it.
     pub(crate) fn change<D: Services>(
         &mut self,
         store: &mut Store<'_>,
@@ -144,13 +144,13 @@ impl Producer<'_> {
         }
     }
 
-    /// Returns whether an error with this code and these bits of 1001h lasts.
+    /// Returns whether an error with this code and these bits of 1001h is active.
     pub(crate) fn is_active(&self, error: Emcy) -> bool {
         self.position(error.code, Some(error.register)).is_some()
     }
 
-    /// The first active error with this code and, as sources that share a code differ in them, these bits of
-    /// 1001h.
+    /// Position of the first active error with this code and these bits of 1001h; sources that
+    /// share a code differ in the bits.
     fn position(&self, code: u16, register: Option<u8>) -> Option<u8> {
         self.active.position(|known| {
             known.code == code && register.is_none_or(|bits| bits == known.register)
@@ -171,7 +171,7 @@ impl Producer<'_> {
         self.show(store);
     }
 
-    /// 1001h.
+    /// Returns 1001h.
     fn register(&self) -> u8 {
         self.state.register(self.active)
     }
@@ -182,7 +182,7 @@ impl Producer<'_> {
         register
     }
 
-    /// The next frame, when the inhibit time 1015h (in 100 µs) allows it.
+    /// Returns the next message, if the inhibit time 1015h (in units of 100 µs) allows it.
     pub(crate) fn poll<D: Services>(&mut self, store: &Store<'_>, now: Instant) -> Option<Frame> {
         if self.waiting.is_empty() || now < self.state.blocked_until {
             return None;
@@ -197,14 +197,15 @@ impl Producer<'_> {
     }
 }
 
-/// CAN-ID of EMCY messages: 1014h, if the device has it, it is valid, and no SYNC has it.
+/// CAN-ID of EMCY messages: that of 1014h, if the object exists, is valid, and SYNC has another
+/// CAN-ID.
 pub(crate) fn can_id(store: &Store<'_>) -> Option<CanId> {
     let cob_id = CobId::new(store.word(0x1014, 0, 1 << 31));
     let id = cob_id.usable_id().filter(|_| cob_id.is_valid())?;
     (sync::can_id(store) != Some(id)).then_some(id)
 }
 
-/// Puts the code on top of 1003h; the oldest entry falls out.
+/// Adds the code to 1003h as the newest entry; a full history loses its oldest entry.
 fn log<D: Services>(store: &mut Store<'_>, code: u16) {
     let capacity = capacity::<D>(store);
     if capacity == 0 {
@@ -227,14 +228,14 @@ fn put(store: &mut Store<'_>, sub: u8, value: u32) {
     store.set_unsigned(Address::new(0x1003, sub), value.into());
 }
 
-/// Empties 1003h, as writing 0 to its sub-index 0 does.
+/// Clears 1003h, as writing 0 to its sub-index 0 does.
 pub(crate) fn clear_log<D: Services>(store: &mut Store<'_>) {
     for sub in 0..u16::from(capacity::<D>(store)) + 1 {
         put(store, sub as u8, 0);
     }
 }
 
-/// Entries of 1003h, as far as the compiler knows them.
+/// Number of entries of 1003h, as a constant if the compiler knows the dictionary.
 fn capacity<D: Services>(store: &Store<'_>) -> u8 {
     let known = const {
         match &D::DICTIONARY {

@@ -1,9 +1,9 @@
-//! A queue of fixed room.
+//! A queue of fixed length.
 
 use crate::blank::Blank;
 
-/// First in, first out, as many as `items` has room for. When full, the newest is not taken: what
-/// happened first explains the rest.
+/// Queue in the order of arrival, with as many places as `items`. A full queue drops new items,
+/// because the first events explain the later ones.
 ///
 /// The functions are those of `Fifo<[T]>`, so that they exist once for all lengths.
 #[derive(Clone, Copy, Debug)]
@@ -12,7 +12,7 @@ pub struct Fifo<Q: ?Sized> {
     items: Q,
 }
 
-/// The places that are taken, of a queue of any items: from the first one on, and around the end.
+/// The occupied places of a queue of any type: consecutive from the first one, and around the end.
 #[derive(Clone, Copy, Debug)]
 struct Span {
     head: u8,
@@ -22,7 +22,7 @@ struct Span {
 impl Span {
     const NONE: Self = Self { head: 0, len: 0 };
 
-    /// The place of the item that is `at` behind the first one.
+    /// Place of the item with this distance from the first one.
     #[inline]
     fn place(self, at: u8, room: usize) -> usize {
         let at = usize::from(self.head) + usize::from(at);
@@ -32,7 +32,7 @@ impl Span {
         }
     }
 
-    /// Takes the next place, if there is room.
+    /// Occupies the next place, if one is free.
     fn push(&mut self, room: usize) -> Option<usize> {
         let has_room = usize::from(self.len) < room;
         has_room.then(|| {
@@ -41,7 +41,7 @@ impl Span {
         })
     }
 
-    /// Leaves the first place, and returns it.
+    /// Frees the first place, and returns it.
     fn pop(&mut self, room: usize) -> usize {
         let first = self.head.into();
         self.head = self.place(1, room) as u8;
@@ -51,7 +51,7 @@ impl Span {
 }
 
 impl<Q> Fifo<Q> {
-    /// An empty queue; `items` is the content of empty places, 255 at most.
+    /// An empty queue; `items` (at most 255) is the content of the empty places.
     pub const fn new(items: Q) -> Self {
         Self {
             span: Span::NONE,
@@ -76,7 +76,7 @@ impl<Q: ?Sized> Fifo<Q> {
 }
 
 impl<T: Copy> Fifo<[T]> {
-    /// Returns whether there was room.
+    /// Adds an item. Returns whether a place was free.
     pub(crate) fn push(&mut self, item: T) -> bool {
         let place = self.span.push(self.items.len());
         if let Some(place) = place
@@ -100,14 +100,14 @@ impl<T: Copy> Fifo<[T]> {
         (0..self.span.len).filter_map(|at| self.get(at))
     }
 
-    /// The item that is `at` behind the first one.
+    /// Returns the item with this distance from the first one.
     #[inline]
     fn get(&self, at: u8) -> Option<T> {
         let place = self.span.place(at, self.items.len());
         self.items.get(place).copied()
     }
 
-    /// Takes out all items that `which` names.
+    /// Removes all items for which `which` is true.
     pub(crate) fn remove(&mut self, which: impl Fn(T) -> bool) {
         let mut at = 0;
         while at < self.span.len {
@@ -118,13 +118,13 @@ impl<T: Copy> Fifo<[T]> {
         }
     }
 
-    /// Returns how far the first item that `which` names is behind the first one.
+    /// Returns the distance of the first item for which `which` is true.
     #[inline]
     pub(crate) fn position(&self, which: impl FnMut(T) -> bool) -> Option<u8> {
         self.iter().position(which).map(|at| at as u8)
     }
 
-    /// Takes out the item that is `at` behind the first one: those behind it move up.
+    /// Removes the item with this distance from the first one; later items move up.
     pub(crate) fn take_out(&mut self, mut at: u8) {
         while let Some(next) = at.checked_add(1).filter(|next| *next < self.span.len)
             && let Some(item) = self.get(next)
@@ -165,7 +165,7 @@ mod tests {
     }
 
     #[test]
-    fn without_room_it_takes_nothing() {
+    fn a_queue_without_places_accepts_nothing() {
         let fifo: &mut Fifo<[u8]> = &mut Fifo::new([]);
         assert!(!fifo.push(1));
         assert_eq!((fifo.pop(), fifo.iter().next()), (None, None));

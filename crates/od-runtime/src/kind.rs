@@ -1,4 +1,4 @@
-//! A finished device as one value, for a host that offers several.
+//! A complete device as one value, for a host that offers several.
 
 use std::boxed::Box;
 
@@ -23,7 +23,7 @@ pub struct DeviceKind {
     pub dictionary: Dictionary<'static>,
     /// Options and deviations of its family relative to CiA 301.
     pub profile: &'static Profile,
-    /// What it does.
+    /// Behaviour behind the dictionary.
     pub behaviour: Behaviour,
     /// Whether it has the dual LED of the bus cover.
     pub leds: bool,
@@ -32,18 +32,19 @@ pub struct DeviceKind {
     pub channels: u8,
 }
 
-/// What a product does behind its dictionary.
+/// Behaviour of a product behind its dictionary.
 #[derive(Clone, Copy, Debug)]
 pub enum Behaviour {
-    /// An encoder with these options and deviations relative to CiA 406. The host has its shaft.
+    /// An encoder with these options and deviations relative to CiA 406. The host supplies its
+    /// shaft.
     Encoder(&'static EncoderProfile),
     /// An application of its own, which this function makes.
     Own(fn() -> Box<dyn Own>),
 }
 
-/// Application of a product, of which a host can have copies.
+/// Application of a product that a host can copy.
 pub trait Own: Application + Send {
-    /// Returns a copy that goes on as this one would.
+    /// Returns a copy with the same state.
     fn copy(&self) -> Box<dyn Own>;
 }
 
@@ -75,7 +76,7 @@ impl Services for DeviceKind {
     const TIME: bool = true;
 }
 
-/// On a host, with every service.
+/// A device on a host has every service.
 impl Device for DeviceKind {
     type Values = crate::rooms::LoadedValues;
     type Rooms = crate::rooms::LoadedRooms;

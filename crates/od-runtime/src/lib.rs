@@ -100,7 +100,7 @@ pub mod storage;
 mod store;
 mod sync;
 
-// Types in the signatures of the node's functions.
+// Types in the signatures of the functions of `Node`.
 pub use od_wire::emcy::Emcy;
 pub use od_wire::time_of_day::TimeOfDay;
 pub use od_wire::{AbortCode, CanId, CobId, Duration, Frame, Instant, NodeId};

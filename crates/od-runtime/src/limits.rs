@@ -1,4 +1,4 @@
-//! Values against their limits: for what a master writes, and for what storage holds.
+//! Checks values against their limits, both values of a master and saved values.
 
 use od_model::Kind;
 use od_model::real::Reals;
@@ -15,7 +15,7 @@ pub(crate) enum Outside {
     Below,
     /// A BOOLEAN that is neither 0 nor 1.
     NotAllowed,
-    /// A REAL of a length that no REAL has.
+    /// A REAL with a length other than 4 or 8 bytes.
     Length,
 }
 
@@ -24,7 +24,7 @@ pub(crate) fn check(store: &Store<'_>, row: &Row, bytes: &[u8]) -> Result<(), Ou
     check_with(store, row, bytes, store.dictionary().reals())
 }
 
-/// As [`check`], where the compiler may know that there are no REALs.
+/// As [`check`], for a device of which the compiler may know that it has no REALs.
 pub(crate) fn check_with(
     store: &Store<'_>,
     row: &Row,
@@ -65,7 +65,7 @@ fn compare(
     {
         value = (reals.widened)(value as u32);
     }
-    // The limits of an entry are of its type, so both sides of a comparison have the same order.
+    // The limits of an entry have its type, so both sides compare in the same order.
     let sign = if is_signed { 1 << 63 } else { 0 };
     let is_greater = |one: u64, other: u64| match reals {
         Some(reals) => (reals.is_greater)(one, other),

@@ -1,5 +1,5 @@
-//! The table of the CAN-IDs that the node listens to: which service a frame belongs to, and what the acceptance
-//! filters of a CAN controller let through.
+//! The table of the CAN-IDs that the node listens to. It gives the service of a frame, and the
+//! acceptance filters of a CAN controller are made of it.
 
 use od_wire::{CanId, Frame};
 
@@ -12,13 +12,13 @@ pub(crate) enum Service {
     Lss,
     /// A remote frame of a master that guards this node.
     Guarding,
-    /// Heartbeat of a node that is watched.
+    /// Heartbeat of a monitored node.
     Heartbeat,
     /// Request for the SDO server at this position.
     Sdo(u8),
     Time,
     Sync,
-    /// Frame of the RPDO with this number, and maybe of others with the same CAN-ID.
+    /// Frame of the RPDO with this number, and possibly of further RPDOs with the same CAN-ID.
     Rpdo(u16),
     /// Remote frame that requests the TPDO with this number.
     TpdoRequest(u16),
@@ -58,7 +58,8 @@ impl Listener {
     }
 }
 
-/// A table that is being filled: sorted by CAN-ID, and among equal ones in the order of their arrival.
+/// A table while it is filled: sorted by CAN-ID; entries with the same CAN-ID keep the order in
+/// which they were added.
 pub(crate) struct Table<'t> {
     pub(crate) places: &'t mut [Listener],
     pub(crate) len: usize,
@@ -69,7 +70,7 @@ impl Table<'_> {
     pub(crate) fn add(&mut self, id: Option<CanId>, is_remote: bool, service: Service) {
         let Some(id) = id else { return };
         let key = key(id, is_remote);
-        // There is a place for each service of the device.
+        // The table has a place for each service of the device.
         let Some(end) = self.places.get_mut(self.len) else {
             return;
         };
@@ -84,7 +85,7 @@ impl Table<'_> {
     }
 }
 
-/// The service that a frame belongs to; `None`: it is for other nodes.
+/// Returns the service of a frame; `None`: the frame is for other nodes.
 pub(crate) fn find(table: &[Listener], frame: &Frame) -> Option<Service> {
     let wanted = key(frame.id(), frame.is_remote());
     let at = table.partition_point(|listener| listener.key < wanted);

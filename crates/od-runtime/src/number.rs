@@ -1,6 +1,6 @@
-//! Numbers as the bus and the store have them: little-endian, in as many bytes as their type.
+//! Numbers in the form of the bus and the store: little-endian, in as many bytes as their type has.
 
-/// The number that up to eight bytes are. The usual lengths are one load each.
+/// Returns the number in up to eight bytes. For the usual lengths this is one load.
 pub(crate) fn number_in(bytes: &[u8]) -> u64 {
     match *bytes {
         [a] => a.into(),
@@ -11,13 +11,13 @@ pub(crate) fn number_in(bytes: &[u8]) -> u64 {
     }
 }
 
-/// The number of a length that few have.
+/// Returns the number of an unusual length.
 fn odd(bytes: &[u8]) -> u64 {
     let bytes = bytes.iter().take(8).rev();
     bytes.fold(0, |number, byte| number << 8 | u64::from(*byte))
 }
 
-/// Puts the low bytes of a number in their place. The usual lengths are one store each.
+/// Writes the low bytes of a number. For the usual lengths this is one store.
 pub(crate) fn fill(room: &mut [u8], number: [u8; 8]) {
     let [a, b, c, d, ..] = number;
     if let Ok(room) = <&mut [u8; 4]>::try_from(&mut *room) {
@@ -31,7 +31,7 @@ pub(crate) fn fill(room: &mut [u8], number: [u8; 8]) {
     }
 }
 
-/// Copies as many bytes as both have, in code that cannot fail.
+/// Copies the number of bytes of the shorter slice, in code that cannot panic.
 pub(crate) fn copy(to: &mut [u8], from: &[u8]) {
     to.iter_mut().zip(from).for_each(|(to, from)| *to = *from);
 }

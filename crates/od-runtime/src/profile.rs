@@ -1,10 +1,11 @@
 //! Options and deviations of a device family relative to CiA 301, as const data.
 //!
-//! The standard leaves room and manuals use it; the services read the profile and know no family.
+//! CiA 301 leaves options open, and manuals use them. The services read the profile and have no
+//! code for a family.
 //!
-//! The structs are not `#[non_exhaustive]`: a family is one `const` literal, which that would
-//! forbid. A literal that ends in `..Profile::CIA301` (or in a part of it, such as
-//! `..Profile::CIA301.sdo`) still compiles when a field is added.
+//! The structs are not `#[non_exhaustive]`, since a family is one `const` literal. A literal that
+//! ends in `..Profile::CIA301` (or in a part of it, such as `..Profile::CIA301.sdo`) still compiles
+//! when a field is added.
 
 use od_model::Address;
 use od_model::row::Row;
@@ -51,7 +52,7 @@ pub struct PdoProfile {
     pub tpdo_types: &'static [(u8, u8)],
     /// Types 254 and 255 send when a mapped value changes; otherwise by the event timer only.
     pub event_on_change: bool,
-    /// When the event timer of types 254 and 255 starts anew.
+    /// When the event timer of types 254 and 255 restarts.
     pub event_timer: EventTimer,
     /// A COB-ID can be changed while the PDO is valid. In CiA 301 bit 31 has to be set first
     /// (chapter 7.5.2.36).
@@ -64,13 +65,13 @@ pub struct PdoProfile {
     pub sync_only: Option<(u16, u32)>,
 }
 
-/// When the event timer of an event-driven TPDO (1800h:05) starts anew.
+/// When the event timer of an event-driven TPDO (1800h:05) restarts.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum EventTimer {
     /// With each transmission: the PDO is sent when the time has elapsed without an event (CiA 301, chapter
     /// 7.2.2.3).
     SinceTransmission,
-    /// Never: the PDO is sent on a fixed grid, also when something else sent it in between.
+    /// Never: the PDO is sent on a fixed grid, even if something else sent it in between.
     Cyclic,
 }
 
@@ -88,7 +89,7 @@ pub enum Restore {
 pub enum SaveAnswer {
     /// At once; the device stores in the background.
     AtOnce,
-    /// Time when everything is stored. Until then NMT, PDOs and error control go on, and a further
+    /// When everything is stored. Until then NMT, PDOs and error control continue, and a further
     /// SDO request waits.
     AfterStoring,
 }
@@ -102,11 +103,11 @@ pub enum CutSave {
     Factory,
 }
 
-/// Value of a saved COB-ID after a change of the node ID, if its default depends on `$NODEID`.
-/// One that was never changed follows the node ID in any case.
+/// Value of a saved COB-ID after a change of the node ID, if its default depends on `$NODEID`. A
+/// COB-ID that was never changed always follows the node ID.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum SavedCobIds {
-    /// As it was written.
+    /// As written.
     Absolute,
     /// Saved as the difference to its default: it changes with the node ID.
     Difference,
@@ -121,8 +122,8 @@ pub struct StoreProfile {
     pub failed: AbortCode,
     /// Time of the response to 1010h.
     pub answer: SaveAnswer,
-    /// Duration of a save in microseconds; 0: it is complete at once. It saves the values of the
-    /// moment of the command.
+    /// Duration of a save in microseconds; 0: it is complete at once. The node saves the values at
+    /// the moment of the command.
     pub duration_us: u32,
     /// Values after an interrupted save.
     pub cut: CutSave,
@@ -131,20 +132,21 @@ pub struct StoreProfile {
     /// Pairs of saved objects with one value (1800h:05 and 6200h): saving or restoring the group
     /// of one includes the other.
     pub twins: &'static [[Address; 2]],
-    /// Object and value that replaces its default: the node ID with which this one device was
+    /// Object and value that replaces its default: the node ID with which this device was
     /// delivered. `None`: the default of the dictionary.
     pub node_id: Option<(Address, NodeId)>,
 }
 
 impl StoreProfile {
-    /// Every value for which `which` is true becomes what the device was delivered with.
+    /// Resets every value for which `which` is true to the value that the device was delivered
+    /// with.
     pub fn reset(&self, store: &mut Store<'_>, which: &dyn Fn(&Row) -> bool) {
         store.reset(which);
         if let Some((address, node_id)) = self.node_id
             && let Some(row) = store.dictionary().row_at(address)
             && which(row)
         {
-            // An UNSIGNED8, or the dictionary's own default stays.
+            // The value must be an UNSIGNED8; otherwise the dictionary's own default stays.
             let _ = store.put_row(row, &[node_id.raw()]);
         }
     }
@@ -155,8 +157,9 @@ impl StoreProfile {
 pub struct LssProfile {
     /// LSS works only in NMT state Stopped.
     pub stopped_only: bool,
-    /// Address of the node ID for the next start. [`LssProfile::OWN_NODE_ID`]: not an object, the
-    /// image of the saved values holds it; then it can be FFh, not configured.
+    /// Address of the node ID for the next start. [`LssProfile::OWN_NODE_ID`]: there is no such
+    /// object, and the image of the saved values contains the node ID; then it can be FFh, not
+    /// configured.
     pub node_id: Address,
     /// Address of the bit rate for the next start, or [`LssProfile::OWN_BIT_RATE`].
     pub bit_rate: Address,
@@ -208,7 +211,7 @@ impl LssProfile {
         shows_state: false,
     };
 
-    /// Returns whether the image keeps node ID and bit rate, and not an object each.
+    /// Returns whether the image, and not objects, contain node ID and bit rate.
     pub const fn is_own(&self) -> bool {
         self.node_id.index == 0
     }
@@ -266,7 +269,7 @@ pub struct BusOffProfile {
     /// always restarts.
     pub restart: Option<(u16, u32)>,
     /// A restart is an NMT reset communication, with a boot-up message; otherwise the NMT state
-    /// goes on.
+    /// stays.
     pub boots: bool,
     /// 1029h acts only if the node stays off the bus; otherwise on every bus-off.
     pub behaviour_if_off: bool,
@@ -275,7 +278,7 @@ pub struct BusOffProfile {
 /// Errors of the bus, and the reaction to errors (CiA 301, chapters 7.2.7 and 7.5.2.32).
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct ErrorProfile {
-    /// Report of a failed heartbeat or life guarding. 1029h:01 acts whatever the bits are.
+    /// Report of a failed heartbeat or life guarding. 1029h:01 acts independently of the bits.
     pub lost: Notice,
     /// Report of an error counter beyond the warning limit (96); `None`: not reported.
     pub bus_warning: Option<Notice>,
@@ -285,15 +288,15 @@ pub struct ErrorProfile {
     pub bus_off: u8,
     /// EMCY message after bus-off; `None`: not sent.
     pub bus_recovered: Option<Notice>,
-    /// A SYNC whose length is not that of 1019h is reported (8240h).
+    /// A SYNC whose length is not that of 1019h is reported (EMCY 8240h).
     pub watches_sync_length: bool,
     /// Report of received frames that were lost; `None`: not reported.
     pub overrun: Option<Notice>,
     /// Time of the EMCY message for error reset.
     pub reset: ErrorReset,
-    /// Pairs of bits of 1001h and the sub-index of 1029h that acts when one of them becomes set,
-    /// and at each entry into Operational while one is set. Of several the gravest acts: reset
-    /// node before Stopped before Pre-operational.
+    /// Pairs of bits of 1001h and the sub-index of 1029h. The sub-index acts when one of the bits
+    /// becomes set, and when the node enters Operational while one is set. If several act, the
+    /// order is reset node, Stopped, Pre-operational.
     pub behaviour: &'static [(u8, u8)],
     /// 1029h acts only in Operational; otherwise "Stopped" and "reset node" act in any state.
     pub operational_only: bool,
@@ -322,7 +325,8 @@ pub struct Profile {
 }
 
 impl Profile {
-    /// CiA 301 to the letter, with all services but LSS: the profile of a device of an unknown EDS.
+    /// CiA 301 without deviations, with all services except LSS: the profile of a device of an
+    /// unknown EDS.
     pub const CIA301: Self = Self {
         sdo: SdoProfile {
             min_dlc: 8,

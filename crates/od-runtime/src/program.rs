@@ -1,7 +1,7 @@
 //! Program download (CiA 302-3: objects 1F50h, 1F51h, 1F56h, 1F57h) into a memory of pages.
 //!
-//! [`Loader`] is an [`Application`]. A device with behaviour of its own hands on what is about the
-//! four objects.
+//! [`Loader`] is an [`Application`]. A device with behaviour of its own passes the calls about
+//! these four objects on to it.
 
 use core::fmt;
 
@@ -17,7 +17,7 @@ const DATA: u16 = 0x1F50;
 const CONTROL: u16 = 0x1F51;
 /// Program software identification: the CRC of the program; 0 without one.
 const IDENTIFICATION: u16 = 0x1F56;
-/// Flash status identification: bit 0 while data is being written, bits 1 to 7 the last fault.
+/// Flash status identification: bit 0 while data is being written, bits 1 to 7 the last error.
 const STATUS: u16 = 0x1F57;
 
 /// Codes of bits 1 to 7 of 1F57h.
@@ -54,29 +54,30 @@ pub trait ProgramMemory {
     /// Returns whether the memory can take the next command.
     ///
     /// # Errors
-    /// It is busy until then; the master is kept waiting.
+    /// Time of the next attempt: the memory is busy until then, and the response to the master
+    /// waits.
     fn ready(&mut self, now: Instant) -> Result<(), Instant> {
         let _ = now;
         Ok(())
     }
 
-    /// Erases the program, or begins to.
+    /// Erases the program, or begins to erase it.
     ///
     /// # Errors
     /// [`MemoryFailed`].
     fn erase(&mut self, now: Instant) -> Result<(), MemoryFailed>;
 
-    /// Writes a page, or begins to; the last one may be shorter. After [`ready`](Self::ready) up to
-    /// 889 bytes of pages follow one another.
+    /// Writes a page, or begins to write it; the last page may be shorter. After one
+    /// [`ready`](Self::ready) up to 889 bytes of pages can follow each other.
     ///
     /// # Errors
     /// [`MemoryFailed`].
     fn write(&mut self, now: Instant, at: u32, page: &[u8]) -> Result<(), MemoryFailed>;
 
-    /// Fills `to` with what is in the memory from `at` on.
+    /// Fills `to` with the bytes of the memory from `at` on.
     fn read(&mut self, at: u32, to: &mut [u8]);
 
-    /// All of a program came: a memory that outlasts power notes it.
+    /// The program arrived completely: a non-volatile memory notes it.
     ///
     /// # Errors
     /// [`MemoryFailed`].
@@ -85,16 +86,17 @@ pub trait ProgramMemory {
         Ok(())
     }
 
-    /// Returns the program that the memory has when power comes.
+    /// Returns the program in the memory at power-on.
     fn stored(&mut self) -> Option<Program> {
         None
     }
 }
 
-/// Takes one program from masters, and its control. `PAGE` is the bytes of a page of the memory.
+/// Receives one program from masters, and controls it. `PAGE` is the size of a page of the memory
+/// in bytes.
 ///
-/// Starting a program is the host's part: when the response to 1F51h is out,
-/// [`is_running`](Self::is_running) says whether it runs.
+/// The host starts the program: after the response to 1F51h was sent,
+/// [`is_running`](Self::is_running) says whether the program has to run.
 #[derive(Clone, Debug)]
 pub struct Loader<M, const PAGE: usize> {
     /// The memory.
@@ -103,7 +105,7 @@ pub struct Loader<M, const PAGE: usize> {
     number: u8,
     page: [u8; PAGE],
     filled: usize,
-    /// Bytes of the program that were received so far.
+    /// Number of bytes of the program that were received.
     written: u32,
     crc: Crc32,
     is_loading: bool,
@@ -130,12 +132,12 @@ impl<M: ProgramMemory, const PAGE: usize> Loader<M, PAGE> {
         }
     }
 
-    /// The program in the memory, if all of it came.
+    /// The program in the memory, if it is complete.
     pub const fn program(&self) -> Option<Program> {
         self.program
     }
 
-    /// Returns whether a master started the program, and did not stop it since.
+    /// Returns whether a master started the program and has not stopped it since.
     pub const fn is_running(&self) -> bool {
         self.is_running
     }
@@ -144,7 +146,7 @@ impl<M: ProgramMemory, const PAGE: usize> Loader<M, PAGE> {
         address == Address::new(index, self.number)
     }
 
-    /// 1F57h.
+    /// Returns 1F57h.
     fn status(&mut self, now: Instant) -> u64 {
         u64::from(self.fault) << 1 | u64::from(self.is_busy(now))
     }
@@ -153,7 +155,7 @@ impl<M: ProgramMemory, const PAGE: usize> Loader<M, PAGE> {
         self.is_loading || self.memory.ready(now).is_err()
     }
 
-    /// Brings 1F51h, 1F56h and 1F57h up to date, as far as the dictionary has them.
+    /// Brings 1F51h, 1F56h and 1F57h up to date, if the dictionary has them.
     fn show(&mut self, cx: &mut Context<'_, '_>) {
         let status = self.status(cx.now);
         let crc = self.program.map_or(0, |program| program.crc);
@@ -172,7 +174,8 @@ impl<M: ProgramMemory, const PAGE: usize> Loader<M, PAGE> {
         self.memory.ready(now).map_err(Halt::Until)
     }
 
-    /// Handles the result of the memory: after a failure no program exists, and 1F57h gives the reason.
+    /// Handles a result of the memory: after a failure no program exists, and 1F57h gives the
+    /// reason.
     fn done(&mut self, result: Result<(), MemoryFailed>) -> Result<(), Halt> {
         result.map_err(|MemoryFailed| {
             self.forget(WRITE_FAULT);
@@ -283,7 +286,7 @@ impl<M: ProgramMemory, const PAGE: usize> Stream for Loader<M, PAGE> {
     }
 
     fn end(&mut self, cx: &mut Context<'_, '_>, _: Address, _: StreamEnd) {
-        // A download that did not come whole; the end of an upload changes nothing.
+        // The download was not complete. The end of an upload changes nothing.
         if self.is_loading {
             let fault = self.fault;
             self.forget(fault);
@@ -347,7 +350,7 @@ impl<M: ProgramMemory, const PAGE: usize> Application for Loader<M, PAGE> {
             3 => {
                 self.forget(NO_PROGRAM);
                 let result = self.memory.erase(cx.now);
-                // What failed is in 1F57h.
+                // 1F57h contains the reason of the failure.
                 let _ = self.done(result);
             }
             _ => self.is_running = false,
@@ -355,7 +358,7 @@ impl<M: ProgramMemory, const PAGE: usize> Application for Loader<M, PAGE> {
         self.show(cx);
     }
 
-    /// 1F57h says when the memory is ready.
+    /// Updates 1F57h when the memory is ready.
     fn tick(&mut self, cx: &mut Context<'_, '_>) -> Option<Instant> {
         let status = self.status(cx.now);
         cx.store

@@ -1,4 +1,5 @@
-//! Memory of a node: arrays as long as its device needs, which the services see as slices.
+//! Memory of a node: arrays with the lengths that its device needs. The services see them as
+//! slices.
 //!
 //! The macro `rooms!` writes the two structs of arrays of a compiled device. A device whose dictionary is
 //! known at run time has [`LoadedValues`] and [`LoadedRooms`] (feature `std`).
@@ -23,19 +24,20 @@ pub use crate::sdo::SdoServer;
 pub use crate::services::Services;
 pub use crate::sync::Clocks;
 
-/// What a call of the node lends to the application: the current values, and what it asks for.
+/// Parts of a node that the application may use during a call: the current values, and its
+/// requests.
 pub trait Values: Debug + Send {
-    /// Before power-on.
+    /// Content before power-on.
     const NEW: Self;
-    /// Makes room for a dictionary that is known at run time only.
+    /// Adapts the size to a dictionary that is known at run time only.
     fn fit(&mut self, sizes: &Sizes) {
         let _ = sizes;
     }
-    /// The current values, as [`Store`](crate::Store) lays them out.
+    /// The current values, in the layout of [`Store`](crate::Store).
     fn bytes(&self) -> &[u8];
-    /// A save; a device without 1010h has no room for one.
+    /// The save in progress; `None`: the device has no 1010h.
     fn saving(&self) -> Option<&Saving>;
-    /// All of it.
+    /// All parts.
     fn lend(&mut self) -> Lent<'_>;
 }
 
@@ -44,36 +46,36 @@ pub trait Values: Debug + Send {
 pub struct Lent<'v> {
     /// The current values.
     pub bytes: &'v mut [u8],
-    /// What a call leaves for its end.
+    /// Work that a call leaves for its end.
     pub outbox: &'v mut Outbox,
-    /// A save; a device without 1010h has no room for one.
+    /// The save in progress; `None`: the device has no 1010h.
     pub saving: Option<&'v mut Saving>,
 }
 
-/// What the services remember, apart from single numbers.
+/// State of the services that consists of arrays.
 pub trait Rooms: Debug + Send {
-    /// Before power-on.
+    /// Content before power-on.
     const NEW: Self;
-    /// Makes room for a dictionary that is known at run time only.
+    /// Adapts the sizes to a dictionary that is known at run time only.
     fn fit(&mut self, sizes: &Sizes) {
         let _ = sizes;
     }
-    /// All arrays.
+    /// All arrays, for reading.
     fn all(&self) -> Shared<'_>;
-    /// All arrays, to be changed.
+    /// All arrays, for changes.
     fn all_mut(&mut self) -> Slices<'_>;
 }
 
 /// Writes [`Slices`] and [`Shared`], which have the same fields.
 macro_rules! slices {
     ($($(#[$about:meta])* $name:ident: $what:ty,)*) => {
-        /// The arrays of [`Rooms`], to be changed.
+        /// The arrays of [`Rooms`], for changes.
         #[derive(Debug)]
         pub struct Slices<'r> {
             $($(#[$about])* pub $name: &'r mut $what,)*
         }
 
-        /// The arrays of [`Rooms`].
+        /// The arrays of [`Rooms`], for reading.
         #[derive(Clone, Copy, Debug)]
         pub struct Shared<'r> {
             $($(#[$about])* pub $name: &'r $what,)*
@@ -88,23 +90,23 @@ slices! {
     frames: Fifo<[Frame]>,
     /// Events for the host.
     events: Fifo<[Event]>,
-    /// Errors that are active.
+    /// Active errors.
     errors: Fifo<[Emcy]>,
     /// EMCY messages that wait to be sent.
     messages: Fifo<[Emcy]>,
     /// SDO servers; the first is the default one.
     servers: [SdoServer],
-    /// Buffers of the SDO servers, one behind the other, all of one length.
+    /// Buffers of the SDO servers, consecutive and of one length.
     buffers: [u8],
     /// TPDOs.
     tpdos: [Tpdo],
     /// RPDOs.
     rpdos: [Rpdo],
-    /// Entries of all mappings: those of the TPDOs, then those of the RPDOs.
+    /// Entries of all mappings: first those of the TPDOs, then those of the RPDOs.
     mapped: [Mapped],
-    /// Nodes whose heartbeats can be watched.
+    /// Nodes whose heartbeats can be monitored.
     watches: [Watch],
-    /// Node guarding: one, or none where the device lacks it.
+    /// Node guarding: one, or none if the device does not support it.
     guards: [Guard],
     /// LSS slave: one or none.
     lss: [Slave],
@@ -135,17 +137,18 @@ pub struct Sizes {
     pub clocks: usize,
 }
 
-/// Most EMCY messages that can wait to be sent.
+/// Greatest number of EMCY messages that can wait to be sent.
 const MESSAGES: usize = 16;
 const EVENTS: usize = 16;
 const FRAMES: usize = 9;
-/// Number of nodes that can be watched; entries of 1016h beyond it are ignored.
+/// Number of nodes that can be monitored; further entries of 1016h are ignored.
 const WATCHES: usize = 8;
-/// Bytes of the longest block of an SDO block transfer: so much of a streamed value is in the buffer.
+/// Length of the longest block of an SDO block transfer; the buffer holds this part of a streamed
+/// value.
 const BLOCK: usize = 127 * 7;
 
 impl Sizes {
-    /// What a device with this dictionary needs.
+    /// Returns the lengths for a device with this dictionary.
     pub const fn of<D: Services>(dictionary: &Dictionary<'_>) -> Self {
         let servers = 1 + if D::SERVERS { dictionary.servers() } else { 0 };
         let tpdos = dictionary.tpdos();
@@ -160,13 +163,14 @@ impl Sizes {
         if D::STREAMS && dictionary.has_streams() && buffer < BLOCK {
             buffer = BLOCK;
         }
-        // Without these services a call sends one frame or two.
+        // Without these services a call sends at most two frames.
         let is_small = !(D::LSS || D::BEHAVIOUR || D::SERVERS || D::BLOCK);
         Self {
             values: dictionary.store_len(),
             changes: D::ERRORS,
             saves: D::STORAGE as usize,
-            // NMT, SYNC, TIME, LSS and node guarding, and one for each SDO server, watched node and PDO.
+            // NMT, SYNC, TIME, LSS and node guarding, and one for each SDO server, monitored node
+            // and PDO.
             listeners: 5 + servers + watches + tpdos + rpdos,
             frames: if is_small { FRAMES / 2 + 1 } else { FRAMES },
             events: if D::EVENTS { EVENTS } else { 0 },
@@ -193,7 +197,7 @@ const fn least(a: usize, b: usize) -> usize {
     if a < b { a } else { b }
 }
 
-/// Mapping entries that `count` objects from `first` on have room for.
+/// Number of mapping entries in `count` objects from `first` on.
 const fn entries(dictionary: &Dictionary<'_>, first: u16, count: usize) -> usize {
     let (mut entries, mut number) = (0, 0);
     while number < count {
@@ -276,7 +280,7 @@ macro_rules! rooms {
             }
         }
 
-        /// What the services of a node of this device remember.
+        /// State of the services of a node of this device.
         #[doc(hidden)]
         #[derive(Clone, Debug)]
         pub struct Rooms {
@@ -334,7 +338,7 @@ pub struct LoadedValues {
     saving: Saving,
 }
 
-/// Errors that can be active at once, and that can come or go in one call.
+/// Errors that can be active at once, and that can begin or end in one call.
 #[cfg(any(feature = "std", test))]
 const ERRORS: usize = 32;
 
@@ -367,7 +371,7 @@ impl Values for LoadedValues {
     }
 }
 
-/// What the services of a device whose dictionary is known at run time remember.
+/// State of the services of a device whose dictionary is known at run time.
 #[cfg(any(feature = "std", test))]
 #[derive(Clone, Debug)]
 pub struct LoadedRooms {

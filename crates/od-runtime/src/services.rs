@@ -1,13 +1,14 @@
-//! What the compiler knows of a device: its dictionary, and the services that its node has.
+//! Facts of a device that the compiler knows: its dictionary, and the services of its node.
 
 use od_model::Dictionary;
 use od_wire::CobId;
 
 /// Dictionary and services of a device, as far as the compiler knows them.
 ///
-/// Each service below is on unless its constant is `false`; then the node has no code for it, and
-/// does not compile if the dictionary has objects of it. `object_dictionary!` implements it for the type `Device`
-/// of each module that it makes; `without lss, block;` in its call makes constants `false`.
+/// A service is on unless its constant is `false`; then the node has no code for it, and does not
+/// compile if the dictionary has objects of it. `object_dictionary!` implements this trait for the
+/// type `Device` of each module that it makes; `without lss, block;` in its call makes constants
+/// `false`.
 pub trait Services: Sized {
     /// The dictionary; `None`: known at run time.
     const DICTIONARY: Option<Dictionary<'static>> = None;
@@ -29,49 +30,50 @@ pub trait Services: Sized {
     const CONSUMER: bool = true;
     /// Saving and restoring (1010h, 1011h), and the operating records.
     const STORAGE: bool = true;
-    /// Error behaviour (1029h, and the default one of CiA 301 without it).
+    /// Error behaviour (1029h, and the default of CiA 301 if 1029h is missing).
     const BEHAVIOUR: bool = true;
     /// Events for the host ([`Node::poll_event`](crate::Node::poll_event)).
     const EVENTS: bool = true;
-    /// SDO servers past the default one (1201h to 127Fh): on where the dictionary has one.
+    /// SDO servers besides the default one (1201h to 127Fh): on if the dictionary has one.
     ///
-    /// A device whose dictionary is known at run time has them, the SYNC producer and TIME where it says so.
+    /// For a dictionary known at run time the default is off; its implementation switches them on,
+    /// and so the SYNC producer and TIME.
     const SERVERS: bool = match &Self::DICTIONARY {
         Some(dictionary) => dictionary.servers() > 0,
         None => false,
     };
-    /// SYNC producer (1005h, 1006h, 1019h): on where the dictionary has 1006h. Otherwise bit 30 of
+    /// SYNC producer (1005h, 1006h, 1019h): on if the dictionary has 1006h. Otherwise bit 30 of
     /// 1005h cannot be set (06090030h).
     const SYNC_PRODUCER: bool = match &Self::DICTIONARY {
         Some(dictionary) => dictionary.has(0x1006),
         None => false,
     };
-    /// TIME consumer and producer (1012h): on where the dictionary has 1012h.
+    /// TIME consumer and producer (1012h): on if the dictionary has 1012h.
     const TIME: bool = match &Self::DICTIONARY {
         Some(dictionary) => dictionary.has(0x1012),
         None => false,
     };
-    /// Deadline of RPDOs (1400h:05): a frame that is late is EMCY 8250h. On where the dictionary has the
+    /// Deadline of RPDOs (1400h:05): a late frame is EMCY 8250h. On if the dictionary has the
     /// sub-index, or is known at run time.
     const DEADLINES: bool = match &Self::DICTIONARY {
         Some(_) => may_have::<Self>(0x1400, 0x15FF, Some(5)),
         None => true,
     };
-    /// A SYNC whose length is not that of 1019h is EMCY 8240h (CiA 301, table 26).
+    /// A SYNC whose length is not that of 1019h causes EMCY 8240h (CiA 301, table 26).
     const SYNC_LENGTH: bool = true;
-    /// Errors that can be active at once, and that can come or go in one call, 1–128. 16 EMCY messages can
-    /// wait, or as many if they are fewer.
+    /// Number of errors that can be active at once, and that can begin or end in one call, 1 to
+    /// 128. The same number of EMCY messages can wait, at most 16.
     const ERRORS: usize = 32;
-    /// Values that the application streams ([`Application::stream`](crate::Application::stream)): on
-    /// where the dictionary has one, or is known at run time.
+    /// Values that the application streams ([`Application::stream`](crate::Application::stream)):
+    /// on if the dictionary has one, or is known at run time.
     const STREAMS: bool = match &Self::DICTIONARY {
         Some(dictionary) => dictionary.has_streams(),
         None => true,
     };
 }
 
-/// Returns whether a device may have a value whose index is one of these, and whose sub-index is this one if it is
-/// named. To be asked at compile time.
+/// Returns whether a device may have a value with an index in this range and with this sub-index,
+/// if one is given. Call it at compile time.
 pub(crate) const fn may_have<D: Services>(first: u16, last: u16, sub: Option<u8>) -> bool {
     let Some(dictionary) = &D::DICTIONARY else {
         return true;
@@ -90,7 +92,7 @@ pub(crate) const fn may_have<D: Services>(first: u16, last: u16, sub: Option<u8>
     false
 }
 
-/// As [`may_have`], in its store: any other value cannot change.
+/// As [`may_have`], for values in the store: no other value can change.
 pub(crate) const fn may_change<D: Services>(first: u16, last: u16) -> bool {
     let Some(dictionary) = &D::DICTIONARY else {
         return true;
@@ -105,7 +107,7 @@ pub(crate) const fn may_change<D: Services>(first: u16, last: u16) -> bool {
     false
 }
 
-/// Checks at compile time that no service is switched off whose objects the dictionary has.
+/// Checks at compile time that the dictionary has no object of a service that is switched off.
 pub(crate) const fn assert_served<D: Services>() {
     let Some(dictionary) = &D::DICTIONARY else {
         return;
@@ -145,7 +147,7 @@ pub(crate) mod tests {
 
     use super::*;
 
-    /// A number at an address, with a place in the store or without.
+    /// Row of a number, with a place in the store or without.
     const fn row(index: u16, sub: u8, len: u16) -> Row {
         let entry = Entry {
             address: Address::new(index, sub),
@@ -162,12 +164,12 @@ pub(crate) mod tests {
         Row::new(&entry, ObjectCode::Record, 0, 0)
     }
 
-    /// Its dictionary is known at run time.
+    /// A device whose dictionary is known at run time.
     pub(crate) struct AnyDevice;
 
     impl Services for AnyDevice {}
 
-    /// The mapping of a TPDO can change, that of an RPDO cannot.
+    /// A device in which the mapping of a TPDO can change, and that of an RPDO cannot.
     pub(crate) struct Known;
 
     impl Services for Known {
@@ -177,7 +179,7 @@ pub(crate) mod tests {
         };
     }
 
-    /// It has no PDO.
+    /// A device without PDOs.
     pub(crate) struct Rich;
 
     impl Services for Rich {
@@ -204,7 +206,7 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn a_device_has_what_its_dictionary_has() {
+    fn a_device_may_have_what_its_dictionary_has() {
         for (first, last, sub, there) in [
             (0x1003, 0x1003, None, true),
             (0x1002, 0x1003, Some(0), true),
@@ -223,7 +225,7 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn what_is_not_in_the_store_cannot_change() {
+    fn values_outside_the_store_cannot_change() {
         for (first, last, can_change) in [
             (0x1003, 0x1003, true),
             (0x1000, 0x1002, false),

@@ -1,4 +1,4 @@
-//! Values: a slice that the caller owns, laid out by the dictionary.
+//! Values: a slice of the caller, in the layout of the dictionary.
 
 mod error;
 
@@ -12,11 +12,11 @@ use od_wire::{AbortCode, NodeId};
 
 pub use error::{StoreTooSmall, TextTooLong};
 
-/// The current values of a device, over a dictionary and a slice of the caller's.
+/// The current values of a device: a dictionary, and a slice of the caller.
 ///
-/// Typed access goes by the handles that `object_dictionary!` makes; services go
-/// by entry or address. A handle of another dictionary reads 0 and writes nothing
-/// where it reaches outside; it never panics.
+/// Typed access uses the handles that `object_dictionary!` makes; services use entries or
+/// addresses. A handle of another dictionary reads 0 and writes nothing outside the slice; it never
+/// panics.
 pub struct Store<'a> {
     dictionary: &'a Dictionary<'a>,
     values: &'a mut [u8],
@@ -24,11 +24,11 @@ pub struct Store<'a> {
 }
 
 impl<'a> Store<'a> {
-    /// Lays `values` out by `dictionary`. The bytes stay as they are: call
-    /// [`reset`](Self::reset) before first use.
+    /// Uses `values` in the layout of `dictionary`. The bytes stay as they are: call
+    /// [`reset`](Self::reset) before the first use.
     ///
     /// # Errors
-    /// [`StoreTooSmall`] where `values` is shorter than [`Dictionary::store_len`].
+    /// [`StoreTooSmall`] if `values` is shorter than [`Dictionary::store_len`].
     pub fn new(
         dictionary: &'a Dictionary<'a>,
         values: &'a mut [u8],
@@ -45,7 +45,8 @@ impl<'a> Store<'a> {
         })
     }
 
-    /// As [`new`](Self::new), over any slice: values past its end read 0, and cannot be written.
+    /// As [`new`](Self::new), for a slice of any length: values past its end read 0 and cannot be
+    /// written.
     pub(crate) fn over(
         dictionary: &'a Dictionary<'a>,
         values: &'a mut [u8],
@@ -70,18 +71,18 @@ impl<'a> Store<'a> {
         self.node_id
     }
 
-    /// The node ID changed, so `$NODEID` defaults mean something else from now on.
+    /// Sets the node ID, and with it the meaning of `$NODEID` defaults.
     pub(crate) fn set_node_id(&mut self, node_id: NodeId) {
         self.node_id = node_id;
     }
 
-    /// All values, laid out by the dictionary.
+    /// All values, in the layout of the dictionary.
     pub(crate) fn values(&self) -> &[u8] {
         let len = self.dictionary.store_len();
         self.values.get(..len).unwrap_or_default()
     }
 
-    /// Every value for which `which` is true becomes its default.
+    /// Sets every value for which `which` is true to its default.
     pub fn reset(&mut self, mut which: impl FnMut(&Row) -> bool) {
         for row in self.dictionary.rows() {
             if which(row) {
@@ -90,17 +91,17 @@ impl<'a> Store<'a> {
         }
     }
 
-    /// One value becomes its default; a description that gives none means 0 or empty.
+    /// Sets one value to its default; without a default to 0 or empty.
     pub fn reset_entry(&mut self, entry: &Entry) {
         if let Some(row) = self.dictionary.row_at(entry.address) {
             self.reset_row(row);
         }
     }
 
-    /// One value becomes its default.
+    /// Sets one value to its default.
     pub(crate) fn reset_row(&mut self, row: &Row) {
         match varying(self.dictionary, row) {
-            // The layout left room for the default; a longer one cannot be.
+            // The layout has room for the default; it cannot be longer.
             Some(varying) => {
                 _ = self.put_row(row, (varying.value)(self.dictionary.arenas(), &[], row))
             }
@@ -108,7 +109,7 @@ impl<'a> Store<'a> {
         }
     }
 
-    /// Puts a number in its place, cut to its length, if it has one.
+    /// Writes a number, cut to its length, if it has a place in the store.
     fn put_number(&mut self, row: &Row, number: u64) {
         if let Some(room) = slot_mut(self.values, row.fixed_slot()) {
             fill(room, number.to_le_bytes());
@@ -146,7 +147,8 @@ impl<'a> Store<'a> {
         }
     }
 
-    /// Sets the value of a handle. Limits are not looked at: they bind the master, not the device.
+    /// Sets the value of a handle. Limits are not checked: they apply to the master, not to the
+    /// device.
     #[inline]
     pub fn set<T: Scalar, A: DeviceWritable, M>(&mut self, var: Var<T, A, M>, value: T) {
         if let Some(room) = slot_mut(self.values, var.slot()) {
@@ -168,7 +170,7 @@ impl<'a> Store<'a> {
     /// Sets a string or domain.
     ///
     /// # Errors
-    /// [`TextTooLong`] where it does not fit; the value stays as it was.
+    /// [`TextTooLong`] if it does not fit; the value stays unchanged.
     pub fn set_text<A: DeviceWritable>(
         &mut self,
         text: Text<A>,
@@ -183,14 +185,14 @@ impl<'a> Store<'a> {
         }
     }
 
-    /// The bytes of a slot; none where it reaches outside.
+    /// The bytes of a slot; empty if it reaches outside.
     #[inline]
     pub(crate) fn slot(&self, of: Slot) -> &[u8] {
         slot(self.values, of).unwrap_or_default()
     }
 
-    /// The value's bytes as an SDO carries them. `number` is room for those of a
-    /// `const` number, which is not in the store.
+    /// The bytes of the value as in an SDO. `number` is memory for a `const` number, which is not
+    /// in the store.
     pub fn bytes<'b>(&'b self, entry: &Entry, number: &'b mut [u8; 8]) -> &'b [u8] {
         match self.dictionary.row_at(entry.address) {
             Some(row) => self.value(row, number),
@@ -209,7 +211,7 @@ impl<'a> Store<'a> {
         }
     }
 
-    /// The bytes that the store has of a value; of a string that it does not have the default.
+    /// The bytes of a value in the store; for a string that is not in the store, its default.
     #[inline]
     pub(crate) fn stored(&self, row: &Row) -> &[u8] {
         match varying(self.dictionary, row) {
@@ -226,11 +228,11 @@ impl<'a> Store<'a> {
         }
     }
 
-    /// Puts bytes as an SDO carries them in place, if they have the right length.
+    /// Writes the bytes of an SDO, if they have the right length.
     ///
     /// # Errors
     /// [`AbortCode::TooLong`] or [`AbortCode::TooShort`] by the entry's length or capacity;
-    /// [`AbortCode::ReadOnly`] where nothing is stored.
+    /// [`AbortCode::ReadOnly`] if the value is not in the store.
     pub fn put(&mut self, entry: &Entry, bytes: &[u8]) -> Result<(), AbortCode> {
         self.put_row(self.row(entry.address)?, bytes)
     }
@@ -242,7 +244,8 @@ impl<'a> Store<'a> {
         Ok(())
     }
 
-    /// The place for a value of this length, which a string has from now on; to be filled at once.
+    /// The place of a value of this length, which a string has from now on; the caller fills it at
+    /// once.
     pub(crate) fn room(&mut self, row: &Row, len: usize) -> Result<&mut [u8], AbortCode> {
         if !row.is_stored() {
             return Err(AbortCode::ReadOnly);
@@ -259,12 +262,13 @@ impl<'a> Store<'a> {
         }
     }
 
-    /// The number at an address: 0 where the object is missing or no integer.
+    /// The number at an address; 0 if the object is missing or is not an integer.
     pub fn unsigned(&self, index: u16, sub: u8) -> u64 {
         self.try_unsigned(index, sub).unwrap_or(0)
     }
 
-    /// The integer at an address, with its sign if its type has one: 0 where the object is missing or no integer.
+    /// The integer at an address, with its sign if its type has one; 0 if the object is missing or
+    /// is not an integer.
     pub fn signed(&self, index: u16, sub: u8) -> i64 {
         let Some(row) = self.dictionary.row_at(Address::new(index, sub)) else {
             return 0;
@@ -277,19 +281,19 @@ impl<'a> Store<'a> {
         (number << above) as i64 >> above
     }
 
-    /// The bits of the number at an address, if there is such an object.
+    /// The bits of the number at an address; `None` if the object is missing.
     pub fn try_unsigned(&self, index: u16, sub: u8) -> Option<u64> {
         let row = self.dictionary.row_at(Address::new(index, sub))?;
         Some(self.number_of(row))
     }
 
-    /// The low 32 bits of the number at an address, if there is such an object; in registers.
+    /// The low 32 bits of the number at an address, in registers; `None` if the object is missing.
     pub(crate) fn try_word(&self, index: u16, sub: u8) -> Option<u32> {
         let row = self.dictionary.row_at(Address::new(index, sub))?;
         Some(self.number_of(row) as u32)
     }
 
-    /// The low 32 bits of the number at an address; `missing` without such an object.
+    /// The low 32 bits of the number at an address; `missing` if the object is missing.
     pub(crate) fn word(&self, index: u16, sub: u8, missing: u32) -> u32 {
         match self.dictionary.row_at(Address::new(index, sub)) {
             Some(row) => self.number_of(row) as u32,
@@ -297,7 +301,7 @@ impl<'a> Store<'a> {
         }
     }
 
-    /// The number of the value of a row, little-endian, eight bytes at most.
+    /// The number in the row's value, little-endian, at most eight bytes.
     pub(crate) fn number_of(&self, row: &Row) -> u64 {
         match self.slot(row.plain()) {
             [] => self.other_number(row),
@@ -305,8 +309,8 @@ impl<'a> Store<'a> {
         }
     }
 
-    /// As [`number_of`](Self::number_of), of a value that no master may read, is a string, or is not in
-    /// the store.
+    /// As [`number_of`](Self::number_of), for a value that no master can read, that is a string, or
+    /// that is not in the store.
     fn other_number(&self, row: &Row) -> u64 {
         number_in(self.value(row, &mut [0; 8]))
     }
@@ -317,17 +321,19 @@ impl<'a> Store<'a> {
         number_in(default.get(..row.size()).unwrap_or_default())
     }
 
-    /// Returns whether the value of a number is its default, which the node ID is part of.
+    /// Returns whether the value of a number is its default, and the default depends on the node
+    /// ID.
     pub(crate) fn follows_node_id(&self, row: &Row) -> bool {
         row.follows_node_id() && self.number_of(row) == self.default_number(row)
     }
 
-    /// The number that an entry holds, little-endian, eight bytes at most.
+    /// The number in the entry's value, little-endian, at most eight bytes.
     pub fn number(&self, entry: &Entry) -> u64 {
         number_in(self.bytes(entry, &mut [0; 8]))
     }
 
-    /// Puts a number at an address, cut to the entry's length; `false` if the object does not exist.
+    /// Writes a number at an address, cut to the entry's length; `false` if the object does not
+    /// exist.
     pub fn set_unsigned(&mut self, address: Address, value: u64) -> bool {
         let Some(row) = self.dictionary.row_at(address) else {
             return false;
@@ -337,7 +343,7 @@ impl<'a> Store<'a> {
     }
 }
 
-/// The abort code where there is no such value.
+/// The abort code for a value that does not exist.
 fn missing(dictionary: &Dictionary<'_>, address: Address) -> AbortCode {
     dictionary.missing(address).into()
 }
@@ -353,7 +359,7 @@ fn slot_mut(values: &mut [u8], slot: Slot) -> Option<&mut [u8]> {
     rest.get_mut(..slot.len.into())
 }
 
-/// The functions for a value, if its length varies.
+/// The functions for a value of variable length.
 #[inline]
 fn varying(dictionary: &Dictionary<'_>, row: &Row) -> Option<&'static Varying> {
     dictionary.varying().filter(|_| row.is_variable())

@@ -9,7 +9,7 @@ use crate::store::Store;
 #[derive(Clone, Debug)]
 pub struct Clocks {
     pub(crate) sync: Producer,
-    /// CAN-ID of the TIME messages that the device consumes.
+    /// CAN-ID of the TIME messages that the device receives.
     pub(crate) time_id: Option<CanId>,
 }
 
@@ -23,7 +23,7 @@ impl Blank for Clocks {
 /// State of the producer.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Producer {
-    /// 1006h in microseconds; 0 while it does not produce.
+    /// 1006h in microseconds; 0 if the device produces no SYNC.
     period_us: u32,
     next: Instant,
     /// 1019h: 0 or 2 to 240.
@@ -40,8 +40,8 @@ impl Producer {
         counter: 0,
     };
 
-    /// Reads its objects again. The first SYNC comes a period after the producer starts, or has
-    /// another period; the counter begins at 1 whenever it starts.
+    /// Reads the objects again. The first SYNC is sent one period after the producer starts or its
+    /// period changes; the counter begins at 1 after each start.
     pub(crate) fn configure(&mut self, store: &Store<'_>, now: Instant, may_send: bool) {
         let is_on = CobId::new(store.unsigned(0x1005, 0) as u32).produces_sync();
         let period_us = if is_on && may_send {
@@ -66,7 +66,7 @@ impl Producer {
         (self.period_us > 0).then_some(self.next)
     }
 
-    /// The SYNC that is due: its counter, if it has one.
+    /// Returns the counter of the SYNC that is due; `Some(None)`: a SYNC without a counter.
     pub(crate) fn handle_timeout(&mut self, now: Instant) -> Option<Option<u8>> {
         let at = self.deadline().filter(|at| *at <= now)?;
         self.next = at.next_period(self.period_us.into(), now);
@@ -82,7 +82,7 @@ impl Producer {
     }
 }
 
-/// CAN-ID of SYNC: 1005h, or 080h without it; `None` if no service may have it.
+/// CAN-ID of SYNC: that of 1005h, or 080h if 1005h is missing; `None` if no service may have it.
 pub(crate) fn can_id(store: &Store<'_>) -> Option<CanId> {
     CobId::new(store.word(0x1005, 0, 0x80)).usable_id()
 }
@@ -90,7 +90,7 @@ pub(crate) fn can_id(store: &Store<'_>) -> Option<CanId> {
 /// Length of a SYNC that a consumer expects (CiA 301, object 1019h).
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Length {
-    /// Without 1019h the device does not know whether its producer counts.
+    /// The device has no 1019h, so it does not know whether SYNC has a counter.
     Any,
     Zero,
     One,

@@ -1,4 +1,4 @@
-//! Faults of an encoder, and what a family reports of them, as const data.
+//! Faults of an encoder, and the reports of a family about them, as const data.
 
 use core::fmt;
 

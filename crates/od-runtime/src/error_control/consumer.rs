@@ -5,7 +5,7 @@ use crate::deadline::Deadline;
 use crate::store::Store;
 use od_wire::{CanId, Instant, NodeId};
 
-/// One entry of 1016h. Watching begins with the first heartbeat that is heard.
+/// One entry of 1016h. Monitoring begins with the first heartbeat.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Watch {
     node: u8,
@@ -23,8 +23,8 @@ impl Blank for Watch {
     };
 }
 
-/// Reads 1016h: bits 0–15 the time in ms, bits 16–23 the node ID. An entry that did
-/// not change goes on. Without `enabled` no node is watched.
+/// Reads 1016h: bits 0 to 15 are the time in ms, bits 16 to 23 the node ID. An unchanged entry
+/// keeps its state. Without `enabled` no node is monitored.
 pub(super) fn configure(watches: &mut [Watch], store: &Store<'_>, enabled: bool) {
     for (sub, watch) in (1..).zip(watches) {
         let raw = store.word(0x1016, sub, 0);
@@ -42,12 +42,12 @@ pub(super) fn configure(watches: &mut [Watch], store: &Store<'_>, enabled: bool)
 }
 
 impl Watch {
-    /// CAN-ID of the heartbeats that it watches.
+    /// CAN-ID of the monitored heartbeats.
     pub(crate) fn received_by(&self) -> Option<CanId> {
         NodeId::new(self.node).map(|node| node.plus(0x700))
     }
 
-    /// A heartbeat, or boot-up message, of this node came.
+    /// Receives a heartbeat or boot-up message of this node.
     pub(super) fn heartbeat(&mut self, node: u8, now: Instant) {
         if self.node == node && self.period_ms > 0 {
             self.lost = false;

@@ -6,14 +6,15 @@ use crate::store::Store;
 use od_wire::Instant;
 use od_wire::nmt::State;
 
-/// The slave's side: a toggling answer to each remote frame, and the life time of the master.
+/// The slave's side of guarding: a response with a toggle bit to each remote frame, and the life
+/// time of the master.
 #[derive(Clone, Debug)]
 pub struct Guard {
     enabled: bool,
     toggle: bool,
-    /// Guard time × life time factor; 0: the master is not watched.
+    /// Guard time × life time factor, in milliseconds; 0: the master is not monitored.
     life_ms: u32,
-    /// The master is lost then; set by its first request.
+    /// Time when the master is lost; the first guarding request sets it.
     deadline: Deadline,
     lost: bool,
 }

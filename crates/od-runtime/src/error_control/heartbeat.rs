@@ -21,7 +21,7 @@ impl Producer {
         }
     }
 
-    /// 1017h was written, or the device boots: the first heartbeat is one period from now.
+    /// Reads 1017h, after a download or at boot-up: the first heartbeat is due after one period.
     pub(crate) fn configure<D: Services>(
         &mut self,
         store: &Store<'_>,
@@ -39,7 +39,7 @@ impl Producer {
         };
     }
 
-    /// No heartbeat until [`configure`](Self::configure).
+    /// Sends no heartbeat until [`configure`](Self::configure).
     pub(crate) fn stop(&mut self) {
         self.next = Deadline::NEVER;
     }
@@ -53,7 +53,7 @@ impl Producer {
         is_due
     }
 
-    /// Time when the next one is due.
+    /// Time when the next heartbeat is due.
     pub(crate) fn deadline(&self) -> Deadline {
         self.next
     }

@@ -1,8 +1,7 @@
 //! Error control (CiA 301, chapter 7.2.8): heartbeat producer and consumer, node and life guarding.
 //!
-//! [`Monitor`] watches the other side (a master that guards, nodes that send
-//! heartbeats) and says when it is lost and when it is back; what follows from
-//! that is the node's business.
+//! [`Monitor`] watches other nodes (a master that guards, nodes that send heartbeats) and reports
+//! when one is lost and when all have returned. The node decides how to react.
 
 mod consumer;
 mod guarding;
@@ -22,8 +21,8 @@ use od_wire::nmt::State;
 
 /// Returns whether node guarding is active instead of heartbeat.
 ///
-/// CiA 301: guarding while 1017h is 0. A family may have a switch for it instead, which
-/// leaves nothing of the heartbeat, neither producer nor consumer.
+/// In CiA 301 guarding is active while 1017h is 0. A family may have a switch instead, which
+/// disables both heartbeat producer and consumer.
 pub(crate) fn guards<D: Services>(store: &Store<'_>, profile: &Profile) -> bool {
     match profile.guarding_switch {
         Some((index, mask)) => store.word(index, 0, 0) & mask != 0,
@@ -39,7 +38,7 @@ pub(crate) fn is_configuration(index: u16, profile: &Profile) -> bool {
             .is_some_and(|(switch, _)| switch == index)
 }
 
-/// Monitor of the other side at work: life guarding and heartbeat consumer.
+/// Monitor of other nodes: life guarding and heartbeat consumer.
 pub(crate) struct Monitor<'m> {
     pub(crate) guards: &'m mut [Guard],
     pub(crate) watches: &'m mut [Watch],
@@ -48,7 +47,7 @@ pub(crate) struct Monitor<'m> {
 }
 
 impl Monitor<'_> {
-    /// Boot-up: no node is watched yet, and none is lost.
+    /// At boot-up: no node is monitored yet, and none is lost.
     pub(crate) fn reset(&mut self) {
         self.guards.fill(Guard::BLANK);
         self.watches.fill(Watch::BLANK);
@@ -65,19 +64,19 @@ impl Monitor<'_> {
         consumer::configure(self.watches, store, !switched_off);
     }
 
-    /// A master guards this node. Returns the byte of the response, if guarding is in force.
+    /// Handles a guarding request. Returns the byte of the response, if guarding is active.
     pub(crate) fn guard(&mut self, state: State, now: Instant) -> Option<u8> {
         self.guards.first_mut()?.request(state, now)
     }
 
-    /// A heartbeat, or boot-up message, of another node.
+    /// Receives a heartbeat or boot-up message of another node.
     pub(crate) fn heartbeat(&mut self, node: u8, now: Instant) {
         for watch in &mut *self.watches {
             watch.heartbeat(node, now);
         }
     }
 
-    /// Time has passed.
+    /// Checks the deadlines at this time.
     pub(crate) fn handle_timeout(&mut self, now: Instant) {
         for guard in &mut *self.guards {
             guard.handle_timeout(now);
@@ -87,8 +86,8 @@ impl Monitor<'_> {
         }
     }
 
-    /// `Some(true)` when a node was lost and none before, `Some(false)` when
-    /// everybody is back.
+    /// Returns `Some(true)` when the first node was lost, and `Some(false)` when all nodes have
+    /// returned.
     pub(crate) fn poll(&mut self) -> Option<bool> {
         let lost =
             self.guards.iter().any(Guard::is_lost) || self.watches.iter().any(Watch::is_lost);
@@ -98,7 +97,7 @@ impl Monitor<'_> {
     }
 }
 
-/// Time when a node is lost unless it is heard before.
+/// Time when the next node is lost, if it sends nothing before.
 pub(crate) fn deadline(guards: &[Guard], watches: &[Watch]) -> Deadline {
     let guards = guards.iter().map(Guard::deadline);
     let watches = watches.iter().map(Watch::deadline);

@@ -1,6 +1,6 @@
 //! Selection of a slave: switch state selective, identification by ranges, fastscan.
 
-/// Steps that have to come in order, each about this slave.
+/// Steps that must arrive in order, and that each must match this slave.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sequence {
     next: u8,
@@ -24,8 +24,8 @@ impl Sequence {
     }
 }
 
-/// The number of the LSS address that a step of identify remote slave is about. Steps 0–5 are vendor,
-/// product, lowest and highest revision, lowest and highest serial number.
+/// Number of the LSS address that a step of identify remote slave compares. Steps 0 to 5 are
+/// vendor-ID, product code, lowest and highest revision number, lowest and highest serial number.
 pub(super) const fn part(step: u8) -> u8 {
     match step {
         0 | 1 => step,
@@ -33,7 +33,7 @@ pub(super) const fn part(step: u8) -> u8 {
     }
 }
 
-/// Returns whether this slave's number is what a step of identify remote slave asks for.
+/// Returns whether this slave's number is within the limit of a step of identify remote slave.
 pub(super) const fn in_range(step: u8, value: u32, own: u32) -> bool {
     match step {
         0 | 1 => own == value,
@@ -54,24 +54,25 @@ pub(super) enum Seen {
     Complete,
 }
 
-/// State of a scan: the number of the LSS address that is scanned now.
+/// State of a fastscan: the number of the LSS address that is being scanned.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Fastscan {
     part: u8,
 }
 
 impl Fastscan {
-    /// `bit` of the request that asks whether a slave responds, and begins a scan.
+    /// `bit` of the request that asks whether any slave responds, and begins a scan.
     const BEGIN: u8 = 0x80;
 
     pub(super) const fn new() -> Self {
         Self { part: 0 }
     }
 
-    /// One step (CiA 305, chapter 6.7): are bits 31 to `bit` of this number, which is `own`, as asked?
+    /// Handles one step (CiA 305, chapter 6.7): compares bits 31 to `bit` of this number with those
+    /// of the request. `own` is this slave's number.
     ///
-    /// The scan is complete only with the last number, all of its bits, after the
-    /// other three.
+    /// The scan is complete only when all bits of the last number match, after the three other
+    /// numbers.
     pub(super) fn step(&mut self, number: u32, bit: u8, part: u8, next: u8, own: u32) -> Seen {
         if bit == Self::BEGIN {
             self.part = 0;
@@ -88,7 +89,8 @@ impl Fastscan {
                 self.part = 0;
                 Seen::Complete
             }
-            // A number is confirmed: on to the next, which no master may leave out.
+            // This number is confirmed, so the scan goes to the next one. A master may not leave it
+            // out.
             (part, next) if next == part + 1 => {
                 self.part = next;
                 Seen::Match
@@ -105,7 +107,7 @@ mod tests {
 
     const ADDRESS: [u32; 4] = [0xEC, 0x0A, 0x0001_0000, 0x8000_0001];
 
-    /// A master that scans, as CiA 305 draws it.
+    /// A master that scans as CiA 305 describes.
     fn scan(slave: &mut Fastscan, address: [u32; 4]) -> Option<[u32; 4]> {
         assert_eq!(slave.step(0, 0x80, 0, 0, 0), Seen::Match);
         let mut found = [0; 4];
@@ -144,7 +146,7 @@ mod tests {
     fn no_scan_is_complete_before_its_end() {
         let mut slave = Fastscan::new();
         slave.step(0, 0x80, 0, 0, 0);
-        // A master that jumps over numbers, or back, finds no slave.
+        // A master that skips numbers or goes back finds no slave.
         assert_eq!(slave.step(ADDRESS[3], 0, 3, 0, ADDRESS[3]), Seen::Other);
         assert_eq!(slave.step(ADDRESS[0], 0, 0, 3, ADDRESS[0]), Seen::Other);
         assert_eq!(slave.step(ADDRESS[0], 0, 0, 1, ADDRESS[0]), Seen::Match);
@@ -154,7 +156,7 @@ mod tests {
     }
 
     #[test]
-    fn steps_out_of_order_begin_anew() {
+    fn steps_out_of_order_start_again() {
         let mut sequence = Sequence::new();
         assert!(!sequence.step(0, 3, true) && !sequence.step(1, 3, true));
         assert!(!sequence.step(3, 3, true), "2 was left out");

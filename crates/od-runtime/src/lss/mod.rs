@@ -1,4 +1,4 @@
-//! LSS slave (CiA 305): node ID and bit rate without knowing either.
+//! LSS slave (CiA 305): sets node ID and bit rate without knowing either.
 
 mod identify;
 
@@ -24,14 +24,14 @@ mod error {
 /// Action of the node after a request, besides the response.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Action {
-    /// Nothing, or only the response.
+    /// Only the response, if there is one.
     Answer(Option<Response>),
-    /// Silence for `delay_ms` milliseconds, then the bit rate of this index of 2100h, then
-    /// silence again where the family has it.
+    /// Silence for `delay_ms` milliseconds, then the bit rate of this index of 2100h, then silence
+    /// again if the family has a second delay.
     Activate {
         /// Switch delay, in ms.
         delay_ms: u16,
-        /// The new bit rate, as the device's own object numbers it.
+        /// The new bit rate, as a code of the device's own object.
         bit_rate: u8,
     },
 }
@@ -43,9 +43,9 @@ pub struct Slave {
     selective: identify::Sequence,
     remote: identify::Sequence,
     fastscan: identify::Fastscan,
-    /// Set by 11h and not stored yet.
+    /// Node ID set by 11h and not stored yet.
     pub(crate) node_id: Option<u8>,
-    /// Set by 13h and not stored yet; a value of 2100h.
+    /// Bit rate set by 13h and not stored yet, as a value of 2100h.
     bit_rate: Option<u8>,
 }
 
@@ -61,8 +61,8 @@ impl Blank for Slave {
 }
 
 impl Slave {
-    /// Returns to the waiting state, as leaving Stopped does on devices with LSS only in Stopped.
-    /// A configuration that was not stored stays pending until a reset.
+    /// Returns to the waiting state. A device with LSS only in Stopped does so when it leaves
+    /// Stopped. A configuration that was not stored stays pending until a reset.
     pub(crate) fn leave(&mut self) {
         let (node_id, bit_rate) = (self.node_id, self.bit_rate);
         *self = Self {
@@ -72,13 +72,13 @@ impl Slave {
         };
     }
 
-    /// Returns whether a slave that is not configured has a node ID to start with: 11h gave it one, and it
-    /// is back in the waiting state (CiA 305, chapter 6.3.2).
+    /// Returns whether a slave that is not configured can start: 11h gave it a node ID, and it is
+    /// in the waiting state again (CiA 305, chapter 6.3.2).
     pub(crate) fn is_ready(&self) -> bool {
         !self.configuration && self.node_id.is_some_and(|id| id != UNCONFIGURED)
     }
 
-    /// A master's frame, for a node whose active node ID this is ([`UNCONFIGURED`]: none).
+    /// Handles a frame of the master. `active` is the active node ID; [`UNCONFIGURED`]: none.
     pub(crate) fn handle<D: Services>(
         &mut self,
         objects: &mut Objects<'_, D>,
@@ -122,7 +122,8 @@ impl Slave {
                 part,
                 next,
             } if profile.fastscan && (active == UNCONFIGURED || !profile.is_own()) => {
-                // The node that is being configured was found already (CiA 305, chapter 6.7).
+                // Fastscan has found the node that is being configured (CiA 305, chapter 6.7), so
+                // it does not respond.
                 if self.configuration {
                     return Action::Answer(None);
                 }
@@ -171,7 +172,7 @@ impl Slave {
                     }
                 };
                 let Some(bit_rate) = self.bit_rate.or_else(|| stored(objects)) else {
-                    // The device has the bit rate that it was made with.
+                    // The device keeps the bit rate that it was delivered with.
                     return Action::Answer(None);
                 };
                 return Action::Activate { delay_ms, bit_rate };
@@ -199,8 +200,8 @@ impl Slave {
         Action::Answer(answer)
     }
 
-    /// Writes the pending configuration to 2101h and 2100h, and saves only these two: the next
-    /// start uses them. FFh is not a node ID, and nothing is stored for it.
+    /// Writes the pending configuration to 2101h and 2100h, and saves only these two objects; the
+    /// next start uses them. FFh is not a node ID, so it is not stored.
     fn store<D: Services>(&mut self, objects: &mut Objects<'_, D>, profile: &LssProfile) -> u8 {
         let pending = [
             (
@@ -209,7 +210,7 @@ impl Slave {
             ),
             (profile.bit_rate, self.bit_rate),
         ];
-        // What a save writes in the background is there before anything follows.
+        // A save in the background must be complete before this one begins.
         objects.complete_save();
         for (address, value) in pending {
             if let Some(value) = value
@@ -230,8 +231,8 @@ impl Slave {
         ))
     }
 
-    /// Puts what is pending into the image, beside the objects: the next start takes it. A node
-    /// ID of FFh is stored as it is.
+    /// Writes the pending configuration into the image, in records without an object; the next
+    /// start uses it. A node ID of FFh is stored as FFh.
     fn store_own<D: Services>(&mut self, objects: &mut Objects<'_, D>, active: u8) -> u8 {
         objects.complete_save();
         let (device, profile) = (objects.device(), &objects.profile.store);
@@ -248,7 +249,7 @@ impl Slave {
     }
 }
 
-/// Error code of the answer to a save.
+/// Error code of the response to a save.
 fn code(saved: Result<(), StorageError>) -> u8 {
     match saved {
         Ok(()) => error::NONE,
@@ -256,13 +257,13 @@ fn code(saved: Result<(), StorageError>) -> u8 {
     }
 }
 
-/// A number of the LSS address (1018h), from 0 on; 0 without such an object.
+/// Number of the LSS address (1018h) at a position, from 0; 0 if the sub-object is missing.
 fn number<D: Services>(objects: &Objects<'_, D>, part: u8) -> u32 {
     objects.store.word(0x1018, part.wrapping_add(1), 0)
 }
 
-/// Returns the node ID and the bit rate that a device without objects for them stored. A storage
-/// that cannot be read holds none.
+/// Returns the stored node ID and bit rate of a device without objects for them; nothing if the
+/// storage cannot be read.
 pub(crate) fn stored<D: Services>(objects: &mut Objects<'_, D>) -> [Option<u8>; 2] {
     let device = objects.device();
     let mut banks = Banks::NONE;
@@ -275,7 +276,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_pending_outlasts_the_end_of_stopped() {
+    fn a_pending_configuration_survives_the_end_of_stopped() {
         let mut slave = Slave {
             configuration: true,
             node_id: Some(5),

@@ -19,7 +19,7 @@ use crate::storage::image::{self, Loaded};
 use crate::{emcy, lss, sync};
 
 impl<D: Device, A: Application, S: Storage> Node<D, A, S> {
-    /// Power comes: the values become the saved ones or their defaults, and the node boots up.
+    /// Switches the power on: the node loads the saved values or the defaults, and boots up.
     pub fn power_on(&mut self, now: Instant) {
         let node = &mut self.machines;
         if D::DICTIONARY.is_none() {
@@ -34,8 +34,8 @@ impl<D: Device, A: Application, S: Storage> Node<D, A, S> {
         self.call(now, |node, objects| node.reset(objects, Reset::PowerOn));
     }
 
-    /// Ends an initialisation that takes its time ([`NmtProfile::reset_node_us`]), at once: for a
-    /// host whose clock starts when the node boots up, and not when power came.
+    /// Ends an initialisation with a duration ([`NmtProfile::reset_node_us`]) at once, for a host
+    /// whose clock starts at the boot-up and not at power-on.
     ///
     /// [`NmtProfile::reset_node_us`]: crate::NmtProfile::reset_node_us
     pub fn boot_at_once(&mut self, now: Instant) {
@@ -48,7 +48,7 @@ impl<D: Device, A: Application, S: Storage> Node<D, A, S> {
 }
 
 impl<D: Device, A, S> Node<D, A, S> {
-    /// Power goes: silence until [`power_on`](Self::power_on).
+    /// Switches the power off: the node is silent until [`power_on`](Self::power_on).
     pub fn power_off(&mut self) {
         if let Some(saving) = self.values.lend().saving {
             *saving = Saving::BLANK;
@@ -100,10 +100,10 @@ impl<D: Device> Machines<D> {
         }
         let mut rate = None;
         if light {
-            // Nothing of the device is reset, and a save goes on.
+            // This reset leaves the values unchanged, and a save continues.
             self.forget_bus_errors(objects);
         } else {
-            // A save that was not complete will not be; `load` finds out.
+            // The reset ends an incomplete save; `load` detects it.
             objects.forget_save();
             if reset == Reset::Communication {
                 self.forget_bus_errors(objects);
@@ -126,8 +126,9 @@ impl<D: Device> Machines<D> {
         }
     }
 
-    /// Node ID of a device without an object for it: a start takes the stored one, NMT reset
-    /// communication the pending one (CiA 305, chapter 6.4.2). Returns the bit rate of a start.
+    /// Takes the node ID of a device without an object for it: at a start the stored one, at NMT
+    /// reset communication the pending one (CiA 305, chapter 6.4.2). Returns the stored bit rate at
+    /// a start.
     fn take_own(
         &mut self,
         objects: &mut Objects<'_, D>,
@@ -158,12 +159,12 @@ impl<D: Device> Machines<D> {
         bit_rate
     }
 
-    /// Defaults, then what storage holds. The node ID may be among it, and defaults hang
-    /// on the node ID, so a new one means a second pass.
+    /// Loads the defaults, then the saved values. If they set another node ID, a second pass loads
+    /// everything again, because defaults may depend on the node ID.
     fn load(&mut self, objects: &mut Objects<'_, D>, reset: Reset) {
         let all = reset != Reset::Communication;
-        // Reset communication takes 1000h–1FFFh back, and what the device starts on the
-        // bus with, or all that can be saved or written; it leaves the errors that last.
+        // Reset communication restores 1000h to 1FFFh and the objects of node ID and bit rate, or
+        // everything that can be saved or written. Errors that last stay.
         let profile = objects.profile;
         let which = |row: &Row| {
             let address = row.address();
@@ -193,7 +194,7 @@ impl<D: Device> Machines<D> {
             if let Some(event) = news.filter(|_| pass == 0) {
                 self.event(event);
             }
-            // A cut save is what power does to a memory that is sound.
+            // After an interrupted save the memory is still sound.
             let sound = !matches!(loaded, Loaded::Damaged | Loaded::Foreign);
             objects.application.storage_is(sound);
             match objects.application.node_id(&objects.store) {
@@ -206,8 +207,8 @@ impl<D: Device> Machines<D> {
         }
     }
 
-    /// The end of initialisation: services take their configuration, the boot-up message
-    /// goes out, Pre-operational begins.
+    /// Ends the initialisation: configures the services, sends the boot-up message, and enters
+    /// Pre-operational.
     pub(super) fn boot_up(&mut self, objects: &mut Objects<'_, D>) {
         self.boot_at = Deadline::NEVER;
         if self.unconfigured {
@@ -235,8 +236,9 @@ impl<D: Device> Machines<D> {
         self.finish(objects);
     }
 
-    /// The CAN-IDs by which SYNC, EMCY and TIME are sent, which come before those of SDO servers and TPDOs. That of
-    /// SYNC counts for a consumer, too: what it sends by it is a SYNC for all others.
+    /// CAN-IDs with which SYNC, EMCY and TIME are sent; they have priority over those of SDO
+    /// servers and TPDOs. The CAN-ID of SYNC is reserved for a consumer, too: all nodes would read
+    /// a frame with it as SYNC.
     fn senders(objects: &Objects<'_, D>) -> [Option<CanId>; 3] {
         let store = &objects.store;
         let time = if D::TIME {
@@ -247,7 +249,7 @@ impl<D: Device> Machines<D> {
         [sync::can_id(store), emcy::can_id(store), time]
     }
 
-    /// Reports the services of one object whose CAN-ID is refused, once as long as it is.
+    /// Reports each service of an object whose CAN-ID is refused, once until it is valid again.
     fn report_refused(&mut self, objects: &Objects<'_, D>, senders: [Option<CanId>; 3]) {
         let [sync, emcy, time] = senders;
         let cob_id = |index| CobId::new(objects.store.word(index, 0, 0));
@@ -271,7 +273,7 @@ impl<D: Device> Machines<D> {
         }
     }
 
-    /// Every service reads its objects again.
+    /// Makes every service read its objects again.
     pub(super) fn configure(&mut self, objects: &mut Objects<'_, D>) {
         self.wanted_changed = true;
         self.sync_id = sync::can_id(&objects.store);
@@ -287,7 +289,7 @@ impl<D: Device> Machines<D> {
         self.listen(objects);
     }
 
-    /// `senders` are the CAN-IDs by which other services send.
+    /// Configures the TPDOs. `senders` are the CAN-IDs with which other services send.
     fn configure_tpdos(&mut self, objects: &mut Objects<'_, D>, senders: [Option<CanId>; 3]) {
         let operates = self.state == State::Operational;
         let rooms = self.rooms.all_mut();
@@ -331,7 +333,7 @@ impl<D: Device> Machines<D> {
             }
             first += entries(0x1600 + number);
         }
-        // 1400h:05 is another one, so a frame that was late is so no more.
+        // A changed deadline (1400h:05) ends the error of a late RPDO.
         if D::DEADLINES && !self.rooms.all().rpdos.iter().any(|pdo| pdo.is_late()) {
             self.end_error(objects, RPDO_TIMEOUT);
         }

@@ -1,4 +1,4 @@
-//! News of the CAN controller, and what follows from them.
+//! State changes and frame losses of the CAN controller, and their effects.
 
 use od_wire::Instant;
 use od_wire::nmt::State;
@@ -15,8 +15,8 @@ use crate::rooms::Rooms;
 use crate::storage::Storage;
 
 impl<D: Device, A: Application, S: Storage> Node<D, A, S> {
-    /// Reports a state change or frame loss of the CAN controller. A host that never calls
-    /// this runs the node as on an error-free bus.
+    /// Reports a state change or a lost frame of the CAN controller. A host that never calls this
+    /// runs the node as on an error-free bus.
     pub fn handle_bus(&mut self, now: Instant, event: BusEvent) {
         self.call(now, |node, objects| node.take_bus(objects, event));
     }
@@ -27,9 +27,9 @@ impl<D: Device> Machines<D> {
         matches!(self.bus, BusEvent::Off)
     }
 
-    /// News of the CAN controller.
+    /// Handles a report of the CAN controller.
     fn take_bus(&mut self, objects: &mut Objects<'_, D>, event: BusEvent) {
-        // A controller that is being set up has no news.
+        // While the node initialises, the controller is being set up, and its reports do not count.
         if self.state == State::Initialising {
             return;
         }
@@ -54,7 +54,7 @@ impl<D: Device> Machines<D> {
         self.finish(objects);
     }
 
-    /// Warning, passive, overrun, and the way back.
+    /// Handles warning, error passive, overrun, and the return from these states.
     fn take_state(&mut self, objects: &mut Objects<'_, D>, event: BusEvent) {
         let profile = objects.profile.errors;
         let info = objects.application.error_info(&objects.store);
@@ -82,7 +82,7 @@ impl<D: Device> Machines<D> {
         }
     }
 
-    /// Bus-off: nothing goes out or comes in, and 1029h acts as the family has it.
+    /// Enters bus-off: the node neither sends nor receives, and 1029h acts as the profile says.
     fn fall_off(&mut self, objects: &mut Objects<'_, D>, restarts: bool) {
         let profile = objects.profile.errors;
         if let Some(bit_rate) = self.mute.and_then(Mute::bit_rate) {
@@ -99,11 +99,11 @@ impl<D: Device> Machines<D> {
         if !(restarts && profile.off.behaviour_if_off) {
             self.react(objects, set, true);
         }
-        // The error behaviour may have led to another state, but not back to the bus.
+        // The reaction of 1029h may have changed the NMT state, but the node is still bus-off.
         self.stop_pdos();
     }
 
-    /// The CAN controller restarted, and the NMT state goes on.
+    /// Leaves bus-off: the CAN controller restarted, and the NMT state stays.
     fn come_back(&mut self, objects: &mut Objects<'_, D>) {
         self.mute = None;
         self.event(Event::BusOn);
@@ -119,7 +119,7 @@ impl<D: Device> Machines<D> {
         }
     }
 
-    /// A switch delay of LSS is over.
+    /// Ends a switch delay of LSS.
     pub(super) fn end_mute(&mut self) {
         let Some(mute) = self.mute.take() else { return };
         if let Some(bit_rate) = mute.bit_rate() {
@@ -134,7 +134,7 @@ impl<D: Device> Machines<D> {
         }
     }
 
-    /// A reset ends the errors of communication without an EMCY message: the monitor and the CAN
+    /// Ends the errors of communication without an EMCY message: in a reset the monitor and the CAN
     /// controller restart.
     pub(super) fn forget_bus_errors(&mut self, objects: &mut Objects<'_, D>) {
         let profile = &objects.profile.errors;

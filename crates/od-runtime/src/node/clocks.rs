@@ -50,7 +50,7 @@ impl<D: Device> Machines<D> {
         }
     }
 
-    /// Sends the SYNC that is due; the node's own PDOs act on it, too.
+    /// Sends the SYNC that is due, and lets the node's own PDOs act on it.
     pub(super) fn produce_sync(&mut self, objects: &mut Objects<'_, D>) {
         if !D::SYNC_PRODUCER {
             return;
@@ -76,7 +76,7 @@ impl<D: Device> Machines<D> {
         }
     }
 
-    /// A TIME message: the application gets the time.
+    /// Hands the time of a TIME message to the application.
     pub(super) fn handle_time(&mut self, objects: &mut Objects<'_, D>, frame: &Frame) {
         if D::TIME
             && let Some(time) = TimeOfDay::parse(frame.data())
@@ -85,7 +85,7 @@ impl<D: Device> Machines<D> {
         }
     }
 
-    /// Sends the application's time.
+    /// Sends a TIME message with the application's time.
     pub(super) fn produce_time(&mut self, objects: &mut Objects<'_, D>) -> bool {
         if !self.is_communicating() || self.mute.is_some() {
             return false;
@@ -98,8 +98,8 @@ impl<D: Device> Machines<D> {
     }
 }
 
-/// CAN-ID of the TIME messages that the device produces: 1012h with bit 30, where SYNC and EMCY have another
-/// one.
+/// CAN-ID of the TIME messages that the node produces: that of 1012h, if bit 30 is set and neither
+/// SYNC nor EMCY has the same CAN-ID.
 pub(super) fn produced_time_id(store: &Store<'_>) -> Option<CanId> {
     let cob_id = CobId::new(store.try_word(0x1012, 0)?);
     let id = cob_id.usable_id().filter(|_| cob_id.produces_time())?;

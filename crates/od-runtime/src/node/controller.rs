@@ -1,4 +1,4 @@
-//! The CAN controller as the node knows it: its states, and times without frames.
+//! The states of the CAN controller, and the times in which the node is silent.
 
 use od_wire::Instant;
 
@@ -7,7 +7,7 @@ use od_wire::Instant;
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[non_exhaustive]
 pub enum BusEvent {
-    /// Error active, with error counters below the warning limit; no more frames are lost. After
+    /// Error active, with error counters below the warning limit; no further frames are lost. After
     /// bus-off: the controller can restart.
     Active,
     /// An error counter passed the warning limit (96).
@@ -35,17 +35,17 @@ impl BusEvent {
 /// Time in which the node neither sends nor receives.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Mute {
-    /// [`Instant::MAX`]: until the CAN controller is back.
+    /// End of the silence; [`Instant::MAX`]: until the CAN controller restarts.
     pub(super) until: Instant,
-    /// LSS: one more than the bit rate that is in force then; 0: it stays. An `Option` here would
-    /// keep a node without power from being all zeros.
+    /// LSS: 1 plus the bit rate that is active from `until`; 0: the bit rate stays. A number
+    /// instead of an `Option`, so that a node without power is all zeros.
     pub(super) bit_rate: u16,
-    /// LSS: silence after that, in milliseconds.
+    /// LSS: further silence after `until`, in milliseconds.
     pub(super) silence_ms: u16,
 }
 
 impl Mute {
-    /// The bit rate that is in force then, if LSS changes it.
+    /// Returns the bit rate that is active from `until`, if LSS changes it.
     pub(super) fn bit_rate(self) -> Option<u8> {
         self.bit_rate.checked_sub(1).map(|rate| rate as u8)
     }

@@ -1,4 +1,5 @@
-//! Effects of a call: services read changed objects again, saves end, errors go out.
+//! Effects at the end of a call: services read changed objects again, saves end, errors are
+//! reported.
 
 use od_model::Address;
 use od_wire::nmt::State;
@@ -12,8 +13,8 @@ use crate::objects::outbox::Effect;
 use crate::{error_control, pdo};
 
 impl<D: Device> Machines<D> {
-    /// The end of a call: services read changed objects again, errors go out, changed values
-    /// cause event-driven PDOs, and a reset that the error behaviour requested follows.
+    /// Ends a call: services read changed objects again, errors are reported, changed values cause
+    /// event-driven PDOs, and a reset that the error behaviour requested follows.
     pub(super) fn finish(&mut self, objects: &mut Objects<'_, D>) {
         if !objects.outbox.is_empty() {
             self.empty_outbox(objects);
@@ -26,7 +27,7 @@ impl<D: Device> Machines<D> {
         }
     }
 
-    /// Asks the application what is due.
+    /// Calls the application's `tick`.
     pub(super) fn tick(&mut self, objects: &mut Objects<'_, D>) {
         let at = objects.application(|application, context| application.tick(context));
         self.tick_at = Deadline::of(at);
@@ -40,7 +41,7 @@ impl<D: Device> Machines<D> {
         let send_time = if D::TIME { 0 } else { Signals::SEND_TIME };
         let keep = if D::STORAGE { 0 } else { Signals::KEEP };
         if const { !(D::TIME && D::STORAGE) } {
-            // The device lacks these services.
+            // The device lacks these services, so their requests are dropped.
             objects.outbox.signals.take(send_time | keep);
         }
         if D::TIME && objects.outbox.signals.take(Signals::SEND_TIME) {
@@ -94,7 +95,7 @@ impl<D: Device> Machines<D> {
     }
 }
 
-/// Returns whether it is the object that switches from heartbeat to node guarding.
+/// Returns whether the object switches between heartbeat and node guarding.
 fn switches<D: Device>(objects: &Objects<'_, D>, index: u16) -> bool {
     objects
         .profile
@@ -102,7 +103,7 @@ fn switches<D: Device>(objects: &Objects<'_, D>, index: u16) -> bool {
         .is_some_and(|(switch, _)| switch == index)
 }
 
-/// Returns whether it is an object that configures SYNC, EMCY, TIME, a PDO or a further SDO server.
+/// Returns whether the object configures SYNC, EMCY, TIME, a PDO or a further SDO server.
 fn is_configuration<D: Device>(objects: &Objects<'_, D>, index: u16) -> bool {
     let repeat = objects.profile.pdo.repeat_counter;
     let sync_only = objects.profile.pdo.sync_only;

@@ -1,5 +1,5 @@
-//! Reaction to errors: the other side is lost, or a bit of 1001h becomes set (CiA 301, object
-//! 1029h).
+//! Error behaviour: the reaction to a lost node, or to a bit of 1001h that becomes set (CiA 301,
+//! object 1029h).
 
 use super::{Event, Machines};
 use crate::change::Change;
@@ -12,18 +12,18 @@ use crate::store::Store;
 use od_wire::emcy::Emcy;
 use od_wire::nmt::State;
 
-/// Reaction that 1029h requests, the gravest last.
+/// Reaction that 1029h requests, in order of severity.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Behaviour {
     Nothing,
-    /// Only from Operational; the default of CiA 301 without the object (chapter 7.5.2.32).
+    /// Acts in Operational only; the default of CiA 301 if 1029h is missing (chapter 7.5.2.32).
     PreOperational,
     Stopped,
     Reset,
 }
 
 impl Notice {
-    /// The error that the node tells of.
+    /// The EMCY message that reports this error.
     pub(super) const fn error(self, info: [u8; 5]) -> Emcy {
         Emcy {
             code: self.code,
@@ -34,7 +34,7 @@ impl Notice {
 }
 
 impl<D: Device> Machines<D> {
-    /// Acts when the monitor lost a node, or has all of them back.
+    /// Acts when the monitor has lost a node, or when all nodes have returned.
     pub(super) fn poll_monitor(&mut self, objects: &mut Objects<'_, D>) {
         if (D::GUARDING || D::CONSUMER)
             && let Some(lost) = self.monitor().poll()
@@ -43,7 +43,7 @@ impl<D: Device> Machines<D> {
         }
     }
 
-    /// A watched node was lost, or all are back.
+    /// Reports a lost node, or that all nodes have returned.
     fn tell(&mut self, objects: &mut Objects<'_, D>, lost: bool) {
         let notice = objects.profile.errors.lost;
         let info = objects.application.error_info(&objects.store);
@@ -56,8 +56,9 @@ impl<D: Device> Machines<D> {
         self.lost = lost;
     }
 
-    /// Errors set `bits` of 1001h, or Operational begins while they last: 1029h acts. The
-    /// EMCYs that tell of them go out first.
+    /// Carries out 1029h for `bits` of 1001h that became set, or that are still set when the node
+    /// enters Operational. If the reaction is Stopped or a reset, the waiting EMCY messages are
+    /// sent first.
     pub(super) fn react(&mut self, objects: &mut Objects<'_, D>, bits: u8, lost: bool) {
         if !D::BEHAVIOUR {
             return;
@@ -89,7 +90,7 @@ impl<D: Device> Machines<D> {
         }
     }
 
-    /// Operational begins while errors last.
+    /// Carries out 1029h for errors that are active when the node enters Operational.
     pub(super) fn react_to_lasting(&mut self, objects: &mut Objects<'_, D>) {
         let bits = self.emcy.register(self.rooms.all().errors);
         let lost = self.was_lost;
@@ -98,7 +99,7 @@ impl<D: Device> Machines<D> {
         }
     }
 
-    /// Errors that came and went in a call.
+    /// Handles the errors that began or ended in this call.
     pub(super) fn take_errors(&mut self, objects: &mut Objects<'_, D>) {
         let mut set = 0;
         while let Some(change) = objects.outbox.signals.errors.pop() {
@@ -125,12 +126,12 @@ impl<D: Device> Machines<D> {
     }
 }
 
-/// The reaction that a sub-index of 1029h requests.
+/// Reaction that a sub-index of 1029h requests.
 fn asked(store: &Store<'_>, sub: u8, operational: bool) -> Behaviour {
     match store.try_word(0x1029, sub) {
         None | Some(0) if operational => Behaviour::PreOperational,
         Some(2) => Behaviour::Stopped,
-        // Of the families that accept the value, only the bus covers have it.
+        // Only the bus-cover family accepts this value.
         Some(3) => Behaviour::Reset,
         _ => Behaviour::Nothing,
     }

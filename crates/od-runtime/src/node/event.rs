@@ -13,7 +13,7 @@ impl Blank for Event {
     const BLANK: Self = Self::State(State::Initialising);
 }
 
-/// Something happened in the node.
+/// Event in the node.
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[non_exhaustive]
@@ -28,16 +28,16 @@ pub enum Event {
     Saved(u8),
     /// 1011h: the groups of this sub-index were restored, at once or at the next reset.
     Restored(u8),
-    /// LSS activated this bit rate; the number is the device's own (2100h).
+    /// LSS activated this bit rate. The number is the manufacturer's own code, as in 2100h.
     BitRate(u8),
-    /// The storage is not as the last save left it; this is what the node loaded at a reset. Neither
-    /// blank nor complete, and not cut.
+    /// The node loaded this at a reset, and the storage is not as the last save left it: it is
+    /// neither blank nor complete, and no save was interrupted.
     Loaded(Loaded),
-    /// A save failed, that of a master or the device's own. The values saved before it remain.
+    /// A save of a master or of the device itself failed. The values saved before it remain.
     NotSaved,
     /// Power loss or an NMT reset interrupted a save.
     SaveCut {
-        /// The node loaded the factory values; else the values that were saved before it.
+        /// `true`: the node loaded the factory values; `false`: the values saved before.
         factory: bool,
     },
     /// The CAN controller is bus-off; the profile decides whether the node restarts it.
@@ -45,17 +45,17 @@ pub enum Event {
         /// The controller restarts as soon as the bus allows it.
         restarts: bool,
     },
-    /// The node is back from bus-off.
+    /// The node returned from bus-off.
     BusOn,
-    /// An error came.
+    /// An error began.
     Error(Emcy),
-    /// The error with this code went.
+    /// The error with this code ended.
     ErrorCleared(u16),
-    /// The service of this object (1005h, 1012h, 1014h, 1201h to 127Fh, 1400h to 15FFh, 1800h to 19FFh) is not
-    /// valid: its CAN-ID does not fit its frame, is restricted (CiA 301, table 40), or is that of another
-    /// service by which the node sends.
+    /// The service of this object (1005h, 1012h, 1014h, 1201h to 127Fh, 1400h to 15FFh, 1800h to
+    /// 19FFh) is not valid: its CAN-ID does not fit its frame, is restricted (CiA 301, table 40),
+    /// or belongs to another service with which the node sends.
     CobIdRefused(u16),
-    /// 16 EMCY messages wait for the inhibit time (1015h), so that of the error that came or went
-    /// before this event is dropped. 1001h and 1003h have it.
+    /// 16 EMCY messages wait for the inhibit time (1015h), so the node dropped the message of the
+    /// error before this event. 1001h and 1003h contain the error.
     EmcyDropped,
 }

@@ -1,4 +1,4 @@
-//! Inputs of the node: frames, time, and changes from the side of the device.
+//! Inputs of the node: frames, time, and changes on the side of the device.
 
 use od_model::Address;
 use od_wire::emcy::Emcy;
@@ -21,7 +21,7 @@ impl<D: Device, A: Application, S: Storage> Node<D, A, S> {
     /// Handles a frame that was received.
     pub fn handle_frame(&mut self, now: Instant, frame: &Frame) {
         let service = self.machines.service(frame);
-        // Most frames are for others. A value that changes by itself is looked at whenever one comes.
+        // Most frames are for other nodes. Live values are checked when any frame comes.
         if service.is_none() && !self.machines.watches_live {
             self.machines.now = self.machines.now.max(now);
             return;
@@ -32,8 +32,8 @@ impl<D: Device, A: Application, S: Storage> Node<D, A, S> {
         });
     }
 
-    /// Does what is due by now; the moment is that of [`poll_timeout`](Self::poll_timeout), or
-    /// later.
+    /// Carries out what is due at `now`, the moment of [`poll_timeout`](Self::poll_timeout) or a
+    /// later one.
     pub fn handle_timeout(&mut self, now: Instant) {
         let node = &mut self.machines;
         if now.max(node.now) < node.next && !node.watches_live {
@@ -55,12 +55,13 @@ impl<D: Device, A: Application, S: Storage> Node<D, A, S> {
         });
     }
 
-    /// Sets a value from the side of the device: as a master's download does, but for the access, so
-    /// that read-only objects change, too. Event-driven TPDOs follow.
+    /// Sets a value from the side of the device. Limits and rules are those of a master's download,
+    /// but the access type does not count, so read-only objects change, too. Event-driven TPDOs
+    /// follow.
     ///
     /// # Errors
-    /// Abort code of the download; `ReadOnly` for an object without a place for its value (const),
-    /// `DeviceState` without power and before the boot-up message.
+    /// The abort code of the download; `ReadOnly` for an object without memory for its value
+    /// (const), `DeviceState` without power and before the boot-up message.
     pub fn set_value(
         &mut self,
         now: Instant,
@@ -78,8 +79,8 @@ impl<D: Device, A: Application, S: Storage> Node<D, A, S> {
         result.unwrap_or(Err(AbortCode::DeviceState))
     }
 
-    /// Reports an error, as [`Signals::raise`](crate::Signals::raise) does. Returns `false` if it is
-    /// active already, and without power and before the boot-up message.
+    /// Reports an error, as [`Signals::raise`](crate::Signals::raise) does. Returns `false` if it
+    /// is active already, without power, and before the boot-up message.
     pub fn raise(&mut self, now: Instant, error: Emcy) -> bool {
         self.change_error(now, error, true)
     }
@@ -113,9 +114,9 @@ impl<D: Device, A: Application, S: Storage> Node<D, A, S> {
 }
 
 impl<D: Device> Machines<D> {
-    /// Passes a frame on to its service, where the NMT state has this service (CiA 301, table 37).
+    /// Passes a frame to its service, if the NMT state allows the service (CiA 301, table 37).
     fn serve(&mut self, objects: &mut Objects<'_, D>, service: Service, frame: &Frame) {
-        // Before the boot-up message a node without a node ID knows LSS.
+        // Before its boot-up message a node without a node ID serves only LSS.
         if self.state == State::Initialising || self.mute.is_some() {
             if service == Service::Lss && self.is_unconfigured() {
                 self.handle_lss(objects, frame);
@@ -139,7 +140,7 @@ impl<D: Device> Machines<D> {
         self.finish(objects);
     }
 
-    /// Does what is due by now, each service in a fixed order.
+    /// Carries out what is due, each service in a fixed order.
     fn handle_due(&mut self, objects: &mut Objects<'_, D>) {
         let now = objects.now;
         if self.boot_at.is_due(now) {
@@ -173,7 +174,7 @@ impl<D: Device> Machines<D> {
         self.next = self.timers(objects.save_due()).moment();
     }
 
-    /// NMT command (CiA 301, chapter 7.2.8.3.1).
+    /// Handles an NMT command (CiA 301, chapter 7.2.8.3.1).
     fn handle_nmt(&mut self, objects: &mut Objects<'_, D>, frame: &Frame) {
         let Some(nmt::Repr { command, node }) = nmt::Repr::parse(frame.data()) else {
             return;
@@ -194,7 +195,7 @@ impl<D: Device> Machines<D> {
         self.finish(objects);
     }
 
-    /// LSS (CiA 305), where the device has it and the state allows it.
+    /// Handles an LSS command (CiA 305), if the device supports LSS and the state allows it.
     fn handle_lss(&mut self, objects: &mut Objects<'_, D>, frame: &Frame) {
         let Some(profile) = objects.profile.lss.as_ref().filter(|_| D::LSS) else {
             return;
@@ -233,7 +234,7 @@ impl<D: Device> Machines<D> {
         }
     }
 
-    /// A master guards this node (CiA 301, chapter 7.2.8.3.2).
+    /// Handles a guarding request of a master (CiA 301, chapter 7.2.8.3.2).
     fn handle_guarding(&mut self, objects: &mut Objects<'_, D>) {
         let (state, now) = (self.state, objects.now);
         if let Some(response) = self.monitor().guard(state, now) {
@@ -242,14 +243,14 @@ impl<D: Device> Machines<D> {
         self.poll_monitor(objects);
     }
 
-    /// Heartbeat or boot-up message of a node that is watched (CiA 301, chapter 7.2.8.3.1).
+    /// Handles a heartbeat or boot-up message of a monitored node (CiA 301, chapter 7.2.8.3.1).
     fn handle_heartbeat(&mut self, objects: &mut Objects<'_, D>, frame: &Frame) {
         let node = (frame.id().raw() & 0x7F) as u8;
         self.monitor().heartbeat(node, objects.now);
         self.poll_monitor(objects);
     }
 
-    /// A remote frame requests a TPDO (CiA 301, chapter 7.2.2.5.2).
+    /// Handles a remote frame that requests a TPDO (CiA 301, chapter 7.2.2.5.2).
     fn handle_request(&mut self, objects: &mut Objects<'_, D>, number: u16) {
         let rooms = self.rooms.all_mut();
         if let Some(pdo) = rooms.tpdos.get_mut(usize::from(number))
@@ -259,7 +260,8 @@ impl<D: Device> Machines<D> {
         }
     }
 
-    /// SYNC: with a counter of one byte or without (CiA 301, chapter 7.2.5; table 26, code 8240h).
+    /// Handles a SYNC message, with or without a counter of one byte (CiA 301, chapter 7.2.5; table
+    /// 26, code 8240h).
     fn handle_sync(&mut self, objects: &mut Objects<'_, D>, frame: &Frame) {
         if D::SYNC_LENGTH && objects.profile.errors.watches_sync_length {
             if self.sync_length.is_right(frame.data().len()) {
@@ -278,7 +280,7 @@ impl<D: Device> Machines<D> {
         }
     }
 
-    /// A SYNC, of another node or of this one.
+    /// Carries out a SYNC of another node or of this one.
     pub(super) fn sync(&mut self, objects: &mut Objects<'_, D>, counter: Option<u8>) {
         let Slices {
             tpdos,
@@ -294,7 +296,8 @@ impl<D: Device> Machines<D> {
         }
     }
 
-    /// The frame of an RPDO, and of those behind it that have the same CAN-ID (CiA 301, chapter 7.2.2.5.1).
+    /// Handles the frame of an RPDO, also for the following RPDOs with the same CAN-ID (CiA 301,
+    /// chapter 7.2.2.5.1).
     fn handle_rpdo(&mut self, objects: &mut Objects<'_, D>, first: u16, frame: &Frame) {
         for at in usize::from(first).. {
             let rooms = self.rooms.all_mut();
@@ -312,13 +315,14 @@ impl<D: Device> Machines<D> {
                     .raise(communication_error(PDO_LENGTH)),
             }
         }
-        // The error is over when all RPDOs that were late have come again.
+        // The error ends when all RPDOs that were late have arrived again.
         if D::DEADLINES && !self.rooms.all().rpdos.iter().any(|pdo| pdo.is_late()) {
             self.end_error(objects, RPDO_TIMEOUT);
         }
     }
 
-    /// RPDOs whose next frame is late (CiA 301, object 1400h, sub-index 5; table 26, code 8250h).
+    /// Reports RPDOs whose next frame is late (CiA 301, object 1400h, sub-index 5; table 26, code
+    /// 8250h).
     fn watch_rpdos(&mut self, objects: &mut Objects<'_, D>) {
         for pdo in self.rooms.all_mut().rpdos {
             if pdo.handle_timeout(objects.now) {
@@ -330,7 +334,7 @@ impl<D: Device> Machines<D> {
         }
     }
 
-    /// An error of the communication is over, if it was active.
+    /// Ends an error of the communication, if it is active.
     pub(super) fn end_error(&self, objects: &mut Objects<'_, D>, code: u16) {
         if self
             .rooms
@@ -344,7 +348,7 @@ impl<D: Device> Machines<D> {
     }
 }
 
-/// An error of the communication: bits 0 and 4 of 1001h.
+/// Error of the communication: sets bits 0 and 4 of 1001h.
 const fn communication_error(code: u16) -> Emcy {
     Emcy {
         code,

@@ -1,4 +1,4 @@
-//! What the node listens to: its services fill the table of CAN-IDs.
+//! The table of CAN-IDs: each service adds those that it listens to.
 
 use od_wire::{CanId, Frame};
 
@@ -9,7 +9,7 @@ use crate::objects::Objects;
 use crate::rooms::{Rooms, Slices};
 
 impl<D: Device> Machines<D> {
-    /// Fills the table again: a service has other objects, or the node another node ID.
+    /// Fills the table again, after a change of objects or of the node ID.
     pub(super) fn listen(&mut self, objects: &Objects<'_, D>) {
         self.wanted_changed = true;
         let node_id = self.node_id;
@@ -30,7 +30,7 @@ impl<D: Device> Machines<D> {
             let master = CanId::standard(od_wire::lss::MASTER);
             table.add(Some(master), false, Service::Lss);
         }
-        // A node without a node ID knows nothing else (CiA 305, chapter 6.4.2).
+        // A node without a node ID listens to LSS only (CiA 305, chapter 6.4.2).
         if !self.unconfigured {
             table.add(Some(CanId::standard(0)), false, Service::Nmt);
             if D::GUARDING {
@@ -61,21 +61,21 @@ impl<D: Device> Machines<D> {
         listeners.unwrap_or_default()
     }
 
-    /// The service that a frame belongs to; `None`: it is for other nodes.
+    /// Returns the service of a frame; `None`: the frame is for other nodes.
     pub(super) fn service(&self, frame: &Frame) -> Option<Service> {
         listening::find(self.listening(), frame)
     }
 }
 
 impl<D: Device, A, S> Node<D, A, S> {
-    /// Returns the CAN-IDs of all frames, data and remote, that mean anything to the node in any NMT
-    /// state. Some may come twice.
+    /// Returns the CAN-IDs of all data and remote frames that the node uses in any NMT state. Some
+    /// may be returned twice.
     pub fn wanted_ids(&self) -> impl Iterator<Item = CanId> + '_ {
         self.machines.listening().iter().map(Listener::id)
     }
 
     /// Returns [`wanted_ids`](Self::wanted_ids) if they may have changed since the last call: at
-    /// power-on, after a reset, a new node ID, or a change of a COB-ID or of 1016h.
+    /// power-on, after a reset, after a new node ID, and after a change of a COB-ID or of 1016h.
     pub fn poll_wanted_ids(&mut self) -> Option<impl Iterator<Item = CanId> + '_> {
         let changed = core::mem::take(&mut self.machines.wanted_changed);
         changed.then(|| self.wanted_ids())

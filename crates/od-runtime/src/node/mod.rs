@@ -1,18 +1,18 @@
-//! The node: the only module that knows all services.
+//! The node: the only module that imports all services.
 //!
 //! ```text
 //! power_on ─┐                       ┌─> poll_transmit   frames
 //! handle_frame ──> services ──────> ├─> poll_timeout    next deadline
 //! handle_timeout ┘                  └─> poll_event      what happened
 //! ```
-//! Drain `poll_transmit` after every input, then sleep until `poll_timeout` or the next
-//! frame. Everything is a function of the inputs and their order; nothing else.
+//! Call `poll_transmit` until it returns `None` after every input, then sleep until `poll_timeout`
+//! or the next frame. The outputs depend only on the inputs and their order.
 //!
 //! - [`input`]: a frame, a moment, a change from the side of the device, and the service that handles it.
 //! - [`output`]: frames, the next deadline, events.
 //! - [`listening`]: the table of the CAN-IDs that the node listens to.
 //! - [`boot`]: power-on, resets, and the configuration of all services.
-//! - [`effects`]: what a call leaves for its end.
+//! - [`effects`]: work at the end of a call.
 //! - `servers`, `clocks`, `bus`, `errors`: SDO, SYNC and TIME, the CAN controller, error behaviour.
 
 mod boot;
@@ -46,16 +46,17 @@ use crate::{emcy, error_control, pdo, sync};
 pub use controller::BusEvent;
 pub use event::Event;
 
-/// A CANopen node: a device with its values, its behaviour and its memory.
+/// A CANopen node: a device with its values, its behaviour and its memory for saved values.
 ///
-/// `D` is the device: its object dictionary, its family and the services that it has. `object_dictionary!` makes
-/// it for each module. `A` is the behaviour ([`Application`]), `S` the non-volatile memory ([`Storage`]) for
-/// the values saved with 1010h.
+/// `D` is the device: its object dictionary, its profile and its services. `object_dictionary!`
+/// makes such a type for each module. `A` is the behaviour ([`Application`]), `S` the non-volatile
+/// memory ([`Storage`]) for the values saved with 1010h.
 ///
 /// A node has no clock and does no I/O. Call [`handle_frame`](Self::handle_frame),
-/// [`handle_timeout`](Self::handle_timeout) and [`change`](Self::change) with the present moment; after each,
-/// call [`poll_transmit`](Self::poll_transmit) until it returns no frame, then wait for the next frame or for
-/// [`poll_timeout`](Self::poll_timeout), whichever is first. The [crate's page](crate) shows the loop.
+/// [`handle_timeout`](Self::handle_timeout) and [`change`](Self::change) with the present time.
+/// After each call, call [`poll_transmit`](Self::poll_transmit) until it returns no frame, then
+/// wait for the next frame or for [`poll_timeout`](Self::poll_timeout), whichever is first. The
+/// [documentation of the crate](crate) shows the loop.
 pub struct Node<D: Device, A = NoApplication, S = NoStorage> {
     machines: Machines<D>,
     values: D::Values,
@@ -67,27 +68,27 @@ pub struct Node<D: Device, A = NoApplication, S = NoStorage> {
     pub storage: S,
 }
 
-/// The state of the node: NMT, deadlines, and what each service remembers.
+/// State of the node: NMT, deadlines, and the state of each service.
 struct Machines<D: Device> {
     state: State,
     powered: bool,
-    /// Nothing waits to be sent.
+    /// No frame waits to be sent.
     idle: bool,
     node_id: NodeId,
-    /// The node ID is FFh (CiA 305), and only LSS works. Not `configured`: a node without power is
-    /// all zeros, so that a static one takes no flash.
+    /// The node ID is FFh (CiA 305), and only LSS works. The flag is not named `configured`, so
+    /// that a node without power is all zeros and a static node takes no flash.
     unconfigured: bool,
-    /// The error behaviour requests a reset when the call is over.
+    /// The error behaviour requests a reset at the end of the call.
     reset_due: bool,
-    /// Heartbeat or guarding failed in this call, and 1029h:01 has not acted on it yet.
+    /// Heartbeat or guarding failed in this call, and 1029h:01 has not been carried out yet.
     lost: bool,
-    /// Result of the last look at the watched nodes.
+    /// Whether a monitored node was lost at the last check.
     was_lost: bool,
-    /// A TPDO is sent when a mapped value changes.
+    /// At least one TPDO is sent when a mapped value changes.
     watches_changes: bool,
-    /// Such a value may change without notifying the node.
+    /// At least one such value may change without notifying the node.
     watches_live: bool,
-    /// The CAN-IDs that the node listens to may be others than those that the host knows.
+    /// The CAN-IDs that the node listens to may have changed since the host asked for them.
     wanted_changed: bool,
     /// CAN-IDs of SYNC, EMCY and TIME that were refused, as bits.
     refused: u8,
@@ -95,21 +96,22 @@ struct Machines<D: Device> {
     listeners: u16,
     /// Last report of the CAN controller, except overruns.
     bus: BusEvent,
-    /// Node ID of the first start, where the image keeps it ([`LssProfile::is_own`](crate::LssProfile::is_own)).
+    /// Node ID of the first start, if the saved values contain it
+    /// ([`LssProfile::is_own`](crate::LssProfile::is_own)).
     made_with: NodeId,
-    /// It was made without a node ID.
+    /// The node was made without a node ID.
     made_unconfigured: bool,
     now: Instant,
-    /// The first of all deadlines but those of frames that wait; [`Instant::ZERO`]: not known, and
-    /// [`Instant::MAX`]: never.
+    /// Earliest deadline, without those of waiting frames; [`Instant::ZERO`]: not computed,
+    /// [`Instant::MAX`]: none.
     next: Instant,
-    /// Boot-up is due then; only while initialising.
+    /// Time of the boot-up message; only while initialising.
     boot_at: Deadline,
     tick_at: Deadline,
     heartbeat: error_control::Producer,
-    /// Nothing is sent or received: LSS activates a bit rate, or the CAN controller is bus-off.
+    /// Time without frames: LSS activates a bit rate, or the CAN controller is bus-off.
     mute: Option<controller::Mute>,
-    /// `None`: 1005h has a CAN-ID that no service may have.
+    /// `None`: the CAN-ID in 1005h belongs to no service (restricted, or not valid).
     sync_id: Option<CanId>,
     sync_length: sync::Length,
     emcy: emcy::State,
@@ -117,10 +119,11 @@ struct Machines<D: Device> {
 }
 
 impl<D: Device, A, S> Node<D, A, S> {
-    /// A node without power. It starts with this node ID, unless the application or the saved
+    /// Makes a node without power. It starts with this node ID, unless the application or the saved
     /// values set another.
     ///
-    /// Does not compile where the dictionary of `D` has objects of a service that the device switched off.
+    /// Does not compile if the dictionary of `D` has objects of a service that the device switched
+    /// off.
     pub const fn new(device: D, node_id: NodeId, application: A, storage: S) -> Self {
         const { assert_served::<D>() };
         Self {
@@ -132,7 +135,7 @@ impl<D: Device, A, S> Node<D, A, S> {
         }
     }
 
-    /// Device, application and storage; the node ends.
+    /// Returns device, application and storage, and drops the node.
     pub fn into_parts(self) -> (D, A, S) {
         (self.device, self.application, self.storage)
     }
@@ -142,7 +145,7 @@ impl<D: Device, A, S> Node<D, A, S> {
         &self.device
     }
 
-    /// The device, to change what is known at run time only. Do it without power.
+    /// The device, to change facts that are known only at run time. Call this without power.
     pub const fn device_mut(&mut self) -> &mut D {
         &mut self.device
     }
@@ -162,9 +165,10 @@ impl<D: Device, A, S> Node<D, A, S> {
         self.machines.node_id
     }
 
-    /// Sets the node ID of the next power-on, unless the application or the saved values set another. A device of
-    /// [`LssProfile::CIA305`](crate::LssProfile::CIA305) has it while LSS has stored none. `None`: such a device is
-    /// not configured, and there is nothing but LSS until a master gives it a node ID.
+    /// Sets the node ID of the next power-on, unless the application or the saved values set
+    /// another. A device of [`LssProfile::CIA305`](crate::LssProfile::CIA305) uses it until LSS has
+    /// stored a node ID. `None`: such a device is not configured, and only LSS works until a master
+    /// gives it a node ID.
     pub const fn set_node_id(&mut self, node_id: Option<NodeId>) {
         let node = &mut self.machines;
         node.made_unconfigured = node_id.is_none();
@@ -177,24 +181,24 @@ impl<D: Device, A, S> Node<D, A, S> {
         }
     }
 
-    /// Returns whether the node has a node ID; without one it does nothing but LSS.
+    /// Returns whether the node has a node ID; without one only LSS works.
     pub const fn is_configured(&self) -> bool {
         !self.machines.unconfigured
     }
 
-    /// Returns whether the CAN controller is bus-off, as far as [`handle_bus`](Self::handle_bus)
-    /// reported it. Until it ends the node neither sends nor receives.
+    /// Returns whether the CAN controller is bus-off, as reported by
+    /// [`handle_bus`](Self::handle_bus). The node neither sends nor receives then.
     pub const fn is_bus_off(&self) -> bool {
         self.machines.is_bus_off()
     }
 
-    /// The current values, as [`Store`] lays them out.
+    /// The current values, in the layout of [`Store`].
     pub fn values(&self) -> &[u8] {
         self.values.bytes()
     }
 
-    /// Calls `act` with the application and the values; nothing is sent for what it changes
-    /// ([`change`](Self::change) does that).
+    /// Calls `act` with the application and the values. The node sends nothing for what `act`
+    /// changes; use [`change`](Self::change) for that.
     pub fn look<R>(&mut self, act: impl FnOnce(&mut A, &mut Store<'_>) -> R) -> R {
         let local;
         let dictionary = match &D::DICTIONARY {
@@ -209,15 +213,15 @@ impl<D: Device, A, S> Node<D, A, S> {
         act(&mut self.application, &mut store)
     }
 
-    /// The value of a handle.
+    /// The current value of a handle.
     pub fn get<T: Scalar, B, M>(&mut self, var: Var<T, B, M>) -> T {
         self.look(|_, store| store.get(var))
     }
 }
 
 impl<D: Device, A: Application, S: Storage> Node<D, A, S> {
-    /// Changes the application or values from the side of the device; event-driven TPDOs of what
-    /// changed follow at once.
+    /// Changes the application or values from the side of the device. Event-driven TPDOs of changed
+    /// values follow at once.
     pub fn change<R>(&mut self, now: Instant, act: impl FnOnce(&mut A, &mut Store<'_>) -> R) -> R {
         let result = self.look(act);
         self.handle_change(now);
@@ -234,10 +238,10 @@ impl<D: Device, A: Application, S: Storage> Node<D, A, S> {
         self.change(now, |_, store| store.set(var, value));
     }
 
-    /// The top of every call: the machines of the services, and the objects that they work on. `None` without
-    /// power.
+    /// Begins every call: takes the machines of the services, and the objects that they work on.
+    /// `None` without power.
     ///
-    /// A moment before the last one counts as the last one: time does not run backwards here.
+    /// A time before the last one counts as the last one: time does not run backwards.
     fn call<R>(
         &mut self,
         now: Instant,
@@ -354,19 +358,19 @@ impl<D: Device> Machines<D> {
         self.rooms.all_mut().frames.push(frame)
     }
 
-    /// Something for the host to know.
+    /// Queues an event for the host.
     fn event(&mut self, event: Event) {
         if D::EVENTS {
             self.rooms.all_mut().events.push(event);
         }
     }
 
-    /// Returns whether the node has started, and waits for LSS to give it a node ID.
+    /// Returns whether the node has started and waits for LSS to give it a node ID.
     fn is_unconfigured(&self) -> bool {
         self.unconfigured && !self.boot_at.is_set() && self.mute.is_none()
     }
 
-    /// The emergency producer.
+    /// The EMCY producer.
     fn emcy(&mut self) -> emcy::Producer<'_> {
         let rooms = self.rooms.all_mut();
         emcy::Producer {
@@ -376,7 +380,7 @@ impl<D: Device> Machines<D> {
         }
     }
 
-    /// The monitor of other nodes.
+    /// The monitor of other nodes: heartbeat and guarding.
     fn monitor(&mut self) -> error_control::Monitor<'_> {
         let rooms = self.rooms.all_mut();
         error_control::Monitor {
@@ -390,7 +394,8 @@ impl<D: Device> Machines<D> {
         if self.state == state {
             return;
         }
-        // Its LSS hears nothing outside Stopped, so it is in configuration there alone.
+        // This family handles LSS in Stopped only, so only there it can be in the configuration
+        // state.
         if D::LSS && objects.profile.lss.is_some_and(|lss| lss.stopped_only) {
             self.rooms
                 .all_mut()
@@ -426,7 +431,7 @@ impl<D: Device> Machines<D> {
         rooms.rpdos.iter_mut().for_each(|pdo| pdo.stop());
     }
 
-    /// Does something with each TPDO, and the array of all mapping entries.
+    /// Calls `act` with each TPDO and the array of all mapping entries.
     fn each_tpdo(&mut self, mut act: impl FnMut(&mut pdo::Tpdo, &[pdo::Mapped])) {
         let rooms = self.rooms.all_mut();
         for pdo in rooms.tpdos {

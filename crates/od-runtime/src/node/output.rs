@@ -13,8 +13,8 @@ use crate::rooms::{Rooms, Saving, Shared, Slices, Values};
 use crate::storage::Storage;
 
 impl<D: Device, A: Application, S: Storage> Node<D, A, S> {
-    /// Returns the next frame to send; `None` when all are out. `now` is the moment of the
-    /// input before it.
+    /// Returns the next frame to send, or `None` when all are sent. `now` is the time of the input
+    /// before it.
     pub fn poll_transmit(&mut self, now: Instant) -> Option<Frame> {
         let node = &mut self.machines;
         if node.idle {
@@ -24,7 +24,7 @@ impl<D: Device, A: Application, S: Storage> Node<D, A, S> {
             node.rooms.all_mut().frames.clear();
             return None;
         }
-        // Responses first, which need nothing of the device.
+        // Responses come first; they need no value of the device.
         if let Some(frame) = node.rooms.all_mut().frames.pop() {
             return Some(frame);
         }
@@ -36,7 +36,7 @@ impl<D: Device, A: Application, S: Storage> Node<D, A, S> {
         let frame = self.call(now, |node, objects| {
             let frame = node.next_frame(objects);
             if !objects.outbox.is_empty() {
-                // What the application reports about a value that it brought up to date.
+                // Handles reports of the application about live values that it brought up to date.
                 node.finish(objects);
             } else if frame.is_none() {
                 node.next = next;
@@ -53,8 +53,8 @@ impl<D: Device, A, S> Node<D, A, S> {
         !self.machines.idle
     }
 
-    /// Time when [`handle_timeout`](Self::handle_timeout) is to be called next; `None` if only a
-    /// frame or a change can give the node something to do.
+    /// Returns the time for the next call of [`handle_timeout`](Self::handle_timeout); `None`: the
+    /// node waits for a frame or a change.
     pub fn poll_timeout(&self) -> Option<Instant> {
         let node = &self.machines;
         if !node.powered {
@@ -75,7 +75,8 @@ impl<D: Device, A, S> Node<D, A, S> {
                 .iter()
                 .fold(first, |first, pdo| first.or(pdo.ready_at()));
         }
-        // A host that came to the end of time would be called back there for ever.
+        // `None` if no deadline is set: its moment is the last instant, at which the host would
+        // call without end.
         first.is_set().then(|| first.moment())
     }
 
@@ -87,7 +88,7 @@ impl<D: Device, A, S> Node<D, A, S> {
 }
 
 impl<D: Device> Machines<D> {
-    /// Returns whether something may wait that is not among the frames.
+    /// Returns whether a frame may wait that is not in the queue.
     fn may_transmit(&self) -> bool {
         let Shared {
             tpdos,
@@ -101,8 +102,8 @@ impl<D: Device> Machines<D> {
                 || D::BLOCK && servers.iter().any(|server| server.is_sending()))
     }
 
-    /// The next frame that a service makes when there is room for it: a PDO, an EMCY message, a segment of a
-    /// block upload.
+    /// Makes the next frame that waits for room: a PDO, an EMCY message, or a segment of a block
+    /// upload.
     fn next_frame(&mut self, objects: &mut Objects<'_, D>) -> Option<Frame> {
         let Slices { tpdos, mapped, .. } = self.rooms.all_mut();
         if let Some(pdo) = tpdos.iter_mut().find(|pdo| pdo.is_ready(objects.now)) {
@@ -118,22 +119,23 @@ impl<D: Device> Machines<D> {
         self.next_segment(objects)
     }
 
-    /// Boot-up message, heartbeat and response to guarding: one byte under 700h + node ID.
+    /// Queues a boot-up message, a heartbeat or a response to guarding: one byte with CAN-ID 700h +
+    /// node ID.
     pub(super) fn push_error_control(&mut self, byte: u8) {
         self.push(Frame::of(self.node_id.plus(0x700), &[byte]));
     }
 
-    /// EMCYs wait for the boot-up message, and for the end of Stopped.
+    /// Returns whether EMCY messages can be sent: after the boot-up message and not in Stopped.
     pub(super) fn sends_emcy(&self) -> bool {
         matches!(self.state, State::PreOperational | State::Operational) && self.mute.is_none()
     }
 
-    /// PDOs are sent in Operational.
+    /// Returns whether PDOs can be sent: in Operational.
     fn sends_pdos(&self) -> bool {
         self.state == State::Operational && self.mute.is_none()
     }
 
-    /// The first deadline of all that is not a frame that waits.
+    /// Returns the earliest deadline, without those of waiting frames.
     pub(super) fn timers(&self, save_due: Deadline) -> Deadline {
         let Shared {
             tpdos,
@@ -171,7 +173,7 @@ impl<D: Device> Machines<D> {
     }
 }
 
-/// Time when the save that goes on is complete.
+/// Returns the time when the current save is complete.
 fn save_due(values: &impl Values) -> Deadline {
     values.saving().map_or(Deadline::NEVER, Saving::due)
 }

@@ -9,14 +9,14 @@ use crate::objects::Objects;
 use crate::rooms::{Rooms, Slices};
 use crate::sdo::Server;
 
-/// The object of the second server.
+/// Index of the second server.
 const FURTHER: u16 = 0x1201;
 
 /// Abort code for a value that another server streams.
 const TAKEN: AbortCode = AbortCode::DeviceState;
 
 impl<D: Device> Machines<D> {
-    /// The server at a position, with its buffer.
+    /// Returns a server by its position, with its buffer.
     fn server(&mut self, at: usize) -> Option<Server<'_, D>> {
         let Slices {
             servers, buffers, ..
@@ -34,8 +34,8 @@ impl<D: Device> Machines<D> {
         }
     }
 
-    /// Reads the COB-IDs again; a server that has another channel forgets its transfer.
-    /// `senders` are the CAN-IDs by which services send that come before the servers.
+    /// Reads the COB-IDs again; a server with a changed channel drops its transfer. `senders` are
+    /// the CAN-IDs of services that have priority over the servers.
     pub(super) fn configure_servers(
         &mut self,
         objects: &mut Objects<'_, D>,
@@ -66,7 +66,8 @@ impl<D: Device> Machines<D> {
         }
     }
 
-    /// COB-IDs that were assigned dynamically (bit 30) become their defaults again, also saved ones.
+    /// Restores the defaults of COB-IDs that were assigned dynamically (bit 30), also of saved
+    /// ones.
     pub(super) fn forget_dynamic(objects: &mut Objects<'_, D>) {
         if !D::SERVERS {
             return;
@@ -82,8 +83,8 @@ impl<D: Device> Machines<D> {
         }
     }
 
-    /// A request for the server at a position. What it commands is carried out here: nothing is as deep in the
-    /// stack as a save.
+    /// Handles a request for a server. Commands such as a save are carried out here, because they
+    /// need the most stack.
     pub(super) fn handle_sdo(&mut self, objects: &mut Objects<'_, D>, at: usize, frame: &Frame) {
         let data = frame.bytes();
         if self.is_streamed(data, at) {
@@ -107,7 +108,7 @@ impl<D: Device> Machines<D> {
         }
     }
 
-    /// The response that waited for the end of a command.
+    /// Sends the response that waited for the end of a command.
     fn respond_late(&mut self, objects: &mut Objects<'_, D>, at: usize, done: bool) {
         if let Some(mut server) = self.server(at) {
             let response = server.finish(objects, done);
@@ -115,7 +116,7 @@ impl<D: Device> Machines<D> {
         }
     }
 
-    /// Queues a response of the server at a position.
+    /// Queues a response of a server.
     fn respond(&mut self, at: usize, response: Option<[u8; 8]>) {
         let Slices {
             servers, frames, ..
@@ -127,8 +128,8 @@ impl<D: Device> Machines<D> {
         }
     }
 
-    /// Returns whether a request begins a transfer of a value that another server streams to or from the
-    /// application: a stream is one for all of them.
+    /// Returns whether a request begins a transfer of a value that another server streams. A stream
+    /// serves one server at a time.
     fn is_streamed(&self, data: &[u8; 8], by: usize) -> bool {
         if !(D::STREAMS && D::SERVERS) {
             return false;
@@ -145,7 +146,7 @@ impl<D: Device> Machines<D> {
         others.any(|(_, one)| one.streamed() == address)
     }
 
-    /// All transfers end without a message to the clients.
+    /// Ends all transfers without a message to the clients.
     pub(super) fn cut_transfers(&mut self, objects: &mut Objects<'_, D>) {
         for at in 0..self.server_count() {
             if let Some(mut server) = self.server(at) {
@@ -154,14 +155,15 @@ impl<D: Device> Machines<D> {
         }
     }
 
-    /// As [`cut_transfers`](Self::cut_transfers), without telling the application.
+    /// Ends all transfers as [`cut_transfers`](Self::cut_transfers) does, without telling the
+    /// application.
     pub(super) fn forget_transfers(&mut self) {
         for server in self.rooms.all_mut().servers {
             server.forget();
         }
     }
 
-    /// Continues transfers that are due; after a change outside the bus also streams that were held up.
+    /// Continues transfers that are due; after a change outside the bus also paused streams.
     pub(super) fn wake_servers(&mut self, objects: &mut Objects<'_, D>, is_change: bool) {
         if !(D::BLOCK || D::STREAMS) {
             return;
@@ -179,7 +181,7 @@ impl<D: Device> Machines<D> {
         }
     }
 
-    /// A save that took its time is complete: its client gets the response, and the request behind it is
+    /// Ends a save with a duration: its client gets the response, and the request that waited is
     /// handled.
     pub(super) fn end_save(&mut self, objects: &mut Objects<'_, D>) {
         let Some(done) = objects.complete_save() else {
@@ -203,7 +205,7 @@ impl<D: Device> Machines<D> {
         }
     }
 
-    /// The next segment of a block upload (CiA 301, chapter 7.2.4.3.14).
+    /// Makes the next segment of a block upload (CiA 301, chapter 7.2.4.3.14).
     pub(super) fn next_segment(&mut self, objects: &mut Objects<'_, D>) -> Option<Frame> {
         if !D::BLOCK {
             return None;

@@ -4,7 +4,7 @@ use crate::blank::Blank;
 use crate::deadline::Deadline;
 use crate::storage::image::Banks;
 
-/// No sub-index of 1010h that saves.
+/// Marks a restore in the place of a sub-index of 1010h.
 pub(super) const RESTORE: u8 = u8::MAX;
 
 /// Command of a download, with the sub-index of 1010h or 1011h. `Nothing` is all zeros.
@@ -20,21 +20,22 @@ pub(super) enum Command {
 /// Command of the device itself: saves the operating records only.
 pub(super) const KEEP: Command = Command::Save(0);
 
-/// A save, which outlasts the call if it takes its time. A node without power has none, which is all zeros.
+/// A save in progress, which can last longer than a call. A node without power has none, which is
+/// all zeros.
 #[derive(Clone, Debug)]
 pub struct Saving {
     pub(super) command: Command,
-    /// While a save goes on, the set that waits for its commit word; without one all is written, and on its
-    /// way to the memory that keeps it.
+    /// While a save is in progress: the set that waits for its commit word. If no set waits,
+    /// everything is written, and the memory has not confirmed it yet.
     pub(super) banks: Banks,
-    /// Sub-index of 1010h; [`RESTORE`]: it is a restore, which was reported.
+    /// Sub-index of 1010h; [`RESTORE`]: a restore, whose event was sent already.
     pub(super) sub: u8,
-    /// It is complete then; never without one.
+    /// Time when the save is complete; never without a save.
     pub(super) due: Deadline,
 }
 
 impl Saving {
-    /// Time when it is complete; never without one.
+    /// Time when the save is complete; never without a save.
     pub(crate) const fn due(&self) -> Deadline {
         self.due
     }

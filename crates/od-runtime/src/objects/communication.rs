@@ -11,7 +11,7 @@ use crate::store::Store;
 use crate::sync;
 use od_wire::{AbortCode, CobId};
 
-/// The signature that a write to 1010h or 1011h has to carry, in the order of the bus.
+/// Signature that a download to 1010h or 1011h must contain, in the byte order of the bus.
 pub(super) fn command(address: Address) -> Option<[u8; 4]> {
     match address {
         Address {
@@ -26,13 +26,12 @@ pub(super) fn command(address: Address) -> Option<[u8; 4]> {
     }
 }
 
-/// Returns whether it is the number of objects that a PDO maps.
+/// Returns whether the address is the number of mapped objects of a PDO.
 pub(super) const fn is_mapping_count(address: Address) -> bool {
     matches!(address.index, 0x1600..=0x17FF | 0x1A00..=0x1BFF) && address.sub == 0
 }
 
-/// Checks a value that a master wants to write to an object below 2000h. `bytes` has the
-/// entry's length.
+/// Checks a value that a master writes to an object below 2000h. `bytes` has the entry's length.
 pub(super) fn check<D: Services>(
     store: &Store<'_>,
     profile: &Profile,
@@ -40,7 +39,7 @@ pub(super) fn check<D: Services>(
     bytes: &[u8],
 ) -> Result<(), AbortCode> {
     let Address { index, sub } = row.address();
-    // What is longer than a word (of another dictionary) is too great.
+    // A value longer than a word (in another dictionary) is too great.
     let value = u32::try_from(number_in(bytes)).unwrap_or(u32::MAX);
     let check_cob_id = |has_valid_bit| check_cob_id(store, profile, row, value, has_valid_bit);
     let allow = |is_allowed| {
@@ -50,8 +49,8 @@ pub(super) fn check<D: Services>(
             Err(AbortCode::ValueRange)
         }
     };
-    // Each index has one arm, and what the device lacks is asked for in it: as a guard it would lead on to
-    // all arms below.
+    // Each index has one arm, which asks itself whether the device has the object. As a guard, the
+    // question would make the compiler generate code for all arms below.
     match (index, sub) {
         // Writing 0 clears the log; nothing else may be written (chapter 7.5.2.4).
         (0x1003, 0) => allow(!const { may_have::<D>(0x1003, 0x1003, None) } || value == 0),
@@ -71,14 +70,14 @@ pub(super) fn check<D: Services>(
         (0x1019, 0) => {
             if const { may_have::<D>(0x1019, 0x1019, None) } {
                 allow(sync::is_overflow(value as u8))?;
-                // a SYNC may be in transmission (chapter 7.5.2.22).
+                // A SYNC may be in transmission (chapter 7.5.2.22).
                 if store.unsigned(0x1006, 0) != 0 {
                     return Err(AbortCode::DeviceState);
                 }
             }
             Ok(())
         }
-        // A node has one heartbeat time (chapter 7.5.2.13).
+        // A node can be in one entry only (chapter 7.5.2.13).
         (0x1016, 1..) => {
             if D::CONSUMER && is_watched_elsewhere(store, sub, value) {
                 Err(AbortCode::Incompatible)
@@ -86,7 +85,7 @@ pub(super) fn check<D: Services>(
                 Ok(())
             }
         }
-        // CiA 301 reserves 03h to 7Fh; the bus covers have a meaning for 03h (chapter 7.5.2.32).
+        // CiA 301 reserves 03h to 7Fh; the bus-cover family uses 03h (chapter 7.5.2.32).
         (0x1029, 1..) => allow(!D::BEHAVIOUR || !matches!(value, 4..=0x7F)),
         (0x1014, 0) => check_cob_id(true),
         // An SDO exists while both COB-IDs are valid (chapter 7.5.2.33).
@@ -125,7 +124,7 @@ pub(super) fn check<D: Services>(
     }
 }
 
-/// A value of a mapping object: the count, or an entry.
+/// Checks a value of a mapping object: the number of entries, or an entry.
 fn check_mapping(
     store: &Store<'_>,
     profile: &Profile,
@@ -138,7 +137,7 @@ fn check_mapping(
     if store.word(index, 0, 0) != 0 {
         return Err(profile.sdo.mapping_in_use);
     }
-    // An entry that maps nothing can be written; it cannot be counted.
+    // A mapping entry of 0 can be written, but sub-index 0 cannot count it.
     match value {
         0 => Ok(()),
         _ => check_mapped(store, index, value),
@@ -149,12 +148,12 @@ fn check_mapping(
 const PRODUCER: u32 = 1 << 30;
 const CONSUMER: u32 = 1 << 31;
 
-/// Returns whether the device can produce SYNC: it has the period, too.
+/// Returns whether the device can produce SYNC: it needs a period (1006h).
 fn produces_sync<D: Services>(store: &Store<'_>) -> bool {
     D::SYNC_PRODUCER && store.try_word(0x1006, 0).is_some()
 }
 
-/// Returns whether the mapping of a PDO may change.
+/// Returns whether the mapping of a PDO can change.
 const fn can_map<D: Services>() -> bool {
     may_change::<D>(0x1600, 0x17FF) || may_change::<D>(0x1A00, 0x1BFF)
 }
@@ -165,7 +164,7 @@ fn is_in_use(store: &Store<'_>, index: u16, new: u32, bits: u32) -> bool {
     old & bits != 0 && new & bits != 0 && (old ^ new) & 0x3FFF_FFFF != 0
 }
 
-/// Returns whether another sub-index of 1016h than `sub` has a time for the node of `value`, which has one.
+/// Returns whether another sub-index of 1016h than `sub` monitors the node of `value`.
 fn is_watched_elsewhere(store: &Store<'_>, sub: u8, value: u32) -> bool {
     let (node, time) = (value >> 16 & 0xFF, value & 0xFFFF);
     let mut others = (1..0x80).filter(|other| *other != sub);
@@ -176,8 +175,8 @@ fn is_watched_elsewhere(store: &Store<'_>, sub: u8, value: u32) -> bool {
     time != 0 && (1..=127).contains(&node) && others.any(same)
 }
 
-/// A COB-ID: its bits agree, it is not one that CiA 301 keeps for itself, and it
-/// changes only while bit 31 is set (unless the family allows more).
+/// Checks a COB-ID: its bits are consistent, CiA 301 does not restrict the CAN-ID, and it changes
+/// only while bit 31 is set (unless the family allows more).
 fn check_cob_id(
     store: &Store<'_>,
     profile: &Profile,
@@ -197,13 +196,13 @@ fn check_cob_id(
     Ok(())
 }
 
-/// Returns whether the PDO of a communication parameter exists (bit 31 of its COB-ID clear).
+/// Returns whether the PDO of a communication parameter is valid (bit 31 of its COB-ID is 0).
 fn is_valid(store: &Store<'_>, parameter: u16) -> bool {
     CobId::new(store.word(parameter, 1, 1 << 31)).is_valid()
 }
 
-/// Sub-index 0 of a mapping: 0 switches it off, a count needs that many entries that
-/// exist, can be mapped, and together fit into a frame (chapter 7.5.2.36).
+/// Checks sub-index 0 of a mapping: 0 disables the mapping; a higher value needs as many entries
+/// that exist, can be mapped, and together fit into a frame (chapter 7.5.2.36).
 fn check_mapping_count(store: &Store<'_>, index: u16, count: u32) -> Result<(), AbortCode> {
     let mut bits = 0;
     for sub in 1..count.min(0xFF) + 1 {
@@ -218,8 +217,8 @@ fn check_mapping_count(store: &Store<'_>, index: u16, count: u32) -> Result<(), 
     Ok(())
 }
 
-/// One entry of the mapping object at `index`: what it names exists, can be mapped in this
-/// direction, and is named with its own length. An RPDO may skip over the dummies 0001h–0007h.
+/// Checks one entry of the mapping object at `index`: the mapped object exists, can be mapped in
+/// this direction, and the length is its own. An RPDO may map the dummies 0001h to 0007h.
 pub(crate) fn check_mapped(store: &Store<'_>, index: u16, raw: u32) -> Result<(), AbortCode> {
     let mapped = MapEntry::parse(raw);
     let transmits = index >= 0x1A00;
@@ -259,7 +258,7 @@ mod tests {
     use crate::services::tests::{AnyDevice, Known, Rich};
 
     #[test]
-    fn one_mapping_that_can_change_is_enough() {
+    fn one_changeable_mapping_is_enough() {
         assert!(can_map::<AnyDevice>());
         assert!(can_map::<Known>());
         assert!(!can_map::<Rich>());

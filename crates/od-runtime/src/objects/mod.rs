@@ -1,4 +1,4 @@
-//! The one way to read and write an object: SDO server and RPDOs come through here.
+//! The one way to read and write an object, for SDO server and RPDOs.
 
 pub(crate) mod command;
 mod communication;
@@ -23,7 +23,7 @@ use outbox::{Outbox, live_bit};
 
 pub(crate) use communication::check_mapped;
 
-/// Reason why [`Objects::read`] has no bytes.
+/// Reason why [`Objects::read`] returns no bytes.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Unread {
     Abort(AbortCode),
@@ -37,7 +37,7 @@ impl From<AbortCode> for Unread {
     }
 }
 
-/// The device for the length of one call, with what the services add.
+/// Parts of the device during one call, with the requests of the services.
 pub(crate) struct Objects<'c, D> {
     pub(crate) device: PhantomData<D>,
     pub(crate) store: Store<'c>,
@@ -47,15 +47,15 @@ pub(crate) struct Objects<'c, D> {
     pub(crate) profile: &'c Profile,
     pub(crate) now: Instant,
     pub(crate) outbox: &'c mut Outbox,
-    /// A save; a device without storage has no room for one.
+    /// A save in progress; `None`: the device has no storage.
     pub(crate) saving: Option<&'c mut Saving>,
 }
 
 impl<'c, D: Services> Objects<'c, D> {
-    /// The device may have a log of its errors.
+    /// Whether the device may have an error history (1003h).
     pub(crate) const HAS_LOG: bool = may_have::<D>(0x1003, 0x1003, None);
 
-    /// The device may have values whose length varies.
+    /// Whether the device may have values of variable length.
     const VARIES: bool = match &D::DICTIONARY {
         Some(dictionary) => dictionary.varying().is_some(),
         None => true,
@@ -85,8 +85,8 @@ impl<'c, D: Services> Objects<'c, D> {
         self.store.row(address)
     }
 
-    /// The bytes of a readable object, brought up to date. `number` is room for a
-    /// value that is not in the store.
+    /// Returns the bytes of a readable object, brought up to date. `number` is memory for a value
+    /// that is not in the store.
     pub(crate) fn read<'b>(
         &'b mut self,
         address: Address,
@@ -104,7 +104,7 @@ impl<'c, D: Services> Objects<'c, D> {
         Ok(self.store.value(row, number))
     }
 
-    /// Returns whether a value that is not plain (a number in the store) can be read from the store.
+    /// Returns whether a value can be read from the store although it is not a plain number.
     fn check_special(&mut self, row: &Row) -> Result<(), Unread> {
         if !row.readable() {
             return Err(Unread::Abort(AbortCode::WriteOnly));
@@ -132,13 +132,13 @@ impl<'c, D: Services> Objects<'c, D> {
         })
     }
 
-    /// A stream took all of a value.
+    /// Notes that a stream received a complete value.
     pub(crate) fn streamed(&mut self, address: Address) {
         self.outbox.written(address);
     }
 
-    /// The application resets, and says which values are live. The communication area is the services' own;
-    /// nothing in it is.
+    /// Resets the application, and asks which values are live. Objects of the communication area
+    /// belong to the services and are never live.
     pub(crate) fn restart(&mut self, reset: Reset) {
         self.application(|application, context| application.reset(context, reset));
         let rows = self.store.dictionary().rows().iter();
@@ -152,7 +152,7 @@ impl<'c, D: Services> Objects<'c, D> {
         self.outbox.is_live(address)
     }
 
-    /// Has the application bring a live value up to date.
+    /// Lets the application bring a live value up to date.
     pub(crate) fn refresh(&mut self, address: Address) -> Result<(), AbortCode> {
         if self.is_live(address) {
             self.refresh_live(address)
@@ -175,7 +175,7 @@ impl<'c, D: Services> Objects<'c, D> {
         }
     }
 
-    /// Returns how many of `len` bytes the value accepts.
+    /// Returns how many of `len` bytes are used for the value.
     pub(crate) fn fit(&self, row: &Row, len: usize) -> Result<usize, AbortCode> {
         let rule = &self.profile.sdo.length;
         let (low, high) = match row.size() {
@@ -194,15 +194,16 @@ impl<'c, D: Services> Objects<'c, D> {
         }
     }
 
-    /// Writes an object with everything that belongs to it: access, length, limits, the
-    /// services' and the application's rules, then the value, then what follows from it. A save or
-    /// restore is only [commanded](Self::carry_out).
+    /// Writes an object after all checks: access, length, limits, the rules of the services and of
+    /// the application. Then it stores the value and notes its effects. A save or restore is only
+    /// noted; [`carry_out`](Self::carry_out) executes it.
     pub(crate) fn write(&mut self, address: Address, bytes: &[u8]) -> Result<(), AbortCode> {
         let row = self.writable(address)?;
         self.change(row, bytes)
     }
 
-    /// Writes an object from the side of the device: as [`write`](Self::write), but for the access.
+    /// Writes an object from the side of the device: as [`write`](Self::write), but without the
+    /// check of the access type.
     pub(crate) fn set(&mut self, address: Address, bytes: &[u8]) -> Result<(), AbortCode> {
         let row = self.row(address)?;
         self.change(row, bytes)?;
@@ -212,7 +213,7 @@ impl<'c, D: Services> Objects<'c, D> {
         }
     }
 
-    /// Writes a value of which it is known that it may be written, as [`write`](Self::write) does.
+    /// Writes a value whose access was checked, as [`write`](Self::write) does.
     pub(crate) fn change(&mut self, row: &Row, bytes: &[u8]) -> Result<(), AbortCode> {
         let address = row.address();
         let len = self.fit(row, bytes.len())?;
@@ -244,7 +245,7 @@ impl<'c, D: Services> Objects<'c, D> {
     /// Returns the abort code for a value outside its limits.
     fn refusal(&self, address: Address, outside: Outside) -> AbortCode {
         match outside {
-            // More objects than a mapping has room for are too many, not too great a number.
+            // A number of mapped objects above the limit has an abort code of its own.
             Outside::Above if communication::is_mapping_count(address) => AbortCode::PdoTooLong,
             Outside::Above => AbortCode::ValueTooHigh,
             Outside::Below => self.profile.sdo.below_limit,
@@ -253,7 +254,7 @@ impl<'c, D: Services> Objects<'c, D> {
         }
     }
 
-    /// Reading an entry of 1003h that holds no error.
+    /// Result of reading an entry of 1003h that contains no error.
     fn unused_error(&self, address: Address) -> Result<(), AbortCode> {
         match self.profile.sdo.unused_error {
             Some(code) if u32::from(address.sub) > self.store.word(0x1003, 0, 0) => Err(code),

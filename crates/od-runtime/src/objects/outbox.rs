@@ -9,7 +9,8 @@ use crate::fifo::Fifo;
 /// Effect of a write on the services.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub(crate) enum Effect {
-    /// The object at this address has a new value. Not an `Address`, for the sake of two bytes.
+    /// The object at this address has a new value. Two numbers take two bytes less than an
+    /// `Address`.
     Written {
         /// Index.
         index: u16,
@@ -18,33 +19,32 @@ pub(crate) enum Effect {
     },
     /// 1010h: these groups were saved (sub-index).
     Saved(u8),
-    /// A save that had begun failed at its end.
+    /// A save failed after it had begun.
     NotSaved,
     /// 1011h: these groups were restored (sub-index), at once or at the next reset.
     Restored(u8),
 }
 
-/// The node's part of `Objects`: filled while a call has the device, emptied
-/// before it returns.
+/// Effects of a call, collected while `Objects` has the parts of the device, and carried out before
+/// the call returns.
 #[derive(Clone, Debug)]
 pub struct Outbox<Q: ?Sized = [Change]> {
     /// Objects that were written: one by an SDO, up to 64 by an RPDO.
     pub(crate) effects: Fifo<[Effect; 8]>,
-    /// More was written than `effects` could hold.
+    /// More objects were written than `effects` can hold.
     pub(crate) overflow: bool,
-    /// A set of live values that may name a few others, too: bits by [`live_bit`].
+    /// Set of the live values, as bits of [`live_bit`]; it may contain further addresses.
     pub(crate) live: u32,
     /// The application's requests.
     pub(crate) signals: Signals<Q>,
 }
 
-/// Returns whether the application may have to bring the value at an address up to date, by the set of live
-/// values.
+/// Returns whether the value at an address may be live, by this set.
 pub(crate) const fn is_live(live: u32, address: Address) -> bool {
     address.index >= 0x2000 && live & live_bit(address) != 0
 }
 
-/// An address as one of 32 bits: neighbours have different ones.
+/// Maps an address to one of 32 bits; neighbours have different bits.
 pub(super) const fn live_bit(address: Address) -> u32 {
     1 << (address.index & 31)
 }
@@ -67,7 +67,7 @@ impl Outbox {
         self.effects.is_empty() && self.signals.is_idle()
     }
 
-    /// The objects that were written, and what else has effects.
+    /// The written objects, and other effects.
     pub(crate) fn effects(&mut self) -> &mut Fifo<[Effect]> {
         &mut self.effects
     }
@@ -82,7 +82,7 @@ impl Outbox {
 }
 
 impl<Q: ?Sized> Outbox<Q> {
-    /// Returns whether the application may have to bring the value at an address up to date.
+    /// Returns whether the value at an address may be live.
     pub(crate) const fn is_live(&self, address: Address) -> bool {
         is_live(self.live, address)
     }
@@ -93,7 +93,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_set_names_its_addresses_and_none_of_the_services() {
+    fn a_set_contains_its_addresses_and_no_communication_object() {
         let address = Address::new(0x2000, 0);
         let bit = live_bit(address);
         assert_eq!(bit.count_ones(), 1);
@@ -116,7 +116,7 @@ mod tests {
     }
 
     #[test]
-    fn what_has_no_room_is_told() {
+    fn an_overflow_is_noted() {
         let mut full = Outbox::new([Change::NONE; 1]);
         let outbox: &mut Outbox = &mut full;
         assert!(outbox.is_empty());

@@ -1,5 +1,5 @@
-//! Saving and restoring (1010h, 1011h). A download is a command, which is carried out when the service that
-//! received it is done: that is as deep as the stack gets.
+//! Saving and restoring (1010h, 1011h). A download only notes a command. The node carries it out
+//! after the service has returned, because a save needs more stack than anything else.
 
 use od_model::Address;
 use od_model::row::Row;
@@ -19,13 +19,13 @@ use crate::storage::image::{self, Banks, Loaded, Medium, Plan};
 const ASK_AGAIN_US: u32 = 2_000;
 
 impl<D: Services> Objects<'_, D> {
-    /// The [device](image::device) whose values are saved, as far as the compiler knows it.
+    /// The [device](image::device) number of the values, if the compiler knows it.
     const DEVICE: Option<u32> = match &D::DICTIONARY {
         Some(dictionary) => Some(image::device(dictionary)),
         None => None,
     };
 
-    /// There are operating records, as far as the compiler knows.
+    /// Whether there are operating records, if the compiler knows it.
     const HAS_LIFE_RECORD: bool = match &D::DICTIONARY {
         Some(dictionary) => {
             let mut rest = dictionary.rows();
@@ -39,7 +39,7 @@ impl<D: Services> Objects<'_, D> {
         None => true,
     };
 
-    /// The [device](image::device) whose values are saved.
+    /// The [device](image::device) number of the values.
     #[inline]
     pub(crate) fn device(&self) -> u32 {
         match Self::DEVICE {
@@ -48,8 +48,8 @@ impl<D: Services> Objects<'_, D> {
         }
     }
 
-    /// Puts saved values over those of the store, for the entries that `which` names; no save goes on.
-    /// A storage that cannot be read is damaged.
+    /// Loads the saved values of the entries for which `which` is true into the store. No save may
+    /// be in progress. A storage that cannot be read counts as damaged.
     pub(crate) fn load(&mut self, which: &dyn Fn(&Row) -> bool) -> Loaded {
         let (device, profile) = (self.device(), &self.profile.store);
         let Some(saving) = &mut self.saving else {
@@ -62,7 +62,8 @@ impl<D: Services> Objects<'_, D> {
         loaded.unwrap_or(Loaded::Damaged)
     }
 
-    /// 1010h and 1011h: the signature is the value, and nothing is kept of it.
+    /// Notes the command of a download to 1010h or 1011h: the value must be the signature, and is
+    /// not stored.
     pub(super) fn command(
         &mut self,
         address: Address,
@@ -81,14 +82,14 @@ impl<D: Services> Objects<'_, D> {
         Ok(())
     }
 
-    /// Returns whether there is something to [carry out](Self::carry_out).
+    /// Returns whether there is a command to [carry out](Self::carry_out).
     pub(crate) fn is_commanded(&self) -> bool {
         let saving = self.saving.as_ref();
         D::STORAGE && saving.is_some_and(|saving| saving.command != Command::None)
     }
 
-    /// Carries out what was commanded: `Some(false)` where it failed, `None` if nothing was, or its end
-    /// is to be waited for.
+    /// Carries out the command. Returns `Some(false)` if it failed, `None` if there was no command
+    /// or it is not complete yet.
     #[inline]
     pub(crate) fn carry_out(&mut self) -> Option<bool> {
         let saving = self.saving.as_mut().filter(|_| D::STORAGE)?;
@@ -98,15 +99,16 @@ impl<D: Services> Objects<'_, D> {
         }
     }
 
-    /// Saves the operating records, unless a save goes on, which has them. Returns whether that failed.
+    /// Saves the operating records, unless a save is in progress, which includes them. Returns
+    /// whether that failed.
     pub(crate) fn keep(&mut self) -> bool {
         !self.is_saving() && self.execute(KEEP) == Some(false)
     }
 
-    /// A command, in parts each of which takes much of a small stack.
+    /// Executes a command, in several functions that each need much of a small stack.
     fn execute(&mut self, command: Command) -> Option<bool> {
         if command != KEEP {
-            // What a save writes in the background is there before anything follows.
+            // A save in the background must be complete before this one begins.
             self.complete_save();
         }
         if let Command::Save(_) = command {
@@ -121,7 +123,7 @@ impl<D: Services> Objects<'_, D> {
         }
     }
 
-    /// The operating records: they are saved, or will be, and only a failure is reported.
+    /// Ends a save of the operating records. Only a failure is reported.
     fn kept(&mut self) -> bool {
         let is_done = self.commit();
         if self.storage.is_writing() {
@@ -130,7 +132,7 @@ impl<D: Services> Objects<'_, D> {
         is_done
     }
 
-    /// The set that a command makes is written, but for its commit word. Returns whether that is done.
+    /// Writes the set of a command, except its commit word. Returns whether that succeeded.
     fn begin(&mut self, command: Command) -> bool {
         let (device, profile) = (self.device(), &self.profile.store);
         let Some(saving) = &mut self.saving else {
@@ -168,14 +170,14 @@ impl<D: Services> Objects<'_, D> {
         begun.is_ok()
     }
 
-    /// The values of this moment are to be saved.
+    /// Prepares the current values for a save.
     fn prepare(&mut self, command: Command) {
         self.refresh_life_record();
         if command != KEEP {
             self.tell(true);
         }
     }
-    /// 1010h: complete at once or in a while.
+    /// Ends 1010h, at once or after the duration of a save.
     fn saved(&mut self, sub: u8, begun: bool) -> Option<bool> {
         self.tell(false);
         self.saving.as_mut()?.sub = sub;
@@ -187,12 +189,12 @@ impl<D: Services> Objects<'_, D> {
         self.end_save(begun)
     }
 
-    /// The application hears that its values are about to be saved, and that they have been read.
+    /// Tells the application that its values will be saved, or that they have been read.
     fn tell(&mut self, begins: bool) {
         self.application(|application, context| application.saving(context, begins));
     }
 
-    /// 1011h: at once, or at the next reset.
+    /// Ends 1011h: the defaults apply at once, or at the next reset.
     fn restored(&mut self, sub: u8, begun: bool) -> Option<bool> {
         if !(begun && self.commit()) {
             return Some(false);
@@ -212,7 +214,7 @@ impl<D: Services> Objects<'_, D> {
         Some(true)
     }
 
-    /// Writes the commit word, if a set waits for it. Returns whether that is done.
+    /// Writes the commit word, if a set waits for it. Returns whether that succeeded.
     fn commit(&mut self) -> bool {
         let saving = self.saving.as_mut();
         saving.is_some_and(|saving| {
@@ -221,8 +223,8 @@ impl<D: Services> Objects<'_, D> {
         })
     }
 
-    /// Ends a save that goes on, if there is one; `Some(false)` where it failed, `None` while the
-    /// memory is still writing.
+    /// Ends the save in progress, if there is one. Returns `Some(false)` if it failed, `None` while
+    /// the memory is still writing.
     pub(crate) fn complete_save(&mut self) -> Option<bool> {
         if self.is_saving() {
             self.end_save(true)
@@ -231,7 +233,7 @@ impl<D: Services> Objects<'_, D> {
         }
     }
 
-    /// The end of a save of which all but the commit word is written; else it failed.
+    /// Ends a save. `begun`: all is written except the commit word; otherwise the save failed.
     fn end_save(&mut self, begun: bool) -> Option<bool> {
         self.forget_save();
         let saving = self.saving.as_mut()?;
@@ -253,7 +255,7 @@ impl<D: Services> Objects<'_, D> {
         Some(done)
     }
 
-    /// All is written to RAM, and the memory that keeps it has not confirmed it yet.
+    /// Waits for the memory, which has not confirmed the written bytes yet.
     fn await_memory(&mut self, sub: u8) {
         if let Some(saving) = &mut self.saving {
             saving.sub = sub;
@@ -267,26 +269,26 @@ impl<D: Services> Objects<'_, D> {
         }
     }
 
-    /// Returns whether a save goes on.
+    /// Returns whether a save is in progress.
     fn is_saving(&self) -> bool {
         let saving = self.saving.as_ref().filter(|_| D::STORAGE);
         saving.is_some_and(|saving| saving.due.is_set())
     }
 
-    /// Time when the save that goes on is complete.
+    /// Time when the save in progress is complete.
     pub(crate) fn save_due(&self) -> Deadline {
         let saving = self.saving.as_ref().filter(|_| D::STORAGE);
         saving.map_or(Deadline::NEVER, |saving| saving.due)
     }
 
-    /// Drops the save that is not complete.
+    /// Drops the save in progress.
     pub(crate) fn forget_save(&mut self) {
         if let Some(saving) = &mut self.saving {
             saving.due = Deadline::NEVER;
         }
     }
 
-    /// The application may report the end of an error that it found at the start.
+    /// Lets the application report the end of an error that it found at the start.
     fn storage_is_sound(&mut self) {
         self.application.storage_is(true);
         self.outbox.signals.wake();

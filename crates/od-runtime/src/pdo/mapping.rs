@@ -1,4 +1,5 @@
-//! Mapping of a PDO (CiA 301, objects 1600h to 17FFh and 1A00h to 1BFFh): resolved when it is configured.
+//! Mapping of a PDO (CiA 301, objects 1600h to 17FFh and 1A00h to 1BFFh), resolved when it is
+//! configured.
 
 use od_model::row::Row;
 use od_model::typed::MapEntry;
@@ -7,11 +8,11 @@ use crate::objects::{Objects, check_mapped};
 use crate::services::Services;
 use crate::store::Store;
 
-/// A mapped value: in the low 24 bits one more than the position of its row, 0 for bits that nothing
-/// reads, and above them its length in bits.
+/// A mapped value. The low 24 bits are 1 plus the position of its row, or 0 for dummy bits; the
+/// bits above are its length in bits.
 pub type Mapped = u32;
 
-/// The mapping of one PDO. Its entries are a part of an array that all PDOs share.
+/// Mapping of one PDO. Its entries are a part of an array that all PDOs share.
 #[derive(Clone, Debug)]
 pub(super) struct Mapping {
     object: u16,
@@ -20,7 +21,7 @@ pub(super) struct Mapping {
     count: u8,
     /// Length of the frame in bytes.
     len: u8,
-    /// The application brings one of the values up to date.
+    /// At least one of the values is live.
     is_live: bool,
 }
 
@@ -34,9 +35,9 @@ impl Mapping {
         is_live: false,
     };
 
-    /// Reads the mapping object at `object` into the places of `mapped` from `first` on. Returns whether it says
-    /// something else than before. An object that does not hold (an EDS that maps what does not exist) counts
-    /// as an empty one: the PDO is not valid.
+    /// Reads the mapping object at `object` into the places of `mapped` from `first` on. Returns
+    /// whether the mapping has changed. A mapping that is not valid (an EDS that maps a missing
+    /// object) counts as empty, so the PDO is not valid.
     pub(super) fn load<D: Services>(
         &mut self,
         objects: &Objects<'_, D>,
@@ -51,7 +52,7 @@ impl Mapping {
         (self.count, self.is_live) = (count, false);
         let mut places = mapped.get_mut(first..).unwrap_or_default().iter_mut();
         let mut bits = 0u32;
-        // 64 at most.
+        // At most 64.
         for sub in 1..count + 1 {
             let raw = store.word(object, sub, 0);
             let Some(place) = places
@@ -78,34 +79,34 @@ impl Mapping {
         changed
     }
 
-    /// Length of the frame in bytes; 0 where nothing is mapped.
+    /// Length of the frame in bytes; 0 if nothing is mapped.
     pub(super) fn len(&self) -> u8 {
         self.len
     }
 
-    /// Returns whether the application brings a mapped value up to date.
+    /// Returns whether at least one mapped value is live.
     pub(super) fn is_live(&self) -> bool {
         self.is_live
     }
 
-    /// Its entries.
+    /// Its entries in the shared array.
     fn entries<'m>(&self, mapped: &'m [Mapped]) -> &'m [Mapped] {
         let first = usize::from(self.first);
         let entries = mapped.get(first..first + usize::from(self.count));
         entries.unwrap_or_default()
     }
 
-    /// Has the application bring the live values up to date.
+    /// Lets the application bring the live values up to date.
     fn refresh<D: Services>(&self, objects: &mut Objects<'_, D>, mapped: &[Mapped]) {
         for entry in self.entries(mapped) {
             if let Some(row) = row(&objects.store, *entry) {
-                // A PDO cannot say that a value is not available; it carries the last one.
+                // A PDO cannot report that a value is not available; it contains the last one.
                 let _ = objects.refresh(row.address());
             }
         }
     }
 
-    /// Returns the frame's bytes with the values of the store.
+    /// Returns the bytes of the frame with the values of the store.
     fn read(&self, store: &Store<'_>, mapped: &[Mapped]) -> [u8; 8] {
         let (mut data, mut first) = (0u64, 0);
         for entry in self.entries(mapped) {
@@ -118,7 +119,8 @@ impl Mapping {
         data.to_le_bytes()
     }
 
-    /// Returns the frame's bytes with the current values, live ones brought up to date.
+    /// Returns the bytes of the frame with the current values; live ones are brought up to date
+    /// first.
     pub(super) fn sample<D: Services>(
         &self,
         objects: &mut Objects<'_, D>,
@@ -130,7 +132,7 @@ impl Mapping {
         self.read(&objects.store, mapped)
     }
 
-    /// Returns whether a value that differs between two frames is an event for the application.
+    /// Returns whether the application accepts a difference between two frames as an event.
     pub(super) fn is_event<D: Services>(
         &self,
         objects: &Objects<'_, D>,
@@ -157,7 +159,7 @@ impl Mapping {
         false
     }
 
-    /// Writes the frame's bytes into the objects, each by the rules of its own; one that
+    /// Writes the bytes of the frame into the objects, each by its own rules. An object that
     /// refuses its value keeps the old one.
     pub(super) fn apply<D: Services>(
         &self,
@@ -179,7 +181,7 @@ impl Mapping {
     }
 }
 
-/// The row of a mapped value, if it has one.
+/// The row of a mapped value; `None` for dummy bits.
 fn row<'a>(store: &Store<'a>, mapped: Mapped) -> Option<&'a Row> {
     let position = (mapped as usize & 0xFF_FFFF).wrapping_sub(1);
     store.dictionary().row(position)

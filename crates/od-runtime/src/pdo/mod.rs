@@ -9,5 +9,5 @@ pub(crate) use rpdo::Received;
 pub use rpdo::Rpdo;
 pub use tpdo::Tpdo;
 
-/// Most PDOs of one direction that the standard knows.
+/// Greatest number of PDOs of one direction in CiA 301.
 pub(crate) const MAX: u16 = 512;

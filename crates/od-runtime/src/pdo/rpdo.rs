@@ -1,4 +1,5 @@
-//! One RPDO: when it acts, and on which objects (CiA 301, chapter 7.2.2.5.1, objects 1400h to 17FFh).
+//! One RPDO: its configuration, and the frame that it receives (CiA 301, chapter 7.2.2.5.1, objects
+//! 1400h to 17FFh).
 
 use super::mapping::{Mapped, Mapping};
 use crate::blank::Blank;
@@ -7,30 +8,30 @@ use crate::objects::Objects;
 use crate::services::Services;
 use od_wire::{CanId, CobId, Frame, Instant};
 
-/// An RPDO with what its objects say, and a frame that waits for SYNC.
+/// An RPDO: its configuration, and a frame that waits for SYNC.
 #[derive(Clone, Debug)]
 pub struct Rpdo {
     valid: bool,
-    /// Its objects make it valid, and its CAN-ID does not.
+    /// The object is valid, but no service may have its CAN-ID.
     refused: bool,
     synchronous: bool,
     cob_id: CobId,
     mapping: Mapping,
     waiting: Option<[u8; 8]>,
-    /// Longest time between two frames, in milliseconds; 0: it is not watched (sub-index 5).
+    /// Longest time between two frames, in milliseconds; 0: not monitored (sub-index 5).
     event_ms: u16,
-    /// The next frame is late then. Watching begins with a first frame.
+    /// Time when the next frame is late. Monitoring begins with the first frame.
     late_at: Deadline,
-    /// It is late.
+    /// The next frame is late.
     is_late: bool,
 }
 
 /// Result of a frame.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Received {
-    /// It was processed, or waits for SYNC.
+    /// The frame was processed, or waits for SYNC.
     Taken,
-    /// It is shorter than the mapping: EMCY 8210h.
+    /// The frame is shorter than the mapping: EMCY 8210h.
     TooShort,
 }
 
@@ -49,9 +50,9 @@ impl Blank for Rpdo {
 }
 
 impl Rpdo {
-    /// Reads the objects of RPDO `number` again; its mapping entries are in `mapped` from `first` on. A frame that
-    /// waits for SYNC stays where the objects say what they said before. Returns whether the PDO is refused now and
-    /// was not before: no service may have its CAN-ID.
+    /// Reads the objects of RPDO `number` again; its mapping entries are in `mapped` from `first`
+    /// on. A frame that waits for SYNC stays if the objects have not changed. Returns whether the
+    /// RPDO has become refused: no service may have its CAN-ID.
     pub(crate) fn configure<D: Services>(
         &mut self,
         objects: &Objects<'_, D>,
@@ -84,12 +85,12 @@ impl Rpdo {
         is_news
     }
 
-    /// CAN-ID of the frames that it receives.
+    /// CAN-ID of its frames.
     pub(crate) fn received_by(&self) -> Option<CanId> {
         self.valid.then(|| self.cob_id.can_id())
     }
 
-    /// Its frame came.
+    /// Receives a frame.
     pub(crate) fn receive<D: Services>(
         &mut self,
         objects: &mut Objects<'_, D>,
@@ -111,14 +112,14 @@ impl Rpdo {
         Received::Taken
     }
 
-    /// SYNC came: a frame that waits acts now.
+    /// Handles SYNC: processes a frame that waits.
     pub(crate) fn sync<D: Services>(&mut self, objects: &mut Objects<'_, D>, mapped: &[Mapped]) {
         if let Some(data) = self.waiting.take() {
             self.mapping.apply(objects, mapped, data);
         }
     }
 
-    /// Returns whether its frame is late from now on (CiA 301, object 1400h, sub-index 5): EMCY 8250h.
+    /// Returns whether its frame has become late (CiA 301, object 1400h, sub-index 5): EMCY 8250h.
     pub(crate) fn handle_timeout(&mut self, now: Instant) -> bool {
         let is_due = self.late_at.is_due(now);
         if is_due {
@@ -137,7 +138,7 @@ impl Rpdo {
         self.late_at
     }
 
-    /// Operational ends.
+    /// Stops at the end of Operational.
     pub(crate) fn stop(&mut self) {
         self.waiting = None;
         (self.late_at, self.is_late) = (Deadline::NEVER, false);

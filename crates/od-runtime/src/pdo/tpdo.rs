@@ -1,4 +1,5 @@
-//! One TPDO: when it is sent, and with what (CiA 301, chapter 7.2.2.3, objects 1800h to 1BFFh).
+//! One TPDO: its configuration, and when it is sent (CiA 301, chapter 7.2.2.3, objects 1800h to
+//! 1BFFh).
 
 use super::mapping::{Mapped, Mapping};
 use crate::blank::Blank;
@@ -22,10 +23,11 @@ mod kind {
 enum Validity {
     /// Never.
     Off,
-    /// Never, although bit 31 says so: no service may have the CAN-ID, or another service sends with it.
+    /// Never, although bit 31 is 0: no service may have the CAN-ID, or another service sends with
+    /// it.
     Refused,
     On,
-    /// A remote frame requests it, too.
+    /// Also when a remote frame requests it.
     Requested,
 }
 
@@ -37,9 +39,9 @@ struct Config {
     repeat: u8,
     sync_start: u8,
     id: CanId,
-    /// In milliseconds.
+    /// Event timer in milliseconds.
     event: u32,
-    /// In units of 100 µs.
+    /// Inhibit time in units of 100 µs.
     inhibit: u32,
 }
 
@@ -51,15 +53,15 @@ pub struct Tpdo {
     /// The next tick of the event timer.
     event_at: Deadline,
     inhibited_until: Instant,
-    /// To be sent as soon as the inhibit time allows.
+    /// It is sent as soon as the inhibit time allows.
     pending: bool,
-    /// The event timer alone is the reason why it is pending.
+    /// It is pending only because of the event timer.
     by_timer: bool,
-    /// SYNCs since the last transmission.
+    /// Number of SYNCs since the last transmission.
     syncs: u8,
-    /// Waits for the SYNC whose counter is `sync_start`.
+    /// It waits for the SYNC whose counter is `sync_start`.
     waits_for_start: bool,
-    /// Transmissions of this value that the repeat counter still allows.
+    /// Number of transmissions of this value that the repeat counter still allows.
     repeats_left: u8,
     /// Data that was sampled or sent last.
     last: [u8; 8],
@@ -91,8 +93,8 @@ impl Blank for Tpdo {
 }
 
 impl Config {
-    /// Reads the communication parameter of TPDO `number`. `is_taken` knows the CAN-IDs by which other services
-    /// send.
+    /// Reads the communication parameter of TPDO `number`. `is_taken` returns whether another
+    /// service sends with a CAN-ID.
     fn load<D: Services>(
         objects: &Objects<'_, D>,
         number: u16,
@@ -127,9 +129,9 @@ impl Config {
 }
 
 impl Tpdo {
-    /// Reads the objects of TPDO `number` (0 is 1800h and 1A00h) again; its mapping entries are in `mapped` from
-    /// `first` on, and `is_taken` knows the CAN-IDs by which other services send. Returns whether the objects say
-    /// something else than before; only then the TPDO restarts.
+    /// Reads the objects of TPDO `number` (0 is 1800h and 1A00h) again; its mapping entries are in
+    /// `mapped` from `first` on. `is_taken` returns whether another service sends with a CAN-ID.
+    /// Returns whether the configuration has changed; only then the TPDO restarts.
     pub(crate) fn configure<D: Services>(
         &mut self,
         objects: &Objects<'_, D>,
@@ -158,7 +160,7 @@ impl Tpdo {
         matches!(self.config.validity, Validity::On | Validity::Requested)
     }
 
-    /// Returns whether its objects make it valid, and its CAN-ID does not.
+    /// Returns whether the object is valid but its CAN-ID is refused.
     pub(crate) fn is_refused(&self) -> bool {
         self.config.validity == Validity::Refused
     }
@@ -176,7 +178,7 @@ impl Tpdo {
         self.config.kind >= kind::EVENT_FIRST
     }
 
-    /// Operational begins: the first period of the event timer, the first SYNC.
+    /// Starts in Operational, with the first period of the event timer and the first SYNC.
     pub(crate) fn start<D: Services>(&mut self, objects: &mut Objects<'_, D>, mapped: &[Mapped]) {
         self.syncs = 0;
         self.pending = false;
@@ -193,13 +195,13 @@ impl Tpdo {
         }
     }
 
-    /// Operational begins: a family that sends changes sends the first values at once.
+    /// Sends the first values when Operational begins, in a family that sends changes.
     pub(crate) fn announce<D: Services>(&mut self, objects: &Objects<'_, D>) {
         let sends_changes = objects.profile.pdo.event_on_change;
         self.pending |= sends_changes && self.is_valid() && self.is_event_driven();
     }
 
-    /// Operational ends.
+    /// Stops at the end of Operational.
     pub(crate) fn stop(&mut self) {
         self.event_at = Deadline::NEVER;
         self.pending = false;
@@ -210,7 +212,8 @@ impl Tpdo {
         (self.config.validity == Validity::Requested).then_some(self.config.id)
     }
 
-    /// A remote frame requests it. A synchronous TPDO responds with the values of the last SYNC.
+    /// Handles a remote frame that requests it. A synchronous TPDO responds with the values of the
+    /// last SYNC.
     pub(crate) fn request<D: Services>(
         &mut self,
         objects: &mut Objects<'_, D>,
@@ -226,7 +229,7 @@ impl Tpdo {
         None
     }
 
-    /// SYNC came, with its counter if it had one.
+    /// Handles SYNC, with its counter if it has one.
     pub(crate) fn sync<D: Services>(
         &mut self,
         objects: &mut Objects<'_, D>,
@@ -241,7 +244,7 @@ impl Tpdo {
                 Some(counter) if counter != self.config.sync_start => return,
                 _ => self.waits_for_start = false,
             }
-            // The SYNC that starts the count is the one that the first PDO follows.
+            // The SYNC that starts the count also triggers the first PDO.
             self.syncs = self.config.kind.saturating_sub(1);
         }
         match self.config.kind {
@@ -264,7 +267,7 @@ impl Tpdo {
         }
     }
 
-    /// A cyclic transmission is due; the repeat counter may hold it back.
+    /// Marks a cyclic transmission as pending, unless the repeat counter forbids it.
     fn due<D: Services>(&mut self, objects: &mut Objects<'_, D>, mapped: &[Mapped]) {
         if self.config.repeat != 0 {
             let data = self.mapping.sample(objects, mapped);
@@ -280,7 +283,7 @@ impl Tpdo {
         self.pending = true;
     }
 
-    /// The event timer, if its tick has come.
+    /// Handles the event timer, if its tick is due.
     pub(crate) fn handle_timeout<D: Services>(
         &mut self,
         objects: &mut Objects<'_, D>,
@@ -293,17 +296,17 @@ impl Tpdo {
         }
     }
 
-    /// Returns whether it is sent when a mapped value changes, in a family that sends changes.
+    /// Returns whether a change of a mapped value sends it, in a family that sends changes.
     pub(crate) fn watches_changes(&self) -> bool {
         self.is_valid() && self.is_event_driven()
     }
 
-    /// Returns whether a mapped value changes without notifying the node.
+    /// Returns whether a mapped value may change without notifying the node.
     pub(crate) fn watches_live(&self) -> bool {
         self.watches_changes() && self.mapping.is_live()
     }
 
-    /// Marks it as pending if a mapped value has changed that it is sent for.
+    /// Marks it as pending if a mapped value has changed and the change is an event.
     pub(crate) fn notice_change<D: Services>(
         &mut self,
         objects: &mut Objects<'_, D>,
@@ -316,12 +319,12 @@ impl Tpdo {
         }
     }
 
-    /// The next tick of its event timer.
+    /// Time of the next tick of its event timer.
     pub(crate) fn deadline(&self) -> Deadline {
         self.event_at
     }
 
-    /// Time when what is pending can be sent.
+    /// Time when the pending transmission can be sent.
     pub(crate) fn ready_at(&self) -> Deadline {
         if self.pending {
             Deadline::at(self.inhibited_until)
@@ -330,7 +333,7 @@ impl Tpdo {
         }
     }
 
-    /// The frame, with the current values. Call it when the TPDO [is ready](Self::is_ready).
+    /// Returns the frame with the current values. Call it when the TPDO [is ready](Self::is_ready).
     pub(crate) fn send<D: Services>(
         &mut self,
         objects: &mut Objects<'_, D>,
@@ -344,8 +347,9 @@ impl Tpdo {
             let inhibit = u64::from(self.config.inhibit) * 100;
             self.inhibited_until = objects.now.plus_micros(inhibit);
         }
-        // CiA 301, chapter 7.2.2.3: the timer elapses where no event has occurred. What the timer itself sends
-        // does not shift it, also if the host is late.
+        // CiA 301, chapter 7.2.2.3: the event timer elapses if no event has occurred. A
+        // transmission that the timer itself caused does not shift its grid, even if the host is
+        // late.
         let by_timer = core::mem::take(&mut self.by_timer);
         let starts_anew = objects.profile.pdo.event_timer == EventTimer::SinceTransmission;
         if starts_anew && !by_timer && self.event_at.is_set() {
@@ -354,12 +358,12 @@ impl Tpdo {
         self.frame(data)
     }
 
-    /// Returns whether it waits to be sent, now or later.
+    /// Returns whether it is pending, now or after the inhibit time.
     pub(crate) fn is_pending(&self) -> bool {
         self.pending
     }
 
-    /// Returns whether it waits to be sent, and no inhibit time holds it back.
+    /// Returns whether it is pending and the inhibit time is over.
     pub(crate) fn is_ready(&self, now: Instant) -> bool {
         self.pending && now >= self.inhibited_until
     }

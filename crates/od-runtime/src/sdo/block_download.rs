@@ -1,4 +1,4 @@
-//! Block download (CiA 301, chapters 7.2.4.3.9–7.2.4.3.11). The value is in the server's buffer.
+//! Block download (CiA 301, chapters 7.2.4.3.9 to 7.2.4.3.11). The value is in the server's buffer.
 
 use core::cmp::Ordering;
 
@@ -7,26 +7,27 @@ use od_wire::sdo::{Response, crc16_after};
 
 use super::window::Window;
 
-/// A block download under way.
+/// A block download in progress.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct BlockDownload {
-    /// The client makes a CRC.
+    /// The client sends a CRC.
     crc: bool,
     /// CRC of the bytes before those in the buffer.
     pub(super) crc_before: u16,
     size: Option<u32>,
-    /// Segments that this block has.
+    /// Number of segments of this block.
     block_size: u8,
-    /// The last segment of this block that came in sequence.
+    /// Sequence number of the last segment that arrived in order.
     ack: u8,
-    /// The client said that no more segments follow.
+    /// The client announced that no more segments follow.
     last: bool,
-    /// Bytes of the last segment that there was no room for; they have to be unused.
+    /// Number of bytes of the last segment that the buffer had no room for; they have to be unused.
     cut: u8,
 }
 
 impl BlockDownload {
-    /// Of `size` bytes, if the client announced a size, into a buffer with this room.
+    /// Begins a download of `size` bytes, if the client announced a size, into a buffer with this
+    /// room.
     pub(super) fn new(room: usize, crc: bool, size: Option<u32>) -> Self {
         Self {
             crc,
@@ -39,7 +40,7 @@ impl BlockDownload {
         }
     }
 
-    /// Segments of the next block.
+    /// Number of segments of the next block.
     pub(super) const fn block_size(&self) -> u8 {
         self.block_size
     }
@@ -49,8 +50,8 @@ impl BlockDownload {
         !self.last
     }
 
-    /// A segment. One that is out of sequence is ignored: the response at the end of the block
-    /// tells the client where to go on. Returns whether the block is over.
+    /// Handles a segment. A segment out of order is ignored: the response at the end of the block
+    /// tells the client where to continue. Returns whether the block is complete.
     pub(super) fn segment(
         &mut self,
         window: &mut Window<'_>,
@@ -63,7 +64,7 @@ impl BlockDownload {
         }
         if sequence == self.ack + 1 {
             let len = window.room().min(7);
-            // The unused bytes of the last segment may be past the buffer's end.
+            // The unused bytes of the last segment may be beyond the end of the buffer.
             if len < 7 && !last {
                 return Err(AbortCode::OutOfMemory);
             }
@@ -76,7 +77,7 @@ impl BlockDownload {
         Ok(last || sequence == self.block_size)
     }
 
-    /// The block is over: the answer to it. The next one goes into a buffer with this room.
+    /// Ends a block, and returns the response. The next block goes into a buffer with this room.
     pub(super) fn confirm(&mut self, room: usize) -> Response {
         self.block_size = segments(room);
         Response::BlockDownloadResponse {
@@ -85,7 +86,8 @@ impl BlockDownload {
         }
     }
 
-    /// Checks whether as much came as was announced, or less; the last segment comes yet.
+    /// Checks that at most the announced number of bytes arrived; the last segment is still
+    /// missing.
     pub(super) fn check_size(&self, window: &Window<'_>) -> Result<(), AbortCode> {
         match self.size {
             Some(size) if window.end() > size as usize => Err(AbortCode::TooLong),
@@ -93,7 +95,8 @@ impl BlockDownload {
         }
     }
 
-    /// The end of the transfer: returns how many bytes of the buffer end the value, if it came whole.
+    /// Ends the transfer. Returns how many bytes of the buffer belong to the value, if it arrived
+    /// completely.
     pub(super) fn end(
         &self,
         window: &Window<'_>,
@@ -118,7 +121,7 @@ impl BlockDownload {
     }
 }
 
-/// Segments that a buffer with this room takes, 1–127.
+/// Number of segments that fit into a buffer with this room, 1 to 127.
 fn segments(room: usize) -> u8 {
     (room / 7).clamp(1, 127) as u8
 }
@@ -151,7 +154,7 @@ mod tests {
     }
 
     #[test]
-    fn segments_come_in_sequence() {
+    fn segments_must_arrive_in_sequence() {
         let (mut buffer, mut part) = ([0; 21], Part::default());
         let mut window = Window {
             buffer: &mut buffer,
@@ -204,7 +207,7 @@ mod tests {
     }
 
     #[test]
-    fn a_value_is_as_long_as_was_announced_and_has_its_crc() {
+    fn a_value_has_the_announced_length_and_crc() {
         let (mut buffer, mut part) = ([0; 14], Part::default());
         let mut window = Window {
             buffer: &mut buffer,
@@ -235,7 +238,7 @@ mod tests {
     }
 
     #[test]
-    fn a_stream_has_what_came_before_the_buffer() {
+    fn a_stream_already_has_the_bytes_before_the_buffer() {
         let (mut buffer, mut part) = ([0; 7], Part::default());
         let mut window = Window {
             buffer: &mut buffer,

@@ -1,36 +1,35 @@
-//! Block upload (CiA 301, chapters 7.2.4.3.13–7.2.4.3.15). The value is in the server's
-//! buffer.
+//! Block upload (CiA 301, chapters 7.2.4.3.13 to 7.2.4.3.15). The value is in the server's buffer.
 
 use od_wire::AbortCode;
 use od_wire::sdo::{Response, block_segment, block_segments, crc16_after, unused};
 
-/// A block upload under way.
+/// A block upload in progress.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct BlockUpload {
     len: usize,
-    /// The client wants a CRC.
+    /// The client requests a CRC.
     crc: bool,
     /// CRC of the first `summed` bytes of the value.
     sum: u16,
     summed: usize,
-    /// Segments that the client accepts before it answers.
+    /// Number of segments that the client accepts before it confirms.
     block_size: u8,
-    /// Bytes that the client has acknowledged.
+    /// Number of bytes that the client has confirmed.
     done: usize,
-    /// Segments of this block that were sent.
+    /// Number of segments of this block that were sent.
     sent: u8,
     phase: Phase,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Phase {
-    /// Waits for the client's start.
+    /// The client has to start the transfer.
     Initiated,
-    /// Segments go out.
+    /// Segments are being sent.
     Sending,
-    /// The block is out; waits for the client's answer.
+    /// The block was sent; the client has to confirm it.
     Sent,
-    /// Everything is acknowledged; waits for the client's end.
+    /// The client has confirmed everything, and has to end the transfer.
     Complete,
 }
 
@@ -43,7 +42,7 @@ pub(super) fn check(block_size: u8) -> Result<(), AbortCode> {
 }
 
 impl BlockUpload {
-    /// Of a value of `len` bytes.
+    /// Begins an upload of a value of `len` bytes.
     pub(super) const fn new(len: usize, crc: bool, block_size: u8) -> Self {
         Self {
             len,
@@ -57,17 +56,17 @@ impl BlockUpload {
         }
     }
 
-    /// Bytes of the value.
+    /// Length of the value in bytes.
     pub(super) const fn len(&self) -> usize {
         self.len
     }
 
-    /// Returns whether only the client's end is missing.
+    /// Returns whether only the end request of the client is missing.
     pub(super) fn is_complete(&self) -> bool {
         self.phase == Phase::Complete
     }
 
-    /// Segments that are left at the start of this block.
+    /// Number of segments that are left at the start of this block.
     fn segments_left(&self) -> usize {
         block_segments(self.len - self.done)
     }
@@ -80,7 +79,7 @@ impl BlockUpload {
         }
     }
 
-    /// The client wants the first block.
+    /// Handles the start request of the client.
     pub(super) fn start(&mut self) -> Result<(), AbortCode> {
         self.expect(Phase::Initiated)?;
         self.phase = Phase::Sending;
@@ -93,7 +92,7 @@ impl BlockUpload {
         (self.phase == Phase::Sending).then_some(at)
     }
 
-    /// Returns the segment that is due: the first bytes of `rest`.
+    /// Returns the segment that is due, which consists of the first bytes of `rest`.
     pub(super) fn segment(&mut self, rest: &[u8]) -> [u8; 8] {
         if self.due() == Some(self.summed) {
             let bytes = rest.get(..7).unwrap_or(rest);
@@ -108,7 +107,7 @@ impl BlockUpload {
         block_segment(self.sent, rest, last)
     }
 
-    /// The client acknowledges `ack` segments of the block: the next block follows, or the end.
+    /// Handles the confirmation of `ack` segments of the block: the next block follows, or the end.
     pub(super) fn acknowledged(
         &mut self,
         ack: u8,

@@ -1,16 +1,16 @@
-//! An answer that waits until the device has stored (1010h) or a stream can go on, and the request
-//! that waits for it.
+//! A response that waits until the values are stored (1010h) or a stream can continue, and the next
+//! request, which waits for it.
 
 use crate::blank::Blank;
 
-/// The answer that waits, and what came since.
+/// The response that waits, and the requests that arrived since.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Late {
     awaited: Awaited,
-    /// `None` if the client gave up.
+    /// `None` if the client aborted the transfer.
     pub(super) answer: Option<[u8; 8]>,
-    /// The next request: a client that did not wait is answered after the answer. Where a stream
-    /// is awaited it is the request that the stream could not serve.
+    /// The next request, of a client that did not wait; it is handled after the response. For a
+    /// stream: the request that the stream could not serve.
     pub(super) held: Option<Held>,
 }
 
@@ -41,7 +41,7 @@ impl Late {
         }
     }
 
-    /// A stream could not serve this request.
+    /// Waits for a stream that could not serve this request.
     pub(super) const fn stream(held: Option<Held>) -> Self {
         Self {
             awaited: Awaited::Stream,
@@ -50,7 +50,7 @@ impl Late {
         }
     }
 
-    /// Nothing is awaited any more. Returns the answer.
+    /// Ends the wait. Returns the response.
     pub(super) fn end(&mut self) -> Option<[u8; 8]> {
         self.awaited = Awaited::Nothing;
         self.answer.take()
@@ -64,10 +64,10 @@ impl Late {
         self.awaited == Awaited::Stream
     }
 
-    /// A frame comes before the answer has gone: an abort ends the transfer, though not the
-    /// storing; of requests the newest is kept, as a new one replaces an old one.
+    /// Handles a frame that arrives before the response was sent. An abort ends the transfer, but
+    /// not the save. A new request replaces an older one that waits.
     pub(super) fn hold(&mut self, data: &[u8; 8], dlc: u8, streams: bool) {
-        // Where a block waits for a stream, other bits belong to a segment.
+        // In a segment of a block that waits for a stream these bits have another meaning.
         if data[0] >> 5 == 4 && (data[0] == 0x80 || !(streams && self.awaits_stream())) {
             self.answer = None;
             self.held = None;

@@ -1,7 +1,9 @@
-//! SDO server (CiA 301, chapter 7.2.4): expedited, segmented and block transfers, both ways.
+//! SDO server (CiA 301, chapter 7.2.4): expedited, segmented and block transfers in both
+//! directions.
 //!
-//! The server buffers a download and writes it when it is complete, so one that breaks off
-//! leaves the object as it was. Of a value that the application streams it has one part at a time.
+//! The server buffers a download and writes it when it is complete, so an interrupted download
+//! leaves the object unchanged. If the application streams the value, the buffer has one part of it
+//! at a time.
 
 mod block_download;
 mod block_upload;
@@ -31,20 +33,20 @@ use late::{Held, Late};
 use segmented::{Download, Upload};
 use window::{Part, Window};
 
-/// Longest time that a block transfer waits for the client, in microseconds: its segments look
-/// like requests, so a client that died would block the next one.
+/// Longest time that a block transfer waits for the client, in microseconds. Segments look like
+/// requests, so a transfer whose client has stopped would swallow the next request.
 const BLOCK_TIMEOUT_US: u64 = 5_000_000;
 
 /// First byte of an abort, as clients send it.
 const ABORT: u8 = 0x80;
 
-/// Transfer under way. Without one it is all zeros, which a niche would not give.
+/// A transfer in progress; without one it is all zeros, which an `Option` would not ensure.
 #[derive(Clone, Copy, Debug, Default)]
 #[repr(u8)]
 enum Transfer {
     #[default]
     None,
-    /// An expedited download of these many bytes; the stream did not take them yet.
+    /// An expedited download of this number of bytes that the stream has not accepted yet.
     Expedited(u8),
     Upload(Upload),
     Download(Download),
@@ -52,16 +54,16 @@ enum Transfer {
     BlockDownload(BlockDownload),
 }
 
-/// What an SDO server remembers: its channel, and one transfer at a time. The first server is the default one
-/// (1200h), the others are those of 1201h to 127Fh.
+/// State of an SDO server: its channel, and one transfer at a time. The first server is the default
+/// one (1200h), the others are those of 1201h to 127Fh.
 #[derive(Clone, Debug)]
 pub struct SdoServer {
     /// The two CAN-IDs, while both are valid.
     channel: Option<Channel>,
-    /// Both COB-IDs are valid, and their CAN-IDs are not.
+    /// Both COB-IDs are valid, but a CAN-ID is refused.
     refused: bool,
     state: State,
-    /// The part of the value that is in the buffer.
+    /// Part of the value that is in the buffer.
     part: Part,
 }
 
@@ -92,7 +94,7 @@ impl State {
     }
 }
 
-/// The CAN-IDs of an SDO: from client to server, and back.
+/// CAN-IDs of an SDO: from client to server, and from server to client.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 struct Channel {
     request: CanId,
@@ -101,9 +103,10 @@ struct Channel {
 
 /// Result of [`SdoServer::configure`].
 pub(crate) struct Configured {
-    /// Its channel is another one than before: the transfer on the old one has lost its client.
+    /// Its channel has changed, so the transfer on the old one has no client any more.
     pub(crate) has_changed: bool,
-    /// It was not refused before: both COB-IDs are valid, and a CAN-ID is not.
+    /// It has become refused: both COB-IDs are valid, but a CAN-ID belongs to another service or is
+    /// restricted.
     pub(crate) is_refused: bool,
 }
 
@@ -127,7 +130,7 @@ impl SdoServer {
         self.channel.map(|channel| channel.response)
     }
 
-    /// The frame of a response; `None` where the server has no COB-ID any more.
+    /// Returns the frame of a response; `None` if the server has no valid COB-ID any more.
     pub(crate) fn frame(&self, data: [u8; 8]) -> Option<Frame> {
         Some(Frame::full(self.channel?.response, data))
     }
@@ -140,8 +143,8 @@ impl SdoServer {
         });
     }
 
-    /// Reads the object of a further server again. `is_taken` knows the CAN-IDs by which other services
-    /// send.
+    /// Reads the object of a further server again. `is_taken` returns whether another service sends
+    /// with a CAN-ID.
     pub(crate) fn configure(
         &mut self,
         store: &Store<'_>,
@@ -170,7 +173,7 @@ impl SdoServer {
         }
     }
 
-    /// Forgets the transfer without telling client or application, as the end of power does.
+    /// Drops the transfer without telling client or application, as at power-off.
     pub(crate) fn forget(&mut self) {
         self.state = State::IDLE;
     }
@@ -200,28 +203,28 @@ impl SdoServer {
         self.state.late.held.take()
     }
 
-    /// Time when a block transfer gives up, or a stream is asked again.
+    /// Time when a block transfer times out, or when a stream is asked again.
     pub(crate) const fn deadline(&self) -> Deadline {
         self.state.deadline
     }
 }
 
-/// An SDO server at work: what it remembers, and its buffer.
+/// An SDO server with its buffer.
 pub(crate) struct Server<'s, D> {
     device: PhantomData<D>,
     state: &'s mut State,
     window: Window<'s>,
 }
 
-/// Response of the server, if there is one, or the reason why it does not come.
+/// Response of the server, if there is one, or the reason why there is none.
 type Answer = Result<Option<[u8; 8]>, Stop>;
 
-/// Why a request has no response yet, or none but an abort. A [`Halt`] without its moment, which becomes the
-/// deadline of the server.
+/// Reason why a request has no response yet, or an abort as response. Like [`Halt`], but the time
+/// is in the deadline of the server.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Stop {
     Abort(AbortCode),
-    /// Until the server's deadline.
+    /// The server waits until its deadline.
     Wait,
 }
 
@@ -256,19 +259,20 @@ impl<'s, D: Services> Server<'s, D> {
         }
     }
 
-    /// Ends the transfer without an abort message to the client, as a change of the NMT state does.
+    /// Ends the transfer without an abort to the client, as a change of the NMT state does.
     pub(crate) fn cut(&mut self, objects: &mut Objects<'_, D>) {
         self.close(objects, StreamEnd::Cut);
         *self.state = State::IDLE;
     }
 
-    /// The transfer is over.
+    /// Ends the transfer.
     fn reset(&mut self) {
         self.state.transfer = Transfer::None;
         self.state.deadline = Deadline::NEVER;
     }
 
-    /// A client's frame; `data` beyond `dlc` is 0. The response to a [command](Objects::carry_out) waits.
+    /// Handles a frame of the client; the bytes of `data` beyond `dlc` are 0. The response to a
+    /// [command](Objects::carry_out) waits.
     pub(crate) fn handle(
         &mut self,
         objects: &mut Objects<'_, D>,
@@ -278,7 +282,7 @@ impl<'s, D: Services> Server<'s, D> {
         if dlc < objects.profile.sdo.min_dlc {
             return None;
         }
-        // Most requests are uploads that nothing else waits for.
+        // Most requests are uploads while no other transfer is in progress.
         let is_busy = self.state.takes_anything() || self.streams() || self.is_in_block();
         if data[0] >> 5 == 2 && !is_busy {
             self.handle_upload(objects, data, dlc)
@@ -287,7 +291,7 @@ impl<'s, D: Services> Server<'s, D> {
         }
     }
 
-    /// A request for an upload (CiA 301, chapter 7.2.4.3.4).
+    /// Handles a request for an upload (CiA 301, chapter 7.2.4.3.4).
     fn handle_upload(
         &mut self,
         objects: &mut Objects<'_, D>,
@@ -304,7 +308,7 @@ impl<'s, D: Services> Server<'s, D> {
         }
     }
 
-    /// Any other request.
+    /// Handles any other request.
     fn handle_other(
         &mut self,
         objects: &mut Objects<'_, D>,
@@ -335,7 +339,7 @@ impl<'s, D: Services> Server<'s, D> {
         self.settle(objects, answer, data, dlc)
     }
 
-    /// The end of a request: what goes out, and when the next thing is due.
+    /// Ends the handling of a request: returns the response, and sets the next deadline.
     fn settle(
         &mut self,
         objects: &mut Objects<'_, D>,
@@ -362,7 +366,7 @@ impl<'s, D: Services> Server<'s, D> {
         }
     }
 
-    /// From now on a block transfer waits for its client.
+    /// Restarts the time that a block transfer waits for its client.
     fn await_client(&mut self, now: Instant) {
         self.state.deadline = if self.is_in_block() {
             Deadline::at(now.plus_micros(BLOCK_TIMEOUT_US))
@@ -371,7 +375,7 @@ impl<'s, D: Services> Server<'s, D> {
         };
     }
 
-    /// Returns whether a block transfer is under way, whose segments may look like requests.
+    /// Returns whether a block transfer is in progress, whose segments may look like requests.
     fn is_in_block(&self) -> bool {
         D::BLOCK
             && matches!(
@@ -380,7 +384,7 @@ impl<'s, D: Services> Server<'s, D> {
             )
     }
 
-    /// A new transfer takes the place of one that was not finished.
+    /// Replaces a transfer that was not complete.
     fn replace(&mut self, objects: &mut Objects<'_, D>, address: Address) {
         self.close(objects, StreamEnd::Replaced);
         self.state.address = address;
@@ -405,7 +409,7 @@ impl<'s, D: Services> Server<'s, D> {
         }
     }
 
-    /// A value of more than four bytes (or none) goes in segments.
+    /// Begins an upload. A value of more than four bytes, or of none, is sent in segments.
     fn begin_upload(&mut self, address: Address, bytes: &[u8]) -> Result<[u8; 8], Unread> {
         let len = self.window.load(bytes)?;
         self.state.transfer = Transfer::Upload(Upload::new(len));
@@ -417,7 +421,7 @@ impl<'s, D: Services> Server<'s, D> {
         .emit())
     }
 
-    /// An upload of a value that the application streams.
+    /// Begins an upload of a value that the application streams.
     fn handle_streamed(
         &mut self,
         objects: &mut Objects<'_, D>,
@@ -440,7 +444,7 @@ impl<'s, D: Services> Server<'s, D> {
         .emit()
     }
 
-    /// The next segment of a block upload, if one is due, or an abort.
+    /// Returns the next segment of a block upload, if one is due, or an abort.
     pub(crate) fn poll(&mut self, objects: &mut Objects<'_, D>) -> Option<[u8; 8]> {
         let Transfer::BlockUpload(block) = &self.state.transfer else {
             return None;
@@ -461,8 +465,8 @@ impl<'s, D: Services> Server<'s, D> {
         }
     }
 
-    /// Everything is stored (`done`), or could not be: the answer that waited. The request behind it is
-    /// [held](Self::held).
+    /// Ends a save: returns the response that waited. `done`: the values are stored; otherwise an
+    /// abort. The request that arrived since is [held](Self::held).
     pub(crate) fn finish(&mut self, objects: &mut Objects<'_, D>, done: bool) -> Option<[u8; 8]> {
         match self.state.late.end() {
             Some(_) if !done => Some(self.abort(objects, objects.profile.store.failed)),
@@ -470,7 +474,7 @@ impl<'s, D: Services> Server<'s, D> {
         }
     }
 
-    /// Gives up a block transfer whose client is gone; asks a stream again.
+    /// Aborts a block transfer after a time-out, or asks a stream again.
     pub(crate) fn handle_timeout(&mut self, objects: &mut Objects<'_, D>) -> Option<[u8; 8]> {
         if !self.state.deadline.is_due(objects.now) {
             return None;

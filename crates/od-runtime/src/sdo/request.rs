@@ -1,4 +1,4 @@
-//! The requests of clients, but for the expedited upload that comes first.
+//! Requests of clients, except the expedited upload, which `mod.rs` handles first.
 
 use od_model::Address;
 use od_wire::AbortCode;
@@ -39,12 +39,12 @@ impl<D: Services> Server<'_, D> {
         }
     }
 
-    /// A request of a transfer with more than one. Not in the frame of an expedited download, which may
-    /// save all values: that is as deep as the stack gets.
+    /// Handles a request of a transfer of several frames. It is a function of its own, so that its
+    /// stack frame does not add to that of an expedited download, which may save all values.
     fn transfer_request(&mut self, objects: &mut Objects<'_, D>, data: &[u8; 8]) -> Answer {
         let profile = &objects.profile.sdo;
         let has_blocks = D::BLOCK && profile.block;
-        // Not a `Request` of all: taken apart it is more code than its parts where they are.
+        // The fields are used without making a `Request` of them, which would take more code.
         let (command, kind) = (data[0] >> 5, data[0] & 3);
         match (command, kind, &mut self.state.transfer) {
             (1, ..) => {
@@ -150,7 +150,7 @@ impl<D: Services> Server<'_, D> {
         data: &[u8; 8],
         dlc: u8,
     ) -> Answer {
-        // Bytes 4 to 7 are the value; the command gives the number of unused ones.
+        // Bytes 4 to 7 are the value; the command contains the number of unused bytes.
         let [command, _, _, _, bytes @ ..] = data;
         let size = (command & 1 != 0).then_some(4 - (command >> 2 & 3));
         let had_begun = match self.state.transfer {
@@ -181,7 +181,7 @@ impl<D: Services> Server<'_, D> {
         Ok(Some(Response::InitiateDownload { address }.emit_to(data)))
     }
 
-    /// Begins a download, if the value may be written and the buffer has room for it.
+    /// Begins a download, if the value can be written and fits into the buffer.
     fn open_download(
         &mut self,
         objects: &mut Objects<'_, D>,
@@ -218,7 +218,7 @@ impl<D: Services> Server<'_, D> {
         }
     }
 
-    /// A segment of a block download.
+    /// Handles a segment of a block download.
     pub(super) fn block_segment(&mut self, objects: &mut Objects<'_, D>, data: &[u8; 8]) -> Answer {
         let Transfer::BlockDownload(block) = &mut self.state.transfer else {
             return Ok(None);
@@ -226,7 +226,7 @@ impl<D: Services> Server<'_, D> {
         if !block.segment(&mut self.window, data)? {
             return Ok(None);
         }
-        // What is last waits for its length and the checksum.
+        // The last part is passed on after the checks of length and checksum.
         if D::STREAMS && self.state.is_streaming && block.wants_segments() {
             let mut block = *block;
             block.check_size(&self.window)?;
@@ -241,8 +241,7 @@ impl<D: Services> Server<'_, D> {
         Ok(Some(block.confirm(self.window.room()).emit()))
     }
 
-    /// A download is complete with the first `len` bytes of the buffer: they are written, and
-    /// the transfer ends.
+    /// Completes a download: writes the first `len` bytes of the buffer, and ends the transfer.
     fn complete(&mut self, objects: &mut Objects<'_, D>, len: usize) -> Result<(), Stop> {
         if self.streams() {
             self.give(objects, len, true)?;
@@ -255,9 +254,9 @@ impl<D: Services> Server<'_, D> {
     }
 }
 
-/// Returns how many of the up to four bytes that came with an expedited download are the value (CiA 301,
-/// chapter 7.2.4.3.3). Without an indicated size the object's own counts; in a frame that is shorter than its
-/// data, what is missing was not given.
+/// Returns how many of the up to four bytes of an expedited download are the value (CiA 301,
+/// chapter 7.2.4.3.3). Without an indicated size it is the length of the object. Bytes beyond the
+/// DLC of the frame were not given.
 fn expedited_len(
     profile: &SdoProfile,
     row: &Row,
@@ -267,7 +266,7 @@ fn expedited_len(
     let given = usize::from(dlc.saturating_sub(4)).min(4);
     let own = Some(row.size()).filter(|size| *size > 0);
     let len = match size {
-        // Bytes that do not count need not be there either.
+        // Bytes that the node would ignore may be missing.
         Some(size) if profile.length.too_long.is_none() => {
             (size as usize).min(own.unwrap_or(4)).min(4)
         }

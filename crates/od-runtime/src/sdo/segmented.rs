@@ -4,7 +4,7 @@
 use od_wire::AbortCode;
 use od_wire::sdo::segment;
 
-/// An upload under way.
+/// A segmented upload in progress.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Upload {
     toggle: bool,
@@ -13,7 +13,7 @@ pub(super) struct Upload {
 }
 
 impl Upload {
-    /// Of a value of `len` bytes.
+    /// Begins an upload of a value of `len` bytes.
     pub(super) const fn new(len: usize) -> Self {
         Self {
             toggle: false,
@@ -22,17 +22,17 @@ impl Upload {
         }
     }
 
-    /// Bytes that have been sent.
+    /// Number of bytes that were sent.
     pub(super) const fn sent(&self) -> usize {
         self.sent
     }
 
-    /// Bytes of the value.
+    /// Length of the value in bytes.
     pub(super) const fn len(&self) -> usize {
         self.len
     }
 
-    /// Returns whether the last segment has been sent.
+    /// Returns whether the last segment was sent.
     pub(super) const fn is_over(&self) -> bool {
         self.sent == self.len
     }
@@ -42,7 +42,7 @@ impl Upload {
         check(self.toggle, toggle)
     }
 
-    /// Returns the next segment, the first bytes of `rest`.
+    /// Returns the next segment, which consists of the first bytes of `rest`.
     pub(super) fn segment(&mut self, rest: &[u8]) -> [u8; 8] {
         self.sent += rest.len().min(7);
         let segment = segment(self.toggle, rest, self.is_over());
@@ -51,7 +51,7 @@ impl Upload {
     }
 }
 
-/// A download under way.
+/// A segmented download in progress.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Download {
     toggle: bool,
@@ -59,7 +59,7 @@ pub(super) struct Download {
 }
 
 impl Download {
-    /// Of `size` bytes, if the client announced a size.
+    /// Begins a download of `size` bytes, if the client announced a size.
     pub(super) const fn new(size: Option<u32>) -> Self {
         Self {
             toggle: false,
@@ -67,7 +67,7 @@ impl Download {
         }
     }
 
-    /// Checks a segment, with which `end` bytes have come; the last one if `is_last`.
+    /// Checks a segment after which `end` bytes have arrived; `is_last`: it is the last one.
     pub(super) fn check(&self, toggle: bool, end: usize, is_last: bool) -> Result<(), AbortCode> {
         check(self.toggle, toggle)?;
         match self.size.map(|size| size as usize) {
@@ -77,7 +77,7 @@ impl Download {
         }
     }
 
-    /// The segment was good.
+    /// Notes that a segment was accepted.
     pub(super) fn go_on(&mut self) {
         self.toggle = !self.toggle;
     }

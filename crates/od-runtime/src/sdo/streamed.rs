@@ -19,7 +19,7 @@ impl<D: Services> Server<'_, D> {
         D::STREAMS && self.state.is_streaming
     }
 
-    /// Begins to read from the stream. Returns the length of the value.
+    /// Begins to read from the stream. Returns the length of the value in bytes.
     pub(super) fn open_stream(&mut self, objects: &mut Objects<'_, D>) -> Result<usize, Stop> {
         if !D::STREAMS {
             return Err(AbortCode::NoResource.into());
@@ -32,13 +32,13 @@ impl<D: Services> Server<'_, D> {
         Ok(len as usize)
     }
 
-    /// The answer to an upload that is not a block transfer.
+    /// Returns the response to an upload that is not a block transfer.
     pub(super) fn stream_upload(&mut self, objects: &mut Objects<'_, D>) -> Answer {
         let address = self.state.address;
         let len = self.open_stream(objects)?;
         let mut expedited = None;
         if (1..=4).contains(&len) {
-            // One that cannot be had now goes in a segment.
+            // A value that the stream cannot supply now is sent in a segment later.
             match self.fetch(objects, 0, len) {
                 Ok(()) => {
                     let value = number_in(self.window.from(0)) as u32;
@@ -66,8 +66,8 @@ impl<D: Services> Server<'_, D> {
         ))
     }
 
-    /// Has the value from `at` on in the buffer: seven bytes or more, or all that is left of its `len`
-    /// bytes.
+    /// Makes sure that the buffer has the value from `at` on: seven bytes or more, or the rest of
+    /// its `len` bytes.
     pub(super) fn fetch(
         &mut self,
         objects: &mut Objects<'_, D>,
@@ -96,7 +96,7 @@ impl<D: Services> Server<'_, D> {
         Ok(())
     }
 
-    /// Gives the first `len` bytes of the buffer to the stream.
+    /// Passes the first `len` bytes of the buffer to the stream.
     pub(super) fn give(
         &mut self,
         objects: &mut Objects<'_, D>,
@@ -113,7 +113,7 @@ impl<D: Services> Server<'_, D> {
         given.map_err(|halt| Stop::new(halt, &mut self.state.deadline))
     }
 
-    /// Gives all that is in the buffer to the stream, and empties it.
+    /// Passes all bytes of the buffer to the stream, and empties the buffer.
     pub(super) fn pass_on(&mut self, objects: &mut Objects<'_, D>) -> Result<(), Stop> {
         let len = self.window.part.len;
         if len > 0 {
@@ -124,11 +124,11 @@ impl<D: Services> Server<'_, D> {
         Ok(())
     }
 
-    /// The transfer is over; its stream hears how.
+    /// Ends the transfer, and tells the stream how it ended.
     pub(super) fn close(&mut self, objects: &mut Objects<'_, D>, end: StreamEnd) {
         if D::STREAMS && core::mem::take(&mut self.state.is_streaming) {
             let address = self.state.address;
-            // An application that has no such stream any more needs no notice.
+            // If the application has no such stream any more, nothing has to be told.
             let _ = objects.stream(address, |stream, cx| {
                 stream.end(cx, address, end);
                 Ok(())
@@ -137,13 +137,14 @@ impl<D: Services> Server<'_, D> {
         self.reset();
     }
 
-    /// The stream cannot serve this request, or the next segment, before this moment.
+    /// Waits until `until`, because the stream cannot serve this request or the next segment
+    /// before.
     pub(super) fn await_stream(&mut self, until: Deadline, held: Option<Held>) {
         self.state.late = Late::stream(held);
         self.state.deadline = until;
     }
 
-    /// The stream is asked again.
+    /// Asks the stream again.
     pub(super) fn ask_again(&mut self, objects: &mut Objects<'_, D>) -> Option<[u8; 8]> {
         let held = self.state.late.held;
         self.state.late = Late::BLANK;
@@ -152,7 +153,7 @@ impl<D: Services> Server<'_, D> {
         self.handle(objects, &data, dlc)
     }
 
-    /// Something outside the bus changed: a stream that could not go on may be able to.
+    /// Asks a waiting stream again after a change outside the bus.
     pub(crate) fn handle_change(&mut self, objects: &mut Objects<'_, D>) -> Option<[u8; 8]> {
         if !D::STREAMS || !self.state.late.awaits_stream() {
             return None;

@@ -1,4 +1,4 @@
-//! The server's buffer: it holds a whole value, or one part of a streamed value.
+//! The server's buffer, which contains a whole value or one part of a streamed value.
 
 use crate::number::copy;
 use od_wire::AbortCode;
@@ -6,9 +6,9 @@ use od_wire::AbortCode;
 /// The part of a value that is in the buffer.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Part {
-    /// Bytes of the value before those in the buffer: the stream has them.
+    /// Number of bytes of the value before those in the buffer; the stream has them.
     pub(super) start: usize,
-    /// Bytes in the buffer.
+    /// Number of bytes in the buffer.
     pub(super) len: usize,
 }
 
@@ -34,17 +34,17 @@ impl Window<'_> {
         Ok(self.part.len)
     }
 
-    /// Bytes of the value so far.
+    /// Number of bytes of the value so far.
     pub(super) fn end(&self) -> usize {
         self.part.start + self.part.len
     }
 
-    /// Bytes that there is room for.
+    /// Number of free bytes.
     pub(super) fn room(&self) -> usize {
         self.buffer.len().saturating_sub(self.part.len)
     }
 
-    /// Puts bytes behind those in the buffer. They count with the next change of `len`.
+    /// Writes bytes after those in the buffer. They count only after the next change of `len`.
     pub(super) fn put(&mut self, bytes: &[u8]) -> Result<(), AbortCode> {
         let room = self
             .buffer
@@ -58,7 +58,7 @@ impl Window<'_> {
         self.buffer.get(..len).unwrap_or(&[])
     }
 
-    /// The bytes of the value from `at` on, as far as they are in the buffer.
+    /// Returns the bytes of the value from `at` on, as far as they are in the buffer.
     pub(super) fn from(&self, at: usize) -> &[u8] {
         let at = at.wrapping_sub(self.part.start);
         self.buffer.get(at..self.part.len).unwrap_or(&[])

@@ -1,4 +1,4 @@
-//! CRC-32 as Ethernet and zip have it (reflected, polynomial 04C11DB7h).
+//! CRC-32 as in Ethernet and zip (reflected, polynomial 04C11DB7h).
 
 /// The remainders of the sixteen half-bytes.
 const TABLE: [u32; 16] = {
@@ -21,22 +21,22 @@ const TABLE: [u32; 16] = {
     table
 };
 
-/// A checksum in the making.
+/// A checksum that is being computed.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Crc32(u32);
 
 impl Crc32 {
-    /// The checksum of nothing.
+    /// The checksum of no bytes.
     pub(crate) const fn new() -> Self {
         Self(u32::MAX)
     }
 
-    /// Takes more bytes in.
+    /// Adds bytes.
     pub(crate) fn update(&mut self, bytes: &[u8]) {
         *self = self.after(bytes);
     }
 
-    /// The checksum with more bytes.
+    /// Returns the checksum with these bytes added.
     pub(crate) const fn after(self, mut bytes: &[u8]) -> Self {
         let Self(mut crc) = self;
         while let [byte, rest @ ..] = bytes {
@@ -48,7 +48,7 @@ impl Crc32 {
         Self(crc)
     }
 
-    /// The checksum of all of them.
+    /// Returns the finished checksum.
     pub(crate) const fn finish(self) -> u32 {
         !self.0
     }

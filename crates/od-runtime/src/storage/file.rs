@@ -1,4 +1,4 @@
-//! Storage in a file: a header that says whose it is, and the bytes of an EEPROM.
+//! Storage in a file: a header that names its device, and the bytes of an EEPROM.
 
 use std::format;
 use std::fs::{OpenOptions, TryLockError};
@@ -24,11 +24,11 @@ pub use header::Owner;
 /// Value of an erased byte.
 const ERASED: u8 = 0xFF;
 
-/// Value of a byte that a file lost: neither erased nor written.
+/// Value of a byte that is missing in the file: neither erased nor written.
 const LOST: u8 = 0x03;
 
-/// Storage in a file: [`Storage::flush`] puts it on the disk. As long as it is open no other process
-/// opens it as such, and no other device of this one.
+/// Storage in a file. [`Storage::flush`] writes it to the disk. While it is open, neither another
+/// process nor another device of this process can open it.
 #[derive(Debug)]
 pub struct File {
     file: std::fs::File,
@@ -37,13 +37,13 @@ pub struct File {
 }
 
 impl File {
-    /// Opens the file at `path`, or makes it, erased, with `capacity` bytes.
+    /// Opens the file at `path`, or creates it with `capacity` erased bytes.
     ///
-    /// The values in the file stay. The file belongs to the device that it was made for; others are
-    /// refused ([`OpenError::Foreign`]).
+    /// The values in the file stay. The file belongs to the device that it was made for; another
+    /// device is refused ([`OpenError::Foreign`]).
     ///
     /// # Errors
-    /// [`OpenError`]; the file is as it was then.
+    /// [`OpenError`]; the file is unchanged then.
     pub fn open(
         path: impl AsRef<Path>,
         capacity: usize,
@@ -52,11 +52,11 @@ impl File {
         Self::start(path.as_ref(), capacity, owner, false)
     }
 
-    /// As [`open`](Self::open), for the device of a dictionary: vendor-ID and product code (1018h) say whose the
-    /// file is, and there is room for all values.
+    /// As [`open`](Self::open), for the device of a dictionary: its identity is vendor-ID and
+    /// product code (1018h), and the capacity is enough for all values.
     ///
     /// # Errors
-    /// [`OpenError`]; the file is as it was then.
+    /// [`OpenError`]; the file is unchanged then.
     pub fn of(path: impl AsRef<Path>, dictionary: &Dictionary<'_>) -> Result<Self, OpenError> {
         let number = |sub| match dictionary.entry(0x1018, sub) {
             Some(entry) => entry.default.integer(0).unwrap_or_default(),
@@ -71,10 +71,11 @@ impl File {
         Self::open(path, image::capacity_needed(dictionary), &owner)
     }
 
-    /// As [`open`](Self::open), and erases the file, whichever device of odkit it was of.
+    /// As [`open`](Self::open), but erases the file, whichever device of odkit it belonged to.
     ///
     /// # Errors
-    /// [`OpenError`], if the file is not an EEPROM file of odkit or is in use; it is as it was then.
+    /// [`OpenError`], if the file is not an EEPROM file of odkit or is in use; it is unchanged
+    /// then.
     pub fn open_erased(
         path: impl AsRef<Path>,
         capacity: usize,
@@ -83,7 +84,7 @@ impl File {
         Self::start(path.as_ref(), capacity, owner, true)
     }
 
-    /// Returns what was wrong with the file and is put right, in a sentence.
+    /// Returns a sentence about damage of the file that was repaired, if there was any.
     pub fn repaired(&self) -> Option<&str> {
         self.repaired.as_deref()
     }
@@ -104,7 +105,7 @@ impl File {
             return Err(OpenError::NotEeprom(path.into()));
         }
         lock(&mut file, path)?;
-        // Only as much of another's file as tells that it is one.
+        // Of another file, only the bytes that show its kind are read.
         let mut header = Vec::new();
         let read = (&mut file).take(LEN as u64).read_to_end(&mut header);
         read.map_err(fail)?;
@@ -125,7 +126,7 @@ impl File {
             of,
             device: [owner.name.into(), identity.clone()],
         };
-        // Bytes of the file that was made.
+        // Number of bytes of the file when it was made.
         let whole = match &seen {
             Seen::Whole(header) => LEN + header.capacity,
             Seen::Version(_) => 0,
@@ -135,7 +136,7 @@ impl File {
         let is_fresh = match seen {
             Seen::Other | Seen::Unfinished => true,
             _ if erased => true,
-            // Nothing is lost of a file without values.
+            // A file without values loses nothing.
             Seen::Version('1') if is_blank(&header[SIGNATURE.len()..]) && is_blank(&rest) => true,
             Seen::Version(version) => return Err(OpenError::Version(path.into(), version)),
             Seen::Whole(header) if header.identity != identity => {
@@ -147,7 +148,7 @@ impl File {
                 false
             }
             Seen::Damaged => {
-                // The values themselves say whose they are.
+                // The saved values themselves name their device.
                 let writer = image::writer(&mut opened);
                 if writer.is_ok_and(|writer| writer.is_some_and(|one| one != owner.device)) {
                     let why = "the header of the file is damaged".into();
@@ -186,7 +187,7 @@ impl File {
                 .map_err(fail)?;
         }
         opened.put(0, &bytes).map_err(fail)?;
-        // A header that power cuts short is damaged, and no loss.
+        // A header that is incomplete after a power cut is damaged, but no value is lost.
         if is_fresh || missing > 0 {
             opened.file.sync_all().map_err(fail)?;
         }
@@ -214,11 +215,11 @@ impl File {
 fn lock(file: &mut std::fs::File, path: &Path) -> Result<(), OpenError> {
     match file.try_lock() {
         Ok(()) => Ok(()),
-        // A file system without locks.
+        // The file system has no locks.
         Err(TryLockError::Error(error)) if error.kind() == ErrorKind::Unsupported => Ok(()),
         Err(TryLockError::Error(error)) => Err(OpenError::Io(path.into(), error)),
         Err(TryLockError::WouldBlock) => {
-            // Windows lets nobody read a locked file.
+            // On Windows no other process can read a locked file.
             let mut start = [0; LEN];
             let seen = match file.read_exact(&mut start) {
                 Ok(()) => Header::read(&start),

@@ -1,12 +1,12 @@
-//! The saved values: what 1010h writes, 1011h takes away, and power-on reads.
+//! The saved values: 1010h writes them, 1011h removes them, and power-on reads them.
 //!
 //! The storage is two banks of whole pages, and a save writes the older one. A bank, in words of the
 //! storage ([`Geometry::word`](super::Geometry::word), w bytes, 1 in an EEPROM):
 //!
 //! | bytes | content |
 //! |---|---|
-//! | w | commit word, written last: one of five codes, each of which is newer than the one before it |
-//! | w | mark: a save began that replaces this set |
+//! | w | commit word, written last: one of five codes, each newer than the one before it |
+//! | w | mark: set when a save begins that replaces this set |
 //! | 4 | device: CRC-32 of the version of this layout (2), vendor-ID and product code (1018h) |
 //! | 4 | length of the records |
 //! | 4 | CRC-32 of the two numbers and the records |
@@ -14,24 +14,25 @@
 //! | … | records, by ascending address: index (2), sub-index (1), length (2), value |
 //! | … | FFh to the end of the bank |
 //!
-//! Numbers are little-endian. A save marks the newest set, clears the other bank (flash: erases it),
-//! writes records and numbers, reads them back, and writes the commit word. So power can go at any
-//! moment and leaves the last complete set, never a mixture; where a family wants the factory values
-//! then ([`CutSave::Factory`](crate::CutSave::Factory)), the mark says so. Each word is written once
-//! after it was erased, and a bank of one page is erased once for each save.
+//! Numbers are little-endian. A save marks the newest set, clears the other bank (flash: erases
+//! it), writes records and numbers, reads them back, and writes the commit word. So a power failure
+//! at any moment leaves the last complete set, never a mixture. Where a family then loads the
+//! factory values ([`CutSave::Factory`](crate::CutSave::Factory)), the mark says so. Each word is
+//! written once after it was erased, and a bank of one page is erased once for each save.
 //!
-//! Codes and marks differ in four bits at least, and every other byte is covered by the CRC or is FFh:
-//! any bit that flips is noticed ([`Loaded`]), and which of two sets was the newer one is never in doubt.
+//! Any two codes differ in at least four bits, as do any two marks, and every other byte is covered
+//! by the CRC or is FFh. So a start notices any flipped bit ([`Loaded`]), and always knows which of
+//! two sets is newer.
 //!
 //! A set of another device, or of another version of this layout, is [`Loaded::Foreign`]. It stays
-//! until a master saves or restores; the device itself saves nothing over it.
+//! until a master saves or restores; the device itself does not save over it.
 //!
-//! A value has the bytes of an SDO transfer; where a family keeps COB-IDs as differences
-//! ([`SavedCobIds::Difference`](crate::profile::SavedCobIds)), one whose default has `$NODEID` in it is
-//! less that default.
+//! A value has the bytes of an SDO transfer. If a family saves COB-IDs as differences
+//! ([`SavedCobIds::Difference`](crate::profile::SavedCobIds)), a COB-ID whose default contains
+//! `$NODEID` is saved minus its default.
 //!
-//! Records go by address, so an image survives a firmware with another dictionary:
-//! what no longer fits is not loaded, but it stays in the image as long as there is room.
+//! Records are found by address, so a firmware with another dictionary can read an image. A record
+//! that does not fit is not loaded, but stays in the image as long as there is room.
 
 use core::ops::Range;
 
@@ -69,7 +70,8 @@ pub use loaded::Loaded;
 pub(crate) use medium::Medium;
 pub(crate) use merge::{Plan, write};
 
-/// Bytes of an EEPROM that `dictionary` needs to save every value at its longest, twice.
+/// Returns the number of EEPROM bytes that `dictionary` needs to save every value at its greatest
+/// length, twice.
 pub const fn capacity_needed(dictionary: &Dictionary<'_>) -> usize {
     capacity_on(dictionary, 0, 1)
 }
@@ -90,8 +92,8 @@ pub const fn capacity_on(dictionary: &Dictionary<'_>, page: usize, word: usize) 
     2 * bytes.next_multiple_of(if page > word { page } else { word })
 }
 
-/// Number by which a saved set knows the device that wrote it: vendor-ID and product code (1018h).
-/// The revision may change, as that of a newer firmware does.
+/// Number by which a saved set identifies its device: vendor-ID and product code (1018h). The
+/// revision number does not count, since a newer firmware changes it.
 pub const fn device(dictionary: &Dictionary<'_>) -> u32 {
     survey::device(dictionary)
 }
@@ -106,8 +108,9 @@ pub fn writer(storage: &mut dyn Storage) -> Result<Option<u32>, StorageError> {
     Ok(banks.newest.map(|set| set.device))
 }
 
-/// Returns the range of the newest set with its header in the storage; `None` if no set is complete.
-/// A storage that holds this at its start, and is erased behind it, has the same saved values.
+/// Returns the range of the newest set with its header in the storage; `None` if no set is
+/// complete. A storage that has these bytes at its start, and is erased after them, has the same
+/// saved values.
 ///
 /// # Errors
 /// [`StorageError`] if the storage cannot be read.
@@ -118,17 +121,17 @@ pub fn newest(storage: &mut dyn Storage) -> Result<Option<Range<usize>>, Storage
     Ok(banks.newest.map(place))
 }
 
-/// Bytes of storage that a device needs beyond [`capacity_needed`] where LSS stores node ID and
-/// bit rate, and it has no objects for them.
+/// Number of bytes that a device needs beyond [`capacity_needed`], if LSS stores node ID and bit
+/// rate and the device has no objects for them.
 pub const OWN_CAPACITY: usize = 2 * 2 * (RECORD + 1);
 
-/// Puts saved values over those in the store, for the entries that `which` names.
+/// Loads saved values into the store, for the entries for which `which` is true.
 ///
-/// The store holds the defaults before. A value that the object could not have by now
-/// (length, limits) is skipped like one whose object is missing.
+/// The store must contain the defaults before. A saved value is skipped if its object is missing,
+/// or cannot have the value (length, limits).
 ///
 /// # Errors
-/// [`StorageError`] where the storage cannot be read; some values may be loaded then.
+/// [`StorageError`] if the storage cannot be read; some values may be loaded then.
 pub fn load(
     storage: &mut dyn Storage,
     store: &mut Store<'_>,
@@ -141,7 +144,7 @@ pub fn load(
     take_over(&mut medium, store, profile, which)
 }
 
-/// The second part of [`load`], of surveyed banks.
+/// The second part of [`load`], for surveyed banks.
 pub(crate) fn take_over(
     medium: &mut Medium<'_>,
     store: &mut Store<'_>,
@@ -178,7 +181,7 @@ pub(crate) fn take_over(
     })
 }
 
-/// Puts a saved value over that of the store. Returns whether the object can have it.
+/// Loads a saved value into the store. Returns whether the object can have it.
 fn load_value(
     medium: &mut Medium<'_>,
     store: &mut Store<'_>,
@@ -187,7 +190,7 @@ fn load_value(
     at: usize,
     len: usize,
 ) -> bool {
-    // A string goes straight to its place: it does not fit on a small stack.
+    // A string is read directly into its place: it may not fit on a small stack.
     if row.is_variable() && len <= MAX_VALUE {
         let Ok(room) = store.room(row, len) else {
             return false;
@@ -209,17 +212,16 @@ fn load_value(
         && store.put_row(row, value).is_ok()
 }
 
-/// Saves the values that sub-index `sub` of 1010h covers, 1–4; the other groups' saved
-/// values stay as they are.
+/// Saves the values that sub-index `sub` (1 to 4) of 1010h covers; the saved values of the other
+/// groups stay.
 ///
-/// A `$NODEID` default that was not changed is not saved: it follows the node ID.
-/// Sub-index 0, which no master can write, saves only the operating records
-/// ([`is_life_record`]).
+/// A `$NODEID` default that was not changed is not saved, so it follows the node ID. Sub-index 0,
+/// which no master can write, saves only the operating records ([`is_life_record`]).
 ///
 /// # Errors
-/// [`StorageError::Full`] where there is not enough room, before anything is written;
-/// [`StorageError::NotWritten`] if the storage does not hold what was written;
-/// others where the storage fails. The last complete set is still there then.
+/// [`StorageError::Full`] if there is not enough room, before anything is written;
+/// [`StorageError::NotWritten`] if the storage does not contain the written bytes; others if the
+/// storage fails. The last complete set is still there then.
 pub fn save(
     storage: &mut dyn Storage,
     store: &Store<'_>,
@@ -235,8 +237,8 @@ pub fn save(
     )
 }
 
-/// Saves the values at these addresses, whatever their group; all others stay as they are saved. LSS
-/// stores node ID and bit rate so.
+/// Saves the values at these addresses, independent of their group; other saved values stay. LSS
+/// stores node ID and bit rate in this way.
 ///
 /// # Errors
 /// As [`save`].
@@ -255,13 +257,13 @@ pub fn save_only(
     )
 }
 
-/// Takes the saved values away that sub-index `sub` of 1011h covers, so that the next
-/// power-on finds the defaults; the other groups' saved values stay.
+/// Removes the saved values that sub-index `sub` of 1011h covers, so that the next power-on loads
+/// their defaults; the saved values of the other groups stay.
 ///
 /// A record whose object is gone belongs to the group of its index.
 ///
 /// # Errors
-/// [`StorageError`] where the storage fails. The last complete set is still there then.
+/// [`StorageError`] if the storage fails. The last complete set is still there then.
 pub fn erase(
     storage: &mut dyn Storage,
     store: &Store<'_>,

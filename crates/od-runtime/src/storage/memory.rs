@@ -3,10 +3,10 @@
 use super::{Storage, StorageError};
 use crate::number::copy;
 
-/// Storage that lives as long as its bytes: an array, a slice, a `Vec`.
+/// Storage in memory that the caller owns: an array, a slice, a `Vec`.
 ///
-/// Power can be cut after a number of written bytes, so that tests and the bench can try what an
-/// interrupted save leaves:
+/// Power can be cut after a number of written bytes. Tests and the bench use this to see the state
+/// after an interrupted save:
 ///
 /// ```
 /// use od_runtime::storage::{Memory, Storage, StorageError};
@@ -21,7 +21,7 @@ use crate::number::copy;
 #[derive(Clone, Debug)]
 pub struct Memory<B> {
     bytes: B,
-    /// Bytes that can still be written before power goes.
+    /// Number of bytes that can still be written before power fails.
     left: Option<usize>,
     cut: bool,
 }
@@ -41,28 +41,28 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>> Memory<B> {
         self.left = Some(bytes);
     }
 
-    /// Returns whether power went; nothing can be read or written then.
+    /// Returns whether power has failed; nothing can be read or written then.
     pub fn is_cut(&self) -> bool {
         self.cut
     }
 
-    /// Power is back, for good.
+    /// Restores power, and cancels a planned failure.
     pub fn restore_power(&mut self) {
         self.left = None;
         self.cut = false;
     }
 
-    /// Returns its bytes.
+    /// Returns the bytes.
     pub fn bytes(&self) -> &[u8] {
         self.bytes.as_ref()
     }
 
-    /// Returns its bytes, for a test to damage.
+    /// Returns the bytes, for a test that damages them.
     pub fn bytes_mut(&mut self) -> &mut [u8] {
         self.bytes.as_mut()
     }
 
-    /// The bytes themselves.
+    /// Returns the owner of the bytes.
     pub fn into_inner(self) -> B {
         self.bytes
     }
@@ -80,7 +80,7 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>> Storage for Memory<B> {
         let from = self.bytes.as_ref().get(offset..);
         let from = from.and_then(|from| from.get(..to.len()));
         let from = from.ok_or(StorageError::OutOfRange)?;
-        // A start reads all there is, so it goes by words.
+        // A start reads the whole storage, so this compares words.
         let ((to, to_rest), (from, rest)) = (to.as_chunks_mut::<4>(), from.as_chunks::<4>());
         to.iter_mut().zip(from).for_each(|(to, from)| *to = *from);
         copy(to_rest, rest);

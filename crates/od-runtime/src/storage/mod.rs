@@ -1,8 +1,8 @@
-//! Non-volatile memory: bytes behind a small trait, and the image of the saved values.
+//! Non-volatile memory: a small trait for its bytes, and the image of the saved values.
 //!
-//! [`Storage`] is an EEPROM or NOR flash as a host provides it. [`NoStorage`] is a device without
-//! one, [`Memory`] lives as long as its bytes, `File` (feature `std`) longer.
-//! [`image`] is what 1010h and 1011h write there.
+//! [`Storage`] is an EEPROM or NOR flash as a host provides it. [`NoStorage`] is for a device
+//! without one. [`Memory`] keeps its bytes in RAM, `File` (feature `std`) in a file. [`image`]
+//! describes what 1010h and 1011h write there.
 
 pub(crate) mod crc;
 #[cfg(feature = "std")]
@@ -25,16 +25,15 @@ pub use save::Save;
 pub enum StorageError {
     /// Outside the capacity.
     OutOfRange,
-    /// The values need more room than there is, or one of them is longer than
-    /// [`image::MAX_VALUE`].
+    /// The values need more room than there is, or one of them is longer than [`image::MAX_VALUE`].
     Full,
-    /// Power went while writing; nothing works until it is back.
+    /// Power failed during a write; nothing works until power returns.
     PowerCut,
     /// The memory itself failed.
     Device,
-    /// The memory does not hold what was written to it.
+    /// The memory does not contain the bytes that were written.
     NotWritten,
-    /// The saved values are of another device, and only a master may replace them.
+    /// The saved values belong to another device, and only a master may replace them.
     Foreign,
 }
 
@@ -56,12 +55,12 @@ impl core::error::Error for StorageError {}
 /// Sizes of a storage, in bytes.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub struct Geometry {
-    /// Size of the whole storage. Of flash: whole pages.
+    /// Size of the whole storage; for flash, whole pages.
     pub capacity: usize,
-    /// Size of what [`Storage::erase`] erases at once; 0: nothing has to be erased before it is
-    /// written (EEPROM, FRAM).
+    /// Number of bytes that [`Storage::erase`] erases at once; 0: no erasure is needed before a
+    /// write (EEPROM, FRAM).
     pub page: usize,
-    /// Size of what is written at once, a power of two up to 32; 1 for an EEPROM.
+    /// Number of bytes that are written at once, a power of two up to 32; 1 for an EEPROM.
     pub word: usize,
 }
 
@@ -76,19 +75,19 @@ impl Geometry {
     }
 }
 
-/// Memory that survives power-off: an EEPROM, or NOR flash.
+/// Memory that keeps its content without power: an EEPROM, or NOR flash.
 ///
-/// Power may go at any moment. A byte of an EEPROM is written wholly or not at all; a word of flash
-/// that is being written, or a page that is being erased, may have any content after it.
+/// Power may fail at any moment. A byte of an EEPROM is then written completely or not at all; a
+/// word of flash that was being written, or a page that was being erased, may have any content.
 ///
-/// Flash ([`Geometry::page`] is not 0) sees whole words at multiples of [`Geometry::word`], each
-/// written once after its page was erased, so a write only clears bits. No call takes longer than to
-/// erase one page, or to write 64 bytes.
+/// For flash ([`Geometry::page`] is not 0) the node writes whole words at multiples of
+/// [`Geometry::word`], each once after its page was erased, so a write only clears bits. One call
+/// erases at most one page, or writes at most 64 bytes.
 pub trait Storage {
     /// Number of bytes.
     fn capacity(&self) -> usize;
 
-    /// Returns the sizes of the storage; those of an EEPROM if it does not say otherwise.
+    /// Returns the sizes of the storage; by default those of an EEPROM.
     fn geometry(&self) -> Geometry {
         Geometry::eeprom(self.capacity())
     }
@@ -96,51 +95,51 @@ pub trait Storage {
     /// Fills `to` from `offset` on.
     ///
     /// # Errors
-    /// [`StorageError::OutOfRange`], and those of the device.
+    /// [`StorageError::OutOfRange`], and errors of the device.
     fn read(&mut self, offset: usize, to: &mut [u8]) -> Result<(), StorageError>;
 
     /// Writes `bytes` from `offset` on.
     ///
     /// # Errors
-    /// [`StorageError::OutOfRange`], and those of the device; some of the bytes may be written
+    /// [`StorageError::OutOfRange`], and errors of the device; some of the bytes may be written
     /// then.
     fn write(&mut self, offset: usize, bytes: &[u8]) -> Result<(), StorageError>;
 
     /// Sets all bytes of the page at `offset` to FFh. Never called for an EEPROM.
     ///
     /// # Errors
-    /// [`StorageError::OutOfRange`], and those of the device.
+    /// [`StorageError::OutOfRange`], and errors of the device.
     fn erase(&mut self, offset: usize) -> Result<(), StorageError> {
         let _ = offset;
         Err(StorageError::Device)
     }
 
-    /// Takes over a save, of which it makes the image itself, in bounded steps after this call
-    /// ([`image::Job`]). From now on it [is writing](Self::is_writing), and whatever is read or written later
-    /// finds the save complete. `false`: the node makes the image in this call.
+    /// Takes over a save: the storage makes the image itself, in bounded steps after this call
+    /// ([`image::Job`]). From now on [`is_writing`](Self::is_writing) returns `true`, and later
+    /// reads and writes find the save complete. `false`: the node makes the image in this call.
     fn take(&mut self, save: &Save<'_>) -> bool {
         let _ = save;
         false
     }
 
-    /// Returns whether written bytes are on their way to the memory that keeps them, where somebody else does
-    /// that in the background. The node answers 1010h and 1011h when they have arrived, and asks
-    /// [`flush`](Self::flush) then whether all went well.
+    /// Returns whether written bytes have not reached the non-volatile memory yet, because they are
+    /// written in the background. The node responds to 1010h and 1011h when they have, and then
+    /// asks [`flush`](Self::flush) whether all writes succeeded.
     fn is_writing(&mut self) -> bool {
         false
     }
 
-    /// Makes sure that everything written before this call survives a loss of power after it. Where
-    /// [`is_writing`](Self::is_writing) returns `true` it does not wait, and reports what failed.
+    /// Makes sure that everything written before this call survives a power failure after it. While
+    /// [`is_writing`](Self::is_writing) returns `true` it does not wait, and reports failures.
     ///
     /// # Errors
-    /// Those of the device.
+    /// Errors of the device.
     fn flush(&mut self) -> Result<(), StorageError> {
         Ok(())
     }
 }
 
-/// A device that keeps nothing: capacity 0.
+/// Storage of a device that saves nothing: capacity 0.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct NoStorage;
 

@@ -5,7 +5,7 @@ use od_model::Dictionary;
 use crate::profile::StoreProfile;
 use crate::store::Store;
 
-/// A save or a restore: what [`image::Job`](super::image::Job) makes the next image of.
+/// A save or a restore, of which [`image::Job`](super::image::Job) makes the next image.
 pub struct Save<'s> {
     /// 1011h, not 1010h.
     pub(crate) restores: bool,
@@ -18,13 +18,14 @@ pub struct Save<'s> {
 }
 
 impl Save<'_> {
-    /// Returns whether it is a save of 1010h: neither a restore (1011h) nor the operating records alone, which
-    /// the device saves by itself.
+    /// Returns whether it is a save of 1010h: neither a restore (1011h) nor a save of the operating
+    /// records only, which the device starts itself.
     pub fn is_of_settings(&self) -> bool {
         !self.restores && self.sub != 0
     }
 
-    /// Returns whether these are values of this [device](super::image::device), laid out by this dictionary.
+    /// Returns whether these are values of this [device](super::image::device), in the layout of
+    /// this dictionary.
     pub fn is_of(&self, device: u32, dictionary: &Dictionary<'_>) -> bool {
         let own = self.store.dictionary();
         self.device == device

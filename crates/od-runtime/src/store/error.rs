@@ -1,4 +1,4 @@
-//! Reasons why a store cannot be made, or a text does not fit.
+//! Errors of a store that cannot be made, and of a text that does not fit.
 
 use core::fmt;
 
@@ -6,7 +6,7 @@ use core::fmt;
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub struct StoreTooSmall {
-    /// Bytes that the dictionary needs.
+    /// Number of bytes that the dictionary needs.
     pub needed: usize,
 }
 
@@ -26,7 +26,7 @@ impl core::error::Error for StoreTooSmall {}
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub struct TextTooLong {
-    /// Bytes that the object can hold.
+    /// Number of bytes that the object can hold.
     pub capacity: usize,
 }
 

@@ -1,4 +1,5 @@
-//! A node without a service: its objects are values as any others, and its frames mean nothing.
+//! A node without a service: the objects of the service are plain values, and its frames are
+//! ignored.
 
 use crate::support::{Bench, Row, rows, unsigned};
 use crate::table::{With, on};
@@ -10,7 +11,7 @@ use od_wire::nmt::State;
 
 type Of<const SERVICES: u16> = Bench<NoApplication, With<SERVICES>>;
 
-/// Objects of all services, whose values no rule of theirs would accept.
+/// Objects of all services, with values that the rules of the services would refuse.
 fn all() -> Vec<Row> {
     use Access::Rw;
     use DataType::{Unsigned8, Unsigned16, Unsigned32};
@@ -49,7 +50,7 @@ fn write<const SERVICES: u16>(bench: &mut Of<SERVICES>, request: &str) -> String
     bench.ask(&format!("601#{request}"))[4..6].to_owned()
 }
 
-/// The answers of a node with only this service, and of one without services.
+/// The responses of a node with only this service, and of one without services.
 fn both<const SERVICE: u16>(request: &str) -> [String; 2] {
     [
         write(&mut bench::<SERVICE>(), request),
@@ -58,7 +59,7 @@ fn both<const SERVICE: u16>(request: &str) -> [String; 2] {
 }
 
 #[test]
-fn objects_of_an_absent_service_take_any_value() {
+fn objects_of_an_absent_service_accept_any_value() {
     let time = both::<{ on::TIME }>;
     assert_eq!(time("2312100001060000"), [REFUSED, DONE], "an SDO's COB-ID");
     assert_eq!(time("2312100001010080"), [REFUSED, DONE], "in use");
@@ -97,7 +98,7 @@ fn objects_of_an_absent_service_take_any_value() {
 }
 
 #[test]
-fn a_sync_that_is_produced_keeps_its_can_id() {
+fn a_produced_sync_keeps_its_can_id() {
     let mut bench = bench::<{ on::SYNC_PRODUCER }>();
     for (request, answer) in [
         ("2305100080000040", DONE),
@@ -113,7 +114,7 @@ fn a_sync_that_is_produced_keeps_its_can_id() {
 }
 
 #[test]
-fn transfers_without_their_service_are_no_commands() {
+fn transfers_of_an_absent_service_are_unknown_commands() {
     const SEGMENTED: u16 = on::SEGMENTED;
     const BLOCK: u16 = on::BLOCK;
     fn ask<const SERVICES: u16>(request: &str) -> String {
@@ -141,7 +142,7 @@ fn transfers_without_their_service_are_no_commands() {
 }
 
 #[test]
-fn frames_of_an_absent_service_mean_nothing() {
+fn frames_of_an_absent_service_are_ignored() {
     fn answers<const SERVICES: u16>(frame: &str) -> usize {
         let mut bench = bench::<SERVICES>();
         bench.node.device_mut().profile.lss = Some(LssProfile::CIA305);
@@ -161,7 +162,7 @@ fn frames_of_an_absent_service_mean_nothing() {
 }
 
 #[test]
-fn rpdos_that_the_node_does_not_have_are_not_received() {
+fn missing_rpdos_are_not_received() {
     fn value<const SERVICES: u16>() -> u64 {
         let mut bench = bench::<SERVICES>();
         bench.send("000#0101");
@@ -173,7 +174,7 @@ fn rpdos_that_the_node_does_not_have_are_not_received() {
 }
 
 #[test]
-fn changes_are_sent_where_the_node_looks_for_them() {
+fn changes_are_sent_only_with_the_service_for_changes() {
     fn sent<const SERVICES: u16>() -> usize {
         let mut bench = bench::<SERVICES>();
         bench.node.device_mut().profile.pdo.event_on_change = true;
@@ -186,7 +187,7 @@ fn changes_are_sent_where_the_node_looks_for_them() {
 }
 
 #[test]
-fn nobody_is_told_of_events_that_nobody_asks_for() {
+fn a_node_without_events_reports_none() {
     let mut bench = bench::<{ u16::MAX ^ on::EVENTS }>();
     bench.send("601#2300200006000000");
     assert_eq!(bench.node.poll_event(), None);
@@ -194,7 +195,7 @@ fn nobody_is_told_of_events_that_nobody_asks_for() {
     assert!(bench.node.poll_event().is_some());
 }
 
-/// Says an error, and streams 2002h.
+/// Raises an error, and streams 2002h.
 struct Noisy;
 
 impl Application for Noisy {
@@ -256,7 +257,7 @@ fn noisy<const SERVICES: u16>() -> Bench<Noisy, With<SERVICES>> {
 }
 
 #[test]
-fn an_error_leads_nowhere_without_error_behaviour() {
+fn an_error_has_no_effect_without_error_behaviour() {
     fn state<const SERVICES: u16>() -> State {
         let mut bench = noisy::<SERVICES>();
         let sent = bench.send("601#2300200006000000");
@@ -271,7 +272,7 @@ fn an_error_leads_nowhere_without_error_behaviour() {
 }
 
 #[test]
-fn without_streams_a_value_is_that_of_the_store() {
+fn without_streams_a_value_is_in_the_store() {
     const REST: u16 = u16::MAX ^ on::STREAMS;
     let upload = "601#4002200000000000";
     let streamed = noisy::<{ on::STREAMS }>().ask(upload);
@@ -285,7 +286,7 @@ fn without_streams_a_value_is_that_of_the_store() {
 }
 
 #[test]
-fn a_block_ends_where_its_client_does() {
+fn a_block_ends_where_the_client_ends_it() {
     fn answers<const SERVICES: u16>() -> Vec<(u64, String)> {
         let mut bench = bench::<SERVICES>();
         bench.ask("601#C603200009000000");
@@ -304,7 +305,7 @@ fn a_block_ends_where_its_client_does() {
 }
 
 #[test]
-fn a_save_that_takes_its_time_is_answered_without_streams_too() {
+fn a_save_with_a_duration_is_answered_without_streams_too() {
     let mut bench = bench::<{ on::STORAGE }>();
     bench.node.device_mut().profile.store.answer = od_runtime::SaveAnswer::AfterStoring;
     bench.node.device_mut().profile.store.duration_us = 50_000;

@@ -12,7 +12,7 @@ const fn notice(code: u16, register: u8) -> Option<Notice> {
     Some(Notice { code, register })
 }
 
-/// The errors of manual 001: one bit for all of the bus, three sub-indices of 1029h.
+/// The errors of manual 001: one bit for all errors of the bus, three sub-indices of 1029h.
 const MANUAL_001: ErrorProfile = ErrorProfile {
     lost: Notice {
         code: 0x8130,
@@ -74,7 +74,7 @@ fn events(bench: &mut Bench) -> Vec<Event> {
 }
 
 #[test]
-fn warning_and_passive_come_and_go_as_manual_001_has_them() {
+fn warning_and_passive_begin_and_end_as_in_manual_001() {
     let mut bench = bench(MANUAL_001, 1, 8);
     assert_eq!(bench.bus(BusEvent::Warning), ["081#0081100000000000"]);
     assert!(bench.bus(BusEvent::Warning).is_empty(), "no news");
@@ -91,7 +91,7 @@ fn warning_and_passive_come_and_go_as_manual_001_has_them() {
 }
 
 #[test]
-fn an_overrun_lasts_until_the_controller_is_well() {
+fn an_overrun_lasts_until_the_controller_is_active() {
     let mut bench = bench(MANUAL_001, 1, 8);
     assert_eq!(bench.bus(BusEvent::Overrun), ["081#1081100000000000"]);
     assert!(bench.bus(BusEvent::Overrun).is_empty());
@@ -99,7 +99,7 @@ fn an_overrun_lasts_until_the_controller_is_well() {
 }
 
 #[test]
-fn a_family_without_codes_for_the_states_says_nothing_of_them() {
+fn a_family_without_codes_for_these_states_sends_nothing() {
     let mut bench = bench(MANUAL_000, 0, 8);
     assert!(bench.bus(BusEvent::Warning).is_empty());
     assert!(bench.bus(BusEvent::Passive).is_empty());
@@ -113,7 +113,7 @@ fn a_family_without_codes_for_the_states_says_nothing_of_them() {
 }
 
 #[test]
-fn bus_off_is_silence_until_the_bus_is_back() {
+fn a_node_is_silent_in_bus_off() {
     let mut bench = bench(MANUAL_000, 1, 8);
     events(&mut bench);
     assert!(bench.bus(BusEvent::Off).is_empty());
@@ -144,7 +144,7 @@ fn bus_off_is_silence_until_the_bus_is_back() {
 }
 
 #[test]
-fn without_the_option_the_device_stays_off_until_power_comes_back() {
+fn without_the_option_the_device_stays_off_until_a_power_cycle() {
     let mut bench = bench(MANUAL_000, 1, 0);
     bench.bus(BusEvent::Off);
     bench.bus(BusEvent::Active);
@@ -177,7 +177,7 @@ fn bus_off_is_a_communication_error_to_1029h() {
 }
 
 #[test]
-fn manual_001_restarts_or_does_as_1029h_says() {
+fn in_manual_001_the_device_restarts_or_does_what_1029h_says() {
     let mut restarting = bench(MANUAL_001, 2, 8);
     restarting.ask("601#2B17100020030000");
     restarting.bus(BusEvent::Off);
@@ -199,7 +199,7 @@ fn manual_001_restarts_or_does_as_1029h_says() {
 }
 
 #[test]
-fn cia_301_says_that_it_is_back() {
+fn cia_301_reports_the_end_of_bus_off() {
     let mut bench = bench(Profile::CIA301.errors, 1, 0);
     bench.bus(BusEvent::Off);
     assert_eq!(
@@ -209,7 +209,7 @@ fn cia_301_says_that_it_is_back() {
 }
 
 #[test]
-fn reset_communication_begins_the_controller_anew() {
+fn reset_communication_restarts_the_controller() {
     let mut bench = bench(MANUAL_001, 1, 8);
     bench.bus(BusEvent::Passive);
     bench.send("000#8201");
@@ -223,7 +223,7 @@ fn reset_communication_begins_the_controller_anew() {
 }
 
 #[test]
-fn an_error_of_the_bus_that_gets_better_ends() {
+fn an_error_of_the_bus_that_improves_ends() {
     let mut bench = bench(MANUAL_001, 1, 8);
     events(&mut bench);
     bench.bus(BusEvent::Passive);
@@ -241,7 +241,7 @@ fn an_error_of_the_bus_that_gets_better_ends() {
 }
 
 #[test]
-fn a_reset_of_the_communication_ends_its_errors_alone() {
+fn reset_communication_ends_only_communication_errors() {
     use od_runtime::Emcy;
     let after = |codes: &[(u16, u8)]| {
         let mut errors = MANUAL_001;

@@ -1,5 +1,5 @@
-//! A node sends by no CAN-ID that it may not use, wherever the COB-ID comes from (CiA 301, table 40: restricted
-//! CAN-IDs; chapters 7.5.2.5 to 7.5.2.37: the COB-ID objects).
+//! A node never sends with a CAN-ID that it may not use, wherever the COB-ID comes from (CiA 301,
+//! table 40: restricted CAN-IDs; chapters 7.5.2.5 to 7.5.2.37: the COB-ID objects).
 
 use std::collections::BTreeMap;
 
@@ -8,7 +8,7 @@ use od_eds::Value;
 use od_model::{Access, DataType};
 use od_runtime::{Application, Context, Emcy, Event, Instant, NodeId, TimeOfDay};
 
-/// Raises an error and sends a TIME message whenever it is asked.
+/// Raises an error and sends a TIME message at each request.
 #[derive(Default)]
 struct Talker {
     is_on: bool,
@@ -36,7 +36,7 @@ impl Application for Talker {
     }
 }
 
-/// The rows of a device with every service that has a COB-ID; the defaults of `cob_ids` replace its own.
+/// The rows of a device with every service that has a COB-ID; `cob_ids` replaces defaults.
 fn device(cob_ids: &[((u16, u8), Value)]) -> Vec<Row> {
     use Access::{Const, Rw};
     use DataType::{Unsigned8, Unsigned32};
@@ -48,7 +48,7 @@ fn device(cob_ids: &[((u16, u8), Value)]) -> Vec<Row> {
         (0x1201, 1, Unsigned32, Rw, false, unsigned(0x8000_0000)),
         (0x1201, 2, Unsigned32, Rw, false, unsigned(0x8000_0000)),
     ]);
-    // Its data tells TPDO 2 from TPDO 1.
+    // The data shows whether a frame is TPDO 1 or TPDO 2.
     rows.push((0x2007, 0, Unsigned32, Rw, true, unsigned(7)));
     for row in &mut rows {
         if (row.0, row.1) == (0x1A01, 1) {
@@ -62,7 +62,8 @@ fn device(cob_ids: &[((u16, u8), Value)]) -> Vec<Row> {
     rows
 }
 
-/// Everything that a node says from power-on to some SYNCs, remote frames, errors and a TIME message.
+/// All frames that a node sends from power-on to some SYNCs, remote frames, errors and a TIME
+/// message.
 fn all_frames(bench: &mut Bench<Talker>) -> Vec<String> {
     let own = bench.node.node_id().raw();
     let mut all = bench.power_on();
@@ -74,7 +75,7 @@ fn all_frames(bench: &mut Bench<Talker>) -> Vec<String> {
         for id in (0..0x800).step_by(1 + round * 6) {
             all.extend(bench.send(&format!("{id:03X}#R8")));
         }
-        // A request for 2000h to any SDO server past the default one.
+        // A request for 2000h to each SDO server except the default one.
         all.extend(bench.send("5F0#4000200000000000"));
         all.extend(bench.send("6A0#4000200000000000"));
         all.extend(bench.wait(20).into_iter().map(|(_, frame)| frame));
@@ -92,7 +93,7 @@ fn refused(bench: &mut Bench<Talker>) -> Vec<u16> {
 }
 
 #[test]
-fn a_cob_id_that_leaves_the_11_bits_makes_its_service_not_valid() {
+fn a_cob_id_outside_the_11_bits_makes_its_service_not_valid() {
     // 790h + 112 = 800h, whose 11 bits are those of NMT.
     for node_id in [111, 112, 127] {
         let mut bench = Bench::with(
@@ -113,7 +114,7 @@ fn a_cob_id_that_leaves_the_11_bits_makes_its_service_not_valid() {
 }
 
 #[test]
-fn a_service_whose_cob_id_is_refused_is_not_valid_and_the_others_are() {
+fn only_the_service_with_a_refused_cob_id_is_not_valid() {
     let emcy = |frame: &String| frame.ends_with("EEEEEEEEEE");
     type Case<'c> = (&'c [((u16, u8), Value)], &'c [u16]);
     let cases: [Case<'_>; 8] = [
@@ -124,7 +125,7 @@ fn a_service_whose_cob_id_is_refused_is_not_valid_and_the_others_are() {
         (&[((0x1005, 0), Value::Unsigned(0x601))], &[0x1005]),
         (&[((0x1012, 0), Value::Unsigned(0x4000_0001))], &[0x1012]),
         (&[((0x1400, 1), Value::Unsigned(0x601))], &[0x1400]),
-        // The second TPDO would send by the CAN-ID of the first one.
+        // The second TPDO would send with the CAN-ID of the first one.
         (&[((0x1801, 1), Value::NodeId(0x180))], &[0x1801]),
     ];
     for (cob_ids, expected) in cases {
@@ -148,14 +149,14 @@ fn a_service_whose_cob_id_is_refused_is_not_valid_and_the_others_are() {
 }
 
 #[test]
-fn a_cob_id_that_another_service_gives_up_is_usable_again() {
+fn a_released_cob_id_is_usable_again() {
     let cob_ids = [((0x1801, 1), Value::NodeId(0x180))];
     let mut bench = Bench::with(device(&cob_ids), Talker::default());
     bench.power_on();
     assert_eq!(refused(&mut bench), [0x1801]);
     bench.send("000#0101");
     assert_eq!(bench.send("181#R8"), ["181#05000000"]);
-    // 1800h:01 becomes not valid, so 181h is free for TPDO 2, and is taken again by a valid TPDO 1.
+    // 1800h:01 becomes not valid, so 181h is free for TPDO 2; then a valid TPDO 1 takes it again.
     bench.ask("601#2300180181010080");
     assert_eq!(refused(&mut bench), [] as [u16; 0]);
     assert_eq!(bench.send("181#R8"), ["181#07000000"]);
@@ -179,7 +180,7 @@ impl Random {
         from[self.next() as usize % from.len()]
     }
 
-    /// A COB-ID that is wrong more often than chance would have it, fixed or with the node ID.
+    /// A COB-ID that is wrong more often than at random, fixed or with the node ID.
     fn cob_id(&mut self) -> Value {
         let id = self.pick(&[
             0x000,
@@ -221,7 +222,7 @@ impl Random {
     }
 }
 
-/// The service that a frame is of, by its CAN-ID (those with a fixed one) or its data.
+/// The service that sent a frame, by its CAN-ID (services with a fixed one) or its data.
 fn service(frame: &str, own: u8) -> &'static str {
     let (id, data) = frame.split_once('#').expect("id#data");
     let is_standard = id.len() == 3;
@@ -250,7 +251,7 @@ fn service(frame: &str, own: u8) -> &'static str {
 }
 
 #[test]
-fn no_node_sends_by_a_restricted_can_id_or_by_that_of_another_service() {
+fn no_node_sends_with_a_restricted_can_id_or_one_of_another_service() {
     let mut random = Random(0x9E37_79B9_7F4A_7C15);
     let mut seen = BTreeMap::<&'static str, u32>::new();
     for _ in 0..600 {
@@ -289,6 +290,6 @@ fn no_node_sends_by_a_restricted_can_id_or_by_that_of_another_service() {
             assert_eq!(owner, service, "node {own}, {cob_ids:?}: {frame}");
         }
     }
-    // Each of the services did take part.
+    // Each service sent at least one frame.
     assert_eq!(seen.len(), 8, "{seen:?}");
 }

@@ -1,4 +1,4 @@
-//! Emergency, 1001h and 1003h (CiA 301, chapters 7.2.7 and 7.5.2.2–7.5.2.4).
+//! EMCY, 1001h and 1003h (CiA 301, chapters 7.2.7 and 7.5.2.2 to 7.5.2.4).
 
 use crate::support::{Bench, Row, rows, unsigned};
 use od_model::{Access, DataType};
@@ -40,7 +40,7 @@ fn error(code: u16, register: u8) -> Emcy {
 }
 
 #[test]
-fn errors_come_and_go_with_their_bits() {
+fn errors_set_and_clear_their_bits() {
     let mut bench = bench(&[]);
     bench.node.application.raise.push(error(0x5530, 0x01));
     assert_eq!(bench.change(), ["081#3055010102030405"]);
@@ -67,7 +67,7 @@ fn errors_come_and_go_with_their_bits() {
 }
 
 #[test]
-fn the_log_keeps_the_newest() {
+fn the_history_keeps_the_newest() {
     let mut bench = bench(&[]);
     for code in [0x1000, 0x5530, 0x6010] {
         bench.node.application.raise.push(error(code, 1));
@@ -88,7 +88,7 @@ fn the_log_keeps_the_newest() {
 }
 
 #[test]
-fn inhibit_time_and_1014h_hold_the_frame_not_the_log() {
+fn inhibit_time_and_1014h_delay_the_message_not_the_history() {
     let inhibit = (
         0x1015,
         0,
@@ -116,7 +116,7 @@ fn inhibit_time_and_1014h_hold_the_frame_not_the_log() {
 }
 
 #[test]
-fn no_emcy_when_stopped_but_an_entry_in_the_log() {
+fn an_error_in_stopped_is_in_the_history_without_a_message() {
     let mut bench = bench(&[]);
     bench.send("000#0201");
     bench.node.application.raise.push(error(0x1000, 1));
@@ -126,7 +126,7 @@ fn no_emcy_when_stopped_but_an_entry_in_the_log() {
 }
 
 #[test]
-fn an_emcy_that_waits_goes_out_after_the_boot_up() {
+fn an_emcy_that_waits_is_sent_after_the_boot_up() {
     let inhibit = (
         0x1015,
         0,
@@ -152,7 +152,7 @@ fn an_emcy_that_waits_goes_out_after_the_boot_up() {
 }
 
 #[test]
-fn errors_wait_for_the_inhibit_time_in_their_order() {
+fn messages_keep_their_order_during_the_inhibit_time() {
     // 100 ms, in units of 100 us.
     let mut bench = bench(&[(
         0x1015,
@@ -204,7 +204,7 @@ fn the_inhibit_time_is_in_units_of_100_microseconds() {
 }
 
 #[test]
-fn a_reset_forgets_errors_and_those_that_wait() {
+fn a_reset_removes_errors_and_waiting_messages() {
     // 50 ms, in units of 100 us.
     let word = DataType::Unsigned16;
     let inhibit = (0x1015, 0, word, Access::Rw, false, unsigned(500));

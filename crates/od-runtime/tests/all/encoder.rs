@@ -1,4 +1,4 @@
-//! Tests which dictionary of an unknown family is an encoder's (CiA 406).
+//! Which dictionaries of an unknown family count as encoders (CiA 406).
 
 use crate::support::{rows, tables, unsigned};
 use od_model::{Access, DataType};
@@ -12,7 +12,7 @@ fn is_encoder(device_type: u64, data_type: DataType, access: Access) -> bool {
 }
 
 #[test]
-fn another_device_with_6004h_is_no_encoder() {
+fn another_device_with_6004h_is_not_an_encoder() {
     use Access::{Ro, Rw};
     use DataType::{Unsigned8, Unsigned32};
     assert!(is_encoder(0x0002_0196, Unsigned32, Ro));

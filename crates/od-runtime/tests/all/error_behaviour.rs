@@ -63,7 +63,7 @@ fn each_bit_has_its_sub_index() {
         (0x08, State::Stopped),
         (0x10, State::Operational),
         (0x80, State::Operational),
-        (0x09, State::Stopped), // both act, and the graver counts
+        (0x09, State::Stopped), // both act, and the more severe one decides
     ] {
         let mut bench = bench([1, 0, 2], true);
         assert_eq!(
@@ -76,7 +76,7 @@ fn each_bit_has_its_sub_index() {
 }
 
 #[test]
-fn it_acts_when_the_bit_becomes_set_and_at_each_start_while_it_is() {
+fn it_acts_when_the_bit_becomes_set_and_at_each_start_while_it_is_set() {
     let mut bench = bench([1, 0, 1], true);
     raise(&mut bench, 0x5100, 0x01);
     assert_eq!(bench.node.state(), State::PreOperational);
@@ -107,7 +107,7 @@ fn it_acts_when_the_bit_becomes_set_and_at_each_start_while_it_is() {
 }
 
 #[test]
-fn outside_operational_it_acts_where_the_family_has_it() {
+fn outside_operational_it_acts_if_the_family_says_so() {
     for (only, state) in [(true, State::PreOperational), (false, State::Stopped)] {
         let mut bench = bench([1, 2, 1], only);
         bench.send("000#8001");
@@ -139,7 +139,7 @@ fn an_error_reset_may_wait_for_the_last_error() {
 }
 
 #[test]
-fn many_errors_at_once_are_all_told() {
+fn many_errors_at_once_are_all_reported() {
     let mut bench = bench([1, 1, 1], true);
     for code in 0..20 {
         bench.node.application.raise.push(Emcy {
@@ -169,7 +169,7 @@ fn a_bus_off_acts_by_the_bits_that_become_set() {
 }
 
 #[test]
-fn a_watched_node_is_forgotten_by_a_reset() {
+fn a_reset_ends_the_monitoring_of_a_node() {
     let mut all = rows();
     all.push((
         0x1016,

@@ -1,5 +1,5 @@
-//! The saved values on NOR flash: whole words, each written once after an erasure, and power that
-//! goes in any step.
+//! The saved values on NOR flash: whole words, each written once after an erasure, and a power
+//! failure in any step.
 
 use crate::nor::Nor;
 use crate::support::{rows, tables, unsigned};
@@ -23,7 +23,7 @@ const GEOMETRIES: [(usize, usize); 7] = [
     (4096, 32),
 ];
 
-/// A device with values that tell one set from another.
+/// A device whose values differ between sets.
 struct Device {
     dictionary: &'static od_model::Dictionary<'static>,
     values: Vec<u8>,
@@ -62,7 +62,7 @@ impl Device {
         Store::new(self.dictionary, &mut self.values, NodeId::ONE).expect("room")
     }
 
-    /// As much flash as it needs.
+    /// As much flash as the device needs.
     fn flash(&self, page: usize, word: usize) -> Nor {
         let capacity = image::capacity_on(self.dictionary, page, word);
         Nor::new(capacity, page, word)
@@ -84,7 +84,7 @@ impl Device {
         image::save(flash, &self.store(), &profile, 1)
     }
 
-    /// Every value; behind the end of a string its slot may hold anything.
+    /// Every value; the slot of a string may contain anything after its end.
     fn set(&mut self) -> Vec<Vec<u8>> {
         let store = self.store();
         let entries = store.dictionary().entries().iter();
@@ -121,7 +121,7 @@ fn saves_erase_one_page_of_a_bank_and_write_no_word_twice() {
 }
 
 #[test]
-fn a_small_set_in_a_large_bank_is_one_erasure() {
+fn a_small_set_in_a_large_bank_needs_one_erasure() {
     let mut device = Device::new(CutSave::LastSet);
     let mut flash = Nor::new(32 * 1024, 1024, 8);
     for with in 1..10 {
@@ -132,7 +132,7 @@ fn a_small_set_in_a_large_bank_is_one_erasure() {
 }
 
 #[test]
-fn a_page_behind_the_set_is_erased_only_if_it_has_to_be() {
+fn a_page_after_the_set_is_erased_only_if_needed() {
     let mut device = Device::new(CutSave::LastSet);
     let mut flash = Nor::new(8192, 1024, 1);
     device.save(&mut flash).expect("a save");
@@ -142,7 +142,7 @@ fn a_page_behind_the_set_is_erased_only_if_it_has_to_be() {
     let mut flash = Nor::new(4 * page, page, 1);
     device.save(&mut flash).expect("a save");
     assert_eq!(flash.erases, 1);
-    // Nothing stays there of a longer set.
+    // Nothing of a longer set stays there.
     flash.bytes[page..2 * page].fill(b'x');
     device.save(&mut flash).expect("in the other bank");
     device.save(&mut flash).expect("a save");
@@ -155,7 +155,7 @@ fn a_page_behind_the_set_is_erased_only_if_it_has_to_be() {
 }
 
 #[test]
-fn power_can_go_in_any_step() {
+fn power_can_fail_in_any_step() {
     for (cut, seeds) in [(CutSave::LastSet, 2), (CutSave::Factory, 2)] {
         for (page, word) in GEOMETRIES {
             for saves in 0..4u8 {
@@ -187,7 +187,8 @@ fn power_can_go_in_any_step() {
                         CutSave::LastSet => &before,
                         CutSave::Factory => &defaults,
                     };
-                    // In its first step the save has hardly begun, and in its last it may be complete.
+                    // In its first step the save has hardly begun, and in its last it may be
+                    // complete.
                     let is_kept = now == *kept || steps == 0 && now == before;
                     assert!(is_kept || now == after, "{place}: {loaded:?}");
                     let said = match loaded {
@@ -199,7 +200,7 @@ fn power_can_go_in_any_step() {
                         other => panic!("{place}: {other:?}"),
                     };
                     assert_eq!(now, *said, "{place}: {loaded:?}");
-                    // And the next saves work.
+                    // The next saves work, too.
                     for with in [99, 100] {
                         device.fill(with);
                         device.save(&mut flash).expect("a save");
@@ -229,7 +230,7 @@ fn a_flipped_bit_is_noticed_in_words_of_any_length() {
                 device.save(&mut flash).expect("a save");
                 sets.push(device.set());
             }
-            // Pages are larger than what is in them; the ends are enough.
+            // Pages are larger than their content, so only the ends are tested.
             let len = flash.bytes.len();
             let ends = [(0, 300), (len / 2, 300), (len - 10, 10)];
             for at in ends.into_iter().flat_map(|(from, len)| from..from + len) {
@@ -250,7 +251,7 @@ fn a_flipped_bit_is_noticed_in_words_of_any_length() {
 }
 
 #[test]
-fn a_word_that_keeps_its_content_fails_the_save() {
+fn a_word_that_cannot_be_written_fails_the_save() {
     for cut in [CutSave::LastSet, CutSave::Factory] {
         let mut failed = 0;
         for stuck in (0..1024).step_by(8) {
@@ -273,7 +274,7 @@ fn a_word_that_keeps_its_content_fails_the_save() {
             }
             failed += 1;
             assert_eq!(result, Err(StorageError::NotWritten));
-            // The commit word itself says neither that the save is complete nor that it failed.
+            // The commit word shows neither that the save is complete nor that it failed.
             if stuck > 0 {
                 assert_eq!((loaded, now), (Loaded::Complete, before), "{stuck}");
             }
@@ -296,9 +297,9 @@ impl od_runtime::Device for Compiled {
     }
 }
 
-/// A node of that device; the save is answered, and told.
+/// A node of that device; the node responds to the save and reports an event.
 #[test]
-fn a_save_that_is_not_there_aborts_and_is_told() {
+fn a_save_that_is_not_in_the_memory_aborts_and_is_reported() {
     let device = Device::new(CutSave::LastSet);
     let flash = device.flash(1024, 8);
     let now = Instant::ZERO;

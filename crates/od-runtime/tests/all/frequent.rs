@@ -1,4 +1,4 @@
-//! The most frequent frames: an upload of a number, a SYNC, and the TPDOs behind it.
+//! The most frequent frames: an upload of a number, a SYNC, and the TPDOs that follow it.
 
 use crate::support::{Bench, rows};
 use od_model::Address;
@@ -85,9 +85,10 @@ fn each_upload_of_a_live_number_reads_it_once() {
     assert_eq!(bench.node.application.reads, 7);
 }
 
-/// The node keeps a set of live values by the low bits of their indices; those of 1001h and 2001h are the same.
+/// The node keeps the set of live values by the low bits of their indices; those of 1001h and 2001h
+/// are equal.
 #[test]
-fn an_application_is_not_asked_for_the_objects_of_the_services() {
+fn an_application_is_not_asked_for_objects_of_the_services() {
     let mut bench = Bench::with(rows(), Counter::default());
     bench.power_on();
     assert_eq!(bench.ask("601#4001100000000000"), "581#4F01100000000000");
@@ -95,7 +96,7 @@ fn an_application_is_not_asked_for_the_objects_of_the_services() {
 }
 
 #[test]
-fn a_block_has_a_live_number_as_it_is_now() {
+fn a_block_has_the_current_value_of_a_live_number() {
     let mut bench = Bench::with(rows(), Counter::default());
     bench.power_on();
     for reads in ["01", "02"] {
@@ -111,7 +112,7 @@ fn a_block_has_a_live_number_as_it_is_now() {
 }
 
 #[test]
-fn an_upload_takes_the_place_of_a_transfer_in_segments() {
+fn an_upload_replaces_a_segmented_transfer() {
     let mut bench = Bench::new();
     bench.power_on();
     assert_eq!(bench.ask("601#4002200000000000"), "581#4102200005000000");
@@ -124,7 +125,7 @@ fn an_upload_takes_the_place_of_a_transfer_in_segments() {
 }
 
 #[test]
-fn a_response_that_waits_goes_before_the_next_one() {
+fn a_response_that_waits_is_sent_before_the_next_one() {
     let mut bench = Bench::new();
     bench.power_on();
     bench.hear("601#4000200000000000");
@@ -136,7 +137,7 @@ fn a_response_that_waits_goes_before_the_next_one() {
 }
 
 #[test]
-fn all_that_a_sync_asks_for_is_sent() {
+fn a_sync_sends_all_its_tpdos() {
     let mut bench = synchronous();
     for reads in 2..5 {
         let live = format!("281#0{reads}00");
@@ -151,7 +152,7 @@ fn all_that_a_sync_asks_for_is_sent() {
 }
 
 #[test]
-fn what_a_sync_asked_for_waits_for_a_slow_host() {
+fn tpdos_of_a_sync_wait_for_a_slow_host() {
     let mut bench = synchronous();
     bench.hear("080#");
     let at = bench.node.poll_timeout();
@@ -177,7 +178,7 @@ fn what_a_sync_asked_for_waits_for_a_slow_host() {
 }
 
 #[test]
-fn what_a_sync_asked_for_ends_with_operational() {
+fn tpdos_of_a_sync_end_with_operational() {
     let mut bench = synchronous();
     bench.hear("080#");
     assert_eq!(bench.send("000#8001"), [""; 0]);
@@ -189,7 +190,7 @@ fn what_a_sync_asked_for_ends_with_operational() {
 }
 
 #[test]
-fn a_sync_with_more_than_a_counter_is_none() {
+fn a_sync_longer_than_a_counter_is_ignored() {
     let mut bench = synchronous();
     assert_eq!(bench.send("080#0102"), ["081#4082110000000000"], "8240h");
     assert_eq!(bench.send("080#R0"), [""; 0]);

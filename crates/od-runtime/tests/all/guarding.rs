@@ -41,7 +41,7 @@ fn guarding_answers_toggle_from_0_with_any_dlc_in_any_state() {
 }
 
 #[test]
-fn heartbeat_wins_over_guarding() {
+fn heartbeat_has_priority_over_guarding() {
     let mut bench = bench(1);
     bench.ask("601#2B17100064000000");
     assert!(bench.send("701#R").is_empty());
@@ -50,7 +50,7 @@ fn heartbeat_wins_over_guarding() {
 }
 
 #[test]
-fn a_family_may_have_a_switch_for_it() {
+fn a_family_may_have_a_switch_for_guarding() {
     let mut bench = bench(1);
     bench.node.device_mut().profile = Profile {
         guarding_switch: Some((0x2110, 0x20)),
@@ -67,7 +67,7 @@ fn a_family_may_have_a_switch_for_it() {
 }
 
 #[test]
-fn a_master_that_guarded_and_stopped_is_lost_after_its_life_time() {
+fn a_guarding_master_that_stops_is_lost_after_its_life_time() {
     let mut bench = bench(1);
     bench.ask("601#2B0C100064000000");
     bench.ask("601#2F0D100003000000");
@@ -112,7 +112,7 @@ fn a_node_whose_heartbeat_stops_is_lost() {
 }
 
 #[test]
-fn what_1029h_asks_for_from_each_state() {
+fn the_reaction_of_1029h_in_each_state() {
     use State::*;
     for (behaviour, from, to) in [
         (0, Operational, PreOperational),
@@ -140,7 +140,7 @@ fn what_1029h_asks_for_from_each_state() {
 }
 
 #[test]
-fn the_behaviour_comes_again_with_nmt_start_while_the_error_lasts() {
+fn the_reaction_repeats_with_nmt_start_while_the_error_lasts() {
     let mut bench = bench(0);
     bench.ask("601#2316100164000500");
     bench.send("705#05");
@@ -162,7 +162,8 @@ fn a_node_has_one_heartbeat_time() {
         "581#8016100243000406",
         "CiA 301, chapter 7.5.2.13: 06040043h"
     );
-    // Time 0 watches nobody, another node is another, and an entry may be written again.
+    // Time 0 monitors no node; another entry may name another node, and an entry may be written
+    // again.
     for (sub, value) in [(2, "00000500"), (2, "64000600"), (1, "64000500")] {
         let answer = bench.ask(&format!("601#231610{sub:02X}{value}"));
         assert_eq!(answer, format!("581#601610{sub:02X}00000000"));
@@ -170,7 +171,7 @@ fn a_node_has_one_heartbeat_time() {
 }
 
 #[test]
-fn reserved_bits_of_1016h_name_no_other_node() {
+fn reserved_bits_of_1016h_are_not_part_of_the_node_id() {
     let mut bench = bench(1);
     assert_eq!(bench.ask("601#2316100164000501"), "581#6016100100000000");
     for (value, answer) in [

@@ -74,7 +74,7 @@ fn select(bench: &mut Bench<Device>) {
 }
 
 #[test]
-fn only_the_slave_that_is_meant_is_selected() {
+fn only_the_addressed_slave_is_selected() {
     let mut bench = bench(ALL);
     for frame in [
         "40EC00000000",
@@ -102,7 +102,7 @@ fn only_the_slave_that_is_meant_is_selected() {
 }
 
 #[test]
-fn lss_is_there_in_stopped_alone() {
+fn lss_works_in_stopped_only() {
     let mut bench = bench(ALL);
     bench.send("7E5#0401000000000000");
     assert_eq!(bench.send("7E5#5E00000000000000").len(), 1);
@@ -115,9 +115,9 @@ fn lss_is_there_in_stopped_alone() {
     );
 }
 
-/// The host of this device gives it its node ID, though LSS can write 2101h.
+/// The host of this device sets its node ID, although LSS can write 2101h.
 #[test]
-fn what_is_pending_and_not_stored_is_lost_where_there_are_objects_for_it() {
+fn with_objects_a_pending_configuration_is_lost_unless_stored() {
     let mut bench = bench_of(ALL, NoApplication);
     for reset in ["000#8201", "000#8101"] {
         bench.send("000#0201");
@@ -128,7 +128,7 @@ fn what_is_pending_and_not_stored_is_lost_where_there_are_objects_for_it() {
 }
 
 #[test]
-fn node_id_and_bit_rate_act_at_the_next_start_if_stored() {
+fn stored_node_id_and_bit_rate_take_effect_at_the_next_start() {
     for stored in [true, false] {
         let mut bench = bench(ALL);
         bench.send("000#8001");
@@ -154,7 +154,7 @@ fn node_id_and_bit_rate_act_at_the_next_start_if_stored() {
 }
 
 #[test]
-fn a_node_id_that_was_not_saved_is_gone_with_the_next_reset() {
+fn a_node_id_that_was_not_saved_is_lost_at_the_next_reset() {
     for reset in ["81", "82"] {
         let mut bench = bench(ALL);
         bench.send("000#8001");
@@ -165,7 +165,7 @@ fn a_node_id_that_was_not_saved_is_gone_with_the_next_reset() {
 }
 
 #[test]
-fn what_is_out_of_range_has_its_error_code() {
+fn values_out_of_range_have_their_error_codes() {
     let mut bench = bench(ALL);
     bench.send("7E5#0401000000000000");
     for (request, error) in [
@@ -228,7 +228,7 @@ fn ranges_identify_this_slave() {
 }
 
 #[test]
-fn non_configured_slaves_are_those_with_ffh() {
+fn slaves_with_ffh_are_non_configured() {
     let mut bench = bench(ALL);
     assert!(bench.send("7E5#4C00000000000000").is_empty());
     bench.send("7E5#0401000000000000");
@@ -237,7 +237,7 @@ fn non_configured_slaves_are_those_with_ffh() {
 }
 
 #[test]
-fn what_a_family_lacks_is_not_answered() {
+fn services_that_a_family_lacks_have_no_response() {
     let less = LssProfile {
         identify_remote: false,
         non_configured: false,
@@ -276,7 +276,7 @@ fn what_a_family_lacks_is_not_answered() {
 }
 
 #[test]
-fn fastscan_does_not_look_for_who_was_found() {
+fn fastscan_does_not_find_a_slave_twice() {
     let mut bench = bench(ALL);
     let begin = "7E5#5100000000800000";
     assert_eq!(bench.ask(begin), "7E4#4F00000000000000");

@@ -5,7 +5,7 @@ use od_model::{Access, DataType};
 use od_runtime::storage::{Memory, image};
 use od_runtime::{Event, LssProfile, NoApplication, NodeId, Profile};
 
-/// A device that starts with this node ID, and has another saved value beside those of LSS.
+/// A device that starts with this node ID, and has another saved value besides those of LSS.
 fn bench(node_id: Option<NodeId>) -> Bench<NoApplication> {
     use Access::*;
     use DataType::*;
@@ -35,7 +35,7 @@ const NON_CONFIGURED: &str = "7E5#4C00000000000000";
 const ANYBODY: &str = "7E5#5100000000800000";
 
 #[test]
-fn without_a_node_id_there_is_lss_alone() {
+fn without_a_node_id_only_lss_works() {
     let mut bench = bench(None);
     assert!(bench.power_on().is_empty(), "no boot-up message");
     assert!(!bench.node.is_configured());
@@ -58,7 +58,7 @@ fn without_a_node_id_there_is_lss_alone() {
 }
 
 #[test]
-fn the_waiting_state_starts_a_slave_that_got_a_node_id() {
+fn a_slave_with_a_new_node_id_starts_in_the_waiting_state() {
     let mut bench = bench(None);
     bench.power_on();
     bench.send(CONFIGURATION);
@@ -66,17 +66,17 @@ fn the_waiting_state_starts_a_slave_that_got_a_node_id() {
     assert!(bench.send("605#4000100000000000").is_empty(), "not yet");
     assert_eq!(bench.ask(WAITING), "705#00");
     assert_eq!(bench.ask("605#4000100000000000"), "585#4300100096010200");
-    // It has a node ID now: nobody looks for it.
+    // It has a node ID now, so a scan for slaves without one does not find it.
     assert!(bench.send(NON_CONFIGURED).is_empty());
     assert!(bench.send(ANYBODY).is_empty());
-    // What is not stored is lost with the power.
+    // A value that was not stored is lost without power.
     bench.node.power_off();
     assert!(bench.power_on().is_empty());
     assert!(!bench.node.is_configured());
 }
 
 #[test]
-fn a_stored_node_id_outlives_power_and_a_restore() {
+fn a_stored_node_id_survives_a_power_cycle_and_a_restore() {
     let mut bench = bench(None);
     bench.power_on();
     bench.send(CONFIGURATION);
@@ -92,7 +92,7 @@ fn a_stored_node_id_outlives_power_and_a_restore() {
     let events: Vec<_> = std::iter::from_fn(|| bench.node.poll_event()).collect();
     assert!(events.contains(&Event::BitRate(3)), "{events:?}");
     assert_eq!(bench.ask("605#4000200000000000"), "585#4300200007000000");
-    // 1011h is about objects; LSS has none.
+    // 1011h restores objects, not the values of LSS.
     assert_eq!(bench.ask("605#231110016C6F6164"), "585#6011100100000000");
     assert_eq!(bench.ask("000#8105"), "705#00");
     assert_eq!(bench.ask("605#4000200000000000"), "585#4300200005000000");
@@ -102,7 +102,7 @@ fn a_stored_node_id_outlives_power_and_a_restore() {
 fn ffh_makes_a_slave_unconfigured_again() {
     let mut bench = bench(NodeId::new(7));
     assert_eq!(bench.power_on(), ["707#00"]);
-    // LSS is there in every NMT state (U-43).
+    // LSS works in every NMT state (U-43).
     for command in ["000#0107", "000#8007", "000#0207"] {
         bench.send(command);
         bench.send(CONFIGURATION);
@@ -134,7 +134,7 @@ fn reset_communication_makes_the_pending_node_id_the_active_one() {
 }
 
 #[test]
-fn the_configuration_state_outlasts_nmt_commands() {
+fn the_configuration_state_survives_nmt_commands() {
     let mut bench = bench(NodeId::new(7));
     bench.power_on();
     bench.send(CONFIGURATION);
@@ -145,14 +145,14 @@ fn the_configuration_state_outlasts_nmt_commands() {
 }
 
 #[test]
-fn what_is_stored_last_is_all_that_is_kept() {
+fn only_the_last_stored_values_are_kept() {
     let mut bench = bench(NodeId::new(7));
     bench.power_on();
     for next in 10..20 {
         bench.send(CONFIGURATION);
         bench.ask(&format!("7E5#11{next:02X}000000000000"));
         bench.ask(&format!("7E5#1300{:02X}0000000000", next % 7));
-        // There is room for two records of each, and no more.
+        // There is room for exactly two records of each.
         assert_eq!(bench.ask("7E5#1700000000000000"), "7E4#1700000000000000");
         bench.node.power_off();
         assert_eq!(bench.power_on(), [format!("7{next:02X}#00")]);

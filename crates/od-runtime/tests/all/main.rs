@@ -1,4 +1,5 @@
-//! The node from outside, one module a service. One program, since each costs a link.
+//! The node from outside, one module per service. It is one program, since each program takes time
+//! to link.
 
 mod absent;
 mod bus;

@@ -5,7 +5,7 @@ use od_runtime::Instant;
 use od_wire::nmt::State;
 
 #[test]
-fn boots_up_into_pre_operational() {
+fn a_node_boots_up_into_pre_operational() {
     let mut bench = Bench::new();
     assert_eq!(
         bench.send("601#4000100000000000"),
@@ -22,7 +22,7 @@ fn without_power_nothing_is_sent_and_nothing_is_due() {
     let mut bench = Bench::new();
     bench.power_on();
     bench.ask("601#2B17100064000000"); // a heartbeat every 100 ms
-    bench.hear("601#2300200009000000"); // its response is not out yet
+    bench.hear("601#2300200009000000"); // its response was not sent yet
     bench.node.power_off();
     assert!(!bench.node.may_transmit());
     assert_eq!(bench.drain(), [""; 0]);
@@ -56,7 +56,7 @@ fn every_command_from_every_state_to_this_node_and_to_all() {
 }
 
 #[test]
-fn other_nodes_and_broken_commands_are_nothing_to_us() {
+fn commands_for_other_nodes_and_broken_commands_are_ignored() {
     let mut bench = Bench::new();
     bench.power_on();
     for frame in [
@@ -73,7 +73,7 @@ fn other_nodes_and_broken_commands_are_nothing_to_us() {
 }
 
 #[test]
-fn stopped_is_silent_but_for_nmt_and_heartbeat() {
+fn in_stopped_only_nmt_and_heartbeat_work() {
     let mut bench = Bench::new();
     bench.power_on();
     assert_eq!(bench.ask("601#2B17100064000000"), "581#6017100000000000");
@@ -102,7 +102,7 @@ fn heartbeat_follows_1017h_at_once() {
 }
 
 #[test]
-fn reset_communication_takes_back_only_the_communication_objects() {
+fn reset_communication_restores_only_the_communication_objects() {
     let mut bench = Bench::new();
     bench.power_on();
     bench.ask("601#2B17100064000000");
@@ -114,7 +114,7 @@ fn reset_communication_takes_back_only_the_communication_objects() {
 }
 
 #[test]
-fn saved_values_come_back_and_load_takes_them_away() {
+fn saved_values_are_loaded_until_a_restore() {
     let mut bench = Bench::new();
     bench.power_on();
     bench.ask("601#2300200009000000");
@@ -139,13 +139,13 @@ fn saved_values_come_back_and_load_takes_them_away() {
 }
 
 #[test]
-fn nothing_is_due_at_the_end_of_time() {
+fn nothing_is_due_at_the_last_instant() {
     let mut bench = Bench::new();
     bench.power_on();
     bench.ask("601#2B17100064000000");
     bench.send("000#0101");
     bench.now = Instant::MAX;
-    // A host that comes so late is not called back there over and over.
+    // A host at this time is not called without end.
     let late = bench.wait(0);
     assert_eq!(late.len(), 1, "{late:?}");
     assert_eq!(late[0].1, "701#05");

@@ -1,4 +1,4 @@
-//! NOR flash as strict as it gets: what a data sheet forbids is a panic.
+//! NOR flash that panics on everything that a data sheet forbids.
 #![allow(dead_code, unreachable_pub)] // each test file uses its own part
 
 use od_runtime::storage::{Geometry, Storage, StorageError};
@@ -11,12 +11,12 @@ pub struct Nor {
     word: usize,
     /// Words that were written since their page was erased.
     written: Vec<bool>,
-    /// Steps (a word, a page) before power goes.
+    /// Number of steps (a word, a page) before power fails.
     left: Option<usize>,
     pub is_cut: bool,
-    /// A word at this offset keeps what it holds.
+    /// The word at this offset keeps its content.
     pub stuck: Option<usize>,
-    /// Erased pages.
+    /// Number of erased pages.
     pub erases: usize,
     random: u64,
 }
@@ -38,7 +38,7 @@ impl Nor {
         }
     }
 
-    /// Cuts the power during the step after `steps` others; `seed` decides what it leaves.
+    /// Cuts the power in the step after `steps` others; `seed` decides the content that remains.
     pub fn cut_after(&mut self, steps: usize, seed: u64) {
         self.left = Some(steps);
         self.random ^= (seed + 1).wrapping_mul(0x2545_F491_4F6C_DD1D);
@@ -49,7 +49,7 @@ impl Nor {
         self.is_cut = false;
     }
 
-    /// A byte by chance.
+    /// A random byte.
     fn byte(&mut self) -> u8 {
         self.random ^= self.random << 13;
         self.random ^= self.random >> 7;
@@ -57,7 +57,7 @@ impl Nor {
         (self.random >> 32) as u8
     }
 
-    /// Returns whether power goes in this step.
+    /// Returns whether power fails in this step.
     fn goes(&mut self) -> bool {
         match &mut self.left {
             Some(0) => self.is_cut = true,
@@ -110,14 +110,14 @@ impl Storage for Nor {
                     *byte,
                     "a bit is set without an erasure"
                 );
-                // What power leaves of a word are some of its bits.
+                // A power failure leaves some bits of a word written.
                 let kept = if goes { self.byte() } else { 0 };
                 if self.stuck != Some(number * self.word) {
                     self.bytes[at] &= byte | kept;
                 }
             }
             if goes {
-                // A reader cannot know of a cut that changed nothing.
+                // A program cannot detect a failure that changed nothing.
                 self.written[number] = self.bytes[at..][..self.word].iter().any(|byte| *byte < 255);
                 return Err(StorageError::PowerCut);
             }
@@ -133,7 +133,7 @@ impl Storage for Nor {
         let goes = self.goes();
         self.erases += 1;
         for at in offset..offset + self.page {
-            // What power leaves of a page are some bits that are set by then.
+            // A power failure leaves some bits of a page set.
             self.bytes[at] |= if goes {
                 self.byte() & self.byte()
             } else {

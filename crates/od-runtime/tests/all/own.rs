@@ -1,4 +1,4 @@
-//! Changes from the side of the device: a value, an error, the node ID that it is made with.
+//! Changes from the side of the device: a value, an error, the node ID that it was made with.
 
 use crate::support::{Bench, rows, unsigned};
 use od_model::{Access, Address, DataType};
@@ -28,7 +28,7 @@ macro_rules! own {
 }
 
 #[test]
-fn a_save_of_the_device_itself_keeps_no_client_waiting() {
+fn a_save_of_the_device_itself_delays_no_client() {
     let mut bench = bench();
     bench.node.device_mut().profile.store.duration_us = 50_000;
     bench.power_on();
@@ -46,7 +46,7 @@ fn a_save_of_the_device_itself_keeps_no_client_waiting() {
 }
 
 #[test]
-fn a_value_that_masters_may_only_read_is_set_by_the_device() {
+fn the_device_sets_a_value_that_masters_can_only_read() {
     let mut bench = bench();
     bench.power_on();
     assert_eq!(own!(bench, set_value(READ_ONLY, &[0x34, 0x12])), Ok(()));
@@ -55,7 +55,7 @@ fn a_value_that_masters_may_only_read_is_set_by_the_device() {
 }
 
 #[test]
-fn what_a_device_sets_obeys_the_limits_and_the_length() {
+fn values_set_by_the_device_obey_limits_and_length() {
     let mut bench = bench();
     bench.power_on();
     for (value, abort) in [
@@ -120,7 +120,7 @@ fn without_power_nothing_is_set_or_raised() {
 }
 
 #[test]
-fn the_node_id_of_the_device_counts_from_the_next_power_on() {
+fn a_new_node_id_of_the_device_applies_at_the_next_power_on() {
     let mut bench = bench();
     bench.node.set_node_id(None);
     assert!(
@@ -134,7 +134,7 @@ fn the_node_id_of_the_device_counts_from_the_next_power_on() {
     assert!(bench.node.is_configured(), "it runs");
 }
 
-/// Pages that have to be erased, in a driver that forgot to say how.
+/// Pages that need an erasure, in a driver that does not implement it.
 struct Unerasable;
 
 impl Storage for Unerasable {
@@ -152,6 +152,6 @@ impl Storage for Unerasable {
 }
 
 #[test]
-fn a_storage_without_an_erasure_says_so() {
+fn a_storage_without_erasure_reports_it() {
     assert_eq!(Unerasable.erase(0), Err(StorageError::Device));
 }

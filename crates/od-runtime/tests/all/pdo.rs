@@ -3,7 +3,7 @@
 use crate::support::Bench;
 use od_wire::nmt::State;
 
-/// Node 1, Operational, TPDO2 and both RPDOs as they are; `setup` is written before the start.
+/// Node 1 in Operational with TPDO 2 and both RPDOs unchanged; `setup` is written before the start.
 fn running(setup: &[&str]) -> Bench {
     let mut bench = Bench::new();
     bench.power_on();
@@ -11,7 +11,7 @@ fn running(setup: &[&str]) -> Bench {
         let answer = bench.ask(&format!("601#{request}"));
         assert_eq!(&answer[4..6], "60", "{request} -> {answer}");
     }
-    // Event-driven PDOs say at the start what they hold.
+    // Event-driven PDOs are sent at the start.
     let started = bench.send("000#0101");
     assert!(
         started.iter().all(|frame| frame.contains("81#")),
@@ -54,7 +54,7 @@ fn an_event_driven_pdo_sends_changes_as_fast_as_the_inhibit_time_allows() {
 }
 
 #[test]
-fn event_driven_pdos_say_at_the_start_what_they_hold() {
+fn event_driven_pdos_are_sent_at_the_start() {
     let mut bench = Bench::new();
     bench.power_on();
     assert_eq!(bench.send("000#0101"), ["181#05000000", "281#05000000"]);
@@ -86,7 +86,7 @@ fn every_nth_sync_counts_from_the_start() {
 }
 
 #[test]
-fn type_0_sends_at_sync_what_changed() {
+fn type_0_sends_changed_values_at_sync() {
     let mut bench = running(&["2F00180200000000", "2301180181020080"]);
     assert_eq!(bench.send("080#"), ["181#05000000"]);
     assert!(bench.send("080#").is_empty());
@@ -96,7 +96,7 @@ fn type_0_sends_at_sync_what_changed() {
 }
 
 #[test]
-fn remote_frames_ask_for_any_type() {
+fn remote_frames_request_any_type() {
     let mut bench = running(&["2F001802FD000000", "2F011802FC000000"]);
     assert_eq!(bench.send("181#R"), ["181#05000000"]);
     assert_eq!(bench.send("080#"), [""; 0]);
@@ -117,7 +117,7 @@ fn remote_frames_ask_for_any_type() {
 }
 
 #[test]
-fn a_cob_id_changes_only_while_the_pdo_is_off() {
+fn a_cob_id_changes_only_while_the_pdo_is_not_valid() {
     let mut bench = running(&[]);
     assert_eq!(bench.ask("601#2300180187010000"), "581#8000180130000906");
     assert_eq!(bench.ask("601#2300180181010080"), "581#6000180100000000");
@@ -136,7 +136,7 @@ fn a_cob_id_changes_only_while_the_pdo_is_off() {
 }
 
 #[test]
-fn dynamic_mapping_takes_its_three_steps_and_refuses_the_rest() {
+fn dynamic_mapping_needs_its_three_steps() {
     let mut bench = running(&["2300180181010080"]);
     assert_eq!(
         bench.ask("601#23001A0110000120"),
@@ -202,7 +202,7 @@ fn an_rpdo_writes_at_once_or_at_sync() {
 }
 
 #[test]
-fn a_short_rpdo_is_an_emergency_and_a_good_one_its_end() {
+fn a_short_rpdo_is_an_error_and_a_good_one_ends_it() {
     let mut bench = running(&[]);
     assert_eq!(bench.send("201#07"), ["081#1082110000000000"]);
     assert_eq!(bench.ask("601#4001100000000000"), "581#4F01100011000000");
@@ -215,7 +215,7 @@ fn a_short_rpdo_is_an_emergency_and_a_good_one_its_end() {
 }
 
 #[test]
-fn an_extended_identifier_of_0_is_one_like_any_other() {
+fn a_29_bit_can_id_of_0_is_valid() {
     let mut bench = running(&[]);
     bench.ask("601#2300140101020080");
     bench.ask("601#2300140100000020");
@@ -225,7 +225,7 @@ fn an_extended_identifier_of_0_is_one_like_any_other() {
 }
 
 #[test]
-fn a_frame_that_waits_for_sync_outlives_a_change_of_another_pdo() {
+fn a_frame_that_waits_for_sync_survives_a_change_of_another_pdo() {
     let mut bench = running(&["2F01140201000000"]);
     bench.send("301#0800");
     bench.ask("601#2B00180564000000");
@@ -238,7 +238,7 @@ fn a_frame_that_waits_for_sync_outlives_a_change_of_another_pdo() {
 }
 
 #[test]
-fn a_remote_frame_before_the_first_sync_answers_with_the_value_of_now() {
+fn a_remote_frame_before_the_first_sync_gets_the_current_value() {
     let mut bench = running(&["2F001802FC000000"]);
     bench.send("601#2300200006000000");
     assert_eq!(bench.send("181#R"), ["181#06000000"]);
@@ -256,7 +256,7 @@ fn a_sync_start_value_waits_for_its_counter() {
         .map(|counter| bench.send(&format!("080#{counter:02X}")).len())
         .into();
     assert_eq!(sent, [0, 0, 1, 0, 1, 0], "SYNC 3 is the first of the count");
-    // A SYNC without a counter cannot be waited for.
+    // Without a counter in SYNC the node cannot wait for one.
     let mut bench = running(&["2F00180202000000", "2F00180603000000"]);
     assert_eq!(bench.send("080#").len(), 1);
     assert_eq!(bench.send("080#").len(), 0);

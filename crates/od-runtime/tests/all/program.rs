@@ -1,20 +1,20 @@
-//! Program download (CiA 302-3) where the memory fails, or keeps what it has without power.
-//! `crates/odkit/tests/boot_loader.rs` has the transfers.
+//! Program download (CiA 302-3) if the memory fails, and after a power cycle.
+//! `crates/odkit/tests/boot_loader.rs` tests the transfers.
 
 use crate::support::{Bench, rows, unsigned};
 use od_model::{Access, DataType};
 use od_runtime::Instant;
 use od_runtime::program::{Loader, MemoryFailed, Program, ProgramMemory};
 
-/// Sixteen bytes in pages of four.
+/// Sixteen bytes in four pages.
 #[derive(Default)]
 struct Chip {
     bytes: [u8; 16],
     stored: Option<Program>,
     pages: Vec<(u32, Vec<u8>)>,
-    /// Commands that succeed before one fails.
+    /// Number of commands that succeed before one fails.
     works: Option<usize>,
-    /// It erases or writes until then.
+    /// Time until which it erases or writes.
     busy_until: Option<Instant>,
 }
 
@@ -85,7 +85,7 @@ fn bench(chip: Chip) -> Bench<Loader<Chip, 4>> {
     bench
 }
 
-/// Writes nine bytes; the last answer.
+/// Writes nine bytes; returns the last response.
 fn load(bench: &mut Bench<Loader<Chip, 4>>) -> String {
     let mut answer = String::new();
     for request in ["21501F0209000000", "0031323334353637", "1B38390000000000"] {
@@ -115,7 +115,7 @@ fn a_program_goes_into_the_memory_page_by_page() {
     assert_eq!(bench.ask("601#40571F0200000000"), "581#43571F0200000000");
     assert_eq!(bench.ask("601#2F511F0201000000"), "581#60511F0200000000");
     assert!(bench.node.application.is_running());
-    // NMT reset communication lets it run, reset node does not.
+    // NMT reset communication keeps it running, reset node does not.
     bench.send("000#8201");
     assert_eq!(bench.ask("601#40511F0200000000"), "581#4F511F0201000000");
     bench.send("000#8101");
@@ -124,7 +124,7 @@ fn a_program_goes_into_the_memory_page_by_page() {
 }
 
 #[test]
-fn what_the_memory_keeps_is_there_after_power() {
+fn a_program_is_still_there_after_a_power_cycle() {
     let mut bench = bench(Chip::default());
     load(&mut bench);
     bench.power_cycle();
@@ -138,7 +138,7 @@ fn what_the_memory_keeps_is_there_after_power() {
 }
 
 #[test]
-fn a_memory_that_fails_is_a_hardware_error_and_no_program() {
+fn a_memory_that_fails_is_a_hardware_error_and_has_no_program() {
     // An erasure, three pages, and the end.
     for works in 0..5 {
         let mut bench = bench(Chip {
@@ -161,7 +161,7 @@ fn a_memory_that_fails_is_a_hardware_error_and_no_program() {
 }
 
 #[test]
-fn other_programs_are_not_this_one() {
+fn the_objects_of_other_programs_are_missing() {
     let mut bench = bench(Chip::default());
     assert_eq!(bench.ask("601#2F511F0101000000"), "581#80511F0111000906");
     assert_eq!(bench.ask("601#21501F0111000000"), "581#80501F0111000906");
@@ -169,21 +169,21 @@ fn other_programs_are_not_this_one() {
 }
 
 #[test]
-fn a_program_fills_the_memory_and_no_more() {
+fn a_program_can_fill_the_memory_but_not_exceed_it() {
     let mut bench = bench(Chip::default());
     assert_eq!(bench.ask("601#21501F0210000000"), "581#60501F0200000000");
     assert_eq!(bench.ask("601#0031323334353637"), "581#2000000000000000");
     assert_eq!(bench.ask("601#1038393A3B3C3D3E"), "581#3000000000000000");
     assert_eq!(bench.ask("601#0B3F400000000000"), "581#2000000000000000");
     assert_eq!(bench.node.application.program().map(|it| it.len), Some(16));
-    // And back again.
+    // The upload.
     assert_eq!(bench.ask("601#40501F0200000000"), "581#41501F0210000000");
     assert_eq!(bench.ask("601#6000000000000000"), "581#0031323334353637");
     assert_eq!(bench.ask("601#7000000000000000"), "581#1038393A3B3C3D3E");
     assert_eq!(bench.ask("601#6000000000000000"), "581#0B3F400000000000");
     assert_eq!(bench.ask("601#21501F0211000000"), "581#80501F0212000706");
     assert_eq!(bench.node.application.program().map(|it| it.len), Some(16));
-    // One that does not say how long it is.
+    // A download without an announced size.
     assert_eq!(bench.ask("601#20501F0200000000"), "581#60501F0200000000");
     let mut answer = String::new();
     for at in 0..100 {
@@ -198,7 +198,7 @@ fn a_program_fills_the_memory_and_no_more() {
 }
 
 #[test]
-fn a_busy_memory_says_so_until_it_is_ready() {
+fn a_busy_memory_is_reported_until_it_is_ready() {
     let mut bench = bench(Chip::default());
     load(&mut bench);
     assert_eq!(bench.ask("601#40571F0200000000"), "581#43571F0200000000");
@@ -218,7 +218,7 @@ fn a_busy_memory_says_so_until_it_is_ready() {
     assert_eq!(bench.ask("601#2F511F0204000000"), "581#80511F0230000906");
     assert_eq!(bench.ask("601#21501F0209000000"), "581#80501F0222000008");
     assert_eq!(bench.ask("601#2F511F0200000000"), "581#60511F0200000000");
-    // A download under way is busy, too.
+    // A download in progress is busy, too.
     assert_eq!(bench.ask("601#21501F0209000000"), "581#60501F0200000000");
     assert_eq!(bench.node.poll_timeout(), None);
     assert_eq!(bench.node.application.program(), None);
@@ -228,7 +228,7 @@ fn a_busy_memory_says_so_until_it_is_ready() {
 }
 
 #[test]
-fn a_busy_memory_keeps_a_download_waiting() {
+fn a_busy_memory_delays_a_download() {
     let mut bench = bench(Chip::default());
     let ms = Instant::from_millis;
     bench.node.application.memory.busy_until = Some(ms(30));

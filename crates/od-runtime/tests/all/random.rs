@@ -1,4 +1,5 @@
-//! Any frame at any time: no panic, no answer to what is not for us, no value outside its limits.
+//! Any frame at any time: no panic, no response to frames for other nodes, no value outside its
+//! limits.
 
 use crate::support::Bench;
 use od_wire::nmt::State;
@@ -19,7 +20,7 @@ impl Random {
     }
 }
 
-/// A frame that means something more often than chance would have it.
+/// A frame that means something more often than at random.
 fn frame(random: &mut Random) -> String {
     let id = random.pick(&[
         0x000, 0x080, 0x201, 0x301, 0x601, 0x601, 0x601, 0x601, 0x181, 0x602, 0x7E5,
@@ -28,7 +29,7 @@ fn frame(random: &mut Random) -> String {
         return format!("{id:03X}#R{}", random.next() % 9);
     }
     if id == 0 {
-        // Mostly Operational, so that PDOs take part.
+        // Usually Operational, so that PDOs take part.
         let command = random.pick(&[0x01, 0x01, 0x01, 0x02, 0x80, 0x81, 0x82, 0x55]);
         return format!("000#{command:02X}{:02X}", random.pick(&[0u8, 1, 1, 2]));
     }
@@ -58,7 +59,7 @@ fn frame(random: &mut Random) -> String {
 }
 
 #[test]
-fn two_hundred_thousand_frames() {
+fn two_hundred_thousand_random_frames() {
     for seed in 1..=4 {
         let mut random = Random(0x9E37_79B9_7F4A_7C15 ^ seed);
         let mut bench = Bench::new();
@@ -76,7 +77,7 @@ fn two_hundred_thousand_frames() {
                     "seed {seed}, step {step}: {input} -> {out:?}"
                 );
             }
-            // An answer goes to an SDO request; a block's segments are answers, too.
+            // Each answer must follow an SDO request; segments of a block are answers, too.
             if out.iter().any(|frame| frame.starts_with("581#")) {
                 assert!(
                     input.starts_with("601"),

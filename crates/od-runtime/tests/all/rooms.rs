@@ -1,4 +1,4 @@
-//! Memory of a node: what its device has no use for takes none.
+//! Memory of a node: services that its device does not use take none.
 
 use crate::support::{Full, Row, rows, tables, unsigned};
 use crate::table::{With, on};
@@ -30,7 +30,7 @@ fn a_device_with_every_service_has_room_for_it() {
     assert_eq!((all.errors, all.changes, all.messages), (32, 32, 16));
     assert_eq!((all.events, all.frames), (16, 9));
     assert_eq!((all.guards, all.lss, all.saves, all.clocks), (1, 1, 1, 1));
-    // Eight entries of each of the four mappings.
+    // Eight entries in each of the four mappings.
     assert_eq!(all.mapped, 32);
     // The longest value, a DOMAIN.
     assert_eq!(all.buffers, 512);
@@ -39,7 +39,7 @@ fn a_device_with_every_service_has_room_for_it() {
 }
 
 #[test]
-fn each_service_takes_its_own_room() {
+fn each_service_takes_its_own_memory() {
     let none = sizes::<Of<0>>(few());
     assert_eq!(
         (none.tpdos, none.rpdos, none.mapped, none.servers),

@@ -1,5 +1,5 @@
-//! Saves that take their time, and what is left of one that was cut (1010h; manual 001, chapter
-//! 6.3; manual 003, chapter 5.1.3.1).
+//! Saves with a duration, and the result of an interrupted save (1010h; manual 001, chapter 6.3;
+//! manual 003, chapter 5.1.3.1).
 
 use crate::support::{Bench, rows, unsigned};
 use od_model::{Access, Address, DataType};
@@ -8,7 +8,7 @@ use od_runtime::{CutSave, Event, NoApplication, Restore, SaveAnswer, SavedCobIds
 const SAVE: &str = "601#2310100173617665";
 const SAVED: &str = "581#6010100100000000";
 
-/// A node that stores for 50 ms.
+/// A node whose save takes 50 ms.
 fn bench(answer: SaveAnswer, cut: CutSave) -> Bench {
     let mut all = rows();
     all.push((
@@ -32,14 +32,14 @@ fn write(bench: &mut Bench, value: u8) {
     bench.ask(&format!("601#23002300{value:02X}000000"));
 }
 
-/// The value that the next start finds.
+/// The value after the next start.
 fn after_power_cycle(bench: &mut Bench) -> u64 {
     assert_eq!(bench.power_cycle(), ["701#00"]);
     bench.value(0x2300, 0)
 }
 
 #[test]
-fn the_answer_comes_when_all_is_stored() {
+fn the_response_is_sent_when_all_is_stored() {
     let mut bench = bench(SaveAnswer::AfterStoring, CutSave::Factory);
     write(&mut bench, 7);
     assert!(bench.send(SAVE).is_empty());
@@ -51,7 +51,7 @@ fn the_answer_comes_when_all_is_stored() {
 }
 
 #[test]
-fn a_client_that_does_not_wait_is_answered_afterwards() {
+fn a_client_that_does_not_wait_gets_its_response_afterwards() {
     let mut bench = bench(SaveAnswer::AfterStoring, CutSave::Factory);
     bench.send(SAVE);
     assert!(bench.send("601#4001100000000000").is_empty());
@@ -63,7 +63,7 @@ fn a_client_that_does_not_wait_is_answered_afterwards() {
             (50, "581#4300100096010200".to_owned())
         ]
     );
-    // One that gives up gets no answer, and the device stores all the same.
+    // A client that aborts gets no response, and the device stores the values in any case.
     write(&mut bench, 9);
     bench.send(SAVE);
     assert!(bench.send("601#8010100100000405").is_empty());
@@ -77,7 +77,7 @@ fn a_client_that_does_not_wait_is_answered_afterwards() {
 }
 
 #[test]
-fn two_saves_in_a_row_are_both_done() {
+fn two_saves_in_a_row_are_both_carried_out() {
     let mut bench = bench(SaveAnswer::AfterStoring, CutSave::Factory);
     write(&mut bench, 7);
     bench.send(SAVE);
@@ -90,7 +90,7 @@ fn two_saves_in_a_row_are_both_done() {
 }
 
 #[test]
-fn other_traffic_goes_on_and_stopped_forgets_the_answer() {
+fn other_services_continue_and_stopped_drops_the_response() {
     let mut bench = bench(SaveAnswer::AfterStoring, CutSave::Factory);
     write(&mut bench, 7);
     bench.send(SAVE);
@@ -103,7 +103,7 @@ fn other_traffic_goes_on_and_stopped_forgets_the_answer() {
 }
 
 #[test]
-fn an_answer_at_once_saves_what_was_there_at_the_command() {
+fn with_an_immediate_response_the_values_of_the_command_are_saved() {
     let mut bench = bench(SaveAnswer::AtOnce, CutSave::Factory);
     write(&mut bench, 7);
     assert_eq!(bench.ask(SAVE), SAVED);
@@ -113,7 +113,7 @@ fn an_answer_at_once_saves_what_was_there_at_the_command() {
 }
 
 #[test]
-fn a_save_behind_a_save_keeps_what_the_first_one_had() {
+fn a_second_save_keeps_the_values_of_the_first() {
     let mut bench = bench(SaveAnswer::AtOnce, CutSave::Factory);
     write(&mut bench, 7);
     bench.ask(SAVE);
@@ -121,14 +121,14 @@ fn a_save_behind_a_save_keeps_what_the_first_one_had() {
     bench.ask(SAVE);
     bench.wait(50);
     assert_eq!(after_power_cycle(&mut bench), 8);
-    // 1011h behind a save takes back what it saved.
+    // 1011h after a save restores what was saved.
     bench.ask(SAVE);
     bench.ask("601#231110016C6F6164");
     assert_eq!(after_power_cycle(&mut bench), 0);
 }
 
 #[test]
-fn power_that_goes_meanwhile_leaves_what_the_family_has() {
+fn a_power_failure_during_a_save_leaves_what_the_family_says() {
     for (cut, left) in [(CutSave::LastSet, 7), (CutSave::Factory, 0)] {
         for answer in [SaveAnswer::AtOnce, SaveAnswer::AfterStoring] {
             let mut bench = bench(answer, cut);
@@ -140,7 +140,7 @@ fn power_that_goes_meanwhile_leaves_what_the_family_has() {
             bench.wait(49);
             assert_eq!(after_power_cycle(&mut bench), left, "{cut:?}");
             assert_eq!(after_power_cycle(&mut bench), left, "{cut:?}, for good");
-            // The next save is one like any other.
+            // The next save works as usual.
             write(&mut bench, 9);
             bench.send(SAVE);
             bench.wait(50);
@@ -150,7 +150,7 @@ fn power_that_goes_meanwhile_leaves_what_the_family_has() {
 }
 
 #[test]
-fn a_reset_meanwhile_is_an_interruption() {
+fn a_reset_during_a_save_interrupts_it() {
     for command in ["000#8101", "000#8201"] {
         let mut bench = bench(SaveAnswer::AtOnce, CutSave::Factory);
         write(&mut bench, 7);
@@ -164,7 +164,7 @@ fn a_reset_meanwhile_is_an_interruption() {
 }
 
 #[test]
-fn a_storage_that_fails_at_the_end_is_told() {
+fn a_storage_that_fails_at_the_end_is_reported() {
     let mut bench = bench(SaveAnswer::AfterStoring, CutSave::LastSet);
     bench.send(SAVE);
     bench.node.storage.cut_after(0);
@@ -176,7 +176,7 @@ fn a_storage_that_fails_at_the_end_is_told() {
 }
 
 #[test]
-fn a_cob_id_moves_or_stays() {
+fn a_saved_cob_id_follows_the_node_id_or_stays() {
     for (rule, cob_id) in [
         (SavedCobIds::Absolute, 0x187),
         (SavedCobIds::Difference, 0x18F),
@@ -199,7 +199,7 @@ fn a_cob_id_moves_or_stays() {
 }
 
 #[test]
-fn a_difference_that_leaves_the_eleven_bits_is_none() {
+fn a_difference_outside_the_11_bits_is_not_loaded() {
     let mut bench = bench(SaveAnswer::AtOnce, CutSave::Factory);
     bench.node.device_mut().profile.store.cob_ids = SavedCobIds::Difference;
     bench.ask("601#231410008E060000");
@@ -213,8 +213,8 @@ fn a_difference_that_leaves_the_eleven_bits_is_none() {
     assert_eq!(bench.value(0x1014, 0), 0xFF, "the default");
 }
 
-/// A node with groups: 2300h has a twin among the application's objects, and so has 2004h, which
-/// nobody saves.
+/// A node with groups: 2300h makes a pair with an object of the application group, and so does
+/// 2004h, which is never saved.
 fn twins(restore: Restore) -> Bench {
     let mut all = rows();
     let rw = |index, sub| {
@@ -247,13 +247,13 @@ fn twins(restore: Restore) -> Bench {
 }
 
 #[test]
-fn a_group_is_saved_with_the_twins_of_its_objects() {
+fn a_group_is_saved_with_the_pairs_of_its_objects() {
     let mut bench = twins(Restore::AfterReset);
     assert_eq!(bench.ask("601#2310100373617665"), "581#6010100300000000");
     bench.power_cycle();
     let values = [0x2300, 0x2301, 0x6200, 0x6201, 0x2004].map(|index| bench.value(index, 0));
     assert_eq!(values, [7, 0, 9, 10, 0], "2301h is in another group");
-    // Taken back together as well.
+    // Both are restored together, too.
     bench.ask("601#2300230005000000");
     assert_eq!(bench.ask("601#231110036C6F6164"), "581#6011100300000000");
     bench.power_cycle();
@@ -261,7 +261,7 @@ fn a_group_is_saved_with_the_twins_of_its_objects() {
 }
 
 #[test]
-fn a_twin_that_is_not_saved_is_not_restored() {
+fn an_unsaved_object_of_a_pair_is_not_restored() {
     let mut bench = twins(Restore::AtOnce);
     bench.ask("601#231110036C6F6164");
     let values = [0x2300, 0x2301, 0x6200, 0x6201, 0x2004].map(|index| bench.value(index, 0));
@@ -287,7 +287,7 @@ impl od_runtime::Application for Hears {
 }
 
 #[test]
-fn an_application_hears_that_its_storage_is_sound() {
+fn an_application_is_told_that_its_storage_is_sound() {
     let mut bench = Bench::with(rows(), Hears::default());
     bench.power_on();
     assert_eq!(bench.node.application.sound, [true]);
@@ -304,7 +304,7 @@ fn an_application_hears_that_its_storage_is_sound() {
 }
 
 #[test]
-fn the_newest_set_is_all_that_a_start_needs() {
+fn the_newest_set_is_enough_for_a_start() {
     use od_runtime::storage::Storage;
     use od_runtime::storage::image::{newest, writer};
     let mut bench = bench(SaveAnswer::AtOnce, CutSave::LastSet);

@@ -26,11 +26,11 @@ fn expedited_uploads_and_downloads_of_every_length() {
 }
 
 #[test]
-fn each_abort_at_its_occasion() {
+fn each_abort_code_has_a_request() {
     let mut bench = bench();
     for (request, code) in [
-        ("4000300000000000", "00000206"), // no such object
-        ("4000200100000000", "11000906"), // no such sub-index
+        ("4000300000000000", "00000206"), // the object does not exist
+        ("4000200100000000", "11000906"), // the sub-index does not exist
         ("4004200000000000", "01000106"), // write only
         ("2300100000000000", "02000106"), // read only
         ("2308100000000000", "02000106"), // const
@@ -76,7 +76,7 @@ fn segmented_upload_of_a_string() {
 }
 
 #[test]
-fn a_toggle_bit_that_stands_still_ends_the_transfer() {
+fn a_toggle_bit_that_does_not_change_ends_the_transfer() {
     let mut bench = bench();
     bench.ask("601#4008100000000000");
     bench.ask("601#6000000000000000");
@@ -88,14 +88,14 @@ fn segmented_download_is_all_or_nothing() {
     let mut bench = bench();
     assert_eq!(bench.ask("601#2102200009000000"), "581#6002200000000000");
     assert_eq!(bench.ask("601#0061626364656667"), "581#2000000000000000");
-    // A new request takes its place: the old value is whole.
+    // A new request replaces the transfer, and the old value is unchanged.
     assert_eq!(bench.ask("601#4002200000000000"), "581#4102200005000000");
     assert_eq!(bench.ask("601#6000000000000000"), "581#0568656C6C6F0000");
     bench.ask("601#2102200009000000");
     bench.ask("601#0061626364656667");
     assert_eq!(bench.ask("601#1B68690000000000"), "581#3000000000000000");
     assert_eq!(bench.ask("601#4002200000000000"), "581#4102200009000000");
-    // 65 bytes do not fit into the 64 that the string has room for.
+    // The string has room for 64 bytes, so 65 do not fit.
     assert_eq!(bench.ask("601#2102200041000000"), "581#8002200012000706");
     // Fewer bytes than announced.
     bench.ask("601#2102200009000000");
@@ -110,7 +110,7 @@ fn a_64_bit_number_goes_in_segments() {
     assert_eq!(bench.ask("601#7000000000000000"), "581#1D01000000000000");
 }
 
-/// Downloads `data` into 2003h by blocks, with the segment at `lost` lost once.
+/// Downloads `data` into 2003h by blocks; the segment at `lost` is lost once.
 fn block_download(bench: &mut Bench, data: &[u8], lost: Option<u8>) {
     let len = data.len() as u32;
     let [a, b, c, d] = len.to_le_bytes();
@@ -243,7 +243,7 @@ fn three_bytes_go_expedited_both_ways() {
     let mut bench = bench();
     assert_eq!(bench.ask("601#2702200061626300"), "581#6002200000000000");
     assert_eq!(bench.ask("601#4002200000000000"), "581#4702200061626300");
-    // What the frame is too short for was not given.
+    // Bytes beyond the end of the frame were not given.
     bench.node.device_mut().profile.sdo.min_dlc = 4;
     assert_eq!(bench.ask("601#27022000414243"), "581#6002200000000000");
     assert_eq!(bench.ask("601#270220007172"), "581#8002200013000706");
@@ -251,7 +251,7 @@ fn three_bytes_go_expedited_both_ways() {
 }
 
 #[test]
-fn transfers_that_a_family_lacks_are_unknown_commands() {
+fn unsupported_transfers_are_unknown_commands() {
     let mut bench = bench();
     bench.node.device_mut().profile.sdo.block = false;
     assert_eq!(bench.ask("601#A40320007F000000"), "581#8003200001000405");
@@ -266,7 +266,7 @@ fn transfers_that_a_family_lacks_are_unknown_commands() {
 }
 
 #[test]
-fn the_end_of_a_block_upload_comes_last() {
+fn the_end_of_a_block_upload_is_sent_last() {
     for before in [&[][..], &["A300000000000000"]] {
         let mut bench = bench();
         bench.ask("601#A40220007F000000");
@@ -278,12 +278,12 @@ fn the_end_of_a_block_upload_comes_last() {
 }
 
 #[test]
-fn what_an_expedited_download_of_a_text_carries() {
+fn the_length_of_a_text_in_an_expedited_download() {
     for (request, text) in [
         ("2302200061626364", "581#4302200061626364"), // 4 bytes
         ("2702200061626364", "581#4702200061626300"), // 3
         ("2F02200061626364", "581#4F02200061000000"), // 1
-        ("2202200061626364", "581#4302200061626364"), // not said: all
+        ("2202200061626364", "581#4302200061626364"), // no size: all bytes
     ] {
         let mut bench = Bench::new();
         bench.power_on();
@@ -294,7 +294,7 @@ fn what_an_expedited_download_of_a_text_carries() {
 }
 
 #[test]
-fn bytes_that_do_not_count_need_not_be_there() {
+fn ignored_bytes_may_be_missing() {
     let mut bench = Bench::new();
     bench.node.device_mut().profile.sdo.length.too_long = None;
     bench.node.device_mut().profile.sdo.min_dlc = 4;

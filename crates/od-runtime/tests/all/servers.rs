@@ -1,4 +1,4 @@
-//! SDO servers past the default one (CiA 301, chapter 7.5.2.33).
+//! SDO servers besides the default one (CiA 301, chapter 7.5.2.33).
 
 use crate::support::{Bench, Row, rows, unsigned};
 use od_model::{Access, Address, DataType};
@@ -44,7 +44,8 @@ fn bench() -> Bench {
     bench
 }
 
-/// Writes a COB-ID by way of the default server; the abort code in the order of the bus, or nothing.
+/// Writes a COB-ID with the default server. Returns the abort code in the byte order of the bus, or
+/// nothing.
 fn write<A: Application>(bench: &mut Bench<A>, index: u16, sub: u8, value: u32) -> String {
     let place = format!("{:04X}{sub:02X}", index.swap_bytes());
     let answer = bench.ask(&format!("601#23{place}{:08X}", value.swap_bytes()));
@@ -75,7 +76,7 @@ fn each_server_answers_on_its_own_channel() {
     );
     assert_eq!(write(&mut bench, 0x1203, 2, 0x6C1), "");
     assert_eq!(bench.ask("681#4000200000000000"), "6C1#4300200005000000");
-    // Stopped has no SDO, Pre-operational and Operational have.
+    // SDO works in Pre-operational and Operational, not in Stopped.
     assert!(bench.send("000#0201").is_empty());
     assert!(bench.send("681#4000200000000000").is_empty());
     bench.send("000#0101");
@@ -99,7 +100,7 @@ fn transfers_run_side_by_side() {
         bench.send("680#A300000000000000"),
         ["6C0#0173696465206279", "6C0#8220730000000000"]
     );
-    // A client that died is given up on its own channel.
+    // A client that stopped is given up on its own channel.
     let abort = (5_000, String::from("6C0#8002200000000405"));
     assert_eq!(bench.wait(6_000), [abort]);
     assert_eq!(bench.ask("680#4000200000000000"), "6C0#4300200005000000");
@@ -112,7 +113,7 @@ fn the_cob_ids_follow_their_rules() {
         (1, 0x682, RANGE),       // it is valid, and would change
         (1, 0x680, ""),          // it would not
         (1, 0x8000_0682, ""),    // not valid any more, with other bits
-        (1, 0x8000_0683, ""),    // and now it can change
+        (1, 0x8000_0683, ""),    // not valid any more, so it can change
         (1, 0x0000_0801, RANGE), // bits 11 to 28 belong to a 29-bit CAN-ID
         (1, 0x601, RANGE),       // restricted
         (1, 0x0, RANGE),
@@ -132,7 +133,7 @@ fn the_cob_ids_follow_their_rules() {
 }
 
 #[test]
-fn what_was_assigned_dynamically_is_not_kept() {
+fn dynamically_assigned_cob_ids_are_not_saved() {
     let mut bench = bench();
     assert_eq!(write(&mut bench, 0x1203, 1, 0x4000_0690), "");
     assert_eq!(write(&mut bench, 0x1203, 2, 0x6D0), "");
@@ -145,11 +146,11 @@ fn what_was_assigned_dynamically_is_not_kept() {
 }
 
 #[test]
-fn a_channel_that_goes_takes_its_transfer_with_it() {
+fn a_channel_that_becomes_not_valid_ends_its_transfer() {
     let mut bench = bench();
     assert_eq!(bench.ask("680#4008100000000000"), "6C0#4108100011000000");
     assert_eq!(bench.ask("680#6000000000000000"), "6C0#006F646B69742074");
-    // By its own channel: the answer still goes out there.
+    // Written with its own channel, whose response is still sent there.
     assert_eq!(bench.ask("680#2301120180060080"), "6C0#6001120100000000");
     assert_eq!(write(&mut bench, 0x1201, 1, 0x680), "");
     assert_eq!(bench.ask("680#7000000000000000"), "6C0#8000000001000405");
@@ -222,7 +223,7 @@ fn a_stream_is_read_by_one_server_at_a_time() {
         assert_eq!(bench.ask(begin), "581#8003200022000008", "{begin}");
     }
     assert_eq!(bench.ask("680#6000000000000000"), "6C0#0000000000000000");
-    // The other way round, as soon as it is free.
+    // In the other direction, as soon as the stream is free.
     assert!(bench.send("680#8003200000000405").is_empty());
     assert_eq!(bench.ask("601#4003200000000000"), "581#4103200014000000");
     assert_eq!(bench.ask("680#4003200000000000"), "6C0#8003200022000008");
@@ -232,7 +233,7 @@ fn a_stream_is_read_by_one_server_at_a_time() {
 }
 
 #[test]
-fn a_save_answers_on_the_channel_that_asked_when_it_is_complete() {
+fn the_response_to_a_save_is_on_the_channel_of_the_request() {
     let mut bench = bench();
     bench.node.device_mut().profile.store.answer = SaveAnswer::AfterStoring;
     bench.hear("680#2310100173617665");
@@ -247,7 +248,7 @@ fn a_save_answers_on_the_channel_that_asked_when_it_is_complete() {
 }
 
 #[test]
-fn a_save_that_takes_its_time_answers_there_too() {
+fn the_response_to_a_save_with_a_duration_is_on_that_channel_too() {
     let mut bench = bench();
     bench.node.device_mut().profile.store.answer = SaveAnswer::AfterStoring;
     bench.node.device_mut().profile.store.duration_us = 50_000;

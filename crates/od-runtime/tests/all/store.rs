@@ -4,7 +4,7 @@ use crate::support::{Bench, rows, unsigned};
 use od_model::{Access, DataType};
 use od_runtime::{NoApplication, Profile, Restore, StoreProfile};
 
-/// Groups 1–4, one value of each: 1017h, 6000h, 2000h.
+/// Groups 1 to 4, with one value each: 1017h, 6000h, 2000h.
 fn bench() -> Bench {
     let mut all = rows();
     for index in [0x1010, 0x1011] {
@@ -132,7 +132,7 @@ fn a_cob_id_that_was_never_changed_follows_the_node_id() {
 }
 
 #[test]
-fn storage_that_fails_says_so_and_keeps_the_last_set() {
+fn a_storage_that_fails_reports_it_and_keeps_the_last_set() {
     let mut bench = bench();
     change(&mut bench, 9);
     command(&mut bench, "10", 1);
@@ -145,10 +145,10 @@ fn storage_that_fails_says_so_and_keeps_the_last_set() {
 }
 
 #[test]
-fn a_stored_value_that_the_object_cannot_have_is_left_out() {
+fn a_saved_value_that_the_object_cannot_have_is_left_out() {
     let mut bench = bench();
     change(&mut bench, 9);
-    // 2006h is a BOOLEAN: a damaged device saves a 2.
+    // 2006h is a BOOLEAN; a damaged device saves a 2.
     let slot = bench.entry(od_model::Address::new(0x2006, 0)).slot;
     bench.node.look(|_, store| {
         let bits = od_model::typed::Var::<u8, od_model::typed::Ro>::new(
@@ -165,7 +165,7 @@ fn a_stored_value_that_the_object_cannot_have_is_left_out() {
 }
 
 #[test]
-fn a_number_is_put_in_its_own_length() {
+fn a_number_is_written_in_its_own_length() {
     use od_model::Address;
     use od_runtime::{AbortCode, NodeId, Store};
     let bench = bench();

@@ -1,20 +1,20 @@
-//! Values that an application streams. `crates/odkit/tests/boot_loader.rs` has the transfers; here is what a
-//! boot loader does not need.
+//! Values that an application streams. `crates/odkit/tests/boot_loader.rs` tests the transfers of a
+//! boot loader; this file tests the rest.
 
 use crate::support::{Bench, rows};
 use od_model::Address;
 use od_runtime::{AbortCode, Application, Chunk, Context, Halt, Instant, Stream, StreamEnd};
 
-/// 2002h and 2003h go through it; everything else is in the store.
+/// 2002h and 2003h are streamed; everything else is in the store.
 #[derive(Default)]
 struct Pipe {
     value: Vec<u8>,
-    /// Not now.
+    /// Result of every call, if there is one.
     halt: Option<Halt>,
-    /// No bytes now, though a download may begin.
+    /// Result of every write and read, if there is one; a transfer can begin.
     is_full: Option<Halt>,
     chunks: Vec<usize>,
-    /// Every read: where, and how much.
+    /// Every read: position and length.
     reads: Vec<(u32, usize)>,
     ends: Vec<StreamEnd>,
     /// The stream no longer exists.
@@ -106,7 +106,7 @@ fn a_string_is_streamed_like_a_domain() {
 
 #[test]
 fn parts_are_no_longer_than_the_buffer() {
-    // The buffer has 512 bytes: blocks of 73 segments, and what a segment needs beyond it goes first.
+    // The buffer has 512 bytes: blocks of 73 segments. A rest smaller than a segment is sent first.
     let mut bench = bench(0);
     bench.ask("601#2003200000000000");
     for at in 0..100 {
@@ -120,7 +120,8 @@ fn parts_are_no_longer_than_the_buffer() {
     assert_eq!(bench.ask("601#A40320007F000000"), "581#C6032000BC020000");
     assert_eq!(bench.send("601#A300000000000000").len(), 100);
     assert_eq!(bench.node.application.reads, [(0, 512), (511, 189)]);
-    // The master has ten of them: the others come again, and the CRC counts each byte once.
+    // The master received ten of them. The others are sent again, and the CRC includes each byte
+    // once.
     assert_eq!(bench.send("601#A20A7F0000000000").len(), 90);
     assert_eq!(bench.node.application.reads[2..], [(70, 512), (581, 119)]);
     let crc = od_wire::sdo::crc16(&bench.node.application.value).to_le_bytes();
@@ -134,7 +135,7 @@ fn parts_are_no_longer_than_the_buffer() {
 }
 
 #[test]
-fn a_stream_that_waits_for_the_world_is_asked_after_a_change() {
+fn a_stream_that_waits_is_asked_again_after_a_change() {
     let mut bench = bench(9);
     bench.node.application.halt = Some(Halt::Until(Instant::MAX));
     assert!(bench.send("601#4003200000000000").is_empty());
@@ -142,7 +143,7 @@ fn a_stream_that_waits_for_the_world_is_asked_after_a_change() {
     assert!(bench.wait(60_000).is_empty());
     bench.node.application.halt = None;
     assert_eq!(bench.change(), ["581#4103200009000000"]);
-    // A segment waits as the first answer did.
+    // A segment waits as the first response did.
     bench.node.application.halt = Some(Halt::Until(Instant::MAX));
     assert!(bench.send("601#6000000000000000").is_empty());
     bench.node.application.halt = None;
@@ -151,7 +152,7 @@ fn a_stream_that_waits_for_the_world_is_asked_after_a_change() {
 }
 
 #[test]
-fn a_block_pauses_while_the_stream_has_nothing() {
+fn a_block_pauses_while_the_stream_has_no_bytes() {
     let mut bench = bench(20);
     bench.ask("601#A40320007F000000");
     let later = bench.now.plus_millis(30);
@@ -162,7 +163,7 @@ fn a_block_pauses_while_the_stream_has_nothing() {
     let frames = bench.wait(1);
     assert_eq!(frames.len(), 3);
     assert_eq!(frames[0], (30, "581#01001F3E5D7C9BBA".into()));
-    // From here the master has its five seconds.
+    // The five seconds of the master begin here.
     let abort = "581#8003200000000405".into();
     assert_eq!(bench.wait(6000), [(5030, abort)]);
     assert_eq!(
@@ -208,7 +209,7 @@ fn a_stream_can_fail_at_each_step() {
 }
 
 #[test]
-fn the_newest_request_is_answered_when_a_stream_goes_on() {
+fn the_newest_request_gets_a_response_when_a_stream_continues() {
     let mut bench = bench(9);
     bench.ask("601#2103200005000000");
     bench.node.application.halt = Some(Halt::Until(bench.now.plus_millis(10)));
@@ -219,9 +220,9 @@ fn the_newest_request_is_answered_when_a_stream_goes_on() {
     assert_eq!(bench.node.application.ends, [StreamEnd::Replaced]);
 }
 
-/// 2002h and 2003h are two values, whatever waits of the first.
+/// 2002h and 2003h are two values, even while the first one waits.
 #[test]
-fn an_expedited_download_of_another_object_replaces_one_that_waits() {
+fn an_expedited_download_to_another_object_replaces_one_that_waits() {
     let mut bench = bench(0);
     bench.node.application.is_full = Some(Halt::Until(bench.now.plus_millis(10)));
     assert!(bench.send("601#2F03200011000000").is_empty());
@@ -237,7 +238,7 @@ fn an_expedited_download_of_another_object_replaces_one_that_waits() {
 }
 
 #[test]
-fn a_family_without_segments_has_none_for_a_stream() {
+fn a_family_without_segmented_transfers_has_none_for_a_stream() {
     let mut bench = bench(5);
     bench.node.device_mut().profile.sdo.segmented_upload = false;
     assert_eq!(bench.ask("601#4003200000000000"), "581#8003200000000106");

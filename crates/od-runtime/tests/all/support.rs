@@ -1,4 +1,4 @@
-//! A node on a bench: frames in and out as candump writes them.
+//! A node on a bench: frames in the notation of candump.
 #![allow(dead_code, unreachable_pub)] // each test file uses its own part
 
 use od_eds::{Description, EntryDescription, ObjectDescription, Spanned, Tables, Value};
@@ -17,7 +17,7 @@ pub fn unsigned(value: u64) -> Option<Value> {
     Some(Value::Unsigned(value))
 }
 
-/// Objects that every node has, and some for the services to work on.
+/// Objects that every node has, and some with which the services work.
 pub fn rows() -> Vec<Row> {
     use Access::*;
     use DataType::*;
@@ -177,7 +177,7 @@ pub struct Bench<A = NoApplication, D: Device = Full> {
 }
 
 impl Bench {
-    /// Node 1 with [`rows`], CiA 301 to the letter, before power-on.
+    /// Node 1 with [`rows`] and CiA 301 without deviations, before power-on.
     pub fn new() -> Self {
         Self::with(rows(), NoApplication)
     }
@@ -190,12 +190,12 @@ impl<A: Application> Bench<A> {
 }
 
 impl<A: Application, D: Loaded> Bench<A, D> {
-    /// As [`with`](Bench::with), of a device that need not have every service.
+    /// As [`with`](Bench::with), for a device that need not have every service.
     pub fn of_device(rows: Vec<Row>, application: A) -> Self {
         Self::of_tables(tables(rows), application)
     }
 
-    /// As [`of_device`](Self::of_device), of these tables.
+    /// As [`of_device`](Self::of_device), with these tables.
     pub fn of_tables(tables: Tables, application: A) -> Self {
         let storage = Memory::new(vec![0xFF; 8192]);
         Self {
@@ -230,13 +230,13 @@ impl<A: Application, D: Loaded> Bench<A, D> {
         }
     }
 
-    /// A frame comes in, `601#40…` or `181#R`; what goes out.
+    /// Receives a frame, `601#40…` or `181#R`; returns the frames that are sent.
     pub fn send(&mut self, text: &str) -> Vec<String> {
         self.hear(text);
         self.drain()
     }
 
-    /// As [`send`](Self::send), of a host that is slow: nothing goes out.
+    /// As [`send`](Self::send), for a slow host: no frame is sent.
     pub fn hear(&mut self, text: &str) {
         let (id, data) = text.split_once('#').expect("id#data");
         let raw = u32::from_str_radix(id, 16).expect("hex");
@@ -256,14 +256,14 @@ impl<A: Application, D: Loaded> Bench<A, D> {
         self.node.handle_frame(self.now, &frame);
     }
 
-    /// The one frame that answers.
+    /// Returns the only response.
     pub fn ask(&mut self, text: &str) -> String {
         let mut out = self.send(text);
         assert_eq!(out.len(), 1, "{text} -> {out:?}");
         out.remove(0)
     }
 
-    /// Time passes; what goes out, with the millisecond.
+    /// Lets time pass; returns the frames that are sent, each with its millisecond.
     pub fn wait(&mut self, millis: u64) -> Vec<(u64, String)> {
         let end = self.now.plus_millis(millis);
         let mut out = Vec::new();
@@ -277,13 +277,13 @@ impl<A: Application, D: Loaded> Bench<A, D> {
         out
     }
 
-    /// The CAN controller says something; what goes out.
+    /// Reports an event of the CAN controller; returns the frames that are sent.
     pub fn bus(&mut self, event: BusEvent) -> Vec<String> {
         self.node.handle_bus(self.now, event);
         self.drain()
     }
 
-    /// Power goes and comes back; what goes out.
+    /// Switches power off and on; returns the frames that are sent.
     pub fn power_cycle(&mut self) -> Vec<String> {
         self.node.power_off();
         self.node.storage.restore_power();

@@ -44,7 +44,7 @@ fn frames(ticks: &[(u64, &str)]) -> Vec<(u64, String)> {
         .collect()
 }
 
-/// Writes a value of `len` bytes; the abort code in the order of the bus, or nothing.
+/// Writes a value of `len` bytes. Returns the abort code in the byte order of the bus, or nothing.
 fn write(bench: &mut Bench, index: u16, len: u8, value: u32) -> String {
     let place = format!("{:04X}00", index.swap_bytes());
     let command = 0x23 | (4 - len) << 2;
@@ -63,23 +63,23 @@ const RANGE: &str = "30000906";
 const STATE: &str = "22000008";
 
 #[test]
-fn sync_comes_every_period_in_pre_operational_and_operational() {
+fn sync_is_sent_every_period_in_pre_operational_and_operational() {
     let mut bench = bench(ON, 10_000, 0);
     assert_eq!(bench.wait(25), frames(&[(10, "080#"), (20, "080#")]));
     bench.send("000#0101");
     assert_eq!(bench.wait(10), frames(&[(30, "080#")]));
-    // Stopped has none; after it a period passes.
+    // Stopped has no SYNC; the first one follows a period after Stopped.
     bench.send("000#0201");
     assert_eq!(bench.wait(100), []);
     bench.send("000#8001");
     assert_eq!(bench.wait(25), frames(&[(145, "080#"), (155, "080#")]));
-    // A reset begins again.
+    // A reset starts the producer again.
     assert_eq!(bench.send("000#8201"), ["701#00"]);
     assert_eq!(bench.wait(15), frames(&[(170, "080#")]));
 }
 
 #[test]
-fn what_switches_it_on_starts_a_period() {
+fn each_start_of_the_producer_begins_a_period() {
     let mut bench = bench(0x80, 0, 0);
     assert_eq!(bench.wait(100), []);
     // Bit 30 without a period: the node does not send SYNC yet.
@@ -87,7 +87,7 @@ fn what_switches_it_on_starts_a_period() {
     assert_eq!(bench.wait(100), []);
     assert_eq!(write(&mut bench, 0x1006, 4, 20_000), "");
     assert_eq!(bench.wait(45), frames(&[(220, "080#"), (240, "080#")]));
-    // The same period again changes nothing, another one starts again.
+    // Writing the same period again changes nothing, another one restarts the producer.
     assert_eq!(write(&mut bench, 0x1006, 4, 20_000), "");
     assert_eq!(bench.wait(20), frames(&[(260, "080#")]));
     assert_eq!(write(&mut bench, 0x1006, 4, 5_000), "");
@@ -108,7 +108,7 @@ fn the_counter_runs_from_1_to_1019h() {
             .collect()
     };
     assert_eq!(bench.wait(5), counted(1, &[1, 2, 3, 1, 2]));
-    // It begins at 1 whenever the producer starts.
+    // The counter begins at 1 whenever the producer starts.
     bench.send("000#0201");
     bench.send("000#0101");
     assert_eq!(bench.wait(2), counted(6, &[1, 2]));
@@ -159,7 +159,7 @@ fn own_pdos_act_on_own_sync() {
     let mut bench = Bench::with(rows, NoApplication);
     bench.power_on();
     bench.send("000#0101");
-    // RPDO 1 waits for SYNC; TPDO 1 goes with each second one, and comes behind it.
+    // RPDO 1 waits for SYNC; TPDO 1 is sent after every second SYNC.
     assert!(bench.send("201#3412").is_empty());
     assert_eq!(bench.value(0x2001, 0), 0xFFFE);
     assert_eq!(bench.wait(10), frames(&[(10, "080#01")]));
@@ -172,7 +172,7 @@ fn own_pdos_act_on_own_sync() {
 }
 
 #[test]
-fn a_node_that_is_off_the_bus_sends_none() {
+fn a_bus_off_node_sends_no_sync() {
     let mut bench = bench(ON, 10_000, 0);
     bench.bus(BusEvent::Off);
     assert_eq!(bench.wait(25), []);

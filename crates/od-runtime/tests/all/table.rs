@@ -7,7 +7,7 @@ use od_model::Dictionary;
 use od_runtime::rooms::{LoadedRooms, LoadedValues};
 use od_runtime::{Device, Profile, Services};
 
-/// Bits of the services of [`With`].
+/// Bits for the services of [`With`].
 pub mod on {
     pub const LSS: u16 = 1 << 0;
     pub const SEGMENTED: u16 = 1 << 1;
@@ -20,7 +20,7 @@ pub mod on {
     pub const EVENTS: u16 = 1 << 8;
     pub const SERVERS: u16 = 1 << 9;
     pub const STREAMS: u16 = 1 << 10;
-    /// Room for 20 errors, else for 5.
+    /// Room for 20 errors, otherwise for 5.
     pub const ERRORS: u16 = 1 << 11;
     pub const CHANGES: u16 = 1 << 12;
     pub const TIME: u16 = 1 << 13;

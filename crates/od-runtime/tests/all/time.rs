@@ -4,7 +4,7 @@ use crate::support::{Bench, rows, unsigned};
 use od_model::{Access, DataType};
 use od_runtime::{Application, Context, Instant, TimeOfDay};
 
-/// A clock that does not run, and its button.
+/// A clock that does not run, and a button that sends its time.
 #[derive(Default)]
 struct Clock {
     time: Option<TimeOfDay>,
@@ -61,7 +61,7 @@ fn write(bench: &mut Bench<Clock>, value: u32) -> String {
 }
 
 #[test]
-fn a_consumer_hears_the_time() {
+fn a_consumer_receives_the_time() {
     let mut bench = bench(0x8000_0100);
     assert!(bench.send("100#04030201323D").is_empty());
     assert_eq!(bench.node.application.told, [TIME]);
@@ -88,7 +88,7 @@ fn a_consumer_hears_the_time() {
 }
 
 #[test]
-fn a_producer_sends_when_its_application_asks() {
+fn a_producer_sends_when_its_application_requests_it() {
     let mut bench = bench(0x4000_0100);
     assert!(press(&mut bench).is_empty(), "the clock has no time");
     bench.node.application.time = Some(TIME);
@@ -129,7 +129,7 @@ fn the_cob_id_follows_its_rules() {
 }
 
 #[test]
-fn a_host_hears_whether_the_time_went_out() {
+fn a_host_learns_whether_the_time_was_sent() {
     let send = |bench: &mut Bench<Clock>| {
         let sent = bench.node.send_time(bench.now);
         assert_eq!(sent, bench.drain() == ["100#04030201323D"]);

@@ -1,4 +1,4 @@
-//! Tests of the events for a host, and of objects that a node reads again after a write.
+//! Events for a host, and objects that a node reads again after a write.
 
 use crate::support::{Bench, rows, unsigned};
 use od_model::{Access, DataType};
@@ -35,7 +35,7 @@ fn ids(bench: &mut Bench) -> Option<Vec<u32>> {
 }
 
 #[test]
-fn a_host_is_told_of_other_can_ids() {
+fn a_host_learns_of_changed_can_ids() {
     let mut bench = bench();
     let first = ids(&mut bench).expect("power came");
     assert_eq!(
@@ -70,7 +70,7 @@ fn a_host_is_told_of_other_can_ids() {
 }
 
 #[test]
-fn services_read_their_objects_again_where_a_restore_acts_at_once() {
+fn after_an_immediate_restore_services_read_their_objects_again() {
     let mut bench = bench();
     bench.node.device_mut().profile.store.restore = Restore::AtOnce;
     for request in [
@@ -94,7 +94,7 @@ fn services_read_their_objects_again_where_a_restore_acts_at_once() {
 }
 
 #[test]
-fn an_inhibit_time_changes_only_while_the_pdo_is_off() {
+fn an_inhibit_time_changes_only_while_the_pdo_is_not_valid() {
     let mut bench = bench();
     assert_eq!(bench.ask("601#2B00180364000000"), "581#8000180330000906");
     bench.ask("601#2300180181010080");
@@ -146,7 +146,7 @@ fn an_rpdo_may_skip_bits_and_a_tpdo_may_not() {
 }
 
 #[test]
-fn a_new_period_of_sync_goes_on_counting() {
+fn a_new_period_of_sync_keeps_the_counter() {
     let mut rows = rows();
     let sync = rows.iter_mut().find(|row| row.0 == 0x1005);
     sync.expect("1005h").5 = unsigned(0x4000_0080);

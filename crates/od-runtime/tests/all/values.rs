@@ -1,4 +1,4 @@
-//! Values of every kind: against their limits, out of the store, and in PDOs of many.
+//! Values of every type: their limits, their access in the store, and PDOs with many of them.
 
 use crate::support::{Bench, Row, rows, unsigned};
 use od_eds::{Description, EntryDescription, ObjectDescription, Spanned, Tables, Value};
@@ -24,7 +24,8 @@ fn limited(data_type: DataType, low: Value, high: Value) -> Bench {
     bench
 }
 
-/// Writes these bytes and returns the answer: nothing, or the abort code as it is on the bus.
+/// Writes these bytes and returns the response: nothing, or the abort code in the byte order of the
+/// bus.
 fn write(bench: &mut Bench, bytes: &[u8]) -> String {
     let place = "102000";
     let hex = |bytes: &[u8]| bytes.iter().map(|byte| format!("{byte:02X}")).collect();
@@ -75,7 +76,7 @@ fn signed_numbers_of_each_length_have_their_limits() {
         }
     }
     let mut bench = limited(Integer64, Value::Signed(-5), Value::Signed(7));
-    // Eight bytes go in two segments.
+    // Eight bytes need two segments.
     for (value, answer) in [(-6i64, TOO_LOW), (-5, ""), (7, ""), (8, TOO_HIGH)] {
         assert_eq!(write(&mut bench, &value.to_le_bytes()), answer, "{value}");
     }
@@ -136,7 +137,7 @@ fn a_boolean_is_0_or_1() {
     }
 }
 
-/// Numbers that no master may read, or that are not in the store.
+/// Numbers that no master can read, or that are not in the store.
 fn odd() -> Vec<Row> {
     use Access::{Const, Wo};
     use DataType::{Integer8, Integer16, Unsigned8, Unsigned32, Unsigned64, VisibleString};
@@ -156,7 +157,7 @@ fn odd() -> Vec<Row> {
 }
 
 #[test]
-fn every_number_can_be_had_from_the_store() {
+fn every_number_can_be_read_from_the_store() {
     let mut bench = Bench::with(odd(), NoApplication);
     bench.power_on();
     for (index, value) in [
@@ -177,7 +178,7 @@ fn every_number_can_be_had_from_the_store() {
 }
 
 #[test]
-fn a_store_takes_numbers_where_it_has_a_place_for_them() {
+fn a_store_accepts_numbers_that_have_a_place_in_it() {
     let tables = crate::support::tables(odd());
     let dictionary = tables.dictionary();
     let mut values = vec![0; dictionary.store_len()];
@@ -223,7 +224,7 @@ fn reasons_are_sentences() {
 }
 
 #[test]
-fn no_storage_holds_nothing() {
+fn a_device_without_storage_stores_nothing() {
     let mut none = NoStorage;
     assert_eq!(none.capacity(), 0);
     assert_eq!(none.read(0, &mut []), Ok(()));
@@ -233,7 +234,7 @@ fn no_storage_holds_nothing() {
     assert_eq!(none.erase(0), Err(StorageError::Device));
 }
 
-/// PDO 1 each way with sixteen BOOLEANs, and behind them a byte: more than a node keeps.
+/// PDO 1 of each direction with sixteen BOOLEANs and a byte: more entries than a node keeps.
 fn many() -> Bench {
     use Access::{Const, Rw};
     use DataType::{Boolean, Unsigned8, Unsigned32};

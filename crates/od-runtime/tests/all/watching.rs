@@ -1,5 +1,5 @@
-//! What the node watches of others' PDOs and SYNC: deadlines of RPDOs (CiA 301, object 1400h, sub-index 5) and the
-//! length of SYNC (object 1019h); and its own event timer (chapter 7.2.2.3).
+//! Monitoring of PDOs and SYNC of other nodes: deadlines of RPDOs (CiA 301, object 1400h, sub-index
+//! 5) and the length of SYNC (object 1019h); and the node's own event timer (chapter 7.2.2.3).
 
 use crate::support::{Bench, Row, rows, unsigned};
 use od_model::{Access, DataType};
@@ -29,14 +29,14 @@ fn watched() -> Bench {
 }
 
 #[test]
-fn an_rpdo_is_watched_from_its_first_frame_on() {
+fn an_rpdo_is_monitored_from_its_first_frame_on() {
     let mut bench = watched();
     assert!(bench.wait(100).is_empty(), "no frame has come yet");
     bench.send("201#0700");
     assert!(bench.wait(19).is_empty());
     bench.send("201#0700");
     assert_eq!(bench.wait(100), [(139, LATE.into())], "once");
-    // The other RPDO does not end it.
+    // Frames of the other RPDO do not end the error.
     assert!(bench.send("301#0700").is_empty());
     assert_eq!(bench.send("201#0800"), [OVER]);
     assert_eq!(bench.value(0x2001, 0), 8);
@@ -44,7 +44,7 @@ fn an_rpdo_is_watched_from_its_first_frame_on() {
 }
 
 #[test]
-fn an_rpdo_is_not_watched_outside_operational_or_without_its_time() {
+fn an_rpdo_is_not_monitored_outside_operational_or_without_a_time() {
     let mut bench = watched();
     bench.send("201#0700");
     bench.send("000#8001");
@@ -80,7 +80,8 @@ fn the_length_of_sync_is_that_of_1019h() {
         assert!(bench.send(wrong).is_empty(), "it is active already");
         assert_eq!(bench.send(right), [OVER]);
     }
-    // Without 1019h the counter is not known, and two bytes are never right.
+    // Without 1019h the node does not know whether SYNC has a counter, and two bytes are never
+    // right.
     let mut bench = operational(Vec::new());
     assert!(bench.send("080#").is_empty() && bench.send("080#05").is_empty());
     assert_eq!(bench.send("080#0000"), [LENGTH]);
@@ -91,7 +92,7 @@ fn the_length_of_sync_is_that_of_1019h() {
 }
 
 #[test]
-fn an_rpdo_that_is_watched_no_more_is_not_late() {
+fn an_rpdo_that_is_not_monitored_any_more_is_not_late() {
     let mut bench = watched();
     bench.send("201#0700");
     assert_eq!(bench.wait(100), [(20, LATE.into())]);
@@ -125,7 +126,7 @@ fn the_event_timer_elapses_after_the_last_transmission() {
         let mut bench = operational(Vec::new());
         bench.node.device_mut().profile.pdo.event_timer = timer;
         bench.ask("601#2B00180564000000");
-        // Another event in between: a remote frame.
+        // A remote frame is another event in between.
         assert!(bench.wait(30).is_empty());
         assert_eq!(bench.send("181#R").len(), 1);
         let sent = bench.wait(210);

@@ -90,7 +90,7 @@ fn ranges_up_to_two_to_the_thirty_second() {
 }
 
 #[test]
-fn a_singleturn_begins_anew_and_a_multiturn_goes_on() {
+fn a_singleturn_starts_again_at_0_and_a_multiturn_continues() {
     let turn = |turns: i64| Angle::from_fractions(turns << 32 | 1 << 31);
     let scale = Scale::new(SINGLE, 1000, 0x2000);
     assert_eq!(scale.position(turn(0)), 500);
@@ -150,7 +150,7 @@ fn the_same_as_with_big_integers() {
 }
 
 #[test]
-fn counting_on_leaves_the_sensor_behind() {
+fn a_counter_continues_past_the_revolutions_of_the_sensor() {
     let turn = |turns: i64| Angle::from_fractions(turns << 32 | 1 << 31);
     let scale = Scale::new(SINGLE, 0x2000, 0x8000).counting_on();
     assert_eq!(scale.position(turn(3)), 0x7000);
@@ -172,7 +172,7 @@ fn a_gear_is_exact_at_the_ends_of_the_simulation() {
         for turns in [0, 1, -1, 12_345, i64::from(i32::MAX), i64::from(i32::MIN)] {
             let steps = i128::from(turns) * 0x2000 + 0x1000;
             let angle = Angle::from_fractions(turns << 32 | 1 << 31);
-            // In two halves, so that the product is never there as a whole.
+            // Computed in two halves, so that the product needs no larger integer.
             let (n, d) = (i128::from(numerator), i128::from(denominator));
             let whole = steps.div_euclid(d) * n + steps.rem_euclid(d) * n / d;
             let expected = whole.rem_euclid(1_000_003);

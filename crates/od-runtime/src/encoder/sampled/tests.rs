@@ -1,4 +1,4 @@
-//! A shaft that is only known by its samples.
+//! A shaft whose speed is known only from samples.
 
 use super::*;
 
@@ -235,7 +235,7 @@ fn a_sensor_that_fails_is_asked_again_and_has_no_speed() {
     state.set(Ok((160i64 << 32) / 8192));
     ask(&mut shaft, 160 * MS);
     assert_eq!(speed(&shaft, 160 * MS), Some(1000));
-    // Hours later the times of the track are others, and what lies between is not known.
+    // Hours later the times of the track have wrapped, and the angles in between are not known.
     let hours = 3 * 3600 * 1000 * MS;
     ask(&mut shaft, hours);
     ask(&mut shaft, hours + MS);
@@ -243,7 +243,7 @@ fn a_sensor_that_fails_is_asked_again_and_has_no_speed() {
 }
 
 #[test]
-fn a_shaft_without_samples_tells_its_angle_alone() {
+fn a_shaft_without_samples_has_only_an_angle() {
     let mut shaft: Sampled<_, 0> = Sampled::new(
         Turning(|micros| micros as f64 / 1e6),
         Duration::from_millis(1),
@@ -261,9 +261,9 @@ fn a_shaft_without_samples_tells_its_angle_alone() {
     assert_eq!(shaft.acceleration(now, 50_000, Gain::steps(STEPS)), None);
 }
 
-/// Times of a track are microseconds modulo 2³²: what is as old as that looks new.
+/// Times of a track are microseconds modulo 2³², so a sample of that age looks new.
 #[test]
-fn a_pause_of_71_minutes_ends_what_is_known_of_a_speed() {
+fn after_a_pause_of_71_minutes_the_speed_is_unknown() {
     const AROUND: u64 = 1 << 32;
     let turning = || shaft(|micros| micros as f64 / 1e6, 50);
     let mut slept = turning();
@@ -314,11 +314,11 @@ fn angles_between_samples_change_evenly() {
 }
 
 #[test]
-fn it_reaches_as_far_as_it_is_told() {
+fn the_track_covers_the_requested_time() {
     for (spacing, reach) in [(1, 2), (3, 50), (10, 65_535), (7, 1000)] {
         let mut track: Track<5> = Track::new();
         track.reach(reach);
-        // Across the end of the times.
+        // Across the wrap of the times.
         let mut at = u32::MAX - 100;
         for step in 0..20_000i64 {
             track.add(at, step * spacing);

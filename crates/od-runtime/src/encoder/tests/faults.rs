@@ -3,7 +3,7 @@
 use super::family::bench;
 use super::*;
 
-/// A family whose reports differ in when they come and go.
+/// A family whose reports begin and end at different times.
 static TIMES: EncoderProfile = EncoderProfile {
     reports: &[
         report(Fault::Memory, 1, Appears::Startup),
@@ -45,7 +45,7 @@ const fn report(fault: Fault, code: u16, appears: Appears) -> Report {
     }
 }
 
-/// Codes of the errors that came, and of those that went as negative numbers.
+/// Codes of the errors that began, and of those that ended as negative numbers.
 fn news(bench: &mut Bench) -> Vec<i32> {
     bench.with(|encoder, cx| encoder.tick(cx));
     let change = |change| match change {
@@ -88,7 +88,7 @@ fn faults_are_seen_when_a_family_looks_for_them() {
 }
 
 #[test]
-fn a_battery_is_tested_where_power_was_off_long_enough() {
+fn a_battery_is_tested_if_power_was_off_long_enough() {
     let mut bench = bench(&TIMES);
     bench.encoder.set_fault(Fault::BatteryEmpty, true);
     assert_eq!(news(&mut bench), [0; 0], "nobody looks");
@@ -110,7 +110,7 @@ fn a_battery_is_tested_where_power_was_off_long_enough() {
 }
 
 #[test]
-fn reports_last_as_a_family_has_them() {
+fn reports_last_as_the_family_specifies() {
     let mut bench = bench(&TIMES);
     bench.encoder.set_fault(Fault::Temperature, true);
     bench.encoder.set_fault(Fault::Supervision, true);
@@ -143,7 +143,7 @@ fn a_watchdog_is_seen_after_the_reset_and_until_it_is_repaired() {
 }
 
 #[test]
-fn a_damaged_memory_is_a_fault_until_it_holds_something_sound() {
+fn a_damaged_memory_is_a_fault_until_a_save_succeeds() {
     let mut bench = bench(&TIMES);
     bench.encoder.storage_is(false);
     assert_eq!(news(&mut bench), [2]);
@@ -219,7 +219,7 @@ fn a_silent_sensor_is_an_alarm_in_every_family() {
 }
 
 #[test]
-fn a_memory_that_a_start_finds_damaged_is_found_at_the_start() {
+fn a_memory_that_is_damaged_at_the_start_is_reported_at_the_start() {
     let mut bench = bench(&TIMES);
     bench.encoder.storage_is(false);
     assert_eq!(restart(&mut bench, Reset::Node), [1]);

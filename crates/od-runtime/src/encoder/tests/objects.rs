@@ -16,7 +16,7 @@ fn the_trace_of_the_manual() {
     bench.write(0x6200, 0, 5).unwrap();
     assert_eq!(bench.read(0x1800, 5), 5);
     assert!(bench.signals.take(crate::application::Signals::RECONFIGURE));
-    // 1011h takes the values back, then says so; the two timers are one value to it.
+    // 1011h restores the values and then reports it; it treats the two timers as one value.
     bench.with(|encoder, cx| {
         cx.store.reset(|row| row.index() >= 0x1800);
         encoder.reset(cx, Reset::Defaults);
@@ -97,7 +97,7 @@ fn limits() {
     }
 }
 
-/// 6031h:04 and 6041h:04 of the EN580C, also where the dictionary gives no lower limit.
+/// 6031h:04 and 6041h:04 of the EN580C, also if the dictionary gives no lower limit.
 #[test]
 fn nothing_can_be_divided_by_0() {
     static DIVIDED: EncoderProfile = EncoderProfile {
@@ -141,7 +141,7 @@ fn two_timers_are_one() {
     bench.write(0x6200, 0, 0xFFFF).unwrap();
     assert_eq!(bench.read(0x1800, 5), 0xFFFF);
     bench.write(0x2110, 0, 8).unwrap();
-    // What a reset takes back is what the other follows.
+    // The other object follows the one that a reset restored.
     bench.write(0x6200, 0, 9).unwrap();
     bench.with(|encoder, cx| {
         cx.store.reset(|row| row.index() < 0x2000);
@@ -151,7 +151,7 @@ fn two_timers_are_one() {
         (bench.read(0x6200, 0), bench.read(0x1800, 5)),
         (0x203, 0x203)
     );
-    // An event timer that 6200h and the delay do not give has changed, whatever it is.
+    // An event timer that differs from 6200h plus the delay has changed.
     bench.write(0x2110, 0, 0x108).unwrap();
     for (event_timer, timer) in [(8, 6), (20, 18), (12, 10)] {
         bench.write(0x6200, 0, 10).unwrap();
@@ -164,7 +164,7 @@ fn two_timers_are_one() {
             (timer, event_timer)
         );
     }
-    // FFFEh and the delay are FFFFh: so they stay.
+    // FFFEh plus the delay would be above FFFFh, so it is limited to FFFFh and stays.
     bench.write(0x6200, 0, 0xFFFE).unwrap();
     bench.with(|encoder, cx| encoder.reset(cx, Reset::Communication));
     assert_eq!(
@@ -172,7 +172,7 @@ fn two_timers_are_one() {
         (0xFFFE, 0xFFFF)
     );
     bench.write(0x2110, 0, 8).unwrap();
-    // And at a start the saved values: here only 6200h was saved.
+    // At a start the saved values apply; here only 6200h was saved.
     bench.with(|encoder, cx| {
         cx.store.reset(|_| true);
         cx.store.set_unsigned(Address::new(0x6200, 0), 11);
@@ -180,11 +180,11 @@ fn two_timers_are_one() {
     });
     assert_eq!((bench.read(0x6200, 0), bench.read(0x1800, 5)), (11, 11));
     for (reset, stored, expected) in [
-        // Only 1800h:05 was saved, also where it is what it was.
+        // Here only 1800h:05 was saved, with an unchanged value.
         (Reset::Node, [None, Some(30)], 30),
         (Reset::Node, [None, Some(30)], 30),
         (Reset::Node, [Some(12), Some(30)], 12),
-        // A family whose NMT reset communication loads 6200h, too.
+        // A family whose NMT reset communication also loads 6200h.
         (Reset::Communication, [Some(11), None], 11),
     ] {
         bench.with(|encoder, cx| {
@@ -202,10 +202,10 @@ fn two_timers_are_one() {
     }
 }
 
-/// MANUALS.md C-EAM-04: 6003h and 6010h:01 are one value. Here two others are: 6000h and 6200h, which are saved, or
-/// 650Bh, which is not.
+/// MANUALS.md C-EAM-04: 6003h and 6010h:01 have one value. This test links other objects: 6000h and
+/// 6200h, which are saved, or 650Bh, which is not.
 #[test]
-fn of_two_linked_objects_the_one_that_was_stored_rules() {
+fn the_saved_one_of_two_linked_objects_applies() {
     const LINK: [(Address, Address); 1] = [(Address::new(0x6000, 0), Address::new(0x6200, 0))];
     const UNSAVED: [(Address, Address); 1] = [(Address::new(0x6000, 0), Address::new(0x650B, 0))];
     const DEFAULT: u64 = 4;

@@ -3,7 +3,7 @@
 use super::*;
 
 #[test]
-fn switches_rule_the_node_id_and_the_bit_rate() {
+fn switches_set_the_node_id_and_the_bit_rate() {
     let mut bench = Bench::new(0x2000_0000);
     bench.write(0x2101, 0, 7).unwrap();
     let id = |bench: &mut Bench| bench.with(|encoder, cx| encoder.node_id(cx.store).unwrap().raw());
@@ -71,7 +71,7 @@ fn faults_raise_errors_with_alarms_and_warnings_and_are_counted() {
 }
 
 #[test]
-fn time_of_operation_is_without_the_time_off() {
+fn time_without_power_is_not_operating_time() {
     let mut bench = Bench::new(0x2000_0000);
     bench.now = Instant::from_millis(800_000);
     assert_eq!((bench.read(0x2201, 2), bench.read(0x6508, 0)), (800, 2));

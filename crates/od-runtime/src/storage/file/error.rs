@@ -6,11 +6,11 @@ use std::path::PathBuf;
 use std::process;
 use std::string::String;
 
-/// Reason why a file is not used; it is as it was.
+/// Reason why a file is not used; it is unchanged.
 #[derive(Debug)]
 #[non_exhaustive]
 pub enum OpenError {
-    /// The operating system refused something.
+    /// The operating system reported an error.
     Io(PathBuf, io::Error),
     /// The file is not an EEPROM file of odkit.
     NotEeprom(PathBuf),
@@ -20,25 +20,25 @@ pub enum OpenError {
     Foreign {
         /// The file.
         path: PathBuf,
-        /// Name and identity of its device.
+        /// Name and identity of the device that the file belongs to.
         of: [String; 2],
-        /// Name and identity of the device that was to use it.
+        /// Name and identity of the device that was to use the file.
         device: [String; 2],
     },
     /// Another device uses the file.
     InUse {
         /// The file.
         path: PathBuf,
-        /// The process, if the file says so.
+        /// The process ID, if the file contains it.
         process: Option<u32>,
     },
     /// The file is too small for this device.
     TooSmall {
         /// The file.
         path: PathBuf,
-        /// Bytes that it holds.
+        /// Number of bytes that it holds.
         has: usize,
-        /// Bytes that the device needs.
+        /// Number of bytes that the device needs.
         needs: usize,
     },
 }

@@ -1,4 +1,4 @@
-//! First bytes of a file: whose it is, in lines that a person can read.
+//! First bytes of a file: they name its device, in lines that a person can read.
 
 use std::format;
 use std::string::String;
@@ -13,11 +13,11 @@ use crate::storage::image;
 pub(super) const LEN: usize = 512;
 /// Bytes before the checksum: eight digits and the end of the line.
 const SUMMED: usize = LEN - 10;
-/// The first bytes, so that no other file is ever mistaken for one; the digit is the version.
+/// The first bytes, which no other kind of file has; the digit is the version.
 pub(super) const SIGNATURE: &[u8; 16] = b"odkit EEPROM 2\r\n";
-/// Place of the version in it.
+/// Place of the version digit.
 const VERSION: usize = 13;
-/// Bytes of a name or an identity at most.
+/// Greatest length of a name or an identity, in bytes.
 const LONGEST: usize = 200;
 
 /// The device that a file belongs to.
@@ -25,15 +25,15 @@ const LONGEST: usize = 200;
 pub struct Owner<'o> {
     /// Name for messages: that of a built-in device, or the path of its EDS.
     pub name: &'o str,
-    /// Identity and layout in words; a file of another one is refused.
+    /// Identity and layout in words; a file with another identity is refused.
     pub identity: &'o str,
-    /// [`image::device`](crate::storage::image::device), for a file whose header is damaged.
+    /// [`image::device`](crate::storage::image::device), to recognise a file with a damaged header.
     pub device: u32,
 }
 
 impl<'o> Owner<'o> {
-    /// A device with this dictionary, by its vendor-ID and product code (1018h); `name` is its name and its identity in
-    /// words.
+    /// A device with this dictionary, identified by vendor-ID and product code (1018h). Its name in
+    /// messages is `name`, and its identity is these two numbers in words.
     ///
     /// ```no_run
     /// # use od_model::Dictionary;
@@ -57,7 +57,7 @@ impl<'o> Owner<'o> {
 pub(super) struct Header {
     pub(super) name: String,
     pub(super) identity: String,
-    /// Bytes behind the header.
+    /// Number of bytes after the header.
     pub(super) capacity: usize,
     /// The process that opened the file last.
     pub(super) process: u32,
@@ -66,9 +66,9 @@ pub(super) struct Header {
 /// Kind of the first bytes of a file.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(super) enum Seen {
-    /// Nothing of odkit.
+    /// Not a file of odkit.
     Other,
-    /// Nothing, or power went while the file was made.
+    /// Empty, or power failed while the file was made.
     Unfinished,
     /// A file of another version of odkit.
     Version(char),
@@ -76,7 +76,7 @@ pub(super) enum Seen {
     Damaged,
 }
 
-/// Returns a text as a header holds it: one line, and of a long one its end.
+/// Returns a text as a header contains it: one line, and only the end of a long text.
 pub(super) fn line(text: &str) -> String {
     let mut from = text.len().saturating_sub(LONGEST);
     while !text.is_char_boundary(from) {

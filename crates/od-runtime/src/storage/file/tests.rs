@@ -1,4 +1,4 @@
-//! Whose a file is, what is in it, and what it says where that is in doubt.
+//! Owner, content and messages of a file.
 
 use super::*;
 use std::path::PathBuf;
@@ -29,7 +29,7 @@ fn error(path: &Path, capacity: usize, owner: &Owner<'_>) -> String {
 }
 
 #[test]
-fn what_is_written_is_there_when_it_is_opened_again() {
+fn written_bytes_are_there_after_reopening() {
     let path = path("again");
     let mut file = File::open(&path, 64, &OWNER).unwrap();
     let mut byte = [0];
@@ -60,14 +60,14 @@ fn what_is_written_is_there_when_it_is_opened_again() {
 }
 
 #[test]
-fn a_file_of_somebody_else_is_left_alone() {
+fn a_file_of_another_program_is_not_changed() {
     let path = path("letter");
     let long = "a letter to somebody, and longer than a header".repeat(20);
     for content in [&*long, "short", "odkit EEPROM\r\n"] {
         fs::write(&path, content).unwrap();
         let why = error(&path, 16, &OWNER);
         assert!(why.contains("left as it is"), "{why}");
-        // An order to erase it changes nothing.
+        // Even an erase does not change it.
         let erased = File::open_erased(&path, 16, &OWNER);
         assert!(matches!(erased, Err(OpenError::NotEeprom(_))));
         assert_eq!(fs::read_to_string(&path).unwrap(), content);
@@ -78,7 +78,7 @@ fn a_file_of_somebody_else_is_left_alone() {
 }
 
 #[test]
-fn a_file_that_was_not_finished_is_new_and_says_so() {
+fn an_unfinished_file_is_new_and_says_so() {
     let path = path("unfinished");
     let whole = {
         drop(File::open(&path, 8, &OWNER).unwrap());
@@ -113,7 +113,7 @@ fn another_device_is_refused_with_both_names() {
     file.read(0, &mut bytes).unwrap();
     assert_eq!(bytes, [ERASED; 6]);
     drop(file);
-    // Without values it is as large as its device needs, and still nobody else's.
+    // Without values it gets the size that its device needs, and still belongs to no other device.
     drop(File::open(&path, 80, &OTHER).unwrap());
     assert_eq!(fs::read(&path).unwrap().len(), LEN + 80);
     error(&path, 80, &OWNER);
@@ -142,7 +142,7 @@ fn a_file_of_an_older_odkit_is_refused_if_it_has_values() {
 }
 
 #[test]
-fn a_file_in_use_says_who_has_it() {
+fn a_file_in_use_names_the_process() {
     let path = path("lock");
     let file = File::open(&path, 64, &OWNER).unwrap();
     let why = error(&path, 64, &OWNER);
@@ -172,7 +172,7 @@ fn a_damaged_header_costs_no_value() {
         let mut bytes = whole.clone();
         bytes[bit / 8] ^= 1 << (bit % 8);
         assert_eq!(Header::read(&bytes[..LEN]), Seen::Damaged, "bit {bit}");
-        // A file system takes its time.
+        // The time of a change has a coarse resolution in some file systems.
         if bit % 37 > 0 {
             continue;
         }
@@ -186,7 +186,7 @@ fn a_damaged_header_costs_no_value() {
 }
 
 #[test]
-fn a_file_with_another_length_keeps_its_bytes_in_their_places() {
+fn a_file_with_another_length_keeps_its_bytes_in_place() {
     let path = path("length");
     let mut file = File::open(&path, 64, &OWNER).unwrap();
     file.write(0, &[1; 64]).unwrap();
@@ -213,7 +213,7 @@ fn a_long_name_keeps_its_end() {
     assert_eq!(name("a\r\nb\tc"), "a  b c");
     assert_eq!(name(&"x".repeat(200)), "x".repeat(200));
     assert_eq!(name(&"x".repeat(201)), "x".repeat(200));
-    // 301 bytes: the 101st is within a letter.
+    // 301 bytes: byte 101 is inside a character.
     let long = format!("{}x", "\u{E9}".repeat(150));
     assert_eq!(name(&long), format!("{}x", "\u{E9}".repeat(99)));
 }

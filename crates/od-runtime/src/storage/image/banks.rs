@@ -1,11 +1,11 @@
-//! State of the banks: which are whole, and which is the newest.
+//! State of the banks: which of them are complete, and which is the newest.
 
 use core::num::NonZeroUsize;
 
 use super::layout::{Code, Layout};
 use super::loaded::Loaded;
 
-/// A whole set.
+/// A complete set.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) struct Set {
     /// [`device`](super::device) that wrote it.
@@ -21,16 +21,16 @@ pub(super) struct Bank {
     pub(super) code: Code,
     /// The word after it: a save that replaces the set began.
     pub(super) mark: Code,
-    /// Its set, if it is whole.
+    /// Its set, if it is complete.
     pub(super) set: Option<Set>,
-    /// Every bit is as a save left it.
+    /// Every bit is as the save wrote it.
     pub(super) is_clean: bool,
     /// Version 1 of this layout.
     pub(super) is_old: bool,
 }
 
 impl Bank {
-    /// Bytes that codes and set take.
+    /// Number of bytes of codes and set.
     pub(super) fn used(&self, word: usize) -> usize {
         self.set.map_or(2 * word, |set| set.len.get())
     }
@@ -40,20 +40,20 @@ impl Bank {
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) struct Banks {
     pub(super) layout: Layout,
-    /// The bank that stays with the next save: that of the newest set, if there is one.
+    /// The bank that the next save does not write: that of the newest set, if there is one.
     pub(super) stays: usize,
     /// The bank of the next set.
     pub(super) target: usize,
     /// The device.
     pub(super) device: u32,
-    /// The newest set, of whatever device.
+    /// The newest set, of any device.
     pub(super) newest: Option<Set>,
-    /// The set that a start loads, whether or not its records fit.
+    /// Result of the start: the set that it loads, before its records are checked.
     pub(super) state: Loaded,
-    /// The commit word of the next set; [erased](Code::ERASED): no set follows.
+    /// Commit word of the next set; [erased](Code::ERASED): no set follows.
     pub(super) next: Code,
-    /// The newest set does not count, because a later save was interrupted on a device that loads
-    /// the factory values then; the operating records in it do.
+    /// The newest set is not loaded, because a later save was interrupted on a device that loads
+    /// the factory values in this case. Its operating records are loaded.
     pub(super) is_withdrawn: bool,
 }
 
@@ -70,20 +70,20 @@ impl Banks {
         is_withdrawn: false,
     };
 
-    /// Returns whether there is a next set, which is written but for its commit word.
+    /// Returns whether a next set is written except its commit word.
     pub(crate) fn is_some(&self) -> bool {
         self.next != Code::ERASED
     }
 
-    /// State of two banks together.
+    /// Combines the states of two banks.
     pub(super) fn judge(&mut self, stays: &Bank, target: &Bank) {
         let was_withdrawn = stays.mark == Code::WITHDRAWN;
-        // A save began that was not completed.
+        // A save began and was not completed.
         let is_interrupted =
             (was_withdrawn || stays.mark == Code::REPLACED) && target.code != Code::GIVEN_UP;
-        // A set is damaged that is later than the newest.
+        // A set later than the newest is damaged.
         let lost = match target.code {
-            // Flash may have any content where power went.
+            // Flash may have any content where a write was interrupted.
             Code::UNCLEAR => (self.layout.page == 0 && stays.mark == Code::REPLACED).into(),
             code => code.later_than(stays.code),
         };

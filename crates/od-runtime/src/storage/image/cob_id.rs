@@ -1,4 +1,4 @@
-//! COB-IDs that are kept as the difference to their default, so that they move with the node ID.
+//! COB-IDs that are saved as the difference to their default, so that they follow the node ID.
 
 use od_model::row::Row;
 
@@ -7,7 +7,7 @@ use crate::profile::SavedCobIds;
 use crate::store::Store;
 use od_wire::CobId;
 
-/// Number that is subtracted from a saved value; 0: it is saved as it is.
+/// Returns the number that is subtracted from a saved value; 0: the value is saved unchanged.
 pub(super) fn base(store: &Store<'_>, row: &Row, rule: SavedCobIds) -> u64 {
     if is_difference(row, rule) {
         default(store, row)
@@ -16,8 +16,8 @@ pub(super) fn base(store: &Store<'_>, row: &Row, rule: SavedCobIds) -> u64 {
     }
 }
 
-/// Makes the value of a saved difference, in place. Answers whether it is one that a COB-ID
-/// can have: with another node ID it may have left the 11 bits.
+/// Converts a saved difference to its value, in place. Returns whether a COB-ID can have this
+/// value: with another node ID it may be outside the 11 bits.
 pub(super) fn restore(store: &Store<'_>, row: &Row, rule: SavedCobIds, bytes: &mut [u8]) -> bool {
     if !is_difference(row, rule) {
         return true;
@@ -27,7 +27,7 @@ pub(super) fn restore(store: &Store<'_>, row: &Row, rule: SavedCobIds, bytes: &m
     row.index() >= 0x2000 || CobId::new(value as u32).is_consistent()
 }
 
-/// Returns whether the value is kept as the difference to its default.
+/// Returns whether the value is saved as the difference to its default.
 fn is_difference(row: &Row, rule: SavedCobIds) -> bool {
     rule == SavedCobIds::Difference && !row.is_variable() && row.follows_node_id()
 }

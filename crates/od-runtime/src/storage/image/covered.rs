@@ -1,11 +1,11 @@
-//! Values that are saved, and those that a sub-index of 1010h and 1011h covers.
+//! Which values are saved, and which of them a sub-index of 1010h and 1011h covers.
 
 use od_model::row::Row;
 use od_model::{Address, Group};
 
 use crate::profile::StoreProfile;
 
-/// Returns whether the value is saved at all.
+/// Returns whether 1010h saves the value.
 pub(super) const fn is_saved(row: &Row) -> bool {
     !matches!(row.group(), Group::None) && row.is_stored()
 }
@@ -13,7 +13,7 @@ pub(super) const fn is_saved(row: &Row) -> bool {
 /// Returns whether the value belongs to the operating records (hours, counters of errors):
 /// saved objects of the manufacturer that no master can write.
 ///
-/// Every save includes them, and no restore takes them back.
+/// Every save includes them, and no restore changes them.
 pub const fn is_life_record(row: &Row) -> bool {
     matches!(row.group(), Group::Manufacturer) && !row.writable()
 }
@@ -23,8 +23,8 @@ pub(crate) const fn is_kept(row: &Row) -> bool {
     is_saved(row) && !is_life_record(row)
 }
 
-/// Returns whether sub-index `sub` of 1010h or 1011h covers this value, or the one that it is a
-/// twin of.
+/// Returns whether sub-index `sub` of 1010h or 1011h covers this value, or the other value of its
+/// pair ([`StoreProfile::twins`]).
 pub(super) fn is_covered(profile: &StoreProfile, row: &Row, sub: u8) -> bool {
     let twin = |[one, other]: &[Address; 2]| match row.address() {
         address if address == *one => Some(*other),
@@ -65,7 +65,7 @@ mod tests {
     }
 
     #[test]
-    fn settings_and_records_are_saved_each_their_own_way() {
+    fn settings_and_operating_records_have_their_own_rules() {
         use Access::{Const, Ro, Rw};
         use Group::{Application, Communication, Manufacturer, None};
         const PROFILE: &StoreProfile = &Profile::CIA301.store;
@@ -87,7 +87,7 @@ mod tests {
     }
 
     #[test]
-    fn a_twin_goes_with_the_group_of_the_other() {
+    fn the_values_of_a_pair_are_in_the_groups_of_both() {
         const PROFILE: StoreProfile = StoreProfile {
             twins: &[[Address::new(0x1800, 0), Address::new(0x6200, 0)]],
             ..Profile::CIA301.store

@@ -1,6 +1,6 @@
-//! A save in steps, for memory that is written in the background.
+//! A save in steps, for storage that is written in the background.
 //!
-//! The image is the one that [`save`](super::save) and [`erase`](super::erase) write, to the byte.
+//! The image has the same bytes as that of [`save`](super::save) and [`erase`](super::erase).
 
 use core::ops::Range;
 
@@ -18,10 +18,10 @@ use crate::storage::save::Save;
 use crate::storage::{Storage, StorageError};
 use crate::store::Store;
 
-/// A save or a restore in bounded steps, with the values of the moment at which it began.
+/// A save or a restore in bounded steps, with the values at the moment when it began.
 ///
-/// It is for a storage that [takes over](Storage::take) what the node saves. The image goes into memory
-/// that needs no erasure, such as RAM that is copied to flash later.
+/// It is for a storage that [takes over](Storage::take) the saves of the node. It writes the image
+/// into memory that needs no erasure, such as RAM that is copied to flash later.
 #[derive(Clone, Debug)]
 pub struct Job {
     plan: Plan<'static>,
@@ -29,11 +29,11 @@ pub struct Job {
     node_id: NodeId,
     banks: Banks,
     phase: Phase,
-    /// The first bank, while the other one is looked at.
+    /// The first bank, while the second one is read.
     first: Option<Bank>,
-    /// Bytes of the set that is written.
+    /// Number of bytes of the set that is written.
     len: usize,
-    /// The set in the making.
+    /// Position in the set that is being made.
     walk: Walk,
     has_orphans: bool,
     at: usize,
@@ -46,18 +46,18 @@ pub struct Job {
 /// The work of the next step.
 #[derive(Clone, Debug)]
 enum Phase {
-    /// The banks are looked at: the head of this one, its records, and what is behind them.
+    /// Reads the banks: the header of this one, its records, and the bytes after them.
     Head(usize),
     Records(usize, Bank, Content),
     Rest(usize, Bank, Rest),
-    /// The set is counted, written, and read back.
+    /// Counts the set, writes it, and reads it back.
     Count,
     Write,
     Wipe,
     Check(Content),
 }
 
-/// The end of a bank, of which all bytes so far are FFh, or 0.
+/// The end of a bank, of which all bytes so far are FFh or 0.
 #[derive(Clone, Debug)]
 struct Rest {
     at: usize,
@@ -66,7 +66,8 @@ struct Rest {
 }
 
 impl Job {
-    /// Begins a save. `values` has room for all values of the dictionary, which are copied.
+    /// Begins a save. The values of the dictionary are copied to `values`, which has room for all
+    /// of them.
     pub fn new(save: &Save<'_>, values: &mut [u8]) -> Self {
         let now = save.store.values();
         if let Some(to) = values.get_mut(..now.len()) {
@@ -98,8 +99,8 @@ impl Job {
         }
     }
 
-    /// Goes on for at most 64 bytes, or eight values of the dictionary. `values` are those of
-    /// [`new`](Self::new). Returns what became of it when it is done.
+    /// Continues for at most 64 bytes, or eight values of the dictionary. `values` is the slice of
+    /// [`new`](Self::new). Returns the result when the job is done.
     pub fn step(
         &mut self,
         storage: &mut dyn Storage,
@@ -122,12 +123,13 @@ impl Job {
         }
     }
 
-    /// Range of the newest set with its header, once the job is done: as [`newest`](super::newest).
+    /// Range of the newest set with its header after the job is done, as by
+    /// [`newest`](super::newest).
     pub fn newest(&self) -> Range<usize> {
         self.place.clone()
     }
 
-    /// Returns whether it is done.
+    /// Continues. Returns whether the job is done.
     fn go_on(&mut self, medium: &mut Medium<'_>, store: &Store<'_>) -> bool {
         match self.phase.clone() {
             Phase::Head(bank) => {
@@ -179,7 +181,7 @@ impl Job {
         }
     }
 
-    /// The head of a bank.
+    /// Reads the header of a bank.
     fn head(&mut self, medium: &mut Medium<'_>, at: usize) -> bool {
         if medium.banks.layout.size == 0 {
             return self.begin(medium);
@@ -198,7 +200,7 @@ impl Job {
         false
     }
 
-    /// The end of a bank is next.
+    /// Goes to the end of a bank.
     fn rest(&mut self, medium: &mut Medium<'_>, at: usize, bank: Bank) {
         let rest = Rest {
             at: at + bank.used(medium.banks.layout.word),
@@ -208,7 +210,7 @@ impl Job {
         self.phase = Phase::Rest(at, bank, rest);
     }
 
-    /// A bank was looked at.
+    /// Notes a bank that was read.
     fn looked(&mut self, medium: &mut Medium<'_>, bank: Bank) -> bool {
         match self.first.take() {
             None => {
@@ -223,7 +225,7 @@ impl Job {
         }
     }
 
-    /// Both banks were looked at. Done where there is nothing to write.
+    /// Begins to write after both banks were read. The job is done if there is nothing to write.
     fn begin(&mut self, medium: &mut Medium<'_>) -> bool {
         let stays = medium.banks.stays;
         self.place = medium
@@ -244,13 +246,13 @@ impl Job {
         }
     }
 
-    /// Records are gone through from the first one on.
+    /// Goes to the first record.
     fn start(&mut self, medium: &mut Medium<'_>, at: usize) {
         self.at = at;
         self.walk = Walk::new(medium);
     }
 
-    /// Once more without the records that have no object, if there is no room for them.
+    /// Counts once more without the records that have no object, if there is no room for them.
     fn count(&mut self, medium: &mut Medium<'_>, store: &Store<'_>) -> bool {
         if !self.walk(medium, store, true) {
             return false;
@@ -279,7 +281,7 @@ impl Job {
         [medium.banks.device, self.len as u32, self.crc.finish()].map(u32::to_le_bytes)
     }
 
-    /// Behind the records; then the fields.
+    /// Clears the bytes after the records; then the fields follow.
     fn wipe(&mut self, medium: &mut Medium<'_>, store: &Store<'_>) -> bool {
         let Banks { target, layout, .. } = *medium.banks;
         let end = (self.at + STEP).min(target + layout.size);
@@ -304,7 +306,7 @@ impl Job {
         }
     }
 
-    /// The end: the set was read back, with this length.
+    /// Checks the set that was read back, with this length.
     fn check(&mut self, medium: &mut Medium<'_>, len: Option<usize>) -> bool {
         let (target, whole) = (medium.banks.target, medium.banks.layout.header + self.len);
         if len != Some(whole) {
@@ -317,7 +319,7 @@ impl Job {
         true
     }
 
-    /// Does something with the set in the making.
+    /// Calls `act` with the set that is being made.
     fn put(
         &mut self,
         medium: &mut Medium<'_>,
@@ -339,7 +341,7 @@ impl Job {
         (self.at, self.filled, self.crc) = (set.at, set.filled, set.crc);
     }
 
-    /// Some of the records. Returns whether that was the last one.
+    /// Handles some of the records. Returns whether these were the last.
     fn walk(&mut self, medium: &mut Medium<'_>, store: &Store<'_>, only_counts: bool) -> bool {
         let (mut walk, profile, mut done) = (self.walk.clone(), self.profile, false);
         self.put(medium, store, only_counts, |set| {

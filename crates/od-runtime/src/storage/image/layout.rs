@@ -6,57 +6,58 @@ use crate::storage::{Geometry, Storage};
 
 /// The longest value that is saved, in bytes.
 pub const MAX_VALUE: usize = 1024;
-/// The longest word of a storage, in bytes. The fields of a header fit in one.
+/// Greatest length of a word of a storage, in bytes. The fields of a header fit into one.
 pub(super) const MAX_WORD: usize = 32;
 
-/// Bytes of the fields that describe the records: device, length, CRC.
+/// Number of bytes of the fields that describe the records: device, length, CRC.
 pub(super) const FIELDS: usize = 12;
-/// Bytes of a record before its value.
+/// Number of bytes of a record before its value.
 pub(super) const RECORD: usize = 5;
 /// Index of the records that are not objects: node ID (sub-index 1) and bit rate (2) of LSS.
 pub(super) const OWN: u16 = 0;
-/// Version of the layout; part of what a set says of its device.
+/// Version of the layout; a part of the device number of a set.
 pub(super) const VERSION: u8 = 2;
-/// First bytes of a bank of version 1.
+/// First bytes of a bank in version 1.
 pub(super) const MAGIC_1: &[u8] = b"\x69odk";
 
-/// Content of a byte that is erased.
+/// Value of an erased byte.
 pub(super) const ERASED: u8 = 0xFF;
-/// Codes of the words of a header. Any two differ in four bits, also from a word of flash that lost
-/// its power between two of them.
+/// Codes of the words of a header. Any two differ in four bits. This includes words of flash whose
+/// write was interrupted.
 static CODES: [u8; 10] = [ERASED, 0, 0xF0, 0xA5, 0xC3, 0x0F, 0x33, 0x3C, 0x55, 0x5A];
 
-/// Content of a word of a header: a place in [`CODES`].
+/// Content of a word of a header: a position in [`CODES`].
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Debug)]
 pub(super) struct Code(u8);
 
 impl Code {
     /// Nothing was written.
     pub(super) const ERASED: Self = Self(0);
-    /// Commit word of a save that failed with power on: the set before it counts.
+    /// Commit word of a save that failed while power was on: the set before it is valid.
     pub(super) const GIVEN_UP: Self = Self(2);
-    /// Mark: a save that replaces this set began; until it is complete, this set counts.
+    /// Mark: a save that replaces this set began; until it is complete, this set is valid.
     pub(super) const REPLACED: Self = Self(3);
-    /// Mark: a save that replaces this set began; until it is complete, the factory values count.
+    /// Mark: a save that replaces this set began; until it is complete, the factory values are
+    /// valid.
     pub(super) const WITHDRAWN: Self = Self(4);
-    /// The first commit word of a complete set. Four more follow, each newer than the one before it,
-    /// and this one again.
+    /// The first commit word of a complete set. Four more follow, each newer than the one before
+    /// it; after the last one follows the first again.
     pub(super) const FIRST: Self = Self(5);
     const PHASES: u8 = 5;
-    /// More than one bit away from every code.
+    /// A word with more than one bit different from every code.
     pub(super) const UNCLEAR: Self = Self(10);
 
-    /// Reads a word; `false` if a bit is wrong. One may be.
+    /// Reads a word; `false` if one bit is wrong.
     pub(super) fn read(word: &[u8]) -> (Self, bool) {
         for (place, code) in (0..).zip(&CODES) {
             let mut wrong = 0;
             for byte in word {
                 let bits = byte ^ code;
-                // One bit counts once, more count twice.
+                // Words with one wrong bit are accepted.
                 wrong += u8::from(bits != 0) + u8::from(bits & bits.wrapping_sub(1) != 0);
             }
             if wrong <= 1 {
-                // An EEPROM that is all 0 is as good as an erased one.
+                // An EEPROM of zeros counts as erased.
                 let place = if place == 1 { 0 } else { place };
                 return (Self(place), wrong == 0);
             }
@@ -78,8 +79,8 @@ impl Code {
         Self(Self::FIRST.0 + (self.0 - Self::FIRST.0 + later) % Self::PHASES)
     }
 
-    /// Returns how many saves later than another a set was complete: 1, or 2 if the other did not
-    /// count any more. 0: it was not later, or is not complete.
+    /// Returns how many saves after another a set was completed: 1, or 2 if the other was not valid
+    /// any more. 0: not after it, or not complete.
     pub(super) fn later_than(self, other: Self) -> u8 {
         match () {
             () if !self.is_complete() => 0,
@@ -97,14 +98,14 @@ impl Code {
 pub(super) struct Layout {
     pub(super) page: usize,
     pub(super) word: usize,
-    /// Bytes of a header: commit word, mark, fields.
+    /// Number of bytes of a header: commit word, mark, fields.
     pub(super) header: usize,
-    /// Bytes of a bank; 0: the storage has no room for one.
+    /// Number of bytes of a bank; 0: the storage has no room for one.
     pub(super) size: usize,
 }
 
 impl Layout {
-    /// Of a storage without room.
+    /// A storage without room.
     pub(super) const NONE: Self = Self {
         page: 0,
         word: 0,
@@ -135,14 +136,14 @@ impl Layout {
     }
 }
 
-/// Bytes of a record before its value, with the key of its address.
+/// Returns the bytes of a record before its value, for this address.
 pub(super) const fn head(key: u32, len: u16) -> [u8; RECORD] {
     let [sub, index_low, index_high, _] = key.to_le_bytes();
     let [len_low, len_high] = len.to_le_bytes();
     [index_low, index_high, sub, len_low, len_high]
 }
 
-/// The records of node ID and bit rate, and how many bytes of them there are.
+/// Returns the records of node ID and bit rate, and their length in bytes.
 pub(crate) const fn own_records(node_id: u8, bit_rate: Option<u8>) -> ([u8; 12], usize) {
     let [a, b, c, d, e] = head(Address::new(OWN, 1).key(), 1);
     let [f, g, h, i, j] = head(Address::new(OWN, 2).key(), 1);
@@ -153,14 +154,14 @@ pub(crate) const fn own_records(node_id: u8, bit_rate: Option<u8>) -> ([u8; 12],
     ([a, b, c, d, e, node_id, f, g, h, i, j, rate], len)
 }
 
-/// Bytes of a header on a storage with words of this size.
+/// Number of bytes of a header on a storage with words of this size.
 pub(super) const fn header(word: usize) -> usize {
     2usize
         .wrapping_mul(word)
         .wrapping_add(whole_words(FIELDS, word))
 }
 
-/// Rounds `len` bytes up to whole words; the length of a word is a power of two.
+/// Rounds `len` bytes up to whole words; the word length is a power of two.
 pub(super) const fn whole_words(len: usize, word: usize) -> usize {
     let rest = word.wrapping_sub(1);
     len.wrapping_add(rest) & !rest
@@ -171,7 +172,7 @@ mod tests {
     use super::*;
     use crate::storage::StorageError;
 
-    /// A storage of which only the sizes matter.
+    /// A storage of which only the sizes are used.
     struct Sizes(Geometry);
 
     impl Storage for Sizes {

@@ -1,33 +1,32 @@
-//! Outcome of a load.
+//! Result of a load.
 
-/// Content of the storage at the time of a load.
+/// Content of the storage when it is loaded.
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[non_exhaustive]
 pub enum Loaded {
-    /// Nothing yet, or nothing of this device: the values keep their defaults.
+    /// No set, or no set of this device: the values are the defaults.
     Blank,
-    /// The last set that was saved.
+    /// The set of the last save.
     Complete,
-    /// The last set that was saved; these many of its records fit no object of this
-    /// dictionary and were left out.
+    /// The set of the last save. Some of its records do not fit an object of this dictionary and
+    /// were left out.
     Partial {
-        /// Records left out.
+        /// Number of records that were left out.
         skipped: u16,
     },
-    /// The last set that was saved; bits of the storage changed that are not part of it.
+    /// The set of the last save. Bits of the storage outside this set have changed.
     Flawed,
-    /// The last set is damaged: the values are those of the save before it.
+    /// The last set is damaged; the values are those of the save before it.
     Older,
-    /// A save was cut.
+    /// A save was interrupted.
     Cut {
-        /// The values keep their defaults, but for the operating records; else they are those that
-        /// were saved before.
+        /// `true`: the values are the defaults, except the operating records; `false`: the values
+        /// are those that were saved before.
         factory: bool,
     },
-    /// Another device, or another version of odkit, wrote what is there: the values keep their
-    /// defaults.
+    /// Another device, or another version of odkit, wrote the content: the values are the defaults.
     Foreign,
-    /// The content cannot be read: the values keep their defaults.
+    /// The content cannot be read: the values are the defaults.
     Damaged,
 }

@@ -1,4 +1,4 @@
-//! A storage while an image is read or written: what is known of its banks, and what has failed.
+//! A storage while an image is read or written, with the state of its banks and the first failure.
 
 use core::num::NonZeroUsize;
 
@@ -7,13 +7,13 @@ use super::layout::{Code, ERASED, FIELDS, Layout, MAX_WORD};
 use crate::storage::crc::Crc32;
 use crate::storage::{Storage, StorageError};
 
-/// A storage, which does nothing any more behind the first failure.
+/// A storage that does nothing after its first failure.
 pub(crate) struct Medium<'m> {
     pub(super) storage: &'m mut dyn Storage,
     pub(super) banks: &'m mut Banks,
     /// The first failure.
     pub(super) outcome: Result<(), StorageError>,
-    /// Bytes on their way: the longest word.
+    /// Bytes that are being moved, up to the longest word.
     pub(super) buffer: [u8; MAX_WORD],
 }
 
@@ -27,12 +27,12 @@ impl<'m> Medium<'m> {
         }
     }
 
-    /// A failure that the storage did not see.
+    /// Notes a failure that the storage did not report.
     pub(super) fn fail(&mut self, error: StorageError) {
         self.outcome = self.outcome.and(Err(error));
     }
 
-    /// Fills `to`, which stays as it is behind a failure.
+    /// Fills `to`; after a failure `to` stays unchanged.
     pub(super) fn read(&mut self, at: usize, to: &mut [u8]) {
         if self.outcome.is_ok() {
             self.outcome = self.storage.read(at, to);
@@ -74,7 +74,7 @@ impl<'m> Medium<'m> {
         self.buffer = [byte; MAX_WORD];
         while at < end {
             self.fetch(at, (end - at).min(MAX_WORD));
-            // Most of a bank is erased, so this is most of a start.
+            // Most of a bank is erased, so most of the time of a start is spent here.
             if self.buffer.as_chunks().0.iter().any(|other| *other != word) {
                 return false;
             }
@@ -83,7 +83,7 @@ impl<'m> Medium<'m> {
         true
     }
 
-    /// Returns whether nothing was ever written there: all bytes are FFh, or all are 0.
+    /// Returns whether the range was never written: all bytes are FFh, or all are 0.
     pub(super) fn is_blank(&mut self, at: usize, end: usize) -> bool {
         self.holds(at, end, ERASED) || self.holds(at, end, 0)
     }
@@ -98,7 +98,7 @@ impl<'m> Medium<'m> {
         }
         let mut at = 0;
         while at < self.banks.layout.size {
-            // Pages behind the set are mostly erased already.
+            // Pages after the set are usually erased already.
             let start = bank + at;
             if (at < len || !self.is_blank(start, start + page)) && self.outcome.is_ok() {
                 self.outcome = self.storage.erase(start);
@@ -108,11 +108,11 @@ impl<'m> Medium<'m> {
         self.flush();
     }
 
-    /// Behind the records nothing stays of older sets; flash is erased there.
+    /// Clears the bytes of older sets after the records; flash is erased there already.
     pub(super) fn wipe(&mut self, mut at: usize, end: usize) {
         while self.banks.layout.page == 0 && at < end {
             let part = (end - at).min(MAX_WORD);
-            // One that is new may be all 0: part of it would look like a set that is gone.
+            // A new storage may be all 0; a part of it would look like a set that was removed.
             if !self.holds(at, at + part, ERASED) {
                 self.fill(at, part, ERASED);
             }
@@ -140,22 +140,22 @@ impl<'m> Medium<'m> {
         }
     }
 
-    /// The set in a bank did not become whole. Power did not go, so the set before it counts, if the
-    /// storage still works.
+    /// Marks the set in a bank as incomplete. Power did not fail, so the set before it is valid, if
+    /// the storage still works.
     pub(super) fn give_up(&mut self, bank: usize) {
         let outcome = core::mem::replace(&mut self.outcome, Ok(()));
         self.stamp(bank, Code::GIVEN_UP);
         self.outcome = outcome;
     }
 
-    /// Returns the set of a bank, if fields and records are whole.
+    /// Returns the set of a bank, if its fields and records are complete.
     pub(super) fn content(&mut self, bank: usize) -> Option<Set> {
         let mut content = self.open(bank)?;
         content.go_on(self, usize::MAX);
         content.set(self)
     }
 
-    /// The records of a bank, if its fields can be those of a set.
+    /// Returns the records of a bank, if its fields are possible.
     pub(super) fn open(&mut self, bank: usize) -> Option<Content> {
         let Layout {
             word, header, size, ..
@@ -180,7 +180,7 @@ impl<'m> Medium<'m> {
     }
 }
 
-/// The records of a bank, while they are read to their end.
+/// The records of a bank while they are read.
 #[derive(Clone, Debug)]
 pub(super) struct Content {
     device: u32,
@@ -192,7 +192,7 @@ pub(super) struct Content {
 }
 
 impl Content {
-    /// Reads this number of bytes, in whole buffers. Returns whether these were the last.
+    /// Reads this number of bytes, in whole buffers. Returns whether these were the last bytes.
     pub(super) fn go_on(&mut self, medium: &mut Medium<'_>, most: usize) -> bool {
         let end = self.at + most.min(self.end - self.at);
         while self.at < end {
@@ -203,7 +203,7 @@ impl Content {
         self.at >= self.end
     }
 
-    /// The set, if its checksum is right.
+    /// Returns the set, if its checksum is right.
     pub(super) fn set(self, medium: &Medium<'_>) -> Option<Set> {
         let len = NonZeroUsize::new(medium.banks.layout.header + self.len)?;
         let device = self.device;

@@ -1,4 +1,4 @@
-//! Writing: the newest set and the store make the next set.
+//! Writing: the next set is made of the newest set and the store.
 
 use od_model::row::Row;
 use od_model::{Address, Group};
@@ -18,17 +18,17 @@ use crate::storage::crc::Crc32;
 use crate::storage::{Storage, StorageError};
 use crate::store::Store;
 
-/// Recipe of the next set.
+/// Content of the next set.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Plan<'p> {
     /// The values that this sub-index of 1010h covers, and the operating records; 0: only these.
     Save(u8),
-    /// Without the values that this sub-index of 1011h covers.
+    /// The newest set without the values that this sub-index of 1011h covers.
     Restore(u8),
     /// The values at these addresses.
     Only(&'p [Address]),
-    /// Node ID and bit rate of LSS, in records of their own: [these](super::own_records) in place of those
-    /// that there are.
+    /// Node ID and bit rate of LSS, in records of their own: [these](super::own_records) replace
+    /// the earlier ones.
     Own(&'p [u8]),
 }
 
@@ -48,8 +48,8 @@ pub(crate) fn write(
 }
 
 impl Medium<'_> {
-    /// Writes the next set into the older one of two [surveyed](Banks::survey) banks, all but the commit word.
-    /// Without a next set they are [none](Banks::is_some).
+    /// Writes the next set into the older one of two [surveyed](Banks::survey) banks, except its
+    /// commit word. If no next set is needed, [`Banks::is_some`] returns `false`.
     pub(crate) fn begin(
         &mut self,
         store: &Store<'_>,
@@ -86,7 +86,7 @@ impl Medium<'_> {
         set.medium.outcome?;
         let (target, len) = (set.medium.banks.target, set.at);
         set.medium.clear(target, header + len);
-        // The length is less than a bank, which a header can describe.
+        // The length is less than that of a bank, so the field can contain it.
         let mut fields = [set.medium.banks.device, len as u32, 0].map(u32::to_le_bytes);
         set.only_counts = false;
         set.at = target + header;
@@ -109,10 +109,10 @@ impl Medium<'_> {
         set.medium.outcome
     }
 
-    /// Returns whether a next set is needed, by the banks that were surveyed.
+    /// Returns whether the surveyed banks need and allow a next set.
     pub(super) fn admits(&mut self, plan: &Plan<'_>) -> Result<bool, StorageError> {
         match (plan, self.banks.state) {
-            // The device itself writes nothing over the set of another one.
+            // The device itself does not write over the set of another device.
             (Plan::Save(0), Loaded::Foreign) => Err(StorageError::Foreign),
             (Plan::Restore(_), Loaded::Blank) => {
                 self.banks.next = Code::ERASED;
@@ -123,10 +123,10 @@ impl Medium<'_> {
         }
     }
 
-    /// Marks the newest set: a save that replaces it begins.
+    /// Marks the newest set when a save that replaces it begins.
     pub(super) fn mark(&mut self, profile: &StoreProfile, plan: &Plan<'_>) {
-        // The device's own saves, and a restore, take nothing away when they are cut. Once the set does not
-        // count, only a complete one ends that.
+        // An interrupted save of the device itself, or an interrupted restore, removes no values.
+        // If the set is not valid any more, only a complete set ends this state.
         let cut = match plan {
             Plan::Save(0) | Plan::Restore(_) => CutSave::LastSet,
             _ => profile.cut,
@@ -137,13 +137,13 @@ impl Medium<'_> {
         };
         let Banks { stays, layout, .. } = *self.banks;
         self.stamp(stays + layout.word, mark);
-        // A mark that power or a save before this one left in flash stays as it is.
+        // The mark of an interrupted or earlier save stays in flash as it is.
         if layout.page > 0 && self.outcome == Err(StorageError::NotWritten) {
             self.outcome = Ok(());
         }
     }
 
-    /// The commit word, if there is a next set: from now on it is the newest.
+    /// Writes the commit word, if there is a next set; from then on it is the newest.
     pub(crate) fn commit(&mut self) -> Result<(), StorageError> {
         if self.banks.is_some() {
             let Banks { target, next, .. } = *self.banks;
@@ -158,16 +158,16 @@ impl Medium<'_> {
     }
 }
 
-/// The next set, whose small writes are gathered and summed up.
+/// The next set. Small writes are collected, and the checksum is computed.
 pub(super) struct Set<'s, 'm> {
     pub(super) medium: &'s mut Medium<'m>,
     pub(super) store: &'s Store<'s>,
     pub(super) plan: &'s Plan<'s>,
-    /// With the records whose objects the dictionary does not have.
+    /// Includes records whose objects the dictionary does not have.
     pub(super) has_orphans: bool,
-    /// Nothing is written.
+    /// Only counts bytes and writes nothing.
     pub(super) only_counts: bool,
-    /// Place of the next byte that is written.
+    /// Position of the next byte to write.
     pub(super) at: usize,
     pub(super) filled: usize,
     pub(super) crc: Crc32,
@@ -177,12 +177,12 @@ pub(super) struct Set<'s, 'm> {
 #[derive(Clone, Copy)]
 pub(super) enum Source<'b> {
     Bytes(&'b [u8]),
-    /// This place in the storage.
+    /// This position in the storage.
     Storage(usize),
 }
 
 impl Set<'_, '_> {
-    /// Goes through the newest set and the dictionary side by side, both by address.
+    /// Merges the newest set and the dictionary, which are both sorted by address.
     fn records(&mut self, profile: &StoreProfile) {
         if let Plan::Own(own) = self.plan {
             self.put(Source::Bytes(own), own.len());
@@ -221,11 +221,11 @@ impl Set<'_, '_> {
             Plan::Own(_) => index == OWN,
             _ => false,
         };
-        // After a save that was cut the factory values hold, and they stay.
+        // After an interrupted save the factory values are valid, and stay.
         !is_dropped && !self.medium.banks.is_withdrawn && (index == OWN || self.has_orphans)
     }
 
-    /// Returns whether the plan is about a value.
+    /// Returns whether the plan covers a value.
     pub(super) fn is_meant(&self, profile: &StoreProfile, row: &Row) -> bool {
         match *self.plan {
             Plan::Save(_) if is_life_record(row) => true,
@@ -236,17 +236,17 @@ impl Set<'_, '_> {
         }
     }
 
-    /// Returns whether a value that the plan is about goes in.
+    /// Returns whether a value that the plan covers is saved.
     pub(super) fn goes_in(&self, row: &Row) -> bool {
         match self.plan {
             Plan::Restore(_) => false,
-            // One that was not changed follows the node ID.
+            // An unchanged default with `$NODEID` follows the node ID.
             Plan::Save(_) => !self.store.follows_node_id(row),
             _ => true,
         }
     }
 
-    /// The record of a value of the store.
+    /// Writes the record of a value of the store.
     pub(super) fn value(&mut self, profile: &StoreProfile, row: &Row) {
         let bytes = self.store.stored(row);
         if bytes.len() > MAX_VALUE {
@@ -259,7 +259,8 @@ impl Set<'_, '_> {
         }
     }
 
-    /// Part of the record of a value: these bytes of it, and its head before the first.
+    /// Writes a part of the record of a value: these bytes, and before the first one the head of
+    /// the record.
     pub(super) fn part(&mut self, row: &Row, done: usize, len: usize) {
         let bytes = self.store.stored(row);
         if bytes.len() > MAX_VALUE {
@@ -271,19 +272,19 @@ impl Set<'_, '_> {
         self.put(Source::Bytes(bytes.get(done..).unwrap_or_default()), len);
     }
 
-    /// A value less its default.
+    /// Subtracts the default from a value.
     fn difference(&mut self, bytes: &[u8], base: u64) {
         let less = number_in(bytes).wrapping_sub(base).to_le_bytes();
         self.put(Source::Bytes(&less), bytes.len());
     }
 
-    /// Begins a record.
+    /// Writes the head of a record.
     fn head(&mut self, key: u32, len: usize) {
-        // MAX_VALUE and the records' own length field keep it below 64 KiB.
+        // [`MAX_VALUE`] and the length field of records keep it below 64 KiB.
         self.put(Source::Bytes(&layout::head(key, len as u16)), RECORD);
     }
 
-    /// Puts this number of bytes.
+    /// Writes this number of bytes.
     pub(super) fn put(&mut self, source: Source<'_>, len: usize) {
         if self.only_counts {
             self.at += len;
@@ -312,7 +313,7 @@ impl Set<'_, '_> {
         }
     }
 
-    /// Writes the buffer, with the rest of its last word.
+    /// Writes the buffer, and fills its last word.
     pub(super) fn write_out(&mut self, word: usize) {
         let end = whole_words(self.filled, word);
         let rest = self.medium.buffer.get_mut(self.filled..end);

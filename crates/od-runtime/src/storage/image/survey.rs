@@ -1,4 +1,4 @@
-//! Reading: which banks are whole, which is the newest, and what is in it.
+//! Reading: finds out which banks are complete, which is the newest, and what it contains.
 
 use od_model::{Address, Dictionary};
 
@@ -24,7 +24,7 @@ impl Medium<'_> {
         self.outcome
     }
 
-    /// Both banks were looked at.
+    /// Combines both banks after they were read.
     pub(super) fn pair(&mut self, first: &Bank, second: &Bank) {
         let size = self.banks.layout.size;
         let first_stays = match (first.set, second.set) {
@@ -62,7 +62,7 @@ impl Medium<'_> {
         self.outcome.map(|()| own)
     }
 
-    /// Content of the bank from here on.
+    /// Reads the content of the bank from here on.
     fn look(&mut self, start: usize) -> Bank {
         let Layout { word, size, .. } = self.banks.layout;
         let mut bank = self.head(start);
@@ -74,7 +74,7 @@ impl Medium<'_> {
         bank
     }
 
-    /// Content of the bank from here on, as far as its codes tell.
+    /// Reads the codes of the bank from here on.
     pub(super) fn head(&mut self, start: usize) -> Bank {
         let word = self.banks.layout.word;
         let ((code, is_exact), (mark, is_right)) = (self.code(start), self.code(start + word));
@@ -89,7 +89,7 @@ impl Medium<'_> {
         }
     }
 
-    /// The records of the newest set; none if it is another device's.
+    /// The records of the newest set; none if it belongs to another device.
     pub(super) fn records(&self) -> Records {
         let banks = &self.banks;
         let header = banks.layout.header;
@@ -103,8 +103,8 @@ impl Medium<'_> {
     }
 }
 
-/// Returns the number by which a set knows its device: version of the layout, vendor-ID and product
-/// code (1018h).
+/// Returns the number by which a set identifies its device: version of the layout, vendor-ID and
+/// product code (1018h).
 pub(super) const fn device(dictionary: &Dictionary<'_>) -> u32 {
     let mut crc = Crc32::new().after(&[VERSION]);
     let mut sub = 1;
@@ -123,10 +123,10 @@ pub(super) const fn device(dictionary: &Dictionary<'_>) -> u32 {
     crc.finish()
 }
 
-/// The records of a bank, in order, of which one is at hand.
+/// The records of a bank, in order; the present record is in its fields.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Records {
-    /// Its address as a number; [`END`] behind the last one.
+    /// Its address as a number; [`END`] after the last record.
     pub(super) key: u32,
     /// Offset of its value.
     pub(super) at: usize,
@@ -135,7 +135,7 @@ pub(super) struct Records {
 }
 
 impl Records {
-    /// Of no set.
+    /// The records of no set.
     pub(super) const NONE: Self = Self {
         key: END,
         at: 0,
@@ -144,7 +144,7 @@ impl Records {
     };
 }
 
-/// Past the last address.
+/// A key greater than the last address.
 pub(super) const END: u32 = u32::MAX;
 
 impl Records {

@@ -1,4 +1,4 @@
-//! Tests of the bytes that a save leaves behind, whatever happens.
+//! Tests of the bytes that a save leaves, also after power failures and damage.
 
 use std::format;
 use std::string::String;
@@ -109,7 +109,7 @@ impl Bench {
         store.dictionary().entries().map(show).collect()
     }
 
-    /// Values that tell one set from another.
+    /// Writes values by which sets can be told apart.
     fn fill(&mut self, with: u8) {
         let mut store = self.store();
         for index in [0x1017, 0x2101, 0x2201, 0x6003, 0x6010] {
@@ -128,8 +128,8 @@ fn storage() -> Memory<Vec<u8>> {
 }
 
 #[test]
-fn saved_values_come_back() {
-    // An EEPROM may be new as all FFh, or as all 0.
+fn saved_values_are_loaded() {
+    // The bytes of a new EEPROM are all FFh, or all 0.
     for new in [0xFF, 0] {
         let mut bench = Bench::new(device());
         let mut memory = Memory::new(vec![new; capacity_needed(&device().dictionary())]);
@@ -153,7 +153,7 @@ fn saved_values_come_back() {
 }
 
 #[test]
-fn power_can_go_at_any_byte() {
+fn power_can_fail_at_any_byte() {
     for saves in 0..4u8 {
         for cut in 0.. {
             let (mut bench, mut memory) = (Bench::new(device()), storage());
@@ -183,7 +183,7 @@ fn power_can_go_at_any_byte() {
                 },
             };
             assert_eq!((loaded, bench.values()), (whole, before), "cut at {cut}");
-            // And the next save works.
+            // The next save works, too.
             bench.fill(99);
             let after = bench.values();
             save(&mut memory, &bench.store(), STORE, 1).unwrap();
@@ -194,7 +194,7 @@ fn power_can_go_at_any_byte() {
 }
 
 #[test]
-fn power_can_go_while_a_group_is_erased() {
+fn power_can_fail_while_a_group_is_restored() {
     for cut in 0.. {
         let (mut bench, mut memory) = (Bench::new(device()), storage());
         bench.fill(5);
@@ -219,7 +219,7 @@ fn power_can_go_while_a_group_is_erased() {
 }
 
 #[test]
-fn garbage_is_damaged_and_can_be_saved_over() {
+fn garbage_is_damaged_and_can_be_overwritten_by_a_save() {
     let mut random = 0x1234_5678_9ABC_DEF0u64;
     let mut byte = move || {
         random ^= random << 13;
@@ -234,7 +234,7 @@ fn garbage_is_damaged_and_can_be_saved_over() {
         let len = memory.capacity() - round % 60;
         memory = Memory::new((0..len).map(|_| byte()).collect());
         if round % 2 == 0 {
-            // As far as device, length and checksum, everything is right.
+            // Device, length and checksum are right, but nothing else.
             let room = len / 2 - HEADER;
             let device = super::device(&bench.tables.dictionary());
             let records = round % room;
@@ -329,7 +329,7 @@ fn an_image_survives_another_dictionary() {
     assert_eq!(bench.start(&mut memory), Loaded::Partial { skipped: 1 });
     assert_eq!(bench.values(), saved, "what it did not know, it kept");
 
-    // Without room for both, what the device knows is what counts.
+    // Without room for both, the values that the device knows have priority.
     let mut small = Memory::new(memory.into_inner());
     let mut large = Bench::new(tables(&[
         (0x1017, Unsigned32, Access::Rw, Raw::Integer(3)),

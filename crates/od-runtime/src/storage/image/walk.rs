@@ -1,4 +1,4 @@
-//! The records of the next set, one after another in steps, as [`Set::records`] puts them at once.
+//! The records of the next set in steps; [`Set::records`] writes the same records at once.
 
 use super::covered::{is_life_record, is_saved};
 use super::layout::RECORD;
@@ -7,13 +7,13 @@ use super::merge::{Set, Source};
 use super::survey::{END, Records};
 use crate::profile::StoreProfile;
 
-/// Bytes that a step reads or writes at most, but for a few headers.
+/// Greatest number of bytes that a step reads or writes, besides some headers.
 pub(super) const STEP: usize = 64;
 
-/// Rows of the dictionary that a step looks at.
+/// Number of rows of the dictionary that a step handles.
 const ROWS: usize = 8;
 
-/// Place in dictionary and newest set, side by side.
+/// Position in the dictionary and in the newest set, both sorted by address.
 #[derive(Clone, Debug)]
 pub(super) struct Walk {
     row: usize,
@@ -21,10 +21,10 @@ pub(super) struct Walk {
     piece: Option<Piece>,
 }
 
-/// Part of a record that is still to be put.
+/// The rest of a record that is being written.
 #[derive(Clone, Debug)]
 struct Piece {
-    /// A place in the storage, or a value of the store: the number of its row.
+    /// A position in the storage, or the row number of a value of the store.
     from: From,
     done: usize,
     len: usize,
@@ -43,14 +43,14 @@ impl Walk {
         piece: None,
     };
 
-    /// From the first record on.
+    /// Begins at the first record.
     pub(super) fn new(medium: &mut Medium<'_>) -> Self {
         let mut old = medium.records();
         old.next(medium);
         Self { old, ..Self::NONE }
     }
 
-    /// Puts some of the records. Returns whether that was the last one.
+    /// Writes some of the records. Returns whether these were the last.
     pub(super) fn step(&mut self, set: &mut Set<'_, '_>, profile: &StoreProfile) -> bool {
         for _ in 0..ROWS {
             if let Some(mut piece) = self.piece.take() {
@@ -67,7 +67,8 @@ impl Walk {
         false
     }
 
-    /// The next row, or the next record of the newest set. Returns whether that was the last one.
+    /// Goes to the next row or the next record of the newest set. Returns whether that was the last
+    /// one.
     fn next(&mut self, set: &mut Set<'_, '_>, profile: &StoreProfile) -> bool {
         let row = set.store.dictionary().rows().get(self.row);
         if row.is_some_and(|row| !is_saved(row)) {
@@ -106,7 +107,7 @@ impl Walk {
 }
 
 impl Piece {
-    /// Puts the next bytes.
+    /// Writes the next bytes.
     fn put(&mut self, set: &mut Set<'_, '_>, profile: &StoreProfile) {
         let part = (self.len - self.done).min(STEP);
         match self.from {

@@ -1,5 +1,5 @@
-//! A family whose cut saves leave the factory values (manual 001, chapter 6.3.3; manual 003,
-//! chapter 5.1.3.1; MANUALS.md U-33).
+//! A family that loads the factory values after an interrupted save (manual 001, chapter 6.3.3;
+//! manual 003, chapter 5.1.3.1; MANUALS.md U-33).
 
 use super::*;
 use crate::profile::{CutSave, SavedCobIds, StoreProfile};
@@ -15,7 +15,7 @@ const MOVING: &StoreProfile = &StoreProfile {
     ..*FACTORY
 };
 
-/// The defaults, and a life record of this value.
+/// The defaults, and an operating record with this value.
 fn factory(bench: &mut Bench, record: u64) -> Vec<String> {
     let mut store = bench.store();
     store.reset(|_| true);
@@ -23,7 +23,7 @@ fn factory(bench: &mut Bench, record: u64) -> Vec<String> {
     bench.values()
 }
 
-/// The first part of a save.
+/// Executes the first part of a save.
 fn begin_save(
     storage: &mut dyn Storage,
     store: &Store<'_>,
@@ -36,7 +36,7 @@ fn begin_save(
 }
 
 #[test]
-fn power_can_go_at_any_byte_and_leaves_the_factory_values() {
+fn power_can_fail_at_any_byte_and_leaves_the_factory_values() {
     for (saves, sub) in [(0u8, 1), (1, 1), (2, 1), (3, 1), (3, 3)] {
         for cut in 0.. {
             let (mut bench, mut memory) = (Bench::new(device()), storage());
@@ -66,7 +66,7 @@ fn power_can_go_at_any_byte_and_leaves_the_factory_values() {
             match loaded {
                 Loaded::Blank => assert_eq!((saves, bench.values()), (0, before)),
                 Loaded::Cut { factory: true } => assert_eq!(bench.values(), blank, "cut at {cut}"),
-                // Before the first byte, and behind the last one of the new set.
+                // Before the first byte, and after the last byte of the new set.
                 Loaded::Complete if cut == 0 => assert_eq!(bench.values(), before),
                 Loaded::Complete => assert_eq!(bench.store().unsigned(0x6003, 0), 200),
                 other => panic!("{other:?}"),
@@ -74,7 +74,7 @@ fn power_can_go_at_any_byte_and_leaves_the_factory_values() {
             if saves == 0 || loaded != (Loaded::Cut { factory: true }) {
                 continue;
             }
-            // What was saved before does not come back with the next saves.
+            // The next saves do not bring the earlier values back.
             let record = bench.store();
             save(&mut memory, &record, FACTORY, 0).unwrap();
             assert_eq!(bench.start(&mut memory), Loaded::Complete);
@@ -89,7 +89,7 @@ fn power_can_go_at_any_byte_and_leaves_the_factory_values() {
 }
 
 #[test]
-fn only_the_masters_own_saves_can_take_values_away() {
+fn only_an_interrupted_save_of_a_master_removes_values() {
     for cut in 0.. {
         let (mut bench, mut memory) = (Bench::new(device()), storage());
         bench.fill(5);
@@ -111,7 +111,7 @@ fn only_the_masters_own_saves_can_take_values_away() {
 }
 
 #[test]
-fn what_a_cut_save_took_away_does_not_come_back_behind_a_damaged_set() {
+fn values_removed_by_an_interrupted_save_stay_removed_if_the_next_set_is_damaged() {
     let (mut bench, mut memory) = (Bench::new(device()), storage());
     bench.fill(5);
     save(&mut memory, &bench.store(), FACTORY, 1).unwrap();
@@ -128,7 +128,7 @@ fn what_a_cut_save_took_away_does_not_come_back_behind_a_damaged_set() {
 }
 
 #[test]
-fn a_save_counts_after_its_end_alone() {
+fn a_save_is_valid_only_after_its_end() {
     let (mut bench, mut memory) = (Bench::new(device()), storage());
     bench.fill(5);
     save(&mut memory, &bench.store(), FACTORY, 1).unwrap();
@@ -143,7 +143,7 @@ fn a_save_counts_after_its_end_alone() {
 }
 
 #[test]
-fn a_user_s_cob_id_moves_with_the_node_id() {
+fn a_cob_id_of_a_user_follows_the_node_id() {
     let (mut bench, mut memory) = (Bench::new(device()), storage());
     bench
         .store()
@@ -159,7 +159,7 @@ fn a_user_s_cob_id_moves_with_the_node_id() {
     }
 }
 
-/// Memory whose write number `fails` does not succeed; those after it do.
+/// Memory whose write number `fails` does not succeed; later writes succeed.
 struct Flaky {
     memory: Memory<Vec<u8>>,
     fails: usize,
@@ -185,7 +185,7 @@ impl Storage for Flaky {
 }
 
 #[test]
-fn a_save_that_fails_with_power_on_leaves_the_set_before_it() {
+fn a_failed_save_with_power_on_leaves_the_set_before_it() {
     for fails in 0.. {
         let (mut bench, mut memory) = (Bench::new(device()), storage());
         bench.fill(5);

@@ -1,13 +1,14 @@
-//! Bits of an image flip: what a start loads, and whether it says so.
+//! Flipped bits of an image: which set a start loads, and what it reports.
 
 use super::*;
 
-/// Returns an EEPROM after `saves` saves, and the values after each of them, the defaults first.
+/// Returns an EEPROM after `saves` saves, and the values after each of them; the first are the
+/// defaults.
 fn saved(saves: u8) -> (Bench, Memory<Vec<u8>>, Vec<Vec<String>>) {
     let (mut bench, mut memory) = (Bench::new(device()), storage());
     let mut sets = vec![bench.values()];
     for with in 0..saves {
-        // Sets of different lengths.
+        // The sets have different lengths.
         bench.fill(29 - 5 * with);
         sets.push(bench.values());
         save(&mut memory, &bench.store(), STORE, 1).unwrap();
@@ -15,7 +16,7 @@ fn saved(saves: u8) -> (Bench, Memory<Vec<u8>>, Vec<Vec<String>>) {
     (bench, memory, sets)
 }
 
-/// The number of the set that a start says it loaded.
+/// Number of the set that a start reports as loaded.
 fn said(loaded: Loaded, saves: usize) -> usize {
     match loaded {
         Loaded::Complete | Loaded::Flawed | Loaded::Cut { factory: false } => saves,
@@ -26,7 +27,7 @@ fn said(loaded: Loaded, saves: usize) -> usize {
 }
 
 #[test]
-fn a_flipped_bit_anywhere_is_noticed_and_told_truly() {
+fn a_flipped_bit_anywhere_is_noticed_and_reported() {
     for saves in 0..5 {
         let (mut bench, memory, sets) = saved(saves);
         let (mut lost, saves) = (0, usize::from(saves));
@@ -45,7 +46,7 @@ fn a_flipped_bit_anywhere_is_noticed_and_told_truly() {
             );
             assert_eq!(bench.values(), sets[said(loaded, saves)], "{place}");
             lost += usize::from(said(loaded, saves) != saves);
-            // The next save is sound, and the one behind it leaves nothing of the damage.
+            // The next save is sound, and the one after it removes the rest of the damage.
             bench.fill(99);
             let after = bench.values();
             for _ in 0..2 {
@@ -72,7 +73,7 @@ fn two_flipped_bits_never_make_a_mixture() {
         let (saves, len) = (usize::from(saves), memory.bytes().len());
         for round in 0..6000 {
             let mut flipped = memory.clone();
-            // Headers are where it matters.
+            // Only bits of the headers are flipped, where two can matter.
             let places = match round % 3 {
                 0 => [below(len), below(len)],
                 1 => [below(2) * len / 2 + below(HEADER), below(len)],
@@ -90,12 +91,12 @@ fn two_flipped_bits_never_make_a_mixture() {
 }
 
 #[test]
-fn an_image_that_lost_its_end_is_told_truly() {
+fn an_image_without_its_end_is_reported() {
     for saves in 0..4 {
         let (mut bench, memory, sets) = saved(saves);
         for len in 0..memory.bytes().len() {
             let mut bytes = memory.bytes().to_vec();
-            // So `storage::File` reads what a file lacks.
+            // `storage::File` reads missing bytes of a file in this way.
             bytes[len..].fill(3);
             let loaded = bench.start(&mut Memory::new(bytes));
             assert!(!matches!(loaded, Loaded::Complete | Loaded::Blank));

@@ -1,4 +1,4 @@
-//! A save in steps: the bytes of one that is made at once, and little work in each step.
+//! A save in steps has the bytes of a save at once, and each step does little work.
 
 use super::*;
 use crate::profile::{CutSave, SavedCobIds};
@@ -29,11 +29,12 @@ impl Storage for Counts {
     }
 }
 
-/// Calls and bytes of a step at most: 64 bytes, a second look at them, and some headers and codes.
+/// Greatest number of calls and bytes of a step: 64 bytes, which are read back, and some headers
+/// and codes.
 const CALLS: usize = 24;
 const BYTES: usize = 256;
 
-/// Makes the next set in steps. Returns the outcome, the bytes, and how many steps it took.
+/// Makes the next set in steps. Returns the result, the bytes, and the number of steps.
 fn in_steps(
     bytes: Vec<u8>,
     bench: &mut Bench,
@@ -63,7 +64,7 @@ fn in_steps(
         },
         &mut values,
     );
-    // What is written while it goes on is not saved.
+    // Changes during the save are not saved.
     let now = own.clone();
     own.fill(0xA5);
     let mut steps = 0;
@@ -82,7 +83,7 @@ fn in_steps(
     (result, storage.memory.bytes().to_vec(), steps)
 }
 
-/// A device whose dictionary lacks some of the objects of others, with a string longer than a step.
+/// A device whose dictionary lacks some objects of others, with a string longer than a step.
 fn variant(lacks: u16) -> Bench {
     let long: String = "long ".repeat(60);
     let mut rows = rows();
@@ -110,7 +111,7 @@ fn a_save_in_steps_leaves_the_bytes_of_one_made_at_once() {
         for _ in 0..12 {
             let bench = &mut benches[below(4)];
             if below(3) == 0 {
-                // Another node ID, which COB-IDs follow.
+                // With another node ID, which COB-IDs follow.
                 bench.node_id = 1 + below(4) as u8;
                 bench.store().reset(|_| true);
             }
@@ -145,7 +146,7 @@ fn a_save_in_steps_leaves_the_bytes_of_one_made_at_once() {
                 Err(_) => 3,
             }] += 1;
             bytes = made;
-            // Power goes, or a bit flips.
+            // Power fails, or a bit flips.
             if below(4) == 0 {
                 let mut cut = Memory::new(bytes);
                 cut.cut_after(below(300));

@@ -52,7 +52,7 @@ fn the_set_of_another_device_or_version_is_not_loaded_and_stays() {
         let before = memory.bytes().to_vec();
         assert_eq!(other.start(&mut memory), Loaded::Foreign);
         assert_eq!(other.store().unsigned(0x6003, 0), 1, "the default");
-        // The device itself writes nothing over it; a master may.
+        // The device itself does not write over it; a master may.
         let result = save(&mut memory, &other.store(), STORE, 0);
         assert_eq!(result, Err(StorageError::Foreign));
         assert_eq!(memory.bytes(), before);
@@ -88,7 +88,7 @@ fn too_little_room_is_an_error_before_anything_is_written() {
 }
 
 #[test]
-fn a_record_without_an_object_stays_where_it_just_fits() {
+fn a_record_without_an_object_stays_if_it_just_fits() {
     use Access::Rw;
     let object = |index| (index, DataType::Unsigned32, Rw, Raw::Integer(1));
     let mut old = Bench::new(tables(&[object(0x2300), object(0x2400)]));
@@ -104,7 +104,7 @@ fn a_record_without_an_object_stays_where_it_just_fits() {
 }
 
 #[test]
-fn a_value_longer_than_any_that_is_saved_is_an_error() {
+fn a_value_above_the_greatest_length_is_an_error() {
     for (len, result) in [
         (MAX_VALUE, Ok(())),
         (MAX_VALUE + 1, Err(StorageError::Full)),
