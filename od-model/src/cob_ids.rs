@@ -2,7 +2,8 @@
 
 use crate::address::Address;
 
-/// A service with a COB-ID of its own. Of two that collide, the later one in this order gives way.
+/// A service with a COB-ID of its own. If two services have the same CAN-ID, the earlier one in
+/// this order keeps it.
 ///
 /// ```
 /// use od_model::{Address, CobIdService};
@@ -33,7 +34,7 @@ pub enum CobIdService {
 }
 
 impl CobIdService {
-    /// Returns the service of the COB-ID at an address; `None` if no COB-ID is there.
+    /// Returns the service of the COB-ID at an address; `None` if the address has no COB-ID.
     pub const fn at(address: Address) -> Option<Self> {
         Some(match (address.index, address.sub) {
             (0x1005, 0) => Self::Sync,
@@ -48,8 +49,9 @@ impl CobIdService {
         })
     }
 
-    /// Returns whether a COB-ID of the service is in use. Bit 31 says that it is not, except of SYNC, which always
-    /// is, and of TIME, where bits 31 and 30 say that the device consumes and produces it.
+    /// Returns whether the service uses a COB-ID with these bits. It does unless bit 31 is set,
+    /// with two exceptions: SYNC is always used, and TIME is used if bit 31 (consumer) or bit 30
+    /// (producer) is set.
     pub const fn is_used(self, cob_id: u32) -> bool {
         match self {
             Self::Sync => true,

@@ -14,11 +14,11 @@ use crate::varying::{Arenas, Varying};
 
 /// A view over sorted tables; the same for a compiled device and for a loaded file.
 ///
-/// Copied freely: it is a few slices. The tables are sorted by address, and each object's
-/// entries are adjacent.
+/// A view consists of a few slices, so copies are cheap. The tables are sorted by address, and the
+/// entries of an object are adjacent.
 ///
-/// Names are there with the feature `names`; without it they are empty, and a firmware does not
-/// hold their text.
+/// Names need the feature `names`; without it they are empty, and a firmware does not contain their
+/// text.
 ///
 /// ```
 /// # let description = od_eds::parse(include_str!("../../devices/eds/GXMM.eds")).description;
@@ -38,24 +38,25 @@ pub struct Dictionary<'a> {
     names: Names<'a>,
 }
 
-/// Facts about all values of a dictionary, which are found once: by `od_eds::Tables`.
+/// Facts about all values of a dictionary, found once by `od_eds::Tables`.
 #[doc(hidden)]
 #[derive(Clone, Copy, Debug)]
 pub struct Shape {
-    /// Bytes that a store of the values needs.
+    /// Number of bytes that a store of the values needs.
     pub store_len: usize,
-    /// Bytes of the longest value that one SDO transfer carries.
+    /// Number of bytes of the longest value that one SDO transfer carries.
     pub longest: usize,
     /// Whether an application has to stream one of the values.
     pub has_streams: bool,
-    /// Functions for REALs, if there are some.
+    /// Functions for REALs, if the dictionary has any.
     pub reals: Option<&'static Reals>,
-    /// Functions for strings and DOMAINs, if there are some.
+    /// Functions for strings and DOMAINs, if the dictionary has any.
     pub varying: Option<&'static Varying>,
 }
 
 impl Shape {
-    /// Of rows and their pool; the functions are for REALs and strings even if there are none.
+    /// Facts about these rows and their pool. The functions for REALs and strings are set even if
+    /// there are none.
     pub fn of(rows: &[Row], pool: &[u32], store_len: usize) -> Self {
         Self {
             store_len,
@@ -79,10 +80,10 @@ impl Shape {
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Names<'a> {
-    /// For each entry start and length of its own name, then of its object's: little-endian numbers of four bytes, as a
-    /// compiled dictionary has them.
+    /// For each entry the start and length of its own name, then of the name of its object:
+    /// little-endian numbers of four bytes.
     pub rows: &'a [[u8; 16]],
-    /// The text of the names, each once.
+    /// The text of all names, each of them once.
     pub text: &'a str,
 }
 
@@ -122,7 +123,7 @@ impl<'a> Dictionary<'a> {
         },
     );
 
-    /// A view over tables that are sound by the way they were made: by `od_eds::Tables`.
+    /// A view over tables that are known to be valid because `od_eds::Tables` made them.
     #[doc(hidden)]
     #[allow(clippy::too_many_arguments)] // each is a table
     pub const fn trusted(
@@ -162,7 +163,7 @@ impl<'a> Dictionary<'a> {
         }
     }
 
-    /// Bytes that a store of this dictionary's values needs.
+    /// Number of bytes that a store of this dictionary's values needs.
     pub const fn store_len(&self) -> usize {
         self.shape.store_len
     }
@@ -258,7 +259,7 @@ impl<'a> Dictionary<'a> {
         self.object_at(first).filter(|object| object.index == index)
     }
 
-    /// Position of the first entry of an object, or of what comes after where it would be.
+    /// Position of the first entry of an object, or the position where it would be.
     pub(crate) const fn first(&self, index: u16) -> usize {
         index::first(self.rows, (index as u32) << 8)
     }
@@ -282,7 +283,7 @@ impl<'a> Dictionary<'a> {
             code: row.code(),
             name: self.names_at(first)[1],
             first: first as u32,
-            // An object has 256 sub-indices at most.
+            // An object has at most 256 sub-indices.
             count: count.count() as u16,
         })
     }
@@ -300,7 +301,7 @@ impl<'a> Dictionary<'a> {
     /// The entry at an address.
     ///
     /// # Errors
-    /// [`Missing`] says whether the object or only the sub-index is absent.
+    /// [`Missing`] says whether the object or only the sub-index is missing.
     pub fn find(&self, address: Address) -> Result<Entry, Missing> {
         match self.locate(address) {
             Some((position, row)) => Ok(self.unpack(position, *row)),
@@ -308,19 +309,20 @@ impl<'a> Dictionary<'a> {
         }
     }
 
-    /// The position of an address and its row, if there is one; in registers.
+    /// Position and row of an address, if the dictionary has it; in registers.
     #[doc(hidden)]
     pub fn locate(&self, address: Address) -> Option<(usize, &'a Row)> {
         index::position(self.buckets, self.rows, address.key())
     }
 
-    /// The row of an address, if there is one.
+    /// Row of an address, if the dictionary has it.
     #[doc(hidden)]
     pub fn row_at(&self, address: Address) -> Option<&'a Row> {
         self.locate(address).map(|(_, row)| row)
     }
 
-    /// Returns what is absent, the object or its sub-object, where [`row_at`](Self::row_at) finds none.
+    /// Returns which is missing, the object or its sub-object, if [`row_at`](Self::row_at) returns
+    /// `None`.
     #[doc(hidden)]
     pub fn missing(&self, address: Address) -> Missing {
         match self.rows.get(self.first(address.index)) {
@@ -329,7 +331,7 @@ impl<'a> Dictionary<'a> {
         }
     }
 
-    /// The entry at index and sub-index, if there is one.
+    /// Entry at index and sub-index, if the dictionary has it.
     #[inline]
     pub fn entry(&self, index: u16, sub: u8) -> Option<Entry> {
         self.find(Address::new(index, sub)).ok()
@@ -353,7 +355,7 @@ pub struct Entries<'a> {
 }
 
 impl<'a> Entries<'a> {
-    /// All that are left.
+    /// The values that are left.
     #[must_use]
     pub fn iter(&self) -> Self {
         self.clone()
@@ -364,7 +366,7 @@ impl<'a> Entries<'a> {
         self.range.clone().nth(at).map(|at| self.dictionary.at(at))
     }
 
-    /// Returns whether none is left.
+    /// Returns whether no value is left.
     pub fn is_empty(&self) -> bool {
         self.range.is_empty()
     }
@@ -405,18 +407,18 @@ pub struct Objects<'a> {
 }
 
 impl Objects<'_> {
-    /// All that are left.
+    /// The objects that are left.
     #[must_use]
     pub fn iter(&self) -> Self {
         self.clone()
     }
 
-    /// Number of those that are left.
+    /// Number of objects that are left.
     pub fn len(&self) -> usize {
         self.clone().count()
     }
 
-    /// Returns whether none is left.
+    /// Returns whether no object is left.
     pub fn is_empty(&self) -> bool {
         self.next >= self.dictionary.len()
     }

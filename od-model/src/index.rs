@@ -38,7 +38,7 @@ impl Buckets<'_> {
 }
 
 /// Number of buckets that [`buckets`] makes for this number of rows: a power of two, 1½ to 3 times
-/// as many; 0 if their positions do not fit 16 bits.
+/// the number; 0 if the positions do not fit into 16 bits.
 #[must_use]
 pub const fn bucket_count(rows: usize) -> usize {
     if rows > EMPTY as usize {
@@ -85,7 +85,8 @@ pub const fn fill(buckets: &mut [u16], rows: &[Row]) {
     };
     let mut i = 0;
     while i < rows.len() {
-        // The key: the compiler runs this for every row, and a call costs as much as twenty operators.
+        // The key is computed without a call: the compiler evaluates this for every row, and there
+        // a call takes as long as twenty operators.
         let mut at = own_bucket(rows[i].0[0] >> 8) & mask;
         while buckets[at] != EMPTY {
             at = (at + 1) & mask;
@@ -126,14 +127,14 @@ pub(crate) fn hashed<'a>(
     }
 }
 
-/// The search among more rows than buckets can name; they are sorted.
+/// Searches the sorted rows, if there are more than buckets can number.
 fn search(rows: &[Row], key: u32) -> Option<(usize, &Row)> {
     let position = first(rows, key);
     let row = rows.get(position)?;
     (row.key() == key).then_some((position, row))
 }
 
-/// Position of the first row from this key on; they are sorted.
+/// Position of the first of the sorted rows with this key or a greater one.
 pub(crate) const fn first(rows: &[Row], key: u32) -> usize {
     let (mut from, mut to) = (0, rows.len());
     while from < to {
@@ -184,7 +185,7 @@ mod tests {
     }
 
     #[test]
-    fn small_buckets_say_the_same() {
+    fn small_buckets_find_the_same_rows() {
         const ROWS: [Row; 3] = [
             Row([0x20_0000 << 8; 4]),
             Row([0x20_0100 << 8; 4]),
@@ -201,7 +202,7 @@ mod tests {
     }
 
     #[test]
-    fn more_rows_than_buckets_can_name_are_searched() {
+    fn more_rows_than_buckets_can_number_are_searched() {
         let rows: Vec<Row> = (0..70_000).map(|i| keyed(3 * i)).collect();
         assert_eq!(bucket_count(rows.len()), 0);
         let none = Buckets::Words(&[]);

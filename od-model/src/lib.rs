@@ -1,11 +1,10 @@
 //! The object dictionary of CANopen (CiA 301) as plain data.
 //!
-//! [`Dictionary`] is a view over sorted tables. The tables are `const` when
-//! `od-macros` made them from an EDS file at compile time, and owned
-//! (`od_eds::Tables`) when a file was loaded at run time; everything above this crate
-//! works on the view and cannot tell the difference.
+//! [`Dictionary`] is a view over sorted tables. The tables are `const` if `od-macros` made them
+//! from an EDS file at compile time, and owned (`od_eds::Tables`) if a file was loaded at run time.
+//! All other crates use the view and cannot tell the difference.
 //!
-//! The crate is `no_std` and needs no allocator. It knows no text format: `od-eds` does.
+//! The crate is `no_std` and needs no allocator. Text formats are in `od-eds`.
 #![no_std]
 #![forbid(unsafe_code)]
 #![cfg_attr(docsrs, feature(doc_cfg))]
@@ -53,7 +52,7 @@ pub use value::{Literal, Range};
 #[cfg(feature = "alloc")]
 pub use visible::{Visible, is_hidden};
 
-/// Parts that owned tables are built with by `od-eds`; not an API.
+/// Parts of which `od-eds` makes owned tables; not an API.
 #[doc(hidden)]
 pub mod owned {
     pub use crate::dictionary::Shape;

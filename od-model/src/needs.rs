@@ -1,4 +1,4 @@
-//! Sizes that a node needs for a dictionary, known at compile time, and its rows.
+//! Sizes that a node with a dictionary needs, computed at compile time.
 
 use crate::access::Access;
 use crate::dictionary::Dictionary;
@@ -34,7 +34,8 @@ impl Dictionary<'_> {
         first < self.len() && self.index_at(first) == index
     }
 
-    /// SDO servers past the default one that a node needs: up to the last object of 1201h–127Fh, 0–127.
+    /// Number of SDO servers that a node needs besides the default one: up to the last object of
+    /// 1201h–127Fh, 0–127.
     pub const fn servers(&self) -> usize {
         let end = self.first(0x1280);
         match end.checked_sub(1) {
@@ -43,8 +44,9 @@ impl Dictionary<'_> {
         }
     }
 
-    /// Bytes of the longest value, which one SDO transfer carries: the size of a number, the
-    /// capacity of a string or domain, the length of a `const` one; of a streamed one a segment.
+    /// Number of bytes of the longest value that one SDO transfer carries: the size of a number,
+    /// the capacity of a string or DOMAIN, the length of a `const` one, and one segment for a
+    /// streamed value.
     pub const fn longest(&self) -> usize {
         self.shape.longest
     }
@@ -69,7 +71,7 @@ impl Dictionary<'_> {
         }
     }
 
-    /// The last sub-index of an object, or 0 without one.
+    /// Last sub-index of an object; 0 if the object is missing.
     #[doc(hidden)]
     pub const fn last_sub(&self, index: u16) -> u8 {
         match self.first(index + 1).checked_sub(1) {
@@ -87,8 +89,8 @@ impl Row {
         self.is_variable() && !self.is_stored() && !self.is_const()
     }
 
-    /// Bytes of the longest value that the entry can have, without the two of a string's length
-    /// in the store; the seven of a segment where the value is streamed.
+    /// Number of bytes of the longest value of the entry, without the two bytes of a string's
+    /// length in the store; seven (a segment) if the value is streamed.
     pub(crate) const fn longest(&self, pool: &[u32]) -> usize {
         if !self.is_variable() {
             return self.size();
@@ -103,7 +105,8 @@ impl Row {
 }
 
 impl Entry {
-    /// Returns whether it is a string or domain without a place in the store, which an application streams.
+    /// Returns whether it is a string or DOMAIN without a place in the store, which an application
+    /// streams.
     pub const fn is_streamed(&self) -> bool {
         self.is_variable() && self.slot.len == 0 && !matches!(self.access, Access::Const)
     }

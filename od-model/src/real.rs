@@ -1,29 +1,30 @@
-//! REALs as their bits: a processor without a floating-point unit gets no code for arithmetic.
+//! REALs as their bits, so that a processor without a floating-point unit needs no library for
+//! arithmetic.
 
 use crate::row::Row;
 use crate::types::Kind;
 
-/// Functions of a dictionary with REALs. They are data, so that a firmware whose dictionary has
-/// none holds no code for it.
+/// Functions for a dictionary with REALs. They are pointers in data, so a firmware whose dictionary
+/// has no REALs does not contain them.
 #[derive(Debug)]
 pub struct Reals {
-    /// The bits of the single nearest to a double, as `as f32` rounds.
+    /// Bits of the REAL32 nearest to a REAL64, rounded as by `as f32`.
     pub narrowed: fn(u64) -> u32,
-    /// The bits of the double that a single is.
+    /// Bits of the REAL64 with the value of a REAL32.
     pub widened: fn(u32) -> u64,
-    /// Whether one double is greater than another; neither is where one is not a number.
+    /// Whether the first REAL64 is greater than the second; never if one of them is not a number.
     pub is_greater: fn(u64, u64) -> bool,
 }
 
 impl Reals {
-    /// For a dictionary that may have some.
+    /// Functions for a dictionary that may have REALs.
     pub const SOME: Option<&Self> = Some(&Self {
         narrowed,
         widened,
         is_greater,
     });
 
-    /// For a dictionary with these rows.
+    /// Functions for a dictionary with these rows; `None` if they have no REALs.
     pub const fn of(rows: &[Row]) -> Option<&'static Self> {
         let mut rest = rows;
         while let [row, others @ ..] = rest {
@@ -36,9 +37,9 @@ impl Reals {
     }
 }
 
-/// Bits of a double behind those of a single.
+/// Number of fraction bits that a REAL64 has and a REAL32 lacks.
 const MORE: u32 = 52 - 23;
-/// Exponent of a double where that of a single is 0.
+/// Exponent of a REAL64 that corresponds to exponent 0 of a REAL32.
 const LOWEST: u32 = 1023 - 127;
 
 const fn narrowed(double: u64) -> u32 {
@@ -53,7 +54,7 @@ const fn narrowed(double: u64) -> u32 {
     }
     let (bits, shift) = match exponent.checked_sub(LOWEST) {
         Some(exponent @ 1..) => ((exponent as u64) << 52 | fraction, MORE),
-        // Without the bit that is not written.
+        // Without the implicit bit.
         _ => (fraction | 1 << 52, MORE + 1 + LOWEST - exponent),
     };
     if shift > 54 {
@@ -61,7 +62,7 @@ const fn narrowed(double: u64) -> u32 {
     }
     let (whole, rest, half) = (bits >> shift, bits & ((1 << shift) - 1), 1 << (shift - 1));
     let up = rest > half || rest == half && whole & 1 != 0;
-    // A carry into the exponent is right.
+    // A carry into the exponent gives the right result.
     sign | (whole as u32 + up as u32)
 }
 
@@ -88,7 +89,7 @@ const fn is_greater(one: u64, other: u64) -> bool {
     ordered(one) > ordered(other)
 }
 
-/// A number in whose order doubles are greater.
+/// Returns a number that sorts as the REAL64 does.
 const fn ordered(double: u64) -> u64 {
     match double >> 63 {
         0 => double | 1 << 63,
@@ -101,7 +102,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn bits_say_what_arithmetic_says() {
+    fn bits_agree_with_arithmetic() {
         let mut doubles = std::vec![0, 1 << 63, 1, 0x7FF << 52, 0xFFF << 52, f64::NAN.to_bits()];
         let mut seed = 1u64;
         for _ in 0..20_000 {

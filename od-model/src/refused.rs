@@ -1,10 +1,10 @@
-//! An input that was refused.
+//! Reason why an input was refused.
 
 use alloc::string::String;
 use core::error::Error;
 use core::fmt;
 
-/// Why an input was refused, in words: what is wrong, and what to write instead.
+/// Reason why an input was refused, in words: the error, and what to write instead.
 ///
 /// ```
 /// use od_model::{DataType, values};

@@ -6,15 +6,17 @@
 //! | | 3–7 | data type, its position in [`DataType::ALL`] |
 //! | | 0–2 | [kind](literal) of the default |
 //! | 1 | | offset in the store |
-//! | 2 | | default; of a wide one and of a string the position in the pool |
-//! | 3 | 0–3 | length, if a master may read the value, the store has it, and the type gives its length |
+//! | 2 | | default; for a wide one or a string its position in the pool |
+//! | 3 | 0–3 | length, if a master may read the value, the value is in the store, and its type
+//! gives its length |
 //! | | 4–6, 7, 8–9 | access, PDO mapping, group |
 //! | | 10–12 | code of the object |
-//! | | 13 | the store has it |
-//! | | 14–31 | one more than the position of the limits in the pool; 0: no limits |
+//! | | 13 | the value is in the store |
+//! | | 14–31 | 1 plus the position of the limits in the pool; 0: no limits |
 //!
-//! The pool is words: of a wide literal low and high half, of a string start and length of its default
-//! and the length of its slot, of limits the kinds of both and then their words.
+//! The pool consists of words. A wide literal has its low and its high half there. A string has the
+//! start and length of its default, and the length of its slot. Limits have both kinds, and then
+//! their words.
 
 mod kinds;
 mod limits;
@@ -124,13 +126,14 @@ const fn number(kind: u32, bits: u64, node_id: u8) -> u64 {
     }
 }
 
-/// Length in bytes of a value by the first word of its row. On a microcontroller it is a call.
+/// Length of a value in bytes, by the first word of its row. On a microcontroller it is not
+/// inlined.
 const fn size(head: u32) -> usize {
     (BITS[(head >> 3 & 31) as usize] as usize).div_ceil(8)
 }
 
-/// Length of each data type in bits, 0 where it varies, in the order of [`DataType::ALL`]: for every number
-/// that a row can have.
+/// Length of each data type in bits, 0 if it varies, in the order of [`DataType::ALL`]. The table
+/// has an element for every number that a row can contain.
 static BITS: [u8; 32] = {
     let mut bits = [0; 32];
     let mut i = 0;
@@ -144,8 +147,8 @@ static BITS: [u8; 32] = {
 };
 
 impl Row {
-    /// The row of an entry of an object with this code. `default` is its bits, or where they are in the pool;
-    /// `limits` as the row has them.
+    /// Row of an entry of an object with this code. `default` is its bits, or their position in the
+    /// pool; `limits` has the form of the row.
     pub const fn new(entry: &Entry, code: ObjectCode, default: u32, limits: u32) -> Self {
         let mut data_type = 0;
         while DataType::ALL[data_type as usize] as u16 != entry.data_type as u16 {
@@ -176,7 +179,7 @@ impl Row {
         ])
     }
 
-    /// All words as one number, the first one lowest: as the macro writes a row.
+    /// All words as one number, the first one lowest. The macro writes a row in this form.
     pub const fn number(self) -> u128 {
         let [a, b, c, d] = self.0;
         a as u128 | (b as u128) << 32 | (c as u128) << 64 | (d as u128) << 96
@@ -203,7 +206,7 @@ impl Row {
             || self.has_access(1 << Access::Rwr as u32 | 1 << Access::Rww as u32)
     }
 
-    /// Returns whether the access is one of those whose bits are set.
+    /// Returns whether the bit of the access is set in `of`.
     const fn has_access(self, of: u32) -> bool {
         of >> (self.0[3] >> 4 & 7) & 1 != 0
     }
@@ -265,17 +268,17 @@ impl Row {
         size(self.0[0]) == 0
     }
 
-    /// Returns whether the description gives an integer as the default, also with `$NODEID`.
+    /// Returns whether the description gives an integer as the default, with or without `$NODEID`.
     pub const fn has_integer_default(self) -> bool {
         matches!(self.0[0] & 7, 1..=5)
     }
 
-    /// Returns whether the default is `$NODEID` and a number.
+    /// Returns whether the default is `$NODEID` plus a number.
     pub const fn follows_node_id(self) -> bool {
         self.0[0] & 7 == 3
     }
 
-    /// Place in the store of a value whose type gives its length; length 0 where it has none.
+    /// Place in the store of a value whose type gives its length; length 0 if it has no place.
     pub const fn fixed_slot(self) -> Slot {
         let len = if self.is_stored() {
             self.size() as u16
@@ -297,7 +300,8 @@ impl Row {
         Slot { offset, len }
     }
 
-    /// The default of a number: its bits, those of an IEEE 754 double of a REAL. 0 without one.
+    /// The default of a number: its bits; for a REAL those of an IEEE 754 double. 0 without a
+    /// default.
     pub const fn default(self, pool: &[u32], node_id: u8) -> u64 {
         let (kind, at) = (self.0[0] & 7, self.0[2]);
         if kind < WIDE {
@@ -333,8 +337,8 @@ impl Row {
         }
     }
 
-    /// Slot of a value that a master may read at any time and whose type gives its length; length 0 for
-    /// any other value, and for the log of errors, which has no more than there were.
+    /// Slot of a value that a master may read at any time and whose type gives its length; length 0
+    /// for any other value, and for the error history (1003h), whose length changes.
     pub const fn plain(self) -> Slot {
         Slot {
             offset: self.0[1],
@@ -342,7 +346,7 @@ impl Row {
         }
     }
 
-    /// The entry. Not its name, which the row does not have.
+    /// The entry, without its name, which the row does not contain.
     pub const fn entry(self, pool: &[u32]) -> Entry {
         let [head, _, payload, flags] = self.0;
         let is_text = self.data_type() as u16 == DataType::VisibleString as u16;

@@ -1,11 +1,11 @@
-//! Two dictionaries are the same if a master cannot tell them apart.
+//! Equality of dictionaries: two are equal if a master cannot tell them apart.
 
 use crate::dictionary::Dictionary;
 use crate::value::Literal;
 
 impl PartialEq for Dictionary<'_> {
-    /// Object by object: names, types, access, limits, defaults, groups. The
-    /// places of texts in the arena and of values in the store do not matter.
+    /// Compares object by object: names, types, access, limits, defaults, groups. The places of
+    /// texts in the arena and of values in the store do not count.
     fn eq(&self, other: &Self) -> bool {
         let literal = |a: Literal, b: Literal| match (a, b) {
             (Literal::Text(a), Literal::Text(b)) => self.text(a) == other.text(b),

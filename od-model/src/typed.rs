@@ -28,8 +28,8 @@ type Marker<T> = PhantomData<fn() -> T>;
     note = "bool, u8–u64, i8–i64, f32 and f64 are; strings go through `Text`"
 )]
 pub trait Scalar: Copy + sealed::Sealed {
-    /// The value of little-endian `bytes`; missing bytes are 0, for signed
-    /// types copies of the sign.
+    /// The value of little-endian `bytes`. Missing bytes are 0, or copies of the sign for signed
+    /// types.
     fn from_wire(bytes: &[u8]) -> Self;
     /// The value's eight low bytes, little-endian, sign extended.
     fn to_wire(self) -> [u8; 8];
@@ -150,7 +150,7 @@ impl DeviceWritable for Rww {}
 pub trait Mappable: sealed::Sealed {}
 impl Mappable for Pdo {}
 
-/// No type implements it: the error message of [`Text::map`] says why.
+/// A trait that no type implements: the compiler's error for [`Text::map`] gives the reason.
 #[doc(hidden)]
 #[diagnostic::on_unimplemented(
     message = "a string or a domain cannot be mapped into a PDO",
@@ -219,8 +219,9 @@ impl<T, A, M> Var<T, A, M> {
         self.slot
     }
 
-    /// The value in bytes that a master sends, little-endian, such as those that `Application::validate` gets. Missing
-    /// bytes count as 0; of a signed type the sign goes on.
+    /// Decodes the little-endian bytes that a master sends, such as those that
+    /// `Application::validate` gets. Missing bytes count as 0, or as copies of the sign for a
+    /// signed type.
     ///
     /// ```
     /// use od_model::typed::{Rw, Var};
@@ -238,7 +239,7 @@ impl<T, A, M> Var<T, A, M> {
         T::from_wire(bytes)
     }
 
-    /// The mapping entry of this value: index, sub-index and length in the form of 1A00h.
+    /// Mapping entry of this value: index, sub-index and length in the form of 1A00h.
     pub const fn map(self) -> MapEntry
     where
         M: Mappable,
@@ -250,7 +251,7 @@ impl<T, A, M> Var<T, A, M> {
     }
 }
 
-/// Handles of the sub-objects of a long ARRAY, which follow each other and have one type.
+/// Handles of the sub-objects of a long ARRAY, which are consecutive and have one type.
 ///
 /// The macro makes one for an ARRAY of more than 64 sub-objects, instead of a constant for each.
 ///
@@ -391,12 +392,13 @@ impl<A> Text<A> {
 pub struct MapEntry {
     /// Address of the mapped value.
     pub address: Address,
-    /// Length in bits: that of the whole value, 1 to 64, unless a mapping object says otherwise.
+    /// Length in bits: the length of the whole value, 1 to 64, unless a mapping object gives
+    /// another.
     pub bits: u8,
 }
 
 impl MapEntry {
-    /// Returns the meaning of a mapping object's value; every number has one.
+    /// Reads the value of a mapping object; every number is valid.
     pub const fn parse(raw: u32) -> Self {
         let [bits, sub, low, high] = raw.to_le_bytes();
         Self {
@@ -425,13 +427,13 @@ pub struct Mapping<const N: usize> {
 }
 
 impl<const N: usize> Mapping<N> {
-    /// The entries, first in the frame first.
+    /// The entries, in their order in the frame.
     pub const fn entries(&self) -> &[MapEntry; N] {
         &self.entries
     }
 }
 
-/// A PDO mapping; as a `const`, one past 64 bits does not compile.
+/// A PDO mapping. In a `const`, more than 64 bits do not compile.
 ///
 /// # Panics
 /// If the entries together are longer than the 64 bits of a CAN frame

@@ -69,7 +69,7 @@ pub enum Kind {
     Text,
     /// Bytes without further meaning, of any length.
     Bytes,
-    /// A record; its members carry the values.
+    /// A record; its sub-objects have the values.
     Record,
 }
 
@@ -163,7 +163,7 @@ impl DataType {
         }
     }
 
-    /// Length in a PDO, in bits; `None` where the length is the value's own or the type is a record.
+    /// Length in a PDO, in bits; `None` if it varies, or if the type is a record.
     pub const fn bits(self) -> Option<u8> {
         use DataType::*;
         Some(match self {
@@ -283,7 +283,7 @@ impl ObjectCode {
         }
     }
 
-    /// Returns whether the object has sub-indices with sub-index 0 as their count.
+    /// Returns whether the object has sub-objects, with their number in sub-index 0.
     pub const fn has_members(self) -> bool {
         matches!(self, Self::Array | Self::Record | Self::DefStruct)
     }
@@ -300,7 +300,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_code_comes_back() {
+    fn every_code_gives_its_type() {
         for t in DataType::ALL {
             assert_eq!(DataType::from_code(t.code()), Some(t));
         }

@@ -33,7 +33,7 @@ pub fn show(data_type: DataType, bytes: &[u8]) -> String {
     }
 }
 
-/// The first `bits` of a value, which a PDO may map; a signed number keeps its sign.
+/// The first `bits` bits of a value, which a PDO may map; a signed number keeps its sign.
 pub fn show_bits(data_type: DataType, bytes: &[u8], bits: u8) -> String {
     let is_number = matches!(data_type.kind(), Kind::Unsigned | Kind::Signed);
     let Some(size) = data_type
@@ -68,7 +68,7 @@ pub fn hex(bytes: &[u8]) -> String {
 /// `"text"`, or `[01 02 03]` for bytes of any type.
 ///
 /// # Errors
-/// A sentence that names the valid values.
+/// A message that names the valid values.
 pub fn parse(data_type: DataType, text: &str) -> Result<Vec<u8>, Refused> {
     let text = text.trim();
     if let Some(inner) = text
@@ -164,11 +164,11 @@ pub fn address(text: &str) -> Option<Address> {
     Some(Address::new(index, sub))
 }
 
-/// Finds an entry by [`address`], or by its name in any case. A sub-object is found by its own name if the name
-/// is unique, else by `object.member`.
+/// Finds an entry by [`address`], or by its name in any case. A sub-object is found by its own name
+/// if no other has this name, or by `object.member`.
 ///
 /// # Errors
-/// A sentence about why no entry matches.
+/// A message that says why no entry matches.
 pub fn find(dictionary: Dictionary<'_>, text: &str) -> Result<Entry, Refused> {
     let text = text.trim();
     if let Some(address) = address(text) {
@@ -193,7 +193,8 @@ pub fn find(dictionary: Dictionary<'_>, text: &str) -> Result<Entry, Refused> {
     }
 }
 
-/// The full name of an entry: that of the object, followed by a dot and that of the sub-object.
+/// The full name of an entry: the name of the object, followed by a dot and the name of the
+/// sub-object.
 pub fn name(dictionary: Dictionary<'_>, entry: &Entry) -> String {
     let own = dictionary.text(entry.name);
     match dictionary.object(entry.address.index) {
@@ -221,7 +222,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn values_come_back() {
+    fn shown_values_can_be_parsed() {
         for (data_type, text, bytes) in [
             (DataType::Unsigned32, "497042", &[0x92, 0x95, 7, 0][..]),
             (DataType::Unsigned32, "0x79592", &[0x92, 0x95, 7, 0]),

@@ -1,4 +1,4 @@
-//! Values whose length varies: a dictionary without any gets no code for them.
+//! Values of variable length. A dictionary without them gets no code for them.
 
 use crate::entry::Slot;
 use crate::row::Row;
@@ -18,22 +18,22 @@ pub struct Arenas<'a> {
 type Value = for<'b> fn(&Arenas<'b>, &'b [u8], &Row) -> &'b [u8];
 type Room = for<'b> fn(&Arenas<'_>, &'b mut [u8], &Row, usize) -> Option<&'b mut [u8]>;
 
-/// Functions of a dictionary with strings or DOMAINs. They are data, so that a firmware whose
-/// dictionary has none holds no code for it.
+/// Functions for a dictionary with strings or DOMAINs. They are pointers in data, so a firmware
+/// whose dictionary has none does not contain them.
 #[derive(Debug)]
 pub struct Varying {
-    /// The bytes of such a value among those of the store; its default where they are not there.
+    /// Bytes of such a value among those of the store; its default if the store does not have it.
     pub value: Value,
-    /// The place in the store for a value of this length, which it has from now on; `None`: it is too
+    /// Place in the store of a value of this length, which it has from now on; `None`: it is too
     /// long.
     pub room: Room,
 }
 
 impl Varying {
-    /// For a dictionary that may have some.
+    /// Functions for a dictionary that may have such values.
     pub const SOME: Option<&Self> = Some(&Self { value, room });
 
-    /// For a dictionary with these rows.
+    /// Functions for a dictionary with these rows; `None` if they have no such values.
     pub const fn of(rows: &[Row]) -> Option<&'static Self> {
         let mut rest = rows;
         while let [row, others @ ..] = rest {
@@ -46,7 +46,7 @@ impl Varying {
     }
 }
 
-/// Two bytes of length, then the bytes.
+/// The value is two bytes of length, then its bytes.
 fn value<'b>(arenas: &Arenas<'b>, values: &'b [u8], row: &Row) -> &'b [u8] {
     let Slot { offset, len } = row.slot(arenas.pool);
     let rest = values.get(offset as usize..);
@@ -59,7 +59,7 @@ fn value<'b>(arenas: &Arenas<'b>, values: &'b [u8], row: &Row) -> &'b [u8] {
     }
 }
 
-/// Not by way of a text's letters: code that looks where they begin and end is not small.
+/// Works on bytes, since code that checks the boundaries of characters is not small.
 fn default<'b>(arenas: &Arenas<'b>, row: &Row) -> &'b [u8] {
     let range = row.range(arenas.pool);
     match row.kind() {
@@ -90,7 +90,7 @@ mod tests {
     use super::*;
     use crate::{Access, Address, DataType, Entry, Group, Literal, ObjectCode, Range};
 
-    /// A row whose default, if it is a string, has the first place of the pool.
+    /// A row whose default, if it is a string, is at the start of the pool.
     fn row(data_type: DataType, default: Literal, len: u16) -> Row {
         let entry = Entry {
             address: Address::new(0x2000, 0),

@@ -1,13 +1,13 @@
-//! Foreign text, shown so that nothing in it acts on a terminal, a table or a page.
+//! Foreign text, escaped so that it cannot change a terminal, a table or a page.
 
 use alloc::borrow::Cow;
 use alloc::format;
 use alloc::string::String;
 use core::fmt::{self, Write};
 
-/// A text of a device, a file or a peer. Its forms escape what a reader would not see: control
-/// characters (ESC, BEL, C1, line ends), marks that turn the direction of a text, and characters
-/// without a width become `\n` or `\u{1b}`.
+/// A text of a device, a file or another program. Its forms escape characters that a reader would
+/// not see: control characters (ESC, BEL, C1, line ends), marks that change the direction of the
+/// text, and characters without a width become `\n` or `\u{1b}`.
 ///
 /// ```
 /// use od_model::Visible;
@@ -41,7 +41,8 @@ impl<'t> Visible<'t> {
         Cow::Owned(out)
     }
 
-    /// Returns the text as one line of Markdown, which shows it as it is: a heading or a cell of a table.
+    /// Returns the text as one line of Markdown that shows it unchanged, in a heading or a cell of
+    /// a table.
     pub fn markdown(self) -> String {
         let mut out = String::with_capacity(self.0.len());
         for c in self.line().chars() {
@@ -56,8 +57,8 @@ impl<'t> Visible<'t> {
         out
     }
 
-    /// Returns the text as a cell of a CSV file (RFC 4180). A text that a spreadsheet would take for a
-    /// formula gets an apostrophe before it.
+    /// Returns the text as a cell of a CSV file (RFC 4180). A text that a spreadsheet would read as
+    /// a formula gets an apostrophe in front.
     pub fn csv(self) -> String {
         let line = self.line();
         let is_formula = line.starts_with(['=', '+', '-', '@']) && line.parse::<f64>().is_err();
@@ -73,8 +74,8 @@ impl<'t> Visible<'t> {
         }
     }
 
-    /// Returns a JSON text in which every hidden character is escaped as JSON has it; its readers see
-    /// the same strings.
+    /// Returns a JSON text in which every hidden character is escaped in the way of JSON; a parser
+    /// gets the same strings.
     pub fn json(self) -> Cow<'t, str> {
         let Self(text) = self;
         let is_raw = |c: char| is_hidden(c) && !matches!(c, '\n' | '\r' | '\t');
@@ -85,7 +86,7 @@ impl<'t> Visible<'t> {
         for c in text.chars() {
             if is_raw(c) {
                 c.encode_utf16(&mut [0; 2]).iter().for_each(|unit| {
-                    // Writing to a text does not fail.
+                    // Writing to a `String` does not fail.
                     let _ = write!(out, "\\u{unit:04x}");
                 })
             } else {
@@ -135,7 +136,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn nothing_is_hidden() {
+    fn hidden_characters_are_shown_as_escapes() {
         for (text, line, lines) in [
             ("Größe 5 µm", "Größe 5 µm", "Größe 5 µm"),
             ("\x1b[31m\x07", "\\u{1b}[31m\\u{7}", "\\u{1b}[31m\\u{7}"),
@@ -164,7 +165,7 @@ mod tests {
     }
 
     #[test]
-    fn a_cell_is_no_formula() {
+    fn a_cell_is_not_a_formula() {
         for (text, cell) in [
             ("=HYPERLINK(\"x\")", "\"'=HYPERLINK(\"\"x\"\")\""),
             ("+cmd", "'+cmd"),
@@ -181,7 +182,7 @@ mod tests {
     }
 
     #[test]
-    fn json_means_the_same() {
+    fn json_keeps_its_meaning() {
         let text = "{\"a\": \"\u{9b}\u{e0001}ü\",\n\"b\": 1}";
         assert_eq!(
             Visible(text).json(),

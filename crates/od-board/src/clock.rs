@@ -1,11 +1,13 @@
-//! A counter that wraps as time that does not.
+//! Time of a counter that wraps.
 
 use od_runtime::{Duration, Instant};
 
-/// Time of a counter with `HZ` ticks a second and `BITS` bits, 32 at most, that starts again at 0.
+/// Time of a counter with `HZ` ticks per second and `BITS` bits, at most 32, that starts again at
+/// 0.
 ///
-/// Ask it at least once in that time (71 minutes for 32 bits at 1 MHz); [`Clock::LONGEST`] is a good limit
-/// for a sleep. No tick is lost in the conversion to microseconds, however long it runs.
+/// Call [`at`](Self::at) at least once in that time (71 minutes for 32 bits at 1 MHz);
+/// [`Clock::LONGEST`] is a good limit for a sleep. The conversion to microseconds loses no tick,
+/// however long the clock runs.
 ///
 /// ```
 /// use od_board::Clock;
@@ -18,12 +20,12 @@ use od_runtime::{Duration, Instant};
 pub struct Clock<const HZ: u32 = 1_000_000, const BITS: u32 = 32> {
     ticks: u32,
     micros: u64,
-    /// Part of a microsecond that is left over, in units of `1 / DIVISOR`.
+    /// Remainder below a microsecond, in units of `1 / DIVISOR`.
     rest: u64,
 }
 
 impl<const HZ: u32, const BITS: u32> Clock<HZ, BITS> {
-    /// Half of the time in which the counter wraps.
+    /// Half of the time after which the counter wraps.
     pub const LONGEST: Duration =
         Duration::from_micros((1 << (BITS - 1)) * Self::FACTOR / Self::DIVISOR);
     const MASK: u32 = u32::MAX >> (32 - BITS);
@@ -38,7 +40,7 @@ impl<const HZ: u32, const BITS: u32> Clock<HZ, BITS> {
     const FACTOR: u64 = 1_000_000 / Self::COMMON;
     const DIVISOR: u64 = HZ as u64 / Self::COMMON;
 
-    /// A clock at 0, as the counter is.
+    /// A clock at 0, for a counter at 0.
     pub const fn new() -> Self {
         Self {
             ticks: 0,
@@ -47,8 +49,8 @@ impl<const HZ: u32, const BITS: u32> Clock<HZ, BITS> {
         }
     }
 
-    /// Returns the moment at which the counter shows `ticks`. A counter that seems to have gone back has
-    /// wrapped.
+    /// Returns the time at which the counter shows `ticks`. A value lower than the last one means
+    /// that the counter has wrapped.
     pub const fn at(&mut self, ticks: u32) -> Instant {
         let passed = (ticks.wrapping_sub(self.ticks) & Self::MASK) as u64;
         self.ticks = ticks;

@@ -2,14 +2,14 @@
 
 use od_wire::CanId;
 
-/// Frames that a CAN controller shall accept: those whose CAN-ID has the bits of `id` where `mask` has
-/// ones.
+/// Frames that a CAN controller accepts: those whose CAN-ID equals `id` in the bits that are 1 in
+/// `mask`.
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub struct Filter {
-    /// The CAN-ID, of 11 or 29 bits; so are those of the frames.
+    /// The CAN-ID, of 11 or 29 bits; the filter accepts only frames of the same length.
     pub id: CanId,
-    /// Bits of the CAN-ID that count; all of them: 7FFh or 1FFF_FFFFh.
+    /// Bits of the CAN-ID that are compared; all of them: 7FFh or 1FFF_FFFFh.
     pub mask: u32,
 }
 
@@ -25,17 +25,18 @@ impl Filter {
         Self { id, mask }
     }
 
-    /// Returns whether frames with this CAN-ID, data or remote, pass.
+    /// Returns whether the filter accepts frames with this CAN-ID, data or remote.
     pub const fn accepts(&self, id: CanId) -> bool {
         self.id.is_extended() == id.is_extended() && (self.id.raw() ^ id.raw()) & self.mask == 0
     }
 
-    /// Returns whether all that passes another one passes this one.
+    /// Returns whether the filter accepts all frames that another one accepts.
     const fn covers(&self, other: &Self) -> bool {
         self.mask & !other.mask == 0 && self.accepts(other.id)
     }
 
-    /// The narrowest filter that accepts what two accept; `None` if their CAN-IDs differ in length.
+    /// The narrowest filter that accepts the frames of both; `None` if their CAN-IDs differ in
+    /// length.
     fn with(&self, other: &Self) -> Option<Self> {
         if self.id.is_extended() != other.id.is_extended() {
             return None;
@@ -50,17 +51,17 @@ impl Filter {
         Some(Self { id, mask })
     }
 
-    /// Number of CAN-IDs that pass.
+    /// Number of CAN-IDs that it accepts.
     fn width(&self) -> u32 {
         let bits = if self.id.is_extended() { 29 } else { 11 };
         1 << (bits - self.mask.count_ones())
     }
 }
 
-/// At most `N` filters, two or more, that let through what a node listens to.
+/// At most `N` filters (two or more) that accept all frames that a node listens to.
 ///
-/// A filter has one CAN-ID as long as there is room; then those are joined that let the fewest
-/// other frames through. A frame that is not for the node does no harm but for its time.
+/// Each CAN-ID has a filter of its own while there is room. After that, the two filters are joined
+/// that accept the fewest additional frames. A frame that is not for the node costs only time.
 ///
 /// ```
 /// use od_board::Filters;
@@ -91,7 +92,7 @@ impl<const N: usize> Filters<N> {
         self.filters.get(..self.len).unwrap_or_default()
     }
 
-    /// Lets these frames through, too.
+    /// Also accepts these frames.
     pub fn add(&mut self, new: impl Into<Filter>) {
         let new = new.into();
         if self.as_slice().iter().any(|filter| filter.covers(&new)) {
@@ -110,7 +111,8 @@ impl<const N: usize> Filters<N> {
         }
     }
 
-    /// The two of all filters and `new` that are best joined, and what they make; `None`: `new`.
+    /// Finds the best two to join among all filters and `new`, and returns their positions and the
+    /// joined filter; `None`: `new`.
     fn cheapest(&self, new: &Filter) -> Option<(usize, Option<usize>, Filter)> {
         let filters = self.as_slice();
         let pairs = filters.iter().enumerate().flat_map(|(at, first)| {

@@ -1,13 +1,14 @@
-//! A CANopen node on a board: what a firmware needs besides the node itself. Reached as `odkit::board`.
+//! A CANopen node on a board: what a firmware needs besides the node itself. Devices use it as
+//! `odkit::board`.
 //!
 //! A [`Node`](od_runtime::Node) owns its values, application and storage, and can be a `static`.
 //!
 //! - [`Port`] connects it to a CAN controller with the traits of `embedded-can`, nb or blocking.
-//! - `Shared` (feature `embassy`) is a node for several tasks, and the task that runs it; `Watch` looks for
-//!   bus-off where the driver of the CAN controller does not report it.
+//! - `Shared` (feature `embassy`) is a node for several tasks, with the task that runs it. `Watch`
+//!   detects bus-off if the driver of the CAN controller does not report it.
 //! - [`Filters`] are the acceptance filters for the CAN-IDs that the node listens to.
-//! - [`storage`] keeps saved values on NOR flash, in the background or at once (feature `flash`).
-//! - [`Clock`] is time of a counter of 32 bits or less that wraps.
+//! - [`storage`] stores saved values on NOR flash, in the background or at once (feature `flash`).
+//! - [`Clock`] is the time of a counter of at most 32 bits that wraps.
 //! - Feature `defmt`: formats for frames, states, abort codes and events.
 //!
 //! # A loop
@@ -84,8 +85,8 @@
 //!
 //! # RTIC
 //!
-//! The interrupt of the CAN controller handles frames, a task of low priority writes flash, and they share
-//! the node. `firmware/rtic` is a complete program; these are its two tasks:
+//! The interrupt of the CAN controller handles frames, and a task of low priority writes flash;
+//! both use the node. `firmware/rtic` is a complete program; these are its two tasks:
 //!
 //! ```text
 //! #[task(binds = GPIOA, priority = 2, shared = [node, can], local = [port, clock])]
@@ -100,9 +101,10 @@
 //! }
 //! ```
 //!
-//! A block transfer is a frame at a time in the interrupt, and never more. While flash is erased or written
-//! nobody holds the node, so a SYNC is answered at once. The longest call of the node is the longest that
-//! a frame can wait: a save copies the values and returns, as `firmware/rtic` measures.
+//! The interrupt sends one frame of a block transfer at a time. While flash is erased or written
+//! nothing locks the node, so it responds to a SYNC at once. A frame waits at most as long as the
+//! longest call of the node takes: a save copies the values and returns, as `firmware/rtic`
+//! measures.
 #![cfg_attr(
     all(feature = "embassy", feature = "flash"),
     doc = r#"

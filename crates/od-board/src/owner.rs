@@ -1,15 +1,15 @@
-//! The node as the parts of this crate drive it.
+//! The node in the form that the parts of this crate use.
 
 use od_runtime::storage::Storage;
 use od_runtime::{Application, BusEvent, Device, Event, Frame, Instant, Node};
 use od_wire::CanId;
 
-/// A [`Node`], whatever its device, application and storage are. The functions are those of [`Node`].
+/// A [`Node`] with any device, application and storage. The functions are those of [`Node`].
 pub trait Owner {
     /// Handles a frame that was received.
     fn handle_frame(&mut self, now: Instant, frame: &Frame);
 
-    /// Does what is due by now.
+    /// Carries out what is due at `now`.
     fn handle_timeout(&mut self, now: Instant);
 
     /// Tells the application that the world outside the bus changed.
@@ -18,23 +18,24 @@ pub trait Owner {
     /// Reports a state change or frame loss of the CAN controller.
     fn handle_bus(&mut self, now: Instant, event: BusEvent);
 
-    /// Returns whether the CAN controller is bus-off, as far as [`handle_bus`](Self::handle_bus) reported it.
+    /// Returns whether the CAN controller is bus-off, as reported by
+    /// [`handle_bus`](Self::handle_bus).
     fn is_bus_off(&self) -> bool;
 
-    /// Returns the next frame to send; `None` when all are out.
+    /// Returns the next frame to send, or `None` when all are sent.
     fn poll_transmit(&mut self, now: Instant) -> Option<Frame>;
 
-    /// Time when [`handle_timeout`](Self::handle_timeout) is to be called next.
+    /// Time of the next call of [`handle_timeout`](Self::handle_timeout).
     fn poll_timeout(&self) -> Option<Instant>;
 
     /// Returns the oldest pending event.
     fn poll_event(&mut self) -> Option<Event>;
 
-    /// Passes the CAN-IDs that the node listens to on to `each`, if they may have changed since the
+    /// Calls `each` with the CAN-IDs that the node listens to, if they may have changed since the
     /// last call.
     fn each_wanted_id(&mut self, each: &mut dyn FnMut(CanId));
 
-    /// Does what is due, if anything is.
+    /// Carries out what is due, if anything is.
     fn catch_up(&mut self, now: Instant) {
         if self.poll_timeout().is_some_and(|at| at <= now) {
             self.handle_timeout(now);

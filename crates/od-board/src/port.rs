@@ -8,14 +8,15 @@ use od_wire::CanId;
 
 use crate::owner::Owner;
 
-/// Frames that can wait for the controller. While all of them wait, the node keeps its own.
+/// Number of frames that can wait for the controller. While all places are used, the node keeps its
+/// frames.
 const ROOM: usize = 4;
 
-/// Frames that wait for a mailbox of the CAN controller, the one that wins arbitration first; frames
-/// with the same CAN-ID keep their order.
+/// Frames that wait for a mailbox of the CAN controller, the one with the highest priority first;
+/// frames with the same CAN-ID keep their order.
 ///
-/// A frame that an nb `transmit` throws out of its mailbox, to make room for one of higher priority,
-/// comes back here and is sent later.
+/// A frame that an nb `transmit` pushes out of its mailbox, to make room for one of higher
+/// priority, returns to this queue and is sent later.
 #[derive(Clone, Debug)]
 pub struct Port {
     frames: [Frame; ROOM],
@@ -29,7 +30,7 @@ impl Default for Port {
 }
 
 impl Port {
-    /// A port where nothing waits.
+    /// A port without waiting frames.
     pub const fn new() -> Self {
         Self {
             frames: [Frame::standard(0, &[]); ROOM],
@@ -37,18 +38,18 @@ impl Port {
         }
     }
 
-    /// Returns whether no frame waits here; the node may have others.
+    /// Returns whether no frame waits here; the node may have further frames.
     pub const fn is_empty(&self) -> bool {
         self.len == 0
     }
 
-    /// Drops the frames that wait, as [`peek`](Self::peek) does while the owner knows of bus-off.
+    /// Drops the waiting frames, as [`peek`](Self::peek) does while the owner is bus-off.
     pub const fn clear(&mut self) {
         self.len = 0;
     }
 
-    /// Returns the frame to send next, without taking it: the controller may have no room. As long as
-    /// there is room, frames go in the order of the node.
+    /// Returns the frame to send next without removing it, since the controller may have no room.
+    /// While the controller has room, frames are sent in the order of the node.
     pub fn peek(&mut self, owner: &mut impl Owner, now: Instant) -> Option<&Frame> {
         if owner.is_bus_off() {
             self.clear();
@@ -61,13 +62,14 @@ impl Port {
         self.waiting().first()
     }
 
-    /// The frames that wait, the first one to be sent next.
+    /// The waiting frames, in the order in which they are sent.
     fn waiting(&self) -> &[Frame] {
         self.frames.get(..self.len).unwrap_or_default()
     }
 
-    /// The controller has no room for the frame that was [`peek`](Self::peek)ed. Returns whether the node
-    /// has one of higher priority, for which it may have room. Nothing overtakes a boot-up message.
+    /// Call this if the controller has no room for the frame of [`peek`](Self::peek). Returns
+    /// whether the node has a frame of higher priority, for which the controller may have room. No
+    /// frame overtakes a boot-up message.
     pub fn has_higher(&mut self, owner: &mut impl Owner, now: Instant) -> bool {
         let first = self.waiting().first().map(Frame::id);
         if self.waiting().iter().any(is_boot_up) {
@@ -81,11 +83,11 @@ impl Port {
         self.waiting().first().map(Frame::id) != first
     }
 
-    /// The controller took a frame that was [`peek`](Self::peek)ed, and threw another one out for it or
-    /// not.
+    /// Notes that the controller accepted the frame of [`peek`](Self::peek), and stores the frame
+    /// that it pushed out of a mailbox, if there was one.
     pub fn sent(&mut self, frame: &Frame, thrown_out: Option<Frame>) {
         if let Some(at) = self.waiting().iter().position(|other| other == frame) {
-            // Those behind it move up.
+            // The frames after it move up.
             let mut behind = *frame;
             let from = self.frames.iter_mut().take(self.len).skip(at);
             from.rev().for_each(|room| swap(room, &mut behind));
@@ -96,7 +98,7 @@ impl Port {
         }
     }
 
-    /// `before`: it is older than those with its CAN-ID.
+    /// `before`: it is older than the waiting frames with its CAN-ID.
     fn insert(&mut self, frame: Frame, before: bool) {
         if self.len == ROOM {
             return;
@@ -109,18 +111,18 @@ impl Port {
             })
             .count();
         self.len += 1;
-        // Those behind it move back.
+        // The frames after it move back.
         let mut next = frame;
         let from = self.frames.iter_mut().take(self.len).skip(at);
         from.for_each(|room| swap(room, &mut next));
     }
 
-    /// Handles all frames that came and what is due, and sends as long as there is room: for a loop,
-    /// or an interrupt, that never waits.
+    /// Handles all received frames and what is due, and sends frames while there is room. It never
+    /// waits, so it can be used in a loop or an interrupt.
     ///
     /// # Errors
-    /// The first error of the controller. Call it again: no frame of the node is lost. An overrun is
-    /// reported to the node, not here.
+    /// The first error of the controller. Call it again: no frame of the node is lost. An overrun
+    /// is reported to the node and is not an error here.
     pub fn serve_nb<C: embedded_can::nb::Can>(
         &mut self,
         owner: &mut impl Owner,
@@ -145,7 +147,7 @@ impl Port {
         self.send_nb(owner, can, now)
     }
 
-    /// Sends as long as the controller has room.
+    /// Sends frames while the controller has room.
     ///
     /// # Errors
     /// As [`serve_nb`](Self::serve_nb).
@@ -163,7 +165,7 @@ impl Port {
                     Err(nb::Error::WouldBlock) => break,
                     Err(nb::Error::Other(error)) => return Err(error),
                 },
-                // A controller that cannot send such a frame does not hold up the others.
+                // A frame that the controller cannot send does not delay the others.
                 None => None,
             };
             let thrown_out = thrown_out.and_then(|frame| Frame::from_can(&frame));
@@ -172,9 +174,9 @@ impl Port {
         Ok(())
     }
 
-    /// Waits for a frame, handles it and what is due by then, and sends all that the node has: where an
-    /// interrupt says that a frame is there, or a thread of its own waits for it. `clock` returns the
-    /// moment at which the frame is there.
+    /// Waits for a frame, handles it and what is due, and sends all frames of the node. Use it
+    /// where an interrupt shows that a frame was received, or in a thread that waits for frames.
+    /// `clock` returns the time at which the frame was received.
     ///
     /// # Errors
     /// As [`serve_nb`](Self::serve_nb).
@@ -198,7 +200,7 @@ impl Port {
         self.send_blocking(owner, can, now)
     }
 
-    /// Sends all that the node has.
+    /// Sends all frames of the node.
     ///
     /// # Errors
     /// As [`serve_nb`](Self::serve_nb).
@@ -235,7 +237,8 @@ fn is_boot_up(frame: &Frame) -> bool {
     frame.id().raw() & 0x780 == 0x700 && frame.data() == [0]
 }
 
-/// Rank in arbitration, the highest priority first: 11 bits win over 29 bits that begin alike.
+/// Rank in arbitration, the highest priority first: 11 bits win over 29 bits that begin with the
+/// same bits.
 const fn rank(id: CanId) -> u32 {
     match id.as_standard() {
         Some(raw) => (raw as u32) << 19,

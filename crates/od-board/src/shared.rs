@@ -18,12 +18,13 @@ use crate::port::Port;
 
 /// The receiving half of a CAN controller.
 pub trait Receive {
-    /// Waits for a frame, or for a state of the controller, such as [`BusEvent::Off`]. The future may be
-    /// dropped before it is ready; no frame may be lost with it.
+    /// Waits for a frame, or for a state of the controller such as [`BusEvent::Off`]. The future
+    /// may be dropped before it is ready; this must not lose a frame.
     fn receive(&mut self) -> impl Future<Output = Result<Frame, BusEvent>>;
 
-    /// Sets the acceptance filters: at the start, and when they change. A controller with fewer filters
-    /// joins them, by `filters.iter().copied().collect::<Filters<4>>()`; one without filters does nothing.
+    /// Sets the acceptance filters: at the start, and when they change. A controller with fewer
+    /// filters joins them with `filters.iter().copied().collect::<Filters<4>>()`; one without
+    /// filters does nothing.
     fn filter(&mut self, filters: &[Filter]) {
         let _ = filters;
     }
@@ -31,30 +32,31 @@ pub trait Receive {
 
 /// The sending half of a CAN controller.
 pub trait Transmit {
-    /// Waits until the controller has room, and hands the frame over. Returns the frame that the
-    /// controller threw out for it, if it does so. At bus-off the future is dropped, and the frame with it.
+    /// Waits until the controller has room, and passes the frame to it. Returns the frame that the
+    /// controller pushed out of a mailbox for it, if there is one. At bus-off the future is
+    /// dropped, and the frame with it.
     fn transmit(&mut self, frame: &Frame) -> impl Future<Output = Result<Option<Frame>, BusEvent>>;
 }
 
-/// Number of filters that a receiver gets, before it joins them.
+/// Number of filters that a receiver gets before it joins them.
 const FILTERS: usize = 16;
 
 /// Time after which the node is asked again while the controller has no room.
 const AGAIN: embassy_time::Duration = embassy_time::Duration::from_millis(1);
 
-/// An [`Owner`] that several tasks use: one is [`run`](Self::run), the others change values. It can be a
-/// `static`.
+/// An [`Owner`] that several tasks use: one task calls [`run`](Self::run), the others change
+/// values. It can be a `static`.
 ///
-/// The lock is held for one call of the node at most, and never during a wait.
+/// The lock is held for at most one call of the node, and never during a wait.
 pub struct Shared<M: RawMutex, B> {
     owner: Mutex<M, RefCell<B>>,
-    /// Frames may be there to be sent.
+    /// There may be frames to send.
     frames: Signal<M, ()>,
-    /// The next deadline may be another one.
+    /// The next deadline may have changed.
     deadline: Signal<M, ()>,
-    /// The filters may be others.
+    /// The filters may have changed.
     filters: Signal<M, ()>,
-    /// The controller is bus-off, or was: frames of before are of no use any more.
+    /// The controller is bus-off, or was: frames from before must not be sent any more.
     off: Signal<M, ()>,
 }
 
@@ -70,18 +72,18 @@ impl<M: RawMutex, B: Owner> Shared<M, B> {
         }
     }
 
-    /// Calls `act` with the node and the time. What it causes goes out at once: an event-driven TPDO of a
-    /// value that it sets, for one.
+    /// Calls `act` with the node and the time. Frames that this causes, such as an event-driven
+    /// TPDO of a changed value, are sent at once.
     ///
     /// # Panics
-    /// If `act` calls it again.
+    /// If `act` calls `with` again.
     pub fn with<R>(&self, act: impl FnOnce(&mut B, Instant) -> R) -> R {
         let result = self.lock(act);
         self.filters.signal(());
         result
     }
 
-    /// The node, before other tasks have it: for what has to wait, such as loading saved values.
+    /// The node, before other tasks use it, for example to load saved values.
     pub fn get_mut(&mut self) -> &mut B {
         self.owner.get_mut().get_mut()
     }
@@ -101,8 +103,8 @@ impl<M: RawMutex, B: Owner> Shared<M, B> {
         result
     }
 
-    /// Runs the node: sleeps until a frame, its next deadline, or a change by [`with`](Self::with). Give
-    /// it power by `with`, before or after.
+    /// Runs the node: sleeps until a frame, its next deadline, or a change by [`with`](Self::with).
+    /// Switch the power of the node on with `with`, before or after the call.
     pub async fn run(&self, receiver: &mut impl Receive, transmitter: &mut impl Transmit) -> ! {
         join3(
             self.receive(receiver),
@@ -110,7 +112,7 @@ impl<M: RawMutex, B: Owner> Shared<M, B> {
             self.wait(),
         )
         .await;
-        // None of the three ends.
+        // None of the three futures ends.
         core::future::pending().await
     }
 
@@ -122,7 +124,7 @@ impl<M: RawMutex, B: Owner> Shared<M, B> {
                 }
                 Either::First(Err(event)) => {
                     self.lock(|owner, now| owner.handle_bus(now, event));
-                    // A controller may go on saying so.
+                    // A controller may report this state again and again.
                     yield_now().await;
                 }
                 Either::Second(()) => {}
@@ -144,7 +146,7 @@ impl<M: RawMutex, B: Owner> Shared<M, B> {
         let (mut port, mut has_sent) = (Port::new(), false);
         loop {
             let next = self.owner.lock(|owner| {
-                // Whoever reported it: receiver, transmitter or another task.
+                // The receiver, the transmitter or another task may have reported it.
                 if self.off.try_take().is_some() {
                     port.clear();
                 }
@@ -154,7 +156,8 @@ impl<M: RawMutex, B: Owner> Shared<M, B> {
             });
             let Some(frame) = next else {
                 if core::mem::take(&mut has_sent) {
-                    // The deadline after a frame is another one, such as the end of an inhibit time.
+                    // A frame may have changed the next deadline, for example by the end of an
+                    // inhibit time.
                     self.deadline.signal(());
                 }
                 self.frames.wait().await;
@@ -176,7 +179,7 @@ impl<M: RawMutex, B: Owner> Shared<M, B> {
 
     async fn wait(&self) {
         loop {
-            // Most signals are about the deadline that is looked at here.
+            // Most signals only concern the deadline that is read here.
             self.deadline.reset();
             let now = embassy_time::Instant::now();
             let due = self.owner.lock(|owner| {
@@ -194,7 +197,7 @@ impl<M: RawMutex, B: Owner> Shared<M, B> {
             };
             let mut at = embassy_time::Instant::from_micros(due);
             if due <= now.as_micros() {
-                // A PDO is due, and the controller has no room; other things may become due.
+                // A PDO is due and the controller has no room, but other work may become due.
                 at = now + AGAIN;
             } else if at.as_micros() < due {
                 // A tick is longer than a microsecond.

@@ -1,17 +1,21 @@
 //! Memory for saved values.
 //!
-//! An EEPROM or FRAM is a [`Storage`](od_runtime::storage::Storage) as it is. Of flash there are two
-//! kinds, for drivers with the traits of `embedded-storage` (feature `flash`):
+//! An EEPROM or FRAM implements [`Storage`](od_runtime::storage::Storage) directly. For NOR flash
+//! there are two ways, for drivers with the traits of `embedded-storage` (feature `flash`):
 //!
 //! | | [`Nor`] | [`Mirror`] and [`Log`] |
 //! |---|---|---|
-//! | RAM | none | three times the set of saved values, and all values once |
-//! | a save | inside the call of the node that got it: erases a page of each bank, so tens of milliseconds | the call copies the values; a task of low priority makes the set of them and writes flash, in steps of 64 bytes, eight values or one erasure |
-//! | erasures | one a save if a bank is one page | less than one a save, spread over all pages |
-//! | needs | two banks of pages | three pages or more; a set fits into one, which may be several of the flash ([`Joined`]) |
+//! | RAM | none | three times the set of saved values, and once all values |
+//! | a save | inside the call of the node that received the command: erases a page of each bank,
+//! which takes tens of milliseconds | the call copies the values; a task of low priority makes the
+//! set and writes flash, in steps of 64 bytes, eight values or one erasure |
+//! | erasures | one per save if a bank is one page | less than one per save, spread over all pages
+//! |
+//! | needs | two banks of pages | three pages or more. A set has to fit into one page; [`Joined`]
+//! makes larger pages of several |
 //!
-//! Both answer 1010h when the flash has the values, and power that goes in any step leaves the old set
-//! or the new one.
+//! Both respond to 1010h when the flash contains the values. A power failure in any step leaves the
+//! old set or the new one.
 
 #[cfg(feature = "flash")]
 mod guard;

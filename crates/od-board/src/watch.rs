@@ -3,17 +3,17 @@
 use embassy_time::{Duration, Timer, with_timeout};
 use od_runtime::{BusEvent, Frame};
 
-/// Time after which the state is looked at again.
+/// Time after which the state is checked again.
 const LOOK: Duration = Duration::from_millis(10);
 
 /// Pause after an error of the bus: a controller may report one for each bit.
 const PAUSE: Duration = Duration::from_millis(1);
 
-/// Looks at the state of a CAN controller, so that the node learns of bus-off and of the way back:
-/// a part of [`Receive`](crate::Receive) for drivers that wait for frames alone.
+/// Checks the state of a CAN controller, so that the node learns of bus-off and its end. It is a
+/// part of [`Receive`](crate::Receive) for drivers that wait only for frames.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Watch {
-    /// State that was reported to the node last.
+    /// State that was last reported to the node.
     known: BusEvent,
 }
 
@@ -24,19 +24,19 @@ impl Default for Watch {
 }
 
 impl Watch {
-    /// The watch of a controller that has just been started.
+    /// A watch for a controller that has just been started.
     pub const fn new() -> Self {
         Self {
             known: BusEvent::Active,
         }
     }
 
-    /// Waits for a frame, or for another state than that of the call before. `state` returns the state of
-    /// the controller, or [`BusEvent::Overrun`] once where a frame was lost. `read` waits for a frame, and
-    /// returns none after an error of the bus; it may be dropped before.
+    /// Waits for a frame, or for a change of the state since the last call. `state` returns the
+    /// state of the controller, or [`BusEvent::Overrun`] once after a lost frame. `read` waits for
+    /// a frame, and returns `None` after an error of the bus; its future may be dropped before.
     ///
     /// # Errors
-    /// The state where it is another one.
+    /// The new state.
     pub async fn receive(
         &mut self,
         mut state: impl FnMut() -> BusEvent,

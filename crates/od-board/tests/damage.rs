@@ -1,4 +1,5 @@
-//! Saved values that are there and cannot be had: the node says so, and a master may replace them.
+//! Saved values that exist and cannot be loaded: the node reports it, and a master may replace
+//! them.
 
 mod support;
 
@@ -11,7 +12,7 @@ use support::{frame, sent, thermometer};
 const SAVED: usize = capacity_needed(&thermometer::DICTIONARY);
 type Mirrored = Mirror<SAVED, { thermometer::STORE_LEN }>;
 
-/// Keeps what it was told of the storage, and saves operating records when time passes.
+/// Records what it was told of the storage, and saves operating records when time passes.
 #[derive(Default)]
 struct Told {
     sound: Option<bool>,
@@ -41,7 +42,7 @@ fn a_set_that_cannot_be_loaded_is_damage_until_a_master_saves() {
         sent(&mut node, Instant::ZERO);
         node
     };
-    // A program with more values made it.
+    // A program with more values made the set.
     let longer = |mirror: &mut Mirrored| {
         let result = mirror.load(&[0x55; SAVED / 2 + 1]);
         assert_eq!(result, Err(StorageError::OutOfRange));
@@ -54,7 +55,7 @@ fn a_set_that_cannot_be_loaded_is_damage_until_a_master_saves() {
         // The device itself does not replace it.
         node.handle_timeout(Instant::from_millis(5));
         assert!(!node.storage.is_writing());
-        // Neither does 1011h:01, which has nothing to restore.
+        // 1011h:01 does not either, because it has nothing to restore.
         node.handle_frame(Instant::ZERO, &frame("601#231110016C6F6164"));
         assert_eq!(sent(&mut node, Instant::ZERO), ["581#8011100100000606"]);
         assert_eq!(node.application.sound, Some(false));

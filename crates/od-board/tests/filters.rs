@@ -1,4 +1,4 @@
-//! No frame that means anything to a node is outside of its acceptance filters.
+//! The acceptance filters pass every frame that a node uses.
 
 mod support;
 
@@ -12,7 +12,7 @@ use odkit::{
 use support::{Random, frame, sent, thermometer};
 
 odkit::object_dictionary! {
-    /// All of CiA 301 that there is an object for.
+    /// A device with all objects of CiA 301.
     mod everything {
         eds = "../../../firmware/eds/ds301.eds";
     }
@@ -45,7 +45,7 @@ impl Device for Loaded {
 
 type Any = Node<Loaded, NoApplication, Memory<Vec<u8>>>;
 
-/// The visible state of the node.
+/// State of the node that is visible from outside.
 fn shows(node: &mut Any, now: Instant) -> (Vec<String>, Option<Instant>, State, Vec<u8>) {
     let frames = sent(node, now);
     (
@@ -56,7 +56,7 @@ fn shows(node: &mut Any, now: Instant) -> (Vec<String>, Option<Instant>, State, 
     )
 }
 
-/// Plays the same frames to a node that gets all and to one behind filters.
+/// Plays the same frames to a node that gets all frames and to one behind filters.
 fn compare(name: &str, dictionary: Dictionary<'static>, profile: &'static Profile, steps: u32) {
     let mut random = Random(0x1234_5678_9ABC_DEF1);
     let node = || {
@@ -82,7 +82,8 @@ fn compare(name: &str, dictionary: Dictionary<'static>, profile: &'static Profil
         let node_id = u16::from(all.node_id().raw());
         let bytes = random.below(u64::MAX).to_le_bytes();
         let frame = match random.below(10) {
-            // Configuration: COB-IDs, watched nodes, the node ID of a family that has an object for it.
+            // Configuration: COB-IDs, monitored nodes, the node ID of a family that has an object
+            // for it.
             0 | 1 => {
                 let object = random.one_of(&[
                     [0x23, 0x05, 0x10, 0],
@@ -119,7 +120,7 @@ fn compare(name: &str, dictionary: Dictionary<'static>, profile: &'static Profil
                 let command = random.one_of(&[1, 1, 1, 2, 0x80, 0x81, 0x82]);
                 Frame::standard(0, &[command, random.one_of(&[0, node_id as u8])])
             }
-            // LSS: to configuration and back, a node ID, store.
+            // LSS: the configuration state and back, a node ID, store.
             3 => {
                 let data = random.one_of(&[[4, 1], [4, 0], [0x11, 3], [0x11, 7], [0x17, 0]]);
                 Frame::full(CanId::standard(0x7E5), [data[0], data[1], 0, 0, 0, 0, 0, 0])
@@ -165,7 +166,7 @@ fn compare(name: &str, dictionary: Dictionary<'static>, profile: &'static Profil
 }
 
 #[test]
-fn what_the_filters_refuse_means_nothing_to_the_node() {
+fn rejected_frames_have_no_effect_on_the_node() {
     for kind in od_devices::DEVICES {
         compare(kind.name, kind.dictionary, kind.profile, 3_000);
     }
@@ -179,7 +180,7 @@ fn what_the_filters_refuse_means_nothing_to_the_node() {
 }
 
 #[test]
-fn the_filters_are_told_again_when_they_change() {
+fn changed_filters_are_reported() {
     let mut node = Node::new(thermometer::Device, NodeId::ONE, NoApplication, NoStorage);
     let now = Instant::ZERO;
     let told = |node: &mut thermometer::Node| {
@@ -193,7 +194,7 @@ fn the_filters_are_told_again_when_they_change() {
     assert_eq!(told(&mut node), first);
     node.handle_frame(now, &frame("601#4000100000000000"));
     assert!(told(&mut node).is_empty());
-    // The RPDO, the TPDO without remote frames, a node to watch.
+    // The RPDO, the TPDO without remote frames, a monitored node.
     node.handle_frame(now, &frame("601#2300140101020080"));
     assert_eq!(told(&mut node), [0, 0x80, 0x181, 0x601, 0x701]);
     node.handle_frame(now, &frame("601#2300140133030000"));
@@ -206,9 +207,9 @@ fn the_filters_are_told_again_when_they_change() {
     assert!(told(&mut node).is_empty());
 }
 
-/// However few filters there are, they let through what they are made of.
+/// However few filters there are, they pass all frames that they are made for.
 #[test]
-fn few_filters_let_more_through_but_never_less() {
+fn fewer_filters_pass_more_frames_but_never_fewer() {
     let mut random = Random(77);
     for _ in 0..500 {
         let ids: Vec<CanId> = (0..random.below(20))

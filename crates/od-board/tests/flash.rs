@@ -1,5 +1,5 @@
-//! Saves on NOR flash: in the background in bounded steps, and inside the call; power that goes in any
-//! step.
+//! Saves on NOR flash: in the background in bounded steps, and inside the call; power failures in
+//! any step.
 #![cfg(feature = "flash")]
 
 #[path = "../../od-runtime/tests/all/nor.rs"]
@@ -26,7 +26,7 @@ const BUFFER: usize = SAVED / 2 + 64;
 
 type Mirrored = thermometer::Node<NoApplication, Mirror<SAVED, { thermometer::STORE_LEN }>>;
 
-/// Reason why a flash fails; the only one.
+/// The only error of the flash.
 #[derive(Clone, Copy, Debug)]
 struct Failed;
 
@@ -36,7 +36,8 @@ impl NorFlashError for Failed {
     }
 }
 
-/// The strict flash as a driver. Others look at it beside the log that owns it, whose pages are `N` of the flash.
+/// The strict flash as a driver. The test reads it while the log owns it; the pages of the log are
+/// `N` of the flash.
 #[derive(Clone)]
 struct Chip<const PAGE: usize, const WORD: usize, const N: usize> {
     nor: Rc<RefCell<nor::Nor>>,
@@ -94,7 +95,7 @@ impl<const PAGE: usize, const WORD: usize, const N: usize> NorFlash for Chip<PAG
     }
 }
 
-/// Runs a future to its end, `between` before each step.
+/// Runs a future to its end; calls `between` before each step.
 fn wait<T>(future: impl Future<Output = T>, mut between: impl FnMut()) -> T {
     let mut future = pin!(future);
     let mut cx = Context::from_waker(Waker::noop());
@@ -112,7 +113,7 @@ fn log<const PAGE: usize, const WORD: usize, const N: usize>(
     Log::new(Joined(Steps(chip.clone())), 0..chip.end())
 }
 
-/// Power comes: the saved heartbeat time.
+/// Switches power on; returns the saved heartbeat time.
 fn start<const PAGE: usize, const WORD: usize, const N: usize>(
     chip: &Chip<PAGE, WORD, N>,
 ) -> (Mirrored, Log<Joined<Steps<Chip<PAGE, WORD, N>>, N>, BUFFER>) {
@@ -134,7 +135,7 @@ fn time(node: &Mirrored) -> Option<u64> {
     node.poll_timeout().map(|at| at.as_micros() / 1000)
 }
 
-/// A master sets the heartbeat time, and saves.
+/// A master sets the heartbeat time and saves it.
 fn command(node: &mut impl Owner, time: u16) -> Vec<String> {
     let [low, high] = time.to_le_bytes();
     let now = Instant::ZERO;
@@ -148,7 +149,7 @@ const SAVED_NOW: &str = "581#6010100100000000";
 const NOT_SAVED: &str = "581#8010100100000606";
 
 #[test]
-fn a_save_is_answered_when_the_flash_has_it() {
+fn the_response_to_a_save_follows_when_the_flash_has_it() {
     let chip = Chip::<1024, 8, 1>::new(3);
     let (node, mut log) = start(&chip);
     let node = RefCell::new(node);
@@ -158,7 +159,7 @@ fn a_save_is_answered_when_the_flash_has_it() {
     let mut steps = 0;
     let mut calls = chip.calls.get();
     wait(save, || {
-        // Between two steps the node is free, and its master hears nothing yet.
+        // Between two steps the node is free, and its master has no response yet.
         let in_step = chip.calls.get() - calls;
         assert!(in_step <= 1, "{in_step} changes of the flash in a step");
         (calls, steps) = (chip.calls.get(), steps + 1);
@@ -189,7 +190,7 @@ fn a_save_is_answered_when_the_flash_has_it() {
 }
 
 #[test]
-fn a_task_keeps_what_comes() {
+fn a_task_stores_all_saves() {
     let chip = Chip::<1024, 4, 1>::new(4);
     let (node, mut log) = start(&chip);
     let node = RefCell::new(node);
@@ -233,7 +234,7 @@ fn erasures<const PAGE: usize, const WORD: usize>(pages: usize) -> (usize, Vec<u
 }
 
 #[test]
-fn a_save_erases_one_page_at_most_in_the_mean_and_pages_wear_alike() {
+fn a_save_erases_at_most_one_page_on_average_and_pages_wear_evenly() {
     let all = [
         erasures::<256, 1>(3),
         erasures::<512, 2>(4),
@@ -249,8 +250,8 @@ fn a_save_erases_one_page_at_most_in_the_mean_and_pages_wear_alike() {
     assert!(erasures::<2048, 8>(3).0 < 30);
 }
 
-/// Power goes in every step of a save behind `saves` others, and in `cuts` starts and saves after
-/// another.
+/// Cuts power in every step of a save after `saves` others, and in `cuts` starts and saves one
+/// after the other.
 fn cut<const PAGE: usize, const WORD: usize, const N: usize>(saves: u16, cuts: u64) {
     let (mut step, mut seed) = (0, 1);
     loop {
@@ -308,7 +309,7 @@ fn cut<const PAGE: usize, const WORD: usize, const N: usize>(saves: u16, cuts: u
 }
 
 #[test]
-fn power_can_go_in_any_step_of_a_save_in_the_background() {
+fn power_can_fail_in_any_step_of_a_save_in_the_background() {
     // The sixth save erases the oldest page, whatever the size of a word.
     cut::<256, 1, 1>(6, 2);
     for saves in [0, 3, 6] {
@@ -316,12 +317,12 @@ fn power_can_go_in_any_step_of_a_save_in_the_background() {
         cut::<512, 8, 1>(saves, 1);
         cut::<512, 32, 1>(saves, 2);
     }
-    // Pages of which one has no room for a set.
+    // Pages that are too small for a set.
     cut::<64, 4, 4>(6, 2);
 }
 
 #[test]
-fn a_flash_that_fails_is_an_abort() {
+fn a_flash_that_fails_gives_an_abort() {
     let chip = Chip::<1024, 8, 1>::new(3);
     let (mut node, mut log) = start(&chip);
     assert_eq!(command(&mut node, 300), [SET]);
@@ -336,9 +337,9 @@ fn a_flash_that_fails_is_an_abort() {
     assert!(events.contains(&Event::NotSaved), "{events:?}");
 }
 
-/// The adapter without a log: everything inside the call.
+/// The adapter without a log: everything happens inside the call.
 #[test]
-fn a_save_on_two_banks_of_flash_is_answered_at_once() {
+fn the_response_to_a_save_on_two_banks_of_flash_is_immediate() {
     fn run<const PAGE: usize, const WORD: usize>() {
         const { assert!(image::capacity_on(&thermometer::DICTIONARY, PAGE, WORD) <= 2 * PAGE) };
         let chip = Chip::<PAGE, WORD, 1>::new(4);

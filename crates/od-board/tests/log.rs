@@ -1,6 +1,6 @@
-//! The output for `defmt`: no text, but the numbers that the host puts together.
+//! The output for `defmt`: numbers that the host turns into text.
 #![cfg(feature = "defmt")]
-#![allow(unsafe_code)] // a logger of defmt cannot be without
+#![allow(unsafe_code)] // defmt needs a global logger
 
 use std::sync::Mutex;
 
@@ -24,7 +24,7 @@ unsafe impl defmt::Logger for Logger {
 
 defmt::timestamp!("{=u8}", 0x7E);
 
-/// The bytes of a value, behind the index of the line and the timestamp.
+/// The bytes of a value, after the index of the line and the timestamp.
 fn logged(value: &impl defmt::Format) -> Vec<u8> {
     BYTES.lock().unwrap().clear();
     defmt::println!("{}", value);
@@ -33,7 +33,7 @@ fn logged(value: &impl defmt::Format) -> Vec<u8> {
     bytes[3..].to_vec()
 }
 
-/// Returns whether these bytes are among those of a value.
+/// Returns whether these bytes are among the logged bytes of a value.
 fn has(value: &impl defmt::Format, numbers: &[u8]) -> bool {
     let bytes = logged(value);
     bytes.windows(numbers.len()).any(|part| part == numbers)

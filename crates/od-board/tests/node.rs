@@ -1,4 +1,4 @@
-//! The node as a static, its time, and its changes.
+//! The node as a static, its time, and changes of its values.
 
 mod support;
 
@@ -65,10 +65,10 @@ fn a_node_saves_and_loads() {
     assert_eq!(again.poll_timeout(), Some(Instant::from_millis(100)));
 }
 
-/// Heartbeats of a counter of 32 bits that begins shortly before it wraps, and of one with another
-/// frequency.
+/// Heartbeats with a counter of 32 bits that begins shortly before it wraps, and with a counter of
+/// another frequency.
 #[test]
-fn heartbeats_go_on_when_the_counter_wraps() {
+fn heartbeats_continue_when_the_counter_wraps() {
     fn run<const HZ: u32, const BITS: u32>(first: u32, millis: u64) -> Vec<u64> {
         let mut clock = Clock::<HZ, BITS>::new();
         let memory = Memory::new([0; 256]);
@@ -98,7 +98,7 @@ fn heartbeats_go_on_when_the_counter_wraps() {
 
 #[test]
 fn no_tick_is_lost_in_sixty_days() {
-    // 32,768 Hz: 30.5 µs a tick, told a few ticks at a time.
+    // 32,768 Hz: 30.5 µs per tick, read every few ticks.
     let mut clock = Clock::<32_768>::new();
     let (mut ticks, mut now) = (0u64, Instant::ZERO);
     while ticks < 60 * 86_400 * 32_768 {

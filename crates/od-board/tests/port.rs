@@ -1,5 +1,5 @@
-//! Controllers with the traits of embedded-can: three mailboxes that throw frames out, and one that
-//! waits.
+//! Controllers with the traits of embedded-can: one with three mailboxes that replaces waiting
+//! frames, and one that blocks.
 
 mod support;
 
@@ -10,8 +10,8 @@ use odkit::storage::NoStorage;
 use odkit::{BusEvent, CanId, Event, Frame, Instant, NoApplication, Node, NodeId};
 use support::{Random, frame, thermometer};
 
-/// Mailboxes as of a bxCAN: the frame with the lowest CAN-ID goes first, and one with a still lower
-/// CAN-ID throws the last one out.
+/// Mailboxes as in a bxCAN: the frame with the lowest CAN-ID is sent first. If all are full, a
+/// frame with a lower CAN-ID replaces the one with the highest.
 #[derive(Default)]
 struct Mailboxes {
     pending: Vec<Frame>,
@@ -22,14 +22,14 @@ struct Mailboxes {
 }
 
 impl Mailboxes {
-    /// One frame goes out.
+    /// Sends one frame.
     fn step(&mut self) {
         let first = (0..self.pending.len()).min_by_key(|at| (self.pending[*at].id(), *at));
         self.bus.extend(first.map(|at| self.pending.remove(at)));
     }
 }
 
-/// The only error of the controllers here.
+/// The only error of these controllers.
 #[derive(Clone, Copy, PartialEq, Debug)]
 struct Overrun(bool);
 
@@ -71,7 +71,7 @@ impl embedded_can::nb::Can for Mailboxes {
     }
 }
 
-/// A node that has these frames to send.
+/// A node with these frames to send.
 struct Talker(VecDeque<Frame>, Vec<BusEvent>);
 
 impl Owner for Talker {
@@ -97,7 +97,7 @@ impl Owner for Talker {
 }
 
 #[test]
-fn no_frame_is_lost_and_those_of_a_can_id_keep_their_order() {
+fn no_frame_is_lost_and_frames_of_a_can_id_keep_their_order() {
     let mut random = Random(0x9E37_79B9_7F4A_7C15);
     let mut thrown_out = 0;
     for _ in 0..200 {
@@ -154,7 +154,7 @@ fn nothing_overtakes_a_boot_up_message() {
     let (mut can, mut port) = (Mailboxes::default(), Port::new());
     let first = ["701#00", "081#00", "181#00"].map(frame);
     let mut talker = Talker(first.into(), Vec::new());
-    // Frames of low priority, which those of the node but the first would throw out.
+    // Frames of low priority, which all later frames of the node would replace.
     can.pending = vec![frame("700#"); 3];
     port.send_nb(&mut talker, &mut can, Instant::ZERO).unwrap();
     assert_eq!((can.pending.len(), can.thrown_out), (3, 0));
@@ -183,11 +183,11 @@ fn a_node_answers_through_an_nb_controller() {
 }
 
 #[test]
-fn no_frame_of_before_bus_off_follows_the_way_back() {
+fn frames_from_before_bus_off_are_not_sent_after_it() {
     let (mut can, mut port) = (Mailboxes::default(), Port::new());
     let mut node = Node::new(thermometer::Device, NodeId::ONE, NoApplication, NoStorage);
     node.power_on(Instant::ZERO);
-    // Frames of others keep the mailboxes full.
+    // Frames of other nodes keep the mailboxes full.
     can.pending = vec![frame("080#"); 3];
     can.received.push_back(frame("601#4000100000000000"));
     port.serve_nb(&mut node, &mut can, Instant::ZERO).unwrap();
@@ -203,7 +203,7 @@ fn no_frame_of_before_bus_off_follows_the_way_back() {
     assert_eq!(ids, ["581#4F01100000000000"]);
 }
 
-/// A controller that waits until all is done.
+/// A controller whose calls block until they are done.
 struct Waits(VecDeque<Result<Frame, Overrun>>, Vec<String>);
 
 impl embedded_can::blocking::Can for Waits {
@@ -236,7 +236,7 @@ fn a_node_answers_through_a_blocking_controller() {
 }
 
 #[test]
-fn an_overrun_is_for_the_node() {
+fn an_overrun_is_reported_to_the_node() {
     let mut talker = Talker(VecDeque::new(), Vec::new());
     let mut can = Waits([Err(Overrun(true))].into(), Vec::new());
     let served = Port::new().serve_blocking(&mut talker, &mut can, || Instant::ZERO);

@@ -1,4 +1,4 @@
-//! The node as a task that sleeps, with a clock that runs only when it is moved.
+//! The node as a task that sleeps, with a clock that only the tests move.
 #![cfg(feature = "embassy")]
 
 mod support;
@@ -29,7 +29,7 @@ fn clock() -> MutexGuard<'static, ()> {
     guard
 }
 
-/// A controller as its two halves see it.
+/// A controller with its two halves.
 #[derive(Default)]
 struct Controller {
     came: VecDeque<Result<Frame, BusEvent>>,
@@ -198,7 +198,7 @@ fn a_change_from_another_task_sends_its_tpdo_at_once() {
 }
 
 #[test]
-fn a_frame_that_the_controller_throws_out_is_sent_again() {
+fn a_frame_that_the_controller_replaces_is_sent_again() {
     run(|executor, _| {
         let heartbeat = frame("701#7F");
         executor.controller.lock().unwrap().thrown_out = [heartbeat].into();
@@ -208,7 +208,7 @@ fn a_frame_that_the_controller_throws_out_is_sent_again() {
 }
 
 #[test]
-fn a_controller_without_room_holds_up_neither_frames_nor_time() {
+fn a_controller_without_room_delays_neither_frames_nor_time() {
     run(|executor, shared| {
         executor.controller.lock().unwrap().is_full = true;
         executor.receives(Ok(frame("601#2B17100064000000")));
@@ -224,7 +224,7 @@ fn a_controller_without_room_holds_up_neither_frames_nor_time() {
         controller.is_full = false;
         controller.writer.take().expect("somebody writes").wake();
         drop(controller);
-        // The first one was handed over before the others came.
+        // The first frame was passed on before the others arrived.
         let sent = executor.sends();
         assert_eq!(sent[0], "581#6017100000000000");
         assert_eq!(sent[1..], ["701#05", "701#05", "181#D700"]);
@@ -266,7 +266,7 @@ fn the_receiver_is_told_its_filters_when_they_change() {
 }
 
 #[test]
-fn bus_off_and_back() {
+fn a_node_enters_and_leaves_bus_off() {
     run(|executor, shared| {
         executor.receives(Err(BusEvent::Off));
         executor.sends();
@@ -284,7 +284,7 @@ fn bus_off_and_back() {
     });
 }
 
-/// A node that is learnt to be bus-off in one of three ways while its frames wait for the controller.
+/// Frames of a node wait for the controller; then the node learns of bus-off in one of three ways.
 fn frames_of_before_bus_off(learn: impl Fn(&mut Executor<'_>, &Thermometer)) {
     run(|executor, shared| {
         executor.controller.lock().unwrap().is_full = true;
@@ -311,14 +311,14 @@ fn frames_of_before_bus_off(learn: impl Fn(&mut Executor<'_>, &Thermometer)) {
 }
 
 #[test]
-fn no_frame_of_before_bus_off_follows_the_way_back() {
+fn frames_from_before_bus_off_are_not_sent_after_it() {
     // The receiving half reports it, as a `Watch` does.
     frames_of_before_bus_off(|executor, _| executor.receives(Err(BusEvent::Off)));
-    // Another task does, such as an interrupt of the controller.
+    // Another task reports it, such as an interrupt of the controller.
     frames_of_before_bus_off(|_, shared| {
         shared.with(|node, now| node.handle_bus(now, BusEvent::Off));
     });
-    // The sending half does.
+    // The sending half reports it.
     frames_of_before_bus_off(|executor, _| {
         let mut controller = executor.controller.lock().unwrap();
         controller.refuses.push_back(BusEvent::Off);
@@ -327,9 +327,9 @@ fn no_frame_of_before_bus_off_follows_the_way_back() {
 }
 
 #[test]
-fn a_watch_tells_the_states_of_a_driver_that_waits_for_frames_alone() {
+fn a_watch_reports_states_for_a_driver_that_only_waits_for_frames() {
     let _guard = clock();
-    // The clock does not begin at 0, and the bus is fine: nothing but frames.
+    // The clock does not begin at 0. The bus has no errors, so there are only frames.
     MockDriver::get().advance(Duration::from_secs(5));
     let state = Cell::new(BusEvent::Active);
     let came = RefCell::new(VecDeque::new());
@@ -356,7 +356,7 @@ fn a_watch_tells_the_states_of_a_driver_that_waits_for_frames_alone() {
     assert_eq!(receive(1000), None);
     came.borrow_mut().push_back(Some(frame("080#")));
     assert_eq!(receive(0), Some(Ok(frame("080#"))));
-    // Errors of the bus hold nobody up for long, and lose no frame.
+    // Errors of the bus delay no frame for long, and lose none.
     came.borrow_mut().extend([None, None, Some(frame("081#"))]);
     assert_eq!(receive(0), None);
     assert_eq!(receive(2), Some(Ok(frame("081#"))));

@@ -7,8 +7,8 @@ use od_wire::sdo::Response;
 
 /// Reason why an SDO transfer or an LSS service failed.
 ///
-/// Of a transfer that fails for another reason than [`Abort`](Self::Abort) the client sends an abort to the
-/// server.
+/// If a transfer fails for another reason than [`Abort`](Self::Abort), the client sends an abort to
+/// the server.
 ///
 /// ```
 /// use od_client::{AbortCode, Error};

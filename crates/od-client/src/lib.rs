@@ -66,7 +66,7 @@ pub use client::{Client, Event, Job};
 pub use error::Error;
 pub use od_wire::{AbortCode, CanId, Duration, Frame, Instant, NodeId};
 
-/// The README's example is a test too.
+/// The example in the README is a test, too.
 #[cfg(all(doctest, feature = "alloc"))]
 #[doc = include_str!("../README.md")]
 pub struct Readme;

@@ -58,7 +58,7 @@ struct Slot {
     deadline: Option<Instant>,
     state: Option<State>,
     is_lost: bool,
-    /// The caller has not taken them yet.
+    /// The events that the caller has not taken yet.
     news: News,
 }
 

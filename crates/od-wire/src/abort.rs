@@ -6,8 +6,8 @@ use od_model::Missing;
 
 macro_rules! abort_codes {
     ($($(#[$doc:meta])* $name:ident = $code:literal, $text:literal;)*) => {
-        /// SDO abort code (CiA 301, table 22), by its position in [`ALL`](Self::ALL); [`code`](Self::code) is the value
-        /// on the bus.
+        /// SDO abort code (CiA 301, table 22), stored as its position in [`ALL`](Self::ALL);
+        /// [`code`](Self::code) returns the value on the bus.
         ///
         /// ```
         /// use od_wire::AbortCode;
@@ -15,7 +15,8 @@ macro_rules! abort_codes {
         /// assert_eq!(AbortCode::from_code(0x0602_0000), Some(AbortCode::NoObject));
         /// assert_eq!(AbortCode::ReadOnly.code(), 0x0601_0002);
         /// ```
-        // A small number is one short instruction; in a word, it and a pointer are returned in registers.
+        // A small number needs one short instruction. As a word, a code and a pointer can be
+        // returned in registers.
         #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
         #[repr(u32)]
         #[non_exhaustive]
@@ -36,7 +37,7 @@ macro_rules! abort_codes {
                 short << 12 & 0xF00_0000 | short << 8 & 0xF_0000 | short & 0xFF
             }
 
-            // A call, so that the compiler makes a table of them.
+            // The call makes the compiler generate a table.
             const fn short(self) -> u16 {
                 match self { $(Self::$name => const { short($code) },)* }
             }
@@ -121,7 +122,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_code_comes_back_and_none_stands_twice() {
+    fn every_code_is_found_and_none_is_listed_twice() {
         for (i, code) in AbortCode::ALL.iter().enumerate() {
             assert_eq!(AbortCode::from_code(code.code()), Some(*code));
             assert!(i == 0 || AbortCode::ALL[i - 1].code() < code.code());

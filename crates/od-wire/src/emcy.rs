@@ -1,6 +1,6 @@
 //! EMCY frames (CiA 301, chapter 7.2.7.1): error code, error register, five manufacturer-specific bytes.
 
-/// An EMCY message: a new error, or with code 0000h the end of one.
+/// An EMCY message: a new error, or with code 0000h the end of an error.
 ///
 /// ```
 /// use od_wire::emcy::Emcy;
@@ -11,7 +11,7 @@
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
 pub struct Emcy {
-    /// Emergency error code, for example 8130h; 0000h: error reset or no error.
+    /// EMCY error code, for example 8130h; 0000h: error reset or no error.
     pub code: u16,
     /// Error register: the bits of 1001h. For an error that a device raises, the bits that are set
     /// while the error lasts.
@@ -30,7 +30,7 @@ impl Emcy {
         }
     }
 
-    /// The meaning of a frame's bytes; `None` unless there are eight.
+    /// Reads the bytes of a frame; `None` unless there are eight.
     pub fn parse(data: &[u8]) -> Option<Self> {
         let &[low, high, register, a, b, c, d, e] = data else {
             return None;
@@ -44,7 +44,7 @@ impl Emcy {
 
     /// The frame's bytes.
     pub const fn emit(self) -> [u8; 8] {
-        // As a number, which is one store.
+        // As a number, which takes one store.
         let [a, b, c, d, e] = self.info;
         let low = self.code as u32 | (self.register as u32) << 16 | (a as u32) << 24;
         let high = u32::from_le_bytes([b, c, d, e]);
@@ -52,8 +52,8 @@ impl Emcy {
     }
 }
 
-/// Returns the bits of 1001h that go with an error code (CiA 301, chapters 7.2.7.1 and 7.5.2.2): the
-/// generic error, and the bit of its class.
+/// Returns the bits of 1001h that belong to an error code (CiA 301, chapters 7.2.7.1 and 7.5.2.2):
+/// the generic error, and the bit of its class.
 pub const fn register(code: u16) -> u8 {
     1 | match code >> 8 {
         0x20..=0x2F => 1 << 1,
@@ -70,7 +70,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_heartbeat_error_reads_30_81() {
+    fn the_bytes_of_a_heartbeat_error_are_30_81() {
         let emcy = Emcy {
             code: 0x8130,
             register: 0x11,

@@ -106,7 +106,7 @@ impl Frame {
     pub fn new(id: CanId, data: &[u8]) -> Option<Self> {
         let mut bytes = [0; 8];
         bytes.get_mut(..data.len())?.copy_from_slice(data);
-        // `get_mut` has seen that the length is 8 at most.
+        // `get_mut` has checked that the length is at most 8.
         Some(Self::data_frame(id, bytes, data.len() as u8))
     }
 
@@ -154,8 +154,8 @@ impl Frame {
         Self::data_frame(id, data, dlc)
     }
 
-    /// As [`with_dlc`](Self::with_dlc) without cutting: `dlc` is 8 at most, and the bytes of
-    /// `data` after it are 0.
+    /// As [`with_dlc`](Self::with_dlc), without checks: `dlc` is at most 8, and the bytes of `data`
+    /// after it are 0.
     #[doc(hidden)]
     pub const fn padded(id: CanId, data: [u8; 8], dlc: u8) -> Self {
         debug_assert!(dlc == 8 || dlc < 8 && u64::from_le_bytes(data) >> (8 * dlc as u32) == 0);
@@ -172,7 +172,7 @@ impl Frame {
         Some(frame)
     }
 
-    /// `dlc` is 8 at most, and the bytes of `data` after it are 0.
+    /// `dlc` is at most 8, and the bytes of `data` after it are 0.
     #[inline]
     const fn data_frame(id: CanId, data: [u8; 8], dlc: u8) -> Self {
         Self {
@@ -183,8 +183,8 @@ impl Frame {
         }
     }
 
-    /// A frame of any type of the `embedded-can` ecosystem; `None` if it has more than eight
-    /// bytes, so is not a classical CAN frame.
+    /// Converts a frame of any type of the `embedded-can` ecosystem; `None` if it has more than
+    /// eight bytes, so it is not a classical CAN frame.
     pub fn from_can(frame: &impl embedded_can::Frame) -> Option<Self> {
         if frame.is_remote_frame() {
             Self::remote(frame.id().into(), u8::try_from(frame.dlc()).ok()?)
@@ -193,7 +193,8 @@ impl Frame {
         }
     }
 
-    /// The frame as any type of the `embedded-can` ecosystem; `None` if that type refuses it.
+    /// Converts the frame to any type of the `embedded-can` ecosystem; `None` if that type refuses
+    /// it.
     pub fn to_can<F: embedded_can::Frame>(&self) -> Option<F> {
         if self.remote {
             F::new_remote(Id::from(self.id), self.dlc.into())
@@ -292,7 +293,7 @@ mod tests {
     use std::string::ToString;
 
     #[test]
-    fn prints_like_candump() {
+    fn frames_are_shown_as_candump_prints_them() {
         let remote = |id, dlc| Frame::remote(id, dlc).unwrap().to_string();
         assert_eq!(
             Frame::standard(0x181, &[0x92, 0x95]).to_string(),
@@ -303,7 +304,7 @@ mod tests {
     }
 
     #[test]
-    fn survives_the_embedded_can_traits() {
+    fn frames_survive_the_embedded_can_traits() {
         for frame in [
             Frame::standard(0x7FF, &[1, 2, 3]),
             Frame::of(CanId::extended(0x1FFF_FFFF), &[9; 8]),
@@ -315,7 +316,7 @@ mod tests {
     }
 
     #[test]
-    fn refuses_what_embedded_can_refuses() {
+    fn frames_that_embedded_can_refuses_give_none() {
         let id = CanId::standard(1);
         assert_eq!(Frame::new(id, &[7; 8]), Some(Frame::full(id, [7; 8])));
         assert_eq!(Frame::new(id, &[7; 9]), None);
@@ -329,7 +330,7 @@ mod tests {
     }
 
     #[test]
-    fn bytes_behind_the_data_are_0() {
+    fn the_bytes_after_the_data_are_0() {
         let id = CanId::standard(1);
         for dlc in 0..=15u8 {
             let len = usize::from(dlc.min(8));

@@ -171,7 +171,7 @@ mod tests {
     }
 
     #[test]
-    fn no_function_code_leaves_the_11_bits() {
+    fn every_function_code_gives_an_11_bit_can_id() {
         let last = NodeId::new(127).unwrap();
         assert_eq!(last.plus(0x580), CanId::standard(0x5FF));
         assert_eq!(last.plus(0x780), CanId::standard(0x7FF));

@@ -1,9 +1,8 @@
 //! CANopen frames and their meaning, for both ends of the bus.
 //!
 //! [`Frame`], [`CanId`], [`NodeId`] and [`CobId`] hold valid values only; [`Instant`] and
-//! [`Duration`] are virtual time; [`AbortCode`] is the reason of an SDO abort. Each service has
-//! one module that turns bytes into a type and the type into the same bytes; this crate has
-//! no state.
+//! [`Duration`] are virtual time; [`AbortCode`] is the reason of an SDO abort. Each service has one
+//! module that converts bytes to a type and back. This crate has no state.
 //!
 //! ```
 //! use od_wire::{AbortCode, Frame, NodeId, sdo};

@@ -98,7 +98,7 @@ pub enum Request {
 }
 
 impl Request {
-    /// The meaning of a frame's bytes; `None` unless there are eight and the first is known.
+    /// Reads the bytes of a frame; `None` unless there are eight and the first is known.
     pub fn parse(data: &[u8]) -> Option<Self> {
         let &[command, a, b, c, d, e, f, g] = data else {
             return None;
@@ -179,10 +179,10 @@ impl Request {
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[allow(missing_docs)] // the fields are the protocol's own
 pub enum Response {
-    /// 44h: in configuration state now. Byte 1 is reserved in CiA 305; some devices put
-    /// the state there.
+    /// 44h: the slave is in the configuration state now. Byte 1 is reserved in CiA 305; some
+    /// devices send the state in it.
     Selected { state: u8 },
-    /// 11h, 13h, 17h: done, or an error code.
+    /// 11h, 13h, 17h: success (0), or an error code.
     Configured { command: u8, error: u8 },
     /// 4Fh: a slave with this LSS address exists.
     Identified,
@@ -195,7 +195,7 @@ pub enum Response {
 }
 
 impl Response {
-    /// The meaning of a frame's bytes; `None` unless there are eight and the first is known.
+    /// Reads the bytes of a frame; `None` unless there are eight and the first is known.
     pub fn parse(data: &[u8]) -> Option<Self> {
         let &[command, a, b, c, d, _, _, _] = data else {
             return None;
@@ -227,7 +227,7 @@ impl Response {
     }
 }
 
-/// A command with a number.
+/// The bytes of a command with a number.
 fn with(command: u8, number: u32) -> [u8; 8] {
     let [a, b, c, d] = number.to_le_bytes();
     [command, a, b, c, d, 0, 0, 0]
@@ -238,7 +238,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_command_comes_back() {
+    fn every_command_survives_a_round_trip() {
         for command in 0..=0xFF {
             let bytes = [command, 1, 0, 0, 0, 0, 0, 0];
             if let Some(request) = Request::parse(&bytes) {

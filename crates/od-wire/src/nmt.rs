@@ -39,7 +39,7 @@ impl Command {
     }
 }
 
-/// The states of an NMT slave; the number is that in a heartbeat.
+/// The states of an NMT slave; the number is the one in a heartbeat.
 ///
 /// ```
 /// use od_wire::nmt::State;
@@ -108,7 +108,7 @@ pub struct Repr {
 }
 
 impl Repr {
-    /// Returns the message in the data of a frame; `None` unless it is a command and a byte.
+    /// Reads the data of a frame; `None` unless it is a valid command and one further byte.
     pub fn parse(data: &[u8]) -> Option<Self> {
         let &[command, node] = data else { return None };
         Some(Self {

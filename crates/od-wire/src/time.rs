@@ -5,9 +5,9 @@ use core::ops::{Add, Sub};
 
 pub use core::time::Duration;
 
-/// A moment, in microseconds since an origin of the caller's choice (power-on, say).
+/// A point in time, in microseconds since an origin that the caller chooses (for example power-on).
 ///
-/// Nothing below the host reads a clock; a moment comes in as an argument.
+/// Only the host reads a clock; time is an argument of all other code.
 ///
 /// ```
 /// use od_wire::{Duration, Instant};
@@ -16,7 +16,7 @@ pub use core::time::Duration;
 /// assert_eq!(at.as_micros(), 105_000);
 /// assert_eq!(at - Instant::from_millis(100), Duration::from_millis(5));
 /// ```
-// Packed: without it, every struct with a moment has gaps of four bytes on a microcontroller.
+// Packed: otherwise every struct with an `Instant` has gaps of four bytes on a microcontroller.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
 #[repr(Rust, packed(4))]
 pub struct Instant(u64);
@@ -24,7 +24,7 @@ pub struct Instant(u64);
 impl Instant {
     /// The origin.
     pub const ZERO: Self = Self(0);
-    /// The end of time: 584,000 years after the origin. Nothing is ever due then.
+    /// The last instant, 584,000 years after the origin. Nothing is ever due then.
     pub const MAX: Self = Self(u64::MAX);
 
     /// `micros` microseconds after the origin.
@@ -47,7 +47,7 @@ impl Instant {
         self.plus_micros(millis.saturating_mul(1000))
     }
 
-    /// The moment `micros` microseconds later; the end of time at the latest.
+    /// The moment `micros` microseconds later; at most the last instant.
     pub const fn plus_micros(self, micros: u64) -> Self {
         Self(later(self.0, micros))
     }
@@ -57,7 +57,7 @@ impl Instant {
         self.0.saturating_sub(earlier.0)
     }
 
-    /// The next moment of a period of `micros` that had one at `self`, after `now`.
+    /// The next moment after `now` on the grid of a period of `micros` that includes `self`.
     ///
     /// A late caller gets one moment, not one for each missed period.
     pub const fn next_period(self, micros: u64, now: Self) -> Self {
@@ -66,7 +66,7 @@ impl Instant {
             return next;
         }
         let micros = if micros == 0 { 1 } else { micros };
-        // The rest of the last period, bit by bit: a microcontroller has no division of 64 bits.
+        // Computes the remainder bit by bit, since a microcontroller has no division of 64 bits.
         let (mut late, mut rest, mut bits) = (now.0 - self.0, 0, u64::BITS);
         while bits > 0 {
             rest = rest << 1 | late >> 63;
@@ -80,7 +80,8 @@ impl Instant {
     }
 }
 
-/// The sum, or the end of time. Not inlined, which would cost 248 to 524 bytes of flash (Cortex-M3, `s`).
+/// The sum, or the last instant. Not inlined, since that takes 248 to 524 more bytes of flash
+/// (Cortex-M3, `s`).
 #[inline(never)]
 const fn later(at: u64, micros: u64) -> u64 {
     at.saturating_add(micros)

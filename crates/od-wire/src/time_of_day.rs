@@ -44,7 +44,7 @@ impl TimeOfDay {
         [a, b, c, d & 0x0F, low, high]
     }
 
-    /// The moment `millis` milliseconds later. After June 6, 2163 the days begin at 0 again.
+    /// The time `millis` milliseconds later. After June 6, 2163 the days begin at 0 again.
     #[must_use]
     pub const fn plus_millis(self, millis: u64) -> Self {
         let sum = self.millis as u64 + millis % DAY;
@@ -91,7 +91,7 @@ mod tests {
     }
 
     #[test]
-    fn days_follow_midnight() {
+    fn the_day_changes_at_midnight() {
         let time = |days, millis| TimeOfDay { days, millis };
         assert_eq!(time(3, 86_399_999).plus_millis(1), time(4, 0));
         assert_eq!(time(3, 5).plus_millis(2 * DAY + 7), time(5, 12));

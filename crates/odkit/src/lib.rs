@@ -30,8 +30,8 @@
 //! assert_eq!(response.to_string(), "581#4B002000D7000000");
 //! ```
 //!
-//! The crates behind this one are public, too: `od-model` (dictionary), `od-wire` (frames and
-//! their bytes), `od-runtime` (node and encoder). A device needs only this one.
+//! The crates below this one are public, too: `od-model` (dictionary), `od-wire` (frames and their
+//! bytes), `od-runtime` (node and encoder). A device needs only this one.
 #![no_std]
 #![forbid(unsafe_code)]
 #![cfg_attr(docsrs, feature(doc_cfg))]
@@ -55,8 +55,8 @@ pub use od_runtime::{
 pub use od_runtime::{DeviceKind, kind};
 pub use od_wire::{emcy, lss, nmt, sdo};
 
-/// The paths that [`object_dictionary!`] emits; not an API. The number changes with the shape of
-/// the emitted code, so that a macro and a crate of different versions fail at this name.
+/// The paths that [`object_dictionary!`] emits; not an API. The number changes with the emitted
+/// code, so that a macro and a crate of different versions give an error with this name.
 #[doc(hidden)]
 pub mod __private7 {
     pub use od_model::typed::emit::*;

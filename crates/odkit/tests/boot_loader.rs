@@ -34,7 +34,7 @@ fn blocks(block_size: u8) -> Options {
     options
 }
 
-/// Writes a program and reads it again.
+/// Writes a program and reads it back.
 #[track_caller]
 fn round_trip(rig: &mut Rig, len: usize) {
     let program = pattern(len);
@@ -75,7 +75,7 @@ fn programs_of_every_length_by_blocks() {
 }
 
 #[test]
-fn segments_that_the_bus_loses_come_again() {
+fn lost_segments_are_sent_again() {
     let mut rig = rig(blocks(20));
     rig.loses = |number, frame| {
         let is_segment = matches!(frame.data(), [1..=19, rest @ ..] if rest != [0; 7]);
@@ -87,23 +87,23 @@ fn segments_that_the_bus_loses_come_again() {
 }
 
 #[test]
-fn one_byte_more_than_the_flash_has() {
+fn a_program_one_byte_longer_than_the_flash_is_refused() {
     for options in [Options::SEGMENTED, Options::DEFAULT] {
         let mut rig = rig(options);
         let long = rig.client.write(NodeId::ONE, PROGRAM, &pattern(SIZE + 1));
         let abort = od_client::Error::Abort(AbortCode::TooLong.code());
         assert_eq!(rig.run(), [Event::Written(long, Err(abort))]);
-        // It did not even begin.
+        // The download did not even begin.
         assert_eq!((rig.frames, rig.node.application.ends.len()), (2, 0));
     }
-    // Nothing says how much comes: the byte after the last one is refused.
+    // Without an announced size, the byte after the last one of the flash is refused.
     let mut rig = Rig::new();
     assert_eq!(rig.ask("20501F0100000000"), "60501F0100000000");
     for at in 0..SIZE / 7 {
         let toggle = if at % 2 == 0 { "00" } else { "10" };
         rig.ask(&format!("{toggle}01020304050607"));
     }
-    // 65,534 bytes came.
+    // 65,534 bytes arrived.
     assert_eq!(rig.ask("0901020300000000"), "80501F0112000706");
     assert_eq!(
         rig.node.application.ends,
@@ -121,7 +121,7 @@ impl Rig {
             .map(|program| program.len as usize)
     }
 
-    /// The device receives a request; its answers before time goes on, without the identifier.
+    /// Sends a request to the device. Returns its responses at the same time, without the CAN-ID.
     fn send(&mut self, hex: &str) -> Vec<String> {
         let byte = |at| u8::from_str_radix(&hex[2 * at..2 * at + 2], 16).expect("hex");
         self.receive(&Frame::standard(
@@ -138,7 +138,7 @@ impl Rig {
             .collect()
     }
 
-    /// As [`send`](Self::send); time goes on until there is one answer.
+    /// As [`send`](Self::send), but lets time pass until there is a response.
     #[track_caller]
     fn ask(&mut self, hex: &str) -> String {
         let mut answers = self.send(hex);
@@ -204,11 +204,11 @@ fn the_master_waits_while_the_flash_is_busy() {
     assert_eq!(rig.answers(), [""; 0]);
     rig.wait_until(erased);
     assert_eq!(rig.answers(), ["A27F7F0000000000"]);
-    // Three pages of 889 bytes are on their way into the flash.
+    // Three pages of 889 bytes are being written into the flash.
     for at in 128..147 {
         assert_eq!(rig.send(&segment(at, at - 127)), [""; 0]);
     }
-    // The last block waits for its end.
+    // The last block waits for the end request.
     assert_eq!(rig.send(&segment(147, 0x80 | 20)), ["A2146B0000000000"]);
     assert_eq!(rig.send(&end(1025)), [""; 0]);
     assert_eq!(
@@ -225,7 +225,7 @@ fn the_master_waits_while_the_flash_is_busy() {
 fn three_bytes_go_expedited_and_wait_too() {
     let mut rig = Rig::new();
     assert_eq!(rig.send("27501F0141424300"), [""; 0]);
-    // The same request again is the same transfer.
+    // Repeating the request continues the same transfer.
     assert_eq!(rig.send("27501F0141424300"), [""; 0]);
     rig.wait_until(Instant::from_millis(80));
     assert_eq!(rig.answers(), ["60501F0100000000"]);
@@ -240,7 +240,7 @@ fn three_bytes_go_expedited_and_wait_too() {
 }
 
 #[test]
-fn an_abort_in_the_middle_is_told() {
+fn an_abort_during_a_transfer_is_reported_to_the_stream() {
     let mut rig = Rig::begun();
     assert_eq!(rig.send("80501F0100000008"), [""; 0]);
     assert_eq!(
@@ -249,7 +249,7 @@ fn an_abort_in_the_middle_is_told() {
     );
     assert_eq!(rig.len(), None);
     assert_eq!(rig.ask("40501F0100000000"), "80501F0124000008");
-    // Also while the stream is awaited: nothing comes when the flash is ready.
+    // Also while the stream is awaited: nothing is sent when the flash is ready.
     let mut rig = Rig::new();
     rig.send("27501F0141424300");
     assert_eq!(rig.send("80501F0100000008"), [""; 0]);
@@ -261,7 +261,7 @@ fn an_abort_in_the_middle_is_told() {
     rig.wait_until(Instant::from_millis(100));
     assert_eq!(rig.answers(), [""; 0]);
     assert_eq!(rig.send("4000100000000000"), ["4300100000000000"]);
-    // And in an upload.
+    // The same in an upload.
     round_trip(&mut rig, 100);
     rig.node.application.ends.clear();
     rig.ask("40501F0100000000");
@@ -274,13 +274,13 @@ fn an_abort_in_the_middle_is_told() {
 }
 
 #[test]
-fn a_reset_or_a_stop_in_the_middle_is_told() {
+fn a_reset_or_a_stop_during_a_transfer_is_reported_to_the_stream() {
     for command in [0x81, 0x82, 0x02] {
         let mut rig = Rig::begun();
         rig.nmt(command);
         assert_eq!(rig.node.application.ends, [StreamEnd::Cut]);
         rig.answers();
-        // A segment that comes late belongs to no transfer.
+        // A segment that arrives late belongs to no transfer.
         rig.nmt(0x80);
         assert_eq!(rig.ask("0041424344454647"), "8041424301000405");
         assert_eq!(rig.len(), None);
@@ -289,7 +289,7 @@ fn a_reset_or_a_stop_in_the_middle_is_told() {
 }
 
 #[test]
-fn another_transfer_takes_its_place() {
+fn another_transfer_replaces_it() {
     for (request, answer) in [
         ("4000100000000000", "4300100000000000"),
         ("A4501F017F000000", "80501F0124000008"),
@@ -311,7 +311,7 @@ fn another_transfer_takes_its_place() {
 }
 
 #[test]
-fn a_wrong_checksum_is_no_program() {
+fn a_program_with_a_wrong_checksum_does_not_exist() {
     let mut rig = Rig::begun();
     for at in 128..147 {
         rig.send(&segment(at, at - 127));
@@ -350,13 +350,13 @@ fn a_block_with_a_lost_segment_is_repeated_from_there() {
 }
 
 #[test]
-fn more_than_was_announced_is_refused_early() {
+fn more_bytes_than_announced_are_refused_early() {
     let mut rig = Rig::new();
     rig.ask("C6501F0178030000");
     for at in 1..127 {
         rig.send(&segment(at, at));
     }
-    // 889 bytes, and 888 were to come.
+    // 889 bytes arrived, and 888 were announced.
     assert_eq!(rig.ask(&segment(127, 127)), "80501F0112000706");
     assert_eq!(
         rig.node.application.ends,
@@ -365,7 +365,7 @@ fn more_than_was_announced_is_refused_early() {
 }
 
 #[test]
-fn a_master_that_is_gone_is_given_up() {
+fn a_transfer_ends_when_its_master_is_silent() {
     let mut rig = Rig::begun();
     let written = rig.due().expect("a deadline");
     assert_eq!(written, Instant::from_micros(81_200), "1F57h changes");
@@ -379,7 +379,7 @@ fn a_master_that_is_gone_is_given_up() {
         [StreamEnd::Aborted(AbortCode::Timeout)]
     );
     assert_eq!(rig.len(), None);
-    // While the flash keeps it waiting it is not gone.
+    // The time in which the flash delays the master does not count.
     let mut rig = Rig::new();
     rig.ask("21501F0105000000");
     rig.send("0541424344450000");

@@ -19,7 +19,7 @@ fn path(name: &str) -> String {
     path.display().to_string()
 }
 
-/// A node in Operational whose file is at this path.
+/// A node in Operational with this file.
 fn started(path: &str) -> Node {
     let mut node = example::node(path).expect("a file");
     node.power_on(Instant::ZERO);
@@ -27,7 +27,7 @@ fn started(path: &str) -> Node {
     node
 }
 
-/// Sends a frame; what the node sends.
+/// Sends a frame; returns the frames of the node.
 fn send(node: &mut Node, text: &str) -> Vec<String> {
     let (id, data) = text.split_once('#').expect("a frame");
     let byte = |at| u8::from_str_radix(&data[at..at + 2], 16).expect("hex");
@@ -83,7 +83,7 @@ fn above_the_limit_there_is_an_emcy_and_no_heating() {
 }
 
 #[test]
-fn a_saved_limit_is_there_after_power_off() {
+fn a_saved_limit_survives_a_power_cycle() {
     let path = path("saved.eeprom");
     let _ = fs::remove_file(&path);
     let mut node = started(&path);

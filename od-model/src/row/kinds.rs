@@ -3,7 +3,7 @@
 use super::Row;
 use crate::types::{DataType, Kind};
 
-/// Kind of each data type, for every number that a row can have.
+/// Kind of each data type, with an element for every number that a row can contain.
 static KINDS: [Kind; 32] = {
     let mut kinds = [Kind::Unsigned; 32];
     let mut i = 0;
@@ -15,7 +15,7 @@ static KINDS: [Kind; 32] = {
 };
 
 impl Row {
-    /// Meaning of the bytes, as that of the data type.
+    /// Meaning of the bytes, as [`DataType::kind`](crate::DataType::kind) returns it.
     pub const fn kind(self) -> Kind {
         KINDS[(self.0[0] >> 3 & 31) as usize]
     }

@@ -1,19 +1,19 @@
-//! Model of a flash after a power loss, as the log expects it.
+//! Flash that behaves after a power failure as the log expects.
 
 use embedded_storage_async::nor_flash::{ErrorType, NorFlash, ReadNorFlash};
 
-/// The log marks a page in its first and its last word. Power may go while it writes one of them, or while
-/// it erases a page. So a mark with any bit written counts as written, which otherwise would be written
-/// twice (flash with error correction refuses that), and a page that seems erased is looked at, and
-/// erased again if need be, before its first mark.
+/// The log marks a page in its first and its last word. Power may fail while it writes one of these
+/// words, or while it erases a page. So a mark with any bit written counts as written; otherwise it
+/// would be written twice, which flash with error correction refuses. A page that seems erased is
+/// checked before its first mark, and erased again if necessary.
 #[derive(Clone, Debug)]
 pub(super) struct Guard<F>(pub(super) F);
 
-/// Bytes of the longest word.
+/// Number of bytes of the longest word.
 const WORD: usize = 32;
 
 impl<F: NorFlash> Guard<F> {
-    /// Bytes that are written at once.
+    /// Number of bytes that are written at once.
     const MARK: usize = {
         let mark = if F::WRITE_SIZE > F::READ_SIZE {
             F::WRITE_SIZE

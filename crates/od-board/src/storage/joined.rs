@@ -1,9 +1,9 @@
-//! Flash with larger pages than its own.
+//! Flash whose pages consist of several pages of the driver.
 
 use embedded_storage_async::nor_flash::{ErrorType, MultiwriteNorFlash, NorFlash, ReadNorFlash};
 
-/// A flash whose pages are erased `N` at a time, for a [`Log`](super::Log) of sets that do not fit into one of
-/// its own.
+/// A flash that erases `N` pages of the driver at a time. A [`Log`](super::Log) needs it if a set
+/// does not fit into one page of the driver.
 #[derive(Clone, Debug)]
 pub struct Joined<F, const N: usize>(pub F);
 

@@ -19,18 +19,18 @@ type Map<F> = MapStorage<u8, Guard<F>, Cache<Uncached, Uncached, Uncached, u8>>;
 /// The only key.
 const SET: u8 = 0;
 
-/// Bytes of a set that are compared in one lock.
+/// Number of bytes of a set that are compared in one lock.
 const STEP: usize = 128;
 
-/// Attempts to store a set, each behind what the one before it left.
+/// Attempts to store a set, each after the remains of the one before.
 const ATTEMPTS: usize = 3;
 
-/// Pages of flash that hold the newest set of a [`Mirror`], among older ones: a save appends one, and a
-/// page is erased when all are full. So pages wear alike, and a set that is written counts once its
-/// checksum is there.
+/// Pages of flash that contain the newest set of a [`Mirror`], among older ones. A save appends a
+/// set, and a page is erased when all are full, so the pages wear evenly. A new set is valid when
+/// its checksum is written.
 ///
-/// `B` is the size of the buffer that a set goes through: half of the mirror's, and 64 more. The driver is
-/// asynchronous; [`Steps`](super::Steps) makes it of one that waits.
+/// `B` is the size of the buffer for a set: half of the mirror's size plus 64. The driver is
+/// asynchronous; [`Steps`](super::Steps) makes such a driver of a blocking one.
 pub struct Log<F: NorFlash, const B: usize> {
     map: Map<F>,
     buffer: [u8; B],
@@ -40,7 +40,7 @@ pub struct Log<F: NorFlash, const B: usize> {
 type With<'w, const N: usize, const V: usize> =
     &'w mut dyn FnMut(&mut dyn FnMut(&mut Mirror<N, V>));
 
-/// The newest set of a mirror, which is copied where it is written.
+/// The newest set of a mirror, which is copied into the buffer for writing.
 struct Newest<'w, const N: usize, const V: usize> {
     with: RefCell<With<'w, N, V>>,
     number: Cell<u32>,
@@ -55,7 +55,8 @@ impl<const N: usize, const V: usize> Newest<'_, N, V> {
         });
     }
 
-    /// Returns whether a set is the newest one, or one before it, which need not be compared.
+    /// Returns whether `stored` is the set that was written. If the mirror has a newer set by now,
+    /// the rest is not compared.
     fn is(&self, stored: &[u8]) -> bool {
         let (mut at, mut is_same) = (0, true);
         // Each lock is short.
@@ -95,8 +96,8 @@ impl<F: NorFlash, const B: usize> Log<F, B> {
     /// The pages from `range.start` to `range.end`, three or more.
     ///
     /// # Panics
-    /// In a constant: does not compile. Where the range is not three whole pages, or a set does not fit
-    /// into a page.
+    /// In a constant: does not compile. The range must be at least three whole pages, and a set
+    /// must fit into a page.
     pub const fn new(flash: F, range: Range<u32>) -> Self {
         const {
             assert!(
@@ -134,8 +135,8 @@ impl<F: NorFlash, const B: usize> Log<F, B> {
         }
     }
 
-    /// Keeps what the node saves, for ever. `with` calls its argument with the mirror, in whatever lock
-    /// the node is; it is held as long as it takes to copy a set.
+    /// Stores what the node saves, and never returns. `with` calls its argument with the mirror,
+    /// inside the lock of the node; the lock is held while a set is copied.
     pub async fn run<const N: usize, const V: usize>(
         &mut self,
         mut with: impl FnMut(&mut dyn FnMut(&mut Mirror<N, V>)),
@@ -151,13 +152,13 @@ impl<F: NorFlash, const B: usize> Log<F, B> {
         }
     }
 
-    /// Keeps what the node has saved by now, if that is not kept already.
+    /// Stores what the node has saved by now, unless it is stored already.
     pub async fn save<const N: usize, const V: usize>(
         &mut self,
         mut with: impl FnMut(&mut dyn FnMut(&mut Mirror<N, V>)),
     ) {
         const { assert!(N / 2 + 64 <= B, "the buffer has room for a set and its key") };
-        // The set is made in steps, between which the node is free.
+        // The set is made in steps, between which other tasks can use the node.
         loop {
             let mut goes_on = false;
             with(&mut |mirror| goes_on = mirror.step());
@@ -184,8 +185,8 @@ impl<F: NorFlash, const B: usize> Log<F, B> {
         with(&mut |mirror| mirror.stored(number, result));
     }
 
-    /// Appends a set, and reads it back: behind a word that power left half-written, the next one may not
-    /// be found (sequential-storage 136).
+    /// Appends a set, and reads it back: after a word that a power failure left half-written, the
+    /// next set may not be found (sequential-storage 136).
     async fn append<const N: usize, const V: usize>(
         &mut self,
         set: &Newest<'_, N, V>,

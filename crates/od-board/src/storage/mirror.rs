@@ -1,4 +1,4 @@
-//! Saved values in RAM, on their way to flash.
+//! Saved values in RAM, from where a task writes them to flash.
 
 use core::ops::Range;
 use core::task::{Context, Poll, Waker};
@@ -6,30 +6,30 @@ use core::task::{Context, Poll, Waker};
 use od_model::Dictionary;
 use od_runtime::storage::{Save, Storage, StorageError, image};
 
-/// The storage of a node whose saves go to flash in the background: a save copies the values, and
-/// a task of lower priority makes the set of them and carries it on ([`Log`](super::Log), or your own by
-/// [`poll_changed`](Self::poll_changed), [`step`](Self::step), [`newest`](Self::newest) and
-/// [`stored`](Self::stored)).
+/// Storage of a node whose saves are written to flash in the background. A save copies the values,
+/// and a task of lower priority makes the set and stores it: [`Log`](super::Log), or your own task
+/// with [`poll_changed`](Self::poll_changed), [`step`](Self::step), [`newest`](Self::newest) and
+/// [`stored`](Self::stored).
 ///
-/// `N`: [`image::capacity_needed`] of the dictionary, and [`image::OWN_CAPACITY`] more where LSS stores
-/// the node ID. `V`: bytes of all values, `STORE_LEN` of the dictionary's module. Without such a task,
-/// 1010h is never answered.
+/// `N` is [`image::capacity_needed`] of the dictionary, plus [`image::OWN_CAPACITY`] if LSS stores
+/// the node ID. `V` is the number of bytes of all values, `STORE_LEN` of the dictionary's module.
+/// Without such a task the node never responds to 1010h.
 #[derive(Debug)]
 pub struct Mirror<const N: usize, const V: usize> {
     dictionary: &'static Dictionary<'static>,
     device: u32,
     sets: Sets<N>,
-    /// The values of the save that the next steps make a set of.
+    /// Values of the save of which the next steps make a set.
     values: [u8; V],
     job: Option<image::Job>,
-    /// Place of the newest set, as far as it is known.
+    /// Range of the newest set, if it is known.
     newest: Option<Range<usize>>,
-    /// Number of saves and writes; what it was for the newest set, and for the set that is kept.
+    /// Number of saves and writes; its value for the newest set, and for the stored set.
     changes: u32,
     made: u32,
     kept: u32,
     failed: bool,
-    /// Reason why the set that is kept could not be loaded.
+    /// Reason why the stored set could not be loaded.
     lost: Option<StorageError>,
     waker: Option<Waker>,
 }
@@ -39,10 +39,10 @@ pub struct Mirror<const N: usize, const V: usize> {
 struct Sets<const N: usize>([u8; N]);
 
 impl<const N: usize, const V: usize> Mirror<N, V> {
-    /// A mirror without saved values, of a node with this dictionary.
+    /// A mirror without saved values, for a node with this dictionary.
     ///
     /// # Panics
-    /// In a constant: does not compile. Where `V` is too small for the values.
+    /// In a constant: does not compile. `V` must be enough for the values.
     pub const fn new(dictionary: &'static Dictionary<'static>) -> Self {
         assert!(
             dictionary.store_len() <= V,
@@ -64,11 +64,12 @@ impl<const N: usize, const V: usize> Mirror<N, V> {
         }
     }
 
-    /// Takes over the set that [`newest`](Self::newest) returned once; before the node has power.
+    /// Loads a set that [`newest`](Self::newest) returned earlier; call it before the node has
+    /// power.
     ///
     /// # Errors
-    /// [`StorageError::OutOfRange`] if it is longer than `N / 2` bytes, as a firmware with more values keeps
-    /// it. It is [lost](Self::lose) then.
+    /// [`StorageError::OutOfRange`] if it is longer than `N / 2` bytes, as the set of a firmware
+    /// with more values can be. It is [lost](Self::lose) then.
     pub fn load(&mut self, set: &[u8]) -> Result<(), StorageError> {
         self.sets.0.fill(0xFF);
         (self.newest, self.job, self.lost) = (None, None, None);
@@ -85,15 +86,15 @@ impl<const N: usize, const V: usize> Mirror<N, V> {
         }
     }
 
-    /// Reports that the set that is kept cannot be loaded; before the node has power. The node starts with its
-    /// defaults and tells its application that the storage is damaged
-    /// ([`storage_is`](od_runtime::Application::storage_is)). Only a master's 1010h replaces the set; 1011h is
-    /// refused, since it would leave the set in place.
+    /// Reports that the stored set cannot be loaded; call it before the node has power. The node
+    /// starts with its defaults and tells its application that the storage is damaged
+    /// ([`storage_is`](od_runtime::Application::storage_is)). Only a master's 1010h replaces the
+    /// set; 1011h is refused, since it would leave the set in place.
     pub fn lose(&mut self, error: StorageError) {
         self.lost = Some(error);
     }
 
-    /// Waits until there is something to keep.
+    /// Waits until there is something to store.
     pub fn poll_changed(&mut self, cx: &mut Context<'_>) -> Poll<()> {
         if self.changes != self.kept {
             return Poll::Ready(());
@@ -102,8 +103,8 @@ impl<const N: usize, const V: usize> Mirror<N, V> {
         Poll::Pending
     }
 
-    /// Makes a set of what was saved, 64 bytes or eight values at most. Returns whether there is more to
-    /// do: so long [`newest`](Self::newest) is the set before it.
+    /// Makes a part of the set: at most 64 bytes or eight values. Returns whether there is more to
+    /// do; until then [`newest`](Self::newest) returns the set before it.
     pub fn step(&mut self) -> bool {
         let Some(job) = &mut self.job else {
             return false;
@@ -120,8 +121,8 @@ impl<const N: usize, const V: usize> Mirror<N, V> {
         false
     }
 
-    /// Returns the newest set, `N / 2` bytes at most, and the number to call [`stored`](Self::stored)
-    /// with; no bytes if nothing was ever saved.
+    /// Returns the newest set, at most `N / 2` bytes, and its number for [`stored`](Self::stored);
+    /// no bytes if nothing was ever saved.
     pub fn newest(&mut self) -> (&[u8], u32) {
         let place = match self.newest.take() {
             Some(place) => place,
@@ -131,7 +132,8 @@ impl<const N: usize, const V: usize> Mirror<N, V> {
         (self.sets.0.get(place).unwrap_or_default(), self.made)
     }
 
-    /// The set with this number is kept, or cannot be; the node answers its master.
+    /// Notes that the set with this number is stored, or could not be; the node then responds to
+    /// its master.
     pub fn stored(&mut self, number: u32, result: Result<(), StorageError>) {
         self.failed = result.is_err();
         self.kept = match result {
@@ -141,7 +143,7 @@ impl<const N: usize, const V: usize> Mirror<N, V> {
         };
     }
 
-    /// Returns whether something waits to be kept.
+    /// Returns whether a change waits to be stored.
     fn change(&mut self) {
         self.changes = self.changes.wrapping_add(1);
         if let Some(waker) = self.waker.take() {
@@ -149,7 +151,7 @@ impl<const N: usize, const V: usize> Mirror<N, V> {
         }
     }
 
-    /// A save that waits is complete before anything else is read or written.
+    /// Completes a waiting save before anything else is read or written.
     fn finish(&mut self) {
         while self.step() {}
     }

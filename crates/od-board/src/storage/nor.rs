@@ -1,13 +1,13 @@
-//! NOR flash as the storage of a node, written inside its calls.
+//! NOR flash as the storage of a node; the calls of the node write it.
 
 use embedded_storage::nor_flash::NorFlash;
 use od_runtime::storage::{Geometry, Storage, StorageError};
 
-/// Pages of a flash with the traits of `embedded-storage`: two banks, of which each save erases and
-/// writes the older one.
+/// Pages of a flash with the traits of `embedded-storage`, divided into two banks; each save erases
+/// and writes the older bank.
 ///
-/// [`image::capacity_on`](od_runtime::storage::image::capacity_on) says how many bytes a dictionary
-/// needs.
+/// [`image::capacity_on`](od_runtime::storage::image::capacity_on) returns the number of bytes that
+/// a dictionary needs.
 #[derive(Clone, Debug)]
 pub struct Nor<F> {
     flash: F,
@@ -15,11 +15,11 @@ pub struct Nor<F> {
     len: u32,
 }
 
-/// Bytes that are read at once from a flash that reads whole words.
+/// Number of bytes that are read at once from a flash that reads whole words.
 const BUFFER: usize = 32;
 
 impl<F: NorFlash> Nor<F> {
-    /// The `len` bytes from `start` on, both whole pages.
+    /// Uses the `len` bytes from `start` on; both are whole pages.
     pub const fn new(flash: F, start: u32, len: u32) -> Self {
         const {
             assert!(F::READ_SIZE <= BUFFER && BUFFER.is_multiple_of(F::READ_SIZE));
@@ -28,7 +28,7 @@ impl<F: NorFlash> Nor<F> {
         Self { flash, start, len }
     }
 
-    /// The flash.
+    /// Returns the flash.
     pub fn into_inner(self) -> F {
         self.flash
     }

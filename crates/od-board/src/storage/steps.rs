@@ -1,4 +1,4 @@
-//! A flash driver that waits, in steps that do not.
+//! An asynchronous flash driver made of a blocking one.
 
 use core::future::poll_fn;
 use core::task::Poll;
@@ -6,15 +6,15 @@ use core::task::Poll;
 use embedded_storage::nor_flash as blocking;
 use embedded_storage_async::nor_flash::{ErrorType, NorFlash, ReadNorFlash};
 
-/// A driver whose calls wait until the flash is done, as an asynchronous one: each poll reads, erases
-/// one page or writes at most 64 bytes, and returns to the caller.
+/// Makes an asynchronous driver of a driver whose calls block until the flash is done. Each poll
+/// reads, erases one page or writes at most 64 bytes, and returns to the caller.
 #[derive(Clone, Debug)]
 pub struct Steps<F>(pub F);
 
-/// Bytes that are written in a step.
+/// Number of bytes that one step writes.
 const STEP: usize = 64;
 
-/// Lets others run.
+/// Lets other tasks run.
 pub(super) async fn pause() {
     let mut waited = false;
     poll_fn(|cx| {

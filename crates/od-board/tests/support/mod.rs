@@ -1,4 +1,4 @@
-//! A device, and what several test files need.
+//! A device, and helpers of several test files.
 #![allow(dead_code, unreachable_pub)] // each test file uses its own part
 
 use odkit::board::Owner;
@@ -73,7 +73,7 @@ pub fn frame(text: &str) -> Frame {
     Frame::new(id, &bytes).expect("eight bytes at most")
 }
 
-/// Numbers by chance, the same in every run.
+/// Random numbers that are the same in every run.
 pub struct Random(pub u64);
 
 impl Random {

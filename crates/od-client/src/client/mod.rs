@@ -21,7 +21,7 @@ use crate::{emcy, nmt};
 
 pub use self::events::{Event, Job};
 
-/// Node IDs that exist.
+/// Number of node IDs.
 const NODES: usize = 127;
 
 /// A CANopen client for all nodes of a bus.
@@ -30,9 +30,8 @@ const NODES: usize = 127;
 /// with exactly one event of its own. The crate documentation shows the loop: send the frames of
 /// [`poll_transmit`](Self::poll_transmit), take the events of [`poll_event`](Self::poll_event),
 /// wait for a frame or [`poll_timeout`](Self::poll_timeout).
-/// Input from the bus cannot make memory grow: values have a limit, and up to 256 boot-up messages,
-/// states and EMCY messages wait; further ones are dropped and counted.
-/// states and EMCY messages 256 wait; while they do, new ones are dropped and counted.
+/// Input from the bus cannot make memory grow: values have a limit, and at most 256 boot-up
+/// messages, states and EMCY messages wait; further ones are dropped and counted.
 ///
 /// ```
 /// use od_client::{Client, Instant, NodeId, nmt};
@@ -131,7 +130,7 @@ impl Client {
         _ = self.watch.add(node, Some(heartbeat));
     }
 
-    /// Ends what [`watch`](Self::watch) began.
+    /// Ends the monitoring that [`watch`](Self::watch) began.
     pub fn unwatch(&mut self, node: NodeId) {
         _ = self.watch.add(node, None);
     }

@@ -1,4 +1,4 @@
-//! Jobs that wait for each other, jobs side by side, and what comes from the bus.
+//! Jobs that wait for each other, jobs side by side, and events of the bus.
 
 use crate::support::bus::{Bus, peer};
 use crate::support::{OBJECT, at, frame, pattern};
@@ -14,7 +14,7 @@ fn node(raw: u8) -> NodeId {
     NodeId::new(raw).expect("a node ID")
 }
 
-/// All frames that go out.
+/// All frames that are sent.
 fn out(client: &mut Client, millis: u64) -> Vec<String> {
     let frames = core::iter::from_fn(|| client.poll_transmit(at(millis)));
     frames.map(|frame| frame.to_string()).collect()
@@ -232,7 +232,7 @@ fn nodes_boot_are_lost_and_return() {
 }
 
 #[test]
-fn nodes_that_are_not_watched_are_reported_too() {
+fn nodes_that_are_not_monitored_are_reported_too() {
     let mut client = Client::new();
     for (frame, wanted) in [
         (Frame::standard(0x77F, &[0]), Some(Event::BootUp(node(127)))),
@@ -290,7 +290,7 @@ fn a_full_queue_drops_events_of_the_bus_but_no_end_of_a_job() {
 }
 
 #[test]
-fn a_real_node_boots_beats_and_is_lost() {
+fn a_real_node_boots_sends_heartbeats_and_is_lost() {
     let mut bus = Bus::one(Client::default());
     let write = bus
         .client

@@ -1,4 +1,5 @@
-//! Fastscan: one slave, several slaves, none; slaves to the letter of CiA 305 and nodes of `od-runtime`.
+//! Fastscan: one slave, several slaves, none; slaves that follow CiA 305 exactly, and nodes of
+//! `od-runtime`.
 
 use crate::support::bus::{Bus, peer};
 use crate::support::slave::Slave;
@@ -20,7 +21,7 @@ fn begun(task: Task) -> Master {
     master
 }
 
-/// Slaves on a bus that answer each request, one after the other, `delay` ms after it.
+/// Slaves on a bus that respond to each request, one after the other, `delay` ms after it.
 fn run(master: &mut Master, slaves: &mut [Slave], delay: u64) -> (Result<Answer, Error>, u64) {
     let mut now = 0;
     for _ in 0..1000 {
@@ -57,7 +58,7 @@ fn fastscan_finds_any_lss_address() {
         assert_eq!(answer, Ok(Answer::Found(Some(identity))));
         assert_eq!(identity.parts(), parts);
         assert!(slaves[0].configuration);
-        // 2 ms for the answer and 10 ms for others; 50 ms for each bit that is 1.
+        // 2 ms for the response and 10 ms for other slaves; 50 ms for each bit that is 1.
         let ones: u32 = parts.iter().map(|part| part.count_ones()).sum();
         let steps = 1 + 4 * 33;
         assert_eq!(millis, u64::from((steps - ones) * 12 + ones * 50));
@@ -91,12 +92,12 @@ fn the_first_frames_of_a_scan() {
 }
 
 #[test]
-fn a_bus_without_slaves() {
+fn a_bus_without_slaves_has_nothing_to_find() {
     assert_eq!(scan(&mut []), (Ok(Answer::Found(None)), 50));
 }
 
 #[test]
-fn a_slave_that_leaves_during_the_scan() {
+fn a_slave_that_leaves_during_the_scan_is_an_error() {
     let mut master = begun(Task::Fastscan);
     let mut slave = [Slave::new(IDENTITY.parts())];
     for _ in 0..20 {
@@ -111,7 +112,7 @@ fn a_slave_that_leaves_during_the_scan() {
 }
 
 #[test]
-fn several_slaves_one_after_the_other() {
+fn several_slaves_are_found_one_after_the_other() {
     let mut slaves: Vec<_> = [0x1234, 0x1235, 0x9234, 0x0000, 0xFFFF_FFFF]
         .map(|serial| Slave::new([0xEC, 0x0A, 0x0001_0000, serial]))
         .into();
@@ -138,7 +139,7 @@ fn several_slaves_one_after_the_other() {
 
 /// Nodes of `od-runtime`, all with node ID 1: first all LSS addresses, then a node ID for each.
 #[test]
-fn nodes_of_the_same_node_id_are_told_apart() {
+fn nodes_with_the_same_node_id_are_told_apart() {
     let serials = [7, 6, 0x8000_0000];
     let peers = serials.map(|serial| peer(1, [0xEC, 0x0A, 1, serial]));
     let mut bus = Bus::new(Client::new(), peers.into());

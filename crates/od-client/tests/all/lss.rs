@@ -25,7 +25,7 @@ fn out(master: &mut Master, millis: u64) -> Vec<String> {
     frames.map(text).collect()
 }
 
-/// A service that sends these frames, and what this answer makes of it.
+/// A service that sends these frames, and its result for this response.
 #[track_caller]
 fn check(task: Task, requests: &[&str], answer: &str, wanted: Result<Answer, Error>) {
     let mut master = begun(task);
@@ -161,7 +161,7 @@ fn identification_without_a_response_finds_no_slave() {
             assert_eq!(out(&mut master, 0), wanted);
             assert_eq!(master.poll_timeout(), Some(at(1000)));
             if exists {
-                // Three slaves answer, one after the other.
+                // Three slaves respond, one after the other.
                 for millis in [5, 8, 14] {
                     master.handle_frame(at(millis), &frame(answer));
                     assert_eq!(master.poll_timeout(), Some(at(15)));
@@ -194,7 +194,7 @@ fn other_responses_are_ignored() {
         (Task::IdentifyNonConfigured, &["4F", "44"]),
     ] {
         let mut master = begun(task);
-        // Nothing is an answer before the last request is out.
+        // A frame before the last request was sent is not a response.
         for answer in ["5A", "5E", "44", "11", "13", "17"] {
             master.handle_frame(at(0), &frame(&format!("7E4#{answer}")));
         }

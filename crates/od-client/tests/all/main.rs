@@ -1,4 +1,5 @@
-//! The client from outside: frames in, frames out. One program, as linking one is quicker.
+//! The client from outside: frames in, frames out. It is one program, since one program links
+//! faster than several.
 
 mod client;
 mod fastscan;

@@ -1,4 +1,4 @@
-//! PDOs taken apart by their mapping.
+//! Decoding of PDOs by their mapping.
 
 use od_client::pdo::{Field, Mapping, TooShort, bits, decode};
 use od_eds::{Description, EntryDescription, ObjectDescription, Spanned, Tables, Value};
@@ -80,7 +80,7 @@ fn the_default_mapping_of_an_encoder() {
 }
 
 #[test]
-fn mappings_that_the_dictionary_does_not_have() {
+fn a_mapping_that_is_not_in_the_dictionary_gives_none() {
     let tables = device();
     let of = |index| Mapping::of(&tables.dictionary(), index);
     assert_eq!(of(0x1A05), None, "no such object");
@@ -202,6 +202,6 @@ fn bits_of_a_frame_are_a_number() {
             "{len} {first} {count}"
         );
     }
-    // Of longer data the first 64 bits count.
+    // Only the first 64 bits of longer data are used.
     assert_eq!(bits(&[0xFF; 9], 60, 5), None);
 }

@@ -1,4 +1,4 @@
-//! Random frames: no panic, no growth, no job without an end, and a client that works after it.
+//! Random frames: no panic, no growth, each job ends, and the client works afterwards.
 
 use crate::support::{OBJECT, at, frame, pattern};
 use od_client::lss::Task;
@@ -22,7 +22,8 @@ impl Random {
     }
 }
 
-/// A frame that may have a meaning: mostly an SDO answer with our object and a small command.
+/// A frame that may have a meaning: usually an SDO response with the object of the test and a small
+/// command.
 fn any(random: &mut Random, last: Option<Frame>) -> Frame {
     const IDS: [u16; 8] = [0x581, 0x581, 0x581, 0x582, 0x7E4, 0x701, 0x81, 0x000];
     let mut data = random.next().to_le_bytes();
@@ -34,7 +35,7 @@ fn any(random: &mut Random, last: Option<Frame>) -> Frame {
         }
         1 => data = core::array::from_fn(|at| [random.below(130) as u8, 0][usize::from(at > 3)]),
         2 => {
-            // What answers the last request, nearly.
+            // A frame that is almost the response to the last request.
             let request = last.map_or([0; 8], |last| *last.bytes());
             data = [
                 request[0] ^ 0x20,
@@ -62,7 +63,7 @@ fn any(random: &mut Random, last: Option<Frame>) -> Frame {
     Frame::with_dlc(CanId::standard(id), data, dlc)
 }
 
-/// Random frames until all jobs have an end; how many frames it took.
+/// Sends random frames until all jobs have ended; returns their number.
 fn survive(seed: u64) {
     let mut random = Random(seed * 0x9E37_79B9 + 1);
     let mut options = Options::DEFAULT;
@@ -118,7 +119,7 @@ fn survive(seed: u64) {
         None
     );
     while client.poll_transmit(now).is_some() {}
-    // It still works.
+    // The client still works.
     let job = client.read(NodeId::ONE, Address::new(0x1000, 0));
     let request = client.poll_transmit(now);
     let is_upload = request == Some(frame("601#40001000"));
@@ -141,7 +142,7 @@ fn random_frames_end_every_job_and_break_nothing() {
     }
 }
 
-/// A server that answers every request with the same frame, for ever.
+/// A server that responds to every request with the same frame.
 #[test]
 fn a_server_with_the_same_response_to_everything() {
     for command in 0..=255u8 {

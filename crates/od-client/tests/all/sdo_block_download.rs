@@ -1,11 +1,12 @@
-//! Block download by hand: lost segments, servers without block transfers, servers that misbehave.
+//! Block download frame by frame: lost segments, servers without block transfers, servers that
+//! misbehave.
 
 use crate::support::blocks::{COMMAND, SEQUENCE, crc, fails, options, refuses, segment};
 use crate::support::{Machine, at, download, frame, pattern};
 use od_client::Error;
 use od_client::sdo::{Download, Expected};
 
-/// A block download of 37 bytes in blocks of four segments: the first block is out.
+/// A block download of 37 bytes in blocks of four segments; the first block was sent.
 #[track_caller]
 fn downloading(crc: bool) -> Download<Vec<u8>> {
     let mut download = download(&pattern(37), options(4));
@@ -27,7 +28,7 @@ fn block(data: &[u8], start: usize, count: u8) -> Vec<String> {
 }
 
 #[test]
-fn small_values_go_in_segments() {
+fn small_values_are_sent_in_segments() {
     let mut download = download(&pattern(7), options(4));
     download.talk(&[("", "2103200007")]);
     let mut longer = crate::support::download(&pattern(8), options(4));
@@ -60,7 +61,7 @@ fn a_block_that_is_cancelled_sends_no_more_segments() {
 fn a_download_in_two_blocks() {
     let data = pattern(37);
     let mut download = downloading(true);
-    // The server takes blocks of one segment now, then of three.
+    // The server accepts blocks of one segment now, then of three.
     assert_eq!(download.on(at(0), "581#A20401"), block(&data, 28, 1));
     assert_eq!(download.on(at(0), "581#A20103"), block(&data, 35, 1));
     download.talk(&[("A20100", &format!("D5{}", crc(&data)))]);
@@ -71,7 +72,7 @@ fn a_download_in_two_blocks() {
 }
 
 #[test]
-fn no_checksum_where_the_server_does_not_want_one() {
+fn without_a_checksum_on_the_server_none_is_sent() {
     let data = pattern(37);
     let mut download = downloading(false);
     assert_eq!(download.on(at(0), "581#A2047F"), block(&data, 28, 2));
@@ -80,7 +81,7 @@ fn no_checksum_where_the_server_does_not_want_one() {
 }
 
 #[test]
-fn values_of_whole_segments_leave_nothing_unused() {
+fn values_of_whole_segments_have_no_unused_bytes() {
     for (len, end) in [(14, "C1"), (13, "C5"), (8, "D9")] {
         let data = pattern(len);
         let mut download = download(&data, options(4));

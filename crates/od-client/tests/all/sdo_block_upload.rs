@@ -1,4 +1,5 @@
-//! Block upload by hand: lost segments, servers without block transfers, servers that misbehave.
+//! Block upload frame by frame: lost segments, servers without block transfers, servers that
+//! misbehave.
 
 use crate::support::blocks::{COMMAND, SEQUENCE, crc, fails, options, refuses, segment};
 use crate::support::{Machine, at, frame, pattern, upload};
@@ -14,7 +15,7 @@ fn uploading(len: u8) -> Upload<Vec<u8>> {
     upload
 }
 
-/// A block upload of eight bytes was asked for.
+/// A block upload of eight bytes was requested.
 #[track_caller]
 fn asked() -> Upload<Vec<u8>> {
     let mut upload = upload(options(4));
@@ -61,7 +62,7 @@ fn a_lost_segment_is_sent_again() {
         (&segment(0x84, &data, 21), "A20104"),
         (&segment(1, &data, 7), "-"),
         (&segment(2, &data, 14), "-"),
-        // Twice the same, as after an acknowledge that came late.
+        // The same segment twice, as after a confirmation that arrived late.
         (&segment(2, &data, 14), "-"),
         (&segment(0x83, &data, 21), "A20304"),
         (&format!("C1{}", crc(&data)), "A1"),
@@ -83,7 +84,7 @@ fn a_block_whose_end_is_lost_is_confirmed_after_the_timeout() {
     assert!(upload.out(at(1699)).is_empty());
     upload.handle_timeout(at(1700));
     assert_eq!(upload.out(at(1700)), ["601#A202040000000000"]);
-    // The server says nothing any more.
+    // The server sends nothing more.
     assert_eq!(upload.poll_timeout(), Some(at(2700)));
     upload.handle_timeout(at(2700));
     assert_eq!(upload.outcome(), Some(Err(Error::Silent)));
@@ -96,7 +97,7 @@ fn a_server_that_never_sends_the_first_segment_ends_the_upload() {
     for _ in 0..3 {
         upload.talk(&[("03", "-"), ("04", "A20004")]);
     }
-    // Progress begins the count again.
+    // Progress restarts the count.
     upload.talk(&[("01", "-"), ("03", "-"), ("04", "A20104")]);
     for _ in 0..3 {
         upload.talk(&[("84", "A20004")]);
@@ -105,7 +106,7 @@ fn a_server_that_never_sends_the_first_segment_ends_the_upload() {
 }
 
 #[test]
-fn the_checksum_is_checked_where_the_server_makes_one() {
+fn the_checksum_is_checked_if_the_server_sends_one() {
     let data = pattern(28);
     let segments = |upload: &mut Upload<Vec<u8>>| {
         for number in 1..4 {
@@ -199,7 +200,7 @@ fn other_aborts_end_a_block_upload() {
     let mut segments = uploading(28);
     segments.talk(&[("01", "-"), ("8003200000000008", "-")]);
     assert_eq!(segments.outcome(), Some(Err(Error::Abort(0x0800_0000))));
-    // The code that means "no block transfers", from another transfer.
+    // The code that means "no block transfers", for another transfer.
     refuses(
         &mut asked(),
         "8004200001000405",

@@ -1,4 +1,4 @@
-//! Download by hand: a frame in, a frame out, and servers that misbehave.
+//! Download frame by frame, and servers that misbehave.
 
 use crate::support::{Machine, at, download, frame, pattern};
 use od_client::Error;
@@ -17,14 +17,15 @@ fn begun(bytes: &[u8], request: &str) -> Download<Vec<u8>> {
     download
 }
 
-/// Nine bytes, of which the first segment is out.
+/// Nine bytes, whose first segment was sent.
 fn in_segments() -> Download<Vec<u8>> {
     let mut download = begun(&pattern(9), "2103200009");
     download.talk(&[(TAKEN, "0001203F5E7D9CBB")]);
     download
 }
 
-/// The answer ends the download with an error and this abort; nothing more comes out.
+/// Checks that the response ends the download with this error and this abort, and that no further
+/// frame is sent.
 #[track_caller]
 fn ends(mut download: Download<Vec<u8>>, answer: &str, abort: &str, expected: Expected) {
     let got = Response::parse(frame(&format!("581#{answer}")).bytes());
@@ -90,7 +91,7 @@ fn an_empty_value_is_one_empty_segment() {
 }
 
 #[test]
-fn aborts_of_the_server_are_reported_as_they_are() {
+fn aborts_of_the_server_are_reported_unchanged() {
     for mut download in [begun(&[1], "2F03200001"), in_segments()] {
         download.talk(&[("8003200030000906", "-")]);
         assert_eq!(download.outcome(), Some(Err(Error::Abort(0x0609_0030))));
@@ -138,7 +139,7 @@ fn cancelling_aborts_the_transfer_at_the_server() {
 }
 
 #[test]
-fn frames_of_others_are_ignored() {
+fn frames_of_other_nodes_are_ignored() {
     let mut download = begun(&[1], "2F03200001");
     for other in [
         frame("582#60032000"),

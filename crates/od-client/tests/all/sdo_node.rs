@@ -1,4 +1,4 @@
-//! The client against the node of `od-runtime`: every kind of transfer, both ways.
+//! The client against the node of `od-runtime`: every kind of transfer in both directions.
 
 use crate::support::bus::{Bus, ROOM, peer};
 use crate::support::{OBJECT, pattern};
@@ -68,9 +68,9 @@ fn all_sizes_in_segments() {
     assert_eq!(segments, wanted);
 }
 
-/// Nobody but the client has the whole value: the device streams it.
+/// Only the client has the whole value; the device streams it.
 #[test]
-fn one_mebibyte_in_blocks_both_ways() {
+fn one_mebibyte_in_blocks_in_both_directions() {
     const LONG: Address = Address::new(0x2004, 0);
     let value = pattern(1 << 20);
     let mut bus = Bus::one(client(blocks(127)));
@@ -84,7 +84,7 @@ fn one_mebibyte_in_blocks_both_ways() {
     assert!(*back == value && back.capacity() <= 2 * value.len());
     // A block of 127 segments, or the buffer.
     assert!(bus.peers[0].application.largest <= ROOM);
-    // One byte more is not even asked for.
+    // One byte more is not even requested.
     bus.peers[0].application.len = (1 << 20) + 1;
     bus.frames.clear();
     let read = bus.client.read(NodeId::ONE, LONG);
@@ -126,7 +126,7 @@ fn block_sizes_out_of_range_are_the_nearest_ones() {
 #[test]
 fn segments_that_the_bus_loses_are_sent_again() {
     let mut bus = Bus::one(client(blocks(20)));
-    // Only segments inside a block: the node is not told that a block is over.
+    // Only segments inside a block are lost, since the node cannot detect a lost end of a block.
     bus.loses = |number, frame| {
         let head = frame.data()[0];
         let is_segment = matches!(head, 1..=19) && frame.data()[1..] != [0; 7];
@@ -179,7 +179,7 @@ fn aborts_of_the_node_come_with_their_code() {
 }
 
 #[test]
-fn nobody_answers() {
+fn without_a_node_the_transfer_ends_after_the_timeout() {
     let mut bus = Bus::new(Client::new(), Vec::new());
     let job = bus.client.read(NodeId::ONE, OBJECT);
     assert_eq!(bus.run(), [Event::Read(job, Err(Error::Silent))]);

@@ -1,4 +1,4 @@
-//! Upload by hand: a frame in, a frame out, and servers that misbehave.
+//! Upload frame by frame, and servers that misbehave.
 
 use crate::support::{Machine, OBJECT, at, frame, upload};
 use od_client::Error;
@@ -19,7 +19,8 @@ fn value(answer: &str, wanted: &[u8]) {
     assert_eq!(upload.poll_timeout(), None);
 }
 
-/// The answer ends the upload with an error and this abort; nothing more comes out.
+/// Checks that the response ends the upload with this error and this abort, and that no further
+/// frame is sent.
 #[track_caller]
 fn ends(mut upload: Upload<impl sdo::Buffer>, answer: &str, abort: &str, error: Error) {
     let code: String = abort
@@ -107,13 +108,13 @@ fn an_empty_value_is_one_empty_segment() {
 }
 
 #[test]
-fn aborts_of_the_server_are_reported_as_they_are() {
+fn aborts_of_the_server_are_reported_unchanged() {
     for mut upload in [asked(), in_segments()] {
         upload.talk(&[("8003200011000906", "-")]);
         assert_eq!(upload.outcome(), Some(Err(Error::Abort(0x0609_0011))));
         assert_eq!(upload.poll_timeout(), None);
     }
-    // A server that was reset does not know what it aborts.
+    // A server after a reset does not know which transfer it aborts.
     let mut upload = in_segments();
     upload.talk(&[("8000000001000405", "-")]);
     assert_eq!(upload.outcome(), Some(Err(Error::Abort(0x0504_0001))));
@@ -236,9 +237,9 @@ fn segments_without_data_end_the_upload() {
 }
 
 #[test]
-fn frames_of_others_are_ignored() {
+fn frames_of_other_nodes_are_ignored() {
     let mut upload = upload(Options::DEFAULT);
-    // Before the request is out nothing can be its answer.
+    // Before the request was sent no frame can be its response.
     upload.talk(&[("4303200001020304", ASK)]);
     assert_eq!(upload.outcome(), None);
     for other in [
@@ -346,7 +347,7 @@ fn a_value_without_a_size_has_that_of_its_type() {
         unsized_value.talk(&[("", "40032000"), ("42032000F4010203", "-")]);
         assert_eq!(unsized_value.outcome(), Some(Ok(())));
         assert_eq!(unsized_value.bytes(), &[0xF4, 1, 2, 3][..len]);
-        // A size that is named is believed.
+        // An indicated size is used.
         let mut sized = upload(options);
         sized.talk(&[("", "40032000"), ("47032000F4010203", "-")]);
         assert_eq!(sized.bytes(), [0xF4, 1, 2]);

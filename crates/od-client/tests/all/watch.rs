@@ -21,7 +21,7 @@ fn events<const N: usize>(watch: &mut Watch<N>) -> Vec<Event> {
 }
 
 #[test]
-fn the_table_has_an_end() {
+fn a_full_table_is_an_error() {
     let mut watch: Watch<2> = Watch::default();
     assert_eq!(watch.add(node(1), None), Ok(()));
     assert_eq!(watch.add(node(2), Some(Duration::from_millis(9))), Ok(()));
@@ -94,7 +94,7 @@ fn events_of_one_kind_do_not_pile_up() {
 }
 
 #[test]
-fn a_boot_up_message_begins_the_states_again() {
+fn a_boot_up_message_restarts_the_states() {
     let mut watch: Watch<1> = Watch::new();
     assert_eq!(watch.add(node(1), None), Ok(()));
     beat(&mut watch, 0, 1, 5);

@@ -1,11 +1,11 @@
 //! The checksum of block transfers.
 
-/// CRC-16 with polynomial 1021h and start value 0, as CiA 301 (chapter 7.2.4.3.16) has it.
+/// CRC-16 with polynomial 1021h and start value 0 (CiA 301, chapter 7.2.4.3.16).
 pub fn crc16(data: &[u8]) -> u16 {
     crc16_after(0, data)
 }
 
-/// [`crc16`] of data that goes on behind data with this checksum.
+/// Continues a [`crc16`]: `before` is the checksum of the bytes before `data`.
 pub fn crc16_after(before: u16, data: &[u8]) -> u16 {
     data.iter().fold(before, |crc, byte| {
         (0..8).fold(crc ^ u16::from(*byte) << 8, |crc, _| {

@@ -2,25 +2,25 @@
 
 use od_model::Address;
 
-/// A command with address and number.
+/// A frame with command, address and number.
 #[inline]
 pub(super) const fn head(command: u8, address: Address, number: u32) -> [u8; 8] {
-    // Not byte by byte: a microcontroller has two words to store.
+    // Not byte by byte: a microcontroller stores two words.
     let head = command as u64 | (address.index as u64) << 8 | (address.sub as u64) << 24;
     (head | (number as u64) << 32).to_le_bytes()
 }
 
-/// A command with two bytes.
+/// A frame with a command and two bytes.
 pub(super) const fn short(command: u8, [a, b]: [u8; 2]) -> [u8; 8] {
     [command, a, b, 0, 0, 0, 0, 0]
 }
 
-/// The address of a command that has one.
+/// The address in a frame.
 pub const fn address(data: &[u8; 8]) -> Address {
     Address::new(u16::from_le_bytes([data[1], data[2]]), data[3])
 }
 
-/// The number behind the address.
+/// The number after the address.
 pub const fn number(data: &[u8; 8]) -> u32 {
     u32::from_le_bytes([data[4], data[5], data[6], data[7]])
 }
@@ -30,12 +30,12 @@ pub const fn toggle(data: &[u8; 8]) -> bool {
     data[0] & 0x10 != 0
 }
 
-/// The toggle bit in its place.
+/// The toggle bit, in its place in the command.
 pub(super) fn toggled(toggle: bool) -> u8 {
     u8::from(toggle) << 4
 }
 
-/// Indicated size, and the data of an expedited transfer.
+/// The indicated size, and the data of an expedited transfer.
 pub(super) const fn value(data: &[u8; 8]) -> (Option<u32>, Option<[u8; 4]>) {
     let [command, _, _, _, bytes @ ..] = *data;
     let size = match command & 3 {
@@ -66,7 +66,8 @@ pub(super) fn value_frame(
     )
 }
 
-/// Returns whether the sender can make or check a CRC, and the size that it indicates, of a block transfer.
+/// Returns whether the sender supports a CRC, and the size that it indicates, in a frame that
+/// begins a block transfer.
 pub(super) const fn block(data: &[u8; 8]) -> (bool, Option<u32>) {
     let size = if data[0] & 2 != 0 {
         Some(number(data))
@@ -76,7 +77,7 @@ pub(super) const fn block(data: &[u8; 8]) -> (bool, Option<u32>) {
     (wants_crc(data), size)
 }
 
-/// Returns whether the sender of a frame that begins a block transfer can make or check a CRC.
+/// Returns whether the sender of a frame that begins a block transfer supports a CRC.
 pub const fn wants_crc(data: &[u8; 8]) -> bool {
     data[0] & 4 != 0
 }
@@ -87,7 +88,7 @@ pub(super) fn block_frame(address: Address, crc: bool, size: Option<u32>) -> [u8
     head(command, address, size.unwrap_or(0))
 }
 
-/// Unused bytes of the last segment, and the CRC, at the end of a block transfer.
+/// Number of unused bytes of the last segment, and the CRC, at the end of a block transfer.
 pub const fn end(data: &[u8; 8]) -> (u8, u16) {
     (data[0] >> 2 & 7, u16::from_le_bytes([data[1], data[2]]))
 }

@@ -1,4 +1,4 @@
-//! SDO frames, client to server and back (CiA 301, chapter 7.2.4.3).
+//! SDO frames of client and server (CiA 301, chapter 7.2.4.3).
 
 mod crc;
 mod fields;
@@ -19,7 +19,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_command_byte_has_a_meaning_that_comes_back() {
+    fn every_command_byte_survives_a_round_trip() {
         for command in 0..=0xFFu8 {
             let bytes = [command, 0x10, 0x20, 3, 4, 0, 0, 0];
             let request = Request::parse(&bytes);
@@ -30,7 +30,7 @@ mod tests {
     }
 
     #[test]
-    fn the_short_way_says_the_same() {
+    fn the_fast_functions_give_the_same_result() {
         let address = Address::new(0x6004, 3);
         for len in 1..=4u8 {
             let response = Response::InitiateUpload {

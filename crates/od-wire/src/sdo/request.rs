@@ -33,9 +33,9 @@ pub enum Request {
     UploadSegment { toggle: bool },
     /// Abort transfer; [`AbortCode`](crate::AbortCode) knows the codes of CiA 301.
     Abort { address: Address, code: u32 },
-    /// Initiate block upload: reads `address`. `crc`: the client can check a CRC; `block_size`:
-    /// segments in a block, 1 to 127 where valid; `threshold`: a value of up to this many bytes may
-    /// come by another protocol, 0: never.
+    /// Initiate block upload: reads `address`. `crc`: the client can check a CRC. `block_size`:
+    /// segments in a block, valid from 1 to 127. `threshold`: a value of up to this many bytes may
+    /// be sent by another protocol; 0: never.
     InitiateBlockUpload {
         address: Address,
         crc: bool,

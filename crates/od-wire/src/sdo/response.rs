@@ -30,7 +30,7 @@ pub enum Response {
         size: Option<u32>,
         expedited: Option<[u8; 4]>,
     },
-    /// Initiate download: the value was written, or its segments may come.
+    /// Initiate download: the value was written, or the client may send its segments.
     InitiateDownload { address: Address },
     /// Abort transfer; [`AbortCode`](crate::AbortCode) knows the codes of CiA 301.
     Abort { address: Address, code: u32 },
@@ -141,15 +141,15 @@ impl Response {
     }
 }
 
-/// Returns the number of bytes of an expedited value: `size` as the frame names it; else the bytes of the
-/// object's data type, at most 4; else 4 (CiA 301, 7.2.4.3.6: e = 1, s = 0).
+/// Returns the number of bytes of an expedited value: `size`, if the frame indicates it; otherwise
+/// the length of the object's data type, at most 4; otherwise 4 (CiA 301, 7.2.4.3.6: e = 1, s = 0).
 pub fn expedited_len(size: Option<u32>, type_size: Option<usize>) -> usize {
     let size = size.and_then(|size| usize::try_from(size).ok());
     size.or(type_size).unwrap_or(4).min(4)
 }
 
-/// The frame of an expedited upload: `len` bytes, 1–4, of `value`. It is what
-/// [`Response::InitiateUpload`] emits, for the one answer that masters ask for all day.
+/// The frame of an expedited upload with `len` bytes (1 to 4) of `value`. It equals the frame of
+/// [`Response::InitiateUpload`]; this function exists because it is the most frequent response.
 #[inline]
 pub const fn expedited_upload(address: Address, len: u8, value: u32) -> [u8; 8] {
     let command = upload_command(4u32.wrapping_sub(len as u32) & 3) as u64;
@@ -157,7 +157,7 @@ pub const fn expedited_upload(address: Address, len: u8, value: u32) -> [u8; 8] 
         .to_le_bytes()
 }
 
-/// First byte of that frame, by the number of its `unused` bytes, 0–3.
+/// First byte of that frame, by the number of its unused bytes (0 to 3).
 #[inline]
 pub const fn upload_command(unused: u32) -> u32 {
     0x43 | unused << 2

@@ -1,4 +1,4 @@
-//! Up to seven bytes of a value: what segments of both directions carry.
+//! Up to seven bytes of a value, as segments of both directions contain them.
 
 use super::fields::{toggle, toggled};
 
@@ -15,7 +15,7 @@ use super::fields::{toggle, toggled};
 pub struct Segment {
     /// Toggle bit.
     pub toggle: bool,
-    /// The bytes; `len` of them count.
+    /// The bytes, of which `len` are valid.
     pub data: [u8; 7],
     /// Number of bytes, 0 to 7.
     pub len: u8,
@@ -24,7 +24,7 @@ pub struct Segment {
 }
 
 impl Segment {
-    /// The segment at the head of `rest`, the bytes of the value that are left.
+    /// The first segment of `rest`, the bytes of the value that are left.
     pub fn first_of(rest: &[u8], toggle: bool) -> Self {
         let len = rest.len().min(7);
         let mut data = [0; 7];
@@ -37,12 +37,12 @@ impl Segment {
         }
     }
 
-    /// Returns the bytes that count.
+    /// Returns the valid bytes.
     pub fn bytes(&self) -> &[u8] {
         &self.data[..usize::from(self.len.min(7))]
     }
 
-    /// The bytes of a segment that count, where they are in its frame, and whether it is the last one.
+    /// Returns the valid bytes of a segment, inside its frame, and whether it is the last one.
     pub fn of_frame([command, data @ ..]: &[u8; 8]) -> (&[u8], bool) {
         let unused = usize::from(command >> 1 & 7);
         (&data[..7 - unused], command & 1 != 0)
@@ -65,33 +65,34 @@ impl Segment {
     }
 }
 
-/// The frame of a segment with the head of `rest`, the bytes of the value that are left.
+/// The frame of a segment with the first bytes of `rest`, the bytes of the value that are left.
 #[inline]
 pub fn segment(toggle: bool, rest: &[u8], last: bool) -> [u8; 8] {
     let unused = 7 - rest.len().min(7) as u8;
     led_by(toggled(toggle) | unused << 1 | u8::from(last), rest).to_le_bytes()
 }
 
-/// The frame of segment `sequence` of a block, 1 to 127, with the head of `rest`, the bytes of the
-/// value that are left. The last segment of all has bit 7 set.
+/// The frame of segment `sequence` of a block, 1 to 127, with the first bytes of `rest`, the bytes
+/// of the value that are left. The last segment of the transfer has bit 7 set.
 #[inline]
 pub fn block_segment(sequence: u8, rest: &[u8], last: bool) -> [u8; 8] {
     led_by(sequence | u8::from(last) << 7, rest).to_le_bytes()
 }
 
-/// A frame of a byte and up to seven of others, as a number.
+/// A frame with `head` as its first byte and up to seven further bytes, as a number.
 fn led_by(head: u8, rest: &[u8]) -> u64 {
     let rest = rest.iter().take(7).rev();
     let number = rest.fold(0, |number, byte| number << 8 | u64::from(*byte));
     number << 8 | u64::from(head)
 }
 
-/// Segments of a block transfer that carry `len` bytes; an empty value needs one.
+/// Number of segments of a block transfer with `len` bytes; an empty value needs one.
 pub const fn block_segments(len: usize) -> usize {
     if len == 0 { 1 } else { len.div_ceil(7) }
 }
 
-/// Unused bytes of the last segment of a block transfer, 0 to 7, for a value of `len` bytes.
+/// Number of unused bytes in the last segment of a block transfer, 0 to 7, for a value of `len`
+/// bytes.
 pub const fn unused(len: usize) -> u8 {
     (block_segments(len) * 7 - len) as u8
 }
@@ -101,7 +102,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_last_segment_has_what_the_others_leave() {
+    fn the_last_segment_has_the_rest_of_the_value() {
         for (len, segments, rest) in [(0, 1, 7), (1, 1, 6), (7, 1, 0), (8, 2, 6), (14, 2, 0)] {
             assert_eq!(
                 (block_segments(len), unused(len)),

@@ -77,10 +77,10 @@ impl ProgramMemory for Flash {
     }
 }
 
-/// Receives a program page by page; RAM holds one page of it, and one block of the SDO server.
+/// Receives a program page by page. RAM holds one page of it and one block of the SDO server.
 pub struct BootLoader {
     loader: Loader<Flash, PAGE>,
-    /// The ends of all transfers.
+    /// The ends of all transfers, for the tests.
     pub ends: Vec<StreamEnd>,
 }
 
@@ -96,7 +96,7 @@ impl BootLoader {
         }
     }
 
-    /// The program, once all of it came.
+    /// The program, if it is complete.
     pub fn program(&self) -> Option<Program> {
         self.loader.program()
     }
@@ -107,7 +107,7 @@ impl BootLoader {
     }
 }
 
-/// The loader does it all; here somebody writes down how transfers end.
+/// The loader does the work; this type only records how transfers end.
 impl Stream for BootLoader {
     fn begin_download(
         &mut self,

@@ -1,10 +1,10 @@
-//! A boot loader: a master writes a program of 64 KiB to 1F50h:01 and starts it with 1F51h:01
-//! (CiA 302-3). The program is never in RAM as a whole: the SDO server has one block of it at a time, the loader
-//! one page, and while the flash is busy the master waits for its answer.
+//! A boot loader: a master writes a program of 64 KiB to 1F50h:01 and starts it with 1F51h:01 (CiA
+//! 302-3). The program is never in RAM as a whole: the SDO server has one block of it at a time,
+//! the loader one page. While the flash is busy, the master waits for the response.
 //!
 //! `cargo run -p odkit --example boot_loader` plays the master, too.
 
-#![allow(unreachable_pub)] // `loader.rs` is to be copied
+#![allow(unreachable_pub)] // `loader.rs` is a file to copy
 
 mod loader;
 mod rig;

@@ -9,14 +9,14 @@ use crate::loader::{BootLoader, device};
 /// Time of a frame on the bus, in microseconds.
 const FRAME_US: u64 = 130;
 
-/// The bus and its ends.
+/// The bus with the device and the master.
 pub struct Rig {
     pub node: device::Node<BootLoader>,
     pub client: Client,
     pub now: Instant,
     /// Frames so far.
     pub frames: usize,
-    /// Does the bus lose this frame, the one of this number?
+    /// Returns whether the bus loses this frame, given its number.
     pub loses: fn(usize, &Frame) -> bool,
 }
 
@@ -53,13 +53,13 @@ impl Rig {
         self.node.poll_timeout()
     }
 
-    /// Time goes on until then; the device does what is due.
+    /// Lets time pass until `now`; the device does what is due.
     pub fn wait_until(&mut self, now: Instant) {
         self.now = self.now.max(now);
         self.node.handle_timeout(self.now);
     }
 
-    /// Runs until nothing is sent and nothing is due; what the master learnt.
+    /// Runs until nothing is sent and nothing is due; returns the events of the master.
     pub fn run(&mut self) -> Vec<od_client::Event> {
         loop {
             while self.step() {}
@@ -73,7 +73,7 @@ impl Rig {
         std::iter::from_fn(|| self.client.poll_event()).collect()
     }
 
-    /// One frame goes over the bus.
+    /// Moves one frame over the bus.
     fn step(&mut self) -> bool {
         let answer = self.poll();
         let Some(frame) = answer.or_else(|| self.client.poll_transmit(self.now)) else {

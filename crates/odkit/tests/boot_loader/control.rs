@@ -7,7 +7,7 @@ use super::loader::CONTROL;
 use super::{Rig, round_trip};
 
 #[test]
-fn program_control_wants_a_program() {
+fn program_control_needs_a_program() {
     let mut rig = Rig::new();
     assert_eq!(rig.ask("2F511F0101000000"), "80511F0124000008");
     round_trip(&mut rig, 300);
@@ -30,7 +30,7 @@ fn identification_and_status_are_those_of_the_program() {
     assert_eq!(rig.send("27501F0131323300"), [""; 0]);
     rig.wait_until(Instant::from_millis(80));
     assert_eq!(rig.answers(), ["60501F0100000000"]);
-    // CRC-32 of "123", and a page on its way.
+    // The CRC-32 of "123", while a page is being written.
     assert_eq!(rig.send("40561F0100000000"), ["43561F01D2634888"]);
     assert_eq!(rig.send("40571F0100000000"), ["43571F0101000000"]);
     assert_eq!(

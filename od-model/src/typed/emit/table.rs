@@ -1,8 +1,9 @@
-//! The tables of a compiled dictionary, as they come out of the macro: numbers and bytes.
+//! The tables of a compiled dictionary as the macro writes them: numbers and bytes.
 //!
-//! A row is one literal, and a `const fn` that turns them into a table is compiled once: the compiler runs it for each
-//! row, where a call costs as much as twenty operators. An expression for each row costs ten times as much, and an IDE
-//! keeps each of its tokens. Names are bytes, which nothing turns into anything.
+//! A row is one literal, and a `const fn` turns the literals into a table. The compiler runs this
+//! function for each row, where a call takes as long as twenty operators. An expression for each
+//! row would take ten times as long, and an IDE would store each of its tokens. Names are bytes,
+//! which need no conversion.
 
 pub use crate::dictionary::{Dictionary, Names, Shape};
 pub use crate::index::{Buckets, bucket_count, buckets, small_buckets};
@@ -11,7 +12,7 @@ pub use crate::row::Row;
 pub use crate::value::Range;
 pub use crate::varying::Varying;
 
-/// The rows of numbers, of which each has the words of a row, the first one lowest.
+/// The rows made of numbers; each number contains the words of a row, the first one lowest.
 #[rustfmt::skip] // a row is a row
 pub const fn rows<const N: usize>(numbers: &[u128; N]) -> [Row; N] {
     let mut rows = [Row([0; 4]); N];

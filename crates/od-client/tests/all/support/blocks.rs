@@ -43,7 +43,7 @@ pub(crate) fn fails(machine: &mut impl Machine, answer: &str, abort: &str, error
 #[track_caller]
 pub(crate) fn refuses(machine: &mut impl Machine, answer: &str, abort: &str, expected: Expected) {
     let got = match frame(&format!("581#{answer}")).bytes() {
-        // The last segment of a block, and no abort.
+        // The last segment of a block, not an abort.
         [0x81..=0x9F, ..] => Response::Unknown,
         data => Response::parse(data),
     };

@@ -12,7 +12,7 @@ use od_runtime::{
 
 use super::pattern_at;
 
-/// Most bytes of the object 2003h.
+/// Greatest number of bytes of object 2003h.
 pub(crate) const ROOM: usize = 8192;
 
 /// One device on the bus.
@@ -39,13 +39,13 @@ impl Device for Loaded {
     }
 }
 
-/// The node starts with the node ID in 2101h. What goes through 2004h is [`pattern`], of which
-/// nobody here has more than a part.
+/// The node starts with the node ID in 2101h. The value of 2004h is [`pattern`]; the application
+/// only ever has a part of it.
 #[derive(Default)]
 pub(crate) struct Stored {
-    /// Bytes of 2004h.
+    /// Length of 2004h in bytes.
     pub(crate) len: usize,
-    /// Bytes of the largest part.
+    /// Length of the largest part in bytes.
     pub(crate) largest: usize,
 }
 
@@ -191,7 +191,7 @@ pub(crate) struct Bus {
     pub(crate) peers: Vec<Peer>,
     pub(crate) now: Instant,
     pub(crate) frames: Vec<String>,
-    /// Does the bus lose this frame, the one of this number?
+    /// Returns whether the bus loses this frame, given its number.
     pub(crate) loses: fn(usize, &Frame) -> bool,
 }
 
@@ -211,7 +211,7 @@ impl Bus {
         Self::new(client, vec![peer(1, [1, 2, 3, 4])])
     }
 
-    /// One frame goes over the bus. The nodes' come first, so that the client sees its
+    /// Moves one frame over the bus. Frames of the nodes come first, so that the client sees their
     /// segments one by one.
     fn step(&mut self) -> bool {
         let Self { peers, now, .. } = self;
@@ -262,7 +262,7 @@ impl Bus {
         self.now = self.now.max(end);
     }
 
-    /// Runs for a minute of virtual time; the events.
+    /// Runs for a minute of virtual time; returns the events.
     pub(crate) fn run(&mut self) -> Vec<Event> {
         self.run_until(self.now.plus_millis(60_000));
         core::iter::from_fn(|| self.client.poll_event()).collect()

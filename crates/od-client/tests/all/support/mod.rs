@@ -1,4 +1,4 @@
-//! Transfers by hand, and nodes on a bus: frames as candump writes them.
+//! Transfers frame by frame, and nodes on a bus: frames in the notation of candump.
 
 pub(crate) mod blocks;
 pub(crate) mod bus;
@@ -9,7 +9,7 @@ use od_client::sdo::{Buffer, Channel, Download, Options, Upload};
 use od_client::{CanId, Frame, Instant, NodeId};
 use od_model::Address;
 
-/// The object of every transfer by hand.
+/// The object of every transfer that a test plays frame by frame.
 pub(crate) const OBJECT: Address = Address::new(0x2003, 0);
 
 /// `581#43…`; `581#R8` is a remote frame. Data is filled up with 0 to eight bytes.
@@ -32,7 +32,7 @@ pub(crate) fn at(millis: u64) -> Instant {
     Instant::from_millis(millis)
 }
 
-/// `len` bytes, no two neighbours alike.
+/// `len` bytes; each differs from its neighbours.
 pub(crate) fn pattern(len: usize) -> Vec<u8> {
     (0..len).map(pattern_at).collect()
 }
@@ -48,19 +48,19 @@ pub(crate) trait Machine {
     fn poll_timeout(&self) -> Option<Instant>;
     fn outcome(&self) -> Option<Result<(), Error>>;
 
-    /// Everything that goes out.
+    /// Returns all frames that are sent.
     fn out(&mut self, now: Instant) -> Vec<String> {
         let frames = core::iter::from_fn(|| self.poll_transmit(now));
         frames.map(|frame| frame.to_string()).collect()
     }
 
-    /// A frame comes in; what goes out.
+    /// Handles a frame; returns the frames that are sent.
     fn on(&mut self, now: Instant, text: &str) -> Vec<String> {
         self.handle_frame(now, &frame(text));
         self.out(now)
     }
 
-    /// For each frame that comes in the one that goes out, or `-`. Data is written without the
+    /// Handles each frame, and returns the frame sent after it, or `-`. Data is written without the
     /// zeros at its end.
     #[track_caller]
     fn talk(&mut self, steps: &[(&str, &str)]) {

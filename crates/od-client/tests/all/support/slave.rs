@@ -1,4 +1,4 @@
-//! LSS slaves to the letter of CiA 305: only one without node ID takes part in fastscan.
+//! LSS slaves that follow CiA 305 exactly: only a slave without node ID takes part in fastscan.
 
 use od_client::Frame;
 use od_client::lss::Identity;
