@@ -102,7 +102,7 @@ impl Allows {
         };
         if reason.is_empty() {
             self.findings
-                .push(w0802_allow_without_reason::finding(codes, span(text)));
+                .push(w0802_allow_without_reason(codes, span(text)));
             return;
         }
         for given in codes.split(',') {
@@ -115,7 +115,7 @@ impl Allows {
                 }),
                 None => self
                     .findings
-                    .push(w0801_allow_without_rule::finding(given, span(given))),
+                    .push(w0801_allow_without_rule(given, span(given))),
             }
         }
     }
@@ -126,8 +126,7 @@ impl Allows {
         // The findings for other tools, if there are any, come later.
         let unused = self.allows.iter();
         let unused = unused.filter(|allow| !allow.used && !allow.code.starts_with('T'));
-        let unused =
-            unused.map(|allow| i0803_allow_without_finding::finding(allow.code, allow.span));
+        let unused = unused.map(|allow| i0803_allow_without_finding(allow.code, allow.span));
         self.findings.extend(unused);
         if !self.findings.is_empty() {
             findings.append(&mut self.findings);

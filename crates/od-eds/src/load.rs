@@ -117,14 +117,10 @@ fn encoded(document: &Document) -> Vec<Finding> {
     if encoding != Encoding::Ascii && !is_xml(text) {
         let first = text.find(|c: char| !c.is_ascii());
         let first = lines::span(text, first.unwrap_or(0));
-        found.push(i0111_not_ascii::finding(
-            first,
-            encoding,
-            document.has_mark(),
-        ));
+        found.push(i0111_not_ascii(first, encoding, document.has_mark()));
     }
     if let Some(at) = document.first_wrong() {
-        found.push(w0112_encoding::finding(lines::span(text, at), encoding));
+        found.push(w0112_encoding(lines::span(text, at), encoding));
     }
     found
 }

@@ -75,12 +75,8 @@ impl Log {
     pub(crate) fn finish(mut self) -> Vec<Finding> {
         let counts = self.counts.into_values();
         for count in counts.filter(|count| count.all > KEPT) {
-            let finding = w0116_too_many_findings::finding(
-                count.first,
-                count.rule.code,
-                KEPT,
-                count.all - KEPT,
-            );
+            let finding =
+                w0116_too_many_findings(count.first, count.rule.code, KEPT, count.all - KEPT);
             self.findings.push(finding);
         }
         self.findings

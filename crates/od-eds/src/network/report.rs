@@ -30,7 +30,7 @@ pub fn check(
     let mut ids: BTreeMap<u8, &str> = BTreeMap::new();
     for node in nodes {
         match ids.get(&node.id) {
-            Some(first) => found.push(e1201_same_node_id::finding(first, &node.name, node.id)),
+            Some(first) => found.push(e1201_same_node_id(first, &node.name, node.id)),
             None => drop(ids.insert(node.id, &node.name)),
         }
     }
@@ -49,7 +49,7 @@ pub fn check(
                         place(&nodes[other as usize], own),
                         place(&nodes[at], used.service),
                     );
-                    found.push(e1202_same_can_id::finding(&first, &second, used.id));
+                    found.push(e1202_same_can_id(&first, &second, used.id));
                 }
                 Some(_) => {}
                 None => drop(sent.insert(key, (at as u32, used.service))),
@@ -66,17 +66,11 @@ pub fn check(
                 }
                 (Service::Rpdo(_) | Service::Time, None) => {
                     let what = format!("CAN-ID {:03X}h", used.id);
-                    found.push(w1203_no_producer::finding(
-                        &place(node, used.service),
-                        &what,
-                    ));
+                    found.push(w1203_no_producer(&place(node, used.service), &what));
                 }
                 (Service::Sync, None) if is_synchronous(node, own) => {
                     let what = format!("CAN-ID {:03X}h", used.id);
-                    found.push(w1203_no_producer::finding(
-                        &place(node, used.service),
-                        &what,
-                    ));
+                    found.push(w1203_no_producer(&place(node, used.service), &what));
                 }
                 _ => {}
             }
@@ -85,7 +79,7 @@ pub fn check(
     }
     let load = load(&frames(nodes, sync_period), bit_rate);
     if load > HIGH {
-        found.push(w1205_bus_load::finding(load, bit_rate));
+        found.push(w1205_bus_load(load, bit_rate));
     }
     found
 }
@@ -148,7 +142,7 @@ fn length(node: &Node, service: Service, from: &Node, number: u16) -> Option<Fin
     );
     (mapped > sent).then(|| {
         let (to, from) = (place(node, service), place(from, Service::Tpdo(number)));
-        w1206_pdo_too_short::finding(&to, mapped, &from, sent)
+        w1206_pdo_too_short(&to, mapped, &from, sent)
     })
 }
 
@@ -164,7 +158,7 @@ fn heartbeats(node: &Node, nodes: &[Node], found: &mut Vec<Finding>) {
         match producer.map(|producer| (producer, producer.number(0x1017, 0))) {
             Some((producer, own)) if own > 0 => {
                 if time <= own {
-                    found.push(e1204_consumer_time_too_short::finding(
+                    found.push(e1204_consumer_time_too_short(
                         &node.name,
                         time,
                         &producer.name,
@@ -175,7 +169,7 @@ fn heartbeats(node: &Node, nodes: &[Node], found: &mut Vec<Finding>) {
             _ => {
                 let what = format!("the heartbeat of node {id}");
                 let consumer = format!("heartbeat consumer 1016h:{sub:02X} of {}", node.name);
-                found.push(w1203_no_producer::finding(&consumer, &what));
+                found.push(w1203_no_producer(&consumer, &what));
             }
         }
     }

@@ -10,10 +10,10 @@ use crate::fact::Key;
 use crate::finding::Finding;
 use crate::read::fields::STORAGE;
 use crate::rules::edits::{
-    e0702_object_exists, e0703_sub_object_without_object, e0704_object_without_sub_objects,
-    e0705_name_missing, e0706_type_missing, e0707_value_not_valid, e0708_value_of_base_not_valid,
-    e0709_sub_object_with_object_code, e0710_value_of_object_with_sub_objects,
-    e0711_field_not_for_type, e0712_index_of_data_types,
+    e0702_object_exists, e0703_sub_object_without_object, e0704_added, e0705_name_missing,
+    e0706_type_missing, e0707_value_not_valid, e0708_value_of_base_not_valid,
+    e0709_sub_object_with_object_code, e0710_value_of_object_with_sub_objects, e0711_capacity,
+    e0711_mappable, e0712_index_of_data_types,
 };
 use crate::span::{Span, Spanned};
 use od_model::DataType;
@@ -82,12 +82,11 @@ fn modify(description: &mut Description, edit: &Edit, findings: &mut Vec<Finding
         match &change.value {
             Change::Code(code) if whole => object.code = Spanned::new(*code, change.span),
             Change::Name(name) if whole => object.name = Spanned::new(name.clone(), change.span),
-            Change::Code(_) => findings.push(e0709_sub_object_with_object_code::finding(
-                &edit.target,
-                change.span,
-            )),
+            Change::Code(_) => {
+                findings.push(e0709_sub_object_with_object_code(&edit.target, change.span))
+            }
             other if !has_value => {
-                findings.push(e0710_value_of_object_with_sub_objects::finding(
+                findings.push(e0710_value_of_object_with_sub_objects(
                     &edit.target,
                     change.span,
                     other.key(),
@@ -107,11 +106,11 @@ fn modify(description: &mut Description, edit: &Edit, findings: &mut Vec<Finding
 fn add_object(description: &mut Description, edit: &Edit, findings: &mut Vec<Finding>) {
     let target = *edit.target;
     if target.index < 0x1000 {
-        findings.push(e0712_index_of_data_types::finding(&edit.target));
+        findings.push(e0712_index_of_data_types(&edit.target));
         return;
     }
     if description.objects.contains_key(&target.index) {
-        findings.push(e0702_object_exists::finding(&edit.target));
+        findings.push(e0702_object_exists(&edit.target));
         return;
     }
     let code = edit.changes.iter().find_map(|change| match change.value {
@@ -132,7 +131,7 @@ fn add_object(description: &mut Description, edit: &Edit, findings: &mut Vec<Fin
     if code.has_members() {
         for change in &edit.changes {
             if !matches!(change.value, Change::Code(_) | Change::Name(_)) {
-                findings.push(e0710_value_of_object_with_sub_objects::finding(
+                findings.push(e0710_value_of_object_with_sub_objects(
                     &edit.target,
                     change.span,
                     change.key(),
@@ -149,26 +148,20 @@ fn add_member(description: &mut Description, edit: &Edit, findings: &mut Vec<Fin
     let target = *edit.target;
     let sub = target.address().sub;
     let Some(object) = description.objects.get_mut(&target.index) else {
-        findings.push(e0703_sub_object_without_object::finding(&edit.target));
+        findings.push(e0703_sub_object_without_object(&edit.target));
         return;
     };
     if !object.code.has_members() {
-        findings.push(e0704_object_without_sub_objects::added(
-            &edit.target,
-            *object.code,
-        ));
+        findings.push(e0704_added(&edit.target, *object.code));
         return;
     }
     if object.entries.contains_key(&sub) {
-        findings.push(e0702_object_exists::finding(&edit.target));
+        findings.push(e0702_object_exists(&edit.target));
         return;
     }
     for change in &edit.changes {
         if matches!(change.value, Change::Code(_)) {
-            findings.push(e0709_sub_object_with_object_code::finding(
-                &edit.target,
-                change.span,
-            ));
+            findings.push(e0709_sub_object_with_object_code(&edit.target, change.span));
         }
     }
     if let Some(mut entry) = make(edit, findings) {
@@ -185,7 +178,7 @@ fn name_of(edit: &Edit, findings: &mut Vec<Finding>) -> Spanned<String> {
             return Spanned::new(name.clone(), change.span);
         }
     }
-    findings.push(e0705_name_missing::finding(&edit.target));
+    findings.push(e0705_name_missing(&edit.target));
     Spanned::new(edit.target.to_string(), edit.target.span)
 }
 
@@ -195,7 +188,7 @@ fn make(edit: &Edit, findings: &mut Vec<Finding>) -> Option<EntryDescription> {
         Change::Type(data_type) => Some(data_type),
         _ => None,
     }) else {
-        findings.push(e0706_type_missing::finding(&edit.target));
+        findings.push(e0706_type_missing(&edit.target));
         return None;
     };
     let mut entry = EntryDescription::new("", data_type);
@@ -254,13 +247,8 @@ fn fill(entry: &mut EntryDescription, edit: &Edit, findings: &mut Vec<Finding>) 
                 Some(value) => *field = Some(Spanned::new(value, change.span)),
                 None => {
                     let (at, given) = (change.span, raw.to_string());
-                    let finding = e0707_value_not_valid::finding(
-                        &edit.target,
-                        at,
-                        change.key(),
-                        &given,
-                        data_type,
-                    );
+                    let finding =
+                        e0707_value_not_valid(&edit.target, at, change.key(), &given, data_type);
                     findings.push(finding);
                 }
             },
@@ -279,13 +267,11 @@ fn fill_length(entry: &mut EntryDescription, edit: &Edit, findings: &mut Vec<Fin
     for change in &edit.changes {
         match (&change.value, fixed) {
             (Change::Mappable(true), Some((data_type, false))) => {
-                let finding =
-                    e0711_field_not_for_type::mappable(&edit.target, change.span, data_type);
+                let finding = e0711_mappable(&edit.target, change.span, data_type);
                 findings.push(finding);
             }
             (Change::Capacity(_), Some((data_type, true))) => {
-                let finding =
-                    e0711_field_not_for_type::capacity(&edit.target, change.span, data_type);
+                let finding = e0711_capacity(&edit.target, change.span, data_type);
                 findings.push(finding);
             }
             (Change::Mappable(mappable), _) => {
@@ -310,7 +296,7 @@ fn retype(
     match given.value_for(data_type) {
         Some(value) => *field = Some(Spanned::new(value, old.span)),
         None => {
-            return Some(e0708_value_of_base_not_valid::finding(
+            return Some(e0708_value_of_base_not_valid(
                 target,
                 at,
                 key,

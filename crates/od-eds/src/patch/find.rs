@@ -7,27 +7,27 @@ use alloc::vec::Vec;
 use crate::description::{Description, ObjectDescription};
 use crate::finding::Finding;
 use crate::patch::target::Target;
-use crate::rules::edits::{e0701_object_missing, e0704_object_without_sub_objects};
+use crate::rules::edits::{
+    e0701_first, e0701_near, e0701_object_missing, e0701_sub_index,
+    e0704_object_without_sub_objects,
+};
 use crate::span::Spanned;
 
 /// The finding that `target` is missing in `description`; `None` if it is there.
 pub fn missing(description: &Description, target: &Spanned<Target>) -> Option<Finding> {
     let Some(object) = description.objects.get(&target.index) else {
         return Some(match near_index(description, target.value) {
-            Some((meant, name)) => e0701_object_missing::near(target, meant, name),
-            None if description.objects.is_empty() => e0701_object_missing::first(target),
-            None => e0701_object_missing::finding(target),
+            Some((meant, name)) => e0701_near(target, meant, name),
+            None if description.objects.is_empty() => e0701_first(target),
+            None => e0701_object_missing(target),
         });
     };
     let sub = target.sub?;
     if !object.code.has_members() {
-        return Some(e0704_object_without_sub_objects::finding(
-            target,
-            *object.code,
-        ));
+        return Some(e0704_object_without_sub_objects(target, *object.code));
     }
     let missing = !object.entries.contains_key(&sub);
-    missing.then(|| e0701_object_missing::sub_index(target, &subs(object)))
+    missing.then(|| e0701_sub_index(target, &subs(object)))
 }
 
 /// The object whose index differs in one digit or has one digit more, with its name.

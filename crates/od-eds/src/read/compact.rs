@@ -10,7 +10,7 @@ use crate::fact::Key;
 use crate::log::Log;
 use crate::read::entry::{Reader, Unread, extra};
 use crate::read::fields::Fields;
-use crate::rules::structure::{
+use crate::rules::structure::reader::{
     w0313_compact_not_valid, w0314_compact_sub_index_missing, w0321_nr_of_entries,
 };
 use crate::scan::names::Compact;
@@ -42,7 +42,7 @@ pub(crate) fn count(
         Some(number) if number > 0 => Some(Spanned::new(HIGHEST, given.span)),
         _ => None,
     };
-    reader.report(w0313_compact_not_valid::finding(&given));
+    reader.report(w0313_compact_not_valid(&given));
     if count.is_none() {
         unread.push(("CompactSubObj".into(), given.value.into_owned()));
     }
@@ -87,9 +87,7 @@ pub(crate) fn expand(
                     let address = Address::new(address.index, sub);
                     give(Reader { address, log }, entry, compact, value);
                 }
-                None => {
-                    log.push(w0314_compact_sub_index_missing::finding(key, count).about(address))
-                }
+                None => log.push(w0314_compact_sub_index_missing(key, count).about(address)),
             }
         }
     }
@@ -108,9 +106,7 @@ fn entry_count(section: &Placed<'_>, address: Address, log: &mut Log) {
     if given.and_then(|given| crate::scan::number::number(given)) == i128::try_from(entries).ok() {
         return;
     }
-    log.push(
-        w0321_nr_of_entries::finding(section.header, given, entries, has_empty).about(address),
-    );
+    log.push(w0321_nr_of_entries(section.header, given, entries, has_empty).about(address));
 }
 
 fn give(mut reader: Reader<'_>, entry: &mut EntryDescription, compact: Compact, value: &Text<'_>) {

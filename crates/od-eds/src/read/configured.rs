@@ -1,8 +1,8 @@
 //! Keys and sections of a DCF that are in an EDS, and the one that a DCF lacks.
 
 use crate::log::Log;
-use crate::rules::lists::w0217_dcf_key_in_eds;
-use crate::rules::standard::w0658_commissioning_missing;
+use crate::rules::lists::reader::{w0217_dcf_key, w0217_dcf_section};
+use crate::rules::standard::reader::w0658_commissioning_missing;
 use crate::scan::names::{Compact, Place, place};
 use crate::scan::placed::Placed;
 
@@ -41,7 +41,7 @@ pub(crate) fn check(sections: &[Placed<'_>], file: Option<&str>, log: &mut Log) 
                 .any(|name| section.name.eq_ignore_ascii_case(name))
         };
         if !sections.iter().any(is_one) {
-            log.push(w0658_commissioning_missing::finding());
+            log.push(w0658_commissioning_missing());
         }
     }
     if !is(".eds") {
@@ -54,25 +54,25 @@ pub(crate) fn check(sections: &[Placed<'_>], file: Option<&str>, log: &mut Log) 
             let last =
                 keys.find(|(key, value)| key.eq_ignore_ascii_case("LastEDS") && !value.is_empty());
             last.iter()
-                .for_each(|(key, _)| log.push(w0217_dcf_key_in_eds::key(key)));
+                .for_each(|(key, _)| log.push(w0217_dcf_key(key)));
         }
         match place(name) {
             Place::Object(_) | Place::Member(..) => {
                 let own = |key: &str| KEYS.iter().any(|known| known.eq_ignore_ascii_case(key));
                 let keys = section.pairs.iter();
                 for (key, _) in keys.filter(|(key, value)| own(key) && !value.is_empty()) {
-                    log.push(w0217_dcf_key_in_eds::key(key));
+                    log.push(w0217_dcf_key(key));
                 }
             }
             Place::Compact(_, Compact::Value | Compact::Denotation) => {
-                log.push(w0217_dcf_key_in_eds::section(section.header, name));
+                log.push(w0217_dcf_section(section.header, name));
             }
             Place::Other
                 if SECTIONS
                     .iter()
                     .any(|known| name.eq_ignore_ascii_case(known)) =>
             {
-                log.push(w0217_dcf_key_in_eds::section(section.header, name));
+                log.push(w0217_dcf_section(section.header, name));
             }
             _ => {}
         }

@@ -12,13 +12,14 @@ use crate::read::fields::Fields;
 use crate::read::values;
 use crate::read::words;
 use crate::rules;
-use crate::rules::structure::{w0315_name_missing, w0342_obj_flags_reserved};
+use crate::rules::structure::reader::{w0315_name_missing, w0342_obj_flags_reserved};
 use crate::rules::text::w0109_comment_after_value;
-use crate::rules::values::{
-    e0402_data_type_unknown, e0405_access_type_not_valid, e0417_node_id_not_supported,
-    e0428_node_id_misspelled, shared, w0404_access_type_missing, w0406_pdo_mapping_not_valid,
-    w0407_obj_flags_not_a_number, w0416_limit_not_valid, w0426_standard_type_missing,
+use crate::rules::values::reader::{
+    e0402_data_type_unknown, e0405_access_type_not_valid, e0428_node_id_misspelled,
+    w0404_access_type_missing, w0406_pdo_mapping_not_valid, w0407_obj_flags_not_a_number,
+    w0426_standard_type_missing,
 };
+use crate::rules::values::{e0417_node_id_not_supported, shared, w0416_limit_not_valid};
 use crate::scan::number;
 use crate::scan::number::Note;
 use crate::scan::placed;
@@ -63,7 +64,7 @@ impl Reader<'_> {
         let place = fields.place("ParameterName").unwrap_or(fields.header);
         let name = fields.take("ParameterName").map(placed::owned);
         name.unwrap_or_else(|| {
-            self.report(w0315_name_missing::finding(place));
+            self.report(w0315_name_missing(place));
             Spanned::from(String::new())
         })
     }
@@ -121,7 +122,7 @@ impl Reader<'_> {
             Assumed::Domain => Some(DataType::Domain),
             Assumed::Standard { sub, is_whole } => {
                 let found = cia301::data_type(self.address.index, sub, is_whole)?;
-                self.report(w0426_standard_type_missing::finding(header, found));
+                self.report(w0426_standard_type_missing(header, found));
                 Some(found)
             }
         }
@@ -173,21 +174,15 @@ impl Reader<'_> {
         let read = |reader: &mut Self, given: &Text<'_>| {
             reader.coded(key, given, of, words::data_type, right)
         };
-        let found = self.keyed(fields, unread, key, read, e0402_data_type_unknown::finding)?;
+        let found = self.keyed(fields, unread, key, read, e0402_data_type_unknown)?;
         Some(Spanned::new(found.value?, found.span))
     }
 
     fn access(&mut self, fields: &mut Fields<'_>, unread: &mut Unread) -> Spanned<Access> {
         let read = |reader: &mut Self, given: &Text<'_>| reader.access_word(given);
         let key = Key::AccessType;
-        let Some(found) = self.keyed(
-            fields,
-            unread,
-            key,
-            read,
-            e0405_access_type_not_valid::finding,
-        ) else {
-            self.report(w0404_access_type_missing::finding(fields.header));
+        let Some(found) = self.keyed(fields, unread, key, read, e0405_access_type_not_valid) else {
+            self.report(w0404_access_type_missing(fields.header));
             return Spanned::from(Access::Ro);
         };
         Spanned::new(found.value.unwrap_or(Access::Ro), found.span)
@@ -218,13 +213,7 @@ impl Reader<'_> {
         let read = |reader: &mut Self, given: &Text<'_>| {
             reader.coded(key, given, of, words::mappable, right)
         };
-        match self.keyed(
-            fields,
-            unread,
-            key,
-            read,
-            w0406_pdo_mapping_not_valid::finding,
-        ) {
+        match self.keyed(fields, unread, key, read, w0406_pdo_mapping_not_valid) {
             Some(found) => Spanned::new(found.value.unwrap_or(false), found.span),
             None => Spanned::from(false),
         }
@@ -247,18 +236,12 @@ impl Reader<'_> {
         let key = Key::ObjFlags;
         let read = |reader: &mut Self, given: &Text<'_>| {
             let flags = u32::try_from(reader.number(key, given)?).ok()?;
-            if let Some(finding) = w0342_obj_flags_reserved::finding(given, flags) {
+            if let Some(finding) = w0342_obj_flags_reserved(given, flags) {
                 reader.report(finding);
             }
             Some(flags)
         };
-        let found = self.keyed(
-            fields,
-            unread,
-            key,
-            read,
-            w0407_obj_flags_not_a_number::finding,
-        );
+        let found = self.keyed(fields, unread, key, read, w0407_obj_flags_not_a_number);
         found.and_then(|found| found.value).unwrap_or(0)
     }
 
@@ -330,7 +313,7 @@ impl Reader<'_> {
             let rule = match note {
                 Note::Comment => {
                     let value = number::without_comment(given, &mut Vec::new());
-                    self.report(w0109_comment_after_value::finding(key, given, value));
+                    self.report(w0109_comment_after_value(key, given, value));
                     continue;
                 }
                 Note::Octal => &rules::I0408,
@@ -368,7 +351,7 @@ fn unfit(key: Key, given: &Text<'_>, data_type: Spanned<DataType>) -> Finding {
     };
     let meant = number::meant_node_id(given).filter(|_| data_type.holds_node_id());
     if let Some(offset) = meant {
-        return e0428_node_id_misspelled::finding(key, given, offset);
+        return e0428_node_id_misspelled(key, given, offset);
     }
     let finding = if formula {
         shared::unfit_formula(rule, key, given, data_type)

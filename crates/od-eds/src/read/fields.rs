@@ -9,7 +9,7 @@ use crate::fact::Key;
 use crate::log::Log;
 use crate::read::other::unknown_object_keys;
 use crate::rules;
-use crate::rules::structure::i0320_empty_value;
+use crate::rules::structure::reader::i0320_empty_value;
 use crate::rules::text::{e0117_duplicate_key_differs, w0107_duplicate_key};
 use crate::scan::number::before_comment;
 use crate::scan::placed::{Placed, Text};
@@ -51,7 +51,7 @@ impl<'a> Fields<'a> {
             };
             if before_comment(value).is_empty() && numeric(key) {
                 let is_single = !repeated.iter().any(|other| other.eq_ignore_ascii_case(key));
-                log.push(i0320_empty_value::finding(key, is_single).about(address));
+                log.push(i0320_empty_value(key, is_single).about(address));
                 value.value = Cow::Borrowed("");
             }
         }
@@ -155,11 +155,11 @@ pub(crate) fn duplicates(pairs: &[(Text<'_>, Text<'_>)], log: &mut Log) -> Vec<u
         let (key, value) = &pairs[at];
         if value == same {
             log.add(&rules::W0107, || {
-                w0107_duplicate_key::finding(first.span, key, value)
+                w0107_duplicate_key(first.span, key, value)
             })
         } else {
             log.add(&rules::E0117, || {
-                e0117_duplicate_key_differs::finding(first.span, key, value)
+                e0117_duplicate_key_differs(first.span, key, value)
             })
         }
         found.push(at);

@@ -6,10 +6,11 @@ use alloc::vec::Vec;
 use crate::description::{Description, ObjectDescription};
 use crate::fix::Fix;
 use crate::log::Log;
-use crate::rules::lists::{
+use crate::rules::lists::reader::{
     w0201_section_missing, w0202_object_not_listed, w0203_lists_missing,
     w0204_supported_objects_count, w0205_list_entry_not_valid, w0206_wrong_list,
-    w0207_listed_twice, w0214_number_twice, w0218_list_entry_spelling, w0242_list_numbering,
+    w0207_listed_twice, w0214_number_twice, w0218_index, w0218_number, w0242_list_numbering,
+    w0242_renumbered,
 };
 use crate::scan::names::List;
 use crate::scan::number::{before_comment, number};
@@ -33,12 +34,12 @@ pub(crate) fn check(
         return;
     }
     if listed.is_empty() {
-        log.push(w0203_lists_missing::finding());
+        log.push(w0203_lists_missing());
         return;
     }
     for (index, object) in &description.objects {
         if !listed.contains_key(index) {
-            log.push(w0202_object_not_listed::finding(object.span, *index));
+            log.push(w0202_object_not_listed(object.span, *index));
         }
     }
 }
@@ -62,7 +63,7 @@ fn entries(
         0..8
     };
     let mut renumbered = || match fixes.next() {
-        Some(_) => w0242_list_numbering::renumbered(placed),
+        Some(_) => w0242_renumbered(placed),
         None => Fix::safe(),
     };
     for (key, value) in &placed.pairs {
@@ -76,37 +77,37 @@ fn entries(
         }
         let read = number(key).and_then(|given| Some((given, index(value, description)?)));
         let Some((given, index)) = read else {
-            log.push(w0205_list_entry_not_valid::finding(key, value));
+            log.push(w0205_list_entry_not_valid(key, value));
             invalid += 1;
             continue;
         };
         found += 1;
         if !is_plain(value, index) {
-            log.push(w0218_list_entry_spelling::index(value, index));
+            log.push(w0218_index(value, index));
         }
         if key.starts_with('0') && given != 0 || key.bytes().any(|b| !b.is_ascii_digit()) {
-            log.push(w0218_list_entry_spelling::number(key, given));
+            log.push(w0218_number(key, given));
         }
         if let Some(first) = numbers.get(&given) {
             ordered = false;
-            log.push(w0214_number_twice::finding(renumbered(), key, *first));
+            log.push(w0214_number_twice(renumbered(), key, *first));
         } else {
             numbers.insert(given, key.span);
         }
         if given != found && ordered {
             ordered = false;
-            log.push(w0242_list_numbering::finding(renumbered(), key, found));
+            log.push(w0242_list_numbering(renumbered(), key, found));
         }
         if let Some(first) = listed.get(&index) {
-            log.push(w0207_listed_twice::finding(value.span, index, *first));
+            log.push(w0207_listed_twice(value.span, index, *first));
             continue;
         }
         listed.insert(index, value.span);
         if !description.objects.contains_key(&index) && !made.contains_key(&index) {
-            log.push(w0201_section_missing::finding(value.span, index));
+            log.push(w0201_section_missing(value.span, index));
         }
         if List::of(index) != list {
-            log.push(w0206_wrong_list::finding(value.span, index, list));
+            log.push(w0206_wrong_list(value.span, index, list));
         }
     }
     let given = count.and_then(|count| number(count));
@@ -114,7 +115,7 @@ fn entries(
     let counted = given == Some(found) || given == Some(found + invalid);
     if !counted && (found > 0 || count.is_some()) {
         let highest = numbers.keys().next_back().copied().unwrap_or(0);
-        log.push(w0204_supported_objects_count::finding(
+        log.push(w0204_supported_objects_count(
             placed.header,
             count,
             found,

@@ -13,9 +13,11 @@ use alloc::vec::Vec;
 use crate::description::{Description, EntryDescription, ObjectDescription, Section};
 use crate::log::Log;
 use crate::read::sorted;
-use crate::rules::lists::{w0215_module_list, w0249_extended_object_missing};
-use crate::rules::standard::w0609_key_value_not_valid;
-use crate::rules::structure::w0323_module_count;
+use crate::rules::lists::reader::{
+    w0215_no_section, w0215_unlisted, w0249_extended_object_missing,
+};
+use crate::rules::standard::reader::w0609_key_value_not_valid;
+use crate::rules::structure::reader::w0323_module_count;
 use crate::scan::known::{self, Form, ModulePart};
 use crate::scan::names::Place;
 use crate::scan::number::{self, integer};
@@ -161,7 +163,7 @@ pub(crate) fn check(description: &Description, log: &mut Log) {
             let module = modules.iter().find(|module| module.number == part.module);
             let fixed = module.is_some_and(|module| module.fixed.contains_key(&index));
             if !fixed && !description.objects.contains_key(&index) {
-                log.push(w0249_extended_object_missing::finding(
+                log.push(w0249_extended_object_missing(
                     section.name.span,
                     index,
                     part.module,
@@ -263,13 +265,13 @@ fn extension(section: &Section, place: Place, log: &mut Log) -> Option<Extension
     let given = section.get("Count");
     let count = given.and_then(|given| count(given));
     if count.is_none() {
-        log.push(w0323_module_count::finding(section.name.span, given));
+        log.push(w0323_module_count(section.name.span, given));
     }
     let given = section.get("ObjExtend");
     let extend = given.and_then(|given| crate::scan::number::number(given));
     if let Some(given) = given.filter(|_| extend.is_none_or(|extend| !matches!(extend, 0 | 1))) {
         let (name, given) = (&section.name, borrow(given));
-        log.push(w0609_key_value_not_valid::finding(
+        log.push(w0609_key_value_not_valid(
             name,
             "ObjExtend",
             &given,
@@ -330,7 +332,7 @@ fn listed(
         .collect();
     for (index, span) in &listed {
         if !described.contains(index) {
-            log.push(w0215_module_list::no_section(*span, *index, module));
+            log.push(w0215_no_section(*span, *index, module));
         }
     }
     let listed: BTreeSet<u16> = listed.into_iter().map(|(index, _)| index).collect();
@@ -339,11 +341,7 @@ fn listed(
             continue;
         };
         if !listed.contains(index) {
-            log.push(w0215_module_list::unlisted(
-                section.name.span,
-                *index,
-                &name,
-            ));
+            log.push(w0215_unlisted(section.name.span, *index, &name));
         }
     }
 }

@@ -11,9 +11,9 @@ use crate::read::compact;
 use crate::read::compact::CompactSections;
 use crate::read::entry::{Assumed, Reader, Unread, extra};
 use crate::read::fields::Fields;
-use crate::rules::lists::e0208_sub_index_without_object;
-use crate::rules::structure::{
-    e0301_object_code_unknown, e0305_var_with_sub_objects, e0353_too_many_sub_objects,
+use crate::rules::lists::reader::e0208_sub_index_without_object;
+use crate::rules::structure::reader::{
+    W0325_KEYS, e0301_object_code_unknown, e0305_var_with_sub_objects, e0353_too_many_sub_objects,
     w0302_object_type_missing, w0316_sub_number_not_a_number, w0317_sub_number_missing,
     w0322_sub_index_not_var, w0324_compact_beside_sections, w0325_value_of_array,
 };
@@ -46,7 +46,7 @@ pub(crate) fn object(
     let sub_number = sub_number(&mut reader, &mut fields, &mut unread);
     let mut count = compact::count(&mut reader, &mut fields, &mut unread);
     if let Some(given) = count.take_if(|_| !sections.members.is_empty()) {
-        reader.report(w0324_compact_beside_sections::finding(given.span));
+        reader.report(w0324_compact_beside_sections(given.span));
         if fields.has("DataType") {
             count = Some(given);
         } else {
@@ -95,12 +95,9 @@ pub(crate) fn object(
     } else {
         flags = reader.flags(&mut fields, &mut unread).max(flags);
         if matches!(*code, ObjectCode::Array | ObjectCode::Record) {
-            for key in w0325_value_of_array::KEYS
-                .into_iter()
-                .filter(|key| fields.has(key.name()))
-            {
+            for key in W0325_KEYS.into_iter().filter(|key| fields.has(key.name())) {
                 let place = fields.place(key.name()).unwrap_or(fields.header);
-                reader.report(w0325_value_of_array::finding(place, key, *code));
+                reader.report(w0325_value_of_array(place, key, *code));
             }
         }
     }
@@ -120,7 +117,7 @@ pub(crate) fn object(
         },
         (None, None) => {
             if counted > 0 {
-                reader.report(w0317_sub_number_missing::finding(fields.header, counted));
+                reader.report(w0317_sub_number_missing(fields.header, counted));
             }
             Spanned::from(counted)
         }
@@ -142,7 +139,7 @@ fn room(reader: &mut Reader<'_>, count: Spanned<u8>) -> Spanned<u8> {
     if reader.log.expand(usize::from(count.value)) {
         return count;
     }
-    reader.report(e0353_too_many_sub_objects::finding(count.span));
+    reader.report(e0353_too_many_sub_objects(count.span));
     Spanned::new(0, count.span)
 }
 
@@ -153,7 +150,7 @@ fn orphan(
     log: &mut Log,
 ) -> Option<ObjectDescription> {
     let span = members.values().next()?.header;
-    log.push(e0208_sub_index_without_object::finding(span, index));
+    log.push(e0208_sub_index_without_object(span, index));
     let entries: BTreeMap<_, _> = members
         .into_iter()
         .map(|(sub, section)| (sub, member(Address::new(index, sub), section, log)))
@@ -181,7 +178,7 @@ fn member(address: Address, section: Placed<'_>, log: &mut Log) -> EntryDescript
     if let Some(given) = fields.take("ObjectType") {
         let code = reader.object_code(&given);
         if !matches!(code, Some(ObjectCode::Var | ObjectCode::Domain)) {
-            reader.report(w0322_sub_index_not_var::finding(&given));
+            reader.report(w0322_sub_index_not_var(&given));
         }
         // A member is a VAR; other keys are kept.
         if code != Some(ObjectCode::Var) {
@@ -239,12 +236,12 @@ fn object_code(
         unread,
         Key::ObjectType,
         read,
-        e0301_object_code_unknown::finding,
+        e0301_object_code_unknown,
     ) {
         Some(found) => Spanned::new(found.value.unwrap_or(guess), found.span),
         None => {
             if has_members {
-                reader.report(w0302_object_type_missing::finding(fields.header));
+                reader.report(w0302_object_type_missing(fields.header));
             }
             Spanned::from(guess)
         }
@@ -265,11 +262,7 @@ fn contradiction(
         (None, Some(count)) => count.span,
         (None, None) => fields.header,
     };
-    reader.report(e0305_var_with_sub_objects::finding(
-        span,
-        code,
-        count.is_some(),
-    ));
+    reader.report(e0305_var_with_sub_objects(span, code, count.is_some()));
     let meant = match count {
         Some(_) => ObjectCode::Array,
         None => ObjectCode::Record,
@@ -286,11 +279,5 @@ fn sub_number(
     let key = Key::SubNumber;
     let read =
         |reader: &mut Reader<'_>, given: &Text<'_>| u32::try_from(reader.number(key, given)?).ok();
-    reader.keyed(
-        fields,
-        unread,
-        key,
-        read,
-        w0316_sub_number_not_a_number::finding,
-    )
+    reader.keyed(fields, unread, key, read, w0316_sub_number_not_a_number)
 }

@@ -6,13 +6,13 @@ use alloc::vec::Vec;
 
 use crate::finding::Finding;
 use crate::log::Log;
-use crate::rules::lists::{
-    i0211_unknown_section, w0213_section_misspelled, w0252_bit_rate_unknown,
+use crate::rules::lists::reader::{
+    i0211_unknown_section, is_rate, w0213_section_misspelled, w0252_bit_rate_unknown,
 };
-use crate::rules::standard::{
+use crate::rules::standard::reader::{
     i0610_date_or_time, i0611_commissioning_spelling, w0609_key_value_not_valid,
 };
-use crate::rules::structure::{i0319_unknown_key, w0318_key_misspelled};
+use crate::rules::structure::reader::{i0319_unknown_key, w0318_key_misspelled};
 use crate::scan::known;
 use crate::scan::known::{Form, Known, OBJECT_KEYS};
 use crate::scan::names::List;
@@ -38,14 +38,14 @@ pub(crate) fn check(placed: &Placed<'_>, log: &mut Log) {
             let form = known::key(known, key).map(|(_, form)| form);
             form.is_none_or(|form| value.is_empty() || is_taken && fits(value, form))
         };
-        let finding = i0611_commissioning_spelling::finding(placed.header, pairs.all(is_valid));
+        let finding = i0611_commissioning_spelling(placed.header, pairs.all(is_valid));
         log.push(finding);
     }
     for (key, value) in &placed.pairs {
         match known::key(known, key) {
             Some((_, form)) => check_value(known, key, value, form, log),
-            None if known.name == "DeviceInfo" && w0252_bit_rate_unknown::is_rate(key) => {
-                log.push(w0252_bit_rate_unknown::finding(key));
+            None if known.name == "DeviceInfo" && is_rate(key) => {
+                log.push(w0252_bit_rate_unknown(key));
             }
             None => log.push(unknown_key(
                 key,
@@ -64,8 +64,8 @@ fn unknown_section(placed: &Placed<'_>, log: &mut Log) {
         .chain(List::ALL.map(List::name));
     let object = object_section(name);
     log.push(match object.as_deref().or(known::near(name, names)) {
-        Some(meant) => w0213_section_misspelled::finding(placed, meant),
-        None => i0211_unknown_section::finding(placed),
+        Some(meant) => w0213_section_misspelled(placed, meant),
+        None => i0211_unknown_section(placed),
     });
 }
 
@@ -88,8 +88,8 @@ fn object_section(name: &str) -> Option<String> {
 /// The finding about a key that odkit ignores, with the key that may be intended.
 fn unknown_key<'a>(key: &Text<'_>, value: &str, keys: impl Iterator<Item = &'a str>) -> Finding {
     match known::near(key, keys) {
-        Some(meant) => w0318_key_misspelled::finding(key, value, &meant.replace('#', "1")),
-        None => i0319_unknown_key::finding(key),
+        Some(meant) => w0318_key_misspelled(key, value, &meant.replace('#', "1")),
+        None => i0319_unknown_key(key),
     }
 }
 
@@ -108,10 +108,8 @@ pub(crate) fn unknown_object_keys(rest: &[(Text<'_>, Text<'_>)], address: Addres
 fn check_value(known: &Known, key: &str, value: &Text<'_>, form: Form, log: &mut Log) {
     if !value.is_empty() && !fits(value, form) {
         log.push(match form {
-            Form::Date | Form::Time => i0610_date_or_time::finding(key, value, form),
-            _ => {
-                w0609_key_value_not_valid::finding(&known.name.replace('#', "1"), key, value, form)
-            }
+            Form::Date | Form::Time => i0610_date_or_time(key, value, form),
+            _ => w0609_key_value_not_valid(&known.name.replace('#', "1"), key, value, form),
         });
     }
 }

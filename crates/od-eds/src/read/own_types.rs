@@ -8,7 +8,7 @@ use alloc::collections::BTreeMap;
 
 use crate::log::Log;
 use crate::read::object::Sections;
-use crate::rules::values::i0425_own_data_type;
+use crate::rules::values::reader::i0425_own_data_type;
 use crate::scan::number::{self, number};
 use crate::scan::placed::{Placed, Text};
 use crate::span::Spanned;
@@ -50,7 +50,7 @@ pub(crate) fn resolve<'a>(objects: &mut BTreeMap<u16, Sections<'a>>, log: &mut L
             let Some(found) = code.and_then(|code| own.get(&code)) else {
                 continue;
             };
-            let finding = i0425_own_data_type::finding(&given, &found.data_type);
+            let finding = i0425_own_data_type(&given, &found.data_type);
             log.push(finding.about(Address::new(*index, sub)));
             section.pairs[at].1.value = found.data_type.value.clone();
             add(section, "LowLimit", &found.low);

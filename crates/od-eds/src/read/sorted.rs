@@ -15,12 +15,12 @@ use crate::read::fields::duplicates;
 use crate::read::object::{self, Sections};
 use crate::read::{compact_pdo, configured, lists, other, own_types};
 use crate::rules;
-use crate::rules::lists::{i0212_section_name_spelling, w0209_compact_without_key};
-use crate::rules::structure::{e0303_duplicate_object_differs, w0304_duplicate_object};
+use crate::rules::lists::reader::{i0212_section_name_spelling, w0209_compact_without_key};
+use crate::rules::structure::reader::{e0303_duplicate_object_differs, w0304_duplicate_object};
 use crate::rules::text::{
-    e0118_merge_conflict, w0101_unknown_line, w0102_no_key, w0103_no_closing_bracket,
-    w0104_text_after_header, w0105_key_before_section, w0106_duplicate_section, w0108_colon,
-    w0110_header_without_name,
+    e0118_merge_conflict, w0101_no_sign, w0101_unknown_line, w0102_no_key,
+    w0103_no_closing_bracket, w0104_text_after_header, w0105_key_before_section,
+    w0106_duplicate_section, w0108_colon, w0110_header_without_name,
 };
 use crate::scan::lines::{self, Fault};
 use crate::scan::names::{List, Place, intended, place};
@@ -119,8 +119,7 @@ impl<'a, 'l> Sorted<'a, 'l> {
         let (Some(meant), Some(right)) = (meant, meant.and_then(Place::name)) else {
             return exact;
         };
-        self.log
-            .push(i0212_section_name_spelling::finding(section, &right));
+        self.log.push(i0212_section_name_spelling(section, &right));
         meant
     }
 
@@ -134,7 +133,7 @@ impl<'a, 'l> Sorted<'a, 'l> {
             }
             Entry::Occupied(first) => self
                 .log
-                .push(w0106_duplicate_section::finding(&section, *first.get())),
+                .push(w0106_duplicate_section(&section, *first.get())),
         }
         self.others.push(section);
     }
@@ -146,8 +145,7 @@ impl<'a, 'l> Sorted<'a, 'l> {
             let is_compact = sections.own.as_ref().is_some_and(counts_members);
             if !is_compact {
                 for section in core::mem::take(&mut sections.compact).into_values() {
-                    self.log
-                        .push(w0209_compact_without_key::finding(&section, index));
+                    self.log.push(w0209_compact_without_key(&section, index));
                     self.others.push(section);
                 }
             }
@@ -212,9 +210,9 @@ fn twice<'a>(
         same.is_some_and(|(_, first)| first != value)
     });
     let finding = if contradict {
-        e0303_duplicate_object_differs::finding(first, &second)
+        e0303_duplicate_object_differs(first, &second)
     } else {
-        w0304_duplicate_object::finding(first, &second)
+        w0304_duplicate_object(first, &second)
     };
     for (key, value) in second.pairs {
         match keys.entry(key.to_ascii_lowercase()) {
@@ -231,24 +229,22 @@ fn twice<'a>(
 /// Reports a problem.
 pub(crate) fn report(fault: &Fault<'_>, log: &mut Log) {
     match *fault {
-        Fault::Conflict(line) => log.add(&rules::E0118, || e0118_merge_conflict::finding(line)),
-        Fault::NoPair(line) => log.add(&rules::W0101, || w0101_unknown_line::finding(line)),
+        Fault::Conflict(line) => log.add(&rules::E0118, || e0118_merge_conflict(line)),
+        Fault::NoPair(line) => log.add(&rules::W0101, || w0101_unknown_line(line)),
         Fault::NoSign { at, key, value } => {
-            log.add(&rules::W0101, || {
-                w0101_unknown_line::no_sign(at, key, value)
-            });
+            log.add(&rules::W0101, || w0101_no_sign(at, key, value));
         }
-        Fault::NoKey(line) => log.add(&rules::W0102, || w0102_no_key::finding(line)),
-        Fault::Open { line, name } => log.add(&rules::W0103, || {
-            w0103_no_closing_bracket::finding(line, name)
-        }),
-        Fault::Behind { name, text } => log.add(&rules::W0104, || {
-            w0104_text_after_header::finding(name, text)
-        }),
-        Fault::NoName(line) => log.add(&rules::W0110, || w0110_header_without_name::finding(line)),
-        Fault::NoSection { line, key } => log.push(w0105_key_before_section::finding(line, key)),
+        Fault::NoKey(line) => log.add(&rules::W0102, || w0102_no_key(line)),
+        Fault::Open { line, name } => {
+            log.add(&rules::W0103, || w0103_no_closing_bracket(line, name))
+        }
+        Fault::Behind { name, text } => {
+            log.add(&rules::W0104, || w0104_text_after_header(name, text))
+        }
+        Fault::NoName(line) => log.add(&rules::W0110, || w0110_header_without_name(line)),
+        Fault::NoSection { line, key } => log.push(w0105_key_before_section(line, key)),
         Fault::Colon { at, key, value } => {
-            log.add(&rules::W0108, || w0108_colon::finding(at, key, value));
+            log.add(&rules::W0108, || w0108_colon(at, key, value));
         }
     }
 }

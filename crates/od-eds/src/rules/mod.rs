@@ -1,14 +1,24 @@
-//! The rules: every code of odkit is defined once, in a file of its own.
+//! The rules: every code of odkit is defined once.
+//!
+//! A rule with a check has a file of its own. Other code reports the rest (the reader, a patch, a target of `convert`):
+//! these are words and a constructor, and stand together in a file named by who reports them.
 
 use crate::finding::Rule;
 
-/// The rules of a folder, each under the name of its code, and a list of them. Their modules are declared below the
+/// The rules of a folder, each with the file that defines it, and a list of them. Their modules are declared below the
 /// call, where cargo-mutants finds them; the compiler reports a rule that is declared and not listed.
 macro_rules! catalogue {
     ($($file:ident $code:ident $(($kind:tt))?)*) => {
         $(
-            pub(crate) use $file::RULE as $code;
+            pub(crate) use $file::$code;
         )*
+        table! { $($code $(($kind))?)* }
+    };
+}
+
+/// The list of the rules of a folder, or of a file that defines all of its folder.
+macro_rules! table {
+    ($($code:ident $(($kind:tt))?)*) => {
         pub(crate) static ALL: &[&crate::finding::Rule] = &[$(&$code),*];
         /// The pairs of example files of all rules, in the same order.
         #[cfg(feature = "explain")]
@@ -27,6 +37,20 @@ pub struct Pair {
     pub fixed: &'static [u8],
 }
 
+/// The bytes of an example file.
+#[cfg(feature = "explain")]
+macro_rules! example {
+    ($code:ident $name:literal $kind:ident) => {
+        include_bytes!(concat!(
+            env!("CARGO_MANIFEST_DIR"),
+            "/cases/",
+            stringify!($code),
+            $name,
+            stringify!($kind)
+        ))
+    };
+}
+
 /// The files of a code; an EDS unless its kind is given. A rule with an `example` has none.
 #[cfg(feature = "explain")]
 macro_rules! pair {
@@ -37,8 +61,8 @@ macro_rules! pair {
     ($code:ident $kind:ident) => {
         super::Pair {
             code: stringify!($code),
-            bad: include_bytes!(concat!("../../../cases/", stringify!($code), "/bad.", stringify!($kind))),
-            fixed: include_bytes!(concat!("../../../cases/", stringify!($code), "/fixed.", stringify!($kind))),
+            bad: example!($code "/bad." $kind),
+            fixed: example!($code "/fixed." $kind),
         }
     };
 }

@@ -60,10 +60,7 @@ pub(crate) fn parse(text: &str, log: &mut Log) -> Description {
         let places = Places::new(text);
         let line = text[..at].matches('\n').count() as u32 + 1;
         let error = format!("an element has more than {ATTRIBUTES} attributes");
-        log.push(e0113_xml_not_well_formed::finding(
-            places.at(line, 1),
-            &error,
-        ));
+        log.push(e0113_xml_not_well_formed(places.at(line, 1), &error));
         return Description::default();
     }
     let xml = match Document::parse(text) {
@@ -71,7 +68,7 @@ pub(crate) fn parse(text: &str, log: &mut Log) -> Description {
         Err(error) => {
             let place = error.pos();
             let span = Places::new(text).at(place.row, place.col);
-            log.push(e0113_xml_not_well_formed::finding(span, &error.to_string()));
+            log.push(e0113_xml_not_well_formed(span, &error.to_string()));
             return Description::default();
         }
     };

@@ -6,9 +6,9 @@ use alloc::vec::Vec;
 
 use roxmltree::Node;
 
-use crate::rules::lists::w0204_supported_objects_count;
+use crate::rules::lists::reader::w0204_in_xdd;
 use crate::rules::text::{e0114_xdd_index_not_valid, e0115_xdd_parameter_missing};
-use crate::rules::values::{e0429_access_of_parameter, w0406_pdo_mapping_not_valid};
+use crate::rules::values::reader::{e0429_access_of_parameter, w0406_in_xdd};
 use crate::scan::placed::Placed;
 use crate::span::{Span, Spanned};
 use crate::xdd::parameters::Parameter;
@@ -89,7 +89,7 @@ fn counts(list: Node<'_, '_>, reader: &mut Reader<'_>) {
         if let Some(given) = reader.attribute(list, name)
             && given.parse() != Ok(found)
         {
-            let finding = w0204_supported_objects_count::in_xdd(&given, name, found);
+            let finding = w0204_in_xdd(&given, name, found);
             reader.log.push(finding);
         }
     }
@@ -110,7 +110,7 @@ fn hex(
     if let Some(number) = fits.then(|| u16::from_str_radix(text, 16).ok()).flatten() {
         return Some(number);
     }
-    let finding = e0114_xdd_index_not_valid::finding(header, key, given.as_ref(), digits);
+    let finding = e0114_xdd_index_not_valid(header, key, given.as_ref(), digits);
     reader.log.push(finding);
     None
 }
@@ -130,9 +130,7 @@ fn parameter<'a, 'i>(
         Some(own) => Some(Parameter::new(own, ids)),
         None => {
             let span = reader.attribute(node, "uniqueIDRef")?.span;
-            reader
-                .log
-                .push(e0115_xdd_parameter_missing::finding(span, id));
+            reader.log.push(e0115_xdd_parameter_missing(span, id));
             None
         }
     }
@@ -256,7 +254,7 @@ fn access(
             _ => "",
         };
         if !right.is_empty() {
-            let finding = e0429_access_of_parameter::finding(own, right);
+            let finding = e0429_access_of_parameter(own, right);
             reader.log.push(finding);
         }
     }
@@ -279,9 +277,7 @@ fn access(
             "no" => "0".into(),
             "default" | "optional" | "tpdo" | "rpdo" => "1".into(),
             _ => {
-                reader
-                    .log
-                    .push(w0406_pdo_mapping_not_valid::in_xdd(&mapping));
+                reader.log.push(w0406_in_xdd(&mapping));
                 "0".into()
             }
         };

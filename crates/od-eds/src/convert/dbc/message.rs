@@ -210,7 +210,7 @@ fn pdo(
     found: &mut Vec<Finding>,
 ) -> Option<(u32, Vec<Signal>)> {
     let Some(mapped) = mapping(description, index) else {
-        found.push(w1110_multiplexed_pdo::finding(Address::new(index, 0)));
+        found.push(w1110_multiplexed_pdo(Address::new(index, 0)));
         return None;
     };
     let mut names = BTreeSet::new();
@@ -218,10 +218,7 @@ fn pdo(
     for value in mapped {
         let bits = u32::from(value.bits);
         if first + bits > 64 {
-            found.push(w1111_no_room_in_message::finding(
-                used.address,
-                value.address,
-            ));
+            found.push(w1111_no_room_in_message(used.address, value.address));
             break;
         }
         if !value.is_dummy() && bits > 0 {
@@ -244,7 +241,7 @@ fn signal(
     let data_type = value.data_type(description);
     let kind = data_type.map(DataType::kind);
     if matches!(kind, Some(Kind::Text | Kind::Bytes)) {
-        found.extend(data_type.map(|data_type| w1112_not_a_number::finding(address, data_type)));
+        found.extend(data_type.map(|data_type| w1112_not_a_number(address, data_type)));
     }
     let sign = match kind {
         Some(Kind::Signed) => Sign::Signed,

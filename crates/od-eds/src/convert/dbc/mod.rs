@@ -37,7 +37,7 @@ pub fn write(description: &Description, node: u8) -> (String, Vec<Finding>) {
         if ids.insert(message.id) {
             messages.push(message);
         } else if is_lost(&used) {
-            found.push(w1113_same_can_id::finding(used.address, used.id));
+            found.push(w1113_same_can_id(used.address, used.id));
         }
     }
     messages.sort_by_key(|message| message.id);

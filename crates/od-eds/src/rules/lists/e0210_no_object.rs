@@ -3,7 +3,7 @@ use alloc::vec::Vec;
 use crate::description::Description;
 use crate::finding::{Check, Finding, Rule, Severity::Error};
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static E0210: Rule = Rule {
     code: "E0210",
     severity: Error,
     title: "file defines no object",
@@ -17,6 +17,6 @@ pub(crate) static RULE: Rule = Rule {
 
 fn check(description: &Description, findings: &mut Vec<Finding>) {
     if description.objects.is_empty() {
-        findings.push(RULE.finding());
+        findings.push(E0210.finding());
     }
 }

@@ -3,7 +3,7 @@ use alloc::vec::Vec;
 use crate::description::Description;
 use crate::finding::{Check, Finding, Rule, Severity::Warning};
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static I0240: Rule = Rule {
     code: "I0240",
     severity: Warning,
     title: "[FileInfo] or [DeviceInfo] is missing",
@@ -18,7 +18,7 @@ pub(crate) static RULE: Rule = Rule {
 fn check(description: &Description, findings: &mut Vec<Finding>) {
     for name in ["FileInfo", "DeviceInfo"] {
         if !description.objects.is_empty() && description.section(name).is_none() {
-            findings.push(RULE.finding().fact("section", name));
+            findings.push(I0240.finding().fact("section", name));
         }
     }
 }

@@ -7,7 +7,7 @@ use crate::fact::Fact;
 use crate::finding::{Check, Finding, Fixability, Rule, Severity::Info};
 use crate::fix::Fix;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static I0251: Rule = Rule {
     code: "I0251",
     severity: Info,
     title: "[DummyUsage] lacks a dummy entry",
@@ -34,6 +34,6 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
             .into_iter()
             .map(|key| Fact::Text(format!("`{key}`")))
             .collect();
-        findings.push(RULE.at(usage.name.span).fact("missing", missing).fix(fix));
+        findings.push(I0251.at(usage.name.span).fact("missing", missing).fix(fix));
     }
 }

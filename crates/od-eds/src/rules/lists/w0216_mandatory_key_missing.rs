@@ -5,7 +5,7 @@ use crate::description::Description;
 use crate::fact::Fact;
 use crate::finding::{Check, Finding, Rule, Severity::Warning};
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0216: Rule = Rule {
     code: "W0216",
     severity: Warning,
     title: "mandatory key of [FileInfo] or [DeviceInfo] is missing",
@@ -71,7 +71,7 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
         let missing: Vec<&&str> = missing.collect();
         if let Some(first) = missing.first() {
             let list = missing.iter().map(|key| Fact::Text(format!("`{key}`")));
-            let finding = RULE.at(section.name.span).fact("section", name);
+            let finding = W0216.at(section.name.span).fact("section", name);
             let finding = finding.fact("missing", list.collect::<Vec<_>>());
             findings.push(finding.fact("first", **first));
         }

@@ -5,7 +5,7 @@ use crate::description::Description;
 use crate::finding::{Check, Finding, Form, Rule, Severity::Warning};
 use crate::scan::number::number;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0219: Rule = Rule {
     code: "W0219",
     severity: Warning,
     title: "[Tools] does not match its sections",
@@ -33,12 +33,12 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
     };
     for tool in 1..=number(items).unwrap_or(0).clamp(0, 255) {
         let Some(section) = description.section(&format!("Tool{tool}")) else {
-            findings.push(RULE.given(items).fact("tool", tool));
+            findings.push(W0219.given(items).fact("tool", tool));
             continue;
         };
         for field in ["Name", "Command"] {
             if section.get(field).is_none() {
-                let finding = RULE.at(section.name.span).form(&LACKS);
+                let finding = W0219.at(section.name.span).form(&LACKS);
                 findings.push(finding.fact("tool", tool).fact("field", field));
             }
         }

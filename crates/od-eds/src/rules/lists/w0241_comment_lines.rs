@@ -6,7 +6,7 @@ use crate::finding::{Check, Finding, Fixability, Form, Rule, Severity::Warning};
 use crate::fix::Fix;
 use crate::scan::number::number;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0241: Rule = Rule {
     code: "W0241",
     severity: Warning,
     title: "Lines does not match [Comments]",
@@ -46,13 +46,13 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
     let finding = match section.get("Lines") {
         Some(given) if number(given) == Some(i128::from(lines)) => return,
         // A tool that counts would lose a line with a higher number.
-        Some(given) if highest > lines => RULE.at(given.span).fact("given", given.as_str()),
-        Some(given) => RULE
+        Some(given) if highest > lines => W0241.at(given.span).fact("given", given.as_str()),
+        Some(given) => W0241
             .at(given.span)
             .fact("given", given.as_str())
             .fix(Fix::safe().replace(given.span, format!("{lines}"))),
         None if lines == 0 => return,
-        None => RULE
+        None => W0241
             .at(name)
             .form(&MISSING)
             .fix(Fix::safe().below(name, format!("Lines={lines}"))),

@@ -6,7 +6,7 @@ use crate::finding::{Check, Finding, Form, Rule, Severity};
 use crate::scan::number::number;
 use crate::span::Span;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0243: Rule = Rule {
     code: "W0243",
     severity: Severity::Warning,
     buildable: true,
@@ -35,7 +35,7 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
     let mut needs = |module: i128, span: Span, form: &'static Form| {
         let section = format!("M{module}ModuleInfo");
         if description.section(&section).is_none() {
-            let finding = RULE.at(span).form(form).fact("section", section);
+            let finding = W0243.at(span).form(form).fact("section", section);
             let finding = finding.fact("module", module);
             // The device cannot have it.
             let is_connected = *form == CONNECTED;

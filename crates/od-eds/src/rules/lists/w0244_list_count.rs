@@ -6,7 +6,7 @@ use crate::finding::{Check, Finding, Fixability, Rule, Severity::Warning};
 use crate::fix::Fix;
 use crate::scan::number::number;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0244: Rule = Rule {
     code: "W0244",
     severity: Warning,
     title: "NrOfEntries does not match its list",
@@ -35,7 +35,7 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
         };
         let given = section.get("NrOfEntries");
         if let Some(given) = given.filter(|given| number(given) != Some(count as i128)) {
-            let finding = RULE.at(given.span).fact("given", given.as_str());
+            let finding = W0244.at(given.span).fact("given", given.as_str());
             let finding = finding.fact("count", count);
             // A tool that counts would lose an entry with a higher number.
             let numbers = section.pairs.iter().filter_map(|(key, _)| number(key));

@@ -5,7 +5,7 @@ use crate::description::Description;
 use crate::finding::{Check, Finding, Rule, Severity::Warning};
 use crate::scan::number::number;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0245: Rule = Rule {
     code: "W0245",
     severity: Warning,
     title: "segment of [DynamicChannels] is incomplete",
@@ -28,7 +28,7 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
         let fields = ["Type", "Dir", "Range", "PPOffset"].map(|field| format!("{field}{segment}"));
         for field in fields {
             if channels.get(&field).is_none() {
-                let finding = RULE.at(given.span).fact("field", field);
+                let finding = W0245.at(given.span).fact("field", field);
                 findings.push(finding.fact("segment", segment));
             }
         }

@@ -6,7 +6,7 @@ use crate::finding::{Check, Finding, Form, Rule, Severity::Warning};
 use crate::scan::number::number;
 use od_model::{Access, DataType};
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0246: Rule = Rule {
     code: "W0246",
     severity: Warning,
     title: "segment of [DynamicChannels] is not valid",
@@ -61,7 +61,7 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
         return;
     };
     let Some(count) = channels.get("NrOfSeg") else {
-        findings.push(RULE.at(channels.name.span).form(&COUNT));
+        findings.push(W0246.at(channels.name.span).form(&COUNT));
         return;
     };
     let count = number(count).unwrap_or(0).clamp(0, 255);
@@ -73,7 +73,7 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
         segment.is_some_and(|segment| segment > count)
     });
     if let Some((key, _)) = beyond {
-        let finding = RULE.at(key.span).form(&BEYOND).fact("field", key.as_str());
+        let finding = W0246.at(key.span).form(&BEYOND).fact("field", key.as_str());
         findings.push(finding.fact("count", count));
     }
     let mut ranges: Vec<(i128, (i128, i128))> = Vec::new();
@@ -81,7 +81,7 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
         let field = |word| {
             let name = format!("{word}{segment}");
             let given = channels.get(&name).filter(|given| !given.is_empty())?;
-            Some((RULE.given(given).fact("field", name), given))
+            Some((W0246.given(given).fact("field", name), given))
         };
         if let Some((finding, given)) = field("Type") {
             let code = number(given).and_then(|code| u16::try_from(code).ok());

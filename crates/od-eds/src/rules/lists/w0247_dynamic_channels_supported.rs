@@ -4,7 +4,7 @@ use crate::description::Description;
 use crate::finding::{Check, Finding, Form, Rule, Severity::Warning};
 use crate::scan::number::number;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0247: Rule = Rule {
     code: "W0247",
     severity: Warning,
     title: "DynamicChannelsSupported does not match [DynamicChannels]",
@@ -30,9 +30,9 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
     let given = info.get("DynamicChannelsSupported");
     let count = given.and_then(|given| number(given)).unwrap_or(0);
     match (description.section("DynamicChannels"), given) {
-        (None, Some(given)) if count > 0 => findings.push(RULE.given(given)),
+        (None, Some(given)) if count > 0 => findings.push(W0247.given(given)),
         (Some(channels), _) if count == 0 => {
-            findings.push(RULE.at(channels.name.span).form(&DENIED));
+            findings.push(W0247.at(channels.name.span).form(&DENIED));
         }
         _ => {}
     }

@@ -5,7 +5,7 @@ use crate::description::Description;
 use crate::finding::{Check, Finding, Form, Rule, Severity::Warning};
 use crate::scan::number::number;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0248: Rule = Rule {
     code: "W0248",
     severity: Warning,
     title: "[MxModuleInfo] is incomplete or belongs to no module",
@@ -36,7 +36,7 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
         let Some(module) = number_of else {
             continue;
         };
-        let finding = RULE.at(section.name.span).fact("section", name);
+        let finding = W0248.at(section.name.span).fact("section", name);
         // A list of names is not needed: the number of modules says which there are.
         let is_listed = list.is_some_and(|list| {
             let has_names = list.pairs.iter().any(|(key, _)| number(key).is_some());

@@ -4,7 +4,7 @@ use crate::description::Description;
 use crate::finding::{Check, Finding, Rule, Severity::Warning};
 use od_model::DataType;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0253: Rule = Rule {
     code: "W0253",
     severity: Warning,
     title: "[DummyUsage] names a type that cannot be a dummy entry",
@@ -24,7 +24,7 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
             continue;
         };
         if DataType::from_code(code).and_then(DataType::bits).is_none() {
-            findings.push(RULE.at(key.span).fact("name", key.as_str()));
+            findings.push(W0253.at(key.span).fact("name", key.as_str()));
         }
     }
 }

@@ -4,7 +4,7 @@ use crate::description::Description;
 use crate::finding::{Check, Finding, Form, Rule, Severity::Warning};
 use crate::scan::number::number;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0254: Rule = Rule {
     code: "W0254",
     severity: Warning,
     title: "[XXXXObjectLinks] does not match its objects",
@@ -35,13 +35,13 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
         let count = entries.len();
         let given = section.get("ObjectLinks");
         if let Some(given) = given.filter(|given| number(given) != Some(count as i128)) {
-            let finding = RULE.at(given.span).fact("given", given.as_str());
+            let finding = W0254.at(given.span).fact("given", given.as_str());
             findings.push(finding.fact("count", count));
         }
         for (_, target) in entries {
             let index = number(target).and_then(|index| u16::try_from(index).ok());
             if let Some(index) = index.filter(|index| !description.objects.contains_key(index)) {
-                let finding = RULE.at(target.span).form(&TARGET);
+                let finding = W0254.at(target.span).form(&TARGET);
                 findings.push(finding.fact("object", u32::from(index)));
             }
         }

@@ -5,7 +5,7 @@ use crate::finding::{Check, Finding, Rule, Severity::Error};
 use crate::rules::pdo::shared::mapped;
 use crate::subject::Object;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static E0501: Rule = Rule {
     code: "E0501",
     severity: Error,
     title: "PDO maps an object that does not exist",
@@ -21,7 +21,7 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
     for mapped in mapped(object) {
         let index = mapped.target.index;
         if !mapped.is_dummy() && !object.description.objects.contains_key(&index) {
-            findings.push(mapped.finding(&RULE).fact("object", Fact::Index(index)));
+            findings.push(mapped.finding(&E0501).fact("object", Fact::Index(index)));
         }
     }
 }

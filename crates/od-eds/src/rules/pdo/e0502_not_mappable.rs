@@ -5,7 +5,7 @@ use crate::fix::Fix;
 use crate::rules::pdo::shared::mapped;
 use crate::subject::Object;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static E0502: Rule = Rule {
     code: "E0502",
     severity: Error,
     title: "PDO maps an object that is not mappable",
@@ -24,7 +24,7 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
             continue;
         };
         let fix = Fix::unsafe_fix().replace(value.mappable.span, "1");
-        let finding = mapped.finding(&RULE).fact("object", value.shown());
+        let finding = mapped.finding(&E0502).fact("object", value.shown());
         let finding = finding.fact("name", value.name.as_str()).fix(fix);
         findings.push(finding.related(value.mappable.span.or(value.span), "object defined here"));
     }

@@ -4,7 +4,7 @@ use crate::finding::{Check, Finding, Form, Rule, Severity::Error};
 use crate::rules::pdo::shared::mapped;
 use crate::subject::{Entry, Object};
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static E0503: Rule = Rule {
     code: "E0503",
     severity: Error,
     title: "PDO maps an object of the wrong direction",
@@ -29,7 +29,7 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
         let Some(value) = mapped.value().filter(wrong) else {
             continue;
         };
-        let finding = mapped.finding(&RULE).fact("object", value.shown());
+        let finding = mapped.finding(&E0503).fact("object", value.shown());
         let finding = finding
             .fact("name", value.name.as_str())
             .fact("access", *value.access);

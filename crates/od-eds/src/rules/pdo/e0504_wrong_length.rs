@@ -4,7 +4,7 @@ use crate::finding::{Check, Finding, Fixability, Rule, Severity::Error};
 use crate::rules::pdo::shared::{WRITE_ENTRY, WRONG_LENGTH, mapped};
 use crate::subject::Object;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static E0504: Rule = Rule {
     code: "E0504",
     severity: Error,
     title: "PDO maps an object with a wrong length",
@@ -22,7 +22,7 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
         if let Some(wrong) = mapped.wrong_length()
             && !wrong.is_boolean(&mapped)
         {
-            findings.push(wrong.finding(&RULE, &mapped));
+            findings.push(wrong.finding(&E0504, &mapped));
         }
     }
 }

@@ -4,7 +4,7 @@ use crate::finding::{Check, Finding, Rule, Severity::Error};
 use crate::rules::pdo::shared::mapped;
 use crate::subject::Object;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static E0505: Rule = Rule {
     code: "E0505",
     severity: Error,
     title: "PDO is longer than 64 bits",
@@ -22,7 +22,7 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
         let before = bits;
         bits += u32::from(mapped.bits);
         if before <= 64 && bits > 64 {
-            findings.push(mapped.finding(&RULE).fact("bits", bits));
+            findings.push(mapped.finding(&E0505).fact("bits", bits));
         }
     }
 }

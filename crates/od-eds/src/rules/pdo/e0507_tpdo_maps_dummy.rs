@@ -5,7 +5,7 @@ use crate::finding::{Check, Finding, Rule, Severity::Error};
 use crate::rules::pdo::shared::mapped;
 use crate::subject::Object;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static E0507: Rule = Rule {
     code: "E0507",
     severity: Error,
     title: "TPDO maps a dummy entry",
@@ -21,7 +21,7 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
     for mapped in mapped(object) {
         if mapped.is_dummy() && !mapped.rpdo {
             let dummy = Fact::Index(mapped.target.index);
-            findings.push(mapped.finding(&RULE).fact("dummy", dummy));
+            findings.push(mapped.finding(&E0507).fact("dummy", dummy));
         }
     }
 }

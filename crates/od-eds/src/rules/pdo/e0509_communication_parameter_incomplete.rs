@@ -8,7 +8,7 @@ use crate::rules::pdo::shared::is_communication;
 use crate::subject::Object;
 use od_model::DataType;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static E0509: Rule = Rule {
     code: "E0509",
     severity: Error,
     title: "PDO communication parameter lacks COB-ID or transmission type",
@@ -38,7 +38,7 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
     ] {
         let mut entries = object.entries().filter(|_| object.code.has_members());
         let Some(entry) = entries.find(|entry| entry.address.sub == sub) else {
-            let finding = RULE
+            let finding = E0509
                 .on(object, object.span)
                 .fact("sub", sub)
                 .fact("what", what);
@@ -47,7 +47,7 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
         };
         if let Some(given) = entry.data_type.filter(|given| **given != right) {
             let code = format!("0x{:04X}", right.code());
-            let finding = RULE.on(&entry, given.span).form(&TYPE).fact("what", what);
+            let finding = E0509.on(&entry, given.span).form(&TYPE).fact("what", what);
             let finding = finding.fact("right", right).fact("given", *given);
             findings.push(finding.fix(Fix::unsafe_fix().replace(given.span, code)));
         }

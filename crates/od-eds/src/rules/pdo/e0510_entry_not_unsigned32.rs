@@ -6,7 +6,7 @@ use crate::rules::pdo::shared::counted;
 use crate::subject::Object;
 use od_model::DataType;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static E0510: Rule = Rule {
     code: "E0510",
     severity: Error,
     title: "mapping entry is not an UNSIGNED32",
@@ -26,7 +26,7 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
             .filter(|given| **given != DataType::Unsigned32)
         {
             let fix = Fix::unsafe_fix().replace(given.span, "0x0007");
-            let finding = RULE.on(&entry, given.span).fact("given", *given);
+            let finding = E0510.on(&entry, given.span).fact("given", *given);
             findings.push(finding.fact("right", DataType::Unsigned32).fix(fix));
         }
     }

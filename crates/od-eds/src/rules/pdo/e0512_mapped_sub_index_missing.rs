@@ -5,7 +5,7 @@ use crate::finding::{Check, Finding, Rule, Severity::Error};
 use crate::rules::pdo::shared::mapped;
 use crate::subject::Object;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static E0512: Rule = Rule {
     code: "E0512",
     severity: Error,
     title: "PDO maps a sub-index that does not exist",
@@ -23,7 +23,7 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
         let Some(object) = object.filter(|_| mapped.value().is_none() && !mapped.is_dummy()) else {
             continue;
         };
-        let finding = mapped.finding(&RULE).fact("sub", mapped.target);
+        let finding = mapped.finding(&E0512).fact("sub", mapped.target);
         let finding = finding.fact("object", Fact::Index(mapped.target.index));
         findings.push(finding.related(object.span, "{object} defined here"));
     }

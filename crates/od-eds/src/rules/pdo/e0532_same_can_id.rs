@@ -5,7 +5,7 @@ use crate::fact::Fact;
 use crate::finding::{Check, Finding, Form, Rule, Severity::Error};
 use crate::rules::pdo::cob_ids::{CobId, Service, cob_ids};
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static E0532: Rule = Rule {
     code: "E0532",
     severity: Error,
     title: "two services have the same CAN-ID",
@@ -48,7 +48,7 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
     all.sort_by_key(|cob_id| (!is_default(cob_id), cob_id.service, cob_id.entry.address));
     for (number, cob_id) in all.iter().enumerate() {
         let about = |other: Fact| {
-            let finding = cob_id.finding(&RULE).fact("object", cob_id.entry.shown());
+            let finding = cob_id.finding(&E0532).fact("object", cob_id.entry.shown());
             finding.fact("other", other)
         };
         let at = |finding: Finding, node, form| {
@@ -56,7 +56,7 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
             finding.fact("can", cob_id.can_id(node))
         };
         if cob_id.formula && matches!(cob_id.service, Service::Sync | Service::Time) {
-            let finding = cob_id.finding(&RULE).fact("object", cob_id.entry.shown());
+            let finding = cob_id.finding(&E0532).fact("object", cob_id.entry.shown());
             findings.push(finding.fact("id", cob_id.shown()).form(&SHARED));
             continue;
         }

@@ -6,7 +6,7 @@ use crate::fix::Fix;
 use crate::rules::pdo::shared::default_sdo;
 use crate::subject::Entry;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static E0533: Rule = Rule {
     code: "E0533",
     severity: Error,
     buildable: true,
@@ -23,6 +23,6 @@ pub(crate) static RULE: Rule = Rule {
 fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
     if let Some(sdo) = default_sdo(entry).filter(|sdo| !sdo.lacks_node_id) {
         let fix = Fix::unsafe_fix().replace(sdo.span, format!("$NODEID+0x{:X}", sdo.base));
-        findings.push(RULE.on(entry, sdo.span).fact("base", sdo.base).fix(fix));
+        findings.push(E0533.on(entry, sdo.span).fact("base", sdo.base).fix(fix));
     }
 }

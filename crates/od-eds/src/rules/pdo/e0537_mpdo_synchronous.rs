@@ -4,7 +4,7 @@ use crate::finding::{Check, Finding, Rule, Severity::Error};
 use crate::subject::{Object, start_number};
 use od_model::Address;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static E0537: Rule = Rule {
     code: "E0537",
     severity: Error,
     buildable: true,
@@ -28,7 +28,7 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
         && let Some(given) = start_number(description, address)
         && given.value < 254
     {
-        let finding = RULE.on(object, given.span).about(address);
+        let finding = E0537.on(object, given.span).about(address);
         let finding = finding.fact("given", given.value);
         findings.push(finding.related(count.span, "multiplexed by this number"));
     }

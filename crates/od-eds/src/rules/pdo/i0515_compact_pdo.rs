@@ -1,7 +1,7 @@
 use crate::finding::{Finding, Rule, Severity::Info};
 use crate::span::Span;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static I0515: Rule = Rule {
     code: "I0515",
     severity: Info,
     title: "CompactPDO replaces sections of PDO objects",
@@ -14,5 +14,5 @@ pub(crate) static RULE: Rule = Rule {
 
 /// The finding about objects that have no section.
 pub(crate) fn finding(span: Span, count: usize, word: &str) -> Finding {
-    RULE.at(span).fact("count", count).fact("word", word)
+    I0515.at(span).fact("count", count).fact("word", word)
 }

@@ -5,7 +5,7 @@ use crate::rules::pdo::shared::mapped;
 use crate::span::Span;
 use crate::subject::Object;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static I0528: Rule = Rule {
     code: "I0528",
     severity: Info,
     title: "PDO maps an object twice",
@@ -23,7 +23,7 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
         let same = |(number, _): &&(u32, Span)| *number == mapped.number && number >> 21 != 0;
         match seen.iter().find(same) {
             Some((_, first)) => {
-                findings.push(mapped.finding(&RULE).related(*first, "first mapped here"));
+                findings.push(mapped.finding(&I0528).related(*first, "first mapped here"));
             }
             None => seen.push((mapped.number, mapped.span)),
         }

@@ -4,7 +4,7 @@ use crate::description::Description;
 use crate::finding::{Check, Finding, Rule, Severity::Info};
 use crate::rules::pdo::cob_ids::cob_ids;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static I0531: Rule = Rule {
     code: "I0531",
     severity: Info,
     title: "COB-ID does not depend on the node ID",
@@ -30,7 +30,7 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
         if !cob_id.formula && fixed && predefined && !cob_id.extended {
             findings.push(
                 cob_id
-                    .finding(&RULE)
+                    .finding(&I0531)
                     .fact("id", id)
                     .fact("base", id & 0x780),
             );

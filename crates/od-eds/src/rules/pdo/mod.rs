@@ -1,4 +1,4 @@
-//! 05: PDOs. One file a rule.
+//! 05: PDOs. A rule with a check has a file of its own.
 
 mod cob_ids;
 pub(crate) mod shared;

@@ -8,7 +8,7 @@ use crate::rules::pdo::shared::mapped;
 use crate::scan::number::number;
 use crate::subject::Object;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0506: Rule = Rule {
     code: "W0506",
     severity: Warning,
     title: "[DummyUsage] does not allow the dummy entry",
@@ -37,7 +37,7 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
             (None, None) => Fix::unsafe_fix(),
         };
         let finding = mapped
-            .finding(&RULE)
+            .finding(&W0506)
             .fact("dummy", Fact::Index(mapped.target.index));
         findings.push(finding.fact("line", line).fix(fix));
     }

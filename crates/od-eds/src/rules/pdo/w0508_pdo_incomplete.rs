@@ -4,7 +4,7 @@ use crate::fact::Fact;
 use crate::finding::{Check, Finding, Rule, Severity::Error};
 use crate::subject::Object;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0508: Rule = Rule {
     code: "W0508",
     severity: Error,
     buildable: true,
@@ -24,7 +24,7 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
         _ => return,
     };
     if !object.description.objects.contains_key(&other) {
-        let finding = RULE
+        let finding = W0508
             .on(object, object.span)
             .fact("object", Fact::Index(object.index));
         let finding = finding.fact("what", what).fact("other", Fact::Index(other));

@@ -4,7 +4,7 @@ use crate::finding::{Check, Finding, Form, Rule, Severity::Error};
 use crate::subject::{Object, start_number};
 use od_model::Address;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0511: Rule = Rule {
     code: "W0511",
     severity: Error,
     buildable: true,
@@ -34,7 +34,7 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
     if let Some(given) = start_number(object.description, address)
         && (241..=last).contains(&given.value)
     {
-        let finding = RULE
+        let finding = W0511
             .on(object, given.span)
             .about(address)
             .fact("given", given.value);

@@ -4,7 +4,7 @@ use crate::finding::{Check, Finding, Fixability, Rule, Severity::Warning};
 use crate::rules::pdo::shared::{WRITE_ENTRY, WRONG_LENGTH, mapped};
 use crate::subject::Object;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0513: Rule = Rule {
     code: "W0513",
     severity: Warning,
     title: "PDO maps a BOOLEAN with 8 bits",
@@ -22,7 +22,7 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
         if let Some(wrong) = mapped.wrong_length()
             && wrong.is_boolean(&mapped)
         {
-            findings.push(wrong.finding(&RULE, &mapped));
+            findings.push(wrong.finding(&W0513, &mapped));
         }
     }
 }

@@ -6,7 +6,7 @@ use crate::rules::pdo::cob_ids::{CobId, Service, cob_ids};
 use crate::subject::start_number;
 use od_model::Address;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0520: Rule = Rule {
     code: "W0520",
     severity: Error,
     title: "CAN-ID is reserved for another service",
@@ -65,7 +65,7 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
 fn finding(cob_id: &CobId<'_>) -> Option<Finding> {
     let reserved = |node| Some((node, cob_id.reserved(node)?));
     let (node, (range, owner)) = cob_id.nodes().find_map(reserved)?;
-    let finding = cob_id.finding(&RULE);
+    let finding = cob_id.finding(&W0520);
     if cob_id.identifier == 0 && !cob_id.formula {
         return Some(finding.form(&NMT));
     }

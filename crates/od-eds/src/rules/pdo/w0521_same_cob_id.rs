@@ -4,7 +4,7 @@ use crate::description::Description;
 use crate::finding::{Check, Finding, Form, Rule, Severity};
 use crate::rules::pdo::cob_ids::{CobId, cob_ids};
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0521: Rule = Rule {
     code: "W0521",
     severity: Severity::Error,
     title: "two PDOs have the same COB-ID",
@@ -30,7 +30,7 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
         let mut met = before.filter_map(|first| Some((first, cob_id.meets(first)?)));
         let same = met.clone().find(|(first, _)| cob_id.is_same(first));
         if let Some((first, node)) = same.or_else(|| met.next()) {
-            let finding = cob_id.finding(&RULE).fact("object", cob_id.entry.address);
+            let finding = cob_id.finding(&W0521).fact("object", cob_id.entry.address);
             let finding = finding.fact("first", first.entry.address);
             let finding = if same.is_some() {
                 finding

@@ -4,7 +4,7 @@ use crate::description::Description;
 use crate::finding::{Check, Finding, Form, Rule, Severity::Error};
 use crate::rules::pdo::cob_ids::{CobId, cob_ids};
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0522: Rule = Rule {
     code: "W0522",
     severity: Error,
     title: "CAN-ID is too long for its COB-ID",
@@ -30,7 +30,7 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
 }
 
 fn finding(cob_id: &CobId<'_>, node: u8) -> Finding {
-    let finding = cob_id.finding(&RULE);
+    let finding = cob_id.finding(&W0522);
     // Too long whatever the node ID is.
     if !cob_id.extended && cob_id.identifier > 0x7FF {
         return finding.fact("id", cob_id.identifier);

@@ -4,7 +4,7 @@ use crate::finding::{Check, Finding, Rule, Severity::Error};
 use crate::rules::pdo::shared::{count, maps_rpdo};
 use crate::subject::Object;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0524: Rule = Rule {
     code: "W0524",
     severity: Error,
     buildable: true,
@@ -20,6 +20,6 @@ pub(crate) static RULE: Rule = Rule {
 fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
     let is_mapping = maps_rpdo(object.index).is_some() && object.code.has_members();
     if let (true, Err(given)) = (is_mapping, count(object)) {
-        findings.push(RULE.on(object, given.span).fact("count", given.value));
+        findings.push(W0524.on(object, given.span).fact("count", given.value));
     }
 }

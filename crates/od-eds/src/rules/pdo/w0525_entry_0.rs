@@ -4,7 +4,7 @@ use crate::finding::{Check, Finding, Rule, Severity::Error};
 use crate::rules::pdo::shared::numbers;
 use crate::subject::Object;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0525: Rule = Rule {
     code: "W0525",
     severity: Error,
     buildable: true,
@@ -21,7 +21,7 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
     for (entry, number) in numbers(object) {
         // Nothing, not even a length: there is nothing else to judge.
         if number.value == 0 {
-            findings.push(RULE.on(&entry, number.span));
+            findings.push(W0525.on(&entry, number.span));
         }
     }
 }

@@ -6,7 +6,7 @@ use crate::rules::pdo::shared::mapped;
 use crate::scan::number::number;
 use crate::subject::objects;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0526: Rule = Rule {
     code: "W0526",
     severity: Warning,
     title: "mapping is finer than the granularity",
@@ -28,7 +28,7 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
     };
     let mut all = objects(description).flat_map(|object| mapped(&object));
     if let Some(fine) = all.find(|mapped| !mapped.bits.is_multiple_of(granularity)) {
-        let finding = fine.finding(&RULE).fact("bits", fine.bits);
+        let finding = fine.finding(&W0526).fact("bits", fine.bits);
         findings.push(finding.fact("granularity", granularity));
     }
 }

@@ -6,7 +6,7 @@ use crate::rules::pdo::shared::is_communication;
 use crate::subject::{Object, start_number};
 use od_model::Address;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0529: Rule = Rule {
     code: "W0529",
     severity: Warning,
     title: "PDO waits for SYNC, but 1005h is missing",
@@ -28,7 +28,8 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
         && matches!(given.value, 0..=240 | 252)
     {
         findings.push(
-            RULE.on(object, given.span)
+            W0529
+                .on(object, given.span)
                 .about(address)
                 .fact("given", given.value)
                 .fact("missing", Fact::Section(0x1005, None)),

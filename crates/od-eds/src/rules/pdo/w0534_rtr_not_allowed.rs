@@ -4,7 +4,7 @@ use crate::finding::{Check, Finding, Rule, Severity::Warning};
 use crate::subject::{Object, start_number, start_value};
 use od_model::Address;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0534: Rule = Rule {
     code: "W0534",
     severity: Warning,
     title: "RTR-only TPDO does not allow RTR",
@@ -29,7 +29,7 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
             .integer(0)
             .is_some_and(|id| id & 1 << 30 != 0 && id & 1 << 31 == 0)
     {
-        let finding = RULE
+        let finding = W0534
             .on(object, given.span)
             .about(address)
             .fact("given", given.value);

@@ -4,7 +4,7 @@ use crate::finding::{Check, Finding, Rule, Severity::Warning};
 use crate::subject::{Object, start_number};
 use od_model::Address;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0535: Rule = Rule {
     code: "W0535",
     severity: Warning,
     title: "inhibit time is longer than the event timer",
@@ -24,7 +24,7 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
     if let Some((inhibit, event)) = at(3).zip(at(5))
         && (1..inhibit.value.div_ceil(10)).contains(&event.value)
     {
-        let finding = RULE
+        let finding = W0535
             .on(object, event.span)
             .about(Address::new(object.index, 5));
         let finding = finding

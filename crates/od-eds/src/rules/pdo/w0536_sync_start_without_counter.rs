@@ -5,7 +5,7 @@ use crate::finding::{Check, Finding, Rule, Severity::Warning};
 use crate::subject::{Object, start_number};
 use od_model::Address;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0536: Rule = Rule {
     code: "W0536",
     severity: Warning,
     title: "SYNC start value without a SYNC counter",
@@ -25,7 +25,7 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
     let address = Address::new(object.index, 6);
     let given = start_number(object.description, address);
     if let Some(given) = given.filter(|given| given.value != 0) {
-        let finding = RULE.on(object, given.span).about(address);
+        let finding = W0536.on(object, given.span).about(address);
         let finding = finding.fact("given", given.value);
         findings.push(finding.fact("missing", Fact::Section(0x1019, None)));
     }

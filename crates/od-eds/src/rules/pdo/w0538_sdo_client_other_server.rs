@@ -4,7 +4,7 @@ use crate::finding::{Check, Finding, Rule, Severity::Warning};
 use crate::subject::{Object, start_number};
 use od_model::Address;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0538: Rule = Rule {
     code: "W0538",
     severity: Warning,
     title: "COB-ID of an SDO client is that of another server",
@@ -31,7 +31,7 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
         let node = given.value.wrapping_sub(base);
         if (1..=127).contains(&node) && node != server.value {
             let address = Address::new(object.index, sub);
-            let finding = RULE.on(object, given.span).about(address);
+            let finding = W0538.on(object, given.span).about(address);
             let finding = finding.fact("id", given.value).fact("node", node);
             let finding = finding.fact("server", server.value);
             let finding = finding.fact("right", base + server.value);

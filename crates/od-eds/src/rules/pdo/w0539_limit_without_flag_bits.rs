@@ -6,7 +6,7 @@ use crate::fix::Fix;
 use crate::subject::Entry;
 use od_model::DataType;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0539: Rule = Rule {
     code: "W0539",
     severity: Warning,
     title: "HighLimit of a COB-ID excludes its upper bits",
@@ -45,7 +45,7 @@ fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
     };
     if high.value.integer(0).is_some_and(|limit| limit < 1 << bit) {
         let fix = Fix::unsafe_fix().replace(high.span, "0xFFFFFFFF");
-        let finding = RULE.on(entry, high.span).key(Key::HighLimit);
+        let finding = W0539.on(entry, high.span).key(Key::HighLimit);
         let finding = finding.fact("object", entry.shown()).fact("bit", bit);
         findings.push(finding.fix(fix));
     }

@@ -4,7 +4,7 @@ use crate::finding::{Check, Finding, Fixability, Rule, Severity::Error};
 use crate::rules::profile::shared::access;
 use crate::subject::Object;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static E0907: Rule = Rule {
     code: "E0907",
     severity: Error,
     buildable: true,
@@ -19,5 +19,5 @@ pub(crate) static RULE: Rule = Rule {
 };
 
 fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
-    access(&RULE, &[401, 402, 404], true, object, findings);
+    access(&E0907, &[401, 402, 404], true, object, findings);
 }

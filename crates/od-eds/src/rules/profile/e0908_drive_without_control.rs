@@ -4,7 +4,7 @@ use crate::description::Description;
 use crate::finding::{Check, Finding, Rule, Severity::Error};
 use crate::rules::profile::shared::{device, need};
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static E0908: Rule = Rule {
     code: "E0908",
     severity: Error,
     buildable: true,
@@ -24,6 +24,6 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
     if device(description, 402).is_some() {
         let objects = OBJECTS.iter();
         findings
-            .extend(objects.filter_map(|(index, what)| need(&RULE, description, &[*index], what)));
+            .extend(objects.filter_map(|(index, what)| need(&E0908, description, &[*index], what)));
     }
 }

@@ -6,7 +6,7 @@ use crate::rules::profile::shared::device;
 use crate::subject::Object;
 use od_model::Address;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static E0916: Rule = Rule {
     code: "E0916",
     severity: Error,
     buildable: true,
@@ -31,7 +31,7 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
     }
     let missing = [1, 2].into_iter().filter(|sub| !own.contains_key(sub));
     for sub in missing.filter(|_| device(object.description, 402).is_some()) {
-        let finding = RULE
+        let finding = E0916
             .on(object, object.span)
             .about(Address::new(object.index, sub));
         let finding = finding.fact("object", Fact::Index(object.index));

@@ -1,4 +1,4 @@
-//! 09: device profiles. One file per rule.
+//! 09: device profiles. A rule with a check has a file of its own.
 
 pub(crate) mod shared;
 

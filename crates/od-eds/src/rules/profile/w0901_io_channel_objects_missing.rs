@@ -4,7 +4,7 @@ use crate::description::Description;
 use crate::finding::{Check, Finding, Rule, Severity::Warning};
 use crate::rules::profile::shared::{IO_BLOCKS, device, need};
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0901: Rule = Rule {
     code: "W0901",
     severity: Warning,
     title: "I/O module lacks the objects of its channels",
@@ -22,7 +22,7 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
     };
     let blocks = IO_BLOCKS.iter().filter(|(bit, _, _)| device.has(*bit));
     findings.extend(blocks.filter_map(|(bit, any_of, what)| {
-        let finding = need(&RULE, description, any_of, what)?;
+        let finding = need(&W0901, description, any_of, what)?;
         Some(finding.fact("bit", bit + 16))
     }));
 }

@@ -4,7 +4,7 @@ use crate::description::Description;
 use crate::finding::{Check, Finding, Rule, Severity::Warning};
 use crate::rules::profile::shared::{device, need};
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0902: Rule = Rule {
     code: "W0902",
     severity: Warning,
     title: "drive lacks its supported modes",
@@ -18,6 +18,11 @@ pub(crate) static RULE: Rule = Rule {
 
 fn check(description: &Description, findings: &mut Vec<Finding>) {
     if device(description, 402).is_some() {
-        findings.extend(need(&RULE, description, &[0x6502], "supported drive modes"));
+        findings.extend(need(
+            &W0902,
+            description,
+            &[0x6502],
+            "supported drive modes",
+        ));
     }
 }

@@ -4,7 +4,7 @@ use crate::description::Description;
 use crate::finding::{Check, Finding, Rule, Severity::Warning};
 use crate::rules::profile::shared::{device, need};
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0903: Rule = Rule {
     code: "W0903",
     severity: Warning,
     title: "measuring device lacks the objects of its blocks",
@@ -28,7 +28,7 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
     };
     let blocks = BLOCKS.iter().filter(|(bit, _, _)| device.has(*bit));
     findings.extend(blocks.filter_map(|(bit, any_of, what)| {
-        let finding = need(&RULE, description, any_of, what)?;
+        let finding = need(&W0903, description, any_of, what)?;
         Some(finding.fact("bit", bit + 16))
     }));
 }

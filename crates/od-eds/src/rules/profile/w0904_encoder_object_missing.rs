@@ -4,7 +4,7 @@ use crate::description::Description;
 use crate::finding::{Check, Finding, Rule, Severity::Error};
 use crate::rules::profile::shared::{Encoder, POSITIONS, need};
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0904: Rule = Rule {
     code: "W0904",
     severity: Error,
     buildable: true,
@@ -35,7 +35,8 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
     let Some(encoder) = Encoder::of(description) else {
         return;
     };
-    let mut object = |any_of: &[u16], what| findings.extend(need(&RULE, description, any_of, what));
+    let mut object =
+        |any_of: &[u16], what| findings.extend(need(&W0904, description, any_of, what));
     for (any_of, what) in OBJECTS {
         object(any_of, what);
         if any_of == [0x6501] && encoder.is_multiturn() == Some(true) {

@@ -4,7 +4,7 @@ use crate::finding::{Check, Finding, Fixability, Rule, Severity::Error};
 use crate::rules::profile::shared::types;
 use crate::subject::Object;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0905: Rule = Rule {
     code: "W0905",
     severity: Error,
     buildable: true,
@@ -19,5 +19,5 @@ pub(crate) static RULE: Rule = Rule {
 };
 
 fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
-    types(&RULE, &[401, 402, 404], object, findings);
+    types(&W0905, &[401, 402, 404], object, findings);
 }

@@ -7,7 +7,7 @@ use crate::rules::profile::shared::device;
 use crate::subject::start_number;
 use od_model::Address;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0909: Rule = Rule {
     code: "W0909",
     severity: Warning,
     title: "drive lacks the object of a supported mode",
@@ -60,7 +60,7 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
     };
     for (bit, mode, index, name) in MODES {
         if modes.value & 1 << bit != 0 && !description.objects.contains_key(&index) {
-            let finding = RULE.at(modes.span).about(address).fact("mode", mode);
+            let finding = W0909.at(modes.span).about(address).fact("mode", mode);
             let finding = finding
                 .fact("object", Fact::Index(index))
                 .fact("name", name);

@@ -6,7 +6,7 @@ use crate::rules::profile::shared::device;
 use crate::subject::{start_number, start_value};
 use od_model::Address;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0910: Rule = Rule {
     code: "W0910",
     severity: Warning,
     title: "drive starts in a mode that it does not support",
@@ -31,7 +31,7 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
         && modes.value != 0
         && modes.value & 1 << (number - 1) == 0
     {
-        let finding = RULE.at(mode.span).about(address).fact("mode", number);
+        let finding = W0910.at(mode.span).about(address).fact("mode", number);
         let finding = finding.fact("bit", number - 1);
         findings.push(finding.related(modes.span, "supported modes"));
     }

@@ -6,7 +6,7 @@ use crate::rules::profile::shared::device;
 use crate::subject::{Object, start_value};
 use od_model::Address;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0911: Rule = Rule {
     code: "W0911",
     severity: Warning,
     title: "lower limit of a drive is above the upper one",
@@ -27,7 +27,7 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
         && let Some((least, most)) = low.integer(0).zip(high.integer(0))
         && least > most
     {
-        let finding = RULE
+        let finding = W0911
             .on(object, high.span)
             .about(Address::new(object.index, 2));
         let finding = finding.fact("object", Fact::Index(object.index));

@@ -5,7 +5,7 @@ use crate::finding::{Check, Finding, Form, Rule, Severity};
 use crate::rules::profile::shared::device;
 use crate::subject::Object;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0912: Rule = Rule {
     code: "W0912",
     severity: Severity::Warning,
     title: "parameters of channels that the I/O module lacks",
@@ -58,7 +58,7 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
     };
     match last.max() {
         None => {
-            let finding = named(RULE.on(object, object.span), *first);
+            let finding = named(W0912.on(object, object.span), *first);
             findings.push(finding.fact("missing", Fact::Section(*first, None)));
         }
         Some((last, channels)) => {
@@ -67,7 +67,7 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
                 .find(|entry| (last + 1..255).contains(&entry.address.sub));
             // A module without channels has them by its modules.
             if let Some(entry) = more.filter(|_| last > 0) {
-                let finding = named(RULE.on(&entry, entry.span), *channels).form(&MORE);
+                let finding = named(W0912.on(&entry, entry.span), *channels).form(&MORE);
                 let finding = finding.fact("sub", entry.address.sub);
                 // Nobody sets the parameter of a channel that is not there.
                 findings.push(finding.fact("last", last).severity_of(Severity::Info));

@@ -7,7 +7,7 @@ use crate::rules::profile::shared::{IO_BLOCKS, device};
 use crate::subject::start_number;
 use od_model::Address;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0913: Rule = Rule {
     code: "W0913",
     severity: Warning,
     title: "1000h does not declare the channels of an I/O module",
@@ -30,7 +30,7 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
             .iter()
             .find(|index| description.objects.contains_key(index));
         if let Some(index) = found {
-            let finding = RULE.at(number.span).about(address).fact("bit", bit + 16);
+            let finding = W0913.at(number.span).about(address).fact("bit", bit + 16);
             let finding = finding.fact("what", *what);
             findings.push(finding.fact("object", Fact::Index(*index)));
         }

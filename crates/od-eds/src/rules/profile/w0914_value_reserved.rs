@@ -5,7 +5,7 @@ use crate::rules::profile::shared::device;
 use crate::subject::{Entry, start_value};
 use od_model::Address;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0914: Rule = Rule {
     code: "W0914",
     severity: Warning,
     title: "value of a profile object is reserved",
@@ -57,7 +57,7 @@ fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
         && let Some((profile, what)) = reserved(entry.address, number)
         && device(entry.description, profile).is_some()
     {
-        let finding = RULE.on(entry, value.span).fact("object", entry.shown());
+        let finding = W0914.on(entry, value.span).fact("object", entry.shown());
         let finding = if what.starts_with("bits") {
             finding.fact("given", alloc::format!("0x{number:X}"))
         } else {

@@ -5,7 +5,7 @@ use crate::rules::profile::shared::device;
 use crate::subject::{Entry, start_number};
 use od_model::Address;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0915: Rule = Rule {
     code: "W0915",
     severity: Warning,
     title: "value that positions are divided by is 0",
@@ -28,7 +28,7 @@ fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
         && device(entry.description, profile).is_some()
         && (entry.address.index != 0x6002 || scales(entry))
     {
-        findings.push(RULE.on(entry, number.span).fact("object", entry.shown()));
+        findings.push(W0915.on(entry, number.span).fact("object", entry.shown()));
     }
 }
 

@@ -6,7 +6,7 @@ use crate::rules::profile::shared::device;
 use crate::subject::{Entry, start_number};
 use od_model::Address;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0917: Rule = Rule {
     code: "W0917",
     severity: Warning,
     title: "value of a drive is above its maximum",
@@ -32,7 +32,7 @@ fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
         && given.value > most.value
         && device(entry.description, 402).is_some()
     {
-        let finding = RULE.on(entry, given.span).fact("object", entry.shown());
+        let finding = W0917.on(entry, given.span).fact("object", entry.shown());
         let finding = finding.fact("given", given.value).fact("most", most.value);
         let finding = finding.fact("limit", Fact::Index(limit));
         findings.push(finding.related(most.span, "maximum set here"));

@@ -5,7 +5,7 @@ use crate::finding::{Check, Finding, Rule, Severity::Warning};
 use crate::rules::profile::shared::device;
 use crate::subject::Object;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0918: Rule = Rule {
     code: "W0918",
     severity: Warning,
     title: "drive chooses a mode that it does not display",
@@ -29,7 +29,7 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
     };
     let exists = object.description.objects.contains_key(&other);
     if !exists && device(object.description, 402).is_some() {
-        let finding = RULE
+        let finding = W0918
             .on(object, object.span)
             .fact("object", Fact::Index(object.index));
         let finding = finding.fact("own", own).fact("name", name);

@@ -4,7 +4,7 @@ use crate::finding::{Check, Finding, Fixability, Rule, Severity::Error};
 use crate::rules::profile::shared::types;
 use crate::subject::Object;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0950: Rule = Rule {
     code: "W0950",
     severity: Error,
     buildable: true,
@@ -19,5 +19,5 @@ pub(crate) static RULE: Rule = Rule {
 };
 
 fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
-    types(&RULE, &[406], object, findings);
+    types(&W0950, &[406], object, findings);
 }

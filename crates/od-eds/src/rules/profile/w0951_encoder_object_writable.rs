@@ -4,7 +4,7 @@ use crate::finding::{Check, Finding, Fixability, Rule, Severity::Warning};
 use crate::rules::profile::shared::access;
 use crate::subject::Object;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0951: Rule = Rule {
     code: "W0951",
     severity: Warning,
     title: "encoder object is writable",
@@ -18,5 +18,5 @@ pub(crate) static RULE: Rule = Rule {
 };
 
 fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
-    access(&RULE, &[406], false, object, findings);
+    access(&W0951, &[406], false, object, findings);
 }

@@ -7,7 +7,7 @@ use crate::fix::Fix;
 use crate::rules::profile::shared::Encoder;
 use od_model::Address;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0952: Rule = Rule {
     code: "W0952",
     severity: Warning,
     title: "range does not match the revolutions",
@@ -39,7 +39,7 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
         Ok(all) => Fix::unsafe_fix().replace(range.span, format!("{all}")),
         Err(_) => Fix::unsafe_fix(),
     };
-    let finding = RULE.at(range.span).about(Address::new(0x6002, 0));
+    let finding = W0952.at(range.span).about(Address::new(0x6002, 0));
     let finding = finding
         .fact("range", range.value)
         .fact("units", units.value);

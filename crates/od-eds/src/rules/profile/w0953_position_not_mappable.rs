@@ -6,7 +6,7 @@ use crate::fix::Fix;
 use crate::rules::profile::shared::device;
 use crate::subject::Entry;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0953: Rule = Rule {
     code: "W0953",
     severity: Warning,
     title: "position value cannot be mapped",
@@ -26,7 +26,7 @@ fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
             0 => Fix::unsafe_fix().below(entry.span, "PDOMapping=1"),
             _ => Fix::unsafe_fix().replace(entry.mappable.span, "1"),
         };
-        let finding = RULE.on(entry, entry.mappable.span);
+        let finding = W0953.on(entry, entry.mappable.span);
         findings.push(
             finding
                 .fact("object", Fact::Index(entry.address.index))

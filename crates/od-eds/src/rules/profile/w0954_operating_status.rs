@@ -7,7 +7,7 @@ use crate::fix::Fix;
 use crate::rules::profile::shared::Encoder;
 use od_model::Address;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0954: Rule = Rule {
     code: "W0954",
     severity: Warning,
     title: "operating status differs from the operating parameters",
@@ -34,7 +34,10 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
     if (parameters.value ^ status.value) & SHARED != 0 {
         let right = status.value & !SHARED | parameters.value & SHARED;
         let fix = Fix::unsafe_fix().replace(status.span, format!("0x{right:X}"));
-        let finding = RULE.at(status.span).about(Address::new(0x6500, 0)).fix(fix);
+        let finding = W0954
+            .at(status.span)
+            .about(Address::new(0x6500, 0))
+            .fix(fix);
         let finding = finding
             .fact("status", status.value)
             .fact("parameters", parameters.value)

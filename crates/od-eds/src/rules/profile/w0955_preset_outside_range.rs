@@ -5,7 +5,7 @@ use crate::finding::{Check, Finding, Rule, Severity::Warning};
 use crate::rules::profile::shared::Encoder;
 use od_model::Address;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0955: Rule = Rule {
     code: "W0955",
     severity: Warning,
     title: "preset value is outside the range",
@@ -25,7 +25,7 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
         && range.value > 0
         && preset.value >= range.value
     {
-        let finding = RULE.at(preset.span).about(Address::new(0x6003, 0));
+        let finding = W0955.at(preset.span).about(Address::new(0x6003, 0));
         let finding = finding
             .fact("preset", preset.value)
             .fact("last", range.value - 1);

@@ -5,7 +5,7 @@ use crate::finding::{Check, Finding, Rule, Severity::Warning};
 use crate::rules::profile::shared::Encoder;
 use od_model::Address;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0956: Rule = Rule {
     code: "W0956",
     severity: Warning,
     title: "measuring units exceed the singleturn resolution",
@@ -25,7 +25,7 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
         && physical.value > 0
         && units.value > physical.value
     {
-        let finding = RULE.at(units.span).about(Address::new(0x6001, 0));
+        let finding = W0956.at(units.span).about(Address::new(0x6001, 0));
         let finding = finding
             .fact("units", units.value)
             .fact("physical", physical.value);

@@ -5,7 +5,7 @@ use crate::finding::{Check, Finding, Form, Rule, Severity::Warning};
 use crate::rules::profile::shared::Encoder;
 use od_model::Address;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0957: Rule = Rule {
     code: "W0957",
     severity: Warning,
     title: "device type and revolutions disagree",
@@ -41,7 +41,7 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
         _ => turns.value,
     };
     if many == (revolutions <= 1) {
-        let finding = RULE.at(turns.span).about(Address::new(0x6502, 0));
+        let finding = W0957.at(turns.span).about(Address::new(0x6502, 0));
         let finding = finding.fact("turns", revolutions);
         findings.push(if many {
             finding

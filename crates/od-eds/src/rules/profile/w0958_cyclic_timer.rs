@@ -8,7 +8,7 @@ use crate::rules::profile::shared::Encoder;
 use crate::subject::start_number;
 use od_model::Address;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0958: Rule = Rule {
     code: "W0958",
     severity: Warning,
     title: "cyclic timer differs from the event timer",
@@ -30,7 +30,7 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
         && cycle.value != event.value
     {
         let fix = Fix::unsafe_fix().replace(cycle.span, format!("{}", event.value));
-        let finding = RULE.at(cycle.span).about(Address::new(0x6200, 0)).fix(fix);
+        let finding = W0958.at(cycle.span).about(Address::new(0x6200, 0)).fix(fix);
         let finding = finding
             .fact("cycle", cycle.value)
             .fact("event", event.value);

@@ -6,7 +6,7 @@ use crate::finding::{Check, Finding, Rule, Severity::Warning};
 use crate::rules::profile::shared::Encoder;
 use od_model::Address;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0959: Rule = Rule {
     code: "W0959",
     severity: Warning,
     title: "active alarm or warning is not supported",
@@ -29,7 +29,7 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
         };
         let more = active.value & !supported.value;
         if more != 0 {
-            let finding = RULE.at(active.span).about(Address::new(index, 0));
+            let finding = W0959.at(active.span).about(Address::new(index, 0));
             let finding = finding
                 .fact("object", Fact::Index(index))
                 .fact("more", more);

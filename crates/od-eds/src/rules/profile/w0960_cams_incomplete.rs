@@ -6,7 +6,7 @@ use crate::finding::{Check, Finding, Rule, Severity::Warning};
 use crate::rules::profile::shared::device;
 use od_model::Address;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0960: Rule = Rule {
     code: "W0960",
     severity: Warning,
     title: "cam objects are incomplete",
@@ -35,7 +35,7 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
     };
     for (index, what) in OBJECTS {
         if !description.objects.contains_key(&index) {
-            let finding = RULE
+            let finding = W0960
                 .at(cams.span)
                 .about(Address::new(index, 0))
                 .fact("what", what);

@@ -6,7 +6,7 @@ use crate::rules::profile::shared::Encoder;
 use crate::subject::start_number;
 use od_model::Address;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0962: Rule = Rule {
     code: "W0962",
     severity: Warning,
     title: "type of the encoder is not defined",
@@ -23,7 +23,7 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
     if let Some(number) = start_number(description, address)
         && Encoder::of(description).is_some_and(|encoder| encoder.has_unknown_type())
     {
-        let finding = RULE.at(number.span).about(address);
+        let finding = W0962.at(number.span).about(address);
         findings.push(finding.fact("given", number.value >> 16));
     }
 }

@@ -6,7 +6,7 @@ use crate::rules::profile::shared::{POSITIONS, device};
 use crate::subject::start_number;
 use od_model::Address;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0963: Rule = Rule {
     code: "W0963",
     severity: Warning,
     title: "no TPDO maps the position value",
@@ -31,6 +31,6 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
         })
     });
     if !carries && device(description, 406).is_some() {
-        findings.push(RULE.at(object.span).about(Address::new(*first, 0)));
+        findings.push(W0963.at(object.span).about(Address::new(*first, 0)));
     }
 }

@@ -4,7 +4,7 @@ use crate::description::Description;
 use crate::finding::{Check, Finding, Rule, Severity::Error};
 use crate::rules::standard::shared::missing;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static E0603: Rule = Rule {
     code: "E0603",
     severity: Error,
     title: "object 1018h is missing",
@@ -17,5 +17,5 @@ pub(crate) static RULE: Rule = Rule {
 };
 
 fn check(description: &Description, findings: &mut Vec<Finding>) {
-    findings.extend(missing(&RULE, description, 0x1018));
+    findings.extend(missing(&E0603, description, 0x1018));
 }

@@ -5,7 +5,7 @@ use crate::rules::standard::shared::{code, data_type, value};
 use crate::subject::Object;
 use od_model::{DataType, ObjectCode};
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static E0605: Rule = Rule {
     code: "E0605",
     severity: Error,
     title: "object 1001h differs from CiA 301",
@@ -20,8 +20,8 @@ pub(crate) static RULE: Rule = Rule {
 
 fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
     if object.index == 0x1001 {
-        findings.extend(code(&RULE, object, &[ObjectCode::Var]));
+        findings.extend(code(&E0605, object, &[ObjectCode::Var]));
         findings
-            .extend(value(object).and_then(|entry| data_type(&RULE, &entry, DataType::Unsigned8)));
+            .extend(value(object).and_then(|entry| data_type(&E0605, &entry, DataType::Unsigned8)));
     }
 }

@@ -6,7 +6,7 @@ use crate::rules::standard::shared::{code, data_type};
 use crate::subject::Object;
 use od_model::{DataType, ObjectCode};
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static E0606: Rule = Rule {
     code: "E0606",
     severity: Error,
     title: "object 1018h differs from CiA 301",
@@ -31,7 +31,7 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
         return;
     }
     findings.extend(code(
-        &RULE,
+        &E0606,
         object,
         &[ObjectCode::Record, ObjectCode::Array],
     ));
@@ -41,7 +41,8 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
     if !object.object.entries.contains_key(&1) {
         let missing = Fact::Section(0x1018, Some(1));
         findings.push(
-            RULE.on(object, object.span)
+            E0606
+                .on(object, object.span)
                 .form(&NO_VENDOR)
                 .fact("missing", missing),
         );
@@ -49,5 +50,5 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
     let known = object
         .entries()
         .filter(|entry| (1..=4).contains(&entry.address.sub));
-    findings.extend(known.filter_map(|entry| data_type(&RULE, &entry, DataType::Unsigned32)));
+    findings.extend(known.filter_map(|entry| data_type(&E0606, &entry, DataType::Unsigned32)));
 }

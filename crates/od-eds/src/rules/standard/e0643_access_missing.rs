@@ -7,7 +7,7 @@ use crate::standards::cia301::of;
 use crate::subject::Entry;
 use od_model::{Access, Address};
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static E0643: Rule = Rule {
     code: "E0643",
     severity: Error,
     buildable: true,
@@ -45,7 +45,7 @@ fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
         Access::Wo if !own.writable() => Access::Wo,
         _ => return,
     };
-    let finding = RULE
+    let finding = E0643
         .on(entry, entry.access.span)
         .fact("object", entry.shown());
     let finding = finding.fact("name", standard.name).fact("right", right);

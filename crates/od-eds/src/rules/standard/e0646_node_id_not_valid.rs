@@ -5,7 +5,7 @@ use crate::finding::{Check, Finding, Rule, Severity::Error};
 use crate::rules::standard::shared::commissioning;
 use crate::scan::number::number;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static E0646: Rule = Rule {
     code: "E0646",
     severity: Error,
     buildable: true,
@@ -23,6 +23,6 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
     // The reader reports what is not a number.
     let wrong = |id| matches!(id, 0 | 128..=254);
     if let Some(given) = given.filter(|given| number(given).is_some_and(wrong)) {
-        findings.push(RULE.given(given));
+        findings.push(E0646.given(given));
     }
 }

@@ -5,7 +5,7 @@ use crate::finding::{Check, Finding, Rule, Severity::Error};
 use crate::rules::standard::shared::consumers;
 use crate::subject::Object;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static E0650: Rule = Rule {
     code: "E0650",
     severity: Error,
     buildable: true,
@@ -24,7 +24,7 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
         match known.get(&node) {
             None => drop(known.insert(node, span)),
             Some(first) => {
-                let finding = RULE.on(&entry, span).fact("node", node);
+                let finding = E0650.on(&entry, span).fact("node", node);
                 findings.push(finding.related(*first, "first time of this node"));
             }
         }

@@ -3,7 +3,7 @@ use alloc::vec::Vec;
 use crate::finding::{Check, Finding, Rule, Severity::Info};
 use crate::subject::{Entry, start_number};
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static I0657: Rule = Rule {
     code: "I0657",
     severity: Info,
     title: "vendor-ID is 0",
@@ -21,6 +21,6 @@ fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
     }
     let number = start_number(entry.description, entry.address);
     if let Some(number) = number.filter(|number| number.value == 0) {
-        findings.push(RULE.on(entry, number.span));
+        findings.push(I0657.on(entry, number.span));
     }
 }

@@ -1,4 +1,4 @@
-//! 06: mandatory and standard objects, identity, `[DeviceInfo]`. One file per rule.
+//! 06: mandatory and standard objects, identity, `[DeviceInfo]`. A rule with a check has a file of its own.
 
 mod shared;
 
@@ -11,9 +11,9 @@ catalogue! {
     e0606_identity_differs E0606
     w0607_device_info_identity W0607
     w0608_device_info_pdo_count W0608
-    w0609_key_value_not_valid W0609
-    i0610_date_or_time I0610
-    i0611_commissioning_spelling I0611
+    reader W0609
+    reader I0610
+    reader I0611
     w0630_other_object_code W0630
     w0631_other_data_type W0631
     w0632_other_access W0632
@@ -36,7 +36,7 @@ catalogue! {
     w0655_error_register_not_0 W0655
     w0656_guarding_and_heartbeat W0656
     i0657_vendor_id_0 I0657
-    w0658_commissioning_missing W0658
+    reader W0658
 }
 
 pub(crate) mod e0601_device_type_missing;
@@ -48,12 +48,10 @@ pub(crate) mod e0606_identity_differs;
 pub(crate) mod e0643_access_missing;
 pub(crate) mod e0646_node_id_not_valid;
 pub(crate) mod e0650_consumer_watches_twice;
-pub(crate) mod i0610_date_or_time;
-pub(crate) mod i0611_commissioning_spelling;
 pub(crate) mod i0657_vendor_id_0;
+pub(crate) mod reader;
 pub(crate) mod w0607_device_info_identity;
 pub(crate) mod w0608_device_info_pdo_count;
-pub(crate) mod w0609_key_value_not_valid;
 pub(crate) mod w0630_other_object_code;
 pub(crate) mod w0631_other_data_type;
 pub(crate) mod w0632_other_access;
@@ -72,4 +70,3 @@ pub(crate) mod w0651_consumer_watches_nobody;
 pub(crate) mod w0653_commissioning_incomplete;
 pub(crate) mod w0655_error_register_not_0;
 pub(crate) mod w0656_guarding_and_heartbeat;
-pub(crate) mod w0658_commissioning_missing;

@@ -8,7 +8,7 @@ use crate::scan::number::number;
 use crate::subject::start_number;
 use od_model::Address;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0607: Rule = Rule {
     code: "W0607",
     severity: Warning,
     title: "identity differs from [DeviceInfo]",
@@ -42,7 +42,7 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
             continue;
         };
         let fix = Fix::unsafe_fix().replace(given.span, format!("0x{:X}", object.value));
-        let finding = RULE.at(given.span).about(address).fact("field", field);
+        let finding = W0607.at(given.span).about(address).fact("field", field);
         let finding = finding.fact("given", number).fact("object", address);
         let finding = finding.fact("value", object.value).fix(fix);
         findings.push(finding.related(object.span, "{object} is set here"));

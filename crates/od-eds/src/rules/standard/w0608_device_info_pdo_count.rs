@@ -6,7 +6,7 @@ use crate::finding::{Check, Finding, Fixability, Form, Rule, Severity::Warning};
 use crate::fix::Fix;
 use crate::scan::number::number;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0608: Rule = Rule {
     code: "W0608",
     severity: Warning,
     title: "number of PDOs differs from [DeviceInfo]",
@@ -39,7 +39,7 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
         };
         let count = description.objects.range(range).count();
         if let Some(number) = number(given).filter(|number| *number != count as i128) {
-            let finding = RULE
+            let finding = W0608
                 .at(given.span)
                 .fact("field", field)
                 .fact("given", number);

@@ -6,7 +6,7 @@ use crate::standards::cia301::{is_standard_array, of};
 use crate::subject::Object;
 use od_model::ObjectCode;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0630: Rule = Rule {
     code: "W0630",
     severity: Severity::Error,
     buildable: true,
@@ -31,7 +31,7 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
         } else {
             Severity::Error
         };
-        let finding = RULE.on(object, object.code.span).severity_of(severity);
+        let finding = W0630.on(object, object.code.span).severity_of(severity);
         let finding = finding
             .fact("object", Fact::Index(object.index))
             .fact("name", standard.name);

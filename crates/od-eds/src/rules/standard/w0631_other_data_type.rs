@@ -8,7 +8,7 @@ use crate::standards::cia301::of;
 use crate::subject::Entry;
 use od_model::{Address, DataType};
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0631: Rule = Rule {
     code: "W0631",
     severity: Error,
     buildable: true,
@@ -35,7 +35,7 @@ fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
         && (*given, value.data_type) != (DataType::Domain, DataType::OctetString)
     {
         let code = format!("0x{:04X}", value.data_type.code());
-        let finding = RULE.on(entry, given.span).fact("object", entry.shown());
+        let finding = W0631.on(entry, given.span).fact("object", entry.shown());
         let finding = finding
             .fact("name", standard.name)
             .fact("right", value.data_type);

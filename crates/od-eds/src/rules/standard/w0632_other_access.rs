@@ -6,7 +6,7 @@ use crate::standards::cia301::of;
 use crate::subject::Entry;
 use od_model::{Access, Address};
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0632: Rule = Rule {
     code: "W0632",
     severity: Warning,
     title: "standard object has another access",
@@ -33,7 +33,7 @@ fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
         _ => return,
     };
     let right = standard.value(sub).map_or(fixed, |value| value.access);
-    let finding = RULE
+    let finding = W0632
         .on(entry, entry.access.span)
         .fact("object", entry.shown());
     let finding = finding.fact("name", standard.name).fact("right", right);

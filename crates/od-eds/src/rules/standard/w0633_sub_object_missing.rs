@@ -6,7 +6,7 @@ use crate::standards::cia301::{Members, of};
 use crate::subject::Object;
 use od_model::Address;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0633: Rule = Rule {
     code: "W0633",
     severity: Error,
     buildable: true,
@@ -38,7 +38,7 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
         return;
     }
     for sub in subs.into_iter().filter(|sub| !own.contains_key(sub)) {
-        let finding = RULE
+        let finding = W0633
             .on(object, object.span)
             .about(Address::new(object.index, sub));
         let finding = finding

@@ -6,7 +6,7 @@ use crate::finding::{Check, Finding, Rule, Severity::Error};
 use crate::scan::number::number;
 use od_model::Address;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0634: Rule = Rule {
     code: "W0634",
     severity: Error,
     buildable: true,
@@ -30,7 +30,7 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
         .map(|sub| Fact::Object(Address::new(0x1018, sub)))
         .collect();
     if number(given) == Some(1) && !missing.is_empty() {
-        let finding = RULE.at(given.span).about(Address::new(0x1018, 0));
+        let finding = W0634.at(given.span).about(Address::new(0x1018, 0));
         let finding = finding.fact("missing", missing);
         findings.push(finding.related(identity.span, "1018h is defined here"));
     }

@@ -4,7 +4,7 @@ use crate::description::Description;
 use crate::fact::Fact;
 use crate::finding::{Check, Finding, Rule, Severity::Warning};
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0635: Rule = Rule {
     code: "W0635",
     severity: Warning,
     title: "device has no error control",
@@ -20,6 +20,6 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
     let has = |index| description.objects.contains_key(&index);
     if has(0x1000) && !has(0x1017) && !has(0x100C) {
         let missing = Fact::Section(0x1017, None);
-        findings.push(RULE.finding().fact("missing", missing));
+        findings.push(W0635.finding().fact("missing", missing));
     }
 }

@@ -2,10 +2,10 @@ use alloc::vec::Vec;
 
 use crate::description::Description;
 use crate::finding::{Check, Finding, Rule, Severity::Warning};
-use crate::rules::lists::w0252_bit_rate_unknown::is_rate;
+use crate::rules::lists::reader::is_rate;
 use crate::scan::number::number;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0637: Rule = Rule {
     code: "W0637",
     severity: Warning,
     title: "device supports no bit rate",
@@ -26,6 +26,6 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
         return;
     };
     if rates.all(|(_, rate)| number(rate) == Some(0)) && !description.objects.is_empty() {
-        findings.push(RULE.at(first.span));
+        findings.push(W0637.at(first.span));
     }
 }

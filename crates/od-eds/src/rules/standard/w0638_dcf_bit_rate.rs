@@ -6,7 +6,7 @@ use crate::finding::{Check, Finding, Form, Rule, Severity::Warning};
 use crate::rules::standard::shared::commissioning;
 use crate::scan::number::number;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0638: Rule = Rule {
     code: "W0638",
     severity: Warning,
     title: "bit rate of a DCF is not valid",
@@ -34,7 +34,7 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
     if !(0..=0xFFFF).contains(&rate) {
         return;
     }
-    let finding = RULE.at(given.span).fact("given", given.as_str());
+    let finding = W0638.at(given.span).fact("given", given.as_str());
     if !matches!(rate, 10 | 20 | 50 | 100 | 125 | 250 | 500 | 800 | 1000) {
         findings.push(finding);
         return;

@@ -5,7 +5,7 @@ use crate::fix::Fix;
 use crate::subject::Entry;
 use od_model::Address;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0639: Rule = Rule {
     code: "W0639",
     severity: Warning,
     title: "error history of a new device is not empty",
@@ -24,7 +24,7 @@ fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
         && value.integer(0).is_some_and(|number| number != 0)
     {
         let fix = Fix::unsafe_fix().replace(value.span, "0");
-        let finding = RULE
+        let finding = W0639
             .on(entry, value.span)
             .fact("given", value.value.clone());
         findings.push(finding.fix(fix));

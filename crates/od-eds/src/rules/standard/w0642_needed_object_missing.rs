@@ -6,7 +6,7 @@ use crate::standards::cia301::of;
 use crate::subject::{Object, start_number};
 use od_model::Address;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0642: Rule = Rule {
     code: "W0642",
     severity: Severity::Warning,
     title: "object needs another object that is missing",
@@ -31,7 +31,7 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
             return None;
         }
         let name = of(other).map_or("", |standard| standard.name);
-        let finding = RULE.on(object, at).form(form);
+        let finding = W0642.on(object, at).form(form);
         let finding = finding.fact("object", Fact::Index(object.index));
         let finding = finding.fact("other", Fact::Index(other)).fact("name", name);
         Some(finding.fact("missing", Fact::Section(other, None)))

@@ -5,7 +5,7 @@ use crate::fix::Fix;
 use crate::standards::cia301::of;
 use crate::subject::Entry;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0644: Rule = Rule {
     code: "W0644",
     severity: Warning,
     title: "standard object is mappable",
@@ -22,7 +22,7 @@ fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
     let index = entry.address.index;
     let may = matches!(index, 0x1001..=0x1003 | 0x1013 | 0x1200..=0x12FF | 0x1F00..);
     if let Some(standard) = of(index).filter(|_| *entry.mappable && !may) {
-        let finding = RULE.on(entry, entry.mappable.span);
+        let finding = W0644.on(entry, entry.mappable.span);
         let finding = finding
             .fact("object", entry.shown())
             .fact("name", standard.name);

@@ -5,7 +5,7 @@ use crate::finding::{Check, Finding, Form, Rule, Severity};
 use crate::standards::cia301::of;
 use crate::subject::Object;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0647: Rule = Rule {
     code: "W0647",
     severity: Severity::Warning,
     buildable: true,
@@ -30,7 +30,7 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
     let shown = Fact::Index(index);
     if matches!(index, 0x1004 | 0x100B | 0x100E | 0x100F) {
         // Earlier versions of CiA 301 had them: a device may keep them.
-        let finding = RULE.on(object, object.span).severity_of(Severity::Info);
+        let finding = W0647.on(object, object.span).severity_of(Severity::Info);
         findings.push(finding.fact("object", shown));
         return;
     }
@@ -52,7 +52,7 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
         .entries()
         .filter(|entry| (last + 1..255).contains(&entry.address.sub))
     {
-        let finding = RULE
+        let finding = W0647
             .on(&entry, entry.span)
             .form(&SUB)
             .fact("object", shown.clone());

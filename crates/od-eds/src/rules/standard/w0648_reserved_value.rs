@@ -5,7 +5,7 @@ use crate::standards::cia301::of;
 use crate::subject::{Entry, start_value};
 use od_model::Address;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0648: Rule = Rule {
     code: "W0648",
     severity: Severity::Warning,
     buildable: true,
@@ -51,7 +51,7 @@ fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
         && let Ok(unsigned) = u64::try_from(number)
         && let Some(what) = reserved(entry.address, unsigned)
     {
-        let finding = RULE.on(entry, value.span).fact("object", entry.shown());
+        let finding = W0648.on(entry, value.span).fact("object", entry.shown());
         let finding = finding
             .fact("name", standard.name)
             .fact("given", number)

@@ -7,7 +7,7 @@ use crate::span::Spanned;
 use crate::subject::start_number;
 use od_model::Address;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0649: Rule = Rule {
     code: "W0649",
     severity: Warning,
     title: "objects of the SYNC service contradict each other",
@@ -28,7 +28,7 @@ const WINDOW: Form = Form {
 
 fn check(description: &Description, findings: &mut Vec<Finding>) {
     let value = |index| start_number(description, Address::new(index, 0));
-    let at = |number: &Spanned<u64>, index| RULE.at(number.span).about(Address::new(index, 0));
+    let at = |number: &Spanned<u64>, index| W0649.at(number.span).about(Address::new(index, 0));
     let produces = value(0x1005).filter(|number| number.value & 1 << 30 != 0);
     if let Some(number) = produces.filter(|_| !description.objects.contains_key(&0x1006)) {
         let missing = Fact::Section(0x1006, None);

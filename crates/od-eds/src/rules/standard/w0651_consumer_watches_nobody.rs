@@ -4,7 +4,7 @@ use crate::finding::{Check, Finding, Rule, Severity::Warning};
 use crate::rules::standard::shared::consumers;
 use crate::subject::Object;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0651: Rule = Rule {
     code: "W0651",
     severity: Warning,
     title: "heartbeat consumer watches a node that cannot exist",
@@ -18,5 +18,5 @@ pub(crate) static RULE: Rule = Rule {
 
 fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
     let wrong = consumers(object).filter(|(_, _, node)| !(1..=127).contains(node));
-    findings.extend(wrong.map(|(entry, span, node)| RULE.on(&entry, span).fact("node", node)));
+    findings.extend(wrong.map(|(entry, span, node)| W0651.on(&entry, span).fact("node", node)));
 }

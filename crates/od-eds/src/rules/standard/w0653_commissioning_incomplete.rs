@@ -7,7 +7,7 @@ use crate::scan::number::number;
 use crate::subject::start_number;
 use od_model::Address;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0653: Rule = Rule {
     code: "W0653",
     severity: Warning,
     title: "[DeviceComissioning] is incomplete, or contradicts 1018h",
@@ -32,7 +32,7 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
     };
     for field in ["NodeID", "Baudrate"] {
         if section.get(field).is_none() {
-            let finding = RULE.at(section.name.span).fact("field", field);
+            let finding = W0653.at(section.name.span).fact("field", field);
             findings.push(finding.fact("section", section.name.as_str()));
         }
     }
@@ -47,7 +47,7 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
         && serial != 0
         && serial != i128::from(own.value)
     {
-        let finding = RULE.at(given.span).about(address).form(&SERIAL);
+        let finding = W0653.at(given.span).about(address).form(&SERIAL);
         let finding = finding.fact("given", serial).fact("right", own.value);
         findings.push(finding.related(own.span, "serial number set here"));
     }

@@ -5,7 +5,7 @@ use crate::fix::Fix;
 use crate::subject::Entry;
 use od_model::Address;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0655: Rule = Rule {
     code: "W0655",
     severity: Warning,
     title: "error register of a new device is not 0",
@@ -23,7 +23,7 @@ fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
         && let Some(value) = &entry.default
         && value.integer(0).is_some_and(|number| number != 0)
     {
-        let finding = RULE
+        let finding = W0655
             .on(entry, value.span)
             .fact("given", value.value.clone());
         findings.push(finding.fix(Fix::unsafe_fix().replace(value.span, "0")));

@@ -5,7 +5,7 @@ use crate::finding::{Check, Finding, Rule, Severity::Warning};
 use crate::subject::start_number;
 use od_model::Address;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0656: Rule = Rule {
     code: "W0656",
     severity: Warning,
     title: "device starts with node guarding and heartbeat",
@@ -23,7 +23,7 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
         number.filter(|number| number.value > 0)
     };
     if let Some(((guard, _), heartbeat)) = at(0x100C).zip(at(0x100D)).zip(at(0x1017)) {
-        let finding = RULE.at(guard.span).about(Address::new(0x100C, 0));
+        let finding = W0656.at(guard.span).about(Address::new(0x100C, 0));
         let finding = finding.fact("time", heartbeat.value);
         findings.push(finding.related(heartbeat.span, "heartbeat enabled here"));
     }

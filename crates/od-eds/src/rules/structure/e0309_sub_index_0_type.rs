@@ -6,7 +6,7 @@ use crate::rules::structure::shared::sub_index_0;
 use crate::subject::Object;
 use od_model::DataType;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static E0309: Rule = Rule {
     code: "E0309",
     severity: Error,
     title: "sub-index 0 is not UNSIGNED8",
@@ -27,7 +27,7 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
         .data_type
         .filter(|given| **given != DataType::Unsigned8)
     {
-        let finding = RULE.on(&entry, given.span).fact("given", *given);
+        let finding = E0309.on(&entry, given.span).fact("given", *given);
         let finding = finding.fact("right", DataType::Unsigned8);
         findings.push(finding.fix(Fix::unsafe_fix().replace(given.span, "0x0005")));
     }

@@ -4,7 +4,7 @@ use crate::finding::{Check, Finding, Fixability, Rule, Severity::Error};
 use crate::rules::structure::shared::Count;
 use crate::subject::Object;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static E0310: Rule = Rule {
     code: "E0310",
     severity: Error,
     title: "PDO mapping counts entries that do not exist",
@@ -19,5 +19,5 @@ pub(crate) static RULE: Rule = Rule {
 
 fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
     let count = Count::of(object).filter(|count| count.is_too_high() && count.is_error());
-    findings.extend(count.map(|count| count.finding(&RULE)));
+    findings.extend(count.map(|count| count.finding(&E0310)));
 }

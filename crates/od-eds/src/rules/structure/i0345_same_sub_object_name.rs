@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 use crate::finding::{Check, Finding, Rule, Severity::Info};
 use crate::subject::Object;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static I0345: Rule = Rule {
     code: "I0345",
     severity: Info,
     title: "two sub-objects have the same name",
@@ -28,7 +28,7 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
         if let Some(first) = names.insert(name, span)
             && first != span
         {
-            let finding = RULE.on(&entry, span).fact("name", name);
+            let finding = I0345.on(&entry, span).fact("name", name);
             findings.push(finding.related(first, "first used here"));
         }
     }

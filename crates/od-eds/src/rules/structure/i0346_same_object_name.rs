@@ -6,7 +6,7 @@ use crate::fact::Fact;
 use crate::finding::{Check, Finding, Rule, Severity::Info};
 use crate::subject::objects;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static I0346: Rule = Rule {
     code: "I0346",
     severity: Info,
     title: "two objects have the same name",
@@ -26,7 +26,7 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
         let (name, span) = (object.object.name.value.as_str(), object.name.span);
         let (first, place) = *names.entry(name).or_insert((object.index, span));
         if first != object.index {
-            let finding = RULE.on(&object, span).fact("first", Fact::Index(first));
+            let finding = I0346.on(&object, span).fact("first", Fact::Index(first));
             let finding = finding.fact("index", Fact::Index(object.index));
             findings.push(finding.fact("name", name).related(place, "first used here"));
         }

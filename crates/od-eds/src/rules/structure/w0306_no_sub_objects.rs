@@ -5,7 +5,7 @@ use crate::finding::{Check, Finding, Rule, Severity::Warning};
 use crate::subject::Object;
 use od_model::ObjectCode;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0306: Rule = Rule {
     code: "W0306",
     severity: Warning,
     title: "ARRAY or RECORD has no sub-objects",
@@ -26,7 +26,7 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
         .any(|(key, _)| Key::CompactSubObj.is(key));
     if has_some && object.object.entries.is_empty() && !unread {
         let missing = Fact::Section(object.index, Some(0));
-        let finding = RULE.on(object, object.span).fact("code", *object.code);
+        let finding = W0306.on(object, object.span).fact("code", *object.code);
         findings.push(finding.fact("missing", missing));
     }
 }

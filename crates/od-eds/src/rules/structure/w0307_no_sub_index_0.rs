@@ -8,7 +8,7 @@ use crate::rules::structure::shared::{counts, highest};
 use crate::subject::Object;
 use od_model::DataType;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0307: Rule = Rule {
     code: "W0307",
     severity: Error,
     buildable: true,
@@ -27,7 +27,7 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
         return;
     }
     let missing = Fact::Section(object.index, Some(0));
-    let finding = RULE.on(object, object.span).fact("missing", missing);
+    let finding = W0307.on(object, object.span).fact("missing", missing);
     findings.push(finding.fact("right", DataType::Unsigned8).fix(fix(object)));
 }
 

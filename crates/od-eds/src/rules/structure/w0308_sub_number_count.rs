@@ -6,7 +6,7 @@ use crate::fix::Fix;
 use crate::rules::structure::shared::{counts, has_lost};
 use crate::subject::Object;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0308: Rule = Rule {
     code: "W0308",
     severity: Warning,
     title: "SubNumber does not match the sub-objects",
@@ -25,7 +25,7 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
         .sub_number
         .filter(|given| given.value as usize != count);
     if let Some(given) = given.filter(|_| counts(object)) {
-        let finding = RULE.on(object, given.span).fact("given", given.value);
+        let finding = W0308.on(object, given.span).fact("given", given.value);
         let finding = finding.fact("count", count);
         findings.push(if has_lost(object.description, object.index) {
             finding

@@ -5,7 +5,7 @@ use crate::finding::{Check, Finding, Fixability, Form, Rule, Severity::Error};
 use crate::rules::structure::shared::{Count, counts_in_use, decimal};
 use crate::subject::Object;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0311: Rule = Rule {
     code: "W0311",
     severity: Error,
     buildable: true,
@@ -32,7 +32,7 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
     };
     let in_use = count.entry.access.writable() || counts_in_use(object.index);
     if count.given.value < u64::from(count.highest) && !in_use {
-        let finding = count.finding(&RULE);
+        let finding = count.finding(&W0311);
         findings.push(match decimal(object.object) {
             Some((_, meant)) => {
                 let right = format!("[{:04X}sub{meant:X}]", object.index);

@@ -7,7 +7,7 @@ use crate::standards::cia301::is_standard_array;
 use crate::subject::Object;
 use od_model::ObjectCode;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0312: Rule = Rule {
     code: "W0312",
     severity: Warning,
     title: "sub-objects of an ARRAY differ in type",
@@ -39,7 +39,7 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
         return;
     };
     if let Some((given, entry)) = typed.find(|(given, _)| *given != right) {
-        let finding = RULE.on(&entry, given.span).fact("object", entry.shown());
+        let finding = W0312.on(&entry, given.span).fact("object", entry.shown());
         let finding = finding.fact("given", *given).fact("first", first.shown());
         let finding = finding.fact("right", *right);
         let finding = finding.related(right.span, "declared as {right} here");

@@ -4,7 +4,7 @@ use crate::fact::Fact;
 use crate::finding::{Check, Finding, Rule, Severity::Warning};
 use crate::subject::Object;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0343: Rule = Rule {
     code: "W0343",
     severity: Warning,
     title: "index is reserved",
@@ -19,6 +19,6 @@ pub(crate) static RULE: Rule = Rule {
 fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
     if matches!(object.index, 0 | 0x0260..=0x0FFF | 0xC000..) {
         let index = Fact::Index(object.index);
-        findings.push(RULE.on(object, object.span).fact("index", index));
+        findings.push(W0343.on(object, object.span).fact("index", index));
     }
 }

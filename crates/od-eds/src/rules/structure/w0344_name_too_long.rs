@@ -6,7 +6,7 @@ use crate::span::Spanned;
 use crate::subject::Object;
 use crate::subject::Subject;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0344: Rule = Rule {
     code: "W0344",
     severity: Warning,
     title: "name is longer than 241 characters",
@@ -33,7 +33,7 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
 fn report(subject: &impl Subject, name: &Spanned<String>, findings: &mut Vec<Finding>) {
     let length = name.chars().count();
     if length > LIMIT {
-        let finding = RULE.on(subject, name.span).fact("length", length);
+        let finding = W0344.on(subject, name.span).fact("length", length);
         findings.push(finding.fact("limit", LIMIT));
     }
 }

@@ -5,7 +5,7 @@ use crate::fix::Fix;
 use crate::rules::structure::shared::counts_in_use;
 use crate::subject::Object;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0347: Rule = Rule {
     code: "W0347",
     severity: Warning,
     title: "sub-index 0 of a standard object is writable",
@@ -26,7 +26,7 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
     let first = object.entries().next();
     if let Some(count) = first.filter(|entry| entry.address.sub == 0 && entry.access.writable()) {
         let access = count.access;
-        let finding = RULE.on(&count, access.span).fact("given", *access);
+        let finding = W0347.on(&count, access.span).fact("given", *access);
         findings.push(finding.fix(Fix::unsafe_fix().replace(access.span, "const")));
     }
 }

@@ -4,7 +4,7 @@ use crate::finding::{Check, Finding, Fixability, Rule, Severity::Error};
 use crate::rules::structure::shared::Count;
 use crate::subject::Object;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0350: Rule = Rule {
     code: "W0350",
     severity: Error,
     buildable: true,
@@ -20,5 +20,5 @@ pub(crate) static RULE: Rule = Rule {
 
 fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
     let count = Count::of(object).filter(|count| count.is_too_high() && !count.is_error());
-    findings.extend(count.map(|count| count.finding(&RULE)));
+    findings.extend(count.map(|count| count.finding(&W0350)));
 }

@@ -7,7 +7,7 @@ use crate::rules::structure::shared::decimal;
 use crate::subject::Object;
 use od_model::ObjectCode;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0351: Rule = Rule {
     code: "W0351",
     severity: Warning,
     title: "ARRAY has a gap",
@@ -33,7 +33,7 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
     let mut gaps = (1u8..=254).zip(entries);
     let gap = gaps.find(|(expected, entry)| entry.address.sub != *expected);
     if let Some((missing, entry)) = gap.filter(|_| *object.code == ObjectCode::Array) {
-        let finding = RULE.on(&entry, entry.span).fact("missing", missing);
+        let finding = W0351.on(&entry, entry.span).fact("missing", missing);
         let finding = finding.fact("given", entry.address.sub);
         findings.push(match decimal(object.object) {
             Some((sub, meant)) if sub == entry.address.sub => {

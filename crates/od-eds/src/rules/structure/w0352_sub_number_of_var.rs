@@ -4,7 +4,7 @@ use crate::finding::{Check, Finding, Fixability, Rule, Severity::Warning};
 use crate::fix::Fix;
 use crate::subject::Object;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0352: Rule = Rule {
     code: "W0352",
     severity: Warning,
     title: "SubNumber of an object without sub-objects",
@@ -20,7 +20,7 @@ pub(crate) static RULE: Rule = Rule {
 fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
     let given = object.sub_number.filter(|given| given.value > 1);
     if let Some(given) = given.filter(|_| !object.code.has_members()) {
-        let finding = RULE.on(object, given.span).fact("given", given.value);
+        let finding = W0352.on(object, given.span).fact("given", given.value);
         let finding = finding.fact("code", *object.code);
         findings.push(finding.fix(Fix::unsafe_fix().remove_line(given.span)));
     }

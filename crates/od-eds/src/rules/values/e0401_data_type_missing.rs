@@ -8,7 +8,7 @@ use crate::span::Span;
 use crate::subject::{Entry, is_definition};
 use od_model::{Address, DataType};
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static E0401: Rule = Rule {
     code: "E0401",
     severity: Error,
     title: "DataType is missing",
@@ -31,5 +31,5 @@ fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
 /// The finding about a value without a type.
 pub(crate) fn finding(description: &Description, address: Address, section: Span) -> Finding {
     let right = profile_type(description, address).unwrap_or(DataType::Unsigned32);
-    RULE.at(section).about(address).fact("right", right)
+    E0401.at(section).about(address).fact("right", right)
 }

@@ -5,7 +5,7 @@ use crate::rules::values::shared::WHOLE;
 use crate::subject::{Entry, is_definition};
 use od_model::{DataType, Kind};
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static E0403: Rule = Rule {
     code: "E0403",
     severity: Error,
     title: "value has the type of a record",
@@ -22,7 +22,7 @@ fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
         && data_type.kind() == Kind::Record
         && !is_definition(entry.object)
     {
-        let finding = RULE.on(entry, data_type.span).fact("type", *data_type);
+        let finding = E0403.on(entry, data_type.span).fact("type", *data_type);
         findings.push(finding.fact("right", DataType::Unsigned32));
     }
 }

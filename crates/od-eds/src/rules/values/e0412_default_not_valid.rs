@@ -5,7 +5,7 @@ use crate::finding::{Check, Finding, Rule, Severity::Error};
 use crate::rules::values::shared::{FORMULA, NOT_VALID, report_unfit};
 use crate::subject::Entry;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static E0412: Rule = Rule {
     code: "E0412",
     severity: Error,
     title: "DefaultValue is not valid for its DataType",
@@ -19,5 +19,5 @@ pub(crate) static RULE: Rule = Rule {
 };
 
 fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
-    report_unfit(&RULE, entry, &[Key::DefaultValue], findings);
+    report_unfit(&E0412, entry, &[Key::DefaultValue], findings);
 }

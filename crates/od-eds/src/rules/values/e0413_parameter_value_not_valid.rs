@@ -5,7 +5,7 @@ use crate::finding::{Check, Finding, Rule, Severity::Error};
 use crate::rules::values::shared::{FORMULA, NOT_VALID, report_unfit};
 use crate::subject::Entry;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static E0413: Rule = Rule {
     code: "E0413",
     severity: Error,
     title: "ParameterValue is not valid for its DataType",
@@ -19,5 +19,5 @@ pub(crate) static RULE: Rule = Rule {
 };
 
 fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
-    report_unfit(&RULE, entry, &[Key::ParameterValue], findings);
+    report_unfit(&E0413, entry, &[Key::ParameterValue], findings);
 }

@@ -5,7 +5,7 @@ use crate::finding::{Check, Finding, Rule, Severity::Error};
 use crate::rules::values::shared::{ABOVE, BELOW, Outside, WITHIN, outside};
 use crate::subject::Entry;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static E0414: Rule = Rule {
     code: "E0414",
     severity: Error,
     title: "configured value is outside its limits",
@@ -20,7 +20,7 @@ pub(crate) static RULE: Rule = Rule {
 
 fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
     let fails = outside(entry).filter(fails);
-    findings.extend(fails.map(|outside| outside.finding(&RULE, entry)));
+    findings.extend(fails.map(|outside| outside.finding(&E0414, entry)));
 }
 
 /// A master that configures by a DCF gets an abort; a default is only unusual.

@@ -6,7 +6,7 @@ use crate::fix::Fix;
 use crate::rules::values::shared::{crossed, limits};
 use crate::subject::Entry;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static E0415: Rule = Rule {
     code: "E0415",
     severity: Error,
     title: "LowLimit is greater than HighLimit",
@@ -25,7 +25,7 @@ fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
         let swap = Fix::unsafe_fix()
             .replace(low.span, shown(high))
             .replace(high.span, shown(low));
-        let finding = RULE.on(entry, low.span).key(Key::LowLimit);
+        let finding = E0415.on(entry, low.span).key(Key::LowLimit);
         let finding = finding
             .fact("low", low.value.clone())
             .fact("high", high.value.clone());

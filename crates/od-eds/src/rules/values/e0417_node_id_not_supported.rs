@@ -8,7 +8,7 @@ use crate::span::{Span, Spanned};
 use crate::subject::Entry;
 use od_model::DataType;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static E0417: Rule = Rule {
     code: "E0417",
     severity: Error,
     title: "$NODEID in a type that does not support it",
@@ -40,7 +40,7 @@ pub(crate) fn finding(
     span: Span,
     data_type: Spanned<DataType>,
 ) -> Finding {
-    let finding = RULE.at(span).key(key).fact("given", given);
+    let finding = E0417.at(span).key(key).fact("given", given);
     finding
         .fact("type", *data_type)
         .fact("right", DataType::Unsigned32)

@@ -5,7 +5,7 @@ use crate::finding::{Check, Finding, Rule, Severity::Error};
 use crate::rules::values::shared::{DECLARED, data_type, values};
 use crate::subject::Entry;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static E0418: Rule = Rule {
     code: "E0418",
     severity: Error,
     title: "$NODEID formula is too large for its DataType",
@@ -26,7 +26,7 @@ fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
             && !value.fits(*data_type)
         {
             let high = data_type.integer_range().map_or(0, |(_, high)| high);
-            let finding = RULE.on(entry, value.span).key(key);
+            let finding = E0418.on(entry, value.span).key(key);
             let finding = finding
                 .fact("given", value.value.clone())
                 .fact("sum", i128::from(offset) + 127)

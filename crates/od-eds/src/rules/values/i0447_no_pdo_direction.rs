@@ -5,7 +5,7 @@ use crate::finding::{Check, Finding, Rule, Severity::Info};
 use crate::subject::{Entry, objects};
 use od_model::Access;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static I0447: Rule = Rule {
     code: "I0447",
     severity: Info,
     title: "AccessType `rw` gives no PDO direction",
@@ -23,7 +23,7 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
     for object in objects(description) {
         for entry in object.entries().filter(is_one) {
             count += 1;
-            first.get_or_insert_with(|| RULE.on(&entry, entry.access.span));
+            first.get_or_insert_with(|| I0447.on(&entry, entry.access.span));
         }
     }
     findings.extend(first.map(|first| first.fact("count", count)));

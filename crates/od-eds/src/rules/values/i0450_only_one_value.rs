@@ -3,7 +3,7 @@ use alloc::vec::Vec;
 use crate::finding::{Check, Finding, Rule, Severity::Info};
 use crate::subject::Entry;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static I0450: Rule = Rule {
     code: "I0450",
     severity: Info,
     title: "limits allow only one value",
@@ -20,7 +20,7 @@ fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
         && low.value == high.value
         && entry.access.writable()
     {
-        let finding = RULE.on(entry, high.span).fact("access", *entry.access);
+        let finding = I0450.on(entry, high.span).fact("access", *entry.access);
         findings.push(finding.related(low.span, "{LowLimit} set here"));
     }
 }

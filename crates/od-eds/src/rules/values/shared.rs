@@ -18,9 +18,6 @@ pub(crate) const DECLARED: &str = "declared as {type} here";
 /// The sentence for a value that is not valid for its type.
 pub(crate) const NOT_VALID: &str = "{key} `{given}` is not a valid {type}";
 
-/// The help for a value that odkit reads, though not every tool does.
-pub(super) const WRITE: &str = "write `{key={right}}`{fix}";
-
 /// The sentences for a type that only a RECORD has.
 pub(crate) const WHOLE: Form = Form {
     says: "{type} is the type of a RECORD, not of a value",

@@ -9,7 +9,7 @@ use crate::span::Spanned;
 use crate::subject::Entry;
 use od_model::DataType;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0416: Rule = Rule {
     code: "W0416",
     severity: Warning,
     title: "limit is not valid for its DataType",
@@ -31,7 +31,7 @@ const NO_LIMITS: Form = Form {
 
 fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
     let first = findings.len();
-    report_unfit(&RULE, entry, &[Key::LowLimit, Key::HighLimit], findings);
+    report_unfit(&W0416, entry, &[Key::LowLimit, Key::HighLimit], findings);
     for finding in &mut findings[first..] {
         *finding = emptied(finding.clone());
     }
@@ -47,7 +47,7 @@ pub(crate) fn emptied(finding: Finding) -> Finding {
 
 /// The finding about a limit of a type that has none.
 pub(crate) fn no_limits(key: Key, given: &Text<'_>, data_type: Spanned<DataType>) -> Finding {
-    let finding = RULE
+    let finding = W0416
         .given(given)
         .form(&NO_LIMITS)
         .key(key)

@@ -5,7 +5,7 @@ use crate::fix::Fix;
 use crate::subject::Object;
 use od_model::{Kind, ObjectCode};
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0427: Rule = Rule {
     code: "W0427",
     severity: Warning,
     title: "DOMAIN has the type of a number",
@@ -25,7 +25,7 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
     for entry in object.entries() {
         let number = |kind| !matches!(kind, Kind::Text | Kind::Bytes | Kind::Record);
         if let Some(given) = entry.data_type.filter(|given| number(given.kind())) {
-            let finding = RULE.on(&entry, given.span).fact("given", *given);
+            let finding = W0427.on(&entry, given.span).fact("given", *given);
             let finding = finding.related(object.code.span, "declared as DOMAIN here");
             findings.push(finding.fix(Fix::unsafe_fix().replace(given.span, "0x000F")));
         }

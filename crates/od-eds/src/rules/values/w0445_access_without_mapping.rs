@@ -6,7 +6,7 @@ use crate::fix::Fix;
 use crate::subject::Entry;
 use od_model::Access;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0445: Rule = Rule {
     code: "W0445",
     severity: Warning,
     title: "AccessType `rwr` or `rww`, but not mappable",
@@ -24,7 +24,7 @@ fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
     if matches!(*entry.access, Access::Rwr | Access::Rww) && denied {
         // PDOMapping is what the vendor says; the direction is what no tool uses then.
         let fix = Fix::unsafe_fix().replace(entry.access.span, "rw");
-        let finding = RULE
+        let finding = W0445
             .on(entry, entry.access.span)
             .fact("access", *entry.access);
         findings.push(finding.fix(fix));

@@ -5,7 +5,7 @@ use crate::description::Value;
 use crate::finding::{Check, Finding, Rule, Severity::Warning};
 use crate::subject::Entry;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0446: Rule = Rule {
     code: "W0446",
     severity: Warning,
     title: "text is not ASCII",
@@ -22,6 +22,6 @@ fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
     if let Value::Text(text) = &value.value
         && let Some(odd) = text.chars().find(|c| !matches!(c, ' '..='~'))
     {
-        findings.push(RULE.on(entry, value.span).fact("odd", format!("{odd:?}")));
+        findings.push(W0446.on(entry, value.span).fact("odd", format!("{odd:?}")));
     }
 }

@@ -5,7 +5,7 @@ use crate::rules::values::e0414_parameter_value_outside_limits::fails;
 use crate::rules::values::shared::{ABOVE, BELOW, WITHIN, outside};
 use crate::subject::Entry;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0452: Rule = Rule {
     code: "W0452",
     severity: Warning,
     title: "default value is outside its limits",
@@ -20,5 +20,5 @@ pub(crate) static RULE: Rule = Rule {
 
 fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
     let odd = outside(entry).filter(|outside| !fails(outside));
-    findings.extend(odd.map(|outside| outside.finding(&RULE, entry)));
+    findings.extend(odd.map(|outside| outside.finding(&W0452, entry)));
 }

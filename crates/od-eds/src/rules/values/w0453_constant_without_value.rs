@@ -6,7 +6,7 @@ use crate::span::Spanned;
 use crate::subject::Entry;
 use od_model::{Access, DataType};
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0453: Rule = Rule {
     code: "W0453",
     severity: Warning,
     title: "constant has no value",
@@ -25,6 +25,6 @@ fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
     let text =
         |given: Spanned<DataType>| matches!(*given, DataType::VisibleString | DataType::Domain);
     if *entry.access == Access::Const && none && !entry.data_type.is_some_and(text) {
-        findings.push(RULE.on(entry, entry.access.span));
+        findings.push(W0453.on(entry, entry.access.span));
     }
 }

@@ -5,7 +5,7 @@ use crate::fix::Fix;
 use crate::rules::values::shared::DECLARED;
 use crate::subject::Entry;
 
-pub(crate) static RULE: Rule = Rule {
+pub(crate) static W0454: Rule = Rule {
     code: "W0454",
     severity: Warning,
     title: "mappable object has no fixed length",
@@ -22,7 +22,9 @@ fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
     if let Some(data_type) = entry.data_type.filter(|given| given.bits().is_none())
         && *entry.mappable
     {
-        let finding = RULE.on(entry, entry.mappable.span).fact("type", *data_type);
+        let finding = W0454
+            .on(entry, entry.mappable.span)
+            .fact("type", *data_type);
         let finding = finding.related(data_type.span, DECLARED);
         findings.push(finding.fix(Fix::unsafe_fix().replace(entry.mappable.span, "0")));
     }

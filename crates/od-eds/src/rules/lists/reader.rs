@@ -1,0 +1,502 @@
+//! Rules about lists, sections and keys that the reader reports: it sees the lines, a description has lost them.
+
+use alloc::format;
+use alloc::string::ToString;
+
+use crate::fact::Fact;
+use crate::finding::{
+    Finding, Fixability, Form, Rule,
+    Severity::{Error, Info, Warning},
+};
+use crate::fix::Fix;
+use crate::scan::names::List;
+use crate::scan::number::number;
+use crate::scan::placed::{Placed, Text};
+use crate::span::Span;
+#[cfg(feature = "xdd")]
+use crate::span::Spanned;
+#[cfg(feature = "xdd")]
+use alloc::string::String;
+
+pub(crate) static W0201: Rule = Rule {
+    code: "W0201",
+    severity: Error,
+    buildable: true,
+    title: "listed object has no section",
+    why: "A master that trusts the lists fails at the missing section. odkit ignores the entry.",
+    source: "CiA 306-1, object lists",
+    fixability: Fixability::Unsafe,
+    says: "{object} is listed, but section [{object:04X}] is missing",
+    help: "remove the entry{fix}, or add the section",
+    ..Rule::NEW
+};
+
+/// The finding about an entry of a list whose object has no section.
+pub(crate) fn w0201_section_missing(entry: Span, index: u16) -> Finding {
+    W0201
+        .at(entry)
+        .index(index)
+        .fix(Fix::unsafe_fix().remove_line(entry))
+}
+
+pub(crate) static W0202: Rule = Rule {
+    code: "W0202",
+    severity: Warning,
+    title: "object is missing from the lists",
+    why: "A tool that follows the lists does not find the object. odkit keeps it.",
+    source: "CiA 306-1, object lists",
+    says: "{object} is missing from the object lists",
+    help: "add `0x{object:04X}` to [{list}]",
+    ..Rule::NEW
+};
+
+/// The finding about an object that no list has.
+pub(crate) fn w0202_object_not_listed(object: Span, index: u16) -> Finding {
+    W0202
+        .at(object)
+        .index(index)
+        .fact("list", List::of(index).name())
+}
+
+pub(crate) static W0203: Rule = Rule {
+    code: "W0203",
+    severity: Error,
+    buildable: true,
+    title: "object lists are missing or empty",
+    why: "A tool that follows the lists finds no objects. odkit reads the section of every object.",
+    source: "CiA 306-1, object lists",
+    says: "the object lists are missing or empty",
+    help: "list the objects in [MandatoryObjects], [OptionalObjects] and [ManufacturerObjects]",
+    ..Rule::NEW
+};
+
+/// The finding about a file whose lists are missing or empty.
+pub(crate) fn w0203_lists_missing() -> Finding {
+    W0203.finding()
+}
+
+pub(crate) static W0204: Rule = Rule {
+    code: "W0204",
+    severity: Warning,
+    title: "SupportedObjects does not match its list",
+    why: "Many tools read only as many entries as SupportedObjects says. odkit reads all entries.",
+    source: "CiA 306-1, object lists",
+    fixability: Fixability::Safe,
+    says: "SupportedObjects is {given}, but the list has {found:entry|entries}",
+    help: "write `SupportedObjects={found}`{fix}",
+    also: &[W0204_MISSING, W0204_XDD],
+    ..Rule::NEW
+};
+
+/// Sentence for a list without SupportedObjects.
+const W0204_MISSING: Form = Form {
+    says: "SupportedObjects is missing",
+    ..Form::OWN
+};
+
+/// Sentence for the object list of an W0204_XDD.
+const W0204_XDD: Form = Form {
+    says: "{name} is {given}, but the list has {found:object|objects} of this kind",
+    help: "write `{name}=\"{found}\"`{fix}",
+};
+
+/// The finding about a count in the object list of an W0204_XDD.
+#[cfg(feature = "xdd")]
+pub(crate) fn w0204_in_xdd(given: &Spanned<String>, name: &'static str, found: usize) -> Finding {
+    let fix = Fix::safe().replace(given.span, found.to_string());
+    let finding = W0204.given(given).form(&W0204_XDD).fact("name", name);
+    finding.fact("found", found).fix(fix)
+}
+
+/// The finding about a SupportedObjects that is missing, or not the number of entries. A tool that counts would lose
+/// an entry whose number is above a lower count, so the finding has no fix then.
+pub(crate) fn w0204_supported_objects_count(
+    header: Span,
+    given: Option<&Text<'_>>,
+    found: i128,
+    highest: i128,
+) -> Finding {
+    let finding = match given {
+        Some(given) if highest > found => W0204.given(given),
+        Some(given) => W0204
+            .given(given)
+            .fix(Fix::safe().replace(given.span, found.to_string())),
+        None => W0204
+            .at(header)
+            .form(&W0204_MISSING)
+            .fix(Fix::safe().below(header, format!("SupportedObjects={found}"))),
+    };
+    finding.fact("found", found)
+}
+
+pub(crate) static W0205: Rule = Rule {
+    code: "W0205",
+    severity: Error,
+    buildable: true,
+    title: "list entry is not valid",
+    why: "A tool does not find the object, or stops. odkit ignores the entry. An entry is a number and an index, as in `1=0x1000`.",
+    source: "CiA 306-1, object lists",
+    says: "`{entry}` is not a valid list entry",
+    help: "write a number and an index, such as `1=0x1000`",
+    ..Rule::NEW
+};
+
+/// The finding about an entry that is not a number and an index.
+pub(crate) fn w0205_list_entry_not_valid(key: &Text<'_>, value: &Text<'_>) -> Finding {
+    W0205
+        .at(key.span)
+        .fact("entry", format!("{}={}", key.value, value.value))
+}
+
+pub(crate) static W0206: Rule = Rule {
+    code: "W0206",
+    severity: Warning,
+    title: "object is in the wrong list",
+    why: "A tool that reads only one list misses the object. 2000h to 5FFFh belong to [ManufacturerObjects], 1000h, 1001h and 1018h to [MandatoryObjects], all others to [OptionalObjects].",
+    source: "CiA 306-1, object lists",
+    says: "{object} belongs to [{right}], not to [{wrong}]",
+    help: "move the entry to [{right}]",
+    ..Rule::NEW
+};
+
+/// The finding about an entry in a list that is not for its object.
+pub(crate) fn w0206_wrong_list(entry: Span, index: u16, list: List) -> Finding {
+    W0206
+        .at(entry)
+        .index(index)
+        .fact("right", List::of(index).name())
+        .fact("wrong", list.name())
+}
+
+pub(crate) static W0207: Rule = Rule {
+    code: "W0207",
+    severity: Warning,
+    title: "object is listed twice",
+    why: "Some tools create two objects. odkit ignores the second entry.",
+    source: "CiA 306-1, object lists",
+    fixability: Fixability::Safe,
+    says: "duplicate entry for {object}",
+    help: "remove one of the entries{fix}",
+    ..Rule::NEW
+};
+
+/// The finding about a second entry for an object.
+pub(crate) fn w0207_listed_twice(entry: Span, index: u16, first: Span) -> Finding {
+    W0207
+        .at(entry)
+        .index(index)
+        .related(first, "first listed here")
+        .fix(Fix::safe().remove_line(entry))
+}
+
+pub(crate) static E0208: Rule = Rule {
+    code: "E0208",
+    severity: Error,
+    title: "sub-index without its object",
+    why: "A tool that reads the object finds neither its name nor its object code. odkit keeps the sub-objects in an object without a name.",
+    source: "CiA 306-1, object sections",
+    says: "section [{object:04X}] of this sub-object is missing",
+    help: "add a section [{object:04X}] with `{ObjectType=0x9}` (RECORD) or `{ObjectType=0x8}` (ARRAY)",
+    ..Rule::NEW
+};
+
+/// The finding about the first section of a sub-object without its object.
+pub(crate) fn e0208_sub_index_without_object(member: Span, index: u16) -> Finding {
+    E0208.at(member).index(index)
+}
+
+pub(crate) static W0209: Rule = Rule {
+    code: "W0209",
+    severity: Warning,
+    title: "compact section without CompactSubObj",
+    why: "A tool ignores the names and values in the section. [xxxxName], [xxxxValue] and [xxxxDenotation] belong to an object with CompactSubObj. odkit keeps the section and ignores it.",
+    source: "CiA 306-1, CompactSubObj",
+    says: "[{name}] needs an object with {CompactSubObj}",
+    help: "write `{CompactSubObj=}` and the number of sub-objects in [{object:04X}], or remove the section",
+    ..Rule::NEW
+};
+
+/// The finding about a compact section of an object that has no CompactSubObj.
+pub(crate) fn w0209_compact_without_key(section: &Placed<'_>, index: u16) -> Finding {
+    W0209
+        .at(section.header)
+        .index(index)
+        .fact("name", &*section.name.value)
+}
+
+pub(crate) static I0211: Rule = Rule {
+    code: "I0211",
+    severity: Info,
+    title: "section is not defined in CiA 306",
+    why: "A typo in the name of an object hides the object. odkit keeps the section and ignores it; some tools store notes in sections of their own.",
+    source: "CiA 306-1, file format",
+    says: "[{name}] is not a section of CiA 306",
+    help: "write `[2000]` or `[2000sub1]` if an object is meant",
+    ..Rule::NEW
+};
+
+/// The finding about a section that CiA 306 does not define.
+pub(crate) fn i0211_unknown_section(section: &Placed<'_>) -> Finding {
+    I0211.at(section.header).fact("name", &*section.name.value)
+}
+
+pub(crate) static I0212: Rule = Rule {
+    code: "I0212",
+    severity: Warning,
+    buildable: true,
+    title: "section name is not written as `1018` or `1018sub2`",
+    why: "Many tools do not find the object. odkit reads it. An index has four hexadecimal digits, a sub-index no leading 0.",
+    source: "CiA 306-1, object sections",
+    fixability: Fixability::Either,
+    says: "odkit reads [{name}] as [{right}]",
+    help: "write `[{right}]`{fix}",
+    ..Rule::NEW
+};
+
+/// The finding about the section of an object whose name is written in another way.
+pub(crate) fn i0212_section_name_spelling(section: &Placed<'_>, right: &str) -> Finding {
+    // With another index the whole object is lost, with a leading 0 in the sub-index a sub-object.
+    let own = |name: &str| name.get(..4).map(str::to_ascii_uppercase);
+    let severity = if own(&section.name.value) == own(right) {
+        Warning
+    } else {
+        Error
+    };
+    // Fewer digits may be another index than the one that they make with zeros.
+    let plain = section.name.value.to_ascii_lowercase();
+    let index = plain.split("sub").next().unwrap_or_default();
+    let index = index.strip_prefix("0x").unwrap_or(index);
+    let digits = index.bytes().filter(u8::is_ascii_hexdigit).count();
+    // A tool that ignores the section now would stop at an object without a type or an access.
+    let has = |key: &str| section.get(key).is_some_and(|value| !value.is_empty());
+    let is_whole = has("DataType") && has("AccessType") || has("SubNumber") || has("CompactSubObj");
+    let fix = if digits < 4 || !is_whole {
+        Fix::unsafe_fix()
+    } else {
+        Fix::safe()
+    };
+    I0212
+        .at(section.header)
+        .severity_of(severity)
+        .fact("name", &*section.name.value)
+        .fact("right", right)
+        .fix(fix.replace(section.header, format!("[{right}]")))
+}
+
+pub(crate) static W0213: Rule = Rule {
+    code: "W0213",
+    severity: Warning,
+    title: "section name is probably misspelled",
+    why: "A tool ignores the section. odkit keeps it and ignores it.",
+    source: "CiA 306-1, file format",
+    fixability: Fixability::Unsafe,
+    says: "[{name}] is not a section of CiA 306",
+    help: "write `[{meant}]` if this section is meant{fix}",
+    ..Rule::NEW
+};
+
+/// The finding about a section whose name is probably misspelled.
+pub(crate) fn w0213_section_misspelled(section: &Placed<'_>, meant: &str) -> Finding {
+    W0213
+        .at(section.header)
+        .fact("name", &*section.name.value)
+        .fact("meant", meant)
+        .fix(Fix::unsafe_fix().replace(section.header, format!("[{meant}]")))
+}
+
+pub(crate) static W0214: Rule = Rule {
+    code: "W0214",
+    severity: Warning,
+    title: "duplicate number in a list",
+    why: "A tool that asks for each number misses one of the two entries. odkit reads both.",
+    source: "CiA 306-1, object lists",
+    fixability: Fixability::Safe,
+    says: "duplicate entry number {number}",
+    help: "number the entries 1, 2, 3 and so on{fix}",
+    ..Rule::NEW
+};
+
+/// The finding about a number that another entry of the list has.
+pub(crate) fn w0214_number_twice(renumbered: Fix, key: &Text<'_>, first: Span) -> Finding {
+    W0214
+        .at(key.span)
+        .fact("number", &*key.value)
+        .related(first, "first used here")
+        .fix(renumbered)
+}
+
+pub(crate) static W0215: Rule = Rule {
+    code: "W0215",
+    severity: Warning,
+    title: "list of a module does not match its sections",
+    why: "A configuration tool creates only the objects that the list names. odkit reads every section.",
+    source: "CiA 306-1, modular devices",
+    says: "{object} is listed, but its section in module {module} is missing",
+    help: "add the section, or remove the entry",
+    also: &[W0215_UNLISTED],
+    ..Rule::NEW
+};
+
+/// Sentence for a section that the list lacks.
+const W0215_UNLISTED: Form = Form {
+    says: "{object} is missing from [{list}]",
+    help: "add `0x{object:04X}` to [{list}]",
+};
+
+/// The finding about an entry of a module's list without a section.
+pub(crate) fn w0215_no_section(entry: Span, index: u16, module: u16) -> Finding {
+    let finding = W0215.at(entry).fact("object", Fact::Index(index));
+    finding.fact("module", module)
+}
+
+/// The finding about an object of a module that is not in the list of this name.
+pub(crate) fn w0215_unlisted(header: Span, index: u16, list: &str) -> Finding {
+    let finding = W0215.at(header).form(&W0215_UNLISTED);
+    finding
+        .fact("object", Fact::Index(index))
+        .fact("list", list)
+}
+
+pub(crate) static W0217: Rule = Rule {
+    code: "W0217",
+    severity: Warning,
+    title: "key or section of a DCF in an EDS",
+    why: "An EDS describes a type of device, a DCF one configured device. A tool ignores the value in an EDS, or configures every device of the type with it. odkit uses the value.",
+    source: "CiA 306-1, DCF",
+    says: "`{name}` belongs to a DCF, and this file is an EDS",
+    help: "remove the key, or save the file as a DCF (`FileName` and file name ending in `.dcf`)",
+    also: &[W0217_SECTION],
+    ..Rule::NEW
+};
+
+/// Sentence for a section.
+const W0217_SECTION: Form = Form {
+    says: "[{name}] belongs to a DCF, and this file is an EDS",
+    help: "remove the section, or save the file as a DCF (`FileName` and file name ending in `.dcf`)",
+};
+
+/// The finding about a key.
+pub(crate) fn w0217_dcf_key(key: &Text<'_>) -> Finding {
+    W0217.at(key.span).fact("name", &*key.value)
+}
+
+/// The finding about a section.
+pub(crate) fn w0217_dcf_section(header: Span, name: &str) -> Finding {
+    W0217.at(header).form(&W0217_SECTION).fact("name", name)
+}
+
+pub(crate) static W0218: Rule = Rule {
+    code: "W0218",
+    severity: Warning,
+    title: "list entry is not written as `1=0x1000`",
+    why: "Many tools read another index, or none, or never ask for the entry. odkit reads the entry as it is meant.",
+    source: "CiA 306-1, object lists",
+    fixability: Fixability::Safe,
+    says: "odkit reads list entry `{given}` as {object}",
+    help: "write `0x{object:04X}`{fix}",
+    also: &[W0218_NUMBER],
+    ..Rule::NEW
+};
+
+/// Sentence for the number of an entry.
+const W0218_NUMBER: Form = Form {
+    says: "odkit reads entry number `{given}` as {number}",
+    help: "write `{number}`{fix}",
+};
+
+/// The finding about the index of an entry.
+pub(crate) fn w0218_index(value: &Text<'_>, index: u16) -> Finding {
+    let fix = Fix::safe().replace(value.span, format!("0x{index:04X}"));
+    W0218.given(value).index(index).fix(fix)
+}
+
+/// The finding about the number of an entry.
+pub(crate) fn w0218_number(key: &Text<'_>, number: i128) -> Finding {
+    let fix = Fix::safe().replace(key.span, format!("{number}"));
+    W0218
+        .given(key)
+        .form(&W0218_NUMBER)
+        .fact("number", number)
+        .fix(fix)
+}
+
+pub(crate) static W0242: Rule = Rule {
+    code: "W0242",
+    severity: Error,
+    buildable: true,
+    title: "list entries are not numbered 1, 2, 3",
+    why: "Many tools ask for entries 1, 2, 3 up to SupportedObjects and miss an entry with another number. odkit reads all entries.",
+    source: "CiA 306-1, object lists",
+    fixability: Fixability::Safe,
+    says: "entry {place} of the list has number {number}",
+    help: "number the entries 1, 2, 3 and so on{fix}",
+    ..Rule::NEW
+};
+
+/// The finding about the first entry of a list whose number is not its place.
+pub(crate) fn w0242_list_numbering(renumbered: Fix, key: &Text<'_>, place: i128) -> Finding {
+    W0242
+        .at(key.span)
+        .fact("place", place)
+        .fact("number", &*key.value)
+        .fix(renumbered)
+}
+
+/// Gives every entry the number of its place.
+pub(crate) fn w0242_renumbered(list: &Placed<'_>) -> Fix {
+    let entries = list.pairs.iter();
+    let entries = entries.filter(|(key, _)| number(key).is_some());
+    (1i128..)
+        .zip(entries)
+        .fold(Fix::safe(), |fix, (place, (key, _))| {
+            if number(key) == Some(place) {
+                fix
+            } else {
+                fix.replace(key.span, place.to_string())
+            }
+        })
+}
+
+pub(crate) static W0249: Rule = Rule {
+    code: "W0249",
+    severity: Warning,
+    title: "module extends an object that does not exist",
+    why: "A configuration tool has no object to add the sub-objects of the module to.",
+    source: "CiA 306-1, modular devices",
+    says: "module {module} extends {object}, which is missing in the device and in the module",
+    help: "add {missing}, or remove the section",
+    ..Rule::NEW
+};
+
+/// The finding about the section of an extension.
+pub(crate) fn w0249_extended_object_missing(header: Span, index: u16, module: u16) -> Finding {
+    let finding = W0249.at(header).fact("object", Fact::Index(index));
+    let missing = Fact::Section(index, None);
+    finding.fact("module", module).fact("missing", missing)
+}
+
+pub(crate) static W0252: Rule = Rule {
+    code: "W0252",
+    severity: Warning,
+    title: "bit rate is not one of CiA 306",
+    why: "A tool ignores the key and does not offer the bit rate. odkit keeps the key and ignores it.",
+    source: "CiA 306-1, DeviceInfo; CiA 301, bit rates",
+    says: "`{name}` is not a key of [DeviceInfo]",
+    help: "write BaudRate_10, 20, 50, 125, 250, 500, 800 or 1000, or remove the line",
+    ..Rule::NEW
+};
+
+/// Is this a key for a bit rate, whatever the rate?
+pub(crate) fn is_rate(key: &str) -> bool {
+    let start = key.get(.."BaudRate_".len());
+    start.is_some_and(|start| start.eq_ignore_ascii_case("BaudRate_"))
+}
+
+/// The finding about the key of another bit rate.
+pub(crate) fn w0252_bit_rate_unknown(key: &Text<'_>) -> Finding {
+    // Other tools do without it, too.
+    W0252
+        .at(key.span)
+        .severity_of(Info)
+        .fact("name", &*key.value)
+}

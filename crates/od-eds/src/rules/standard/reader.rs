@@ -1,0 +1,128 @@
+//! Rules about keys outside the object sections that the reader reports.
+
+use crate::finding::{
+    Finding, Fixability, Form, Rule,
+    Severity::{Error, Info, Warning},
+};
+use crate::fix::Fix;
+use crate::scan::known::Form as Wanted;
+use crate::scan::placed::Text;
+use crate::span::Span;
+
+pub(crate) static W0609: Rule = Rule {
+    code: "W0609",
+    severity: Warning,
+    buildable: true,
+    title: "value outside the object sections is not valid",
+    why: "A tool cannot use the value. odkit keeps it as text and treats it as missing. A flag is 0 or 1, and each number has a range.",
+    source: "CiA 306-1, FileInfo, DeviceInfo, DummyUsage, DeviceComissioning",
+    says: "{name} `{given}` in [{section}] is not valid",
+    help: "write `0` or `1`, or leave the value empty",
+    also: &[W0609_NUMBER, W0609_LONG, W0609_VERSION],
+    ..Rule::NEW
+};
+
+const W0609_NUMBER: Form = Form {
+    help: "write a number from 0 to {most}, or leave the value empty",
+    ..Form::OWN
+};
+const W0609_LONG: Form = Form {
+    help: "write a number such as `0x1A` with at most 32 bits, or leave the value empty",
+    ..Form::OWN
+};
+const W0609_VERSION: Form = Form {
+    help: "write `4.0`, `4.1` or `4.2`, the versions of CiA 306",
+    ..Form::OWN
+};
+
+/// The finding about a value of a section that its key does not allow.
+pub(crate) fn w0609_key_value_not_valid(
+    section: &str,
+    key: &str,
+    given: &Text<'_>,
+    wanted: Wanted,
+) -> Finding {
+    let finding = W0609.at(given.span);
+    let finding = match wanted {
+        Wanted::Number(u32::MAX) => finding.form(&W0609_LONG),
+        Wanted::Number(most) => finding.form(&W0609_NUMBER).fact("most", most),
+        Wanted::Version => finding.form(&W0609_VERSION),
+        _ => finding,
+    };
+    // A number of the device that no tool can use; dates and versions of the file are for people.
+    let finding = if section.eq_ignore_ascii_case("DeviceInfo") {
+        finding.severity_of(Error)
+    } else {
+        finding
+    };
+    finding
+        .fact("section", section)
+        .fact("name", key)
+        .fact("given", &*given.value)
+}
+
+pub(crate) static I0610: Rule = Rule {
+    code: "I0610",
+    severity: Info,
+    title: "date or time is not as CiA 306 specifies",
+    why: "Some editors drop the value; odkit keeps it. CiA 306 specifies `MM-DD-YYYY` and `hh:mmAM`.",
+    source: "CiA 306-1, FileInfo",
+    says: "{name} `{given}` is not as CiA 306 specifies",
+    help: "write month, day and year, such as `07-14-2026`",
+    also: &[I0610_TIME],
+    ..Rule::NEW
+};
+
+const I0610_TIME: Form = Form {
+    help: "write hour, minute, and AM or PM, such as `09:30AM`",
+    ..Form::OWN
+};
+
+/// The finding about a date or a time in another form.
+pub(crate) fn i0610_date_or_time(key: &str, given: &Text<'_>, wanted: Wanted) -> Finding {
+    let finding = I0610.given(given).fact("name", key);
+    match wanted {
+        Wanted::Time => finding.form(&I0610_TIME),
+        _ => finding,
+    }
+}
+
+pub(crate) static I0611: Rule = Rule {
+    code: "I0611",
+    severity: Info,
+    title: "DeviceCommissioning is spelled with two m",
+    why: "Many tools know only the spelling of the standard, `DeviceComissioning`. odkit reads both.",
+    source: "CiA 306-1, DCF",
+    fixability: Fixability::Either,
+    says: "CiA 306 spells `DeviceCommissioning` with one m",
+    help: "write `[DeviceComissioning]`{fix}",
+    ..Rule::NEW
+};
+
+/// The finding about the header. A tool that ignores the section now may stop at a value that is not valid.
+pub(crate) fn i0611_commissioning_spelling(header: Span, is_valid: bool) -> Finding {
+    let fix = if is_valid {
+        Fix::safe()
+    } else {
+        Fix::unsafe_fix()
+    };
+    I0611
+        .at(header)
+        .fix(fix.replace(header, "[DeviceComissioning]"))
+}
+
+pub(crate) static W0658: Rule = Rule {
+    code: "W0658",
+    severity: Warning,
+    title: "DCF without [DeviceComissioning]",
+    why: "A master that configures by the DCF has no node ID and no bit rate for the device.",
+    source: "CiA 306-1, DeviceComissioning",
+    says: "section [DeviceComissioning] is missing, and this file is a DCF",
+    help: "add a section [DeviceComissioning] with `NodeID=` and `Baudrate=`",
+    ..Rule::NEW
+};
+
+/// The finding about a DCF of no node.
+pub(crate) fn w0658_commissioning_missing() -> Finding {
+    W0658.finding()
+}

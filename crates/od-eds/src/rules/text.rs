@@ -1,0 +1,420 @@
+//! 01: text and INI structure: rules that the reader of lines, keys and encodings reports.
+
+use alloc::format;
+use alloc::string::String;
+
+use crate::fact::Key;
+use crate::finding::{
+    Finding, Fixability, Form, Rule,
+    Severity::{Error, Info, Warning},
+};
+use crate::fix::Fix;
+use crate::scan::encoding::Encoding;
+use crate::scan::lines;
+use crate::scan::placed::{Placed, Text};
+use crate::span::{Span, Spanned};
+
+table! {
+    W0101
+    W0102
+    W0103
+    W0104
+    W0105
+    W0106
+    W0107
+    W0108
+    W0109
+    W0110
+    I0111
+    W0112
+    E0113 (xdd)
+    E0114 (xdd)
+    E0115 (xdd)
+    W0116 (example)
+    E0117
+    E0118
+}
+
+pub(crate) static W0101: Rule = Rule {
+    code: "W0101",
+    severity: Warning,
+    title: "line is not a section, a key or a comment",
+    why: "Most EDS parsers stop at such a line. odkit ignores it.",
+    source: "CiA 306-1, file format",
+    fixability: Fixability::Safe,
+    says: "`{given}` is not a section, a `key=value` line or a comment",
+    help: "start the line with `;`{fix}, or remove it",
+    also: &[W0101_NO_SIGN],
+    ..Rule::NEW
+};
+
+/// Sentence for a key and a value without an equals sign.
+const W0101_NO_SIGN: Form = Form {
+    says: "`=` is missing; odkit reads `{name}={given}`",
+    help: "write `{name}={given}`{fix}",
+};
+
+/// The finding about a key and a value with only `at` between them.
+pub(crate) fn w0101_no_sign(at: Span, key: &str, value: &str) -> Finding {
+    let finding = W0101.at(at).form(&W0101_NO_SIGN).fact("name", key);
+    finding
+        .fact("given", value)
+        .fix(Fix::safe().replace(at, "="))
+}
+
+/// The finding about a line that is nothing known.
+pub(crate) fn w0101_unknown_line(line: Spanned<&str>) -> Finding {
+    let finding = W0101.given(&line);
+    finding.fix(Fix::safe().comment_out(line.span))
+}
+
+pub(crate) static W0102: Rule = Rule {
+    code: "W0102",
+    severity: Warning,
+    title: "line has no key before the `=`",
+    why: "A tool can read a value only by its key. odkit ignores the line.",
+    source: "CiA 306-1, file format",
+    fixability: Fixability::Safe,
+    says: "`{given}` has no key before the `=`",
+    help: "start the line with `;`{fix}, or write a key before the `=`",
+    ..Rule::NEW
+};
+
+/// The finding about a line without a key.
+pub(crate) fn w0102_no_key(line: Spanned<&str>) -> Finding {
+    let finding = W0102.given(&line);
+    finding.fix(Fix::safe().comment_out(line.span))
+}
+
+pub(crate) static W0103: Rule = Rule {
+    code: "W0103",
+    severity: Error,
+    buildable: true,
+    title: "section header has no closing bracket",
+    why: "Most EDS parsers stop at such a line. odkit assumes that the header ends with its line.",
+    source: "CiA 306-1, file format",
+    fixability: Fixability::Safe,
+    says: "header of section `{given}` has no closing bracket",
+    help: "write `[{given}]`{fix}",
+    ..Rule::NEW
+};
+
+/// The finding about a header that its line ends.
+pub(crate) fn w0103_no_closing_bracket(line: Span, name: Spanned<&str>) -> Finding {
+    let fix = Fix::safe().replace(name.span, format!("{}]", *name));
+    W0103.at(line).fact("given", *name).fix(fix)
+}
+
+pub(crate) static W0104: Rule = Rule {
+    code: "W0104",
+    severity: Warning,
+    title: "text after a section header",
+    why: "Most EDS parsers stop at such a line. odkit ignores the text.",
+    source: "CiA 306-1, file format",
+    fixability: Fixability::Safe,
+    says: "`{given}` follows the section header `[{name}]`",
+    help: "move the text to a line that starts with `;`{fix}",
+    ..Rule::NEW
+};
+
+/// The finding about text behind a header, which becomes a comment below it.
+pub(crate) fn w0104_text_after_header(name: &str, text: Spanned<&str>) -> Finding {
+    let comment = lines::comment(text.trim_start_matches([';', '#']));
+    let comment = format!("\n{comment}");
+    let finding = W0104.given(&text).fact("name", name);
+    finding.fix(Fix::safe().replace(text.span, comment))
+}
+
+pub(crate) static W0105: Rule = Rule {
+    code: "W0105",
+    severity: Warning,
+    title: "key before the first section",
+    why: "A key belongs to a section. odkit keeps the key and ignores it.",
+    source: "CiA 306-1, file format",
+    says: "`{name}` is before the first section",
+    help: "write a section header such as `[FileInfo]` above it",
+    ..Rule::NEW
+};
+
+/// The finding about a key without a section.
+pub(crate) fn w0105_key_before_section(line: Span, key: &str) -> Finding {
+    W0105.at(line).fact("name", key)
+}
+
+pub(crate) static W0106: Rule = Rule {
+    code: "W0106",
+    severity: Warning,
+    title: "duplicate section",
+    why: "Tools differ in which of the two they use. odkit uses the first and keeps both.",
+    source: "CiA 306-1, file format",
+    says: "duplicate section [{name}]",
+    help: "move the keys of both into one section",
+    ..Rule::NEW
+};
+
+/// The label at the first of two.
+pub(crate) const FIRST: &str = "first defined here";
+
+/// The finding about a second section of a name.
+pub(crate) fn w0106_duplicate_section(second: &Placed<'_>, first: Span) -> Finding {
+    let finding = W0106.at(second.header).fact("name", &*second.name.value);
+    finding.related(first, FIRST)
+}
+
+pub(crate) static W0107: Rule = Rule {
+    code: "W0107",
+    severity: Warning,
+    title: "duplicate key",
+    why: "Some tools stop at a second line with the same key. odkit uses the first.",
+    source: "CiA 306-1, file format",
+    fixability: Fixability::Safe,
+    says: "duplicate key `{name}`",
+    help: "remove `{name}={given}`{fix}",
+    ..Rule::NEW
+};
+
+/// The finding about a second line of a key that says the same as the first.
+pub(crate) fn w0107_duplicate_key(first: Span, key: &Text<'_>, value: &Text<'_>) -> Finding {
+    W0107
+        .at(key.span)
+        .fact("name", &*key.value)
+        .fact("given", &*value.value)
+        .related(first, FIRST)
+        .fix(Fix::safe().remove_line(key.span))
+}
+
+pub(crate) static W0108: Rule = Rule {
+    code: "W0108",
+    severity: Warning,
+    title: "`:` instead of `=`",
+    why: "Only some EDS parsers accept it. odkit reads it as `=`.",
+    source: "CiA 306-1, file format",
+    fixability: Fixability::Safe,
+    says: "`{name}` is followed by `:` instead of `=`",
+    help: "write `{name}={given}`{fix}",
+    ..Rule::NEW
+};
+
+/// The finding about a colon between key and value.
+pub(crate) fn w0108_colon(colon: Span, key: &str, value: &str) -> Finding {
+    let finding = W0108.at(colon).fact("name", key).fact("given", value);
+    finding.fix(Fix::safe().replace(colon, "="))
+}
+
+pub(crate) static W0109: Rule = Rule {
+    code: "W0109",
+    severity: Warning,
+    title: "comment after a value",
+    why: "A comment needs a line of its own; after a value it is part of the value. odkit ignores it if the value is a number.",
+    source: "CiA 306-1, file format",
+    fixability: Fixability::Safe,
+    says: "`{given}` has a comment after the value",
+    help: "write `{key={right}}`, and the comment on the next line{fix}",
+    ..Rule::NEW
+};
+
+/// The finding about a value with a comment behind it, which gets a line of its own.
+pub(crate) fn w0109_comment_after_value(key: Key, given: &Text<'_>, value: &str) -> Finding {
+    let comment = given.get(value.len()..).unwrap_or_default().trim();
+    let comment = format!(
+        "{value}\n{}",
+        lines::comment(&comment[comment.len().min(1)..])
+    );
+    let finding = W0109.given(given).key(key);
+    finding
+        .fact("right", value)
+        .fix(Fix::safe().replace(given.span, comment))
+}
+
+pub(crate) static W0110: Rule = Rule {
+    code: "W0110",
+    severity: Warning,
+    title: "section header without a name",
+    why: "A tool can find a section only by its name. odkit keeps the section and ignores it.",
+    source: "CiA 306-1, file format",
+    says: "section header has no name",
+    help: "write a name between the brackets",
+    ..Rule::NEW
+};
+
+/// The finding about empty brackets.
+pub(crate) fn w0110_header_without_name(header: Span) -> Finding {
+    W0110.at(header)
+}
+
+pub(crate) static I0111: Rule = Rule {
+    code: "I0111",
+    severity: Info,
+    title: "file is not ASCII",
+    why: "CiA 306 requires ASCII. odkit also reads UTF-8, UTF-16 and Windows-1252, with or without a byte order mark; many EDS parsers read only one of them.",
+    source: "CiA 306-1, file format",
+    says: "file is encoded in {encoding}",
+    help: "save the file as ASCII if a tool cannot read it",
+    also: &[I0111_MARKED],
+    ..Rule::NEW
+};
+
+/// The sentence for a file with a byte order mark.
+const I0111_MARKED: Form = Form {
+    says: "file is encoded in {encoding}, with a byte order mark",
+    ..Form::OWN
+};
+
+/// The finding about a file that is not ASCII, at its first character that is not.
+pub(crate) fn i0111_not_ascii(first: Span, encoding: Encoding, marked: bool) -> Finding {
+    let finding = I0111.at(first).fact("encoding", encoding.name());
+    if marked {
+        finding.form(&I0111_MARKED)
+    } else {
+        finding
+    }
+}
+
+pub(crate) static W0112: Rule = Rule {
+    code: "W0112",
+    severity: Warning,
+    title: "byte is not valid in the file's encoding",
+    why: "The file mixes two encodings, or is incomplete. odkit reads the byte as Windows-1252 in UTF-8 and as U+FFFD in UTF-16; a file that odkit writes keeps it.",
+    source: "CiA 306-1, file format",
+    says: "invalid {encoding} byte",
+    help: "retype the character, or save the file in one encoding",
+    ..Rule::NEW
+};
+
+/// The finding about the first byte that is not valid in the encoding.
+pub(crate) fn w0112_encoding(at: Span, encoding: Encoding) -> Finding {
+    W0112.at(at).fact("encoding", encoding.name())
+}
+
+pub(crate) static E0113: Rule = Rule {
+    code: "E0113",
+    severity: Error,
+    title: "XML is not well-formed",
+    why: "No tool can read such a file, and odkit reads nothing of it.",
+    source: "XML 1.0",
+    says: "XML is not well-formed: {error}",
+    help: "correct the XML",
+    ..Rule::NEW
+};
+
+/// The finding about the place where the XML breaks, in the words of its parser.
+#[cfg_attr(not(feature = "xdd"), allow(dead_code))]
+pub(crate) fn e0113_xml_not_well_formed(at: Span, error: &str) -> Finding {
+    E0113.at(at).fact("error", error)
+}
+
+pub(crate) static E0114: Rule = Rule {
+    code: "E0114",
+    severity: Error,
+    title: "object of an XDD has no valid index",
+    why: "An index has four hexadecimal digits and a sub-index two, without `0x`. odkit leaves the element out.",
+    source: "CiA 311, CANopenObject",
+    says: "`{given}` is not a valid {name}",
+    help: "write {digits} hexadecimal digits",
+    also: &[E0114_MISSING],
+    ..Rule::NEW
+};
+
+/// The sentence for an element without the attribute.
+const E0114_MISSING: Form = Form {
+    says: "{name} is missing",
+    ..Form::OWN
+};
+
+/// The finding about an index or a sub-index: an attribute that is not valid, or is missing.
+#[cfg_attr(not(feature = "xdd"), allow(dead_code))]
+pub(crate) fn e0114_xdd_index_not_valid(
+    element: Span,
+    name: &str,
+    given: Option<&Spanned<String>>,
+    digits: usize,
+) -> Finding {
+    let finding = match given {
+        Some(given) => E0114.given(given),
+        None => E0114.at(element).form(&E0114_MISSING),
+    };
+    finding.fact("name", name).fact("digits", digits)
+}
+
+pub(crate) static E0115: Rule = Rule {
+    code: "E0115",
+    severity: Error,
+    title: "object of an XDD refers to a missing parameter",
+    why: "The parameter gives type, access and default value of the object. odkit reads only the attributes of the object itself.",
+    source: "CiA 311, CANopenObject",
+    says: "no parameter has the uniqueID `{given}`",
+    help: "add the parameter, or write its attributes at the object",
+    ..Rule::NEW
+};
+
+/// The finding about a reference that leads to no parameter.
+#[cfg_attr(not(feature = "xdd"), allow(dead_code))]
+pub(crate) fn e0115_xdd_parameter_missing(at: Span, id: &str) -> Finding {
+    E0115.at(at).fact("given", id)
+}
+
+pub(crate) static W0116: Rule = Rule {
+    code: "W0116",
+    severity: Warning,
+    title: "too many findings of one rule",
+    why: "A file with this many findings of one rule is likely not a device description. odkit reports the first 10,000 findings of each rule and counts the others.",
+    source: "odkit, limits of a report",
+    example: "a file with 10,001 lines that are neither a section, a key nor a comment",
+    says: "{rule} has {more:more finding|more findings} from here on",
+    help: "correct the first {kept:finding|findings}, then check the file again",
+    ..Rule::NEW
+};
+
+/// The finding about the first finding of a rule that is left out.
+pub(crate) fn w0116_too_many_findings(
+    first: Span,
+    rule: &str,
+    kept: usize,
+    more: usize,
+) -> Finding {
+    let finding = W0116.at(first).fact("rule", rule);
+    finding.fact("kept", kept).fact("more", more)
+}
+
+pub(crate) static E0117: Rule = Rule {
+    code: "E0117",
+    severity: Error,
+    buildable: true,
+    title: "duplicate key with another value",
+    why: "Tools differ in which of the two they use, and some stop. odkit uses the first.",
+    source: "CiA 306-1, file format",
+    fixability: Fixability::Unsafe,
+    says: "duplicate key `{name}` with another value",
+    help: "remove `{name}={given}`{fix}, or the other line",
+    ..Rule::NEW
+};
+
+/// The finding about a second line of a key; a tool that uses the last one reads another value.
+pub(crate) fn e0117_duplicate_key_differs(
+    first: Span,
+    key: &Text<'_>,
+    value: &Text<'_>,
+) -> Finding {
+    E0117
+        .at(key.span)
+        .fact("name", &*key.value)
+        .fact("given", &*value.value)
+        .related(first, FIRST)
+        .fix(Fix::unsafe_fix().remove_line(key.span))
+}
+
+pub(crate) static E0118: Rule = Rule {
+    code: "E0118",
+    severity: Error,
+    title: "mark of a merge conflict",
+    why: "The file has two versions of the lines around the mark, and most tools stop at it. odkit ignores the mark and reads both versions.",
+    source: "CiA 306-1, file format; git, merge conflicts",
+    says: "`{given}` is a mark of a merge conflict that is not resolved",
+    help: "keep one of the two versions, and remove the lines with `<<<<<<<`, `=======` and `>>>>>>>`",
+    ..Rule::NEW
+};
+
+/// The finding about a line that git writes between two versions.
+pub(crate) fn e0118_merge_conflict(line: Spanned<&str>) -> Finding {
+    E0118.given(&line)
+}

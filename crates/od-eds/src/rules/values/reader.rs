@@ -1,0 +1,200 @@
+//! Rules about types, access and flags that the reader reports: it sees the text, a description has only the value.
+
+use alloc::format;
+use alloc::string::String;
+use od_model::DataType;
+
+use crate::fact::Key;
+use crate::finding::{
+    Finding, Fixability, Form, Rule,
+    Severity::{Error, Info, Warning},
+};
+use crate::fix::Fix;
+use crate::scan::placed::Text;
+use crate::span::{Span, Spanned};
+
+pub(crate) static E0402: Rule = Rule {
+    code: "E0402",
+    severity: Error,
+    title: "DataType is not a data type",
+    why: "DataType is the index of a data type of CiA 301. odkit leaves the value out of the dictionary.",
+    source: "CiA 301, data types",
+    says: "{DataType} `{given}` is not a data type",
+    help: "write `{DataType={right}}` ({right}), or another type",
+    ..Rule::NEW
+};
+
+/// The finding about a DataType that no type has.
+pub(crate) fn e0402_data_type_unknown(given: &Text<'_>) -> Finding {
+    let finding = E0402.given(given).key(Key::DataType);
+    finding.fact("right", DataType::Unsigned32)
+}
+
+pub(crate) static W0404: Rule = Rule {
+    code: "W0404",
+    severity: Error,
+    buildable: true,
+    title: "AccessType is missing",
+    why: "Every value has an AccessType. odkit assumes `ro`.",
+    source: "CiA 306-1, object sections",
+    fixability: Fixability::Unsafe,
+    says: "{AccessType} is missing",
+    help: "add `{AccessType=ro}`{fix}, or another access type",
+    ..Rule::NEW
+};
+
+/// The finding about a section without AccessType.
+pub(crate) fn w0404_access_type_missing(header: Span) -> Finding {
+    W0404
+        .at(header)
+        .fix(Fix::unsafe_fix().below(header, "AccessType=ro"))
+}
+
+pub(crate) static E0405: Rule = Rule {
+    code: "E0405",
+    severity: Error,
+    title: "AccessType is not valid",
+    why: "AccessType gives what a master can read and write. odkit assumes `ro`.",
+    source: "CiA 306-1, object sections",
+    says: "`{given}` is not a valid {AccessType}",
+    help: "write `ro`, `wo`, `rw`, `rwr`, `rww` or `const` (odkit assumes `ro`)",
+    ..Rule::NEW
+};
+
+/// The finding about an unknown AccessType.
+pub(crate) fn e0405_access_type_not_valid(given: &Text<'_>) -> Finding {
+    E0405.given(given).key(Key::AccessType)
+}
+
+pub(crate) static W0406: Rule = Rule {
+    code: "W0406",
+    severity: Warning,
+    buildable: true,
+    also: &[W0406_XDD],
+    title: "PDOMapping is neither 0 nor 1",
+    why: "PDOMapping gives if a PDO can map the object. odkit assumes 0 (not mappable).",
+    source: "CiA 306-1, object sections",
+    says: "{PDOMapping} `{given}` is neither 0 nor 1",
+    help: "write `{PDOMapping=1}` if a PDO can map the object, and `{PDOMapping=0}` if not",
+    ..Rule::NEW
+};
+
+/// Sentence for an W0406_XDD.
+const W0406_XDD: Form = Form {
+    says: "PDOmapping `{given}` is not valid",
+    help: "write `no`, `default`, `optional`, `TPDO` or `RPDO`",
+};
+
+/// The same in an W0406_XDD, whose schema has other words.
+#[cfg(feature = "xdd")]
+pub(crate) fn w0406_in_xdd(given: &Spanned<String>) -> Finding {
+    W0406
+        .given(given)
+        .key(Key::PdoMapping)
+        .form(&W0406_XDD)
+        .severity_of(Error)
+}
+
+/// The finding about a PDOMapping that says neither yes nor no.
+pub(crate) fn w0406_pdo_mapping_not_valid(given: &Text<'_>) -> Finding {
+    W0406.given(given).key(Key::PdoMapping)
+}
+
+pub(crate) static W0407: Rule = Rule {
+    code: "W0407",
+    severity: Warning,
+    title: "ObjFlags is not a number",
+    why: "ObjFlags tells a tool how to handle the object. odkit assumes 0.",
+    source: "CiA 306-1, ObjFlags",
+    fixability: Fixability::Unsafe,
+    says: "`{given}` is not a valid {ObjFlags}",
+    help: "write `{ObjFlags=0}`{fix}, or remove the line",
+    ..Rule::NEW
+};
+
+/// The finding about ObjFlags that are not a number.
+pub(crate) fn w0407_obj_flags_not_a_number(given: &Text<'_>) -> Finding {
+    W0407
+        .given(given)
+        .key(Key::ObjFlags)
+        .fix(Fix::unsafe_fix().replace(given.span, "0"))
+}
+
+pub(crate) static I0425: Rule = Rule {
+    code: "I0425",
+    severity: Info,
+    title: "data type defined in the file",
+    why: "Sub-index 1 of the object with that index gives the basic type. odkit uses this type and its limits; most EDS parsers do not know such types.",
+    source: "CanFestival, object dictionary editor",
+    says: "`{given}` is a data type that the file defines",
+    help: "write `{DataType={right}}`",
+    ..Rule::NEW
+};
+
+/// The finding about a type of the file, with the place of its basic type.
+pub(crate) fn i0425_own_data_type(given: &Text<'_>, stands_for: &Text<'_>) -> Finding {
+    let finding = I0425
+        .given(given)
+        .key(Key::DataType)
+        .fact("right", &*stands_for.value);
+    finding.related(stands_for.span, "basic type defined here")
+}
+
+pub(crate) static W0426: Rule = Rule {
+    code: "W0426",
+    severity: Warning,
+    title: "DataType of a standard object is missing",
+    why: "Many tools leave out a value without a DataType, or stop. odkit assumes the type that the standard specifies for the object.",
+    source: "CiA 306-1, object sections; CiA 301, object dictionary",
+    fixability: Fixability::Safe,
+    says: "{DataType} is missing; the standard specifies {type} here",
+    help: "add `{DataType={type}}`{fix}",
+    ..Rule::NEW
+};
+
+/// The finding about a section without a DataType.
+pub(crate) fn w0426_standard_type_missing(header: Span, data_type: DataType) -> Finding {
+    let right = format!("DataType=0x{:04X}", data_type.code());
+    let fix = Fix::safe().below(header, right);
+    W0426.at(header).fact("type", data_type).fix(fix)
+}
+
+pub(crate) static E0428: Rule = Rule {
+    code: "E0428",
+    severity: Error,
+    title: "$NODEID is misspelled",
+    why: "No tool knows the name, and the value has no number. odkit leaves the value out of the dictionary.",
+    source: "CiA 306-1, $NODEID",
+    fixability: Fixability::Unsafe,
+    says: "{key} `{given}` has another name than `$NODEID`",
+    help: "write `$NODEID+0x{offset:X}`{fix}",
+    ..Rule::NEW
+};
+
+/// The finding about a formula with this offset, whose name of the node ID is not the one of CiA 306.
+pub(crate) fn e0428_node_id_misspelled(key: Key, given: &Text<'_>, offset: u32) -> Finding {
+    let right = format!("$NODEID+0x{offset:X}");
+    let finding = E0428.given(given).key(key).fact("offset", offset);
+    finding.fix(Fix::unsafe_fix().replace(given.span, right))
+}
+
+pub(crate) static E0429: Rule = Rule {
+    code: "E0429",
+    severity: Error,
+    buildable: true,
+    title: "accessType has a word of the attribute access",
+    why: "CiA 311 has one set of words for accessType of an object, and another for access of a parameter. A tool that validates the file by the schema rejects it. odkit reads the word.",
+    source: "CiA 311, CANopenObject",
+    fixability: Fixability::Unsafe,
+    says: "`{given}` is a word for the attribute access of a parameter, not for accessType",
+    help: "write `accessType=\"{right}\"`{fix}",
+    ..Rule::NEW
+};
+
+/// The finding about accessType in an XDD, with the word that an object has for it.
+#[cfg_attr(not(feature = "xdd"), allow(dead_code))]
+pub(crate) fn e0429_access_of_parameter(given: &Spanned<String>, right: &'static str) -> Finding {
+    let fix = Fix::unsafe_fix().replace(given.span, right);
+    let finding = E0429.given(given).key(Key::AccessType);
+    finding.fact("right", right).fix(fix)
+}
