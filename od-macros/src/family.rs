@@ -2,16 +2,17 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use od_eds::patch;
-use od_eds::{Description, Finding, Key, Tables};
+use od_eds::patch::{self, Edit};
+use od_eds::{Description, Finding, Key, Spanned, Tables};
+use od_model::{Address, Slot};
 use proc_macro2::Span;
 
 use crate::files::Files;
+use crate::findings;
 use crate::handles::{self, Item, Naming};
 use crate::input::{Input, Statement};
 use crate::report::Report;
 use crate::source::Source;
-use crate::{findings, layout, lower};
 
 /// The devices that a call describes.
 pub(crate) struct Family {
@@ -116,7 +117,7 @@ fn devices(
     let mut tables = Tables::new(&base);
     let mut others: Vec<Tables> = variants.iter().map(Tables::new).collect();
     let mut all: Vec<&mut Tables> = std::iter::once(&mut tables).chain(&mut others).collect();
-    layout::lay_out(&mut all);
+    lay_out(&mut all);
 
     let mut needed = Vec::new();
     let own = std::iter::once(("", &tables));
@@ -186,7 +187,7 @@ impl Findings<'_> {
         report: &mut Report,
     ) -> Checked {
         let first = report.numbers();
-        let edits = lower::edits(statements, report);
+        let edits = edits(statements, report);
         let mut faults = patch::apply(description, &edits);
         faults.extend(handles::check_renames(statements, description, report));
         let index = |finding: &Finding| finding.object.map(|address| address.index);
@@ -230,4 +231,59 @@ impl Findings<'_> {
         patch.blame(&new, description, report);
         Checked { old, all }
     }
+}
+
+/// Assigns a place to every stored value of the family; a string has room for its longest default.
+///
+/// A value has the same place in the store of every variant that has it with the same type. A handle of the family
+/// therefore works with all of them, and a variant re-exports it instead of making its own.
+fn lay_out(family: &mut [&mut Tables]) {
+    let mut places: BTreeMap<(Address, u16), Slot> = BTreeMap::new();
+    let stored = |tables: &Tables| {
+        let stored = tables
+            .dictionary()
+            .entries()
+            .filter(|entry| entry.slot.len > 0);
+        stored
+            .map(|entry| ((entry.address, entry.data_type.code()), entry.slot.len))
+            .collect::<Vec<_>>()
+    };
+    for (key, len) in family.iter().flat_map(|tables| stored(tables)) {
+        let place = places.entry(key).or_default();
+        place.len = place.len.max(len);
+    }
+    let mut offset = 0;
+    for place in places.values_mut() {
+        place.offset = offset;
+        offset += u32::from(place.len);
+    }
+    for tables in family {
+        tables.place(|entry| {
+            let place = places.get(&(entry.address, entry.data_type.code()));
+            place.copied().unwrap_or(entry.slot)
+        });
+    }
+}
+
+/// The statements of a call as edits of the description, in their order, each with the place of its token.
+fn edits(statements: &[Statement], report: &mut Report) -> Vec<Edit> {
+    let mut edits = Vec::new();
+    for statement in statements {
+        let Statement::Edit {
+            action,
+            target,
+            fields,
+        } = statement
+        else {
+            continue;
+        };
+        let mut edit = Edit::new(*action, target.target);
+        edit.target.span = report.number(target.span);
+        for field in fields {
+            let span = report.number(field.place);
+            edit.changes.push(Spanned::new(field.change.clone(), span));
+        }
+        edits.push(edit);
+    }
+    edits
 }

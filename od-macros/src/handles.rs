@@ -10,9 +10,8 @@ use proc_macro2::Ident;
 use syn::ext::IdentExt;
 
 use crate::files::Files;
-use crate::input::Statement;
+use crate::input::{At, Statement};
 use crate::report::Report;
-use crate::target::At;
 use crate::{docs, names};
 
 /// The item of one object in the module.

@@ -3,15 +3,14 @@
 //! After an error the parser continues with the next statement, so that all errors of a
 //! call are reported at once.
 
-use od_eds::patch::Action;
+use od_eds::patch::{Action, Target};
 use proc_macro2::{Ident, Span, TokenStream, TokenTree};
-use syn::parse::ParseStream;
+use syn::parse::{Parse, ParseStream};
 use syn::{Attribute, LitInt, LitStr, Path, Token, Visibility, braced, ext::IdentExt};
 
 use crate::fields::{self, Field};
 use crate::report::Report;
 use crate::services::Services;
-use crate::target::At;
 use crate::words;
 
 /// One call of the macro.
@@ -51,6 +50,30 @@ pub(crate) enum Statement {
         target: At,
         name: Ident,
     },
+}
+
+/// The object of a statement: `0x1018sub2`, with its token's place.
+#[derive(Clone, Copy)]
+pub(crate) struct At {
+    pub(crate) target: Target,
+    pub(crate) span: Span,
+}
+
+impl Parse for At {
+    fn parse(stream: ParseStream) -> syn::Result<Self> {
+        let literal: LitInt = stream.parse().map_err(|e| {
+            syn::Error::new(
+                e.span(),
+                "expected an object\nhelp: an index in hex, `0x6004`, or a member, `0x1018sub2`",
+            )
+        })?;
+        let span = literal.span();
+        // rustc lexes it as one integer literal with the suffix `sub2`.
+        let target = literal.to_string().parse();
+        target
+            .map(|target| Self { target, span })
+            .map_err(|message: String| syn::Error::new(span, message))
+    }
 }
 
 impl Input {

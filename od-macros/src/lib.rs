@@ -125,15 +125,12 @@ mod files;
 mod findings;
 mod handles;
 mod input;
-mod layout;
-mod lower;
 mod names;
 mod near_names;
 mod profile;
 mod report;
 mod services;
 mod source;
-mod target;
 mod words;
 
 use proc_macro2::TokenStream;

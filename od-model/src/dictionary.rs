@@ -1,7 +1,5 @@
 //! The dictionary: one type for compiled tables and for files loaded at run time.
 
-mod text;
-
 use core::ops::Range as Span;
 
 use crate::address::Address;
@@ -9,7 +7,7 @@ use crate::entry::{Entry, Missing, Object};
 use crate::index::{self, Buckets};
 use crate::real::Reals;
 use crate::row::Row;
-use crate::value::Range;
+use crate::value::{Literal, Range};
 use crate::varying::{Arenas, Varying};
 
 /// A view over sorted tables; the same for a compiled device and for a loaded file.
@@ -431,5 +429,65 @@ impl Iterator for Objects<'_> {
         let object = self.dictionary.object_at(self.next)?;
         self.next += usize::from(object.count);
         Some(object)
+    }
+}
+
+impl<'a> Dictionary<'a> {
+    /// The text of a range: a name or a VISIBLE_STRING.
+    pub fn text(&self, range: Range) -> &'a str {
+        #[cfg(feature = "names")]
+        let arena = if range.start & NAME != 0 {
+            self.names.text
+        } else {
+            self.arenas.text
+        };
+        #[cfg(not(feature = "names"))]
+        let arena = self.arenas.text;
+        let start = (range.start & !NAME) as usize;
+        arena
+            .get(start..start.saturating_add(range.len as usize))
+            .unwrap_or("")
+    }
+
+    /// The bytes of a range: an OCTET_STRING or a DOMAIN.
+    pub fn blob(&self, range: Range) -> &'a [u8] {
+        range.of(self.arenas.blob)
+    }
+
+    /// The bytes of a string-like literal; empty for numbers.
+    pub fn literal_bytes(&self, literal: Literal) -> &'a [u8] {
+        match literal {
+            Literal::Text(range) => self.text(range).as_bytes(),
+            Literal::Bytes(range) => self.blob(range),
+            _ => &[],
+        }
+    }
+}
+
+/// Two dictionaries are equal if a master cannot tell them apart.
+impl PartialEq for Dictionary<'_> {
+    /// Compares object by object: names, types, access, limits, defaults, groups. The places of
+    /// texts in the arena and of values in the store do not count.
+    fn eq(&self, other: &Self) -> bool {
+        let literal = |a: Literal, b: Literal| match (a, b) {
+            (Literal::Text(a), Literal::Text(b)) => self.text(a) == other.text(b),
+            (Literal::Bytes(a), Literal::Bytes(b)) => self.blob(a) == other.blob(b),
+            (a, b) => a == b,
+        };
+        self.len() == other.len()
+            && self.objects().len() == other.objects().len()
+            && self.objects().zip(other.objects()).all(|(a, b)| {
+                (a.index, a.code) == (b.index, b.code)
+                    && a.count == b.count
+                    && self.text(a.name) == other.text(b.name)
+            })
+            && self.entries().zip(other.entries()).all(|(a, b)| {
+                (a.address, a.data_type, a.access, a.mappable, a.group)
+                    == (b.address, b.data_type, b.access, b.mappable, b.group)
+                    && self.text(a.name) == other.text(b.name)
+                    && literal(a.default, b.default)
+                    && literal(a.low, b.low)
+                    && literal(a.high, b.high)
+            })
     }
 }

@@ -28,7 +28,6 @@ mod refused;
 mod restricted;
 #[doc(hidden)]
 pub mod row;
-mod same;
 pub mod typed;
 mod types;
 mod value;

@@ -18,13 +18,10 @@
 //! start and length of its default, and the length of its slot. Limits have both kinds, and then
 //! their words.
 
-mod kinds;
-mod limits;
-
 use crate::access::{Access, Group};
 use crate::address::Address;
 use crate::entry::{Entry, Slot};
-use crate::types::{DataType, ObjectCode};
+use crate::types::{DataType, Kind, ObjectCode};
 use crate::value::{Literal, Range};
 
 /// A value of a dictionary, packed.
@@ -382,6 +379,49 @@ impl Row {
             low,
             high,
             slot: self.slot(pool),
+        }
+    }
+}
+
+/// Kind of each data type, with an element for every number that a row can contain.
+static KINDS: [Kind; 32] = {
+    let mut kinds = [Kind::Unsigned; 32];
+    let mut i = 0;
+    while i < DataType::ALL.len() {
+        kinds[i] = DataType::ALL[i].kind();
+        i += 1;
+    }
+    kinds
+};
+
+impl Row {
+    /// Meaning of the bytes, as [`DataType::kind`](crate::DataType::kind) returns it.
+    pub const fn kind(self) -> Kind {
+        KINDS[(self.0[0] >> 3 & 31) as usize]
+    }
+}
+
+/// Limits of a value: their kinds and words are in the pool.
+impl Row {
+    /// Returns whether the value has limits besides those of its type.
+    pub const fn has_limits(self) -> bool {
+        self.0[3] >> 14 != 0
+    }
+
+    /// Lower or upper limit in the form of [`default`](Self::default); `None` if only the type limits the value.
+    pub const fn limit(&self, is_upper: bool, pool: &[u32], node_id: u8) -> Option<u64> {
+        let mut at = (self.0[3] >> 14) as usize;
+        if at == 0 {
+            return None;
+        }
+        let mut kind = word(pool, at - 1);
+        if is_upper {
+            at += words(kind & 7);
+            kind >>= 3;
+        }
+        match kind & 7 {
+            0 | RANGE => None,
+            kind => Some(number(kind, bits(pool, at, kind), node_id)),
         }
     }
 }

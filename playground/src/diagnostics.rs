@@ -5,7 +5,7 @@ use od_eds::{Eds, Finding, say};
 use od_sim::script::Problem;
 
 use crate::crossing::{record, words};
-use crate::fixes::Fix;
+use crate::places::Fix;
 #[cfg(feature = "eds")]
 use crate::places::Places;
 

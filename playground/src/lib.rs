@@ -32,7 +32,6 @@ mod direct;
 mod editor;
 #[cfg(feature = "eds")]
 mod eds;
-mod fixes;
 mod frames;
 mod journal;
 #[cfg(test)]

@@ -1,7 +1,23 @@
 //! Positions in a text in UTF-16 units, as in JavaScript; the edits of a fix with such positions.
 
-use crate::fixes::{Fix, TextEdit};
+use crate::crossing::record;
 use od_eds::fix;
+
+record! {
+    /// Edits of the checked text; all of them are applied, or none.
+    Fix {
+        /// A safe fix: the meaning of the text does not change.
+        safe: bool,
+        edits: Vec<TextEdit>,
+    }
+
+    /// `text` replaces the range from `start` to before `end`, as in `String.slice`.
+    TextEdit {
+        start: u32,
+        end: u32,
+        text: String,
+    }
+}
 
 /// Maps bytes of a text to units of the JavaScript string.
 pub(crate) struct Places<'a> {

@@ -13,15 +13,13 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::thread::{self, ScopedJoinHandle};
 
-use crate::console::{Console, cargo};
+use crate::console::{Console, cargo, without_paths};
 use crate::error::{Error, Result};
 use crate::files;
-use crate::flags::without_paths;
-use crate::lock::SetupLock;
 use crate::packages::{PAGE, PAGE_CORE};
 use crate::progress::Progress;
 use crate::repo::{self, Repo};
-use crate::setup::{binaryen, bindgen, node, target};
+use crate::setup::{SetupLock, binaryen, bindgen, node, target};
 use crate::stamp::{Fingerprint, Stamp};
 
 /// The size of the download counts more than the last bit of speed. All modules are of one profile, so

@@ -8,12 +8,10 @@ use std::fs;
 use std::process::Command;
 
 use crate::bundle::RELEASE;
-use crate::console::{Console, which};
+use crate::console::{Console, which, without_paths};
 use crate::error::{Error, Result};
-use crate::flags::without_paths;
-use crate::lock::SetupLock;
 use crate::repo::{Repo, program};
-use crate::setup::{binaryen, bindgen, node, target};
+use crate::setup::{SetupLock, binaryen, bindgen, node, target};
 
 /// The arguments of wasm-pack if none are given.
 const DEFAULT: [&str; 4] = ["build", "playground", "--target", "web"];

@@ -1,6 +1,5 @@
 //! `odkit network`: a project or a node list, its files and its report.
 
-mod loaded;
 mod nodelist;
 mod project;
 mod table;
@@ -15,7 +14,7 @@ use od_model::{Visible, is_hidden};
 
 use crate::config::Config;
 use crate::failure::{Failure, read_error};
-use crate::network::loaded::Network;
+use crate::network::project::Network;
 use crate::report::{self, Names};
 use crate::{files, output};
 

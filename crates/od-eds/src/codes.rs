@@ -3,7 +3,7 @@
 use crate::finding::Rule;
 use crate::rules::RULES;
 #[cfg(feature = "tools")]
-use crate::tools::list;
+use crate::tools;
 
 /// The rule with this code, ignoring case.
 pub fn rule(code: &str) -> Option<&'static Rule> {
@@ -14,7 +14,7 @@ pub fn rule(code: &str) -> Option<&'static Rule> {
 pub fn all() -> impl Iterator<Item = &'static Rule> {
     let rules = RULES.iter().copied();
     #[cfg(feature = "tools")]
-    let rules = rules.chain(list::rules());
+    let rules = rules.chain(tools::rules());
     rules
 }
 

@@ -40,7 +40,6 @@ pub mod identifiers;
 mod load;
 mod log;
 pub mod network;
-pub mod outline;
 mod overlay;
 pub mod patch;
 mod read;
@@ -76,3 +75,15 @@ pub use span::{Span, Spanned, token, token_of};
 pub use write::canonical::{canonical, complete};
 pub use write::describe::{About, describe};
 pub use write::eds::write;
+
+/// The text of an EDS for a tool that edits it: sections, keys and values with their places, and
+/// their descriptions in CiA 306 and CiA 301.
+pub mod outline {
+    pub use crate::scan::known::{Form, Known, OBJECT_KEYS, SECTIONS, key, section};
+    pub use crate::scan::lines::sections;
+    pub use crate::scan::names::{Compact, List, Place, place};
+    pub use crate::scan::number::{before_comment, number};
+    pub use crate::scan::placed::{Placed, Text};
+    pub use crate::standards::cia301::{Specified, data_type, specified};
+    pub use crate::standards::{meaning, profile_name, profile_objects, profile_types};
+}

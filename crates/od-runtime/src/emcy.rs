@@ -1,7 +1,6 @@
 //! EMCY producer and the error objects 1001h, 1003h, 1014h, 1015h (CiA 301, chapter 7.2.7).
 
 use crate::blank::Blank;
-pub(crate) use crate::change::Change;
 use crate::deadline::Deadline;
 use crate::fifo::Fifo;
 use crate::profile::ErrorReset;
@@ -19,6 +18,31 @@ pub(crate) const PDO_LENGTH: u16 = 0x8210;
 pub(crate) const SYNC_LENGTH: u16 = 0x8240;
 /// EMCY error code of an RPDO whose frame is late.
 pub(crate) const RPDO_TIMEOUT: u16 = 0x8250;
+
+/// An error that began or ended, as the application reports it to the node.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub enum Change {
+    /// The error began.
+    Raised(Emcy),
+    /// The error with this code ended; `info` is in the EMCY message that reports it.
+    Cleared {
+        /// EMCY error code.
+        code: u16,
+        /// The bits of 1001h that the error set, if several errors have this code.
+        register: Option<u8>,
+        /// Manufacturer-specific bytes 3 to 7 of the message.
+        info: [u8; 5],
+    },
+}
+
+impl Change {
+    /// Content of an empty place.
+    pub(crate) const NONE: Self = Self::Raised(Emcy {
+        code: 0,
+        register: 0,
+        info: [0; 5],
+    });
+}
 
 impl Blank for Emcy {
     const BLANK: Self = Self {

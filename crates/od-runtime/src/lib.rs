@@ -74,7 +74,6 @@ extern crate std;
 
 mod application;
 mod blank;
-mod change;
 mod deadline;
 mod device;
 mod emcy;

@@ -11,7 +11,7 @@ pub use od_wire::Frame;
 pub use od_wire::emcy::Emcy;
 
 pub use crate::blank::Blank;
-pub use crate::change::Change;
+pub use crate::emcy::Change;
 pub use crate::error_control::{Guard, Watch};
 pub use crate::fifo::Fifo;
 pub use crate::listening::Listener;

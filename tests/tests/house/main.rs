@@ -1,9 +1,10 @@
-//! The order of the workspace: no files that import each other in a circle, no dependency that leads up,
-//! and no import of a name through `lib.rs`. The test reads the tree as text.
+//! The order of the workspace: no files that import each other in a circle, no dependency that leads up, no import of
+//! a name through `lib.rs`, and no short file without a reason. The test reads the tree as text.
 
 mod graph;
 mod rooms;
 mod rust;
+mod small;
 mod tokens;
 mod typescript;
 
@@ -49,6 +50,7 @@ fn faults(files: &BTreeMap<String, String>) -> Vec<String> {
              file, as `crate::frame::Frame`"
         )
     }));
+    found.extend(small::faults(files));
     found
 }
 

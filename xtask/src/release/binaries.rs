@@ -5,10 +5,9 @@ use std::path::Path;
 use super::dist::Dist;
 use super::notices;
 use super::systems::{SYSTEMS, System};
-use crate::console::{cargo, which};
+use crate::console::{cargo, which, without_paths};
 use crate::error::Result;
 use crate::files;
-use crate::flags::without_paths;
 use crate::packages::CLI;
 use crate::setup::{apt, target};
 

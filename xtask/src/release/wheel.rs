@@ -6,9 +6,8 @@ use std::process::Command;
 use super::dist::Dist;
 use super::notices;
 use super::sbom;
-use crate::console::clean;
+use crate::console::{clean, without_paths};
 use crate::error::Result;
-use crate::flags::without_paths;
 use crate::setup::python;
 
 /// The tested version of the builder.

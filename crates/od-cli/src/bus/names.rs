@@ -1,5 +1,6 @@
 //! Names and types of the nodes on a bus.
 
+use od_client::lss::Identity;
 use od_devices::DEVICES;
 use od_eds::Tables;
 use od_model::{Address, Dictionary};
@@ -115,9 +116,25 @@ impl Names {
         }
         best.map(|(_, known)| known)
     }
-}
 
-impl Names {
+    /// The name of the file or built-in device that describes an LSS slave.
+    pub(crate) fn of_slave(&self, slave: &Identity) -> Option<&str> {
+        // A file for a node ID does not describe a slave without one.
+        let identity = slave.parts().map(Some);
+        self.fitting(None, identity).map(|known| known.name)
+    }
+
+    /// An LSS slave in one line: its LSS address, and what describes it.
+    pub(crate) fn slave_title(&self, slave: &Identity) -> String {
+        let known = self
+            .of_slave(slave)
+            .map_or(String::new(), |name| format!("  {name}"));
+        format!(
+            "serial number {:<10}  vendor-ID {:X}h, product code {:X}h, revision {:X}h{known}",
+            slave.serial, slave.vendor, slave.product, slave.revision
+        )
+    }
+
     /// The nodes that files were given for, by their node ID or as a DCF.
     pub(crate) fn nodes(&self) -> impl Iterator<Item = NodeId> {
         self.0

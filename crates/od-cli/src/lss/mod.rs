@@ -1,6 +1,5 @@
 //! `odkit lss`: node IDs and bit rates by the layer setting services (CiA 305).
 
-mod slave;
 mod wizard;
 
 use od_client::lss::Identity;
@@ -15,7 +14,6 @@ use serde_json::json;
 
 use crate::bus::{self, Bus, Format};
 use crate::failure::Failure;
-use crate::lss::slave::{fits, title};
 use crate::output::{self, note};
 use crate::report::plural;
 use crate::source;
@@ -202,7 +200,7 @@ fn scan(args: &bus::Args) -> Result<(), Failure> {
     let found = lss.scan(|one| {
         if is_text {
             // Each search takes seconds, so each slave is printed at once.
-            let _ = output::print(&title(one, &names));
+            let _ = output::print(&names.slave_title(one));
         }
     })?;
     drop(lss);
@@ -219,7 +217,7 @@ fn scan(args: &bus::Args) -> Result<(), Failure> {
                 "product_code": one.product,
                 "revision_number": one.revision,
                 "serial_number": one.serial,
-                "fits": fits(one, &names),
+                "fits": names.of_slave(one),
             })
         });
         let report = json!({ "slaves": slaves.collect::<Vec<_>>() });
@@ -258,8 +256,8 @@ fn inquire(slave: &Slave, args: &bus::Args) -> Result<(), Failure> {
     let (identity, node) = Lss::new(link).inquire(slaves)?;
     output::print(&match args.format {
         Format::Text => match node {
-            Some(node) => format!("node {node}  {}", title(&identity, &names)),
-            None => format!("without a node ID  {}", title(&identity, &names)),
+            Some(node) => format!("node {node}  {}", names.slave_title(&identity)),
+            None => format!("without a node ID  {}", names.slave_title(&identity)),
         },
         Format::Json => format!(
             "{:#}",
@@ -269,7 +267,7 @@ fn inquire(slave: &Slave, args: &bus::Args) -> Result<(), Failure> {
                 "product_code": identity.product,
                 "revision_number": identity.revision,
                 "serial_number": identity.serial,
-                "fits": fits(&identity, &names),
+                "fits": names.of_slave(&identity),
             })
         ),
     })

@@ -13,7 +13,6 @@ use od_tools::lss::Lss;
 use od_tools::scan::{self, Options};
 use serde_json::json;
 
-use super::slave::title;
 use crate::bus::{self, Format};
 use crate::failure::Failure;
 use crate::output::{self, Bar, note};
@@ -39,7 +38,7 @@ pub(super) fn run(args: &bus::Args, first: NodeId, yes: bool, store: bool) -> Re
         tell(&format!("node IDs in use: {}", ids.join(", ")));
     }
     tell("looking for LSS slaves without a node ID; each takes some seconds");
-    let mut slaves = Lss::new(&mut bus).scan(|one| tell(&title(one, &names)))?;
+    let mut slaves = Lss::new(&mut bus).scan(|one| tell(&names.slave_title(one)))?;
     slaves.sort_by_key(|one| one.serial);
     if slaves.is_empty() {
         return Err(Failure::Failed(

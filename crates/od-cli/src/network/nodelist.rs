@@ -4,7 +4,7 @@ use ini::{Ini, ParseOption, Properties};
 use od_eds::network::{Node, saved};
 use od_eds::{Description, network};
 
-use super::loaded::Network;
+use super::project::Network;
 
 /// Reads the networks of a node list; `load` reads the description at a path.
 ///

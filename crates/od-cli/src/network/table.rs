@@ -7,7 +7,7 @@ use od_eds::network::{self, BIT_RATES, Frame};
 
 use od_model::Visible;
 
-use super::loaded::Network;
+use super::project::Network;
 use crate::report::plural;
 
 /// The tables of a network, and the files that were written.

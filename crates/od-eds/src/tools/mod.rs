@@ -20,7 +20,6 @@ mod codesys;
 mod compare;
 mod configparser;
 mod dcf_tools;
-pub(crate) mod list;
 mod npm_canopen;
 mod python;
 mod python_canopen;
@@ -28,9 +27,38 @@ mod shared;
 mod tool;
 mod twincat;
 
+use crate::finding::Rule;
+
 pub use check::{Verdict, check, reading, verdict};
-pub use list::{TOOLS, rules, tool, tool_of};
 pub use tool::{Read, ReadEntry, Reading, Tool};
+
+/// All tools; those that were run come first.
+pub static TOOLS: &[&Tool] = &[
+    &python_canopen::TOOL,
+    &dcf_tools::TOOL,
+    &npm_canopen::TOOL,
+    &canopen_rs::TOOL,
+    &canopennode_editor::TOOL,
+    &codesys::TOOL,
+    &twincat::TOOL,
+];
+
+/// The tool of this name, in any case.
+pub fn tool(name: &str) -> Option<&'static Tool> {
+    let mut tools = TOOLS.iter().copied();
+    tools.find(|tool| tool.name.eq_ignore_ascii_case(name))
+}
+
+/// The rules of all tools.
+pub fn rules() -> impl Iterator<Item = &'static Rule> {
+    TOOLS.iter().flat_map(|tool| tool.rules.iter().copied())
+}
+
+/// The tool whose rule has this code.
+pub fn tool_of(code: &str) -> Option<&'static Tool> {
+    let mut tools = TOOLS.iter().copied();
+    tools.find(|tool| tool.rules.iter().any(|rule| rule.code == code))
+}
 
 #[cfg(test)]
 mod tests;

@@ -2,9 +2,9 @@
 //! object 1029h).
 
 use super::{Event, Machines};
-use crate::change::Change;
 use crate::device::Device;
 use crate::emcy;
+use crate::emcy::Change;
 use crate::objects::Objects;
 use crate::profile::Notice;
 use crate::rooms::Rooms;

@@ -3,7 +3,7 @@
 use od_model::Address;
 
 use crate::application::Signals;
-use crate::change::Change;
+use crate::emcy::Change;
 use crate::fifo::Fifo;
 
 /// Effect of a write on the services.

@@ -49,7 +49,6 @@ mod cob_id;
 mod covered;
 mod job;
 mod layout;
-mod loaded;
 mod medium;
 mod merge;
 mod survey;
@@ -61,12 +60,12 @@ use layout::{OWN, RECORD};
 use survey::{END, Records};
 
 pub(crate) use banks::Banks;
+pub use banks::Loaded;
 pub(crate) use covered::is_kept;
 pub use covered::{is_life_record, restores};
 pub use job::Job;
 pub use layout::MAX_VALUE;
 pub(crate) use layout::own_records;
-pub use loaded::Loaded;
 pub(crate) use medium::Medium;
 pub(crate) use merge::{Plan, write};
 

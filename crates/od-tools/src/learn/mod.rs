@@ -7,7 +7,6 @@ mod describe;
 mod file;
 mod known;
 mod limits;
-mod options;
 mod probe;
 pub mod record;
 mod types;
@@ -24,7 +23,7 @@ use crate::conform::eds::is_touchy;
 use crate::error::Error;
 use crate::link::Link;
 
-pub use self::options::{Options, Today};
+pub use self::file::{Options, Today};
 
 /// Result of learning a node.
 #[derive(Clone, PartialEq, Debug)]

@@ -1,16 +1,14 @@
 //! SDO frames of client and server (CiA 301, chapter 7.2.4.3).
 
-mod crc;
 mod fields;
 mod request;
 mod response;
 mod segment;
 
-pub use crc::{crc16, crc16_after};
 pub use fields::{address, end, number, toggle, wants_crc};
 pub use request::Request;
 pub use response::{Response, expedited_len, expedited_upload, upload_command};
-pub use segment::{Segment, block_segment, block_segments, segment, unused};
+pub use segment::{Segment, block_segment, block_segments, crc16, crc16_after, segment, unused};
 
 #[cfg(test)]
 mod tests {

@@ -14,8 +14,7 @@ use super::merge::{Plan, Set, Source};
 use super::walk::{STEP, Walk};
 use crate::profile::StoreProfile;
 use crate::storage::crc::Crc32;
-use crate::storage::save::Save;
-use crate::storage::{Storage, StorageError};
+use crate::storage::{Save, Storage, StorageError};
 use crate::store::Store;
 
 /// A save or a restore in bounded steps, with the values at the moment when it began.

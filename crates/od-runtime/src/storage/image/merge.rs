@@ -3,13 +3,12 @@
 use od_model::row::Row;
 use od_model::{Address, Group};
 
-use super::banks::Banks;
+use super::banks::{Banks, Loaded};
 use super::cob_id;
 use super::covered::{is_covered, is_life_record, is_saved};
 use super::layout::{
     self, Code, ERASED, FIELDS, Layout, MAX_VALUE, MAX_WORD, OWN, RECORD, whole_words,
 };
-use super::loaded::Loaded;
 use super::medium::Medium;
 use super::survey::END;
 use crate::number::{copy, number_in};
