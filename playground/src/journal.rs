@@ -2,7 +2,7 @@
 
 use od_runtime::Instant;
 use od_sim::VirtualDevice;
-use od_sim::journal::{self, Fault, Fields, Input, Placed, Source, Trouble, Value, check};
+use od_sim::journal::{self, Error, Fields, Input, Placed, Source, Trouble, Value, check};
 use wasm_bindgen::prelude::*;
 
 use crate::bus::Bus;
@@ -181,7 +181,7 @@ pub fn check_run(
 ) -> Result<(), JsError> {
     let entries: Result<Vec<_>, _> = entries.iter().map(entry).collect();
     let until = Instant::from_micros(until.max(0.0) as u64);
-    check(&entries.map_err(error)?, until).map_err(|excess| JsError::new(excess.name()))
+    check(&entries.map_err(error)?, until).map_err(error)
 }
 
 /// The result of an input, with the findings of its text.
@@ -210,22 +210,22 @@ pub(crate) fn text_of(input: &Input) -> String {
     }
 }
 
-pub(crate) fn error(fault: Fault) -> JsError {
-    JsError::new(fault.name())
+pub(crate) fn error(error: Error) -> JsError {
+    JsError::new(error.name())
 }
 
-pub(crate) fn read(input: &JsValue) -> Result<Input, Fault> {
-    let fields = Object::of(input).ok_or(Fault::Cut)?;
+pub(crate) fn read(input: &JsValue) -> Result<Input, Error> {
+    let fields = Object::of(input).ok_or(Error::Cut)?;
     let Value::Text(op) = fields.get("op") else {
-        return Err(Fault::Newer);
+        return Err(Error::Newer);
     };
     Input::read(&op, &fields)
 }
 
-fn entry(one: &JsValue) -> Result<journal::Entry, Fault> {
-    let fields = Object::of(one).ok_or(Fault::Cut)?;
+fn entry(one: &JsValue) -> Result<journal::Entry, Error> {
+    let fields = Object::of(one).ok_or(Error::Cut)?;
     let Value::Number(at) = fields.get("at") else {
-        return Err(Fault::Cut);
+        return Err(Error::Cut);
     };
     let at = Instant::from_micros(at.max(0.0) as u64);
     let input = read(&fields.field("input"))?;

@@ -31,10 +31,10 @@ impl From<std::io::Error> for Failure {
     }
 }
 
-impl From<od_sim::serve::Failure> for Failure {
-    fn from(failure: od_sim::serve::Failure) -> Self {
-        match failure {
-            od_sim::serve::Failure::Usage(message) => Self::Usage(message),
+impl From<od_sim::serve::Error> for Failure {
+    fn from(error: od_sim::serve::Error) -> Self {
+        match error {
+            od_sim::serve::Error::Usage(message) => Self::Usage(message),
             other => Self::Failed(other.to_string()),
         }
     }

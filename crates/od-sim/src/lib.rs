@@ -41,6 +41,6 @@ pub use device::loaded::EdsOptions;
 pub use device::saved::{Saved, is_saved};
 pub use device::services::Services;
 pub use device::world::ShaftView;
-pub use device::{VirtualDevice, faults, notice, pdos, twin};
+pub use device::{VirtualDevice, notice, pdos, twin};
 pub use od_model::Refused;
 pub use wire::Line;

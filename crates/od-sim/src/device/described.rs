@@ -9,7 +9,7 @@ use od_runtime::{Frame, Instant};
 use od_wire::nmt::{self, Command, State};
 use od_wire::sdo::{self, Request, Response};
 
-use crate::device::seen::{Described, Tpdo};
+use crate::device::role::{Described, Role, Tpdo};
 use crate::device::{VirtualDevice, pdos};
 use crate::words::fold;
 
@@ -22,38 +22,55 @@ impl VirtualDevice {
         self.node.power_off();
         while self.node.poll_event().is_some() {}
         self.node.look(|_, store| store.reset(|_| true));
-        self.described = Some(Described::default());
+        self.role = Role::Described(Box::default());
         self
     }
 
     /// Returns whether it only describes a node.
     pub fn is_described(&self) -> bool {
-        self.described.is_some()
+        self.described().is_some()
+    }
+
+    /// Knowledge of the node that it describes.
+    fn described(&self) -> Option<&Described> {
+        match &self.role {
+            Role::Described(described) => Some(described),
+            _ => None,
+        }
+    }
+
+    fn described_mut(&mut self) -> Option<&mut Described> {
+        match &mut self.role {
+            Role::Described(described) => Some(described),
+            _ => None,
+        }
     }
 
     /// Returns the state of the node that it describes, as far as the bus has shown it.
     pub fn seen_state(&self) -> Option<State> {
-        self.described.as_ref()?.state
+        self.described()?.state
     }
 
     /// Returns whether the value of an object is the node's, and not one of its file.
     pub fn is_known(&self, address: Address) -> bool {
-        let described = self.described.as_ref();
+        let described = self.described();
         described.is_none_or(|one| one.known.contains_key(&address))
     }
 
     /// Returns the value of an object that was seen last.
     pub(crate) fn seen_value(&self, address: Address) -> Option<&[u8]> {
-        let described = self.described.as_ref()?;
+        let described = self.described()?;
         described.known.get(&address).map(Vec::as_slice)
     }
 
     /// Keeps a value that the node has.
     pub fn learn(&mut self, address: Address, bytes: &[u8]) {
         let Self {
-            node, described, ..
-        } = self;
-        let Some(described) = described else {
+            node,
+            role: Role::Described(described),
+            ..
+        } = self
+        else {
             return;
         };
         node.look(|_, store| {
@@ -84,12 +101,12 @@ impl VirtualDevice {
 
     /// The TPDO of the node that this frame is, as far as they were looked up.
     fn tpdo(&self, frame: &Frame) -> Option<&Tpdo> {
-        let all = self.described.as_ref()?.tpdos.as_ref()?;
+        let all = self.described()?.tpdos.as_ref()?;
         all.iter().find(|pdo| pdo.id == frame.id())
     }
 
     fn look_up_tpdos(&mut self) {
-        if !matches!(&self.described, Some(one) if one.tpdos.is_none()) {
+        if !matches!(self.described(), Some(one) if one.tpdos.is_none()) {
             return;
         }
         let tpdo = |pdo: pdos::Pdo| {
@@ -100,7 +117,7 @@ impl VirtualDevice {
             })
         };
         let all = pdos::pdos(self).into_iter().filter_map(tpdo).collect();
-        if let Some(one) = &mut self.described {
+        if let Some(one) = self.described_mut() {
             one.tpdos = Some(all);
         }
     }
@@ -112,7 +129,7 @@ impl VirtualDevice {
             return self.commanded(frame);
         }
         if let Some((_, state)) = watch::parse(frame).filter(|(sender, _)| *sender == node)
-            && let Some(described) = &mut self.described
+            && let Some(described) = self.described_mut()
         {
             // After its start a node has other values; after the boot-up message it is Pre-operational.
             if state == State::Initialising {
@@ -141,7 +158,7 @@ impl VirtualDevice {
         let node = self.node_id().raw();
         if let Some(command) = nmt::Repr::parse(frame.data())
             && [0, node].contains(&command.node)
-            && let Some(described) = &mut self.described
+            && let Some(described) = self.described_mut()
         {
             described.state = match command.command {
                 Command::Start => Some(State::Operational),
@@ -154,7 +171,7 @@ impl VirtualDevice {
 
     /// The values in a PDO of the node, which sends it in Operational only.
     fn received(&mut self, pdo: &Tpdo, frame: &Frame) {
-        if let Some(described) = &mut self.described {
+        if let Some(described) = self.described_mut() {
             described.state = Some(State::Operational);
         }
         let mut data = [0; 8];
@@ -179,7 +196,7 @@ impl VirtualDevice {
     fn sdo(&mut self, frame: &Frame, is_answer: bool) {
         let entry = self.dictionary().find(sdo::address(frame.bytes())).ok();
         let own = entry.and_then(|entry| entry.data_type.size());
-        let Some(described) = &mut self.described else {
+        let Some(described) = self.described_mut() else {
             return;
         };
         described.count = described.count.wrapping_add(1);

@@ -2,10 +2,11 @@
 //!
 //! | file | what it holds |
 //! |---|---|
-//! | `compiled`, `loaded`, `described` | a device that the compiler knows, of a file, of a node on a real bus |
+//! | `compiled`, `loaded` | a device that the compiler knows, of a file |
+//! | `role`, `described` | who is on the bus for it; a node of a real bus |
 //! | `source`, `behaviour`, `beside` | its dictionary; what it does; strings and DOMAINs at any length |
 //! | `eeprom`, `saved` | its non-volatile memory, and how it is seen from outside |
-//! | `world`, `pins`, `leds`, `faults` | its shaft, switches, connections, LEDs, and what breaks |
+//! | `world`, `pins`, `leds` | its shaft, switches, connections, LEDs, and what breaks |
 //! | `identity`, `own`, `view` | its serial number and LSS address; changes from its side; its values |
 //! | `forward`, `twin` | calls, and the other implementation that receives them, too |
 //! | `services`, `clock`, `programs`, `pdos`, `configured`, `left_out` | what an EDS says beside its objects |
@@ -22,7 +23,6 @@ pub(crate) mod configured;
 #[cfg(feature = "real")]
 pub(crate) mod described;
 pub(crate) mod eeprom;
-pub mod faults;
 pub(crate) mod forward;
 pub(crate) mod identity;
 pub(crate) mod leds;
@@ -36,9 +36,8 @@ pub mod pdos;
 pub(crate) mod pins;
 #[cfg(feature = "eds")]
 pub(crate) mod programs;
+pub(crate) mod role;
 pub(crate) mod saved;
-#[cfg(feature = "real")]
-pub(crate) mod seen;
 pub(crate) mod services;
 pub(crate) mod size;
 pub(crate) mod source;
@@ -59,11 +58,10 @@ use od_wire::nmt::State;
 
 use crate::device::behaviour::{Behaviour, Behind};
 use crate::device::eeprom::Eeprom;
+use crate::device::role::Role;
 use crate::device::services::Services;
 use crate::device::source::{Loaded, Source};
 use crate::device::twin::{Call, Twins};
-#[cfg(feature = "serve")]
-use crate::recorded::play::Playing;
 use crate::shaft;
 
 /// The node of a device on a bench.
@@ -94,12 +92,8 @@ pub struct VirtualDevice {
     pub(super) has_leds: bool,
     /// Receives the calls of this device, too.
     pub(super) twin: Twins,
-    /// Knowledge of the node of a real bus that it describes.
-    #[cfg(feature = "real")]
-    pub(super) described: Option<crate::device::seen::Described>,
-    /// Behaviour that another device was seen to have.
-    #[cfg(feature = "serve")]
-    pub(super) recorded: Option<Box<Playing>>,
+    /// Who is on the bus for it.
+    pub(super) role: Role,
 }
 
 /// Number of events that are kept until they are read.
@@ -149,10 +143,7 @@ impl VirtualDevice {
             channels: 1,
             has_leds: true,
             twin: Twins::default(),
-            #[cfg(feature = "real")]
-            described: None,
-            #[cfg(feature = "serve")]
-            recorded: None,
+            role: Role::Node,
         };
         made.break_storage();
         made
@@ -251,7 +242,7 @@ impl VirtualDevice {
     /// The next frame to send.
     pub fn poll_transmit(&mut self, now: Instant) -> Option<Frame> {
         #[cfg(feature = "serve")]
-        if self.recorded.is_some() {
+        if matches!(self.role, Role::Recorded(_)) {
             return self.poll_recorded(now);
         }
         if !self.node.may_transmit() {
@@ -270,10 +261,9 @@ impl VirtualDevice {
         let is_operational = |_: &Instant| self.node.state() == State::Operational;
         let due = earlier(due, self.look_at.filter(is_operational));
         #[cfg(feature = "serve")]
-        let due = earlier(
-            due,
-            self.recorded.as_ref().and_then(|playing| playing.due()),
-        );
+        if let Role::Recorded(playing) = &self.role {
+            return earlier(due, playing.due());
+        }
         due
     }
 
@@ -368,7 +358,7 @@ impl VirtualDevice {
         }
         self.node.power_off();
         #[cfg(feature = "serve")]
-        if let Some(playing) = &mut self.recorded {
+        if let Role::Recorded(playing) = &mut self.role {
             playing.stop();
         }
     }
@@ -397,12 +387,8 @@ impl VirtualDevice {
         mut frames: usize,
         mut sent: impl FnMut(Instant, Frame),
     ) -> Option<bool> {
-        let looks_on = self.twin.0.is_some() || self.look_at.is_some() || self.node.storage.fails;
-        #[cfg(feature = "real")]
-        let looks_on = looks_on || self.described.is_some();
-        #[cfg(feature = "serve")]
-        let looks_on = looks_on || self.recorded.is_some();
-        if looks_on {
+        let is_node = matches!(self.role, Role::Node);
+        if !is_node || self.twin.0.is_some() || self.look_at.is_some() || self.node.storage.fails {
             return None;
         }
         while frames > 0

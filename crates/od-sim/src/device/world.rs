@@ -6,7 +6,6 @@ use od_runtime::Instant;
 use od_runtime::encoder::{Angle, Encoder, Fault};
 
 use crate::device::VirtualDevice;
-use crate::device::faults;
 use crate::shaft::Shaft;
 
 /// 2³², the fractions of a revolution.
@@ -133,10 +132,10 @@ impl VirtualDevice {
         switches.map_or((0, 0), |of| (of.node_id, of.bit_rate))
     }
 
-    /// Sets or clears a fault, by a name of [`faults::NAMES`]. Returns whether this
+    /// Sets or clears a fault, by a name of [`Fault::NAMES`]. Returns whether this
     /// device has such a fault.
     pub fn set_fault(&mut self, name: &str, broken: bool, now: Instant) -> bool {
-        match faults::from_name(name).filter(|fault| self.has_fault(*fault)) {
+        match Fault::from_name(name).filter(|fault| self.has_fault(*fault)) {
             Some(fault) => self.change(now, |encoder| encoder.set_fault(fault, broken)),
             None => false,
         }
@@ -160,7 +159,7 @@ impl VirtualDevice {
 
     /// Is this broken?
     pub fn is_broken(&self, name: &str) -> bool {
-        match (self.encoder(), faults::from_name(name)) {
+        match (self.encoder(), Fault::from_name(name)) {
             (Some(encoder), Some(fault)) => encoder.is_broken(fault),
             _ => false,
         }

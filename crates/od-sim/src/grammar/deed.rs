@@ -120,7 +120,7 @@ impl Deed {
         match self {
             Self::Wait => {}
             Self::Use(name) => bench.current = bench.named(name)?,
-            Self::Send { frame, .. } => return frame.of(bench.present()?).map(Some),
+            Self::Send { frame, .. } => return Ok(Some(frame.of(bench.present()?)?)),
             Self::Power(on) => bench.bus.set_power(bench.current, *on),
             Self::Cycle(_) => bench.bus.set_power(bench.current, false),
             Self::Shaft(shaft) => {

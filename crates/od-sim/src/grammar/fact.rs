@@ -6,10 +6,9 @@ use std::prelude::v1::*;
 use od_model::{DataType, values};
 use od_wire::nmt::State;
 
-use super::names::fault_name;
 use super::problem::Problem;
 use super::test::{SIGNS, Test};
-use super::tokens::Tokens;
+use super::tokens::{Tokens, fault_name};
 use crate::bus::Bus;
 use crate::device::VirtualDevice;
 use crate::device::leds::Led;

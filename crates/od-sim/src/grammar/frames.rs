@@ -8,10 +8,9 @@ use od_runtime::Frame;
 use od_wire::nmt::Command;
 use od_wire::{AbortCode, emcy, nmt, sdo};
 
-use super::names::nmt_command;
 use super::pattern::Pattern;
 use super::problem::Problem;
-use super::tokens::Tokens;
+use super::tokens::{Tokens, nmt_command};
 use crate::device::VirtualDevice;
 use crate::words;
 

@@ -15,7 +15,6 @@ pub(crate) mod deed;
 pub(crate) mod fact;
 pub(crate) mod frames;
 pub(crate) mod line;
-pub(crate) mod names;
 pub mod pattern;
 pub mod problem;
 pub(crate) mod shown;

@@ -218,7 +218,7 @@ fn a_frame_by_name_becomes_a_frame_for_the_device() {
 fn typed(text: &str, device: &crate::VirtualDevice) -> Result<String, String> {
     let tokens = super::tokens::Tokens::new(1, text);
     match super::line::line(tokens, &mut None).expect(text).1 {
-        Action::Deed(Deed::Send { frame, .. }) => frame.of(device).map(|one| one.to_string()),
+        Action::Deed(Deed::Send { frame, .. }) => Ok(frame.of(device)?.to_string()),
         other => panic!("{text}: {other:?}"),
     }
 }

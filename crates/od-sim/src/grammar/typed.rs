@@ -3,7 +3,7 @@
 use std::format;
 use std::prelude::v1::*;
 
-use od_model::{Address, DataType, Dictionary, values};
+use od_model::{Address, DataType, Dictionary, Refused, values};
 use od_runtime::{Frame, NodeId};
 use od_wire::nmt::{Command, Repr};
 use od_wire::sdo::Request;
@@ -43,7 +43,7 @@ impl Typed {
     ///
     /// # Errors
     /// Like [`frame`](Self::frame).
-    pub(crate) fn of(&self, device: &VirtualDevice) -> Result<Frame, String> {
+    pub(crate) fn of(&self, device: &VirtualDevice) -> Result<Frame, Refused> {
         self.frame(device.node_id(), device.dictionary())
     }
 
@@ -51,7 +51,7 @@ impl Typed {
     ///
     /// # Errors
     /// The object does not exist, or the value is invalid.
-    pub fn frame(&self, node: NodeId, dictionary: Dictionary<'_>) -> Result<Frame, String> {
+    pub fn frame(&self, node: NodeId, dictionary: Dictionary<'_>) -> Result<Frame, Refused> {
         let request = match self {
             Self::Frame(frame) => return Ok(*frame),
             Self::Nmt(command, to) => {
@@ -76,7 +76,8 @@ impl Typed {
                     None => {
                         return Err(format!(
                             "an expedited download has 1 to 4 bytes, not {len}; write `sdo write …`"
-                        ));
+                        )
+                        .into());
                     }
                 }
                 Request::InitiateDownload {
@@ -95,7 +96,7 @@ impl Write {
     ///
     /// # Errors
     /// The object does not exist, or the value is invalid.
-    pub(crate) fn own(&self, dictionary: Dictionary<'_>) -> Result<(Address, Vec<u8>), String> {
+    pub(crate) fn own(&self, dictionary: Dictionary<'_>) -> Result<(Address, Vec<u8>), Refused> {
         let entry = values::find(dictionary, &self.object)?;
         let bytes = values::parse(entry.data_type, &self.value);
         let label = || values::label(dictionary, entry.address);
@@ -107,7 +108,7 @@ impl Write {
     ///
     /// # Errors
     /// Reason why the value cannot be written.
-    pub fn bytes(&self, dictionary: Dictionary<'_>) -> Result<(Address, Vec<u8>), String> {
+    pub fn bytes(&self, dictionary: Dictionary<'_>) -> Result<(Address, Vec<u8>), Refused> {
         let (address, own) = resolve(dictionary, &self.object)?;
         let data_type = self.data_type.or(own).unwrap_or(DataType::Unsigned32);
         Ok((address, values::parse(data_type, &self.value)?))
@@ -121,11 +122,11 @@ impl Write {
 pub fn resolve(
     dictionary: Dictionary<'_>,
     object: &str,
-) -> Result<(Address, Option<DataType>), String> {
+) -> Result<(Address, Option<DataType>), Refused> {
     match (values::find(dictionary, object), values::address(object)) {
         (Ok(entry), _) => Ok((entry.address, Some(entry.data_type))),
         (Err(_), Some(address)) => Ok((address, None)),
-        (Err(why), None) => Err(why.into()),
+        (Err(why), None) => Err(why),
     }
 }
 

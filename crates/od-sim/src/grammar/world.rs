@@ -7,9 +7,8 @@ use od_runtime::{BusEvent, NodeId};
 
 use super::action::{Action, Added};
 use super::deed::{Deed, Shaft, Wire};
-use super::names::fault_name;
 use super::problem::Problem;
-use super::tokens::Tokens;
+use super::tokens::{Tokens, fault_name};
 use crate::device::size;
 
 pub(super) fn device(tokens: &mut Tokens<'_>) -> Result<Action, Problem> {

@@ -59,8 +59,8 @@ macro_rules! choice {
             pub fn read(
                 name: &str,
                 from: &dyn $crate::journal::field::Fields,
-            ) -> Result<Self, $crate::journal::field::Fault> {
-                let mut record = Self::named(name).ok_or($crate::journal::field::Fault::Newer)?;
+            ) -> Result<Self, $crate::journal::field::Error> {
+                let mut record = Self::named(name).ok_or($crate::journal::field::Error::Newer)?;
                 let mut result = Ok(());
                 record.fields(&mut |key, field| {
                     if result.is_ok() {

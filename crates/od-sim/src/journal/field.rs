@@ -31,36 +31,48 @@ pub enum Value {
     Numbers(Vec<f64>),
 }
 
-/// Reason why an input cannot be read.
+/// Reason why an input cannot be read, or a run not begin.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[non_exhaustive]
-pub enum Fault {
+pub enum Error {
     /// A field is missing or has an invalid value.
     Cut,
     /// It was written by a later version.
     Newer,
+    /// The run has too many devices.
+    Devices,
+    /// The run takes too much virtual time.
+    Time,
+    /// The run has too many frames that are sent periodically.
+    Frames,
 }
 
-impl Fault {
-    /// A word for programs: `cut`, `newer`.
+impl Error {
+    /// A word for programs: `cut`, `newer`, `devices`, `time`, `frames`.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Cut => "cut",
             Self::Newer => "newer",
+            Self::Devices => "devices",
+            Self::Time => "time",
+            Self::Frames => "frames",
         }
     }
 }
 
-impl fmt::Display for Fault {
+impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Cut => "a field of the input is missing, or has a value that is not allowed",
             Self::Newer => "a later version wrote the input",
+            Self::Devices => "the run has too many devices",
+            Self::Time => "the run takes too long",
+            Self::Frames => "the run sends too many frames",
         })
     }
 }
 
-impl core::error::Error for Fault {}
+impl core::error::Error for Error {}
 
 /// Source of the fields. A field of a field is named `source.name`.
 pub trait Fields {
@@ -85,7 +97,7 @@ pub(super) trait Declared {
 /// A field with fields of its own.
 pub(super) trait Part {
     /// Reads it.
-    fn read(&mut self, from: &dyn Fields, key: &str) -> Result<(), Fault>;
+    fn read(&mut self, from: &dyn Fields, key: &str) -> Result<(), Error>;
 
     /// Writes it.
     fn write(&mut self, to: &mut dyn Sink, key: &str);
@@ -153,7 +165,7 @@ impl<'a, T: Part> From<&'a mut T> for Field<'a> {
 
 impl Field<'_> {
     /// Reads the field.
-    pub(super) fn read(self, from: &dyn Fields, key: &str) -> Result<(), Fault> {
+    pub(super) fn read(self, from: &dyn Fields, key: &str) -> Result<(), Error> {
         match (self, from.get(key)) {
             (Self::Part(to), _) => to.read(from, key)?,
             (Self::MaybePlace(to), Value::Missing) => *to = None,
@@ -169,7 +181,7 @@ impl Field<'_> {
             {
                 *to = all;
             }
-            _ => return Err(Fault::Cut),
+            _ => return Err(Error::Cut),
         }
         Ok(())
     }
@@ -199,25 +211,25 @@ fn is_number(value: &f64) -> bool {
     (-LARGEST..=LARGEST).contains(value)
 }
 
-pub(super) fn whole(value: &Value, high: u32) -> Result<u32, Fault> {
+pub(super) fn whole(value: &Value, high: u32) -> Result<u32, Error> {
     match *value {
         Value::Number(value) if value.fract() == 0.0 && (0.0..=high.into()).contains(&value) => {
             Ok(value as u32)
         }
-        _ => Err(Fault::Cut),
+        _ => Err(Error::Cut),
     }
 }
 
-pub(super) fn flag(value: &Value) -> Result<bool, Fault> {
+pub(super) fn flag(value: &Value) -> Result<bool, Error> {
     match *value {
         Value::Flag(value) => Ok(value),
-        _ => Err(Fault::Cut),
+        _ => Err(Error::Cut),
     }
 }
 
-pub(super) fn text(value: Value) -> Result<String, Fault> {
+pub(super) fn text(value: Value) -> Result<String, Error> {
     match value {
         Value::Text(value) if value.len() <= LONGEST => Ok(value),
-        _ => Err(Fault::Cut),
+        _ => Err(Error::Cut),
     }
 }

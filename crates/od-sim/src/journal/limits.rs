@@ -1,10 +1,10 @@
 //! Limits of a repeated run: it may come from a link of unknown origin.
 
-use std::fmt;
 use std::prelude::v1::*;
 
 use od_wire::Instant;
 
+use super::field::Error;
 use super::input::{Entry, Input};
 use crate::script::Limits;
 
@@ -17,50 +17,15 @@ const SHORTEST: u32 = 100;
 /// Limit of frames from periodic inputs.
 const MOST_FRAMES: u64 = 10_000_000;
 
-/// Limit that a run exceeds.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-#[non_exhaustive]
-pub enum Excess {
-    /// Devices on the bus.
-    Devices,
-    /// Virtual time.
-    Time,
-    /// Frames that are sent periodically.
-    Frames,
-}
-
-impl Excess {
-    /// A word for programs: `devices`, `time`, `frames`.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Devices => "devices",
-            Self::Time => "time",
-            Self::Frames => "frames",
-        }
-    }
-}
-
-impl fmt::Display for Excess {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Devices => "the run has too many devices",
-            Self::Time => "the run takes too long",
-            Self::Frames => "the run sends too many frames",
-        })
-    }
-}
-
-impl core::error::Error for Excess {}
-
 /// Adds up the needs of a run to the time `until` before it starts. The lines of
 /// scripts and lessons are checked when they are read.
 ///
 /// # Errors
 /// The limit that the run exceeds.
-pub fn check(entries: &[Entry], until: Instant) -> Result<(), Excess> {
+pub fn check(entries: &[Entry], until: Instant) -> Result<(), Error> {
     let last = entries.last().map_or(until, |entry| entry.at.max(until));
     if last.as_micros() > LONGEST {
-        return Err(Excess::Time);
+        return Err(Error::Time);
     }
     let (mut devices, mut frames) = (0_usize, 0_u64);
     for (number, entry) in entries.iter().enumerate() {
@@ -83,10 +48,10 @@ pub fn check(entries: &[Entry], until: Instant) -> Result<(), Excess> {
             _ => {}
         }
         if devices > MOST_DEVICES {
-            return Err(Excess::Devices);
+            return Err(Error::Devices);
         }
         if frames > MOST_FRAMES {
-            return Err(Excess::Frames);
+            return Err(Error::Frames);
         }
     }
     Ok(())
@@ -121,7 +86,7 @@ mod tests {
         }
     }
 
-    fn run(inputs: impl IntoIterator<Item = Input>, seconds: u64) -> Result<(), Excess> {
+    fn run(inputs: impl IntoIterator<Item = Input>, seconds: u64) -> Result<(), Error> {
         let at = Instant::ZERO;
         let entries: Vec<_> = inputs
             .into_iter()
@@ -145,12 +110,12 @@ mod tests {
 
     #[test]
     fn each_limit_is_checked() {
-        assert_eq!(run((0..17).map(|_| add(None)), 1), Err(Excess::Devices));
-        assert_eq!(run([add(None)], 86_401), Err(Excess::Time));
-        assert_eq!(run([repeat(1000)], 86_400), Err(Excess::Frames));
+        assert_eq!(run((0..17).map(|_| add(None)), 1), Err(Error::Devices));
+        assert_eq!(run([add(None)], 86_401), Err(Error::Time));
+        assert_eq!(run([repeat(1000)], 86_400), Err(Error::Frames));
         assert_eq!(
             run([repeat(1)], 1001),
-            Err(Excess::Frames),
+            Err(Error::Frames),
             "100 us at the least"
         );
     }

@@ -19,9 +19,9 @@ use od_wire::{Instant, NodeId};
 use crate::rig::Rig;
 
 pub use self::apply::{Added, Trouble};
-pub use self::field::{Fault, Fields, Sink, Value};
+pub use self::field::{Error, Fields, Sink, Value};
 pub use self::input::{Entry, Input, frame};
-pub use self::limits::{Excess, check};
+pub use self::limits::check;
 pub use self::parts::{Dip, Rate, Source};
 
 /// Inputs in one portion of a repeated run; what the bench shows in between is thrown away.

@@ -3,7 +3,7 @@
 use std::prelude::v1::*;
 
 use super::choice::choice;
-use super::field::{Declared, Fault, Fields, Part, Sink, Value, Within, flag, number, text, whole};
+use super::field::{Declared, Error, Fields, Part, Sink, Value, Within, flag, number, text, whole};
 
 choice! {
     /// Source of a device.
@@ -51,7 +51,7 @@ impl Declared for Source {
 }
 
 impl Part for Source {
-    fn read(&mut self, mut from: &dyn Fields, key: &str) -> Result<(), Fault> {
+    fn read(&mut self, mut from: &dyn Fields, key: &str) -> Result<(), Error> {
         let from = Within(&mut from, key);
         *self = Self::read(&text(from.get("kind"))?, &from)?;
         Ok(())
@@ -68,7 +68,7 @@ impl Declared for Option<Dip> {
 }
 
 impl Part for Option<Dip> {
-    fn read(&mut self, mut from: &dyn Fields, key: &str) -> Result<(), Fault> {
+    fn read(&mut self, mut from: &dyn Fields, key: &str) -> Result<(), Error> {
         let from = Within(&mut from, key);
         *self = match from.get("bit") {
             Value::Missing => None,
@@ -94,7 +94,7 @@ impl Declared for Rate {
 }
 
 impl Part for Rate {
-    fn read(&mut self, from: &dyn Fields, key: &str) -> Result<(), Fault> {
+    fn read(&mut self, from: &dyn Fields, key: &str) -> Result<(), Error> {
         self.0 = match from.get(key) {
             Value::Null => None,
             value => Some(whole(&value, u32::MAX)?),

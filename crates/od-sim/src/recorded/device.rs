@@ -1,5 +1,6 @@
 //! A device that plays a recording.
 
+use std::mem;
 use std::prelude::v1::*;
 
 use od_runtime::{Frame, Instant, NoApplication};
@@ -9,6 +10,7 @@ use super::Recorded;
 use super::play::{Due, Playing};
 use crate::device::VirtualDevice;
 use crate::device::behaviour::Behind;
+use crate::device::role::Role;
 
 impl VirtualDevice {
     /// Plays a recording instead of simulating an application. Call it before the power is switched on.
@@ -34,19 +36,22 @@ impl VirtualDevice {
                 .unwrap_or(0)
         };
         let playing = Playing::new(recorded, configured);
-        self.recorded = Some(Box::new(playing));
+        self.role = Role::Recorded(Box::new(playing));
     }
 
     /// Takes the frames of the node, and returns the frame that is due now.
     pub(crate) fn poll_recorded(&mut self, now: Instant) -> Option<Frame> {
-        let mut playing = self.recorded.take()?;
+        // The recording looks at the device, which has none meanwhile.
+        let Role::Recorded(mut playing) = mem::take(&mut self.role) else {
+            return None;
+        };
         playing.look(self.state(), |index, sub| self.stored(index, sub));
         while let Some(frame) = self.node.poll_transmit(now) {
             let tpdo = self.tpdo_of(&playing, &frame);
             playing.sent(now, self.node_id(), frame, tpdo);
         }
         let frame = playing.take(now, self.node_id(), self.state());
-        self.recorded = Some(playing);
+        self.role = Role::Recorded(playing);
         frame
     }
 
@@ -63,18 +68,18 @@ impl VirtualDevice {
     pub(crate) fn refuses_recorded(&mut self, now: Instant, frame: &Frame) -> bool {
         let serves = matches!(self.state(), State::PreOperational | State::Operational);
         let node = self.node_id();
-        match &mut self.recorded {
-            Some(playing) if serves && self.node.is_powered() => playing.refuses(now, node, frame),
+        match &mut self.role {
+            Role::Recorded(playing) if serves && self.node.is_powered() => {
+                playing.refuses(now, node, frame)
+            }
             _ => false,
         }
     }
 
     /// Sets the values and reports the errors that are due.
     pub(crate) fn happens_recorded(&mut self, now: Instant) {
-        while let Some(due) = self
-            .recorded
-            .as_mut()
-            .and_then(|playing| playing.happens(now))
+        while let Role::Recorded(playing) = &mut self.role
+            && let Some(due) = playing.happens(now)
         {
             // The node refuses values and errors that it cannot have in its state.
             let _ = match due {

@@ -7,9 +7,8 @@ use od_wire::sdo::Request;
 use od_wire::{Frame, NodeId, nmt};
 
 use super::typed;
-use crate::grammar::names::nmt_command;
 use crate::grammar::problem::Problem;
-use crate::grammar::tokens::Tokens;
+use crate::grammar::tokens::{Tokens, nmt_command};
 use crate::logs::candump;
 
 /// Context of a line.

@@ -1,16 +1,35 @@
 //! Makes the devices of the command line.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
+use od_model::Refused;
 use od_runtime::storage::{File, Owner, image};
-use od_runtime::{Instant, NodeId};
+use od_runtime::{DeviceKind, Instant, NodeId};
 
-use super::failure::Failure;
-use super::maker::Maker;
+use super::error::Error;
 use super::options::Options;
 use super::terminal::note;
 use crate::device::VirtualDevice;
 use crate::words::plural;
+
+/// A device of the command line before it is made, with its name there.
+pub struct Maker<'m> {
+    /// Name of a built-in device, or path of a file.
+    pub name: &'m str,
+    /// The built-in device; `None`: a file describes it.
+    pub kind: Option<&'static DeviceKind>,
+    /// Files that describe it: no output of the bench may replace them.
+    pub files: Vec<PathBuf>,
+    /// Its node ID from `--node-id`, for a redundant encoder that of the first node; `None`: its own.
+    pub node_id: Option<NodeId>,
+    /// Makes the device.
+    pub make: Make<'m>,
+}
+
+/// Makes a device without power, with this node ID or otherwise its own.
+///
+/// The error is the reason why the device cannot be made.
+pub type Make<'m> = Box<dyn Fn(Option<NodeId>) -> Result<VirtualDevice, Refused> + 'm>;
 
 /// A device for the bus.
 pub(super) struct Place {
@@ -21,7 +40,7 @@ pub(super) struct Place {
 }
 
 /// Makes the devices; each channel of a redundant encoder is one device.
-pub(super) fn make(makers: &[Maker<'_>], args: &Options) -> Result<Vec<Place>, Failure> {
+pub(super) fn make(makers: &[Maker<'_>], args: &Options) -> Result<Vec<Place>, Error> {
     let nodes: Vec<(&Maker<'_>, u8)> = makers
         .iter()
         .flat_map(|maker| {
@@ -37,14 +56,14 @@ pub(super) fn make(makers: &[Maker<'_>], args: &Options) -> Result<Vec<Place>, F
     ] {
         if given > count {
             let devices = plural(count, "device");
-            return Err(Failure::Usage(format!(
+            return Err(Error::Usage(format!(
                 "`{option}` is given {given} times for {devices}"
             )));
         }
     }
     if args.eeprom_reset && args.eeproms.is_empty() {
         let why = "`--eeprom-reset` needs `--eeprom FILE`";
-        return Err(Failure::Usage(why.into()));
+        return Err(Error::Usage(why.into()));
     }
     let mut places: Vec<Place> = Vec::new();
     for (at, (maker, channel)) in nodes.into_iter().enumerate() {
@@ -83,7 +102,7 @@ pub(super) fn make(makers: &[Maker<'_>], args: &Options) -> Result<Vec<Place>, F
 }
 
 /// Refuses a path that exists but cannot hold an EEPROM; opening a FIFO would wait for its other end.
-fn regular(path: &Path) -> Result<(), Failure> {
+fn regular(path: &Path) -> Result<(), Error> {
     match path.metadata() {
         Ok(data) if !data.is_file() => {
             let (path, kind) = (
@@ -94,7 +113,7 @@ fn regular(path: &Path) -> Result<(), Failure> {
                     "device or FIFO"
                 },
             );
-            Err(Failure::Usage(format!(
+            Err(Error::Usage(format!(
                 "`--eeprom {path}` names a {kind}; write the path of a regular file"
             )))
         }
@@ -104,7 +123,7 @@ fn regular(path: &Path) -> Result<(), Failure> {
 }
 
 /// Opens the file with the EEPROM of a device.
-fn eeprom(path: &Path, name: &str, device: &VirtualDevice, reset: bool) -> Result<File, Failure> {
+fn eeprom(path: &Path, name: &str, device: &VirtualDevice, reset: bool) -> Result<File, Error> {
     let owner = Owner {
         name,
         identity: &device.identity(),
@@ -117,7 +136,7 @@ fn eeprom(path: &Path, name: &str, device: &VirtualDevice, reset: bool) -> Resul
         } else {
             ""
         };
-        Failure::Failed(format!("{error}{help}"))
+        Error::Failed(format!("{error}{help}"))
     })?;
     if let Some(repaired) = file.repaired() {
         note(&format!("{}: {repaired}", path.display()));
@@ -130,12 +149,12 @@ fn one(
     maker: &Maker<'_>,
     wanted: Option<Option<NodeId>>,
     others: &[Place],
-) -> Result<VirtualDevice, Failure> {
+) -> Result<VirtualDevice, Error> {
     let wanted = match wanted {
         Some(None) => return unconfigured(maker),
         wanted => wanted.flatten(),
     };
-    let device = (maker.make)(wanted).map_err(|why| Failure::Failed(why.into()))?;
+    let device = (maker.make)(wanted).map_err(|why| Error::Failed(why.into()))?;
     let others = others.iter().map(|other| &other.device);
     let others = others.filter(|other| other.is_configured());
     let used: Vec<NodeId> = others.map(VirtualDevice::node_id).collect();
@@ -150,20 +169,20 @@ fn one(
     }
     let mut free = (last..=127).chain(1..last).filter_map(NodeId::new);
     match free.find(|id| !is_used(*id)) {
-        Some(id) => (maker.make)(Some(id)).map_err(|why| Failure::Failed(why.into())),
-        None => Err(Failure::Usage(
+        Some(id) => (maker.make)(Some(id)).map_err(|why| Error::Failed(why.into())),
+        None => Err(Error::Usage(
             "a bus has 127 node IDs; start another `odkit sim` for the other devices".into(),
         )),
     }
 }
 
 /// A device that LSS gives its node ID.
-fn unconfigured(maker: &Maker<'_>) -> Result<VirtualDevice, Failure> {
-    let device = (maker.make)(None).map_err(|why| Failure::Failed(why.into()))?;
+fn unconfigured(maker: &Maker<'_>) -> Result<VirtualDevice, Error> {
+    let device = (maker.make)(None).map_err(|why| Error::Failed(why.into()))?;
     let name = maker.name;
     device
         .without_node_id()
-        .map_err(|why| Failure::Usage(format!("`--node-id none` does not fit {name}: {why}")))
+        .map_err(|why| Error::Usage(format!("`--node-id none` does not fit {name}: {why}")))
 }
 
 /// Returns the next free serial number if another device has the LSS address of this one.
@@ -183,7 +202,7 @@ fn set_shaft(
     name: &str,
     at: usize,
     device: &mut VirtualDevice,
-) -> Result<(), Failure> {
+) -> Result<(), Error> {
     let now = Instant::ZERO;
     if let Some(seed) = args.seed {
         // A device without a shaft has no start position.
@@ -198,7 +217,7 @@ fn set_shaft(
     if placed && turns {
         return Ok(());
     }
-    Err(Failure::Usage(format!(
+    Err(Error::Usage(format!(
         "{name} does not support this `--position` or `--rpm`; change the value or remove the option"
     )))
 }

@@ -6,9 +6,9 @@ use std::fmt::Write as _;
 use od_runtime::NodeId;
 
 use super::control::place::Place;
-use super::failure::Failure;
+use super::error::Error;
+use super::fleet::Maker;
 use super::links::opened::{Opened, Protocol};
-use super::maker::Maker;
 use super::once;
 use super::options::Options;
 use super::terminal::{note, print as print_line};
@@ -23,7 +23,7 @@ pub(super) fn print(
     bus: &Bus,
     links: &[Opened],
     control: Option<&Place>,
-) -> Result<(), Failure> {
+) -> Result<(), Error> {
     for (device, wanted) in bus.devices().iter().zip(&args.node_ids) {
         let node = device.node_id();
         if let Some(wanted) = wanted

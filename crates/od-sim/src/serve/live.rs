@@ -9,7 +9,7 @@ use od_runtime::{Frame, Instant};
 
 use super::clients::Clients;
 use super::control::Control;
-use super::failure::Failure;
+use super::error::Error;
 use super::fleet::Place;
 use super::links::LINKS;
 use super::links::listener::Listener;
@@ -99,7 +99,7 @@ impl Live {
     }
 
     /// Runs until Ctrl-C, or until the last link has ended.
-    pub(super) fn run(&mut self) -> Result<(), Failure> {
+    pub(super) fn run(&mut self) -> Result<(), Error> {
         self.pace = Pace::new();
         while !self.is_stopped() {
             self.catch_up();
@@ -124,7 +124,7 @@ impl Live {
             plural(self.stats.frames as usize, "frame")
         ));
         match self.lost.take().filter(|_| !self.is_stopped()) {
-            Some(why) => Err(Failure::Failed(format!("the last link is lost: {why}"))),
+            Some(why) => Err(Error::Failed(format!("the last link is lost: {why}"))),
             None => Ok(()),
         }
     }

@@ -9,7 +9,7 @@ use std::time::{Duration, Instant as Clock};
 
 use od_runtime::{Frame, Instant};
 
-use super::failure::Failure;
+use super::error::Error;
 use super::files;
 use super::terminal::note;
 use crate::logs::{Format, Record, What};
@@ -52,9 +52,9 @@ impl Log {
     ///
     /// # Errors
     /// The file cannot be written.
-    pub(super) fn create(path: &Path) -> Result<Self, Failure> {
+    pub(super) fn create(path: &Path) -> Result<Self, Error> {
         let name = path.display().to_string();
-        let failed = |why: String| Failure::Failed(format!("--log {name}: {why}"));
+        let failed = |why: String| Error::Failed(format!("--log {name}: {why}"));
         let format = format(path).map_err(failed)?;
         files::replaces_log(path, format).map_err(|why| failed(why.into()))?;
         // Opening a named pipe waits for its reader.

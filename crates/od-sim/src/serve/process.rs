@@ -1,4 +1,4 @@
-//! Processes: whether one still runs, and the file-size limit of this one.
+//! Processes: whether one still runs; the signals of this one when a file is full or the terminal closes.
 
 /// Returns the start time of a process; `None`: it does not run, or the system does not tell.
 ///
@@ -49,6 +49,42 @@ pub(super) fn survive_file_limit() {
 
 #[cfg(not(unix))]
 pub(super) fn survive_file_limit() {}
+
+/// Keeps SIGHUP ignored if it was ignored at the start, as `nohup` sets it; otherwise closing the terminal ends the bench.
+#[cfg(unix)]
+pub(super) fn respect_nohup() {
+    use nix::sys::signal::{SigSet, Signal};
+
+    if ignores_hangup().unwrap_or(false) {
+        // ctrlc would handle the signal in any case; a blocked signal never reaches it.
+        let mut signals = SigSet::empty();
+        signals.add(Signal::SIGHUP);
+        let _ = signals.thread_block();
+    }
+}
+
+/// Other systems have no such signal.
+#[cfg(not(unix))]
+pub(super) fn respect_nohup() {}
+
+/// SIGHUP is the first bit of the set of ignored signals.
+#[cfg(target_os = "linux")]
+fn ignores_hangup() -> Option<bool> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let mut lines = status.lines();
+    let set = lines.find_map(|line| line.strip_prefix("SigIgn:"))?;
+    Some(u64::from_str_radix(set.trim(), 16).ok()? & 1 != 0)
+}
+
+/// Asking the system directly would need `unsafe`.
+#[cfg(all(unix, not(target_os = "linux")))]
+fn ignores_hangup() -> Option<bool> {
+    let id = std::process::id().to_string();
+    let mut ps = std::process::Command::new("ps");
+    let output = ps.args(["-o", "sigignore=", "-p", &id]).output().ok()?;
+    let set = String::from_utf8(output.stdout).ok()?;
+    Some(u64::from_str_radix(set.trim(), 16).ok()? & 1 != 0)
+}
 
 #[cfg(test)]
 mod tests {

@@ -4,8 +4,8 @@ use std::process::ExitCode;
 
 use od_runtime::NodeId;
 
-use super::failure::Failure;
-use super::maker::Maker;
+use super::error::Error;
+use super::fleet::Maker;
 use super::options::{self, Options};
 use super::run::run;
 use super::terminal::{note, print};
@@ -33,10 +33,10 @@ pub fn main(name: &str, make: impl Fn(Option<NodeId>) -> VirtualDevice) -> ExitC
     let program = arguments.next().unwrap_or_default();
     let arguments: Vec<String> = arguments.collect();
     if arguments.iter().any(|one| one == "-h" || one == "--help") {
-        return end(print(&help(&program)).map_err(Failure::from));
+        return end(print(&help(&program)).map_err(Error::from));
     }
     end(options::parse(arguments)
-        .map_err(|why| Failure::Usage(format!("{why}; `--help` lists the options")))
+        .map_err(|why| Error::Usage(format!("{why}; `--help` lists the options")))
         .and_then(|options| serve(name, &make, &options)))
 }
 
@@ -44,7 +44,7 @@ fn serve(
     name: &str,
     make: &impl Fn(Option<NodeId>) -> VirtualDevice,
     options: &Options,
-) -> Result<(), Failure> {
+) -> Result<(), Error> {
     let maker = Maker {
         name,
         kind: None,
@@ -65,13 +65,13 @@ fn help(program: &str) -> String {
 }
 
 /// The exit code: 0, 1 for a failure, 2 for wrong usage.
-fn end(result: Result<(), Failure>) -> ExitCode {
+fn end(result: Result<(), Error>) -> ExitCode {
     let Err(failure) = result else {
         return ExitCode::SUCCESS;
     };
     note(&format!("error: {failure}"));
     ExitCode::from(match failure {
-        Failure::Usage(_) => 2,
-        Failure::Failed(_) => 1,
+        Error::Usage(_) => 2,
+        Error::Failed(_) => 1,
     })
 }

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 
 use super::control::place::Place;
-use super::failure::Failure;
+use super::error::Error;
 use super::files;
 use super::links::opened::{Opened, Protocol};
 use super::process;
@@ -25,8 +25,8 @@ impl Ready {
     ///
     /// # Errors
     /// The path belongs to another kind of file.
-    pub(super) fn at(path: &Path) -> Result<Self, Failure> {
-        let failed = |why: &str| Failure::Failed(format!("--ready-file {}: {why}", path.display()));
+    pub(super) fn at(path: &Path) -> Result<Self, Error> {
+        let failed = |why: &str| Error::Failed(format!("--ready-file {}: {why}", path.display()));
         match fs::symlink_metadata(path) {
             Ok(there) if !there.is_file() => {
                 return Err(failed("it is not a file; give another path"));
@@ -50,7 +50,7 @@ impl Ready {
     ///
     /// # Errors
     /// The file cannot be written.
-    pub(super) fn write(&mut self, line: &str) -> Result<(), Failure> {
+    pub(super) fn write(&mut self, line: &str) -> Result<(), Error> {
         let path = &self.path;
         self.written = format!("{line}\n");
         let name = path.file_name().unwrap_or_default().to_string_lossy();
@@ -67,7 +67,7 @@ impl Ready {
             .and_then(|()| fs::rename(&new, path))
             .map_err(|error| {
                 let _ = fs::remove_file(&new);
-                Failure::Failed(format!("--ready-file {}: {error}", path.display()))
+                Error::Failed(format!("--ready-file {}: {error}", path.display()))
             })
     }
 }

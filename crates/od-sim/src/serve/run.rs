@@ -8,31 +8,31 @@ use od_model::Refused;
 
 use super::clients::Clients;
 use super::control::place::Place;
+use super::error::Error;
 use super::events::Events;
-use super::failure::Failure;
 use super::files::Files;
+use super::fleet::Maker;
 use super::links::opened::{Opened, Protocol};
 use super::links::{LINKS, Link};
 use super::live::Live;
 use super::log::Log;
-use super::maker::Maker;
 use super::options::Options;
 use super::ready::{self, Ready};
 use super::stats::Stats;
-use super::{control, fleet, greeting, hangup, process, running, terminal};
+use super::{control, fleet, greeting, process, running, terminal};
 
 /// Puts the devices on a bus and runs it until Ctrl-C, or until its last link has ended.
 ///
 /// # Errors
 /// Options that do not fit together, an error of the system, or the loss of the last link.
-pub fn run(makers: &[Maker<'_>], options: &Options) -> Result<(), Failure> {
+pub fn run(makers: &[Maker<'_>], options: &Options) -> Result<(), Error> {
     // Set this before any thread starts, because threads inherit it.
-    hangup::respect();
+    process::respect_nohup();
     process::survive_file_limit();
     if options.quiet {
         terminal::be_quiet();
     }
-    check_files(makers, options).map_err(|refused| Failure::Usage(refused.into()))?;
+    check_files(makers, options).map_err(|refused| Error::Usage(refused.into()))?;
     let mut ready = match &options.ready_file {
         Some(path) if !is_output(path) => Some(Ready::at(path)?),
         _ => None,
@@ -50,7 +50,7 @@ pub fn run(makers: &[Maker<'_>], options: &Options) -> Result<(), Failure> {
         // A bus that has ended ends the program.
         let _ = waker.wake();
     })
-    .map_err(|error| Failure::Failed(format!("cannot handle Ctrl-C: {error}")))?;
+    .map_err(|error| Error::Failed(format!("cannot handle Ctrl-C: {error}")))?;
     let mut clients = Clients::new(events, options.max_clients);
     let (place, _path) = match control {
         Some(control) => {
@@ -115,7 +115,7 @@ fn is_output(path: &Path) -> bool {
     path.as_os_str() == "-"
 }
 
-fn open(options: &Options) -> Result<Vec<Opened>, Failure> {
+fn open(options: &Options) -> Result<Vec<Opened>, Error> {
     let links = match options.links.as_slice() {
         [] => &[Link::slcan("127.0.0.1:29536")],
         links => links,
@@ -123,7 +123,7 @@ fn open(options: &Options) -> Result<Vec<Opened>, Failure> {
     let consoles = links.iter().filter(|link| **link == Link::Console).count();
     if consoles > 1 || links.len() > LINKS {
         let why = "`--link -` can be given only once; the limit is 64 links";
-        return Err(Failure::Usage(why.into()));
+        return Err(Error::Usage(why.into()));
     }
     let opened = links.iter().map(|link| link.open(&options.origins));
     opened.collect()

@@ -9,7 +9,6 @@
 
 pub mod bits;
 mod controller;
-mod disturbance;
 mod medium;
 
 use std::collections::VecDeque;
@@ -19,7 +18,7 @@ use od_runtime::{BusEvent, Frame, Instant};
 
 use self::controller::PASSIVE;
 pub use self::controller::{Condition, Controller};
-pub use self::disturbance::{Disturbance, Trouble};
+pub use self::medium::{Disturbance, Trouble};
 pub(crate) use self::medium::{Due, Ended, Medium, PROCESSING, Waiting};
 
 /// Limit of disturbances that are kept until they are read.

@@ -5,7 +5,7 @@ use std::io::ErrorKind;
 use mio::net::TcpListener;
 
 use super::place::Place;
-use crate::serve::failure::Failure;
+use crate::serve::error::Error;
 use crate::serve::links::listener::Listener;
 
 /// An open control socket.
@@ -30,26 +30,26 @@ pub(in crate::serve) struct Path {
 ///
 /// # Errors
 /// Another process listens there, other users could reach it, or the system refuses it.
-pub(in crate::serve) fn listen(place: &Place) -> Result<Opened, Failure> {
+pub(in crate::serve) fn listen(place: &Place) -> Result<Opened, Error> {
     match place {
         #[cfg(unix)]
         Place::Unix(path) => unix::listen(path),
         #[cfg(not(unix))]
         Place::Unix(_) => {
             let why = "--control: this system has no Unix sockets; write tcp:127.0.0.1:PORT";
-            Err(Failure::Usage(why.into()))
+            Err(Error::Usage(why.into()))
         }
         Place::Tcp(place) => tcp(place),
     }
 }
 
-fn tcp(place: &str) -> Result<Opened, Failure> {
+fn tcp(place: &str) -> Result<Opened, Error> {
     let addresses = Place::own_addresses(place);
-    let addresses = addresses.map_err(|why| Failure::Usage(format!("--control: {why}")))?;
+    let addresses = addresses.map_err(|why| Error::Usage(format!("--control: {why}")))?;
     let bound = std::net::TcpListener::bind(addresses.as_slice());
     let listener = bound.map_err(|error| {
         let free = "take any free port with `--control tcp:127.0.0.1:0`";
-        Failure::Failed(match error.kind() {
+        Error::Failed(match error.kind() {
             ErrorKind::AddrInUse => format!("--control: {place} is in use; {free}"),
             _ => format!("--control: {place}: {error}; {free}"),
         })
@@ -71,11 +71,11 @@ mod unix {
 
     use nix::sys::stat::{Mode, umask};
 
-    use super::{Failure, Listener, Opened, Path, Place};
+    use super::{Error, Listener, Opened, Path, Place};
 
-    pub(super) fn listen(path: &std::path::Path) -> Result<Opened, Failure> {
+    pub(super) fn listen(path: &std::path::Path) -> Result<Opened, Error> {
         let shown = path.display();
-        let failed = |why: String| Failure::Failed(format!("--control: {shown} {why}"));
+        let failed = |why: String| Error::Failed(format!("--control: {shown} {why}"));
         let bound = match bind(path) {
             Err(error) if error.kind() == ErrorKind::AddrInUse => {
                 make_room(path).map_err(failed)?;
@@ -84,7 +84,7 @@ mod unix {
             bound => bound,
         };
         let listener = bound.map_err(|error| {
-            Failure::Failed(format!(
+            Error::Failed(format!(
                 "--control: {shown}: {error}; give a path in a folder of your own, at most 100 \
                  characters long"
             ))

@@ -1,13 +1,13 @@
 //! A CAN interface of Linux.
 
 use super::opened::Opened;
-use crate::serve::failure::Failure;
+use crate::serve::error::Error;
 
 /// Opens an interface that exists and is up.
 #[cfg(target_os = "linux")]
-pub(super) fn open(name: &str) -> Result<Opened, Failure> {
+pub(super) fn open(name: &str) -> Result<Opened, Error> {
     let interface = super::interface::Interface::open(name)
-        .map_err(|error| Failure::Failed(advice(name, &error)))?;
+        .map_err(|error| Error::Failed(advice(name, &error)))?;
     Ok(Opened::Ends(super::opened::Ends {
         name: name.to_owned(),
         protocol: super::opened::Protocol::CanFrame,
@@ -50,8 +50,8 @@ fn advice(name: &str, error: &std::io::Error) -> String {
 
 /// Only Linux has such interfaces.
 #[cfg(not(target_os = "linux"))]
-pub(super) fn open(_: &str) -> Result<Opened, Failure> {
-    Err(Failure::Failed(String::from(
+pub(super) fn open(_: &str) -> Result<Opened, Error> {
+    Err(Error::Failed(String::from(
         "SocketCAN needs Linux; use `--link slcan:127.0.0.1:29536`",
     )))
 }

@@ -6,7 +6,6 @@ mod interface;
 pub(super) mod listener;
 pub(super) mod opened;
 pub(super) mod port;
-mod pty;
 mod serial;
 pub(super) mod tcp;
 #[cfg(unix)]
@@ -14,7 +13,7 @@ mod terminal;
 mod threads;
 pub(super) mod web_socket;
 
-use super::failure::Failure;
+use super::error::Error;
 use crate::links::address::Address;
 use od_model::Refused;
 use opened::{Ends, Opened, Protocol};
@@ -64,13 +63,13 @@ impl Link {
     }
 
     /// Opens the link.
-    pub(super) fn open(&self, origins: &[String]) -> Result<Opened, Failure> {
+    pub(super) fn open(&self, origins: &[String]) -> Result<Opened, Error> {
         match self {
             Self::At(Address::Slcan(place)) => tcp::listen(Protocol::Slcan, place),
             Self::At(Address::Socketcand(place)) => tcp::listen(Protocol::Socketcand, place),
             Self::At(Address::Serial(path, baud)) => serial::open(path, *baud),
             Self::At(Address::SocketCan(name)) => can::open(name),
-            Self::Pty => pty::open(),
+            Self::Pty => serial::open_pty(),
             Self::WebSocket(place, token) => web_socket::listen(place, token.as_deref(), origins),
             Self::Console => Ok(Opened::Ends(Ends {
                 name: "standard input and output".into(),

@@ -1,15 +1,15 @@
-//! slcan over a serial line, in the role of the adapter.
+//! slcan in the role of the adapter, over a serial line or a pseudo-terminal.
 
 use std::io::ErrorKind;
 
 use super::opened::{Ends, Opened, Protocol};
 use super::threads::Threads;
-use crate::serve::failure::Failure;
+use crate::serve::error::Error;
 
 /// Opens a serial port.
-pub(super) fn open(path: &str, baud: u32) -> Result<Opened, Failure> {
+pub(super) fn open(path: &str, baud: u32) -> Result<Opened, Error> {
     let failed = |error: std::io::Error| {
-        Failure::Failed(match error.kind() {
+        Error::Failed(match error.kind() {
             ErrorKind::NotFound => format!(
                 "serial port {path} does not exist; for a port that another program opens, use \
                  `--link slcan:pty`"
@@ -32,4 +32,24 @@ pub(super) fn open(path: &str, baud: u32) -> Result<Opened, Failure> {
         protocol: Protocol::Slcan,
         port: Box::new(Threads::new(port, writing)),
     }))
+}
+
+/// Makes a pseudo-terminal; its name is the path that a host opens.
+#[cfg(unix)]
+pub(super) fn open_pty() -> Result<Opened, Error> {
+    let terminal = super::terminal::Terminal::open()
+        .map_err(|error| Error::Failed(format!("cannot create a pseudo-terminal: {error}")))?;
+    Ok(Opened::Ends(Ends {
+        name: terminal.path().display().to_string(),
+        protocol: Protocol::Slcan,
+        port: Box::new(terminal),
+    }))
+}
+
+/// Only Unix has pseudo-terminals.
+#[cfg(not(unix))]
+pub(super) fn open_pty() -> Result<Opened, Error> {
+    Err(Error::Failed(String::from(
+        "this system does not support pseudo-terminals; use `--link slcan:127.0.0.1:29536`",
+    )))
 }

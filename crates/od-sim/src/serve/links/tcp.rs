@@ -6,14 +6,14 @@ use std::net::{SocketAddr, ToSocketAddrs};
 use mio::net::{TcpListener, TcpStream};
 
 use super::opened::{Opened, Protocol};
-use crate::serve::failure::Failure;
+use crate::serve::error::Error;
 
 /// Size of the system's queue to a client: bytes in it can no longer be dropped.
 #[cfg(unix)]
 const QUEUE: usize = 64 * 1024;
 
 /// Listens at `HOST:PORT`.
-pub(super) fn listen(protocol: Protocol, full: &str) -> Result<Opened, Failure> {
+pub(super) fn listen(protocol: Protocol, full: &str) -> Result<Opened, Error> {
     let option = match protocol {
         Protocol::Socketcand => "--link socketcand:",
         Protocol::WebSocket(_) => "--link ws:",
@@ -22,14 +22,14 @@ pub(super) fn listen(protocol: Protocol, full: &str) -> Result<Opened, Failure> 
     let addresses: Vec<SocketAddr> = match full.to_socket_addrs() {
         Ok(addresses) => addresses.collect(),
         Err(error) => {
-            return Err(Failure::Usage(format!(
+            return Err(Error::Usage(format!(
                 "the host of `{full}` is unknown ({error}); write `{option}127.0.0.1:29536`"
             )));
         }
     };
     let bound = std::net::TcpListener::bind(addresses.as_slice());
     let listener = bound.map_err(|error| {
-        Failure::Failed(match error.kind() {
+        Error::Failed(match error.kind() {
             ErrorKind::AddrInUse => format!(
                 "{full} is in use, perhaps by another odkit; end that one, or take any free \
                  port with {option}127.0.0.1:0"

@@ -4,7 +4,7 @@ use super::opened::{Opened, Protocol};
 use super::tcp;
 use crate::links::address;
 use crate::links::web_socket::Gate;
-use crate::serve::failure::Failure;
+use crate::serve::error::Error;
 use od_model::Refused;
 
 /// Shortest token that a user may choose, in characters.
@@ -59,7 +59,7 @@ pub(super) fn listen(
     place: &str,
     token: Option<&str>,
     origins: &[String],
-) -> Result<Opened, Failure> {
+) -> Result<Opened, Error> {
     let token = match token {
         Some(token) => token.to_owned(),
         None => random()?,
@@ -69,9 +69,9 @@ pub(super) fn listen(
     tcp::listen(Protocol::WebSocket(gate), place)
 }
 
-fn random() -> Result<String, Failure> {
+fn random() -> Result<String, Error> {
     let mut bytes = [0; 16];
     getrandom::fill(&mut bytes)
-        .map_err(|error| Failure::Failed(format!("no random token: {error}; give ?token=")))?;
+        .map_err(|error| Error::Failed(format!("no random token: {error}; give ?token=")))?;
     Ok(bytes.iter().map(|byte| format!("{byte:02x}")).collect())
 }
