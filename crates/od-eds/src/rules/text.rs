@@ -153,7 +153,7 @@ pub(crate) static W0106: Rule = Rule {
 };
 
 /// The label at the first of two.
-pub(crate) const FIRST: &str = "first defined here";
+const FIRST: &str = "first defined here";
 
 /// The finding about a second section of a name.
 pub(crate) fn w0106_duplicate_section(second: &Placed<'_>, first: Span) -> Finding {
@@ -175,12 +175,15 @@ pub(crate) static W0107: Rule = Rule {
 
 /// The finding about a second line of a key that says the same as the first.
 pub(crate) fn w0107_duplicate_key(first: Span, key: &Text<'_>, value: &Text<'_>) -> Finding {
-    W0107
-        .at(key.span)
+    repeated(&W0107, first, key, value).fix(Fix::safe().remove_line(key.span))
+}
+
+/// A finding about a second line of a key.
+fn repeated(rule: &'static Rule, first: Span, key: &Text<'_>, value: &Text<'_>) -> Finding {
+    rule.at(key.span)
         .fact("name", &*key.value)
         .fact("given", &*value.value)
         .related(first, FIRST)
-        .fix(Fix::safe().remove_line(key.span))
 }
 
 pub(crate) static W0108: Rule = Rule {
@@ -395,12 +398,7 @@ pub(crate) fn e0117_duplicate_key_differs(
     key: &Text<'_>,
     value: &Text<'_>,
 ) -> Finding {
-    E0117
-        .at(key.span)
-        .fact("name", &*key.value)
-        .fact("given", &*value.value)
-        .related(first, FIRST)
-        .fix(Fix::unsafe_fix().remove_line(key.span))
+    repeated(&E0117, first, key, value).fix(Fix::unsafe_fix().remove_line(key.span))
 }
 
 pub(crate) static E0118: Rule = Rule {

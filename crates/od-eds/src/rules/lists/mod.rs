@@ -1,4 +1,4 @@
-//! 02: lists, sections and keys against each other. A rule with a check has a file of its own.
+//! 02: lists, sections and keys against each other.
 
 catalogue! {
     reader W0201

@@ -1,4 +1,4 @@
-//! 05: PDOs. A rule with a check has a file of its own.
+//! 05: PDOs.
 
 mod cob_ids;
 pub(crate) mod shared;

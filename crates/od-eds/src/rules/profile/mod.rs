@@ -1,4 +1,4 @@
-//! 09: device profiles. A rule with a check has a file of its own.
+//! 09: device profiles.
 
 pub(crate) mod shared;
 
@@ -7,9 +7,9 @@ catalogue! {
     w0902_drive_modes_missing W0902
     w0903_measuring_objects_missing W0903
     w0904_encoder_object_missing W0904
-    w0905_object_differs W0905
-    w0906_object_writable W0906
-    e0907_access_missing E0907
+    overview W0905
+    overview W0906
+    overview E0907
     e0908_drive_without_control E0908
     w0909_drive_mode_object_missing W0909
     w0910_drive_start_mode W0910
@@ -21,8 +21,8 @@ catalogue! {
     e0916_drive_sub_object_missing E0916
     w0917_drive_value_above_maximum W0917
     w0918_drive_mode_not_displayed W0918
-    w0950_encoder_object_differs W0950
-    w0951_encoder_object_writable W0951
+    overview W0950
+    overview W0951
     w0952_encoder_range W0952
     w0953_position_not_mappable W0953
     w0954_operating_status W0954
@@ -32,21 +32,18 @@ catalogue! {
     w0958_cyclic_timer W0958
     w0959_alarm_not_supported W0959
     w0960_cams_incomplete W0960
-    e0961_encoder_access_missing E0961
+    overview E0961
     w0962_encoder_type_unknown W0962
     w0963_position_not_mapped W0963
 }
 
-pub(crate) mod e0907_access_missing;
 pub(crate) mod e0908_drive_without_control;
 pub(crate) mod e0916_drive_sub_object_missing;
-pub(crate) mod e0961_encoder_access_missing;
+pub(crate) mod overview;
 pub(crate) mod w0901_io_channel_objects_missing;
 pub(crate) mod w0902_drive_modes_missing;
 pub(crate) mod w0903_measuring_objects_missing;
 pub(crate) mod w0904_encoder_object_missing;
-pub(crate) mod w0905_object_differs;
-pub(crate) mod w0906_object_writable;
 pub(crate) mod w0909_drive_mode_object_missing;
 pub(crate) mod w0910_drive_start_mode;
 pub(crate) mod w0911_drive_limits;
@@ -56,8 +53,6 @@ pub(crate) mod w0914_value_reserved;
 pub(crate) mod w0915_divisor_0;
 pub(crate) mod w0917_drive_value_above_maximum;
 pub(crate) mod w0918_drive_mode_not_displayed;
-pub(crate) mod w0950_encoder_object_differs;
-pub(crate) mod w0951_encoder_object_writable;
 pub(crate) mod w0952_encoder_range;
 pub(crate) mod w0953_position_not_mappable;
 pub(crate) mod w0954_operating_status;

@@ -1,14 +1,10 @@
 //! The device type (1000h), and what the rules about profiles share.
 
-use alloc::format;
-use alloc::vec::Vec;
-
-use od_model::{Access, Address, DataType, ObjectCode};
+use od_model::{Address, DataType, ObjectCode};
 
 use crate::description::Description;
-use crate::fact::{Fact, Key};
+use crate::fact::Fact;
 use crate::finding::{Finding, Rule};
-use crate::fix::Fix;
 use crate::span::Spanned;
 use crate::standards::{Checked, checked};
 use crate::subject::{Object, start_number};
@@ -91,95 +87,12 @@ pub(crate) fn profile_type(description: &Description, address: Address) -> Optio
 }
 
 /// The profile of the device, and what it says of this object.
-fn in_profile(object: &Object<'_>) -> Option<(u16, &'static Checked)> {
+pub(super) fn in_profile(object: &Object<'_>) -> Option<(u16, &'static Checked)> {
     if !matches!(object.index, 0x6000..=0x9FFF) {
         return None;
     }
     let profile = device_type(object.description)?.profile;
     Some((profile, checked(profile, object.index)?))
-}
-
-/// Reports code and types of an object of one of these profiles.
-pub(super) fn types(
-    rule: &'static Rule,
-    profiles: &[u16],
-    object: &Object<'_>,
-    findings: &mut Vec<Finding>,
-) {
-    let standard = in_profile(object).filter(|(profile, _)| profiles.contains(profile));
-    let Some((profile, standard)) = standard else {
-        return;
-    };
-    let code = standard.code;
-    if object.code.has_members() != code.has_members() {
-        let finding = rule.on(object, object.code.span).key(Key::ObjectType);
-        let finding = finding
-            .fact("object", Fact::Index(object.index))
-            .fact("right", code);
-        let finding = finding.fact("profile", u32::from(profile));
-        findings.push(finding.fact("given", *object.code));
-        return;
-    }
-    let subs = u8::from(code.has_members())..=254;
-    for entry in object
-        .entries()
-        .filter(|entry| subs.contains(&entry.address.sub))
-    {
-        let types = standard.data_types;
-        let given = entry.data_type.filter(|given| !types.contains(given));
-        if let (Some(given), Some(right)) = (given, types.first()) {
-            let fix = Fix::unsafe_fix().replace(given.span, format!("0x{:04X}", right.code()));
-            let finding = rule.on(&entry, given.span).key(Key::DataType);
-            let finding = finding.fact("object", entry.shown());
-            let finding = finding
-                .fact("right", *right)
-                .fact("profile", u32::from(profile));
-            findings.push(finding.fact("given", *given).fix(fix));
-        }
-    }
-}
-
-/// Reports the access of the values of an object of one of these profiles: of those that cannot be
-/// read or written as the profile specifies if `stops`, else of those that can be written besides.
-pub(super) fn access(
-    rule: &'static Rule,
-    profiles: &[u16],
-    stops: bool,
-    object: &Object<'_>,
-    findings: &mut Vec<Finding>,
-) {
-    let standard = in_profile(object).filter(|(profile, standard)| {
-        let alike = object.code.has_members() == standard.code.has_members();
-        profiles.contains(profile) && alike
-    });
-    let Some((profile, standard)) = standard else {
-        return;
-    };
-    let Some(writable) = standard.writable else {
-        return;
-    };
-    let subs = u8::from(standard.code.has_members())..=254;
-    for entry in object
-        .entries()
-        .filter(|entry| subs.contains(&entry.address.sub))
-    {
-        let own = *entry.access;
-        let is_wrong = if stops {
-            writable && !own.writable() || !writable && own == Access::Wo
-        } else {
-            !writable && own.writable() && own != Access::Wo
-        };
-        if is_wrong {
-            let right = if writable { Access::Rw } else { Access::Ro };
-            let finding = rule
-                .on(&entry, entry.access.span)
-                .fact("object", entry.shown());
-            let finding = finding.fact("profile", u32::from(profile));
-            let finding = finding.fact("given", *entry.access).fact("right", right);
-            let fix = Fix::unsafe_fix().replace(entry.access.span, right.name());
-            findings.push(finding.fix(fix));
-        }
-    }
 }
 
 /// An encoder (CiA 406), with the default values of its objects.

@@ -1,13 +1,13 @@
-//! 06: mandatory and standard objects, identity, `[DeviceInfo]`. A rule with a check has a file of its own.
+//! 06: mandatory and standard objects, identity, `[DeviceInfo]`.
 
 mod shared;
 
 catalogue! {
-    e0601_device_type_missing E0601
-    e0602_error_register_missing E0602
-    e0603_identity_missing E0603
-    e0604_device_type_differs E0604
-    e0605_error_register_differs E0605
+    mandatory E0601
+    mandatory E0602
+    mandatory E0603
+    mandatory E0604
+    mandatory E0605
     e0606_identity_differs E0606
     w0607_device_info_identity W0607
     w0608_device_info_pdo_count W0608
@@ -39,16 +39,12 @@ catalogue! {
     reader W0658
 }
 
-pub(crate) mod e0601_device_type_missing;
-pub(crate) mod e0602_error_register_missing;
-pub(crate) mod e0603_identity_missing;
-pub(crate) mod e0604_device_type_differs;
-pub(crate) mod e0605_error_register_differs;
 pub(crate) mod e0606_identity_differs;
 pub(crate) mod e0643_access_missing;
 pub(crate) mod e0646_node_id_not_valid;
 pub(crate) mod e0650_consumer_watches_twice;
 pub(crate) mod i0657_vendor_id_0;
+pub(crate) mod mandatory;
 pub(crate) mod reader;
 pub(crate) mod w0607_device_info_identity;
 pub(crate) mod w0608_device_info_pdo_count;

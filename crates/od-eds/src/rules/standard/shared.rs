@@ -2,7 +2,7 @@
 
 use alloc::format;
 
-use od_model::{Address, DataType, ObjectCode};
+use od_model::{DataType, ObjectCode};
 
 use crate::description::{Description, Section};
 use crate::fact::{Fact, Key};
@@ -10,19 +10,6 @@ use crate::finding::{Finding, Rule};
 use crate::fix::Fix;
 use crate::span::Span;
 use crate::subject::{Entry, Object, start_number};
-
-/// The finding about a mandatory object that is missing; none for a file without objects, which
-/// has a rule of its own.
-pub(super) fn missing(
-    rule: &'static Rule,
-    description: &Description,
-    index: u16,
-) -> Option<Finding> {
-    let objects = &description.objects;
-    let is_missing = !objects.is_empty() && !objects.contains_key(&index);
-    let finding = rule.finding().about(Address::new(index, 0));
-    is_missing.then(|| finding.fact("missing", Fact::Section(index, None)))
-}
 
 /// The value of an object without sub-objects.
 pub(super) fn value<'a>(object: &Object<'a>) -> Option<Entry<'a>> {

@@ -1,4 +1,4 @@
-//! 03: what an object consists of. A rule with a check has a file of its own.
+//! 03: what an object consists of.
 
 mod shared;
 

@@ -1,4 +1,4 @@
-//! 04: types, values, limits. A rule with a check has a file of its own.
+//! 04: types, values, limits.
 
 pub(crate) mod shared;
 
