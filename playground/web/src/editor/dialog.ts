@@ -4,6 +4,7 @@
 import { html, nothing } from 'lit';
 import { effect } from '@preact/signals-core';
 import { download, openDevice, undoReplace } from '../actions';
+import { sheet } from '../sheet';
 import * as state from '../state';
 import { T } from '../texts';
 import { E } from '../texts/editor';
@@ -14,7 +15,6 @@ import { ask, restarted, send, uriOf } from './client';
 import { Code, type Action } from './code';
 import { FindingList } from './list';
 import './outline';
-import { styled } from './styled';
 
 const SIDES = ['findings', 'outline', 'changes'] as const;
 type Side = (typeof SIDES)[number];
@@ -62,7 +62,7 @@ class Editor extends View {
     const dialog = this.querySelector('dialog')!;
     this.unopen = effect(() => {
       const { value } = state.editing;
-      if (value && !dialog.open) void styled.then(() => this.open(dialog, value));
+      if (value && !dialog.open) void Promise.all([sheet('dialogs'), sheet('editing')]).then(() => this.open(dialog, value));
       else if (!value && dialog.open) dialog.close();
     });
   }

@@ -3,6 +3,7 @@
 import { html, nothing, type PropertyValues } from 'lit';
 import { effect } from '@preact/signals-core';
 import { undoReplace } from '../actions';
+import { sheet } from '../sheet';
 import * as state from '../state';
 import { T } from '../texts';
 import { E } from '../texts/editor';
@@ -12,7 +13,6 @@ import type { Finding, Found } from './api';
 import { ask, listen, send, uriOf } from './client';
 import { FindingList } from './list';
 import { openText } from './open';
-import { styled } from './styled';
 
 class Report extends View {
   static override properties = { found: { state: true }, isStyled: { state: true } };
@@ -26,7 +26,7 @@ class Report extends View {
     super();
     this.found = null;
     this.isStyled = false;
-    void styled.then(() => (this.isStyled = true));
+    void sheet('editing').then(() => (this.isStyled = true));
   }
 
   protected override firstUpdated(changed: PropertyValues): void {

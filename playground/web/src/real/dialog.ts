@@ -2,6 +2,7 @@
 
 import { html, nothing, type PropertyValues } from 'lit';
 import { effect } from '@preact/signals-core';
+import { sheet } from '../sheet';
 import * as state from '../state';
 import { T } from '../texts';
 import { R } from '../texts/real';
@@ -10,7 +11,6 @@ import { View } from '../views/view';
 import type { RealState } from './api';
 import { again, connectAdapter, connectTo, hasSerial, isConnecting, last, leave, problem, setSending } from './connect';
 import './mark';
-import { styled } from './styled';
 import './panel';
 
 /** Bit rates of slcan in kbit/s; 0: that of the adapter. */
@@ -34,7 +34,7 @@ class Connect extends View {
     super.firstUpdated(changed);
     const dialog = this.querySelector('dialog')!;
     this.unopen = effect(() => {
-      if (state.realDialog.value && !dialog.open) void styled.then(() => state.realDialog.peek() && !dialog.open && dialog.showModal());
+      if (state.realDialog.value && !dialog.open) void Promise.all([sheet('dialogs'), sheet('real')]).then(() => state.realDialog.peek() && !dialog.open && dialog.showModal());
       else if (!state.realDialog.value && dialog.open) dialog.close();
     });
   }

@@ -13,8 +13,6 @@ import { deviceWord } from './encoder';
 import './console';
 import './send';
 import './objects';
-import './device-dialog';
-import './help';
 import './offer';
 
 const TABS = ['encoder', 'console', 'objects', 'lesson'] as const satisfies state.Tab[];
@@ -48,7 +46,13 @@ class App extends View {
       this.isDropping = false;
       void openFile(file, state.nodeId.value, state.deviceDialog.value ?? state.selectedNode.value);
     });
-    // Most visits open no lesson.
+    // Most visits open no dialog and no lesson.
+    effect(() => {
+      if (state.deviceDialog.value !== null) void import('./device-dialog');
+    });
+    effect(() => {
+      if (state.helpDialog.value) void import('./help');
+    });
     effect(() => {
       if (state.lesson.value) void import('./lesson');
     });

@@ -4,11 +4,14 @@ import { html, nothing, type PropertyValues } from 'lit';
 import { effect } from '@preact/signals-core';
 import type { Builtin } from '../sim/api';
 import { openDevice, removeDevice, undoReplace } from '../actions';
+import { sheet } from '../sheet';
 import * as state from '../state';
 import { T } from '../texts';
 import { openFile } from './files';
 import { icons } from './icons';
 import { View } from './view';
+
+await sheet('dialogs');
 
 class DeviceDialog extends View {
   static override properties = { node: { state: true }, isOver: { state: true } };

@@ -2,10 +2,13 @@
 
 import { html } from 'lit';
 import { effect } from '@preact/signals-core';
+import { sheet } from '../sheet';
 import * as state from '../state';
 import { T } from '../texts';
 import { icons } from './icons';
 import { View } from './view';
+
+await sheet('dialogs');
 
 class Help extends View {
   private unopen: (() => void) | undefined;

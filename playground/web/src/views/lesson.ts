@@ -7,6 +7,7 @@ import { effect } from '@preact/signals-core';
 import { leaveLesson, playScript, setRunning } from '../actions';
 import { reached } from '../lessons/kept';
 import { again, backTo, following, openNamed, type Listed } from '../lessons/open';
+import { sheet } from '../sheet';
 import type { Lesson, LessonState } from '../sim/api';
 import * as state from '../state';
 import { T } from '../texts';
@@ -15,6 +16,8 @@ import { icons } from './icons';
 import { markdown } from './markdown';
 import './quiz';
 import { View } from './view';
+
+await sheet('lesson');
 
 /** Minimum height of a window in which a lesson shows its introduction in full. */
 const TALL = 900;

@@ -4,10 +4,13 @@ import { html, nothing, type PropertyValues } from 'lit';
 import { effect } from '@preact/signals-core';
 import { codeOf, finished, progress, type Done } from '../lessons/kept';
 import { lessons, openFile, openNamed, type Listed } from '../lessons/open';
+import { sheet } from '../sheet';
 import * as state from '../state';
 import { T } from '../texts';
 import { icons } from './icons';
 import { View } from './view';
+
+await sheet('dialogs');
 
 class Lessons extends View {
   static override properties = { list: { state: true }, learner: { state: true }, isCopied: { state: true } };

@@ -8,10 +8,13 @@ import { setFilter } from '../capture';
 import { address, hexBytes, hexId, hexIndex } from '../format';
 import { askBus } from '../sim/link';
 import { failure, transfer } from '../sim/sdo';
+import { sheet } from '../sheet';
 import * as state from '../state';
 import { T } from '../texts';
 import { icons } from './icons';
 import { View } from './view';
+
+await sheet('dialogs');
 
 type Said = { tone: 'good' | 'error' | 'busy'; text: string };
 

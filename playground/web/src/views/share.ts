@@ -2,6 +2,7 @@
 
 import { html, nothing, type PropertyValues } from 'lit';
 import { effect } from '@preact/signals-core';
+import { sheet } from '../sheet';
 import * as state from '../state';
 import { T } from '../texts';
 import { write } from '../share/bench';
@@ -9,6 +10,8 @@ import { before, when } from '../share/keep';
 import { hashOf, now, openText } from '../share/make';
 import { icons } from './icons';
 import { View } from './view';
+
+await sheet('dialogs');
 
 /** Maximum length of an address that every mail program and chat transmits completely. */
 const LONG = 8000;
