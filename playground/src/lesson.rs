@@ -186,6 +186,19 @@ pub fn parse_lesson(text: &str) -> JsValue {
     LessonResult { lesson, problems }.value()
 }
 
+/// Returns the text of a lesson with the prose of a translation, which has the headings of the original and no set-up, no
+/// solution and no facts (LESSONS.md).
+///
+/// # Errors
+/// The places of the translation that do not fit the original, one line each.
+#[wasm_bindgen(js_name = translateLesson)]
+pub fn translate_lesson(original: &str, translation: &str) -> Result<String, JsError> {
+    lesson::translate(original, translation).map_err(|problems| {
+        let lines: Vec<_> = problems.iter().map(ToString::to_string).collect();
+        JsError::new(&lines.join("\n"))
+    })
+}
+
 /// Judges an answer to a question: a frame such as `585#43 00 10 00`, or only its bytes.
 /// `answer` is that of the question.
 ///

@@ -67,7 +67,7 @@ pub use editor::{LanguageServer, compare_eds, device_eds, encode_eds, rule_title
 pub use eds::{check_eds, decode_eds, fix_eds, foreign_file};
 pub use journal::{check_run, read_input};
 #[cfg(feature = "lessons")]
-pub use lesson::{judge_answer, parse_lesson};
+pub use lesson::{judge_answer, parse_lesson, translate_lesson};
 #[cfg(feature = "logs")]
 pub use logs::{read_log, write_log};
 #[cfg(feature = "real")]

@@ -53,19 +53,38 @@ async function index() {
   await writeFile(new URL('index.html', out), html.replace('<meta charset="utf-8">', `<meta charset="utf-8">\n  ${meta}`));
 }
 
-/** Each lesson is a file that the page fetches when it is opened; a list names them all. */
+/** Each lesson is a file that the page fetches when it is opened, in each language that it has; a list names them all. */
 async function lessons() {
+  const { initSync, translateLesson } = await import('./src/wasm/od_playground.js');
+  initSync({ module: await readFile(new URL(modules['whole.wasm'], import.meta.url)) });
+  const translated = (file, text, german) => {
+    try {
+      return translateLesson(text, german);
+    } catch (error) {
+      throw new Error(`playground/lessons/de/${file}:${error.message}`);
+    }
+  };
   const folder = new URL('../lessons/', import.meta.url);
   const list = [];
   for (const file of (await readdir(folder)).filter((name) => /^\d+-.*\.md$/.test(name)).sort()) {
     const text = await readFile(new URL(file, folder), 'utf8');
-    const head = text.split(/^\+\+\+\s*$/m)[1] ?? '';
-    const field = (name) => new RegExp(`^${name}\\s*=\\s*"?(.*?)"?\\s*$`, 'm').exec(head)?.[1] ?? '';
     const name = file.replace(/^\d+-|\.md$/g, '');
-    list.push({ name, title: field('title'), summary: field('summary'), level: Number(field('level')), minutes: Number(field('minutes')) });
+    const one = { name, title: field(text, 'title'), summary: field(text, 'summary'), level: Number(field(text, 'level')), minutes: Number(field(text, 'minutes')) };
     await cp(new URL(file, folder), new URL(`lesson-${name}.md`, out));
+    const german = await readFile(new URL(`de/${file}`, folder), 'utf8').catch(() => null);
+    if (german !== null) {
+      one.de = { title: field(german, 'title'), summary: field(german, 'summary') };
+      await writeFile(new URL(`lesson-${name}.de.md`, out), translated(file, text, german));
+    }
+    list.push(one);
   }
   await writeFile(new URL('lessons.json', out), JSON.stringify(list));
+}
+
+/** A field of the front matter of a lesson. */
+function field(text, key) {
+  const head = text.split(/^\+\+\+\s*$/m)[1] ?? '';
+  return new RegExp(`^${key}\\s*=\\s*"?(.*?)"?\\s*$`, 'm').exec(head)?.[1] ?? '';
 }
 
 /** The service worker knows the hash of each file of the page. */

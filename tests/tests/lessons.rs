@@ -1,9 +1,10 @@
 //! The lessons of the playground: each is checked, and the links between them.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use od_sim::lesson::{Lesson, prove};
+use od_sim::lesson::{Lesson, prove, translate};
 use od_sim::script::Bare;
 
 fn folder() -> PathBuf {
@@ -99,4 +100,83 @@ fn no_question_contains_its_answer() {
             );
         }
     }
+}
+
+/// Lessons without a German text in `playground/lessons/de`; a new lesson is translated, or listed here until it is.
+const NOT_IN_GERMAN: [&str; 0] = [];
+
+#[test]
+fn every_lesson_is_in_german_except_those_that_are_listed() {
+    let german = folder().join("de");
+    let names: Vec<_> = lessons().into_iter().map(|(name, _)| name).collect();
+    let missing: Vec<_> = names
+        .iter()
+        .filter(|name| !german.join(name).is_file())
+        .collect();
+    assert_eq!(missing, NOT_IN_GERMAN.iter().collect::<Vec<_>>());
+    for file in fs::read_dir(german).expect("the translations are there") {
+        let name = file.expect("an entry").file_name();
+        let name = name.to_str().expect("names of lessons are UTF-8");
+        assert!(names.iter().any(|one| one == name), "{name} has no lesson");
+    }
+}
+
+/// The words of a text that are numbers, frames or names of the field: those with a digit, and code.
+fn facts(text: &str) -> BTreeSet<String> {
+    let mut facts = BTreeSet::new();
+    for (number, part) in text.split('`').enumerate() {
+        if number % 2 == 1 {
+            facts.insert(part.split_whitespace().collect::<Vec<_>>().join(" "));
+        } else {
+            let words = part.split(|one: char| !one.is_alphanumeric());
+            let words = words.filter(|word| word.contains(|one: char| one.is_ascii_digit()));
+            facts.extend(words.map(String::from));
+        }
+    }
+    facts
+}
+
+/// A translation says the same numbers, objects and frames as its lesson, part by part.
+#[test]
+fn a_translation_has_the_facts_of_its_lesson() {
+    let mut found = Vec::new();
+    for (name, text) in lessons() {
+        let file = folder().join("de").join(&name);
+        let Ok(german) = fs::read_to_string(file) else {
+            continue;
+        };
+        let composed = translate(&text, &german).unwrap_or_else(|problems| {
+            let problems: Vec<_> = problems
+                .iter()
+                .map(|one| format!("de/{name}:{one}"))
+                .collect();
+            panic!("{}", problems.join("\n"))
+        });
+        let (lesson, german) = (read(&name, &text), read(&format!("de/{name}"), &composed));
+        assert_eq!(german.language, "de", "de/{name}");
+        let mut compare = |place: &str, original: &str, translated: &str| {
+            let (original, translated) = (facts(original), facts(translated));
+            let lacks: Vec<_> = original.difference(&translated).collect();
+            let adds: Vec<_> = translated.difference(&original).collect();
+            if !lacks.is_empty() || !adds.is_empty() {
+                found.push(format!(
+                    "de/{name}, {place}: lacks {lacks:?}, adds {adds:?}"
+                ));
+            }
+        };
+        compare("intro", &lesson.intro, &german.intro);
+        for (one, other) in lesson.steps.iter().zip(&german.steps) {
+            compare(&other.title, &one.title, &other.title);
+            compare(&other.title, &one.text, &other.text);
+            compare(&other.title, &one.happened, &other.happened);
+            for (hint, translated) in one.hints.iter().zip(&other.hints) {
+                compare(&other.title, hint, translated);
+            }
+            if let (Some(quiz), Some(translated)) = (&one.quiz, &other.quiz) {
+                compare(&other.title, &quiz.question, &translated.question);
+                compare(&other.title, &quiz.reveal, &translated.reveal);
+            }
+        }
+    }
+    assert!(found.is_empty(), "{}", found.join("\n"));
 }

@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 
 use od_sim::lesson::{Lesson, Problem, prove};
 
-use super::file::{files, show_problems};
+use super::builtin::Language;
+use super::file::{File, files, show_problems, translated};
 use crate::failure::Failure;
 use crate::output::note;
 use crate::report;
@@ -18,7 +19,7 @@ pub(super) struct Args {
 }
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
-    let files = files(&args.paths)?;
+    let files = files(&args.paths, Language::En)?;
     let mut bad = 0;
     for file in &files {
         let path = Path::new(&file.path);
@@ -31,7 +32,16 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
             Err(problems) => problems.clone(),
         };
         show_problems(&file.path, &problems);
-        bad += usize::from(!problems.is_empty());
+        let mut is_bad = !problems.is_empty();
+        if let Some(File {
+            path,
+            lesson: Err(problems),
+        }) = translated(path)?
+        {
+            show_problems(&path, &problems);
+            is_bad = true;
+        }
+        bad += usize::from(is_bad);
     }
     let count = report::plural(files.len(), "lesson");
     if bad > 0 {

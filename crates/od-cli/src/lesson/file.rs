@@ -3,9 +3,9 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use od_sim::lesson::{Lesson, Problem};
+use od_sim::lesson::{Lesson, Problem, translate};
 
-use super::builtin;
+use super::builtin::{self, Language};
 use crate::failure::{Failure, read_error};
 use crate::output::note;
 use crate::report;
@@ -17,21 +17,34 @@ pub(super) struct File {
 }
 
 impl File {
-    pub(super) fn read(path: &Path) -> Result<Self, Failure> {
+    /// Reads a lesson; one without a translation into this language is in its own, and a note says so.
+    pub(super) fn read(path: &Path, language: Language) -> Result<Self, Failure> {
         let shown = path.display().to_string();
-        if let Some(text) = builtin::find(&shown).filter(|_| !path.is_file()) {
+        let builtin = builtin::find(&shown).filter(|_| !path.is_file());
+        let text = match builtin {
+            Some(text) => text.to_owned(),
+            None => text(path)?,
+        };
+        let Some(folder) = language.folder() else {
             return Ok(Self {
                 path: shown,
-                lesson: Lesson::parse(text),
+                lesson: Lesson::parse(&text),
             });
-        }
-        let failed = |why: &str| Failure::Usage(format!("{shown}: {why}"));
-        let bytes = fs::read(path).map_err(|error| failed(&read_error(&error)))?;
-        let text = String::from_utf8(bytes).map_err(|_| failed("the file is not UTF-8"))?;
-        Ok(Self {
-            path: shown,
-            lesson: Lesson::parse(&text),
-        })
+        };
+        let words = match builtin {
+            Some(_) => builtin::translation(&shown, language).map(str::to_owned),
+            None => translation(path, folder)?,
+        };
+        let Some(words) = words else {
+            note!("{shown}: no translation in `{folder}`; this is the lesson in its own language");
+            return Self::read(path, Language::En);
+        };
+        let lesson = translate(&text, &words).and_then(|text| Lesson::parse(&text));
+        let path = match builtin {
+            Some(_) => shown,
+            None => beside(path, folder).display().to_string(),
+        };
+        Ok(Self { path, lesson })
     }
 
     /// Returns the lesson, or prints its mistakes.
@@ -44,6 +57,34 @@ impl File {
     }
 }
 
+fn text(path: &Path) -> Result<String, Failure> {
+    let failed = |why: &str| Failure::Usage(format!("{}: {why}", path.display()));
+    let bytes = fs::read(path).map_err(|error| failed(&read_error(&error)))?;
+    String::from_utf8(bytes).map_err(|_| failed("the file is not UTF-8"))
+}
+
+/// The place of the translation of a lesson: `lessons/de/01-name.md` for `lessons/01-name.md`.
+fn beside(path: &Path, folder: &str) -> PathBuf {
+    let name = path.file_name().unwrap_or_default();
+    path.with_file_name(folder).join(name)
+}
+
+/// The translation of a lesson, if there is one.
+fn translation(path: &Path, folder: &str) -> Result<Option<String>, Failure> {
+    let path = beside(path, folder);
+    path.is_file().then(|| text(&path)).transpose()
+}
+
+/// The German translation beside the file of a lesson, with the blocks of the lesson; `None` if there is none.
+pub(super) fn translated(path: &Path) -> Result<Option<File>, Failure> {
+    let language = Language::De;
+    let is_there = |folder| beside(path, folder).is_file();
+    match language.folder() {
+        Some(folder) if is_there(folder) => File::read(path, language).map(Some),
+        _ => Ok(None),
+    }
+}
+
 pub(super) fn show_problems(path: &str, problems: &[Problem]) {
     for problem in problems {
         note!("{path}:{problem}");
@@ -51,11 +92,11 @@ pub(super) fn show_problems(path: &str, problems: &[Problem]) {
 }
 
 /// The lessons of files and folders, in order; in a folder the files that end in `.md`.
-pub(super) fn files(paths: &[PathBuf]) -> Result<Vec<File>, Failure> {
+pub(super) fn files(paths: &[PathBuf], language: Language) -> Result<Vec<File>, Failure> {
     let mut all = Vec::new();
     for path in paths {
         if !path.is_dir() {
-            all.push(File::read(path)?);
+            all.push(File::read(path, language)?);
             continue;
         }
         let entries = fs::read_dir(path).map_err(|error| {
@@ -74,7 +115,7 @@ pub(super) fn files(paths: &[PathBuf]) -> Result<Vec<File>, Failure> {
             )));
         }
         for path in found {
-            all.push(File::read(&path)?);
+            all.push(File::read(&path, language)?);
         }
     }
     Ok(all)

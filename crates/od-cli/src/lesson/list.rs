@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use super::builtin;
+use super::builtin::{self, Language};
 use super::file::{files, show_problems};
 use crate::failure::Failure;
 use crate::output::Output;
@@ -12,6 +12,9 @@ use crate::report;
 pub(super) struct Args {
     /// Lessons, or folders with lessons [default: the lessons that come with odkit]
     paths: Vec<PathBuf>,
+    /// Language of titles, where a lesson is translated
+    #[arg(long, value_enum, value_name = "CODE", default_value_t)]
+    lang: Language,
 }
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
@@ -21,7 +24,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     }
     let mut output = Output::new();
     let mut bad = false;
-    for file in files(&paths)? {
+    for file in files(&paths, args.lang)? {
         match &file.lesson {
             Ok(lesson) => {
                 let steps = report::plural(lesson.steps.len(), "step");

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use od_sim::lesson::{Progress, Watched};
 use od_sim::script::{Bench, Reader, Script, run_on};
 
+use super::builtin::Language;
 use super::file::File;
 use crate::failure::Failure;
 use crate::output::{Output, error, note};
@@ -16,6 +17,9 @@ use crate::terminal::Terminal;
 pub(super) struct Args {
     /// The lesson
     file: PathBuf,
+    /// Language of the lesson's text, if it is translated
+    #[arg(long, value_enum, value_name = "CODE", default_value_t)]
+    lang: Language,
     /// Play the lesson's solution instead of standard input
     #[arg(long)]
     solution: bool,
@@ -28,7 +32,7 @@ pub(super) struct Args {
 }
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
-    let lesson = File::read(&args.file)?.usable()?;
+    let lesson = File::read(&args.file, args.lang)?.usable()?;
     let path = args.file.display();
     let mut host = Terminal::beside(&args.file, ("gxmm", None));
     let mut bench = lesson

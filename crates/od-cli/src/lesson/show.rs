@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use od_sim::lesson::{Lesson, Step};
 
+use super::builtin::Language;
 use super::file::File;
 use crate::failure::Failure;
 use crate::{output, report};
@@ -12,6 +13,9 @@ use crate::{output, report};
 pub(super) struct Args {
     /// The lesson
     file: PathBuf,
+    /// Language of the lesson's text, if it is translated
+    #[arg(long, value_enum, value_name = "CODE", default_value_t)]
+    lang: Language,
     /// Show only this step, counted from 1
     #[arg(long, value_name = "N")]
     step: Option<usize>,
@@ -24,7 +28,7 @@ pub(super) struct Args {
 }
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
-    let lesson = File::read(&args.file)?.usable()?;
+    let lesson = File::read(&args.file, args.lang)?.usable()?;
     let steps = lesson.steps.len();
     if args.step.is_some_and(|step| step == 0 || step > steps) {
         let step = args.step.unwrap_or_default();

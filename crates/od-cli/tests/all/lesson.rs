@@ -167,6 +167,72 @@ fn mistakes_have_a_line_and_a_help() {
     );
 }
 
+#[test]
+fn a_lesson_is_shown_in_german_where_it_is_translated() {
+    let list = odkit(&["lesson", "list", "--lang", "de"], "");
+    assert_eq!(list.code, 0, "{}", list.err);
+    assert!(
+        list.out.contains("5 steps  Boot-up und Heartbeat\n"),
+        "{}",
+        list.out
+    );
+    let show = |name: &str| {
+        odkit(
+            &[
+                "lesson", "show", name, "--step", "1", "--hints", "2", "--lang", "de",
+            ],
+            "",
+        )
+    };
+    let text = show("nmt").out;
+    assert!(
+        text.contains("## 1. Starte Knoten 5\n") && text.contains("Hint 2: Sende `000#01 05`"),
+        "{text}"
+    );
+    // A file has its translation beside it; what is missing is said.
+    assert_eq!(show(&lesson("02-nmt")).out, text);
+    let run = odkit(
+        &["lesson", "run", "boot-up-and-heartbeat", "--lang", "de"],
+        "power on\n",
+    );
+    assert!(
+        run.out
+            .contains("#   missing  1017h Producer heartbeat time ist 500 (jetzt 0)\n"),
+        "{}",
+        run.out
+    );
+    let own = file(
+        "own-lesson.md",
+        &std::fs::read_to_string(lesson("02-nmt")).expect("a lesson"),
+    );
+    let own = show(&own.display().to_string());
+    assert!(own.out.contains("## 1. Start node 5\n"), "{}", own.out);
+    assert!(own.err.contains("no translation in `de`"), "{}", own.err);
+}
+
+#[test]
+fn a_translation_that_does_not_fit_its_lesson_is_a_mistake() {
+    let path = file(
+        "fits.md",
+        &std::fs::read_to_string(lesson("02-nmt")).expect("a lesson"),
+    );
+    let german = std::fs::read_to_string(lesson("de/02-nmt")).expect("its translation");
+    let folder = path.parent().expect("a folder").join("de");
+    std::fs::create_dir_all(&folder).expect("a folder");
+    let check = |german: &str| {
+        std::fs::write(folder.join("fits.md"), german).expect("it can be written");
+        odkit(&["lesson", "check", &path.display().to_string()], "")
+    };
+    assert_eq!(check(&german).code, 0);
+    let bad = check(&german.replacen("### Hint\n", "### Predict\n", 1));
+    assert_eq!(bad.code, 1, "{}", bad.err);
+    assert!(
+        bad.err.contains("de/fits.md:") && bad.err.contains("is where the original has"),
+        "{}",
+        bad.err
+    );
+}
+
 /// The first code is written by the page in playground/web/src/lessons/kept.test.ts.
 const CODES: &str = "From Ann:
 > odkit-progress/1 learner=Ann%20%C3%9C. nmt=5/5@2026-11-22

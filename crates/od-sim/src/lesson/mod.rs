@@ -29,6 +29,7 @@ mod quiz;
 mod real;
 #[cfg(test)]
 mod tests;
+mod translation;
 mod watch;
 
 pub use crate::grammar::problem::Problem;
@@ -36,4 +37,5 @@ pub use content::{Block, Lesson, Step};
 pub use progress::{Progress, Requirement};
 pub use proof::prove;
 pub use quiz::{Judgement, Quiz, judge};
+pub use translation::translate;
 pub use watch::{Watched, pass};

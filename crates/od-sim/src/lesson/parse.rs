@@ -42,7 +42,8 @@ struct Reader {
     seen: Vec<&'static str>,
 }
 
-const BLOCKS: [&str; 5] = ["set-up", "checkpoint", "solution", "answer", "facts"];
+/// Names of the blocks that are not part of the text; a device has a block `eds NAME`.
+pub(super) const BLOCKS: [&str; 5] = ["set-up", "checkpoint", "solution", "answer", "facts"];
 
 impl Lesson {
     /// Reads a lesson.

@@ -260,6 +260,7 @@ impl Progress {
                 let device = device_of(devices, one);
                 let turns = self.turns.get(device).copied().flatten();
                 let (holds, now) = holds(one, note, bus, device, turns, since);
+                let now = now.words(&self.lesson.language);
                 met |= holds;
                 held |= note.held;
                 if !now.is_empty() {
@@ -338,6 +339,34 @@ fn device_of(devices: &[(String, usize)], one: &Alternative) -> usize {
     number(devices, one.device.as_deref()).unwrap_or(0)
 }
 
+/// The present state of a condition.
+enum Now {
+    Nothing,
+    /// Number of frames so far, and how many are needed.
+    Count(u32, u32),
+    WithoutPower,
+    /// The value or state.
+    Is(String),
+    /// The reason why it cannot be looked at.
+    Other(String),
+}
+
+impl Now {
+    /// The state in words, in German for a lesson in German.
+    fn words(self, language: &str) -> String {
+        match (self, language) {
+            (Self::Nothing, _) => String::new(),
+            (Self::Count(count, times), "de") => format!("bisher {count} von {times}"),
+            (Self::Count(count, times), _) => format!("{count} of {times} so far"),
+            (Self::WithoutPower, "de") => "das Gerät hat keine Versorgung".into(),
+            (Self::WithoutPower, _) => "the device has no power".into(),
+            (Self::Is(now), "de") => format!("jetzt {now}"),
+            (Self::Is(now), _) => format!("it is {now}"),
+            (Self::Other(why), _) => why,
+        }
+    }
+}
+
 /// Returns whether it holds, and its present state.
 fn holds(
     one: &Alternative,
@@ -346,15 +375,15 @@ fn holds(
     device: usize,
     turns: Option<f64>,
     (began, disturbed): (Instant, Option<Instant>),
-) -> (bool, String) {
+) -> (bool, Now) {
     let now = bus.now();
     note.looked = true;
     let fact = match &one.what {
-        What::Seen(_) if one.not => return (true, String::new()),
+        What::Seen(_) if one.not => return (true, Now::Nothing),
         What::Seen(Seen { times, .. }) | What::Disturbed(times) => {
             let state = match (note.count, *times) {
-                (0, _) | (_, 1) => String::new(),
-                (count, times) => format!("{count} of {times} so far"),
+                (0, _) | (_, 1) => Now::Nothing,
+                (count, times) => Now::Count(count, times),
             };
             return (note.done.is_some(), state);
         }
@@ -365,18 +394,16 @@ fn holds(
             };
             let since = last.map_or(began, |last| last.max(began));
             let quiet = now.micros_since(since) >= one.lasting;
-            return (quiet != one.not, String::new());
+            return (quiet != one.not, Now::Nothing);
         }
         What::Fact(fact) => fact,
     };
     let is_powered = |device: &VirtualDevice| device.is_powered();
     let without_power = !bus.devices().get(device).is_none_or(is_powered);
     let (is, state) = match fact.look(bus, device, turns) {
-        Ok(_) if without_power && matches!(fact, Fact::Value(..)) => {
-            (one.not, "the device has no power".into())
-        }
-        Ok(found) => (found.holds != one.not, format!("it is {}", found.now)),
-        Err(why) => (false, why),
+        Ok(_) if without_power && matches!(fact, Fact::Value(..)) => (one.not, Now::WithoutPower),
+        Ok(found) => (found.holds != one.not, Now::Is(found.now)),
+        Err(why) => (false, Now::Other(why)),
     };
     note.held |= is;
     if !is {

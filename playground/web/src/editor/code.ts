@@ -10,7 +10,7 @@ import { render } from 'lit';
 import { markdown } from '../views/markdown';
 import type { Found } from './api';
 import { ask, listen, send } from './client';
-import { E } from '../texts/editor';
+import { E } from './texts';
 import { colours, dotted, marks, setMarks } from './marks';
 import type { CodeAction, CompletionItem, Hover, Location, Position, Range, TextEdit } from './protocol';
 import { theme } from './theme';

@@ -7,7 +7,7 @@ import { download, openDevice, undoReplace } from '../actions';
 import { sheet } from '../sheet';
 import * as state from '../state';
 import { T } from '../texts';
-import { E } from '../texts/editor';
+import { E } from './texts';
 import { icons } from '../views/icons';
 import { View } from '../views/view';
 import type { Difference, Finding, Found, Origin } from './api';

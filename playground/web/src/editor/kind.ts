@@ -2,7 +2,7 @@
 
 import type { Log } from '../sim/api';
 import { use } from '../sim/link';
-import { E } from '../texts/editor';
+import { E } from './texts';
 
 /** Description of the file, and what to do with it; a log can be shown. */
 export interface Kind {
@@ -11,10 +11,8 @@ export interface Kind {
   log?: Log;
 }
 
-const k = E.kinds;
-
-/** First bytes, as a text with one character for each byte. */
-const MAGIC: [RegExp, Kind][] = [
+/** First bytes, as a text with one character for each byte, and the kinds of file that begin with them. */
+const magic = (k: typeof E.kinds): [RegExp, Kind][] => [
   [/^\x89PNG\r\n/, { what: k.picture('PNG') }],
   [/^\xff\xd8\xff/, { what: k.picture('JPEG') }],
   [/^GIF8[79]a/, { what: k.picture('GIF') }],
@@ -35,9 +33,10 @@ const SECTION = /^[ \t]*\[[^\]\r\n]+\]/m;
 
 /** Kind of the file, or the text of a file that may be an EDS, a DCF or an XDD. */
 export async function kindOf(bytes: Uint8Array): Promise<Kind | string> {
+  const k = E.kinds;
   if (bytes.length === 0) return { what: k.empty };
   const head = Array.from(bytes.subarray(0, HEAD), (byte) => String.fromCharCode(byte)).join('');
-  const known = MAGIC.find(([pattern]) => pattern.test(head));
+  const known = magic(k).find(([pattern]) => pattern.test(head));
   if (known) return known[1];
   const log = await use('readLog', bytes);
   if ('value' in log && log.value.count > 0) return { what: k.log(log.value.count), log: log.value };

@@ -3,8 +3,10 @@
 import { html, nothing, render, type TemplateResult } from 'lit';
 import type { Finding, Found, Group } from './api';
 import { ask } from './client';
-import { E } from '../texts/editor';
+import { grouped } from '../format';
+import { E } from './texts';
 import { icons } from '../views/icons';
+import { withCode } from '../views/view';
 
 /** Groups of at most this many findings are open at the start, and all groups if the sum is not higher. */
 const FEW = 100;
@@ -21,8 +23,6 @@ interface Line {
   finding: number | null;
 }
 
-/** Text between backticks is code. */
-export const withCode = (text: string): unknown[] => text.split('`').map((part, i) => (i % 2 ? html`<code>${part}</code>` : part));
 
 export class FindingList {
   private readonly spacer = document.createElement('div');
@@ -171,7 +171,7 @@ export class FindingList {
       this.layOut();
     };
     return html`<div class="rule" data-severity=${group.severity} data-open=${isOpen}><button class="quiet" aria-expanded=${isOpen} @click=${toggle}>
-      ${icons.chevron}<span class="code">${group.code}</span><span class="title">${group.title}</span><span class="badge">${group.count.toLocaleString('en')}</span></button></div>`;
+      ${icons.chevron}<span class="code">${group.code}</span><span class="title">${group.title}</span><span class="badge">${grouped(group.count)}</span></button></div>`;
   }
 
   private row(number: number): TemplateResult {

@@ -3,7 +3,7 @@
 import { openDevice } from '../actions';
 import { opened } from '../seeing/log';
 import * as state from '../state';
-import { E } from '../texts/editor';
+import { E } from './texts';
 import { kindOf } from './kind';
 
 /** Opens the bytes of a file; false if it is not on the bus. */

@@ -2,7 +2,7 @@
 
 import { html } from 'lit';
 import { ask } from './client';
-import { E } from '../texts/editor';
+import { E } from './texts';
 import { Rows, setText } from '../views/rows';
 import { View } from '../views/view';
 

@@ -2,6 +2,7 @@
 
 import { effect } from '@preact/signals-core';
 import { openLesson } from '../actions';
+import { german } from '../language';
 import * as state from '../state';
 import { T } from '../texts';
 import { finished } from './kept';
@@ -13,7 +14,15 @@ export interface Listed {
   summary: string;
   level: number;
   minutes: number;
+  /** Title and summary in German, if the lesson is translated. */
+  de?: { title: string; summary: string };
 }
+
+/** Title and summary in the language of the page, or in English. */
+export const words = (one: Listed): { title: string; summary: string } => (german.value && one.de) || one;
+
+/** The file of a lesson in the language of the page, or in English. */
+const fileOf = (one: Listed): string => `lesson-${one.name}${german.value && one.de ? '.de' : ''}.md`;
 
 /** Maximum size of a text in bytes. */
 const LONGEST = 1_000_000;
@@ -57,12 +66,12 @@ export async function openNamed(name: string, meanwhile?: () => Promise<void>): 
   let made: Promise<void> | undefined;
   const timer = setTimeout(() => (made = meanwhile?.()), SLOW);
   try {
-    const isOurs = (await lessons().catch(() => [])).some((one) => one.name === name);
-    const text = await load(isOurs ? `lesson-${name}.md` : name);
+    const ours = (await lessons().catch(() => [])).find((one) => one.name === name);
+    const text = await load(ours ? fileOf(ours) : name);
     clearTimeout(timer);
     await made;
     if (!(await tried(name, text))) return false;
-    if (isOurs) history.replaceState(null, '', `${location.pathname}#lesson=${name}`);
+    if (ours) history.replaceState(null, '', `${location.pathname}#lesson=${name}`);
     return true;
   } catch (error) {
     clearTimeout(timer);
@@ -111,6 +120,17 @@ export const again = (): Promise<boolean> => tried(state.lessonRun.value.name, l
 export async function backTo(step: number): Promise<void> {
   const steps = state.lesson.value?.steps ?? [];
   await openLesson(state.lessonRun.value.name, last, steps.slice(0, step).map(({ solution }) => solution));
+}
+
+/** Starts a step of a built-in lesson again in the language of the page. */
+export async function translated(one: Listed, step: number): Promise<void> {
+  try {
+    last = await load(fileOf(one));
+  } catch (error) {
+    unreachable(one.name, error);
+    return;
+  }
+  await backTo(step);
 }
 
 /** Opens a lesson; its errors are shown in the list of lessons. */

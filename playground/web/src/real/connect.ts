@@ -6,7 +6,7 @@ import * as state from '../state';
 import { download } from '../actions';
 import { effect, signal } from '@preact/signals-core';
 import type { Ring } from '../trace/ring';
-import { R } from '../texts/real';
+import { R } from './texts';
 import type { RealCommand, RealReport, Target, Why } from './api';
 
 const tell = (what: RealCommand): void => send({ op: 'real', what });

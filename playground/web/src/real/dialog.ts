@@ -5,7 +5,7 @@ import { effect } from '@preact/signals-core';
 import { sheet } from '../sheet';
 import * as state from '../state';
 import { T } from '../texts';
-import { R } from '../texts/real';
+import { R } from './texts';
 import { icons } from '../views/icons';
 import { View } from '../views/view';
 import type { RealState } from './api';

@@ -3,7 +3,7 @@
 import { html } from 'lit';
 import * as state from '../state';
 import { View } from '../views/view';
-import { R } from '../texts/real';
+import { R } from './texts';
 import { setSending } from './connect';
 
 class Mark extends View {

@@ -4,7 +4,7 @@ import { signal } from '@preact/signals-core';
 import type { Outcome, Source } from '../sim/api';
 import { ask, describe, hooks, maySend, select, use } from '../sim/link';
 import * as state from '../state';
-import { R } from '../texts/real';
+import { R } from './texts';
 import { identify } from './connect';
 
 /** Number of SDO requests at the same time during a search for nodes. */

@@ -6,7 +6,7 @@ import * as state from '../state';
 import { sendLine } from '../actions';
 import { select } from '../sim/link';
 import { T } from '../texts';
-import { R } from '../texts/real';
+import { R } from './texts';
 import { icons } from '../views/icons';
 import { View } from '../views/view';
 import { answered, doing, isBusy, readAll, search, show, stop } from './nodes';

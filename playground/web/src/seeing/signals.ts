@@ -29,7 +29,7 @@ export interface Plottable {
 }
 
 /** The motion of the shaft, for which not every encoder has an object. No object has index 0. */
-const SHAFT = standIn({ index: 0, sub: 0, name: S.plot.shaft, type: 'REAL64', bits: 64 });
+const shaft = (): ObjectRecord => standIn({ index: 0, sub: 0, name: S.plot.shaft, type: 'REAL64', bits: 64 });
 
 const isNumeric = (object: ObjectRecord): boolean => /^(UNSIGNED|INTEGER|REAL|BOOLEAN)/.test(object.type) && object.access !== 'wo';
 
@@ -37,9 +37,9 @@ const titleOf = (object: ObjectRecord): string => `${address(object.index, objec
 
 /** The objects of the selected device that the simulation can read. */
 export const live = (): Plottable[] =>
-  [SHAFT, ...(state.device.value?.objects ?? [])]
+  [shaft(), ...(state.device.value?.objects ?? [])]
     .filter(isNumeric)
-    .map((object) => ({ key: String(state.keyOf(object.index, object.sub)), name: object === SHAFT ? object.name : titleOf(object), object, place: null }));
+    .map((object) => ({ key: String(state.keyOf(object.index, object.sub)), name: object.index === 0 ? object.name : titleOf(object), object, place: null }));
 
 /** The objects in the PDOs of all devices. */
 export const mapped = signal<Plottable[]>([]);

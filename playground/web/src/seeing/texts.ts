@@ -1,90 +1,10 @@
-// Texts of views that are loaded on request: statistics, plots, trigger, replay.
+// The texts of statistics, plots, trigger and replay, in the language of the page.
 
-const seconds = (micros: number): string => `${(micros / 1e6).toFixed(6)} s`;
+import { effect } from '@preact/signals-core';
+import { german } from '../language';
+import { seeing } from '../texts/seeing';
 
-export const S = {
-  log: {
-    opened: (name: string, count: number, isBeside: boolean) => `${name}: ${count} frames are in the console${isBeside ? ', beside the capture' : '; time is paused'}.`,
-    skipped: (count: number, line: number, why: string) => `${count} line${count === 1 ? '' : 's'} could not be read; the first is line ${line}: ${why}.`,
-    ask: (name: string, count: number, captured: number) => `${name} has ${count} frame${count === 1 ? '' : 's'}. The capture has ${captured}.`,
-    beside: 'Open beside it',
-    save: 'Save the capture, then replace it',
-    replace: 'Replace the capture',
-    send: 'Send these frames',
-    shown: 'What the console shows',
-    capture: 'Capture',
-    close: (name: string) => `Close ${name}`,
-  },
-  player: {
-    title: (name: string) => `Log ${name}`,
-    start: 'Start the log',
-    hold: 'Hold the log',
-    goOn: 'Continue the log',
-    step: 'Next frame of the log',
-    end: 'End the log',
-    remove: 'Remove the log from the send list',
-    speed: 'Speed of the log',
-    way: 'Where the frames go',
-    ways: { bus: 'Onto the bus', look: 'Only to look at' },
-    progress: 'Progress of the log',
-    place: (place: string, count: string, time: string) => `${place} of ${count} frames, ${time} s`,
-  },
-  trigger: {
-    what: 'Stop the capture at',
-    hint: 'emcy, node:5 abort, 6004 > 1000, 1001 changes',
-    before: 'Before',
-    beforeTitle: 'Milliseconds of the capture that stay before the frame; empty: all',
-    all: 'all',
-    after: 'After',
-    afterTitle: 'Milliseconds of the capture after the frame',
-    arm: 'Arm',
-    again: 'Arm again',
-    disarm: 'Disarm',
-    goOn: 'Continue the capture',
-    off: 'A filter of frames, or an object and a value: the first frame that fits is marked and stops the capture.',
-    frame: (filter: string) => `a frame that passes “${filter}”`,
-    value: (condition: string) => `${condition} in a PDO or an SDO response`,
-    armed: (what: string) => `Armed: waits for ${what}.`,
-    fired: (time: number, after: number) => `Fired at ${seconds(time)}: the capture continues for ${after} ms.`,
-    stopped: (time: number) => `Fired at ${seconds(time)}: the frame is marked, and the capture is stopped.`,
-    empty: 'Write a filter, such as emcy, or an object and a value, such as 6004 > 1000',
-    node: 'A node ID is 1 to 127',
-    number: 'Write a number: decimal, 0x1F or 1Fh',
-    of: (node: number) => `of node ${node}`,
-    changes: (name: string) => `a change of ${name}`,
-  },
-  plot: {
-    region: 'Values over time',
-    add: 'Plot an object',
-    fromFrames: 'From the frames of the capture',
-    live: 'From the simulation, without a frame',
-    mapped: (node: number | null, pdo: string, object: string) => `${node === null ? '' : `Node ${node} `}${pdo}: ${object}`,
-    shaft: 'Shaft speed in rpm',
-    remove: (name: string) => `Take ${name} off the plot`,
-    window: 'Time shown',
-    windows: { 1: 'Last second', 10: 'Last 10 s', 60: 'Last minute', 0: 'All' } as Record<number, string>,
-    axes: 'Axes',
-    own: 'Own axes',
-    shared: 'Shared axes',
-    csv: 'Save the values as CSV',
-    png: 'Save the plot as PNG',
-    range: (least: string, most: string) => `${least} to ${most}`,
-    nothing: 'Nothing is plotted. Choose an object above: from frames, or from the simulation without a frame on the bus.',
-    cursors: 'Cursors',
-    cursor: (name: string) => `Cursor ${name}`,
-    cursorAt: (name: string) => `Cursor ${name} in seconds`,
-    noCursors: 'Remove the cursors',
-    howCursors: 'A click into a plot sets a cursor.',
-    value: 'Value',
-    time: 'Time in s',
-  },
-  ids: {
-    columns: ['CAN-ID', 'Type', 'Count', 'Cycle', 'Shortest', 'Mean', 'Longest', 'Jitter', 'Last change', 'Data', 'Meaning'],
-    titles: ['', '', 'Frames of this capture', 'Last period', 'Shortest period', 'Mean period', 'Longest period', 'Longest minus shortest of the last 32 periods', 'When the data changed last', '', ''],
-    never: 'never',
-    clients: 'SDO clients',
-    clientColumns: ['Node', 'Requests', 'Shortest', 'Mean', 'Longest', 'Aborts', 'No answer'],
-    clientTitles: ['Node ID of the SDO server', 'Requests that want an answer', 'Shortest time to answer', 'Mean time to answer', 'Longest time to answer', 'Transfers that client or server aborted', 'Requests that were not answered'],
-    only: (node: number) => `Show the SDO frames of node ${node}`,
-  },
-};
+export let S: typeof seeing = seeing;
+effect(() => {
+  S = german.value?.S ?? seeing;
+});

@@ -3,6 +3,7 @@
 import { effect } from '@preact/signals-core';
 import { loaded } from '../codec';
 import { createStore, del, entries, set } from 'idb-keyval';
+import { language } from '../language';
 import * as state from '../state';
 import { T } from '../texts';
 import { resumed } from '../lessons/open';
@@ -74,7 +75,7 @@ export async function resume(name: string): Promise<boolean> {
   if (kept?.lesson !== name) return false;
   await loaded;
   const bench = read(kept.text);
-  const lesson = bench.entries.find(({ input }) => input.op === 'lesson')?.input;
+  const lesson = bench.entries.findLast(({ input }) => input.op === 'lesson')?.input;
   if (lesson?.op !== 'lesson') return false;
   open(bench);
   resumed(name, lesson.text);
@@ -137,4 +138,4 @@ function offer(kept: Kept): void {
 export const before = (): Promise<Kept | undefined> => left().then((all) => all[0]?.kept, () => undefined);
 
 export const when = (at: number): string =>
-  new Date(at).toLocaleString('en', { dateStyle: 'medium', timeStyle: 'short' });
+  new Date(at).toLocaleString(language(), { dateStyle: 'medium', timeStyle: 'short' });

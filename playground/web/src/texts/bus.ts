@@ -98,6 +98,7 @@ export const bus = {
   send: {
     frame: 'Frame',
     send: 'Send',
+    hint: 'CAN-ID, `#`, bytes in hexadecimal; `#R` requests with a remote frame',
     sync: 'Send SYNC (80h)',
     bytes: (count: number) => `${count} byte${count === 1 ? '' : 's'}`,
     about: 'This is a CANopen encoder on a CAN bus, simulated in your browser: a device to read, set up, turn and break.',
@@ -120,6 +121,7 @@ export const bus = {
     cyclic: 'Send cyclically',
     remove: 'Remove from the list',
     templates: 'Frame templates',
+    more: 'LSS, RTR …',
   },
   typed: {
     frame: 'Type a CAN-ID and up to 8 bytes, such as 601#40 04 60 00',

@@ -2,7 +2,7 @@
 
 const count = (number: number, noun: string): string => `${number.toLocaleString('en')} ${noun}${number === 1 ? '' : 's'}`;
 
-export const E = {
+export const editor = {
   counts: (errors: number, warnings: number, remarks: number) => `${count(errors, 'error')}, ${count(warnings, 'warning')}, ${count(remarks, 'remark')}`,
   goTo: (line: number, column: number) => `Go to line ${line}, column ${column}`,
   checking: 'Checking …',

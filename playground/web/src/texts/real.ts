@@ -4,7 +4,7 @@ import type { Why } from '../real/api';
 
 const frames = (count: number): string => `${count.toLocaleString('en')} frame${count === 1 ? '' : 's'}`;
 
-export const R = {
+export const real = {
   mark: 'Real bus',
   markTitle: 'These frames are on a real bus. Click for the connection.',
   title: 'Connect to a real bus',

@@ -118,7 +118,7 @@ class Encoder extends View {
         if (value !== 'own') choose(state.selectedNode.value, value);
       }}>
         <option value="" ?selected=${now === '' && typed === null}>${T.encoder.steady}</option>
-        ${PROFILES.map(({ key, text }) => html`<option value=${key} ?selected=${now === key}>${text}</option>`)}
+        ${PROFILES.map(({ key }) => html`<option value=${key} ?selected=${now === key}>${T.encoder.profiles[key]}</option>`)}
         <option value="own" ?selected=${typed !== null || now === 'own'}>${T.encoder.own}</option>
       </select>${icons.chevron}</span>
       ${typed === null

@@ -43,7 +43,7 @@ class Hardware extends View {
       <span class="hw-value" role="group" aria-labelledby="rate-switch">
         ${[4, 2, 1].map((bit, i) => html`<button class="dip" role="switch" aria-checked=${(status.rateSwitch & bit) !== 0} aria-label=${`DIP ${i + 1}`} title=${`DIP ${i + 1}`}
           @click=${() => act({ op: 'switches', node, dip: { bit, on: (status.rateSwitch & bit) === 0 } })}><span></span></button>`)}
-        <span class="num muted" aria-label="Active bit rate">${T.hardware.kbit(status.rate)}</span>
+        <span class="num muted" aria-label=${T.hardware.activeRate}>${T.hardware.kbit(status.rate)}</span>
       </span>
       ${isAtZero
         ? html`<p class="note hw-note">${T.hardware.atZero}</p>`

@@ -5,8 +5,9 @@ import { html, nothing, type TemplateResult } from 'lit';
 import { keyed } from 'lit/directives/keyed.js';
 import { effect } from '@preact/signals-core';
 import { leaveLesson, playScript, setRunning } from '../actions';
+import { language } from '../language';
 import { reached } from '../lessons/kept';
-import { again, backTo, following, openNamed, type Listed } from '../lessons/open';
+import { again, backTo, following, lessons, openNamed, translated, words, type Listed } from '../lessons/open';
 import { sheet } from '../sheet';
 import type { Lesson, LessonState } from '../sim/api';
 import * as state from '../state';
@@ -27,12 +28,14 @@ type Step = Lesson['steps'][number];
 const choose = (): void => void (state.lessonDialog.value = true);
 
 class LessonPanel extends View {
-  static override properties = { seen: { state: true }, hints: { state: true }, upNext: { state: true } };
+  static override properties = { seen: { state: true }, hints: { state: true }, upNext: { state: true }, listed: { state: true } };
   /** The step that is shown: a completed step stays until the learner continues. */
   declare seen: number;
   declare hints: number;
   /** The lesson after this one, when this one is done. */
   declare upNext: Listed | null;
+  /** This lesson in the list; null if it is not a built-in one. */
+  declare listed: Listed | null;
   /** Whether the solution was played for this step. */
   private isShown = false;
   private unfollow: (() => void) | undefined;
@@ -42,12 +45,15 @@ class LessonPanel extends View {
     this.seen = 0;
     this.hints = 0;
     this.upNext = null;
+    this.listed = null;
   }
 
   override connectedCallback(): void {
     super.connectedCallback();
     this.unfollow = effect(() => {
-      this.seen = state.lessonRun.value.step;
+      const { name, step } = state.lessonRun.value;
+      this.seen = step;
+      void lessons().then((list) => (this.listed = list.find((one) => one.name === name) ?? null), () => (this.listed = null));
       this.hints = 0;
       this.isShown = false;
       this.upNext = null;
@@ -88,7 +94,7 @@ class LessonPanel extends View {
   private goOn(number: number, isLast: boolean): TemplateResult {
     const t = T.lessons;
     return isLast
-      ? html`<div class="button-row">${this.upNext ? html`<button class="primary" @click=${() => void openNamed(this.upNext!.name)}>${t.following(this.upNext.title)}</button>` : nothing}<button @click=${choose}>${t.other}</button><button @click=${() => void again()}>${t.again}</button></div>`
+      ? html`<div class="button-row">${this.upNext ? html`<button class="primary" @click=${() => void openNamed(this.upNext!.name)}>${t.following(words(this.upNext).title)}</button>` : nothing}<button @click=${choose}>${t.other}</button><button @click=${() => void again()}>${t.again}</button></div>`
       : html`<div class="button-row"><button class="primary" @click=${() => this.next(number + 1)}>${t.next}</button>
           ${state.running.value ? nothing : html`<span class="still">${icons.pause} ${t.still}</span>`}</div>`;
   }
@@ -98,6 +104,15 @@ class LessonPanel extends View {
     const { hints } = this;
     await backTo(number);
     this.hints = hints;
+  }
+
+  /** What a lesson in another language offers. */
+  private foreign(lesson: Lesson, shown: number) {
+    if (lesson.language === language()) return nothing;
+    const t = T.lessons;
+    const one = this.listed;
+    const isThere = one && (language() === 'en' || one.de) && !state.real.value;
+    return html`<p class="begin">${t.foreign}${isThere ? html` <button class="small" @click=${() => void translated(one, shown)}>${t.translate}</button>` : nothing}</p>`;
   }
 
   /** Plays the solution, on a repeated bench if this one cannot reach it. */
@@ -148,6 +163,7 @@ class LessonPanel extends View {
       </header>
       <div class="lesson scroll" tabindex="0" role="region" aria-label=${lesson.title} lang=${lesson.language}>
         <div class="lesson-steps" role="img" aria-label=${t.step(shown + 1, all)}>${lesson.steps.map((_, i) => html`<i data-state=${i < progress.step ? 'done' : i === shown ? 'now' : ''}></i>`)}</div>
+        ${this.foreign(lesson, shown)}
         ${shown === 0 && why && !isDone
           ? html`<div class="prose">${markdown(why)}</div>
             ${more.length ? html`<details ?open=${window.innerHeight >= TALL}><summary>${t.background}</summary><div class="prose">${markdown(more.join('\n\n'))}</div></details>` : nothing}

@@ -2,12 +2,14 @@
 
 import { html, nothing, type PropertyValues } from 'lit';
 import { effect } from '@preact/signals-core';
+import { language } from '../language';
 import { codeOf, finished, progress, type Done } from '../lessons/kept';
-import { lessons, openFile, openNamed, type Listed } from '../lessons/open';
+import { lessons, openFile, openNamed, words, type Listed } from '../lessons/open';
 import { sheet } from '../sheet';
 import * as state from '../state';
 import { T } from '../texts';
 import { icons } from './icons';
+import { languageButton } from './language';
 import { View } from './view';
 
 await sheet('dialogs');
@@ -79,10 +81,12 @@ class Lessons extends View {
     const state = isDone
       ? html` <span class="done-mark" title=${t.done}>${icons.tick}<span class="sr">${t.done}</span></span>`
       : steps > 0 ? html` <span class="muted num">${t.count(steps, all)}</span>` : nothing;
+    const { title, summary } = words(one);
+    const isForeign = language() === 'de' && !one.de;
     return html`<li><button class="card" @click=${() => void openNamed(one.name)}>
-      <strong>${one.title}${state}</strong>
-      ${one.summary ? html`<span>${one.summary}</span>` : nothing}
-      <span class="muted">${t.minutes(one.minutes)}${shown ? `, ${t.shown(shown)}` : ''}</span></button></li>`;
+      <strong>${title}${state}</strong>
+      ${summary ? html`<span>${summary}</span>` : nothing}
+      <span class="muted">${t.minutes(one.minutes)}${isForeign ? `, ${t.onlyEnglish}` : ''}${shown ? `, ${t.shown(shown)}` : ''}</span></button></li>`;
   }
 
   protected override render() {
@@ -95,7 +99,7 @@ class Lessons extends View {
     };
     return html`<dialog class="dialog wide" aria-labelledby="lessons-title" @close=${close} @click=${(event: Event) => event.target === event.currentTarget && close()}>
       <div class="dialog-body">
-        <header class="dialog-head"><h2 id="lessons-title">${t.title}</h2><button class="icon-button" aria-label=${T.close} @click=${close}>${icons.close}</button></header>
+        <header class="dialog-head"><h2 id="lessons-title">${t.title}</h2><div class="spacer"></div>${languageButton()}<button class="icon-button" aria-label=${T.close} @click=${close}>${icons.close}</button></header>
         ${this.failed()}
         ${this.list === null ? html`<p class="note" role="alert">${t.noList}</p>` : nothing}
         ${t.levels.map((level, number) => {

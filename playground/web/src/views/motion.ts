@@ -1,7 +1,6 @@
 // Motion profiles for a shaft: pairs of rpm and milliseconds.
 
 import { act } from '../sim/link';
-import { T } from '../texts';
 
 const STEP = 50;
 
@@ -14,10 +13,10 @@ const curve = (seconds: number, rpm: (phase: number) => number): number[] => {
 const ramp = (phase: number): number => Math.min(1, phase * 5, (1 - phase) * 5);
 
 export const PROFILES = [
-  { key: 'swing', text: T.encoder.profiles.swing, steps: [60, 2000, -60, 2000] },
-  { key: 'sine', text: T.encoder.profiles.sine, steps: curve(4, (phase) => 60 * Math.sin(2 * Math.PI * phase)) },
-  { key: 'ramp', text: T.encoder.profiles.ramp, steps: [...curve(5, (phase) => 300 * ramp(phase)), 0, 1000] },
-  { key: 'index', text: T.encoder.profiles.index, steps: [30, 500, 0, 1000] },
+  { key: 'swing', steps: [60, 2000, -60, 2000] },
+  { key: 'sine', steps: curve(4, (phase) => 60 * Math.sin(2 * Math.PI * phase)) },
+  { key: 'ramp', steps: [...curve(5, (phase) => 300 * ramp(phase)), 0, 1000] },
+  { key: 'index', steps: [30, 500, 0, 1000] },
 ] as const;
 
 const chosen = new Map<number, string>();

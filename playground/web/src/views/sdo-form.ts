@@ -9,7 +9,7 @@ import { inWords, transfer, type Said } from '../sim/sdo';
 import * as state from '../state';
 import { T } from '../texts';
 import { findObjects, parseAddress, standIn } from './object-search';
-import { View } from './view';
+import { View, withCode } from './view';
 
 const MOST_OFFERED = 30;
 
@@ -161,7 +161,7 @@ class SdoForm extends View {
           .value=${this.typed} @input=${(event: Event) => { this.typed = (event.target as HTMLInputElement).value; this.result = null; }}
           @keydown=${(event: KeyboardEvent) => { if (event.key === 'Enter' && !this.isBusy) { event.preventDefault(); void (this.typed.trim() ? this.write() : this.read()); } }}>
         <button type="button" ?disabled=${this.isBusy || isWrong} @click=${() => this.write()}>${T.sdo.write}</button>
-        <p id="sdo-note" class="note" data-tone=${tone} role="status">${note || html`Decimal, <code>0x1F</code> or <code>1Fh</code>; quotes for text, such as <code>"save"</code>`}</p>
+        <p id="sdo-note" class="note" data-tone=${tone} role="status">${note || withCode(T.sdo.hint)}</p>
       </div>
     </form>`;
   }

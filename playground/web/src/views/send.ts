@@ -10,7 +10,7 @@ import { typedForm } from '../format';
 import { askBus } from '../sim/link';
 import { pack, unpack } from '../sim/packed';
 import { icons } from './icons';
-import { View } from './view';
+import { View, withCode } from './view';
 import './sdo-form';
 import { addToList } from './send-list';
 import { T } from '../texts';
@@ -32,7 +32,7 @@ class Send extends View {
             const select = event.target as HTMLSelectElement;
             if (select.value) state.draft.value = { text: select.value };
             select.value = '';
-          }}><option value="">LSS, RTR …</option>${templates(state.nodeId.value).map(({ name, frame }) => html`<option value=${typedForm(unpack(frame, 0))}>${name}</option>`)}</select></label>
+          }}><option value="">${T.sendList.more}</option>${templates(state.nodeId.value).map(({ name, frame }) => html`<option value=${typedForm(unpack(frame, 0))}>${name}</option>`)}</select></label>
           <button class="small sync" title=${T.send.sync} @click=${() => sendLine('sync')}>SYNC</button>
         </div>
       </div>
@@ -122,7 +122,7 @@ class RawFrame extends View {
           .value=${this.text} @input=${(event: Event) => void this.onInput((event.target as HTMLInputElement).value)} @keydown=${this.onKey}>
         <button type="button" class="icon-button" aria-label=${T.frames.toList} title=${T.frames.toList} ?disabled=${'error' in parsed} @click=${() => addToList(this.text)}>${icons.plus}</button>
         <button class="primary" ?disabled=${'error' in parsed && !deed && !isEmpty}>${icons.send} ${T.send.send}</button>
-        <p id="raw-note" class="note" data-tone=${error ? 'error' : ''} aria-live="polite">${error || (deed ? T.send.deed : isEmpty ? html`CAN-ID, <code>#</code>, bytes in hexadecimal; <code>#R</code> requests with a remote frame` : html`${this.meaning}<span class="muted num"> ${bytes}</span>`)}</p>
+        <p id="raw-note" class="note" data-tone=${error ? 'error' : ''} aria-live="polite">${error || (deed ? T.send.deed : isEmpty ? withCode(T.send.hint) : html`${this.meaning}<span class="muted num"> ${bytes}</span>`)}</p>
       </div>
     </form>`;
   }

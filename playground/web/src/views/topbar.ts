@@ -6,6 +6,7 @@ import { MOST_NODES, setRunning, setSpeed, step, stepBack } from '../actions';
 import { select } from '../sim/link';
 import { T } from '../texts';
 import { icons } from './icons';
+import { languageButton } from './language';
 import { View } from './view';
 
 const SPEEDS = [0.01, 0.1, 0.5, 1, 2, 10, 100, 1000];
@@ -100,6 +101,7 @@ class Topbar extends View {
       <button class="icon-button share-button" aria-label=${t.share} title=${t.share} aria-haspopup="dialog" @click=${openShare}>${icons.share}</button>
       <a class="icon-button full-button" href=${location.pathname} target="_blank" aria-label=${T.share.full} title=${T.share.full} @click=${openFull}>${icons.open}</a>
       <button class="icon-button help-button" aria-label=${t.keys} title=${`${t.keys} (?)`} @click=${() => (state.helpDialog.value = true)}>${icons.help}</button>
+      ${languageButton()}
       <button class="icon-button" aria-label=${t.theme} title=${t.theme} @click=${() => this.toggleTheme()}>${this.isDark() ? icons.sun : icons.moon}</button>
     </header>`;
   }

@@ -1,8 +1,12 @@
 // The base of all views: a custom element without a shadow root that draws itself
 // again when a signal changes that its last drawing read.
 
-import { LitElement } from 'lit';
+import { html, LitElement } from 'lit';
 import { effect } from '@preact/signals-core';
+import { german } from '../language';
+
+/** A text in which the parts between backticks are code. */
+export const withCode = (text: string): unknown[] => text.split('`').map((part, i) => (i % 2 ? html`<code>${part}</code>` : part));
 
 export class View extends LitElement {
   private stop: (() => void) | undefined;
@@ -18,6 +22,8 @@ export class View extends LitElement {
     this.stop = effect(() => {
       if (isDrawing) {
         isDrawing = false;
+        // Another language is another drawing.
+        void german.value;
         super.performUpdate();
       } else {
         this.requestUpdate();

@@ -101,7 +101,9 @@ pub(super) fn all(root: &Path, rules: &[(String, String)]) -> Result<Vec<Page>> 
                 }
                 continue;
             };
-            for file in files::entries(&root.join(folder))? {
+            // The folders in it have the translations of lessons.
+            let entries = files::entries(&root.join(folder))?;
+            for file in entries.into_iter().filter(|entry| entry.is_file()) {
                 let path = format!("{folder}/{}", file_name(&file));
                 if source == LESSONS {
                     pages.extend(lesson_page(&file, path, &mut part)?);
