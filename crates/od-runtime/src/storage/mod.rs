@@ -168,7 +168,7 @@ impl Storage for NoStorage {
     }
 }
 
-/// A save or a restore, of which [`image::Job`](image::Job) makes the next image.
+/// A save or a restore, of which [`image::Job`] makes the next image.
 pub struct Save<'s> {
     /// 1011h, not 1010h.
     pub(crate) restores: bool,
