@@ -70,10 +70,30 @@ impl Parse for At {
         let span = literal.span();
         // rustc lexes it as one integer literal with the suffix `sub2`.
         let target = literal.to_string().parse();
-        target
-            .map(|target| Self { target, span })
-            .map_err(|message: String| syn::Error::new(span, message))
+        let target: Target = target.map_err(|message: String| syn::Error::new(span, message))?;
+        if target.sub.is_none() && stream.peek(Token![:]) {
+            return Err(colon(target, stream));
+        }
+        Ok(Self { target, span })
     }
+}
+
+/// The error about `0x1018:02`, which other programs write.
+fn colon(object: Target, stream: ParseStream) -> syn::Error {
+    let at = stream.span();
+    let mut text = format!("{object}sub2");
+    if stream.parse::<Token![:]>().is_ok()
+        && let Ok(sub) = stream.parse::<LitInt>()
+    {
+        let digits = sub.to_string();
+        let digits = digits.trim_start_matches("0x").trim_start_matches('0');
+        text = format!(
+            "{object}sub{}",
+            if digits.is_empty() { "0" } else { digits }
+        );
+    }
+    let help = format!("write `{text}`");
+    syn::Error::new(at, format!("a sub-index is behind `sub`\nhelp: {help}"))
 }
 
 impl Input {
@@ -258,6 +278,11 @@ fn overlay(body: ParseStream) -> syn::Result<Option<LitStr>> {
             "expected the path of an overlay\nhelp: `eds = \"my_device.eds\" + \"variant.overlay\";`",
         )
     })?;
+    if body.peek(Token![+]) {
+        return Err(body.error(
+            "a file has one overlay\nhelp: write the sections of both into one overlay, or what differs into a `variant`",
+        ));
+    }
     Ok(Some(path))
 }
 

@@ -60,6 +60,14 @@ pub(crate) fn read(input: &Input, report: &mut Report) -> Source {
             }
         }
     };
+    if let Some(kind) = od_eds::foreign(&text) {
+        let shown = literal.value();
+        report.at(
+            literal.span(),
+            format!("`{shown}` is {kind}\nhelp: the macro reads EDS and DCF files of CANopen"),
+        );
+        return nothing(files);
+    }
     if text
         .trim_start_matches('\u{FEFF}')
         .trim_start()

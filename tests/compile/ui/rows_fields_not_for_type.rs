@@ -1,4 +1,4 @@
-//! A number with a capacity, and a text that is mappable.
+//! A number with a capacity, a text that is mappable, and one with limits.
 use odkit::object_dictionary;
 
 object_dictionary! {
@@ -10,6 +10,7 @@ object_dictionary! {
         add 0x1018sub1 { name = "Vendor-ID"; type = u32; default = 0x5F }
         add 0x2000 { name = "Gear"; type = u8; capacity = 8 }
         add 0x2001 { name = "Label"; type = str; access = rw; mappable = true }
+        add 0x2002 { name = "Order"; type = str; access = rw; low = "a"; high = 9 }
     }
 }
 

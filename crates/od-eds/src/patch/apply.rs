@@ -13,10 +13,10 @@ use crate::rules::edits::{
     e0702_object_exists, e0703_sub_object_without_object, e0704_added, e0705_name_missing,
     e0706_type_missing, e0707_value_not_valid, e0708_value_of_base_not_valid,
     e0709_sub_object_with_object_code, e0710_value_of_object_with_sub_objects, e0711_capacity,
-    e0711_mappable, e0712_index_of_data_types,
+    e0711_limit, e0711_mappable, e0712_index_of_data_types,
 };
 use crate::span::{Span, Spanned};
-use od_model::DataType;
+use od_model::{DataType, Kind};
 
 /// Applies the edits in their order and returns the problems.
 ///
@@ -241,8 +241,13 @@ fn fill(entry: &mut EntryDescription, edit: &Edit, findings: &mut Vec<Finding>) 
             Change::High(raw) => (&mut entry.high, raw),
             _ => continue,
         };
+        let is_limit = change.key() != Key::DefaultValue;
         match raw {
             None => *field = None,
+            Some(_) if is_limit && matches!(data_type.kind(), Kind::Text | Kind::Bytes) => {
+                let finding = e0711_limit(&edit.target, change.span, change.key(), data_type);
+                findings.push(finding);
+            }
             Some(raw) => match raw.value_for(data_type) {
                 Some(value) => *field = Some(Spanned::new(value, change.span)),
                 None => {

@@ -28,9 +28,15 @@ pub(super) fn counted(description: &Description, edits: &[Edit]) -> BTreeMap<u16
     counted
 }
 
+/// The highest sub-index. FFh does not count: it describes the object.
+fn highest(object: &ObjectDescription) -> Option<u8> {
+    let mut counted = object.entries.keys().filter(|sub| **sub != 0xFF);
+    counted.next_back().copied()
+}
+
 /// Returns whether sub-index 0 holds the highest sub-index.
 fn is_counted(object: &ObjectDescription) -> bool {
-    let highest = object.entries.keys().next_back().copied();
+    let highest = highest(object);
     let count = object
         .entries
         .get(&0)
@@ -49,7 +55,7 @@ pub(super) fn count_members(index: u16, object: &mut ObjectDescription, span: Sp
     if !object.code.has_members() {
         return;
     }
-    let highest = object.entries.keys().next_back().copied().unwrap_or(0);
+    let highest = highest(object).unwrap_or(0);
     let (name, access, value) = match index {
         ERROR_HISTORY => ("Number of errors", Access::Rw, 0),
         _ => ("Highest sub-index supported", Access::Const, highest),

@@ -93,7 +93,13 @@ impl FromStr for Target {
             None => (hex, None),
         };
         let index = u16::from_str_radix(index, 16).map_err(|_| {
-            format!("`{text}` is not an index\nhelp: four hex digits, `0x0001` to `0xFFFF`")
+            // `0x2000h`
+            let hex = index.strip_suffix('h').unwrap_or_default();
+            let help = match u16::from_str_radix(hex, 16) {
+                Ok(index) => format!("write `0x{index:04X}`"),
+                Err(_) => String::from("four hex digits, `0x0001` to `0xFFFF`"),
+            };
+            format!("`{text}` is not an index\nhelp: {help}")
         })?;
         let sub = sub.map(|sub| {
             u8::from_str_radix(sub, 16).map_err(|_| {

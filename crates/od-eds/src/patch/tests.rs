@@ -85,6 +85,11 @@ fn sub_index_0_is_updated_unless_it_is_given() {
     assert_eq!(count(core::slice::from_ref(&serial)), (holds(4), Some(4)));
     assert_eq!(count(&[serial, told.clone()]), (holds(1), Some(4)));
     assert_eq!(count(&[fewer]), (holds(1), Some(2)));
+    // It describes the object, and does not count.
+    let structure = Edit::add(Target::member(0x1018, 0xFF))
+        .name("Structure")
+        .data_type(DataType::Unsigned32);
+    assert_eq!(count(&[structure]), (holds(2), Some(4)));
     assert_eq!(count(&[told]), (holds(1), Some(3)));
 }
 

@@ -299,12 +299,12 @@ pub(crate) static E0711: Rule = Rule {
     code: "E0711",
     severity: Error,
     title: "field does not apply to the type",
-    why: "A PDO carries values of fixed length, and only strings and DOMAINs have room of a length that is chosen. odkit ignores the field.",
+    why: "A PDO carries values of fixed length, only strings and DOMAINs have room of a length that is chosen, and only numbers have limits. odkit ignores the field.",
     source: "odkit, object_dictionary!; CiA 301, data types and PDO mapping parameter",
     example: "add 0x2000 { name = \"Order\"; type = u8; capacity = 8 }",
     says: "{type} has a fixed length, and no {key}",
     help: "remove {key}, or write another type, such as `{DataType=OCTET_STRING}`",
-    also: &[E0711_MAPPABLE],
+    also: &[E0711_MAPPABLE, E0711_LIMIT],
     ..Rule::NEW
 };
 
@@ -313,6 +313,23 @@ const E0711_MAPPABLE: Form = Form {
     says: "{type} has no fixed length and cannot be mapped into a PDO",
     help: "write `{PDOMapping=0}`, or a type of fixed length",
 };
+
+/// A limit of a string or DOMAIN.
+const E0711_LIMIT: Form = Form {
+    says: "{type} has no limits",
+    help: "remove {key}",
+};
+
+/// The finding about a limit of a type whose values have no order.
+pub(crate) fn e0711_limit(
+    target: &Spanned<Target>,
+    at: Span,
+    key: Key,
+    data_type: DataType,
+) -> Finding {
+    let finding = target.finding(&E0711, at).key(key);
+    finding.fact("type", data_type).form(&E0711_LIMIT)
+}
 
 /// The finding about `capacity` of a number.
 pub(crate) fn e0711_capacity(target: &Spanned<Target>, at: Span, data_type: DataType) -> Finding {
