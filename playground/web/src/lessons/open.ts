@@ -4,7 +4,7 @@ import { effect } from '@preact/signals-core';
 import { openLesson } from '../actions';
 import { german } from '../language';
 import * as state from '../state';
-import { T } from '../texts';
+import { D } from '../views/texts';
 import { finished } from './kept';
 
 /** A built-in lesson. */
@@ -47,14 +47,14 @@ async function load(address: string): Promise<string> {
   const answer = await fetch(new URL(address, new URL('./', location.href)), { signal: AbortSignal.timeout(PATIENCE) });
   if (!answer.ok) throw new Error(`${answer.status} ${answer.statusText}`.trim());
   const body = await answer.blob();
-  if (body.size > LONGEST) throw new Error(T.lessons.tooLarge);
+  if (body.size > LONGEST) throw new Error(D.lessons.tooLarge);
   return body.text();
 }
 
 function unreachable(name: string, error: unknown): false {
   const isSlow = error instanceof Error && error.name === 'TimeoutError';
-  const why = isSlow ? T.lessons.tooSlow : error instanceof Error ? error.message : String(error);
-  state.toast.value = { text: T.lessons.unreachable(name, why), tone: 'error' };
+  const why = isSlow ? D.lessons.tooSlow : error instanceof Error ? error.message : String(error);
+  state.toast.value = { text: D.lessons.unreachable(name, why), tone: 'error' };
   return false;
 }
 
@@ -82,7 +82,7 @@ export async function openNamed(name: string, meanwhile?: () => Promise<void>): 
 
 /** Opens a file of the user; false if that fails. */
 export async function openFile(file: File): Promise<boolean> {
-  if (file.size > LONGEST) return unreachable(file.name, T.lessons.tooLarge);
+  if (file.size > LONGEST) return unreachable(file.name, D.lessons.tooLarge);
   const isOpen = await tried(file.name, await file.text());
   // A file has no address to reload it from.
   if (isOpen) history.replaceState(null, '', location.pathname);

@@ -5,7 +5,7 @@ import { loaded } from '../codec';
 import { createStore, del, entries, set } from 'idb-keyval';
 import { language } from '../language';
 import * as state from '../state';
-import { T } from '../texts';
+import { D } from '../views/texts';
 import { resumed } from '../lessons/open';
 import { read, write } from './bench';
 import { now, open, openText } from './make';
@@ -130,7 +130,7 @@ export async function start(): Promise<void> {
 function offer(kept: Kept): void {
   state.offers.value = [
     ...state.offers.value,
-    { key: 'kept', text: T.share.kept(kept.names.join(', '), when(kept.at)), action: T.share.goOn, run: () => void openText(kept.text, T.share.keptName) },
+    { key: 'kept', text: D.share.kept(kept.names.join(', '), when(kept.at)), action: D.share.goOn, run: () => void openText(kept.text, D.share.keptName) },
   ];
 }
 

@@ -5,7 +5,7 @@ import { setRunning, setSpeed } from '../actions';
 import { loaded } from '../codec';
 import { restore, select, still } from '../sim/link';
 import * as state from '../state';
-import { T } from '../texts';
+import { D } from '../views/texts';
 import { NoBench, read, write, type Bench } from './bench';
 import { pack, unpack } from './pack';
 
@@ -48,12 +48,12 @@ export const holdsBench = (hash: string): boolean => hash.startsWith(`#${KEY}`);
 
 /** Opens the bench in an address; false, with a message, if it has none. */
 export async function openHash(hash: string): Promise<boolean> {
-  return tried(async () => open(read(await unpack(hash.slice(KEY.length + 1)))), T.share.badLink);
+  return tried(async () => open(read(await unpack(hash.slice(KEY.length + 1)))), D.share.badLink);
 }
 
 /** Opens a text that `write` made. */
 export async function openText(text: string, name: string): Promise<boolean> {
-  return tried(() => open(read(text)), (why) => T.share.badFile(name, why));
+  return tried(() => open(read(text)), (why) => D.share.badFile(name, why));
 }
 
 async function tried(action: () => void | Promise<void>, message: (why: string) => string): Promise<boolean> {
@@ -64,7 +64,7 @@ async function tried(action: () => void | Promise<void>, message: (why: string) 
     return true;
   } catch (error) {
     const why = error instanceof NoBench ? error.message : 'cut';
-    state.toast.value = { text: message(T.share.why[why] ?? ''), tone: 'error' };
+    state.toast.value = { text: message(D.share.why[why] ?? ''), tone: 'error' };
     return false;
   }
 }

@@ -1,7 +1,7 @@
 // The page without a network: a service worker keeps its files, and reports new ones.
 
 import * as state from '../state';
-import { T } from '../texts';
+import { D } from '../views/texts';
 import { trusted } from '../trusted';
 
 declare const OFFLINE: boolean;
@@ -38,5 +38,5 @@ function offer(worker: ServiceWorker): void {
     worker.postMessage('take over');
   };
   const others = state.offers.value.filter((one) => one.key !== 'update');
-  state.offers.value = [...others, { key: 'update', text: T.share.update, action: T.share.reload, run }];
+  state.offers.value = [...others, { key: 'update', text: D.share.update, action: D.share.reload, run }];
 }

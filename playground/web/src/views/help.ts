@@ -6,6 +6,7 @@ import { sheet } from '../sheet';
 import * as state from '../state';
 import { T } from '../texts';
 import { icons } from './icons';
+import { D } from './texts';
 import { View } from './view';
 
 await sheet('dialogs');
@@ -31,10 +32,10 @@ class Help extends View {
     return html`<dialog class="dialog" aria-labelledby="help-title" @close=${close} @click=${(event: Event) => event.target === event.currentTarget && close()}>
       <div class="dialog-body">
         <header class="dialog-head">
-          <h2 id="help-title">${T.help.title}</h2>
+          <h2 id="help-title">${D.help.title}</h2>
           <button class="icon-button" aria-label=${T.close} @click=${close}>${icons.close}</button>
         </header>
-        ${T.help.sections.map(
+        ${D.help.sections.map(
           ({ where, keys }) => html`<section class="keys">
             <h3>${where}</h3>
             <dl>${keys.map(([names, what]) => html`<div><dt>${names.map((name) => html`<kbd>${name}</kbd>`)}</dt><dd>${what}</dd></div>`)}</dl>

@@ -11,11 +11,11 @@ import { again, backTo, following, lessons, openNamed, translated, words, type L
 import { sheet } from '../sheet';
 import type { Lesson, LessonState } from '../sim/api';
 import * as state from '../state';
-import { T } from '../texts';
 import { besideSwitch } from './beside';
 import { icons } from './icons';
 import { markdown } from './markdown';
 import './quiz';
+import { D } from './texts';
 import { View } from './view';
 
 await sheet('lesson');
@@ -85,14 +85,14 @@ class LessonPanel extends View {
 
   /** A completed step: the explanation first, then the task. */
   private done(step: Step, isLast: boolean): TemplateResult {
-    const t = T.lessons;
+    const t = D.lessons;
     return html`<div class="happened" role="status"><h4>${icons.tick} ${t.happened}</h4><div class="prose">${markdown(step.happened)}</div></div>
       ${isLast ? html`<p class="lesson-end" role="status">${t.finished}</p>` : nothing}
       <details><summary>${t.asked}</summary><div class="prose">${markdown(step.text)}</div></details>`;
   }
 
   private goOn(number: number, isLast: boolean): TemplateResult {
-    const t = T.lessons;
+    const t = D.lessons;
     return isLast
       ? html`<div class="button-row">${this.upNext ? html`<button class="primary" @click=${() => void openNamed(this.upNext!.name)}>${t.following(words(this.upNext).title)}</button>` : nothing}<button @click=${choose}>${t.other}</button><button @click=${() => void again()}>${t.again}</button></div>`
       : html`<div class="button-row"><button class="primary" @click=${() => this.next(number + 1)}>${t.next}</button>
@@ -109,7 +109,7 @@ class LessonPanel extends View {
   /** What a lesson in another language offers. */
   private foreign(lesson: Lesson, shown: number) {
     if (lesson.language === language()) return nothing;
-    const t = T.lessons;
+    const t = D.lessons;
     const one = this.listed;
     const isThere = one && (language() === 'en' || one.de) && !state.real.value;
     return html`<p class="begin">${t.foreign}${isThere ? html` <button class="small" @click=${() => void translated(one, shown)}>${t.translate}</button>` : nothing}</p>`;
@@ -123,7 +123,7 @@ class LessonPanel extends View {
   }
 
   private open(step: Step, number: number, progress: LessonState): TemplateResult {
-    const t = T.lessons;
+    const t = D.lessons;
     const isLost = progress.step === number && progress.requirements.some(({ lost }) => lost);
     return html`${step.quiz ? html`<od-quiz .quiz=${step.quiz}></od-quiz>` : nothing}
       <div class="asked"><ul class="checks" aria-live="polite" aria-label=${t.checks}>${progress.requirements.map(
@@ -140,7 +140,7 @@ class LessonPanel extends View {
     const lesson = state.lesson.value;
     const progress = state.lessonState.value;
     if (!lesson || !progress) return nothing;
-    const t = T.lessons;
+    const t = D.lessons;
     const all = lesson.steps.length;
     // A step back in time may lead to an earlier step.
     const shown = Math.min(this.seen, progress.step, all - 1);

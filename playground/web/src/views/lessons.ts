@@ -10,6 +10,7 @@ import * as state from '../state';
 import { T } from '../texts';
 import { icons } from './icons';
 import { languageButton } from './language';
+import { D } from './texts';
 import { View } from './view';
 
 await sheet('dialogs');
@@ -53,9 +54,9 @@ class Lessons extends View {
     const failed = state.lessonFailed.value;
     if (!failed) return nothing;
     return html`<section class="faults" role="alert">
-      <header role="none"><h3>${T.lessons.failed(failed.name, failed.problems.length)}</h3></header>
-      <ol class="scroll" tabindex="0" aria-label=${T.lessons.failed(failed.name, failed.problems.length)}>${failed.problems.map((one) => html`<li data-severity="error">
-        <span class="where">${one.line ? T.lessons.line(one.line) : nothing}</span>
+      <header role="none"><h3>${D.lessons.failed(failed.name, failed.problems.length)}</h3></header>
+      <ol class="scroll" tabindex="0" aria-label=${D.lessons.failed(failed.name, failed.problems.length)}>${failed.problems.map((one) => html`<li data-severity="error">
+        <span class="where">${one.line ? D.lessons.line(one.line) : nothing}</span>
         <span>${one.message}${one.help ? html`<span class="help muted">${one.help}</span>` : nothing}</span></li>`)}</ol>
     </section>`;
   }
@@ -64,19 +65,19 @@ class Lessons extends View {
   private code() {
     const known = progress();
     if (Object.keys(known).length === 0) return nothing;
-    const t = T.lessons.code;
+    const t = D.lessons.code;
     const code = codeOf(this.learner, known);
     return html`<section class="share-field progress-code" aria-label=${t.title}>
       <label for="learner">${t.title}</label>
       <p class="note">${t.hint}</p>
       <input id="learner" placeholder=${t.learner} aria-label=${t.learner} autocomplete="name" maxlength="60" .value=${this.learner} @input=${(event: Event) => { this.learner = (event.target as HTMLInputElement).value; this.isCopied = false; }}>
-      <button ?disabled=${this.learner.trim() === ''} @click=${() => void navigator.clipboard.writeText(code).then(() => (this.isCopied = true), () => this.querySelector<HTMLInputElement>('#progress-code')?.select())}>${this.isCopied ? T.share.copied : t.copy}</button>
+      <button ?disabled=${this.learner.trim() === ''} @click=${() => void navigator.clipboard.writeText(code).then(() => (this.isCopied = true), () => this.querySelector<HTMLInputElement>('#progress-code')?.select())}>${this.isCopied ? D.share.copied : t.copy}</button>
       ${this.learner.trim() ? html`<input id="progress-code" class="num" readonly aria-label=${t.code} .value=${code} @focus=${(event: Event) => (event.target as HTMLInputElement).select()}>` : nothing}
     </section>`;
   }
 
   private card(one: Listed, isDone: boolean, kept: Done | undefined) {
-    const t = T.lessons;
+    const t = D.lessons;
     const [steps = 0, all = 0, , shown = 0] = kept ?? [];
     const state = isDone
       ? html` <span class="done-mark" title=${t.done}>${icons.tick}<span class="sr">${t.done}</span></span>`
@@ -90,7 +91,7 @@ class Lessons extends View {
   }
 
   protected override render() {
-    const t = T.lessons;
+    const t = D.lessons;
     const done = finished();
     const known = progress();
     const close = (): void => {
@@ -99,7 +100,7 @@ class Lessons extends View {
     };
     return html`<dialog class="dialog wide" aria-labelledby="lessons-title" @close=${close} @click=${(event: Event) => event.target === event.currentTarget && close()}>
       <div class="dialog-body">
-        <header class="dialog-head"><h2 id="lessons-title">${t.title}</h2><div class="spacer"></div>${languageButton()}<button class="icon-button" aria-label=${T.close} @click=${close}>${icons.close}</button></header>
+        <header class="dialog-head"><h2 id="lessons-title">${T.lessons.title}</h2><div class="spacer"></div>${languageButton()}<button class="icon-button" aria-label=${T.close} @click=${close}>${icons.close}</button></header>
         ${this.failed()}
         ${this.list === null ? html`<p class="note" role="alert">${t.noList}</p>` : nothing}
         ${t.levels.map((level, number) => {

@@ -12,6 +12,7 @@ import { sheet } from '../sheet';
 import * as state from '../state';
 import { T } from '../texts';
 import { icons } from './icons';
+import { D } from './texts';
 import { View } from './view';
 
 await sheet('dialogs');
@@ -116,14 +117,14 @@ class Mapping extends View {
     this.said = [];
     for (const step of this.steps) {
       const sofar = this.said;
-      this.said = [...sofar, { tone: 'busy', text: state.running.value ? T.mapping.waiting : T.sdo.paused }];
+      this.said = [...sofar, { tone: 'busy', text: state.running.value ? D.mapping.waiting : T.sdo.paused }];
       const outcome = await transfer(step, step.bytes);
       if (outcome.kind === 'done') {
-        this.said = [...sofar, { tone: 'good', text: T.mapping.taken }];
+        this.said = [...sofar, { tone: 'good', text: D.mapping.taken }];
         continue;
       }
       this.said = [...sofar, { tone: 'error', text: failure(outcome) }];
-      if (outcome.wantsPdoOff && !this.isOff && this.pdo?.cobId) this.hint = T.mapping.tryOff;
+      if (outcome.wantsPdoOff && !this.isOff && this.pdo?.cobId) this.hint = D.mapping.tryOff;
       break;
     }
     this.isBusy = false;
@@ -140,7 +141,7 @@ class Mapping extends View {
   }
 
   protected override render() {
-    const t = T.mapping;
+    const t = D.mapping;
     return html`<dialog class="dialog mapping" aria-labelledby="mapping-title" @close=${() => this.close()}
       @click=${(event: Event) => { if (event.target === event.currentTarget) this.close(); }}>
       <div class="dialog-body">
@@ -154,7 +155,7 @@ class Mapping extends View {
   }
 
   private editor(pdo: Pdo) {
-    const t = T.mapping;
+    const t = D.mapping;
     const bits = this.entries.reduce((sum, one) => sum + one.bits, 0);
     const candidates = this.candidates(pdo);
     const isFull = this.entries.length >= pdo.room;
@@ -209,7 +210,7 @@ class Mapping extends View {
     const said = this.said[i];
     const isFirst = steps[i - 1]?.part !== step.part;
     return html`<li data-tone=${said?.tone ?? ''}>
-      ${isFirst ? html`<strong>${T.mapping.step[step.part]}</strong>` : nothing}
+      ${isFirst ? html`<strong>${D.mapping.step[step.part]}</strong>` : nothing}
       <code class="num">${hexId(step.id, false)} <span>${hexBytes(step.data)}</span></code>
       <span class="said">${said && said.tone !== 'busy' ? html`<b>${said.tone === 'good' ? '✓' : '✗'}</b> ${said.text}` : said ? said.text : html`<span class="muted">${step.words}</span>`}</span>
     </li>`;

@@ -3,15 +3,15 @@
 import { html, nothing } from 'lit';
 import type { Judgement, Lesson } from '../sim/api';
 import { use } from '../sim/link';
-import { T } from '../texts';
 import { markdown } from './markdown';
+import { D } from './texts';
 import { View } from './view';
 
 type Asked = NonNullable<Lesson['steps'][number]['quiz']>;
 
 /** Bytes to check again, counted from 0 as everywhere. */
 function wrongParts(found: Judgement): string {
-  const t = T.lessons;
+  const t = D.lessons;
   const bytes = found.wrongBytes.join(', ');
   return [found.wrongIdentifier ? t.wrongId : '', found.wrongLength ? t.wrongLength : '', bytes ? t.wrongBytes(bytes) : ''].filter(Boolean).join(t.and);
 }
@@ -35,11 +35,11 @@ class Quiz extends View {
     const judged = await use('judgeAnswer', this.quiz.answer, given);
     const found = 'value' in judged ? judged.value : null;
     this.isTold ||= found?.right ?? false;
-    this.said = !found ? T.lessons.noFrame : found.right ? T.lessons.right : T.lessons.wrong(wrongParts(found));
+    this.said = !found ? D.lessons.noFrame : found.right ? D.lessons.right : D.lessons.wrong(wrongParts(found));
   }
 
   protected override render() {
-    const t = T.lessons;
+    const t = D.lessons;
     return html`<form class="quiz" @submit=${(event: Event) => void this.check(event)}>
       <h4>${t.predict}</h4>
       <div class="prose question">${markdown(this.quiz.question)}</div>

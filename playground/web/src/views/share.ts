@@ -9,6 +9,7 @@ import { write } from '../share/bench';
 import { before, when } from '../share/keep';
 import { hashOf, now, openText } from '../share/make';
 import { icons } from './icons';
+import { D } from './texts';
 import { View } from './view';
 
 await sheet('dialogs');
@@ -68,7 +69,7 @@ class Share extends View {
   private get frame(): string {
     const address = new URL(this.link || location.href);
     address.search = '?embed';
-    return `<iframe src="${address.href}" width="100%" height="640" title="${T.share.frameTitle}" loading="lazy"></iframe>`;
+    return `<iframe src="${address.href}" width="100%" height="640" title="${D.share.frameTitle}" loading="lazy"></iframe>`;
   }
 
   private async copy(what: 'link' | 'frame'): Promise<void> {
@@ -99,7 +100,7 @@ class Share extends View {
     const isOpen = file.size <= LONGEST && (await openText(await file.text(), file.name));
     field.value = '';
     if (isOpen) this.close();
-    else if (file.size > LONGEST) state.toast.value = { text: T.share.badFile(file.name, T.share.tooLarge), tone: 'error' };
+    else if (file.size > LONGEST) state.toast.value = { text: D.share.badFile(file.name, D.share.tooLarge), tone: 'error' };
   }
 
   private close(): void {
@@ -110,12 +111,12 @@ class Share extends View {
     return html`<div class="share-field">
       <label for=${`share-${what}`}>${label}</label>
       <input id=${`share-${what}`} class="num" readonly .value=${value} @focus=${(event: Event) => (event.target as HTMLInputElement).select()}>
-      <button ?disabled=${!value} aria-label=${T.share.copyThe(label)} @click=${() => this.copy(what)}>${this.copied === what ? T.share.copied : T.share.copy}</button>
+      <button ?disabled=${!value} aria-label=${D.share.copyThe(label)} @click=${() => this.copy(what)}>${this.copied === what ? D.share.copied : D.share.copy}</button>
     </div>`;
   }
 
   protected override render() {
-    const t = T.share;
+    const t = D.share;
     const choice = (trace: boolean, text: string, hint: string) => html`<label class="choice">
       <input type="radio" name="share-trace" .checked=${this.trace === trace} @change=${() => { this.trace = trace; void this.make(); }}>
       <span><strong>${text}</strong><span class="muted">${hint}</span></span>
