@@ -14,12 +14,13 @@ use crate::read::words;
 use crate::rules;
 use crate::rules::structure::reader::{w0315_name_missing, w0342_obj_flags_reserved};
 use crate::rules::text::w0109_comment_after_value;
+use crate::rules::values::not_valid::{w0416_emptied, w0416_no_limits};
 use crate::rules::values::reader::{
     e0402_data_type_unknown, e0405_access_type_not_valid, e0428_node_id_misspelled,
     w0404_access_type_missing, w0406_pdo_mapping_not_valid, w0407_obj_flags_not_a_number,
     w0426_standard_type_missing,
 };
-use crate::rules::values::{e0417_node_id_not_supported, shared, w0416_limit_not_valid};
+use crate::rules::values::{e0417_node_id_not_supported, shared, spelling};
 use crate::scan::number;
 use crate::scan::number::Note;
 use crate::scan::placed;
@@ -228,7 +229,7 @@ impl Reader<'_> {
 
     /// Reports a word that is read as this value.
     fn word(&mut self, key: Key, given: &Text<'_>, right: &str) {
-        self.report(shared::read_as(&rules::W0424, key, given, right));
+        self.report(spelling::read_as(&rules::W0424, key, given, right));
     }
 
     /// ObjFlags; 0 if missing.
@@ -258,7 +259,7 @@ impl Reader<'_> {
             && matches!(data_type.kind(), Kind::Text | Kind::Bytes)
             && matches!(key, Key::LowLimit | Key::HighLimit)
         {
-            self.report(w0416_limit_not_valid::no_limits(key, &given, data_type));
+            self.report(w0416_no_limits(key, &given, data_type));
             unread.push((key.name().into(), given.value.into_owned()));
             return None;
         }
@@ -326,7 +327,7 @@ impl Reader<'_> {
                 Note::Comma => &rules::W0423,
                 Note::Word => &rules::W0421,
             };
-            let finding = shared::read_as(rule, key, given, &canonical());
+            let finding = spelling::read_as(rule, key, given, &canonical());
             // Case and order are read by most tools, another name by none.
             let is_name = || given.to_ascii_uppercase().contains("$NODEID");
             self.report(if *note == Note::NodeId && !is_name() {
@@ -359,7 +360,7 @@ fn unfit(key: Key, given: &Text<'_>, data_type: Spanned<DataType>) -> Finding {
         shared::unfit(rule, key, &*given.value, given.span, data_type)
     };
     match key {
-        Key::LowLimit | Key::HighLimit => w0416_limit_not_valid::emptied(finding),
+        Key::LowLimit | Key::HighLimit => w0416_emptied(finding),
         _ => finding,
     }
 }

@@ -14,11 +14,11 @@ catalogue! {
     spelling W0409
     spelling I0410
     spelling I0411
-    e0412_default_not_valid E0412
-    e0413_parameter_value_not_valid E0413
-    e0414_parameter_value_outside_limits E0414
-    e0415_limits_swapped E0415
-    w0416_limit_not_valid W0416
+    not_valid E0412
+    not_valid E0413
+    limits E0414
+    limits E0415
+    not_valid W0416
     e0417_node_id_not_supported E0417
     e0418_node_id_formula_too_large E0418
     spelling W0419
@@ -35,28 +35,23 @@ catalogue! {
     w0445_access_without_mapping W0445
     w0446_text_not_ascii W0446
     i0447_no_pdo_direction I0447
-    i0450_only_one_value I0450
-    w0452_default_outside_limits W0452
+    limits I0450
+    limits W0452
     w0453_constant_without_value W0453
     w0454_mappable_without_length W0454
 }
 
 pub(crate) mod e0401_data_type_missing;
 pub(crate) mod e0403_record_type;
-pub(crate) mod e0412_default_not_valid;
-pub(crate) mod e0413_parameter_value_not_valid;
-pub(crate) mod e0414_parameter_value_outside_limits;
-pub(crate) mod e0415_limits_swapped;
 pub(crate) mod e0417_node_id_not_supported;
 pub(crate) mod e0418_node_id_formula_too_large;
 pub(crate) mod i0447_no_pdo_direction;
-pub(crate) mod i0450_only_one_value;
+pub(crate) mod limits;
+pub(crate) mod not_valid;
 pub(crate) mod reader;
 pub(crate) mod spelling;
-pub(crate) mod w0416_limit_not_valid;
 pub(crate) mod w0427_domain_with_number_type;
 pub(crate) mod w0445_access_without_mapping;
 pub(crate) mod w0446_text_not_ascii;
-pub(crate) mod w0452_default_outside_limits;
 pub(crate) mod w0453_constant_without_value;
 pub(crate) mod w0454_mappable_without_length;

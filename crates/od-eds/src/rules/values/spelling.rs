@@ -1,9 +1,12 @@
 //! How a value is spelt: each of these texts has one meaning, but not every tool reads it.
 
+use crate::fact::Key;
 use crate::finding::{
-    Fixability, Rule,
+    Finding, Fixability, Rule,
     Severity::{Info, Warning},
 };
+use crate::fix::Fix;
+use crate::scan::placed::Text;
 
 /// The help for a value that odkit reads, though not every tool does.
 const WRITE: &str = "write `{key={right}}`{fix}";
@@ -128,3 +131,12 @@ pub(crate) static W0424: Rule = Rule {
     help: WRITE,
     ..Rule::NEW
 };
+
+/// The finding that a value is understood, though not every tool would.
+pub(crate) fn read_as(rule: &'static Rule, key: Key, given: &Text<'_>, right: &str) -> Finding {
+    rule.at(given.span)
+        .key(key)
+        .fact("given", &*given.value)
+        .fact("right", right)
+        .fix(Fix::safe().replace(given.span, right))
+}
