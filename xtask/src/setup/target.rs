@@ -16,6 +16,8 @@ pub(crate) const BARE: &str = "thumbv7m-none-eabi";
 pub(crate) const SMALLEST: &str = "thumbv6m-none-eabi";
 /// A microcontroller with a floating point unit and a soft-float ABI.
 pub(crate) const FLOAT: &str = "thumbv7em-none-eabi";
+/// A microcontroller that is not an Arm: the ESP32-C3.
+pub(crate) const RISC_V: &str = "riscv32imc-unknown-none-elf";
 /// The other systems that people develop on.
 pub(crate) const HOSTS: [&str; 2] = ["x86_64-pc-windows-gnu", "aarch64-apple-darwin"];
 

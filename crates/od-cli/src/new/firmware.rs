@@ -20,13 +20,16 @@ pub(super) enum Board {
     /// RP2040 with an MCP2515 on SPI, on embassy
     #[value(name = "rp2040+mcp2515")]
     Rp2040,
+    /// ESP32-C3 with TWAI, on esp-hal and embassy
+    #[value(name = "esp32c3")]
+    Esp32C3,
     /// Any board with a driver for embedded-can; the generated program runs in QEMU
     #[value(name = "generic")]
     Generic,
 }
 
 /// The files that do not depend on the board.
-const FILES: [Template; 14] = [
+const FILES: [Template; 12] = [
     (
         "Cargo.toml",
         include_str!("template/workspace/Cargo.toml.in"),
@@ -63,13 +66,26 @@ const FILES: [Template; 14] = [
         "tests/scripts/boot-up.script",
         include_str!("template/boot-up.script.in"),
     ),
+];
+/// What the linker of a Cortex-M gets.
+const CORTEX_M: [Template; 2] = [
+    (
+        "firmware/build.rs",
+        include_str!("template/workspace/build.rs.in"),
+    ),
     (
         "firmware/no-panic.x",
         include_str!("template/workspace/no-panic.x"),
     ),
+];
+const ESP32_C3: [Template; 2] = [
     (
         "firmware/build.rs",
-        include_str!("template/workspace/build.rs.in"),
+        include_str!("template/esp32c3/build.rs.in"),
+    ),
+    (
+        "firmware/partitions.csv",
+        include_str!("template/esp32c3/partitions.csv.in"),
     ),
 ];
 const TESTS: &str = "//! The scripts of this package are in `scripts`; `scripts.rs` runs them.\n";
@@ -87,7 +103,8 @@ struct Parts {
     link: &'static str,
     dependencies: &'static str,
     board: &'static str,
-    memory: &'static str,
+    /// The place of the program, for the linker; `None` if the HAL knows it.
+    memory: Option<&'static str>,
     about: &'static str,
 }
 
@@ -98,6 +115,10 @@ impl Board {
             Self::Generic => {
                 "cargo run     # simulates it, with an slcan port; `cargo run -- --help` lists the other links\n  \
                  cd firmware && cargo run --release    # runs the firmware in QEMU"
+            }
+            Self::Esp32C3 => {
+                "cargo run     # simulates it, with an slcan port; `cargo run -- --help` lists the other links\n  \
+                 cd firmware && cargo run --release    # flashes the board with espflash and runs it"
             }
             _ => {
                 "cargo run     # simulates it, with an slcan port; `cargo run -- --help` lists the other links\n  \
@@ -118,7 +139,7 @@ impl Board {
                 link: "",
                 dependencies: include_str!("template/stm32g0/dependencies.toml.in"),
                 board: include_str!("template/stm32g0/board.rs.in"),
-                memory: include_str!("template/stm32g0/memory.x.in"),
+                memory: Some(include_str!("template/stm32g0/memory.x.in")),
                 about: "An STM32G0B1RE with a crystal of 8 MHz; FDCAN1 in classic mode, RX on PB8, TX on PB9.",
             },
             Self::Stm32F4 => Parts {
@@ -129,7 +150,7 @@ impl Board {
                 link: "",
                 dependencies: include_str!("template/stm32f4/dependencies.toml.in"),
                 board: include_str!("template/stm32f4/board.rs.in"),
-                memory: include_str!("template/stm32f4/memory.x.in"),
+                memory: Some(include_str!("template/stm32f4/memory.x.in")),
                 about: "An STM32F405RG with a crystal of 8 MHz; CAN1, RX on PB8, TX on PB9.",
             },
             Self::Rp2040 => Parts {
@@ -140,9 +161,20 @@ impl Board {
                 link: "    println!(\"cargo::rustc-link-arg-bins=-Tlink-rp.x\");\n",
                 dependencies: include_str!("template/rp2040/dependencies.toml.in"),
                 board: include_str!("template/rp2040/board.rs.in"),
-                memory: include_str!("template/rp2040/memory.x.in"),
+                memory: Some(include_str!("template/rp2040/memory.x.in")),
                 about: "An RP2040 with 2 MB of flash, and an MCP2515 with a crystal of 16 MHz: MISO on GP4, CS on GP5, \
                         SCK on GP6, MOSI on GP7, INT on GP21.",
+            },
+            Self::Esp32C3 => Parts {
+                title: "an ESP32-C3",
+                target: "riscv32imc-unknown-none-elf",
+                runner: "espflash flash --monitor --chip esp32c3 --partition-table partitions.csv",
+                bit_rates: &BIT_RATES,
+                link: "",
+                dependencies: include_str!("template/esp32c3/dependencies.toml.in"),
+                board: include_str!("template/esp32c3/board.rs.in"),
+                memory: None,
+                about: include_str!("template/esp32c3/about.md.in"),
             },
             Self::Generic => Parts {
                 title: "any board",
@@ -152,7 +184,7 @@ impl Board {
                 link: "",
                 dependencies: include_str!("template/generic/dependencies.toml.in"),
                 board: include_str!("template/generic/board.rs.in"),
-                memory: include_str!("template/generic/memory.x.in"),
+                memory: Some(include_str!("template/generic/memory.x.in")),
                 about: include_str!("template/generic/about.md.in"),
             },
         }
@@ -170,6 +202,7 @@ impl Board {
                 (1024, 128, Place::Sectors { page, range })
             }
             Self::Rp2040 => (2048, 256, Place::End { page: 4 * KIB }),
+            Self::Esp32C3 => (4096, 320, Place::End { page: 4 * KIB }),
             Self::Generic => (256, 64, Place::Ram),
         };
         Memory {
@@ -210,7 +243,12 @@ impl Board {
 /// The gaps about saved values.
 fn storage_gaps(layout: &Layout, device: &DeviceFile) -> Vec<Gap> {
     const KIB: usize = 1024;
-    let mut gaps = vec![("program", (layout.program / KIB).to_string())];
+    let program = layout.program / KIB;
+    let mut gaps = vec![
+        ("program", program.to_string()),
+        // A boot loader is in the first 64 KiB.
+        ("app", program.saturating_sub(64).to_string()),
+    ];
     if !device.saves() {
         let storage = "/// The device saves nothing.\npub type Storage = NoStorage;\n";
         gaps.extend([
@@ -241,7 +279,7 @@ fn storage_gaps(layout: &Layout, device: &DeviceFile) -> Vec<Gap> {
     };
     let (from, to) = (saved.range.start / KIB, saved.range.end / KIB);
     let place = format!(
-        "/// Place of the saved values, which `memory.x` keeps free.\n\
+        "/// Place of the saved values, which the program leaves free.\n\
          pub const SAVED: core::ops::Range<u32> = {from} * 1024..{to} * 1024;\n"
     );
     let (adapters, flash) = match saved.joined {
@@ -262,6 +300,10 @@ fn storage_gaps(layout: &Layout, device: &DeviceFile) -> Vec<Gap> {
             format!(", the last {} KiB for saved values", to - from),
         ),
         ("sectors", sectors.into()),
+        (
+            "partition",
+            format!("saved,    data, 0x40,    {from}K,    {}K", to - from),
+        ),
     ]);
     gaps
 }
@@ -364,6 +406,21 @@ pub(super) fn files(
         .map(|(name, text)| (name, text.to_owned())),
     );
     gaps.push(("about", text(parts.about.trim_end(), &gaps)));
+    let (linker, entry, features, rust_version) = match board {
+        // esp-hal needs a newer compiler than odkit.
+        Board::Esp32C3 => (&ESP32_C3, "esp_hal", "", "rust-version = \"1.95\""),
+        _ => (
+            &CORTEX_M,
+            "embassy_executor",
+            include_str!("template/workspace/features.toml.in"),
+            "rust-version.workspace = true",
+        ),
+    };
+    gaps.extend([
+        ("entry", entry.to_owned()),
+        ("features", text(features, &gaps)),
+        ("firmware_rust_version", rust_version.to_owned()),
+    ]);
     let own = [
         (
             "firmware/Cargo.toml",
@@ -373,12 +430,15 @@ pub(super) fn files(
             "firmware/.cargo/config.toml",
             include_str!("template/workspace/config.toml.in"),
         ),
-        ("firmware/memory.x", parts.memory),
         ("firmware/src/main.rs", main),
         ("firmware/src/board.rs", parts.board),
     ];
     let mut files = fill(&FILES, &gaps);
     files.extend(fill(&own, &gaps));
+    files.extend(fill(linker, &gaps));
+    if let Some(memory) = parts.memory {
+        files.extend(fill(&[("firmware/memory.x", memory)], &gaps));
+    }
     if encoder.is_some() {
         let sensor = include_str!("template/workspace/sensor.rs.in");
         files.extend(fill(&[("firmware/src/sensor.rs", sensor)], &gaps));

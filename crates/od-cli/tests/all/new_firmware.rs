@@ -6,10 +6,11 @@ use std::path::{Path, PathBuf};
 use crate::support::{file, odkit, repository};
 
 /// Boards, and texts that the files of each contain.
-const BOARDS: [(&str, &str, &str); 4] = [
+const BOARDS: [(&str, &str, &str); 5] = [
     ("stm32g0", "embassy-stm32", "thumbv6m-none-eabi"),
     ("stm32f4", "embassy-stm32", "thumbv7em-none-eabi"),
     ("rp2040+mcp2515", "mcp25xx", "thumbv6m-none-eabi"),
+    ("esp32c3", "esp-hal", "riscv32imc-unknown-none-elf"),
     ("generic", "embedded-can", "thumbv7m-none-eabi"),
 ];
 
@@ -176,15 +177,35 @@ fn a_set_that_is_longer_than_a_page_gets_pages_that_are_joined() {
     let eds = file("new-saves-much.eds", &device_with(300, true, 500))
         .display()
         .to_string();
-    for (board, joined, range, program) in [
-        ("stm32g0", 2, "500 * 1024..512 * 1024", "LENGTH = 500K"),
+    for (board, joined, range, memory, program) in [
+        (
+            "stm32g0",
+            2,
+            "500 * 1024..512 * 1024",
+            "memory.x",
+            "LENGTH = 500K",
+        ),
         (
             "rp2040+mcp2515",
             1,
             "2032 * 1024..2048 * 1024",
+            "memory.x",
             "LENGTH = 2032K - 0x100",
         ),
-        ("stm32f4", 1, "16 * 1024..64 * 1024", "_stext = 0x08010000"),
+        (
+            "stm32f4",
+            1,
+            "16 * 1024..64 * 1024",
+            "memory.x",
+            "_stext = 0x08010000",
+        ),
+        (
+            "esp32c3",
+            1,
+            "4080 * 1024..4096 * 1024",
+            "partitions.csv",
+            "0x10000,  4016K\nsaved,    data, 0x40,    4080K,    16K",
+        ),
     ] {
         let folder = make(&eds, board, "saves-much");
         let main = read(&folder, "firmware/src/main.rs");
@@ -195,7 +216,7 @@ fn a_set_that_is_longer_than_a_page_gets_pages_that_are_joined() {
         );
         let code = read(&folder, "firmware/src/board.rs");
         assert!(code.contains(range), "{code}");
-        let memory = read(&folder, "firmware/memory.x");
+        let memory = read(&folder, &format!("firmware/{memory}"));
         assert!(memory.contains(program), "{memory}");
     }
 }
@@ -215,7 +236,10 @@ fn a_device_that_does_not_fit_is_refused_with_numbers_and_a_board_that_has_room(
             "fast",
             "rp2040+mcp2515",
             &fast,
-            ["800 kbit/s", "`--firmware stm32g0` or `--firmware generic`"],
+            [
+                "800 kbit/s",
+                "`--firmware stm32g0` or `--firmware esp32c3` or `--firmware generic`",
+            ],
         ),
     ];
     for (name, board, text, told) in cases {

@@ -30,11 +30,12 @@ const EMULATOR: &str = "qemu-system-arm";
 /// odkit writes for these boards seldom changes.
 const GENERIC: &str = "generic";
 /// Boards and their targets.
-const BOARDS: [(&str, &[&str]); 4] = [
+const BOARDS: [(&str, &[&str]); 5] = [
     (GENERIC, &[target::BARE, target::SMALLEST]),
     ("rp2040+mcp2515", &[target::SMALLEST]),
     ("stm32g0", &[target::SMALLEST]),
     ("stm32f4", &[target::FLOAT]),
+    ("esp32c3", &[target::RISC_V]),
 ];
 /// First letters of the names of functions for doubles and atomics.
 const HELP: [&str; 8] = [
