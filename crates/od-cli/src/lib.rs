@@ -8,6 +8,7 @@
 mod backup;
 mod bridge;
 mod bus;
+mod campaign;
 mod check;
 mod clock;
 mod config;
@@ -43,6 +44,7 @@ mod sim;
 mod source;
 mod terminal;
 mod watch;
+mod workers;
 
 use std::process::ExitCode;
 
@@ -71,6 +73,7 @@ enum Command {
     Bridge(bridge::Args),
     Ctl(ctl::Args),
     Run(run::Args),
+    Campaign(campaign::Args),
     Lesson(lesson::Args),
     Check(check::Args),
     Explain(explain::Args),
@@ -108,7 +111,7 @@ enum Command {
 const GROUPS: [(&str, &[&str]); 4] = [
     (
         "Simulate and learn",
-        &["sim", "bridge", "ctl", "run", "lesson", "new"],
+        &["sim", "bridge", "ctl", "run", "campaign", "lesson", "new"],
     ),
     (
         "Device files",
@@ -185,6 +188,7 @@ pub fn main() -> ExitCode {
         Command::Bridge(args) => bridge::run(&args),
         Command::Ctl(args) => ctl::run(&args),
         Command::Run(args) => run::run(&args),
+        Command::Campaign(args) => campaign::run(&args),
         Command::Lesson(args) => lesson::run(&args),
         Command::Check(args) => check::run(&args),
         Command::Explain(args) => explain::run(&args),

@@ -28,27 +28,21 @@ pub(crate) struct Args {
     /// Node ID of that device
     #[arg(long, value_name = "N", value_parser = source::node_id)]
     node_id: Option<NodeId>,
+    /// Seed of what `random` lines draw
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    seed: u64,
     /// Also print the frames that the script sends
     #[arg(long)]
     echo: bool,
 }
 
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
-    let text = read(&args.script)?;
-    let script = Script::parse(&text).map_err(|problems| {
-        for problem in &problems {
-            note!("{}:{problem}", args.script);
-        }
-        let count = report::plural(problems.len(), "line");
-        Failure::Usage(format!(
-            "{}: {count} cannot be read; see SCRIPTS.md",
-            args.script
-        ))
-    })?;
+    let script = script_of(&args.script, &read(&args.script)?)?;
     let unnamed = (args.device.as_str(), args.node_id);
     let mut host = Terminal::beside(Path::new(&args.script), unnamed);
     host.output = Some(Output::new());
     host.echo = args.echo;
+    host.seed = args.seed;
     let result = script::run(&script, &mut host);
     if let Some(mut output) = host.output {
         output.flush()?;
@@ -75,7 +69,19 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     }
 }
 
-fn read(path: &str) -> Result<String, Failure> {
+/// The lines of a script; mistakes are printed.
+pub(crate) fn script_of(path: &str, text: &str) -> Result<Script, Failure> {
+    Script::parse(text).map_err(|problems| {
+        for problem in &problems {
+            note!("{path}:{problem}");
+        }
+        let count = report::plural(problems.len(), "line");
+        Failure::Usage(format!("{path}: {count} cannot be read; see SCRIPTS.md"))
+    })
+}
+
+/// The text of a script, or of standard input.
+pub(crate) fn read(path: &str) -> Result<String, Failure> {
     let mut bytes = Vec::new();
     let result = match path {
         "-" => io::stdin().lock().read_to_end(&mut bytes).map(|_| ()),

@@ -21,6 +21,8 @@ pub(crate) struct Terminal<'a> {
     pub(crate) output: Option<Output>,
     /// Whether frames of the script are shown, too.
     pub(crate) echo: bool,
+    /// Seed of the draws of a script.
+    pub(crate) seed: u64,
     /// Reason why frames are no longer shown.
     pub(crate) broken: Option<Failure>,
 }
@@ -33,6 +35,7 @@ impl<'a> Terminal<'a> {
             unnamed,
             output: None,
             echo: false,
+            seed: 0,
             broken: None,
         }
     }
@@ -63,6 +66,10 @@ impl Host for Terminal<'_> {
         };
         let source = source.map_err(|failure| failure.to_string())?;
         source.device(node_id)
+    }
+
+    fn seed(&self) -> u64 {
+        self.seed
     }
 
     fn frame(&mut self, at: Instant, origin: Origin, frame: &Frame) {

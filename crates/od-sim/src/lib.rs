@@ -11,6 +11,7 @@
 
 mod bench;
 pub mod bus;
+mod chance;
 mod cursor;
 mod device;
 pub mod diagnose;

@@ -12,6 +12,7 @@ use crate::failure::Failure;
 use crate::output::{self, Output};
 use crate::report;
 use crate::source::Source;
+use crate::workers::at_once;
 use checked::{Checked, Summary, why};
 
 mod checked;
@@ -190,7 +191,7 @@ impl Args {
 
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let paths = files::find(&args.files);
-    let checked = files::at_once(&paths, |path| args.check(path));
+    let checked = at_once(&paths, |path| args.check(path));
     if let Some(why) = checked.iter().find_map(|file| file.misused.clone()) {
         return Err(Failure::Usage(why));
     }

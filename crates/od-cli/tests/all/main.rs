@@ -8,6 +8,7 @@ mod background;
 mod bridge;
 #[cfg(unix)]
 mod bus;
+mod campaign;
 mod canopennode;
 mod check;
 mod conform;

@@ -49,6 +49,25 @@ pub enum Action {
     Skip,
     /// A condition that must hold.
     Expect(Expect),
+    /// One of several lines, with numbers that are drawn.
+    Random(Draw),
+}
+
+/// The content of a `random` line.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Draw {
+    /// How often one of the lines is drawn.
+    pub(crate) times: u32,
+    pub(crate) choices: Vec<Choice>,
+}
+
+/// A line that can be drawn.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) struct Choice {
+    /// The line as written, with its ranges.
+    pub(crate) text: String,
+    /// The line with the upper end of each range.
+    pub(crate) most: (When, Action),
 }
 
 /// A device that a line puts on the bus.

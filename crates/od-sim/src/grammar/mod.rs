@@ -6,12 +6,14 @@
 //! | `tokens` | the words of a line, durations, numbers |
 //! | `verbs` | the table of verbs, one row per first word; `world` has those outside the bus |
 //! | `line` | a complete line: its time, then a verb or a frame |
+//! | `draw` | the numbers that a `random` line draws |
 //! | `typed` | frames by name: `nmt start`, `sync`, `guard`, `read 1017h` |
 //! | `pattern`, `frames` | expected frames |
 //! | `fact`, `test` | conditions about one moment |
 
 pub(crate) mod action;
 pub(crate) mod deed;
+pub(crate) mod draw;
 pub(crate) mod fact;
 pub(crate) mod frames;
 pub(crate) mod line;

@@ -222,3 +222,58 @@ fn typed(text: &str, device: &crate::VirtualDevice) -> Result<String, String> {
         other => panic!("{text}: {other:?}"),
     }
 }
+
+#[test]
+fn a_draw_is_read_with_both_ends_of_its_ranges() {
+    check(
+        "random shaft rpm -3000..3000\nrandom fault\nrandom power cut\nrandom power cut 1ms..2s\n\
+         random wait 0..20ms\nrandom after 1ms..5ms power off\nrandom 1000 times fault | sync | read 1018h\n\
+         random 601#40xxxx00xxxxxxxx # any object\nrandom sdo write 1017h = 5..50\nrandom use 1 | use 2\n\
+         random set 6000h:01 = \"1|2..3\"",
+        "11 lines",
+    );
+    for (line, problem) in [
+        (
+            "random",
+            "1:7: the line to draw is missing; write `random shaft",
+        ),
+        ("random fault |", "1:15: the line to draw is missing"),
+        ("random fault | | sync", "1:16: the line to draw is missing"),
+        (
+            "random fault | random fault",
+            "1:16: a draw inside a draw; remove this `random`",
+        ),
+        (
+            "random 0 times fault",
+            "1:8: `0` is not valid; write a number from 1 to 10000",
+        ),
+        ("random 5 fault", "1:8: `5` is not a verb or a frame"),
+        (
+            "random expect 701#00",
+            "1:8: `random` draws only what happens on the bench",
+        ),
+        ("random device gxmm", "1:8: `random` draws only what"),
+        (
+            "random wait 5ms..1ms",
+            "1:8: `5ms..1ms` begins above its end; write",
+        ),
+        (
+            "random wait 1..5",
+            "1:8: `1` is not a duration; write 500ms",
+        ),
+        (
+            "random fault | switch node 90..100",
+            "1:16: `100` is not valid; write a number from 0 to 99",
+        ),
+        (
+            "random shaft rpm 1..3000000",
+            "1:8: the value is too large for a shaft",
+        ),
+        (
+            "after 1ms random fault",
+            "1:11: `random` begins the line; write the time behind it",
+        ),
+    ] {
+        check(line, problem);
+    }
+}

@@ -25,14 +25,14 @@ impl Runner<'_> {
             } => {
                 for _ in 0..*times {
                     self.frame(frames, *timing)?;
-                    self.held += 1;
+                    self.place.held += 1;
                 }
                 return Ok(());
             }
             Expect::Silence(micros) => self.silence(*micros)?,
             Expect::Fact(fact) => self.fact(fact)?,
         }
-        self.held += 1;
+        self.place.held += 1;
         Ok(())
     }
 
@@ -54,7 +54,7 @@ impl Runner<'_> {
     fn silence(&mut self, micros: u64) -> Result<()> {
         self.pass_greetings(|_| false);
         self.advance_until_pending(self.now().plus_micros(micros));
-        match self.pending.front().copied() {
+        match self.place.pending.front().copied() {
             None => Ok(()),
             Some(sent) => failed("silence", self.came(&sent)),
         }
@@ -83,7 +83,7 @@ impl Runner<'_> {
         self.pass_greetings(|frame| wanted.matches(frame));
         self.advance_until_pending(until);
         let wanted_text = format!("{wanted}{when}");
-        let Some(sent) = self.pending.pop_front() else {
+        let Some(sent) = self.place.pending.pop_front() else {
             let ahead = self.look_ahead();
             return failed(wanted_text, ahead);
         };

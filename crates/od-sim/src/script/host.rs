@@ -49,6 +49,16 @@ pub trait Host {
         false
     }
 
+    /// The seed of the draws of `random` lines.
+    fn seed(&self) -> u64 {
+        0
+    }
+
+    /// Returns whether the run has to end now, as after Ctrl-C. A run asks often.
+    fn stops(&self) -> bool {
+        false
+    }
+
     /// Called for each frame on the bus.
     fn frame(&mut self, at: Instant, origin: Origin, frame: &Frame) {
         let _ = (at, origin, frame);

@@ -7,7 +7,7 @@ use std::prelude::v1::*;
 use od_runtime::Instant;
 
 use super::outcome::{Reason, Stop};
-use super::read::{Script, Statement};
+use super::read::Script;
 use crate::grammar::action::{Action, Expect, Timing, When};
 use crate::grammar::deed::Deed;
 use crate::grammar::shown::duration;
@@ -44,7 +44,7 @@ impl Limits {
     ) -> Result<(), Box<Stop>> {
         let (mut at, mut devices, mut frames) = (start, devices, 0_u64);
         for statement in &script.statements {
-            let cost = Cost::of(statement, at);
+            let cost = Cost::of(statement.when, &statement.action, at);
             at = at.plus_micros(cost.micros);
             devices = devices.saturating_add(cost.devices);
             frames = frames.saturating_add(cost.frames);
@@ -92,13 +92,13 @@ struct Cost {
 }
 
 impl Cost {
-    fn of(statement: &Statement, now: Instant) -> Self {
-        let before = match statement.when {
+    fn of(when: When, action: &Action, now: Instant) -> Self {
+        let before = match when {
             When::Next => 0,
             When::At(at) => at.micros_since(now),
             When::After(micros) => micros,
         };
-        let mut cost = match &statement.action {
+        let mut cost = match action {
             Action::Deed(Deed::Cycle(micros)) => Self::time(*micros),
             Action::Deed(Deed::Send { times, every, .. }) => Self {
                 micros: every.saturating_mul(u64::from(times.saturating_sub(1))),
@@ -116,6 +116,20 @@ impl Cost {
                     Self::time(micros.saturating_mul(u64::from(*times)))
                 }
             },
+            Action::Random(draw) => {
+                let lines = draw.choices.iter().map(|one| &one.most);
+                let costs = lines.map(|(when, action)| Self::of(*when, action, now));
+                let most = costs.fold(Self::default(), |most, cost| Self {
+                    micros: most.micros.max(cost.micros),
+                    devices: most.devices.max(cost.devices),
+                    frames: most.frames.max(cost.frames),
+                });
+                Self {
+                    micros: most.micros.saturating_mul(u64::from(draw.times)),
+                    frames: most.frames.saturating_mul(u64::from(draw.times)),
+                    ..most
+                }
+            }
             _ => Self::default(),
         };
         cost.micros = cost.micros.saturating_add(before);
@@ -164,6 +178,12 @@ mod tests {
                 "100000 frames",
             ),
             (&"device gxmm\n".repeat(2000), 16, "16 devices"),
+            ("random 7 times sync | wait 0..100s", 1, "700s"),
+            (
+                "random 2 times sync 1..60000 times every 1us",
+                1,
+                "100000 frames",
+            ),
         ] {
             let said = check(text).expect_err(text);
             assert!(said.contains(why), "{text}: {said}");

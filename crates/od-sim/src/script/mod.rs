@@ -10,6 +10,7 @@
 //! assert!(run(&script, &mut Bare(od_devices::DEVICES)).is_ok());
 //! ```
 
+pub mod campaign;
 mod console;
 mod expect;
 mod host;
@@ -21,6 +22,7 @@ mod run;
 mod sdo;
 pub mod typed;
 
+pub use campaign::Campaign;
 pub use console::Console;
 pub(crate) use host::Recorder;
 pub use host::{Bare, Host, Limited, Origin};
@@ -31,7 +33,7 @@ pub use read::{Reader, Script, Statement};
 pub use run::{run, run_on};
 
 pub use crate::bench::Bench;
-pub use crate::grammar::action::{Action, Added, Expect, Outcome, Timing, When};
+pub use crate::grammar::action::{Action, Added, Draw, Expect, Outcome, Timing, When};
 pub use crate::grammar::deed::{Deed, Shaft, Wire};
 pub use crate::grammar::frames::Frames;
 pub use crate::grammar::pattern::Pattern;

@@ -21,6 +21,16 @@ pub struct Statement {
     pub action: Action,
 }
 
+impl Statement {
+    /// The name in a `device` line: a built-in device, or a file.
+    pub fn device(&self) -> Option<&str> {
+        match &self.action {
+            Action::Device(added) => added.name.as_deref(),
+            _ => None,
+        }
+    }
+}
+
 /// The lines of a script.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct Script {

@@ -12,13 +12,19 @@ use super::outcome::{Reason, Stop, Summary};
 use super::read::{Script, Statement};
 use crate::bench::Bench;
 use crate::bus::Sent;
+use crate::chance::Chance;
 use crate::device::VirtualDevice;
-use crate::grammar::action::{Action, Added, When};
+use crate::grammar::action::{Action, Added, Draw, When};
 use crate::grammar::deed::{Deed, Wire};
+use crate::grammar::draw::drawn;
+use crate::grammar::line::line;
 use crate::grammar::pattern::Pattern;
+use crate::grammar::tokens::Tokens;
 
 /// Longest wait for a frame on a line that takes time, in microseconds, where a script names no time.
 pub(super) const ON_ITS_WAY: u64 = 100_000;
+/// Time after which a run without frames asks whether it has to end, in microseconds.
+const STEP: u64 = 10_000_000;
 
 /// Result of a line; an error stops the script.
 pub(super) type Result<T> = core::result::Result<T, Reason>;
@@ -34,10 +40,9 @@ pub(super) fn failed<T>(expected: impl Into<String>, got: impl Into<String>) -> 
     })
 }
 
-/// The bench while a script runs.
-pub(super) struct Runner<'r> {
-    host: &'r mut dyn Host,
-    pub(super) bench: &'r mut Bench,
+/// How far a script has come. With the bench it is all that the next line depends on.
+#[derive(Clone)]
+pub(super) struct Place {
     /// Frames of the devices that no line has expected yet.
     pub(super) pending: VecDeque<Sent>,
     ignored: Vec<Pattern>,
@@ -45,6 +50,47 @@ pub(super) struct Runner<'r> {
     greetings: Vec<Sent>,
     pub(super) held: usize,
     frames: u64,
+    chance: Chance,
+    /// The drawn lines, each with the number of its `random` line.
+    pub(super) drawn: Vec<(u32, String)>,
+}
+
+impl Place {
+    /// The start of a script, with the draws of a seed.
+    pub(super) fn new(seed: u64) -> Self {
+        Self {
+            pending: VecDeque::new(),
+            ignored: Vec::new(),
+            greetings: Vec::new(),
+            held: 0,
+            frames: 0,
+            chance: Chance::of_seed(seed),
+            drawn: Vec::new(),
+        }
+    }
+
+    /// The same place with the draws of another seed.
+    pub(super) fn with_seed(&self, seed: u64) -> Self {
+        Self {
+            chance: Chance::of_seed(seed),
+            ..self.clone()
+        }
+    }
+
+    pub(super) fn summary(&self, end: Instant) -> Summary {
+        Summary {
+            held: self.held,
+            frames: self.frames,
+            end,
+        }
+    }
+}
+
+/// The bench while a script runs.
+pub(super) struct Runner<'r> {
+    host: &'r mut dyn Host,
+    pub(super) bench: &'r mut Bench,
+    pub(super) place: &'r mut Place,
     limits: Option<Limits>,
 }
 
@@ -65,46 +111,64 @@ pub fn run_on(
     bench: &mut Bench,
     host: &mut dyn Host,
 ) -> core::result::Result<Summary, Box<Stop>> {
-    let limits = host.limits();
-    if let Some(limits) = limits {
+    if let Some(limits) = host.limits() {
         limits.check(script, bench.bus.devices().len(), bench.bus.now())?;
     }
+    let mut place = Place::new(host.seed());
+    play(&script.statements, bench, host, &mut place)?;
+    Ok(place.summary(bench.bus.now()))
+}
+
+/// Runs lines of a script from a place on.
+///
+/// # Errors
+/// As [`run_on`].
+pub(super) fn play(
+    statements: &[Statement],
+    bench: &mut Bench,
+    host: &mut dyn Host,
+    place: &mut Place,
+) -> core::result::Result<(), Box<Stop>> {
+    let limits = host.limits();
     let mut runner = Runner {
         host,
         bench,
-        pending: VecDeque::new(),
-        ignored: Vec::new(),
-        greetings: Vec::new(),
-        held: 0,
-        frames: 0,
+        place,
         limits,
     };
-    for statement in &script.statements {
-        let result = match (runner.statement(statement), runner.limits) {
-            (_, Some(limits)) if runner.is_flooded() => impossible(limits.flood()),
-            (result, _) => result,
-        };
-        if runner.host.waits_for_responses() {
-            runner.settle();
-        }
-        runner.host.look(&mut runner.bench.bus);
-        if let Err(reason) = result {
+    for statement in statements {
+        if let Err(reason) = runner.carry_out(statement) {
+            let drawn = runner.place.drawn.last();
+            let drawn = drawn.filter(|(line, _)| *line == statement.line);
             return Err(Box::new(Stop {
                 line: statement.line,
-                text: statement.text.clone(),
+                text: drawn.map_or(&statement.text, |(_, text)| text).clone(),
                 at: runner.now(),
                 reason,
             }));
         }
     }
-    Ok(Summary {
-        held: runner.held,
-        frames: runner.frames,
-        end: runner.now(),
-    })
+    Ok(())
 }
 
 impl Runner<'_> {
+    /// Carries out a line, with what belongs to its end.
+    fn carry_out(&mut self, statement: &Statement) -> Result<()> {
+        let mut result = self.statement(statement);
+        if let Some(limits) = self.limits
+            && self.place.frames > limits.frames
+        {
+            result = impossible(limits.flood());
+        } else if self.host.stops() {
+            result = impossible("the run was interrupted");
+        }
+        if self.host.waits_for_responses() {
+            self.settle();
+        }
+        self.host.look(&mut self.bench.bus);
+        result
+    }
+
     fn statement(&mut self, statement: &Statement) -> Result<()> {
         let now = self.now();
         // The bus line exists before the first device.
@@ -130,33 +194,67 @@ impl Runner<'_> {
             Action::Read { object, outcome } => self.read(object, outcome),
             Action::Write { write, outcome } => self.write(write, outcome),
             Action::Ignore(Some(pattern)) => {
-                self.pending.retain(|sent| !pattern.matches(&sent.frame));
-                self.ignored.push(pattern.clone());
+                self.place
+                    .pending
+                    .retain(|sent| !pattern.matches(&sent.frame));
+                self.place.ignored.push(pattern.clone());
                 Ok(())
             }
             Action::Ignore(None) => {
-                self.ignored.clear();
+                self.place.ignored.clear();
                 Ok(())
             }
             Action::Skip => {
-                self.pending.clear();
+                self.place.pending.clear();
                 Ok(())
             }
             Action::Expect(expect) => self.expect(expect),
+            Action::Random(draw) => self.draw(statement.line, draw),
         }
     }
 
-    fn act(&mut self, deed: &Deed) -> Result<()> {
-        match deed.act(self.bench).or_else(impossible)? {
-            Some(frame) => self.send(&frame),
-            None => self.collect(),
-        }
-        match deed.rest() {
-            Some((micros, rest)) => {
-                self.advance(self.now().plus_micros(micros));
-                self.act(&rest)
+    /// Draws lines, and carries them out.
+    fn draw(&mut self, number: u32, draw: &Draw) -> Result<()> {
+        for _ in 0..draw.times {
+            let last = draw.choices.len().saturating_sub(1);
+            let chosen = self.place.chance.up_to(last as u64) as usize;
+            let mut faults = Vec::new();
+            if let Ok(device) = self.bench.present() {
+                let names = device.faults().into_iter();
+                faults.extend(names.map(|name| (name, device.is_broken(name))));
             }
-            None => Ok(()),
+            let chance = &mut self.place.chance;
+            let choice = &draw.choices[chosen].text;
+            let text =
+                drawn(choice, &faults, &mut |last| chance.up_to(last)).or_else(impossible)?;
+            self.place.drawn.push((number, text.clone()));
+            let (when, action) = line(Tokens::new(number, &text), &mut None)
+                .or_else(|problem| impossible(problem.to_string()))?;
+            self.carry_out(&Statement {
+                line: number,
+                text,
+                when,
+                action,
+            })?;
+        }
+        Ok(())
+    }
+
+    fn act(&mut self, deed: &Deed) -> Result<()> {
+        let mut deed = deed.clone();
+        loop {
+            match deed.act(self.bench).or_else(impossible)? {
+                Some(frame) => self.send(&frame),
+                None => self.collect(),
+            }
+            let Some((micros, rest)) = deed.rest() else {
+                return Ok(());
+            };
+            self.advance(self.now().plus_micros(micros));
+            if self.must_end() {
+                return Ok(());
+            }
+            deed = rest;
         }
     }
 
@@ -217,25 +315,27 @@ impl Runner<'_> {
         }
         self.bench.current = first.unwrap_or_default();
         if !wanted.off {
-            let before = self.pending.len();
+            let before = self.place.pending.len();
             self.bench.bus.start(self.bench.current);
             self.collect();
             // On a line that takes time, the boot-up message is still being sent.
             for station in first.unwrap_or_default() + 1..=self.bench.bus.devices().len() {
                 self.send_out(station);
             }
-            self.greetings.extend(self.pending.iter().skip(before));
+            self.place
+                .greetings
+                .extend(self.place.pending.iter().skip(before));
         }
         Ok(())
     }
 
     /// Removes boot-up messages from the queue that do not match.
     pub(super) fn pass_greetings(&mut self, wanted: impl Fn(&Frame) -> bool) {
-        while let Some(sent) = self.pending.front()
-            && self.greetings.contains(sent)
+        while let Some(sent) = self.place.pending.front()
+            && self.place.greetings.contains(sent)
             && !wanted(&sent.frame)
         {
-            self.pending.pop_front();
+            self.place.pending.pop_front();
         }
     }
 
@@ -277,7 +377,7 @@ impl Runner<'_> {
         let bus = &mut self.bench.bus;
         let end = bus.now().plus_micros(ON_ITS_WAY);
         while self.bench.bus.is_busy()
-            && !self.is_flooded()
+            && !self.must_end()
             && let Some(at) = self.bench.bus.next_deadline().filter(|at| *at <= end)
         {
             self.bench.bus.advance_until_sent(at);
@@ -287,23 +387,35 @@ impl Runner<'_> {
 
     /// Lets time pass.
     pub(super) fn advance(&mut self, to: Instant) {
-        while !self.is_flooded() && self.bench.bus.advance_until_sent(to) {
+        while !self.must_end() && self.advance_until_sent(to) {
             self.collect();
         }
-    }
-
-    /// Returns whether there were more frames than the limit of the script.
-    fn is_flooded(&self) -> bool {
-        self.limits
-            .is_some_and(|limits| self.frames > limits.frames)
     }
 
     /// Lets time pass until a frame comes that is not ignored, or until `to`.
     pub(super) fn advance_until_pending(&mut self, to: Instant) {
-        while self.pending.is_empty() && !self.is_flooded() && self.bench.bus.advance_until_sent(to)
-        {
+        while self.place.pending.is_empty() && !self.must_end() && self.advance_until_sent(to) {
             self.collect();
         }
+    }
+
+    /// Lets time pass to the next frame, or to `to`; returns whether it is a frame.
+    fn advance_until_sent(&mut self, to: Instant) -> bool {
+        loop {
+            let next = to.min(self.now().plus_micros(STEP));
+            if self.bench.bus.advance_until_sent(next) {
+                return true;
+            }
+            if next == to || self.must_end() {
+                return false;
+            }
+        }
+    }
+
+    /// Returns whether there were more frames than the limit of the script, or the host ends the run.
+    fn must_end(&self) -> bool {
+        let frames = self.place.frames;
+        self.limits.is_some_and(|limits| frames > limits.frames) || self.host.stops()
     }
 
     pub(super) fn collect(&mut self) {
@@ -314,11 +426,72 @@ impl Runner<'_> {
             if sent.device.is_none() {
                 continue;
             }
-            self.frames += 1;
-            let mut ignored = self.ignored.iter();
+            self.place.frames += 1;
+            let mut ignored = self.place.ignored.iter();
             if !ignored.any(|pattern| pattern.matches(&sent.frame)) {
-                self.pending.push_back(sent);
+                self.place.pending.push_back(sent);
             }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::script::Bare;
+    use std::cell::Cell;
+
+    /// A host that ends the run when it is asked for the last time.
+    struct Ending(Cell<u32>);
+
+    impl Host for Ending {
+        fn device(
+            &mut self,
+            name: Option<&str>,
+            node_id: Option<NodeId>,
+        ) -> core::result::Result<VirtualDevice, od_model::Refused> {
+            Bare(od_devices::DEVICES).device(name, node_id)
+        }
+
+        fn stops(&self) -> bool {
+            self.0.set(self.0.get().saturating_sub(1));
+            self.0.get() == 0
+        }
+    }
+
+    /// The stack does not grow with the number of frames.
+    #[test]
+    fn a_line_that_repeats_runs_on_a_small_stack() {
+        let run_all = || {
+            for line in ["sync 60000 times", "send 601#40 60000 times every 1us"] {
+                let script = Script::parse(line).expect("a line");
+                assert_eq!(
+                    run(&script, &mut Bare(od_devices::DEVICES)).map(drop),
+                    Ok(())
+                );
+            }
+        };
+        let thread = std::thread::Builder::new()
+            .stack_size(256 * 1024)
+            .spawn(run_all);
+        let ended = thread.expect("a thread").join();
+        assert!(ended.is_ok());
+    }
+
+    #[test]
+    fn a_host_ends_a_run_in_any_line() {
+        for line in [
+            "wait 3153600000s",
+            "nmt start\nwait 3153600000s",
+            "sync 1000000 times every 3153s",
+            "expect silence 3153600000s",
+            "expect 123# within 3153600000s",
+            "random 10000 times wait 3153600000s",
+        ] {
+            let script = Script::parse(line).expect("a line");
+            let stop = run(&script, &mut Ending(Cell::new(1000))).expect_err("it ends");
+            let reason = Reason::Impossible("the run was interrupted".into());
+            assert_eq!(stop.reason, reason, "{line}");
         }
     }
 }

@@ -33,7 +33,7 @@ impl Runner<'_> {
                 return failed(format!("{object} = {wanted}"), shown(&bytes));
             }
         }
-        self.held += 1;
+        self.place.held += 1;
         Ok(())
     }
 
@@ -45,7 +45,7 @@ impl Runner<'_> {
         ended(outcome, result, &expected, |_| {
             "the value was written".into()
         })?;
-        self.held += 1;
+        self.place.held += 1;
         Ok(())
     }
 
@@ -66,13 +66,13 @@ impl Runner<'_> {
     /// after its request; other frames stay for `expect`.
     fn next_event(&mut self, client: &mut Client) -> Result<Event> {
         let id = Channel::of(self.device()?.node_id()).response;
-        let mut looked_at = self.pending.len();
+        let mut looked_at = self.place.pending.len();
         loop {
             if let Some(event) = client.poll_event() {
                 return Ok(event);
             }
             while let Some(frame) = client.poll_transmit(self.now()) {
-                looked_at = self.pending.len();
+                looked_at = self.place.pending.len();
                 self.send(&frame);
             }
             if let Some(answer) = self.answer(id, &mut looked_at) {
@@ -90,9 +90,9 @@ impl Runner<'_> {
 
     /// Takes the next received frame with this CAN-ID.
     fn answer(&mut self, id: CanId, looked_at: &mut usize) -> Option<Frame> {
-        while let Some(sent) = self.pending.get(*looked_at) {
+        while let Some(sent) = self.place.pending.get(*looked_at) {
             if sent.frame.id() == id && !sent.frame.is_remote() {
-                return self.pending.remove(*looked_at).map(|sent| sent.frame);
+                return self.place.pending.remove(*looked_at).map(|sent| sent.frame);
             }
             *looked_at += 1;
         }

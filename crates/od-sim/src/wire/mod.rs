@@ -20,9 +20,12 @@ use self::controller::PASSIVE;
 pub use self::controller::{Condition, Controller};
 pub use self::medium::{Disturbance, Trouble};
 pub(crate) use self::medium::{Due, Ended, Medium, PROCESSING, Waiting};
+use crate::chance::Chance;
 
 /// Limit of disturbances that are kept until they are read.
 const KEPT: usize = 1000;
+/// State of the random numbers for seed 0.
+const CHANCE: u64 = 0x9E37_79B9_7F4A_7C15;
 
 /// The state of a station at one time.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -56,7 +59,7 @@ pub struct Line {
     unplugged: Vec<bool>,
     disturbed: VecDeque<Disturbance>,
     events: VecDeque<(usize, BusEvent)>,
-    chance: u64,
+    chance: Chance,
 }
 
 impl Default for Line {
@@ -70,7 +73,7 @@ impl Default for Line {
             unplugged: Vec::new(),
             disturbed: VecDeque::new(),
             events: VecDeque::new(),
-            chance: 0x9E37_79B9_7F4A_7C15,
+            chance: Chance::new(CHANCE),
         }
     }
 }
@@ -96,7 +99,7 @@ impl Line {
 
     /// Restarts the random numbers; the same seed gives the same sequence.
     pub fn set_seed(&mut self, seed: u64) {
-        self.chance = seed ^ 0x9E37_79B9_7F4A_7C15;
+        self.chance = Chance::new(seed ^ CHANCE);
     }
 
     /// The controller of a station: 0 is the outside, then come the devices.
@@ -349,11 +352,7 @@ impl Line {
             // Too many resistors take the signal level away from all stations.
             _ => rate / 20 + 5,
         };
-        // xorshift64*: the same sequence of numbers on every computer.
-        self.chance ^= self.chance >> 12;
-        self.chance ^= self.chance << 25;
-        self.chance ^= self.chance >> 27;
-        (self.chance.wrapping_mul(0x2545_F491_4F6C_DD1D) >> 33) % 100 < percent
+        (self.chance.number() >> 33) % 100 < percent
     }
 }
 

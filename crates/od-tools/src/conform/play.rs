@@ -157,7 +157,7 @@ impl Player {
                 dut.drain()
             }
             Action::Expect(expect) => self.expect(dut, line, expect),
-            Action::Deed(_) | Action::Device(_) => skip(on_a_bench(line)),
+            Action::Deed(_) | Action::Device(_) | Action::Random(_) => skip(on_a_bench(line)),
         }
     }
 

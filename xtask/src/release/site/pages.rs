@@ -49,6 +49,7 @@ const PARTS: [(&str, &[&str]); 9] = [
         "docs/how-to/node-from-c.md",
         "docs/how-to/test-a-device.md",
         "docs/how-to/write-a-test.md",
+        "docs/how-to/run-a-campaign.md",
         "docs/how-to/convert-a-description.md",
         "docs/how-to/derive-a-variant.md",
         "docs/how-to/compare-two-versions.md",

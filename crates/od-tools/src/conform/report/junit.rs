@@ -82,7 +82,7 @@ pub(super) fn render(report: &Report) -> String {
 }
 
 /// Text for XML and HTML, also inside quotes; invisible characters are escaped.
-pub(super) fn escape(text: &str) -> String {
+pub fn escape(text: &str) -> String {
     let mut out = String::new();
     for c in text.chars() {
         match c {

@@ -2,7 +2,7 @@
 
 mod html;
 mod json;
-mod junit;
+pub mod junit;
 mod markdown;
 mod run;
 mod text;
