@@ -107,7 +107,7 @@ def _failure(
     shrunk = None
     if script is not None and shrink:
         # A pattern that was not met is the last line of the script.
-        shrunk = _shrunk(script, lambda text: _fails(text, check) == type(error).__name__)
+        shrunk = _odkit.shrink(script, lambda text: _fails(text, check) == type(error).__name__)
     link = link_of(script, bench.now) if script is not None else None
     text = f"{type(error).__name__}: {error}"
     return Failure(seed, text, "".join(traceback.format_exception(error)), script, shrunk, link)
@@ -122,24 +122,6 @@ def _fails(script: str, check: Check | None) -> str | None:
     except Exception as error:
         return type(error).__name__
     return None
-
-
-def _shrunk(script: str, fails: Callable[[str], bool]) -> str | None:
-    """Drops lines while it still fails: first half of them, in the end single ones."""
-    lines = script.splitlines()
-    if not fails(script):
-        return None
-    size = len(lines) // 2
-    while size > 0:
-        at = 0
-        while at < len(lines):
-            fewer = lines[:at] + lines[at + size :]
-            if fails("\n".join(fewer) + "\n"):
-                lines = fewer
-            else:
-                at += size
-        size //= 2
-    return "\n".join(lines) + "\n"
 
 
 def link_of(script: str, now: float) -> str:

@@ -23,8 +23,8 @@ import time
 import types
 import warnings
 import weakref
-from collections.abc import Callable, Iterator
-from typing import Any
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
 
 import can.listener
 
@@ -39,22 +39,23 @@ _call_soon_threadsafe = asyncio.BaseEventLoop.call_soon_threadsafe
 _loop_time = asyncio.BaseEventLoop.time
 _processor_of = getattr(time, "pthread_getcpuclockid", None)
 
+if TYPE_CHECKING:
+    _Thread = weakref.ref[threading.Thread]
 
-def this() -> tuple[int, weakref.ref[threading.Thread], int | None]:
+
+def this() -> tuple[int, _Thread, int | None]:
     """The calling thread: its number, a reference to it, and the clock of its processor time."""
     ident = threading.get_ident()
     processor = _processor_of(ident) if _processor_of else None
     return ident, weakref.ref(threading.current_thread()), processor
 
 
-def look(threads: list[tuple[Any, int | None, threading.Thread | None]]) -> list[tuple[bool, float | None, bool]]:
+def look(threads: list[tuple[_Thread, int | None, _Thread | None]]) -> list[tuple[bool, float | None, bool]]:
     """For each thread: whether it lives, its processor time, and whether the thread that it waits for lives."""
     return [_look(*one) for one in threads]
 
 
-def _look(
-    reference: weakref.ref[threading.Thread], processor: int | None, target: threading.Thread | None
-) -> tuple[bool, float | None, bool]:
+def _look(reference: _Thread, processor: int | None, target: _Thread | None) -> tuple[bool, float | None, bool]:
     thread = reference()
     lives = _lives(thread)
     seconds = None
@@ -63,7 +64,7 @@ def _look(
             seconds = time.clock_gettime(processor)
         except OSError:
             lives = False
-    return lives, seconds, _lives(target)
+    return lives, seconds, target is not None and _lives(target())
 
 
 def _lives(thread: threading.Thread | None) -> bool:
@@ -71,7 +72,7 @@ def _lives(thread: threading.Thread | None) -> bool:
     return thread is not None and not hasattr(thread, "odkit_ended") and thread.is_alive()
 
 
-def report(reference: weakref.ref[threading.Thread], strict: bool) -> None:
+def report(reference: _Thread, strict: bool) -> None:
     """Warns that a thread waits for something that no call reports; with ``strict`` that is an error."""
     thread = reference()
     if thread is None:
@@ -94,16 +95,6 @@ def _place(thread: threading.Thread) -> str:
     return found[1] if found else "an unknown line"
 
 
-def _pauses(timeout: float | None, paced: bool = True, target: threading.Thread | None = None) -> Iterator[float]:
-    """The pauses of a wait of Python until its time is over."""
-    waiting = _odkit.Waiting(timeout, paced, target)
-    try:
-        while (pause := waiting.pause()) is not None:
-            yield pause
-    finally:
-        waiting.end()
-
-
 class _Sleeper:
     """A thread that waits for a condition."""
 
@@ -121,7 +112,7 @@ def wait(self: threading.Condition, timeout: float | None = None) -> bool:
     sleepers.append(own)
 
     try:
-        for pause in _pauses(timeout):
+        for pause in _odkit.Waiting(timeout):
             _wait(self, pause)
             if own.woken:
                 return True
@@ -146,7 +137,7 @@ def sleep(seconds: float) -> None:
     if not seconds > 0 or not _odkit.takes_part():
         _sleep(seconds)
         return
-    for pause in _pauses(seconds):
+    for pause in _odkit.Waiting(seconds):
         _sleep(pause)
 
 
@@ -178,7 +169,8 @@ def join(self: threading.Thread, timeout: float | None = None) -> None:
         _join(self, timeout)
         return
 
-    for pause in _pauses(None if timeout is None else max(timeout, 0), False, self):
+    most = None if timeout is None else max(timeout, 0)
+    for pause in _odkit.Waiting(most, False, weakref.ref(self)):
         _join(self, pause)
         if not self.is_alive():
             _join(self)
@@ -189,7 +181,7 @@ def _selecting(select: Callable[..., Any]) -> Callable[..., Any]:
     def wrapped(self: Any, timeout: float | None = None) -> Any:
         if (timeout is not None and timeout <= 0) or not _odkit.takes_part():
             return select(self, timeout)
-        for pause in _pauses(timeout):
+        for pause in _odkit.Waiting(timeout):
             ready = select(self, pause)
             if ready:
                 return ready

@@ -137,20 +137,21 @@ impl Bench {
     ///
     /// Raises `KeyError` if no device has it.
     fn __getitem__(&self, device: &Bound<'_, PyAny>) -> PyResult<Device> {
+        let (id, name) = match device.extract::<u8>() {
+            Ok(id) => (Some(id), None),
+            Err(_) => (None, Some(device.extract::<String>()?)),
+        };
         let state = self.wire.lock();
-        let place = match device.extract::<u8>() {
-            Ok(id) => state
+        let place = match (id, &name) {
+            (Some(id), _) => state
                 .bus
                 .devices()
                 .iter()
                 .position(|one| one.is_configured() && one.node_id().raw() == id),
-            Err(_) => {
-                let wanted: String = device.extract()?;
-                state
-                    .names
-                    .iter()
-                    .position(|name| name.eq_ignore_ascii_case(&wanted))
-            }
+            (None, name) => state.names.iter().position(|own| {
+                name.as_ref()
+                    .is_some_and(|name| own.eq_ignore_ascii_case(name))
+            }),
         };
         let known = state.names.join(", ");
         drop(state);

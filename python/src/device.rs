@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use od_model::{Address, values};
+use od_model::{Address, DataType, values};
 use od_runtime::Instant;
 use od_sim::VirtualDevice;
 use pyo3::prelude::*;
@@ -80,17 +80,33 @@ fn gone() -> Fault {
     Fault::value("the device is not on the bench any more")
 }
 
-/// The address in `0x6004`, `(0x1018, 2)`, `"1018h:02"` or the name of an object.
-fn address(device: &VirtualDevice, object: &Bound<'_, PyAny>) -> PyResult<Address> {
-    if let Ok((index, sub)) = object.extract::<(u16, u8)>() {
-        return Ok(Address::new(index, sub));
+/// An object as a caller names it. It is read before the lock of a bus is taken: reading it may run Python.
+enum Key {
+    Address(Address),
+    Name(String),
+}
+
+impl Key {
+    /// `0x6004`, `(0x1018, 2)`, `"1018h:02"` or the name of an object.
+    fn of(object: &Bound<'_, PyAny>) -> PyResult<Self> {
+        if let Ok((index, sub)) = object.extract::<(u16, u8)>() {
+            return Ok(Self::Address(Address::new(index, sub)));
+        }
+        if let Ok(index) = object.extract::<u16>() {
+            return Ok(Self::Address(Address::new(index, 0)));
+        }
+        Ok(Self::Name(object.str()?.extract()?))
     }
-    if let Ok(index) = object.extract::<u16>() {
-        return Ok(Address::new(index, 0));
+
+    /// Its address and type in a device.
+    fn find(&self, device: &VirtualDevice) -> Result<(Address, DataType), Fault> {
+        let text = match self {
+            Self::Address(address) => address.to_string(),
+            Self::Name(name) => name.clone(),
+        };
+        let entry = values::find(device.dictionary(), &text).map_err(Fault::from)?;
+        Ok((entry.address, entry.data_type))
     }
-    let text: String = object.str()?.extract()?;
-    let entry = values::find(device.dictionary(), &text).map_err(Fault::from)?;
-    Ok(entry.address)
 }
 
 #[pymethods]
@@ -344,12 +360,11 @@ impl Device {
         py: Python<'p>,
         object: &Bound<'p, PyAny>,
     ) -> PyResult<Bound<'p, PyAny>> {
+        let key = Key::of(object)?;
         let mut state = self.wire.lock();
         let found = state.bus.with(self.place, |device, now| {
-            let address = address(device, object)?;
-            let entry =
-                values::find(device.dictionary(), &address.to_string()).map_err(Fault::from)?;
-            PyResult::Ok((entry.data_type, device.read(address, now)))
+            let (address, data_type) = key.find(device)?;
+            Ok::<_, Fault>((data_type, device.read(address, now)))
         });
         drop(state);
         let (data_type, bytes) = found.ok_or_else(gone)??;
@@ -367,12 +382,8 @@ impl Device {
         object: &Bound<'p, PyAny>,
         value: &Bound<'p, PyAny>,
     ) -> PyResult<()> {
-        let (address, data_type) = self.look(|device, _| {
-            let address = address(device, object)?;
-            let entry =
-                values::find(device.dictionary(), &address.to_string()).map_err(Fault::from)?;
-            PyResult::Ok((address, entry.data_type))
-        })??;
+        let key = Key::of(object)?;
+        let (address, data_type) = self.look(|device, _| key.find(device))??;
         let bytes = from_python(data_type, value)?;
         let line = story::value(data_type, &bytes).map(|value| format!("set {address} = {value}"));
         let line = line

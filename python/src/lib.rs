@@ -73,7 +73,7 @@ mod _odkit {
     #[pymodule_export]
     use crate::pass::end_program;
     #[pymodule_export]
-    use crate::play::{play, restore_snapshot};
+    use crate::play::{play, restore_snapshot, shrink};
     #[pymodule_export]
     use crate::port::Port;
     #[pymodule_export]

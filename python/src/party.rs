@@ -34,7 +34,7 @@ pub(crate) struct Party {
     pub(crate) processor: Option<i64>,
     /// `None` while it runs.
     pub(crate) wait: Option<Wait>,
-    /// The thread for whose end it waits.
+    /// A weak reference to the thread for whose end it waits: what is dropped under a lock must not run Python.
     pub(crate) target: Option<Py<PyAny>>,
     /// It waits in a call of this package on another bus.
     pub(crate) elsewhere: bool,

@@ -6,6 +6,7 @@
 //! thread that opened the bus waits in Python, up to the time-out of any wait in Python, and while a thread
 //! waits for something that Python does not report.
 
+use std::cell::Cell;
 use std::sync::OnceLock;
 use std::thread::{self, ThreadId};
 use std::time::{Duration, Instant as Clock};
@@ -39,7 +40,7 @@ pub(crate) const NAP: Duration = Duration::from_millis(2);
 /// Maximum time for which a thread lets others run first.
 const TURN: Duration = Duration::from_secs(1);
 /// Time on the clock between two checks for signals such as Ctrl-C.
-const LOOK: Duration = Duration::from_millis(10);
+pub(crate) const LOOK: Duration = Duration::from_millis(10);
 /// Maximum time that passes on the bus in one step, in ms: without frames a step costs up to 1 ms per second.
 const STEP: u64 = 10_000;
 /// Number of steps after which a thread that is alone lets other threads of Python run.
@@ -280,10 +281,6 @@ impl<'w> Pass<'w> {
         let step = state.step(to);
         state.wake();
         self.steps += 1;
-        let looks = state.looked.elapsed() >= LOOK;
-        if looks {
-            state.looked = Clock::now();
-        }
         if let Step::Call(task, place) = step {
             // Python runs in this thread now.
             state.leave(thread::current().id());
@@ -292,10 +289,7 @@ impl<'w> Pass<'w> {
         } else {
             drop(state);
         }
-        if looks {
-            py.check_signals()?;
-            detached(py, || ());
-        }
+        look(py)?;
         Ok(step)
     }
 
@@ -318,7 +312,31 @@ impl<'w> Pass<'w> {
     }
 }
 
-fn sleep(py: Python<'_>, time: Duration) -> PyResult<()> {
+thread_local! {
+    /// The last check of this thread for signals.
+    static LOOKED: Cell<Option<Clock>> = const { Cell::new(None) };
+}
+
+/// Checks for signals such as Ctrl-C, and lets other threads of Python run, at most every `LOOK`: for loops that have
+/// something to do all the time.
+///
+/// # Errors
+/// `KeyboardInterrupt`, or another exception of a signal's handler.
+pub(crate) fn look(py: Python<'_>) -> PyResult<()> {
+    if LOOKED.get().is_some_and(|at| at.elapsed() < LOOK) {
+        return Ok(());
+    }
+    LOOKED.set(Some(Clock::now()));
+    py.check_signals()?;
+    detached(py, || ());
+    Ok(())
+}
+
+/// Waits for a time on the clock, or until another thread wakes this one.
+///
+/// # Errors
+/// As [`look`].
+pub(crate) fn sleep(py: Python<'_>, time: Duration) -> PyResult<()> {
     detached(py, || thread::park_timeout(time));
     py.check_signals()
 }

@@ -1,22 +1,29 @@
 //! Plays a script on a bench: the portable form of a snapshot.
 
+use std::cell::{Cell, RefCell};
+use std::time::Instant as Clock;
+
 use od_model::Refused;
 use od_runtime::NodeId;
 use od_sim::VirtualDevice;
 use od_sim::bus::Bus;
-use od_sim::script::{Bench, Host, Reason, Script, run_on};
+use od_sim::script::{Bench, Host, Reason, Script, campaign, run_on};
 use pyo3::exceptions::PyAssertionError;
 use pyo3::prelude::*;
 
 use crate::faults::Fault;
+use crate::pass::LOOK;
 use crate::snapshot::{Snapshot, is_own};
 use crate::spec::{Made, free_name};
 use crate::story::Story;
 
 /// Makes the devices of a script as those of a bench.
-#[derive(Default)]
 struct Player {
     names: Vec<String>,
+    /// The last check for signals such as Ctrl-C.
+    looked: Cell<Clock>,
+    /// The exception of a signal's handler, which ends the run.
+    raised: RefCell<Option<PyErr>>,
 }
 
 impl Host for Player {
@@ -34,6 +41,17 @@ impl Host for Player {
         self.names.push(free_name(&self.names, base, 0));
         Ok(device.delivered())
     }
+
+    fn stops(&self) -> bool {
+        if self.looked.get().elapsed() >= LOOK {
+            self.looked.set(Clock::now());
+            let handled = Python::attach(|py| py.check_signals());
+            if let Err(error) = handled {
+                self.raised.replace(Some(error));
+            }
+        }
+        self.raised.borrow().is_some()
+    }
 }
 
 /// Plays a script as `odkit run` does, and returns the state at its end: `odkit.Bench(odkit.play(script))` goes on
@@ -44,6 +62,20 @@ impl Host for Player {
 #[pyfunction]
 pub(crate) fn play(py: Python<'_>, script: &str) -> PyResult<Snapshot> {
     played(py, script, None)
+}
+
+/// Drops lines of a script while `fails(script)`, until no line can be dropped; `None` if the whole script does not fail.
+#[pyfunction]
+pub(crate) fn shrink(script: &str, fails: &Bound<'_, PyAny>) -> PyResult<Option<String>> {
+    let lines: Vec<&str> = script.lines().collect();
+    let text = |lines: &[&str]| {
+        lines
+            .iter()
+            .flat_map(|line| [line, "\n"])
+            .collect::<String>()
+    };
+    let fewest = campaign::shrink(&lines, |lines| fails.call1((text(lines),))?.is_truthy())?;
+    Ok(fewest.map(|lines| text(&lines)))
 }
 
 /// A pickled snapshot.
@@ -67,10 +99,16 @@ fn played(py: Python<'_>, script: &str, names: Option<Vec<String>>) -> PyResult<
         ))
     })?;
     let played = py.detach(|| {
-        let (mut bench, mut player) = (Bench::new(Bus::new()), Player::default());
+        let mut bench = Bench::new(Bus::new());
+        let mut player = Player {
+            names: Vec::new(),
+            looked: Cell::new(Clock::now()),
+            raised: RefCell::default(),
+        };
         let end = run_on(&lines, &mut bench, &mut player);
-        end.map(|_| (bench.bus, player.names))
-    });
+        let end = end.map(|_| (bench.bus, player.names));
+        player.raised.into_inner().map_or(Ok(end), Err)
+    })?;
     let (bus, own) = played.map_err(|stop| {
         let is_failed = matches!(stop.reason, Reason::Failed { .. });
         let text = stop.to_string();

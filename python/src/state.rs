@@ -79,8 +79,6 @@ pub(crate) struct State {
     pub(crate) warned: bool,
     /// Counts all changes of the bus.
     pub(crate) changes: u64,
-    /// The last check for signals such as Ctrl-C.
-    pub(crate) looked: Clock,
     ids: u32,
     /// The process that its threads are in.
     process: u32,
@@ -105,7 +103,6 @@ impl Default for State {
             strict: false,
             warned: false,
             changes: 0,
-            looked: Clock::now(),
             ids: 0,
             process: std::process::id(),
         }

@@ -2,7 +2,7 @@
 
 use std::sync::atomic::{AtomicU32, AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
-use std::thread;
+use std::thread::{self, ThreadId};
 use std::time::Instant as Clock;
 
 use od_wire::Instant;
@@ -57,12 +57,15 @@ pub(crate) fn patch(on: bool) {
 }
 
 /// A wait of Python by a thread that takes part on buses: at most `timeout` seconds. `paced`: it takes as long on the
-/// clock as on the bus. Python itself does the waiting, in pauses of the length that `pause` says: a
-/// program that ends would stop a thread inside this module.
+/// clock as on the bus. Python itself does the waiting, in pauses of the lengths that an iteration yields: a program that
+/// ends would stop a thread inside this module, and Python handles its signals.
+///
+/// It ends when Python drops it, which is no code of Python: Ctrl-C in a finalizer in Python would be lost.
 #[pyclass(frozen, module = "odkit._odkit")]
 pub(crate) struct Waiting {
     waits: Mutex<Vec<Waited>>,
     idle: AtomicU32,
+    thread: ThreadId,
 }
 
 /// A bus, the wait on it, its time at the start of the wait, and since when other threads come first.
@@ -70,6 +73,7 @@ type Waited = (Arc<Wire>, Wait, Instant, Option<Clock>);
 
 #[pymethods]
 impl Waiting {
+    /// `target` is a weak reference to the thread for whose end it waits.
     #[new]
     #[pyo3(signature = (timeout, paced=true, target=None))]
     fn new(py: Python<'_>, timeout: Option<f64>, paced: bool, target: Option<Py<PyAny>>) -> Self {
@@ -96,24 +100,29 @@ impl Waiting {
         Self {
             waits: Mutex::new(waits),
             idle: AtomicU32::new(0),
+            thread: id,
         }
     }
 
+    fn __iter__(slf: Bound<'_, Self>) -> Bound<'_, Self> {
+        slf
+    }
+
     /// Moves time if this thread may. Returns how long to wait in seconds, or `None` if the wait is over.
-    fn pause(&self, py: Python<'_>) -> PyResult<Option<f64>> {
+    fn __next__(&self, py: Python<'_>) -> PyResult<Option<f64>> {
         let taken = || self.waits.lock().unwrap_or_else(PoisonError::into_inner);
         let mut waits = std::mem::take(&mut *taken());
         let paused = self.pause_on(py, &mut waits);
         *taken() = waits;
         paused
     }
+}
 
-    /// The thread goes on.
-    fn end(&self) {
-        let id = thread::current().id();
-        let waits = self.waits.lock().unwrap_or_else(PoisonError::into_inner);
-        for (wire, ..) in waits.iter() {
-            wire.lock().leave(id);
+impl Drop for Waiting {
+    fn drop(&mut self) {
+        let waits = self.waits.get_mut().unwrap_or_else(PoisonError::into_inner);
+        for (wire, ..) in waits {
+            wire.lock().leave(self.thread);
         }
     }
 }

@@ -1,6 +1,7 @@
 //! A CANopen client.
 
-use std::sync::{Arc, Mutex, MutexGuard};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError};
+use std::thread::{self, ThreadId};
 
 use od_client::lss::Identity;
 use od_tools::Error;
@@ -8,9 +9,8 @@ use od_tools::link::Link;
 use od_tools::lss::{Lss, Slaves};
 use od_tools::scan::{Options, scan};
 use od_wire::{Frame, NodeId};
-use pyo3::exceptions::{PyOSError, PyTimeoutError, PyValueError};
+use pyo3::exceptions::{PyOSError, PyRuntimeError, PyTimeoutError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::sync::MutexExt;
 use pyo3::types::PyBytes;
 
 use crate::client::arguments::{command_of, id_of, identity, seconds_of};
@@ -21,6 +21,7 @@ use crate::client::known::{Known, address};
 use crate::client::link::Line;
 use crate::client::node::Node;
 use crate::files::description::read_of;
+use crate::pass::{NAP, sleep};
 use crate::value::{from_python, to_python};
 
 /// A CANopen client on a bus: SDO, NMT, LSS, heartbeat, EMCY, PDOs.
@@ -34,6 +35,8 @@ use crate::value::{from_python, to_python};
 #[pyclass(frozen, module = "odkit")]
 pub(crate) struct Client {
     core: Mutex<Option<Core>>,
+    /// The thread that uses the client.
+    user: Mutex<Option<ThreadId>>,
 }
 
 impl Client {
@@ -46,17 +49,40 @@ impl Client {
         py: Python<'_>,
         act: impl FnOnce(&mut Core) -> Result<T, Error>,
     ) -> PyResult<T> {
-        let mut guard = self.lock(py);
+        let mut guard = self.lock(py)?;
         let core = guard
             .as_mut()
             .ok_or_else(|| PyOSError::new_err("the client is closed"))?;
-        act(core).map_err(|fault| core.line.raised(fault))
+        self.set_user(Some(thread::current().id()));
+        let result = act(core).map_err(|fault| core.line.raised(fault));
+        self.set_user(None);
+        result
     }
 
-    fn lock(&self, py: Python<'_>) -> MutexGuard<'_, Option<Core>> {
-        self.core
-            .lock_py_attached(py)
-            .unwrap_or_else(|poisoned| poisoned.into_inner())
+    /// Waits until no other thread uses the client.
+    ///
+    /// # Errors
+    /// `RuntimeError` if this thread does, and an exception such as `KeyboardInterrupt`.
+    fn lock(&self, py: Python<'_>) -> PyResult<MutexGuard<'_, Option<Core>>> {
+        loop {
+            match self.core.try_lock() {
+                Ok(guard) => return Ok(guard),
+                Err(TryLockError::Poisoned(poisoned)) => return Ok(poisoned.into_inner()),
+                Err(TryLockError::WouldBlock) => {}
+            }
+            let user = *self.user.lock().unwrap_or_else(PoisonError::into_inner);
+            if user == Some(thread::current().id()) {
+                return Err(PyRuntimeError::new_err(
+                    "the client is in a call of this thread; a signal handler or callback inside the call needs a \
+                     client of its own",
+                ));
+            }
+            sleep(py, NAP)?;
+        }
+    }
+
+    fn set_user(&self, user: Option<ThreadId>) {
+        *self.user.lock().unwrap_or_else(PoisonError::into_inner) = user;
     }
 
     fn known(&self, py: Python<'_>, node: u8) -> PyResult<Option<Arc<Known>>> {
@@ -73,6 +99,7 @@ impl Client {
         let core = Core::new(Line::open(link)?, timeout);
         Ok(Self {
             core: Mutex::new(Some(core)),
+            user: Mutex::new(None),
         })
     }
 
@@ -81,14 +108,15 @@ impl Client {
     }
 
     #[pyo3(signature = (*_error))]
-    fn __exit__(&self, py: Python<'_>, _error: &Bound<'_, pyo3::types::PyTuple>) {
-        self.close(py);
+    fn __exit__(&self, py: Python<'_>, _error: &Bound<'_, pyo3::types::PyTuple>) -> PyResult<()> {
+        self.close(py)
     }
 
     /// Closes the link; a second call has no effect.
-    fn close(&self, py: Python<'_>) {
-        let core = self.lock(py).take();
+    fn close(&self, py: Python<'_>) -> PyResult<()> {
+        let core = self.lock(py)?.take();
         drop(core);
+        Ok(())
     }
 
     /// A node of the bus; with a description (as for `odkit.read`, or its result) its values
@@ -397,10 +425,11 @@ impl Client {
         })
     }
 
-    fn __repr__(&self, py: Python<'_>) -> String {
-        let text = match &*self.lock(py) {
-            Some(core) => core.line.to_string(),
-            None => String::from("closed"),
+    fn __repr__(&self) -> String {
+        let text = match self.core.try_lock().as_deref() {
+            Ok(Some(core)) => core.line.to_string(),
+            Ok(None) => String::from("closed"),
+            Err(_) => String::from("in a call"),
         };
         format!("<odkit.Client {text}>")
     }

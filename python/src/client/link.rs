@@ -2,21 +2,25 @@
 
 use std::fmt;
 use std::sync::Arc;
+use std::thread;
+use std::time::Duration;
 
 use od_tools::Error;
 use od_tools::conform::rig::Rig;
 use od_tools::link::{Heard, Link};
 use od_tools::links;
 use od_wire::{Frame, Instant};
+use pyo3::exceptions::PyOSError;
 use pyo3::prelude::*;
 
 use crate::bench::Bench;
 use crate::client::errors::raised;
 use crate::client::on_bus::OnBus;
 use crate::client::on_wire::OnWire;
+use crate::pass::{NAP, look, sleep};
 
-/// Maximum wait before signals such as Ctrl-C are handled, in ms.
-const SLICE: u64 = 50;
+/// Maximum wait before signals such as Ctrl-C are handled.
+const SLICE: Duration = Duration::from_millis(40);
 
 /// An open link.
 pub(crate) enum Line {
@@ -42,10 +46,7 @@ impl Line {
                 let bench = py.get_type::<Bench>().call1((devices,))?;
                 return Self::open(&bench);
             }
-            let link = py
-                .detach(|| links::open_between_threads(&name, None))
-                .map_err(raised)?;
-            return Ok(Self::Real(link, None));
+            return Ok(Self::Real(open_by_name(py, name)?, None));
         }
         if let Ok(bench) = link.getattr("bench")
             && bench.is_instance_of::<Bench>()
@@ -76,6 +77,18 @@ impl fmt::Display for Line {
     }
 }
 
+/// Opens a real link. That takes seconds if nobody answers, so another thread does it; after Ctrl-C it is left to
+/// itself.
+fn open_by_name(py: Python<'_>, name: String) -> PyResult<Box<dyn Link + Send>> {
+    let opening = thread::spawn(move || links::open_between_threads(&name, None));
+    while !opening.is_finished() {
+        sleep(py, NAP)?;
+    }
+    let opened = opening.join();
+    let opened = opened.map_err(|_| PyOSError::new_err("the link cannot be opened"))?;
+    opened.map_err(raised)
+}
+
 impl Link for Line {
     fn now(&self) -> Instant {
         match self {
@@ -89,7 +102,8 @@ impl Link for Line {
         match self {
             Self::Wire(one) => one.send(frame),
             Self::Bus(one) => one.send(frame),
-            Self::Real(one, _) => one.send(frame),
+            // It takes up to 2 s if the other side does not read.
+            Self::Real(one, _) => Python::attach(|py| py.detach(|| one.send(frame))),
         }
     }
 
@@ -101,14 +115,15 @@ impl Link for Line {
         };
         Python::attach(|py| {
             loop {
-                let slice = link.now().plus_millis(SLICE);
+                // Also if frames come all the time.
+                if let Err(why) = look(py) {
+                    *error = Some(why);
+                    return Err(Error::Interrupted);
+                }
+                let slice = link.now() + SLICE;
                 let heard = py.detach(|| link.receive(until.min(slice)))?;
                 if heard.is_some() || link.now() >= until {
                     return Ok(heard);
-                }
-                if let Err(why) = py.check_signals() {
-                    *error = Some(why);
-                    return Err(Error::Interrupted);
                 }
             }
         })

@@ -9,6 +9,9 @@ use od_wire::{Frame, Instant};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
+/// Maximum wait in seconds: some buses handle no signals while they wait, and none waits for years.
+const SLICE: f64 = 0.04;
+
 /// A bus of python-can, with the clock of the computer.
 pub(crate) struct OnBus {
     bus: Py<PyAny>,
@@ -48,9 +51,13 @@ impl OnBus {
     fn taken(&self, py: Python<'_>, until: Instant) -> PyResult<Option<Heard>> {
         loop {
             let left = until.micros_since(self.now().min(until)) as f64 / 1e6;
-            let message = self.bus.bind(py).call_method1("recv", (left,))?;
+            let message = self.bus.bind(py).call_method1("recv", (left.min(SLICE),))?;
             if message.is_none() {
-                return Ok(None);
+                if self.now() >= until {
+                    return Ok(None);
+                }
+                py.check_signals()?;
+                continue;
             }
             let flag = |name: &str| message.getattr(name)?.is_truthy();
             if flag("is_error_frame")? || flag("is_fd")? {
