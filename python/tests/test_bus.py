@@ -37,6 +37,21 @@ def test_devices_boot_and_answer():
         assert not (answer.is_extended_id or answer.is_remote_frame or answer.is_error_frame)
 
 
+def test_a_drive_and_an_io_module_by_name():
+    with open_bus("drive@3,gxmm@4,io@5") as bus:
+        assert [text(one) for _, one in zip(range(3), iter(lambda: bus.recv(0), None))] == ["703#00", "704#00", "705#00"]
+        assert [device.name for device in bus.bench.devices] == ["drive", "gxmm", "io"]
+        # Controlword: shutdown, switch on, enable operation. The statusword follows (CiA 402).
+        for command, state in ((0x06, 0x21), (0x07, 0x23), (0x0F, 0x27)):
+            bus.send(frame(f"603#2B406000{command:02X}000000"))
+            assert text(bus.recv(1)) == "583#6040600000000000"
+            bus.send(frame("603#4041600000000000"))
+            assert bus.recv(1).data[4] & 0x6F == state
+        for node, profile in ((3, 402), (4, 406), (5, 401)):
+            bus.send(frame(f"{0x600 + node:X}#4000100000000000"))
+            assert int.from_bytes(bus.recv(1).data[4:], "little") & 0xFFFF == profile
+
+
 def test_a_time_out_is_over_at_once():
     began = time.perf_counter()
     with open_bus() as bus:
