@@ -8,8 +8,8 @@ Without a marker the bench has a GXMM encoder at node ID 1::
     @pytest.mark.odkit_eds("drive.eds", node_id=5)
     def test_drive(odkit_bench, odkit_bus): ...
 
-A failing test or fixture shows the last frames of its bus in words. ``--odkit-record DIR`` saves the frames of
-each test as ``DIR/TEST.log``, as candump does.
+A failing test or fixture shows the faults in the frames of its bus with their likely causes, and the last frames in
+words. ``--odkit-record DIR`` saves the frames of each test as ``DIR/TEST.log``, as candump does.
 
 ``--odkit-conform LINK --odkit-eds FILE --odkit-node-id N`` adds the conformance test of a node: each case is a
 test with its clause in the name. Without a file or folder on the command line these are all tests.
@@ -137,6 +137,9 @@ def pytest_runtest_makereport(item, call):
     if not report.failed:
         return
     lines = bench.log if bench is not None else []
+    incidents = bench.diagnose() if lines else []
+    if incidents:
+        report.sections.append(("odkit diagnosis", "\n\n".join(map(str, incidents))))
     if lines:
         hidden = len(lines) - SHOWN
         head = [f"({hidden} earlier frames)"] if hidden > 0 else []

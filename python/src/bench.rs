@@ -11,6 +11,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyList, PyString};
 
 use crate::device::Device;
+use crate::diagnose::{self, Incident};
 use crate::expect::expect;
 use crate::faults::Fault;
 use crate::party::Wait;
@@ -376,6 +377,12 @@ impl Bench {
     fn log(&self) -> Vec<String> {
         let state = self.wire.lock();
         state.journal.lines(state.bus.devices(), 0)
+    }
+
+    /// The faults in the frames so far, in the order of their beginning, as `odkit diagnose` finds them in a log. It knows
+    /// the dictionaries of the devices. A healthy bus has none.
+    fn diagnose(&self) -> Vec<Incident> {
+        diagnose::of(&mut self.wire.lock())
     }
 
     /// The frames so far in the format of candump (`candump -L`), or in one of the formats

@@ -10,6 +10,7 @@ mod bench;
 mod client;
 mod cyclic;
 mod device;
+mod diagnose;
 mod expect;
 mod faults;
 mod files;
@@ -50,6 +51,8 @@ mod _odkit {
     use crate::client::node::Node;
     #[pymodule_export]
     use crate::device::Device;
+    #[pymodule_export]
+    use crate::diagnose::Incident;
     #[pymodule_export]
     use crate::files::canopen::to_canopen;
     #[pymodule_export]

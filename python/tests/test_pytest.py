@@ -47,6 +47,35 @@ def test_a_failing_test_shows_its_frames_and_all_are_recorded(pytester):
     assert set(logs) == {"test_it.py-test_fails.log", "test_it.py-test_passes.log"}
 
 
+def test_a_failing_test_says_what_its_frames_show(pytester):
+    pytester.makepyfile(
+        """
+        def test_restarts(odkit_bench):
+            device = odkit_bench["gxmm"]
+            device[0x1017] = 100
+            for _ in range(3):
+                odkit_bench.run(1)
+                device.power = False
+                odkit_bench.run(0.5)
+                device.power = True
+            odkit_bench.run(1)
+            incidents = odkit_bench.diagnose()
+            assert [incident.rule for incident in incidents] == ["reboots"]
+            assert incidents[0].nodes == [1] and incidents[0].causes and incidents[0].frames
+            assert False
+
+        def test_healthy(odkit_bench):
+            odkit_bench.run(5)
+            assert odkit_bench.diagnose() == []
+            assert False
+        """
+    )
+    result = pytester.runpytest()
+    result.assert_outcomes(failed=2)
+    result.stdout.fnmatch_lines(["*odkit diagnosis*", "node 1 restarts 3 times*", "cause 1: *", "*check *", "*boot-up*", "*odkit bus log*"])
+    assert result.stdout.str().count("odkit diagnosis") == 1
+
+
 def test_the_conformance_test_of_a_node(pytester):
     pytester.makepyfile(test_other="def test_other(): assert False")
     result = pytester.runpytest(

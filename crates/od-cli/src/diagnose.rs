@@ -22,7 +22,7 @@ use crate::report::{plural, plural_of};
 
 /// Find the faults in logs or on a bus, and their likely causes
 ///
-/// Reads candump, ASC, TRC (1.0 to 2.1), pcap and pcapng. Each fault is one incident, with its begin and end, its likely
+/// Reads candump, ASC, BLF, TRC (1.0 to 2.1), pcap and pcapng. Each fault is one incident, with its begin and end, its likely
 /// causes in order, what to check first, and the frames that show it. With --eds mappings and consumer times are known.
 ///
 /// Exit code 0: the logs were read; with --check 1 if there is an incident.
@@ -178,30 +178,13 @@ fn summary(name: &str, records: &[Record], incidents: &[Incident]) -> String {
     )
 }
 
-fn span(incident: &Incident) -> String {
-    let state = if incident.recovered {
-        "recovered"
-    } else {
-        "not recovered"
-    };
-    format!("{:?} to {:?}, {state}", incident.begin, incident.end)
-}
-
 fn text(name: &str, records: &[Record], incidents: &[Incident], lines: &[String]) -> String {
     let mut out = vec![summary(name, records, incidents)];
     for (number, incident) in (1..).zip(incidents) {
+        let mut lines = incident.lines(lines).into_iter();
         out.push(String::new());
-        out.push(format!("{number}. {}", incident.text));
-        out.push(format!("   {}", span(incident)));
-        for (place, cause) in (1..).zip(&incident.causes) {
-            out.push(format!("   cause {place}: {}", cause.text));
-            out.push(format!("            check {}", cause.check));
-        }
-        let shown = incident
-            .records
-            .iter()
-            .filter_map(|place| lines.get(*place));
-        out.extend(shown.map(|line| format!("   {line}")));
+        out.extend(lines.next().map(|first| format!("{number}. {first}")));
+        out.extend(lines.map(|line| format!("   {line}")));
     }
     Visible(&out.join("\n")).lines().into_owned()
 }
@@ -213,7 +196,7 @@ fn markdown(name: &str, records: &[Record], incidents: &[Incident], lines: &[Str
         out.push(String::new());
         out.push(format!("## {number}. {}", cell(&incident.text)));
         out.push(String::new());
-        out.push(span(incident));
+        out.push(incident.span());
         out.push(String::new());
         for (place, cause) in (1..).zip(&incident.causes) {
             out.push(format!(

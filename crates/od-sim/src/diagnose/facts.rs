@@ -32,6 +32,61 @@ pub(super) struct Seen {
     pub(super) place: usize,
 }
 
+/// Something that has a time. Lists of it are in the order of time.
+pub(super) trait Timed {
+    fn at(&self) -> Instant;
+}
+
+impl Timed for Seen {
+    fn at(&self) -> Instant {
+        self.at
+    }
+}
+
+impl Timed for (Seen, u8) {
+    fn at(&self) -> Instant {
+        self.0.at
+    }
+}
+
+impl Timed for (Seen, u8, u8) {
+    fn at(&self) -> Instant {
+        self.0.at
+    }
+}
+
+impl Timed for (Seen, Address, u32) {
+    fn at(&self) -> Instant {
+        self.0.at
+    }
+}
+
+impl Timed for Exchange {
+    fn at(&self) -> Instant {
+        self.request.at
+    }
+}
+
+/// The entries before a moment.
+pub(super) fn before<T: Timed>(all: &[T], moment: Instant) -> &[T] {
+    &all[..all.partition_point(|one| one.at() < moment)]
+}
+
+/// The entries up to a moment, including it.
+pub(super) fn until<T: Timed>(all: &[T], moment: Instant) -> &[T] {
+    &all[..all.partition_point(|one| one.at() <= moment)]
+}
+
+/// The entries from a moment on.
+pub(super) fn from<T: Timed>(all: &[T], moment: Instant) -> &[T] {
+    &all[all.partition_point(|one| one.at() < moment)..]
+}
+
+/// The entries after a moment.
+pub(super) fn after<T: Timed>(all: &[T], moment: Instant) -> &[T] {
+    &all[all.partition_point(|one| one.at() <= moment)..]
+}
+
 /// An EMCY message.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Emcy {
@@ -72,6 +127,12 @@ pub(super) struct Exchange {
 pub(super) struct Node {
     /// Frames of error control: boot-up (0), heartbeats, responses to guarding.
     pub(super) states: Vec<(Seen, u8)>,
+    /// Boot-up messages.
+    pub(super) boots: Vec<Seen>,
+    /// Heartbeats, without boot-up messages.
+    pub(super) beats: Vec<Seen>,
+    /// The period of the heartbeats, in microseconds; 0 without.
+    pub(super) period: u64,
     /// Guarding requests.
     pub(super) guards: Vec<Seen>,
     pub(super) emcys: Vec<Emcy>,
@@ -85,24 +146,10 @@ pub(super) struct Node {
 }
 
 impl Node {
-    pub(super) fn boots(&self) -> impl Iterator<Item = Seen> + '_ {
-        self.states
-            .iter()
-            .filter(|(_, state)| *state == 0)
-            .map(|(seen, _)| *seen)
-    }
-
-    /// Heartbeats, without boot-up messages.
-    pub(super) fn beats(&self) -> Vec<Seen> {
-        let beats = self.states.iter().filter(|(_, state)| *state != 0);
-        beats.map(|(seen, _)| *seen).collect()
-    }
-
     /// Returns whether a client wrote an object between two moments.
     pub(super) fn is_written(&self, index: u16, from: Instant, to: Instant) -> bool {
-        self.writes
-            .iter()
-            .any(|(seen, address, _)| address.index == index && seen.at >= from && seen.at <= to)
+        let mut writes = self::from(until(&self.writes, to), from).iter();
+        writes.any(|(_, address, _)| address.index == index)
     }
 }
 
@@ -118,6 +165,8 @@ pub(super) struct Facts<'a> {
     /// NMT commands: code and node ID, 0 for all.
     pub(super) commands: Vec<(Seen, u8, u8)>,
     pub(super) syncs: Vec<Seen>,
+    /// Requests of an LSS master.
+    pub(super) lss: Vec<Seen>,
     /// Data frames of the PDOs, by CAN-ID.
     pub(super) pdos: BTreeMap<u16, Vec<Seen>>,
     /// Bit rate in kbit/s, given or estimated.
@@ -138,6 +187,7 @@ impl<'a> Facts<'a> {
             nodes: BTreeMap::new(),
             commands: Vec::new(),
             syncs: Vec::new(),
+            lss: Vec::new(),
             pdos: BTreeMap::new(),
             rate: known.bit_rate,
             windows: Vec::new(),
@@ -166,6 +216,9 @@ impl<'a> Facts<'a> {
             }
         }
         facts.rate = facts.rate.or_else(|| estimated(&lengths));
+        for node in facts.nodes.values_mut() {
+            node.period = middle(&node.beats);
+        }
         facts
     }
 
@@ -199,10 +252,17 @@ impl<'a> Facts<'a> {
                     it.sdo(seen, frame, is_response);
                 }
             }
+            (0x7E5, false, _) => self.lss.push(seen),
             (0x701..=0x77F, true, _) => self.nodes.entry(node).or_default().guards.push(seen),
             (0x701..=0x77F, false, [state, ..]) => {
                 let it = self.nodes.entry(node).or_default();
                 it.states.push((seen, *state));
+                let list = if *state == 0 {
+                    &mut it.boots
+                } else {
+                    &mut it.beats
+                };
+                list.push(seen);
                 it.sent.push(seen);
             }
             _ => {}
@@ -220,12 +280,21 @@ impl<'a> Facts<'a> {
     }
 
     /// The NMT commands to a node between two moments.
-    pub(super) fn commands_to(&self, node: u8, from: Instant, to: Instant) -> Vec<u8> {
-        let all = self.commands.iter();
-        let to_it = all.filter(|(seen, _, target)| {
-            (*target == node || *target == 0) && seen.at >= from && seen.at <= to
-        });
-        to_it.map(|(_, code, _)| *code).collect()
+    pub(super) fn commands_to(
+        &self,
+        node: u8,
+        from: Instant,
+        to: Instant,
+    ) -> impl Iterator<Item = u8> {
+        let between = self::from(until(&self.commands, to), from).iter();
+        let own = between.filter(move |(_, _, target)| *target == node || *target == 0);
+        own.map(|(_, code, _)| *code)
+    }
+
+    /// Returns whether a reset command came to a node between two moments.
+    pub(super) fn is_reset(&self, node: u8, from: Instant, to: Instant) -> bool {
+        self.commands_to(node, from, to)
+            .any(|code| matches!(code, 0x81 | 0x82))
     }
 
     /// Returns whether anything but frames of this node came between two moments: the log went on.
@@ -253,10 +322,8 @@ impl<'a> Facts<'a> {
     /// Default value of an object by the EDS, or what a client wrote last before a moment.
     pub(super) fn value(&self, node: u8, address: Address, before: Instant) -> Option<u32> {
         let writes = self.nodes.get(&node).map_or(&[][..], |node| &node.writes);
-        let written = writes
-            .iter()
-            .rev()
-            .find(|(seen, own, _)| *own == address && seen.at <= before);
+        let mut written = until(writes, before).iter().rev();
+        let written = written.find(|(_, own, _)| *own == address);
         if let Some((_, _, value)) = written {
             return Some(*value);
         }

@@ -50,6 +50,29 @@ impl Incident {
     /// Most records that an incident shows.
     pub const SHOWN: usize = 8;
 
+    /// Begin, end and whether the bus recovered: `1.500000 to 2.300000, not recovered`, in seconds.
+    pub fn span(&self) -> String {
+        let state = if self.recovered {
+            "recovered"
+        } else {
+            "not recovered"
+        };
+        format!("{:?} to {:?}, {state}", self.begin, self.end)
+    }
+
+    /// The incident as lines of text: what happened, when, each cause with its check, and the records that show it.
+    /// `words` is the text of each record of the log.
+    pub fn lines(&self, words: &[String]) -> Vec<String> {
+        let mut lines = vec![self.text.clone(), self.span()];
+        for (place, cause) in (1..).zip(&self.causes) {
+            lines.push(format!("cause {place}: {}", cause.text));
+            lines.push(format!("         check {}", cause.check));
+        }
+        let shown = self.records.iter().filter_map(|place| words.get(*place));
+        lines.extend(shown.cloned());
+        lines
+    }
+
     pub(super) fn new(text: impl Into<String>, begin: Instant, end: Instant) -> Self {
         Self {
             rule: "",

@@ -17,12 +17,16 @@ pub use incident::{Cause, Incident};
 
 use crate::logs::Record;
 
+/// Most incidents of one rule; the first are kept.
+const MOST: usize = 1000;
+
 /// The incidents of a log, in the order of their beginning. A healthy log has none.
 pub fn diagnose<'k>(records: &'k [Record], known: Known<'k>) -> Vec<Incident> {
     let facts = facts::Facts::of(records, known);
     let found = rules::ALL.iter().flat_map(|rule| {
         let mut all = (rule.check)(&facts);
         all.sort_by_key(|incident| incident.begin);
+        all.truncate(MOST);
         for incident in &mut all {
             incident.rule = rule.name;
         }

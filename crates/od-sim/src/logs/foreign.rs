@@ -28,18 +28,11 @@ const TEXTS: [(&str, &str, &str); 4] = [
 ];
 
 /// First bytes of other logs, name, and the way to a log that odkit reads.
-const BINARIES: [(&[u8], &str, &str); 2] = [
-    (
-        b"LOGG",
-        "a BLF log",
-        "`can_logconvert` of python-can turns it into a candump log (`can_logconvert FILE.blf FILE.log`)",
-    ),
-    (
-        b"MDF     ",
-        "an MDF log (MF4)",
-        "export it as ASC, with the program that wrote it or with `mdf2asc`",
-    ),
-];
+const BINARIES: [(&[u8], &str, &str); 1] = [(
+    b"MDF     ",
+    "an MDF log (MF4)",
+    "export it as ASC, with the program that wrote it or with `mdf2asc`",
+)];
 
 /// Returns what a file is and how to convert it, if it is a known log that odkit does not read.
 pub(super) fn name(bytes: &[u8]) -> Option<String> {

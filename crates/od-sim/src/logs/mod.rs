@@ -3,6 +3,7 @@
 //! [`read`] takes the bytes of a file and detects its format; [`Format::write`] writes one.
 
 mod asc;
+mod blf;
 pub mod candump;
 mod foreign;
 mod pcap;

@@ -36,9 +36,14 @@ pub(super) struct Capture {
 }
 
 impl Capture {
+    /// Counts the next packet.
+    pub(super) fn begin(&mut self) {
+        self.count = self.count.saturating_add(1);
+    }
+
     /// Adds a packet of an interface with this link type.
     pub(super) fn packet(&mut self, at: Instant, link: u16, bytes: &[u8]) {
-        self.count = self.count.saturating_add(1);
+        self.begin();
         let half = |at: usize| Some(u16::from_be_bytes(bytes.get(at..at + 2)?.try_into().ok()?));
         let (protocol, sent, start) = match link {
             LINK => (Some(CAN), false, 0),

@@ -7,7 +7,7 @@ use od_wire::Instant;
 
 use super::pcap::Capture;
 use super::record::{Entry, Problem, Reader, Record};
-use super::{asc, candump, foreign, pcap, pcapng, stamp, trc};
+use super::{asc, blf, candump, foreign, pcap, pcapng, stamp, trc};
 use crate::cursor::Cursor;
 
 /// A log that was read.
@@ -29,12 +29,13 @@ const WALL_CLOCK: u64 = 1_000_000_000_000;
 /// The format of a text must show within this number of lines.
 const HEAD: usize = 200;
 
-/// Reads a log: candump, ASC, TRC (1.0 to 2.1), pcap or pcapng.
+/// Reads a log: candump, ASC, BLF, TRC (1.0 to 2.1), pcap or pcapng.
 ///
 /// # Errors
 /// The reason why it is not a log, or the first line if no line can be read.
 pub fn read(bytes: &[u8]) -> Result<Log, Refused> {
-    if let Some(capture) = pcapng::read(bytes).or_else(|| pcap::read(bytes)) {
+    let capture = pcapng::read(bytes).or_else(|| pcap::read(bytes));
+    if let Some(capture) = capture.or_else(|| blf::read(bytes)) {
         let Capture {
             records,
             skipped,
@@ -51,8 +52,8 @@ pub fn read(bytes: &[u8]) -> Result<Log, Refused> {
     let lacks_times = is_untimed(&lines);
     let Some(mut reader) = choose(&lines, lacks_times) else {
         let known = foreign::name(bytes);
-        let why =
-            known.unwrap_or_else(|| "it is not a candump log, ASC, TRC, pcap or pcapng".into());
+        let why = known
+            .unwrap_or_else(|| "it is not a candump log, ASC, BLF, TRC, pcap or pcapng".into());
         return Err(why.into());
     };
     let mut records = Vec::new();

@@ -43,6 +43,9 @@ pub struct Dut<'d> {
     pub(crate) faults: Vec<(String, String)>,
     /// Whether the case switched the power off.
     pub(crate) is_off: bool,
+    /// Whether the case waited for anything but SDO responses: it then depends on the time at which the test did what it
+    /// did.
+    pub(crate) is_timed: bool,
     /// Longest delay of the test itself, in microseconds: a wait that lasted longer than requested, because the
     /// computer was busy.
     pub(crate) late: u64,
@@ -113,6 +116,16 @@ impl Dut<'_> {
         micros: u64,
         wanted: impl Fn(&Frame) -> bool,
     ) -> Checked<Option<Heard>> {
+        self.is_timed = true;
+        self.awaited(micros, wanted)
+    }
+
+    /// Waits for the response to a request. One that comes does not depend on the test's own lateness.
+    pub(crate) fn awaited(
+        &mut self,
+        micros: u64,
+        wanted: impl Fn(&Frame) -> bool,
+    ) -> Checked<Option<Heard>> {
         let until = self.now().plus_micros(micros + self.rig.slack());
         self.silence = 0;
         while let Some(heard) = self.receive(until)? {
@@ -121,6 +134,7 @@ impl Dut<'_> {
             }
         }
         self.silence = micros;
+        self.is_timed = true;
         Ok(None)
     }
 
@@ -131,6 +145,7 @@ impl Dut<'_> {
 
     /// All data frames with this identifier within `micros` microseconds.
     pub(crate) fn all_of(&mut self, id: u16, micros: u64) -> Checked<Vec<Heard>> {
+        self.is_timed = true;
         let until = self.now().plus_micros(micros);
         let mut all = Vec::new();
         while let Some(heard) = self.receive(until)? {
@@ -177,6 +192,12 @@ impl Dut<'_> {
 
     /// Lets time pass.
     pub(crate) fn wait(&mut self, micros: u64) -> Checked {
+        self.is_timed = true;
+        self.settle(micros)
+    }
+
+    /// Gives the node time for a command.
+    pub(crate) fn settle(&mut self, micros: u64) -> Checked {
         let until = self.now().plus_micros(micros);
         while self.receive(until)?.is_some() {}
         Ok(())
@@ -205,7 +226,7 @@ impl Dut<'_> {
     pub(crate) fn nmt(&mut self, command: Command) -> Checked {
         let node = self.node.raw();
         self.send(Frame::standard(0, &Repr { command, node }.emit()))?;
-        self.wait(SETTLE)
+        self.settle(SETTLE)
     }
 
     /// Resets the node and waits for its boot-up message.

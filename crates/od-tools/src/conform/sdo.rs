@@ -53,7 +53,7 @@ impl Dut<'_> {
                 && traced.frame.bytes()[0] == 0x80
         };
         if self.frames.last().is_some_and(is_abort) {
-            self.wait(10_000)?;
+            self.settle(10_000)?;
         }
         self.drain()?;
         self.send(Frame::full(self.node.plus(0x600), data))?;
@@ -69,7 +69,7 @@ impl Dut<'_> {
     /// The next response of the default SDO server.
     pub(crate) fn response(&mut self, micros: u64) -> Checked<Option<[u8; 8]>> {
         let id = self.id(0x580);
-        let Some(heard) = self.next(micros, |frame| is_data(frame, id))? else {
+        let Some(heard) = self.awaited(micros, |frame| is_data(frame, id))? else {
             return Ok(None);
         };
         match heard.frame.dlc() {

@@ -146,9 +146,16 @@ fn member(index: u16, sub: u8) -> Option<String> {
     }
 }
 
+/// The name of an object in its standard, with a capital as the documents write it.
 fn name(index: u16) -> String {
     match specified(index) {
-        Some(known) => known.name.into(),
+        Some(known) => {
+            let mut name = String::from(known.name);
+            if let Some(first) = name.get_mut(..1) {
+                first.make_ascii_uppercase();
+            }
+            name
+        }
         None => format!("Object {index:04X}h"),
     }
 }
@@ -161,7 +168,9 @@ fn default(address: Address, data_type: DataType, bytes: &[u8], node: NodeId) ->
         Kind::Bytes => return Some(Value::Bytes(bytes.to_vec())),
         Kind::Real if bytes.len() == 4 => {
             let bits = [bytes[0], bytes[1], bytes[2], bytes[3]];
-            return Some(Value::Real(f32::from_le_bytes(bits).into()));
+            // The shortest text of a REAL32: 12.345, not 12.345000267028809.
+            let text = f32::from_le_bytes(bits).to_string();
+            return text.parse().ok().map(Value::Real);
         }
         _ => wide.get_mut(..bytes.len())?.copy_from_slice(bytes),
     }
@@ -186,5 +195,22 @@ fn default(address: Address, data_type: DataType, bytes: &[u8], node: NodeId) ->
         u32::try_from(raw - node).ok().map(Value::NodeId)
     } else {
         Some(Value::Unsigned(raw))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_real32_has_its_shortest_text() {
+        let bytes = 12.345_f32.to_le_bytes();
+        let value = default(
+            Address::new(0x2000, 0),
+            DataType::Real32,
+            &bytes,
+            NodeId::ONE,
+        );
+        assert_eq!(value, Some(Value::Real(12.345)));
     }
 }

@@ -50,6 +50,7 @@ fn the_twelve_devices_are_learned_and_stand_in() {
         let mut bus = bus(name);
         let made = learn(OnBench(&mut bus), NodeId::ONE, Options::default(), |_| {});
         let text = od_eds::write(&made.expect("a device that answers").description);
+        assert!(text.contains("\nParameterName=Device type"), "{text}");
         let loaded = od_eds::load(&text);
         let errors = loaded.findings.iter().filter(|one| one.is_error());
         let errors: Vec<_> = errors.map(|one| (one.code(), one.object)).collect();

@@ -126,9 +126,11 @@ struct Busy {
     bus: OnBench<Bus>,
     waiting: VecDeque<Heard>,
     random: u64,
-    /// Frames of the node that never come.
-    missing: fn(&Frame) -> bool,
+    /// What comes in the place of a frame of the node.
+    spoiled: fn(Frame) -> Option<Frame>,
 }
+
+const SPOTLESS: fn(Frame) -> Option<Frame> = Some;
 
 impl Link for Busy {
     fn now(&self) -> Instant {
@@ -147,7 +149,11 @@ impl Link for Busy {
             return self.bus.receive(until);
         }
         let mut first = self.bus.receive(until)?;
-        while first.is_some_and(|heard| (self.missing)(&heard.frame)) {
+        while let Some(heard) = first {
+            if let Some(frame) = (self.spoiled)(heard.frame) {
+                first = Some(Heard { frame, ..heard });
+                break;
+            }
             first = self.bus.receive(until)?;
         }
         self.random = self
@@ -157,7 +163,9 @@ impl Link for Busy {
         if self.random >> 62 == 0 {
             let end = self.now().plus_micros((self.random >> 33) % 150_000);
             while let Some(heard) = self.bus.receive(end)? {
-                self.waiting.push_back(Heard { at: end, ..heard });
+                let frame = (self.spoiled)(heard.frame);
+                self.waiting
+                    .extend(frame.map(|frame| Heard { at: end, frame }));
             }
         }
         Ok(first)
@@ -179,7 +187,7 @@ fn a_busy_computer_declares_no_node_wrong() {
             bus: OnBench(bus("gxmm")),
             waiting: VecDeque::new(),
             random: seed,
-            missing: |_| false,
+            spoiled: SPOTLESS,
         };
         let leave = Leave {
             reset: true,
@@ -199,6 +207,50 @@ fn a_busy_computer_declares_no_node_wrong() {
     }
 }
 
+/// A response does not depend on when the test read it.
+#[test]
+fn a_busy_computer_knows_what_a_node_accepts() {
+    let kind = od_devices::find("eam_mt").expect("a device");
+    let eds = Eds::read(&od_devices::text::eds(kind));
+    let case = built_in()
+        .iter()
+        .find(|case| case.id == "mapping-without-procedure");
+    let case = case.expect("a case");
+    for (spoiled, is_wrong) in [
+        (SPOTLESS, false),
+        // The abort of a mapping entry is a confirmation.
+        (
+            |frame: Frame| {
+                let is_abort = frame.bytes()[..4] == [0x80, 0x00, 0x1A, 0x01];
+                let confirmed = [0x60, 0x00, 0x1A, 0x01, 0, 0, 0, 0];
+                Some(if is_abort {
+                    Frame::full(frame.id(), confirmed)
+                } else {
+                    frame
+                })
+            },
+            true,
+        ),
+    ] {
+        for random in 1..20 {
+            let mut rig = Busy {
+                bus: OnBench(bus("eam_mt")),
+                waiting: VecDeque::new(),
+                random,
+                spoiled,
+            };
+            let mut session = Session::new(&mut rig, &eds, NodeId::ONE, Leave::default());
+            let record = session.run(case);
+            let expected = if is_wrong {
+                record.verdict.is_fail()
+            } else {
+                record.verdict == Verdict::Pass
+            };
+            assert!(expected, "{random}: {:?}", record.verdict);
+        }
+    }
+}
+
 /// A wait of ten seconds that is some milliseconds late is still one of ten seconds.
 #[test]
 fn a_busy_computer_knows_what_never_comes() {
@@ -208,7 +260,10 @@ fn a_busy_computer_knows_what_never_comes() {
         bus: OnBench(bus("gxmm")),
         waiting: VecDeque::new(),
         random: 5,
-        missing: |frame| frame.id().as_standard() == Some(0x701) && frame.data() == [0],
+        spoiled: |frame| {
+            let is_boot = frame.id().as_standard() == Some(0x701) && frame.data() == [0];
+            (!is_boot).then_some(frame)
+        },
     };
     let leave = Leave {
         reset: true,

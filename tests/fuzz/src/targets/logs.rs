@@ -1,4 +1,4 @@
-//! Logs of other tools: candump, ASC, TRC, pcap, pcapng. Records are read in the order of time,
+//! Logs of other tools: candump, ASC, BLF, TRC, pcap, pcapng. Records are read in the order of time,
 //! and a log written in any format reads the same.
 
 use od_runtime::{CanId, Frame, Instant};
@@ -13,7 +13,8 @@ pub(super) const TARGET: Target = Target {
         let written = FORMATS.map(|format| format.write(&records()));
         let texts = TEXTS.iter().map(|text| text.as_bytes().to_vec());
         let captures = [false, true].map(capture);
-        written.into_iter().chain(texts).chain(captures).collect()
+        let others = captures.into_iter().chain([blf()]);
+        written.into_iter().chain(texts).chain(others).collect()
     },
     words: &[
         "date Sam Sep 30 15:06:13.191 2017\n",
@@ -94,6 +95,28 @@ fn capture(is_big: bool) -> Vec<u8> {
         .collect();
     bytes.extend([0, 0, 6, 1, 8, 0, 0, 0, 0x40, 4, 0x60, 0, 0, 0, 0, 0]);
     bytes
+}
+
+/// A BLF log with one frame, in a container that is not packed.
+fn blf() -> Vec<u8> {
+    let frame = [&[1, 0, 0, 1][..], &0x701_u32.to_le_bytes(), &[0; 8]].concat();
+    let head = |len: usize, kind: u32| {
+        let parts = [
+            &b"LOBJ\x20\0\x01\0"[..],
+            &(32 + len as u32).to_le_bytes(),
+            &kind.to_le_bytes(),
+        ];
+        parts.concat()
+    };
+    let event = [
+        &head(frame.len(), 86)[..],
+        &[0; 8],
+        &1_000_000_u64.to_le_bytes(),
+        &frame,
+    ]
+    .concat();
+    let container = [&head(event.len(), 10)[..], &[0; 16], &event].concat();
+    [&b"LOGG\x08\0\0\0"[..], &container].concat()
 }
 
 fn run(input: &[u8]) {

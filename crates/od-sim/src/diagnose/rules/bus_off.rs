@@ -17,11 +17,16 @@ pub(super) const RULE: Rule = Rule {
 fn check(facts: &Facts<'_>) -> Vec<Incident> {
     let mut found = Vec::new();
     for (id, node) in &facts.nodes {
-        for (place, emcy) in node.emcys.iter().enumerate() {
-            if !matches!(emcy.code, 0x8110 | 0x8120 | 0x8140) {
+        // From an error to the message that all are over.
+        for group in node.emcys.split_inclusive(|emcy| emcy.code == 0) {
+            let mut own = group
+                .iter()
+                .filter(|emcy| matches!(emcy.code, 0x8110 | 0x8120 | 0x8140));
+            let Some(emcy) = own.next() else {
                 continue;
-            }
-            let ended = node.emcys[place..].iter().find(|later| later.code == 0);
+            };
+            let last = own.next_back().unwrap_or(emcy);
+            let ended = group.last().filter(|last| last.code == 0);
             let cause = if emcy.code == 0x8110 {
                 Cause::new(
                     "overrun",
@@ -49,11 +54,11 @@ fn check(facts: &Facts<'_>) -> Vec<Incident> {
                         code_text(emcy.code)
                     ),
                     emcy.seen.at,
-                    ended.map_or(emcy.seen.at, |ended| ended.seen.at),
+                    ended.unwrap_or(last).seen.at,
                 )
                 .node(*id)
-                .recovered(ended.is_some() || emcy.code == 0x8140)
-                .shows([emcy.seen.place])
+                .recovered(ended.is_some() || last.code == 0x8140)
+                .shows([emcy.seen.place, last.seen.place])
                 .cause(cause),
             );
         }

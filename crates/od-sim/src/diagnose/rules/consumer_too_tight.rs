@@ -5,7 +5,7 @@ use std::prelude::v1::*;
 
 use od_model::Address;
 
-use crate::diagnose::facts::{Facts, Seen, middle, millis};
+use crate::diagnose::facts::{Facts, Seen, before, millis, until};
 use crate::diagnose::incident::{Cause, Incident};
 use crate::diagnose::rule::Rule;
 
@@ -27,13 +27,7 @@ fn check(facts: &Facts<'_>) -> Vec<Incident> {
             continue;
         };
         // A node that is guarded reports its master.
-        if node
-            .guards
-            .iter()
-            .filter(|seen| seen.at < first.seen.at)
-            .count()
-            >= 3
-        {
+        if before(&node.guards, first.seen.at).len() >= 3 {
             continue;
         }
         let last = own[own.len() - 1];
@@ -59,21 +53,14 @@ fn check(facts: &Facts<'_>) -> Vec<Incident> {
             )));
             continue;
         };
-        let beats = facts
-            .nodes
-            .get(&other)
-            .map(|node| node.beats())
-            .unwrap_or_default();
-        let before: Vec<Seen> = beats
-            .iter()
-            .copied()
-            .filter(|seen| seen.at <= first.seen.at)
-            .collect();
-        let period = middle(&beats);
-        let silent = before
+        let other_node = facts.nodes.get(&other);
+        let beats = other_node.map_or(&[][..], |node| &node.beats);
+        let earlier = until(beats, first.seen.at);
+        let period = other_node.map_or(0, |node| node.period);
+        let silent = earlier
             .last()
             .map(|last| first.seen.at.micros_since(last.at));
-        incident = incident.shows(before.iter().rev().take(2).map(|seen| seen.place));
+        incident = incident.shows(earlier.iter().rev().take(2).map(|seen| seen.place));
         let time = u64::from(time) * 1000;
         if period > 0
             && (time < period * 3 / 2 || silent.is_some_and(|silent| silent < period * 3 / 2))
@@ -108,8 +95,7 @@ fn watched(facts: &Facts<'_>, id: u8, emcy: Seen) -> Option<(u8, u32)> {
     let entries = entries.filter(|raw| raw & 0xFFFF != 0 && raw >> 16 & 0x7F != 0);
     let entries = entries.map(|raw| ((raw >> 16 & 0x7F) as u8, raw & 0xFFFF));
     let silent = |node: u8| {
-        let beats = facts.nodes.get(&node)?.beats();
-        let last = beats.iter().rev().find(|seen| seen.at <= emcy.at)?;
+        let last = until(&facts.nodes.get(&node)?.beats, emcy.at).last()?;
         Some(emcy.at.micros_since(last.at))
     };
     entries.max_by_key(|(node, time)| {

@@ -3,7 +3,7 @@
 use std::format;
 use std::prelude::v1::*;
 
-use crate::diagnose::facts::{Facts, middle, millis};
+use crate::diagnose::facts::{Facts, after, before, from, middle, millis};
 use crate::diagnose::incident::{Cause, Incident};
 use crate::diagnose::rule::Rule;
 
@@ -19,16 +19,11 @@ fn check(facts: &Facts<'_>) -> Vec<Incident> {
         let silent: Vec<_> = node
             .guards
             .windows(2)
-            .filter(|pair| {
-                let answers = node.states.iter();
-                !answers
-                    .into_iter()
-                    .any(|(seen, _)| seen.at >= pair[0].at && seen.at < pair[1].at)
-            })
+            .filter(|pair| before(from(&node.states, pair[0].at), pair[1].at).is_empty())
             .map(|pair| pair[0])
             .collect();
         if let [first, .., last] = silent[..] {
-            let after = node.states.iter().any(|(seen, _)| seen.at > last.at);
+            let is_back = !after(&node.states, last.at).is_empty();
             found.push(
                 Incident::new(
                     format!("node {id} does not respond to {} guarding requests", silent.len()),
@@ -36,7 +31,7 @@ fn check(facts: &Facts<'_>) -> Vec<Incident> {
                     last.at,
                 )
                 .node(*id)
-                .recovered(after)
+                .recovered(is_back)
                 .shows(silent.iter().map(|seen| seen.place))
                 .cause(Cause::new(
                     "connection",
@@ -48,13 +43,13 @@ fn check(facts: &Facts<'_>) -> Vec<Incident> {
         // EMCY 8130h of the guarded node itself: its master stopped asking.
         let period = middle(&node.guards);
         for emcy in node.emcys.iter().filter(|emcy| emcy.code == 0x8130) {
-            let last = node.guards.iter().rev().find(|seen| seen.at < emcy.seen.at);
+            let last = before(&node.guards, emcy.seen.at).last();
             let Some(last) = last.filter(|_| node.guards.len() >= 3) else {
                 continue;
             };
             let pause = emcy.seen.at.micros_since(last.at);
             if pause > period * 3 / 2 {
-                let next = node.guards.iter().find(|seen| seen.at > emcy.seen.at);
+                let next = after(&node.guards, emcy.seen.at).first();
                 found.push(
                     Incident::new(
                         format!("node {id} was not guarded for {}", millis(pause)),

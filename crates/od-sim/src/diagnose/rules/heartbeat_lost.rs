@@ -3,7 +3,7 @@
 use std::format;
 use std::prelude::v1::*;
 
-use crate::diagnose::facts::{Facts, Node, Seen, middle, millis};
+use crate::diagnose::facts::{Facts, Node, Seen, after, before, middle, millis, until};
 use crate::diagnose::incident::{Cause, Incident};
 use crate::diagnose::rule::Rule;
 
@@ -16,39 +16,38 @@ pub(super) const RULE: Rule = Rule {
 fn check(facts: &Facts<'_>) -> Vec<Incident> {
     let mut found = Vec::new();
     for (id, node) in &facts.nodes {
-        let beats = node.beats();
-        if beats.len() < 4 || node.guards.len() * 2 > beats.len() {
+        if node.beats.len() < 4 || node.guards.len() * 2 > node.beats.len() {
             continue;
         }
-        for (last, next) in gaps(facts, node, &beats) {
-            found.extend(incident(facts, *id, node, &beats, last, next));
-        }
+        let gaps = gaps(facts, node).into_iter();
+        found.extend(gaps.filter_map(|(last, next)| incident(facts, *id, node, last, next)));
     }
     found
 }
 
 /// The times without a heartbeat: the last before and the first after. Period and threshold are those of the beats
 /// before, since 1017h was written last.
-fn gaps(facts: &Facts<'_>, node: &Node, beats: &[Seen]) -> Vec<(Seen, Option<Seen>)> {
+fn gaps(facts: &Facts<'_>, node: &Node) -> Vec<(Seen, Option<Seen>)> {
+    let beats = &node.beats;
     let mut all = Vec::new();
     let writes = node
         .writes
         .iter()
         .filter(|(_, address, _)| address.index == 0x1017);
-    let writes: Vec<_> = writes.map(|(seen, ..)| seen.at).collect();
+    let writes: Vec<Seen> = writes.map(|(seen, ..)| *seen).collect();
     for number in 3..=beats.len() {
         let last = beats[number - 1];
         let next = beats.get(number).copied();
-        let written = writes.iter().rev().find(|at| **at <= last.at);
-        let since = written.map_or(0, |at| beats.partition_point(|seen| seen.at <= *at));
+        let written = until(&writes, last.at).last();
+        let since = written.map_or(0, |written| until(beats, written.at).len());
         let own = beats
             .get(since.max(number.saturating_sub(12))..number)
             .unwrap_or_default();
         let period = middle(own);
-        let until = next.map_or(facts.end, |next| next.at);
+        let end = next.map_or(facts.end, |next| next.at);
         let longest = (period * 5 / 2).max(period + 20_000);
-        let is_off = node.is_written(0x1017, last.at, until.max(last.at));
-        if period > 0 && until.micros_since(last.at) > longest && !is_off {
+        let is_late = period > 0 && end.micros_since(last.at) > longest;
+        if is_late && !node.is_written(0x1017, last.at, end.max(last.at)) {
             all.push((last, next));
         }
     }
@@ -59,37 +58,25 @@ fn incident(
     facts: &Facts<'_>,
     id: u8,
     node: &Node,
-    beats: &[Seen],
     last: Seen,
     next: Option<Seen>,
 ) -> Option<Incident> {
     let until = next.map_or(facts.end, |next| next.at);
-    let period = middle(beats);
+    let period = node.period;
     // A reset explains a pause, and a recorder that stopped explains one of all nodes.
-    let is_reset = facts
-        .commands_to(id, last.at, until)
-        .iter()
-        .any(|code| matches!(code, 0x81 | 0x82));
-    if is_reset && node.boots().any(|boot| boot.at > last.at) || !facts.goes_on(id, last.at, until)
-    {
+    let is_reset = facts.is_reset(id, last.at, until) && !after(&node.boots, last.at).is_empty();
+    if is_reset || !facts.goes_on(id, last.at, until) {
         return None;
     }
     let others = facts.nodes.iter().filter(|(other, node)| {
-        **other != id && {
-            let beats = node.beats();
-            beats.len() >= 4
-                && beats.iter().any(|seen| seen.at <= last.at)
-                && !beats.iter().any(|seen| {
-                    seen.at > last.at.plus_micros(3 * middle(&beats)) && seen.at < until
-                })
-        }
+        let silent = last.at.plus_micros(3 * node.period);
+        **other != id
+            && node.beats.len() >= 4
+            && node.beats[0].at <= last.at
+            && before(after(&node.beats, silent), until).is_empty()
     });
     let together: Vec<u8> = others.map(|(other, _)| *other).collect();
-    let still = node
-        .sent
-        .iter()
-        .filter(|seen| seen.at > last.at.plus_micros(period) && seen.at < until);
-    let still: Vec<usize> = still.map(|seen| seen.place).collect();
+    let still = before(after(&node.sent, last.at.plus_micros(period)), until);
     let text = match next {
         Some(next) => format!(
             "node {id}: no heartbeat for {}, it came every {} before",
@@ -125,7 +112,7 @@ fn incident(
         .recovered(next.is_some())
         .shows([last.place])
         .shows(next.map(|next| next.place))
-        .shows(still.iter().take(2).copied());
+        .shows(still.iter().take(2).map(|seen| seen.place));
     // What fell silent together is one incident.
     incident.nodes.extend(&together);
     incident

@@ -3,7 +3,7 @@
 use std::format;
 use std::prelude::v1::*;
 
-use crate::diagnose::facts::Facts;
+use crate::diagnose::facts::{Facts, after, from};
 use crate::diagnose::incident::{Cause, Incident};
 use crate::diagnose::rule::Rule;
 
@@ -18,7 +18,7 @@ const SETTLE: u64 = 100_000;
 
 fn check(facts: &Facts<'_>) -> Vec<Incident> {
     let mut found = Vec::new();
-    for (seen, code, target) in &facts.commands {
+    for (number, (seen, code, target)) in facts.commands.iter().enumerate() {
         if *code != 1 {
             continue;
         }
@@ -27,26 +27,22 @@ fn check(facts: &Facts<'_>) -> Vec<Incident> {
                 continue;
             }
             let settled = seen.at.plus_micros(SETTLE);
-            let next: Vec<_> = node
-                .states
-                .iter()
-                .filter(|(state, _)| state.at >= settled)
-                .take(3)
-                .collect();
+            let next: Vec<_> = from(&node.states, settled).iter().take(3).collect();
             let until = next.last().map_or(facts.end, |(seen, _)| seen.at);
-            let is_moved = facts.commands.iter().any(|(later, _, other)| {
-                later.place > seen.place && later.at <= until && (*other == 0 || other == id)
-            });
+            let later = facts.commands.get(number + 1..).unwrap_or_default().iter();
+            let mut later = later.take_while(|(later, ..)| later.at <= until);
+            let is_moved = later.any(|(_, _, other)| *other == 0 || other == id);
             let is_wrong =
                 next.len() == 3 && next.iter().all(|(_, state)| !matches!(state & 0x7F, 5 | 0));
-            let is_alive = node.states.iter().any(|(state, _)| state.at < seen.at);
+            let is_alive = node
+                .states
+                .first()
+                .is_some_and(|(state, _)| state.at < seen.at);
             if is_moved || !is_wrong || !is_alive {
                 continue;
             }
-            let back = node
-                .states
-                .iter()
-                .any(|(state, what)| state.at > until && what & 0x7F == 5);
+            let mut states = after(&node.states, until).iter();
+            let back = states.any(|(_, what)| what & 0x7F == 5);
             found.push(
                 Incident::new(format!("node {id} does not start"), seen.at, until)
                     .node(*id)

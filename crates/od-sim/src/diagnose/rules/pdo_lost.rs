@@ -3,7 +3,7 @@
 use std::format;
 use std::prelude::v1::*;
 
-use crate::diagnose::facts::{Facts, Seen, middle, millis};
+use crate::diagnose::facts::{Facts, Seen, from, middle, millis, until};
 use crate::diagnose::incident::{Cause, Incident};
 use crate::diagnose::rule::Rule;
 
@@ -48,15 +48,14 @@ fn incident(facts: &Facts<'_>, id: u16, seen: &[Seen]) -> Option<Incident> {
         .filter(|pair| gap(pair) * 10 >= period * 18)
         // An NMT command, a reset or a new parameter explains a pause.
         .filter(|pair| {
-            let from = od_wire::Instant::from_micros(pair[0].at.as_micros().saturating_sub(period));
+            let (start, end) = (pair[0].at.as_micros().saturating_sub(period), pair[1].at);
+            let start = od_wire::Instant::from_micros(start);
             let is_written = facts.nodes.get(&node).is_some_and(|node| {
-                node.writes.iter().any(|(seen, address, _)| {
-                    matches!(address.index, 0x1005 | 0x1006 | 0x1800..=0x1BFF)
-                        && seen.at >= from
-                        && seen.at <= pair[1].at
-                })
+                let mut writes = from(until(&node.writes, end), start).iter();
+                let is_its = |index| matches!(index, 0x1005 | 0x1006 | 0x1800..=0x1BFF);
+                writes.any(|(_, address, _)| is_its(address.index))
             });
-            facts.commands_to(node, from, pair[1].at).is_empty() && !is_written
+            facts.commands_to(node, start, end).next().is_none() && !is_written
         })
         .collect();
     let first = *gaps.first()?;
@@ -112,12 +111,9 @@ fn synchronous(facts: &Facts<'_>, seen: &[Seen]) -> bool {
 }
 
 fn syncs_in(facts: &Facts<'_>, from: Seen, to: Seen) -> usize {
-    let inside = facts
-        .syncs
-        .iter()
-        .filter(|sync| sync.place > from.place && sync.place < to.place);
+    let count = |place: usize| facts.syncs.partition_point(|sync| sync.place < place);
     // The SYNC of the next PDO is the last.
-    inside.count().saturating_sub(1)
+    count(to.place).saturating_sub(count(from.place) + 1)
 }
 
 fn is_loaded(facts: &Facts<'_>, from: Seen, to: Seen) -> bool {

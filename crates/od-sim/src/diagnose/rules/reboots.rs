@@ -3,7 +3,7 @@
 use std::format;
 use std::prelude::v1::*;
 
-use crate::diagnose::facts::{Facts, Node, Seen, millis};
+use crate::diagnose::facts::{Facts, Node, Seen, after, before, millis, until};
 use crate::diagnose::incident::{Cause, Incident};
 use crate::diagnose::rule::Rule;
 
@@ -24,20 +24,16 @@ fn check(facts: &Facts<'_>) -> Vec<Incident> {
 }
 
 fn incident(facts: &Facts<'_>, id: u8, node: &Node) -> Option<Incident> {
-    let boots: Vec<Seen> = node.boots().collect();
-    let own: Vec<Seen> = boots
+    let own: Vec<Seen> = node
+        .boots
         .iter()
         .copied()
         .filter(|boot| is_own(facts, id, node, *boot))
         .collect();
     let (first, last) = (*own.first()?, *own.last()?);
-    let before = node.sent.iter().rev().find(|seen| seen.at < first.at);
-    let begin = before.map_or(first.at, |seen| seen.at);
-    let after = node
-        .states
-        .iter()
-        .any(|(seen, state)| seen.at > last.at && *state != 0);
-    let lived = node.sent.iter().any(|seen| seen.at > last.at) || after;
+    let alive = before(&node.sent, first.at).last();
+    let begin = alive.map_or(first.at, |seen| seen.at);
+    let lived = !after(&node.sent, last.at).is_empty();
     let text = match own.len() {
         1 => format!("node {id} restarts without a command"),
         count => format!("node {id} restarts {count} times without a command"),
@@ -46,7 +42,7 @@ fn incident(facts: &Facts<'_>, id: u8, node: &Node) -> Option<Incident> {
         .node(id)
         .recovered(lived)
         .shows(
-            before
+            alive
                 .map(|seen| seen.place)
                 .into_iter()
                 .chain(own.iter().map(|seen| seen.place)),
@@ -96,23 +92,17 @@ fn incident(facts: &Facts<'_>, id: u8, node: &Node) -> Option<Incident> {
 
 /// Returns whether a boot-up message comes of itself: the node was there before, and no command explains it.
 fn is_own(facts: &Facts<'_>, id: u8, node: &Node, boot: Seen) -> bool {
-    let Some(before) = node.sent.iter().rev().find(|seen| seen.at < boot.at) else {
+    if before(&node.sent, boot.at).is_empty() {
         return false;
-    };
-    let since = node.boots().filter(|other| other.at < boot.at).last();
+    }
+    let earliest = boot.at.as_micros().saturating_sub(BOOT);
+    let since = before(&node.boots, boot.at).last();
     let from = since.map_or(facts.begin, |other| other.at);
-    let from = from.max(od_wire::Instant::from_micros(
-        boot.at.as_micros().saturating_sub(BOOT),
-    ));
-    let commands = facts.commands_to(id, from, boot.at);
-    let is_reset = commands.iter().any(|code| matches!(code, 0x81 | 0x82));
+    let from = from.max(od_wire::Instant::from_micros(earliest));
     // LSS gives a node its node ID, and a boot-up message follows.
-    let by_lss = facts.frames.iter().any(|seen| {
-        let frame = facts.frame(seen.place);
-        let id = frame.and_then(|frame| frame.id().as_standard());
-        id == Some(0x7E5) && seen.at <= boot.at && boot.at.micros_since(seen.at) < BOOT
-    });
-    !is_reset && !by_lss && before.at < boot.at
+    let lss = until(&facts.lss, boot.at).last();
+    let by_lss = lss.is_some_and(|seen| boot.at.micros_since(seen.at) < BOOT);
+    !facts.is_reset(id, from, boot.at) && !by_lss
 }
 
 /// The frame to the node that comes right before each restart, if there is one.
@@ -122,9 +112,8 @@ fn trigger(facts: &Facts<'_>, own: &[Seen], id: u8) -> Option<String> {
     }
     let requests = &facts.nodes.get(&id)?.exchanges;
     let before = own.iter().map(|boot| {
-        let is_near = |at: od_wire::Instant| at <= boot.at && boot.at.micros_since(at) < 1_000_000;
-        let last = requests.iter().rev().find(|one| is_near(one.request.at))?;
-        last.address
+        let last = until(requests, boot.at).last()?;
+        (boot.at.micros_since(last.request.at) < 1_000_000).then_some(last.address)?
     });
     let mut all = before.collect::<Option<Vec<_>>>()?;
     all.dedup();

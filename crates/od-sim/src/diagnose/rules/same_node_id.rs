@@ -3,7 +3,7 @@
 use std::format;
 use std::prelude::v1::*;
 
-use crate::diagnose::facts::{Facts, Node, Outcome, Seen, is_interleaved};
+use crate::diagnose::facts::{Facts, Node, Outcome, Seen, after, before, is_interleaved};
 use crate::diagnose::incident::{Cause, Incident};
 use crate::diagnose::rule::Rule;
 
@@ -46,6 +46,9 @@ fn check(facts: &Facts<'_>) -> Vec<Incident> {
     found
 }
 
+/// A reset command explains a boot-up message this long after it, in microseconds.
+const COMMAND: u64 = 3_000_000;
+
 /// The second responses to one request, each with the first one: both about the same object.
 fn twice(facts: &Facts<'_>, node: &Node) -> Vec<Seen> {
     let mut signs = Vec::new();
@@ -68,18 +71,17 @@ fn twice(facts: &Facts<'_>, node: &Node) -> Vec<Seen> {
 
 /// Boot-up messages beyond one for each reset, within a second.
 fn boots(facts: &Facts<'_>, id: u8, node: &Node) -> Vec<Seen> {
-    let boots: Vec<Seen> = node.boots().collect();
     let mut signs = Vec::new();
-    for pair in boots.windows(2) {
+    for pair in node.boots.windows(2) {
         let [first, second] = [pair[0], pair[1]];
         let is_near = second.at.micros_since(first.at) < 1_000_000;
         // A device that restarts without a command sends nothing while it starts: some milliseconds.
-        let commands = facts.commands_to(id, first.at.max(facts.begin), second.at);
-        let between = node
-            .sent
-            .iter()
-            .filter(|seen| seen.at > first.at && seen.at < second.at);
-        if is_near && commands.is_empty() && between.count() == 0 && is_by_command(facts, id, first)
+        let is_silent = before(after(&node.sent, first.at), second.at).is_empty();
+        let earliest = od_wire::Instant::from_micros(first.at.as_micros().saturating_sub(COMMAND));
+        if is_near
+            && is_silent
+            && facts.commands_to(id, first.at, second.at).next().is_none()
+            && facts.is_reset(id, earliest, first.at)
         {
             signs.extend([first, second]);
         }
@@ -87,17 +89,8 @@ fn boots(facts: &Facts<'_>, id: u8, node: &Node) -> Vec<Seen> {
     signs
 }
 
-/// Returns whether a reset command came shortly before.
-fn is_by_command(facts: &Facts<'_>, id: u8, boot: Seen) -> bool {
-    facts.commands.iter().any(|(seen, code, node)| {
-        let is_reset = matches!(code, 0x81 | 0x82) && (*node == id || *node == 0);
-        is_reset && seen.at <= boot.at && boot.at.micros_since(seen.at) < 3_000_000
-    })
-}
-
 /// Heartbeats of two senders: they take turns, or their states do.
 fn beats(node: &Node) -> Vec<Seen> {
-    let beats = node.beats();
     let states: Vec<u8> = node
         .states
         .iter()
@@ -108,9 +101,9 @@ fn beats(node: &Node) -> Vec<Seen> {
         .windows(3)
         .filter(|three| three[0] == three[2] && three[0] & 0x7F != three[1] & 0x7F);
     let is_turning = states.len() >= 6 && turns.count() * 2 >= states.len();
-    let is_guarded = node.guards.len() * 2 > beats.len();
-    if !is_guarded && (is_turning || is_interleaved(&beats)) {
-        beats
+    let is_guarded = node.guards.len() * 2 > node.beats.len();
+    if !is_guarded && (is_turning || is_interleaved(&node.beats)) {
+        node.beats.clone()
     } else {
         Vec::new()
     }

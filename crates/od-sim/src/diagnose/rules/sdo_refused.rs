@@ -1,11 +1,12 @@
 //! SDO downloads that the server refuses.
 
+use std::collections::BTreeMap;
 use std::format;
 use std::prelude::v1::*;
 
 use od_runtime::AbortCode;
 
-use crate::diagnose::facts::{Exchange, Facts, Outcome};
+use crate::diagnose::facts::{Exchange, Facts, Outcome, after};
 use crate::diagnose::incident::{Cause, Incident};
 use crate::diagnose::rule::Rule;
 
@@ -15,30 +16,34 @@ pub(super) const RULE: Rule = Rule {
     check,
 };
 
+/// Refusals this far apart are one incident, in microseconds.
+const APART: u64 = 10_000_000;
+
 fn check(facts: &Facts<'_>) -> Vec<Incident> {
     let mut found = Vec::new();
     for (id, node) in &facts.nodes {
-        let refused: Vec<&Exchange> = node
-            .exchanges
+        // The refusals of an object for one reason.
+        let mut refused: BTreeMap<_, Vec<&Exchange>> = BTreeMap::new();
+        for one in node.exchanges.iter().filter(|one| one.is_download) {
+            if let Outcome::Refused(code) = one.outcome {
+                refused.entry((one.address, code)).or_default().push(one);
+            }
+        }
+        let is_near =
+            |a: &&Exchange, b: &&Exchange| b.request.at.micros_since(a.request.at) <= APART;
+        let groups = refused
             .iter()
-            .filter(|one| one.is_download && matches!(one.outcome, Outcome::Refused(_)))
-            .collect();
-        for group in refused.chunk_by(|a, b| a.address == b.address && a.outcome == b.outcome) {
+            .flat_map(|((_, code), all)| all.chunk_by(is_near).map(|group| (*code, group)));
+        for (code, group) in groups {
             let (Some(first), Some(last)) = (group.first(), group.last()) else {
-                continue;
-            };
-            let Outcome::Refused(code) = first.outcome else {
                 continue;
             };
             let object = first
                 .address
                 .map_or(String::from("an object"), |address| address.to_string());
             let meaning = AbortCode::from_code(code).map_or("an unknown code", |code| code.text());
-            let after = node.exchanges.iter().any(|one| {
-                one.is_download
-                    && one.address == first.address
-                    && one.request.at > last.request.at
-                    && one.outcome == Outcome::Answered
+            let is_accepted = after(&node.exchanges, last.request.at).iter().any(|one| {
+                one.is_download && one.address == first.address && one.outcome == Outcome::Answered
             });
             found.push(
                 Incident::new(
@@ -47,7 +52,7 @@ fn check(facts: &Facts<'_>) -> Vec<Incident> {
                     last.end.at,
                 )
                 .node(*id)
-                .recovered(after)
+                .recovered(is_accepted)
                 .shows(
                     group
                         .iter()

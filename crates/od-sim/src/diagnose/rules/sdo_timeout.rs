@@ -3,7 +3,7 @@
 use std::format;
 use std::prelude::v1::*;
 
-use crate::diagnose::facts::{Exchange, Facts, Node, Outcome, millis};
+use crate::diagnose::facts::{Exchange, Facts, Node, Outcome, after, from, millis, until};
 use crate::diagnose::incident::{Cause, Incident};
 use crate::diagnose::rule::Rule;
 
@@ -51,24 +51,16 @@ fn incident(facts: &Facts<'_>, id: u8, node: &Node, group: &[&Exchange]) -> Opti
             "requests have"
         }
     );
-    let after = node
-        .exchanges
-        .iter()
-        .any(|one| one.request.at > last.request.at && !is_failed(facts, one));
+    let mut later = after(&node.exchanges, last.request.at).iter();
+    let is_over = later.any(|one| !is_failed(facts, one));
     let late = group.iter().find_map(|one| Some((one, one.extra.first()?)));
     let other = group.iter().find(|one| one.outcome == Outcome::Other);
     let is_known = !node.sent.is_empty();
-    let state = node
-        .states
-        .iter()
-        .rev()
-        .find(|(seen, _)| seen.at <= first.request.at);
+    let state = until(&node.states, first.request.at).last();
     let is_stopped = state.is_some_and(|(_, state)| state & 0x7F == 4);
     let begin = first.request.at;
-    let is_alive = node
-        .sent
-        .iter()
-        .any(|seen| seen.at >= begin && seen.at <= last.end.at.plus_micros(1_000_000));
+    let soon = last.end.at.plus_micros(1_000_000);
+    let is_alive = !from(until(&node.sent, soon), begin).is_empty();
     let cause = if other.is_some() {
         Cause::new(
             "other-response",
@@ -120,7 +112,7 @@ fn incident(facts: &Facts<'_>, id: u8, node: &Node, group: &[&Exchange]) -> Opti
     };
     let mut incident = Incident::new(text, begin, last.end.at)
         .node(id)
-        .recovered(after)
+        .recovered(is_over)
         .shows(
             group
                 .iter()

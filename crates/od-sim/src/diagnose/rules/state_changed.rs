@@ -3,7 +3,7 @@
 use std::format;
 use std::prelude::v1::*;
 
-use crate::diagnose::facts::Facts;
+use crate::diagnose::facts::{Facts, after as later};
 use crate::diagnose::incident::{Cause, Incident};
 use crate::diagnose::rule::Rule;
 
@@ -19,7 +19,7 @@ fn check(facts: &Facts<'_>) -> Vec<Incident> {
         for pair in node.states.windows(2) {
             let [(before, was), (after, is)] = [pair[0], pair[1]];
             let is_left = was & 0x7F == 5 && matches!(is & 0x7F, 4 | 0x7F);
-            if !is_left || !facts.commands_to(*id, before.at, after.at).is_empty() {
+            if !is_left || facts.commands_to(*id, before.at, after.at).next().is_some() {
                 continue;
             }
             let state = if is & 0x7F == 4 {
@@ -27,10 +27,8 @@ fn check(facts: &Facts<'_>) -> Vec<Incident> {
             } else {
                 "Pre-operational"
             };
-            let back = node
-                .states
-                .iter()
-                .find(|(seen, state)| seen.at > after.at && state & 0x7F == 5);
+            let mut states = later(&node.states, after.at).iter();
+            let is_back = states.any(|(_, state)| state & 0x7F == 5);
             found.push(
                 Incident::new(
                     format!("node {id} goes to {state} without a command"),
@@ -38,7 +36,7 @@ fn check(facts: &Facts<'_>) -> Vec<Incident> {
                     after.at,
                 )
                 .node(*id)
-                .recovered(back.is_some())
+                .recovered(is_back)
                 .shows([before.place, after.place])
                 .cause(Cause::new(
                     "error-behaviour",

@@ -21,7 +21,7 @@ fn check(facts: &Facts<'_>) -> Vec<Incident> {
         .collect();
     let breaks = counts
         .windows(2)
-        .filter(|pair| pair[1] != pair[0] + 1 && pair[1] != 1)
+        .filter(|pair| pair[1] != pair[0].wrapping_add(1) && pair[1] != 1)
         .count();
     let is_mixed = counts.len() >= 8 && breaks * 3 > counts.len();
     let [first, .., last] = facts.syncs[..] else {

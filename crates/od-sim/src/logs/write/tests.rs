@@ -167,7 +167,7 @@ fn an_unreadable_log_is_an_error_that_names_it() {
     let cut = &Format::Pcapng.write(&records())[..90];
     for (bytes, why) in [
         (&b"hello\nworld\n"[..], "it is not a candump log"),
-        (b"LOGG\x90\0\0\0", "it is a BLF log"),
+        (b"LOGG\x90\0\0\0", "it has no CAN frame"),
         (
             b"MDF     4.10",
             "it is an MDF log (MF4), which odkit does not read; export it as ASC",

@@ -6,7 +6,7 @@ use od_wire::nmt::Command;
 use od_wire::{Frame, NodeId};
 
 use crate::conform::dut::{Dut, QUIET, is_data};
-use crate::conform::end::{Checked, ensure, fail, lacks, skip};
+use crate::conform::end::{Checked, End, ensure, fail, lacks, skip};
 use crate::conform::sdo::{number, request};
 
 /// The four numbers of 1018h.
@@ -213,10 +213,19 @@ pub(super) fn fastscan_configured(dut: &mut Dut<'_>) -> Checked {
 
 pub(super) fn node_id_range(dut: &mut Dut<'_>) -> Checked {
     with(dut, |dut, _| {
+        let mut done = Ok(());
         for node_id in [0, 128, 254] {
-            answers(dut, Request::ConfigureNodeId { node_id }, &[0x11, 1])?;
+            done = answers(dut, Request::ConfigureNodeId { node_id }, &[0x11, 1]);
+            if done.is_err() {
+                break;
+            }
         }
-        Ok(())
+        // A node that accepted one of them would leave the configuration state with it.
+        if let Err(End::Fail { .. }) = done {
+            let node_id = dut.node.raw();
+            ask(dut, Request::ConfigureNodeId { node_id })?;
+        }
+        done
     })
 }
 

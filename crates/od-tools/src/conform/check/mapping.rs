@@ -42,13 +42,18 @@ fn open(dut: &mut Dut<'_>) -> Checked<Open> {
     opened(dut, pdo)
 }
 
-fn opened(dut: &mut Dut<'_>, pdo: Tpdo) -> Checked<Open> {
+/// The entries of the mapping now.
+fn entries(dut: &mut Dut<'_>, pdo: &Tpdo) -> Checked<Vec<u32>> {
     let all = mapping(dut, pdo.map())?;
     let raw = |mapped: &super::transmit::Mapped| {
         let Address { index, sub } = mapped.address;
         u32::from(index) << 16 | u32::from(sub) << 8 | mapped.bits as u32
     };
-    let entries = all.iter().map(raw).collect();
+    Ok(all.iter().map(raw).collect())
+}
+
+fn opened(dut: &mut Dut<'_>, pdo: Tpdo) -> Checked<Open> {
+    let entries = entries(dut, &pdo)?;
     switch(dut, &pdo, false)?;
     dut.write(Address::new(pdo.map(), 0), &[0])?;
     Ok(Open { pdo, entries })
@@ -101,11 +106,21 @@ pub(super) fn procedure(dut: &mut Dut<'_>) -> Checked {
     )
 }
 
+/// Another entry is refused while sub-index 0 is not 0. The entry that is there changes nothing, so a node may accept it.
 pub(super) fn without_procedure(dut: &mut Dut<'_>) -> Checked {
     let pdo = variable(dut)?;
-    switch(dut, &pdo, false)?;
-    let map = pdo.map();
-    let entry = dut.read(Address::new(map, 1))?;
+    let entries = entries(dut, &pdo)?;
+    let Some(first) = entries.first() else {
+        return lacks("the TPDO has no mapped object");
+    };
+    let mut others = dut.eds.dictionary().entries();
+    let other = others.find(|entry| {
+        let bits = raw(entry) & 0xFF;
+        entry.maps_to_tpdo() && raw(entry) != *first && (1..=first & 0xFF).contains(&bits)
+    });
+    let Some(other) = other else {
+        return lacks("no other object of this length can be mapped");
+    };
     let codes = [
         UnsupportedAccess,
         NotMappable,
@@ -113,8 +128,13 @@ pub(super) fn without_procedure(dut: &mut Dut<'_>) -> Checked {
         DeviceState,
         Incompatible,
     ];
-    let done = dut.refuses_value(Address::new(map, 1), &entry, &codes);
-    switch(dut, &pdo, true)?;
+    switch(dut, &pdo, false)?;
+    let entry = raw(&other).to_le_bytes();
+    let done = dut.refuses_value(Address::new(pdo.map(), 1), &entry, &codes);
+    if let Err(End::Lost(_)) = done {
+        return done;
+    }
+    close(dut, &Open { pdo, entries })?;
     done
 }
 
