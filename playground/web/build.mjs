@@ -55,7 +55,7 @@ async function index() {
 
 /** Each lesson is a file that the page fetches when it is opened, in each language that it has; a list names them all. */
 async function lessons() {
-  const { initSync, translateLesson } = await import('./src/wasm/od_playground.js');
+  const { initSync, parseLesson, translateLesson } = await import('./src/wasm/od_playground.js');
   initSync({ module: await readFile(new URL(modules['whole.wasm'], import.meta.url)) });
   const translated = (file, text, german) => {
     try {
@@ -66,19 +66,36 @@ async function lessons() {
   };
   const folder = new URL('../lessons/', import.meta.url);
   const list = [];
+  const texts = { en: new Map(), de: new Map() };
   for (const file of (await readdir(folder)).filter((name) => /^\d+-.*\.md$/.test(name)).sort()) {
     const text = await readFile(new URL(file, folder), 'utf8');
     const name = file.replace(/^\d+-|\.md$/g, '');
     const one = { name, title: field(text, 'title'), summary: field(text, 'summary'), level: Number(field(text, 'level')), minutes: Number(field(text, 'minutes')) };
     await cp(new URL(file, folder), new URL(`lesson-${name}.md`, out));
+    texts.en.set(name, text);
     const german = await readFile(new URL(`de/${file}`, folder), 'utf8').catch(() => null);
     if (german !== null) {
       one.de = { title: field(german, 'title'), summary: field(german, 'summary') };
-      await writeFile(new URL(`lesson-${name}.de.md`, out), translated(file, text, german));
+      texts.de.set(name, translated(file, text, german));
+      await writeFile(new URL(`lesson-${name}.de.md`, out), texts.de.get(name));
     }
     list.push(one);
   }
   await writeFile(new URL('lessons.json', out), JSON.stringify(list));
+  for (const language of ['en', 'de']) {
+    const lesson = (name) => parseLesson(texts[language].get(name) ?? texts.en.get(name)).lesson;
+    await writeFile(new URL(`questions.${language}.json`, out), JSON.stringify(await questions(language, lesson)));
+  }
+}
+
+/** The questions of `../questions`, each with title, answer and explanation of its lesson. */
+async function questions(language, lessonOf) {
+  const text = await readFile(new URL(`../questions/${language}.md`, import.meta.url), 'utf8');
+  return [...text.matchAll(/^## (\S+) (\d+)\n+([^]*?)\n*(?=^## |(?![^]))/gm)].map(([, name, step, question]) => {
+    const lesson = lessonOf(name);
+    const { answer, reveal } = lesson.steps[Number(step) - 1].quiz;
+    return { lesson: name, title: lesson.title, question, answer, reveal };
+  });
 }
 
 /** A field of the front matter of a lesson. */

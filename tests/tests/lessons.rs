@@ -180,3 +180,44 @@ fn a_translation_has_the_facts_of_its_lesson() {
     }
     assert!(found.is_empty(), "{}", found.join("\n"));
 }
+
+/// Questions of the final test: lesson, number of the step whose answer they have, text.
+fn questions(language: &str) -> Vec<(String, usize, String)> {
+    let path = folder().join(format!("../questions/{language}.md"));
+    let text = fs::read_to_string(path).expect("the questions are there");
+    let question = |part: &str| {
+        let (head, text) = part.split_once('\n').expect("a text");
+        let (lesson, step) = head.split_once(' ').expect("a lesson and a step");
+        let step = step.parse().expect("the number of a step");
+        (lesson.to_owned(), step, text.trim().to_owned())
+    };
+    text.split("\n## ").skip(1).map(question).collect()
+}
+
+#[test]
+fn each_question_of_the_final_test_has_its_answer_in_a_lesson_and_not_in_its_text() {
+    let lessons = lessons();
+    let german = questions("de");
+    let plain = |text: &str| text.replace([' ', '`'], "").to_uppercase();
+    for (number, (name, step, question)) in questions("en").into_iter().enumerate() {
+        let (file, text) = lessons
+            .iter()
+            .find(|(file, _)| file.ends_with(&format!("-{name}.md")))
+            .unwrap_or_else(|| panic!("{name} is not a lesson"));
+        let lesson = read(file, text);
+        let quiz = lesson.steps[step - 1].quiz.as_ref();
+        let quiz = quiz.unwrap_or_else(|| panic!("step {step} of {name} has no question"));
+        let answer = plain(&quiz.answer.to_string());
+        assert!(
+            !plain(&question).contains(answer.trim_end_matches('*')),
+            "{name} {step}"
+        );
+        let (same, number, translated) = &german[number];
+        assert_eq!(
+            (same, *number),
+            (&name, step),
+            "de.md has the order of en.md"
+        );
+        assert_eq!(facts(translated), facts(&question), "{name} {step}");
+    }
+}

@@ -10,6 +10,9 @@ use crate::failure::{Failure, read_error};
 use crate::output::{self, note};
 use crate::report;
 
+/// Name of the final test in a code; it is not a lesson.
+const FINAL: &str = "final-test";
+
 /// First word of a code; the last one is `sum=`, the FNV-1a hash of the words before it.
 const BEGIN: &str = "odkit-progress/1";
 
@@ -158,11 +161,9 @@ fn table(learners: &BTreeMap<String, Lessons>) -> String {
     }
     text.push('\n');
     for (learner, lessons) in learners {
-        let done = lessons
-            .values()
-            .filter(|(done, all, _)| done >= all)
-            .count();
-        let steps: u32 = lessons.values().map(|(done, ..)| done).sum();
+        let taken = || lessons.iter().filter(|(name, _)| *name != FINAL);
+        let done = taken().filter(|(_, (done, all, _))| done >= all).count();
+        let steps: u32 = taken().map(|(_, (done, ..))| done).sum();
         let _ = write!(text, "{learner:first$}  {done:>7}  {steps:>5}");
         for (_, name) in &columns {
             let cell = match lessons.get(*name) {

@@ -251,8 +251,9 @@ fn codes_of_learners_become_a_table_and_a_truncated_one_is_reported() {
          Bob            1      6      -   done\n\
          \n2 learners, 29 lessons come with odkit\n  2  nmt\n  3  sdo\n"
     );
-    // The page did two of these steps.
-    let shown = "odkit-progress/1 learner=Eva nmt=5/5~2@2026-11-22 sum=";
+    // The page did two of these steps; the final test is not a lesson.
+    let shown =
+        "odkit-progress/1 learner=Eva nmt=5/5~2@2026-11-22 final-test=12/12@2026-11-26 sum=";
     let sum = shown
         .trim_end_matches(" sum=")
         .bytes()
@@ -262,7 +263,11 @@ fn codes_of_learners_become_a_table_and_a_truncated_one_is_reported() {
     let table = odkit(&["lesson", "progress", "-"], &format!("{shown}{sum:08X}\n"));
     assert_eq!(table.code, 0, "{}", table.err);
     assert!(
-        table.out.contains("done~2") && table.out.contains("  ~  steps that the page did"),
+        table
+            .out
+            .contains("Eva            1      5  done~2   done\n")
+            && table.out.contains("  ~  steps that the page did")
+            && table.out.ends_with(" 30  final-test\n"),
         "{}",
         table.out
     );

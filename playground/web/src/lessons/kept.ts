@@ -30,6 +30,13 @@ const old = (): string[] => {
   return Array.isArray(names) ? names.filter((name) => typeof name === 'string') : [];
 };
 
+/** Number of questions of the final test, and of right answers for a certificate. */
+export const QUESTIONS = 12;
+export const NEEDED = 10;
+
+/** Name of the final test in the progress. */
+export const FINAL = 'final-test';
+
 export const finished = (): Set<string> =>
   new Set([...old(), ...Object.entries(progress()).filter(([, [done, all]]) => done >= all).map(([name]) => name)]);
 

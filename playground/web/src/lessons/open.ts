@@ -2,7 +2,7 @@
 
 import { effect } from '@preact/signals-core';
 import { openLesson } from '../actions';
-import { german } from '../language';
+import { german, language } from '../language';
 import * as state from '../state';
 import { D } from '../views/texts';
 import { finished } from './kept';
@@ -49,6 +49,37 @@ async function load(address: string): Promise<string> {
   const body = await answer.blob();
   if (body.size > LONGEST) throw new Error(D.lessons.tooLarge);
   return body.text();
+}
+
+/** A question without its recipe, with the answer of a lesson. */
+export interface Asked {
+  lesson: string;
+  /** Title of the lesson. */
+  title: string;
+  question: string;
+  answer: string;
+  reveal: string;
+}
+
+const asked = new Map<string, Promise<Asked[]>>();
+
+/** The questions in the language of the page; they are fetched once. */
+export function questions(): Promise<Asked[]> {
+  const file = `questions.${language()}.json`;
+  const known = asked.get(file) ?? load(file).then((text) => JSON.parse(text) as Asked[]);
+  asked.set(file, known);
+  // The next attempt may succeed.
+  known.catch(() => asked.delete(file));
+  return known;
+}
+
+/** A question of a lesson that is done, for the beginning of another one; null if there is none. */
+export async function recalled(name: string): Promise<Asked | null> {
+  const done = finished();
+  const known = (await questions()).filter((one) => one.lesson !== name && done.has(one.lesson));
+  // Each lesson asks for another one, and the same at each start.
+  const place = (await lessons()).findIndex((one) => one.name === name);
+  return known[(place * 7) % known.length] ?? null;
 }
 
 function unreachable(name: string, error: unknown): false {

@@ -7,7 +7,7 @@ import { effect } from '@preact/signals-core';
 import { leaveLesson, playScript, setRunning } from '../actions';
 import { language } from '../language';
 import { reached } from '../lessons/kept';
-import { again, backTo, following, lessons, openNamed, translated, words, type Listed } from '../lessons/open';
+import { again, backTo, following, lessons, openNamed, recalled, translated, words, type Asked, type Listed } from '../lessons/open';
 import { sheet } from '../sheet';
 import type { Lesson, LessonState } from '../sim/api';
 import * as state from '../state';
@@ -28,7 +28,7 @@ type Step = Lesson['steps'][number];
 const choose = (): void => void (state.lessonDialog.value = true);
 
 class LessonPanel extends View {
-  static override properties = { seen: { state: true }, hints: { state: true }, upNext: { state: true }, listed: { state: true } };
+  static override properties = { seen: { state: true }, hints: { state: true }, upNext: { state: true }, listed: { state: true }, recall: { state: true } };
   /** The step that is shown: a completed step stays until the learner continues. */
   declare seen: number;
   declare hints: number;
@@ -36,6 +36,8 @@ class LessonPanel extends View {
   declare upNext: Listed | null;
   /** This lesson in the list; null if it is not a built-in one. */
   declare listed: Listed | null;
+  /** A question of an earlier lesson. */
+  declare recall: Asked | null;
   /** Whether the solution was played for this step. */
   private isShown = false;
   private unfollow: (() => void) | undefined;
@@ -46,6 +48,7 @@ class LessonPanel extends View {
     this.hints = 0;
     this.upNext = null;
     this.listed = null;
+    this.recall = null;
   }
 
   override connectedCallback(): void {
@@ -54,6 +57,7 @@ class LessonPanel extends View {
       const { name, step } = state.lessonRun.value;
       this.seen = step;
       void lessons().then((list) => (this.listed = list.find((one) => one.name === name) ?? null), () => (this.listed = null));
+      void recalled(name).then((one) => (this.recall = one), () => (this.recall = null));
       this.hints = 0;
       this.isShown = false;
       this.upNext = null;
@@ -167,6 +171,7 @@ class LessonPanel extends View {
         ${shown === 0 && why && !isDone
           ? html`<div class="prose">${markdown(why)}</div>
             ${more.length ? html`<details ?open=${window.innerHeight >= TALL}><summary>${t.background}</summary><div class="prose">${markdown(more.join('\n\n'))}</div></details>` : nothing}
+            ${this.recall ? html`<details class="recall"><summary>${t.recall(this.recall.title)}</summary><od-quiz .quiz=${this.recall}></od-quiz></details>` : nothing}
             <p class="begin">${icons.down} ${t.begin}</p>`
           : nothing}
         ${keyed(

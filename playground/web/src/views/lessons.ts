@@ -1,9 +1,9 @@
 // The list of lessons, and a file of the user.
 
-import { html, nothing, type PropertyValues } from 'lit';
+import { html, nothing, type PropertyValues, type TemplateResult } from 'lit';
 import { effect } from '@preact/signals-core';
 import { language } from '../language';
-import { codeOf, finished, progress, type Done } from '../lessons/kept';
+import { codeOf, finished, NEEDED, progress, QUESTIONS, type Done } from '../lessons/kept';
 import { lessons, openFile, openNamed, words, type Listed } from '../lessons/open';
 import { sheet } from '../sheet';
 import * as state from '../state';
@@ -16,12 +16,14 @@ import { View } from './view';
 await sheet('dialogs');
 
 class Lessons extends View {
-  static override properties = { list: { state: true }, learner: { state: true }, isCopied: { state: true } };
+  static override properties = { list: { state: true }, learner: { state: true }, isCopied: { state: true }, isTest: { state: true } };
   /** Null: it could not be loaded. */
   declare list: Listed[] | null;
   /** A name for the code; it is not stored. */
   declare learner: string;
   declare isCopied: boolean;
+  /** The final test is in the place of the list. */
+  declare isTest: boolean;
   private unopen: (() => void) | undefined;
 
   constructor() {
@@ -29,6 +31,7 @@ class Lessons extends View {
     this.list = [];
     this.learner = '';
     this.isCopied = false;
+    this.isTest = false;
   }
 
   protected override firstUpdated(changed: PropertyValues): void {
@@ -90,6 +93,16 @@ class Lessons extends View {
       <span class="muted">${t.minutes(one.minutes)}${isForeign ? `, ${t.onlyEnglish}` : ''}${shown ? `, ${t.shown(shown)}` : ''}</span></button></li>`;
   }
 
+  /** The dialog with this title and content. */
+  private framed(close: () => void, title: string, content: TemplateResult): TemplateResult {
+    return html`<dialog class="dialog wide" aria-labelledby="lessons-title" @close=${close} @click=${(event: Event) => event.target === event.currentTarget && close()}>
+      <div class="dialog-body">
+        <header class="dialog-head"><h2 id="lessons-title">${title}</h2><div class="spacer"></div>${languageButton()}<button class="icon-button" aria-label=${T.close} @click=${close}>${icons.close}</button></header>
+        ${content}
+      </div>
+    </dialog>`;
+  }
+
   protected override render() {
     const t = D.lessons;
     const done = finished();
@@ -97,11 +110,10 @@ class Lessons extends View {
     const close = (): void => {
       state.lessonDialog.value = false;
       state.lessonFailed.value = null;
+      this.isTest = false;
     };
-    return html`<dialog class="dialog wide" aria-labelledby="lessons-title" @close=${close} @click=${(event: Event) => event.target === event.currentTarget && close()}>
-      <div class="dialog-body">
-        <header class="dialog-head"><h2 id="lessons-title">${T.lessons.title}</h2><div class="spacer"></div>${languageButton()}<button class="icon-button" aria-label=${T.close} @click=${close}>${icons.close}</button></header>
-        ${this.failed()}
+    if (this.isTest) return this.framed(close, D.lessons.test.title, html`<od-final-test></od-final-test><div><button @click=${() => (this.isTest = false)}>${D.lessons.test.back}</button></div>`);
+    return this.framed(close, T.lessons.title, html`${this.failed()}
         ${this.list === null ? html`<p class="note" role="alert">${t.noList}</p>` : nothing}
         ${t.levels.map((level, number) => {
           const group = (this.list ?? []).filter((one) => one.level === number);
@@ -109,6 +121,7 @@ class Lessons extends View {
           return html`<h3 id=${`level-${number}`} class="lesson-level">${level} <span class="muted num">${t.count(group.filter((one) => done.has(one.name)).length, group.length)}</span></h3>
             <ol class="lesson-list" aria-labelledby=${`level-${number}`}>${group.map((one) => this.card(one, done.has(one.name), known[one.name]))}</ol>`;
         })}
+        <section class="share-field"><p class="note">${t.test.hint(QUESTIONS, NEEDED)}</p><button @click=${() => void import('./final-test').then(() => (this.isTest = true))}>${t.test.begin}</button></section>
         ${this.code()}
         <label class="drop">${icons.file}<span><strong>${t.open}</strong><span class="muted">${t.openHint}</span></span>
           <input class="sr" type="file" accept=".md,.markdown,text/markdown,text/plain" aria-label=${t.open} @change=${(event: Event) => {
@@ -118,8 +131,7 @@ class Lessons extends View {
             // The same file can be selected again after a correction.
             input.value = '';
           }}></label>
-      </div>
-    </dialog>`;
+`);
   }
 }
 

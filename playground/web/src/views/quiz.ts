@@ -16,6 +16,9 @@ function wrongParts(found: Judgement): string {
   return [found.wrongIdentifier ? t.wrongId : '', found.wrongLength ? t.wrongLength : '', bytes ? t.wrongBytes(bytes) : ''].filter(Boolean).join(t.and);
 }
 
+/** A frame with spaces between its bytes. */
+export const spaced = (frame: string): string => frame.replace(/#(.*)/, (_, bytes: string) => `#${bytes.match(/..?/g)?.join(' ') ?? ''}`);
+
 class Quiz extends View {
   static override properties = { quiz: { attribute: false }, said: { state: true }, isTold: { state: true } };
   declare quiz: Asked;
@@ -49,7 +52,7 @@ class Quiz extends View {
           <button class="small" type="submit">${t.check}</button>
           <button class="small" type="button" @click=${() => (this.isTold = true)}>${t.reveal}</button></div>`}
       <p role="status">${this.said}</p>
-      ${this.isTold ? html`<p><code>${this.quiz.answer}</code></p><div class="prose">${markdown(this.quiz.reveal)}</div>` : nothing}
+      ${this.isTold ? html`<p><code>${spaced(this.quiz.answer)}</code></p><div class="prose">${markdown(this.quiz.reveal)}</div>` : nothing}
     </form>`;
   }
 }

@@ -1,0 +1,61 @@
+// The final test: questions of all lessons without their recipe, a certificate to print, and questions that lessons ask again.
+import assert from 'node:assert/strict';
+import { becomes, until } from './bench.mjs';
+import { checks } from './check.mjs';
+import { URL_OF_PAGE } from './harness.mjs';
+
+const check = checks();
+
+check('the final test fails without answers, passes with ten of twelve, and prints a certificate', async (page) => {
+  const all = await (await fetch(new URL('questions.en.json', URL_OF_PAGE))).json();
+  await page.getByRole('button', { name: 'Learn' }).click();
+  await page.getByRole('button', { name: 'Begin the final test' }).click();
+  const test = page.locator('od-final-test');
+  const heading = (number) => test.getByRole('heading', { name: `Question ${number} of 12` });
+  for (let number = 1; number <= 12; number += 1) {
+    await heading(number).waitFor();
+    await test.getByRole('button', { name: 'I do not know it' }).click();
+  }
+  await test.getByText('0 of 12 answers are right. 10 are needed.').waitFor();
+  assert.equal(await test.locator('.wrong-answers li').count(), 12);
+  await test.getByRole('button', { name: 'Try again' }).click();
+  const plain = (text) => text.replaceAll(/\s+/g, ' ').trim();
+  const lessons = new Set();
+  for (let number = 1; number <= 12; number += 1) {
+    await heading(number).waitFor();
+    const question = plain(await test.locator('.question').textContent());
+    const one = all.find((known) => plain(known.question.replaceAll('`', '')) === question);
+    lessons.add(one.lesson);
+    const answer = test.getByRole('textbox', { name: 'Your frame' });
+    if (number === 1) {
+      // A text that is not a frame is not an answer.
+      await answer.fill('what');
+      await answer.press('Enter');
+      await test.getByText('This is not a frame.').waitFor();
+    }
+    await answer.fill(number <= 2 ? '7FF#00' : one.answer.replaceAll('..', '00').replace('*', ''));
+    await answer.press('Enter');
+  }
+  assert.equal(lessons.size, 12, 'each question is from another lesson');
+  await test.getByText('10 of 12 answers are right. You have passed.').waitFor();
+  assert.equal(await test.locator('.wrong-answers li').count(), 2);
+  await test.getByRole('textbox', { name: 'Your name' }).fill('Ann Ü.');
+  const certificate = test.getByRole('region', { name: 'Certificate' });
+  await becomes('the certificate', () => certificate.innerText(), /Ann Ü\.[^]*10 of 12[^]*odkit-progress\/1 learner=Ann%20%C3%9C\. final-test=10\/12@[^]* sum=/);
+  await page.emulateMedia({ media: 'print' });
+  await until('only the certificate on paper', async () => (await certificate.isVisible()) && !(await page.locator('od-topbar').isVisible()) && !(await page.getByText('Answers that were not right').isVisible()));
+  await page.emulateMedia({ media: 'screen' });
+});
+
+check('a lesson asks a question of one that is done again', async (page) => {
+  await page.evaluate(() => localStorage.setItem('odkit.progress', JSON.stringify({ nmt: [4, 4, '2026-11-26'] })));
+  // A fresh visit: the one that is left may still write its address.
+  await page.goto('about:blank');
+  await page.goto(new URL('#lesson=sdo', URL_OF_PAGE).href);
+  const again = page.locator('od-lesson .recall');
+  await again.getByText('Asked again, from “NMT states and commands”').click();
+  const quiz = again.locator('od-quiz');
+  await becomes('the question', () => quiz.locator('.question').innerText(), /Which frame (starts|stops) node 5/);
+  await quiz.getByRole('button', { name: 'Show the answer' }).click();
+  await becomes('the answer', () => quiz.locator('code').first().innerText(), /^000#0[12]/);
+});
