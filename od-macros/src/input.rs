@@ -69,8 +69,8 @@ impl Parse for At {
         })?;
         let span = literal.span();
         // rustc lexes it as one integer literal with the suffix `sub2`.
-        let target = literal.to_string().parse();
-        let target: Target = target.map_err(|message: String| syn::Error::new(span, message))?;
+        let target = literal.to_string().parse::<Target>();
+        let target = target.map_err(|refused| syn::Error::new(span, refused))?;
         if target.sub.is_none() && stream.peek(Token![:]) {
             return Err(colon(target, stream));
         }

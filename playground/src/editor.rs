@@ -7,6 +7,7 @@ use std::rc::Rc;
 use od_eds::diff::{Impact, compare};
 use od_eds::{Document, Edit, Finding, Tables, check};
 use od_lsp::{Host, Server};
+use od_model::Refused;
 use wasm_bindgen::prelude::*;
 
 use crate::crossing::{Crosses, record};
@@ -38,7 +39,7 @@ impl Host for Files {
         self.0.borrow().keys().cloned().collect()
     }
 
-    fn judge(&self, _: &str, _: &mut Vec<Finding>) -> Result<(), String> {
+    fn judge(&self, _: &str, _: &mut Vec<Finding>) -> Result<(), Refused> {
         Ok(())
     }
 }

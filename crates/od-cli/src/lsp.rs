@@ -9,6 +9,7 @@ use std::{fs, thread};
 
 use od_eds::Finding;
 use od_lsp::{Host, Server};
+use od_model::Refused;
 
 use crate::config::Config;
 use crate::failure::Failure;
@@ -115,8 +116,8 @@ impl Host for Disk {
         paths
     }
 
-    fn judge(&self, path: &str, findings: &mut Vec<Finding>) -> Result<(), String> {
-        let config = Config::of(path).map_err(|failure| failure.to_string())?;
+    fn judge(&self, path: &str, findings: &mut Vec<Finding>) -> Result<(), Refused> {
+        let config = Config::of(path).map_err(|failure| Refused::from(failure.to_string()))?;
         config.apply(path, findings);
         Ok(())
     }

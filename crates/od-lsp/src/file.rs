@@ -3,6 +3,7 @@
 use std::cell::OnceCell;
 
 use od_eds::{Description, Document, Edit, Encoding, Finding, Origin, Overlaid, Parsed};
+use od_model::Refused;
 
 use crate::host::Host;
 use crate::layout::Layout;
@@ -45,7 +46,7 @@ pub(crate) struct Seen {
     /// The findings about this file.
     pub(crate) findings: Vec<Finding>,
     /// Error in the settings of the project.
-    pub(crate) misused: Option<String>,
+    pub(crate) misused: Option<Refused>,
 }
 
 impl File {

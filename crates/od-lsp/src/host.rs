@@ -1,6 +1,7 @@
 //! Interface of the server to the world outside: files, and the settings of a project.
 
 use od_eds::Finding;
+use od_model::Refused;
 
 /// The world around a server.
 pub trait Host {
@@ -14,7 +15,7 @@ pub trait Host {
     ///
     /// # Errors
     /// The error in the project's settings; the findings are then unchanged.
-    fn judge(&self, path: &str, findings: &mut Vec<Finding>) -> Result<(), String>;
+    fn judge(&self, path: &str, findings: &mut Vec<Finding>) -> Result<(), Refused>;
 }
 
 /// A host without files and settings.
@@ -30,7 +31,7 @@ impl Host for NoHost {
         Vec::new()
     }
 
-    fn judge(&self, _: &str, _: &mut Vec<Finding>) -> Result<(), String> {
+    fn judge(&self, _: &str, _: &mut Vec<Finding>) -> Result<(), Refused> {
         Ok(())
     }
 }

@@ -3,6 +3,7 @@
 
 use std::collections::{BTreeMap, VecDeque};
 
+use od_model::Refused;
 use serde_json::Value;
 
 use crate::features::diagnostics;
@@ -35,7 +36,7 @@ pub struct Server {
     phase: Phase,
     exit: Option<u8>,
     /// The last reported error of the project's settings.
-    complained: Option<String>,
+    complained: Option<Refused>,
 }
 
 /// An open file, and the results that the client has of it.
@@ -260,11 +261,11 @@ impl Server {
     }
 
     /// Shows an error of the project's settings, only once.
-    fn complain(&mut self, misused: Option<String>) {
+    fn complain(&mut self, misused: Option<Refused>) {
         if let Some(why) = &misused
             && self.complained != misused
         {
-            let params = serde_json::json!({ "type": 1, "message": why });
+            let params = serde_json::json!({ "type": 1, "message": why.to_string() });
             let text = message::notification("window/showMessage", &params);
             self.outbox.push_back(text);
         }
@@ -272,7 +273,7 @@ impl Server {
     }
 
     /// Sends the diagnostics of a file; returns the error of the project's settings, if there is one.
-    fn publish(&mut self, uri: &str) -> Option<String> {
+    fn publish(&mut self, uri: &str) -> Option<Refused> {
         let open = self.files.get(uri)?;
         let file = &open.file;
         let seen = file.seen(&*self.host);

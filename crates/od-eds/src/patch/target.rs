@@ -8,7 +8,7 @@ use core::str::FromStr;
 use crate::fact::Fact;
 use crate::finding::{Finding, Rule};
 use crate::span::{Span, Spanned};
-use od_model::Address;
+use od_model::{Address, Refused};
 
 /// The target of an edit: an object, or one of its sub-objects.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
@@ -77,16 +77,16 @@ impl fmt::Display for Target {
 
 /// Reads `0x6004` or `0x1018sub2`, with underscores and in any case. The error is a sentence with a help line.
 impl FromStr for Target {
-    type Err = String;
+    type Err = Refused;
 
-    fn from_str(text: &str) -> Result<Self, String> {
+    fn from_str(text: &str) -> Result<Self, Refused> {
         let lower = text.replace('_', "").to_ascii_lowercase();
         let Some(hex) = lower.strip_prefix("0x") else {
             let help = match text.parse::<u16>() {
                 Ok(index) => format!("`0x{text}`; or `0x{index:04X}`, which is {text}"),
                 Err(_) => "for example `0x6004` or `0x1018sub2`".to_string(),
             };
-            return Err(format!("an index is written in hex\nhelp: {help}"));
+            return Err(format!("an index is written in hex\nhelp: {help}").into());
         };
         let (index, sub) = match hex.split_once("sub") {
             Some((index, sub)) => (index, Some(sub)),

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use od_eds::Finding;
 use od_lsp::{Host, Server};
+use od_model::Refused;
 use serde_json::{Value, json};
 
 /// Files by path.
@@ -19,7 +20,7 @@ impl Host for Files {
         self.0.keys().cloned().collect()
     }
 
-    fn judge(&self, path: &str, findings: &mut Vec<Finding>) -> Result<(), String> {
+    fn judge(&self, path: &str, findings: &mut Vec<Finding>) -> Result<(), Refused> {
         if path.contains("misused") {
             return Err("odkit.toml: W9999 is not a rule".into());
         }
