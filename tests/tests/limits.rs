@@ -57,18 +57,52 @@ fn sections_with_keys_of_their_own_are_joined() {
 }
 
 #[test]
-fn a_text_that_claims_millions_of_sub_objects_gets_a_million() {
+fn a_text_that_claims_millions_of_sub_objects_gets_fifty_thousand() {
     let array = |n: usize| {
         let index = 0x2000 + n;
         format!("[{index:04X}]\nObjectType=8\nDataType=5\nAccessType=ro\nCompactSubObj=254")
     };
-    let parsed = parse(&lines("", 4_000, array));
-    assert_eq!(count(&parsed, "E0353"), 4_000 - 1_000_000 / 254);
+    let parsed = parse(&lines("", 16_384, array));
+    // Those beyond the limit of findings are counted.
+    assert_eq!(count(&parsed, "E0353"), 10_000);
     let entries = parsed.description.entries().count();
-    assert_eq!(entries, 4_000 + 1_000_000 / 254 * 254);
+    assert_eq!(entries, 16_384 + 50_000 / 254 * 254);
     // The object itself is kept.
-    assert_eq!(parsed.description.objects.len(), 4_000);
-    assert_eq!(count(&parse(&lines("", 1_000, array)), "E0353"), 0);
+    assert_eq!(parsed.description.objects.len(), 16_384);
+    let parsed = parse(&lines("", 400, array));
+    assert_eq!(count(&parsed, "E0353"), 400 - 50_000 / 254);
+    assert_eq!(count(&parse(&lines("", 190, array)), "E0353"), 0);
+}
+
+/// What is behind the limit is ignored, and the finding is where it begins.
+#[test]
+fn a_text_has_a_hundred_thousand_sections() {
+    for (text, line, part) in [
+        (
+            lines("", 100_001, |n| format!("[Own{n}]")),
+            100_001,
+            "100000 sections",
+        ),
+        (
+            lines("[Own]\n", 500_000, |n| format!("k{n}=1")),
+            500_001,
+            "500000 lines",
+        ),
+        (
+            format!("{VAR}DefaultValue={}\n", "1".repeat(1 << 21)),
+            5,
+            "1048576 bytes",
+        ),
+    ] {
+        let parsed = parse(&text);
+        let found = parsed.findings.iter().find(|one| one.code() == "E0119");
+        let found = found.unwrap_or_else(|| panic!("{part}"));
+        assert_eq!(found.span().map(|span| span.line), Some(line), "{part}");
+        let said = od_eds::say(found, &od_eds::Eds).message;
+        assert!(said.contains(part), "{said}");
+    }
+    let most = lines("[Own]\n", 499_999, |n| format!("k{n}=1"));
+    assert_eq!(count(&parse(&most), "E0119"), 0);
 }
 
 /// Processor time of this thread in hundredths of a second; `None` on a system that does not tell it.
@@ -79,18 +113,50 @@ fn processor_time() -> Option<u64> {
     Some(number(11)? + number(12)?)
 }
 
+/// Each text is larger than any device file; the largest file that odkit reads whole is among them.
 #[test]
 fn time_grows_with_the_length_of_a_text() {
-    let attributes: String = (0..300_000).map(|n| format!(" a{n}=\"1\"")).collect();
-    let crowded = format!("<ISO15745ProfileContainer><a{attributes}/></ISO15745ProfileContainer>");
-    let long = format!("{VAR}DefaultValue={}\n", "z".repeat(10_000_000));
-    let noise: String = (0..5_000_000_u32)
+    let attributes = |sign: &str| -> String {
+        let all: String = (0..300_000).map(|n| format!(" a{n}{sign}\"1\"")).collect();
+        format!("<ISO15745ProfileContainer><a{all}/></ISO15745ProfileContainer>")
+    };
+    let long = |before: &str| format!("{VAR}{before}{}\n", "z".repeat(20_000_000));
+    let noise: String = (0..2_000_000_u32)
         .map(|n| char::from((n.wrapping_mul(2_654_435_761) >> 25) as u8))
         .collect();
+    let one_line: String = (0..20_000)
+        .map(|n| {
+            let index = 0x2000 + n;
+            format!("<CANopenObject index=\"{index:04X}\" name=\"é\" objectType=\"7\"/>")
+        })
+        .collect();
+    let object = |n: usize| format!("[{:04X}]\nParameterName=a", 0x1000 + n % 0xF000);
+    let sub = |n: usize| format!("[{:04X}sub{:X}]\nDataType=7", 0x2000 + n / 250, n % 250);
     for (name, text, code) in [
-        ("300,000 attributes", crowded, "E0113"),
-        ("a value of 10 MB", long, "E0412"),
-        ("5 MB of noise", noise, "E0210"),
+        ("300,000 attributes", attributes("="), "E0119"),
+        ("300,000 attributes with blanks", attributes(" = "), "E0119"),
+        (
+            "300,000 elements inside each other",
+            "<a>".repeat(300_000),
+            "E0119",
+        ),
+        ("objects in one line", format!("<a>{one_line}</a>"), "E0401"),
+        ("a value of 20 MB", long("DefaultValue="), "E0119"),
+        ("a header of 20 MB", long("["), "E0119"),
+        ("a key of 20 MB", long(""), "E0119"),
+        ("2 MB of noise", noise, "E0210"),
+        ("200,000 sections", lines("", 200_000, object), "E0119"),
+        ("200,000 sub-objects", lines("", 200_000, sub), "E0119"),
+        (
+            "200,000 own sections",
+            lines("", 200_000, |n| format!("[Own{n}]\na=1")),
+            "E0119",
+        ),
+        (
+            "600,000 keys",
+            lines(VAR, 600_000, |n| format!("k{n}=1")),
+            "E0119",
+        ),
     ] {
         let start = processor_time();
         let parsed = load(&text);

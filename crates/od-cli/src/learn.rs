@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use od_model::Visible;
 use od_tools::interrupt::Interruptible;
 use od_tools::learn::record::{Watch, record};
-use od_tools::learn::{Learned, Options, learn};
+use od_tools::learn::{Learned, Options, Stored, learn, stored};
 use od_tools::link::Link;
 use od_tools::links;
 use od_wire::{Duration, NodeId};
@@ -17,7 +17,7 @@ use crate::{bus, conform, files, output};
 
 /// Make an EDS from a node on a bus
 ///
-/// Reads all objects from 1000h to 9FFFh, and tries which can be written without changing a value.
+/// A node that has an EDS of itself (1021h) sends it. Of any other node odkit reads all objects from 1000h to 9FFFh, and tries which can be written without changing a value.
 /// Comments in the file list what odkit could not find out: types of objects that no standard
 /// defines, limits, which values are saved.
 #[derive(clap::Args)]
@@ -33,6 +33,9 @@ pub(crate) struct Args {
     /// Write to this file instead of standard output
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
+    /// Read all objects also of a node that has an EDS of itself (1021h)
+    #[arg(long)]
+    ignore_stored: bool,
     /// Probe limits by writing values, and restore the values, also after Ctrl-C
     #[arg(long)]
     allow_writes: bool,
@@ -64,11 +67,34 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     learned(args, link)
 }
 
+/// The EDS that the node has of itself.
+fn sent(args: &Args, link: &mut Box<dyn Link>) -> Result<Option<String>, Failure> {
+    let node = args.node.raw();
+    Ok(match stored(link, args.node)? {
+        Some(Stored::Eds(text)) => {
+            output::note!(
+                "this is the EDS that node {node} has of itself (1021h); add `--ignore-stored` to read all objects"
+            );
+            Some(text)
+        }
+        Some(Stored::Unreadable(why)) => {
+            output::note!("node {node} has an EDS of itself (1021h), but {why}");
+            None
+        }
+        _ => None,
+    })
+}
+
 fn learned(args: &Args, mut link: Box<dyn Link>) -> Result<(), Failure> {
     let options = Options {
         writes: args.allow_writes,
         today: Some(today()),
     };
+    if !(args.ignore_stored || args.allow_writes || args.twin)
+        && let Some(text) = sent(args, &mut link)?
+    {
+        return output::save(args.output.as_deref(), &Visible(&text).lines());
+    }
     let told = |index: u16| {
         if args.output.is_some() {
             output::note!("reading {index:04X}h to {:04X}h", index | 0xFFF);

@@ -33,6 +33,9 @@ pub(crate) struct Args {
     /// Folder for the output files [default: no files are written]
     #[arg(long, short, value_name = "DIR")]
     output: Option<PathBuf>,
+    /// Add the PDOs of the nodes to master.dcf (5800h to 5FFFh), for drivers of Lely core and ros2_canopen
+    #[arg(long, short)]
+    remote_pdo: bool,
 }
 
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
@@ -91,7 +94,7 @@ fn one(args: &Args, mut network: Network, folder: Option<&Path>) -> Result<usize
         if !writes.is_empty() {
             outputs.push(("master.bin".into(), network::bytes(&writes)));
         }
-        let description = network::dcf(master, &network.nodes);
+        let description = network::dcf(master, &network.nodes, args.remote_pdo);
         outputs.push((
             "master.dcf".into(),
             od_eds::canonical(&description).into_bytes(),

@@ -89,12 +89,20 @@ fn group<'a>(path: &'a str, text: &'a str, sentence: &'a Sentence, note: &'a str
         Severity::Warning => Level::WARNING,
         Severity::Info => Level::INFO.with_name("remark"),
     };
+    let snippets = snippets(path, text, sentence);
+    let has_excerpt = !snippets.is_empty();
     let mut group = level
         .primary_title(short(&sentence.message))
         .id(sentence.code)
-        .elements(snippets(path, text, sentence));
+        .elements(snippets);
     if sentence.span.is_none() {
         group = group.element(annotate_snippets::Origin::path(path));
+    } else if !has_excerpt {
+        let place = sentence.span.unwrap_or_default();
+        let origin = annotate_snippets::Origin::path(path)
+            .line(place.line as usize)
+            .char_column(place.column as usize);
+        group = group.element(origin);
     }
     group = group.element(Level::NOTE.message(note));
     if !sentence.help.is_empty() {
@@ -118,7 +126,8 @@ fn short(message: &str) -> Cow<'_, str> {
     }
 }
 
-/// Maximum distance in bytes of two places that are shown as one excerpt.
+/// Maximum distance in bytes of two places that are shown as one excerpt, and of a place from both ends of its line:
+/// a longer line is not shown.
 const FAR: u32 = 1 << 14;
 
 /// The lines of the file that the finding is about.
@@ -153,15 +162,24 @@ fn snippet<'a>(
     let first = spans.clone().min_by_key(|span| span.start)?;
     let end = spans.map(|span| span.end).max()?;
     let bytes = text.as_bytes();
-    let line_end = |byte: &u8| matches!(*byte, b'\n' | b'\r');
-    let start = bytes
-        .get(..first.start as usize)?
-        .iter()
-        .rposition(line_end)
-        .map_or(0, |at| at + 1);
-    let rest = bytes.get(end as usize..)?;
-    let end = end as usize + rest.iter().position(line_end).unwrap_or(rest.len());
-    let shown = text.get(start..end)?;
+    let is_end = |byte: &u8| matches!(*byte, b'\n' | b'\r');
+    let (first_byte, last) = (first.start as usize, end as usize);
+    let near = first_byte.saturating_sub(FAR as usize);
+    let before = bytes.get(near..first_byte)?;
+    let start = match before.iter().rposition(is_end) {
+        Some(at) => near + at + 1,
+        None if near == 0 => 0,
+        None => return None,
+    };
+    let behind = bytes.get(last..bytes.len().min(last + FAR as usize))?;
+    let end = match behind.iter().position(is_end) {
+        Some(at) => last + at,
+        None if last + behind.len() == bytes.len() => bytes.len(),
+        None => return None,
+    };
+    let shown = text
+        .get(start..end)
+        .filter(|shown| shown.len() <= 4 * FAR as usize)?;
     let range = |span: Span| {
         let from = (span.start as usize).saturating_sub(start).min(shown.len());
         from..(span.end as usize)

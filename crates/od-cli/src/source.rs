@@ -110,6 +110,9 @@ impl Source {
                 let name = path.display().to_string();
                 let document = canopen(Document::new(bytes).named(name.clone()))
                     .map_err(|why| Failure::Failed(format!("{name}: {why}")))?;
+                if is_overlay(&path) {
+                    return Self::on_base(&path, &document);
+                }
                 Ok(Self::of(name, document))
             }
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
@@ -145,6 +148,10 @@ impl Source {
         match fs::read(path) {
             Ok(bytes) => {
                 let document = canopen(Document::new(bytes).named(path))?;
+                if is_overlay(Path::new(path)) {
+                    let laid = Self::on_base(Path::new(path), &document);
+                    return laid.map_err(|failure| failure.to_string());
+                }
                 Ok(Self::of(path.into(), document))
             }
             Err(error) if error.kind() == std::io::ErrorKind::NotFound && path.contains('+') => {
@@ -163,6 +170,24 @@ impl Source {
     }
 
     /// This base with the overlay at a path; the base may have an overlay itself.
+    /// An overlay on the base that its comment `;odkit-base=my.eds` names, otherwise on the only EDS or DCF in its
+    /// folder.
+    fn on_base(path: &Path, overlay: &Document) -> Result<Self, Failure> {
+        let failed = |why: &str| Failure::Failed(format!("{}: {why}", path.display()));
+        let folder = path.parent().unwrap_or(Path::new(""));
+        let base = match od_eds::base_of(overlay.text()) {
+            Some(named) => folder.join(*named),
+            None => only_eds(folder).ok_or_else(|| {
+                failed("an overlay needs a base; add a first line `;odkit-base=my.eds`")
+            })?,
+        };
+        if is_overlay(&base) {
+            return Err(failed("the base is an overlay, too; name an EDS or a DCF"));
+        }
+        let base = Self::find(&base.display().to_string())?;
+        base.with_overlay(path)
+    }
+
     fn with_overlay(self, path: &Path) -> Result<Self, Failure> {
         let shown = path.display().to_string();
         let bytes = files::read(path).map_err(|error| {
@@ -174,11 +199,8 @@ impl Source {
             for (line, fault) in &faults {
                 output::note!("{shown}:{line}: {fault}");
             }
-            let count = report::plural(faults.len(), "section");
-            Failure::Failed(format!(
-                "{shown}: cannot remove {count}; name sections of {}",
-                self.path
-            ))
+            let count = report::plural(faults.len(), "problem");
+            Failure::Failed(format!("{shown} does not fit {}: {count}", self.path))
         })?;
         let document = Document::new(made.text.clone());
         let mut laid = Self::of(format!("{}+{shown}", self.path), document);
@@ -364,6 +386,29 @@ impl Source {
             .into()),
         }
     }
+}
+
+fn has_ending(path: &Path, ending: &str) -> bool {
+    let own = path.extension();
+    own.is_some_and(|own| own.eq_ignore_ascii_case(ending))
+}
+
+fn is_overlay(path: &Path) -> bool {
+    has_ending(path, "overlay")
+}
+
+/// The only EDS or DCF in a folder.
+fn only_eds(folder: &Path) -> Option<PathBuf> {
+    let folder = if folder.as_os_str().is_empty() {
+        Path::new(".")
+    } else {
+        folder
+    };
+    let entries = fs::read_dir(folder).ok()?.flatten();
+    let paths = entries.map(|entry| entry.path());
+    let mut found = paths.filter(|path| has_ending(path, "eds") || has_ending(path, "dcf"));
+    let first = found.next()?;
+    found.next().is_none().then_some(first)
 }
 
 fn unknown(name: &str, error: &std::io::Error) -> Failure {

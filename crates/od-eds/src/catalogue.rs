@@ -18,7 +18,7 @@ use alloc::vec::Vec;
 
 use od_model::{Address, DataType, Kind, Visible};
 
-use crate::fact::{Fact, Key, shown};
+use crate::fact::{Fact, Key, LONGEST, shown};
 use crate::finding::{Finding, Severity};
 use crate::fix::{Applicability, Fix};
 use crate::span::Span;
@@ -216,9 +216,6 @@ impl Blanks<'_> {
         }
     }
 }
-
-/// Maximum number of characters of a text of the file in a sentence.
-const LONGEST: usize = 100;
 
 /// A text of the file, shortened to a readable length.
 fn cut(text: &str) -> String {

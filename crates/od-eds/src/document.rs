@@ -102,7 +102,8 @@ impl core::error::Error for EditError {}
 /// ```
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Document {
-    bytes: Vec<u8>,
+    /// The bytes of the file; `None` if they are those of the text.
+    own_bytes: Option<Vec<u8>>,
     text: String,
     encoding: Encoding,
     mark: usize,
@@ -115,9 +116,23 @@ impl Document {
     pub fn new(bytes: impl Into<Vec<u8>>) -> Self {
         let bytes = bytes.into();
         let (encoding, mark) = detect(&bytes);
-        let text = decode(&bytes).into_owned();
+        let is_text = mark == 0 && matches!(encoding, Encoding::Ascii | Encoding::Utf8);
+        let (own_bytes, text) = if is_text {
+            // No second copy: a file can be large.
+            match String::from_utf8(bytes) {
+                Ok(text) => (None, text),
+                Err(error) => {
+                    let bytes = error.into_bytes();
+                    let text = decode(&bytes).into_owned();
+                    (Some(bytes), text)
+                }
+            }
+        } else {
+            let text = decode(&bytes).into_owned();
+            (Some(bytes), text)
+        };
         Self {
-            bytes,
+            own_bytes,
             text,
             encoding,
             mark,
@@ -139,7 +154,7 @@ impl Document {
 
     /// The file.
     pub fn bytes(&self) -> &[u8] {
-        &self.bytes
+        self.own_bytes.as_deref().unwrap_or(self.text.as_bytes())
     }
 
     /// Encoding of its characters.
@@ -155,7 +170,7 @@ impl Document {
     /// Place of the first byte that is invalid in the encoding.
     pub(crate) fn first_wrong(&self) -> Option<usize> {
         if self.encoding == Encoding::Utf8 {
-            let error = core::str::from_utf8(&self.bytes[self.mark..]).err()?;
+            let error = core::str::from_utf8(&self.bytes()[self.mark..]).err()?;
             return Some(error.valid_up_to());
         }
         self.text.find(char::REPLACEMENT_CHARACTER)
@@ -180,7 +195,7 @@ impl Document {
             }
         }
         let mut text = String::with_capacity(self.text.len());
-        let mut bytes = self.bytes[..self.mark].to_owned();
+        let mut bytes = self.bytes()[..self.mark].to_owned();
         let mut place = Place {
             document: self,
             text: 0,
@@ -204,14 +219,14 @@ impl Document {
         if self.encoding == Encoding::Ascii && !bytes.is_ascii() {
             self.encoding = Encoding::Utf8;
         }
+        self.own_bytes = (bytes != text.as_bytes()).then_some(bytes);
         self.text = text;
-        self.bytes = bytes;
         Ok(())
     }
 
     /// Returns whether the bytes of the file are those of the text, after the byte order mark.
     fn is_plain(&self) -> bool {
-        self.bytes.len() - self.mark == self.text.len()
+        self.bytes().len() - self.mark == self.text.len()
             && matches!(self.encoding, Encoding::Ascii | Encoding::Utf8)
     }
 
@@ -219,7 +234,7 @@ impl Document {
     fn len_of(&self, text: Range<usize>, byte: usize) -> usize {
         let mut at = byte;
         for c in self.text[text].chars() {
-            let (read, len) = self.encoding.next(&self.bytes[at..]);
+            let (read, len) = self.encoding.next(&self.bytes()[at..]);
             debug_assert_eq!(read, c);
             at += len;
         }
@@ -288,7 +303,7 @@ impl Place<'_> {
     fn copy_to(&mut self, to: usize, text: &mut String, bytes: &mut Vec<u8>) {
         let byte = self.find(to);
         text.push_str(&self.document.text[self.text..to]);
-        bytes.extend_from_slice(&self.document.bytes[self.byte..byte]);
+        bytes.extend_from_slice(&self.document.bytes()[self.byte..byte]);
         (self.text, self.byte) = (to, byte);
     }
 

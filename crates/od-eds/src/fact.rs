@@ -149,7 +149,24 @@ macro_rules! facts {
 facts! {
     Number(i128) Number(i64) Number(u64) Number(u32) Number(u16) Number(u8)
     Value(Value) Type(DataType) Code(ObjectCode) Access(Access)
-    Object(Address) Key(Key) Text(String) Text(&str) List(Vec<Fact>)
+    Object(Address) Key(Key) List(Vec<Fact>)
+}
+
+/// Maximum number of characters of a text of the file in a sentence.
+pub(crate) const LONGEST: usize = 100;
+
+impl From<&str> for Fact {
+    /// A text of the file: as much of it as a sentence can show, and one character more if it is longer.
+    fn from(text: &str) -> Self {
+        let end = text.char_indices().nth(LONGEST + 1);
+        Self::Text(text[..end.map_or(text.len(), |(at, _)| at)].into())
+    }
+}
+
+impl From<String> for Fact {
+    fn from(text: String) -> Self {
+        text.as_str().into()
+    }
 }
 
 impl From<usize> for Fact {

@@ -67,7 +67,7 @@ pub use finding::{Finding, Form, Place, Related, Severity};
 pub use foreign::foreign;
 pub use load::Parsed;
 pub use load::{load, parse};
-pub use overlay::{Origin, Overlaid, overlay};
+pub use overlay::{Origin, Overlaid, base_of, overlay};
 pub use read::modules::{Count, Extension, Module, connected_modules, modules, with_modules};
 pub use scan::encoding::{Encoding, decode};
 pub use scan::known::nearest;

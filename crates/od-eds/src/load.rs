@@ -49,7 +49,7 @@ impl Document {
     }
 
     /// Like [`load`](Self::load). `see` receives the sections that [`outline::sections`](crate::outline::sections)
-    /// finds, unless the file is XML.
+    /// finds; of an XDD it receives what its elements say as sections of an EDS, with the places of the attributes.
     pub fn load_with(&self, see: &mut dyn FnMut(&[Placed<'_>])) -> Parsed {
         let (description, log) = self.read(see);
         checked(description, log, self.text())
@@ -72,7 +72,7 @@ fn read(
 ) -> Description {
     #[cfg(feature = "xdd")]
     if is_xml(text) {
-        return xdd::parse(text, log);
+        return xdd::parse(text, see, log);
     }
     let description = sorted::eds(text, file, see, log);
     modules::check(&description, log);

@@ -11,7 +11,7 @@ use crate::span::Span;
 /// Limit of findings of one rule.
 pub(crate) const KEPT: usize = 10_000;
 /// Limit of sub-objects without a section of their own in a text.
-pub(crate) const EXPANDED: usize = 1_000_000;
+pub(crate) const EXPANDED: usize = 50_000;
 
 /// Findings in no order, and the rest of the limits.
 #[derive(Default)]

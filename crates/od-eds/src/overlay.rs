@@ -16,12 +16,14 @@
 use alloc::collections::BTreeSet;
 use alloc::format;
 use alloc::string::{String, ToString};
+use alloc::vec;
 use alloc::vec::Vec;
 
+use crate::document::is_xml;
 use crate::finding::{Finding, Place};
-use crate::scan::lines::with_ends;
+use crate::scan::lines::{lines, with_ends};
 use crate::scan::names::{List, object_of};
-use crate::span::Span;
+use crate::span::{Span, Spanned};
 
 /// The file that a line comes from.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -79,12 +81,27 @@ impl Overlaid {
     }
 }
 
+/// The path of the base in the comment `;odkit-base=my.eds` of an overlay, relative to the overlay.
+pub fn base_of(overlay: &str) -> Option<Spanned<&str>> {
+    lines(overlay).find_map(|line| {
+        let body = line.text.trim_start().strip_prefix([';', '#'])?;
+        let (key, path) = body.split_once('=')?;
+        let path = path.trim();
+        let is_base = key.trim().eq_ignore_ascii_case("odkit-base");
+        is_base.then(|| Spanned::new(path, line.span(path)))
+    })
+}
+
 /// Lays an overlay over a base.
 ///
 /// # Errors
-/// Objects and sections that the overlay removes but the base lacks: a sentence each, with the line of the
-/// overlay.
+/// Objects and sections that the overlay removes but the base lacks, or a base that is XML: a sentence each, with
+/// the line of the overlay.
 pub fn overlay(base: &str, overlay: &str) -> Result<Overlaid, Vec<(u32, String)>> {
+    if is_xml(base) {
+        let why = "the base is XML; write an EDS of it with `odkit convert`";
+        return Err(vec![(1, why.to_string())]);
+    }
     let mut sections = read(base, Origin::Base);
     let mut faults = Vec::new();
     let (before, changed) = (objects(&sections), read(overlay, Origin::Overlay));
@@ -186,9 +203,9 @@ impl<'t> Part<'t> {
 }
 
 fn read(text: &str, origin: Origin) -> Vec<Part<'_>> {
-    let mut parts = alloc::vec![Part {
+    let mut parts = vec![Part {
         name: String::new(),
-        lines: Vec::new()
+        lines: Vec::new(),
     }];
     let mut byte = 0;
     for (number, piece) in (1..).zip(with_ends(text)) {

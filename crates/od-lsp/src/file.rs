@@ -1,15 +1,17 @@
 //! One open file: its text, and what odkit has read from it, on demand.
 
 use std::cell::OnceCell;
+use std::ops::Range;
 
 use od_eds::{Description, Document, Edit, Encoding, Finding, Origin, Overlaid, Parsed};
 use od_model::Refused;
 
 use crate::host::Host;
-use crate::layout::Layout;
+use crate::layout::{Layout, bytes};
 use crate::text::{Text, Unit};
 use crate::types::TextEdit;
 use crate::uri;
+use crate::xdd::{self, Element};
 
 /// A byte order mark.
 const MARK: char = '\u{FEFF}';
@@ -34,17 +36,29 @@ pub(crate) struct File {
     pub(crate) version: Option<i64>,
     pub(crate) text: Text,
     pub(crate) kind: Kind,
+    /// The file below an overlay.
+    pub(crate) base: Option<Base>,
     /// The file on the disk without its text, if its encoding differs from that of the client's text.
     disk: Option<Document>,
     seen: OnceCell<Seen>,
 }
 
+/// The file below an overlay, or the reason why there is none: a place in the overlay and a sentence.
+pub(crate) type Base = Result<Box<File>, Problem>;
+
+/// A problem of an overlay, which no rule has: its place and a sentence.
+pub(crate) type Problem = (Range<usize>, String);
+
 /// A text that odkit has read.
 pub(crate) struct Seen {
     pub(crate) layout: Layout,
+    /// The elements of an XDD.
+    pub(crate) elements: Vec<Element>,
     pub(crate) description: Description,
     /// The findings about this file.
     pub(crate) findings: Vec<Finding>,
+    /// The problems of an overlay with its base.
+    pub(crate) problems: Vec<Problem>,
     /// Error in the settings of the project.
     pub(crate) misused: Option<Refused>,
 }
@@ -70,6 +84,7 @@ impl File {
             version,
             text: Text::new(text, unit),
             kind,
+            base: None,
             disk,
             seen: OnceCell::new(),
         }
@@ -85,7 +100,7 @@ impl File {
     }
 
     /// A part of the text.
-    pub(crate) fn part(&self, bytes: std::ops::Range<usize>) -> &str {
+    pub(crate) fn part(&self, bytes: Range<usize>) -> &str {
         self.str().get(bytes).unwrap_or_default()
     }
 
@@ -105,8 +120,10 @@ impl File {
             Kind::Overlay => self.overlaid(host),
             Kind::Rust => Seen {
                 layout: Layout::default(),
+                elements: Vec::new(),
                 description: Description::default(),
                 findings: Vec::new(),
+                problems: Vec::new(),
                 misused: None,
             },
         })
@@ -128,17 +145,20 @@ impl File {
 
     fn read(&self, host: &dyn Host) -> Seen {
         let mut layout = Layout::default();
-        let is_eds = self.kind == Kind::Eds;
+        let mut elements = Vec::new();
+        let is_xml = od_eds::is_xml(self.str());
+        let is_eds = self.kind == Kind::Eds && !is_xml;
         let parsed = if self.mark().is_empty() {
             self.document().load_with(&mut |sections| {
-                if is_eds {
+                if is_xml {
+                    elements = xdd::elements(sections);
+                } else if is_eds {
                     layout = Layout::new(sections);
                 }
             })
         } else {
             // Places refer to the text with the mark.
-
-            if is_eds && !od_eds::is_xml(self.str()) {
+            if is_eds {
                 layout = Layout::of(self.str());
             }
             od_eds::load(self.str())
@@ -150,8 +170,10 @@ impl File {
         let misused = host.judge(&self.path, &mut findings).err();
         Seen {
             layout,
+            elements,
             description,
             findings,
+            problems: Vec::new(),
             misused,
         }
     }
@@ -160,16 +182,28 @@ impl File {
     fn overlaid(&self, host: &dyn Host) -> Seen {
         let mut seen = Seen {
             layout: Layout::of(self.str()),
+            elements: Vec::new(),
             description: Description::default(),
             findings: Vec::new(),
+            problems: Vec::new(),
             misused: None,
         };
-        let base = self.base(host).and_then(|path| host.read(&path));
-        let Some(base) = base.map(Document::new) else {
-            return seen;
+        let made = match &self.base {
+            Some(Ok(base)) => od_eds::overlay(base.str(), self.str()),
+            Some(Err(problem)) => {
+                seen.problems.push(problem.clone());
+                return seen;
+            }
+            None => return seen,
         };
-        let Ok(made) = od_eds::overlay(base.text(), self.str()) else {
-            return seen;
+        let made = match made {
+            Ok(made) => made,
+            Err(faults) => {
+                let place = |line: u32| self.text.line((line as usize).saturating_sub(1));
+                let faults = faults.into_iter().map(|(line, why)| (place(line), why));
+                seen.problems.extend(faults);
+                return seen;
+            }
         };
         let mut parsed = od_eds::load(&made.text);
         seen.misused = host.judge(&self.path, &mut parsed.findings).err();
@@ -178,21 +212,53 @@ impl File {
         seen
     }
 
-    /// Path of the EDS below an overlay: the one in its first line `;odkit-base=my.eds`,
-    /// otherwise the only EDS or DCF in the same folder.
-    pub(crate) fn base(&self, host: &dyn Host) -> Option<String> {
-        let named = self.str().lines().find_map(|line| {
-            let rest = line.trim().strip_prefix([';', '#'])?.trim_start();
-            rest.strip_prefix("odkit-base=").map(str::trim)
-        });
-        if let Some(name) = named {
-            return Some(uri::join(&self.path, name));
-        }
-        let mut all = host.beside(&self.path).into_iter();
-        all.by_ref()
-            .find(|path| is_eds(path))
-            .filter(|_| !all.any(|path| is_eds(&path)))
+    /// The file below an overlay.
+    pub(crate) fn below(&self) -> Option<&File> {
+        self.base.as_ref()?.as_ref().ok().map(Box::as_ref)
     }
+
+    /// Returns whether the text was read since it changed.
+    pub(crate) fn is_seen(&self) -> bool {
+        self.seen.get().is_some()
+    }
+}
+
+/// Finds the base of an overlay: the file that its comment `;odkit-base=my.eds` names, otherwise the only EDS or DCF
+/// in its folder. `find` reads the text of a path, from the editor or from the disk.
+pub(crate) fn base(
+    overlay: &File,
+    unit: Unit,
+    host: &dyn Host,
+    find: &dyn Fn(&str) -> Option<String>,
+) -> Base {
+    let (place, path) = match od_eds::base_of(overlay.str()) {
+        Some(named) => (bytes(named.span), uri::join(&overlay.path, &named)),
+        None => {
+            let mut all = host.beside(&overlay.path).into_iter();
+            let first = all.by_ref().find(|path| is_eds(path));
+            match first.filter(|_| !all.any(|path| is_eds(&path))) {
+                Some(path) => (0..0, path),
+                None => {
+                    let why = "an overlay needs a base; add a first line `;odkit-base=my.eds`";
+                    return Err((0..0, why.into()));
+                }
+            }
+        }
+    };
+    if kind(&path, "") == Kind::Overlay {
+        let why = if path == overlay.path {
+            "an overlay cannot be its own base; name an EDS or a DCF"
+        } else {
+            "the base is an overlay, too; name an EDS or a DCF"
+        };
+        return Err((place, why.into()));
+    }
+    let Some(text) = find(&path) else {
+        return Err((place, format!("the base {path} cannot be read")));
+    };
+    let text = text.trim_start_matches(MARK).to_owned();
+    let uri = uri::of(&path, &overlay.uri);
+    Ok(Box::new(File::new(uri, "", None, text, unit, host)))
 }
 
 /// Those findings of base and overlay that are about the overlay.

@@ -29,6 +29,7 @@ mod text;
 mod types;
 mod uri;
 mod words;
+mod xdd;
 
 pub use host::{Host, NoHost};
 pub use server::Server;

@@ -7,7 +7,7 @@ use od_model::Refused;
 use serde_json::Value;
 
 use crate::features::diagnostics;
-use crate::file::{File, Kind};
+use crate::file::{self, File, Kind};
 use crate::host::Host;
 use crate::macros::base::decoded;
 use crate::macros::check;
@@ -274,6 +274,7 @@ impl Server {
 
     /// Sends the diagnostics of a file; returns the error of the project's settings, if there is one.
     fn publish(&mut self, uri: &str) -> Option<Refused> {
+        self.lay(uri);
         let open = self.files.get(uri)?;
         let file = &open.file;
         let seen = file.seen(&*self.host);
@@ -290,6 +291,20 @@ impl Server {
         let misused = seen.misused.clone();
         self.outbox.push_back(text);
         misused
+    }
+
+    /// Gives an overlay that is to be read its base, with the text of the client or of the disk.
+    fn lay(&mut self, uri: &str) {
+        let open = self.files.get(uri);
+        let waits = |open: &&Open| open.file.kind == Kind::Overlay && !open.file.is_seen();
+        let Some(open) = open.filter(waits) else {
+            return;
+        };
+        let find = |path: &str| self.find(path);
+        let base = file::base(&open.file, self.unit, &*self.host, &find);
+        if let Some(open) = self.files.get_mut(uri) {
+            open.file.base = Some(base);
+        }
     }
 
     /// The text of a file, from the client or from the disk.

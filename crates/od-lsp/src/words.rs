@@ -161,6 +161,15 @@ pub(crate) const fn access(access: Access) -> &'static str {
     }
 }
 
+/// PDOMapping in words.
+pub(crate) const fn mappable(is: bool) -> &'static str {
+    if is {
+        "The value can be mapped into a PDO."
+    } else {
+        "The value cannot be mapped into a PDO."
+    }
+}
+
 /// An object code in words.
 pub(crate) const fn code(code: ObjectCode) -> &'static str {
     match code {

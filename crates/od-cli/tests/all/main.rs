@@ -24,6 +24,8 @@ mod files;
 mod foreign;
 mod guests;
 mod lesson;
+#[cfg(target_os = "linux")]
+mod limits;
 mod links;
 mod network;
 mod new;

@@ -75,6 +75,44 @@ fn concise_dcfs_are_those_of_dcfgen() {
     }
 }
 
+/// The values are those that dcfgen 2.4.2 writes with `-r`.
+#[test]
+fn remote_pdos_are_those_of_dcfgen() {
+    let own = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/network");
+    let project = own.join("project.yml").display().to_string();
+    let read = |option: &[&str]| {
+        let out = folder("remote");
+        let path = out.display().to_string();
+        let run = odkit(&[&["network", &project, "-o", &path], option].concat(), "");
+        assert_eq!(run.code, 0, "{}", run.err);
+        let text = fs::read_to_string(out.join("master.dcf")).expect("master.dcf");
+        let loaded = od_eds::load(&text);
+        let errors = loaded.findings.iter().filter(|one| one.is_error());
+        assert_eq!(errors.count(), 0, "{text}");
+        loaded.description
+    };
+    let (plain, remote) = (read(&[]), read(&["-r"]));
+    let number = |index, sub| {
+        let entry = remote
+            .entry(od_model::Address::new(index, sub))
+            .expect("an entry");
+        let value = entry.parameter.as_ref().or(entry.default.as_ref());
+        value.and_then(|value| value.integer(1)).expect("a number")
+    };
+    for (at, expected) in (0..).zip([0x110, 0x210, 0x111, 0x211]) {
+        assert_eq!(number(0x5800 + at, 0), expected);
+        assert_eq!(
+            (number(0x5A00 + at, 0), number(0x5A00 + at, 1)),
+            (1, 0x6004_0020)
+        );
+    }
+    let more = remote
+        .objects
+        .keys()
+        .filter(|index| !plain.objects.contains_key(index));
+    assert_eq!(more.count(), 8);
+}
+
 /// The form of ros2_canopen: nodes below `nodes`, each with the keys of `defaults` that it does not have itself.
 #[test]
 fn nodes_with_defaults_are_those_of_the_plain_form() {

@@ -1,5 +1,8 @@
 //! `base.eds+variant.eds` in place of a device.
 
+use std::fs;
+use std::path::Path;
+
 use crate::support::{file, odkit, repository};
 
 const VARIANT: &str = "\
@@ -70,4 +73,45 @@ fn findings_are_in_the_file_that_they_are_about() {
     assert!(check.err.contains("gone.overlay:1"), "{}", check.err);
     let nowhere = odkit(&["dump", "gxmm+nowhere.overlay"], "");
     assert!(nowhere.err.contains("nowhere.overlay"), "{}", nowhere.err);
+}
+
+#[test]
+fn an_overlay_alone_names_its_base() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("overlay-alone");
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).expect("a folder for test files");
+    fs::copy(repository("devices/eds/GXMM.eds"), folder.join("a.eds")).expect("a file");
+    let write = |name: &str, text: &str| {
+        let path = folder.join(name);
+        fs::write(&path, text).expect("a file");
+        path.display().to_string()
+    };
+    // The only EDS of the folder.
+    let plain = write("plain.overlay", "[6001]\nDefaultValue=abc\n");
+    let check = odkit(&["check", &plain], "");
+    assert_eq!(check.code, 1, "{}", check.out);
+    assert!(check.out.contains("plain.overlay:2:14"), "{}", check.out);
+    write(
+        "b.eds",
+        "[1000]\nParameterName=x\nDataType=7\nAccessType=ro\n",
+    );
+    let check = odkit(&["check", &plain], "");
+    assert!(check.err.contains(";odkit-base=my.eds"), "{}", check.err);
+    let named = write(
+        "named.overlay",
+        ";odkit-base=a.eds\n[6001]\nDefaultValue=0x1000\n",
+    );
+    assert_eq!(odkit(&["check", &named], "").code, 0);
+    let diff = odkit(
+        &["diff", &folder.join("a.eds").display().to_string(), &named],
+        "",
+    );
+    assert!(diff.out.contains(" ~ 6001h"), "{}{}", diff.out, diff.err);
+    let own = write("own.overlay", ";odkit-base=own.overlay\n[6001]\n");
+    let check = odkit(&["check", &own], "");
+    assert_eq!(check.code, 1);
+    assert!(check.err.contains("name an EDS or a DCF"), "{}", check.err);
+    let gone = write("gone.overlay", ";odkit-base=none.eds\n[6001]\n");
+    let check = odkit(&["check", &gone], "");
+    assert!(check.err.contains("none.eds"), "{}", check.err);
 }

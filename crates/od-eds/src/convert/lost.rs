@@ -7,11 +7,11 @@ use crate::finding::Finding;
 use crate::rules::values::e0401_data_type_missing;
 use od_model::{Address, Kind};
 
-/// The findings about all objects that were left out while a file was read; no format has them.
+/// The findings about objects, and about lines that are too many or too long, that were left out while a file was read; no format has them.
 pub fn unread(findings: &[Finding]) -> Vec<Finding> {
     let lost = findings
         .iter()
-        .filter(|finding| matches!(finding.code(), "E0113" | "E0114" | "E0353"));
+        .filter(|finding| matches!(finding.code(), "E0113" | "E0114" | "E0119" | "E0353"));
     lost.cloned().collect()
 }
 

@@ -8,15 +8,16 @@ use alloc::vec::Vec;
 use super::master::Master;
 use super::node::Node;
 use super::objects::{array, members, unsigned, value, var};
-use super::partners::{applications, pdos};
+use super::partners::{self, applications, pdos};
 use crate::description::{Description, Value};
 use crate::span::Spanned;
 use crate::write::describe::section;
 use od_model::{Access, DataType, ObjectCode};
 
 /// Returns the DCF of the master: it receives each TPDO of the nodes, and sends each of their RPDOs.
-/// The nodes have the values after their writes ([`Node::apply`]).
-pub fn dcf(master: &Master, nodes: &[Node]) -> Description {
+/// The nodes have the values after their writes ([`Node::apply`]). `remote` adds the PDOs of the nodes, 5800h to 5FFFh, by
+/// which a driver of Lely core finds a value of a node in the PDOs of the master.
+pub fn dcf(master: &Master, nodes: &[Node], remote: bool) -> Description {
     let mut made = Description::default();
     let [vendor, product, revision, serial] = master.identity;
     let text = |text: &str| text.to_string();
@@ -49,6 +50,10 @@ pub fn dcf(master: &Master, nodes: &[Node]) -> Description {
         (&sent, (0x1800, 0x2200), "TPDO", Access::Rwr),
     ] {
         applications(&mut made, nodes, own, (first, application), what, access);
+    }
+    if remote {
+        partners::remote(&mut made, nodes, &received, 0x5800, "TPDO");
+        partners::remote(&mut made, nodes, &sent, 0x5C00, "RPDO");
     }
     slaves(&mut made, nodes);
     made

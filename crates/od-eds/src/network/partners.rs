@@ -6,7 +6,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use super::node::Node;
-use super::objects::{members, unsigned, value};
+use super::objects::{array, members, unsigned, value, var};
 use crate::description::Description;
 use crate::identifiers::{MappedValue, mapping};
 use crate::span::Spanned;
@@ -16,6 +16,8 @@ use od_model::{Access, Address, DataType, ObjectCode};
 pub(super) struct Pdo {
     /// Position of the node.
     node: usize,
+    /// Its number in the node, from 1.
+    number: u16,
     cob_id: u32,
     /// Transmission type, inhibit time, event timer, SYNC start value.
     parameters: [u32; 4],
@@ -50,6 +52,7 @@ pub(super) fn pdos(nodes: &[Node], first: u16) -> Vec<Pdo> {
                 let parameters = [transmission, inhibit_time, event_timer, sync_start];
                 found.push(Pdo {
                     node: at,
+                    number: index - first + 1,
                     cob_id,
                     parameters,
                     mapped,
@@ -58,6 +61,32 @@ pub(super) fn pdos(nodes: &[Node], first: u16) -> Vec<Pdo> {
         }
     }
     found
+}
+
+/// The PDOs of the nodes as the master of Lely core reads them: for each a VAR with number and node ID, and an ARRAY
+/// with the mapping in the node. `first` is the index of the first VAR.
+pub(super) fn remote(made: &mut Description, nodes: &[Node], pdos: &[Pdo], first: u16, what: &str) {
+    use DataType::Unsigned32;
+    for (at, pdo) in (0_u16..512).zip(pdos) {
+        let id = u32::from(pdo.number) << 8 | u32::from(nodes[pdo.node].id);
+        let name = format!("Remote {what} number and node-ID");
+        let entry = value(name, Unsigned32, Access::Rw, unsigned(id));
+        var(made, first + at, entry);
+        let mapped = (1..).zip(&pdo.mapped).map(|(sub, (mapped, data_type, _))| {
+            let Address { index, sub: of } = mapped.address;
+            let bits = u32::from(data_type.bits().unwrap_or(0));
+            (sub, u32::from(index) << 16 | u32::from(of) << 8 | bits)
+        });
+        let mapped: Vec<(u8, u32)> = mapped.collect();
+        let name = format!("Remote {what} mapping parameter");
+        array(
+            made,
+            first + 0x200 + at,
+            (&name, Unsigned32, Access::Rw),
+            (mapped.len() as u8, 0),
+            &mapped,
+        );
+    }
 }
 
 /// PDOs and the objects that they map: one object for each PDO, with a member for each value of the node.

@@ -140,3 +140,27 @@ fn any_line_end() {
         assert_eq!(over.as_bytes()[span.start as usize], b'[', "{end:?}");
     }
 }
+
+#[test]
+fn a_comment_names_the_base() {
+    let text = "; a variant\r\n # ODKIT-Base = eds/my device.eds \r\n[2000]\r\n";
+    let named = base_of(text).expect("the second line");
+    assert_eq!(
+        (*named, named.span.line, named.span.column),
+        ("eds/my device.eds", 2, 17)
+    );
+    for text in [
+        "",
+        "[2000]\nodkit-base=a.eds",
+        ";odkit-base",
+        "; the odkit-base=a.eds",
+    ] {
+        assert_eq!(base_of(text), None, "{text}");
+    }
+}
+
+#[test]
+fn a_base_of_xml_is_refused() {
+    let refused = overlay("<?xml version=\"1.0\"?><a/>", "[2000]\nDefaultValue=4\n");
+    assert!(refused.is_err_and(|why| why[0].1.contains("odkit convert")));
+}

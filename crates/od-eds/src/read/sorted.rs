@@ -18,7 +18,7 @@ use crate::rules;
 use crate::rules::lists::reader::{i0212_section_name_spelling, w0209_compact_without_key};
 use crate::rules::structure::reader::{e0303_duplicate_object_differs, w0304_duplicate_object};
 use crate::rules::text::{
-    e0118_merge_conflict, w0101_no_sign, w0101_unknown_line, w0102_no_key,
+    e0118_merge_conflict, e0119_too_large, w0101_no_sign, w0101_unknown_line, w0102_no_key,
     w0103_no_closing_bracket, w0104_text_after_header, w0105_key_before_section,
     w0106_duplicate_section, w0108_colon, w0110_header_without_name,
 };
@@ -243,6 +243,10 @@ pub(crate) fn report(fault: &Fault<'_>, log: &mut Log) {
         }
         Fault::NoName(line) => log.add(&rules::W0110, || w0110_header_without_name(line)),
         Fault::NoSection { line, key } => log.push(w0105_key_before_section(line, key)),
+        Fault::Long(line) => log.add(&rules::E0119, || {
+            e0119_too_large(line, "line", lines::LONGEST, "bytes")
+        }),
+        Fault::Many { at, most, of } => log.push(e0119_too_large(at, "file", most, of)),
         Fault::Colon { at, key, value } => {
             log.add(&rules::W0108, || w0108_colon(at, key, value));
         }

@@ -33,6 +33,7 @@ table! {
     W0116 (example)
     E0117
     E0118
+    E0119 (example)
 }
 
 pub(crate) static W0101: Rule = Rule {
@@ -415,4 +416,22 @@ pub(crate) static E0118: Rule = Rule {
 /// The finding about a line that git writes between two versions.
 pub(crate) fn e0118_merge_conflict(line: Spanned<&str>) -> Finding {
     E0118.given(&line)
+}
+
+pub(crate) static E0119: Rule = Rule {
+    code: "E0119",
+    severity: Error,
+    title: "file is too large to be a device file",
+    why: "No device file is that large, and a tool that reads it may run out of memory or never end. odkit ignores a line that is too long, and everything from the line on at which a file has too many; of an XML file it reads nothing.",
+    source: "odkit, limits of a file",
+    example: "a line of 2 MB, or a file with 200,000 sections",
+    says: "the {part} has more than {most} {of}",
+    help: "remove what does not describe the device",
+    ..Rule::NEW
+};
+
+/// The finding about a part of a file with more than `most` bytes, lines or sections.
+pub(crate) fn e0119_too_large(at: Span, part: &str, most: usize, of: &str) -> Finding {
+    let finding = E0119.at(at).fact("part", part);
+    finding.fact("most", most).fact("of", of)
 }

@@ -13,10 +13,19 @@ use crate::scan::known::OBJECT_KEYS;
 use crate::scan::placed::{Placed, Text};
 use crate::span::{Span, Spanned};
 
+/// Maximum number of bytes of a line, and of a value of an XDD: half of it as the bytes of a DOMAIN.
+pub(crate) const LONGEST: usize = 1 << 20;
+/// Maximum number of sections of a text. Large device files have 10,000.
+const SECTIONS: usize = 100_000;
+/// Maximum number of headers and keys of a text.
+const LINES: usize = 500_000;
+
 /// Scanning a text, line by line.
 struct Scan<'a, 'f> {
     /// Sections in file order, duplicates and all.
     sections: Vec<Placed<'a>>,
+    /// Number of headers and keys.
+    count: usize,
     /// Takes the lines that are ignored, or read otherwise than they are written, in file order.
     fault: &'f mut dyn FnMut(&Fault<'a>),
 }
@@ -47,6 +56,14 @@ pub(crate) enum Fault<'a> {
     NoName(Span),
     /// A key before the first section, with its line.
     NoSection { line: Span, key: &'a str },
+    /// A line that is too long; ignored.
+    Long(Span),
+    /// The first header or key that is too many; ignored, and everything behind it.
+    Many {
+        at: Span,
+        most: usize,
+        of: &'static str,
+    },
     /// A line with `:` instead of `=`.
     Colon {
         at: Span,
@@ -173,15 +190,33 @@ pub fn sections(text: &str) -> Vec<Placed<'_>> {
 pub(crate) fn scan<'a>(text: &'a str, fault: &mut dyn FnMut(&Fault<'a>)) -> Vec<Placed<'a>> {
     let mut scan = Scan {
         sections: Vec::new(),
+        count: 0,
         fault,
     };
     for line in lines(text) {
+        if !scan.has_room(&line) {
+            break;
+        }
         scan.line(&line);
     }
     scan.sections
 }
 
 impl<'a> Scan<'a, '_> {
+    /// Returns whether the limits of a text allow another line.
+    fn has_room(&mut self, line: &Line<'a>) -> bool {
+        let (most, of) = if self.count >= LINES {
+            (LINES, "lines")
+        } else if self.sections.len() >= SECTIONS && line.text.trim_start().starts_with('[') {
+            (SECTIONS, "sections")
+        } else {
+            return true;
+        };
+        let at = line.span(&line.text[..0]);
+        (self.fault)(&Fault::Many { at, most, of });
+        false
+    }
+
     fn line(&mut self, line: &Line<'a>) {
         let trimmed = line.text.trim();
         match trimmed.as_bytes().first() {
@@ -189,6 +224,7 @@ impl<'a> Scan<'a, '_> {
             Some(b'<' | b'=' | b'>' | b'|') if is_conflict(line.text) => {
                 (self.fault)(&Fault::Conflict(line.spanned(trimmed)));
             }
+            _ if line.text.len() > LONGEST => (self.fault)(&Fault::Long(line.span(trimmed))),
             Some(b';' | b'#') => self.comment(line, trimmed),
             Some(b'[') => self.header(line, trimmed),
             Some(_) => self.pair(line, trimmed),
@@ -233,6 +269,7 @@ impl<'a> Scan<'a, '_> {
         }
         let whole = &trimmed[..trimmed.len() - behind.len()];
         let header = line.span(whole.trim_end());
+        self.count += 1;
         self.sections.push(Placed::new(line.text(name), header));
     }
 
@@ -261,6 +298,7 @@ impl<'a> Scan<'a, '_> {
             let at = line.span(&trimmed[at..=at]);
             (self.fault)(&Fault::Colon { at, key, value });
         }
+        self.count += 1;
         let pair = (line.text(key), line.text(value));
         match self.sections.last_mut() {
             Some(section) => add(section, pair),

@@ -205,6 +205,13 @@ const OS_COMMAND: &[(u8, Value, bool)] = &[
     (3, value(OctetString, Ro), true),
 ];
 
+/// An ARRAY in the standard, with an access of its own for each sub-object.
+const OS_PROMPT: &[(u8, Value, bool)] = &[
+    (1, value(Unsigned8, Wo), true),
+    (2, value(Unsigned8, Ro), true),
+    (3, value(Unsigned8, Ro), false),
+];
+
 /// The server that the predefined connection set fixes.
 const DEFAULT_SDO: &[(u8, Value, bool)] = &[
     (1, value(Unsigned32, Ro), true),
@@ -281,6 +288,7 @@ const TABLE: &[Standard] = &[
     record(0x1023, 0x1023, "OS command", OS_COMMAND),
     var(0x1024, "OS command mode", Unsigned8, Wo).needs(0x1023),
     record(0x1025, 0x1025, "OS debugger interface", OS_COMMAND),
+    record(0x1026, 0x1026, "OS prompt", OS_PROMPT),
     array(0x1027, "module list", Unsigned16, Ro),
     array(0x1028, "emergency consumer object", Unsigned32, Rw),
     array(0x1029, "error behavior object", Unsigned8, Rw),
@@ -293,11 +301,16 @@ const TABLE: &[Standard] = &[
     record(0x1800, 0x19FF, "TPDO communication parameter", TPDO),
     record(0x1A00, 0x1BFF, "TPDO mapping parameter", &[]),
     array(0x1F20, "store DCF", Domain, Rw),
+    array(0x1F21, "store format", Unsigned8, Rw).needs(0x1F20),
     array(0x1F22, "concise DCF", Domain, Rw),
+    array(0x1F23, "store EDS of NMT slaves", Domain, Rw),
+    array(0x1F24, "store format of EDS", Unsigned8, Rw).needs(0x1F23),
     array(0x1F26, "expected configuration date", Unsigned32, Rw).needs(0x1F27),
     array(0x1F27, "expected configuration time", Unsigned32, Rw).needs(0x1F26),
     array(0x1F50, "program data", Domain, Wo),
     array(0x1F51, "program control", Unsigned8, Rw),
+    array(0x1F53, "expected software date", Unsigned32, Rw).needs(0x1F54),
+    array(0x1F54, "expected software time", Unsigned32, Rw).needs(0x1F53),
     array(0x1F55, "expected software identification", Unsigned32, Rw),
     array(0x1F56, "program software identification", Unsigned32, Ro),
     array(0x1F57, "flash status identification", Unsigned32, Ro),
@@ -311,6 +324,21 @@ const TABLE: &[Standard] = &[
     array(0x1F87, "revision number", Unsigned32, Rw).needs(0x1F81),
     array(0x1F88, "serial number", Unsigned32, Rw).needs(0x1F81),
     var(0x1F89, "boot time", Unsigned32, Rw).needs(0x1F81),
+    array(0x1F8A, "restore configuration", Unsigned8, Rw).needs(0x1F81),
+    array(
+        0x1F90,
+        "NMT flying master timing parameters",
+        Unsigned16,
+        Rw,
+    )
+    .needs(0x1F80),
+    array(
+        0x1F91,
+        "self starting nodes timing parameters",
+        Unsigned16,
+        Rw,
+    )
+    .needs(0x1F80),
     Standard {
         first: 0x1FA0,
         last: 0x1FCF,
@@ -328,8 +356,13 @@ const TABLE: &[Standard] = &[
 ];
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
+
+    /// The index ranges of the table.
+    pub(in crate::standards) fn ranges() -> impl Iterator<Item = (u16, u16)> {
+        TABLE.iter().map(|entry| (entry.first, entry.last))
+    }
 
     #[test]
     fn the_table_is_sorted_and_found_in() {

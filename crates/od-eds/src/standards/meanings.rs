@@ -1,5 +1,6 @@
 //! The meaning of values: what a number, or a bit of it, says in an object of the documents of CiA.
 
+use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
@@ -22,9 +23,11 @@ enum What {
     Bits(&'static [(u8, &'static str)]),
     /// Bits that are looked at, their pattern, and its meaning; the first that fits.
     Patterns(&'static [(i64, i64, &'static str)]),
+    /// A unit of CiA 303-2.
+    Unit,
 }
 
-use What::{Bits, Patterns, Values};
+use What::{Bits, Patterns, Unit, Values};
 
 const fn row(profile: u16, first: u16, last: u16, subs: (u8, u8), what: What) -> Row {
     Row {
@@ -98,6 +101,8 @@ const TABLE: &[Row] = &[
     row(401, 0x6443, 0x6443, ALL, Values(&[
         (0, 0, "the output keeps its value after an error"), (1, 1, "the output takes the error value (6444h, 6445h)"),
     ])),
+    row(401, 0x6430, 0x6430, ALL, Unit),
+    row(401, 0x6450, 0x6450, ALL, Unit),
     row(402, 0x6007, 0x6007, VAR, Values(&[
         (0, 0, "no action"), (1, 1, "fault"), (2, 2, "disable voltage"), (3, 3, "quick stop"),
     ])),
@@ -141,11 +146,14 @@ const TABLE: &[Row] = &[
         (21, 22, "negative home switch"), (23, 30, "home switch"), (33, 33, "index pulse in negative direction"),
         (34, 34, "index pulse in positive direction"), (35, 35, "current position"), (37, 37, "current position"),
     ])),
+    row(402, 0x60A8, 0x60AB, VAR, Unit),
     row(402, 0x6502, 0x6502, VAR, Bits(&[
         (0, "profile position"), (1, "velocity"), (2, "profile velocity"), (3, "profile torque"), (5, "homing"),
         (6, "interpolated position"), (7, "cyclic synchronous position"), (8, "cyclic synchronous velocity"),
         (9, "cyclic synchronous torque"), (10, "cyclic synchronous torque with commutation angle"),
     ])),
+    row(404, 0x6131, 0x6131, ALL, Unit),
+    row(404, 0x6301, 0x6301, ALL, Unit),
     row(406, 0x6000, 0x6000, VAR, Bits(OPERATING)),
     row(406, 0x6500, 0x6500, VAR, Bits(OPERATING)),
     row(406, 0x6503, 0x6504, VAR, Bits(&[(0, "position error"), (1, "commissioning diagnostics")])),
@@ -185,6 +193,42 @@ pub fn meaning(profile: Option<u16>, index: u16, sub: u8, number: i64) -> Option
             let found = patterns.find(|(mask, pattern, _)| number & mask == *pattern)?;
             Some(found.2.to_string())
         }
+        Unit => unit(u32::try_from(number).ok()?),
+    }
+}
+
+/// Powers of ten by their number, which is a signed byte.
+#[rustfmt::skip]
+const PREFIXES: &[(i8, &str)] = &[
+    (12, "T"), (9, "G"), (6, "M"), (3, "k"), (2, "h"), (1, "da"), (0, ""),
+    (-1, "d"), (-2, "c"), (-3, "m"), (-6, "µ"), (-9, "n"), (-12, "p"),
+];
+
+/// Symbols of units by their number in CiA 303-2.
+#[rustfmt::skip]
+const UNITS: &[(u8, &str)] = &[
+    (0x01, "m"), (0x02, "kg"), (0x03, "s"), (0x04, "A"), (0x05, "K"), (0x06, "mol"), (0x07, "cd"),
+    (0x10, "rad"), (0x20, "Hz"), (0x21, "N"), (0x22, "Pa"), (0x23, "J"), (0x24, "W"), (0x25, "C"),
+    (0x26, "V"), (0x27, "F"), (0x28, "Ω"), (0x29, "S"), (0x2A, "Wb"), (0x2B, "T"), (0x2C, "H"),
+    (0x2D, "°C"), (0x2E, "lm"), (0x2F, "lx"), (0x41, "°"), (0x47, "min"), (0x48, "h"), (0x4E, "bar"),
+    (0xAB, "psi"), (0xAC, "°F"), (0xB4, "rev"), (0xB5, "inc"),
+];
+
+/// A unit in words: power of ten, numerator and denominator in bits 24 to 31, 16 to 23 and 8 to 15. `None` for a number
+/// that is not listed.
+fn unit(number: u32) -> Option<String> {
+    let [_, denominator, numerator, prefix] = number.to_le_bytes();
+    let symbol = |code: u8| {
+        UNITS
+            .iter()
+            .find(|(own, _)| *own == code)
+            .map(|(_, symbol)| *symbol)
+    };
+    let prefix = PREFIXES.iter().find(|(power, _)| *power == prefix as i8)?.1;
+    let above = format!("{prefix}{}", symbol(numerator)?);
+    match denominator {
+        0 => Some(above),
+        code => Some(format!("{above}/{}", symbol(code)?)),
     }
 }
 
@@ -251,6 +295,11 @@ mod tests {
             ),
             (402, 0x1029, 1, 2, Some("Stopped")),
             (402, 0x1029, 0, 2, None),
+            (404, 0x6131, 1, 0xFD4E_0000, Some("mbar")),
+            (404, 0x6131, 2, 0x002D_0000, Some("°C")),
+            (402, 0x60A9, 0, 0x00B4_4700, Some("rev/min")),
+            (402, 0x60A8, 0, 0xFA01_0000, Some("µm")),
+            (404, 0x6131, 1, 0x00FE_0000, None),
         ] {
             let found = meaning(Some(profile), index, sub, number);
             assert_eq!(

@@ -6,6 +6,8 @@ mod cia401;
 mod cia402;
 mod cia404;
 mod cia406;
+#[cfg(test)]
+mod documents;
 mod meanings;
 mod row;
 

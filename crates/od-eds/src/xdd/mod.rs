@@ -11,13 +11,13 @@
 
 pub(crate) mod fixes;
 mod info;
+mod limits;
 mod objects;
 mod parameters;
 mod source;
 mod types;
 mod write;
 
-use alloc::format;
 use alloc::string::ToString;
 
 use roxmltree::Document;
@@ -25,42 +25,21 @@ use roxmltree::Document;
 use crate::description::Description;
 use crate::log::Log;
 use crate::read::sorted;
-use crate::rules::text::e0113_xml_not_well_formed;
+use crate::rules::text::{e0113_xml_not_well_formed, e0119_too_large};
+use crate::scan::placed::Placed;
 use crate::xdd::source::{Places, Reader};
 
 pub use write::write;
 
-/// Maximum number of attributes of an element. Those of CiA 311 have 12; the XML parser compares each attribute with
-/// all others.
-const ATTRIBUTES: usize = 1_000;
-
-/// The place of an element with too many attributes, each of which has a `="` or a `='`.
-fn crowded(text: &str) -> Option<usize> {
-    let (mut start, mut count) = (0, 0);
-    let bytes = text.as_bytes();
-    for (at, pair) in bytes.windows(2).enumerate() {
-        match pair {
-            [b'<', _] => (start, count) = (at, 0),
-            [b'=', b'"' | b'\''] => count += 1,
-            _ => {}
-        }
-        if count > ATTRIBUTES {
-            return Some(start);
-        }
-    }
-    None
-}
-
-/// Reads an XDD or an XDC.
+/// Reads an XDD or an XDC; `see` receives its content as sections of an EDS.
 ///
 /// Never fails, never panics. A text that is not well-formed XML gives an empty
 /// description and the place where it breaks.
-pub(crate) fn parse(text: &str, log: &mut Log) -> Description {
-    if let Some(at) = crowded(text) {
-        let places = Places::new(text);
-        let line = text[..at].matches('\n').count() as u32 + 1;
-        let error = format!("an element has more than {ATTRIBUTES} attributes");
-        log.push(e0113_xml_not_well_formed(places.at(line, 1), &error));
+pub(crate) fn parse(text: &str, see: &mut dyn FnMut(&[Placed<'_>]), log: &mut Log) -> Description {
+    if let Some(large) = limits::exceeded(text) {
+        let line = text[..large.at].matches('\n').count() as u32 + 1;
+        let at = Places::new(text).at(line, 1);
+        log.push(e0119_too_large(at, large.part, large.most, large.of));
         return Description::default();
     }
     let xml = match Document::parse(text) {
@@ -77,6 +56,7 @@ pub(crate) fn parse(text: &str, log: &mut Log) -> Description {
     let mut sections = info::sections(root, &mut reader);
     sections.append(&mut objects::sections(root, &mut reader));
     log.append(reader.log);
+    see(&sections);
     sorted::objects(sections, log)
 }
 

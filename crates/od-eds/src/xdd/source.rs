@@ -17,20 +17,32 @@ pub(super) struct Reader<'a> {
     pub(super) log: Log,
 }
 
+/// Bytes of text between two known numbers of characters.
+const STEP: usize = 1024;
+
 /// Lines and columns of bytes.
 pub(super) struct Places<'a> {
     text: &'a str,
     /// Start of each line.
     lines: Vec<usize>,
+    /// Number of characters before every [`STEP`] bytes, since a file can be one line.
+    chars: Vec<usize>,
 }
 
 impl<'a> Places<'a> {
     pub(super) fn new(text: &'a str) -> Self {
         let ends = text.bytes().enumerate().filter(|(_, b)| *b == b'\n');
         let lines = core::iter::once(0).chain(ends.map(|(at, _)| at + 1));
+        let mut sum = 0;
+        let chars = text.as_bytes().chunks(STEP).map(|bytes| {
+            let before = sum;
+            sum += count(bytes);
+            before
+        });
         Self {
             text,
             lines: lines.collect(),
+            chars: chars.collect(),
         }
     }
 
@@ -57,9 +69,22 @@ impl<'a> Places<'a> {
             start: range.start as u32,
             end: range.end as u32,
             line: line as u32,
-            column: self.text[start..range.start].chars().count() as u32 + 1,
+            column: (self.before(range.start) - self.before(start)) as u32 + 1,
         }
     }
+
+    /// Number of characters before a byte.
+    fn before(&self, at: usize) -> usize {
+        let step = (at / STEP).min(self.chars.len().saturating_sub(1));
+        let known = self.chars.get(step).copied().unwrap_or(0);
+        known + count(&self.text.as_bytes()[step * STEP..at])
+    }
+}
+
+/// Number of characters that begin in these bytes of UTF-8.
+fn count(bytes: &[u8]) -> usize {
+    let starts = bytes.iter().filter(|byte| **byte & 0xC0 != 0x80);
+    starts.count()
 }
 
 impl<'a> Reader<'a> {

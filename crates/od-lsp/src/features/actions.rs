@@ -76,11 +76,11 @@ pub(crate) fn fix_all(file: &File, host: &dyn Host) -> WorkspaceEdit {
         findings
     };
     let edits = match file.kind {
-        Kind::Eds => {
+        Kind::Eds | Kind::Xdd => {
             let done = fix::fix(&file.document(), Applicability::Safe, find);
             file::edits(file, &format!("{}{}", file.mark(), done.document.text()))
         }
-        Kind::Xdd | Kind::Overlay | Kind::Rust => Vec::new(),
+        Kind::Overlay | Kind::Rust => Vec::new(),
     };
     WorkspaceEdit::of(&file.uri, edits)
 }

@@ -10,9 +10,16 @@ use crate::words;
 /// The findings of a text.
 pub(crate) fn of(file: &File, seen: &Seen) -> Vec<Diagnostic> {
     let findings = seen.findings.iter();
-    findings
-        .map(|finding| one(file, &seen.description, finding))
-        .collect()
+    let findings = findings.map(|finding| one(file, &seen.description, finding));
+    let problems = seen.problems.iter().map(|(bytes, why)| Diagnostic {
+        range: file.text.range(bytes.clone()),
+        severity: severity(Severity::Error),
+        code: "",
+        source: "odkit",
+        message: why.clone(),
+        related_information: Vec::new(),
+    });
+    problems.chain(findings).collect()
 }
 
 /// One finding; a finding without a place is shown at the start of the text.

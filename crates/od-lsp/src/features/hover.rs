@@ -1,8 +1,10 @@
 //! Hover: describes the object, key or value under the cursor, and the rules with a finding there.
 
+use std::ops::Range;
+
 use od_eds::check::Fixability;
 use od_eds::outline::{self, Compact, Place};
-use od_eds::{Eds, Finding, say};
+use od_eds::{Description, Eds, Finding, say};
 use od_model::{Access, Address, DataType, ObjectCode};
 
 use crate::file::{File, Seen};
@@ -12,18 +14,23 @@ use crate::mentions::{self, listed, mapped, number, plain};
 use crate::standard;
 use crate::types::{Hover, Markup};
 use crate::words;
+use crate::xdd;
 
 /// The hover at a byte; `None` if there is no information.
 pub(crate) fn at(file: &File, seen: &Seen, offset: usize) -> Option<Hover> {
     let spot = seen.layout.spot(offset);
     let mut parts: Vec<String> = spot.map_or_else(Vec::new, |spot| said(file, seen, spot));
     let mut here = None;
+    if let Some((said, place)) = element(seen, offset) {
+        parts.push(said);
+        here = Some(place);
+    }
     for finding in &seen.findings {
         let Some(span) = finding.span().map(bytes) else {
             continue;
         };
         if span.start <= offset && offset <= span.end {
-            here = Some(span);
+            here.get_or_insert(span);
             parts.push(explained(finding));
         }
     }
@@ -155,19 +162,13 @@ fn value(file: &File, seen: &Seen, section: &Section, pair: &Pair) -> Option<Str
             Some(known) => words::data_type(known),
             None => words::heading(description, Address::new(code()?, 0)),
         }),
-        "objecttype" => {
-            let code = ObjectCode::from_code(u8::try_from(code()?).ok()?)?;
-            Some(format!("{}: {}", code.name(), words::code(code)))
-        }
+        "objecttype" => ObjectCode::from_code(u8::try_from(code()?).ok()?).map(code_of),
         "accesstype" => {
             let mut all = Access::ALL.into_iter();
             let access = all.find(|access| access.name().eq_ignore_ascii_case(given))?;
-            Some(format!("`{}`: {}", access.name(), words::access(access)))
+            Some(access_of(access))
         }
-        "pdomapping" => Some(match code()? {
-            0 => "The value cannot be mapped into a PDO.".into(),
-            _ => "The value can be mapped into a PDO.".into(),
-        }),
+        "pdomapping" => Some(words::mappable(code()? != 0).into()),
         "lowlimit" | "highlimit" => {
             let entry = description.entry(at)?;
             let limit = [&entry.low, &entry.high].into_iter().flatten();
@@ -186,6 +187,56 @@ fn value(file: &File, seen: &Seen, section: &Section, pair: &Pair) -> Option<Str
             name.map_or_else(|| None, |_| self::key(file, section, pair))
         }
         _ => self::key(file, section, pair),
+    }
+}
+
+fn code_of(code: ObjectCode) -> String {
+    format!("{}: {}", code.name(), words::code(code))
+}
+
+fn access_of(access: Access) -> String {
+    format!("`{}`: {}", access.name(), words::access(access))
+}
+
+/// The field of an XDD at a byte in words, with its object, and its place.
+fn element(seen: &Seen, offset: usize) -> Option<(String, Range<usize>)> {
+    let (element, field) = xdd::at(&seen.elements, offset)?;
+    let place = field.map_or(&element.tag, |field| &field.value).clone();
+    let (at, whole) = match element.place {
+        Place::Object(index) => (Address::new(index, 0), true),
+        Place::Member(index, sub) => (Address::new(index, sub), false),
+        _ => {
+            let key = &field?.key;
+            let said = keys::of_section(&element.name, key)?;
+            return Some((format!("`{key}`: {said}"), place));
+        }
+    };
+    let about = object(seen, at, whole);
+    let own = field.and_then(|field| field_of(&seen.description, at, &field.key));
+    let said = own.map_or_else(|| about.clone(), |own| format!("{own}\n\n{about}"));
+    Some((said, place))
+}
+
+/// The value of a field of an XDD in words; `None` if those of its object include it.
+fn field_of(description: &Description, at: Address, key: &str) -> Option<String> {
+    let object = description.objects.get(&at.index)?;
+    let entry = || object.entries.get(&at.sub);
+    match key {
+        "ObjectType" if at.sub == 0 => Some(code_of(*object.code)),
+        "DataType" => Some(words::data_type(*entry()?.data_type?)),
+        "AccessType" => Some(access_of(*entry()?.access)),
+        "PDOMapping" => Some(words::mappable(*entry()?.mappable).into()),
+        "LowLimit" | "HighLimit" => {
+            let entry = entry()?;
+            let limit = match key {
+                "LowLimit" => entry.low.as_ref()?,
+                _ => entry.high.as_ref()?,
+            };
+            let nowhere = Address::new(0x2000, 0);
+            let said = words::value(description, nowhere, entry, &limit.value)?;
+            Some(words::escaped(&said))
+        }
+        _ => None,
     }
 }
 

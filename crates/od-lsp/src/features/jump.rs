@@ -6,7 +6,8 @@ use od_eds::outline::Place;
 use od_model::Address;
 
 use crate::cob_ids::{self, CobId};
-use crate::file::{File, Seen};
+use crate::file::{File, Kind, Seen};
+use crate::host::NoHost;
 use crate::layout::Spot;
 use crate::mentions::{self, Mention, What, number};
 
@@ -34,6 +35,10 @@ fn target(file: &File, seen: &Seen, offset: usize) -> Option<Target> {
             if key.eq_ignore_ascii_case("DataType") {
                 let index = u16::try_from(number(text, pair)?).ok()?;
                 return Some(Target::Object(Address::new(index, 0), false));
+            }
+            if file.kind == Kind::Overlay {
+                // The places of its values are those in the text of base and overlay.
+                return None;
             }
             let mut ids = cob_ids::all(&seen.description);
             let own = ids.find(|(_, _, bytes)| bytes.start == pair.value.start);
@@ -78,6 +83,38 @@ pub(crate) fn definition(file: &File, seen: &Seen, offset: usize) -> Vec<Range<u
     }
 }
 
+/// Place of an object's description in the base of an overlay.
+pub(crate) fn in_base<'f>(
+    file: &'f File,
+    seen: &Seen,
+    offset: usize,
+) -> Option<(&'f File, Range<usize>)> {
+    let base = file.below()?;
+    let Target::Object(at, is_sub) = target(file, seen, offset)? else {
+        return None;
+    };
+    let layout = &base.seen(&NoHost).layout;
+    let member = layout.section_of(Place::Member(at.index, at.sub));
+    let whole = || layout.section_of(Place::Object(at.index));
+    let section = member.filter(|_| is_sub).or_else(whole)?;
+    Some((base, section.header.clone()))
+}
+
+/// The base of an overlay, and all places there of the object at a place in the overlay.
+pub(crate) fn references_in_base<'f>(
+    file: &'f File,
+    seen: &Seen,
+    offset: usize,
+    declared: bool,
+) -> Option<(&'f File, Vec<Range<usize>>)> {
+    let base = file.below()?;
+    let Target::Object(at, is_sub) = target(file, seen, offset)? else {
+        return None;
+    };
+    let found = of_object(base, base.seen(&NoHost), at, is_sub, declared);
+    Some((base, found))
+}
+
 /// All places of the same object or COB-ID; without its definitions unless `declared`.
 pub(crate) fn references(
     file: &File,
@@ -88,24 +125,33 @@ pub(crate) fn references(
     match target(file, seen, offset) {
         None => Vec::new(),
         Some(Target::Cob(_, id, _)) => like(seen, id).collect(),
-        Some(Target::Object(at, is_sub)) => {
-            let about = |mention: &Mention| match (is_sub, mention.what) {
-                (true, What::Header | What::Mapping) => mention.object == at,
-                (true, What::Entry) => false,
-                (false, _) => mention.object.index == at.index,
-            };
-            let mut found: Vec<_> = mentions::all(file, &seen.layout)
-                .filter(|mention| declared || mention.what != What::Header)
-                .filter(about)
-                .map(|mention| mention.bytes)
-                .collect();
-            if !is_sub {
-                found.extend(typed(file, seen, at.index));
-                found.sort_by_key(|bytes| bytes.start);
-            }
-            found
-        }
+        Some(Target::Object(at, is_sub)) => of_object(file, seen, at, is_sub, declared),
     }
+}
+
+/// All places of an object, or only of one of its sub-objects.
+fn of_object(
+    file: &File,
+    seen: &Seen,
+    at: Address,
+    is_sub: bool,
+    declared: bool,
+) -> Vec<Range<usize>> {
+    let about = |mention: &Mention| match (is_sub, mention.what) {
+        (true, What::Header | What::Mapping) => mention.object == at,
+        (true, What::Entry) => false,
+        (false, _) => mention.object.index == at.index,
+    };
+    let mut found: Vec<_> = mentions::all(file, &seen.layout)
+        .filter(|mention| declared || mention.what != What::Header)
+        .filter(about)
+        .map(|mention| mention.bytes)
+        .collect();
+    if !is_sub {
+        found.extend(typed(file, seen, at.index));
+        found.sort_by_key(|bytes| bytes.start);
+    }
+    found
 }
 
 /// The values of DataType with the name of a type of the file.

@@ -27,24 +27,29 @@ pub(crate) fn prepare(file: &File, seen: &Seen, offset: usize) -> Option<(Range<
     Some((bytes, format!("{:04X}", found.object.index)))
 }
 
-/// The edits that give the object at a place another index.
+/// The index of the object at a place, and the new one.
 ///
 /// # Errors
 /// Reason why a rename is not possible.
-pub(crate) fn edits(
+pub(crate) fn indices(
     file: &File,
     seen: &Seen,
     position: Position,
     name: &str,
-) -> Result<Vec<TextEdit>, String> {
+) -> Result<(u16, u16), String> {
     let found = mention(file, seen, file.text.offset(position));
-    let old = found
-        .ok_or("place the cursor on the index of an object")?
-        .object
-        .index;
+    let old = found.ok_or("place the cursor on the index of an object")?;
     let new = index(name).ok_or_else(|| {
         format!("`{name}` is not an index; write four hexadecimal digits, such as `2001`")
     })?;
+    Ok((old.object.index, new))
+}
+
+/// The edits of a file that give an object another index.
+///
+/// # Errors
+/// The file has an object with the new index.
+pub(crate) fn edits(file: &File, seen: &Seen, old: u16, new: u16) -> Result<Vec<TextEdit>, String> {
     if new == old {
         return Ok(Vec::new());
     }

@@ -8,7 +8,7 @@ use crate::features::{
     actions, complete, folding, format, hints, hover, jump, rename, symbols, tokens,
 };
 use crate::file::{File, Kind, Seen};
-use crate::host::Host;
+use crate::host::{Host, NoHost};
 use crate::macros::features as macros;
 use crate::message::{self, Fault};
 use crate::types::{
@@ -22,6 +22,7 @@ fn read<T: DeserializeOwned>(params: Value) -> Result<T, Fault> {
 
 impl Server {
     fn open(&mut self, id: &DocumentId) -> Result<(&mut Open, &dyn Host), Fault> {
+        self.lay(&id.uri);
         let host = &*self.host;
         match self.files.get_mut(&id.uri) {
             Some(open) => Ok((open, host)),
@@ -46,13 +47,19 @@ impl Server {
                 Ok(message::answer(id, &complete::at(file, seen, at)))
             }),
             "textDocument/definition" => self.at(params, |file, seen, _, at| {
-                let found = jump::definition(file, seen, at);
-                Ok(message::answer(id, &locations(file, found)))
+                let found = match jump::in_base(file, seen, at) {
+                    Some((base, bytes)) => locations(base, vec![bytes]),
+                    None => locations(file, jump::definition(file, seen, at)),
+                };
+                Ok(message::answer(id, &found))
             }),
             "textDocument/references" => self.at(params, |file, seen, params, at| {
                 let declared = params.context.include_declaration;
-                let found = jump::references(file, seen, at, declared);
-                Ok(message::answer(id, &locations(file, found)))
+                let mut found = locations(file, jump::references(file, seen, at, declared));
+                if let Some((base, others)) = jump::references_in_base(file, seen, at, declared) {
+                    found.extend(locations(base, others));
+                }
+                Ok(message::answer(id, &found))
             }),
             "textDocument/documentHighlight" => self.at(params, |file, seen, _, at| {
                 let found = jump::references(file, seen, at, true).into_iter();
@@ -69,13 +76,9 @@ impl Server {
                 });
                 Ok(message::answer(id, &found))
             }),
-            "textDocument/rename" => self.at(params, |file, seen, params, _| {
-                let edits = rename::edits(file, seen, params.position, &params.new_name);
-                let edits = edits.map_err(Fault::failed)?;
-                Ok(message::answer(id, &WorkspaceEdit::of(&file.uri, edits)))
-            }),
+            "textDocument/rename" => self.rename(id, params),
             "textDocument/documentSymbol" => self.of(params, |file, seen| {
-                let found = symbols::of(file, &seen.layout, &seen.description);
+                let found = symbols::of(file, seen);
                 Ok(message::answer(id, &found))
             }),
             "textDocument/foldingRange" => self.of(params, |file, seen| {
@@ -170,6 +173,38 @@ impl Server {
         let (open, host) = self.open(&params.text_document)?;
         let bytes = open.file.text.bytes(params.range);
         answer(&open.file, open.file.seen(host), &params, &bytes)
+    }
+
+    /// Gives an object another index, in its file, in the base below it, and in the open overlays above it.
+    fn rename(&mut self, id: &Value, params: Value) -> Result<String, Fault> {
+        let params: AtPosition = read(params)?;
+        let (open, host) = self.open(&params.text_document)?;
+        let file = &open.file;
+        let (old, new) = rename::indices(file, file.seen(host), params.position, &params.new_name)
+            .map_err(Fault::failed)?;
+        let path = file.path.clone();
+        let mut edit = WorkspaceEdit::of(&file.uri, Vec::new());
+        let mut add = |file: &File, host: &dyn Host| {
+            let edits = rename::edits(file, file.seen(host), old, new).map_err(Fault::failed)?;
+            if !edits.is_empty() {
+                edit.changes.insert(file.uri.clone(), edits);
+            }
+            Ok::<(), Fault>(())
+        };
+        add(file, host)?;
+        if let Some(base) = file.below() {
+            add(base, &NoHost)?;
+        }
+        let others: Vec<String> = self.files.keys().cloned().collect();
+        for uri in others {
+            self.lay(&uri);
+            let open = self.files.get(&uri);
+            let is_above = |open: &&Open| open.file.below().is_some_and(|base| base.path == path);
+            if let Some(open) = open.filter(is_above) {
+                add(&open.file, &*self.host)?;
+            }
+        }
+        Ok(message::answer(id, &edit))
     }
 
     fn actions(&mut self, id: &Value, params: Value) -> Result<String, Fault> {

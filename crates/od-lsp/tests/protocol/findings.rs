@@ -164,9 +164,77 @@ fn xdd_and_overlays_have_findings() {
         fault["range"]["start"],
         json!({ "line": 1, "character": 13 })
     );
-    client.change(
-        uri,
-        json!({ "text": "; odkit-base=nothing.eds\n[2001]\nDefaultValue=700\n" }),
-    );
+}
+
+/// What an overlay lacks is a finding at the line that says so.
+#[test]
+fn an_overlay_without_a_base_has_a_finding() {
+    let mut files = Files::default();
+    files.0.insert("/w/base.eds".into(), TEXT.into());
+    files.0.insert("/w/b.xdd".into(), "<a/>".into());
+    let mut client = Client::new(files, json!({}));
+    let uri = "file:///w/small.overlay";
+    client.open(uri, "");
+    for (text, line, expected) in [
+        (
+            "; odkit-base=nothing.eds\n[2001]\n",
+            0,
+            "nothing.eds cannot be read",
+        ),
+        (";odkit-base=small.overlay\n", 0, "cannot be its own base"),
+        (";odkit-base=other.overlay\n", 0, "is an overlay, too"),
+        (";odkit-base=b.xdd\n", 0, "the base is XML"),
+        (
+            ";\n\n[5999]\nRemove=1\n",
+            2,
+            "section [5999] to remove is missing",
+        ),
+    ] {
+        client.change(uri, json!({ "text": text }));
+        let found = client.diagnostics(uri);
+        assert_eq!(found.len(), 1, "{text}: {found:?}");
+        assert_eq!(found[0]["range"]["start"]["line"], line, "{text}");
+        assert!(
+            found[0]["message"].as_str().unwrap().contains(expected),
+            "{found:?}"
+        );
+    }
+    client.change(uri, json!({ "text": "[2001]\nDefaultValue=7\n" }));
     assert_eq!(client.codes(uri), [""; 0]);
+    // Two files that could be the base.
+    let mut files = Files::default();
+    for name in ["/w/a.eds", "/w/b.dcf"] {
+        files.0.insert(name.into(), TEXT.into());
+    }
+    let mut client = Client::new(files, json!({}));
+    client.open(uri, "[2001]\n");
+    let found = client.diagnostics(uri);
+    assert!(
+        found[0]["message"]
+            .as_str()
+            .unwrap()
+            .contains(";odkit-base=my.eds"),
+        "{found:?}"
+    );
+}
+
+/// The text of the editor counts, before it is saved.
+#[test]
+fn an_overlay_is_checked_with_the_unsaved_text_of_its_base() {
+    let mut files = Files::default();
+    files.0.insert("/w/a.eds".into(), TEXT.into());
+    let mut client = Client::new(files, json!({}));
+    let uri = "file:///w/small.overlay";
+    client.open(uri, ";odkit-base=a.eds\n[2001]\nDefaultValue=700\n");
+    assert!(client.codes(uri).contains(&"E0412".to_owned()));
+    // UNSIGNED8 becomes UNSIGNED16, so 700 is valid.
+    let section = TEXT.find("[2001]").unwrap();
+    let (before, behind) = TEXT.split_at(section);
+    let wide = format!(
+        "{before}{}",
+        behind.replacen("DataType=0x0005", "DataType=0x0006", 1)
+    );
+    assert_ne!(wide, TEXT);
+    client.open(URI, &wide);
+    assert!(!client.codes(uri).contains(&"E0412".to_owned()));
 }

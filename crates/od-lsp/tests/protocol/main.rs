@@ -6,3 +6,4 @@ mod findings;
 mod life;
 mod support;
 mod writing;
+mod xdd;

@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use crate::support::{Client, TEXT, URI, covered, edited, place};
+use crate::support::{Client, Files, TEXT, URI, covered, edited, place};
 
 #[test]
 fn an_index_is_renamed_everywhere() {
@@ -124,4 +124,72 @@ fn tokens_and_their_differences() {
         json!({ "textDocument": { "uri": URI }, "range": range }),
     );
     assert_eq!(some["data"].as_array().unwrap().len(), 10);
+}
+
+const OVERLAY: &str = "file:///w/small.overlay";
+
+/// A client with an overlay of the device, and with the device where `is_open`.
+fn above(is_open: bool, overlay: &str) -> Client {
+    let mut files = Files::default();
+    files.0.insert("/w/a.eds".into(), TEXT.into());
+    let mut client = Client::new(files, json!({}));
+    client.open(OVERLAY, overlay);
+    if is_open {
+        client.open(URI, TEXT);
+    }
+    client
+}
+
+#[test]
+fn an_overlay_leads_to_its_base() {
+    let overlay = "[2001]\nDefaultValue=8\n[1A00sub1]\nDefaultValue=0x60040020\n";
+    for is_open in [false, true] {
+        let mut client = above(is_open, overlay);
+        for (mark, expected) in [
+            ("[20|01]", "[2001]"),
+            ("[1A00s|ub1]", "[1A00sub1]"),
+            ("0x60|040020", "[6004]"),
+        ] {
+            let params =
+                json!({ "textDocument": { "uri": OVERLAY }, "position": place(overlay, mark) });
+            let found = client.request("textDocument/definition", params);
+            assert_eq!(found[0]["uri"], URI, "{mark}");
+            assert_eq!(covered(TEXT, &found[0]["range"]), expected, "{mark}");
+        }
+        let params =
+            json!({ "textDocument": { "uri": OVERLAY }, "position": place(overlay, "[20|01]") });
+        let found = client.request("textDocument/references", params);
+        let uris: Vec<_> = found
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(|one| &one["uri"])
+            .collect();
+        assert_eq!(
+            uris,
+            [OVERLAY, URI, URI],
+            "its sections, and the entry of the list"
+        );
+    }
+}
+
+#[test]
+fn a_rename_reaches_base_and_overlay() {
+    let overlay = ";odkit-base=a.eds\n[2001]\nDefaultValue=8\n";
+    for (uri, text) in [(OVERLAY, overlay), (URI, TEXT)] {
+        let mut client = above(true, overlay);
+        let params = json!({
+            "textDocument": { "uri": uri },
+            "position": place(text, "[20|01]"),
+            "newName": "2005",
+        });
+        let found = client.request("textDocument/rename", params);
+        let base = edited(TEXT, &found["changes"][URI]);
+        assert!(
+            base.contains("[2005]") && base.contains("1=0x2005"),
+            "{base}"
+        );
+        let above = edited(overlay, &found["changes"][OVERLAY]);
+        assert_eq!(above, overlay.replace("[2001]", "[2005]"));
+    }
 }

@@ -9,6 +9,7 @@ mod known;
 mod limits;
 mod probe;
 pub mod record;
+mod stored;
 mod types;
 
 use std::collections::BTreeMap;
@@ -24,6 +25,7 @@ use crate::error::Error;
 use crate::link::Link;
 
 pub use self::file::{Options, Today};
+pub use self::stored::{Stored, stored};
 
 /// Result of learning a node.
 #[derive(Clone, PartialEq, Debug)]

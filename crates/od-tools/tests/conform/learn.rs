@@ -9,7 +9,7 @@ use od_sim::{EdsOptions, VirtualDevice};
 use od_tools::Error;
 use od_tools::bench::OnBench;
 use od_tools::compare::compare;
-use od_tools::learn::{Options, Today, learn};
+use od_tools::learn::{Options, Stored, Today, learn, stored};
 use od_tools::link::{Heard, Link};
 use od_tools::master::Master;
 use od_wire::{Frame, Instant, NodeId};
@@ -334,4 +334,44 @@ fn a_node_that_falls_silent_while_limits_are_probed_is_still_learned() {
     ] {
         assert!(text.contains(line), "{line}: {text}");
     }
+}
+
+/// A node that stores a text in 1021h, in a format.
+fn storing(text: &str, format: Option<u8>) -> VirtualDevice {
+    let object = |index, name, kind, data_type, value| {
+        format!(
+            "[{index}]\nParameterName={name}\nObjectType={kind}\nDataType={data_type}\nAccessType=ro\n\
+             DefaultValue={value}\n"
+        )
+    };
+    let mut eds = object("1000", "Device type", 7, 7, "0".to_owned());
+    let hex = text.bytes().map(|byte| format!("{byte:02X}")).collect();
+    eds += &object("1021", "Store EDS", 2, 15, hex);
+    if let Some(format) = format {
+        eds += &object("1022", "Store format", 7, 6, format.to_string());
+    }
+    let options = EdsOptions {
+        node_id: None,
+        lenient: true,
+    };
+    VirtualDevice::read_eds(&eds, options).0.expect("a device")
+}
+
+#[test]
+fn a_node_sends_the_eds_that_it_has_of_itself() {
+    let own =
+        "[1000]\nParameterName=Device type\nObjectType=7\nDataType=7\nAccessType=ro\n".repeat(3);
+    let read = |text: &str, format| {
+        let link = OnBench(alone(storing(text, format)));
+        stored(link, NodeId::ONE).expect("a device that answers")
+    };
+    for format in [None, Some(0)] {
+        assert_eq!(read(&own, format), Some(Stored::Eds(own.clone())));
+    }
+    let compressed = read(&own, Some(128));
+    assert!(matches!(compressed, Some(Stored::Unreadable(why)) if why.contains("128")));
+    let other = read("PK no EDS", Some(0));
+    assert!(matches!(other, Some(Stored::Unreadable(why)) if why.contains("object")));
+    let none = stored(OnBench(bus("gxmm")), NodeId::ONE);
+    assert_eq!(none.expect("a device that answers"), None);
 }

@@ -42,7 +42,7 @@ fn reserved(address: Address, number: i128) -> Option<(u16, &'static str)> {
             (402, wrong, "15, 16, 31, 32 and 38 to 127")
         }
         (0x60C2, 2) => (402, number > 63, "64 to 127"),
-        (0x6502, 0) => (402, number & 0xF800 != 0, "bits 11 to 15"),
+        (0x6502, 0) => (402, number & 0xF810 != 0, "bits 4 and 11 to 15"),
         (0x6000, 0) => (406, number & 0x0FF0 != 0, "bits 4 to 11"),
         (0x6503 | 0x6504, 0) => (406, number & 0x0FFC != 0, "bits 2 to 11"),
         (0x6505 | 0x6506, 0) => (406, number & 0x0FC0 != 0, "bits 6 to 11"),

@@ -37,6 +37,7 @@ catalogue! {
     w0656_guarding_and_heartbeat W0656
     i0657_vendor_id_0 I0657
     reader W0658
+    w0659_identity_with_node_id W0659
 }
 
 pub(crate) mod e0606_identity_differs;
@@ -66,3 +67,4 @@ pub(crate) mod w0651_consumer_watches_nobody;
 pub(crate) mod w0653_commissioning_incomplete;
 pub(crate) mod w0655_error_register_not_0;
 pub(crate) mod w0656_guarding_and_heartbeat;
+pub(crate) mod w0659_identity_with_node_id;

@@ -49,8 +49,9 @@ pub(crate) fn w0609_key_value_not_valid(
         Wanted::Version => finding.form(&W0609_VERSION),
         _ => finding,
     };
-    // A number of the device that no tool can use; dates and versions of the file are for people.
-    let finding = if section.eq_ignore_ascii_case("DeviceInfo") {
+    // A number of the device, or a flag, that no tool can use; dates and versions of the file are for people.
+    let is_read = section.eq_ignore_ascii_case("DeviceInfo") || wanted == Wanted::Flag;
+    let finding = if is_read {
         finding.severity_of(Error)
     } else {
         finding

@@ -425,9 +425,9 @@ pub(crate) static E0353: Rule = Rule {
     code: "E0353",
     severity: Error,
     title: "too many sub-objects without a section",
-    why: "No CANopen device has a million sub-objects, and a tool that creates them runs out of memory. odkit keeps sub-index 0 of the objects that are too many.",
+    why: "No CANopen device has 50,000 sub-objects, and a tool that creates them runs out of memory. odkit keeps sub-index 0 of the objects that are too many.",
     source: "odkit, limits of a description; CiA 306-1, CompactSubObj",
-    example: "4,000 arrays with `CompactSubObj=254`",
+    example: "400 arrays with `CompactSubObj=254`",
     says: "{CompactSubObj} brings the file to more than {limit} sub-objects without a section",
     help: "remove objects, or write a smaller {CompactSubObj}",
     ..Rule::NEW

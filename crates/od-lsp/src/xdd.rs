@@ -1,0 +1,63 @@
+//! The elements of an XDD: the object of each, and the places of its fields.
+
+use std::ops::Range;
+
+use od_eds::outline::{self, Place, Placed};
+
+use crate::layout::bytes;
+
+/// An element that describes an object, a sub-object or a part of the file, as a section of an EDS would.
+pub(crate) struct Element {
+    /// Its subject.
+    pub(crate) place: Place,
+    /// The name of the section of an EDS: `1018sub1`, `DeviceInfo`.
+    pub(crate) name: String,
+    /// Its start tag.
+    pub(crate) tag: Range<usize>,
+    fields: Vec<Field>,
+}
+
+/// A field of an element, or of the parameter that it refers to.
+pub(crate) struct Field {
+    /// The key of an EDS: `DefaultValue` for `defaultValue="7"`.
+    pub(crate) key: String,
+    /// The value between its quotation marks.
+    pub(crate) value: Range<usize>,
+}
+
+/// The elements of the sections that the reader makes of an XDD, in file order.
+pub(crate) fn elements(sections: &[Placed<'_>]) -> Vec<Element> {
+    let elements = sections.iter().map(|section| {
+        let pairs = section.pairs.iter();
+        // A field that the file does not write has the place of the start tag.
+        let written = pairs.filter(|(_, value)| value.span != section.header);
+        Element {
+            place: outline::place(&section.name),
+            name: section.name.to_string(),
+            tag: bytes(section.header),
+            fields: written
+                .map(|(key, value)| Field {
+                    key: key.to_string(),
+                    value: bytes(value.span),
+                })
+                .collect(),
+        }
+    });
+    elements.collect()
+}
+
+/// The element at a byte, with the field whose value is there.
+pub(crate) fn at(elements: &[Element], offset: usize) -> Option<(&Element, Option<&Field>)> {
+    let holds = |range: &Range<usize>| range.start <= offset && offset <= range.end;
+    let fields = elements
+        .iter()
+        .flat_map(|element| element.fields.iter().map(move |field| (element, field)));
+    let mut found = fields.filter(|(_, field)| holds(&field.value));
+    match found.next() {
+        Some((element, field)) => Some((element, Some(field))),
+        None => {
+            let own = elements.iter().find(|element| holds(&element.tag))?;
+            Some((own, None))
+        }
+    }
+}
