@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use od_devices::DEVICES;
 use od_eds::convert::lost;
-use od_eds::{Description, Document, Finding, Origin, Overlaid, Parsed, Severity};
+use od_eds::{Description, Document, Eds, Finding, Origin, Overlaid, Parsed, Severity, say};
 use od_runtime::DeviceKind;
 use od_runtime::NodeId;
 use od_sim::{EdsOptions, VirtualDevice, recorded};
@@ -238,7 +238,8 @@ impl Source {
         !self.is_overlaid() && !od_eds::is_xml(self.text())
     }
 
-    /// Returns the description and the findings; a text without objects is a failure.
+    /// Returns the description and the findings; a text without objects, or with more than a device file can have, is
+    /// a failure.
     pub(crate) fn parse(&self) -> Result<Parsed, Failure> {
         self.described(od_eds::parse(self.text()))
     }
@@ -249,6 +250,15 @@ impl Source {
     }
 
     fn described(&self, parsed: Parsed) -> Result<Parsed, Failure> {
+        let mut findings = parsed.findings.iter();
+        if let Some(large) = findings.find(|one| one.code() == "E0119") {
+            let why = say(large, &Eds).message;
+            let line = large.span().map_or(0, |span| span.line);
+            return Err(Failure::Failed(format!(
+                "{}:{line}: {why}; remove what does not describe the device",
+                self.path
+            )));
+        }
         if parsed.description.objects.is_empty() {
             return Err(Failure::Failed(format!(
                 "{} does not define any object; is it an EDS, DCF or XDD file?",

@@ -36,14 +36,14 @@ fn a_file_that_is_too_large_has_a_finding_and_an_end() {
     let lines = |count: usize, line: &dyn Fn(usize) -> String| -> String {
         (0..count).map(|n| line(n) + "\n").collect()
     };
-    let noise: Vec<u8> = (0..1_000_000_u32)
+    let noise: Vec<u8> = (0..300_000_u32)
         .map(|n| (n.wrapping_mul(2_654_435_761) >> 23) as u8)
         .collect();
     let attributes: String = (0..300_000).map(|n| format!(" a{n} = \"1\"")).collect();
     for (name, content, code) in [
         (
             "value.eds",
-            format!("{head}DefaultValue={}\n", "z".repeat(100_000_000)).into_bytes(),
+            format!("{head}DefaultValue={}\n", "z".repeat(50_000_000)).into_bytes(),
             "E0119",
         ),
         (
@@ -54,7 +54,7 @@ fn a_file_that_is_too_large_has_a_finding_and_an_end() {
         ("noise.eds", noise, "E0210"),
         (
             "sections.eds",
-            lines(1_000_000, &|n| format!("[{:04X}sub{:X}]", 0x2000 + n / 250, n % 250)).into_bytes(),
+            lines(300_000, &|n| format!("[{:04X}sub{:X}]", 0x2000 + n / 250, n % 250)).into_bytes(),
             "E0119",
         ),
         (

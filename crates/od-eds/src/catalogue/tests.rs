@@ -12,6 +12,7 @@ use crate::description::Description;
 use crate::document::Document;
 use crate::patch::{self, Edit, Raw, Target};
 use crate::rules::RULES;
+use crate::scan::lines;
 use od_model::ObjectCode;
 
 /// The names of the facts in the blanks of a text; `key` stands for the key of the finding.
@@ -155,6 +156,8 @@ fn faults_of_edits() -> Vec<Finding> {
 /// The findings of a text that is too large.
 fn faults_of_size() -> Vec<Finding> {
     let mut text = "junk\n".repeat(10_001);
+    text += &"j".repeat(lines::LONGEST + 1);
+    text.push('\n');
     for index in 0x2000..0x2000 + 4_000 {
         text += &format!("[{index:04X}]\nObjectType=8\nCompactSubObj=254\n");
     }

@@ -15,10 +15,10 @@ use crate::span::{Span, Spanned};
 
 /// Maximum number of bytes of a line, and of a value of an XDD: half of it as the bytes of a DOMAIN.
 pub(crate) const LONGEST: usize = 1 << 20;
-/// Maximum number of sections of a text. Large device files have 10,000.
-const SECTIONS: usize = 100_000;
+/// Maximum number of sections of a text. Large device files have 2,000.
+const SECTIONS: usize = 50_000;
 /// Maximum number of headers and keys of a text.
-const LINES: usize = 500_000;
+const LINES: usize = 200_000;
 
 /// Scanning a text, line by line.
 struct Scan<'a, 'f> {

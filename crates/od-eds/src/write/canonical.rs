@@ -13,25 +13,28 @@ use alloc::vec::Vec;
 
 use od_model::Visible;
 
-use crate::description::{Description, Section};
+use crate::description::{Description, ObjectDescription, Section};
 use crate::load;
 use crate::scan::known;
 use crate::scan::known::{Form, Known};
 use crate::scan::number;
 use crate::span::Spanned;
 use crate::write::describe::section;
+use crate::write::eds;
 
 /// The text of a description as other readers take it: [`write`](crate::write()) of what
 /// [`complete`] makes of it. Control characters of names and texts are escaped.
 pub fn canonical(description: &Description) -> String {
-    let text = crate::write::eds::write(&complete(description));
+    // As `write(&complete(description))`, without a copy of all objects.
+    let written = |description: &Description| {
+        let sections: Vec<Section> = completed(description).collect();
+        eds::text(&sections, &description.objects, counted)
+    };
+    let text = written(description);
     match Visible(&text).lines() {
         Cow::Borrowed(_) => text,
         // Escaped names have other places in the order of keys.
-        Cow::Owned(visible) => {
-            let description = load::parse(&visible).description;
-            crate::write::eds::write(&complete(&description))
-        }
+        Cow::Owned(visible) => written(&load::parse(&visible).description),
     }
 }
 
@@ -41,16 +44,26 @@ pub fn canonical(description: &Description) -> String {
 /// `[DeviceInfo]`, SubNumber and comments counted. Sections and keys of other tools are
 /// kept, and what the objects say is the same.
 pub fn complete(description: &Description) -> Description {
-    let made = sections(description).into_iter();
-    let mut completed = Description {
-        sections: made.map(|made| section(&made.name, made.pairs)).collect(),
+    let mut complete = Description {
+        sections: completed(description).collect(),
         objects: description.objects.clone(),
     };
-    for object in completed.objects.values_mut() {
-        let count = object.entries.len() as u32;
-        object.sub_number = object.code.has_members().then(|| Spanned::from(count));
+    for object in complete.objects.values_mut() {
+        object.sub_number = counted(object);
     }
-    completed
+    complete
+}
+
+/// The sections that describe no object, those that every file has included.
+fn completed(description: &Description) -> impl Iterator<Item = Section> {
+    let made = sections(description).into_iter();
+    made.map(|made| section(&made.name, made.pairs))
+}
+
+/// SubNumber: the number of sub-objects.
+fn counted(object: &ObjectDescription) -> Option<Spanned<u32>> {
+    let count = object.entries.len() as u32;
+    object.code.has_members().then(|| Spanned::from(count))
 }
 
 /// A section as it is written: its name, and its keys with their values.

@@ -1,10 +1,11 @@
 //! From a description to its canonical text.
 
+use alloc::collections::BTreeMap;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 use core::fmt::Write;
 
-use crate::description::{Description, EntryDescription, ObjectDescription, Value};
+use crate::description::{Description, EntryDescription, ObjectDescription, Section, Value};
 use crate::read::{fields, values};
 use crate::scan::either;
 use crate::scan::names::List;
@@ -20,16 +21,26 @@ use od_model::Group;
 ///
 /// Reals are written in decimal, as vendors do; only Lely expects the bit pattern.
 pub fn write(description: &Description) -> String {
+    text(&description.sections, &description.objects, |object| {
+        object.sub_number
+    })
+}
+
+/// The text of sections and objects; `sub_number` is what each object has as SubNumber.
+pub(super) fn text(
+    sections: &[Section],
+    objects: &BTreeMap<u16, ObjectDescription>,
+    sub_number: fn(&ObjectDescription) -> Option<Spanned<u32>>,
+) -> String {
     let mut out = Text(String::new());
-    for section in &description.sections {
+    for section in sections {
         out.section(&section.name);
         for (key, value) in &section.pairs {
             out.pair(key, value);
         }
     }
     for list in List::ALL {
-        let indices: Vec<u16> = description
-            .objects
+        let indices: Vec<u16> = objects
             .keys()
             .copied()
             .filter(|index| List::of(*index) == list)
@@ -40,8 +51,8 @@ pub fn write(description: &Description) -> String {
             out.line(format_args!("{number}=0x{index:04X}"));
         }
         for index in indices {
-            if let Some(object) = description.objects.get(&index) {
-                out.object(index, object);
+            if let Some(object) = objects.get(&index) {
+                out.object(index, object, sub_number(object));
             }
         }
     }
@@ -51,7 +62,7 @@ pub fn write(description: &Description) -> String {
 /// The sections of one object.
 pub(crate) fn object(index: u16, object: &ObjectDescription) -> String {
     let mut out = Text(String::new());
-    out.object(index, object);
+    out.object(index, object, object.sub_number);
     out.0
 }
 
@@ -95,7 +106,7 @@ impl Text {
         }
     }
 
-    fn object(&mut self, index: u16, object: &ObjectDescription) {
+    fn object(&mut self, index: u16, object: &ObjectDescription, sub_number: Option<Spanned<u32>>) {
         self.section(&alloc::format!("{index:04X}"));
         let code = alloc::format!("0x{:X}", object.code.code());
         if !object.code.has_members() {
@@ -103,7 +114,7 @@ impl Text {
             self.pair("ParameterName", &object.name);
             let extra = entry.map_or(&[][..], |entry| &entry.extra);
             self.field("ObjectType", &code, extra);
-            if let Some(number) = &object.sub_number {
+            if let Some(number) = &sub_number {
                 self.field("SubNumber", &number.to_string(), extra);
             }
             if let Some(entry) = entry {
@@ -114,9 +125,7 @@ impl Text {
         let extra = &object.extra;
         self.pair("ParameterName", &object.name);
         self.field("ObjectType", &code, extra);
-        let number = object
-            .sub_number
-            .map_or(object.entries.len() as u32, |number| number.value);
+        let number = sub_number.map_or(object.entries.len() as u32, |number| number.value);
         self.field("SubNumber", &number.to_string(), extra);
         if object.flags != 0 {
             self.field("ObjFlags", &alloc::format!("0x{:X}", object.flags), extra);

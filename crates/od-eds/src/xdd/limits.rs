@@ -5,7 +5,7 @@ use crate::scan::lines::LONGEST;
 /// Maximum number of attributes of an element. Those of CiA 311 have 12, and the parser compares each attribute with
 /// all others.
 const OF_ELEMENT: usize = 1_000;
-/// Maximum number of elements of a text. Large device files have 20,000.
+/// Maximum number of elements of a text. Large device files have 10,000.
 const ELEMENTS: usize = 200_000;
 /// Maximum number of attributes of a text.
 const ATTRIBUTES: usize = 1_000_000;
