@@ -1,5 +1,6 @@
 // The final test: questions of all lessons without their recipe, a certificate to print, and questions that lessons ask again.
 import assert from 'node:assert/strict';
+import { flawless } from './axe.mjs';
 import { becomes, until } from './bench.mjs';
 import { checks } from './check.mjs';
 import { URL_OF_PAGE } from './harness.mjs';
@@ -26,6 +27,7 @@ check('the final test fails without answers, passes with ten of twelve, and prin
     const question = plain(await test.locator('.question').textContent());
     const one = all.find((known) => plain(known.question.replaceAll('`', '')) === question);
     lessons.add(one.lesson);
+    if (number === 1) await flawless(page, 'a question', 'dialog[open]');
     const answer = test.getByRole('textbox', { name: 'Your frame' });
     if (number === 1) {
       // A text that is not a frame is not an answer.
@@ -42,6 +44,7 @@ check('the final test fails without answers, passes with ten of twelve, and prin
   await test.getByRole('textbox', { name: 'Your name' }).fill('Ann Ü.');
   const certificate = test.getByRole('region', { name: 'Certificate' });
   await becomes('the certificate', () => certificate.innerText(), /Ann Ü\.[^]*10 of 12[^]*odkit-progress\/1 learner=Ann%20%C3%9C\. final-test=10\/12@[^]* sum=/);
+  await flawless(page, 'the certificate', 'dialog[open]');
   await page.emulateMedia({ media: 'print' });
   await until('only the certificate on paper', async () => (await certificate.isVisible()) && !(await page.locator('od-topbar').isVisible()) && !(await page.getByText('Answers that were not right').isVisible()));
   await page.emulateMedia({ media: 'screen' });

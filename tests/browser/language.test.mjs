@@ -1,5 +1,6 @@
 // German and English: by the browser, by a link, by the button; lessons in both.
 import assert from 'node:assert/strict';
+import { flawless } from './axe.mjs';
 import { becomes, until } from './bench.mjs';
 import { checks } from './check.mjs';
 import { URL_OF_PAGE } from './harness.mjs';
@@ -13,6 +14,7 @@ const language = (page) => page.evaluate(() => document.documentElement.lang);
 check('a German browser gets the page and a lesson in German, and can change to English', { locale: 'de-DE' }, async (page) => {
   await inGerman(page);
   assert.equal(await language(page), 'de');
+  await flawless(page, 'the German page');
   await page.getByRole('button', { name: 'Lernen' }).click();
   await page.getByRole('dialog', { name: 'Lektionen' }).getByRole('button', { name: 'NMT-Zustände und -Kommandos' }).click();
   await title(page, '1 Starte Knoten 5').waitFor();
@@ -51,4 +53,16 @@ check('a link chooses the language, which stays', { hash: '?lang=de', own: true 
 
 check('a link to a lesson can name the language', { hash: '#lesson=nmt&lang=de', own: true }, async (page) => {
   await title(page, '1 Starte Knoten 5').waitFor();
+});
+
+check('320 pixels are enough for the German page', { width: 320, height: 700, locale: 'de-DE' }, async (page) => {
+  for (const name of ['Encoder', 'Bus', 'Objekte']) {
+    await page.getByRole('tab', { name }).click();
+    const [inner, outer] = await page.evaluate(() => [document.documentElement.scrollWidth, window.innerWidth]);
+    assert.ok(inner <= outer, `${name} is ${inner} pixels wide`);
+  }
+  // The button is in the list of lessons, where the bar has no room for it.
+  await page.getByRole('button', { name: 'Lektionen' }).click();
+  await page.getByRole('dialog', { name: 'Lektionen' }).getByRole('button', { name: 'English' }).click();
+  await page.getByRole('dialog', { name: 'Lessons' }).waitFor();
 });
