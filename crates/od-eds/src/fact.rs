@@ -27,12 +27,12 @@ pub enum Key {
     ObjFlags,
     /// CANopenEditor's comment `;StorageLocation=`.
     StorageLocation,
-    /// Room of a string or DOMAIN in the store: a field of a macro call, and no key of an EDS.
+    /// Memory for a string or DOMAIN in the store: a field of a macro call, not a key of an EDS.
     Capacity,
 }
 
 impl Key {
-    /// Those of an EDS.
+    /// The keys of an EDS.
     pub const ALL: [Self; 13] = [
         Self::ParameterName,
         Self::ObjectType,
@@ -69,12 +69,12 @@ impl Key {
         }
     }
 
-    /// Is this its name, in any case?
+    /// Returns whether the text is its name, in any case.
     pub fn is(self, name: &str) -> bool {
         self.name().eq_ignore_ascii_case(name)
     }
 
-    /// Returns if its value is a number or a word of CiA 306, so no text.
+    /// Returns whether its value is a number or a word of CiA 306, not a text.
     pub(crate) const fn is_coded(self) -> bool {
         matches!(
             self,
@@ -94,7 +94,7 @@ impl Key {
     }
 }
 
-/// One thing that a finding knows, and that a blank of its sentence shows.
+/// One fact of a finding, which fills a blank of its sentence.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Fact {
     /// A number or a count.
@@ -117,16 +117,16 @@ pub enum Fact {
     Section(u16, Option<u8>),
     /// A key.
     Key(Key),
-    /// Text as the file has it, or a word.
+    /// Text of the file, or a word.
     Text(String),
-    /// Several, with commas between.
+    /// Several facts, with commas between them.
     List(Vec<Fact>),
-    /// Several, one of which is enough.
+    /// Several facts, of which one is enough.
     OneOf(Vec<Fact>),
 }
 
 impl Fact {
-    /// The index of the object that this is about, if it is about one.
+    /// The index of the object that the fact is about, if there is one.
     pub fn index(&self) -> Option<u16> {
         match self {
             Self::Index(index) | Self::Section(index, _) => Some(*index),
@@ -171,12 +171,12 @@ impl From<String> for Fact {
 
 impl From<usize> for Fact {
     fn from(count: usize) -> Self {
-        // A count of what is in memory.
+        // The number of items in memory fits.
         Self::Number(count as i128)
     }
 }
 
-/// A value as an EDS would write it.
+/// A value in the spelling of an EDS.
 pub fn shown(value: &Value) -> String {
     match value {
         Value::Unsigned(v) => v.to_string(),

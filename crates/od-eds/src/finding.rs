@@ -1,4 +1,4 @@
-//! Rules and findings as plain data; nothing here is put into words.
+//! Rules and findings as plain data; `say` makes sentences of them.
 
 use alloc::vec::Vec;
 use core::fmt;
@@ -19,15 +19,15 @@ use crate::subject::{Entry, Object, Subject};
     serde(rename_all = "lowercase")
 )]
 pub enum Severity {
-    /// Worth knowing.
+    /// A hint; nothing is wrong.
     Info,
-    /// Many shipped files have it; a device can be built.
+    /// Many files in use have it, and a device can be built.
     Warning,
-    /// No sound device can be built, or a master fails.
+    /// A device built from the file does not work, or a master fails.
     Error,
 }
 
-/// The fix that the findings of a rule have.
+/// Kind of fix that the findings of a rule have.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[cfg_attr(
     feature = "serde",
@@ -37,11 +37,11 @@ pub enum Severity {
 pub enum Fixability {
     /// No fix: the user corrects the file.
     None,
-    /// A safe fix: every tool then reads what odkit reads now.
+    /// A safe fix: afterwards every tool reads what odkit reads now.
     Safe,
-    /// An unsafe fix: likely right, to be reviewed.
+    /// An unsafe fix: probably right, but a user should review it.
     Unsafe,
-    /// Safe if nothing is lost by it, otherwise unsafe.
+    /// A safe fix if it loses nothing, otherwise an unsafe one.
     Either,
 }
 
@@ -57,46 +57,46 @@ impl Fixability {
     }
 }
 
-/// The sentences of a finding, with blanks such as `{low}`, which facts fill.
+/// The sentences of a finding, with blanks such as `{low}` that its facts fill.
 ///
-/// The catalogue lists what a blank can be.
+/// The catalogue describes the blanks.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Form {
-    /// The fault, one clause without a full stop.
+    /// The fault: one clause without a full stop.
     pub says: &'static str,
-    /// The text to write instead, or the values allowed.
+    /// The text to write instead, or the allowed values.
     pub help: &'static str,
 }
 
 impl Form {
-    /// The sentences of the rule itself: `Form { says: "…", ..Form::OWN }` has the rule's help.
+    /// The sentences of the rule itself: `Form { says: "…", ..Form::OWN }` keeps the rule's help.
     pub(crate) const OWN: Self = Self { says: "", help: "" };
 }
 
-/// The way to the findings of a rule.
+/// How a rule finds its findings.
 #[derive(Clone, Copy)]
 pub(crate) enum Check {
-    /// By looking at each value.
+    /// A check of each value.
     Entry(fn(&Entry<'_>, &mut Vec<Finding>)),
-    /// By looking at each object.
+    /// A check of each object.
     Object(fn(&Object<'_>, &mut Vec<Finding>)),
-    /// By looking at the whole description.
+    /// A check of the whole description.
     Device(fn(&Description, &mut Vec<Finding>)),
-    /// By the code that calls the constructor in the rule's file: while odkit reads the text, applies edits, or
-    /// writes a target that cannot express all.
+    /// Other code calls the constructor in the rule's file: while odkit reads the text, applies
+    /// edits, or writes a target that cannot express all content.
     Elsewhere,
 }
 
-/// One rule: what a code means, what its findings say, and how they are found.
+/// One rule: the meaning of its code, the sentences of its findings, and how they are found.
 #[derive(Clone, Copy)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Rule {
-    /// Stable code. The letter is that of the severity that the rule began with; a code never changes its meaning,
-    /// nor its letter.
+    /// Stable code. Its letter is that of the first severity of the rule. A code never changes its
+    /// meaning or its letter.
     pub code: &'static str,
-    /// Severity of its findings, except of one that has another consequence.
+    /// Severity of its findings, unless a finding has its own.
     pub severity: Severity,
-    /// The class of fault, in a few words.
+    /// The class of the fault, in a few words.
     pub title: &'static str,
     /// The consequence for a master or a tool, then what odkit does.
     pub why: &'static str,
@@ -104,21 +104,22 @@ pub struct Rule {
     pub source: &'static str,
     /// The fix that `odkit check` can apply.
     pub fixability: Fixability,
-    /// A statement of a macro call, or a file in words, that breaks the rule; empty for a rule
-    /// with a pair of files.
+    /// A statement of a macro call, or a description of a file, that breaks the rule; empty for a
+    /// rule with a pair of files.
     pub example: &'static str,
-    /// The fault, unless a finding takes one of `also`: one clause without a full stop.
+    /// The fault: one clause without a full stop. A finding may use one of `also` instead.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub says: &'static str,
-    /// The text to write instead, or the values allowed.
+    /// The text to write instead, or the allowed values.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub help: &'static str,
     /// Other sentences of its findings.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub also: &'static [Form],
-    /// Can a device be built of the file all the same? Then only its master fails.
+    /// Whether a device can be built from the file although this is an error; then only its master
+    /// fails.
     pub buildable: bool,
-    /// The way to the findings.
+    /// How the findings are found.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub(crate) check: Check,
 }
@@ -153,12 +154,12 @@ impl Rule {
         check: Check::Elsewhere,
     };
 
-    /// Returns whether a finding is about one value alone, whatever the other objects are.
+    /// Returns whether a finding depends on one value only, not on other objects.
     pub const fn is_of_one_value(&self) -> bool {
         matches!(self.check, Check::Entry(_))
     }
 
-    /// All that its findings can say.
+    /// All sentences that its findings can have.
     pub fn forms(&self) -> impl Iterator<Item = Form> {
         let own = Form {
             says: self.says,
@@ -198,12 +199,12 @@ impl Rule {
         }
     }
 
-    /// A finding at a piece of the text, which is its fact `given`.
+    /// A finding at a piece of the text; the piece is its fact `given`.
     pub(crate) fn given(&'static self, given: &Spanned<impl AsRef<str>>) -> Finding {
         self.at(given.span).fact("given", given.as_ref())
     }
 
-    /// A finding about a value or an object; there if `span` is in no text.
+    /// A finding about a value or an object, at `span`, or at the subject if `span` is in no text.
     pub(crate) fn on(&'static self, subject: &impl Subject, span: Span) -> Finding {
         self.at(span.or(subject.span())).about(subject.address())
     }
@@ -214,9 +215,9 @@ impl Rule {
 pub enum Place {
     /// In the text.
     Text(Span),
-    /// At the caller's token of this number.
+    /// At the token of the caller with this number.
     Token(u32),
-    /// Something is missing altogether.
+    /// Something is missing, so there is no place.
     Nowhere,
 }
 
@@ -235,26 +236,26 @@ impl From<Span> for Place {
 pub struct Related {
     /// Place that the label marks.
     pub span: Span,
-    /// The label, with blanks as a [`Form`] has them.
+    /// The label, with blanks as in a [`Form`].
     pub says: &'static str,
 }
 
-/// One report at one place, as data: [`say`](crate::say) makes the sentence.
+/// One report at one place, as data; [`say`](crate::say) makes the sentence.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Finding {
     /// The rule that reports it.
     pub rule: &'static Rule,
-    /// Severity: that of the rule, unless this finding has another consequence or a project has another opinion.
+    /// Severity: that of the rule, unless this finding or the settings of a project have another.
     pub severity: Severity,
     /// Its sentences, with blanks.
     pub form: Form,
     /// Place of the finding.
     pub place: Place,
-    /// The object it is about, if it is about one.
+    /// The object of the finding, if it has one.
     pub object: Option<Address>,
-    /// The key that is wrong, if it is one of an object.
+    /// The wrong key, if it is a key of an object.
     pub key: Option<Key>,
-    /// Content of the blanks, by name.
+    /// Values of the blanks, by name.
     pub facts: Vec<(&'static str, Fact)>,
     /// Second places.
     pub related: Vec<Related>,
@@ -273,12 +274,12 @@ impl Finding {
         self.severity
     }
 
-    /// Is it an error?
+    /// Returns whether it is an error.
     pub fn is_error(&self) -> bool {
         self.severity == Severity::Error
     }
 
-    /// Is it an error with which no sound device can be built?
+    /// Returns whether it is an error with which no working device can be built.
     pub fn is_unsound(&self) -> bool {
         self.is_error() && !self.rule.buildable
     }
@@ -299,21 +300,21 @@ impl Finding {
         self
     }
 
-    /// Adds the object at an index, which is its fact `object`.
+    /// Adds the object at an index, also as its fact `object`.
     #[must_use]
     pub(crate) fn index(self, index: u16) -> Self {
         self.about(Address::new(index, 0))
             .fact("object", Fact::Index(index))
     }
 
-    /// With the severity of its own consequence, where that is not the one of the rule.
+    /// Replaces the severity of the rule by the one of this finding.
     #[must_use]
     pub(crate) fn severity_of(mut self, severity: Severity) -> Self {
         self.severity = severity;
         self
     }
 
-    /// Says another of the rule's sentences.
+    /// Uses another sentence of the rule.
     #[must_use]
     pub(crate) fn form(mut self, form: &Form) -> Self {
         for (own, other) in [
@@ -336,7 +337,7 @@ impl Finding {
         self
     }
 
-    /// Adds the key that is wrong.
+    /// Adds the wrong key.
     #[must_use]
     pub(crate) fn key(mut self, key: Key) -> Self {
         self.key = Some(key);
@@ -350,7 +351,7 @@ impl Finding {
         self
     }
 
-    /// Adds a fix; none if one of its edits has no place in a text.
+    /// Adds a fix, unless one of its edits has no place in a text.
     #[must_use]
     pub(crate) fn fix(mut self, fix: Fix) -> Self {
         self.fix = fix.placed();

@@ -1,4 +1,4 @@
-//! Files that are not of CANopen, but come under the names of its device files.
+//! Files of other kinds, whose names look like those of CANopen device files.
 
 /// Names of other files, and how they start.
 const STARTS: [(&str, &str); 7] = [
@@ -14,7 +14,7 @@ const STARTS: [(&str, &str); 7] = [
     ),
 ];
 
-/// Names of other files, and texts that all must be in them.
+/// Names of other files, and texts that they must all contain.
 const KINDS: [(&[&str], &str); 13] = [
     (
         &["[File]", "[Device]", "VendCode"],
@@ -49,7 +49,7 @@ pub fn foreign(text: &str) -> Option<&'static str> {
         end -= 1;
     }
     let head = &text[..end];
-    // A file of CANopen may quote another one in a comment or a name.
+    // A CANopen file may contain such a word in a comment or a name.
     if head.contains("[DeviceInfo]") || head.contains("www.canopen.org/xml") {
         return None;
     }

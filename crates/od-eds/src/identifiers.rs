@@ -32,7 +32,7 @@ pub enum Service {
 pub struct Used {
     /// The service.
     pub service: Service,
-    /// The value that has the COB-ID; of a heartbeat 1017h.
+    /// The value that has the COB-ID; for a heartbeat 1017h.
     pub address: Address,
     /// CAN-ID, 11 or 29 bits.
     pub id: u32,

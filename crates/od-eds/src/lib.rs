@@ -1,6 +1,7 @@
-//! CANopen device descriptions as text (CiA 306-1, CiA 311): read, check, fix, patch, compare, write.
+//! CANopen device descriptions as text (CiA 306-1, CiA 311): read, check, fix, patch, compare,
+//! write.
 //!
-//! It needs `alloc`, not `std`: it takes and returns text and uses no files.
+//! The crate needs `alloc`, not `std`: it takes and returns text and uses no files.
 //!
 //! [`parse`] never fails: it returns the parts that it could read, and a finding for
 //! everything else, each with its place in the text. It keeps invalid values as text

@@ -10,12 +10,12 @@ use crate::fact::{Fact, Key};
 use crate::fix::Applicability;
 use crate::patch::Target;
 
-/// The fields of a row, by their words.
+/// The words for the fields of a row.
 pub const FIELDS: [&str; 10] = [
     "name", "type", "access", "default", "low", "high", "mappable", "save", "code", "capacity",
 ];
 
-/// The types, each by its word; the macro takes the other names of CiA 301, too.
+/// The words for the types; the macro also accepts the other names of CiA 301.
 pub const TYPES: [(&str, DataType); 25] = [
     ("bool", DataType::Boolean),
     ("u8", DataType::Unsigned8),
@@ -44,7 +44,7 @@ pub const TYPES: [(&str, DataType); 25] = [
     ("DOMAIN", DataType::Domain),
 ];
 
-/// The groups of parameters that 1010h saves, each by its word.
+/// The words for the groups of parameters that 1010h saves.
 pub const GROUPS: [(&str, Group); 4] = [
     ("communication", Group::Communication),
     ("application", Group::Application),
@@ -52,7 +52,7 @@ pub const GROUPS: [(&str, Group); 4] = [
     ("none", Group::None),
 ];
 
-/// The object codes, each by its word.
+/// The words for the object codes.
 pub const CODES: [(&str, ObjectCode); 4] = [
     ("var", ObjectCode::Var),
     ("array", ObjectCode::Array),
@@ -131,7 +131,7 @@ mod tests {
 
     /// The macro and an editor use the same words, which differ from those of an EDS.
     #[test]
-    fn a_call_has_words_of_its_own() {
+    fn a_call_has_its_own_words() {
         assert_eq!(Row.set(Key::PdoMapping, "0"), "mappable = false");
         assert_eq!(Row.set(Key::LowLimit, "5"), "low = 5");
         assert_eq!(Row.form_of(DataType::Boolean), "`true` or `false`");

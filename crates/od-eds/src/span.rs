@@ -1,14 +1,14 @@
-//! Places: where in a text, or at which token of a macro call, something was read.
+//! Places in a text, or tokens of a macro call.
 
 use core::ops::Deref;
 
-/// A stretch of the text that was parsed.
+/// A range of the parsed text.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Span {
     /// First byte, counted from 0.
     pub start: u32,
-    /// The byte behind the last one.
+    /// The byte after the last one.
     pub end: u32,
     /// Line of the first byte, counted from 1; 0 if it has no text.
     pub line: u32,
@@ -17,7 +17,7 @@ pub struct Span {
 }
 
 impl Span {
-    /// This place, or the other one if this one is in no text.
+    /// Returns this place, or the other one if this one is in no text.
     #[must_use]
     pub const fn or(self, other: Self) -> Self {
         match self.line {
@@ -27,10 +27,10 @@ impl Span {
     }
 }
 
-/// A span of the caller's token number `id`, not of a stretch of text.
+/// A span for the caller's token number `id`, which is not a range of text.
 ///
-/// The macro numbers its tokens, puts these spans into its edits and finds the
-/// token of a finding again with [`token_of`].
+/// The macro numbers its tokens, puts these spans into its edits, and finds the token of a finding
+/// with [`token_of`].
 pub const fn token(id: u32) -> Span {
     Span {
         start: id,
@@ -40,7 +40,7 @@ pub const fn token(id: u32) -> Span {
     }
 }
 
-/// The number that [`token`] put into this span; `None` for a place in a text.
+/// The number of a span made by [`token`]; `None` for a place in a text.
 pub const fn token_of(span: Span) -> Option<u32> {
     if span.line == u32::MAX {
         Some(span.start)
@@ -49,12 +49,12 @@ pub const fn token_of(span: Span) -> Option<u32> {
     }
 }
 
-/// A value with the place it was read from. Two are equal if their values are.
+/// A value and the place from which it was read. Two are equal if their values are.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Spanned<T> {
     /// The value.
     pub value: T,
-    /// Its place; line 0 if it came from no text.
+    /// Its place; line 0 if it has no text.
     pub span: Span,
 }
 

@@ -41,7 +41,7 @@ impl Subject for Entry<'_> {
 }
 
 impl Entry<'_> {
-    /// Does it have a text under this key that the reader could not make a value of?
+    /// Returns whether the file has a text under this key that odkit could not read as a value.
     pub(crate) fn is_unread(&self, key: Key) -> bool {
         self.extra.iter().any(|(name, _)| key.is(name))
     }
@@ -108,7 +108,7 @@ pub(crate) fn objects(description: &Description) -> impl Iterator<Item = Object<
     })
 }
 
-/// Is it the description of a type, without a value?
+/// Returns whether it describes a type, and has no value.
 pub(crate) fn is_definition(object: &ObjectDescription) -> bool {
     matches!(
         *object.code,
@@ -125,12 +125,12 @@ pub(crate) fn shown(object: &ObjectDescription, address: Address) -> Fact {
     }
 }
 
-/// The value that an entry starts with: a DCF's ParameterValue, else the default.
+/// The start value of an entry: the ParameterValue of a DCF, otherwise the default.
 pub(crate) fn start_value(entry: &EntryDescription) -> Option<&Spanned<Value>> {
     entry.parameter.as_ref().or(entry.default.as_ref())
 }
 
-/// The unsigned number that an entry starts with.
+/// The start value of an entry as an unsigned number.
 pub(crate) fn start_number(description: &Description, address: Address) -> Option<Spanned<u64>> {
     let value = start_value(description.entry(address)?)?;
     match value.value.integer(0) {

@@ -1,4 +1,4 @@
-//! A bus with names for its devices, and the device that lines are about.
+//! A bus with names for its devices, and the current device of lines.
 
 use std::format;
 use std::prelude::v1::*;
@@ -8,18 +8,18 @@ use od_runtime::Instant;
 use crate::bus::Bus;
 use crate::device::VirtualDevice;
 
-/// A bus, with the names that scripts gave its devices.
+/// A bus, with the names that scripts gave to its devices.
 #[derive(Clone, Default)]
 pub struct Bench {
     /// The bus.
     pub bus: Bus,
     pub(crate) labels: Vec<Option<String>>,
-    /// The device that lines are about, counted from 0.
+    /// The current device of lines, counted from 0.
     pub(crate) current: usize,
 }
 
 impl Bench {
-    /// A bus whose devices have no names but their numbers, counted from 1.
+    /// A bench for a bus whose devices have only numbers, counted from 1.
     pub fn new(bus: Bus) -> Self {
         let labels = bus.devices().iter().map(|_| None).collect();
         Self {
@@ -29,8 +29,9 @@ impl Bench {
         }
     }
 
-    /// Number, counted from 0, of the device with this label; of a redundant one, `name.1` is
-    /// the first channel. Else the device with this number, counted from 1.
+    /// Returns the number, counted from 0, of the device with this label; `name.1` is the first
+    /// channel of a redundant device. If no label matches, it is the device with this number,
+    /// counted from 1.
     pub fn device(&self, name: &str) -> Option<usize> {
         let find = |name: &str| {
             let mut labels = self.labels.iter();
@@ -50,7 +51,7 @@ impl Bench {
     /// As [`device`](Self::device).
     ///
     /// # Errors
-    /// A sentence that names the devices on the bus, if none has this name.
+    /// If no device has this name: a message that lists the devices on the bus.
     pub(crate) fn named(&self, name: &str) -> Result<usize, String> {
         self.device(name).ok_or_else(|| {
             let count = self.bus.devices().len();
@@ -61,7 +62,7 @@ impl Bench {
         })
     }
 
-    /// The device that lines are about.
+    /// The current device.
     ///
     /// # Errors
     /// It was removed from the bus.
@@ -70,7 +71,7 @@ impl Bench {
         device.ok_or_else(|| self.missing())
     }
 
-    /// Does something with the device that lines are about.
+    /// Calls `act` with the current device.
     ///
     /// # Errors
     /// It was removed from the bus.

@@ -14,38 +14,38 @@ use crate::bus::wiring::{Wire, Wiring};
 use crate::device::VirtualDevice;
 use crate::wire::{Line, Station};
 
-/// A frame that a device on the bus sent, or on a real line the outside.
+/// A frame that a device on the bus sent; on a real line also one from outside.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Sent {
     /// Time of the frame.
     pub at: Instant,
-    /// Number of the device, counted from 0 in the order of [`Bus::add`]; `None` for one from outside,
-    /// when it came through a real line.
+    /// Number of the device, counted from 0 in the order of [`Bus::add`]; `None` for a frame from
+    /// outside that was sent over a real line.
     pub device: Option<usize>,
     /// The frame.
     pub frame: Frame,
 }
 
-/// On an ideal line a frame reaches everybody at the moment it is sent, or everybody
-/// with the same bit rate where [`set_bit_rate`](Bus::set_bit_rate) says that it matters. A
-/// real [`line`](Bus::line) lets frames fail as CAN does, and each takes its bits.
+/// On an ideal line all stations receive a frame at the moment when it is sent, or all stations
+/// with the same bit rate after [`set_bit_rate`](Bus::set_bit_rate). On a real [`line`](Bus::line)
+/// a frame takes the time of its bits, and can fail as on CAN.
 ///
-/// Events of one moment have a fixed order: devices in the order they
-/// were added, frames in the order they were sent. The same inputs give the same
-/// frames on every run. A copy continues as this bus would.
+/// Events of one moment have a fixed order: devices in the order in which they were added, frames
+/// in the order in which they were sent. The same inputs give the same frames on every run, and a
+/// copy continues as the original would.
 #[derive(Clone, Default)]
 pub struct Bus {
     devices: Vec<VirtualDevice>,
     wiring: Wiring,
     wires: Vec<Wire>,
-    /// The wire; ideal unless it is set to real.
+    /// The bus line; ideal unless it is set to real.
     pub line: Line,
     now: Instant,
     sent: VecDeque<Sent>,
 }
 
-/// How often in a row a device may have a deadline that is already due; after that the
-/// bus moves on by a microsecond, so that no device can stop time.
+/// How often in a row a device may have a deadline that is already due. After that the bus advances
+/// by a microsecond, so that no device can stop time.
 const STUCK: u32 = 1000;
 
 impl Bus {
@@ -54,13 +54,13 @@ impl Bus {
         Self::default()
     }
 
-    /// Puts a device on the bus; answers with its number. It may be powered or not.
+    /// Puts a device with or without power on the bus, and returns its number.
     pub fn add(&mut self, device: VirtualDevice) -> usize {
         self.put(device, None)
     }
 
-    /// As [`add`](Self::add), on the shaft of a device that is there already: when one of
-    /// them turns, all do, with or without power.
+    /// As [`add`](Self::add), but on the shaft of an existing device: when one of them turns, all
+    /// do, with or without power.
     pub fn add_beside(&mut self, device: VirtualDevice, other: usize) -> usize {
         self.put(device, Some(other))
     }
@@ -76,7 +76,7 @@ impl Bus {
         added
     }
 
-    /// Takes a device off the bus; those behind it move up by one.
+    /// Removes a device from the bus; the numbers of later devices decrease by one.
     pub fn remove(&mut self, device: usize) -> Option<VirtualDevice> {
         if device >= self.devices.len() {
             return None;
@@ -87,8 +87,7 @@ impl Bus {
         Some(self.devices.remove(device))
     }
 
-    /// Puts another device in the place of one, on a shaft of its own; answers whether there
-    /// is such a place.
+    /// Replaces a device by another one with a shaft of its own. Returns whether the place exists.
     pub fn replace(&mut self, place: usize, device: VirtualDevice) -> bool {
         let Some(old) = self.devices.get_mut(place) else {
             return false;
@@ -101,8 +100,8 @@ impl Bus {
         true
     }
 
-    /// Starts the CAN controller of a station again: 0 is the outside, devices count from 1.
-    /// A device decides itself what it makes of that after bus-off.
+    /// Restarts the CAN controller of a station: 0 is the outside, devices count from 1. After
+    /// bus-off the device decides whether it returns to the bus.
     pub fn restart_controller(&mut self, station: usize) {
         self.line.restart(station);
         if let Some(device) = station.checked_sub(1) {
@@ -112,9 +111,8 @@ impl Bus {
         }
     }
 
-    /// Power comes for the first time. Time on a bench begins when its devices boot up, so at the
-    /// origin of time this is the moment of the boot-up; later, the initialisation takes the time
-    /// that it takes after every power-on.
+    /// Switches the power on for the first time. At time 0 the device boots up at once; later its
+    /// initialisation takes the same time as after any power-on.
     pub fn start(&mut self, device: usize) {
         self.set_power(device, true);
         if self.now == Instant::ZERO {
@@ -124,8 +122,7 @@ impl Bus {
         }
     }
 
-    /// Power comes or goes. The channels of one device have one connector, so all of them get
-    /// it or lose it.
+    /// Switches the power of a device, with all its channels, since they share one connector.
     pub fn set_power(&mut self, device: usize, on: bool) {
         let act = if on {
             VirtualDevice::power_on
@@ -152,7 +149,7 @@ impl Bus {
         all
     }
 
-    /// The devices on the shaft of this one follow it.
+    /// Turns the devices on the same shaft, too.
     fn turn_along(&mut self, device: usize) {
         let Some(shaft) = self.devices.get(device).and_then(VirtualDevice::shaft_now) else {
             return;
@@ -163,19 +160,19 @@ impl Bus {
         }
     }
 
-    /// The bit rate of what is outside in kbit/s. From now on a device with another one
-    /// neither hears nor is heard, not by the other devices either; `None`, as it is at
-    /// first: everybody hears everybody.
+    /// Sets the bit rate of the outside in kbit/s. From now on a device with another bit rate and
+    /// all others do not receive each other's frames. `None`, the initial state: all stations
+    /// receive all frames.
     pub fn set_bit_rate(&mut self, kbit: Option<u16>) {
         self.wiring.rate = kbit;
     }
 
-    /// The bit rate of what is outside in kbit/s, where it matters.
+    /// The bit rate of the outside in kbit/s; `None`: bit rates do not matter.
     pub fn bit_rate(&self) -> Option<u16> {
         self.wiring.rate
     }
 
-    /// Does what is outside hear this device, and the device what is outside?
+    /// Returns whether this device and the outside receive each other's frames.
     fn hears_outside(&self, device: usize) -> bool {
         if self.wiring.rate.is_none() {
             return true;
@@ -184,7 +181,7 @@ impl Bus {
         self.wiring.hears(self.wiring.rate, rate)
     }
 
-    /// The devices, in the order they were added.
+    /// The devices, in the order in which they were added.
     pub fn devices(&self) -> &[VirtualDevice] {
         &self.devices
     }
@@ -194,8 +191,8 @@ impl Bus {
         self.now
     }
 
-    /// Does something with a device at the present moment (power, shaft, faults …) and takes
-    /// the frames that it sends because of that. `None` if the device does not exist.
+    /// Calls `act` with a device at the present time (power, shaft, faults …), and collects the
+    /// frames that it sends because of that. `None` if the device does not exist.
     pub fn with<R>(
         &mut self,
         device: usize,
@@ -208,7 +205,7 @@ impl Bus {
         result
     }
 
-    /// As [`with`](Self::with), once for all types of results.
+    /// As [`with`](Self::with), compiled once for all result types.
     fn with_it(&mut self, device: usize, act: &mut dyn FnMut(&mut VirtualDevice, Instant)) {
         let now = self.now;
         let Some(one) = self.devices.get_mut(device) else {
@@ -232,9 +229,9 @@ impl Bus {
         self.tell_controllers();
     }
 
-    /// A frame from outside: every device receives it, and each other's answers. Answers
-    /// whether the line let it through. On a real line it only waits for its turn now, and is
-    /// [polled](Self::poll) when it came through.
+    /// Sends a frame from outside. On an ideal line every device receives it, and the responses of
+    /// the others; the result says whether the line let it through. On a real line the frame waits
+    /// for the line, and is [polled](Self::poll) after its transmission.
     pub fn receive(&mut self, frame: &Frame) -> bool {
         if self.line.is_real() {
             self.queue(frame);
@@ -253,7 +250,7 @@ impl Bus {
         true
     }
 
-    /// The outside and the devices, as a real line sees them.
+    /// The outside and the devices, as stations of a real line.
     fn stations(&self) -> Vec<Station> {
         let outside = Station {
             present: true,
@@ -270,7 +267,7 @@ impl Bus {
         all
     }
 
-    /// Controllers whose condition changed tell their devices.
+    /// Tells devices whose controllers changed their state.
     fn tell_controllers(&mut self) {
         while let Some((station, event)) = self.line.poll_event() {
             let Some(device) = station.checked_sub(1).filter(|at| *at < self.devices.len()) else {
@@ -281,7 +278,7 @@ impl Bus {
         }
     }
 
-    /// Time passes until `to`; deadlines on the way are met at their own moment.
+    /// Lets time pass until `to`; deadlines before are met at their own time.
     pub fn advance(&mut self, to: Instant) {
         while self.step(to) {}
     }
@@ -291,7 +288,7 @@ impl Bus {
         self.sent.pop_front()
     }
 
-    /// Meets the next deadline not after `to`, if there is one; else it is `to` now.
+    /// Meets the next deadline up to `to`; without one the time becomes `to`.
     fn step(&mut self, to: Instant) -> bool {
         let goes_on = self.step_without_wires(to);
         self.conduct();
@@ -326,8 +323,8 @@ impl Bus {
         self.meet(device, 0, to)
     }
 
-    /// Meets the deadlines of a device at this moment, of which `met` were met already. Returns whether it
-    /// is not after `to` now.
+    /// Meets the deadlines of a device at this time; `met` were met already. Returns whether the
+    /// time is not after `to`.
     fn meet(&mut self, device: usize, met: u32, to: Instant) -> bool {
         for _ in met..STUCK {
             self.devices[device].handle_timeout(self.now);
@@ -342,8 +339,8 @@ impl Bus {
         self.now <= to
     }
 
-    /// The bus has been recessive for long enough: a device that restarts its controller after
-    /// bus-off is back; one that does not stays off.
+    /// The bus was recessive for long enough after bus-off: a device that restarts its controller
+    /// returns, any other stays off the bus.
     fn recover(&mut self, device: usize) {
         let begins = self.devices.get_mut(device).is_some_and(|one| {
             one.handle_bus(BusEvent::Active, self.now);
@@ -356,14 +353,15 @@ impl Bus {
         }
     }
 
-    /// Takes what a device sends and hands it to the others, whose answers in turn …
+    /// Collects the frames of a device and passes them to the others, whose responses follow in the
+    /// same way.
     fn settle(&mut self, device: usize) {
         if self.line.is_real() {
             return self.load(device, self.now);
         }
         let mut carry = VecDeque::new();
         self.collect(device, &mut carry);
-        // Two devices that answer each other for ever would be a broken pair; stop there.
+        // Two devices that respond to each other without end are broken; stop there.
         for _ in 0..STUCK {
             let Some((from, frame)) = carry.pop_front() else {
                 return;
@@ -385,7 +383,7 @@ impl Bus {
             if !self.line.is_plugged(device + 1) {
                 continue;
             }
-            // A device may change its bit rate with what it sent last, so it is asked each time.
+            // A device may change its bit rate after its last frame, so it is asked each time.
             if self.hears_outside(device) && self.line.is_plugged(0) {
                 self.sent.push_back(Sent {
                     at: self.now,

@@ -1,4 +1,4 @@
-//! The words of a line, with their columns: below the grammar and the logs.
+//! The words of a line, with their columns. The grammar and the logs use it.
 
 /// The rest of a line, read word by word.
 #[derive(Clone, Copy)]

@@ -1,10 +1,9 @@
-//! The virtual bench: devices in virtual time, their bus, candump text, frames in plain
-//! words, scenario scripts, and what adapters and daemons speak.
+//! The virtual bench: devices in virtual time, their bus, candump text, frames in plain words,
+//! scenario scripts, and the protocols of adapters and daemons.
 //!
-//! Like the runtime it has no clock, thread, socket or file of its own; what it needs from
-//! outside comes in as an argument. So the same bench runs behind `odkit`, in a test and in
-//! a browser's worker. Clock, threads and sockets are in `serve` only (feature `serve`), which
-//! runs a bench in real time.
+//! Like the runtime it has no clock, thread, socket or file of its own; they are arguments. So the
+//! same bench runs behind `odkit`, in a test and in a browser's worker. Clock, threads and sockets
+//! are only in `serve` (feature `serve`), which runs a bench in real time.
 
 #![forbid(unsafe_code)]
 #![cfg_attr(docsrs, feature(doc_cfg))]

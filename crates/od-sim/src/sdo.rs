@@ -59,7 +59,7 @@ impl Observer {
         let is_block = self
             .block
             .is_some_and(|block| (block == Block::Upload) == is_response);
-        // No segment has number 0: such a frame has a command, as 80h, which aborts.
+        // No segment has number 0, so such a frame is a command; 80h is an abort.
         if is_block && number != 0 {
             let is_last = command & 0x80 != 0;
             if is_last || number == self.block_size {
@@ -72,7 +72,7 @@ impl Observer {
                 data,
             });
         }
-        // Without index and sub-index no object is named.
+        // A frame without index and sub-index names no object.
         if frame.dlc() < 4 {
             return None;
         }
@@ -141,7 +141,8 @@ impl Observer {
         };
     }
 
-    /// A block was confirmed. More segments follow, unless the last one of the transfer was taken.
+    /// Ends a confirmed block. More segments follow, unless the last one of the transfer was
+    /// accepted.
     fn taken(&mut self, block: Block, ack: u8, block_size: u8) {
         self.block = (self.last != Some(ack)).then_some(block);
         self.block_size = block_size;

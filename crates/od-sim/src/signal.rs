@@ -1,4 +1,4 @@
-//! A value in the frames of a bus, as a number: mapped into a PDO, or read by SDO.
+//! A value in the frames of a bus, as a number: in a PDO, or in an SDO response.
 
 use od_client::pdo;
 use od_model::{Address, DataType, Kind};
@@ -17,7 +17,7 @@ pub enum Place {
         /// Its length in bits, 1 to 64.
         bits: u8,
     },
-    /// The answer to an SDO upload of up to four bytes.
+    /// The response to an SDO upload of up to four bytes.
     Read {
         /// The SDO server.
         node: NodeId,
@@ -26,17 +26,17 @@ pub enum Place {
     },
 }
 
-/// A value that some frames have.
+/// A value that some frames contain.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Signal {
     /// Its place.
     pub place: Place,
-    /// Its type; one that is not a number counts as UNSIGNED.
+    /// Its type; a type that is not a number counts as UNSIGNED.
     pub data_type: DataType,
 }
 
 impl Signal {
-    /// The value in a frame; `None`: the frame does not have it.
+    /// The value in a frame; `None`: the frame does not contain it.
     pub fn value(&self, frame: &Frame) -> Option<f64> {
         let (value, bits) = match self.place {
             Place::Mapped { id, first, bits } => {
@@ -110,7 +110,7 @@ mod tests {
     }
 
     #[test]
-    fn other_frames_and_frames_that_are_too_short_do_not_have_it() {
+    fn other_frames_and_short_frames_have_no_value() {
         for frame in ["182#01020304", "181#010203", "181#R4", "00000181#01020304"] {
             check(mapped(0, 32), DataType::Unsigned32, frame, None);
         }
@@ -124,7 +124,7 @@ mod tests {
     }
 
     #[test]
-    fn a_value_that_was_read_is_one_of_its_node_and_object() {
+    fn a_value_of_an_upload_has_a_node_and_an_object() {
         let node = NodeId::ONE;
         let address = Address::new(0x6004, 0);
         let place = Place::Read { node, address };
@@ -132,7 +132,7 @@ mod tests {
         of("581#4304600005000000", Some(5.0));
         of("581#43046000FFFFFFFF", Some(-1.0));
         of("581#4B046000FEFF0000", Some(-2.0));
-        // Without a size it is that of the type.
+        // Without a size the length is that of the type.
         of("581#42046000FEFFFFFF", Some(-2.0));
         for other in [
             "582#4304600005000000",

@@ -38,7 +38,7 @@ fn frame(text: &str) -> Frame {
     candump::parse_frame(text).expect(text)
 }
 
-/// Everything on the bus since the last call.
+/// All frames on the bus since the last call.
 fn heard(bus: &mut Bus) -> Vec<String> {
     std::iter::from_fn(|| bus.poll())
         .map(|sent| {
@@ -102,10 +102,10 @@ fn a_compiled_device_runs_on_its_own_node() {
 }
 
 #[test]
-fn one_device_hears_the_other() {
+fn devices_receive_each_other() {
     let mut bus = bench(vec![gxmm(1), gxmm(5)]);
     heard(&mut bus);
-    // The first watches the second, whose heartbeat then stops with its power.
+    // The first monitors the second, whose heartbeat then stops with its power.
     bus.receive(&frame("601#23161001C8000500"));
     bus.receive(&frame("605#2B17100064000000"));
     bus.advance(Instant::from_millis(450));
@@ -133,7 +133,7 @@ fn values_are_read_without_traffic() {
 }
 
 #[test]
-fn lamps_show_the_state() {
+fn leds_show_the_state() {
     let mut device = gxmm(1);
     assert_eq!(device.leds(), (Led::Off, Led::Off));
     device.power_on(Instant::ZERO);
@@ -149,7 +149,7 @@ fn lamps_show_the_state() {
 }
 
 #[test]
-fn an_eds_is_a_device_and_a_text_is_not() {
+fn an_eds_is_a_device_and_other_text_is_not() {
     let device = VirtualDevice::from_eds(STRINGS, EdsOptions::default());
     let device = device.expect("a device");
     assert_eq!(
@@ -186,7 +186,7 @@ fn no_frame_panics_anything() {
         let id = ids[(bits % 11) as usize];
         let mut data = random().to_le_bytes();
         if bits & 0x700 != 0 {
-            // Mostly something that means something: a real command and a real object.
+            // Usually a frame with a meaning: a real command and a real object.
             data[0] = [0x40, 0x2F, 0x23, 0x60, 0xA4, 0xC6, 0x01, 0x05][(bits >> 11) as usize % 8];
             data[1..4].copy_from_slice(
                 [[0, 0x10, 0], [1, 0x20, 0], [0, 0x1A, 1], [2, 0x20, 0]][(bits >> 14) as usize % 4]

@@ -1,8 +1,8 @@
 //! A device description: owned, editable, with the position of each part in the text.
 //!
-//! [`Description`] is made by the EDS reader, by the spec table of the macro and by the
-//! patches of a variant. The checks read it, and the writer writes it. The
-//! dictionary that runs is made from it by [`Tables`](crate::Tables).
+//! The EDS reader, the spec table of the macro and the patches of a variant make a [`Description`].
+//! The checks read it, and the writer writes it. [`Tables`](crate::Tables) make the dictionary of a
+//! node from it.
 
 pub(crate) mod tables;
 
@@ -97,7 +97,7 @@ pub struct EntryDescription {
     pub flags: u32,
     /// Keys without a field in this version of odkit, in file order.
     pub extra: Vec<(String, String)>,
-    /// The section header, or the macro token in its place.
+    /// The section header; for a macro call the token in its place.
     pub span: Span,
 }
 
@@ -209,7 +209,7 @@ pub struct ObjectDescription {
     pub flags: u32,
     /// Keys without a field in this version of odkit, in file order.
     pub extra: Vec<(String, String)>,
-    /// The section header, or the macro token in its place.
+    /// The section header; for a macro call the token in its place.
     pub span: Span,
 }
 

@@ -1,4 +1,4 @@
-//! Makes the running tables of a description: order, arenas, storage layout.
+//! Makes the tables of a description that a node runs: order, arenas, storage layout.
 
 use alloc::collections::BTreeMap;
 use alloc::string::String;
@@ -41,11 +41,11 @@ pub struct Tables {
 type Interned = BTreeMap<String, Range>;
 
 impl Tables {
-    /// The tables of everything in `description` that can run.
+    /// The tables of all usable parts of `description`.
     ///
-    /// This never fails: an entry without a usable type, an object without entries and a value
-    /// that does not fit its type are left out; the checks have reported them. A
-    /// ParameterValue of a DCF is used as the default.
+    /// This never fails. An entry without a usable type, an object without entries, and a value
+    /// that does not fit its type are left out; the checks have reported them. A ParameterValue of
+    /// a DCF is used as the default.
     pub fn new(description: &Description) -> Self {
         let mut tables = Self::default();
         let (mut texts, mut names) = (Interned::new(), Interned::new());
@@ -74,7 +74,7 @@ impl Tables {
         tables
     }
 
-    /// The view that runs; making it costs nothing.
+    /// The dictionary as a view of the tables; making the view costs nothing.
     pub fn dictionary(&self) -> Dictionary<'_> {
         Dictionary::trusted(
             Buckets::Words(&self.buckets),

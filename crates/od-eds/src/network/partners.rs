@@ -63,8 +63,9 @@ pub(super) fn pdos(nodes: &[Node], first: u16) -> Vec<Pdo> {
     found
 }
 
-/// The PDOs of the nodes as the master of Lely core reads them: for each a VAR with number and node ID, and an ARRAY
-/// with the mapping in the node. `first` is the index of the first VAR.
+/// Adds the PDOs of the nodes as the master of Lely core reads them: for each one a VAR with its
+/// number and node ID, and an ARRAY with its mapping in the node. `first` is the index of the first
+/// VAR.
 pub(super) fn remote(made: &mut Description, nodes: &[Node], pdos: &[Pdo], first: u16, what: &str) {
     use DataType::Unsigned32;
     for (at, pdo) in (0_u16..512).zip(pdos) {
@@ -89,7 +90,7 @@ pub(super) fn remote(made: &mut Description, nodes: &[Node], pdos: &[Pdo], first
     }
 }
 
-/// PDOs and the objects that they map: one object for each PDO, with a member for each value of the node.
+/// Adds the PDOs, and for each PDO an object with a sub-object for each value of the node.
 pub(super) fn applications(
     made: &mut Description,
     nodes: &[Node],

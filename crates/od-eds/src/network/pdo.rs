@@ -150,6 +150,6 @@ pub struct PdoConfiguration {
     pub event_deadline: Option<u32>,
     pub sync_start: Option<u32>,
     pub mapping: Option<Vec<Address>>,
-    /// Returns whether the PDO is valid at the end.
+    /// Whether the PDO is valid after the configuration.
     pub enabled: bool,
 }

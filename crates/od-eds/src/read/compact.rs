@@ -131,8 +131,8 @@ fn give(mut reader: Reader<'_>, entry: &mut EntryDescription, compact: Compact, 
     }
 }
 
-/// Sub-index 0, which CompactSubObj implies. That of 1003h counts the present
-/// errors instead of the room for them, and a master writes 0 to it.
+/// Sub-index 0, which CompactSubObj implies. For 1003h it is the present number of errors, not the
+/// capacity, and a master writes 0 to it.
 fn highest(index: u16, count: &Spanned<u8>) -> EntryDescription {
     let (number, access) = match index {
         0x1003 => (0, Access::Rw),

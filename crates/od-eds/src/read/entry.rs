@@ -328,7 +328,7 @@ impl Reader<'_> {
                 Note::Word => &rules::W0421,
             };
             let finding = spelling::read_as(rule, key, given, &canonical());
-            // Case and order are read by most tools, another name by none.
+            // Most tools read another case or order; no tool reads another name.
             let is_name = || given.to_ascii_uppercase().contains("$NODEID");
             self.report(if *note == Note::NodeId && !is_name() {
                 finding.severity_of(Severity::Error)

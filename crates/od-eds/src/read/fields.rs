@@ -91,7 +91,9 @@ impl<'a> Fields<'a> {
             .any(|(k, v)| k.eq_ignore_ascii_case(key) && !v.is_empty())
     }
 
-    /// The keys that were not read, in file order; unknown ones are reported. The comment about the storage is one
+    /// The keys that were not read, in file order; unknown ones are reported. The comment about the
+    /// storage is one of them if its group does not express it completely: a word of another tool,
+    /// or a group for the sub-objects of an object.
     /// of them if its group does not say it all: with a word of another tool, or for the sub-objects of an object.
     pub(crate) fn rest(
         self,
@@ -118,7 +120,7 @@ impl<'a> Fields<'a> {
 /// The comment of CANopenEditor about the storage of a value, as a key that odkit keeps.
 pub(crate) const STORAGE: &str = ";StorageLocation";
 
-/// The word of a comment that is kept, and the group that it means.
+/// The word of a kept comment, and its group.
 pub(crate) fn kept(extra: &[(String, String)]) -> Option<(&str, Option<Group>)> {
     let (_, word) = extra.iter().find(|(key, _)| key == STORAGE)?;
     Some((word, group(word)))

@@ -56,7 +56,8 @@ fn entries(
     let (mut found, mut invalid) = (0, 0);
     let mut numbers: BTreeMap<i128, Span> = BTreeMap::new();
     let mut ordered = true;
-    // Each of these fixes renumbers all entries, so one of them is enough; an object that is listed twice goes first.
+    // Each of these fixes renumbers all entries, so one of them is enough; the fix of an object
+    // that is listed twice goes first.
     let mut fixes = if names_twice(placed, description, listed) {
         0..0
     } else {
@@ -124,7 +125,7 @@ fn entries(
     }
 }
 
-/// Does a list name an object that it or an earlier one has named?
+/// Returns whether a list names an object that it or an earlier list names, too.
 fn names_twice(
     placed: &Placed<'_>,
     description: &Description,

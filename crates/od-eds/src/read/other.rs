@@ -114,7 +114,7 @@ fn check_value(known: &Known, key: &str, value: &Text<'_>, form: Form, log: &mut
     }
 }
 
-/// Does a value have its form?
+/// Returns whether a value has this form.
 fn fits(value: &str, form: Form) -> bool {
     let text = number::before_comment(value);
     let read = number::integer(text, &mut Vec::new()).map(|number| number.value);

@@ -1,4 +1,4 @@
-//! From bytes to text and back, whatever wrote the file.
+//! Converts bytes to text and back, in the encoding of the file.
 
 use alloc::borrow::Cow;
 use alloc::string::String;
@@ -8,12 +8,12 @@ use core::fmt;
 /// Encoding of a file.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum Encoding {
-    /// ASCII only, which all encodings but UTF-16 share. What CiA 306 asks for.
+    /// ASCII only: the subset of all encodings except UTF-16, and the encoding of CiA 306.
     #[default]
     Ascii,
     /// UTF-8.
     Utf8,
-    /// Windows-1252, in which most 8-bit files are written; ISO 8859-1 but for 80h–9Fh.
+    /// Windows-1252, the encoding of most 8-bit files; it equals ISO 8859-1 except for 80h–9Fh.
     Windows1252,
     /// UTF-16, low byte first.
     Utf16Le,
@@ -33,10 +33,10 @@ impl Encoding {
         }
     }
 
-    /// The bytes of a character, at the end of `bytes`; `false` if the encoding has none.
+    /// Appends the bytes of a character to `bytes`; `false` if the encoding does not have it.
     pub(crate) fn push(self, c: char, bytes: &mut Vec<u8>) -> bool {
         match self {
-            // A file that was ASCII is one of UTF-8 from now on.
+            // With this character, an ASCII file becomes UTF-8.
             Self::Ascii | Self::Utf8 => {
                 bytes.extend_from_slice(c.encode_utf8(&mut [0; 4]).as_bytes());
             }
@@ -56,10 +56,10 @@ impl Encoding {
         true
     }
 
-    /// The first character of `bytes`, and how many of them it takes (0 at the end).
+    /// The first character of `bytes`, and the number of its bytes (0 at the end).
     ///
-    /// A byte that is not valid becomes U+FFFD; in UTF-8, where one byte of another
-    /// encoding is the likeliest reason, the character of that byte in Windows-1252.
+    /// An invalid byte becomes U+FFFD. In UTF-8 it becomes the Windows-1252 character of the byte,
+    /// since a byte of another encoding is the likeliest reason.
     pub(crate) fn next(self, bytes: &[u8]) -> (char, usize) {
         const WRONG: char = char::REPLACEMENT_CHARACTER;
         let Some(&first) = bytes.first() else {
@@ -92,7 +92,7 @@ impl Encoding {
                 match char::decode_utf16(units).next() {
                     Some(Ok(c)) => (c, 2 * c.len_utf16()),
                     Some(Err(_)) => (WRONG, 2),
-                    // A file cut in the middle of a unit.
+                    // A file that ends in the middle of a unit.
                     None => (WRONG, 1),
                 }
             }
@@ -106,10 +106,10 @@ impl fmt::Display for Encoding {
     }
 }
 
-/// The encoding of a file, and how many bytes its byte order mark takes.
+/// The encoding of a file, and the number of bytes of its byte order mark.
 ///
-/// The mark decides; without one, UTF-16 shows by its zero bytes, and of 8-bit
-/// files what is UTF-8 is UTF-8, all else Windows-1252.
+/// The mark decides. Without a mark, zero bytes show UTF-16; a valid UTF-8 file is UTF-8, and any
+/// other file is Windows-1252.
 pub(crate) fn detect(bytes: &[u8]) -> (Encoding, usize) {
     match bytes {
         [0xEF, 0xBB, 0xBF, ..] => (Encoding::Utf8, 3),
@@ -127,7 +127,7 @@ pub(crate) fn detect(bytes: &[u8]) -> (Encoding, usize) {
     }
 }
 
-/// Nearly every second byte of such a text is zero, and hardly any of the others.
+/// Nearly every second byte of such a text is zero, and few of the other bytes are.
 fn utf16_without_mark(bytes: &[u8]) -> Option<Encoding> {
     let pairs = bytes.chunks_exact(2).take(2048);
     let (mut count, mut first, mut second) = (0usize, 0usize, 0usize);
@@ -145,10 +145,10 @@ fn utf16_without_mark(bytes: &[u8]) -> Option<Encoding> {
     }
 }
 
-/// The text of a file: by its byte order mark, else UTF-16 or UTF-8 where it is that,
-/// else Windows-1252. [`Document`](crate::Document) knows the way back.
+/// The text of a file: by its byte order mark, otherwise as UTF-16 or UTF-8 if it is valid,
+/// otherwise as Windows-1252. [`Document`](crate::Document) converts it back.
 ///
-/// Never fails. A mark is not part of the text; a byte that is not valid becomes U+FFFD.
+/// Never fails. The mark is not part of the text; an invalid byte becomes U+FFFD.
 pub fn decode(bytes: &[u8]) -> Cow<'_, str> {
     let (encoding, mark) = detect(bytes);
     let rest = &bytes[mark..];
@@ -167,7 +167,7 @@ pub fn decode(bytes: &[u8]) -> Cow<'_, str> {
     text.into()
 }
 
-/// The five bytes without a character there are the control characters of that number.
+/// The five bytes without a character become the control characters with the same numbers.
 fn windows_1252(byte: u8) -> char {
     const C1: [char; 32] = [
         '€', '\u{81}', '‚', 'ƒ', '„', '…', '†', '‡', 'ˆ', '‰', 'Š', '‹', 'Œ', '\u{8D}', 'Ž',
@@ -185,7 +185,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_mark_decides_then_the_bytes() {
+    fn the_mark_decides_and_then_the_bytes() {
         assert_eq!(decode(b"\xEF\xBB\xBFa\xC2\xB5"), "aµ");
         assert_eq!(decode(b"\xFF\xFEa\0\xB5\0"), "aµ");
         assert_eq!(decode(b"\xFE\xFF\0a\0\xB5"), "aµ");
@@ -197,11 +197,11 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_character_loses_nothing_else() {
+    fn an_invalid_byte_loses_nothing_else() {
         assert_eq!(decode(b"\xFF\xFEa\0b"), "a\u{FFFD}");
         assert_eq!(decode(b"\xFF\xFE\0\xD8a\0"), "\u{FFFD}a");
         assert_eq!(decode(b"\xFF\xFE\x3D\xD8\0\xDE"), "😀");
-        // One byte of another encoding in a file that says it is UTF-8.
+        // A single byte of another encoding in a UTF-8 file.
         assert_eq!(decode(b"\xEF\xBB\xBF\xC2\xB5 \xB5\xC2"), "µ µÂ");
         assert_eq!(decode(b"\xFE\xFF\xD8\x00"), "\u{FFFD}");
         assert_eq!(decode(b""), "");

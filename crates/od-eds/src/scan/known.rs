@@ -24,7 +24,7 @@ pub enum Form {
     Time,
 }
 
-/// A section with its keys; a `#` in a name is a number.
+/// A section with its keys; a `#` in a name stands for a number.
 pub struct Known {
     /// Name.
     pub name: &'static str,
@@ -189,7 +189,7 @@ pub const OBJECT_KEYS: [&str; 16] = [
     "ParamRefd",
 ];
 
-/// The section of this name, and its place among [`SECTIONS`].
+/// The section with this name, and its position in [`SECTIONS`].
 pub fn section(name: &str) -> Option<(usize, &'static Known)> {
     SECTIONS
         .iter()
@@ -197,12 +197,12 @@ pub fn section(name: &str) -> Option<(usize, &'static Known)> {
         .find(|(_, known)| is(name, known.name))
 }
 
-/// A known key: its spelling, unless it has a number in it, and its form.
+/// A known key: its spelling, unless it contains a number, and its form.
 pub fn key(known: &Known, key: &str) -> Option<(&'static str, Form)> {
     known.keys.iter().copied().find(|(name, _)| is(key, name))
 }
 
-/// Other sections that have a meaning: those of objects of modules and of links.
+/// Returns whether the section is one of the other known ones: objects of modules, and links.
 pub(crate) fn is_of_objects(name: &str) -> bool {
     let links = name.split_at_checked(4).is_some_and(|(index, rest)| {
         rest.eq_ignore_ascii_case("ObjectLinks") && matches!(place(index), Place::Object(_))
@@ -214,7 +214,7 @@ pub(crate) fn is_of_objects(name: &str) -> bool {
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) struct ModulePart {
     pub(crate) module: u16,
-    /// `SubExt`, not `Fixed`.
+    /// `true`: `SubExt`; `false`: `Fixed`.
     pub(crate) extends: bool,
     pub(crate) place: Place,
 }
@@ -242,7 +242,7 @@ pub(crate) fn module_part(name: &str) -> Option<ModulePart> {
     }
 }
 
-/// `2026-07-14` as `07-14-2026`; other texts stay.
+/// Converts `2026-07-14` to `07-14-2026`; other texts stay.
 pub(crate) fn date(given: &str) -> String {
     let mut parts = given.splitn(3, '-');
     let turned = match (parts.next(), parts.next(), parts.next()) {
@@ -254,7 +254,7 @@ pub(crate) fn date(given: &str) -> String {
     turned.unwrap_or_else(|| given.into())
 }
 
-/// `14:30:00+02:00` as `02:30PM`; other texts stay.
+/// Converts `14:30:00+02:00` to `02:30PM`; other texts stay.
 pub(crate) fn time(given: &str) -> String {
     let mut parts = given.splitn(3, ':');
     let number = |part: Option<&str>, end: u8| {
@@ -270,7 +270,7 @@ pub(crate) fn time(given: &str) -> String {
     }
 }
 
-/// Is this the name, in any case, with a number where it has a `#`?
+/// Returns whether this is the name, in any case, with a number in place of a `#`.
 fn is(name: &str, pattern: &str) -> bool {
     let Some((before, behind)) = pattern.split_once('#') else {
         return name.eq_ignore_ascii_case(pattern);
@@ -293,8 +293,7 @@ fn is(name: &str, pattern: &str) -> bool {
     }
 }
 
-/// The one of these words that `word` is a slip of, as a file can have it: one or two letters
-/// wrong, missing, too many or exchanged.
+/// The word that `word` misspells: one or two letters are wrong, missing, too many or exchanged.
 pub(crate) fn near<'a>(word: &str, words: impl Iterator<Item = &'a str>) -> Option<&'a str> {
     match word.len() {
         0..=3 => None,
@@ -303,8 +302,8 @@ pub(crate) fn near<'a>(word: &str, words: impl Iterator<Item = &'a str>) -> Opti
     }
 }
 
-/// Returns the word in which the fewest letters differ, at most `most`: wrong, missing, too many
-/// or exchanged. Upper and lower case are the same; a word itself is not near.
+/// Returns the word that differs in the fewest letters, at most `most` (wrong, missing, too many or
+/// exchanged). Case does not count; a word is not near itself.
 pub fn nearest<'a>(
     word: &str,
     words: impl Iterator<Item = &'a str>,
@@ -317,9 +316,10 @@ pub fn nearest<'a>(
         .map(|(_, known)| known)
 }
 
-/// Number of letters that differ; above `most`, any number above it.
+/// Number of letters that differ; if it is above `most`, any number above `most`.
 fn distance(a: &str, b: &str, most: usize) -> usize {
-    // Fast, for texts with millions of keys: a wrong letter changes two bits at most.
+    // A quick check first, for texts with millions of keys: a wrong letter changes at most two
+    // bits.
     let letters = |text: &str| {
         let bytes = text.bytes().map(|b| b.to_ascii_lowercase() % 64);
         bytes.fold(0u64, |all, bit| all | 1 << bit)
@@ -373,7 +373,7 @@ mod tests {
     }
 
     #[test]
-    fn dates_and_times_of_iso_8601_are_turned() {
+    fn iso_8601_dates_and_times_are_converted() {
         assert_eq!(date("2026-07-14"), "07-14-2026");
         assert_eq!(date("2026-07-14T10:00"), "07-14-2026");
         assert_eq!(date("07-14-2026"), "07-14-2026");
@@ -390,7 +390,7 @@ mod tests {
     }
 
     #[test]
-    fn slips_are_near() {
+    fn misspelled_words_are_near() {
         let find = |word| near(word, OBJECT_KEYS.into_iter());
         assert_eq!(find("DefualtValue"), Some("DefaultValue"));
         assert_eq!(find("datatyp"), Some("DataType"));

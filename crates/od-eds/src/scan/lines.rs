@@ -1,7 +1,7 @@
-//! Lines to sections: where every section, key and value is.
+//! Finds the sections, keys and values of a text, with their places.
 //!
-//! INI parsers report no places, and stop at the first line that they do not know. This scanner
-//! goes on: what is not plain INI is a [`Fault`], plain data that the reader makes a finding of.
+//! INI parsers report no places, and stop at the first unknown line. This scanner continues: a line
+//! that is not plain INI is a [`Fault`], which the reader turns into a finding.
 
 use alloc::borrow::Cow;
 use alloc::format;
@@ -22,11 +22,11 @@ const LINES: usize = 200_000;
 
 /// Scanning a text, line by line.
 struct Scan<'a, 'f> {
-    /// Sections in file order, duplicates and all.
+    /// Sections in file order, with duplicates.
     sections: Vec<Placed<'a>>,
     /// Number of headers and keys.
     count: usize,
-    /// Takes the lines that are ignored, or read otherwise than they are written, in file order.
+    /// Receives the lines that are ignored, or not read as written, in file order.
     fault: &'f mut dyn FnMut(&Fault<'a>),
 }
 
@@ -37,7 +37,7 @@ pub(crate) enum Fault<'a> {
     Conflict(Spanned<&'a str>),
     /// Not a section, a `key=value` line or a comment; ignored.
     NoPair(Spanned<&'a str>),
-    /// A key of an object and its value, with blanks between them.
+    /// A key of an object and its value, separated by blanks only.
     NoSign {
         at: Span,
         key: &'a str,
@@ -47,7 +47,7 @@ pub(crate) enum Fault<'a> {
     NoKey(Spanned<&'a str>),
     /// A header without a closing bracket; its name ends before a comment, or with the line.
     Open { line: Span, name: Spanned<&'a str> },
-    /// Text behind a header; ignored.
+    /// Text after a header; ignored.
     Behind {
         name: &'a str,
         text: Spanned<&'a str>,
@@ -72,7 +72,7 @@ pub(crate) enum Fault<'a> {
     },
 }
 
-/// One line, and where it is.
+/// One line with its place.
 pub(crate) struct Line<'a> {
     pub(crate) text: &'a str,
     start: usize,
@@ -80,7 +80,7 @@ pub(crate) struct Line<'a> {
 }
 
 impl<'a> Line<'a> {
-    /// The span of `part`, which is a piece of this line.
+    /// The span of `part`, which must be a piece of this line.
     pub(crate) fn span(&self, part: &str) -> Span {
         let within = part.as_ptr() as usize - self.text.as_ptr() as usize;
         let before = &self.text[..within];
@@ -137,8 +137,7 @@ pub(crate) fn lines(text: &str) -> impl Iterator<Item = Line<'_>> {
     })
 }
 
-/// The lines of a text for a reader that ends lines only at `
-/// `; counted as [`lines`] counts them.
+/// The lines of a text for a reader that ends lines only at line feeds, numbered as by [`lines`].
 #[cfg(feature = "tools")]
 pub(crate) fn lines_by_newline(text: &str) -> impl Iterator<Item = Line<'_>> {
     let body = text.strip_prefix('\u{FEFF}').unwrap_or(text);
@@ -171,7 +170,8 @@ pub(crate) fn with_ends(text: &str) -> impl Iterator<Item = &str> {
     })
 }
 
-/// A text as a comment on a line of its own. odkit reads a few comments there; this is not one.
+/// Makes a comment line of a text. A text that odkit would read as one of its own comments gets a
+/// second `;`.
 pub(crate) fn comment(text: &str) -> String {
     let starts = |word: &str| {
         let own = text.trim_start().get(..word.len());
@@ -181,12 +181,12 @@ pub(crate) fn comment(text: &str) -> String {
     format!("{}{text}", if is_read { ";;" } else { ";" })
 }
 
-/// The sections of a text, in file order, duplicates and all; a byte order mark is skipped.
+/// The sections of a text, in file order, with duplicates; a byte order mark is skipped.
 pub fn sections(text: &str) -> Vec<Placed<'_>> {
     scan(text, &mut |_| {})
 }
 
-/// As [`sections`]; `fault` gets the lines that are not plain INI, in file order.
+/// As [`sections`]; `fault` receives the lines that are not plain INI, in file order.
 pub(crate) fn scan<'a>(text: &'a str, fault: &mut dyn FnMut(&Fault<'a>)) -> Vec<Placed<'a>> {
     let mut scan = Scan {
         sections: Vec::new(),
@@ -231,7 +231,7 @@ impl<'a> Scan<'a, '_> {
         }
     }
 
-    /// A comment: nothing, unless it is the one that says where a value is stored.
+    /// A comment: ignored, unless it says where a value is stored.
     fn comment(&mut self, line: &Line<'a>, trimmed: &'a str) {
         let body = trimmed[1..].trim_start();
         let Some((key, value)) = body.split_once('=') else {
@@ -314,7 +314,7 @@ impl<'a> Scan<'a, '_> {
     }
 }
 
-/// Adds a key with its value; a section with one has mostly as many as an object.
+/// Adds a key with its value; memory is reserved for the usual number of keys.
 fn add<'a>(section: &mut Placed<'a>, pair: (Text<'a>, Text<'a>)) {
     if section.pairs.is_empty() {
         section.pairs.reserve(8);
@@ -332,7 +332,8 @@ fn without_sign(line: &str) -> Option<(&str, &str)> {
     (known && !value.contains(char::is_whitespace)).then_some((key, value))
 }
 
-/// Is this a mark of a merge conflict: seven equal signs or brackets, as the whole line or before a name?
+/// Returns whether the line is a mark of a merge conflict: seven equal signs or brackets, alone or
+/// before a name.
 fn is_conflict(line: &str) -> bool {
     let marks = ["<<<<<<<", "=======", ">>>>>>>", "|||||||"];
     let rest = marks.iter().find_map(|mark| line.strip_prefix(mark));
@@ -343,7 +344,7 @@ fn is_conflict(line: &str) -> bool {
 mod tests {
     use super::*;
 
-    /// Every key and value is where its span says.
+    /// The span of every key and value contains it.
     #[track_caller]
     fn check<'a>(text: &'a str, expected: &[(&str, &[(&str, &str)])]) -> Vec<Fault<'a>> {
         let mut faults = Vec::new();
@@ -378,7 +379,7 @@ mod tests {
     }
 
     #[test]
-    fn what_it_does_not_know_it_names() {
+    fn unknown_lines_are_reported() {
         let faults = check(
             "a=1\n[x\nfoo\n=3\n[y] # more\nb:2\nk=v\\\n[z\\]\nq\\=1",
             &[

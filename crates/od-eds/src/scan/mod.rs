@@ -1,5 +1,5 @@
-//! The ground of every reader: lines, sections, names, numbers and encodings of a text, with their
-//! places.
+//! Parts that every reader uses: lines, sections, names, numbers and encodings of a text, with
+//! their places.
 
 pub(crate) mod encoding;
 pub(crate) mod known;
@@ -8,10 +8,10 @@ pub(crate) mod names;
 pub(crate) mod number;
 pub(crate) mod placed;
 
-/// The first place of one of two ASCII characters.
+/// Position of the first of two ASCII characters.
 ///
-/// `find` with an array does the same through iterators: without optimisation, as in a macro and in
-/// tests, that was two fifths of all the time that a file took.
+/// `find` with an array uses iterators. Without optimisation, as in a macro and in tests, this took
+/// two fifths of the time for a file.
 pub(crate) fn either(text: &str, either: [u8; 2]) -> Option<usize> {
     let bytes = text.as_bytes();
     let mut at = 0;

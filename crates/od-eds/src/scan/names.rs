@@ -1,4 +1,4 @@
-//! The subject of a section, by its name.
+//! The subject of a section, found by its name.
 
 use alloc::format;
 use alloc::string::String;
@@ -8,7 +8,7 @@ use alloc::string::String;
 pub enum List {
     /// 1000h, 1001h and 1018h.
     Mandatory,
-    /// The others of the standards.
+    /// The other objects of the standards.
     Optional,
     /// 2000h to 5FFFh.
     Manufacturer,
@@ -37,8 +37,8 @@ impl List {
     }
 }
 
-/// The three sections that an object with CompactSubObj may have besides its own,
-/// in the order in which they are read.
+/// The three sections that belong to an object with CompactSubObj, in the order in which they are
+/// read.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub enum Compact {
     /// `[1600Name]`
@@ -56,7 +56,7 @@ pub enum Place {
     Object(u16),
     /// `[1018sub1]`
     Member(u16, u8),
-    /// A list beside an object with CompactSubObj.
+    /// A list that belongs to an object with CompactSubObj.
     Compact(u16, Compact),
     /// A list of objects.
     List(List),
@@ -75,7 +75,7 @@ impl Place {
     }
 }
 
-/// The subject of the section of this name: `1018`, `1018sub2`, `1600Name` …
+/// The subject of the section with this name: `1018`, `1018sub2`, `1600Name` …
 pub fn place(name: &str) -> Place {
     for list in List::ALL {
         if name.eq_ignore_ascii_case(list.name()) {
@@ -111,8 +111,8 @@ pub fn place(name: &str) -> Place {
     }
 }
 
-/// The likely subject of a section whose name is not quite right: `0x1018`,
-/// `1018 sub 2`, `1018_sub2`, `1018h`, `5`; `A0` only if the section describes something.
+/// The likely subject of a section with a misspelled name: `0x1018`, `1018 sub 2`, `1018_sub2`,
+/// `1018h`, `5`; `A0` only if the section describes an object.
 pub(crate) fn intended(name: &str, describes: bool) -> Option<Place> {
     let plain = name.trim().to_ascii_lowercase();
     // Between the index and the sub-index, not within one of them.
@@ -147,7 +147,7 @@ pub(crate) fn intended(name: &str, describes: bool) -> Option<Place> {
 }
 
 fn hex(digits: &str) -> Option<u32> {
-    // from_str_radix would take a sign.
+    // `from_str_radix` would accept a sign.
     if digits.bytes().all(|b| b.is_ascii_hexdigit()) {
         u32::from_str_radix(digits, 16).ok()
     } else {
@@ -155,7 +155,7 @@ fn hex(digits: &str) -> Option<u32> {
     }
 }
 
-/// The object that the section of this name is about.
+/// The object that the section with this name is about.
 pub(crate) fn object_of(name: &str) -> Option<u16> {
     match place(name) {
         Place::Object(index) | Place::Member(index, _) | Place::Compact(index, _) => Some(index),
@@ -168,7 +168,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn names_say_what_a_section_is_about() {
+    fn names_give_the_subject_of_a_section() {
         for (name, expected) in [
             ("1018", Place::Object(0x1018)),
             ("6aBc", Place::Object(0x6ABC)),
@@ -197,7 +197,7 @@ mod tests {
     }
 
     #[test]
-    fn names_that_are_not_quite_right() {
+    fn misspelled_names_are_understood() {
         for (name, expected) in [
             ("0x1018", Place::Object(0x1018)),
             ("1018h", Place::Object(0x1018)),

@@ -1,11 +1,11 @@
-//! Numbers as EDS files write them.
+//! Numbers in the spellings of EDS files.
 
 use alloc::string::String;
 use alloc::vec::Vec;
 
 use crate::scan::either;
 
-/// Peculiarity of a value that is understood all the same.
+/// Peculiarity of a value that odkit understands in spite of it.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Note {
     /// `5 ; five`
@@ -30,7 +30,7 @@ pub(crate) enum Note {
     Comma,
 }
 
-/// A number with what was odd about it.
+/// A number and its peculiarities.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) struct Number {
     pub(crate) value: i128,
@@ -38,7 +38,7 @@ pub(crate) struct Number {
     pub(crate) pattern: bool,
 }
 
-/// The text in front of a `;` or a `#`.
+/// The text before a `;` or a `#`.
 pub fn before_comment(text: &str) -> &str {
     let found = either(text, [b';', b'#']).or_else(|| {
         let slash = either(text, [b'/'; 2])?;
@@ -50,7 +50,7 @@ pub fn before_comment(text: &str) -> &str {
     }
 }
 
-/// The text in front of a `;` or a `#`, which is noted.
+/// The text before a `;` or a `#`; the comment is noted.
 pub(crate) fn without_comment<'a>(text: &'a str, notes: &mut Vec<Note>) -> &'a str {
     let before = before_comment(text);
     if before.len() != text.len() {
@@ -88,7 +88,7 @@ pub(crate) fn integer(text: &str, notes: &mut Vec<Note>) -> Option<Number> {
         Some(digits) => (16, digits),
         None => (decimal_or_octal(digits, notes), digits),
     };
-    // from_str_radix would take a second sign.
+    // `from_str_radix` would accept a second sign.
     if !digits.bytes().all(|b| b.is_ascii_alphanumeric()) {
         return None;
     }
@@ -99,7 +99,7 @@ pub(crate) fn integer(text: &str, notes: &mut Vec<Note>) -> Option<Number> {
     })
 }
 
-/// The integer as nearly every file writes it, decimal or hexadecimal, of 64 bits or fewer.
+/// An integer in the usual spelling, decimal or hexadecimal, of at most 64 bits.
 fn plain(text: &[u8]) -> Option<Number> {
     let (radix, digits) = match text {
         [b'0', b'x' | b'X', digits @ ..] if digits.len() <= 16 => (16, digits),
@@ -145,7 +145,7 @@ fn bare_hex<'a>(text: &'a str, notes: &mut Vec<Note>) -> Option<&'a str> {
     Some(bare)
 }
 
-/// 8 for `017`, 10 for `17`, `08` and `0`; `007` is the same in both and no news.
+/// 8 for `017`, 10 for `17`, `08` and `0`; `007` is the same in both, and is not reported.
 fn decimal_or_octal(digits: &str, notes: &mut Vec<Note>) -> u32 {
     let significant = digits.trim_start_matches('0');
     if significant.len() == digits.len() || significant.is_empty() {
@@ -163,13 +163,13 @@ fn decimal_or_octal(digits: &str, notes: &mut Vec<Note>) -> u32 {
     8
 }
 
-/// The offset in `$NODEID+n`: in any order, case and spacing, with or without `$` and
-/// brackets, and if there is more than one number, their sum; 0 for `$NODEID`.
+/// The offset in `$NODEID+n`: in any order, case and spacing, with or without `$` and brackets; the
+/// sum if there are several numbers; 0 for `$NODEID`.
 ///
-/// `Some(Err)` is a formula with something else in it.
+/// `Some(Err)` is a formula with other content.
 pub(crate) fn node_id(text: &str, notes: &mut Vec<Note>) -> Option<Result<u32, ()>> {
     const NAME: &str = "$NODEID";
-    // Nearly every value is a number, and has none of these letters.
+    // Nearly every value is a number without any of these letters.
     if !text.bytes().any(|b| b.eq_ignore_ascii_case(&b'N')) {
         return None;
     }
@@ -216,8 +216,8 @@ pub(crate) fn node_id(text: &str, notes: &mut Vec<Note>) -> Option<Result<u32, (
     Some(u32::try_from(offset).map_err(|_| ()))
 }
 
-/// The offset in `$MY_NODE_ID+n`, with another name in place of `$NODEID`; `None` for
-/// anything else than one name and numbers.
+/// The offset in `$MY_NODE_ID+n`, with another name in place of `$NODEID`; `None` for anything
+/// except one name and numbers.
 pub(crate) fn meant_node_id(text: &str) -> Option<u32> {
     let is_name = |part: &str| {
         let own = |b: u8| b.is_ascii_alphanumeric() || b"$_ ".contains(&b);
@@ -236,7 +236,7 @@ pub(crate) fn meant_node_id(text: &str) -> Option<u32> {
     one.then(|| u32::try_from(offset).ok())?
 }
 
-/// A number of a section that describes no object, however it is written.
+/// A number in a section that describes no object, in any spelling.
 pub fn number(text: &str) -> Option<i128> {
     let mut notes = Vec::new();
     let text = without_comment(text, &mut notes);

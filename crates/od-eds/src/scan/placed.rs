@@ -1,4 +1,4 @@
-//! A section of a text with its places: what the scanner finds, and what is made of an XDD.
+//! A section of a text with its places, from the scanner or made from an XDD.
 
 use alloc::borrow::Cow;
 use alloc::string::String;
@@ -6,21 +6,21 @@ use alloc::vec::Vec;
 
 use crate::span::{Span, Spanned};
 
-/// A piece of the text; owned if it had to be made, as for an XDD.
+/// A piece of the text; owned if it was made, as for an XDD.
 pub type Text<'a> = Spanned<Cow<'a, str>>;
 
-/// A section as it is in the text.
+/// A section as written in the text.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Placed<'a> {
     /// The trimmed text between the brackets; empty for the keys before the first section.
     pub name: Text<'a>,
     /// Keys and values, trimmed, in file order.
     pub pairs: Vec<(Text<'a>, Text<'a>)>,
-    /// The brackets with what is between them.
+    /// The brackets and the text between them.
     pub header: Span,
     /// The first `;StorageLocation=` comment.
     pub storage: Option<Text<'a>>,
-    /// Keys, in lower case, that later sections of the same name have, too.
+    /// Keys, in lower case, that later sections of the same name contain, too.
     pub again: Vec<String>,
 }
 
@@ -36,7 +36,7 @@ impl<'a> Placed<'a> {
         }
     }
 
-    /// The first value under `key`, in any case.
+    /// The first value of `key`, in any case.
     pub(crate) fn get(&self, key: &str) -> Option<&Text<'_>> {
         self.pairs
             .iter()
@@ -45,7 +45,7 @@ impl<'a> Placed<'a> {
     }
 }
 
-/// A text that outlives the file.
+/// Copies a text, so that it does not borrow from the file.
 pub(crate) fn owned(text: Text<'_>) -> Spanned<String> {
     Spanned::new(text.value.into_owned(), text.span)
 }

@@ -2,14 +2,14 @@
 
 use od_model::{Access, DataType, ObjectCode};
 
-/// One object, or a range of objects that are alike.
+/// One object, or a range of objects of the same kind.
 pub(crate) struct Standard {
     first: u16,
     last: u16,
-    /// The standard's name of it.
+    /// Its name in the standard.
     pub(crate) name: &'static str,
     pub(crate) members: Members,
-    /// The object without which it has no use; 0: none.
+    /// Index of an object that it needs; 0: none.
     pub(crate) needs: u16,
 }
 
@@ -17,9 +17,9 @@ pub(crate) struct Standard {
 pub(crate) enum Members {
     /// A VAR.
     Var(Value),
-    /// An ARRAY; this is each of its sub-objects from sub-index 1 on.
+    /// An ARRAY, with the value of each sub-object from sub-index 1 on.
     Array(Value),
-    /// A RECORD: sub-index, value, and whether it must be there.
+    /// A RECORD: sub-index, value, and whether the sub-object is mandatory.
     Record(&'static [(u8, Value, bool)]),
 }
 
@@ -30,7 +30,7 @@ pub(crate) struct Value {
 }
 
 impl Standard {
-    /// The same object, which needs another one.
+    /// Returns the same object, which also needs another one.
     const fn needs(self, other: u16) -> Self {
         Self {
             needs: other,
@@ -59,11 +59,11 @@ impl Standard {
         }
     }
 
-    /// Does an object of this code have the same values on the bus?
+    /// Returns whether an object of this code has the same values on the bus.
     pub(crate) fn is_like(&self, own: ObjectCode) -> bool {
         let right = self.code();
-        // An ARRAY and a RECORD of one type are the same on the bus; a VAR of type DOMAIN is
-        // what others call a DOMAIN.
+        // An ARRAY and a RECORD with one type are the same on the bus, and so are a VAR of type
+        // DOMAIN and an object of code DOMAIN.
         own == right
             || own.has_members() && right.has_members()
             || matches!((own, right), (ObjectCode::Domain, ObjectCode::Var))
@@ -78,9 +78,9 @@ impl Standard {
     }
 }
 
-/// An object of CiA 301 or CiA 302 in words.
+/// An object of CiA 301 or CiA 302, for texts.
 pub struct Specified {
-    /// The standard's name of it.
+    /// Its name in the standard.
     pub name: &'static str,
     /// The standard that defines it.
     pub source: &'static str,
@@ -102,8 +102,8 @@ pub fn specified(index: u16) -> Option<Specified> {
     })
 }
 
-/// The type of a value of an object of the standards, or of a member of the records 0020h to
-/// 0023h; `is_whole` if it is the one value of a VAR.
+/// The type of a value of an object of the standards, or of a sub-object of the records 0020h to
+/// 0023h. `is_whole`: the only value of a VAR.
 pub fn data_type(index: u16, sub: u8, is_whole: bool) -> Option<DataType> {
     let members = match (index, is_whole) {
         (0x20, false) => TPDO,
@@ -139,7 +139,7 @@ const fn mapped(sub: u8) -> Option<DataType> {
     }
 }
 
-/// Does a standard specify an ARRAY here?
+/// Returns whether a standard specifies an ARRAY at this index.
 pub(crate) fn is_standard_array(index: u16) -> bool {
     of(index).is_some_and(|standard| matches!(standard.members, Members::Array(_)))
 }
@@ -205,14 +205,14 @@ const OS_COMMAND: &[(u8, Value, bool)] = &[
     (3, value(OctetString, Ro), true),
 ];
 
-/// An ARRAY in the standard, with an access of its own for each sub-object.
+/// An ARRAY in the standard, although each sub-object has its own access.
 const OS_PROMPT: &[(u8, Value, bool)] = &[
     (1, value(Unsigned8, Wo), true),
     (2, value(Unsigned8, Ro), true),
     (3, value(Unsigned8, Ro), false),
 ];
 
-/// The server that the predefined connection set fixes.
+/// The server that the pre-defined connection set specifies.
 const DEFAULT_SDO: &[(u8, Value, bool)] = &[
     (1, value(Unsigned32, Ro), true),
     (2, value(Unsigned32, Ro), true),
@@ -248,7 +248,7 @@ const TPDO: &[(u8, Value, bool)] = &[
     (6, value(Unsigned8, Rw), false),
 ];
 
-/// By ascending index.
+/// The objects by ascending index.
 const TABLE: &[Standard] = &[
     var(0x1000, "device type", Unsigned32, Ro),
     var(0x1001, "error register", Unsigned8, Ro),
@@ -365,7 +365,7 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn the_table_is_sorted_and_found_in() {
+    fn the_table_is_sorted_and_searched() {
         for pair in TABLE.windows(2) {
             assert!(pair[0].last < pair[1].first, "{:04X}", pair[1].first);
         }

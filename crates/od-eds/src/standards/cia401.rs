@@ -1,4 +1,5 @@
-//! Objects of CiA 401: I/O modules. Those of one device of the module; those of the others are 800h apart.
+//! Objects of CiA 401: I/O modules. The table has the objects of the first device of a module;
+//! those of the other devices are 800h apart.
 
 use od_model::DataType::{
     Boolean, Integer8, Integer16, Integer32, Real32, Unsigned8, Unsigned16, Unsigned32,
@@ -6,7 +7,7 @@ use od_model::DataType::{
 
 use super::row::{Row, array, named, ro_array, rw, rw_array};
 
-/// By ascending index.
+/// The objects by ascending index.
 #[rustfmt::skip]
 pub(super) const TABLE: &[Row] = &[
     ro_array(0x6000, 0x6000, &[Unsigned8], "Read input 8-bit"),
@@ -66,7 +67,7 @@ pub(super) const TABLE: &[Row] = &[
     named(0x6414, 0x6414, "Write manufacturer-specific analogue output"),
     rw_array(0x6421, 0x6421, &[Unsigned8], "Analogue input interrupt trigger selection"),
     ro_array(0x6422, 0x6422, &[Unsigned32], "Analogue input interrupt source"),
-    // A byte in many devices, as a BOOLEAN is on the bus.
+    // Many devices use a byte, which is how a BOOLEAN is sent.
     rw(0x6423, &[Boolean, Unsigned8], "Analogue input global interrupt enable"),
     rw_array(0x6424, 0x6424, &[Integer32], "Analogue input interrupt upper limit integer"),
     rw_array(0x6425, 0x6425, &[Integer32], "Analogue input interrupt lower limit integer"),

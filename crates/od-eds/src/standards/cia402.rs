@@ -1,10 +1,11 @@
-//! Objects of CiA 402: drives and motion control. Those of one axis; those of the others are 800h apart.
+//! Objects of CiA 402: drives and motion control. The table has the objects of the first axis;
+//! those of the other axes are 800h apart.
 
 use od_model::DataType::{Integer8, Integer16, Integer32, Unsigned8, Unsigned16, Unsigned32};
 
 use super::row::{Row, array, named, ro, rw, var};
 
-/// By ascending index.
+/// The objects by ascending index.
 #[rustfmt::skip]
 pub(super) const TABLE: &[Row] = &[
     rw(0x6007, &[Integer16], "Abort connection option code"),

@@ -7,7 +7,8 @@ use od_model::DataType::{
 
 use super::row::{Row, array, named, ro_array, rw_array};
 
-/// The parameters of a channel, which have one type, and the values in each of their ranges.
+/// The parameters of a channel, which have one type, and its values, which have a type in each
+/// range.
 pub(super) const TABLES: &[&[Row]] = &[
     PARAMETERS,
     &values(0x6000, &[Real32]),
@@ -16,7 +17,7 @@ pub(super) const TABLES: &[&[Row]] = &[
     &values(0x9000, &[Integer32]),
 ];
 
-/// By ascending index.
+/// The objects by ascending index.
 #[rustfmt::skip]
 const PARAMETERS: &[Row] = &[
     rw_array(0x6110, 0x6110, &[Unsigned16], "AI sensor type"),

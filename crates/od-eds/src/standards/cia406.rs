@@ -6,7 +6,7 @@ use od_model::DataType::{
 
 use super::row::{Row, array, named, ro, ro_array, rw, rw_array, var};
 
-/// By ascending index.
+/// The objects by ascending index.
 #[rustfmt::skip]
 pub(super) const TABLE: &[Row] = &[
     var(0x6000, &[Unsigned16], "Operating parameters"),
@@ -20,9 +20,9 @@ pub(super) const TABLE: &[Row] = &[
     ro(0x600C, &[Unsigned32], "Position raw value"),
     named(0x6010, 0x6010, "Preset values for multi-sensor devices"),
     ro_array(0x6020, 0x6020, &[Integer32], "Position values for multi-sensor devices"),
-    // As many bits as the device has.
+    // The number of bits depends on the device.
     ro_array(0x6030, 0x6030, &[Integer16, Integer8, Integer32], "Speed value"),
-    // As many bits as the device has.
+    // The number of bits depends on the device.
     ro_array(0x6040, 0x6040, &[Integer16, Integer8, Integer32], "Acceleration value"),
     named(0x6050, 0x6050, "Jerk value"),
     var(0x6200, &[Unsigned16], "Cyclic timer"),
@@ -37,7 +37,7 @@ pub(super) const TABLE: &[Row] = &[
     array(0x6402, 0x6402, &[Integer32], "Work area high limit"),
     ro(0x6500, &[Unsigned16], "Operating status"),
     ro(0x6501, &[Unsigned32], "Singleturn resolution and measuring step"),
-    // 16 bits until version 3, 32 since.
+    // 16 bits up to version 3, 32 bits since.
     ro(0x6502, &[Unsigned16, Unsigned32], "Number of distinguishable revolutions"),
     ro(0x6503, &[Unsigned16], "Alarms"),
     ro(0x6504, &[Unsigned16], "Supported alarms"),
@@ -45,7 +45,7 @@ pub(super) const TABLE: &[Row] = &[
     ro(0x6506, &[Unsigned16], "Supported warnings"),
     ro(0x6507, &[Unsigned32], "Profile and software version"),
     ro(0x6508, &[Unsigned32], "Operating time"),
-    // An offset is what it is modulo 2^32.
+    // An offset counts modulo 2^32, so its sign does not matter.
     ro(0x6509, &[Integer32, Unsigned32], "Offset value"),
     ro_array(0x650A, 0x650A, &[Integer32], "Module identification"),
     ro(0x650B, &[Unsigned32], "Serial number"),

@@ -1,10 +1,11 @@
-//! The meaning of values: what a number, or a bit of it, says in an object of the documents of CiA.
+//! The meaning of values: what a number, or one of its bits, means in an object of the CiA
+//! documents.
 
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
-/// Values of one object, or of a range of objects that are alike.
+/// Values of one object, or of a range of objects of the same kind.
 struct Row {
     /// Number of the device profile; 0 for CiA 301 and CiA 302.
     profile: u16,
@@ -15,13 +16,13 @@ struct Row {
     what: What,
 }
 
-/// The way in which a value says something.
+/// How a value gets its meaning.
 enum What {
     /// First and last value, and their meaning.
     Values(&'static [(i64, i64, &'static str)]),
-    /// The bits that are set, and what each says.
+    /// Bits that can be set, each with its meaning.
     Bits(&'static [(u8, &'static str)]),
-    /// Bits that are looked at, their pattern, and its meaning; the first that fits.
+    /// A mask of bits, their pattern, and its meaning; the first match counts.
     Patterns(&'static [(i64, i64, &'static str)]),
     /// A unit of CiA 303-2.
     Unit,
@@ -163,8 +164,8 @@ const TABLE: &[Row] = &[
     ])),
 ];
 
-/// Returns what a value of an object says in a device of this profile: `profile position` for 1 in 6060h of CiA 402.
-/// `None` if the documents give the number no meaning of its own.
+/// Returns the meaning of a value of an object in a device of this profile: `profile position` for
+/// 1 in 6060h of CiA 402. `None` if the documents give the number no meaning.
 pub fn meaning(profile: Option<u16>, index: u16, sub: u8, number: i64) -> Option<String> {
     let rows = TABLE.iter();
     let found = rows

@@ -1,5 +1,6 @@
-//! What the documents of CiA say of objects, a file for each document: its rules, names in an editor, and
-//! types of a node without an EDS are read here. `cia301` has the objects of CiA 302, too.
+//! Facts about objects from the CiA documents, with a file for each document. Rules, names in an
+//! editor, and the types of a node without an EDS use them. `cia301` has the objects of CiA 302,
+//! too.
 
 pub(crate) mod cia301;
 mod cia401;
@@ -39,7 +40,7 @@ fn row(profile: u16, index: u16) -> Option<&'static Row> {
     rows(profile).find(|row| (row.first..=row.last).contains(&index))
 }
 
-/// What the rules check of an object of a profile.
+/// Facts that the rules check about an object of a profile.
 pub(crate) fn checked(profile: u16, index: u16) -> Option<&'static Checked> {
     row(profile, index)?.checked.as_ref()
 }
@@ -54,7 +55,7 @@ pub fn profile_objects(profile: u16) -> impl Iterator<Item = (u16, &'static str)
     rows(profile).map(|row| (row.first, row.name))
 }
 
-/// The types that a device profile gives a value.
+/// The types of a value in a device profile.
 pub fn profile_types(profile: u16, index: u16, sub: u8) -> Vec<DataType> {
     let Some(row) = row(profile, index) else {
         return Vec::new();

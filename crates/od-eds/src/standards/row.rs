@@ -1,8 +1,8 @@
-//! A row in the table of a device profile: an object, and what the profile says of it.
+//! A row in the table of a device profile: an object and its facts.
 
 use od_model::{DataType, ObjectCode};
 
-/// One object of a device profile, or a range of objects that are alike.
+/// One object of a device profile, or a range of objects of the same kind.
 pub(super) struct Row {
     pub(super) first: u16,
     pub(super) last: u16,
@@ -12,17 +12,17 @@ pub(super) struct Row {
     pub(super) types: &'static [(u8, u8, DataType)],
 }
 
-/// What the rules check of an object.
+/// Facts that the rules check about an object.
 pub(crate) struct Checked {
     /// VAR or ARRAY; an ARRAY may be a RECORD as well.
     pub(crate) code: ObjectCode,
     /// The types that the value, or every sub-object, may have.
     pub(crate) data_types: &'static [DataType],
-    /// May a master write it? `None` where the profile leaves it open.
+    /// Whether a master may write it; `None`: the profile does not say.
     pub(crate) writable: Option<bool>,
 }
 
-/// An object of which no rule checks anything.
+/// An object with facts that no rule checks.
 pub(super) const fn named(first: u16, last: u16, name: &'static str) -> Row {
     Row {
         first,
@@ -54,22 +54,22 @@ impl Row {
     }
 }
 
-/// A VAR that is read only.
+/// A read-only VAR.
 pub(super) const fn ro(index: u16, data_types: &'static [DataType], name: &'static str) -> Row {
     named(index, index, name).checked(ObjectCode::Var, data_types, Some(false))
 }
 
-/// A VAR that a master writes.
+/// A VAR that a master can write.
 pub(super) const fn rw(index: u16, data_types: &'static [DataType], name: &'static str) -> Row {
     named(index, index, name).checked(ObjectCode::Var, data_types, Some(true))
 }
 
-/// A VAR that a master writes, or that is fixed in a simple device.
+/// A VAR that a master can write, or that is fixed in a simple device.
 pub(super) const fn var(index: u16, data_types: &'static [DataType], name: &'static str) -> Row {
     named(index, index, name).checked(ObjectCode::Var, data_types, None)
 }
 
-/// Sub-objects of one type that are read only.
+/// Read-only sub-objects of one type.
 pub(super) const fn ro_array(
     first: u16,
     last: u16,
@@ -79,7 +79,7 @@ pub(super) const fn ro_array(
     named(first, last, name).checked(ObjectCode::Array, data_types, Some(false))
 }
 
-/// Sub-objects of one type that a master writes.
+/// Sub-objects of one type that a master can write.
 pub(super) const fn rw_array(
     first: u16,
     last: u16,
@@ -89,7 +89,7 @@ pub(super) const fn rw_array(
     named(first, last, name).checked(ObjectCode::Array, data_types, Some(true))
 }
 
-/// Sub-objects of one type that a master writes, or that are fixed in a simple device.
+/// Sub-objects of one type that a master can write, or that are fixed in a simple device.
 pub(super) const fn array(
     first: u16,
     last: u16,

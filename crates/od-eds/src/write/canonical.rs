@@ -1,9 +1,8 @@
-//! The sections that describe no object, in the form that every reader takes.
+//! The sections that describe no object, in a form that every tool reads.
 //!
-//! python-canopen asks for all seven dummies, for as many comment lines as are
-//! announced, and for numbers where numbers belong; Lely's checker for the spelling
-//! `DeviceComissioning`; CANopenEditor for the standard's capitals and dates, and for
-//! `[FileInfo]` and `[DeviceInfo]`.
+//! python-canopen needs all seven dummies, as many comment lines as the file announces, and numbers
+//! where numbers belong. Lely's checker needs the spelling `DeviceComissioning`. CANopenEditor
+//! needs the standard's capitals and dates, and `[FileInfo]` and `[DeviceInfo]`.
 
 use alloc::borrow::Cow;
 use alloc::collections::{BTreeMap, BTreeSet};
@@ -22,8 +21,8 @@ use crate::span::Spanned;
 use crate::write::describe::section;
 use crate::write::eds;
 
-/// The text of a description as other readers take it: [`write`](crate::write()) of what
-/// [`complete`] makes of it. Control characters of names and texts are escaped.
+/// The text of a description in a form that other tools read: [`complete`] and
+/// [`write`](crate::write()). Control characters in names and texts are escaped.
 pub fn canonical(description: &Description) -> String {
     // As `write(&complete(description))`, without a copy of all objects.
     let written = |description: &Description| {
@@ -33,16 +32,16 @@ pub fn canonical(description: &Description) -> String {
     let text = written(description);
     match Visible(&text).lines() {
         Cow::Borrowed(_) => text,
-        // Escaped names have other places in the order of keys.
+        // Escaped names have another order among the keys.
         Cow::Owned(visible) => written(&load::parse(&visible).description),
     }
 }
 
-/// The description with all that a generated file needs, in the form that every reader takes.
+/// Adds everything to a description that a generated file needs, in a form that every tool reads.
 ///
-/// The standard's capitals and order, no octal numbers, all dummies, `[FileInfo]` and
-/// `[DeviceInfo]`, SubNumber and comments counted. Sections and keys of other tools are
-/// kept, and what the objects say is the same.
+/// This is: the standard's capitals and order, no octal numbers, all dummies, `[FileInfo]` and
+/// `[DeviceInfo]`, the numbers in SubNumber and in Comments. Sections and keys of other tools stay,
+/// and so does the content of the objects.
 pub fn complete(description: &Description) -> Description {
     let mut complete = Description {
         sections: completed(description).collect(),
@@ -66,16 +65,16 @@ fn counted(object: &ObjectDescription) -> Option<Spanned<u32>> {
     object.code.has_members().then(|| Spanned::from(count))
 }
 
-/// A section as it is written: its name, and its keys with their values.
+/// A section to write: its name, and its keys with their values.
 struct Canonical {
     name: String,
     pairs: Vec<(String, String)>,
 }
 
-/// The sections of a description, those that every file has included.
+/// The sections of a description, with those that every file needs.
 fn sections(description: &Description) -> Vec<Canonical> {
     let mut made: Vec<(usize, Canonical)> = Vec::new();
-    // The place of each section, and the keys that it has; in lower case.
+    // Position of each section, and its keys in lower case.
     let mut places: BTreeMap<String, (usize, BTreeSet<String>)> = BTreeMap::new();
     for section in &description.sections {
         let (order, name) = name(section);
@@ -94,7 +93,7 @@ fn sections(description: &Description) -> Vec<Canonical> {
             made.push((order, Canonical { name, pairs }));
         }
     }
-    // Stable: unknown sections keep their order, behind all others.
+    // The sort is stable: unknown sections keep their order, after all others.
     made.sort_by_key(|(order, _)| *order);
     let mut made: Vec<Canonical> = made.into_iter().map(|(_, made)| made).collect();
     for section in &mut made {
@@ -115,7 +114,7 @@ fn name(section: &Section) -> (usize, String) {
     }
 }
 
-/// Adds the keys that the section lacks yet.
+/// Adds the keys that the section does not have yet.
 fn take(made: &mut Canonical, keys: &mut BTreeSet<String>, section: &Section) {
     let known = known::section(&made.name).map(|(_, known)| known);
     for (key, value) in &section.pairs {
@@ -130,11 +129,11 @@ fn take(made: &mut Canonical, keys: &mut BTreeSet<String>, section: &Section) {
     }
 }
 
-/// A key that is known, with its value; `Some(None)` where it says nothing.
+/// A known key with its value; `Some(None)` if the value has no content.
 fn pair(known: &Known, key: &str, value: &str) -> Option<Option<(String, String)>> {
     let (name, form) = known::key(known, key)?;
     let name = match name.split_once('#') {
-        // The number of the key, in capitals where it is hexadecimal.
+        // The number in the key, with capitals if it is hexadecimal.
         Some((before, _)) => format!("{before}{}", key[before.len()..].to_ascii_uppercase()),
         None => name.into(),
     };
@@ -159,7 +158,7 @@ fn numeric(value: &str, form: Form) -> String {
     }
 }
 
-/// Puts in what every file has, and makes counts right.
+/// Adds the keys that every file has, and corrects numbers of entries.
 fn fill(section: &mut Canonical, description: &Description) {
     let pairs = &mut section.pairs;
     let lacks = |pairs: &[(String, String)], key: &str| !pairs.iter().any(|(k, _)| k == key);
@@ -174,7 +173,7 @@ fn fill(section: &mut Canonical, description: &Description) {
                     pairs.push((key.into(), count.to_string()));
                 }
             }
-            // The objects that it replaces have sections now.
+            // The objects of CompactPDO have sections now.
             for (_, value) in pairs.iter_mut().filter(|(key, _)| key == "CompactPDO") {
                 *value = "0".into();
             }

@@ -1,4 +1,4 @@
-//! From a dictionary back to the description that it could have been made from.
+//! Makes a description from a dictionary.
 
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
@@ -10,34 +10,34 @@ use crate::span::Spanned;
 use od_model::Object;
 use od_model::{Dictionary, Entry, Group, Literal};
 
-/// The facts of a device besides its objects (CiA 306-1, chapters 4.5 and 4.6).
+/// Facts about a device besides its objects (CiA 306-1, chapters 4.5 and 4.6).
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct About<'a> {
-    /// Name of the file, `GXMM.eds`.
+    /// Name of the file, for example `GXMM.eds`.
     pub file: &'a str,
-    /// Description of the device, in a line.
+    /// Description of the device, in one line.
     pub description: &'a str,
-    /// Day of the facts, `MM-DD-YYYY`: a file that is written twice says the same.
+    /// Date of the file, `MM-DD-YYYY`; a fixed date makes the file the same each time.
     pub date: &'a str,
     /// Vendor name.
     pub vendor: &'a str,
-    /// Bit rates that it has, in kbit/s. CiA 306 has no key for 100 kbit/s.
+    /// Supported bit rates in kbit/s. CiA 306 has no key for 100 kbit/s.
     pub bit_rates: &'a [u16],
-    /// It is an LSS slave.
+    /// The device is an LSS slave.
     pub lss: bool,
-    /// It goes to NMT Operational without a master, if 1F80h says so, and needs no configuration.
+    /// The device enters Operational without a master (if 1F80h says so) and without configuration.
     pub simple_boot_up: bool,
     /// Lines of `[Comments]`.
     pub comments: &'a [&'a str],
 }
 
-/// Bit rates that CiA 306-1 has a key for, in kbit/s.
+/// The bit rates in kbit/s for which CiA 306-1 has a key.
 const BIT_RATES: [u16; 8] = [10, 20, 50, 125, 250, 500, 800, 1000];
 
-/// The description of a dictionary, with the sections that say what device it is.
+/// Makes the description of a dictionary, with the sections about the device.
 ///
-/// Product and revision come from 1018h, the name from 1008h. Written by
-/// [`write`](crate::write()) and read again it gives the same dictionary.
+/// Product and revision come from 1018h, the name from 1008h. If [`write`](crate::write()) writes
+/// the description, the text gives the same dictionary.
 ///
 /// ```
 /// use od_eds::{About, Tables, describe, load, parse, write};
@@ -89,7 +89,7 @@ fn entry(dictionary: Dictionary<'_>, entry: &Entry) -> EntryDescription {
         high: value(dictionary, entry.high),
         ..EntryDescription::new(dictionary.text(entry.name), entry.data_type)
     };
-    // What is saved says so in any case: a tool that knows no default by index reads it, too.
+    // A saved value always names its group, so that a tool without defaults by index reads it, too.
     if entry.group != Group::None || made.group_at(entry.address) != Group::None {
         made.group = Some(Spanned::from(entry.group));
     }
@@ -127,7 +127,7 @@ fn sections(dictionary: Dictionary<'_>, about: &About<'_>) -> Vec<Section> {
         let count = objects.filter(|object| (first..first + 0x200).contains(&object.index));
         count.count()
     };
-    // The mapping of a device whose 1A00h:00 is read only cannot be changed.
+    // A mapping is dynamic if its sub-index 0 can be written.
     let dynamic = [0x1600, 0x1A00]
         .iter()
         .filter_map(|index| dictionary.entry(*index, 0))
@@ -188,7 +188,7 @@ fn sections(dictionary: Dictionary<'_>, about: &About<'_>) -> Vec<Section> {
     sections
 }
 
-/// A section with these keys and values, which are not part of a text.
+/// A section with these keys and values, which have no place in a text.
 pub(crate) fn section(name: &str, pairs: impl IntoIterator<Item = (String, String)>) -> Section {
     Section {
         name: Spanned::from(name.to_string()),

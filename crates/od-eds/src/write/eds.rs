@@ -1,4 +1,4 @@
-//! From a description to its canonical text.
+//! Writes the canonical text of a description.
 
 use alloc::collections::BTreeMap;
 use alloc::string::{String, ToString};
@@ -12,14 +12,13 @@ use crate::scan::names::List;
 use crate::span::Spanned;
 use od_model::Group;
 
-/// The text of a description: what it says, no more and no less.
+/// Returns the text of a description, without additions.
 ///
-/// Sections that describe no object come first, as they are; the three lists are made
-/// from the objects; CompactSubObj and CompactPDO are written out. Reading the text again
-/// gives the same description. For a file that other tools are to take, see
-/// [`canonical`](crate::canonical()).
+/// Sections that describe no object come first, unchanged; the three lists are made from the
+/// objects; CompactSubObj and CompactPDO are expanded. The text gives the same description again.
+/// For a file that other tools read, use [`canonical`](crate::canonical()).
 ///
-/// Reals are written in decimal, as vendors do; only Lely expects the bit pattern.
+/// Reals are decimal, as vendors write them; only Lely expects the bit pattern.
 pub fn write(description: &Description) -> String {
     text(&description.sections, &description.objects, |object| {
         object.sub_number
@@ -91,7 +90,8 @@ impl Text {
         self.0.push('\n');
     }
 
-    /// A text that a patch brought may hold line ends; the format has no way to write them.
+    /// A text of a patch may contain line ends, which the format cannot express; they become
+    /// blanks.
     fn one_line(&mut self, text: &str) {
         match either(text, [b'\n', b'\r']) {
             Some(_) => self.0.push_str(&text.replace(['\n', '\r'], " ")),
@@ -99,7 +99,7 @@ impl Text {
         }
     }
 
-    /// A field, unless `extra` has the text that could not be read.
+    /// Writes a field, unless `extra` has a text for it that could not be read.
     fn field(&mut self, key: &str, value: &str, extra: &[(String, String)]) {
         if !extra.iter().any(|(k, _)| k.eq_ignore_ascii_case(key)) {
             self.pair(key, value);

@@ -1,4 +1,4 @@
-//! From a description to the text of an EDS or a DCF.
+//! Writes a description as the text of an EDS or a DCF.
 
 pub(crate) mod canonical;
 pub(crate) mod describe;

@@ -1,4 +1,4 @@
-//! Fixes in an XDD: of a fix for an EDS only what is the same in an attribute.
+//! Converts fixes for an EDS to fixes for an XDD, if they concern the value of one attribute.
 
 use alloc::format;
 use alloc::string::String;
@@ -6,7 +6,8 @@ use alloc::string::String;
 use crate::fix::{Action, Edit, Fix};
 use crate::scan::number::number;
 
-/// Returns the fix in the form of CiA 311; `None` if one of its edits is more than the value of an attribute.
+/// Returns the fix in the form of CiA 311; `None` if one of its edits changes more than the value
+/// of an attribute.
 pub(crate) fn in_xml(mut fix: Fix, text: &str) -> Option<Fix> {
     for edit in &mut fix.edits {
         edit.text = value(edit, text)?;

@@ -12,9 +12,9 @@ use crate::span::{Span, Spanned};
 use crate::xdd::source::Made;
 use crate::xdd::source::{Reader, below, children};
 
-/// Name of the characteristic that holds the lines of `[Comments]`.
+/// Name of the characteristic with the lines of `[Comments]`.
 pub(super) const COMMENTS: &str = "Comments";
-/// Name of the characteristic that holds FileRevision.
+/// Name of the characteristic with FileRevision.
 pub(super) const REVISION: &str = "File revision";
 
 /// FileInfo, DeviceInfo, DummyUsage, Comments and DeviceComissioning, if the file has them.
@@ -135,7 +135,7 @@ fn device_info(root: Node<'_, '_>, reader: &Reader<'_>) -> Option<Placed<'static
     Some(made.placed)
 }
 
-/// The supported bit rates as flags: `500 Kbps` is BaudRate_500.
+/// The supported bit rates as flags: `500 Kbps` becomes BaudRate_500.
 fn bit_rates(made: &mut Made, root: Node<'_, '_>, reader: &Reader<'_>) {
     let Some(rates) = below(root, "baudRate").next() else {
         return;
@@ -161,7 +161,7 @@ fn bit_rates(made: &mut Made, root: Node<'_, '_>, reader: &Reader<'_>) {
     }
 }
 
-/// `true` as `1`.
+/// `true` becomes `1`.
 fn flag(given: Spanned<String>) -> Spanned<String> {
     let value = match given.as_str() {
         "true" => "1".to_string(),
@@ -209,7 +209,7 @@ fn commissioning(root: Node<'_, '_>, reader: &Reader<'_>) -> Option<Placed<'stat
     Some(made.placed)
 }
 
-/// `500 Kbps` as `500`.
+/// `500 Kbps` becomes `500`.
 fn rate(given: Spanned<String>) -> Spanned<String> {
     let digits = given.bytes().take_while(u8::is_ascii_digit).count();
     let span: Span = given.span;

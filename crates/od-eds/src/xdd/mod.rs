@@ -1,13 +1,12 @@
-//! XDD and XDC text (CiA 311): what an EDS and a DCF say, in XML.
+//! XDD and XDC text (CiA 311): the content of an EDS or a DCF in XML.
 //!
-//! The reader takes what belongs to an object from where CiA 311 keeps it: the
-//! object's own attributes, or the parameter that it refers to, with the template
-//! and the types that the parameter refers to. The result is what an EDS of the same
-//! device gives, values and findings included; [`parse`](crate::parse()) and
-//! [`Document`](crate::Document) read XML here.
+//! The reader collects the content of an object from the places of CiA 311: the object's own
+//! attributes, or the parameter that it refers to, with the template and the types of the
+//! parameter. The result equals that of an EDS of the same device, with values and findings.
+//! [`parse`](crate::parse()) and [`Document`](crate::Document) use this module for XML.
 //!
-//! Elements are known by their local names, so the namespaces of CiA 311 1.0 and 1.1
-//! are the same, and so are project files (`.xpd`) that hold one device.
+//! Elements are recognised by their local names, so the namespaces of CiA 311 1.0 and 1.1 count as
+//! the same, and so do project files (`.xpd`) with one device.
 
 pub(crate) mod fixes;
 mod info;
@@ -33,8 +32,8 @@ pub use write::write;
 
 /// Reads an XDD or an XDC; `see` receives its content as sections of an EDS.
 ///
-/// Never fails, never panics. A text that is not well-formed XML gives an empty
-/// description and the place where it breaks.
+/// Never fails and never panics. A text that is not well-formed XML gives an empty description and
+/// a finding at the error.
 pub(crate) fn parse(text: &str, see: &mut dyn FnMut(&[Placed<'_>]), log: &mut Log) -> Description {
     if let Some(large) = limits::exceeded(text) {
         let line = text[..large.at].matches('\n').count() as u32 + 1;

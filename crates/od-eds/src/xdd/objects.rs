@@ -234,8 +234,8 @@ fn data_type(
     Some(Spanned::new(format!("0x{:04X}", data_type.code()), header))
 }
 
-/// AccessType and PDOMapping. An object that is mapped in one direction only is rwr or rww
-/// if a master can write it, too.
+/// AccessType and PDOMapping. An object that is mapped in one direction only, and that a master can
+/// write, is `rwr` or `rww`.
 fn access(
     node: Node<'_, '_>,
     parameter: Option<Parameter<'_, '_>>,
@@ -244,7 +244,7 @@ fn access(
 ) -> (Spanned<String>, Option<Spanned<String>>) {
     let mapping = reader.attribute(node, "PDOmapping");
     let direction = mapping.as_ref().map_or("", |mapping| mapping.as_str());
-    // CiA 311 has one set of words for accessType of an object, and another for access of a parameter.
+    // CiA 311 has different words for accessType of an object and for access of a parameter.
     let own = reader.attribute(node, "accessType");
     if let Some(own) = &own {
         let right = match own.as_str() {

@@ -32,7 +32,7 @@ impl<'a, 'i> Parameter<'a, 'i> {
         core::iter::once(self.own).chain(self.template)
     }
 
-    /// `access`; `read` if it is missing, as the schema has it.
+    /// `access`; `read` if it is missing, as in the schema.
     pub(super) fn access(&self, reader: &Reader<'_>) -> Option<Spanned<String>> {
         self.both()
             .find_map(|node| reader.attribute(node, "access"))
@@ -49,8 +49,8 @@ impl<'a, 'i> Parameter<'a, 'i> {
             .find_map(|value| reader.attribute(value, "value"))
     }
 
-    /// `minValue` or `maxValue` of the one range of the allowed values. Several ranges
-    /// and single values are not limits of an object dictionary.
+    /// `minValue` or `maxValue` of the only range of the allowed values. Several ranges or single
+    /// values cannot be limits of an object dictionary.
     pub(super) fn limit(&self, name: &'static str, reader: &Reader<'_>) -> Option<Spanned<String>> {
         let allowed = self
             .both()

@@ -1,4 +1,4 @@
-//! Small files of every way in which CiA 311 says something.
+//! Small files for every form in which CiA 311 expresses content.
 
 use alloc::format;
 use alloc::string::String;
@@ -24,7 +24,7 @@ fn codes(parsed: &Parsed) -> Vec<&'static str> {
 }
 
 #[test]
-fn what_objects_say_themselves() {
+fn objects_with_their_own_attributes() {
     let text = file(
         "",
         "<CANopenObjectList>\n\
@@ -59,7 +59,7 @@ fn what_objects_say_themselves() {
 }
 
 #[test]
-fn what_parameters_templates_and_types_say() {
+fn objects_with_parameters_templates_and_types() {
     let parsed = parse(&file(
         "<dataTypeList>\
           <array uniqueID=\"A\"><subrange lowerLimit=\"0\" upperLimit=\"1\"/><INT/></array>\
@@ -133,7 +133,7 @@ fn what_parameters_templates_and_types_say() {
 }
 
 #[test]
-fn what_is_said_besides_objects() {
+fn content_besides_the_objects() {
     let parsed = parse(&file(
         "<DeviceIdentity><vendorName>odkit</vendorName><vendorID>0x5F</vendorID>\
          <productText><description lang=\"en\">Two\n lines</description></productText></DeviceIdentity>",
@@ -165,7 +165,7 @@ fn what_is_said_besides_objects() {
 }
 
 #[test]
-fn what_is_wrong_has_a_place() {
+fn each_problem_has_a_place() {
     let text = file(
         "",
         "<CANopenObjectList><CANopenObject index=\"10G0\" name=\"a\"/><CANopenObject name=\"a\"/>\

@@ -9,14 +9,14 @@ use od_model::DataType;
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Found {
     Type(DataType),
-    /// Bytes: an OCTET_STRING if there are some, else a DOMAIN.
+    /// Bytes: an OCTET_STRING if the element has a value, otherwise a DOMAIN.
     Bits,
 }
 
-/// Types may refer to types; a file that refers in a ring ends here.
+/// Types may refer to types; this limit ends a circle of references.
 const DEEPEST: u8 = 8;
 
-/// The type that an element has as a child, followed through the file's own types.
+/// The type in a child of the element; references to types of the file are followed.
 pub(super) fn of(node: Node<'_, '_>, ids: &Ids<'_, '_>) -> Option<Found> {
     within(node, ids, DEEPEST)
 }
@@ -40,7 +40,7 @@ fn within(node: Node<'_, '_>, ids: &Ids<'_, '_>, depth: u8) -> Option<Found> {
     None
 }
 
-/// The members of a struct, in order; the one type of an array.
+/// The members of a struct, in order; for an array its type.
 pub(super) fn member(parameter: Node<'_, '_>, sub: u8, ids: &Ids<'_, '_>) -> Option<Found> {
     let reference = children(parameter, "dataTypeIDRef").next()?;
     let target = ids.get(reference.attribute("uniqueIDRef")?)?;

@@ -1,4 +1,4 @@
-//! From a description to XDD or XDC text (CiA 311 1.1).
+//! Writes a description as XDD or XDC text (CiA 311 1.1).
 
 mod data_types;
 mod function;
@@ -22,11 +22,11 @@ const HEAD: &str = "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<ISO15745Profile
     xmlns:xsi=\"http://www.w3.org/2001/XMLSchema-instance\" \
     xmlns=\"http://www.canopen.org/xml/1.1\">\n";
 
-/// The XDD of a description; an XDC, with actual values and commissioning, where it is that of
-/// a configured device (a DCF).
+/// Returns the XDD of a description; for a configured device (a DCF) the XDC, with actual values
+/// and commissioning.
 ///
-/// Reading the text again gives the same objects. Objects contain everything themselves; those
-/// that 1010h saves also have a parameter with the group.
+/// The text gives the same objects again. Objects contain all their attributes; objects that 1010h
+/// saves also have a parameter with the group.
 pub fn write(description: &Description) -> String {
     let mut out = Xml::new(HEAD);
     let info = |key: &str| value(description, "FileInfo", key);
@@ -294,8 +294,8 @@ fn entry_attributes(address: Address, entry: &EntryDescription) -> Attributes {
         Some(value) => value_text(value, data_type),
         None => String::new(),
     };
-    // The list of objects has no word for `rwr` and `rww`: the mapping direction shows them, or
-    // without a mapping the parameter.
+    // The list of objects has no word for `rwr` and `rww`: the mapping direction shows them, or the
+    // parameter if there is no mapping.
     let (access, mapping) = match (*entry.access, *entry.mappable) {
         (Access::Rwr | Access::Rww, false) => ("", "no"),
         (access, false) => (access.name(), "no"),
@@ -368,8 +368,8 @@ fn text_of(section: &Section, key: &str) -> String {
         .map_or(String::new(), |value| value.value.trim().into())
 }
 
-/// A number in the form of the schema (`xsd:unsignedByte` and others), which has no hexadecimal digits. Other texts
-/// are unchanged.
+/// A number in the form of the schema (`xsd:unsignedByte` and others), which allows no hexadecimal
+/// digits. Other texts stay.
 fn decimal(text: String) -> String {
     match od_model::values::integer(&text) {
         Some(number) => number.to_string(),
@@ -377,7 +377,7 @@ fn decimal(text: String) -> String {
     }
 }
 
-/// `07-14-2026` as `2026-07-14`; `None` for other texts.
+/// `07-14-2026` becomes `2026-07-14`; `None` for other texts.
 fn date(text: &str) -> Option<String> {
     let parts: Vec<&str> = text.split('-').collect();
     let digits = |part: &str, len| part.len() == len && part.bytes().all(|b| b.is_ascii_digit());
@@ -389,7 +389,7 @@ fn date(text: &str) -> Option<String> {
     }
 }
 
-/// `02:05PM` as `14:05:00`; `None` for other texts.
+/// `02:05PM` becomes `14:05:00`; `None` for other texts.
 fn time(text: &str) -> Option<String> {
     let (time, half) = text
         .trim()

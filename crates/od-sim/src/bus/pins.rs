@@ -10,11 +10,11 @@ use super::{Bus, STUCK};
 use crate::bus::wiring::Wire;
 
 impl Bus {
-    /// Wires the connection of a device to an input of a device, which may be the same. An input has one wire:
-    /// the last one replaces others.
+    /// Wires the connection of a device to an input of a device, which may be the same. An input
+    /// has one wire; a new one replaces it.
     ///
     /// # Errors
-    /// A sentence: a device or a connection does not exist, or the second one is not an input.
+    /// A message: a device or a connection does not exist, or the second one is not an input.
     pub fn connect(&mut self, from: (usize, &str), to: (usize, &str)) -> Result<(), Refused> {
         let pin = |(device, name): (usize, &str)| {
             let one = self
@@ -40,12 +40,12 @@ impl Bus {
         Ok(())
     }
 
-    /// Wires carry what changed at their first ends.
+    /// Passes the values that changed at the first end of each wire to its second end.
     pub(super) fn conduct(&mut self) {
         if self.wires.is_empty() {
             return;
         }
-        // Two devices whose outputs follow each other for ever would be an oscillator; stop there.
+        // Two outputs that follow each other without end are an oscillator; stop there.
         for _ in 0..STUCK {
             let mut is_changed = false;
             for at in 0..self.wires.len() {
@@ -65,14 +65,14 @@ impl Bus {
         }
     }
 
-    /// A device is taken off the bus, with its wires.
+    /// Removes a device with its wires.
     pub(super) fn cut_wires(&mut self, device: usize) {
         let wires = core::mem::take(&mut self.wires);
         let left = wires.into_iter().filter_map(|wire| wire.without(device));
         self.wires = left.collect();
     }
 
-    /// Another device is in the place of one.
+    /// Removes the wires of a device that is replaced.
     pub(super) fn cut_wires_of(&mut self, place: usize) {
         self.wires
             .retain(|wire| wire.from.0 != place && wire.to.0 != place);

@@ -1,4 +1,4 @@
-//! Time that passes while things are sent, one after another or many at once.
+//! Lets time pass until frames are sent, one after the other or many at once.
 
 use std::prelude::v1::*;
 
@@ -7,13 +7,13 @@ use od_runtime::Instant;
 use super::{Bus, Sent};
 
 impl Bus {
-    /// Time passes until the first moment not after `to` at which something is sent.
-    /// Answers whether something was; if not, it is `to` now.
+    /// Lets time pass until a frame is sent, but not beyond `to`. Returns whether one was sent; if
+    /// not, the time is `to`.
     pub fn advance_until_sent(&mut self, to: Instant) -> bool {
         self.advance_until_full(to, 1)
     }
 
-    /// As [`advance_until_sent`](Self::advance_until_sent), until this number of frames wait to be
+    /// As [`advance_until_sent`](Self::advance_until_sent), until this number of frames can be
     /// [polled](Self::poll).
     pub(crate) fn advance_until_full(&mut self, to: Instant, frames: usize) -> bool {
         while self.sent.len() < frames {
@@ -28,8 +28,8 @@ impl Bus {
         true
     }
 
-    /// A device that is the only one on an ideal line meets many deadlines at once. Answers as `step` does; `None`:
-    /// it is not alone, or an observer waits for frames.
+    /// Meets many deadlines at once for the only device on an ideal line. Returns the same as
+    /// `step`; `None` if there are other devices, or an observer waits for frames.
     fn run(&mut self, to: Instant, frames: usize) -> Option<bool> {
         let Self {
             devices,
@@ -54,7 +54,7 @@ impl Bus {
                 frame,
             });
         })?;
-        // The time stays that of the last frame, also where the device has nothing to do until `to`.
+        // The time stays that of the last frame, even if the device has nothing to do until `to`.
         if self.sent.len() >= frames {
             return Some(true);
         }
@@ -68,7 +68,7 @@ impl Bus {
         }
     }
 
-    /// All frames that devices sent, oldest first.
+    /// All frames of devices, oldest first.
     pub(crate) fn poll_all(&mut self) -> impl Iterator<Item = Sent> + '_ {
         self.sent.drain(..)
     }
@@ -104,9 +104,9 @@ mod tests {
         Some(bus)
     }
 
-    /// Time continues from the frame, also if the device has no deadline before the end.
+    /// Time continues from the frame, even if the device has no deadline before the end.
     #[test]
-    fn time_is_that_of_the_frame_that_is_waited_for() {
+    fn the_time_is_that_of_the_awaited_frame() {
         let mut bus = bus(false).expect("a device");
         for (index, sub) in [(0x1800u16, 5), (0x1017, 0)] {
             let [low, high] = index.to_le_bytes();
@@ -122,7 +122,7 @@ mod tests {
     }
 
     #[test]
-    fn many_deadlines_at_once_are_the_same_as_one_by_one() {
+    fn many_deadlines_at_once_give_the_same_as_one_by_one() {
         let (mut one, mut other) = (bus(false).expect("a device"), bus(true).expect("a device"));
         let end = Instant::from_millis(2_000);
         let (mut at_once, mut step_by_step) = (Vec::new(), Vec::new());

@@ -1,4 +1,4 @@
-//! Frames on a line that takes time: who sends next, who receives what was sent, and what is sent
+//! Frames on a line that takes time: which is sent next, who receives it, and which are repeated.
 //! again.
 
 use std::prelude::v1::*;
@@ -8,15 +8,15 @@ use od_runtime::{Frame, Instant};
 use super::{Bus, Sent};
 use crate::wire::{Condition, Disturbance, Due, Ended, PROCESSING, Trouble, Waiting};
 
-/// Bits of an extended frame with eight bytes, all stuff bits that there can be, and the three
-/// bits behind it.
+/// Bits of an extended frame with eight bytes, with the greatest number of stuff bits and the three
+/// bits after it.
 const LONGEST_FRAME: u64 = 163;
-/// Microseconds between two reports of a frame that repeats without a change.
+/// Microseconds between two reports of a frame that is repeated without a change.
 const BETWEEN_REPORTS: u64 = 1_000_000;
 
 impl Bus {
-    /// Puts a frame of the outside in the queue for the wire. It is [polled](Bus::poll) when it
-    /// came through.
+    /// Queues a frame of the outside for the line. It is [polled](Bus::poll) after its
+    /// transmission.
     pub(super) fn queue(&mut self, frame: &Frame) {
         self.line.medium.push(0, *frame, self.now);
     }
@@ -32,20 +32,21 @@ impl Bus {
             .min()
     }
 
-    /// The next frame that a device sent; those of the outside are dropped. For a host that passes
-    /// frames of the outside on when they come.
+    /// The next frame of a device; frames of the outside are dropped. For a host that has passed on
+    /// frames of the outside already.
     #[cfg(feature = "serve")]
     pub(crate) fn poll_device(&mut self) -> Option<Sent> {
         core::iter::from_fn(|| self.poll()).find(|sent| sent.device.is_some())
     }
 
-    /// Does a frame of this station wait for a real line, or is it on it? Station 0 is the outside.
+    /// Returns whether a frame of this station waits for a real line or is being sent. Station 0 is
+    /// the outside.
     pub fn is_sending(&self, station: usize) -> bool {
         self.line.medium.holds(station)
     }
 
-    /// Microseconds by which a frame can come later than it was due, because it takes its bits and
-    /// waits for one before it; 0 on a line that takes no time.
+    /// Microseconds by which a frame can be late, because of its bits and of a frame before it; 0
+    /// on a line that takes no time.
     pub(crate) fn longest_wait(&self) -> u64 {
         if !self.line.is_real() {
             return 0;
@@ -54,29 +55,33 @@ impl Bus {
         2 * LONGEST_FRAME * 1000 / u64::from(rate.unwrap_or(500).max(1))
     }
 
-    /// Returns whether a frame is on a real line or waits for it, other than one that repeats without end.
+    /// Returns whether a frame is being sent on a real line or waits for it, except one that is
+    /// repeated without end.
     pub fn is_busy(&self) -> bool {
         (0..=self.devices.len()).any(|station| self.is_sending(station) && !self.is_stuck(station))
     }
 
-    /// Time passes until no frame is on a real line or waits for it, or until this time if there is always one.
+    /// Lets time pass until no frame is being sent or waits, or until this time if there is always
+    /// one.
     pub(crate) fn advance_until_quiet(&mut self, until: Instant) {
         while self.is_busy() && self.next_deadline().is_some_and(|at| at <= until) {
             self.advance_until_event();
         }
     }
 
-    /// Does a frame of this station repeat without end, because no station acknowledges it?
+    /// Returns whether a frame of this station is repeated without end, because no station
+    /// acknowledges it.
     pub(crate) fn is_stuck(&self, station: usize) -> bool {
         self.line.medium.repeats(station)
     }
 
-    /// Does this frame of the outside wait for a real line?
+    /// Returns whether this frame of the outside waits for a real line.
     pub(crate) fn is_waiting(&self, frame: &Frame) -> bool {
         self.line.medium.waits(frame)
     }
 
-    /// Time passes until something happens on the line or in a device; `false` if nothing will.
+    /// Lets time pass until the next event on the line or in a device; `false` if there will be
+    /// none.
     pub(crate) fn advance_until_event(&mut self) -> bool {
         let Some(at) = self.next_deadline() else {
             return false;
@@ -85,14 +90,15 @@ impl Bus {
         true
     }
 
-    /// Time when a device is due. One that wants to send waits for room in its controller.
+    /// Time when a device is due. A device with a frame to send waits until its controller has
+    /// room.
     pub(super) fn deadline(&self, device: usize) -> Option<Instant> {
         let at = self.devices[device].poll_timeout()?;
         let waits = at <= self.now && self.line.is_real();
         (!waits || self.line.medium.has_room(device + 1)).then_some(at)
     }
 
-    /// Takes what a device has to send, as far as its controller has room for it.
+    /// Collects the frames of a device, as far as its controller has room.
     pub(super) fn load(&mut self, device: usize, ready: Instant) {
         let station = device + 1;
         while self.line.medium.has_room(station)
@@ -102,7 +108,7 @@ impl Bus {
         }
     }
 
-    /// Does what is due on the wire at this moment.
+    /// Handles the events of the line at this time.
     pub(super) fn carry(&mut self) {
         while let Some(due) = self.line.medium.take(self.now) {
             match due {
@@ -120,7 +126,8 @@ impl Bus {
             stations.get(one.station).is_some_and(|it| it.present)
                 && self.line.controller(one.station).condition() != Condition::BusOff
         });
-        // One that is not connected, or that has another bit rate, does not compare its bits with those of the others.
+        // A station that is not connected, or has another bit rate, does not compare its bits with
+        // those of the others.
         let alone = |one: &Waiting| !self.line.is_plugged(one.station);
         let rate = |one: &Waiting| stations[one.station].rate;
         if let Some(first) = starters.first().copied() {
@@ -155,7 +162,7 @@ impl Bus {
         medium.begin(ended, rate.unwrap_or(500), attempt.bits);
     }
 
-    /// A frame ended: it is delivered, or its controllers send it again.
+    /// Ends a frame: delivers it, or lets its controllers repeat it.
     fn end(&mut self, ended: Ended) {
         if ended.trouble.is_none() {
             self.deliver(&ended);
@@ -180,7 +187,8 @@ impl Bus {
         }
     }
 
-    /// Everybody who can hears a frame that came through, and its senders have room for the next.
+    /// Delivers a transmitted frame to all stations that can receive it; its senders have room for
+    /// the next one.
     fn deliver(&mut self, ended: &Ended) {
         let Some(Waiting { station, frame, .. }) = ended.senders.first().copied() else {
             return;
@@ -222,7 +230,8 @@ impl Bus {
         }
     }
 
-    /// Reports a failed attempt. While nothing changes from one to the next, one a second is enough.
+    /// Reports a failed attempt. While nothing changes between attempts, one report per second is
+    /// enough.
     fn report(&mut self, waiting: &mut Waiting, trouble: Trouble) {
         let controller = self.line.controller(waiting.station);
         let is_soon = |before: Instant| self.now.micros_since(before) < BETWEEN_REPORTS;

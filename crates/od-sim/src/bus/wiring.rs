@@ -2,24 +2,24 @@
 
 use std::prelude::v1::*;
 
-/// Devices on one shaft, and receivers of each device.
+/// Shafts of the devices, and which devices receive each other's frames.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Wiring {
     /// The shaft of each device: the number of the first device on it.
     shafts: Vec<usize>,
-    /// Bit rate of what is outside in kbit/s; `None`: bit rates do not matter.
+    /// Bit rate of the outside in kbit/s; `None`: bit rates do not matter.
     pub(super) rate: Option<u16>,
 }
 
 impl Wiring {
-    /// A device more, on the shaft of another one or on its own.
+    /// Adds a device, on the shaft of another one or on its own.
     pub(super) fn add(&mut self, beside: Option<usize>) {
         let own = self.shafts.len();
         let shaft = beside.and_then(|other| self.shafts.get(other).copied());
         self.shafts.push(shaft.unwrap_or(own));
     }
 
-    /// A device less; those behind it move up. The others on its shaft stay together.
+    /// Removes a device; later ones move up. The others on its shaft stay together.
     pub(super) fn remove(&mut self, device: usize) {
         let heir = self.beside(device).first().copied();
         if device < self.shafts.len() {
@@ -33,7 +33,7 @@ impl Wiring {
         }
     }
 
-    /// A device goes to a shaft of its own.
+    /// Gives a device a shaft of its own.
     pub(super) fn separate(&mut self, device: usize) {
         let heir = self.beside(device).first().copied();
         for (other, shaft) in self.shafts.iter_mut().enumerate() {
@@ -56,7 +56,8 @@ impl Wiring {
             .collect()
     }
 
-    /// Do two stations understand each other? A device without bit rate has everyone's.
+    /// Returns whether two stations have the same bit rate. A device without a bit rate adapts to
+    /// all.
     pub(super) fn hears(&self, one: Option<u16>, other: Option<u16>) -> bool {
         match (self.rate, one, other) {
             (Some(_), Some(one), Some(other)) => one == other,
@@ -70,12 +71,13 @@ impl Wiring {
 pub(super) struct Wire {
     pub(super) from: (usize, usize),
     pub(super) to: (usize, usize),
-    /// The value that it carried last.
+    /// The last value on the wire.
     pub(super) last: Option<i64>,
 }
 
 impl Wire {
-    /// Returns the wire after this device was taken off the bus; `None` if it was one of its own.
+    /// Returns the wire after this device was removed from the bus; `None` if the wire was
+    /// connected to it.
     pub(super) fn without(mut self, device: usize) -> Option<Self> {
         for (end, _) in [&mut self.from, &mut self.to] {
             if *end == device {

@@ -1,4 +1,4 @@
-//! What a log says, in the order of its frames: the input of the rules.
+//! Facts of a log, in the order of its frames: the input of the rules.
 
 use std::collections::BTreeMap;
 use std::prelude::v1::*;
@@ -109,7 +109,7 @@ pub(super) enum Outcome {
     Open,
 }
 
-/// A request of a client and what became of it.
+/// A request of a client and its end.
 #[derive(Clone, Debug)]
 pub(super) struct Exchange {
     pub(super) request: Seen,
@@ -122,7 +122,7 @@ pub(super) struct Exchange {
     pub(super) extra: Vec<Seen>,
 }
 
-/// What the frames of one node ID say.
+/// Facts about the frames of one node ID.
 #[derive(Clone, Default, Debug)]
 pub(super) struct Node {
     /// Frames of error control: boot-up (0), heartbeats, responses to guarding.
@@ -279,7 +279,7 @@ impl<'a> Facts<'a> {
         Some(loads.collect())
     }
 
-    /// The NMT commands to a node between two moments.
+    /// The NMT commands to a node between two times.
     pub(super) fn commands_to(
         &self,
         node: u8,
@@ -291,13 +291,13 @@ impl<'a> Facts<'a> {
         own.map(|(_, code, _)| *code)
     }
 
-    /// Returns whether a reset command came to a node between two moments.
+    /// Returns whether a reset command came to a node between two times.
     pub(super) fn is_reset(&self, node: u8, from: Instant, to: Instant) -> bool {
         self.commands_to(node, from, to)
             .any(|code| matches!(code, 0x81 | 0x82))
     }
 
-    /// Returns whether anything but frames of this node came between two moments: the log went on.
+    /// Returns whether frames of other nodes were logged between two times, so the log continued.
     pub(super) fn goes_on(&self, node: u8, from: Instant, to: Instant) -> bool {
         let sent = self.nodes.get(&node).map_or(&[][..], |node| &node.sent);
         let count = |all: &[Seen]| {
@@ -319,7 +319,8 @@ impl<'a> Facts<'a> {
         self.known.dictionary.and_then(|of| of(node))
     }
 
-    /// Default value of an object by the EDS, or what a client wrote last before a moment.
+    /// The value of an object: what a client wrote last before a time, otherwise the default of the
+    /// EDS.
     pub(super) fn value(&self, node: u8, address: Address, before: Instant) -> Option<u32> {
         let writes = self.nodes.get(&node).map_or(&[][..], |node| &node.writes);
         let mut written = until(writes, before).iter().rev();
@@ -408,7 +409,8 @@ fn named(response: &Response, frame: &Frame) -> Option<Address> {
     is_first.then(|| Address::new(u16::from_le_bytes([low, high]), sub))
 }
 
-/// The bit rate by frames that follow each other without a pause, if there are enough of them.
+/// The bit rate, estimated from frames that follow each other without a pause; `None` if there are
+/// too few of them.
 fn estimated(lengths: &[(Instant, u32)]) -> Option<u16> {
     let mut rates: Vec<f64> = lengths
         .windows(2)
@@ -418,7 +420,8 @@ fn estimated(lengths: &[(Instant, u32)]) -> Option<u16> {
         })
         .collect();
     rates.sort_by(f64::total_cmp);
-    // The fastest are without a pause; a few are faster than the bus, by the time stamps of an adapter.
+    // The shortest distances have no pause; a few are shorter than possible, because of the time
+    // stamps of an adapter.
     let fast = *rates.get(rates.len().saturating_sub(rates.len() / 50 + 1))?;
     let near = rates
         .iter()
@@ -433,7 +436,7 @@ fn estimated(lengths: &[(Instant, u32)]) -> Option<u16> {
     Some(rate)
 }
 
-/// The gap in the middle, in microseconds; 0 without gaps.
+/// The median gap in microseconds; 0 without gaps.
 pub(super) fn middle(all: &[Seen]) -> u64 {
     let mut gaps: Vec<u64> = all
         .windows(2)
@@ -443,7 +446,8 @@ pub(super) fn middle(all: &[Seen]) -> u64 {
     gaps.get(gaps.len() / 2).copied().unwrap_or(0)
 }
 
-/// Returns whether two senders take turns: every second frame has the same distance, and neighbours have not.
+/// Returns whether two senders alternate: the distance to the frame after the next is constant, the
+/// distance to the next is not.
 pub(super) fn is_interleaved(all: &[Seen]) -> bool {
     if all.len() < 8 {
         return false;

@@ -40,14 +40,14 @@ pub struct Incident {
     pub end: Instant,
     /// Whether the bus was as before when the log ended.
     pub recovered: bool,
-    /// Likely causes, the likeliest first.
+    /// Likely causes, in the order of likelihood.
     pub causes: Vec<Cause>,
     /// Places in the log of the records that show it, at most [`Incident::SHOWN`].
     pub records: Vec<usize>,
 }
 
 impl Incident {
-    /// Most records that an incident shows.
+    /// Greatest number of records in an incident.
     pub const SHOWN: usize = 8;
 
     /// Begin, end and whether the bus recovered: `1.500000 to 2.300000, not recovered`, in seconds.

@@ -1,13 +1,14 @@
-//! Joins the incidents that are signs of one fault.
+//! Joins incidents that are signs of the same fault.
 
 use std::prelude::v1::*;
 
 use super::incident::Incident;
 
-/// Signs of a fault come at most this long before and after it, in microseconds.
+/// Signs of a fault are at most this long before or after it, in microseconds.
 const NEAR: u64 = 1_500_000;
 
-/// Returns whether `other` is a sign of what `main` is about: at the same time, and of the same node or of the whole bus.
+/// Returns whether `other` is a sign of the fault in `main`: at the same time, and of the same node
+/// or of the whole bus.
 fn explains(main: &Incident, other: &Incident) -> bool {
     let is_near =
         other.begin <= main.end.plus_micros(NEAR) && main.begin <= other.end.plus_micros(NEAR);
@@ -15,7 +16,8 @@ fn explains(main: &Incident, other: &Incident) -> bool {
     is_near && is_same
 }
 
-/// One incident for each fault, in the order of their beginning. What explains others comes first in `all`.
+/// Returns one incident for each fault, in the order of their beginning. In `all`, an incident that
+/// explains others is before them.
 pub(super) fn merge(all: Vec<Incident>) -> Vec<Incident> {
     let mut kept: Vec<Incident> = Vec::new();
     for incident in all {

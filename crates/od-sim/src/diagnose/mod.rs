@@ -1,8 +1,8 @@
 //! Finds the faults in a log of a bus, and their likely causes.
 //!
-//! [`diagnose`] reads the frames once into facts (which node sent what and when, which request had which response),
-//! asks each rule, and joins what belongs to one fault: a cable that came loose, the EMCY of its consumer and the
-//! requests without a response are one incident.
+//! [`diagnose`] reads the frames once and collects facts (which node sent which frame and when,
+//! which request had which response), calls each rule, and joins the signs of one fault: a loose
+//! cable, the EMCY message of the consumer and the requests without a response are one incident.
 
 mod facts;
 mod incident;

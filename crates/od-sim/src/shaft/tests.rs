@@ -1,4 +1,4 @@
-//! Angles, speeds, ramps, and what a counter misses without power.
+//! Angles, speeds, ramps, and revolutions that a counter misses without power.
 
 use super::*;
 
@@ -61,13 +61,13 @@ fn a_ramp_ends_where_it_should_and_can_be_left() {
         let now = Instant::from_millis(ms);
         (shaft.at(now).fractions(), shaft.milli_rpm_at(now))
     };
-    // From 0 to 2 revolutions a minute within a minute: one revolution.
+    // From 0 to 2 revolutions per minute within a minute: one revolution.
     assert_eq!(at(&shaft, 30_000), (1 << 30, 1000));
     assert_eq!(at(&shaft, 60_000), (1 << 32, 2000));
     assert_eq!(at(&shaft, 90_000), (2 << 32, 2000));
     shaft.turn(Instant::from_millis(30_000), Angle::from_fractions(5 << 32));
     assert_eq!(at(&shaft, 60_000), (6 << 32, 2000));
-    // Left half way, for a stop and for another direction.
+    // Interrupted half way, for a stop and for another direction.
     let mut other = shaft.clone();
     other.set_milli_rpm(Instant::from_millis(45_000), 0);
     assert!(!other.is_turning());
@@ -104,8 +104,8 @@ fn turns(turns: i64) -> Angle {
     Angle::from_fractions(turns << 32)
 }
 
-/// Revolutions that the counter has when power comes back, the shaft having turned from one
-/// revolution to another without it.
+/// Revolutions of the counter at power-on, after the shaft has turned from one revolution to
+/// another without power.
 fn counted(counter: Counter, from: i64, to: i64) -> i64 {
     let mut shaft = Shaft::default();
     shaft.start(Instant::ZERO, counter, SENSOR);
@@ -113,7 +113,7 @@ fn counted(counter: Counter, from: i64, to: i64) -> i64 {
     shaft.power_off(Instant::ZERO);
     shaft.set_angle(Instant::ZERO, turns(to));
     shaft.start(Instant::ZERO, counter, SENSOR);
-    // An NMT reset node changes nothing but a volatile counter.
+    // An NMT reset node changes only a volatile counter.
     shaft.turn(Instant::ZERO, turns(1));
     shaft.turn(Instant::ZERO, turns(-1));
     shaft.seen(Instant::ZERO).split().0
@@ -134,7 +134,7 @@ fn a_counter_misses_revolutions_without_power() {
     ] {
         assert_eq!(counted(sensor, from, to), expected, "{from} {to}");
     }
-    // Half of the counter either way is seen.
+    // Half of the counter in each direction is detected.
     let kept = Counter::Kept { turns: 8 };
     for (to, expected) in [(14, 14), (15, 7), (6, 6), (5, 13), (34, 10)] {
         assert_eq!(counted(kept, 10, to), expected, "{to}");
@@ -144,7 +144,7 @@ fn a_counter_misses_revolutions_without_power() {
 }
 
 #[test]
-fn two_ends_of_a_shaft_have_counters_of_their_own() {
+fn two_ends_of_a_shaft_have_separate_counters() {
     let mut shaft = Shaft::at_rest(turns(5));
     let mut other = Shaft::default();
     shaft.start(Instant::ZERO, Counter::Volatile, SENSOR);
@@ -152,7 +152,7 @@ fn two_ends_of_a_shaft_have_counters_of_their_own() {
     other.follow(&shaft);
     assert_eq!(other.seen(Instant::ZERO), turns(5));
     assert_eq!(other.without_counter(), shaft.without_counter());
-    // A position that is set sets the counter too.
+    // Setting a position sets the counter, too.
     shaft.set_raw(Instant::ZERO, SENSOR, 0x2800);
     assert_eq!(shaft.raw(Instant::ZERO, SENSOR), 0x2800);
     assert_eq!(shaft.seen(Instant::ZERO).split(), (2, 1 << 31));
@@ -170,7 +170,7 @@ fn positions_set_one_after_another_are_a_movement() {
         let raw = raw.rem_euclid(SENSOR.range() as i64) as u64;
         shaft.set_raw(Instant::from_millis(ms), SENSOR, raw);
     };
-    // The first is a jump, as is one after a while.
+    // The first position is a jump, and so is one after a pause.
     put(&mut shaft, 100, 5000);
     assert_eq!(speed(&shaft, 100), 0);
     put(&mut shaft, 121, 9000);
@@ -185,7 +185,7 @@ fn positions_set_one_after_another_are_a_movement() {
     assert_eq!(speed(&shaft, 371), 0);
     put(&mut shaft, 371, 0);
     assert_eq!(speed(&shaft, 371), 0);
-    // Two at one moment are a jump, and an even speed goes on beneath.
+    // Two positions at one moment are a jump; an even speed continues.
     shaft.set_milli_rpm(Instant::from_millis(400), 60_000);
     put(&mut shaft, 450, 100);
     put(&mut shaft, 450, 4000);

@@ -13,7 +13,7 @@ use crate::sdo::{Message, Observer, default_sdo};
 pub struct Client {
     /// Node ID of the server.
     pub node: u8,
-    /// Requests that need a response; of a block the segments do not count.
+    /// Requests that need a response; segments of a block do not count.
     pub requests: u32,
     /// Transfers that the client or the server aborted.
     pub aborts: u32,

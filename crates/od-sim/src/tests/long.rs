@@ -1,4 +1,5 @@
-//! Strings and DOMAINs of a file's device: what they take, and what they cost.
+//! Strings and DOMAINs of a device of a file: which lengths they accept, and how much memory they
+//! take.
 
 use std::prelude::v1::*;
 use std::{format, vec};
@@ -74,7 +75,7 @@ impl Pair {
         }
     }
 
-    /// The value as an SDO carries it, and as the bench shows it.
+    /// The value in the form of an SDO and of the bench.
     fn read(&mut self, object: Address) -> Vec<u8> {
         self.client.read(NodeId::ONE, object);
         let Event::Read(_, Ok(value)) = self.event() else {
@@ -95,7 +96,7 @@ impl Pair {
         while self.device.poll_transmit(self.now).is_some() {}
     }
 
-    /// Bytes that its values have.
+    /// Number of bytes of its values.
     fn memory(&self) -> usize {
         let node = &self.device.node;
         let beside = node.application.beside.as_ref();
@@ -110,7 +111,7 @@ fn blocks() -> Options {
     options
 }
 
-/// With further objects: the sections behind their lines of the list.
+/// Adds objects: their sections, and their lines in the list.
 fn with(objects: &[(u16, String)]) -> String {
     let mut eds = STRINGS.replace(
         "SupportedObjects=7",
@@ -124,10 +125,10 @@ fn with(objects: &[(u16, String)]) -> String {
 }
 
 #[test]
-fn values_of_every_length_both_ways() {
+fn values_of_every_length_in_both_directions() {
     for options in [Options::SEGMENTED, blocks()] {
         let mut pair = Pair::new(STRINGS, None, options);
-        // From long to short and back: each is reported at its own length.
+        // From long to short and back; each value has its own length.
         for len in [0, 1, 4, 5, 7, 8, 889, 890, 1024, 1025, 65_536, 7, 65_533, 0] {
             assert_eq!(pair.write(DOMAIN, &pattern(len)), Ok(()), "{len}");
             assert!(pair.read(DOMAIN) == pattern(len), "{len}");
@@ -152,7 +153,7 @@ fn a_domain_takes_one_mebibyte_and_a_string_what_the_file_says() {
 }
 
 #[test]
-fn a_size_holds_for_strings_and_domains_alike() {
+fn the_size_applies_to_strings_and_domains() {
     for (size, options) in [(1025, blocks()), (1025, Options::SEGMENTED), (2, blocks())] {
         let mut pair = Pair::new(STRINGS, Some(size), options);
         let size = size as usize;
@@ -174,7 +175,7 @@ fn a_size_holds_for_strings_and_domains_alike() {
 }
 
 #[test]
-fn a_long_value_is_gone_after_a_reset() {
+fn a_long_value_is_lost_after_a_reset() {
     let command = "ParameterName=x\nObjectType=8\nSubNumber=2\n";
     let command = |index: u16| {
         format!(
@@ -191,7 +192,7 @@ fn a_long_value_is_gone_after_a_reset() {
     assert_eq!(pair.write(DOMAIN, &pattern(1024)), Ok(()));
     pair.command(0x1010, b"save");
     assert_eq!(pair.write(DOMAIN, &pattern(2000)), Ok(()));
-    // What 1010h saved stays, and the longer value is not saved.
+    // The value saved by 1010h stays, and the longer value is not saved.
     pair.power_cycle();
     assert!(pair.read(DOMAIN) == pattern(1024), "of 1,024 bytes it is");
     assert_eq!(pair.write(DOMAIN, &pattern(2000)), Ok(()));
@@ -211,7 +212,7 @@ fn a_long_value_is_gone_after_a_reset() {
 }
 
 #[test]
-fn memory_is_taken_when_a_value_comes() {
+fn memory_is_allocated_when_a_value_is_written() {
     let domain = "ParameterName=Domain\nObjectType=2\nDataType=0xF\nAccessType=rw\n";
     let domains: Vec<_> = (0x3000..0x30C8)
         .map(|index| (index, domain.into()))
@@ -227,7 +228,7 @@ fn memory_is_taken_when_a_value_comes() {
         abort(AbortCode::TooLong)
     );
     assert_eq!(pair.memory(), before + MIB);
-    // A transfer that breaks off leaves nothing.
+    // An interrupted transfer leaves nothing.
     let job = pair.client.write(NodeId::ONE, object, &pattern(50_000));
     for _ in 0..1000 {
         if let Some(frame) = pair.device.poll_transmit(pair.now) {
@@ -247,7 +248,7 @@ fn memory_is_taken_when_a_value_comes() {
 }
 
 #[test]
-fn a_default_may_be_longer_than_all_that() {
+fn a_default_may_be_longer_than_the_limit() {
     let bytes = pattern(70_000);
     let hex: String = bytes.iter().map(|byte| format!("{byte:02X}")).collect();
     for access in ["ro", "const", "rw"] {

@@ -1,4 +1,4 @@
-//! Values and errors of a device, told from outside.
+//! Values and errors of a device that the outside sets.
 
 use od_model::Refused;
 use std::prelude::v1::*;
@@ -31,7 +31,7 @@ const EDS: &str = "\
 [6000sub1]\nParameterName=Input 1\nDataType=5\nAccessType=ro\nLowLimit=1\nHighLimit=9\nDefaultValue=1\n\
 PDOMapping=1\n";
 
-/// Its frames, on the device of [`EDS`] or a built-in one.
+/// Its frames, for the device of [`EDS`] or a built-in one.
 struct Inputs(Vec<String>);
 
 impl Host for Inputs {
@@ -125,7 +125,7 @@ fn a_value_of_the_device_changes_and_its_tpdo_follows() {
         let shown = refused(&std::format!("device inputs\n{line}"));
         assert!(shown.contains(why), "{line}: {shown}");
     }
-    // What a master may write acts as if it had: here a preset.
+    // A value that a master may write has the same effects, here a preset.
     frames(
         "device gxmm\nset 6003h = 77\nexpect value 6004h = 77\nset 1017h = 100\nexpect 701#7F after 100ms",
     );
@@ -146,7 +146,7 @@ fn a_device_reports_errors() {
         "000#0205",
     ];
     assert_eq!(frames(lines), sent);
-    // A start ends them; the family has bytes of its own.
+    // A start ends the errors; the family has default bytes of its own.
     frames(
         "device gxmm\nfault battery-low on\nskip\nemcy 4200h\nexpect 081#00 42 89 00 00 10 00 00\nnmt reset\nskip\nemcy 4200h\nexpect emcy 4200h",
     );

@@ -1,4 +1,4 @@
-//! SDO transfers of several frames as one (CiA 301, chapter 7.2.4).
+//! Combines the frames of an SDO transfer into one (CiA 301, chapter 7.2.4).
 
 use std::prelude::v1::*;
 
@@ -9,16 +9,16 @@ use od_wire::sdo::{Request, Response};
 use super::sorted::Sorted;
 use crate::sdo::{Message, Observer, default_sdo};
 
-/// A segmented or block transfer, as far as its frames have been seen.
+/// A segmented or block transfer, as far as its frames were seen.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Fold {
     /// Numbers of its frames.
     pub frames: Vec<u32>,
     /// The node ID of the server.
     pub node: u8,
-    /// Object that is read or written.
+    /// Object of the transfer.
     pub object: Address,
-    /// Written; else read.
+    /// Whether the object is written; otherwise it is read.
     pub is_write: bool,
     /// The bytes so far.
     pub bytes: Vec<u8>,
@@ -29,7 +29,7 @@ pub struct Fold {
 /// State of a transfer.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum State {
-    /// More frames follow.
+    /// More frames are missing.
     UnderWay,
     /// Complete.
     Done,
@@ -40,7 +40,7 @@ pub enum State {
 #[derive(Clone, Debug)]
 struct Open {
     first: u32,
-    /// The request says that the value is in segments, or in blocks.
+    /// The request announces segments or blocks.
     is_long: bool,
     /// The server responded to the request.
     is_answered: bool,
@@ -48,15 +48,15 @@ struct Open {
     is_last: bool,
 }
 
-/// Most bytes that are kept of a transfer.
+/// Limit of bytes that are kept of a transfer.
 const MOST: usize = 1 << 20;
 
-/// Puts the frames of each transfer together.
+/// Combines the frames of each transfer.
 #[derive(Clone, Debug, Default)]
 pub struct Folder {
     observers: Sorted<u8, Observer>,
     open: Sorted<u8, Open>,
-    /// By the number of the first frame.
+    /// Transfers by the number of their first frame.
     folds: Sorted<u32, Fold>,
 }
 
@@ -77,8 +77,8 @@ impl Folder {
         self.folds.get(first).filter(|fold| fold.frames.len() > 1)
     }
 
-    /// Takes the next frame. Returns the number of the first frame of the transfer that it
-    /// belongs to; `None` if it has a row of its own, as the first frame of a transfer has.
+    /// Handles the next frame. Returns the number of the first frame of its transfer; `None` if the
+    /// frame has a row of its own, like the first frame of a transfer.
     pub fn take(&mut self, frame: &Frame, number: u32) -> Option<u32> {
         let (node, is_response) = default_sdo(frame)?;
         let message = self
@@ -117,7 +117,7 @@ impl Folder {
         Some(first)
     }
 
-    /// Does a request start a transfer? Segments and confirmations do not.
+    /// Returns whether a request starts a transfer; segments and confirmations do not.
     fn begin(&mut self, request: Request, number: u32, node: u8) -> bool {
         let (object, is_write, is_long) = match request {
             Request::InitiateUpload { address } => (address, false, true),
@@ -166,7 +166,7 @@ fn starts(is_long: bool, is_write: bool, message: Message<'_>) -> bool {
     }
 }
 
-/// Takes what a frame of the transfer brings.
+/// Adds the content of a frame to its transfer.
 fn follow(open: &mut Open, fold: &mut Fold, message: Message<'_>) -> State {
     match message {
         Message::Request(Request::DownloadSegment(segment)) => {
@@ -198,7 +198,7 @@ fn keep(fold: &mut Fold, bytes: &[u8]) {
     }
 }
 
-/// The last segment of a block has bytes that mean nothing.
+/// Removes the unused bytes of the last segment of a block.
 fn cut(fold: &mut Fold, unused: u8) {
     let len = fold.bytes.len().saturating_sub(usize::from(unused));
     fold.bytes.truncate(len);

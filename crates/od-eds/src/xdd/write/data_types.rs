@@ -12,14 +12,14 @@ pub(super) fn parameter(index: u16, object: &ObjectDescription) -> Option<String
     kind(object).map(|_| format!("UID_OBJ_{index:04X}"))
 }
 
-/// A type that the list can hold.
+/// A type that the list can contain.
 enum Kind {
     Array(DataType),
     Struct,
 }
 
-/// A struct names the members by their order, so every sub-index must be there; an array has one
-/// type behind sub-index 0. A member of an unknown type has none in XML.
+/// A struct lists its members by their order, so every sub-index must exist. An array has one type
+/// for all sub-indices from 1 on. A member of an unknown type has no type in XML.
 fn kind(object: &ObjectDescription) -> Option<Kind> {
     let typed = |data_type: DataType| data_type.kind() != od_model::Kind::Record;
     let subs = object.entries.keys().copied().map(u16::from);
@@ -40,7 +40,7 @@ fn kind(object: &ObjectDescription) -> Option<Kind> {
     }
 }
 
-/// Writes the list, if there is a type for it.
+/// Writes the list, if it has at least one type.
 pub(super) fn list(out: &mut Xml, description: &Description) {
     let objects = description.objects.iter();
     let mut types = objects
@@ -98,7 +98,7 @@ fn type_id(index: u16) -> String {
     format!("UID_TYPE_{index:04X}")
 }
 
-/// IEC 61131-3's name of a type; the object's own attribute says which it is exactly.
+/// The IEC 61131-3 name of a type; the attribute of the object gives the exact type.
 pub(super) fn elementary(data_type: Option<DataType>) -> &'static str {
     use DataType::*;
     match data_type {

@@ -10,7 +10,7 @@ use crate::subject::start_value;
 use crate::xdd::info::{COMMENTS, REVISION};
 use od_model::Address;
 
-/// Writes the versions that the device names in 1009h and 100Ah.
+/// Writes the versions from 1009h and 100Ah.
 pub(super) fn versions(out: &mut Xml, description: &Description) {
     for (kind, index) in [("HW", 0x1009), ("SW", 0x100A)] {
         let entry = description.entry(Address::new(index, 0));
@@ -24,7 +24,7 @@ pub(super) fn versions(out: &mut Xml, description: &Description) {
     }
 }
 
-/// Writes DeviceFunction: the profile of the device, and what XML has no other place for.
+/// Writes DeviceFunction: the profile of the device, and content for which XML has no other place.
 pub(super) fn function(out: &mut Xml, description: &Description) {
     let mut all: Vec<(&str, Vec<String>)> = Vec::new();
     let device_type = description.entry(Address::new(0x1000, 0));

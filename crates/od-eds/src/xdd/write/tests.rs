@@ -27,7 +27,7 @@ fn round(text: &str) -> String {
 }
 
 #[test]
-fn what_is_written_is_read_again() {
+fn a_written_file_can_be_read_again() {
     let written = round(
         "[FileInfo]\nFileName=a&b.eds\nCreationDate=07-14-2026\nDescription=\"x\" < y\n\
              [DeviceInfo]\nVendorNumber=0x5F\nBaudRate_500=1\nBaudRate_10=0\nNrOfTXPDO=1\n\
@@ -57,7 +57,7 @@ fn what_is_written_is_read_again() {
     }
 }
 
-/// The schema of CiA 311 has decimal numbers only.
+/// The schema of CiA 311 allows decimal numbers only.
 #[test]
 fn hexadecimal_numbers_of_an_eds_are_decimal() {
     let text = "[DeviceInfo]\nGranularity=0x8\nNrOfRXPDO=0x1\nSimpleBootUpSlave=0x1\nBaudRate_500=0x1\n\
@@ -74,7 +74,7 @@ fn hexadecimal_numbers_of_an_eds_are_decimal() {
 }
 
 #[test]
-fn a_file_says_what_it_is() {
+fn a_file_names_its_kind() {
     let text = "[FileInfo]\nFileName=a.eds\nFileVersion=1\nFileRevision=7\nCreationTime=02:05PM\nCreationDate=07-14-2026\n\
         ModificationTime=12:30AM\nModificationDate=07-15-2026\n[Comments]\nLines=2\nLine1=one <1>\nLine2=two\n\
         [1000]\nParameterName=t\nDataType=7\nAccessType=ro\nDefaultValue=0x20196\n\
@@ -104,7 +104,7 @@ fn a_file_says_what_it_is() {
     ] {
         assert!(written.contains(part), "{part}\n{written}");
     }
-    // No type of the list holds a member of an unknown type.
+    // The list has no type with a member of an unknown type.
     assert!(!written.contains("UID_TYPE_2001"));
     let again = crate::parse(&written).description;
     assert_eq!(again.objects, description.objects);
@@ -121,7 +121,7 @@ fn a_file_says_what_it_is() {
 }
 
 #[test]
-fn a_type_that_odkit_does_not_know_is_kept() {
+fn an_unknown_type_is_kept() {
     for data_type in ["0x21478", "0x123456789ABCDEF01", "MINE"] {
         let text = format!(
             "[1018]\nParameterName=Identity\nObjectType=9\nSubNumber=2\n\

@@ -1,4 +1,4 @@
-//! XML text with its depth.
+//! XML text with its nesting depth.
 
 use alloc::format;
 use alloc::string::String;
@@ -13,7 +13,7 @@ pub(super) fn vec_of<const N: usize>(pairs: [(&'static str, String); N]) -> Attr
     pairs.into_iter().collect()
 }
 
-/// Text with its depth.
+/// Text and nesting depth.
 pub(super) struct Xml(pub(super) String, usize);
 
 impl Xml {
@@ -29,7 +29,7 @@ impl Xml {
     fn open(&mut self, name: &str, attributes: &[(&'static str, String)]) {
         let indent = self.indent();
         self.0.push_str(&format!("{indent}<{name}"));
-        // What is not there has no attribute.
+        // An empty value gets no attribute.
         for (key, value) in attributes.iter().filter(|(_, value)| !value.is_empty()) {
             self.0.push_str(&format!(" {key}=\"{}\"", escape(value)));
         }
@@ -62,7 +62,7 @@ impl Xml {
             .push_str(&format!("{indent}<{name}>{text}</{name}>\n"));
     }
 
-    /// One of the two profiles of a file, with the head that ISO 15745 wants.
+    /// One of the two profiles of a file, with the header that ISO 15745 requires.
     pub(super) fn profile(&mut self, title: &str, class: &str, content: impl FnOnce(&mut Self)) {
         self.element("ISO15745Profile", &[], |out| {
             out.element("ProfileHeader", &[], |out| {
@@ -82,8 +82,8 @@ impl Xml {
     }
 }
 
-/// Characters that XML keeps for itself. Those that it has no way to write, and hidden ones, are
-/// escaped.
+/// Escapes characters with a meaning in XML, characters that XML cannot contain, and hidden
+/// characters.
 pub(super) fn escape(text: &str) -> String {
     let mut out = String::new();
     for character in text.chars() {

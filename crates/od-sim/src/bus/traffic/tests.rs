@@ -28,7 +28,7 @@ fn send(bus: &mut Bus, text: &str) {
     bus.receive(&parse_frame(text).expect(text));
 }
 
-/// Everything that comes through until `to`, with its microsecond.
+/// All frames transmitted until `to`, with their microseconds.
 fn seen(bus: &mut Bus, to: u64) -> Vec<(u64, String)> {
     let mut all = Vec::new();
     while bus.advance_until_sent(Instant::from_micros(to)) {
@@ -39,8 +39,8 @@ fn seen(bus: &mut Bus, to: u64) -> Vec<(u64, String)> {
     all
 }
 
-/// Bits of ten frames with their stuff bits, without the three bits between frames: 44 or 64,
-/// 8 a byte, and the stuff bits that a pencil finds.
+/// Bits of ten frames with their stuff bits, without the three bits between frames: 44 or 64, plus
+/// 8 per byte, plus the stuff bits, which were counted by hand.
 const BY_HAND: [(&str, u64); 10] = [
     ("000#0105", 44 + 16 + 7),
     ("080#", 44 + 4),
@@ -80,7 +80,7 @@ fn ten_frames_take_the_bits_of_a_calculation_by_hand() {
 }
 
 #[test]
-fn an_answer_comes_after_the_time_to_make_it_and_its_own_bits() {
+fn a_response_arrives_after_its_processing_time_and_its_bits() {
     let mut bus = bus(500, &[127]);
     let _ = seen(&mut bus, 10_000);
     send(&mut bus, "67F#4000100000000000");
@@ -93,12 +93,12 @@ fn an_answer_comes_after_the_time_to_make_it_and_its_own_bits() {
 }
 
 #[test]
-fn of_frames_that_wait_the_lowest_identifier_goes_first_one_at_a_time() {
+fn of_the_waiting_frames_the_lowest_identifier_is_sent_first() {
     let mut bus = bus(50, &[3, 1, 2]);
     send(&mut bus, "080#");
     let came = seen(&mut bus, 100_000);
     let order: Vec<_> = came.iter().map(|(_, frame)| frame.as_str()).collect();
-    // Node 3 began while the line was idle, the others waited for it.
+    // Node 3 began while the line was idle; the others waited for it.
     assert_eq!(order[1..], ["701#00", "702#00", "703#00"], "{came:?}");
     for two in came.windows(2) {
         assert!(two[1].0 - two[0].0 >= (44 + 8 + 3) * 20, "{came:?}");
@@ -141,15 +141,16 @@ fn a_lone_node_repeats_without_end_and_is_error_passive() {
         lost.iter()
             .all(|one| one.trouble == Trouble::NoAcknowledge && !one.bus_off)
     );
-    // Each attempt until error passive is reported, then one a second.
+    // Each attempt until error passive is reported, then one per second.
     let counters: Vec<_> = lost.iter().map(|one| one.transmit_errors).collect();
     let climb: Vec<u16> = (1..=16).map(|attempt| 8 * attempt).collect();
     assert_eq!(counters[..16], climb);
     assert_eq!(counters[16..], [128; 4]);
-    // Each: 56 bits but for the 8 behind the acknowledge slot, 14 of an error frame, 3 between.
+    // Each attempt: 56 bits without the 8 after the acknowledge slot, 14 of an error frame, 3
+    // between frames.
     let bits = 16 * (56 - 8 + 14 + 3) - 3;
     assert_eq!(lost[15].at.as_micros(), 2 * bits);
-    // From then on it also suspends its transmission for 8 bits.
+    // From then on the node also suspends its transmission for 8 bits.
     let (last, before) = (&lost[19], &lost[15]);
     let time = last.at.micros_since(before.at);
     let one = 2 * (56 - 8 + 14 + 3 + 8);
@@ -158,14 +159,14 @@ fn a_lone_node_repeats_without_end_and_is_error_passive() {
         u64::from(last.attempts - before.attempts),
         time.div_ceil(one)
     );
-    // Once it has company, the attempt after the present one succeeds, and the frame comes through.
+    // With another station on the line, the next attempt succeeds.
     bus.line.set_plugged(0, true);
     assert_eq!(seen(&mut bus, 5_001_000), [(5_000_226, "701#00".into())]);
     assert_eq!(bus.line.controller(1).transmit, 127);
 }
 
 #[test]
-fn a_failed_frame_is_sent_again_until_it_comes_through() {
+fn a_failed_frame_is_repeated_until_it_is_transmitted() {
     let mut bus = bus(1000, &[127]);
     bus.line.terminators = 1;
     bus.line.set_seed(1);
@@ -181,7 +182,7 @@ fn a_failed_frame_is_sent_again_until_it_comes_through() {
         lost.len() > 5 && lost.iter().all(|one| !one.bus_off),
         "{lost:?}"
     );
-    // The next thing on the line is the same frame again.
+    // The next frame on the line is the same frame again.
     for one in lost {
         let next = came.iter().find(|(at, _)| *at > one.at.as_micros());
         assert_eq!(next.map(|(_, frame)| frame.as_str()), Some("123#00"));
@@ -189,7 +190,7 @@ fn a_failed_frame_is_sent_again_until_it_comes_through() {
 }
 
 #[test]
-fn two_nodes_with_one_node_id_answer_in_one_frame_or_destroy_each_other() {
+fn two_nodes_with_one_node_id_send_one_frame_or_destroy_each_other() {
     let mut bus = bus(500, &[1]);
     let mut other = VirtualDevice::new(&DEVICES[0], NodeId::ONE).with_serial_number(2);
     other.set_up_for(Some(500));
@@ -223,7 +224,7 @@ fn two_nodes_with_one_node_id_answer_in_one_frame_or_destroy_each_other() {
 }
 
 #[test]
-fn what_a_device_wanted_to_send_goes_with_its_power() {
+fn frames_of_a_device_without_power_are_lost() {
     let mut bus = bus(10, &[1]);
     bus.set_power(0, false);
     assert_eq!(seen(&mut bus, 1_000_000), []);

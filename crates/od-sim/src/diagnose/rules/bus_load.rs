@@ -13,9 +13,9 @@ pub(super) const RULE: Rule = Rule {
     check,
 };
 
-/// Load from which frames of a high CAN-ID wait for many others.
+/// Load above which frames with a high CAN-ID wait for many others.
 const HIGH: f64 = 0.8;
-/// As many windows of 100 ms make an incident.
+/// This number of windows of 100 ms is an incident.
 const WINDOWS: usize = 3;
 
 fn check(facts: &Facts<'_>) -> Vec<Incident> {

@@ -1,4 +1,4 @@
-//! A CAN controller with too many errors: error passive, bus-off, frames that it lost.
+//! A CAN controller with too many errors: error passive, bus-off, lost frames.
 
 use std::format;
 use std::prelude::v1::*;

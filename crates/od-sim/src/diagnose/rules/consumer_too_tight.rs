@@ -1,4 +1,4 @@
-//! A heartbeat consumer that reports an error although the heartbeat came.
+//! A heartbeat consumer that reports an error although heartbeats arrive.
 
 use std::format;
 use std::prelude::v1::*;
@@ -26,7 +26,7 @@ fn check(facts: &Facts<'_>) -> Vec<Incident> {
         let [first, ..] = own[..] else {
             continue;
         };
-        // A node that is guarded reports its master.
+        // A guarded node reports the loss of its master.
         if before(&node.guards, first.seen.at).len() >= 3 {
             continue;
         }
@@ -75,7 +75,7 @@ fn check(facts: &Facts<'_>) -> Vec<Incident> {
                 format!("1016h of node {id}: at least 1.5 times, better twice, the time in 1017h of node {other}"),
             ));
         } else {
-            // The loss of the heartbeat is the fault, and this its sign.
+            // Here the loss of the heartbeat is the fault, and this is its sign.
             incident.nodes.push(other);
             incident = incident.cause(Cause::new(
                 "heartbeat-missing",
@@ -88,8 +88,8 @@ fn check(facts: &Facts<'_>) -> Vec<Incident> {
     found
 }
 
-/// The node that a consumer misses, and its time in milliseconds: of the entries of 1016h the one whose heartbeat is
-/// missing longest.
+/// The node that a consumer misses, and its time in milliseconds: the entry of 1016h whose
+/// heartbeat has been missing longest.
 fn watched(facts: &Facts<'_>, id: u8, emcy: Seen) -> Option<(u8, u32)> {
     let entries = (1..=127).filter_map(|sub| facts.value(id, Address::new(0x1016, sub), emcy.at));
     let entries = entries.filter(|raw| raw & 0xFFFF != 0 && raw >> 16 & 0x7F != 0);

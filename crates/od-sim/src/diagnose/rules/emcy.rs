@@ -1,4 +1,4 @@
-//! Errors that a device reports of itself.
+//! Errors that a device reports about itself.
 
 use std::format;
 use std::prelude::v1::*;
@@ -17,7 +17,7 @@ pub(super) const RULE: Rule = Rule {
 fn check(facts: &Facts<'_>) -> Vec<Incident> {
     let mut found = Vec::new();
     for (id, node) in &facts.nodes {
-        // From an error to the message that all are over.
+        // From an error to the message that all errors have ended.
         for group in node.emcys.split_inclusive(|emcy| emcy.code == 0) {
             let errors: Vec<&Emcy> = group.iter().filter(|emcy| emcy.code != 0).collect();
             let (Some(first), Some(last)) = (errors.first(), group.last()) else {

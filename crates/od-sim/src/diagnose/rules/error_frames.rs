@@ -1,4 +1,5 @@
-//! Error frames and their rhythm: no acknowledge, a node with another bit rate, a line without its terminators.
+//! Error frames and their periods: no acknowledge, a node with another bit rate, a line without
+//! terminators.
 
 use std::format;
 use std::prelude::v1::*;
@@ -33,7 +34,7 @@ fn incident(facts: &Facts<'_>, errors: &[Seen]) -> Incident {
     let last = facts.frames.partition_point(|seen| seen.at <= end);
     let good = last.saturating_sub(first);
     let count = errors.len();
-    // Runs of error frames without a frame between them.
+    // Sequences of error frames without another frame between them.
     let runs = errors.chunk_by(|a, b| {
         facts.frames.partition_point(|seen| seen.place < a.place)
             == facts.frames.partition_point(|seen| seen.place < b.place)
@@ -74,7 +75,8 @@ fn incident(facts: &Facts<'_>, errors: &[Seen]) -> Incident {
     } else if good == 0 && !had_frames_before(facts, errors) {
         [silence, rate, terminator]
     } else if longest >= 8 {
-        // Frame after frame fails, retries included, until the wrong node is off the bus.
+        // All frames fail, with their repetitions, until the node with the wrong bit rate is
+        // bus-off.
         [rate, terminator, silence]
     } else {
         [terminator, noise, rate]
@@ -89,6 +91,6 @@ fn incident(facts: &Facts<'_>, errors: &[Seen]) -> Incident {
 fn had_frames_before(facts: &Facts<'_>, errors: &[Seen]) -> bool {
     let begin = errors.first().map_or(facts.begin, |seen| seen.at);
     let before = facts.frames.partition_point(|seen| seen.at < begin);
-    // A node that is alone may have sent a frame before the other was unplugged.
+    // A node may have sent a frame before it was the only one on the line.
     before > 2
 }

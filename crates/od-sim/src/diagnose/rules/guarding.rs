@@ -40,7 +40,7 @@ fn check(facts: &Facts<'_>) -> Vec<Incident> {
                 )),
             );
         }
-        // EMCY 8130h of the guarded node itself: its master stopped asking.
+        // EMCY 8130h of the guarded node itself: its master stopped guarding.
         let period = middle(&node.guards);
         for emcy in node.emcys.iter().filter(|emcy| emcy.code == 0x8130) {
             let last = before(&node.guards, emcy.seen.at).last();

@@ -25,8 +25,8 @@ fn check(facts: &Facts<'_>) -> Vec<Incident> {
     found
 }
 
-/// The times without a heartbeat: the last before and the first after. Period and threshold are those of the beats
-/// before, since 1017h was written last.
+/// The times without a heartbeat: the last heartbeat before and the first one after. Period and
+/// threshold come from the heartbeats before, since the last write of 1017h.
 fn gaps(facts: &Facts<'_>, node: &Node) -> Vec<(Seen, Option<Seen>)> {
     let beats = &node.beats;
     let mut all = Vec::new();
@@ -63,7 +63,7 @@ fn incident(
 ) -> Option<Incident> {
     let until = next.map_or(facts.end, |next| next.at);
     let period = node.period;
-    // A reset explains a pause, and a recorder that stopped explains one of all nodes.
+    // A reset explains a pause. A pause of all nodes means that the recorder stopped.
     let is_reset = facts.is_reset(id, last.at, until) && !after(&node.boots, last.at).is_empty();
     if is_reset || !facts.goes_on(id, last.at, until) {
         return None;
@@ -113,7 +113,7 @@ fn incident(
         .shows([last.place])
         .shows(next.map(|next| next.place))
         .shows(still.iter().take(2).map(|seen| seen.place));
-    // What fell silent together is one incident.
+    // Nodes that became silent together are one incident.
     incident.nodes.extend(&together);
     incident
         .causes

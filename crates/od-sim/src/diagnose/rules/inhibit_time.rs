@@ -1,4 +1,4 @@
-//! A TPDO that comes more slowly than its event timer, since its inhibit time is longer.
+//! A TPDO that is slower than its event timer, because its inhibit time is longer.
 
 use std::format;
 use std::prelude::v1::*;
@@ -62,7 +62,7 @@ fn check(facts: &Facts<'_>) -> Vec<Incident> {
     found
 }
 
-/// The COB-ID of the predefined connection set.
+/// The COB-ID of the pre-defined connection set.
 fn predefined(id: u8, number: u16) -> Option<u32> {
     (number < 4).then(|| 0x180 + 0x100 * u32::from(number) + u32::from(id))
 }

@@ -1,4 +1,4 @@
-//! A PDO whose length is not what its consumer or its EDS maps.
+//! A PDO whose length differs from the mapping of its consumer or of its EDS.
 
 use std::format;
 use std::prelude::v1::*;
@@ -21,7 +21,7 @@ fn check(facts: &Facts<'_>) -> Vec<Incident> {
     found
 }
 
-/// A consumer that reports the length of a PDO.
+/// Consumers that report the length of a PDO.
 fn consumers(facts: &Facts<'_>) -> Vec<Incident> {
     let mut found = Vec::new();
     for (id, node) in &facts.nodes {
@@ -34,7 +34,7 @@ fn consumers(facts: &Facts<'_>) -> Vec<Incident> {
             continue;
         };
         let last = own[own.len() - 1];
-        // The PDO right before the message.
+        // The PDO just before the message.
         let before = facts
             .pdos
             .values()
@@ -69,7 +69,7 @@ fn consumers(facts: &Facts<'_>) -> Vec<Incident> {
     found
 }
 
-/// PDOs against the mappings of the EDS and of what clients wrote.
+/// Compares PDOs with the mapping of the EDS and the values that clients wrote.
 fn by_mapping(facts: &Facts<'_>) -> Vec<Incident> {
     let mut found = Vec::new();
     let ids: Vec<u8> = (1..=127)
@@ -81,7 +81,7 @@ fn by_mapping(facts: &Facts<'_>) -> Vec<Incident> {
             for number in 0..512u16 {
                 let com = Address::new(base + number, 1);
                 let Some(cob_id) = facts.value(id, com, facts.end) else {
-                    // PDOs are numbered from 1 on, with gaps in few devices.
+                    // PDOs are numbered from 1; few devices have gaps.
                     if number > 8 { break } else { continue }
                 };
                 if cob_id & 1 << 31 != 0 {
@@ -94,7 +94,7 @@ fn by_mapping(facts: &Facts<'_>) -> Vec<Incident> {
                     continue;
                 };
                 let wanted = bits.div_ceil(8);
-                // A mapping that was changed while the log ran is of part of it only.
+                // A mapping that was changed during the log applies only to a part of it.
                 let node = facts.nodes.get(&id);
                 let is_changed = node.is_some_and(|node| {
                     node.is_written(base + number + 0x200, facts.begin, facts.end)

@@ -1,4 +1,4 @@
-//! The rules, one file each. A rule explains the signs of those behind it in the list.
+//! The rules, one file each. A rule explains the signs of the rules after it in the list.
 
 mod bus_load;
 mod bus_off;
@@ -22,7 +22,8 @@ mod two_sync_producers;
 
 use super::rule::Rule;
 
-/// All rules. The first explain most: a bus without its terminators loses heartbeats, PDOs and responses.
+/// All rules. The first ones explain most: a bus without terminators loses heartbeats, PDOs and
+/// responses.
 pub(super) const ALL: &[Rule] = &[
     error_frames::RULE,
     same_node_id::RULE,

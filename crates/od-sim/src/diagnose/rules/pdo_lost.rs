@@ -16,7 +16,7 @@ pub(super) const RULE: Rule = Rule {
 fn check(facts: &Facts<'_>) -> Vec<Incident> {
     let mut found = Vec::new();
     for (id, seen) in &facts.pdos {
-        // A new parameter may be a new period.
+        // A write to a parameter may change the period.
         let node = facts.nodes.get(&((id & 0x7F) as u8));
         let writes = node.map_or(&[][..], |node| &node.writes).iter();
         let writes = writes.filter(|(_, address, _)| matches!(address.index, 0x1800..=0x1BFF));
@@ -38,7 +38,7 @@ fn incident(facts: &Facts<'_>, id: u16, seen: &[Seen]) -> Option<Incident> {
         .windows(2)
         .filter(|pair| gap(pair).abs_diff(period) * 10 <= period * 2)
         .count();
-    // A PDO by events has no period.
+    // An event-driven PDO has no period.
     if steady * 10 < (seen.len() - 1) * 7 {
         return None;
     }
@@ -46,7 +46,7 @@ fn incident(facts: &Facts<'_>, id: u16, seen: &[Seen]) -> Option<Incident> {
     let gaps: Vec<&[Seen]> = seen
         .windows(2)
         .filter(|pair| gap(pair) * 10 >= period * 18)
-        // An NMT command, a reset or a new parameter explains a pause.
+        // An NMT command, a reset or a changed parameter explains a pause.
         .filter(|pair| {
             let (start, end) = (pair[0].at.as_micros().saturating_sub(period), pair[1].at);
             let start = od_wire::Instant::from_micros(start);
@@ -112,7 +112,7 @@ fn synchronous(facts: &Facts<'_>, seen: &[Seen]) -> bool {
 
 fn syncs_in(facts: &Facts<'_>, from: Seen, to: Seen) -> usize {
     let count = |place: usize| facts.syncs.partition_point(|sync| sync.place < place);
-    // The SYNC of the next PDO is the last.
+    // Up to the SYNC of the next PDO.
     count(to.place).saturating_sub(count(from.place) + 1)
 }
 

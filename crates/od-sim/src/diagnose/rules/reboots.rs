@@ -90,7 +90,8 @@ fn incident(facts: &Facts<'_>, id: u8, node: &Node) -> Option<Incident> {
     Some(incident)
 }
 
-/// Returns whether a boot-up message comes of itself: the node was there before, and no command explains it.
+/// Returns whether a boot-up message has no command as its reason: the node was active before, and
+/// no reset was sent.
 fn is_own(facts: &Facts<'_>, id: u8, node: &Node, boot: Seen) -> bool {
     if before(&node.sent, boot.at).is_empty() {
         return false;
@@ -105,7 +106,7 @@ fn is_own(facts: &Facts<'_>, id: u8, node: &Node, boot: Seen) -> bool {
     !facts.is_reset(id, from, boot.at) && !by_lss
 }
 
-/// The frame to the node that comes right before each restart, if there is one.
+/// The frame to the node just before each restart, if there is one.
 fn trigger(facts: &Facts<'_>, own: &[Seen], id: u8) -> Option<String> {
     if own.len() < 3 {
         return None;

@@ -13,7 +13,8 @@ pub(super) const RULE: Rule = Rule {
     check,
 };
 
-/// A second response comes this soon, in microseconds; a late one after a time-out does not.
+/// The second response follows within this time, in microseconds; a late response after a time-out
+/// does not.
 const SOON: u64 = 50_000;
 
 fn check(facts: &Facts<'_>) -> Vec<Incident> {
@@ -49,7 +50,7 @@ fn check(facts: &Facts<'_>) -> Vec<Incident> {
 /// A reset command explains a boot-up message this long after it, in microseconds.
 const COMMAND: u64 = 3_000_000;
 
-/// The second responses to one request, each with the first one: both about the same object.
+/// The second responses to a request, each with the first one; both are about the same object.
 fn twice(facts: &Facts<'_>, node: &Node) -> Vec<Seen> {
     let mut signs = Vec::new();
     let head = |seen: &Seen| {
@@ -75,7 +76,7 @@ fn boots(facts: &Facts<'_>, id: u8, node: &Node) -> Vec<Seen> {
     for pair in node.boots.windows(2) {
         let [first, second] = [pair[0], pair[1]];
         let is_near = second.at.micros_since(first.at) < 1_000_000;
-        // A device that restarts without a command sends nothing while it starts: some milliseconds.
+        // A device that restarts without a command sends nothing for some milliseconds.
         let is_silent = before(after(&node.sent, first.at), second.at).is_empty();
         let earliest = od_wire::Instant::from_micros(first.at.as_micros().saturating_sub(COMMAND));
         if is_near
@@ -89,7 +90,7 @@ fn boots(facts: &Facts<'_>, id: u8, node: &Node) -> Vec<Seen> {
     signs
 }
 
-/// Heartbeats of two senders: they take turns, or their states do.
+/// Heartbeats of two senders: they alternate, or their states do.
 fn beats(node: &Node) -> Vec<Seen> {
     let states: Vec<u8> = node
         .states

@@ -70,7 +70,7 @@ fn check(facts: &Facts<'_>) -> Vec<Incident> {
     found
 }
 
-/// What usually stands behind an abort code.
+/// The usual reason of an abort code.
 fn reason(code: u32) -> String {
     let text = match code {
         0x0601_0002 | 0x0601_0000 => {

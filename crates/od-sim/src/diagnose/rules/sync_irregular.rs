@@ -24,7 +24,7 @@ fn check(facts: &Facts<'_>) -> Vec<Incident> {
         .windows(2)
         .filter(|pair| gap(pair).abs_diff(period) * 2 <= period);
     let near: Vec<&[Seen]> = near.collect();
-    // SYNCs of a program that was not meant to be periodic.
+    // SYNC messages that were not meant to be periodic.
     if near.len() * 10 < (all.len() - 1) * 8 {
         return Vec::new();
     }

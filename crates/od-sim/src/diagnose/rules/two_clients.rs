@@ -13,7 +13,7 @@ pub(super) const RULE: Rule = Rule {
     check,
 };
 
-/// No client gives up this soon, in microseconds.
+/// No client gives up within this time, in microseconds.
 const SOON: u64 = 30_000;
 
 fn check(facts: &Facts<'_>) -> Vec<Incident> {
@@ -30,7 +30,7 @@ fn check(facts: &Facts<'_>) -> Vec<Incident> {
                 let is_other = one.address != other.address || one.is_download != other.is_download;
                 let is_early =
                     one.outcome == Outcome::GaveUp && one.end.place == other.request.place;
-                // Both are answered in the end.
+                // Both requests get their response in the end.
                 is_soon
                     && is_other
                     && is_early

@@ -13,7 +13,7 @@ pub(super) const RULE: Rule = Rule {
 };
 
 fn check(facts: &Facts<'_>) -> Vec<Incident> {
-    // With a counter each producer counts for itself.
+    // With a counter, each producer counts its own messages.
     let counts: Vec<u8> = facts
         .syncs
         .iter()
