@@ -1,4 +1,4 @@
-//! The EDS files become modules for the compiler and a header for C.
+//! Makes modules for the compiler and a header for C from the EDS files.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -25,7 +25,7 @@ fn main() -> Result<()> {
     println!("cargo::rerun-if-env-changed=ODKIT_EDS");
     println!("cargo::rerun-if-env-changed=ODKIT_WITHOUT");
     let nodes = nodes(&std::env::var("ODKIT_EDS").unwrap_or_else(|_| String::from(EXAMPLE)))?;
-    // Nodes of the same files are of one device.
+    // Nodes with the same files are the same device.
     let mut devices: Vec<&[PathBuf]> = Vec::new();
     let (mut modules, mut exports) = (String::new(), String::new());
     let (mut handles, mut objects) = (String::new(), String::new());
@@ -71,7 +71,7 @@ fn main() -> Result<()> {
 /// Reads `FILE`, `FILE+OVERLAY`, or a list `NAME=FILE,NAME=FILE+OVERLAY`.
 fn nodes(list: &str) -> Result<Vec<Node>> {
     let node = |name, files: &str| {
-        // A name of a file may have this character.
+        // A file name may contain this character.
         let paths = if find(files).is_file() {
             vec![find(files)]
         } else {
@@ -110,7 +110,7 @@ fn nodes(list: &str) -> Result<Vec<Node>> {
     Ok(nodes)
 }
 
-/// A relative path begins where cargo was called, or here.
+/// A relative path starts at the folder in which cargo was called, or here.
 fn find(name: &str) -> PathBuf {
     let called = std::env::var_os("PWD").map(|folder| Path::new(&folder).join(name));
     let path = called.filter(|path| path.is_file());
@@ -118,7 +118,7 @@ fn find(name: &str) -> PathBuf {
     std::path::absolute(&path).unwrap_or(path)
 }
 
-/// The description of an EDS with its overlay. The macro reports what is wrong with either.
+/// The description of an EDS with its overlay. The macro reports errors in both.
 fn description(paths: &[PathBuf]) -> Result<Description> {
     let mut texts = paths.iter().map(|path| match fs::read(path) {
         Ok(bytes) => Ok(od_eds::decode(&bytes).into_owned()),
@@ -132,8 +132,8 @@ fn description(paths: &[PathBuf]) -> Result<Description> {
     Ok(od_eds::parse(&text).description)
 }
 
-/// The call of `object_dictionary!`, and the profile: CiA 301 to the letter, with LSS if the file
-/// says so.
+/// The call of `object_dictionary!`, and the profile: CiA 301 without deviations, with LSS if the
+/// file supports it.
 fn module(number: usize, paths: &[PathBuf], description: &Description) -> String {
     let mut without = std::env::var("ODKIT_WITHOUT").unwrap_or_default();
     let lss = match description.lss_bit_rates() {

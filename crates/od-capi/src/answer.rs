@@ -1,15 +1,15 @@
-//! Answers of the functions: 0, an error of the call, or an SDO abort code.
+//! Results of the functions: 0, an error of the call, or an SDO abort code.
 
-/// Done.
+/// Success.
 pub const ODKIT_OK: u32 = 0;
 /// A pointer is null.
 pub const ODKIT_NULL: u32 = 1;
-/// Another call has not returned yet: this one came from an interrupt or a thread, or from a callback
-/// that may not make it.
+/// Another call has not returned yet: this call came from an interrupt or a thread, or from a
+/// callback in which it is not allowed.
 pub const ODKIT_BUSY: u32 = 2;
-/// Not in this state: the node has no power, or has it already.
+/// Not possible in this state: the node has no power, or has power already.
 pub const ODKIT_STATE: u32 = 3;
-/// An argument has a value that it cannot have.
+/// An argument has an invalid value.
 pub const ODKIT_ARGUMENT: u32 = 4;
 /// The buffer is too short for the value.
 pub const ODKIT_SIZE: u32 = 5;

@@ -14,7 +14,7 @@ pub(crate) struct Behaviour {
     pub(crate) device: odkit_device,
     /// `None` before power-on.
     pub(crate) nested: Option<&'static Nested>,
-    /// The firmware writes, and no master: it is not asked.
+    /// The firmware itself writes, so `validate` is not called.
     pub(crate) own: bool,
 }
 
@@ -26,7 +26,7 @@ impl Behaviour {
         own: false,
     };
 
-    /// Runs a callback, which may call back.
+    /// Runs a callback, which may call functions of odkit.
     fn during<R>(&self, cx: &mut Context<'_, '_>, callback: impl FnOnce() -> R) -> R {
         match self.nested {
             Some(nested) => nested.during(cx, callback),
@@ -45,7 +45,7 @@ pub(crate) const fn number(reset: Reset) -> u8 {
     }
 }
 
-/// 0 is success; a number that is not an abort code of CiA 301 is a general error.
+/// 0 is success; a number that is not an abort code of CiA 301 becomes a general error.
 fn outcome(answer: u32) -> Result<(), AbortCode> {
     match answer {
         0 => Ok(()),

@@ -22,13 +22,13 @@ impl Clock {
         }
     }
 
-    /// The counter shows this when power comes; time goes on from where it was.
+    /// Power-on: the counter has this value, and time continues from the last time.
     pub(crate) fn start(&mut self, counter: u32) -> Instant {
         self.counter = counter;
         Instant::from_micros(self.micros)
     }
 
-    /// Time at which the counter shows this. One that runs back means no time.
+    /// Returns the time of a counter value. A value that runs back leaves the time unchanged.
     pub(crate) fn at(&mut self, counter: u32) -> Instant {
         let step = counter.wrapping_sub(self.counter);
         if step <= i32::MAX as u32 {
@@ -44,7 +44,7 @@ impl Clock {
     }
 }
 
-/// Microseconds until `at`, [`LONGEST_SLEEP`] at most.
+/// Microseconds until `at`, at most [`LONGEST_SLEEP`].
 pub(crate) fn until(now: Instant, at: Option<Instant>) -> u32 {
     let longest = u64::from(LONGEST_SLEEP);
     let wait = at.map_or(longest, |at| at.micros_since(now).min(longest));

@@ -1,4 +1,4 @@
-//! Events as C sees them.
+//! Events in the form of C.
 
 use odkit::storage::image::Loaded;
 use odkit::{Event, lss};
@@ -57,7 +57,7 @@ impl From<Event> for odkit_event {
     }
 }
 
-/// The number of what the memory held.
+/// The number for the content of the memory.
 fn storage(loaded: Loaded) -> u32 {
     match loaded {
         Loaded::Partial { .. } => ODKIT_STORAGE_PARTIAL,

@@ -20,7 +20,8 @@ macro_rules! export {
             "two nodes have one handle"
         );
 
-        // Calls a function of the node with this handle; without such a node the result is the last argument.
+        // Calls a function of the node with this handle; without such a node the result is the last
+        // argument.
         macro_rules! odkit_call {
             ($node:ident.$call:ident $arguments:tt) => {
                 odkit_call!($node.$call $arguments, $crate::answer::ODKIT_NO_NODE)
@@ -33,9 +34,10 @@ macro_rules! export {
             };
         }
 
-        // `tests/header.rs` reads what follows.
+        // `tests/header.rs` reads the lines from here on.
 
-        /// Switches the power of a node on: loads the saved values or their defaults, and the node boots up.
+        /// Switches the power of a node on: it loads the saved values or their defaults, and boots
+        /// up.
         ///
         /// `now_us` is a counter of microseconds that may start anywhere and wraps at 2^32.
         /// `node_id` is 1 to 127; or ODKIT_UNCONFIGURED for a device that waits for LSS. A saved node ID
@@ -66,8 +68,8 @@ macro_rules! export {
             unsafe { odkit_call!(node.handle_frame(now_us, frame)) }
         }
 
-        /// Does what is due by now. To be called when the time of odkit_poll_timeout is over; a call
-        /// that comes earlier or later does no harm.
+        /// Carries out what is due at `now_us`. Call it after the time of odkit_poll_timeout; an
+        /// earlier or later call does no harm.
         #[unsafe(no_mangle)]
         pub extern "C" fn odkit_handle_timeout(
             node: $crate::types::odkit_node,
@@ -76,7 +78,7 @@ macro_rules! export {
             odkit_call!(node.handle_timeout(now_us))
         }
 
-        /// Something outside the bus changed: calls `tick`.
+        /// Reports a change outside the bus: the node calls `tick`.
         #[unsafe(no_mangle)]
         pub extern "C" fn odkit_handle_change(node: $crate::types::odkit_node, now_us: u32) -> u32 {
             odkit_call!(node.handle_change(now_us))
@@ -92,8 +94,9 @@ macro_rules! export {
             odkit_call!(node.handle_bus(now_us, state))
         }
 
-        /// Fills `to` with the next frame to send; false if nothing waits. To be called after every
-        /// other function, and whenever the CAN controller has room, until it answers false.
+        /// Fills `to` with the next frame to send; returns false if no frame waits. Call it after
+        /// every other function, and when the CAN controller has room again, until it returns
+        /// false.
         #[unsafe(no_mangle)]
         pub unsafe extern "C" fn odkit_poll_frame(
             node: $crate::types::odkit_node,
@@ -102,15 +105,15 @@ macro_rules! export {
             unsafe { odkit_call!(node.poll_frame(to), false) }
         }
 
-        /// Returns the microseconds until odkit_handle_timeout is to be called, 2^30 (18 minutes) at
-        /// most, so that no wrap of the counter is missed; 2^30 also without such a node.
+        /// Returns the microseconds until the next call of odkit_handle_timeout, at most 2^30 (18
+        /// minutes), so that no wrap of the counter is missed; 2^30 also without such a node.
         #[unsafe(no_mangle)]
         pub extern "C" fn odkit_poll_timeout(node: $crate::types::odkit_node, now_us: u32) -> u32 {
             odkit_call!(node.poll_timeout(now_us), $crate::instance::NO_TIMEOUT)
         }
 
-        /// Fills `to` with the oldest event; false if nothing waits. The node keeps 16 of them; a
-        /// firmware that has no use for events need not ask.
+        /// Fills `to` with the oldest event; returns false if no event waits. The node keeps 16
+        /// events; a firmware without use for events does not have to call this.
         #[unsafe(no_mangle)]
         pub unsafe extern "C" fn odkit_poll_event(
             node: $crate::types::odkit_node,
@@ -119,8 +122,8 @@ macro_rules! export {
             unsafe { odkit_call!(node.poll_event(to), false) }
         }
 
-        /// Returns the NMT state, ODKIT_INITIALISATION to ODKIT_PRE_OPERATIONAL; the first of them also
-        /// without such a node.
+        /// Returns the NMT state, ODKIT_INITIALISATION to ODKIT_PRE_OPERATIONAL;
+        /// ODKIT_INITIALISATION also without such a node.
         #[unsafe(no_mangle)]
         pub extern "C" fn odkit_state(node: $crate::types::odkit_node) -> u8 {
             odkit_call!(node.state(), $crate::types::ODKIT_INITIALISATION)
@@ -132,8 +135,8 @@ macro_rules! export {
             odkit_call!(node.node_id(), 0)
         }
 
-        /// Copies a value as an SDO carries it (numbers little-endian), `size` bytes at most; `len`,
-        /// if not null, becomes its length also if it is longer.
+        /// Copies a value in the form of an SDO (numbers little-endian), at most `size` bytes.
+        /// `len`, if not null, becomes the length of the value, even if it is longer than `size`.
         #[unsafe(no_mangle)]
         pub unsafe extern "C" fn odkit_get(
             node: $crate::types::odkit_node,
@@ -146,8 +149,9 @@ macro_rules! export {
             unsafe { odkit_call!(node.get(index, sub, to, size, len)) }
         }
 
-        /// Sets a value, read-only ones too: limits and rules hold as for a master. Event-driven TPDOs
-        /// follow. In a callback limits do not hold, and `now_us` does not count.
+        /// Sets a value, also of a read-only object; limits and rules are those for a master.
+        /// Event-driven TPDOs follow. In a callback limits are not checked, and `now_us` is
+        /// ignored.
         #[unsafe(no_mangle)]
         pub unsafe extern "C" fn odkit_set(
             node: $crate::types::odkit_node,
@@ -279,8 +283,9 @@ macro_rules! export {
             odkit_call!(node.set_f32(now_us, index, sub, value))
         }
 
-        /// Reports an error: the node sends an EMCY message, unless it is active already. `register` has
-        /// the bits of 1001h that it sets, `info` five bytes of its own; null means zeros.
+        /// Reports an error: the node sends an EMCY message, unless the error is active already.
+        /// `register` has the bits of 1001h that it sets, `info` five manufacturer-specific bytes;
+        /// null means zeros.
         #[unsafe(no_mangle)]
         pub unsafe extern "C" fn odkit_raise(
             node: $crate::types::odkit_node,

@@ -1,10 +1,10 @@
-//! Frames as C sees them.
+//! Frames in the form of C.
 
 use odkit::{CanId, Frame};
 
 use crate::types::{ODKIT_EXTENDED, ODKIT_REMOTE, odkit_frame};
 
-/// `None` for what is not a classical CAN frame.
+/// `None` if it is not a classical CAN frame.
 pub(crate) fn from_c(frame: &odkit_frame) -> Option<Frame> {
     let id = match frame.flags & ODKIT_EXTENDED {
         0 if frame.id <= 0x7FF => CanId::standard(frame.id as u16),

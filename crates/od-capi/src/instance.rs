@@ -1,4 +1,4 @@
-//! The node of a library, and what each function of the header does with it.
+//! The node of a handle, and the work of each function of the header.
 #![allow(unsafe_code)]
 
 use core::cell::UnsafeCell;
@@ -17,7 +17,7 @@ use crate::types::{
     ODKIT_UNCONFIGURED, odkit_device, odkit_event, odkit_frame, odkit_node,
 };
 
-/// Microseconds until a node that does not exist has something to do.
+/// Result of odkit_poll_timeout without a node, in microseconds.
 pub const NO_TIMEOUT: u32 = clock::LONGEST_SLEEP;
 
 /// Returns whether each node has a handle of its own.
@@ -40,13 +40,13 @@ pub const fn is_distinct(handles: &[odkit_node]) -> bool {
 ///
 /// `D` is the type `Device` of a dictionary's module.
 pub struct Instance<D: Device> {
-    /// A call has `state`.
+    /// A call is using `state`.
     busy: AtomicBool,
     pub(crate) nested: Nested,
     state: UnsafeCell<State<D>>,
 }
 
-/// A node with the callbacks and the memory that C gave it.
+/// A node with the callbacks and the memory from C.
 pub(crate) type Slave<D> = Node<D, Behaviour, Memory>;
 
 /// Before the first power-on it is all zeros, so that it takes no flash.
@@ -59,7 +59,7 @@ pub(crate) struct State<D: Device> {
 // callback; the header asks for calls from one thread at a time.
 unsafe impl<D: Device> Sync for Instance<D> {}
 
-/// A result as C sees it.
+/// The result in the form of C.
 pub(crate) fn answer(result: Result<(), u32>) -> u32 {
     match result {
         Ok(()) => ODKIT_OK,
@@ -67,7 +67,7 @@ pub(crate) fn answer(result: Result<(), u32>) -> u32 {
     }
 }
 
-/// Writes to a pointer of C that is not null, aligned or not.
+/// Writes to a pointer of C that is not null; it need not be aligned.
 ///
 /// # Safety
 /// `to` points to room for a `T`.
@@ -89,7 +89,7 @@ impl<D: Device> Instance<D> {
         }
     }
 
-    /// Has the state for one call; `ODKIT_BUSY` while another one has it.
+    /// Gives the state to one call; `ODKIT_BUSY` while another call has it.
     fn enter<R>(&self, call: impl FnOnce(&mut State<D>) -> Result<R, u32>) -> Result<R, u32> {
         #[cfg(target_has_atomic = "8")]
         let busy = self.busy.swap(true, Ordering::Acquire);
@@ -110,7 +110,7 @@ impl<D: Device> Instance<D> {
         result
     }
 
-    /// Has the node for one call, and its clock; `ODKIT_STATE` without power.
+    /// Gives the node and its clock to one call; `ODKIT_STATE` without power.
     pub(crate) fn open<R>(
         &self,
         call: impl FnOnce(&mut Slave<D>, &mut Clock) -> Result<R, u32>,
@@ -210,7 +210,7 @@ impl<D: Device> Instance<D> {
         self.at(now_us, |node, now| node.handle_bus(now, event))
     }
 
-    /// Something happens at a moment.
+    /// Calls `handle` with the node at this time.
     fn at(&self, now_us: u32, handle: impl FnOnce(&mut Slave<D>, Instant)) -> u32 {
         answer(self.open(|node, clock| {
             handle(node, clock.at(now_us));

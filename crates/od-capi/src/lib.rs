@@ -1,6 +1,6 @@
 //! A CANopen node for C firmware.
 //!
-//! [`export!`] makes of a dictionary the functions that `include/odkit.h` declares; a crate of type
+//! [`export!`] makes the functions of `include/odkit.h` for a dictionary. A crate of type
 //! `staticlib` with these lines is the library of a device:
 //!
 //! ```
@@ -21,8 +21,9 @@
 //! The folder `device` of the repository is such a crate, for the EDS file that the environment
 //! variable `ODKIT_EDS` names.
 //!
-//! No allocation, and no panic. Null pointers, sizes that do not fit and calls in the wrong state are
-//! answered with an error code. Only this crate of odkit has `unsafe`, since pointers come from C.
+//! The library never allocates and never panics. Null pointers, wrong sizes and calls in the wrong
+//! state return an error code. In odkit only this crate and `od-thumb` contain `unsafe`, here
+//! because pointers come from C.
 #![no_std]
 #![warn(clippy::undocumented_unsafe_blocks)]
 

@@ -7,7 +7,7 @@ use odkit::storage::{Geometry, Storage, StorageError};
 
 use crate::types::odkit_storage;
 
-/// Largest word that the storage of odkit knows.
+/// Longest word that the storage of odkit supports.
 const LARGEST_WORD: u32 = 32;
 
 /// The memory of a device.
@@ -17,7 +17,7 @@ pub(crate) struct Memory {
 }
 
 impl odkit_storage {
-    /// Returns whether the callbacks that the sizes need are there, and the sizes go together.
+    /// Returns whether the callbacks that the sizes need exist, and the sizes are consistent.
     pub(crate) fn is_valid(&self) -> bool {
         if self.capacity == 0 {
             return true;
@@ -51,7 +51,7 @@ impl Memory {
         storage: odkit_storage::none(),
     };
 
-    /// Offset and length as C sees them.
+    /// Offset and length in the form of C.
     fn part(&self, offset: usize, len: usize) -> Result<(u32, u32), StorageError> {
         let capacity = self.storage.capacity as usize;
         match offset.checked_add(len) {

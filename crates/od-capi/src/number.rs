@@ -1,13 +1,13 @@
-//! Numbers of C, of 32 and 64 bits, as values of an object and back.
+//! Converts numbers of C with 32 and 64 bits to values of objects and back.
 
 use odkit::{DataType, Entry, Kind, Store};
 
 use crate::answer::{ODKIT_ARGUMENT, ODKIT_TYPE};
 
-/// Bytes of a value, and how many of them count.
+/// Bytes of a value, and how many of them are valid.
 pub(crate) type Wire = ([u8; 8], usize);
 
-/// Bits of an integer of up to `most` bits.
+/// Number of bits of an integer type, if it has at most `most`.
 fn bits(data_type: DataType, is_signed: bool, most: u8) -> Result<u32, u32> {
     let fits = match data_type.kind() {
         Kind::Signed => is_signed,

@@ -4,8 +4,8 @@
 
 use core::ffi::c_void;
 
-/// Handle of a node: a macro of odkit_objects.h, ODKIT_NODE of a library with one node. Without a node of
-/// this handle a function does nothing, and answers ODKIT_NO_NODE or false.
+/// Handle of a node: a macro of odkit_objects.h; ODKIT_NODE in a library with one node. Without a
+/// node with this handle a function does nothing, and returns ODKIT_NO_NODE or false.
 pub type odkit_node = u32;
 
 /// Flag of a frame: its identifier has 29 bits.
@@ -23,7 +23,7 @@ pub struct odkit_frame {
     pub flags: u8,
     /// Data length code, 0 to 8.
     pub len: u8,
-    /// Data; the bytes past `len` are 0 in a frame to be sent.
+    /// Data; the bytes after `len` are 0 in a frame to send.
     pub data: [u8; 8],
 }
 
@@ -39,7 +39,7 @@ pub const ODKIT_PRE_OPERATIONAL: u8 = 127;
 /// Node ID of a device that waits for LSS to give it one.
 pub const ODKIT_UNCONFIGURED: u8 = 255;
 
-/// CAN controller: error active again, no more frames are lost; after bus-off: it can restart.
+/// CAN controller: error active again, no further frames are lost; after bus-off: it can restart.
 pub const ODKIT_BUS_ACTIVE: u8 = 0;
 /// CAN controller: an error counter passed the warning limit (96).
 pub const ODKIT_BUS_WARNING: u8 = 1;
@@ -59,7 +59,7 @@ pub const ODKIT_RESET_COMMUNICATION: u8 = 2;
 /// 1011h restored the default values in RAM.
 pub const ODKIT_RESET_DEFAULTS: u8 = 3;
 
-/// A deadline that never comes, as the answer of the callback `tick`.
+/// A deadline that never comes, as result of the callback `tick`.
 pub const ODKIT_NEVER: u32 = 0xFFFF_FFFF;
 
 /// Event: the NMT state changed. `value`: the state.
@@ -78,26 +78,26 @@ pub const ODKIT_EVENT_BIT_RATE: u8 = 6;
 pub const ODKIT_EVENT_STORAGE: u8 = 7;
 /// Event: a save failed. The values saved before it remain.
 pub const ODKIT_EVENT_NOT_SAVED: u8 = 8;
-/// Event: power loss or a reset cut a save. `value`: 1 if the default values were loaded.
+/// Event: power loss or a reset interrupted a save. `value`: 1 if the default values were loaded.
 pub const ODKIT_EVENT_SAVE_CUT: u8 = 9;
 /// Event: the node is bus-off. `value`: 1 if it restarts when the bus allows it.
 pub const ODKIT_EVENT_BUS_OFF: u8 = 10;
-/// Event: the node is back from bus-off.
+/// Event: the node returned from bus-off.
 pub const ODKIT_EVENT_BUS_ON: u8 = 11;
-/// Event: an error came. `value`: its EMCY code.
+/// Event: an error began. `value`: its EMCY code.
 pub const ODKIT_EVENT_ERROR: u8 = 12;
-/// Event: an error went. `value`: its EMCY code.
+/// Event: an error ended. `value`: its EMCY code.
 pub const ODKIT_EVENT_ERROR_CLEARED: u8 = 13;
 /// Event of a later version of odkit.
 pub const ODKIT_EVENT_OTHER: u8 = 255;
 
 /// Memory: some saved values fit no object of this dictionary.
 pub const ODKIT_STORAGE_PARTIAL: u32 = 1;
-/// Memory: the last set was loaded, though bits beside it changed.
+/// Memory: the last set was loaded, although bits outside it changed.
 pub const ODKIT_STORAGE_FLAWED: u32 = 2;
 /// Memory: the last set is damaged; the one before it was loaded.
 pub const ODKIT_STORAGE_OLDER: u32 = 3;
-/// Memory: its content is of another device; default values.
+/// Memory: its content belongs to another device; default values.
 pub const ODKIT_STORAGE_FOREIGN: u32 = 4;
 /// Memory: its content cannot be read; default values.
 pub const ODKIT_STORAGE_DAMAGED: u32 = 5;
@@ -108,9 +108,9 @@ pub const ODKIT_STORAGE_DAMAGED: u32 = 5;
 pub struct odkit_event {
     /// ODKIT_EVENT_STATE and so on.
     pub kind: u8,
-    /// Sub-index, where the kind has one.
+    /// Sub-index, if the kind has one.
     pub sub: u8,
-    /// Index, where the kind has one.
+    /// Index, if the kind has one.
     pub index: u16,
     /// Number that the kind describes.
     pub value: u32,
@@ -118,16 +118,17 @@ pub struct odkit_event {
 
 /// Non-volatile memory for the values that 1010h saves.
 ///
-/// EEPROM or FRAM: `page` and `word` are 0. NOR flash: `page` is the size of what `erase` erases,
-/// `word` that of what is written at once, each once after an erasure.
+/// For EEPROM or FRAM `page` and `word` are 0. For NOR flash `page` is the number of bytes that
+/// `erase` erases, and `word` the number of bytes that are written at once, each once after an
+/// erasure.
 ///
-/// The callbacks answer 0 if they succeeded. They may not call functions of odkit.
+/// The callbacks return 0 for success. They may not call functions of odkit.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct odkit_storage {
-    /// Bytes of the memory; 0: none, and a save fails.
+    /// Number of bytes of the memory; 0: none, and a save fails.
     pub capacity: u32,
-    /// Bytes of a page of flash; 0 for an EEPROM.
+    /// Number of bytes of a page of flash; 0 for an EEPROM.
     pub page: u32,
     /// Bytes that are written at once: a power of two up to 32; 0 means 1.
     pub word: u32,
@@ -141,29 +142,29 @@ pub struct odkit_storage {
     >,
     /// Sets the page at `offset` to FFh; needed if `page` is not 0.
     pub erase: Option<unsafe extern "C" fn(context: *mut c_void, offset: u32) -> i32>,
-    /// Makes sure that all that was written survives a loss of power; may be null.
+    /// Makes sure that all written bytes survive a power failure; may be null.
     pub flush: Option<unsafe extern "C" fn(context: *mut c_void) -> i32>,
 }
 
-/// Behaviour of the device: callbacks, of which each may be null. Set what is not used to 0.
+/// Behaviour of the device: callbacks, each of which may be null. Set unused fields to 0.
 ///
 /// A callback runs inside the call of odkit that caused it. It may call odkit_get, odkit_set (which
-/// do not check limits there), odkit_raise and odkit_clear; other functions answer ODKIT_BUSY.
+/// does not check limits there), odkit_raise and odkit_clear; other functions return ODKIT_BUSY.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct odkit_device {
     /// First argument of each callback.
     pub context: *mut c_void,
-    /// Values were loaded; `reset` is ODKIT_RESET_POWER_ON and so on. The place to set what the
-    /// firmware knows better than the EDS, such as the serial number.
+    /// Called when values were loaded; `reset` is ODKIT_RESET_POWER_ON and so on. Set values here
+    /// that the firmware knows better than the EDS, such as the serial number.
     pub reset: Option<unsafe extern "C" fn(context: *mut c_void, reset: u8)>,
     /// Returns the node ID of the switches at a reset, 1 to 127; 0: the node keeps its own.
     pub node_id: Option<unsafe extern "C" fn(context: *mut c_void) -> u8>,
-    /// An SDO or a PDO is about to read this value (2000h and above): bring it up to date with
+    /// Called before an SDO or a PDO reads this value (2000h and above): bring it up to date with
     /// odkit_set. Returns 0, or the abort code of the SDO.
     pub refresh: Option<unsafe extern "C" fn(context: *mut c_void, index: u16, sub: u8) -> u32>,
-    /// A master writes this value; it fits the object and its limits. Returns 0, or the abort code
-    /// of the SDO: the value stays as it was.
+    /// Called when a master writes this value, which fits the object and its limits. Returns 0, or
+    /// the abort code of the SDO; the value then stays unchanged.
     pub validate: Option<
         unsafe extern "C" fn(
             context: *mut c_void,
@@ -173,10 +174,10 @@ pub struct odkit_device {
             len: usize,
         ) -> u32,
     >,
-    /// A value was written; odkit_get has it.
+    /// Called when a value was written; odkit_get returns it.
     pub written: Option<unsafe extern "C" fn(context: *mut c_void, index: u16, sub: u8)>,
-    /// Acts on time or on odkit_handle_change. Returns the microseconds until it is to be called
-    /// again; ODKIT_NEVER: only after a change.
+    /// Acts on time or on odkit_handle_change. Returns the microseconds until its next call;
+    /// ODKIT_NEVER: only after a change.
     pub tick: Option<unsafe extern "C" fn(context: *mut c_void) -> u32>,
     /// Memory for saved values.
     pub storage: odkit_storage,

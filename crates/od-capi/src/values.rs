@@ -73,7 +73,7 @@ impl<D: Device> Instance<D> {
                 return Err(ODKIT_SIZE);
             }
             let to = to.cast::<u8>();
-            // SAFETY: there is room for `size` bytes, if not 0 of them; the values are not the
+            // SAFETY: there is room for `size` bytes, if `size` is not 0; the values are not in the
             // caller's memory.
             unsafe { to.copy_from_nonoverlapping(bytes.as_ptr(), bytes.len()) };
             Ok(())
@@ -177,7 +177,7 @@ impl<D: Device> Instance<D> {
         if from.is_null() && len != 0 {
             return ODKIT_NULL;
         }
-        // No value is longer, and a slice may not be as long as `usize` can say.
+        // No value is longer, and a slice may not have the greatest `usize` as length.
         if len > usize::from(u16::MAX) {
             return ODKIT_ARGUMENT;
         }
@@ -253,7 +253,7 @@ impl<D: Device> Instance<D> {
     }
 
     fn error(&self, now_us: u32, error: Emcy, comes: bool) -> u32 {
-        // 0000h is the error reset, and no error.
+        // 0000h means error reset, not an error.
         if error.code == 0 {
             return ODKIT_ARGUMENT;
         }
@@ -277,7 +277,7 @@ impl<D: Device> Instance<D> {
                 return Err(AbortCode::DeviceState.code());
             }
             let now = clock.at(now_us);
-            // One that is active already, or not, needs no message.
+            // An error that is active already, or that is not active, needs no message.
             let _ = if comes {
                 node.raise(now, error)
             } else {

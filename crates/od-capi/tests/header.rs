@@ -1,4 +1,4 @@
-//! `include/odkit.h` is what cbindgen makes of the sources.
+//! `include/odkit.h` must be what cbindgen makes of the sources.
 //!
 //! `ODKIT_ACCEPT=1 cargo test -p od-capi --test header` writes it again.
 
@@ -46,7 +46,7 @@ fn source() -> String {
         body.replace("$crate::types::", "").replace("$crate::", ""),
     ]
     .join("\n");
-    // What is said of a whole file.
+    // The comment of a whole file.
     let is_inner = |line: &&str| line.starts_with("//!") || line.starts_with("#![");
     let lines = all.lines().filter(|line| !is_inner(line));
     lines.collect::<Vec<_>>().join("\n")
@@ -75,7 +75,7 @@ fn header() -> String {
     let bindings = cbindgen::Builder::new().with_config(config).with_src(path);
     let mut text = Vec::new();
     bindings.generate().unwrap().write(&mut text);
-    // Comments that every compiler of C reads.
+    // Comments that every C compiler accepts.
     let text = String::from_utf8(text).unwrap();
     text.replace("// __cplusplus", "/* __cplusplus */")
         .replace("// extern \"C\"", "/* extern \"C\" */")
@@ -94,7 +94,7 @@ fn the_header_is_current() {
         "ODKIT_ACCEPT=1 cargo test -p od-capi --test header renews it"
     );
     assert!(!made.contains("//"));
-    // Every function of the macro is in it.
+    // It contains every function of the macro.
     let source = source();
     let functions = source.split("extern \"C\" fn ").skip(1);
     let mut names = functions.filter_map(|text| text.split('(').next());

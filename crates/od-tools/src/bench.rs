@@ -18,7 +18,7 @@ impl<B: BorrowMut<Bus>> Link for OnBench<B> {
     }
 
     fn send(&mut self, frame: &Frame) -> Result<(), Error> {
-        // A line that loses the frame gives no response, as a real bus.
+        // If the line loses the frame there is no response, as on a real bus.
         self.0.borrow_mut().receive(frame);
         Ok(())
     }
@@ -28,7 +28,8 @@ impl<B: BorrowMut<Bus>> Link for OnBench<B> {
         loop {
             bus.advance_until_sent(until.max(bus.now()));
             match bus.poll() {
-                // A frame from outside, told again when it came through a timed line: ours.
+                // A frame of this program, which the bus reports again after its transmission on a
+                // timed line.
                 Some(sent) if sent.device.is_none() => {}
                 Some(sent) => {
                     return Ok(Some(Heard {

@@ -57,7 +57,8 @@ pub fn compare(
                         Access::Wo.name().into(),
                         Impact::Breaking,
                     ),
-                    // No error is logged, no data is there now: nothing is said of the object.
+                    // An empty error history, or a value that is not available now, says nothing
+                    // about the object.
                     Err(code) if code == AbortCode::NoData.code() => continue,
                     Err(code) => (
                         Field::Access,
@@ -117,8 +118,8 @@ fn value(
         ));
     }
     let default = default_bytes(dictionary, entry, node)?;
-    // Serial numbers are each device's own; what a master can write, and what the device
-    // measures, differs for good reasons.
+    // Serial numbers differ between devices; a value that a master can write, or that the device
+    // measures, may differ, too.
     let is_fixed = match (entry.address.index, entry.address.sub) {
         (0x1000, 0) | (0x1018, 0..=3) | (0x1008..=0x100A, 0) => true,
         _ => entry.access == Access::Const,

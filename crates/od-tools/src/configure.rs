@@ -16,7 +16,7 @@ const NOT_VALID: u32 = 1 << 31;
 pub struct Setting {
     /// Address.
     pub address: Address,
-    /// Value as it goes over the bus.
+    /// Value in the byte order of the bus.
     pub bytes: Vec<u8>,
 }
 
@@ -115,7 +115,7 @@ pub fn apply(
         return Ok(applied);
     }
     for index in old.pdos() {
-        // A value that changes only for a moment has to be restored, too.
+        // A value that changes only for a short time has to be restored, too.
         let (cob_id, count) = (Address::new(index, 1), Address::new(index + 0x200, 0));
         let is_mapped_anew = old.0.keys().any(|one| one.index == count.index);
         for address in [Some(cob_id), is_mapped_anew.then_some(count)]
@@ -203,7 +203,7 @@ impl Values {
             .iter()
             .filter(|(one, _)| pdo(**one).is_none())
             .collect();
-        // Values may depend on each other: what is refused now may be right after the others.
+        // Values may depend on each other: the node may accept a refused value after the others.
         loop {
             let mut refused = Vec::new();
             let mut first = None;
@@ -245,7 +245,7 @@ impl Values {
         let last = self.0.get(&cob_id).cloned().or(before.clone().ok());
         if let Ok(Ok(raw)) = before.as_deref().map(<[u8; 4]>::try_from) {
             let raw = u32::from_le_bytes(raw) | NOT_VALID;
-            // A device whose COB-ID is fixed goes on with the rest.
+            // If the COB-ID of a device is fixed, the other values are written all the same.
             put(master, cob_id, &raw.to_le_bytes())?;
         }
         if self.0.keys().any(|address| address.index == mapping) {

@@ -15,8 +15,8 @@ const PATIENCE: Duration = Duration::from_secs(5);
 const BOOT: Duration = Duration::from_secs(3);
 /// Time in which a second slave would respond, in ms.
 const SECOND: u64 = 50;
-/// Times that a step of fastscan waits for a response, in ms. No response is a result, too, so a late response spoils
-/// the search, which then begins again with the next time.
+/// Times that a step of fastscan waits for a response, in ms. A missing response is a result, too,
+/// so a late response makes the search wrong; it then begins again with the next time.
 const PACES: [u64; 3] = [50, 200, 800];
 
 /// Bit rates in kbit/s by their index in table 0 of CiA 301; index 5 is reserved.
@@ -278,8 +278,8 @@ impl<L: Link> Lss<L> {
 
 impl<L: Link> Drop for Lss<L> {
     fn drop(&mut self) {
-        // Whatever went wrong: no slave is left in configuration state. If the link is lost, nobody
-        // can do more.
+        // No slave is left in configuration state, whatever failed. If the link is lost, this is
+        // impossible.
         let configuration = false;
         let request = lss::Request::SwitchGlobal { configuration };
         let id = od_wire::CanId::standard(lss::MASTER);

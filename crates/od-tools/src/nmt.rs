@@ -34,7 +34,7 @@ pub fn command(
         if let Some((from, state)) = watch::parse(&heard.frame)
             && node.is_none_or(|node| node == from)
         {
-            // A heartbeat of the moment before the command does not count.
+            // A heartbeat from just before the command does not count.
             if node.is_none() || state == wanted {
                 states.insert(from, state);
             }

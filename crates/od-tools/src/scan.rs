@@ -106,12 +106,12 @@ pub fn scan(
         progress((done * 10) as u8);
         heard.ask(link, batch, DEVICE_TYPE, options.answer)?;
     }
-    // The last ones have as much time for a late answer as the others had.
+    // The last nodes have as much time for a late response as the others had.
     heard.listen(link, options.answer)?;
     let mut types = core::mem::take(&mut heard.answers);
     let there: Vec<NodeId> = types.keys().copied().collect();
     for batch in there.chunks(AT_ONCE) {
-        // Two nodes of one type give the same answer at the same time, which is one frame; their
+        // Two nodes of one type send the same response at the same time, which is one frame. Their
         // serial numbers differ.
         heard.ask(link, batch, SERIAL, options.answer)?;
     }
@@ -180,7 +180,7 @@ impl Found {
         for (text, index) in self.texts.iter_mut().zip(0x1008..) {
             let bytes = optional(master.upload(Address::new(index, 0)))?;
             if bytes.is_none() && master.link().now() > until {
-                // It would take this time for each.
+                // Each further text would take this time, too.
                 break;
             }
             *text = bytes.map(|bytes| {
@@ -223,12 +223,13 @@ impl Heard {
         let until = link.now() + wait;
         while let Some(heard) = link.receive(until)? {
             self.frame(&heard.frame);
-            // A bus that is full does not hold it up.
+            // A full bus does not delay the scan.
             if link.now() > until {
                 break;
             }
         }
-        // A program that had to wait for the processor finds what came in time.
+        // If the program had to wait for the processor, the frames that arrived in time are still
+        // in the buffer.
         for _ in 0..WAITING {
             match link.receive(Instant::ZERO)? {
                 Some(heard) => self.frame(&heard.frame),

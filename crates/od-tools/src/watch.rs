@@ -81,7 +81,7 @@ pub fn sources(
         };
         let kind = number_of(Error::or_abort(master.upload(Address::new(index, 2)))?);
         if matches!(kind, Some(252 | 253)) {
-            // Only on request.
+            // The TPDO is sent on request only.
             continue;
         }
         let mapping = index + 0x200;
@@ -156,7 +156,7 @@ pub fn watch(
         times,
         &mut tell,
     );
-    // Aborts open transfers at the node.
+    // The open transfers at the node are aborted.
     for (job, _) in jobs {
         client.cancel(link.now(), job);
     }
@@ -219,7 +219,7 @@ fn follow(
             .copied()
             .chain(client.poll_timeout())
             .min();
-        // A little later than the end, so that the end is noticed.
+        // A little after the end, so that the loop ends.
         let next = next.unwrap_or(now).min(until + Duration::from_micros(1));
         let Some(heard) = link.receive(next)? else {
             client.handle_timeout(link.now());

@@ -6,13 +6,13 @@
 
 include!(concat!(env!("OUT_DIR"), "/device.rs"));
 
-/// The library found a fault of its own.
+/// The library found an error in itself.
 #[cfg(target_os = "none")]
 #[panic_handler]
 fn panic(_: &core::panic::PanicInfo<'_>) -> ! {
     unsafe extern "C" {
         fn odkit_panic() -> !;
     }
-    // SAFETY: a function of the firmware that takes nothing and does not return.
+    // SAFETY: a function of the firmware without arguments that does not return.
     unsafe { odkit_panic() }
 }

@@ -1,5 +1,5 @@
-//! A case for one built-in device, played on a simulated bus of its own, where it may also control shaft, power and
-//! switches.
+//! A case for one built-in device, played on a separate simulated bus, where it can also control
+//! shaft, power and switches.
 
 use od_model::Refused;
 use od_sim::VirtualDevice;

@@ -101,7 +101,8 @@ impl Case {
             let Step::Script(first_line, text) = step else {
                 continue;
             };
-            // Any node ID will do: the lines are read again when the node under test is known.
+            // The node ID does not matter here: the lines are read again when the node under test
+            // is known.
             let script = Script::parse_at(&placed(text, 1), *first_line);
             if let Some(problem) = script.err().and_then(|all| all.into_iter().next()) {
                 let message = format!("{}; {}", problem.message, problem.help);

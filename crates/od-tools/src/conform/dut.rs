@@ -36,10 +36,10 @@ pub struct Dut<'d> {
     pub(crate) sync_id: u32,
     /// Makes the device again, if it is simulated.
     pub(crate) fresh: Option<Fresh<'d>>,
-    /// How long the node was silent at last: the length of a wait for a frame that did not come, in microseconds; 0 if
-    /// anything was sent or received since.
+    /// Duration of the present silence of the node: of a wait for a frame that did not arrive, in
+    /// microseconds; 0 if anything was sent or received since.
     pub(crate) silence: u64,
-    /// What was wrong so far in a case that goes through all its objects: expected and actual behaviour.
+    /// Faults so far in a case that tests all its objects: expected and actual behaviour.
     pub(crate) faults: Vec<(String, String)>,
     /// Whether the case switched the power off.
     pub(crate) is_off: bool,

@@ -26,14 +26,14 @@
 //! | file | contents |
 //! |---|---|
 //! | `case` | a case: head and steps |
-//! | `eds` | what the EDS says of the node: which cases apply |
+//! | `eds` | facts about the node in the EDS: which cases apply |
 //! | `rig` | a link that may also switch the power |
 //! | `dut`, `sdo` | the node under test, and strict transfers with it |
 //! | `check/` | the table of the built-in cases, and their checks in Rust, a file for each service |
 //! | `cases/` | the built-in cases that are scripts |
-//! | `play`, `aside` | the steps that are lines of a script: on any link, or on a bench of their own |
+//! | `play`, `aside` | the steps that are lines of a script: on any link, or on a separate bench |
 //! | `official` | the cases of the official test that ours cover |
-//! | `session` | one case after the other, and what each changed put back |
+//! | `session` | runs the cases, and restores what each changed |
 //! | `report/` | the records as text, JSON, JUnit, Markdown, HTML |
 
 pub mod aside;

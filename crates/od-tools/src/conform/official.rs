@@ -107,7 +107,7 @@ const COVERED: &[(&str, &str)] = &[
     ("nmt-stop", "10.4"),
 ];
 
-/// Numbers of the official cases that a case covers; empty for one that has no counterpart.
+/// Numbers of the official cases that a case covers; empty if there is none.
 pub fn numbers(id: &str) -> &'static str {
     let found = COVERED.iter().find(|(own, _)| *own == id);
     found.map_or("", |(_, numbers)| numbers)

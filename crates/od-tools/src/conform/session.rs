@@ -1,4 +1,4 @@
-//! One case after the other, and what each changed put back.
+//! Runs the cases one after the other, and restores what each has changed.
 
 use od_wire::NodeId;
 use od_wire::nmt::Command;
@@ -14,15 +14,15 @@ use super::record::{Record, Times, Verdict};
 use super::rig::Rig;
 use crate::error::Error;
 
-/// A node that did not respond to anything so often, in as many cases in a row, is lost.
+/// A node that did not respond at all in this number of consecutive cases is lost.
 const SILENCES: u8 = 3;
-/// A test that is later than this does not judge a node by one run, in microseconds.
+/// If the test itself is later than this, in microseconds, one run is no evidence against the node.
 const LATE: u64 = 5_000;
-/// A frame that is missing for this many times the test's own lateness is missing.
+/// A frame counts as missing after this many times the lateness of the test itself.
 const PATIENCE: u64 = 50;
-/// Some servers end a transfer when its client pauses: from half a second on.
+/// Some servers end a transfer if its client pauses for half a second or longer.
 const PAUSE: u64 = 200_000;
-/// Groups whose cases measure time, or act in time: the test's own lateness can be what fails.
+/// Groups whose cases measure time or depend on it: they may fail because the test itself is late.
 const TIMED: [&str; 6] = [
     "NMT",
     "error control",
@@ -31,7 +31,7 @@ const TIMED: [&str; 6] = [
     "PDO",
     "SYNC",
 ];
-/// Most runs of a case.
+/// Greatest number of runs of a case.
 const TRIES: usize = 3;
 /// Time without power, in microseconds.
 const POWER_OFF: u64 = 500_000;
@@ -68,7 +68,7 @@ pub struct Session<'s> {
 }
 
 impl<'s> Session<'s> {
-    /// A test of `node` on `rig`, which is as `eds` says.
+    /// A test of `node` on `rig`, according to `eds`.
     pub fn new(rig: &'s mut dyn Rig, eds: &'s Eds, node: NodeId, leave: Leave) -> Self {
         Self {
             rig,
@@ -83,7 +83,7 @@ impl<'s> Session<'s> {
         }
     }
 
-    /// Simulates a device of this name: a case for this device only gets one of its own.
+    /// The device that is simulated: a case that is only for this device gets a separate one.
     pub fn simulates(&mut self, name: &'s str, fresh: Fresh<'s>) {
         self.simulated = Some((name, fresh));
     }
@@ -93,17 +93,17 @@ impl<'s> Session<'s> {
         &self.times
     }
 
-    /// Reason why the test could not go on, if it could not.
+    /// Reason why the test ended early; `None` if it did not.
     pub fn lost(&self) -> Option<&str> {
         self.lost.as_deref()
     }
 
-    /// Runs one case. A node that does not respond costs this case; after `SILENCES` in a row, and after
-    /// the link was lost, every case is skipped.
+    /// Runs one case. If the node does not respond, only this case fails; after `SILENCES` such
+    /// cases in a row, and after the loss of the link, every further case is skipped.
     ///
-    /// A case that fails while the test itself was late is repeated. If it then passes, it is passed; if the
-    /// test is late each time, nothing is known, unless the case is about responses only and fails alike
-    /// each time.
+    /// A case that fails while the test itself was late is repeated. If it then passes, it is
+    /// passed. If the test is late each time, the result is unknown, unless the case depends only
+    /// on responses and fails in the same way each time.
     pub fn run(&mut self, case: &Case) -> Record {
         let (mut record, late) = self.once(case);
         if late <= LATE || !record.verdict.is_fail() {
@@ -137,7 +137,7 @@ impl<'s> Session<'s> {
         record
     }
 
-    /// Runs one case once. The second value is the time by which the test was late, in microseconds.
+    /// Runs one case once. The second value is the lateness of the test itself, in microseconds.
     fn once(&mut self, case: &Case) -> (Record, u64) {
         let from = self.rig.now();
         let mut dut = Dut {
@@ -188,7 +188,7 @@ impl<'s> Session<'s> {
                     }
                 }),
         };
-        // A node that hangs must not be the failure of all that follow.
+        // A node that has stopped must not make all later cases fail.
         let is_in_doubt = matches!(result, Err(End::Fail { .. })) || self.silences > 0;
         if is_in_doubt && self.lost.is_none() && !matches!(result, Err(End::Lost(_))) {
             match revive(&mut dut) {
@@ -209,8 +209,7 @@ impl<'s> Session<'s> {
             result = Err(End::Skip(why));
         }
         let (notes, frames, mut late) = (dut.notes, dut.frames, dut.late);
-        // What does not come for so much longer than the test was late does not come, and an SDO response would have been
-        // the same.
+        // A frame that is missing for so much longer than the test was late was not sent.
         if silence >= PATIENCE * late || !is_timed && late < PAUSE {
             late = 0;
         }
@@ -234,7 +233,7 @@ impl<'s> Session<'s> {
     }
 }
 
-/// May the case be run, and is it about this node?
+/// Returns whether the case may be run, and applies to this node.
 fn may(
     case: &Case,
     leave: Leave,
@@ -289,7 +288,7 @@ fn steps(case: &Case, dut: &mut Dut<'_>) -> Checked {
     Ok(())
 }
 
-/// Checks before a case that a node responds which did not after the case before.
+/// Checks that the node responds, if it did not in the case before.
 fn responds(dut: &mut Dut<'_>, silences: u8) -> Checked {
     if silences == 0 || dut.is_alive()? {
         Ok(())
@@ -298,7 +297,7 @@ fn responds(dut: &mut Dut<'_>, silences: u8) -> Checked {
     }
 }
 
-/// Returns whether the node responds, if need be after a reset or with its power switched off and on.
+/// Returns whether the node responds, after a reset or a power cycle if necessary.
 fn revive(dut: &mut Dut<'_>) -> Checked<bool> {
     if dut.is_alive()? {
         return Ok(true);
@@ -317,7 +316,7 @@ fn revive(dut: &mut Dut<'_>) -> Checked<bool> {
         });
     }
     for reset in resets {
-        // A boot-up message that does not come says nothing: the node may be there all the same.
+        // A missing boot-up message is no evidence: the node may respond all the same.
         if let Err(End::Lost(fault)) = reset(dut) {
             return Err(End::Lost(fault));
         }

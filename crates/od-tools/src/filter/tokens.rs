@@ -9,7 +9,7 @@ pub(super) struct Token<'t> {
     pub(super) at: usize,
 }
 
-/// Brackets, `!`, `|`, a `-` before something, and words, in which quotes hold blanks together.
+/// Brackets, `!`, `|`, a `-` before a term, and words; quotes can contain blanks.
 pub(super) fn tokens(text: &str) -> Result<Vec<Token<'_>>, Error> {
     let mut found = Vec::new();
     let mut at = 0;
@@ -32,7 +32,7 @@ fn length(rest: &str) -> Option<usize> {
         (Some('-'), Some(next)) if !next.is_whitespace() => return Some(1),
         _ => {}
     }
-    // A word up to a quote goes on to the end of the quote.
+    // A word with a quote ends at the closing quote.
     let before = rest.find(|c: char| c.is_whitespace() || "()!|\"".contains(c));
     if let Some(quote) = before.filter(|at| rest[*at..].starts_with('"')) {
         let end = rest[quote + 1..].find('"')?;

@@ -20,8 +20,8 @@ pub(super) struct Profiles {
 }
 
 impl Profiles {
-    /// The profile that 1000h names, or if the objects do not fit it, the profile that fits most of them.
-    /// `values` has index, sub-index and length of each value.
+    /// The profile that 1000h names; if the objects do not fit it, the profile that fits most of
+    /// them. `values` has index, sub-index and length of each value.
     pub(super) fn of(named: u16, values: &[(u16, u8, usize)]) -> Self {
         let mut blocks: BTreeMap<u16, Vec<(u16, u8, usize)>> = BTreeMap::new();
         for (index, sub, len) in values {

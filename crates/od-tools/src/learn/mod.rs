@@ -57,7 +57,7 @@ pub fn learn(
             all.insert(index, found);
         }
     }
-    // The profile of an object shows by the others.
+    // The other objects show the profile of an object.
     let values = all.values().flatten();
     let lengths: Vec<_> = values
         .filter_map(|one: &Found| {
@@ -112,7 +112,7 @@ fn members<L: Link>(probe: &mut Probe<L>, index: u16) -> Result<Vec<Found>, Erro
     {
         return Ok(all);
     }
-    // Sub-index 0 of what has members is their number, at least at first sight.
+    // Sub-index 0 of an object with sub-objects is probably their number.
     let count = match all.first().map(|first| first.bytes.as_deref()) {
         Some(Some([count])) => *count,
         Some(_) => 0,
@@ -121,7 +121,7 @@ fn members<L: Link>(probe: &mut Probe<L>, index: u16) -> Result<Vec<Found>, Erro
     for sub in 1..=0xFE {
         match probe.read(Address::new(index, sub))? {
             There::Value(found) => all.push(found),
-            // Beyond the number there may be entries that are not used now.
+            // There may be unused entries after this number.
             _ if sub > count => break,
             _ => {}
         }

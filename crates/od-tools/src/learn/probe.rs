@@ -20,7 +20,7 @@ pub(super) struct Found {
     pub(super) is_write_only: bool,
     /// Access; `None` if only a write can show it.
     pub(super) writable: Option<bool>,
-    /// Lengths that a download may have; `None` if not tried, or if the node does not show it.
+    /// Lengths that a download may have; `None` if not tested, or if the node does not show them.
     pub(super) room: Option<Room>,
 }
 
@@ -94,7 +94,7 @@ impl<L: Link> Probe<L> {
         let writable = if is_write_only {
             Some(true)
         } else if address.index == 0x1F50 {
-            // A program is erased as soon as a download begins.
+            // A download to a program erases it at once.
             None
         } else {
             self.writable(address, bytes.as_deref())?
@@ -117,7 +117,7 @@ impl<L: Link> Probe<L> {
     /// Returns whether the index has no object, by one request: most of the 36,864 indices have none.
     pub(super) fn lacks(&mut self, index: u16) -> Result<bool, Error> {
         let answer = self.ask(request(0x40, Address::new(index, 0), [0; 4]))?;
-        // An upload that this began ends here: some servers abort the next request otherwise.
+        // End the upload that this began, since some servers abort the next request otherwise.
         let is_begun = |answer: &[u8; 8]| answer[0] & 0xE2 == 0x40;
         if answer.as_ref().is_some_and(is_begun) {
             self.give_up(Address::new(index, 0))?;
@@ -294,7 +294,7 @@ impl<L: Link> Probe<L> {
         };
         if answer[0] == 0x60 {
             self.give_up(address)?;
-            // A node that confirms it of any object looks at the access later.
+            // A node that confirms a download to any object checks the access later.
             return Ok(self.checks_access()?.then_some(true));
         }
         match code(&answer) {
@@ -310,7 +310,7 @@ impl<L: Link> Probe<L> {
         Ok(match answer.as_ref().map(code) {
             Some(Some(code)) => Some(!is_fixed(code)),
             Some(None) => {
-                // Taken all the same: the value is made sure of.
+                // The node accepted it, so the value is restored.
                 if self.bytes(address)?.as_deref() != Some(bytes) {
                     self.write(address, bytes)?;
                 }
@@ -363,7 +363,7 @@ impl<L: Link> Probe<L> {
                 }
                 Ok(Some(_)) => {}
                 Ok(None) => {
-                    // An answer that comes later opens nothing.
+                    // A late response begins nothing.
                     let mut abort = data;
                     abort[0] = 0x80;
                     abort[4..].copy_from_slice(&0x0504_0000u32.to_le_bytes());
@@ -371,7 +371,7 @@ impl<L: Link> Probe<L> {
                     return Ok(None);
                 }
                 Err(Error::Interrupted) => {
-                    // The node hears that what was begun is over.
+                    // The node is told that the transfer has ended.
                     let mut abort = data;
                     abort[0] = 0x80;
                     abort[4..].copy_from_slice(&0x0800_0000u32.to_le_bytes());

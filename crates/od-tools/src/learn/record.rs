@@ -74,7 +74,7 @@ pub fn record(
     });
     result?;
     let mut probe = Probe::new(&mut link, node);
-    // A download of two bytes in segments, and a block upload; neither is carried out.
+    // Begins a download of two bytes in segments, and a block upload; neither is completed.
     seen.recorded.no_segments = probe.lacks_command(0x21, Address::new(0x1017, 0))?;
     seen.recorded.no_blocks = probe.lacks_command(0xA0, Address::new(0x1000, 0))?;
     values(link, node, description, watch, &mut seen)?;
@@ -235,7 +235,7 @@ fn values(
             (address, kind)
         })
         .collect();
-    // Twice, so that values show that they change.
+    // Reads twice, so that changing values are found.
     for round in 0..2 {
         for (address, kind) in &readable {
             let from = master.link().now();

@@ -43,7 +43,7 @@ pub(super) fn connect(kind: &str, place: &str) -> Result<(TcpStream, String), Er
 
 impl Port for TcpStream {
     fn read(&mut self, buffer: &mut [u8], wait: Duration) -> io::Result<usize> {
-        // A time-out of zero would mean none at all.
+        // A time-out of zero would mean no time-out.
         self.set_nonblocking(wait.is_zero())?;
         self.set_read_timeout(Some(wait).filter(|wait| !wait.is_zero()))?;
         Read::read(self, buffer)

@@ -1,4 +1,4 @@
-//! The client's side of slcan: an adapter on a serial line, a server of one, or `odkit sim`.
+//! The client side of slcan: an adapter on a serial line, an slcan server, or `odkit sim`.
 
 use od_sim::links::adapter::{self, Adapter, RATES};
 use od_sim::links::slcan;

@@ -30,7 +30,7 @@ pub(super) struct Interface {
 impl Interface {
     pub(super) fn open(name: &str) -> Result<Self, Error> {
         let failed = |error: io::Error| Error::Link(advice(name, &error));
-        // A socket for all interfaces says whether there can be any.
+        // A socket for all interfaces shows whether the kernel supports CAN.
         CanSocket::open_iface(0).map_err(failed)?;
         let socket = CanSocket::open(name).map_err(failed)?;
         let interface = Self {
@@ -80,7 +80,7 @@ impl Link for Interface {
     fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Error> {
         loop {
             let left = Duration::from_micros(until.micros_since(self.now()));
-            // A time-out of zero would mean none at all.
+            // A time-out of zero would mean no time-out.
             let set = self.socket.set_nonblocking(left.is_zero()).and_then(|()| {
                 let wait = Some(left).filter(|left| !left.is_zero());
                 self.socket.set_read_timeout(wait)

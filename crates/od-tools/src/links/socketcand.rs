@@ -1,4 +1,4 @@
-//! The client's side of socketcand: a daemon that serves the CAN interfaces of its computer.
+//! The client side of socketcand: a daemon that serves the CAN interfaces of its computer.
 
 use od_sim::logs::candump::parse_frame;
 use od_wire::Frame;
@@ -46,7 +46,7 @@ impl Socketcand {
             }
             (kind @ ("frame" | "rtr"), _) => {
                 let id = words.next().unwrap_or_default();
-                // The time of day comes next.
+                // The time of day follows.
                 let data: String = words.skip(1).collect();
                 let data = match kind {
                     "rtr" => format!("R{data}"),

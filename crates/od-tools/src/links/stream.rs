@@ -1,4 +1,4 @@
-//! A link over bytes: a port that carries them, and a protocol that says what they mean.
+//! A link over bytes: a port that transfers them, and a protocol that interprets them.
 
 use std::collections::VecDeque;
 use std::io::{self, ErrorKind};
@@ -14,7 +14,7 @@ const OPENING: Duration = Duration::from_secs(2);
 /// Limit of bytes without the end of a line or command.
 const LONGEST: usize = 256;
 
-/// Carries bytes both ways.
+/// Transfers bytes in both directions.
 pub(super) trait Port {
     /// Reads available bytes, or waits for some; 0: the connection is closed.
     fn read(&mut self, buffer: &mut [u8], wait: Duration) -> io::Result<usize>;

@@ -1,4 +1,4 @@
-//! The twelve devices pass, in virtual time, with a node ID that is not their default one.
+//! The twelve devices pass in virtual time, with another node ID than the default.
 
 use od_sim::VirtualDevice;
 use od_tools::bench::OnBench;
@@ -11,7 +11,7 @@ use od_wire::NodeId;
 
 use crate::simulated::alone;
 
-/// Every case on a device that was just switched on.
+/// Runs every case on a device that was just switched on.
 fn run(device: VirtualDevice, text: &str) -> Report {
     let node = device.node_id();
     let bus = alone(device);

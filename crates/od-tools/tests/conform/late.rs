@@ -16,7 +16,8 @@ use od_wire::{Frame, Instant, NodeId};
 
 use crate::simulated::bus;
 
-/// A link whose frames reach the node 4 ms late; what the node sends by then comes before its response.
+/// A link that delivers the frames of the node 4 ms late; frames that the node sends in this time
+/// arrive before the response.
 struct Late<L> {
     link: L,
     heard: VecDeque<Heard>,
@@ -72,7 +73,7 @@ fn heartbeats_between_request_and_response_fail_no_case() {
 }
 
 #[test]
-fn a_case_about_heartbeats_hears_them() {
+fn a_case_about_heartbeats_receives_them() {
     let mut bus = bus("gxmm");
     let mut master = Master::new(OnBench(&mut bus), NodeId::ONE);
     let written = master.download(Address::new(0x1017, 0), &[3, 0]);

@@ -1,4 +1,4 @@
-//! An EDS from a device says what the EDS says that the device was made from.
+//! An EDS learned from a device equals the EDS of the device.
 
 use std::collections::VecDeque;
 
@@ -16,7 +16,7 @@ use od_wire::{Frame, Instant, NodeId};
 
 use crate::simulated::{alone, bus};
 
-/// Values whose presence, type or access is another one in a learned dictionary.
+/// Values whose presence, type or access differs in a learned dictionary.
 fn wrong(right: Dictionary<'_>, made: Dictionary<'_>) -> Vec<String> {
     let mut wrong = Vec::new();
     for entry in right.entries() {
@@ -44,7 +44,7 @@ fn wrong(right: Dictionary<'_>, made: Dictionary<'_>) -> Vec<String> {
 }
 
 #[test]
-fn the_twelve_devices_are_learned_and_stand_in() {
+fn the_twelve_devices_are_learned_and_can_be_replaced() {
     for kind in od_devices::DEVICES {
         let name = kind.name;
         let mut bus = bus(name);
@@ -62,7 +62,7 @@ fn the_twelve_devices_are_learned_and_stand_in() {
         assert!(wrong.len() * 100 <= all, "{name}, {all}: {wrong:?}");
         let mut original = Master::new(OnBench(bus), NodeId::ONE);
         let differences = compare(made, &mut original, true).expect("a device that answers");
-        // The time stamp of an EAM goes on.
+        // The time stamp of an EAM changes.
         let is_still = |one: &Difference| !(name.starts_with("eam") && one.index == 0x2120);
         let changed: Vec<_> = differences.into_iter().filter(is_still).collect();
         assert!(changed.is_empty(), "{name}: {changed:?}");
@@ -80,7 +80,7 @@ fn the_twelve_devices_are_learned_and_stand_in() {
 }
 
 #[test]
-fn limits_are_probed_and_values_put_back() {
+fn limits_are_probed_and_values_restored() {
     let mut bus = bus("en580c");
     let options = Options {
         writes: true,
@@ -104,7 +104,7 @@ fn limits_are_probed_and_values_put_back() {
     }
 }
 
-/// A slave with node ID 1 that answers at once; `answer` may remember.
+/// A slave with node ID 1 that responds at once; `answer` may keep a state.
 struct Odd<F> {
     now: Instant,
     answers: VecDeque<[u8; 8]>,
@@ -140,16 +140,16 @@ impl<F: FnMut(&[u8; 8]) -> Option<[u8; 8]>> Link for Odd<F> {
     }
 }
 
-/// How a slave of a test differs from others.
+/// Behaviour in which the slave of a test differs from others.
 #[derive(Clone, Copy, Default)]
 struct Ways {
     /// Aborts an initiate while a segmented upload is open.
     minds_open: bool,
-    /// Answers for every sub-index of a VAR.
+    /// Responds to every sub-index of a VAR.
     ignores_sub: bool,
-    /// Confirms the beginning of any download, and looks at the access at its end.
+    /// Confirms the start of any download, and checks the access at its end.
     checks_late: bool,
-    /// Falls silent when 1017h is written.
+    /// Stops responding when 1017h is written.
     dies: bool,
 }
 
@@ -243,7 +243,7 @@ fn odd(ways: Ways) -> Odd<impl FnMut(&[u8; 8]) -> Option<[u8; 8]>> {
     }
 }
 
-/// Objects of what was learned, with their access and sub-objects.
+/// The learned objects, with their access and sub-objects.
 fn objects(ways: Ways, writes: bool) -> Vec<String> {
     let options = Options {
         writes,
@@ -272,7 +272,7 @@ const ALL: [&str; 7] = [
 ];
 
 #[test]
-fn each_transfer_is_over_before_the_next_begins() {
+fn each_transfer_ends_before_the_next_begins() {
     let ways = Ways {
         minds_open: true,
         ..Ways::default()
@@ -290,12 +290,12 @@ fn a_device_that_ignores_the_sub_index_has_variables() {
 }
 
 #[test]
-fn a_confirmed_beginning_proves_no_access_where_the_node_looks_later() {
+fn a_confirmed_start_is_no_proof_of_access_if_the_node_checks_later() {
     let ways = Ways {
         checks_late: true,
         ..Ways::default()
     };
-    // Not known without a write, so as the standard says, else `ro`.
+    // Unknown without a write, so the access is that of the standard, otherwise `ro`.
     let mut unknown = ALL.to_vec();
     unknown[6] = "2200 UNSIGNED16 ro";
     unknown[4] = "1018 UNSIGNED8 ro,ro,ro,ro,ro";
@@ -306,7 +306,7 @@ fn a_confirmed_beginning_proves_no_access_where_the_node_looks_later() {
 }
 
 #[test]
-fn a_node_that_falls_silent_while_limits_are_probed_is_still_learned() {
+fn a_node_that_stops_while_limits_are_probed_is_still_learned() {
     let ways = Ways {
         dies: true,
         ..Ways::default()

@@ -1,4 +1,4 @@
-//! A node that lives is never declared dead, and the trouble of one case is not that of the next.
+//! A node that works is never reported as lost, and a failure in one case does not affect the next.
 
 use std::collections::VecDeque;
 
@@ -42,7 +42,7 @@ impl<F: FnMut(Frame) -> Option<Frame>> Link for Odd<F> {
 
 impl<F: FnMut(Frame) -> Option<Frame>> Rig for Odd<F> {}
 
-/// A run of all cases with resets: the records, and why it ended early.
+/// Runs all cases with resets; returns the records, and the reason of an early end.
 fn run(change: impl FnMut(Frame) -> Option<Frame>) -> (Vec<Record>, Option<String>) {
     let kind = od_devices::find("gxmm").expect("a device");
     let eds = Eds::read(&od_devices::text::eds(kind));
@@ -60,7 +60,7 @@ fn run(change: impl FnMut(Frame) -> Option<Frame>) -> (Vec<Record>, Option<Strin
     (records, lost)
 }
 
-/// Number of cases that were skipped for want of a response.
+/// Number of cases that were skipped because of a missing response.
 fn unheard(records: &[Record]) -> usize {
     let is_one = |record: &&Record| match &record.verdict {
         Verdict::Skipped(why) => why.contains("respond"),
@@ -75,7 +75,7 @@ fn passed(records: &[Record]) -> usize {
 }
 
 #[test]
-fn a_node_without_1000h_is_tested_in_whole() {
+fn a_node_without_1000h_is_tested_completely() {
     let (records, lost) = run(|frame| match *frame.bytes() {
         [_, 0, 0x10, 0, ..] if frame.id().as_standard() == Some(0x581) => {
             Some(Frame::standard(0x581, &[0x80, 0, 0x10, 0, 0, 0, 2, 6]))
@@ -87,7 +87,7 @@ fn a_node_without_1000h_is_tested_in_whole() {
 }
 
 #[test]
-fn a_node_without_a_boot_up_message_is_tested_in_whole() {
+fn a_node_without_a_boot_up_message_is_tested_completely() {
     let (records, lost) = run(|frame| {
         let is_boot_up = frame.id().as_standard() == Some(0x701) && frame.data() == [0];
         (!is_boot_up).then_some(frame)
@@ -97,7 +97,7 @@ fn a_node_without_a_boot_up_message_is_tested_in_whole() {
 }
 
 #[test]
-fn a_node_that_is_silent_for_a_while_loses_these_cases_only() {
+fn a_node_that_is_silent_for_a_while_fails_only_these_cases() {
     let mut count = 0;
     // Its frames 300 to 319 are lost.
     let (records, lost) = run(|frame| {
@@ -110,7 +110,7 @@ fn a_node_that_is_silent_for_a_while_loses_these_cases_only() {
 }
 
 #[test]
-fn a_dead_node_ends_the_run() {
+fn a_node_that_stops_ends_the_run() {
     let mut count = 0;
     let (records, lost) = run(|frame| {
         count += 1;
@@ -120,13 +120,13 @@ fn a_dead_node_ends_the_run() {
     assert!(unheard(&records) > 100, "{}", unheard(&records));
 }
 
-/// A test on a computer with other things to do: one wait of four ends up to 150 ms late, and frames that
-/// came meanwhile have the time at which they were read.
+/// A test on a busy computer: one wait in four ends up to 150 ms late, and frames that arrived in
+/// between have the time at which they were read.
 struct Busy {
     bus: OnBench<Bus>,
     waiting: VecDeque<Heard>,
     random: u64,
-    /// What comes in the place of a frame of the node.
+    /// What is received instead of a frame of the node; `None` if the frame is lost.
     spoiled: fn(Frame) -> Option<Frame>,
 }
 
@@ -179,7 +179,7 @@ impl Rig for Busy {
 }
 
 #[test]
-fn a_busy_computer_declares_no_node_wrong() {
+fn a_busy_computer_reports_no_node_as_wrong() {
     let kind = od_devices::find("gxmm").expect("a device");
     let eds = Eds::read(&od_devices::text::eds(kind));
     for seed in 1..40 {
@@ -251,9 +251,9 @@ fn a_busy_computer_knows_what_a_node_accepts() {
     }
 }
 
-/// A wait of ten seconds that is some milliseconds late is still one of ten seconds.
+/// A wait of ten seconds that is some milliseconds late still counts as one of ten seconds.
 #[test]
-fn a_busy_computer_knows_what_never_comes() {
+fn a_busy_computer_detects_missing_frames() {
     let kind = od_devices::find("gxmm").expect("a device");
     let eds = Eds::read(&od_devices::text::eds(kind));
     let mut rig = Busy {

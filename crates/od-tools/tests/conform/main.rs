@@ -1,4 +1,4 @@
-//! The conformance test: no false failure on what is right, and what is wrong is found.
+//! The conformance test: no false failures, and faults are found.
 
 mod devices;
 mod late;

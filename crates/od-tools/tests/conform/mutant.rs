@@ -1,8 +1,9 @@
-//! A slave that can be made wrong: a bench whose frames are spoiled on their way.
+//! A slave with faults: a bench whose frames are changed on their way to the test.
 //!
-//! A rule is `[in STATE] [since <PATTERN>] [until <PATTERN>] from PATTERN: [once|after N] DEED`, the same with `to`,
-//! or `[in STATE] [since …] [until …] every MILLIS FRAME`. In a pattern `.` is any digit and `*` any rest. `since` and
-//! `until` begin and end the rule's time with a frame of either side.
+//! A rule is `[in STATE] [since <PATTERN>] [until <PATTERN>] from PATTERN: [once|after N] DEED`,
+//! the same with `to`, or `[in STATE] [since …] [until …] every MILLIS FRAME`. In a pattern `.` is
+//! any digit and `*` any further text. A frame of either side that matches `since` or `until`
+//! begins or ends the time of the rule.
 
 use std::collections::VecDeque;
 
@@ -24,18 +25,18 @@ enum Deed {
     Cut(usize),
     Id(u16),
     Abort(u32),
-    /// Of an abort: the confirmation of the download.
+    /// For an abort: the confirmation of the download.
     Accept,
     Becomes(Frame),
-    /// In the place of the device.
+    /// Responds instead of the device.
     Reply(Frame),
     Also(Frame),
     Before(Frame),
-    /// From now on the device says nothing.
+    /// The device is silent from now on.
     Hang,
-    /// Of an RPDO: its bytes by SDO.
+    /// For an RPDO: writes its bytes by SDO.
     Write,
-    /// Of an expedited download: confirmed and read back, but without an effect.
+    /// For an expedited download: confirms it and returns it in uploads, but without an effect.
     Shadow,
 }
 
@@ -162,7 +163,7 @@ fn rule(text: &str) -> Rule {
     made
 }
 
-/// Is a frame, as text without its length of a remote frame, the pattern?
+/// Returns whether a frame matches the pattern; the length of a remote frame does not count.
 fn fits(pattern: &str, frame: &Frame) -> bool {
     let text = frame.to_string();
     let text = if frame.is_remote() {
@@ -207,7 +208,7 @@ impl Spoiled {
         self.bench.0.devices()[0].state() as u8
     }
 
-    /// The deed of the first rule about this frame.
+    /// The action of the first rule for this frame.
     fn deed(&mut self, frame: &Frame, is_from: bool) -> Option<Deed> {
         let state = self.state();
         for rule in &mut self.rules {
@@ -241,7 +242,7 @@ impl Spoiled {
         self.out.push_back(Heard { at, frame });
     }
 
-    /// A frame spoiled by a deed that changes it.
+    /// The frame after an action that changes it.
     fn spoil(frame: &Frame, deed: &Deed) -> Frame {
         match deed {
             Deed::Set(all) => with(frame, |data| {
@@ -269,7 +270,7 @@ impl Spoiled {
         }
     }
 
-    /// Passes on the part of a device's frame that is heard.
+    /// Passes on the frames of a device that the rules leave.
     fn hear(&mut self, heard: Heard) {
         let Heard { at, frame } = heard;
         if self.hangs {
@@ -298,7 +299,7 @@ impl Spoiled {
         }
     }
 
-    /// Takes an expedited download without an effect; returns its confirmation.
+    /// Accepts an expedited download without an effect; returns its confirmation.
     fn shadow(&mut self, frame: &Frame) -> Frame {
         let [command, low, high, sub, rest @ ..] = *frame.bytes();
         let key = [low, high, sub];
@@ -310,7 +311,7 @@ impl Spoiled {
         Frame::full(id, [0x60, low, high, sub, 0, 0, 0, 0])
     }
 
-    /// The response to the upload of an object whose write had no effect.
+    /// The response to the upload of such an object.
     fn shadowed(&self, frame: &Frame) -> Option<Frame> {
         let [0x40, low, high, sub, ..] = *frame.bytes() else {
             return None;
@@ -327,7 +328,7 @@ impl Spoiled {
         ))
     }
 
-    /// The next frame that the rules say by themselves.
+    /// The next frame that a rule sends.
     fn due(&mut self, until: Instant) -> Option<Instant> {
         let (state, now) = (self.state(), self.bench.now());
         let mut next: Option<Instant> = None;

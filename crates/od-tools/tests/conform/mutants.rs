@@ -1,4 +1,4 @@
-//! The table of ways to be wrong: at least 95 % are found, each by the case that is about it.
+//! The table of faults: at least 95 % are found, each by the case that tests the behaviour.
 
 use std::collections::BTreeSet;
 
@@ -14,7 +14,7 @@ use crate::mutant::Spoiled;
 
 const TABLE: &str = include_str!("mutants.txt");
 
-/// Objects that a case is about and `ds301` lacks: limits, a value that is write only, 1020h.
+/// Objects that a case needs and `ds301` lacks: limits, a write-only value, 1020h.
 const EXTENSION: &str = "
 [2001]\nParameterName=Command\nObjectType=7\nDataType=5\nAccessType=wo\n
 [2002]\nParameterName=Long\nObjectType=7\nDataType=9\nAccessType=rw\nDefaultValue=more than twenty letters\n
@@ -53,7 +53,8 @@ fn changed(text: &str, change: &str) -> String {
     format!("{}{line}{}", &text[..from], &text[to..])
 }
 
-/// A device of the table, switched on, and its EDS; read once, since that takes the most time.
+/// A device of the table, switched on, and its EDS; read only once, since this takes most of the
+/// time.
 struct Bench {
     name: &'static str,
     text: String,
@@ -84,7 +85,7 @@ impl Bench {
         device.expect("a device")
     }
 
-    /// The device as it is after power-on; a new one where a case writes its memory.
+    /// The device after power-on; a new one if a case writes its memory.
     fn bus(&mut self, case: &str) -> Bus {
         let is_lasting = [
             "store",
@@ -110,7 +111,7 @@ impl Bench {
         bus
     }
 
-    /// One case with these rules.
+    /// Runs one case with these rules.
     fn run(&mut self, id: &str, rules: &str) -> Record {
         let case = built_in().iter().find(|one| one.id == id);
         let case = case.expect("a case of the table");
@@ -130,7 +131,7 @@ impl Bench {
 }
 
 #[test]
-fn what_is_wrong_is_found_by_the_case_about_it() {
+fn each_fault_is_found_by_its_case() {
     let lines = TABLE.lines().filter(|line| !line.starts_with('#'));
     let mut right = BTreeSet::new();
     let mut benches: Vec<Bench> = Vec::new();
@@ -145,7 +146,7 @@ fn what_is_wrong_is_found_by_the_case_about_it() {
             benches.len() - 1
         });
         let bench = &mut benches[at];
-        // On the device as it is the case passes.
+        // The case passes on the device without faults.
         if right.insert((case, device)) {
             let record = bench.run(case, "");
             if !record.verdict.is_pass() {
@@ -173,7 +174,7 @@ fn what_is_wrong_is_found_by_the_case_about_it() {
     );
 }
 
-/// The table has at least one way for every case.
+/// The table has at least one fault for every case.
 #[test]
 fn every_case_has_a_way_to_fail() {
     let named: BTreeSet<&str> = TABLE
@@ -188,7 +189,7 @@ fn every_case_has_a_way_to_fail() {
     assert!(without.is_empty(), "{without:?}");
 }
 
-/// Each of the 127 official cases has one of ours that covers it.
+/// At least one case covers each of the 127 official cases.
 #[test]
 fn every_official_case_is_covered() {
     let text = include_str!("../../../../tests/conformance/cia/cases.txt");
@@ -208,7 +209,7 @@ fn every_official_case_is_covered() {
     assert!(missing.is_empty(), "{missing:?}");
 }
 
-/// What CiA 305 leaves open is a remark: the case passes.
+/// A behaviour that CiA 305 leaves open is a remark, and the case passes.
 #[test]
 fn a_fastscan_that_ends_early_is_a_remark() {
     let mut bench = Bench::new("ds301");

@@ -1,4 +1,4 @@
-//! Cases that are scripts: they have the language of `odkit run`, on any link.
+//! Cases that are scripts: in the language of `odkit run`, on any link.
 
 use od_tools::bench::OnBench;
 use od_tools::conform::case::Case;

@@ -1,4 +1,4 @@
-//! A run that is stopped in the middle: by Ctrl-C, or because the link is lost.
+//! A run that is stopped in the middle, by Ctrl-C or by the loss of the link.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -21,7 +21,7 @@ use od_wire::{Frame, Instant, NodeId};
 
 use crate::simulated::bus;
 
-/// A link on which something happens when a frame is sent.
+/// A link that calls a function when a frame is sent.
 struct Trip<L, F> {
     link: L,
     act: F,
@@ -54,7 +54,7 @@ fn values(bus: &mut Bus, eds: &Eds) -> Vec<(Address, Option<Vec<u8>>)> {
         .collect()
 }
 
-/// A run of all cases; the report.
+/// Runs all cases; returns the report.
 fn run(rig: &mut dyn Rig, eds: &Eds) -> Report {
     let mut session = Session::new(rig, eds, NodeId::ONE, Leave::default());
     let records: Vec<Record> = built_in().iter().map(|case| session.run(case)).collect();
@@ -71,13 +71,13 @@ fn run(rig: &mut dyn Rig, eds: &Eds) -> Report {
 }
 
 #[test]
-fn ctrl_c_in_a_case_puts_back_what_it_changed() {
+fn ctrl_c_in_a_case_restores_its_changes() {
     let kind = od_devices::find("gxmm").expect("a device");
     let eds = Eds::read(&od_devices::text::eds(kind));
     let mut bus = bus("gxmm");
     let before = values(&mut bus, &eds);
     let stop = Arc::new(AtomicBool::new(false));
-    // 1017h = 50 is what `heartbeat-states` and others write.
+    // `heartbeat-states` and other cases write 1017h = 50.
     let trip = Trip {
         link: OnBench(&mut bus),
         act: |frame: &str| {
@@ -104,7 +104,7 @@ fn ctrl_c_in_a_case_puts_back_what_it_changed() {
     assert_eq!(values(&mut bus, &eds), before);
 }
 
-/// A link without power to switch.
+/// A link whose power cannot be switched.
 struct OnLink<'l>(&'l mut dyn Link);
 
 impl Link for OnLink<'_> {
@@ -128,14 +128,14 @@ impl Link for OnLink<'_> {
 impl Rig for OnLink<'_> {}
 
 #[test]
-fn a_lost_link_ends_in_a_report_that_says_what_is_left() {
+fn a_lost_link_ends_in_a_report_about_unrestored_values() {
     let kind = od_devices::find("gxmm").expect("a device");
     let eds = Eds::read(&od_devices::text::eds(kind));
     let (mut is_changed, mut is_cut) = (false, false);
     let mut link = Trip {
         link: OnBench(bus("gxmm")),
         act: |frame: &str| {
-            // The first frame after 1017h was changed is the last one.
+            // The link is lost after the first frame that follows the change of 1017h.
             is_cut |= is_changed;
             is_changed |= frame.starts_with("601#2B17100032");
             if is_cut {
@@ -164,7 +164,7 @@ fn a_lost_link_ends_in_a_report_that_says_what_is_left() {
 }
 
 #[test]
-fn ctrl_c_in_learn_puts_back_the_value_that_it_probes() {
+fn ctrl_c_in_learn_restores_the_probed_value() {
     let kind = od_devices::find("en580c").expect("a device");
     let eds = Eds::read(&od_devices::text::eds(kind));
     let mut bus = bus("en580c");
@@ -172,7 +172,7 @@ fn ctrl_c_in_learn_puts_back_the_value_that_it_probes() {
     let stop = Arc::new(AtomicBool::new(false));
     let trip = Trip {
         link: OnBench(&mut bus),
-        // The highest number that 1017h could have.
+        // The highest number of 1017h.
         act: |frame: &str| {
             if frame.starts_with("601#2B171000FFFF") {
                 stop.store(true, Ordering::Relaxed);

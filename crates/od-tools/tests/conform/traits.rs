@@ -1,5 +1,5 @@
-//! No false failure on a simulated node, whatever its EDS leaves out or has wrong: traits of files that
-//! are in use, each on a file of our own. Only the case about the file finds its errors.
+//! No false failure on a simulated node, whatever its EDS lacks or has wrong. The traits are those
+//! of files in use, each in a file of our own. Only the case about the file finds the errors.
 
 use od_sim::{EdsOptions, VirtualDevice};
 use od_tools::bench::OnBench;
@@ -15,7 +15,7 @@ const PLAIN: &str = include_str!("plain.eds");
 /// A section, a key and its value; without a value the key is missing.
 type Change = (&'static str, &'static str, &'static str);
 
-/// Each: the trait, changes of `plain.eds`, and the cases that fail.
+/// The trait, the changes of `plain.eds`, and the cases that fail.
 const TRAITS: &[(&str, &[Change], &[&str])] = &[
     ("nothing is unusual", &[], &[]),
     (
@@ -139,7 +139,7 @@ const TRAITS: &[(&str, &[Change], &[&str])] = &[
 ];
 
 #[test]
-fn a_trait_of_an_eds_is_no_failure_of_the_node() {
+fn a_trait_of_an_eds_is_not_a_failure_of_the_node() {
     let mut wrong = String::new();
     for (what, changes, expected) in TRAITS {
         let text = changed(changes);
@@ -172,7 +172,7 @@ fn changed(changes: &[Change]) -> String {
     text
 }
 
-/// The cases that fail, and why.
+/// The failed cases with their reasons.
 fn failed(text: &str) -> Vec<(&'static str, String)> {
     let options = EdsOptions {
         lenient: true,

@@ -1,4 +1,4 @@
-//! A twin answers as the device did that it was recorded from.
+//! A recorded device responds as the original did.
 
 use od_model::Address;
 use od_sim::bus::Bus;
@@ -51,7 +51,7 @@ fn recorded(bus: &mut Bus, reset: bool) -> String {
     format!("{}\n{}", od_eds::write(&made), seen.recorded)
 }
 
-/// A device that plays it, just switched on.
+/// A device that plays the recording, just switched on.
 fn twin(text: &str) -> (Bus, Recorded) {
     let (device, findings) = VirtualDevice::read_eds(text, EdsOptions::default());
     let mut device = device.unwrap_or_else(|| panic!("{findings:?}"));
@@ -60,7 +60,7 @@ fn twin(text: &str) -> (Bus, Recorded) {
     (alone(device), recorded)
 }
 
-/// The moments of the frames with an identifier, within a second.
+/// The times of the frames with an identifier, within a second.
 fn moments(bus: &mut Bus, id: u16) -> Vec<Instant> {
     let mut link = OnBench(bus);
     let until = link.now() + Duration::from_secs(1);
@@ -74,7 +74,7 @@ fn moments(bus: &mut Bus, id: u16) -> Vec<Instant> {
 }
 
 #[test]
-fn reads_periods_and_boot_up_are_those_of_the_original() {
+fn reads_periods_and_boot_up_equal_those_of_the_original() {
     let mut original = original();
     let text = recorded(&mut original, false);
     let (mut twin, recorded) = twin(&text);
@@ -99,7 +99,7 @@ fn reads_periods_and_boot_up_are_those_of_the_original() {
     }
     shown.dedup();
     assert_eq!(shown.len(), 10, "{shown:?}");
-    // All that does not change is the same, aborts as well; but 2201h counts what was done to the node.
+    // Constant values are the same, and so are aborts; only the counter 2201h differs.
     let eds = Eds::read(&text);
     let changes = |address| {
         recorded
@@ -129,7 +129,7 @@ fn reads_periods_and_boot_up_are_those_of_the_original() {
 }
 
 #[test]
-fn a_start_is_that_of_the_original() {
+fn a_start_equals_that_of_the_original() {
     let mut original = original();
     let text = recorded(&mut original, true);
     let (mut twin, recorded) = twin(&text);
@@ -186,7 +186,7 @@ fn recorded_times_errors_and_aborts_are_played() {
 }
 
 #[test]
-fn the_verdicts_are_those_of_the_original() {
+fn the_verdicts_equal_those_of_the_original() {
     let text = recorded(&mut original(), false);
     let eds = Eds::read(&text);
     let verdicts = |bus: Bus| {

@@ -1,4 +1,4 @@
-//! A configuration is read, written, and put back if the node refuses a part.
+//! A configuration is read, written, and restored if the node refuses a part.
 
 use od_model::{Address, Dictionary};
 use od_sim::bus::Bus;
@@ -33,7 +33,7 @@ fn write(bus: &mut Bus, address: Address, bytes: &[u8]) {
 }
 
 #[test]
-fn what_was_read_is_there_again_on_all_twelve_devices() {
+fn a_configuration_that_was_read_can_be_restored_on_all_twelve_devices() {
     for kind in od_devices::DEVICES {
         let mut bus = bus(&[(kind.name, 5)]);
         let before = all(&mut bus, kind.dictionary);
@@ -54,7 +54,8 @@ fn a_mapping_changes_while_its_pdo_is_not_valid() {
     let dictionary = od_devices::find("eam_mt").expect("a device").dictionary;
     let mut bus = bus(&[("eam_mt", 5)]);
     let mut wanted = all(&mut bus, dictionary);
-    // Position value and diagnostic in the first TPDO, which stays valid.
+    // Position value and diagnostic are mapped into the first TPDO, which is valid again
+    // afterwards.
     for (sub, value) in [(1, 0x6004_0020_u32), (2, 0x2117_0010)] {
         let place = wanted
             .iter_mut()
@@ -75,7 +76,7 @@ fn a_mapping_changes_while_its_pdo_is_not_valid() {
 }
 
 #[test]
-fn if_one_value_is_refused_the_others_are_put_back() {
+fn if_one_value_is_refused_the_others_are_restored() {
     let dictionary = od_devices::find("gxmm").expect("a device").dictionary;
     let mut bus = bus(&[("gxmm", 5)]);
     let before = all(&mut bus, dictionary);
@@ -102,7 +103,7 @@ fn if_one_value_is_refused_the_others_are_put_back() {
         .collect();
     assert_eq!(wrong, [Address::new(0x6001, 0)]);
     assert_eq!(all(&mut bus, dictionary), before);
-    // An object that does not exist: nothing is written at all.
+    // For an object that does not exist nothing is written at all.
     let mut more = settings(&wanted);
     more.push(Setting {
         address: Address::new(0x5FFE, 0),

@@ -1,4 +1,4 @@
-//! Answers that come late: a machine that is busy, a node that is slow.
+//! Late responses: a busy computer, a slow node.
 
 use std::collections::VecDeque;
 
@@ -12,10 +12,10 @@ use od_wire::{Duration, Frame, Instant, NodeId};
 
 use crate::bus;
 
-/// A link on which frames come later.
+/// A link with delayed frames.
 pub(crate) struct Late<'f, L> {
     link: L,
-    /// By how many ms this frame does.
+    /// Delay of a frame in ms.
     by: Box<dyn FnMut(&Frame) -> u64 + 'f>,
     held: VecDeque<Heard>,
 }
@@ -72,7 +72,7 @@ impl<L: Link> Link for Late<'_, L> {
 }
 
 #[test]
-fn a_scan_neither_misses_a_node_nor_sees_two() {
+fn a_scan_of_slow_nodes_neither_misses_a_node_nor_sees_two() {
     for node in [1, 127] {
         let mut bus = bus(&[("gxmm", node)]);
         let mut link = Late::responses(OnBench(&mut bus), 250);
@@ -87,7 +87,7 @@ fn a_scan_neither_misses_a_node_nor_sees_two() {
 }
 
 #[test]
-fn an_answer_to_an_earlier_request_is_not_the_answer() {
+fn a_response_to_an_earlier_request_does_not_count() {
     let mut bus = bus(&[("gxmm", 1)]);
     let link = Late::responses(OnBench(&mut bus), 600);
     let mut master = Master::patient(link, NodeId::ONE, Duration::from_millis(500));

@@ -1,4 +1,4 @@
-//! LSS: slaves without a node ID are found, numbered and left in waiting state.
+//! LSS: slaves without a node ID are found, get a node ID, and are left in waiting state.
 
 use od_client::lss::Identity;
 use od_model::Address;
@@ -84,7 +84,7 @@ fn three_new_encoders_get_their_node_ids() {
 }
 
 #[test]
-fn a_slave_that_has_a_node_id_takes_another_with_its_reset() {
+fn a_slave_with_a_node_id_changes_it_at_its_reset() {
     let mut bus = Bus::new();
     let device = bus.add(encoder(7, Some(id(5))));
     bus.start(device);
@@ -119,7 +119,7 @@ fn bit_rates_are_configured_for_one_or_all() {
     assert!(matches!(unknown, Err(Error::Usage(_))), "{unknown:?}");
 }
 
-/// A link that somebody interrupts after some frames, and what it sent.
+/// A link that is interrupted after a number of frames, and the frames that it sent.
 struct Cut<'b> {
     bench: OnBench<&'b mut Bus>,
     left: u32,
@@ -161,8 +161,9 @@ fn an_interrupted_scan_leaves_no_slave_in_configuration_state() {
 }
 
 #[test]
-fn a_late_answer_begins_the_search_again() {
-    // The first question, a bit, the end of a number, the end of the last, and the next slave's.
+fn a_late_response_restarts_the_search() {
+    // The first request, a bit, the end of a number, the end of the last number, and the next
+    // slave.
     for which in [1, 2, 20, 118, 119, 140] {
         for millis in [49, 60, 190] {
             let mut bus = new(&[4711, 4712]);
@@ -188,7 +189,7 @@ fn an_interrupted_transfer_is_aborted() {
         sent: Vec::new(),
     };
     let mut master = Master::new(&mut cut, id(5));
-    // The drain before the request takes the one that is left.
+    // The frame that is left is discarded before the request.
     assert_eq!(
         master.upload(Address::new(0x1008, 0)),
         Err(Error::Interrupted)
@@ -201,7 +202,7 @@ fn an_interrupted_transfer_is_aborted() {
 }
 
 #[test]
-fn a_slave_is_asked_who_it_is() {
+fn a_slave_is_asked_for_its_address_and_node_id() {
     let mut bus = new(&[4711]);
     let (identity, node) = Lss::new(OnBench(&mut bus))
         .inquire(Slaves::All)

@@ -1,4 +1,4 @@
-//! Functions of tools on a bus, on the bench and in virtual time.
+//! The functions of tools, on the bench and in virtual time.
 
 mod configure;
 mod late;
@@ -18,7 +18,7 @@ fn id(raw: u8) -> NodeId {
     NodeId::new(raw).expect("a node ID")
 }
 
-/// A bus with these built-in devices, under power.
+/// A bus with these built-in devices, with power.
 fn bus(devices: &[(&str, u8)]) -> Bus {
     let mut bus = Bus::new();
     for (name, node) in devices {

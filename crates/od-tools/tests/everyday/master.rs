@@ -1,4 +1,4 @@
-//! A master on a bench: what it reads, and that time passes there only.
+//! A master on a bench: its reads, and virtual time that passes.
 
 use od_model::Address;
 use od_sim::VirtualDevice;
@@ -20,7 +20,7 @@ fn bus() -> Bus {
 }
 
 #[test]
-fn it_reads_and_writes() {
+fn a_master_reads_and_writes() {
     let mut bus = bus();
     let mut master = Master::new(OnBench(&mut bus), NodeId::ONE);
     assert_eq!(
@@ -41,7 +41,7 @@ fn it_reads_and_writes() {
 }
 
 #[test]
-fn a_silent_node_is_told_after_the_time_out() {
+fn a_silent_node_is_reported_after_the_time_out() {
     let mut bus = bus();
     let node = NodeId::new(9).expect("a node ID");
     let mut master = Master::new(OnBench(&mut bus), node);

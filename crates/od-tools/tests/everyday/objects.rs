@@ -8,18 +8,18 @@ use od_tools::objects::{encode, probe, select};
 use crate::{bus, id};
 
 #[test]
-fn without_a_dictionary_a_glob_finds_what_the_dictionary_has() {
+fn without_a_dictionary_a_glob_finds_the_same_objects() {
     let mut bus = bus(&[("gxmm", 5)]);
     let mut master = Master::new(OnBench(&mut bus), id(5));
     let dictionary = od_devices::find("gxmm").expect("a device").dictionary;
     for glob in ["60*", "1018:*", "0x10??", "1a00h:?1", "180?:*"] {
         let known = select(dictionary, glob).expect(glob);
         let known = known.iter().map(|one| one.address);
-        // The error history counts the errors that are in it.
+        // The error history is as long as its number of errors.
         let known = known.filter(|address| address.index != 0x1003 || address.sub == 0);
         let known: Vec<_> = known.collect();
         let probed = probe(&mut master, glob).expect(glob);
-        // Without a dictionary nobody knows what cannot be read.
+        // Without a dictionary odkit does not know which objects cannot be read.
         let probed: Vec<_> = probed.iter().map(|one| one.address).collect();
         let readable = probed.iter().filter(|address| {
             let entry = dictionary.find(**address).expect("an entry");
@@ -33,7 +33,7 @@ fn without_a_dictionary_a_glob_finds_what_the_dictionary_has() {
 }
 
 #[test]
-fn an_index_stands_for_all_values_of_a_record() {
+fn an_index_selects_all_values_of_a_record() {
     let dictionary = od_devices::find("gxmm").expect("a device").dictionary;
     let count = |text| select(dictionary, text).map(|found| found.len());
     assert_eq!(count("1018h"), Ok(5));

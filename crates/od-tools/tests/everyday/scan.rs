@@ -17,7 +17,7 @@ fn look(link: &mut impl Link) -> Scan {
 }
 
 #[test]
-fn all_devices_are_found_and_say_who_they_are() {
+fn all_devices_are_found_with_their_identities() {
     let names: Vec<(&str, u8)> = od_devices::DEVICES
         .iter()
         .map(|kind| kind.name)
@@ -59,7 +59,7 @@ fn two_nodes_with_one_node_id_are_a_conflict() {
 }
 
 #[test]
-fn a_stopped_node_is_known_by_its_heartbeat_and_a_scan_changes_nothing() {
+fn a_stopped_node_is_found_by_its_heartbeat_and_a_scan_changes_nothing() {
     let mut bus = bus(&[("gxmm", 5), ("gcmm", 6)]);
     let mut link = OnBench(&mut bus);
     let heartbeat = Address::new(0x1017, 0);
@@ -84,7 +84,7 @@ fn a_stopped_node_is_known_by_its_heartbeat_and_a_scan_changes_nothing() {
 }
 
 #[test]
-fn a_reset_of_all_is_told_by_boot_up_messages() {
+fn a_reset_of_all_nodes_is_reported_by_boot_up_messages() {
     let mut bus = bus(&[("gxmm", 5), ("eam_mt", 9)]);
     let mut link = OnBench(&mut bus);
     let wait = Duration::from_secs(2);

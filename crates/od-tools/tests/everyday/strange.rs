@@ -1,4 +1,4 @@
-//! Slaves that no standard has: what a master believes, and when it gives up.
+//! Slaves that violate the standards: what a master accepts, and when it gives up.
 
 use od_model::Address;
 use od_tools::Error;
@@ -10,12 +10,13 @@ use od_wire::{Duration, Frame, Instant};
 
 use crate::id;
 
-/// A slave with node ID 5 that answers each SDO request after 1 ms with what `answer` says, or not.
+/// A slave with node ID 5 that responds to each SDO request after 1 ms with the result of `answer`,
+/// or not at all.
 pub(crate) struct Slave<F> {
     now: Instant,
     waiting: Vec<Heard>,
     answer: F,
-    /// Requests that it got.
+    /// Received requests.
     pub(crate) heard: Vec<[u8; 8]>,
 }
 
@@ -60,14 +61,14 @@ impl<F: FnMut(&[u8; 8]) -> Option<[u8; 8]>> Link for Slave<F> {
     }
 }
 
-/// An answer with the object of its request.
+/// A response with the object of its request.
 pub(crate) fn about(request: &[u8; 8], command: u8, data: [u8; 4]) -> [u8; 8] {
     let [_, low, high, sub, ..] = *request;
     let [a, b, c, d] = data;
     [command, low, high, sub, a, b, c, d]
 }
 
-/// 1000h and 1018h as any slave has them; every other object is a text without end.
+/// The usual 1000h and 1018h; every other object is a text without end.
 fn endless(request: &[u8; 8]) -> Option<[u8; 8]> {
     let index = u16::from_le_bytes([request[1], request[2]]);
     Some(match (request[0] >> 5, index) {
@@ -87,12 +88,12 @@ fn a_scan_ends_whatever_a_node_sends() {
     assert_eq!(scan.nodes[0].texts, [None, None, None]);
     let seconds = slave.now.as_micros() as f64 / 1e6;
     assert!(seconds < 5.0, "{seconds}");
-    // The node hears that the transfer is over.
+    // The node is told that the transfer has ended.
     assert_eq!(slave.heard.last().map(|request| request[0]), Some(0x80));
 }
 
 #[test]
-fn a_watch_ends_when_it_said_it_would() {
+fn a_watch_ends_at_its_time() {
     let mut slave = Slave::new(endless);
     let source = Source {
         address: Address::new(0x1008, 0),
@@ -122,7 +123,7 @@ fn a_read_with_a_time_limit_names_it() {
     assert_eq!(slave.heard.last().map(|request| request[0]), Some(0x80));
 }
 
-/// A server that never names the size of an expedited value: 2001h is 1000, an UNSIGNED16.
+/// A server that never indicates the size of an expedited value: 2001h is 1000, an UNSIGNED16.
 fn without_size(request: &[u8; 8]) -> Option<[u8; 8]> {
     let command = if request[0] >> 5 == 2 { 0x42 } else { 0x60 };
     Some(about(request, command, [0xE8, 3, 0, 0]))

@@ -17,7 +17,7 @@ const NEVER: Instant = Instant::from_micros(u64::MAX);
 const POSITION: Address = Address::new(0x6004, 0);
 const OPERATING: Address = Address::new(0x6000, 0);
 
-/// An encoder whose first TPDO goes out every 50 ms.
+/// An encoder that sends its first TPDO every 50 ms.
 fn running() -> Bus {
     let mut bus = bus(&[("gxmm", 5)]);
     let mut link = OnBench(&mut bus);
@@ -58,14 +58,14 @@ fn samples(bus: &mut Bus, millis: u64) -> Vec<Sample> {
 }
 
 #[test]
-fn a_mapped_value_comes_by_its_tpdo_and_others_are_polled() {
+fn a_mapped_value_is_read_from_its_tpdo_and_others_are_polled() {
     let mut bus = running();
     let all = samples(&mut bus, 1000);
     let times = |source| {
         let own = all.iter().filter(|sample| sample.source == source);
         own.map(|sample| sample.at).collect::<Vec<_>>()
     };
-    // One answer at the beginning, then a TPDO every 50 ms.
+    // One response at the beginning, then a TPDO every 50 ms.
     let mapped = times(0);
     assert!((20..=22).contains(&mapped.len()), "{mapped:?}");
     let polled = times(1);
@@ -94,7 +94,7 @@ fn a_mapped_value_of_a_node_that_sends_no_tpdo_is_polled() {
 }
 
 #[test]
-fn a_silent_node_is_told_and_asked_again() {
+fn a_silent_node_is_reported_and_asked_again() {
     let mut bus = running();
     let mut link = OnBench(&mut bus);
     let source = od_tools::watch::Source {

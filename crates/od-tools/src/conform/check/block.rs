@@ -1,4 +1,4 @@
-//! Block transfers, which a server need not have.
+//! Block transfers, which a server does not have to support.
 
 use od_model::{Address, values};
 use od_wire::AbortCode::{self, Crc, InvalidBlockSize, InvalidCommand, InvalidSequence};
@@ -16,7 +16,7 @@ struct How {
     crc: bool,
     /// Segments in a block.
     size: u8,
-    /// The client takes this segment of the first block as lost.
+    /// The client treats this segment of the first block as lost.
     lost: Option<u8>,
 }
 
@@ -26,7 +26,7 @@ const PLAIN: How = How {
     lost: None,
 };
 
-/// Is this the abort of a server without block transfers?
+/// Returns whether this is the abort of a server without block transfers.
 fn refused(answer: &[u8; 8]) -> bool {
     let codes = [InvalidCommand.code(), AbortCode::UnsupportedAccess.code()];
     abort_of(answer).is_some_and(|code| codes.contains(&code))
@@ -151,7 +151,7 @@ pub(super) fn upload_crc(dut: &mut Dut<'_>) -> Checked {
     same(dut, How { crc: true, ..PLAIN })
 }
 
-/// A block for each segment.
+/// Uploads with a block for each segment.
 pub(super) fn upload_blocks(dut: &mut Dut<'_>) -> Checked {
     same(
         dut,
@@ -176,7 +176,7 @@ pub(super) fn upload_lost(dut: &mut Dut<'_>) -> Checked {
     )
 }
 
-/// A short value by block, without a change to another protocol.
+/// Uploads a short value by block, without a change to another protocol.
 pub(super) fn upload_short(dut: &mut Dut<'_>) -> Checked {
     let address = Address::new(0x1000, 0);
     let bytes = dut.read(address)?;
@@ -215,7 +215,7 @@ pub(super) fn upload_ack_128(dut: &mut Dut<'_>) -> Checked {
     dut.still_serves()
 }
 
-/// Bytes that can be written, if possible of more than one segment.
+/// Bytes that can be written, if possible more than one segment.
 fn writable(dut: &mut Dut<'_>) -> Checked<(Address, Vec<u8>)> {
     for entry in dut.eds.writable() {
         if entry.data_type.size().is_none()
@@ -228,7 +228,7 @@ fn writable(dut: &mut Dut<'_>) -> Checked<(Address, Vec<u8>)> {
     short_value(dut)
 }
 
-/// Begins a block download; returns the size of a block and whether the server checks.
+/// Begins a block download; returns the size of a block, and whether the server checks the CRC.
 fn begin_download(
     dut: &mut Dut<'_>,
     address: Address,
@@ -256,7 +256,7 @@ fn begin_download(
     Ok((answer[4], answer[0] & 4 != 0))
 }
 
-/// Writes bytes by block transfer; the checksum is made wrong by `spoil`.
+/// Writes bytes by block transfer; `spoil` makes the checksum wrong.
 fn write(
     dut: &mut Dut<'_>,
     (address, bytes): (Address, &[u8]),
@@ -375,7 +375,7 @@ pub(super) fn reserved(dut: &mut Dut<'_>) -> Checked {
     reserved_are_0(dut, from, &[(0xA0, 5), (0xA4, 5), (0xA2, 3), (0xA1, 1)])?;
     let (address, _) = long_value(dut)?;
     read(dut, address, PLAIN)?;
-    // Before the end come segments, whose first byte may be any.
+    // The frames before the end are segments, whose first byte may have any value.
     let id = dut.id(0x580);
     let is_response = |traced: &Traced| !traced.ours && is_data(&traced.frame, id);
     let Some(end) = dut.frames.iter().rposition(is_response) else {

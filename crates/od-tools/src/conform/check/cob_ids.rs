@@ -1,4 +1,4 @@
-//! COB-IDs: that no service of the node has a CAN-ID that is another's, at any node ID.
+//! COB-IDs: no service of the node has the CAN-ID of another service, at any node ID.
 
 use od_model::{Address, CanIdOwner, CobIdService, Entry, values};
 use od_wire::nmt::Command;
@@ -12,21 +12,22 @@ use crate::conform::sdo::{abort_text, number, request};
 
 use od_sim::bus::Bus;
 
-/// Time for which the node is watched in Operational, in microseconds.
+/// Time for which the node is observed in Operational, in microseconds.
 const WATCHED: u64 = 1_000_000;
-/// The highest node ID, where a COB-ID with the node ID is most likely too long.
+/// The highest node ID, with which a COB-ID is most likely outside its range.
 const HIGHEST: NodeId = match NodeId::new(127) {
     Some(node) => node,
     None => NodeId::ONE,
 };
 
-/// The COB-IDs of the node as it is.
+/// Checks the COB-IDs of the node at its present node ID.
 pub(super) fn here(dut: &mut Dut<'_>) -> Checked {
     read(dut)?;
     watch(dut)
 }
 
-/// The same at node ID 127: a simulated device is made once more, any other gets the node ID by LSS.
+/// The same check at node ID 127: a simulated device is made again, any other gets the node ID by
+/// LSS.
 pub(super) fn highest(dut: &mut Dut<'_>) -> Checked {
     if dut.node == HIGHEST {
         return here(dut);
@@ -91,7 +92,7 @@ fn by_lss(dut: &mut Dut<'_>) -> Checked {
     done
 }
 
-/// A COB-ID that the node has.
+/// A COB-ID of the node.
 struct Used {
     address: Address,
     service: CobIdService,
@@ -110,7 +111,8 @@ impl Used {
     }
 }
 
-/// Reads every COB-ID; each fits its frame, is not restricted, and no two that are sent are the same.
+/// Reads every COB-ID. Each fits its frame and is not restricted, and no two services send with the
+/// same one.
 fn read(dut: &mut Dut<'_>) -> Checked {
     let entries: Vec<_> = dut.eds.dictionary().entries().collect();
     let mut all: Vec<Used> = Vec::new();
@@ -119,7 +121,7 @@ fn read(dut: &mut Dut<'_>) -> Checked {
         let Some(service) = CobIdService::at(address) else {
             continue;
         };
-        // An object that is missing is the failure of another case.
+        // A missing object fails another case.
         let Ok(bytes) = dut.upload(address)? else {
             continue;
         };
@@ -160,14 +162,14 @@ fn read(dut: &mut Dut<'_>) -> Checked {
     Ok(())
 }
 
-/// A COB-ID that a master can write, by the EDS, takes its own value.
+/// A COB-ID that a master can write according to the EDS accepts its own value.
 pub(super) fn access(dut: &mut Dut<'_>) -> Checked {
     let entries: Vec<_> = dut.eds.dictionary().entries().collect();
     let is_one = |entry: &&Entry| {
         let address = entry.address;
         entry.access.writable()
             && entry.access.readable()
-            // Writing an SDO server's or client's own COB-ID may end the transfer that writes it.
+            // Writing the COB-ID of the SDO that is in use may end the transfer.
             && matches!(address.index, 0x1005 | 0x1012 | 0x1014 | 0x1400..=0x15FF | 0x1800..=0x19FF)
             && CobIdService::at(address).is_some()
     };
@@ -176,7 +178,7 @@ pub(super) fn access(dut: &mut Dut<'_>) -> Checked {
         let Ok(bytes) = dut.upload(entry.address)? else {
             continue;
         };
-        // One that CiA 301 keeps for itself is refused; that it is there is another case.
+        // A restricted COB-ID is refused; another case tests its presence.
         let cob_id = CobId::new(number(&bytes) as u32);
         if cob_id.is_valid() && (cob_id.is_restricted() || !cob_id.is_consistent()) {
             continue;
@@ -195,12 +197,12 @@ pub(super) fn access(dut: &mut Dut<'_>) -> Checked {
     }
 }
 
-/// CAN-IDs that CiA 301 keeps for itself, one of each range of its table of restricted CAN-IDs.
+/// Restricted CAN-IDs, one of each range of the table of restricted CAN-IDs (CiA 301).
 const RESTRICTED: [u32; 9] = [
     0x001, 0x07F, 0x101, 0x180, 0x581, 0x601, 0x6E0, 0x701, 0x7FF,
 ];
 
-/// COB-IDs of PDO and EMCY refuse CAN-IDs that CiA 301 keeps for itself.
+/// COB-IDs of PDO and EMCY refuse restricted CAN-IDs.
 pub(super) fn restricted(dut: &mut Dut<'_>) -> Checked {
     let first = |base: u16| {
         let numbers = dut.eds.pdos(base).into_iter().map(|pdo| base + pdo);
@@ -229,7 +231,7 @@ pub(super) fn restricted(dut: &mut Dut<'_>) -> Checked {
             let done = dut.refuses_value(address, &id.to_le_bytes(), &codes);
             if done.is_err() {
                 dut.fault(done)?;
-                // It may be on now, with this CAN-ID.
+                // It may be valid now, with this CAN-ID.
                 for value in [id | 1 << 31, off] {
                     let _ = dut.download(address, &value.to_le_bytes())?;
                 }
@@ -244,7 +246,7 @@ pub(super) fn restricted(dut: &mut Dut<'_>) -> Checked {
     }
 }
 
-/// 0 of a client, a consumer or a PDO that maps nothing: it is not used.
+/// Returns whether the COB-ID is not used: 0 of a client, a consumer or a PDO that maps nothing.
 fn is_idle(
     dut: &mut Dut<'_>,
     address: Address,
@@ -305,7 +307,8 @@ fn is_free(dut: &Dut<'_>, used: &Used) -> Checked {
     }
 }
 
-/// In Operational no frame comes with a CAN-ID that only a master, or nobody, may send with.
+/// In Operational the node sends no frame with a CAN-ID that only a master may use, or that is
+/// restricted.
 fn watch(dut: &mut Dut<'_>) -> Checked {
     dut.nmt(Command::Start)?;
     let wrong = |frame: &Frame| match frame

@@ -1,4 +1,4 @@
-//! CiA 402: drives. No case enables the operation of a drive: its shaft stands.
+//! CiA 402: drives. No case enables the operation of a drive, so its shaft does not move.
 
 use od_model::Address;
 use od_wire::AbortCode::{DeviceState, General, ValueRange, ValueTooHigh, ValueTooLow};
@@ -9,14 +9,14 @@ use crate::conform::end::{Checked, ensure, lacks};
 const CONTROLWORD: Address = Address::new(0x6040, 0);
 const MODE: Address = Address::new(0x6060, 0);
 
-/// Time in which a drive goes to another state or mode, in microseconds.
+/// Time in which a drive changes to another state or mode, in microseconds.
 const CHANGE: u64 = 1_000_000;
 
 /// Mask and bits of the statusword in a state.
 const DISABLED: (u64, u64) = (0x4F, 0x40);
 const READY: (u64, u64) = (0x6F, 0x21);
 
-/// Modes with the bits that 6502h has for them.
+/// Modes with their bits in 6502h.
 const MODES: [(i8, u32); 9] = [
     (1, 0),
     (3, 2),
@@ -40,7 +40,7 @@ pub(super) fn objects(dut: &mut Dut<'_>) -> Checked {
     )
 }
 
-/// Waits until the statusword shows a state.
+/// Waits until the statusword shows this state.
 fn becomes(dut: &mut Dut<'_>, name: &str, (mask, bits): (u64, u64)) -> Checked {
     let end = dut.now().plus_micros(CHANGE);
     loop {
@@ -60,7 +60,8 @@ fn command(dut: &mut Dut<'_>, word: u16) -> Checked {
     dut.write(CONTROLWORD, &word.to_le_bytes())
 }
 
-/// Begins in Switch on disabled: no case of a drive with a fault fails for another reason.
+/// Changes to Switch on disabled. A drive with a fault skips the case, since it would fail for
+/// another reason.
 fn disabled(dut: &mut Dut<'_>) -> Checked {
     command(dut, 0)?;
     if dut.number(0x6041, 0)? & 0x4F == 0x08 {
@@ -101,7 +102,7 @@ pub(super) fn order(dut: &mut Dut<'_>) -> Checked {
     )
 }
 
-/// A mode that 6502h has, other than the present one.
+/// A mode of 6502h other than the present one.
 pub(super) fn mode(dut: &mut Dut<'_>) -> Checked {
     disabled(dut)?;
     let supported = dut.number(0x6502, 0)?;
@@ -125,7 +126,7 @@ pub(super) fn mode(dut: &mut Dut<'_>) -> Checked {
     }
 }
 
-/// A mode that 6502h lacks.
+/// A mode that is missing in 6502h.
 pub(super) fn other_mode(dut: &mut Dut<'_>) -> Checked {
     disabled(dut)?;
     let supported = dut.number(0x6502, 0)?;

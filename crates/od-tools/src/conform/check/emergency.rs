@@ -32,7 +32,7 @@ pub(super) fn register(dut: &mut Dut<'_>) -> Checked {
     )
 }
 
-/// As many entries as sub-index 0 says, and no more.
+/// The history has as many entries as sub-index 0 says.
 pub(super) fn history(dut: &mut Dut<'_>) -> Checked {
     let count = dut.number(0x1003, 0)?;
     for sub in 1..=count.min(254) as u8 {
@@ -41,7 +41,7 @@ pub(super) fn history(dut: &mut Dut<'_>) -> Checked {
     if count < 254 {
         let beyond = Address::new(0x1003, count as u8 + 1);
         match dut.upload(beyond)? {
-            // 0 in the place of an error that there is not.
+            // The value is 0 if there is no such error.
             Ok(bytes) => ensure(
                 bytes.iter().all(|byte| *byte == 0),
                 format!("no error in {beyond}"),
@@ -84,7 +84,7 @@ pub(super) fn inhibit(dut: &mut Dut<'_>) -> Checked {
     let (node, _) = provoked(dut)?;
     let from = dut.now();
     let id = dut.id(0x80);
-    // That a heartbeat ends the error is another case.
+    // Another case tests whether a heartbeat ends the error.
     for _ in 0..30 {
         beat(dut, node)?;
         if dut.next(50_000, |frame| is_data(frame, id))?.is_some() {
@@ -119,7 +119,7 @@ pub(super) fn cob_id_used(dut: &mut Dut<'_>) -> Checked {
     let heard = dut.next(1_000_000, |frame| {
         ids.contains(&frame.id()) && !frame.is_remote()
     })?;
-    // Not valid, so that the old COB-ID can be restored.
+    // The PDO is not valid, so that the old COB-ID can be restored.
     for value in [OTHER | 1 << 31, off] {
         dut.write(address, &value.to_le_bytes())?;
     }
@@ -133,7 +133,7 @@ pub(super) fn cob_id_used(dut: &mut Dut<'_>) -> Checked {
     }
 }
 
-/// An error: a node that is watched falls silent.
+/// Causes an error: a monitored node stops its heartbeat.
 fn provoke(dut: &mut Dut<'_>) -> Checked<u8> {
     let node = watch(dut, 100)?;
     dut.nmt(Command::Start)?;
@@ -198,7 +198,7 @@ pub(super) fn reset(dut: &mut Dut<'_>) -> Checked {
     fail("EMCY 0000h when the heartbeat comes again", "none came")
 }
 
-/// After the error 1001h has no bit of it, neither in the message nor in the object.
+/// After the error neither the message nor 1001h has a bit of it.
 pub(super) fn register_clears(dut: &mut Dut<'_>) -> Checked {
     let before = dut.number(0x1001, 0)?;
     let (node, _) = provoked(dut)?;
@@ -228,7 +228,7 @@ pub(super) fn register_clears(dut: &mut Dut<'_>) -> Checked {
     )
 }
 
-/// An error makes one message, its end another.
+/// An error sends one message, and its end another one.
 pub(super) fn once(dut: &mut Dut<'_>) -> Checked {
     let (node, _) = provoked(dut)?;
     if let Some(frame) = emcy(dut, 0x8130, 1_000_000)? {
@@ -279,12 +279,12 @@ pub(super) fn not_in_stopped(dut: &mut Dut<'_>) -> Checked {
     }
 }
 
-/// 1029h:01 says what an error of communication does to the NMT state.
+/// 1029h:01 gives the reaction of the NMT state to a communication error.
 fn behaviour(dut: &mut Dut<'_>, value: u8, state: u8) -> Checked {
     dut.set(Address::new(0x1029, 1), &[value])?;
     dut.follow_state()?;
     let node = provoke(dut)?;
-    // The heartbeat of the test itself is not one of the node that is watched.
+    // The heartbeat of the test itself does not belong to the monitored node.
     dut.wait(400_000)?;
     let done = dut.is_in(state);
     beat(dut, node)?;
@@ -307,7 +307,7 @@ pub(super) fn behaviour_range(dut: &mut Dut<'_>) -> Checked {
     let address = Address::new(0x1029, 1);
     let entry = dut.eds.entry(0x1029, 1);
     let before = dut.keep(address)?;
-    // Without a limit in the EDS a device may have values of its own.
+    // Without a limit in the EDS a device may accept values of its own.
     if entry.is_none_or(|entry| entry.high == od_model::Literal::None)
         && dut.download(address, &[0x55])?.is_ok()
     {

@@ -30,7 +30,7 @@ pub(super) fn position(dut: &mut Dut<'_>) -> Checked {
     )
 }
 
-/// 6500h shows the bits of 6000h that are active.
+/// 6500h shows the active bits of 6000h.
 pub(super) fn status(dut: &mut Dut<'_>) -> Checked {
     let wanted = dut.number(0x6000, 0)?;
     let is = dut.number(0x6500, 0)?;
@@ -41,7 +41,7 @@ pub(super) fn status(dut: &mut Dut<'_>) -> Checked {
     )
 }
 
-/// An alarm or warning that is shown is a supported one.
+/// An active alarm or warning is a supported one.
 fn supported(dut: &mut Dut<'_>, shown: u16, supported: u16) -> Checked {
     let is = dut.number(shown, 0)?;
     let can = dut.number(supported, 0)?;
@@ -81,7 +81,7 @@ pub(super) fn serial(dut: &mut Dut<'_>) -> Checked {
     )
 }
 
-/// The position is the preset value at once; a reset brings back the parameters.
+/// The position takes the preset value at once; a reset restores the parameters.
 pub(super) fn preset(dut: &mut Dut<'_>) -> Checked {
     let before = dut.number(0x6004, 0)?;
     let old = dut.read(PRESET)?;
@@ -95,7 +95,8 @@ pub(super) fn preset(dut: &mut Dut<'_>) -> Checked {
     let is = dut.number(0x6004, 0)?;
     let off = is.abs_diff(value.into());
     let off = off.min(range.wrapping_sub(off));
-    // Back by the way: the position as it was, then the preset value as it was, if it is so.
+    // Restores the position in two steps: first the preset value that gives the earlier position,
+    // then the earlier preset value.
     dut.write(PRESET, &(before as u32).to_le_bytes())?;
     dut.notes.push(format!(
         "the position is {before} again; 6003h was {} before",

@@ -1,4 +1,4 @@
-//! The EDS itself, and whether the node is the one that it describes.
+//! Checks the EDS itself, and whether it describes the node.
 
 use od_model::{Address, values};
 
@@ -31,7 +31,7 @@ pub(super) fn no_errors(dut: &mut Dut<'_>) -> Checked {
     }
 }
 
-/// 1000h, 1001h and 1018h:01 are there, in the EDS and in the node.
+/// 1000h, 1001h and 1018h:01 exist in the EDS and in the node.
 pub(super) fn mandatory(dut: &mut Dut<'_>) -> Checked {
     for (index, sub) in [(0x1000, 0), (0x1001, 0), (0x1018, 0), (0x1018, 1)] {
         let address = Address::new(index, sub);
@@ -46,7 +46,7 @@ pub(super) fn device_type(dut: &mut Dut<'_>) -> Checked {
     same(dut, 0x1000, 0)
 }
 
-/// Vendor, product and revision; the serial number is each device's own.
+/// Compares vendor-ID, product code and revision number; the serial number differs between devices.
 pub(super) fn identity(dut: &mut Dut<'_>) -> Checked {
     for sub in 1..=3 {
         same(dut, 0x1018, sub)?;
@@ -94,7 +94,7 @@ pub(super) fn device_info(dut: &mut Dut<'_>) -> Checked {
     }
 }
 
-/// `[DeviceInfo]` counts the PDOs that the EDS has.
+/// The numbers of PDOs in `[DeviceInfo]` are those of the EDS.
 pub(super) fn pdo_count(dut: &mut Dut<'_>) -> Checked {
     for (key, base) in [("NrOfRXPDO", 0x1400), ("NrOfTXPDO", 0x1800)] {
         let is = dut.eds.pdos(base).len();

@@ -19,7 +19,7 @@ pub(super) fn other_period(dut: &mut Dut<'_>) -> Checked {
     every(dut, 250, 4)
 }
 
-/// Heartbeats of this period, each 10 % off at most.
+/// Checks that heartbeats arrive at this period, within 10 %.
 fn every(dut: &mut Dut<'_>, millis: u16, count: usize) -> Checked {
     dut.set(PRODUCER, &millis.to_le_bytes())?;
     dut.drain()?;
@@ -79,12 +79,12 @@ pub(super) fn states(dut: &mut Dut<'_>) -> Checked {
     Ok(())
 }
 
-/// A node that no other has, to be watched by the node under test.
+/// A node ID without a node, for the node under test to monitor.
 fn watched(dut: &Dut<'_>) -> u8 {
     if dut.node.raw() == 100 { 101 } else { 100 }
 }
 
-/// 1016h:01 for the watched node.
+/// Lets 1016h:01 monitor that node.
 pub(super) fn watch(dut: &mut Dut<'_>, millis: u16) -> Checked<u8> {
     if !dut.eds.writes(0x1016, 1) {
         return lacks("1016h:01 cannot be written");
@@ -108,7 +108,7 @@ pub(super) fn emcy(dut: &mut Dut<'_>, code: u16, micros: u64) -> Checked<Option<
     Ok(dut.next(micros, is_it)?.map(|heard| heard.frame))
 }
 
-/// The case does not apply to a node that sends no EMCY, by the EDS.
+/// Ends the case as not applicable if the node has no EMCY according to the EDS.
 pub(super) fn sends_emcy(dut: &Dut<'_>) -> Checked {
     let Some(entry) = dut.eds.entry(0x1014, 0) else {
         return lacks("the EDS does not have 1014h");
@@ -154,7 +154,7 @@ pub(super) fn consumer_too_late(dut: &mut Dut<'_>) -> Checked {
     }
 }
 
-/// A node that was never heard is not reported missing.
+/// A node that never sent a heartbeat is not reported as lost.
 pub(super) fn consumer_waits(dut: &mut Dut<'_>) -> Checked {
     watch(dut, 100)?;
     dut.nmt(Command::Start)?;
@@ -243,7 +243,7 @@ fn guarded(dut: &mut Dut<'_>) -> Checked<u8> {
     }
 }
 
-/// Heartbeat and guarding exclude each other, and the heartbeat wins.
+/// Heartbeat and guarding exclude each other; the heartbeat has priority.
 fn without_heartbeat(dut: &mut Dut<'_>) -> Checked {
     if dut.eds.writes(0x1017, 0) {
         dut.set(PRODUCER, &[0, 0])
@@ -269,7 +269,7 @@ pub(super) fn guarding_toggle(dut: &mut Dut<'_>) -> Checked {
 
 pub(super) fn guarding_after_reset(dut: &mut Dut<'_>) -> Checked {
     without_heartbeat(dut)?;
-    // The toggle bit would be 1 next, so that a node which goes on with it is seen.
+    // The next toggle bit would be 1, so this detects a node that continues the old sequence.
     for _ in 0..2 {
         if guarded(dut)? & 0x80 == 0 {
             break;
@@ -288,7 +288,7 @@ pub(super) fn guarding_after_reset(dut: &mut Dut<'_>) -> Checked {
     Ok(())
 }
 
-/// A guarding request to another node is not answered, and does not count.
+/// The node does not respond to a guarding request for another node, and does not count it.
 pub(super) fn guarding_other_node(dut: &mut Dut<'_>) -> Checked {
     without_heartbeat(dut)?;
     let before = guarded(dut)?;
@@ -372,7 +372,8 @@ pub(super) fn life_guarding_waits(dut: &mut Dut<'_>) -> Checked {
     without_heartbeat(dut)?;
     dut.set(Address::new(0x100C, 0), &[100, 0])?;
     dut.set(Address::new(0x100D, 0), &[2])?;
-    // Requests of earlier cases do not count after a reset; what they began may be over by now.
+    // Guarding requests of earlier cases do not count after a reset; their life time may be over by
+    // now.
     dut.nmt(Command::Start)?;
     match emcy(dut, 0x8130, 600_000)? {
         Some(frame) => fail(

@@ -1,4 +1,5 @@
-//! LSS, in Stopped, where every slave has it; others on the bus stay in the waiting state.
+//! LSS in Stopped, where every slave supports it; other slaves on the bus stay in the waiting
+//! state.
 
 use od_model::{Address, values};
 use od_wire::lss::{MASTER, Part, Request, SLAVE};
@@ -20,7 +21,7 @@ fn address(dut: &mut Dut<'_>) -> Checked<[u32; 4]> {
     Ok(all)
 }
 
-/// Sends a request; the answer, if one comes.
+/// Sends a request; returns the response, if there is one.
 pub(super) fn ask(dut: &mut Dut<'_>, request: Request) -> Checked<Option<[u8; 8]>> {
     raw(dut, request.emit())
 }
@@ -38,7 +39,7 @@ fn raw(dut: &mut Dut<'_>, data: [u8; 8]) -> Checked<Option<[u8; 8]>> {
     }
 }
 
-/// Fails unless the slave answers with these first bytes.
+/// Fails unless the response of the slave begins with these bytes.
 fn answers(dut: &mut Dut<'_>, request: Request, wanted: &[u8]) -> Checked {
     let shown = format!("LSS response {}", values::hex(wanted));
     match ask(dut, request)? {
@@ -71,7 +72,7 @@ pub(super) fn waiting(dut: &mut Dut<'_>) -> Checked {
     dut.wait(20_000)
 }
 
-/// In Stopped with LSS waiting; returns the LSS address.
+/// Enters Stopped and the LSS waiting state; returns the LSS address.
 fn begin(dut: &mut Dut<'_>) -> Checked<[u32; 4]> {
     let all = address(dut)?;
     dut.nmt(Command::Stop)?;
@@ -79,7 +80,7 @@ fn begin(dut: &mut Dut<'_>) -> Checked<[u32; 4]> {
     Ok(all)
 }
 
-/// Selects the node by its address; the answer to the last of the four frames.
+/// Selects the node by its address; returns the response to the last of the four frames.
 fn select(dut: &mut Dut<'_>, all: [u32; 4]) -> Checked<Option<[u8; 8]>> {
     let mut last = None;
     for (part, value) in Part::ALL.into_iter().zip(all) {
@@ -91,7 +92,7 @@ fn select(dut: &mut Dut<'_>, all: [u32; 4]) -> Checked<Option<[u8; 8]>> {
     Ok(last)
 }
 
-/// In the configuration state; returns the LSS address.
+/// Enters the configuration state; returns the LSS address.
 pub(super) fn configured(dut: &mut Dut<'_>) -> Checked<[u32; 4]> {
     let all = begin(dut)?;
     match select(dut, all)? {
@@ -101,7 +102,7 @@ pub(super) fn configured(dut: &mut Dut<'_>) -> Checked<[u32; 4]> {
     }
 }
 
-/// Does something in the configuration state, and leaves it.
+/// Calls `act` in the configuration state, and leaves the state.
 fn with(dut: &mut Dut<'_>, act: impl FnOnce(&mut Dut<'_>, [u32; 4]) -> Checked) -> Checked {
     let all = configured(dut)?;
     let done = act(dut, all);
@@ -257,7 +258,7 @@ pub(super) fn unknown(dut: &mut Dut<'_>) -> Checked {
     })
 }
 
-/// A configuration is stored, or the node says that it does not support it.
+/// The node stores its configuration, or reports that it does not support this.
 pub(super) fn store(dut: &mut Dut<'_>) -> Checked {
     with(dut, |dut, _| {
         let node_id = dut.node.raw();
@@ -297,7 +298,7 @@ pub(super) fn leave_silent(dut: &mut Dut<'_>) -> Checked {
 
 /// Bytes that CiA 305 reserves in responses are 0.
 pub(super) fn reserved(dut: &mut Dut<'_>) -> Checked {
-    // Byte 1 of the response 44h is the state in older versions of CiA 305, and in use.
+    // In older versions of CiA 305, and in many devices, byte 1 of the response 44h is the state.
     configured(dut)?;
     let mut answers = vec![(ask(dut, Request::InquireNodeId)?, 2)];
     answers.push((ask(dut, Request::Inquire { part: Part::Vendor })?, 5));
@@ -305,7 +306,7 @@ pub(super) fn reserved(dut: &mut Dut<'_>) -> Checked {
     answers.push((ask(dut, Request::ConfigureNodeId { node_id })?, 3));
     waiting(dut)?;
     for (answer, first) in answers {
-        // That an answer is missing is another case.
+        // A missing response fails another case.
         let Some(answer) = answer else {
             continue;
         };
@@ -322,7 +323,7 @@ pub(super) fn reserved(dut: &mut Dut<'_>) -> Checked {
     Ok(())
 }
 
-/// A stored node ID is there after a reset or with the power switched off and on.
+/// A stored node ID is active after a reset or a power cycle.
 pub(super) fn store_node_id(dut: &mut Dut<'_>) -> Checked {
     let own = dut.node;
     let other = if own.raw() == 126 { 125 } else { 126 };
@@ -343,7 +344,7 @@ pub(super) fn store_node_id(dut: &mut Dut<'_>) -> Checked {
         return lacks("the node does not take another node ID by LSS before it is stored");
     }
     let done = stored(dut).and_then(|()| started_as(dut, [own, other]));
-    // Whatever came of it, the node gets its node ID again.
+    // In any case the node gets its node ID back.
     if dut.node != own {
         dut.nmt(Command::EnterPreOperational)?;
         if !renumber(dut, own)? {
@@ -360,7 +361,7 @@ pub(super) fn store_node_id(dut: &mut Dut<'_>) -> Checked {
 /// Stores the LSS configuration.
 fn stored(dut: &mut Dut<'_>) -> Checked {
     configured(dut)?;
-    // A slave may store only what was configured since it was selected.
+    // A slave may store only values that were configured since its selection.
     let node_id = dut.node.raw();
     ask(dut, Request::ConfigureNodeId { node_id })?;
     dut.drain()?;
@@ -376,7 +377,7 @@ fn stored(dut: &mut Dut<'_>) -> Checked {
     }
 }
 
-/// Starts the node once more; it has to have the second of these node IDs then.
+/// Restarts the node, which must then have the second of these node IDs.
 fn started_as(dut: &mut Dut<'_>, ids: [NodeId; 2]) -> Checked {
     dut.drain()?;
     if dut.rig.has_power() {
@@ -408,7 +409,8 @@ fn started_as(dut: &mut Dut<'_>, ids: [NodeId; 2]) -> Checked {
     }
 }
 
-/// Configures a node ID, without storing it, and resets the communication. Returns whether the node has it then.
+/// Configures a node ID without storing it, and resets the communication. Returns whether the node
+/// has the node ID then.
 pub(super) fn renumber(dut: &mut Dut<'_>, node: NodeId) -> Checked<bool> {
     configured(dut)?;
     let node_id = node.raw();
@@ -432,7 +434,7 @@ pub(super) fn renumber(dut: &mut Dut<'_>, node: NodeId) -> Checked<bool> {
     }
 }
 
-/// A node without a node ID is found by fastscan, number by number, and gets its node ID again.
+/// Fastscan finds a node without a node ID, number by number, and the node gets its node ID back.
 pub(super) fn fastscan(dut: &mut Dut<'_>) -> Checked {
     let all = configured(dut)?;
     match ask(dut, Request::ConfigureNodeId { node_id: 255 })? {
@@ -452,7 +454,7 @@ pub(super) fn fastscan(dut: &mut Dut<'_>) -> Checked {
     } else {
         scan(dut, all)
     };
-    // Whatever came of it, the node gets its node ID.
+    // In any case the node gets its node ID back.
     if keeps {
         begin(dut)?;
     }
@@ -485,8 +487,9 @@ pub(super) fn fastscan(dut: &mut Dut<'_>) -> Checked {
     done
 }
 
-/// A fastscan that goes on with a number that is already known ends it early. By the flow chart of CiA 305 a slave may
-/// then be in the configuration state, by its text all four numbers have to match: a remark.
+/// A fastscan that continues with a known number ends early. According to the flow chart of CiA 305
+/// a slave may then be in the configuration state; according to its text all four numbers must
+/// match. This is a remark only.
 fn early_end(dut: &mut Dut<'_>, all: [u32; 4]) -> Checked {
     for (part, next) in [(0, 1), (1, 0)] {
         let number = all[usize::from(part)];
@@ -522,7 +525,8 @@ fn scan(dut: &mut Dut<'_>, all: [u32; 4]) -> Checked {
     ask(dut, start)?;
     for (part, number) in (0..).zip(all) {
         for bit in (0..32u8).rev() {
-            // The bits so far right, this one 0: an answer if it is 0 in the node's number, too.
+            // The bits so far are right and this bit is 0, so the node responds if the bit of its
+            // number is 0, too.
             let known = u64::from(number) >> (bit + 1) << (bit + 1);
             let request = Request::Fastscan {
                 number: known as u32,

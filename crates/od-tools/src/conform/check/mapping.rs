@@ -24,7 +24,7 @@ fn variable(dut: &mut Dut<'_>) -> Checked<Tpdo> {
     changeable(dut, pdo)
 }
 
-/// The PDO, if its mapping and its COB-ID can be written.
+/// The PDO, if its mapping and COB-ID can be written.
 fn changeable(dut: &Dut<'_>, pdo: Tpdo) -> Checked<Tpdo> {
     if !dut.eds.writes(pdo.map(), 0) || !dut.eds.writes(pdo.map(), 1) {
         return lacks("the mapping cannot be written");
@@ -232,13 +232,14 @@ pub(super) fn not_mappable(dut: &mut Dut<'_>) -> Checked {
     }
 }
 
-/// A mapping entry that no TPDO may have, refused at once or with the number of entries.
+/// The node refuses a mapping entry that no TPDO may have, at once or with the number of entries.
 fn refused_entry(dut: &mut Dut<'_>, entry: u32) -> Checked {
     let pdo = variable(dut)?;
     refused_by(dut, pdo, entry)
 }
 
-/// A mapping entry that this PDO may not have, refused at once or with the number of entries.
+/// The node refuses a mapping entry that this PDO may not have, at once or with the number of
+/// entries.
 pub(super) fn refused_by(dut: &mut Dut<'_>, pdo: Tpdo, entry: u32) -> Checked {
     on(dut, pdo, |dut, map| {
         let codes = [NotMappable, NoObject, NoSubIndex];
@@ -316,7 +317,7 @@ pub(super) fn sent(dut: &mut Dut<'_>) -> Checked {
         dut.write(com, &cob_id.to_le_bytes())?;
         dut.nmt(Command::Start)?;
         let before = dut.upload(address)?;
-        // The first may be caused by the start of the node.
+        // The start of the node may cause the first TPDO.
         dut.next(500_000, |frame| frame.id() == id && !frame.is_remote())?;
         let heard = dut.next(500_000, |frame| frame.id() == id && !frame.is_remote())?;
         let after = dut.upload(address)?;

@@ -586,7 +586,7 @@ pub(super) const GROUPS: &[(&str, &[BuiltIn])] = &[
         check("object-default", objects::after_restore,
             "CiA 306-1: After a restore and a reset every value is the default of the EDS.").applies("1011h:01, 1010h:01").needs("reset, store"),
     ]),
-    // A node that is not found again would fail every case after these.
+    // If the node is not found again, all later cases would fail.
     ("LSS", &[
         check("lss-store-node-id", lss::store_node_id,
             "CiA 305 6.4.5: A stored node ID is there after a start.").applies("lss").needs("reset, store"),

@@ -5,7 +5,7 @@ use od_model::Address;
 use crate::conform::dut::Dut;
 use crate::conform::end::{Checked, ensure};
 
-/// Bits of 1000h, what they promise, and the first and the last object for it.
+/// Bits of 1000h, their meaning, and the first and the last object of each part.
 const PARTS: [(u32, &str, &[u16]); 4] = [
     (16, "digital inputs", &[0x6000, 0x6020, 0x6100, 0x6120]),
     (17, "digital outputs", &[0x6200, 0x6220, 0x6300, 0x6320]),
@@ -21,7 +21,7 @@ const PARTS: [(u32, &str, &[u16]); 4] = [
     ),
 ];
 
-/// The device type says what the dictionary has.
+/// The device type matches the dictionary.
 pub(super) fn device_type(dut: &mut Dut<'_>) -> Checked {
     let device_type = dut.number(0x1000, 0)?;
     for (bit, name, objects) in PARTS {
@@ -44,7 +44,7 @@ pub(super) fn polarity(dut: &mut Dut<'_>) -> Checked {
     let before = dut.number(0x6000, 1)?;
     let inverted: Vec<u8> = old.iter().map(|byte| !byte).collect();
     dut.write(polarity, &inverted)?;
-    // Until the module has read its inputs again.
+    // Wait until the module has read its inputs again.
     dut.wait(100_000)?;
     let is = dut.number(0x6000, 1)?;
     ensure(

@@ -105,7 +105,7 @@ pub(super) fn silent_before_start(dut: &mut Dut<'_>) -> Checked {
     {
         return fail("the boot-up message within 10 s", "none came");
     }
-    // An EMCY 0000h says that there is no error.
+    // EMCY 0000h means that there is no error.
     let is_own = |frame: &Frame| {
         ids.contains(&frame.id())
             && !frame.is_remote()

@@ -21,7 +21,7 @@ fn entries(dut: &Dut<'_>, from: u16, to: u16) -> Vec<Entry> {
         .collect()
 }
 
-/// Every object that can be read is there, with the size of its type.
+/// Every readable object exists, with the size of its type.
 fn read_all(dut: &mut Dut<'_>, from: u16, to: u16) -> Checked {
     let all = entries(dut, from, to);
     for entry in all.iter().filter(|entry| entry.access.readable()) {
@@ -137,7 +137,7 @@ fn takes_own_value(dut: &mut Dut<'_>, entry: &Entry) -> Checked {
         );
     }
     let after = dut.upload(entry.address)?;
-    // What the device computes or counts moves on.
+    // Values that the device computes or counts may change.
     if entry.group != Group::None && after.as_ref().is_ok_and(|after| *after != bytes) {
         let name = values::label(dut.eds.dictionary(), entry.address);
         let got = after.unwrap_or_default();
@@ -198,8 +198,9 @@ pub(super) fn sub_indices(dut: &mut Dut<'_>) -> Checked {
         };
         let last = members.iter().rev().find(|entry| entry.address.sub < 0xFF);
         let highest = last.map_or(0, |entry| entry.address.sub);
-        // The history and the mappings count what is used. Other than there, sub-index 0 that no master can write is
-        // the highest sub-index, whether the EDS has it as `const` or as `ro`.
+        // In the history and the mappings sub-index 0 is the number of used entries. In all other
+        // objects a sub-index 0 that no master can write is the highest sub-index, whether it is
+        // `const` or `ro` in the EDS.
         let counts = matches!(object.index, 0x1003 | 0x1600..=0x17FF | 0x1A00..=0x1BFF);
         let is_fixed = match first.access {
             Access::Const => true,
@@ -226,7 +227,7 @@ pub(super) fn sub_indices(dut: &mut Dut<'_>) -> Checked {
     Ok(())
 }
 
-/// Sub-index 255 is not there, or says what the object is.
+/// Sub-index 255 does not exist, or describes the structure of the object.
 pub(super) fn sub_index_255(dut: &mut Dut<'_>) -> Checked {
     for object in dut.eds.dictionary().objects() {
         if !(0x1000..0xA000).contains(&object.index) {
@@ -250,7 +251,7 @@ pub(super) fn sub_index_255(dut: &mut Dut<'_>) -> Checked {
     Ok(())
 }
 
-/// Objects of CiA 301 that the EDS does not have are not there.
+/// Objects of CiA 301 that the EDS lacks do not exist.
 pub(super) fn unlisted(dut: &mut Dut<'_>) -> Checked {
     for index in 0x1000..=0x102B {
         if !dut.eds.has(index)
@@ -299,7 +300,7 @@ fn defaults(dut: &mut Dut<'_>, which: impl Fn(&Entry) -> bool) -> Checked {
         match dut.upload(entry.address) {
             Ok(Ok(bytes)) => {
                 let name = values::label(dut.eds.dictionary(), entry.address);
-                // A node that is set to a node ID keeps it.
+                // A node whose node ID was set keeps it.
                 let is_own_id = bytes == [node.raw()] && name.to_ascii_lowercase().contains("node");
                 let done = ensure(
                     bytes == wanted || is_own_id,
@@ -320,7 +321,8 @@ fn defaults(dut: &mut Dut<'_>, which: impl Fn(&Entry) -> bool) -> Checked {
     Ok(())
 }
 
-/// Objects of communication that a case writes to see what else changes, with a value that differs.
+/// Communication objects that a case writes, with another value, to see whether other objects
+/// change.
 const WRITTEN: [(u16, u8); 7] = [
     (0x1017, 0),
     (0x100C, 0),
@@ -331,7 +333,7 @@ const WRITTEN: [(u16, u8); 7] = [
     (0x1400, 2),
 ];
 
-/// A write changes its object and no other.
+/// A write changes only its own object.
 pub(super) fn neighbours(dut: &mut Dut<'_>) -> Checked {
     let mut any = false;
     for (index, sub) in WRITTEN {
@@ -342,7 +344,7 @@ pub(super) fn neighbours(dut: &mut Dut<'_>) -> Checked {
         let Some((other, before)) = different(dut, address)? else {
             continue;
         };
-        // Two readings: what changes between them changes without a write.
+        // Two readings: a value that differs between them changes without a write.
         let (first, second) = (snapshot(dut)?, snapshot(dut)?);
         dut.undo.push((address, before));
         if dut.download(address, &other)?.is_err() {
@@ -366,7 +368,7 @@ pub(super) fn neighbours(dut: &mut Dut<'_>) -> Checked {
                 dut.fault(fail(expected, got))?;
             }
         }
-        // Before the next object, so that a fault is about one write.
+        // Compare before the next object, so that a fault belongs to one write.
         if let Some((address, before)) = dut.undo.pop() {
             dut.write(address, &before)?;
         }
@@ -378,7 +380,7 @@ pub(super) fn neighbours(dut: &mut Dut<'_>) -> Checked {
     }
 }
 
-/// Another value of an object, and the one that it has.
+/// Another value of an object, and its present one.
 fn different(dut: &mut Dut<'_>, address: Address) -> Checked<Option<(Vec<u8>, Vec<u8>)>> {
     let Ok(before) = dut.upload(address)? else {
         return Ok(None);
@@ -394,7 +396,7 @@ fn different(dut: &mut Dut<'_>, address: Address) -> Checked<Option<(Vec<u8>, Ve
     Ok(is_allowed.then_some((other, before)))
 }
 
-/// The values of communication that can be read, but for those that count or report.
+/// The readable communication values, without counters and reports.
 fn snapshot(dut: &mut Dut<'_>) -> Checked<Vec<(Address, Vec<u8>)>> {
     let mut all = Vec::new();
     for entry in entries(dut, 0x1005, 0x1FFF) {

@@ -11,14 +11,14 @@ use crate::conform::dut::Dut;
 use crate::conform::end::{Checked, End, ensure, fail, lacks};
 use crate::conform::sdo::abort_text;
 
-/// An RPDO that is on, and the first value that it writes.
+/// A valid RPDO, and the first value that it writes.
 struct Rpdo {
     com: u16,
     cob_id: u32,
     all: Vec<Mapped>,
 }
 
-/// The first RPDO that is on, with this transmission type.
+/// The first valid RPDO with this transmission type.
 fn first(dut: &mut Dut<'_>, kind: u8) -> Checked<Rpdo> {
     for pdo in dut.eds.pdos(0x1400) {
         let com = 0x1400 + pdo;
@@ -50,7 +50,7 @@ impl Rpdo {
         self.all[0].address
     }
 
-    /// The bytes with another first value, and this value.
+    /// The bytes with another first value; also returns this value.
     fn other(&self, dut: &mut Dut<'_>) -> Checked<(Vec<u8>, Vec<u8>)> {
         let mut bytes = Vec::new();
         for mapped in &self.all {
@@ -119,7 +119,7 @@ pub(super) fn short(dut: &mut Dut<'_>) -> Checked {
         return fail("EMCY 8210h for an RPDO that is too short", "none came");
     }
     pdo.holds(dut, &before, ", as the RPDO was too short")?;
-    // The next good one ends the error.
+    // The next valid frame ends the error.
     let good = pdo.other(dut)?;
     pdo.send(dut, &good.0)
 }
@@ -151,7 +151,7 @@ pub(super) fn off(dut: &mut Dut<'_>) -> Checked {
     pdo.holds(dut, &before, ", as the RPDO is off")
 }
 
-/// The first RPDO that is on, whatever it maps.
+/// The first valid RPDO, with any mapping.
 fn any_on(dut: &mut Dut<'_>) -> Checked<Tpdo> {
     for number in dut.eds.pdos(0x1400) {
         let com = 0x1400 + number;
@@ -163,13 +163,13 @@ fn any_on(dut: &mut Dut<'_>) -> Checked<Tpdo> {
     lacks("no RPDO is on with a mapping that the EDS allows")
 }
 
-/// Returns whether the EDS allows what an RPDO maps. A case of its own is about that (pdo-mapped-objects).
+/// Returns whether the EDS allows the mapping of an RPDO; the case pdo-mapped-objects tests this.
 fn has_sound_mapping(dut: &mut Dut<'_>, com: u16) -> Checked<bool> {
     let all = mapping(dut, com + 0x200)?;
     Ok(contradiction(dut.eds, &all, false).is_none())
 }
 
-/// A mapping of an RPDO is written by the procedure of CiA 301.
+/// The mapping of an RPDO can be written by the procedure of CiA 301.
 pub(super) fn mapping_procedure(dut: &mut Dut<'_>) -> Checked {
     let pdo = any_on(dut)?;
     let before = mapping(dut, pdo.map())?.len();
@@ -183,7 +183,7 @@ pub(super) fn mapping_procedure(dut: &mut Dut<'_>) -> Checked {
     )
 }
 
-/// An object that only TPDOs may carry is refused by an RPDO.
+/// An RPDO refuses an object that only TPDOs may map.
 pub(super) fn direction(dut: &mut Dut<'_>) -> Checked {
     let mut entries = dut.eds.dictionary().entries();
     let is_input = |entry: &Entry| {
@@ -196,7 +196,7 @@ pub(super) fn direction(dut: &mut Dut<'_>) -> Checked {
     refused_by(dut, pdo, raw(&entry))
 }
 
-/// An object that cannot be mapped is refused by an RPDO.
+/// An RPDO refuses an object that cannot be mapped.
 pub(super) fn not_mappable(dut: &mut Dut<'_>) -> Checked {
     let Some(entry) = dut.eds.entry(0x1000, 0).filter(|entry| !entry.mappable) else {
         return lacks("the EDS lets an RPDO carry 1000h");
@@ -205,7 +205,7 @@ pub(super) fn not_mappable(dut: &mut Dut<'_>) -> Checked {
     refused_by(dut, pdo, raw(&entry))
 }
 
-/// Objects of 8, 16 or 32 bits that an RPDO may carry and that can be read, in order.
+/// Objects of 8, 16 or 32 bits that an RPDO may map and that can be read, in order.
 fn outputs(dut: &Dut<'_>) -> Vec<Entry> {
     let fits = |entry: &Entry| {
         entry.maps_to_rpdo()
@@ -215,8 +215,8 @@ fn outputs(dut: &Dut<'_>) -> Vec<Entry> {
     dut.eds.dictionary().entries().filter(fits).collect()
 }
 
-/// Maps these entries, the last of which is an object, to the RPDO alone, and sends it a value; the object has it
-/// then.
+/// Maps only these entries to the RPDO (the last one is an object), and sends a value, which the
+/// object must have then.
 fn takes(dut: &mut Dut<'_>, pdo: &Tpdo, map: u16, entries: &[u32]) -> Checked {
     for (sub, entry) in (1..).zip(entries) {
         if let Err(code) = dut.download(Address::new(map, sub), &entry.to_le_bytes())? {
@@ -257,7 +257,7 @@ fn takes(dut: &mut Dut<'_>, pdo: &Tpdo, map: u16, entries: &[u32]) -> Checked {
     )
 }
 
-/// An RPDO writes what a new mapping says.
+/// An RPDO writes the objects of a new mapping.
 pub(super) fn mapping_used(dut: &mut Dut<'_>) -> Checked {
     let pdo = any_on(dut)?;
     let now = mapping(dut, pdo.map())?;
@@ -270,7 +270,7 @@ pub(super) fn mapping_used(dut: &mut Dut<'_>) -> Checked {
     on(dut, pdo, |dut, map| takes(dut, &pdo, map, &[entry]))
 }
 
-/// A dummy takes bits of the frame and writes nothing.
+/// A dummy entry skips bits of the frame and writes nothing.
 pub(super) fn dummy(dut: &mut Dut<'_>) -> Checked {
     let section = dut.eds.description.section("DummyUsage");
     let used = section.and_then(|section| section.get("Dummy0005"));
@@ -284,7 +284,7 @@ pub(super) fn dummy(dut: &mut Dut<'_>) -> Checked {
     on(dut, pdo, |dut, map| takes(dut, &pdo, map, &[DUMMY, entry]))
 }
 
-/// Every RPDO that is on writes what it maps; one without a mapping gets one.
+/// Every valid RPDO writes the objects of its mapping; one without a mapping gets one.
 pub(super) fn each(dut: &mut Dut<'_>) -> Checked {
     let all = outputs(dut);
     let mut any = false;

@@ -44,7 +44,7 @@ pub(super) fn short_value(dut: &mut Dut<'_>) -> Checked<(Address, Vec<u8>)> {
     Ok((entry.address, before))
 }
 
-/// Begins a segmented upload; returns the size, if the server says one.
+/// Begins a segmented upload; returns the size, if the server indicates it.
 fn begin(dut: &mut Dut<'_>, address: Address) -> Checked<Option<usize>> {
     let answer = dut.answer(request(0x40, address, [0; 4]))?;
     let got = format!("{} came", values::hex(&answer));
@@ -100,7 +100,7 @@ pub(super) fn download_unsized(dut: &mut Dut<'_>) -> Checked {
     written(dut, address, &before, before.len(), false)
 }
 
-/// Two segments, so that the toggle bit changes.
+/// Downloads two segments, so that the toggle bit changes.
 pub(super) fn download_two(dut: &mut Dut<'_>) -> Checked {
     let (address, before) = short_value(dut)?;
     written(dut, address, &before, before.len() / 2, true)
@@ -120,7 +120,7 @@ fn written(dut: &mut Dut<'_>, address: Address, bytes: &[u8], step: usize, sized
     )
 }
 
-/// A server whose values all fit into one frame need not have segmented downloads.
+/// A server whose values all fit into one frame does not have to support segmented downloads.
 fn need_not(dut: &Dut<'_>, code: u32) -> Checked {
     let is_refused = [InvalidCommand, UnsupportedAccess]
         .iter()
@@ -150,7 +150,7 @@ fn begin_download(dut: &mut Dut<'_>, address: Address, size: usize) -> Checked {
     )
 }
 
-/// A long value is written back as it is.
+/// Writes the present long value again.
 pub(super) fn download_long(dut: &mut Dut<'_>) -> Checked {
     for entry in dut.eds.writable() {
         if entry.data_type.size().is_some_and(|size| size <= 4) {
@@ -186,7 +186,7 @@ fn unchanged(dut: &mut Dut<'_>, address: Address, before: &[u8]) -> Checked {
     )
 }
 
-/// More bytes are announced than the object has.
+/// The client announces more bytes than the object has.
 pub(super) fn download_too_long(dut: &mut Dut<'_>) -> Checked {
     let (address, before) = short_value(dut)?;
     let mut bytes = before.clone();
@@ -206,7 +206,7 @@ pub(super) fn download_too_long(dut: &mut Dut<'_>) -> Checked {
     unchanged(dut, address, &before)
 }
 
-/// The last segment comes before all bytes that were announced.
+/// The client sends the last segment before all announced bytes.
 pub(super) fn download_too_short(dut: &mut Dut<'_>) -> Checked {
     let (address, before) = short_value(dut)?;
     begin_download(dut, address, before.len())?;
@@ -226,7 +226,7 @@ pub(super) fn no_transfer(dut: &mut Dut<'_>) -> Checked {
     is_abort(&answer, &[InvalidCommand, ToggleBit])
 }
 
-/// After the client's abort no transfer is open.
+/// After an abort of the client no transfer is open.
 pub(super) fn aborted(dut: &mut Dut<'_>) -> Checked {
     let (address, bytes) = long_value(dut)?;
     begin(dut, address)?;
@@ -246,7 +246,7 @@ pub(super) fn aborted(dut: &mut Dut<'_>) -> Checked {
     ensure(again == bytes, values::hex(&bytes), values::hex(&again))
 }
 
-/// A client that starts again in the middle gets its value.
+/// A client that restarts a transfer in the middle gets its value.
 pub(super) fn begin_again(dut: &mut Dut<'_>) -> Checked {
     let (address, bytes) = long_value(dut)?;
     if bytes.len() <= 7 {

@@ -8,10 +8,10 @@ use super::transfer::another_saved;
 use crate::conform::dut::{Dut, is_data};
 use crate::conform::end::{Checked, End, ensure, fail, lacks};
 
-/// A node may confirm a save and need time to carry it out.
+/// Time after the response to a save, since a node may still be writing, in microseconds.
 const MEMORY: u64 = 600_000;
 
-/// The values that a save keeps.
+/// The values that a save includes.
 pub(super) fn backup(dut: &mut Dut<'_>) -> Checked<Vec<(Address, Vec<u8>)>> {
     let mut all = Vec::new();
     for entry in dut.eds.writable() {
@@ -69,7 +69,7 @@ pub(super) fn load_signature(dut: &mut Dut<'_>) -> Checked {
     wrong_signature(dut, 0x1011)
 }
 
-/// 1010h declares that it saves on command, or automatically.
+/// 1010h declares whether it saves on command or automatically.
 pub(super) fn save_can(dut: &mut Dut<'_>) -> Checked {
     let can = dut.number(0x1010, 1)?;
     if can == 0 {
@@ -105,7 +105,7 @@ pub(super) fn save_communication(dut: &mut Dut<'_>) -> Checked {
     }
 }
 
-/// A value that is saved by this sub-index is there after a reset.
+/// A value that this sub-index saves is active after a reset.
 fn saved(dut: &mut Dut<'_>, sub: u8) -> Checked {
     let Some((address, bytes)) = another_saved(dut, Some(sub))? else {
         return lacks("no parameter of communication can be written");
@@ -113,7 +113,7 @@ fn saved(dut: &mut Dut<'_>, sub: u8) -> Checked {
     let before = dut.read(address)?;
     dut.write(address, &bytes)?;
     let done = command(dut, 0x1010, sub, b"save").and_then(|()| {
-        // A node that keeps its values over a reset would have the saved one, too.
+        // A node that does not reload its values at a reset must have saved the value all the same.
         dut.write(address, &before)?;
         dut.reset(Command::ResetNode)?;
         let after = dut.read(address)?;
@@ -147,7 +147,7 @@ pub(super) fn load_communication(dut: &mut Dut<'_>) -> Checked {
     }
 }
 
-/// After a restore and a reset a changed value is the default again.
+/// After a restore and a reset a changed value is the default.
 fn loaded(dut: &mut Dut<'_>, sub: u8) -> Checked {
     let before = backup(dut)?;
     let Some((address, bytes)) = another_saved(dut, Some(sub))? else {
@@ -179,7 +179,7 @@ fn loaded(dut: &mut Dut<'_>, sub: u8) -> Checked {
     done.and(bring_back(dut, &before))
 }
 
-/// Parameters of communication that can be changed, saved and reset without harm.
+/// Communication parameters that can be changed, saved and reset without harm.
 fn several(dut: &Dut<'_>) -> Vec<Entry> {
     let all = dut.eds.writable().into_iter();
     let is_quiet = |entry: &Entry| {
@@ -197,7 +197,7 @@ fn several(dut: &Dut<'_>) -> Vec<Entry> {
     all
 }
 
-/// Changes values, saves, resets, and compares; then the values from before are saved again.
+/// Changes values, saves, resets and compares; then saves the earlier values again.
 pub(super) fn save_all(dut: &mut Dut<'_>) -> Checked {
     let mut changed = Vec::new();
     for entry in several(dut) {
@@ -206,7 +206,7 @@ pub(super) fn save_all(dut: &mut Dut<'_>) -> Checked {
         let mut other = before.clone();
         let number = address.sub;
         match (address.index, &mut other[..]) {
-            // Each entry monitors a node of its own, which never sends.
+            // Each entry monitors a separate node, which never sends.
             (0x1016, [low, high, node, _]) => {
                 (*low, *high, *node) = (0x10, 0x27, 100u8.saturating_add(number).min(127));
             }
@@ -226,7 +226,8 @@ pub(super) fn save_all(dut: &mut Dut<'_>) -> Checked {
         return lacks("fewer than two parameters of communication can be changed");
     }
     let done = command(dut, 0x1010, 1, b"save").and_then(|()| {
-        // A node that keeps its values over a reset would have the saved ones, too.
+        // A node that does not reload its values at a reset must have saved the values all the
+        // same.
         for (address, before, _) in &changed {
             dut.write(*address, before)?;
         }
@@ -255,7 +256,7 @@ pub(super) fn save_all(dut: &mut Dut<'_>) -> Checked {
     done
 }
 
-/// Of two saves the second counts.
+/// The second of two saves is valid.
 pub(super) fn save_twice(dut: &mut Dut<'_>) -> Checked {
     let Some((address, bytes)) = another_saved(dut, Some(1))? else {
         return lacks("no parameter of communication can be written");
@@ -308,7 +309,7 @@ pub(super) fn load_after_reset(dut: &mut Dut<'_>) -> Checked {
     done.and(bring_back(dut, &before))
 }
 
-/// A saved heartbeat time is there after a reset, and used.
+/// A saved heartbeat time is active after a reset.
 pub(super) fn heartbeat_saved(dut: &mut Dut<'_>) -> Checked {
     let address = Address::new(0x1017, 0);
     let is_saved = dut
@@ -430,7 +431,7 @@ fn channels(dut: &mut Dut<'_>, from: u16, to: u16) -> Checked<Vec<(Address, Vec<
     Ok(all)
 }
 
-/// Fails for each value that is not the same any more.
+/// Fails for each value that has changed.
 fn are_kept(dut: &mut Dut<'_>, before: &[(Address, Vec<u8>)]) -> Checked {
     for (address, was) in before {
         let is = dut.upload(*address)?.unwrap_or_default();
@@ -444,14 +445,14 @@ fn are_kept(dut: &mut Dut<'_>, before: &[(Address, Vec<u8>)]) -> Checked {
     Ok(())
 }
 
-/// SDO servers are the same after reset communication.
+/// Reset communication does not change the SDO servers.
 pub(super) fn servers_reset(dut: &mut Dut<'_>) -> Checked {
     let before = channels(dut, 0x1201, 0x127F)?;
     dut.reset(Command::ResetCommunication)?;
     are_kept(dut, &before)
 }
 
-/// SDO clients are the same after a save and reset communication.
+/// A save and reset communication do not change SDO clients.
 pub(super) fn clients_saved(dut: &mut Dut<'_>) -> Checked {
     let before = channels(dut, 0x1280, 0x12FF)?;
     command(dut, 0x1010, 1, b"save")?;

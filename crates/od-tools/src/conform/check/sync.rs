@@ -20,7 +20,7 @@ pub(super) fn cob_id(dut: &mut Dut<'_>) -> Checked {
     )
 }
 
-/// TPDOs follow another identifier in 1005h.
+/// Synchronous TPDOs follow another CAN-ID in 1005h.
 pub(super) fn other_cob_id(dut: &mut Dut<'_>) -> Checked {
     learn_sync(dut)?;
     let pdo = typed(dut, 1)?;
@@ -112,7 +112,7 @@ pub(super) fn producer_off(dut: &mut Dut<'_>) -> Checked {
     }
 }
 
-/// A producer that is stopped sends no SYNC.
+/// A stopped producer sends no SYNC.
 pub(super) fn producer_stopped(dut: &mut Dut<'_>) -> Checked {
     let raw = produce(dut)?;
     let id = CobId::new(raw).can_id();
@@ -130,7 +130,7 @@ pub(super) fn producer_stopped(dut: &mut Dut<'_>) -> Checked {
     }
 }
 
-/// While 1006h is not 0, 1019h is not changed.
+/// 1019h cannot be changed while 1006h is not 0.
 pub(super) fn counter_fixed(dut: &mut Dut<'_>) -> Checked {
     use od_wire::AbortCode::{DeviceState, Incompatible, LocalControl, NotStored};
     learn_sync(dut)?;
@@ -149,7 +149,8 @@ pub(super) fn start_value(dut: &mut Dut<'_>) -> Checked {
     if !dut.eds.writes(pdo.com, 6) || !dut.eds.writes(pdo.com, 1) {
         return lacks("the SYNC start value cannot be written");
     }
-    // Both are put back by hand: 1019h while 1006h is 0, the start value while the PDO is not valid.
+    // The case restores both itself: 1019h while 1006h is 0, the start value while the PDO is not
+    // valid.
     let counter = Address::new(0x1019, 0);
     dut.set(Address::new(0x1006, 0), &[0; 4])?;
     dut.set(counter, &[10])?;
@@ -181,7 +182,7 @@ pub(super) fn start_value(dut: &mut Dut<'_>) -> Checked {
     )
 }
 
-/// With 1019h the messages count from 1 to its value.
+/// With 1019h the counter of SYNC runs from 1 to its value.
 pub(super) fn counter(dut: &mut Dut<'_>) -> Checked {
     // 1019h can be written only while the period is 0.
     dut.set(Address::new(0x1006, 0), &[0; 4])?;
@@ -192,7 +193,7 @@ pub(super) fn counter(dut: &mut Dut<'_>) -> Checked {
     let is_right = all.iter().all(|heard| heard.frame.dlc() == 1)
         && counts.iter().all(|count| (1..=4).contains(count))
         && counts.windows(2).all(follows);
-    // 1019h can be put back only while 1006h is 0.
+    // 1019h can be restored only while 1006h is 0.
     dut.write(Address::new(0x1006, 0), &[0; 4])?;
     ensure(
         is_right,
@@ -220,7 +221,7 @@ pub(super) fn time_cob_id(dut: &mut Dut<'_>) -> Checked {
     )
 }
 
-/// TIME messages, right and wrong, leave the node at work.
+/// The node works on after valid and invalid TIME messages.
 pub(super) fn time(dut: &mut Dut<'_>) -> Checked {
     let raw = dut.number(0x1012, 0)? as u16 & 0x7FF;
     for data in [&[0, 0, 0, 0, 0x20, 0x40][..], &[], &[1, 2, 3]] {

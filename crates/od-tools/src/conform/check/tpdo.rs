@@ -144,7 +144,7 @@ pub(super) fn rtr_forbidden(dut: &mut Dut<'_>) -> Checked {
         pdo.cob_id = before | 1 << 30;
         for value in [before | 1 << 31, pdo.cob_id | 1 << 31, pdo.cob_id] {
             if dut.download(pdo.address(1), &value.to_le_bytes())?.is_err() {
-                // Not valid, so that the COB-ID can be restored.
+                // The PDO is not valid, so that the COB-ID can be restored.
                 let _ = dut.download(pdo.address(1), &(before | 1 << 31).to_le_bytes())?;
                 return lacks("the node does not forbid remote frames (bit 30)");
             }
@@ -183,7 +183,7 @@ pub(super) fn rtr_other_node(dut: &mut Dut<'_>) -> Checked {
     )
 }
 
-/// With event timer 0 the node sends a TPDO with its events only.
+/// With event timer 0 the node sends a TPDO only because of events.
 pub(super) fn event_timer_off(dut: &mut Dut<'_>) -> Checked {
     let pdo = timed(dut, 50)?;
     dut.nmt(Command::Start)?;
@@ -192,7 +192,7 @@ pub(super) fn event_timer_off(dut: &mut Dut<'_>) -> Checked {
     }
     dut.write(pdo.address(5), &[0, 0])?;
     dut.drain()?;
-    // A value that changes is an event.
+    // A changed value is an event.
     let mut last = None;
     let until = dut.now().plus_micros(500_000);
     while let Some(heard) = dut.receive(until)? {
@@ -331,7 +331,7 @@ pub(super) fn sync_not_in_stopped(dut: &mut Dut<'_>) -> Checked {
     Ok(())
 }
 
-/// No TPDO by timer, SYNC or remote frame.
+/// Fails if the TPDO is sent because of timer, SYNC or remote frame.
 fn quiet(dut: &mut Dut<'_>, pdo: &Tpdo, state: &str) -> Checked {
     let expected = format!("no TPDO in {state}");
     none(dut, pdo, 200_000, &expected)?;
@@ -450,7 +450,7 @@ pub(super) fn cob_id(dut: &mut Dut<'_>) -> Checked {
         "none came",
     )?;
     none(dut, &pdo, QUIET, "no TPDO with the old CAN-ID")?;
-    // Not valid, so that the old COB-ID can be restored.
+    // The PDO is not valid, so that the old COB-ID can be restored.
     dut.nmt(Command::EnterPreOperational)?;
     dut.write(pdo.address(1), &(other | 1 << 31).to_le_bytes())?;
     dut.write(pdo.address(1), &(pdo.cob_id | 1 << 31).to_le_bytes())

@@ -1,4 +1,4 @@
-//! Expedited transfers, and what a server refuses.
+//! Expedited transfers, and requests that a server refuses.
 
 use od_model::{Access, Address, Entry, values};
 use od_wire::AbortCode::{
@@ -19,8 +19,8 @@ const RARE: [u16; 8] = [
     0x1004, 0x1024, 0x1FFF, 0x1F7E, 0x5FFF, 0x9FFF, 0x103F, 0x1EFF,
 ];
 
-/// Entries of one, two, three and four bytes: the command byte says how many there are, or that it does
-/// not say (42h).
+/// Uploads entries of one, two, three and four bytes: the command byte indicates the number, or no
+/// size (42h).
 pub(super) fn upload_sizes(dut: &mut Dut<'_>) -> Checked {
     for size in 1..=4 {
         let mut entries = dut.eds.dictionary().entries();
@@ -218,7 +218,7 @@ fn beyond(dut: &mut Dut<'_>, high: bool) -> Checked {
     lacks("no object that can be written has such a limit")
 }
 
-/// A value just outside a limit, if the type has room for one.
+/// A value just outside a limit, if the type can express it.
 pub(super) fn outside(entry: &Entry, high: bool, node: u8) -> Option<Vec<u8>> {
     let (least, most) = entry.data_type.integer_range()?;
     let (low, top) = (entry.low.integer(node), entry.high.integer(node));
@@ -256,7 +256,7 @@ pub(super) fn parameters(dut: &mut Dut<'_>) -> Checked {
     Ok(())
 }
 
-/// SDO servers from 1201h on: the node has those of the EDS, and no others.
+/// The node has the SDO servers of the EDS from 1201h on, and no others.
 pub(super) fn servers(dut: &mut Dut<'_>) -> Checked {
     listed(dut, 0x1201..=0x1208)
 }
@@ -265,7 +265,7 @@ pub(super) fn clients(dut: &mut Dut<'_>) -> Checked {
     listed(dut, 0x1280..=0x1288)
 }
 
-/// Of these objects the node has those of the EDS, and no others.
+/// The node has the objects of this range in the EDS, and no others.
 pub(super) fn listed(dut: &mut Dut<'_>, range: impl Iterator<Item = u16>) -> Checked {
     for index in range {
         let has = dut.eds.has(index);
@@ -298,7 +298,7 @@ pub(super) fn other_node(dut: &mut Dut<'_>) -> Checked {
     dut.still_serves()
 }
 
-/// Frames that are not requests leave the server as it is.
+/// Frames that are not requests do not disturb the server.
 pub(super) fn no_request(dut: &mut Dut<'_>) -> Checked {
     let id = dut.id(0x600);
     dut.send_to(id, &[])?;
@@ -334,7 +334,7 @@ pub(super) fn abort_silence(dut: &mut Dut<'_>) -> Checked {
     }
 }
 
-/// A refused download names the object of its own request, whatever came before.
+/// The abort of a refused download names the object of its own request, also after other transfers.
 pub(super) fn abort_names_object(dut: &mut Dut<'_>) -> Checked {
     for address in [Address::new(0x1000, 0x33), Address::new(0x1018, 0x77)] {
         let answer = dut.answer(request(0x40, address, [0; 4]))?;

@@ -1,4 +1,4 @@
-//! The TPDO that the cases are about: found, set up, waited for.
+//! The TPDO that the cases use: finds it, configures it, and waits for it.
 
 use od_model::Address;
 use od_wire::nmt::Command;
@@ -9,12 +9,12 @@ use crate::conform::eds::Eds;
 use crate::conform::end::{Checked, ensure, fail, lacks};
 use crate::link::Heard;
 
-/// A TPDO that is on; an RPDO where a case says so.
+/// A valid TPDO; in some cases an RPDO.
 #[derive(Clone, Copy)]
 pub(super) struct Tpdo {
-    /// Index of the communication parameters, 1800h and up; 1400h and up of an RPDO.
+    /// Index of the communication parameters: 1800h and up, or 1400h and up for an RPDO.
     pub(super) com: u16,
-    /// The COB-ID as it was.
+    /// The earlier COB-ID.
     pub(super) cob_id: u32,
 }
 
@@ -42,7 +42,7 @@ pub(super) struct Mapped {
     pub(super) bits: usize,
 }
 
-/// The mapping, as the node has it; empty for a multiplexed PDO, whose sub-index 0 is FEh or FFh.
+/// The mapping in the node; empty for a multiplexed PDO, whose sub-index 0 is FEh or FFh.
 pub(super) fn mapping(dut: &mut Dut<'_>, map: u16) -> Checked<Vec<Mapped>> {
     let mut all = Vec::new();
     let count = match dut.number(map, 0)? {
@@ -59,7 +59,8 @@ pub(super) fn mapping(dut: &mut Dut<'_>, map: u16) -> Checked<Vec<Mapped>> {
     Ok(all)
 }
 
-/// Reason why a node cannot have this mapping, by the EDS. A case of its own is about that (pdo-mapped-objects).
+/// Reason why a node cannot have this mapping according to the EDS; the case pdo-mapped-objects
+/// tests this.
 pub(super) fn contradiction(eds: &Eds, all: &[Mapped], transmits: bool) -> Option<String> {
     all.iter().find_map(|Mapped { address, bits }| {
         if !transmits && address.index < 0x20 {
@@ -86,12 +87,13 @@ pub(super) fn contradiction(eds: &Eds, all: &[Mapped], transmits: bool) -> Optio
     })
 }
 
-/// Returns whether a PDO has this COB-ID. One that CiA 301 keeps for itself, as 0, comes from an EDS that is wrong.
+/// Returns whether a PDO is valid with this COB-ID. A restricted CAN-ID such as 0 comes from an
+/// invalid EDS.
 pub(super) fn is_on(cob_id: u32) -> bool {
     CobId::new(cob_id).is_valid() && !CobId::new(cob_id).is_restricted()
 }
 
-/// The first TPDO that is on, with a mapping that the EDS allows.
+/// The first valid TPDO with a mapping that the EDS allows.
 pub(super) fn first(dut: &mut Dut<'_>) -> Checked<Tpdo> {
     let mut why = String::from("no TPDO is on");
     for pdo in dut.eds.pdos(0x1800) {
@@ -124,7 +126,7 @@ pub(super) fn timed(dut: &mut Dut<'_>, millis: u16) -> Checked<Tpdo> {
     Ok(pdo)
 }
 
-/// Transmission type 254 or 255.
+/// Changes the transmission type to 254 or 255.
 fn event_driven(dut: &mut Dut<'_>, pdo: &Tpdo) -> Checked {
     let now = dut.keep(pdo.address(2))?;
     if matches!(now.first(), Some(254 | 255)) {
@@ -169,9 +171,9 @@ pub(super) fn sync(dut: &mut Dut<'_>) -> Checked {
     frame.map_or(Ok(()), |frame| dut.send(frame))
 }
 
-/// Keeps the identifier of SYNC for [`sync`].
+/// Stores the CAN-ID of SYNC for [`sync`].
 ///
-/// A node that produces SYNC itself stops until the case is over, so that the test has the SYNC.
+/// A node that produces SYNC itself stops until the end of the case, so that the test produces it.
 pub(super) fn learn_sync(dut: &mut Dut<'_>) -> Checked {
     if !dut.eds.has(0x1005) {
         return Ok(());
@@ -191,7 +193,7 @@ pub(super) fn learn_sync(dut: &mut Dut<'_>) -> Checked {
 /// Bit 30 of 1005h.
 const PRODUCES: u32 = 1 << 30;
 
-/// The gaps between TPDOs in Operational; the one in the middle has to be right.
+/// The gaps between TPDOs in Operational; the median has to be right.
 pub(super) fn gaps(
     dut: &mut Dut<'_>,
     pdo: &Tpdo,
@@ -202,7 +204,7 @@ pub(super) fn gaps(
     dut.nmt(Command::Start)?;
     let mut last = None;
     let mut all = Vec::new();
-    // The first may be one that the start brings about.
+    // The start of the node may cause the first one.
     for turn in 0..=count + 1 {
         let Some(heard) = next(dut, pdo, 500_000)? else {
             return fail(format!("a TPDO {shown}"), "none came within 500 ms");
