@@ -29,7 +29,7 @@
 #define ODKIT_KEY_OF(index, sub) ((uint32_t)(index) << 8 | (uint32_t)(sub))
 
 /*
- Done.
+ Success.
  */
 #define ODKIT_OK 0
 
@@ -39,18 +39,18 @@
 #define ODKIT_NULL 1
 
 /*
- Another call has not returned yet: this one came from an interrupt or a thread, or from a callback
- that may not make it.
+ Another call has not returned yet: this call came from an interrupt or a thread, or from a
+ callback in which it is not allowed.
  */
 #define ODKIT_BUSY 2
 
 /*
- Not in this state: the node has no power, or has it already.
+ Not possible in this state: the node has no power, or has power already.
  */
 #define ODKIT_STATE 3
 
 /*
- An argument has a value that it cannot have.
+ An argument has an invalid value.
  */
 #define ODKIT_ARGUMENT 4
 
@@ -140,7 +140,7 @@
 #define ODKIT_UNCONFIGURED 255
 
 /*
- CAN controller: error active again, no more frames are lost; after bus-off: it can restart.
+ CAN controller: error active again, no further frames are lost; after bus-off: it can restart.
  */
 #define ODKIT_BUS_ACTIVE 0
 
@@ -185,7 +185,7 @@
 #define ODKIT_RESET_DEFAULTS 3
 
 /*
- A deadline that never comes, as the answer of the callback `tick`.
+ A deadline that never comes, as result of the callback `tick`.
  */
 #define ODKIT_NEVER 4294967295
 
@@ -230,7 +230,7 @@
 #define ODKIT_EVENT_NOT_SAVED 8
 
 /*
- Event: power loss or a reset cut a save. `value`: 1 if the default values were loaded.
+ Event: power loss or a reset interrupted a save. `value`: 1 if the default values were loaded.
  */
 #define ODKIT_EVENT_SAVE_CUT 9
 
@@ -240,17 +240,17 @@
 #define ODKIT_EVENT_BUS_OFF 10
 
 /*
- Event: the node is back from bus-off.
+ Event: the node returned from bus-off.
  */
 #define ODKIT_EVENT_BUS_ON 11
 
 /*
- Event: an error came. `value`: its EMCY code.
+ Event: an error began. `value`: its EMCY code.
  */
 #define ODKIT_EVENT_ERROR 12
 
 /*
- Event: an error went. `value`: its EMCY code.
+ Event: an error ended. `value`: its EMCY code.
  */
 #define ODKIT_EVENT_ERROR_CLEARED 13
 
@@ -265,7 +265,7 @@
 #define ODKIT_STORAGE_PARTIAL 1
 
 /*
- Memory: the last set was loaded, though bits beside it changed.
+ Memory: the last set was loaded, although bits outside it changed.
  */
 #define ODKIT_STORAGE_FLAWED 2
 
@@ -275,7 +275,7 @@
 #define ODKIT_STORAGE_OLDER 3
 
 /*
- Memory: its content is of another device; default values.
+ Memory: its content belongs to another device; default values.
  */
 #define ODKIT_STORAGE_FOREIGN 4
 
@@ -285,26 +285,27 @@
 #define ODKIT_STORAGE_DAMAGED 5
 
 /*
- Handle of a node: a macro of odkit_objects.h, ODKIT_NODE of a library with one node. Without a node of
- this handle a function does nothing, and answers ODKIT_NO_NODE or false.
+ Handle of a node: a macro of odkit_objects.h; ODKIT_NODE in a library with one node. Without a
+ node with this handle a function does nothing, and returns ODKIT_NO_NODE or false.
  */
 typedef uint32_t odkit_node;
 
 /*
  Non-volatile memory for the values that 1010h saves.
 
- EEPROM or FRAM: `page` and `word` are 0. NOR flash: `page` is the size of what `erase` erases,
- `word` that of what is written at once, each once after an erasure.
+ For EEPROM or FRAM `page` and `word` are 0. For NOR flash `page` is the number of bytes that
+ `erase` erases, and `word` the number of bytes that are written at once, each once after an
+ erasure.
 
- The callbacks answer 0 if they succeeded. They may not call functions of odkit.
+ The callbacks return 0 for success. They may not call functions of odkit.
  */
 typedef struct odkit_storage {
   /*
-   Bytes of the memory; 0: none, and a save fails.
+   Number of bytes of the memory; 0: none, and a save fails.
    */
   uint32_t capacity;
   /*
-   Bytes of a page of flash; 0 for an EEPROM.
+   Number of bytes of a page of flash; 0 for an EEPROM.
    */
   uint32_t page;
   /*
@@ -324,16 +325,16 @@ typedef struct odkit_storage {
    */
   int32_t (*erase)(void *context, uint32_t offset);
   /*
-   Makes sure that all that was written survives a loss of power; may be null.
+   Makes sure that all written bytes survive a power failure; may be null.
    */
   int32_t (*flush)(void *context);
 } odkit_storage;
 
 /*
- Behaviour of the device: callbacks, of which each may be null. Set what is not used to 0.
+ Behaviour of the device: callbacks, each of which may be null. Set unused fields to 0.
 
  A callback runs inside the call of odkit that caused it. It may call odkit_get, odkit_set (which
- do not check limits there), odkit_raise and odkit_clear; other functions answer ODKIT_BUSY.
+ does not check limits there), odkit_raise and odkit_clear; other functions return ODKIT_BUSY.
  */
 typedef struct odkit_device {
   /*
@@ -341,8 +342,8 @@ typedef struct odkit_device {
    */
   void *context;
   /*
-   Values were loaded; `reset` is ODKIT_RESET_POWER_ON and so on. The place to set what the
-   firmware knows better than the EDS, such as the serial number.
+   Called when values were loaded; `reset` is ODKIT_RESET_POWER_ON and so on. Set values here
+   that the firmware knows better than the EDS, such as the serial number.
    */
   void (*reset)(void *context, uint8_t reset);
   /*
@@ -350,22 +351,22 @@ typedef struct odkit_device {
    */
   uint8_t (*node_id)(void *context);
   /*
-   An SDO or a PDO is about to read this value (2000h and above): bring it up to date with
+   Called before an SDO or a PDO reads this value (2000h and above): bring it up to date with
    odkit_set. Returns 0, or the abort code of the SDO.
    */
   uint32_t (*refresh)(void *context, uint16_t index, uint8_t sub);
   /*
-   A master writes this value; it fits the object and its limits. Returns 0, or the abort code
-   of the SDO: the value stays as it was.
+   Called when a master writes this value, which fits the object and its limits. Returns 0, or
+   the abort code of the SDO; the value then stays unchanged.
    */
   uint32_t (*validate)(void *context, uint16_t index, uint8_t sub, const uint8_t *value, size_t len);
   /*
-   A value was written; odkit_get has it.
+   Called when a value was written; odkit_get returns it.
    */
   void (*written)(void *context, uint16_t index, uint8_t sub);
   /*
-   Acts on time or on odkit_handle_change. Returns the microseconds until it is to be called
-   again; ODKIT_NEVER: only after a change.
+   Acts on time or on odkit_handle_change. Returns the microseconds until its next call;
+   ODKIT_NEVER: only after a change.
    */
   uint32_t (*tick)(void *context);
   /*
@@ -391,7 +392,7 @@ typedef struct odkit_frame {
    */
   uint8_t len;
   /*
-   Data; the bytes past `len` are 0 in a frame to be sent.
+   Data; the bytes after `len` are 0 in a frame to send.
    */
   uint8_t data[8];
 } odkit_frame;
@@ -405,11 +406,11 @@ typedef struct odkit_event {
    */
   uint8_t kind;
   /*
-   Sub-index, where the kind has one.
+   Sub-index, if the kind has one.
    */
   uint8_t sub;
   /*
-   Index, where the kind has one.
+   Index, if the kind has one.
    */
   uint16_t index;
   /*
@@ -423,7 +424,8 @@ extern "C" {
 #endif /* __cplusplus */
 
 /*
- Switches the power of a node on: loads the saved values or their defaults, and the node boots up.
+ Switches the power of a node on: it loads the saved values or their defaults, and boots
+ up.
 
  `now_us` is a counter of microseconds that may start anywhere and wraps at 2^32.
  `node_id` is 1 to 127; or ODKIT_UNCONFIGURED for a device that waits for LSS. A saved node ID
@@ -445,13 +447,13 @@ uint32_t odkit_power_off(odkit_node node);
 uint32_t odkit_handle_frame(odkit_node node, uint32_t now_us, const struct odkit_frame *frame);
 
 /*
- Does what is due by now. To be called when the time of odkit_poll_timeout is over; a call
- that comes earlier or later does no harm.
+ Carries out what is due at `now_us`. Call it after the time of odkit_poll_timeout; an
+ earlier or later call does no harm.
  */
 uint32_t odkit_handle_timeout(odkit_node node, uint32_t now_us);
 
 /*
- Something outside the bus changed: calls `tick`.
+ Reports a change outside the bus: the node calls `tick`.
  */
 uint32_t odkit_handle_change(odkit_node node, uint32_t now_us);
 
@@ -461,26 +463,27 @@ uint32_t odkit_handle_change(odkit_node node, uint32_t now_us);
 uint32_t odkit_handle_bus(odkit_node node, uint32_t now_us, uint8_t state);
 
 /*
- Fills `to` with the next frame to send; false if nothing waits. To be called after every
- other function, and whenever the CAN controller has room, until it answers false.
+ Fills `to` with the next frame to send; returns false if no frame waits. Call it after
+ every other function, and when the CAN controller has room again, until it returns
+ false.
  */
 bool odkit_poll_frame(odkit_node node, struct odkit_frame *to);
 
 /*
- Returns the microseconds until odkit_handle_timeout is to be called, 2^30 (18 minutes) at
- most, so that no wrap of the counter is missed; 2^30 also without such a node.
+ Returns the microseconds until the next call of odkit_handle_timeout, at most 2^30 (18
+ minutes), so that no wrap of the counter is missed; 2^30 also without such a node.
  */
 uint32_t odkit_poll_timeout(odkit_node node, uint32_t now_us);
 
 /*
- Fills `to` with the oldest event; false if nothing waits. The node keeps 16 of them; a
- firmware that has no use for events need not ask.
+ Fills `to` with the oldest event; returns false if no event waits. The node keeps 16
+ events; a firmware without use for events does not have to call this.
  */
 bool odkit_poll_event(odkit_node node, struct odkit_event *to);
 
 /*
- Returns the NMT state, ODKIT_INITIALISATION to ODKIT_PRE_OPERATIONAL; the first of them also
- without such a node.
+ Returns the NMT state, ODKIT_INITIALISATION to ODKIT_PRE_OPERATIONAL;
+ ODKIT_INITIALISATION also without such a node.
  */
 uint8_t odkit_state(odkit_node node);
 
@@ -490,8 +493,8 @@ uint8_t odkit_state(odkit_node node);
 uint8_t odkit_node_id(odkit_node node);
 
 /*
- Copies a value as an SDO carries it (numbers little-endian), `size` bytes at most; `len`,
- if not null, becomes its length also if it is longer.
+ Copies a value in the form of an SDO (numbers little-endian), at most `size` bytes.
+ `len`, if not null, becomes the length of the value, even if it is longer than `size`.
  */
 uint32_t odkit_get(odkit_node node,
                    uint16_t index,
@@ -501,8 +504,9 @@ uint32_t odkit_get(odkit_node node,
                    size_t *len);
 
 /*
- Sets a value, read-only ones too: limits and rules hold as for a master. Event-driven TPDOs
- follow. In a callback limits do not hold, and `now_us` does not count.
+ Sets a value, also of a read-only object; limits and rules are those for a master.
+ Event-driven TPDOs follow. In a callback limits are not checked, and `now_us` is
+ ignored.
  */
 uint32_t odkit_set(odkit_node node,
                    uint32_t now_us,
@@ -582,8 +586,9 @@ uint32_t odkit_get_f32(odkit_node node, uint16_t index, uint8_t sub, float *to);
 uint32_t odkit_set_f32(odkit_node node, uint32_t now_us, uint16_t index, uint8_t sub, float value);
 
 /*
- Reports an error: the node sends an EMCY message, unless it is active already. `register` has
- the bits of 1001h that it sets, `info` five bytes of its own; null means zeros.
+ Reports an error: the node sends an EMCY message, unless the error is active already.
+ `register` has the bits of 1001h that it sets, `info` five manufacturer-specific bytes;
+ null means zeros.
  */
 uint32_t odkit_raise(odkit_node node,
                      uint32_t now_us,

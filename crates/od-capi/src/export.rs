@@ -34,7 +34,7 @@ macro_rules! export {
             };
         }
 
-        // `tests/header.rs` reads the lines from here on.
+        // `tests/header.rs` reads what follows.
 
         /// Switches the power of a node on: it loads the saved values or their defaults, and boots
         /// up.
