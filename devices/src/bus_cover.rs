@@ -1,10 +1,9 @@
 //! Encoders with a bus cover: multivo, magtivo, activo and multivoPlus.
 //!
-//! Source: manual 000, chapters 4.3 (communication), 4.4 (objects) and 7.2 (switches);
-//! `docs/MANUALS.md` if it contradicts itself or does not say. The
-//! dictionary defines the objects; the two profiles here define the differences of the
-//! family from CiA 301 and CiA 406. Differences between the eight devices are in their
-//! dictionaries only.
+//! Source: manual 000, chapters 4.3 (communication), 4.4 (objects) and 7.2 (switches), and
+//! `docs/MANUALS.md` where the manual contradicts itself or gives no answer. The dictionary defines
+//! the objects; the two profiles here define the differences of the family from CiA 301 and CiA
+//! 406. The eight devices differ only in their dictionaries.
 
 use odkit::Address;
 use odkit::encoder::{EncoderProfile, Fault, Options, Report, Role, Total};
@@ -18,7 +17,7 @@ use odkit::{
 use odkit::{DeviceKind, Dictionary, kind::Behaviour};
 
 odkit::object_dictionary! {
-    /// `GXMM`, multivo multiturn: 13 bits a revolution, 16 bits of revolutions.
+    /// `GXMM`, multivo multiturn: 13 bits per revolution, 16 bits of revolutions.
     ///
     /// 1018h:04 and 650Bh, the serial number, are 1 unless the host gives another one
     /// (`Encoder::with_serial_number`).
@@ -26,7 +25,7 @@ odkit::object_dictionary! {
         eds = "../eds/GXMM.eds";
         profile = cia406;
 
-        /// `GXAM`, multivo singleturn: 13 bits a revolution. It has no battery.
+        /// `GXAM`, multivo singleturn: 13 bits per revolution. It has no battery.
         variant gxam {
             modify 0x1000 { default = 0x0001_0196 }
             modify 0x1008 { default = "GXAM" }
@@ -36,8 +35,8 @@ odkit::object_dictionary! {
             modify 0x6506 { default = 0x0004 }
         }
 
-        /// `GCMM`, magtivo multiturn: 12 bits a revolution, 14 bits of revolutions
-        /// (C-GX-03, C-GX-31).
+        /// `GCMM`, magtivo multiturn: 12 bits per revolution, 14 bits of revolutions (C-GX-03,
+        /// C-GX-31).
         variant gcmm {
             modify 0x1008 { default = "GCMM" }
             modify 0x1018sub2 { default = 0x0C }
@@ -47,7 +46,7 @@ odkit::object_dictionary! {
             modify 0x6502 { default = 0x0400_0000 }
         }
 
-        /// `GCAM`, magtivo singleturn: 12 bits a revolution. It has no battery.
+        /// `GCAM`, magtivo singleturn: 12 bits per revolution. It has no battery.
         variant gcam {
             modify 0x1000 { default = 0x0001_0196 }
             modify 0x1008 { default = "GCAM" }
@@ -59,8 +58,8 @@ odkit::object_dictionary! {
             modify 0x6506 { default = 0x0004 }
         }
 
-        /// `GDMM`, activo multiturn: 18 bits a revolution, 13 bits of revolutions. Everything but
-        /// its name is that of the multivoPlus, including the product code (C-GX-30).
+        /// `GDMM`, activo multiturn: 18 bits per revolution, 13 bits of revolutions. Only its name
+        /// differs from the multivoPlus; even the product code is the same (C-GX-30).
         variant gdmm {
             modify 0x1008 { default = "GDMM" }
             modify 0x1018sub2 { default = 0x0E }
@@ -70,7 +69,7 @@ odkit::object_dictionary! {
             modify 0x6502 { default = 0x8000_0000 }
         }
 
-        /// `GDAM`, activo singleturn: 18 bits a revolution. It has no battery.
+        /// `GDAM`, activo singleturn: 18 bits per revolution. It has no battery.
         variant gdam {
             modify 0x1000 { default = 0x0001_0196 }
             modify 0x1008 { default = "GDAM" }
@@ -82,8 +81,8 @@ odkit::object_dictionary! {
             modify 0x6506 { default = 0x0004 }
         }
 
-        /// `GBMM`, multivoPlus multiturn: 18 bits a revolution, 13 bits of revolutions
-        /// (C-GX-04, C-GX-31). Its name has four letters (C-GX-09).
+        /// `GBMM`, multivoPlus multiturn: 18 bits per revolution, 13 bits of revolutions (C-GX-04,
+        /// C-GX-31). Its name has four letters (C-GX-09).
         variant gbmm {
             modify 0x1008 { default = "GBMM" }
             modify 0x1018sub2 { default = 0x0E }
@@ -93,7 +92,7 @@ odkit::object_dictionary! {
             modify 0x6502 { default = 0x8000_0000 }
         }
 
-        /// `GBAM`, multivoPlus singleturn: 18 bits a revolution. It has no battery.
+        /// `GBAM`, multivoPlus singleturn: 18 bits per revolution. It has no battery.
         variant gbam {
             modify 0x1000 { default = 0x0001_0196 }
             modify 0x1008 { default = "GBAM" }
@@ -133,8 +132,8 @@ pub static PROFILE: Profile = Profile {
         // Requests without their unused bytes get a response, too (C-GX-15).
         min_dlc: 4,
         length: LengthRule {
-            // The list of abort codes has no code for lengths: of too many bytes the node uses the
-            // low ones (C-GX-13, C-GX-14), too few are a general error.
+            // The list of abort codes has no code for lengths. If there are too many bytes the node
+            // uses the low ones (C-GX-13, C-GX-14); too few bytes are a general error.
             too_long: None,
             too_short: AbortCode::General,
         },
@@ -142,7 +141,7 @@ pub static PROFILE: Profile = Profile {
         segmented_upload: false,
         segmented_download: false,
         block: false,
-        // Of the two abort codes for values, the one that is not "too great" (U-05).
+        // The abort code for values that is not "too great" (U-05).
         below_limit: AbortCode::ValueRange,
         // An entry of 1003h without an error reads 0 (U-10).
         unused_error: None,
@@ -219,13 +218,13 @@ pub(crate) const ERRORS: ErrorProfile = ErrorProfile {
         code: 0x8130,
         register: 0x11,
     },
-    // The list of codes has none for states of the CAN controller; 1001h includes overrun
-    // (U-38).
+    // The list of codes has none for states of the CAN controller; code 1000h also covers an
+    // overrun (U-38).
     bus_warning: None,
     bus_passive: None,
     bus_off: 0x11,
     bus_recovered: None,
-    // A SYNC of no byte and of one are accepted alike, and no code is named for others.
+    // SYNC messages of 0 and of 1 byte are both accepted, and the manual names no code for others.
     watches_sync_length: false,
     overrun: Some(Notice {
         code: 0x1000,

@@ -2,12 +2,12 @@
 //!
 //! The dictionary is `eds/DRIVE.eds`; the objects of the second axis are 800h above those of the first.
 //!
-//! | file | what it holds |
+//! | file | contents |
 //! |---|---|
 //! | `state` | the state machine of 6040h and 6041h (CiA 402, device control) |
 //! | `motion` | ramps: position and speed from one step to the next, in integer arithmetic |
-//! | `axis` | an axis: its modes, supervision, and what it shows |
-//! | `homing`, `home` | the homing methods, and an axis on its way home |
+//! | `axis` | an axis: its modes, its supervision, and the values of its objects |
+//! | `homing`, `home` | the homing methods, and an axis during homing |
 
 mod axis;
 mod home;
@@ -46,7 +46,7 @@ pub(crate) const fn kind(name: &'static str, title: &'static str) -> DeviceKind 
     }
 }
 
-/// CiA 301 to the letter, with LSS.
+/// CiA 301 without deviations, with LSS.
 pub static PROFILE: Profile = Profile {
     lss: Some(LssProfile::CIA305),
     ..Profile::CIA301
@@ -54,13 +54,13 @@ pub static PROFILE: Profile = Profile {
 
 /// Axes of the drive.
 const AXES: usize = 2;
-/// Distance between the objects of two axes (CiA 402, 67FFh).
+/// Distance between the objects of two axes, 800h (CiA 402).
 const AXIS: u16 = 0x800;
-/// Connections of each axis in `PINS`.
+/// Number of connections of each axis in `PINS`.
 #[cfg(feature = "machines")]
 const PINS_OF_AXIS: usize = 7;
 
-/// For each axis: limit switches, home switch, safe torque off (1: off), a shaft that is held (1), and the
+/// For each axis: limit switches, home switch, safe torque off (1: off), a held shaft (1), the
 /// angle of the shaft in 2⁻³² revolutions, and the brake (1: released).
 #[cfg(feature = "machines")]
 const PINS: &[Pin] = &[
@@ -86,14 +86,14 @@ const REGISTER: u8 = 0x21;
 
 /// Length of a step of the ramps in microseconds.
 const STEP: u64 = 1000;
-/// Steps that a late call catches up; more are skipped.
+/// Greatest number of steps that a late call makes up for; more are skipped.
 const MOST_STEPS: u32 = 100;
 
 /// The behaviour: two axes, and the time of their next step.
 #[derive(Clone, Debug)]
 pub struct Drive {
     axes: [Axis; AXES],
-    /// The next step; `None`: the axes stand still without power.
+    /// Time of the next step; `None`: the axes are at rest without torque.
     next: Option<Instant>,
 }
 
@@ -104,7 +104,7 @@ impl Default for Drive {
 }
 
 impl Drive {
-    /// A drive whose axes stand at 0.
+    /// A drive whose axes are at 0.
     pub const fn new() -> Self {
         Self {
             axes: [Axis::new(0), Axis::new(AXIS)],
@@ -112,8 +112,8 @@ impl Drive {
         }
     }
 
-    /// Changes the world around an axis, counted from 0: switches, safe torque off. The node has to be told
-    /// ([`Node::change`](odkit::Node::change)).
+    /// Gives access to the world of an axis, counted from 0: switches, safe torque off. Tell the
+    /// node about a change ([`Node::change`](odkit::Node::change)).
     pub fn world(&mut self, axis: usize) -> Option<&mut World> {
         self.axes.get_mut(axis).map(|axis| &mut axis.world)
     }
@@ -130,7 +130,8 @@ impl Drive {
         Some((axis, address.index - above / AXIS * AXIS))
     }
 
-    /// EMCY messages: the axes that have the error are bits of the first manufacturer-specific byte.
+    /// Reports errors: the axes with the error are bits of the first manufacturer-specific byte of
+    /// the EMCY message.
     fn report(&self, cx: &mut Context<'_, '_>) {
         for code in ERRORS {
             let mut axes = 0;

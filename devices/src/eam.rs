@@ -1,8 +1,8 @@
 //! Magnetic encoders EAM: multiturn, singleturn, and the redundant version.
 //!
-//! Source: manual 001, chapters 4 to 12; `docs/MANUALS.md` if it contradicts
-//! itself or does not say. The dictionary defines the objects; the profiles here define the
-//! differences of the family from CiA 301 and CiA 406.
+//! Source: manual 001, chapters 4 to 12, and `docs/MANUALS.md` where the manual contradicts itself
+//! or gives no answer. The dictionary defines the objects; the profiles here define the differences
+//! of the family from CiA 301 and CiA 406.
 //!
 //! The redundant version is two channels on one shaft, behind one connector: two nodes, each
 //! with its own electronics, battery, memory and serial number (chapter 4.5).
@@ -23,7 +23,7 @@ use crate::eam_diagnosis;
 use odkit::{DeviceKind, Dictionary, kind::Behaviour};
 
 odkit::object_dictionary! {
-    /// `EAMxxx MT`, multiturn: 16 bits a revolution, of which 14 are used by default, and 18 bits
+    /// `EAMxxx MT`, multiturn: 16 bits per revolution, of which 14 are used by default, and 18 bits
     /// of revolutions.
     ///
     /// 1018h:04 and 650Bh, the serial number, are 1 unless the host gives another one
@@ -41,8 +41,7 @@ odkit::object_dictionary! {
             modify 0x6502 { default = 1 }
         }
 
-        /// One channel of the redundant `EAMxxx MT`: without electronic gear, which only encoders
-        /// that are not redundant have.
+        /// One channel of the redundant `EAMxxx MT`, without the electronic gear.
         variant eam_red {
             remove 0x2001;
         }
@@ -76,7 +75,8 @@ pub static PROFILE: Profile = Profile {
     sdo: SdoProfile {
         // U-37.
         min_dlc: 4,
-        // The list of abort codes has no code for lengths: the general one of CiA 301 (U-16).
+        // The list of abort codes has no code for lengths, so the node sends the general one of CiA
+        // 301 (U-16).
         length: LengthRule {
             too_long: Some(AbortCode::Length),
             too_short: AbortCode::Length,
@@ -85,7 +85,7 @@ pub static PROFILE: Profile = Profile {
         segmented_upload: true,
         segmented_download: false,
         block: false,
-        // Of the two abort codes for values, the one that is not "too great" (U-05).
+        // The abort code for values that is not "too great" (U-05).
         below_limit: AbortCode::ValueRange,
         // U-10.
         unused_error: Some(AbortCode::NoData),

@@ -1,8 +1,8 @@
 //! The optical encoder EN580C: multiturn, electronic gear, endless mode.
 //!
-//! Source: manual 003, chapters 5 to 7; `docs/MANUALS.md` if it contradicts
-//! itself or does not say. The dictionary defines the objects; the two profiles here define
-//! the differences of the device from CiA 301 and CiA 406.
+//! Source: manual 003, chapters 5 to 7, and `docs/MANUALS.md` where the manual contradicts itself
+//! or gives no answer. The dictionary defines the objects; the two profiles here define the
+//! differences of the device from CiA 301 and CiA 406.
 
 use odkit::Address;
 use odkit::encoder::{
@@ -18,7 +18,7 @@ use odkit::{
 use odkit::{DeviceKind, kind::Behaviour};
 
 odkit::object_dictionary! {
-    /// `EN580C_M`: 24 bits a revolution, of which 6001h allows 21, and 16 bits of revolutions.
+    /// `EN580C_M`: 24 bits per revolution, of which 6001h allows 21, and 16 bits of revolutions.
     ///
     /// 1018h:04 and 650Bh, the serial number, are 1 unless the host gives another one
     /// (`Encoder::with_serial_number`).
@@ -181,7 +181,8 @@ pub static ENCODER: EncoderProfile = EncoderProfile {
                 factor: Some((Address::new(0x6041, 3), Address::new(0x6041, 4))),
             }),
         ),
-        // The manual does not say since when (C-X-09); CiA 406 counts over the life of the encoder.
+        // The manual does not say from when the object counts (C-X-09); in CiA 406 it counts over
+        // the life of the encoder.
         (Address::new(0x6508, 0), Role::TenthHours),
     ],
     below_limit: AbortCode::ValueTooLow,

@@ -1,9 +1,9 @@
 //! A virtual I/O module (CiA 401): 16 digital inputs and outputs, 4 analogue inputs, 2 analogue outputs.
 //!
-//! The dictionary is `eds/IO.eds`. The module does, at each change, what the drawing of CiA 401 shows:
-//! terminal → filter (6003h) → polarity (6002h) → 6000h, and 6200h → filter mask (6208h) → error mode and
-//! value (6206h, 6207h) → polarity (6202h) → terminal. Event-driven TPDOs follow the interrupt masks
-//! (6005h to 6008h, 6421h to 6428h).
+//! The dictionary is `eds/IO.eds`. At each change the module follows the drawing of CiA 401:
+//! terminal → filter (6003h) → polarity (6002h) → 6000h, and 6200h → filter mask (6208h) → error
+//! mode and value (6206h, 6207h) → polarity (6202h) → terminal. Event-driven TPDOs follow the
+//! interrupt masks (6005h to 6008h, 6421h to 6428h).
 
 use odkit::emcy::register;
 use odkit::nmt::State;
@@ -37,17 +37,17 @@ pub(crate) const fn kind(name: &'static str, title: &'static str) -> DeviceKind 
     }
 }
 
-/// CiA 301 to the letter, with LSS.
+/// CiA 301 without deviations, with LSS.
 pub static PROFILE: Profile = Profile {
     lss: Some(LssProfile::CIA305),
     ..Profile::CIA301
 };
 
-/// Digital inputs, and digital outputs.
+/// Number of digital inputs, and of digital outputs.
 const BITS: usize = 16;
-/// Analogue inputs.
+/// Number of analogue inputs.
 const ANALOGUE_INPUTS: usize = 4;
-/// Analogue outputs.
+/// Number of analogue outputs.
 const ANALOGUE_OUTPUTS: usize = 2;
 
 /// Places of the connections in `PINS`.
@@ -80,30 +80,31 @@ const PINS: &[Pin] = &[
 /// EMCY of CiA 401: short circuit at the outputs.
 const SHORT_CIRCUIT: u16 = 0x2320;
 
-/// The behaviour: terminals on one side, objects on the other.
+/// The behaviour between terminals and objects.
 #[derive(Clone, Debug, Default)]
 pub struct Io {
-    /// Terminals of the digital inputs, a bit each.
+    /// Terminals of the digital inputs, one bit each.
     pub inputs: u16,
     /// Terminals of the analogue inputs.
     pub analogue_inputs: [i16; ANALOGUE_INPUTS],
     /// A digital output has a short circuit.
     pub is_shorted: bool,
-    /// Terminals of the digital outputs, a bit each.
+    /// Terminals of the digital outputs, one bit each.
     outputs: u16,
     /// Terminals of the analogue outputs.
     analogue_outputs: [i16; ANALOGUE_OUTPUTS],
-    /// Digital inputs behind the filter.
+    /// Digital inputs after the filter.
     filtered: u16,
-    /// Terminals of the digital inputs at the last tick, and when each changed.
+    /// Terminals of the digital inputs at the last tick, and the time when each changed.
     seen: u16,
     changed_at: [Instant; BITS],
-    /// What 6208h lets through, before error mode and polarity.
+    /// Values that 6208h passes, before error mode and polarity.
     written: u16,
-    /// The values of the last interrupt of each analogue input, and the inputs since 6422h was read.
+    /// The values of the last interrupt of each analogue input, and the inputs with an interrupt
+    /// since 6422h was read.
     interrupted: [i16; ANALOGUE_INPUTS],
     sources: u32,
-    /// Error values replace what the master wrote (CiA 401, 6206h and 6443h).
+    /// Error values replace the values of the master (CiA 401, 6206h and 6443h).
     has_failed: bool,
 }
 
@@ -126,7 +127,7 @@ impl Io {
         }
     }
 
-    /// Terminals of the digital outputs, a bit each.
+    /// Terminals of the digital outputs, one bit each.
     pub const fn outputs(&self) -> u16 {
         self.outputs
     }
@@ -136,7 +137,7 @@ impl Io {
         self.analogue_outputs
     }
 
-    /// 6000h: filter, then polarity. Returns when the filter lets the next change through.
+    /// Updates 6000h: filter, then polarity. Returns when the filter passes the next change.
     fn read_inputs(&mut self, cx: &mut Context<'_, '_>) -> Option<Instant> {
         let filter = word(cx.store, 0x6003);
         let time = cx.store.unsigned(0x2000, 0);
@@ -165,7 +166,7 @@ impl Io {
         next
     }
 
-    /// 6401h and the interrupts of the analogue inputs.
+    /// Updates 6401h and the interrupts of the analogue inputs.
     fn read_analogue_inputs(&mut self, cx: &mut Context<'_, '_>) {
         for (channel, value) in self.analogue_inputs.into_iter().enumerate() {
             let sub = channel as u8 + 1;
@@ -179,7 +180,7 @@ impl Io {
         }
     }
 
-    /// Outputs: filter mask, error mode and value, polarity.
+    /// Updates the outputs: filter mask, error mode and value, polarity.
     fn write_outputs(&mut self, store: &Store<'_>) {
         let mask = word(store, 0x6208);
         self.written = self.written & !mask | word(store, 0x6200) & mask;
@@ -216,7 +217,7 @@ impl Application for Io {
         address == Address::new(0x6422, 1)
     }
 
-    /// 6422h holds the interrupts since it was read last.
+    /// 6422h shows the interrupts since it was last read.
     fn refresh(&mut self, cx: &mut Context<'_, '_>, address: Address) -> Result<(), AbortCode> {
         if address == Address::new(0x6422, 1) {
             let sources = core::mem::take(&mut self.sources);
@@ -318,9 +319,9 @@ fn word(store: &Store<'_>, index: u16) -> u16 {
     (store.unsigned(index, 1) | store.unsigned(index, 2) << 8) as u16
 }
 
-/// Returns whether an analogue input interrupts that goes from `last`, where it interrupted before, to `now`
-/// (CiA 401, 6421h to 6428h). A limit that is met interrupts at each change, unless a delta is selected,
-/// too. Limits and deltas have the unit of 6401h.
+/// Returns whether an analogue input causes an interrupt when it changes from `last`, the value of
+/// its last interrupt, to `now` (CiA 401, 6421h to 6428h). An exceeded limit causes an interrupt at
+/// each change, unless a delta is selected, too. Limits and deltas have the unit of 6401h.
 fn interrupts(store: &Store<'_>, sub: u8, last: i16, now: i16) -> bool {
     let selected = store.unsigned(0x6421, sub);
     let has = |bit: u64| selected >> bit & 1 == 1;

@@ -1,8 +1,8 @@
 //! Virtual CANopen devices: twelve absolute encoders, a servo drive, an I/O module.
 //!
 //! Each family is one module, made from one EDS file; [`DEVICES`] lists all devices.
-//! An encoder is `const` data for `od-runtime`; drive and I/O module have behaviour of their own, as any device
-//! that is made with `odkit`.
+//! An encoder is `const` data for `od-runtime`; drive and I/O module have their own behaviour, like
+//! any device made with `odkit`.
 //!
 //! ```
 //! use od_devices::find;
@@ -34,13 +34,13 @@ use eam::eam_mt;
 #[cfg(feature = "std")]
 use odkit::DeviceKind;
 
-/// Name and title of each device that [`DEVICES`] has with the feature `machines` only.
+/// Name and title of each device that is in [`DEVICES`] only with the feature `machines`.
 pub const MACHINES: [(&str, &str); 2] = [
     ("io", "I/O module (CiA 401)"),
     ("drive", "Servo drive with two axes (CiA 402)"),
 ];
 
-/// Every device, by family.
+/// Every device, grouped by family.
 #[cfg(feature = "std")]
 pub const DEVICES: &[DeviceKind] = &[
     bus_cover::kind("gxmm", "GXMM, multivo multiturn", gxmm::DICTIONARY),

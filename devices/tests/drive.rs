@@ -12,7 +12,7 @@ const REVOLUTION: i64 = 10_000;
 struct Bench {
     node: drive::Node<Drive>,
     now: Instant,
-    /// What the drive sent since the last look, without responses to SDOs.
+    /// Frames of the drive since the last call, without SDO responses.
     heard: Vec<String>,
     /// Added to the indices of all objects: 800h for the second axis.
     base: u16,
@@ -32,7 +32,7 @@ impl Bench {
         bench
     }
 
-    /// In a mode, and in Operation enabled.
+    /// A drive in Operation enabled with this mode.
     fn enabled(mode: u8) -> Self {
         let mut bench = Self::new();
         bench.enable(mode);
@@ -60,7 +60,7 @@ impl Bench {
         self.sent()
     }
 
-    /// Writes an object by SDO; the abort code if it is refused.
+    /// Writes an object by SDO; returns the abort code if it is refused.
     fn try_write(&mut self, index: u16, sub: u8, bytes: &[u8]) -> Option<u32> {
         let mut data = [0; 8];
         data[0] = 0x23 | (4 - bytes.len() as u8) << 2;
@@ -105,7 +105,7 @@ impl Bench {
         self.read(0x6041) as u16
     }
 
-    /// Waits until bits of the statusword are set; how many milliseconds that took.
+    /// Waits until bits of the statusword are set; returns the number of milliseconds.
     #[track_caller]
     fn until(&mut self, bits: u16) -> u64 {
         for millis in 0..60_000 {
@@ -155,7 +155,7 @@ const ACKNOWLEDGED: u16 = 1 << 12;
 const ERROR: u16 = 1 << 13;
 
 #[test]
-fn every_command_leads_where_cia_402_says() {
+fn every_command_has_the_effect_of_cia_402() {
     const DISABLED: u16 = 0x40;
     const READY: u16 = 0x21;
     const ON: u16 = 0x23;
@@ -212,7 +212,7 @@ fn a_command_during_a_stop_counts_after_it() {
 }
 
 #[test]
-fn a_set_point_is_acknowledged_reached_and_followed_by_the_next() {
+fn a_set_point_is_acknowledged_and_reached_and_the_next_one_follows() {
     let mut bench = Bench::enabled(1);
     bench.write32(0x607A, 50_000);
     bench.control(0x1F);
@@ -220,12 +220,12 @@ fn a_set_point_is_acknowledged_reached_and_followed_by_the_next() {
     assert_eq!(bench.status() & REACHED, 0);
     bench.control(0x0F);
     assert_eq!(bench.status() & ACKNOWLEDGED, 0);
-    // Into the buffer: acknowledged until there is room for another one.
+    // Into the buffer: it is acknowledged when there is room for another one.
     bench.write32(0x607A, 60_000);
     bench.control(0x1F);
     bench.control(0x0F);
     assert_eq!(bench.status() & ACKNOWLEDGED, ACKNOWLEDGED);
-    // No room: not taken.
+    // Without room it is not accepted.
     bench.write32(0x607A, 1);
     bench.control(0x1F);
     bench.control(0x0F);
@@ -253,7 +253,7 @@ fn a_set_point_at_once_replaces_the_present_one() {
 }
 
 #[test]
-fn halt_holds_and_lets_go_on() {
+fn halt_stops_and_continues() {
     let mut bench = Bench::enabled(1);
     bench.write32(0x607A, 100_000);
     bench.control(0x1F);
@@ -271,7 +271,7 @@ fn halt_holds_and_lets_go_on() {
 }
 
 #[test]
-fn software_limits_end_the_way() {
+fn software_limits_stop_a_movement() {
     let mut bench = Bench::enabled(1);
     bench.write(0x607D, 2, &20_000_i32.to_le_bytes());
     bench.write(0x607D, 1, &(-1_i32).to_le_bytes());
@@ -279,7 +279,7 @@ fn software_limits_end_the_way() {
     bench.control(0x1F);
     bench.until(REACHED);
     assert_eq!(bench.read(0x6064), 20_000);
-    // A velocity stops there, too, and leads back.
+    // They stop a velocity, too; it can lead back.
     bench.enable_mode(3);
     bench.write32(0x60FF, 1_000);
     bench.wait(50);
@@ -299,9 +299,9 @@ impl Bench {
 }
 
 #[test]
-fn a_velocity_is_reached_by_its_ramp_and_quick_stop_ends_it() {
+fn a_velocity_is_reached_by_its_ramp_and_ended_by_quick_stop() {
     let mut bench = Bench::enabled(3);
-    // Bit 12: the shaft stands.
+    // Bit 12: the shaft is at rest.
     bench.wait(2);
     assert_eq!(bench.status() & ACKNOWLEDGED, ACKNOWLEDGED);
     bench.write32(0x60FF, -100_000);
@@ -356,7 +356,7 @@ fn shutdown_and_disable_operation_slow_down_as_their_option_codes_say() {
 
 #[test]
 fn homing_finds_edges_and_index_pulses() {
-    // Method, place where it begins, and the place of the home position before homing, in revolutions.
+    // Method, start position, and the home position before homing, in revolutions.
     for (method, begin, home) in [
         (17, 0, -20),
         (18, 0, 20),
@@ -385,7 +385,7 @@ fn homing_finds_edges_and_index_pulses() {
             done,
             "method {method} from {begin}"
         );
-        // The zero position is beside the home position by the home offset.
+        // The zero position differs from the home position by the home offset.
         let shaft = bench.node.application.shaft(0).expect("an axis");
         let turned = (i128::from(shaft) * i128::from(REVOLUTION)) >> 32;
         let found = turned as i64 - bench.read(0x6064) - 250;
@@ -415,7 +415,7 @@ fn homing_fails_at_the_wrong_switch() {
 }
 
 #[test]
-fn cyclic_positions_are_followed_from_sync_to_sync() {
+fn cyclic_positions_are_followed_between_sync_messages() {
     let mut bench = Bench::enabled(8);
     // RPDO2 with SYNC: controlword and target.
     for step in 1..=100 {
@@ -497,7 +497,7 @@ fn a_held_shaft_is_a_following_error_that_a_reset_ends() {
 }
 
 #[test]
-fn safe_torque_off_is_a_fault_until_it_is_gone() {
+fn safe_torque_off_is_a_fault_until_it_ends() {
     let mut bench = Bench::enabled(3);
     bench.write32(0x60FF, 100_000);
     bench.until(REACHED);
@@ -522,7 +522,7 @@ fn safe_torque_off_is_a_fault_until_it_is_gone() {
 }
 
 #[test]
-fn a_lost_master_does_what_6007h_says() {
+fn the_reaction_to_a_lost_master_is_that_of_6007h() {
     for (code, state) in [(0, 0x27), (1, 0x08), (2, 0x40), (3, 0x40)] {
         let mut bench = Bench::enabled(3);
         bench.write(0x6007, 0, &[code, 0]);
@@ -539,7 +539,7 @@ fn a_lost_master_does_what_6007h_says() {
 }
 
 #[test]
-fn polarity_turns_the_other_way() {
+fn polarity_reverses_the_direction() {
     let mut bench = Bench::enabled(1);
     bench.write(0x607E, 0, &[0xC0]);
     bench.write32(0x607A, 10_000);

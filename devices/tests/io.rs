@@ -56,7 +56,7 @@ impl Bench {
         assert!(response[0].starts_with("581#60"), "{response:?}");
     }
 
-    /// Sets the terminals; what the module sends.
+    /// Sets the terminals; returns the frames of the module.
     fn terminals(&mut self, act: impl FnOnce(&mut Io)) -> Vec<String> {
         self.node.change(self.now, |io, _| act(io));
         self.sent()
@@ -84,7 +84,7 @@ impl Bench {
 }
 
 #[test]
-fn an_input_that_changes_is_sent() {
+fn a_changed_input_is_sent() {
     let mut bench = Bench::new();
     assert_eq!(bench.inputs(0x0204), ["181#0402"]);
     assert_eq!(bench.inputs(0x0204), [""; 0]);
@@ -94,7 +94,7 @@ fn an_input_that_changes_is_sent() {
 }
 
 #[test]
-fn masks_choose_the_edges_that_are_sent() {
+fn masks_select_the_edges_that_are_sent() {
     let mut bench = Bench::new();
     // Any change of bit 0, rising edges of bit 1, falling ones of bit 2.
     bench.write(0x6006, 1, &[1]);
@@ -112,7 +112,7 @@ fn masks_choose_the_edges_that_are_sent() {
 }
 
 #[test]
-fn a_filter_holds_short_pulses_back() {
+fn a_filter_suppresses_short_pulses() {
     let mut bench = Bench::new();
     bench.write(0x6003, 1, &[1]);
     bench.write(0x2000, 0, &[20, 0]);
@@ -151,12 +151,12 @@ fn outputs_take_their_error_values_while_the_master_is_lost() {
     bench.send("201#FF00");
     bench.send("301#01000200");
     bench.send("000#0200");
-    // High outputs keep their mode of the default, low ones have 5; analogue output 1 is limited.
+    // High outputs have the default mode, low ones have 5; analogue output 1 is limited.
     assert_eq!(bench.outputs(), 0x00F5);
     assert_eq!(bench.node.application.analogue_outputs(), [0x7FFF, 2]);
     bench.send("000#0100");
     assert_eq!(bench.outputs(), 0x00FF);
-    // A heartbeat that fails, and bus-off.
+    // A failed heartbeat, and bus-off.
     bench.write(0x1016, 1, &[0x64, 0, 0x7F, 0]);
     bench.send("77F#05");
     let sent = bench.wait(150);
@@ -172,7 +172,7 @@ fn outputs_take_their_error_values_while_the_master_is_lost() {
 }
 
 #[test]
-fn an_analogue_input_is_sent_by_limits_and_deltas() {
+fn limits_and_deltas_decide_when_an_analogue_input_is_sent() {
     let mut bench = Bench::new();
     let ain = |bench: &mut Bench, value| bench.terminals(|io| io.analogue_inputs[0] = value);
     assert_eq!(ain(&mut bench, 100), [""; 0], "6423h is 0");
@@ -183,19 +183,19 @@ fn an_analogue_input_is_sent_by_limits_and_deltas() {
     assert_eq!(ain(&mut bench, 50), ["281#3200000000000000"]);
     assert_eq!(ain(&mut bench, 1), [""; 0]);
     assert_eq!(ain(&mut bench, 0), ["281#0000000000000000"]);
-    // Above 1000 only, at each change.
+    // Only values above 1000, at each change.
     bench.write(0x6421, 1, &[1]);
     bench.write(0x6424, 1, &[0xE8, 3, 0, 0]);
     assert_eq!(ain(&mut bench, 999), [""; 0]);
     assert_eq!(ain(&mut bench, 1000), ["281#E803000000000000"]);
     assert_eq!(ain(&mut bench, 1001), ["281#E903000000000000"]);
     assert_eq!(ain(&mut bench, 5), [""; 0]);
-    // Rising by 10.
+    // Increases by 10.
     bench.write(0x6421, 1, &[0x10]);
     bench.write(0x6428, 1, &[10, 0, 0, 0]);
     assert_eq!(ain(&mut bench, -300), [""; 0]);
     assert_eq!(ain(&mut bench, 1012), ["281#F403000000000000"]);
-    // The sources, once.
+    // The sources are shown once.
     assert_eq!(bench.send("601#4022640100000000"), ["581#4322640101000000"]);
     assert_eq!(bench.send("601#4022640100000000"), ["581#4322640100000000"]);
 }
@@ -243,9 +243,9 @@ fn wires_join_outputs_and_inputs() {
     assert_eq!(read(&mut bus, 1, 0x6000, 2), [0]);
 }
 
-/// As the script `analogue` of the module does.
+/// The same as the script `analogue` of the module.
 #[test]
-fn each_channel_has_limits_of_its_own() {
+fn each_channel_has_its_own_limits() {
     let mut bench = Bench::new();
     let ain = |bench: &mut Bench, value| bench.terminals(|io| io.analogue_inputs[1] = value);
     bench.write(0x6426, 2, &[100, 0, 0, 0]);

@@ -1,4 +1,4 @@
-//! One axis: its modes, its supervision, and what its objects show.
+//! One axis: its modes, its supervision, and the values of its objects.
 
 use odkit::{AbortCode, Address, Store};
 
@@ -24,7 +24,7 @@ use mode::{
 
 /// Bits of the controlword that a mode reads.
 mod control {
-    /// New set-point, start of homing, interpolation on.
+    /// New set-point, start of homing, or start of interpolation.
     pub(super) const START: u16 = 1 << 4;
     pub(super) const AT_ONCE: u16 = 1 << 5;
     pub(super) const RELATIVE: u16 = 1 << 6;
@@ -32,7 +32,7 @@ mod control {
     pub(super) const HALT: u16 = 1 << 8;
 }
 
-/// Bits of the statusword beside the state.
+/// Bits of the statusword besides the state.
 mod status {
     pub(super) const REMOTE: u16 = 1 << 9;
     pub(super) const REACHED: u16 = 1 << 10;
@@ -43,7 +43,7 @@ mod status {
     pub(super) const ERROR: u16 = 1 << 13;
 }
 
-/// What a shaft without torque loses of its speed, in units per second².
+/// Deceleration of a shaft without torque, in units per second².
 const FRICTION: i64 = 100_000;
 
 /// The world around an axis.
@@ -84,12 +84,12 @@ impl World {
     }
 }
 
-/// A stop on its way.
+/// A stop in progress.
 #[derive(Clone, Copy, Debug)]
 struct Stop {
-    /// In units per second².
+    /// Deceleration in units per second².
     deceleration: i64,
-    /// The state after it; `None`: the present one.
+    /// State after the stop; `None`: the present one.
     then: Option<State>,
 }
 
@@ -112,17 +112,18 @@ pub struct Axis {
     /// Target of the profile position mode.
     target: i64,
     is_moving: bool,
-    /// Set-point behind the present one.
+    /// The set-point after the present one.
     next: Option<i64>,
     is_acknowledged: bool,
     /// End of the present interpolation, and the steps until then.
     course: Option<(i64, i64)>,
     pub(super) homing: Homing,
-    /// Steps since which the following error is too great, the target is reached, the shaft stands.
+    /// Numbers of steps: since the following error is too great, since the target is reached, since
+    /// the shaft is at rest.
     late: u32,
     reached: u32,
     standing: u32,
-    /// A limit holds the axis back.
+    /// A limit stops the axis.
     pub(super) is_limited: bool,
 }
 
@@ -176,12 +177,12 @@ impl Axis {
         self.error
     }
 
-    /// Returns whether it has to be called every step.
+    /// Returns whether it needs a call in every step.
     pub(super) const fn is_busy(&self) -> bool {
         self.state.has_torque() || self.actual.speed != 0
     }
 
-    /// Power comes, or NMT reset node: the shaft is where it was, and its angle is the position.
+    /// Handles power-on and NMT reset node: the shaft keeps its angle, which gives the position.
     pub(super) fn reset(&mut self, store: &Store<'_>) {
         let shaft = Motion {
             position: self.actual.position + self.zero,
@@ -223,7 +224,7 @@ impl Axis {
         }
     }
 
-    /// Values that limits of the dictionary cannot express.
+    /// Checks values by rules that limits of the dictionary cannot express.
     pub(super) fn validate(&self, index: u16, sub: u8, value: &[u8]) -> Result<(), AbortCode> {
         let number = value.first().map_or(0, |byte| i64::from(*byte as i8));
         let is_valid = match (index, sub) {
@@ -239,7 +240,7 @@ impl Axis {
         }
     }
 
-    /// A master wrote an object.
+    /// Handles an object that a master wrote.
     pub(super) fn written(&mut self, store: &mut Store<'_>, index: u16, sub: u8) {
         let is_cyclic = match index {
             0x6040 => return self.control(store),
@@ -257,7 +258,7 @@ impl Axis {
         }
     }
 
-    /// Steps of the interpolation time period (60C2h).
+    /// Number of steps of the interpolation time period (60C2h).
     fn period(&self, store: &Store<'_>) -> i64 {
         let exponent = self.sub(store, 0x60C2, 2).clamp(-6, 0) + 6;
         let micros = self.sub(store, 0x60C2, 1) * 10_i64.pow(exponent as u32);
@@ -292,7 +293,7 @@ impl Axis {
         }
     }
 
-    /// The controlword was written.
+    /// Handles the controlword.
     fn control(&mut self, store: &mut Store<'_>) {
         let word = self.get(store, 0x6040) as u16;
         let rising = word & !self.controlword;
@@ -312,7 +313,7 @@ impl Axis {
         }
     }
 
-    /// The command of the controlword, which is there until another one is written.
+    /// Carries out the command of the controlword, which stays until another one is written.
     fn obey(&mut self, store: &mut Store<'_>) {
         let command = Command::of(self.controlword);
         // "Enable operation" may follow "switch on" in one command.
@@ -331,7 +332,7 @@ impl Axis {
                     self.stop_by(store, 0x605C, State::SwitchedOn);
                 }
                 None if command == Command::EnableOperation => {
-                    // A stop before another state is taken back.
+                    // A stop before another state is cancelled.
                     self.stop = None;
                     break;
                 }
@@ -366,7 +367,7 @@ impl Axis {
         }
     }
 
-    /// A state begins: the demand begins where the shaft is.
+    /// Enters a state: the demand begins at the position of the shaft.
     fn enter(&mut self, state: State) {
         let had_torque = self.state.has_torque();
         self.state = state;
@@ -377,7 +378,7 @@ impl Axis {
         }
     }
 
-    /// Forgets what the modes were doing.
+    /// Resets the modes.
     fn forget(&mut self) {
         (self.target, self.is_moving, self.next) = (self.demand.position, false, None);
         (self.is_acknowledged, self.course) = (false, None);
@@ -385,7 +386,7 @@ impl Axis {
         (self.late, self.reached) = (0, 0);
     }
 
-    /// Transitions 5 and 8, by the option code of an object.
+    /// Stops the axis in transitions 5 and 8, by the option code of an object.
     fn stop_by(&mut self, store: &Store<'_>, code: u16, then: State) {
         if self.get(store, code) == 0 {
             return self.enter(then);
@@ -396,7 +397,7 @@ impl Axis {
         });
     }
 
-    /// Transition 11, by the quick stop option code.
+    /// Stops the axis in transition 11, by the quick stop option code.
     fn quick_stop(&mut self, store: &Store<'_>) {
         let code = self.get(store, 0x605A);
         if code == 0 {
@@ -409,7 +410,7 @@ impl Axis {
         });
     }
 
-    /// Transitions 13 and 14, by the fault reaction option code.
+    /// Stops the axis in transitions 13 and 14, by the fault reaction option code.
     fn fault(&mut self, store: &mut Store<'_>, code: u16) {
         if matches!(self.state, State::Fault | State::FaultReactionActive) {
             return;
@@ -427,7 +428,7 @@ impl Axis {
         });
     }
 
-    /// The master is lost: the abort connection option code (6007h).
+    /// Reacts to the loss of the master by the abort connection option code (6007h).
     pub(super) fn abort_connection(&mut self, store: &mut Store<'_>) {
         match (self.get(store, 0x6007), self.state) {
             (_, State::SwitchOnDisabled | State::Fault | State::FaultReactionActive) => {}
@@ -438,7 +439,7 @@ impl Axis {
         }
     }
 
-    /// One step of time.
+    /// Carries out one step of time.
     pub(super) fn step(&mut self, store: &mut Store<'_>) {
         self.is_limited = false;
         if !self.state.has_torque() {
@@ -459,7 +460,7 @@ impl Axis {
                 } else {
                     self.forget();
                 }
-                // What was commanded during the stop.
+                // The commands that arrived during the stop.
                 self.obey(store);
             }
         } else {
@@ -471,7 +472,7 @@ impl Axis {
         self.supervise(store);
     }
 
-    /// The demand of the present mode.
+    /// Computes the demand of the present mode.
     fn drive(&mut self, store: &Store<'_>) {
         let halt = match self.get(store, 0x605D) {
             2 => self.get(store, 0x6085),
@@ -506,7 +507,7 @@ impl Axis {
         }
     }
 
-    /// The profile position mode: towards the set-point, then to the next one.
+    /// Profile position mode: approaches the set-point, then the next one.
     fn approach(&mut self, store: &Store<'_>) {
         let way = self.target - self.demand.position;
         if self.may_go(store, way)
@@ -521,7 +522,7 @@ impl Axis {
         }
     }
 
-    /// The cyclic modes: evenly to the last target within the interpolation time period.
+    /// Cyclic modes: moves evenly to the last target within the interpolation time period.
     fn interpolate(&mut self, store: &Store<'_>) {
         let Some((target, left @ 1..)) = self.course else {
             self.demand.speed = 0;
@@ -539,7 +540,8 @@ impl Axis {
         self.demand.speed = way * (UNIT / STEP as i64);
     }
 
-    /// Returns whether the shaft may turn this way; if not, limit switches and software limits stop it.
+    /// Returns whether the shaft may turn in this direction; otherwise limit switches or software
+    /// limits stop it.
     fn may_go(&mut self, store: &Store<'_>, way: i64) -> bool {
         let sign = self.sign(store, 7);
         let limits = [1, 2].map(|sub| self.sub(store, 0x607D, sub) * UNIT);
@@ -556,7 +558,7 @@ impl Axis {
         !is_held
     }
 
-    /// The shaft follows the demand, with the lag of 2001h in milliseconds.
+    /// Moves the shaft after the demand, with the lag of 2001h in milliseconds.
     fn follow(&mut self, store: &Store<'_>) {
         let before = self.actual.position;
         if !self.world.is_held {
@@ -568,7 +570,7 @@ impl Axis {
         self.actual.speed = (self.actual.position - before) * (UNIT / STEP as i64);
     }
 
-    /// Following error, target reached, speed zero.
+    /// Supervises following error, target reached and speed zero.
     fn supervise(&mut self, store: &mut Store<'_>) {
         let count = |steps: &mut u32, holds: bool| {
             *steps = if holds { steps.saturating_add(1) } else { 0 };
@@ -600,7 +602,7 @@ impl Axis {
         }
     }
 
-    /// What the objects show; also what happens without steps of time.
+    /// Updates the objects, also between steps of time.
     pub(super) fn update(&mut self, store: &mut Store<'_>) {
         if self.world.is_safe {
             self.fault(store, SAFE_TORQUE_OFF);
@@ -610,7 +612,7 @@ impl Axis {
             self.mode = mode;
             self.forget();
         }
-        // Bit 4 is back, and there is room for another set-point.
+        // Bit 4 is 0 again, and there is room for another set-point.
         if self.controlword & control::START == 0 && self.next.is_none() {
             self.is_acknowledged = false;
         }
@@ -670,8 +672,8 @@ impl Axis {
         word
     }
 
-    /// The place where the shaft was becomes the home position; the zero position is beside it by the home
-    /// offset (607Ch).
+    /// Makes the present position of the shaft the home position; the zero position differs from it
+    /// by the home offset (607Ch).
     pub(super) fn take_home(&mut self, store: &Store<'_>, place: i64) {
         let offset = self.get(store, 0x607C) * UNIT * self.sign(store, 7);
         let by = -offset - place;
@@ -681,12 +683,12 @@ impl Axis {
         self.target = self.demand.position;
     }
 
-    /// Position of the index pulse where a revolution of the shaft begins.
+    /// Position of the index pulse at the beginning of a revolution of the shaft.
     pub(super) const fn index_pulse(&self, revolution: i64) -> i64 {
         revolution * REVOLUTION - self.zero
     }
 
-    /// Number of the revolution of the shaft: the index pulse is where it changes.
+    /// Number of the revolution of the shaft; it changes at the index pulse.
     pub(super) const fn revolution(&self) -> i64 {
         (self.actual.position + self.zero).div_euclid(REVOLUTION)
     }

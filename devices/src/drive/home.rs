@@ -1,4 +1,4 @@
-//! An axis on its way home.
+//! An axis during homing.
 
 use odkit::Store;
 
@@ -7,7 +7,7 @@ use super::homing::{Homing, METHODS, Method, Switch};
 use super::motion::Limits;
 
 impl Axis {
-    /// Bit 4 of the controlword rises.
+    /// Starts homing at the rising edge of bit 4 of the controlword.
     pub(super) fn start_homing(&mut self, store: &Store<'_>) {
         let number = self.get(store, 0x6098);
         self.homing = match Method::of(number) {
@@ -17,7 +17,7 @@ impl Axis {
         };
     }
 
-    /// One step of homing.
+    /// Carries out one step of homing.
     pub(super) fn home(&mut self, store: &Store<'_>) {
         let acceleration = self.get(store, 0x609A);
         match self.homing {
@@ -78,7 +78,7 @@ impl Axis {
         }
     }
 
-    /// A limit switch that the method does not look for ends the way.
+    /// Ends homing at a limit switch that the method does not search for.
     fn is_at_end(&self, direction: i64, switch: Switch) -> bool {
         switch == Switch::Home
             && self.is_active(if direction > 0 {

@@ -1,25 +1,25 @@
-//! The homing methods (CiA 402, 6098h): switches and index pulses that make a place the home position.
+//! The homing methods (CiA 402, 6098h): switches and index pulses that define the home position.
 
-/// The methods that the drive has.
+/// The supported methods.
 pub(super) const METHODS: [i64; 8] = [1, 2, 17, 18, 19, 20, 35, 37];
 
-/// How far homing has come.
+/// Progress of homing.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Homing {
     Idle,
-    /// On the way to the switch.
+    /// Moves to the switch.
     Search(Method),
-    /// Slowly back over the edge of the switch.
+    /// Moves back slowly over the edge of the switch.
     Edge(Method),
-    /// On to the index pulse; the revolution where the way began.
+    /// Moves on to the index pulse; the number is the revolution at the start of this movement.
     Index(Method, i64),
-    /// The home position is behind, and the axis stops.
+    /// The home position was found at this position, and the axis stops.
     Found(i64),
     Attained,
     Failed,
 }
 
-/// Switch that a method looks for.
+/// Switch that a method searches for.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Switch {
     Negative,
@@ -31,11 +31,11 @@ pub(super) enum Switch {
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct Method {
     pub(super) switch: Switch,
-    /// The direction of the search; the edge is approached in the other one.
+    /// Direction of the search; the edge is approached in the other direction.
     pub(super) direction: i64,
-    /// The search ends where the switch is active, otherwise where it is not.
+    /// The search ends when the switch becomes active (`true`) or not active.
     pub(super) active: bool,
-    /// The home position is the first index pulse behind the edge.
+    /// The home position is the first index pulse after the edge.
     pub(super) index: bool,
 }
 
@@ -58,7 +58,7 @@ impl Method {
 }
 
 impl Homing {
-    /// Returns whether it succeeded or failed.
+    /// Returns whether homing has succeeded or failed.
     pub(super) const fn is_over(self) -> bool {
         matches!(self, Self::Attained | Self::Failed)
     }

@@ -1,7 +1,7 @@
 //! Ramps: position and speed from one step to the next.
 //!
-//! A position is in millionths of a user unit, a speed in millionths of a user unit per second: a step of
-//! whole microseconds has exact products. Accelerations are in units per second².
+//! A position is in millionths of a user unit, a speed in millionths of a user unit per second, so
+//! a step of whole microseconds has exact products. Accelerations are in units per second².
 
 use super::STEP;
 
@@ -27,19 +27,19 @@ pub(super) struct Limits {
 }
 
 impl Motion {
-    /// A motion that stands at 0.
+    /// A motion at rest at 0.
     pub(super) const ZERO: Self = Self {
         position: 0,
         speed: 0,
     };
 
-    /// Moves on by one step with the present speed.
+    /// Moves by one step with the present speed.
     pub(super) fn go(&mut self) {
         let way = self.speed * STEP as i64 / UNIT;
         self.position = self.position.saturating_add(way);
     }
 
-    /// Speeds up or slows down towards a speed by one step, and moves.
+    /// Changes the speed towards a target by one step, and moves.
     pub(super) fn ramp(&mut self, target: i64, limits: Limits) {
         let target = within(target, limits.speed);
         let is_slower =
@@ -51,7 +51,7 @@ impl Motion {
         };
         let most = rate.max(1) * STEP as i64;
         let change = target - self.speed;
-        // Through standstill with the deceleration: the other ramp begins with the next step.
+        // Down to speed 0 with the deceleration; the acceleration begins with the next step.
         if self.speed != 0 && target.signum() * self.speed.signum() < 0 && change.abs() > most {
             let slower = self.speed.abs() - most;
             self.speed = slower.max(0) * self.speed.signum();
@@ -61,7 +61,7 @@ impl Motion {
         self.go();
     }
 
-    /// Slows down to standstill by one step, and moves.
+    /// Reduces the speed towards 0 by one step, and moves.
     pub(super) fn stop(&mut self, deceleration: i64) {
         let limits = Limits {
             speed: i64::MAX,
@@ -71,11 +71,13 @@ impl Motion {
         self.ramp(0, limits);
     }
 
-    /// Approaches a position by one step, so that it stops there. Returns whether it arrived.
+    /// Approaches a position by one step, so that the motion stops there. Returns whether it has
+    /// arrived.
     pub(super) fn approach(&mut self, target: i64, limits: Limits) -> bool {
         let way = target - self.position;
         let step = limits.deceleration.max(1) * STEP as i64;
-        // What a step at the speed of a step covers: nearer it snaps.
+        // The distance of one step at the speed of one step: below it the position is set to the
+        // target.
         let near = (step * STEP as i64 / UNIT).max(1);
         if way.abs() <= near && self.speed.abs() <= 2 * step {
             self.position = target;
@@ -100,18 +102,19 @@ pub(super) const fn within(number: i64, most: i64) -> i64 {
     }
 }
 
-/// The speed, in millionths of a unit per second, from which a deceleration in whole steps stops within a way
-/// in millionths of a unit: v²/2a + v·t = way.
+/// Speed, in millionths of a unit per second, from which a deceleration in whole steps stops within
+/// a distance in millionths of a unit: v²/2a + v·t = distance.
 fn stopping_speed(way: u64, deceleration: i64) -> i64 {
     let deceleration = deceleration.max(1) as u64;
-    // In thousandths of a unit per second, so that the square has the unit of twice deceleration times way.
+    // In thousandths of a unit per second, so that the square has the unit of twice the
+    // deceleration times the distance.
     let step = deceleration * STEP / 1000;
     let square = (2 * deceleration)
         .checked_mul(way)
         .and_then(|square| square.checked_add(step * step));
     let speed = match square {
         Some(square) => (square.isqrt() - step) * 1000,
-        // A long way: in whole units.
+        // For a long distance: in whole units.
         None => {
             let way = way / UNIT as u64;
             (2 * deceleration).saturating_mul(way).isqrt() * UNIT as u64
@@ -130,7 +133,8 @@ mod tests {
         deceleration: 500_000,
     };
 
-    /// Every step of the way to a target: acceleration and speed stay within the limits, and it does not overshoot.
+    /// In every step to a target, acceleration and speed stay within the limits, and the position
+    /// does not overshoot.
     #[test]
     fn a_way_keeps_its_limits_and_ends_at_the_target() {
         for way in [1, 7, 100, 9_999, 100_000, -3, -123_456, 40_000_000] {
@@ -159,7 +163,7 @@ mod tests {
     }
 
     #[test]
-    fn a_ramp_takes_its_time() {
+    fn a_ramp_has_the_expected_duration() {
         let mut motion = Motion::ZERO;
         for _ in 0..100 {
             motion.ramp(LIMITS.speed, LIMITS);

@@ -1,10 +1,10 @@
-//! The state machine of a drive (CiA 402, device control): 6040h leads from state to state, 6041h shows them.
+//! The state machine of a drive (CiA 402, device control), commanded by 6040h and shown by 6041h.
 
 /// Following error (CiA 402, error codes).
 pub(super) const FOLLOWING_ERROR: u16 = 0x8611;
-/// A contact of the operating unit opened: safe torque off.
+/// EMCY code of safe torque off: a contact of the operating unit opened.
 pub(super) const SAFE_TORQUE_OFF: u16 = 0x5441;
-/// Heartbeat or life guarding failed; the node itself sends this EMCY message.
+/// EMCY code of a failed heartbeat or life guarding; the node itself sends this message.
 pub(super) const LOST: u16 = 0x8130;
 
 /// State of an axis.
@@ -19,23 +19,23 @@ pub(super) enum State {
     Fault,
 }
 
-/// Command of the bits 0 to 3 and 7 of the controlword.
+/// Command in bits 0 to 3 and 7 of the controlword.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Command {
     DisableVoltage,
     QuickStop,
     Shutdown,
-    /// Also "disable operation": the bits are the same.
+    /// Also "disable operation", which has the same bits.
     SwitchOn,
     EnableOperation,
 }
 
-/// What a command does in a state.
+/// Effect of a command in a state.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Transition {
     /// At once.
     To(State),
-    /// A stop by an option code (605Ah, 605Bh, 605Ch) comes before it.
+    /// After a stop by an option code (605Ah, 605Bh, 605Ch).
     QuickStop,
     Shutdown,
     DisableOperation,
@@ -55,7 +55,7 @@ impl Command {
 }
 
 impl State {
-    /// Transitions 2 to 12 and 16; `None`: the command has no effect here.
+    /// Returns the transition (2 to 12 and 16); `None`: the command has no effect in this state.
     pub(super) const fn transition(self, command: Command) -> Option<Transition> {
         use Command::{DisableVoltage, EnableOperation, QuickStop, Shutdown, SwitchOn};
         use State::{
@@ -86,7 +86,7 @@ impl State {
         })
     }
 
-    /// Bits 0 to 3, 5 and 6 of the statusword, and bit 4: the supply of the power stage is there.
+    /// Bits 0 to 3, 5 and 6 of the statusword, and bit 4: the power stage has its supply.
     pub(super) const fn bits(self) -> u16 {
         0x10 | match self {
             Self::SwitchOnDisabled => 0x40,
@@ -99,7 +99,7 @@ impl State {
         }
     }
 
-    /// Returns whether the motor has torque: the demand leads it.
+    /// Returns whether the motor has torque, so that it follows the demand.
     pub(super) const fn has_torque(self) -> bool {
         matches!(
             self,

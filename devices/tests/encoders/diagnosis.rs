@@ -5,7 +5,7 @@ use odkit::nmt::State;
 
 use crate::bench::{Bench, OUT_OF_RANGE, SAVE};
 
-/// Code of 2116h, EMCY code, 1001h, 6503h, 6505h, 2117h; whether it lasts over a restart.
+/// Code of 2116h, EMCY code, 1001h, 6503h, 6505h, 2117h; whether the error lasts after a restart.
 type Row = (u32, u16, u8, u16, u16, u16, bool);
 
 const COMMON: [Row; 9] = [

@@ -90,7 +90,7 @@ fn eam_speed_starts_again_after_a_change_of_the_interval() {
 }
 
 #[test]
-fn a_change_of_the_position_value_is_no_speed() {
+fn a_change_of_the_position_value_is_not_a_speed() {
     for (name, speed) in [("eam_mt", 0x4000), ("en580c", 0x2000)] {
         let mut bench = Bench::new(name);
         bench.rpm(60_000);
@@ -105,7 +105,7 @@ fn a_change_of_the_position_value_is_no_speed() {
     }
 }
 
-/// 6000 revolutions a minute in one second are 100 revolutions a second squared, 100 × 2^16
+/// 6000 revolutions per minute in one second are 100 revolutions per second squared, 100 × 2^16
 /// steps of 16 bits.
 #[test]
 fn eam_the_example_of_the_manual() {

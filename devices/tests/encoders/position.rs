@@ -83,7 +83,7 @@ fn eam_6502h_follows_every_write() {
 }
 
 #[test]
-fn eam_range_of_four_steps_a_revolution_has_two_to_the_thirty_revolutions() {
+fn eam_range_of_four_steps_per_revolution_has_two_to_the_thirty_revolutions() {
     let mut bench = Bench::new("eam_mt");
     bench.write(0x6001, 0, 4).unwrap();
     assert_eq!(bench.read(0x6502, 0), 1 << 30);

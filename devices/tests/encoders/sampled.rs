@@ -143,7 +143,7 @@ fn a_shaft_that_jitters_is_within_a_step_per_interval() {
 }
 
 #[test]
-fn a_preset_or_a_new_resolution_is_no_movement() {
+fn a_preset_or_a_new_resolution_is_not_a_movement() {
     for (kind, interval) in with_speed() {
         let mut bench = bench(kind);
         for ms in 1..=2 * interval as i64 {
