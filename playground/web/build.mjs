@@ -94,7 +94,7 @@ async function questions(language, lessonOf) {
   return [...text.matchAll(/^## (\S+) (\d+)\n+([^]*?)\n*(?=^## |(?![^]))/gm)].map(([, name, step, question]) => {
     const lesson = lessonOf(name);
     const { answer, reveal } = lesson.steps[Number(step) - 1].quiz;
-    return { lesson: name, title: lesson.title, question, answer, reveal };
+    return { lesson: name, step: Number(step), title: lesson.title, question, answer, reveal };
   });
 }
 

@@ -50,6 +50,13 @@ check('the final test fails without answers, passes with ten of twelve, and prin
   await page.emulateMedia({ media: 'screen' });
 });
 
+check('a lesson asks without the recipe, which can be opened', { hash: '#lesson=nmt' }, async (page) => {
+  const quiz = page.locator('od-lesson .lesson-foot od-quiz');
+  await becomes('the question', () => quiz.locator('.question').innerText(), 'Which frame starts node 5, and only this node?');
+  await quiz.getByText('What you need for it').click();
+  await quiz.getByText('Its first byte is the command, 01h for').waitFor();
+});
+
 check('a lesson asks a question of one that is done again', async (page) => {
   await page.evaluate(() => localStorage.setItem('odkit.progress', JSON.stringify({ nmt: [4, 4, '2026-11-26'] })));
   // A fresh visit: the one that is left may still write its address.

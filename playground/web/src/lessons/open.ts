@@ -51,9 +51,11 @@ async function load(address: string): Promise<string> {
   return body.text();
 }
 
-/** A question without its recipe, with the answer of a lesson. */
+/** A question without its recipe, with the answer of a step of a lesson. */
 export interface Asked {
   lesson: string;
+  /** Step of the answer, counted from 1. */
+  step: number;
   /** Title of the lesson. */
   title: string;
   question: string;
@@ -72,6 +74,10 @@ export function questions(): Promise<Asked[]> {
   known.catch(() => asked.delete(file));
   return known;
 }
+
+/** The questions of a lesson without their recipe, by step, counted from 0. */
+export const shortOf = async (name: string): Promise<Map<number, string>> =>
+  new Map((await questions()).filter((one) => one.lesson === name).map((one) => [one.step - 1, one.question]));
 
 /** A question of a lesson that is done, for the beginning of another one; null if there is none. */
 export async function recalled(name: string): Promise<Asked | null> {

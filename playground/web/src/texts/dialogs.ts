@@ -56,6 +56,7 @@ export const dialogs = {
     show: 'Show me',
     showTitle: 'Does what this step asks for, on the bench',
     predict: 'Predict it',
+    recipe: 'What you need for it',
     answer: 'Your frame',
     answerHint: 'CAN-ID # bytes',
     check: 'Check',

@@ -7,7 +7,7 @@ import { effect } from '@preact/signals-core';
 import { leaveLesson, playScript, setRunning } from '../actions';
 import { language } from '../language';
 import { reached } from '../lessons/kept';
-import { again, backTo, following, lessons, openNamed, recalled, translated, words, type Asked, type Listed } from '../lessons/open';
+import { again, backTo, following, lessons, openNamed, recalled, shortOf, translated, words, type Asked, type Listed } from '../lessons/open';
 import { sheet } from '../sheet';
 import type { Lesson, LessonState } from '../sim/api';
 import * as state from '../state';
@@ -28,7 +28,7 @@ type Step = Lesson['steps'][number];
 const choose = (): void => void (state.lessonDialog.value = true);
 
 class LessonPanel extends View {
-  static override properties = { seen: { state: true }, hints: { state: true }, upNext: { state: true }, listed: { state: true }, recall: { state: true } };
+  static override properties = { seen: { state: true }, hints: { state: true }, upNext: { state: true }, listed: { state: true }, recall: { state: true }, short: { state: true } };
   /** The step that is shown: a completed step stays until the learner continues. */
   declare seen: number;
   declare hints: number;
@@ -38,6 +38,8 @@ class LessonPanel extends View {
   declare listed: Listed | null;
   /** A question of an earlier lesson. */
   declare recall: Asked | null;
+  /** Questions without their recipe, by step. */
+  declare short: Map<number, string>;
   /** Whether the solution was played for this step. */
   private isShown = false;
   private unfollow: (() => void) | undefined;
@@ -49,6 +51,7 @@ class LessonPanel extends View {
     this.upNext = null;
     this.listed = null;
     this.recall = null;
+    this.short = new Map();
   }
 
   override connectedCallback(): void {
@@ -57,6 +60,7 @@ class LessonPanel extends View {
       const { name, step } = state.lessonRun.value;
       this.seen = step;
       void lessons().then((list) => (this.listed = list.find((one) => one.name === name) ?? null), () => (this.listed = null));
+      void shortOf(name).then((short) => (this.short = short), () => (this.short = new Map()));
       void recalled(name).then((one) => (this.recall = one), () => (this.recall = null));
       this.hints = 0;
       this.isShown = false;
@@ -128,8 +132,9 @@ class LessonPanel extends View {
 
   private open(step: Step, number: number, progress: LessonState): TemplateResult {
     const t = D.lessons;
+    const lesson = state.lesson.value;
     const isLost = progress.step === number && progress.requirements.some(({ lost }) => lost);
-    return html`${step.quiz ? html`<od-quiz .quiz=${step.quiz}></od-quiz>` : nothing}
+    return html`${step.quiz ? html`<od-quiz .quiz=${step.quiz} .short=${lesson?.language === language() ? (this.short.get(number) ?? '') : ''}></od-quiz>` : nothing}
       <div class="asked"><ul class="checks" aria-live="polite" aria-label=${t.checks}>${progress.requirements.map(
         (one) => html`<li data-done=${one.holds}>${one.holds ? icons.tick : html`<i></i>`}<span><span class="sr">${one.holds ? t.isDone : t.isOpen}</span>${one.text}</span></li>`,
       )}</ul>

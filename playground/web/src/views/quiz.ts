@@ -20,13 +20,16 @@ function wrongParts(found: Judgement): string {
 export const spaced = (frame: string): string => frame.replace(/#(.*)/, (_, bytes: string) => `#${bytes.match(/..?/g)?.join(' ') ?? ''}`);
 
 class Quiz extends View {
-  static override properties = { quiz: { attribute: false }, said: { state: true }, isTold: { state: true } };
+  static override properties = { quiz: { attribute: false }, short: { attribute: false }, said: { state: true }, isTold: { state: true } };
   declare quiz: Asked;
+  /** The question without its recipe, which can be opened; empty if there is none. */
+  declare short: string;
   declare said: string;
   declare isTold: boolean;
 
   constructor() {
     super();
+    this.short = '';
     this.said = '';
     this.isTold = false;
   }
@@ -45,7 +48,8 @@ class Quiz extends View {
     const t = D.lessons;
     return html`<form class="quiz" @submit=${(event: Event) => void this.check(event)}>
       <h4>${t.predict}</h4>
-      <div class="prose question">${markdown(this.quiz.question)}</div>
+      <div class="prose question">${markdown(this.short || this.quiz.question)}</div>
+      ${this.short ? html`<details><summary>${t.recipe}</summary><div class="prose">${markdown(this.quiz.question)}</div></details>` : nothing}
       ${this.isTold
         ? nothing
         : html`<div class="button-row"><input class="mono" aria-label=${t.answer} placeholder=${t.answerHint} autocomplete="off" spellcheck="false">

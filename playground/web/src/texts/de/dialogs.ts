@@ -59,6 +59,7 @@ export const dialogs = {
     show: 'Vorführen',
     showTitle: 'Führt am Aufbau aus, was dieser Schritt verlangt',
     predict: 'Sag es voraus',
+    recipe: 'Was du dafür brauchst',
     answer: 'Dein Frame',
     answerHint: 'CAN-ID # Bytes',
     check: 'Prüfen',
