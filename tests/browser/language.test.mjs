@@ -38,7 +38,8 @@ check('a German browser gets the page and a lesson in German, and can change to 
 check('a link chooses the language, which stays', { hash: '?lang=de', own: true }, async (page) => {
   await inGerman(page);
   await becomes('the title', () => page.title(), /odkit/);
-  await page.goto(URL_OF_PAGE);
+  // A language that the page does not have changes nothing.
+  await page.goto(new URL('?lang=fr', URL_OF_PAGE).href);
   await inGerman(page);
   // Views that are loaded on request are German, too, and change while they are open.
   await page.getByRole('button', { name: 'Tasten' }).click();

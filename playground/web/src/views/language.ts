@@ -24,6 +24,8 @@ async function change(): Promise<void> {
     address.hash = String(parts);
   }
   history.replaceState(null, '', address);
+  // A frame in another page stores nothing.
+  if ('embed' in document.documentElement.dataset) return;
   try {
     localStorage.setItem('odkit.lang', chosen);
   } catch {
