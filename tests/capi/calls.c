@@ -1,6 +1,7 @@
 /* What the functions answer to right and wrong calls, in C99; `calls.cpp` is the same in C++.
  *
  * The device is firmware/eds/ds301.eds+tests/capi/all.overlay. */
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -215,6 +216,8 @@ static void values(void)
     CHECK(odkit_get_f32(ODKIT_NODE, OD_RATIO, &ratio) == ODKIT_OK && ratio == 0.5f);
     CHECK(odkit_set_f32(ODKIT_NODE, 0, OD_RATIO, -1.25f) == ODKIT_OK);
     CHECK(odkit_get_f32(ODKIT_NODE, OD_RATIO, &ratio) == ODKIT_OK && ratio == -1.25f);
+    CHECK(odkit_set_f32(ODKIT_NODE, 0, OD_RATIO, 2.5f) == ODKIT_ABORT_TOO_HIGH);
+    CHECK(odkit_set_f32(ODKIT_NODE, 0, OD_RATIO, NAN) == ODKIT_ABORT_VALUE);
     CHECK(odkit_get_f32(ODKIT_NODE, HEARTBEAT, &ratio) == ODKIT_TYPE);
     CHECK(odkit_set_f32(ODKIT_NODE, 0, OD_DISTANCE, 1.0f) == ODKIT_TYPE);
     CHECK(odkit_get_f32(ODKIT_NODE, OD_RATIO, NULL) == ODKIT_NULL);

@@ -13,7 +13,7 @@ pub(crate) enum Outside {
     Above,
     /// Below the lower limit.
     Below,
-    /// A BOOLEAN that is neither 0 nor 1.
+    /// A BOOLEAN that is neither 0 nor 1, or a REAL that is not a number although it has limits.
     NotAllowed,
     /// A REAL with a length other than 4 or 8 bytes.
     Length,
@@ -45,6 +45,9 @@ pub(crate) fn check_with(
     }
 }
 
+/// Bits of an infinite REAL64. Those of what is not a number are above, without the sign.
+const REAL64_INFINITE: u64 = 0x7FF << 52;
+
 /// Compares a number with its limits.
 #[inline]
 fn compare(
@@ -60,10 +63,14 @@ fn compare(
     let above = if is_negative { u64::MAX } else { 0 };
     let digits = bytes.iter().take(8).rev();
     let mut value = digits.fold(above, |number, byte| number << 8 | u64::from(*byte));
-    if let Some(reals) = reals
-        && bytes.len() == 4
-    {
-        value = (reals.widened)(value as u32);
+    if let Some(reals) = reals {
+        if bytes.len() == 4 {
+            value = (reals.widened)(value as u32);
+        }
+        // Not a number: no limit would stop it.
+        if value << 1 > REAL64_INFINITE << 1 {
+            return Err(Outside::NotAllowed);
+        }
     }
     // The limits of an entry have its type, so both sides compare in the same order.
     let sign = if is_signed { 1 << 63 } else { 0 };

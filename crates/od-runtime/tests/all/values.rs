@@ -50,6 +50,7 @@ fn write(bench: &mut Bench, bytes: &[u8]) -> String {
 
 const TOO_HIGH: &str = "31000906";
 const TOO_LOW: &str = "32000906";
+const NOT_ALLOWED: &str = "30000906";
 
 #[test]
 fn signed_numbers_of_each_length_have_their_limits() {
@@ -96,6 +97,11 @@ fn reals_of_both_lengths_have_their_limits() {
         (2.75, TOO_HIGH),
         (1e30, TOO_HIGH),
         (-1e30, TOO_LOW),
+        (f32::INFINITY, TOO_HIGH),
+        (f32::NEG_INFINITY, TOO_LOW),
+        // What is not a number is not between the limits.
+        (f32::NAN, NOT_ALLOWED),
+        (-f32::NAN, NOT_ALLOWED),
     ] {
         assert_eq!(write(&mut single, &value.to_le_bytes()), answer, "{value}");
         let wide = f64::from(value).to_le_bytes();
