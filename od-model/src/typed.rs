@@ -198,6 +198,13 @@ impl<T, A, M> PartialEq<Var<T, A, M>> for Address {
     }
 }
 
+/// A handle of a text is compared like that of a number.
+impl<A> PartialEq<Text<A>> for Address {
+    fn eq(&self, other: &Text<A>) -> bool {
+        *self == other.address
+    }
+}
+
 impl<T, A, M> Var<T, A, M> {
     /// For generated code: the handle of the entry at `address`, `bits` long in a PDO.
     pub const fn new(address: Address, slot: Slot, bits: u8) -> Self {

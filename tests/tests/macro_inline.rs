@@ -67,6 +67,8 @@ fn an_address_is_matched_against_handles() {
     assert_eq!(name(0x2102, 0), "key");
     assert_eq!(name(0x1018, 2), "other");
     assert_eq!(name(0x6004, 1), "other");
+    assert!(Address::new(0x6004, 0) == bench::POSITION && Address::new(0x2102, 0) == bench::KEY);
+    assert!(Address::new(0x6004, 1) != bench::POSITION && Address::new(0x2102, 1) != bench::KEY);
 }
 
 #[test]
