@@ -21,7 +21,14 @@ struct Node {
     files: String,
 }
 
-fn main() -> Result<()> {
+fn main() {
+    // Cargo shows this line, and not all that the program printed.
+    if let Err(error) = run() {
+        println!("cargo::error={error}");
+    }
+}
+
+fn run() -> Result<()> {
     println!("cargo::rerun-if-env-changed=ODKIT_EDS");
     println!("cargo::rerun-if-env-changed=ODKIT_WITHOUT");
     let nodes = nodes(&std::env::var("ODKIT_EDS").unwrap_or_else(|_| String::from(EXAMPLE)))?;
