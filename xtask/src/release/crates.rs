@@ -34,3 +34,46 @@ pub(crate) fn pack(repo: &Repo, console: &Console) -> Result<Vec<PathBuf>> {
     }
     Ok(files)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// crates.io, docs.rs and `cargo binstall` read them.
+    #[test]
+    fn a_published_crate_names_repository_and_documentation() {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+        let manifest =
+            |folder: &Path| fs::read_to_string(folder.join("Cargo.toml")).unwrap_or_default();
+        let mut folders = files::entries(&root.join("crates")).unwrap_or_default();
+        folders.extend(["od-model", "od-macros", "devices"].map(|name| root.join(name)));
+        let mut count = 0;
+        for folder in folders {
+            let text = manifest(&folder);
+            let has = |line: &str| text.contains(&format!("\n{line}"));
+            assert!(has("repository.workspace = true\n"), "{}", folder.display());
+            assert!(
+                has("documentation = \"https://docs.rs/"),
+                "{}",
+                folder.display()
+            );
+            // docs.rs shows what needs a feature, and which one.
+            if has("[features]\n") {
+                let library = fs::read_to_string(folder.join("src/lib.rs")).unwrap_or_default();
+                assert!(
+                    has("[package.metadata.docs.rs]\nall-features = true\n"),
+                    "{}",
+                    folder.display()
+                );
+                assert!(
+                    library.contains("#![cfg_attr(docsrs, feature(doc_cfg))]"),
+                    "{}",
+                    folder.display()
+                );
+            }
+            count += 1;
+        }
+        assert!(count > 12);
+        assert!(manifest(&root).contains("\nrepository = "));
+    }
+}
