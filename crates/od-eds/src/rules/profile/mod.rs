@@ -3,14 +3,14 @@
 pub(crate) mod shared;
 
 catalogue! {
-    w0901_io_channel_objects_missing W0901
-    w0902_drive_modes_missing W0902
-    w0903_measuring_objects_missing W0903
-    w0904_encoder_object_missing W0904
+    missing W0901
+    missing W0902
+    missing W0903
+    missing W0904
     overview W0905
     overview W0906
     overview E0907
-    e0908_drive_without_control E0908
+    missing E0908
     w0909_drive_mode_object_missing W0909
     w0910_drive_start_mode W0910
     w0911_drive_limits W0911
@@ -37,13 +37,9 @@ catalogue! {
     w0963_position_not_mapped W0963
 }
 
-pub(crate) mod e0908_drive_without_control;
 pub(crate) mod e0916_drive_sub_object_missing;
+pub(crate) mod missing;
 pub(crate) mod overview;
-pub(crate) mod w0901_io_channel_objects_missing;
-pub(crate) mod w0902_drive_modes_missing;
-pub(crate) mod w0903_measuring_objects_missing;
-pub(crate) mod w0904_encoder_object_missing;
 pub(crate) mod w0909_drive_mode_object_missing;
 pub(crate) mod w0910_drive_start_mode;
 pub(crate) mod w0911_drive_limits;

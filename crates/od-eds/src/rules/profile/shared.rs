@@ -3,8 +3,6 @@
 use od_model::{Address, DataType, ObjectCode};
 
 use crate::description::Description;
-use crate::fact::Fact;
-use crate::finding::{Finding, Rule};
 use crate::span::Spanned;
 use crate::standards::{Checked, checked};
 use crate::subject::{Object, start_number};
@@ -53,23 +51,6 @@ pub(super) const IO_BLOCKS: [(u32, &[u16], &str); 4] = [
         "analogue outputs",
     ),
 ];
-
-/// The finding about a mandatory object that is missing; one of these is enough.
-pub(super) fn need(
-    rule: &'static Rule,
-    description: &Description,
-    any_of: &[u16],
-    what: &'static str,
-) -> Option<Finding> {
-    let exists = |index: &u16| description.objects.contains_key(index);
-    let first = any_of.first().filter(|_| !any_of.iter().any(exists))?;
-    let device_type = start_number(description, Address::new(0x1000, 0));
-    let objects = any_of.iter().map(|index| Fact::Index(*index)).collect();
-    let finding = rule.at(device_type.map(|number| number.span).unwrap_or_default());
-    let finding = finding.about(Address::new(*first, 0)).fact("what", what);
-    let finding = finding.fact("objects", Fact::OneOf(objects));
-    Some(finding.fact("missing", Fact::Section(*first, None)))
-}
 
 /// Does the profile of the device specify an ARRAY here?
 pub(crate) fn is_profile_array(object: &Object<'_>) -> bool {

@@ -30,8 +30,8 @@ catalogue! {
     w0647_reserved_index W0647
     w0648_reserved_value W0648
     w0649_sync_contradiction W0649
-    e0650_consumer_watches_twice E0650
-    w0651_consumer_watches_nobody W0651
+    heartbeat_consumers E0650
+    heartbeat_consumers W0651
     w0653_commissioning_incomplete W0653
     w0655_error_register_not_0 W0655
     w0656_guarding_and_heartbeat W0656
@@ -43,7 +43,7 @@ catalogue! {
 pub(crate) mod e0606_identity_differs;
 pub(crate) mod e0643_access_missing;
 pub(crate) mod e0646_node_id_not_valid;
-pub(crate) mod e0650_consumer_watches_twice;
+pub(crate) mod heartbeat_consumers;
 pub(crate) mod i0657_vendor_id_0;
 pub(crate) mod mandatory;
 pub(crate) mod reader;
@@ -63,7 +63,6 @@ pub(crate) mod w0644_mappable;
 pub(crate) mod w0647_reserved_index;
 pub(crate) mod w0648_reserved_value;
 pub(crate) mod w0649_sync_contradiction;
-pub(crate) mod w0651_consumer_watches_nobody;
 pub(crate) mod w0653_commissioning_incomplete;
 pub(crate) mod w0655_error_register_not_0;
 pub(crate) mod w0656_guarding_and_heartbeat;

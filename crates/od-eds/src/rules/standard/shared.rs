@@ -1,4 +1,4 @@
-//! Findings that the rules about 1000h, 1001h and 1018h share.
+//! What the rules about standard objects share.
 
 use alloc::format;
 
@@ -8,8 +8,7 @@ use crate::description::{Description, Section};
 use crate::fact::{Fact, Key};
 use crate::finding::{Finding, Rule};
 use crate::fix::Fix;
-use crate::span::Span;
-use crate::subject::{Entry, Object, start_number};
+use crate::subject::{Entry, Object};
 
 /// The value of an object without sub-objects.
 pub(super) fn value<'a>(object: &Object<'a>) -> Option<Entry<'a>> {
@@ -42,21 +41,6 @@ pub(super) fn data_type(
     let finding = rule.on(entry, given.span).key(Key::DataType);
     let finding = finding.fact("object", entry.shown());
     Some(finding.fact("right", right).fact("given", *given).fix(fix))
-}
-
-/// The entries of 1016h that have a heartbeat time, with their node IDs.
-pub(super) fn consumers<'a>(
-    object: &Object<'a>,
-) -> impl Iterator<Item = (Entry<'a>, Span, u8)> + use<'a> {
-    let is_consumer = object.index == 0x1016;
-    let entries = object.entries();
-    entries.filter_map(move |entry| {
-        let used = is_consumer && (1..=127).contains(&entry.address.sub);
-        let number = start_number(entry.description, entry.address).filter(|_| used)?;
-        let span = number.span.or(entry.span);
-        let [low, high, node, _] = u32::try_from(number.value).ok()?.to_le_bytes();
-        (low != 0 || high != 0).then_some((entry, span, node))
-    })
 }
 
 /// `[DeviceComissioning]`, in either spelling.
