@@ -42,6 +42,8 @@ mod lesson;
 mod logs;
 mod objects;
 mod packed;
+#[cfg(feature = "pins")]
+mod pins;
 #[cfg(feature = "eds")]
 mod places;
 #[cfg(feature = "real")]

@@ -170,8 +170,9 @@ export class Engine {
         world.transfer(command);
         break;
       case 'ask': {
-        const ask = world.bus[command.name] as (...args: unknown[]) => unknown;
-        this.answer(command.ticket, command.calls.map((args) => ask.apply(world.bus, args)));
+        // The first module does not have all of them.
+        const ask = world.bus[command.name] as ((...args: unknown[]) => unknown) | undefined;
+        this.answer(command.ticket, command.calls.map((args) => ask?.apply(world.bus, args)));
         return;
       }
       case 'tool':

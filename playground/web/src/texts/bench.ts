@@ -78,7 +78,6 @@ export const bench = {
       lowFirst: 'low byte first',
       whenOperational: 'when Operational',
     },
-    noShaft: 'This device has no shaft. Its EDS file defines its objects.',
     profile: 'Motion',
     steady: 'Steady speed',
     own: 'Own profile …',

@@ -45,7 +45,7 @@ export const page = {
     edit: (name: string) => `Edit the EDS of ${name}`,
     replaced: (before: string, after: string) => `${after} takes the place of ${before}. Its EEPROM is that of a new device.`,
     undo: (name: string) => `Undo: back to ${name}`,
-    kind: (title: string) => `Absolute encoder, ${title}`,
+    kind: (title: string) => (/CiA/.test(title) ? title : `Absolute encoder, ${title}`),
     families: { en: 'EN580C: optical', eam: 'EAM: magnetic', g: 'With bus cover: rotary and DIP switches, status lamp' } as Record<string, string>,
     others: 'Others',
     anyway: 'Run anyway',

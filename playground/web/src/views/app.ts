@@ -57,6 +57,9 @@ class App extends View {
       if (state.lesson.value) void import('./lesson');
     });
     effect(() => {
+      if (state.status.value?.shaft === null) void import('../machine/panel');
+    });
+    effect(() => {
       if (state.tour.value !== null) void import('./tour');
     });
     effect(() => {

@@ -73,7 +73,7 @@ class Encoder extends View {
         </button>
       </header>
       <div class="parts" role="group" aria-label=${T.encoder.tabsLabel}>
-        ${(Object.keys(T.encoder.tabs) as Part[]).map((part) => html`<button class="small" aria-pressed=${part === this.shown} @click=${() => this.show(part)}>${T.encoder.tabs[part]}${part === 'eeprom' && state.unsaved.value.size ? html`<span class="count-badge" title=${T.eeprom.unsaved(state.unsaved.value.size)}>${state.unsaved.value.size}</span>` : nothing}${part === 'hardware' && this.waits() ? html`<span class="count-badge" title=${T.hardware.waitsTitle}>!</span>` : part === 'hardware' && this.isOdd() ? html`<span class="alert-dot"></span>` : nothing}</button>`)}
+        ${(Object.keys(T.encoder.tabs) as Part[]).map((part) => html`<button class="small" aria-pressed=${part === this.shown} @click=${() => this.show(part)}>${hasShaft || part !== 'shaft' ? T.encoder.tabs[part] : deviceWord()}${part === 'eeprom' && state.unsaved.value.size ? html`<span class="count-badge" title=${T.eeprom.unsaved(state.unsaved.value.size)}>${state.unsaved.value.size}</span>` : nothing}${part === 'hardware' && this.waits() ? html`<span class="count-badge" title=${T.hardware.waitsTitle}>!</span>` : part === 'hardware' && this.isOdd() ? html`<span class="alert-dot"></span>` : nothing}</button>`)}
       </div>
       ${this.shown === 'hardware' ? html`<od-hardware></od-hardware>` : this.shown === 'eeprom' ? html`<od-eeprom></od-eeprom>` : this.shaftPart(hasShaft)}
     `;
@@ -96,14 +96,12 @@ class Encoder extends View {
   }
 
   private shaftPart(hasShaft: boolean): TemplateResult {
+    if (!hasShaft) return html`<od-machine></od-machine>`;
     return html`<div class="encoder-body">
-        ${hasShaft ? html`<od-shaft></od-shaft>` : html`<p class="empty">${T.encoder.noShaft}</p>`}
-        <div class="readouts">
-          ${hasShaft ? html`<od-angle></od-angle>${this.rpm()}${this.motion()}` : nothing}
-          <od-leds></od-leds>
-        </div>
+        <od-shaft></od-shaft>
+        <div class="readouts"><od-angle></od-angle>${this.rpm()}${this.motion()}<od-leds></od-leds></div>
       </div>
-      ${hasShaft ? html`<od-chain></od-chain>` : nothing}`;
+      <od-chain></od-chain>`;
   }
 
   private motion(): TemplateResult {

@@ -78,7 +78,6 @@ export const bench = {
       lowFirst: 'niederwertiges Byte zuerst',
       whenOperational: 'wenn Operational',
     },
-    noShaft: 'Dieses Gerät hat keine Welle. Seine EDS-Datei legt seine Objekte fest.',
     profile: 'Bewegung',
     steady: 'Feste Drehzahl',
     own: 'Eigenes Profil …',
