@@ -140,6 +140,10 @@ fn faults_of_edits() -> Vec<Finding> {
             .name("a")
             .data_type(DataType::Domain)
             .mappable(true),
+        Edit::add(object(0x2005))
+            .name("a")
+            .data_type(DataType::VisibleString)
+            .low(number()),
         Edit::add(object(0))
             .name("a")
             .data_type(DataType::Unsigned8),
