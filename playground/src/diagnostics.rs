@@ -26,7 +26,7 @@ record! {
         message: String,
         /// Help; empty if the message contains it.
         help: String,
-        /// Counted from 1; 0 if something is missing.
+        /// Line number, counted from 1; 0 if the finding is about something that is missing.
         line: u32,
         column: u32,
         /// The object it is about, such as `6004h`, or empty.
@@ -36,7 +36,7 @@ record! {
     }
 }
 
-/// A sentence.
+/// A message without a place in a text.
 pub(crate) fn message(text: &str) -> Diagnostic {
     plain(text, "", 0, 0)
 }

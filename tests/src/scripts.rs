@@ -1,8 +1,8 @@
 //! Finds the conformance scripts and parses their first lines.
 //!
-//! A script begins with a comment: its source, a colon and a blank, and its rule; the rule
-//! goes on to the end of the comment. One more comment line, `# Devices: gxmm eam_mt`, names
-//! the devices that a script without a `device` line is played on.
+//! A script begins with a comment: its source, a colon and a space, and then its rule up to the end
+//! of the comment. One more comment line, `# Devices: gxmm eam_mt`, names the devices on which a
+//! script without a `device` line is run.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -76,7 +76,7 @@ pub struct Header {
     pub source: String,
     /// The rule that the script shows.
     pub rule: String,
-    /// The devices that it is played on; empty if it has a `device` line.
+    /// The devices on which it is run; empty if it has a `device` line.
     pub devices: Vec<String>,
 }
 

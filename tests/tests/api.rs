@@ -1,8 +1,9 @@
 //! `tests/api`: the public items of each library crate, so that a review sees every change of them.
 //!
-//! rustdoc lists the items as JSON, whose format changes with the compiler: `public-api` reads what the compiler of
-//! `rust-toolchain.toml` writes, so that a new compiler needs another version of it. The output counts as unstable;
-//! `RUSTC_BOOTSTRAP` allows it. `ODKIT_ACCEPT=1 cargo test -p od-tests --test api` writes the lists again.
+//! rustdoc lists the items as JSON, and the format changes with the compiler. `public-api` reads
+//! the output of the compiler in `rust-toolchain.toml`, so a new compiler needs a new version of
+//! it. The output is unstable; `RUSTC_BOOTSTRAP` allows it. `ODKIT_ACCEPT=1 cargo test -p od-tests
+//! --test api` writes the lists again.
 
 use std::fs;
 use std::path::Path;
@@ -27,7 +28,7 @@ const CRATES: [&str; 10] = [
 #[test]
 fn public_items_are_those_of_the_lists() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-    // A folder of its own: with `RUSTC_BOOTSTRAP` cargo would build the dependencies again.
+    // A separate folder: because of `RUSTC_BOOTSTRAP` cargo would build the dependencies again.
     let target = root.join("target/api");
     let mut cargo = Command::new(env!("CARGO"));
     cargo.args(["doc", "--quiet", "--no-deps", "--lib", "--all-features"]);

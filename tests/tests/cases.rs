@@ -119,10 +119,10 @@ fn each_file_of_our_corpus_shows_its_trait() {
     assert!(traits.len() >= 60, "{} files", traits.len());
 }
 
-/// Flipped bytes, cut and doubled lines: never a panic, and a written text reads the same.
-/// `ODKIT_ROUNDS` sets the number of rounds.
+/// Flipped bytes, cut and doubled lines: there is never a panic, and a written text is read with
+/// the same result. `ODKIT_ROUNDS` sets the number of rounds.
 #[test]
-fn broken_texts_are_read_too() {
+fn broken_texts_are_read_without_a_panic() {
     let texts: Vec<String> = cases()
         .into_iter()
         .map(|case| case.document.text().into())
@@ -281,7 +281,7 @@ fn rendered(document: &Document) -> String {
     out
 }
 
-/// The lines that are only in one of two texts.
+/// The lines that only one of two texts has.
 fn difference(accepted: &str, found: &str) -> String {
     let mut out = String::new();
     for (sign, a, b) in [('-', accepted, found), ('+', found, accepted)] {

@@ -90,7 +90,7 @@ fn find(document: &Document) -> Vec<Finding> {
     document.load().findings
 }
 
-/// A rule says whether its findings have fixes, and they do.
+/// The findings of a rule have fixes exactly if the rule says so.
 #[test]
 fn fixes_are_those_that_the_rule_announces() {
     let mut faults = Vec::new();
@@ -140,7 +140,7 @@ fn fixes_of_the_corpus_keep_the_objects() {
     assert!(files.len() >= 150);
     corpus::each(&files, |path| {
         let name = path.display();
-        // Without optimisation the large ones take minutes, and test nothing else.
+        // Without optimisation, the large devices take minutes and add no case.
         let large = fs::metadata(path).is_ok_and(|meta| meta.len() > 40_000);
         if cfg!(debug_assertions) && large {
             return;

@@ -10,7 +10,7 @@ const GROUPS: [&str; 5] = ["C-GX-", "C-EAM-", "C-EN-", "C-X-", "U-"];
 const TEXTS: [&str; 12] = [
     "rs", "script", "py", "ts", "mjs", "md", "txt", "toml", "eds", "c", "h", "yml",
 ];
-/// Folders with files that are made, or that are others' work.
+/// Folders with generated files or with files of others.
 const MADE: [&str; 6] = [
     "target",
     "node_modules",
@@ -39,7 +39,7 @@ fn texts(folder: &Path, found: &mut Vec<(PathBuf, String)>) {
             .iter()
             .any(|ending| path.extension().is_some_and(|own| own == *ending))
         {
-            // A file of a test may have another encoding; such a file cites nothing.
+            // A file of a test may have another encoding; it cites nothing.
             if let Ok(text) = fs::read_to_string(&path) {
                 found.push((path, text));
             }

@@ -1,4 +1,4 @@
-//! docs/COMPLIANCE.md: each clause that a node carries out, its code, and the scripts that show it.
+//! docs/COMPLIANCE.md: each clause that a node implements, its code, and the scripts that show it.
 //!
 //! `tests/conformance/clauses.txt` lists the clauses. Code names a clause in its documentation
 //! (`/// CiA 301, 7.2.4.3.3`), a script in its first lines, and a case of `odkit conform` as its clause.
@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 
 use od_tests::scripts::{self, Header, cell, compare_page};
 
-/// Rooms whose code carries out clauses: the node, its frames, and a master.
+/// Crates whose code implements clauses: the node, its frames, and a master.
 const CODE: [&str; 4] = [
     "crates/od-wire/src",
     "crates/od-runtime/src",
@@ -27,7 +27,7 @@ const DOCUMENTS: [&str; 6] = [
     "Manual 001",
     "Manual 003",
 ];
-/// Chapters of the manuals that describe the objects from this index on.
+/// Chapters of the manuals, each with the index of its first object.
 const OBJECTS: [(&str, u32, &str); 7] = [
     ("Manual 000", 0x1000, "4.4.2"),
     ("Manual 001", 0x6000, "12.3"),
@@ -37,7 +37,7 @@ const OBJECTS: [(&str, u32, &str); 7] = [
     ("Manual 003", 0x2000, "7.1.2"),
     ("Manual 003", 0x1000, "7.1.1"),
 ];
-/// Links of a cell; more are counted.
+/// Maximum number of links in a cell; further ones are only counted.
 const SHOWN: usize = 8;
 
 /// A clause of a document.
@@ -51,7 +51,7 @@ struct Place {
 struct Clause {
     place: Place,
     subject: String,
-    /// Reason why no script shows it; empty if one does.
+    /// Reason why no script shows it; empty if a script does.
     reason: String,
 }
 
@@ -149,7 +149,7 @@ fn between(first: &str, last: &str) -> Vec<String> {
     }
 }
 
-/// Where clauses are carried out or shown, as Markdown.
+/// Where clauses are implemented or shown, as Markdown.
 #[derive(Default)]
 struct Evidence(BTreeMap<Place, Vec<String>>);
 
@@ -348,7 +348,7 @@ fn links(all: &[&str]) -> String {
     text
 }
 
-/// The page, and everything that is not as it should be.
+/// The page and all its faults.
 fn page() -> (String, Vec<String>) {
     let clauses = clauses();
     let (code, scripts) = (carried_out(&clauses), shown(&clauses));

@@ -1,7 +1,7 @@
 //! Runs every script under `tests/conformance`; all its expectations must hold.
 //!
 //! A new case is a new file. `odkit run --echo tests/conformance/…/x.script` shows its frames.
-//! A script with a line `# Devices: a b` and no `device` line is played on each of them.
+//! A script with a line `# Devices: a b` and no `device` line is run on each of them.
 
 use od_model::Refused;
 use std::fs;

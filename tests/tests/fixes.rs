@@ -1,4 +1,4 @@
-//! Fixes that do harm are held back one by one; all others are applied.
+//! Harmful fixes are left out one by one; all others are applied.
 
 use od_eds::fix::{Applicability, Fixed, Why, fix};
 use od_eds::{Document, Finding, Severity};
@@ -41,7 +41,7 @@ fn fixes_that_undo_each_other_leave_the_text_as_it_was() {
 }
 
 #[test]
-fn one_fix_that_adds_an_error_holds_back_no_other() {
+fn a_fix_that_adds_an_error_is_left_out_alone() {
     let mut text = String::new();
     for index in 0x2000..0x2200 {
         text += &format!("[{index:04X}]\nParameterName=a\nDataType:7\nAccessType=rw\n");
@@ -86,7 +86,7 @@ fn one_fix_that_adds_an_error_holds_back_no_other() {
 }
 
 #[test]
-fn a_character_that_the_file_lacks_holds_back_its_own_fix() {
+fn a_fix_with_a_character_that_the_file_cannot_have_is_left_out() {
     // As above: the fix that adds a character is made up, the others are real.
     let document = Document::new(&b"[2000]\nParameterName=\xB5\nDataType:7\nAccessType:rw\n"[..]);
     let odd = |document: &Document| {
@@ -123,7 +123,7 @@ fn the_values_of_the_vendor_are_kept() {
 }
 
 #[test]
-fn junk_beyond_the_limit_of_a_report_is_fixed_too() {
+fn bad_lines_beyond_the_limit_of_a_report_are_fixed_too() {
     let done = fixed("junk\n".repeat(25_000).as_bytes(), Applicability::Safe);
     assert_eq!((done.edits, done.held.len()), (25_000, 0));
 }

@@ -1,4 +1,4 @@
-//! Texts that are made to be slow or large: memory and time grow with their length only.
+//! Texts made to be slow or large: memory and time grow only with their length.
 
 use od_eds::{Parsed, load, parse};
 
@@ -74,7 +74,7 @@ fn a_text_that_claims_millions_of_sub_objects_gets_fifty_thousand() {
     assert_eq!(count(&parse(&lines("", 190, array)), "E0353"), 0);
 }
 
-/// What is behind the limit is ignored, and the finding is where it begins.
+/// Everything after the limit is ignored, and the finding is at the first ignored line.
 #[test]
 fn a_text_has_fifty_thousand_sections() {
     for (text, line, part) in [
@@ -105,7 +105,8 @@ fn a_text_has_fifty_thousand_sections() {
     assert_eq!(count(&parse(&most), "E0119"), 0);
 }
 
-/// Processor time of this thread in hundredths of a second; `None` on a system that does not tell it.
+/// Processor time of this thread in hundredths of a second; `None` if the system does not provide
+/// it.
 fn processor_time() -> Option<u64> {
     let text = std::fs::read_to_string("/proc/thread-self/stat").ok()?;
     let fields: Vec<&str> = text.rsplit(')').next()?.split_whitespace().collect();
@@ -113,7 +114,7 @@ fn processor_time() -> Option<u64> {
     Some(number(11)? + number(12)?)
 }
 
-/// Each text is larger than any device file; the largest file that odkit reads whole is among them.
+/// Each text is larger than any device file. One is the largest file that odkit reads completely.
 #[test]
 fn time_grows_with_the_length_of_a_text() {
     let attributes = |sign: &str| -> String {

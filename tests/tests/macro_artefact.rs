@@ -18,10 +18,10 @@ fn contains(bytes: &[u8], text: &str) -> bool {
         .any(|part| part == text.as_bytes())
 }
 
-/// The names are found, so the search works; the text of the file is not in the binary.
+/// The names are found, so the search works. The text of the file is not in the binary.
 #[test]
 fn no_text_of_the_file_is_in_the_binary() {
-    // Reversed, or this test would find itself.
+    // Reversed; otherwise the test would find itself.
     let backwards = |text: &str| text.chars().rev().collect::<String>();
     let comment = backwards("YRANIB EHT HCAER TON TSUM TNEMMOC SIHT");
     let key = backwards("sde.llams=emaNeliF");

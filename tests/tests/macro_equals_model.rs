@@ -1,5 +1,5 @@
-//! The macro makes of a file at compile time the same dictionary as `od-model` makes of the
-//! same text at run time, object by object; for all EDS files of the project.
+//! For each EDS file of the project, the macro at compile time and `od-model` at run time make the
+//! same dictionary from the same text, compared object by object.
 //!
 //! A file without a line below fails [`no_file_is_forgotten`].
 

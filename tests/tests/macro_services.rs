@@ -46,7 +46,7 @@ type Small<D> = Node<D, NoApplication, NoStorage>;
 #[test]
 fn a_service_that_is_off_uses_no_ram() {
     use core::mem::size_of;
-    // An error takes 8 bytes while it is active, and 10 until the node knows of it.
+    // An error takes 8 bytes while it is active, and 10 until the node has processed it.
     assert!(size_of::<Small<full::Device>>() - size_of::<Small<few::Device>>() >= 30 * 18);
     assert!(size_of::<Small<full::Device>>() - size_of::<Small<lean::Device>>() > 150);
 }

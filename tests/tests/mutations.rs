@@ -12,7 +12,8 @@ use od_eds::Document;
 use od_eds::Tables;
 use od_tests::corpus;
 
-/// A device file of half a megabyte takes a tenth of this in a build without optimisation.
+/// Time limit for a file. In a build without optimisation, a device file of half a megabyte takes
+/// a tenth of it.
 const PATIENCE: Duration = Duration::from_secs(20);
 
 #[test]
@@ -151,7 +152,7 @@ fn illegal(lines: &[&str], at: usize, random: &mut Xorshift) -> Option<String> {
         (key.eq_ignore_ascii_case("SubNumber") || key.eq_ignore_ascii_case("CompactSubObj"))
             && !matches!(value.trim(), "" | "0")
     }) || keys().any(|(key, value)| {
-        // An ARRAY or a RECORD has no value of its own, with or without sub-objects.
+        // An ARRAY or a RECORD has no value itself, with or without sub-objects.
         let code = value.split([';', '#']).next().unwrap_or("").trim();
         key.trim().eq_ignore_ascii_case("ObjectType")
             && ["6", "8", "9"]

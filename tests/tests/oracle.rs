@@ -1,8 +1,8 @@
-//! An independent parser against ours: rust-ini reads every section of every case file and of
-//! the corpus, and finds the same keys and values.
+//! An independent parser: rust-ini reads every section of every case file and of the corpus, and
+//! must find the same keys and values as odkit.
 //!
-//! rust-ini reads a section as it is written. If a line of it is not plain INI the two may
-//! differ, but then a finding of odkit is about this section; nothing else is skipped.
+//! rust-ini reads a section as it is written. If a line of a section is not plain INI, the two may
+//! differ, but then odkit has a finding about this section. Nothing else is skipped.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -116,7 +116,7 @@ fn compare(name: &str, text: &str, sums: &mut Sums) {
         return;
     }
     let chunks = chunks(text);
-    // No section of this name describes an object, so a description keeps it completely.
+    // No section of this name describes an object, so a description keeps the section completely.
     let marked: Vec<&str> = chunks.iter().map(|chunk| chunk.text.as_str()).collect();
     let parsed = parse(&marked.concat());
     let mut ours: BTreeMap<u32, (String, Pairs)> = BTreeMap::new();

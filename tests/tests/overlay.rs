@@ -1,4 +1,4 @@
-//! A device of an EDS and an overlay that the macro makes equals the one made at run time.
+//! A device made by the macro from an EDS and an overlay equals the one made at run time.
 
 use od_eds::Tables;
 use odkit::object_dictionary;

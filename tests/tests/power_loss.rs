@@ -1,5 +1,5 @@
-//! Power is cut at every byte of a save, on every device, and in every step of one on NOR flash: the
-//! next start has all values that the manual promises, and never a mixture.
+//! Power is cut at every byte of a save on every device, and at every step of a save on NOR flash.
+//! The next start has all values that the manual promises, and never a mixture of old and new ones.
 //!
 //! GX keeps the last complete set; on EAM and EN580C a cut save gives the factory values
 //! (MANUALS.md U-33).
@@ -137,7 +137,7 @@ fn difference(a: &Values, b: &Values) -> Vec<Address> {
     pairs.map(|(a, _)| a.0).collect()
 }
 
-/// A memory whose power is cut in the step after this number of steps.
+/// A memory that loses its power in the step after a number of complete steps.
 trait Cut: Storage + Clone + Send + 'static {
     fn cut_after(&mut self, steps: usize);
     fn is_cut(&self) -> bool;

@@ -1,5 +1,5 @@
-//! A safe fix changes what no tool reads: every safe fix of our corpus, of the cases and of mutants of them,
-//! before and after, as other tools read the file.
+//! A safe fix changes nothing that a tool reads: every safe fix of our corpus, of the cases and of
+//! mutants of them is applied, and other tools read the file before and after.
 //!
 //! The witnesses are readers of `od_eds::tools` (each is held against the tool itself in `tests/interop`), and rust-ini, with which a reader of lists and modules counts here as
 //! CiA 306 says it. `tests/interop/test_fixes.py` asks python-canopen itself. `ODKIT_ROUNDS` sets the number of
@@ -31,7 +31,7 @@ const NOT_PLAIN: [&str; 8] = [
     "W0101", "W0102", "W0103", "E0118", "W0104", "W0105", "W0108", "W0110",
 ];
 
-/// Files that safe fixes changed, and readings of tools that were compared.
+/// Number of files that safe fixes changed, and number of compared readings.
 #[derive(Default)]
 struct Sums {
     changed: AtomicUsize,
@@ -73,7 +73,7 @@ fn what_was_read_before_a_safe_fix_is_read_after_it() {
                 None if at - files.len() < rounds => {
                     let number = (at - files.len()) as u64;
                     let mut random = Random::of(32, number);
-                    // Every fifth has changes of any kind, which few tools read.
+                    // Every fifth file has changes of any kind, which few tools can read.
                     let bytes = match number % 5 {
                         0 => mutate::input(&target, &seeds, &mut random),
                         _ => slipped(&seeds, &mut random),
@@ -108,14 +108,15 @@ fn what_was_read_before_a_safe_fix_is_read_after_it() {
         changed * 8 > files.len() + rounds,
         "{changed} files were changed"
     );
-    // Most mutants are rejected by both tools, as they are.
+    // Both tools reject most mutants, before the fix and after it.
     assert!(
         readings * 10 > changed,
         "{readings} of {changed} files were compared"
     );
 }
 
-/// A file with up to three slips in its lines, as people and programs make them: most tools still read it.
+/// A file with up to three errors in its lines, as people and programs make them; most tools can
+/// still read it.
 fn slipped(seeds: &[Vec<u8>], random: &mut Random) -> Vec<u8> {
     let text = String::from_utf8_lossy(&seeds[random.below(seeds.len())]).into_owned();
     let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
@@ -194,7 +195,7 @@ fn compare(bytes: &[u8], sums: &Sums) -> Result<(), String> {
         };
         for (at, entry) in &was.entries {
             let now = is.entries.get(at);
-            // A tool that read another value than odkit now reads the same.
+            // A tool that read another value than odkit now reads the same value.
             if now != Some(entry) && !now.is_some_and(|now| agrees(*at, &changed(entry, now))) {
                 let (index, sub) = at;
                 return Err(format!(
@@ -204,7 +205,7 @@ fn compare(bytes: &[u8], sums: &Sums) -> Result<(), String> {
             }
         }
     }
-    // Of lines that are not plain INI, rust-ini makes keys over several lines.
+    // rust-ini makes keys over several lines from lines that are not plain INI.
     let findings = before.parse().findings;
     if findings
         .iter()
@@ -223,7 +224,7 @@ fn compare(bytes: &[u8], sums: &Sums) -> Result<(), String> {
     Ok(())
 }
 
-/// The keys under which a tool reads something else now.
+/// The keys that a tool reads differently now.
 fn changed(was: &ReadEntry, is: &ReadEntry) -> Vec<Key> {
     let keys = [
         (Key::ParameterName, was.name != is.name),
@@ -251,7 +252,7 @@ fn values(description: &Description) -> Vec<(Address, EntryDescription)> {
     entries.collect()
 }
 
-/// What a reader finds that counts from 1 to the number that a section gives.
+/// The items that a reader finds when it counts from 1 to the number that a section gives.
 type Count = fn(&Ini) -> BTreeSet<String>;
 
 fn by_rust_ini(text: &str) -> Option<Ini> {
@@ -263,7 +264,7 @@ fn by_rust_ini(text: &str) -> Option<Ini> {
     Ini::load_from_str_opt(text, options).ok()
 }
 
-/// A section and its keys, whatever their case.
+/// A section and its keys; upper and lower case are equal.
 fn get<'a>(ini: &'a Ini, section: &str, key: &str) -> Option<&'a str> {
     let is_it = |name: &Option<&str>| name.is_some_and(|name| name.eq_ignore_ascii_case(section));
     let (_, properties) = ini.iter().find(|(name, _)| is_it(name))?;
@@ -296,7 +297,7 @@ fn lists(ini: &Ini) -> BTreeSet<String> {
     found
 }
 
-/// The modules that the count of `[SupportedModules]` includes and that have a section, and their objects.
+/// The modules within the count of `[SupportedModules]` that have a section, and their objects.
 fn modules(ini: &Ini) -> BTreeSet<String> {
     let count = get(ini, "SupportedModules", "NrOfEntries")
         .and_then(number)

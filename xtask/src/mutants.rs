@@ -50,7 +50,7 @@ impl Options {
     }
 }
 
-/// The room of [`MUTATED`] that a file is in.
+/// The entry of [`MUTATED`] that contains a file.
 fn room(file: &str) -> Option<usize> {
     MUTATED
         .iter()

@@ -7,7 +7,7 @@ use std::collections::{BTreeMap, BTreeSet};
 #[derive(Default)]
 pub(crate) struct Arrows(BTreeMap<String, BTreeMap<String, (usize, String)>>);
 
-/// An import that is part of a circle.
+/// An import that is part of a cycle.
 pub(crate) struct Arrow<'a> {
     pub(crate) from: &'a str,
     pub(crate) to: &'a str,
@@ -29,7 +29,7 @@ impl Arrows {
         }
     }
 
-    /// The arrows that are part of a circle.
+    /// The arrows that are part of a cycle.
     pub(crate) fn circles(&self) -> Vec<Arrow<'_>> {
         let mut found = Vec::new();
         for (from, all) in &self.0 {

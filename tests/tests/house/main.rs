@@ -1,5 +1,6 @@
-//! The order of the workspace: no files that import each other in a circle, no dependency that leads up, no import of
-//! a name through `lib.rs`, and no short file without a reason. The test reads the tree as text.
+//! The order of the workspace: no files that import each other in a cycle, no dependency on a
+//! higher layer, no import of a name through `lib.rs`, and no short file without a reason. The test
+//! reads the files as text.
 
 mod graph;
 mod rooms;

@@ -44,8 +44,8 @@ pub(crate) const ROOMS: [Room; 20] = [
     },
 ];
 
-/// The dependencies that lead up, or to the same storey: pairs of rooms. Those of tests may:
-/// a test is above all that it needs.
+/// The dependencies on a higher or the same storey, as pairs of rooms. Tests may have them, because
+/// a test is above everything that it needs.
 pub(crate) fn arrows_up(files: &BTreeMap<String, String>) -> BTreeSet<(&str, &str)> {
     let manifests = || {
         files
@@ -71,12 +71,12 @@ pub(crate) fn arrows_up(files: &BTreeMap<String, String>) -> BTreeSet<(&str, &st
     found
 }
 
-/// Whether the name is that of a source file.
+/// Returns whether the name is that of a source file.
 pub(crate) fn is_code(path: &str) -> bool {
     path.ends_with(".rs") || (path.ends_with(".ts") && !path.ends_with(".d.ts"))
 }
 
-/// The room that contains a file; of another file its first folder.
+/// The room that contains a file; for a file outside all rooms, its first folder.
 fn room_of(path: &str) -> &str {
     let is_in = |room: &&Room| {
         path.strip_prefix(room.name)

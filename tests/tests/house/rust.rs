@@ -2,7 +2,7 @@
 //!
 //! Modules are found by the paths of their files, so no macro has to be expanded. An arrow leads to
 //! the file that defines a name, even if another file re-exports it. A file that only re-exports
-//! names of the modules below it uses none of them: this is no arrow.
+//! names of the modules below it has no arrows to them.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -23,7 +23,7 @@ struct Module<'t> {
     paths: Vec<(Vec<String>, usize)>,
 }
 
-/// A name that a file brings in.
+/// A name that a file imports.
 struct Use {
     path: Vec<String>,
     name: String,
@@ -343,7 +343,7 @@ mod tests {
     }
 
     #[test]
-    fn a_circle_is_found_however_it_is_written() {
+    fn a_circle_is_found_in_every_form_of_an_import() {
         let both = [("x/src/a.rs", "x/src/b.rs"), ("x/src/b.rs", "x/src/a.rs")];
         let root = ("x/src/lib.rs", "mod a; mod b; pub use a::A; pub use b::*;");
         for (a, b) in [

@@ -1,13 +1,14 @@
-//! Files of the product under 40 lines: a file is one idea, and a short one mostly belongs to its neighbour. The start
-//! of a crate or program, the index of a folder and a rule with a check are short for a reason that their name says;
-//! any other short file has a line in [`REASONS`].
+//! Files of the product under 40 lines. A file is one idea, and a short one usually belongs to its
+//! neighbour. The start of a crate or program, the index of a folder and a rule with a check may be
+//! short; their names show what they are. Any other short file has a line in [`REASONS`].
 
 use std::collections::BTreeMap;
 
 /// Files with fewer lines are short.
 const SHORT: usize = 40;
 
-/// The short files, or folders of short files (with `/` at the end), and what speaks against a merge.
+/// The short files, or folders of short files (with `/` at the end), each with the reason against a
+/// merge.
 #[rustfmt::skip] // a row is a row
 const REASONS: [(&str, &str); 24] = [
     ("crates/od-capi/src/answer.rs", "the codes that C sees, in one list"),
@@ -71,8 +72,8 @@ fn is_in(path: &str, place: &str) -> bool {
     }
 }
 
-/// Returns whether the file is one that is often short: a test, the start of a crate or program, the index of a
-/// folder, or a rule with a check.
+/// Returns whether files of this kind are often short: a test, the start of a crate or program, the
+/// index of a folder, or a rule with a check.
 fn is_short_by_kind(path: &str, files: &BTreeMap<String, String>) -> bool {
     let Some(stem) = path.strip_suffix(".rs") else {
         return true;

@@ -10,12 +10,12 @@ use crate::error::{Error, Result};
 use crate::repo::Repo;
 use crate::stamp::{Fingerprint, Stamp};
 
-/// The Python of an environment for the tests, with exactly what `requirements` pins.
+/// The Python program of an environment for the tests, with exactly the packages of `requirements`.
 pub(crate) fn environment(repo: &Repo, console: &Console, requirements: &Path) -> Result<PathBuf> {
     venv(repo, console, "venv", requirements)
 }
 
-/// The Python of another environment.
+/// The Python program of the environment `name`.
 pub(crate) fn venv(
     repo: &Repo,
     console: &Console,

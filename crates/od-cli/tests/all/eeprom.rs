@@ -1,4 +1,5 @@
-//! EEPROM files of `odkit sim`: their device, their user, and the messages at the start.
+//! EEPROM files of `odkit sim`: the device that a file is for, the process that uses it, and the
+//! messages at the start.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -6,12 +7,12 @@ use std::path::{Path, PathBuf};
 use crate::support::sim::Sim;
 use crate::support::{Done, file, odkit};
 
-/// Saves all values of node 1, and waits for the response of a slow family.
+/// Saves all values of node 1, and waits as long as the slowest device needs.
 const SAVE: &str = "601#2B17100064000000\nwait 20ms\n601#2310100173617665\nwait 700ms\n";
 /// Bytes before those of the EEPROM.
 const HEADER: usize = 512;
 
-/// A path of this test run without a file.
+/// A path in the folder of this test, where no file is.
 fn path(name: &str) -> PathBuf {
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     let _ = fs::remove_file(&path);
