@@ -218,9 +218,11 @@ fn sdo(fields: &mut Fields, device: Option<&VirtualDevice>, frame: &Frame) {
         fields.add(4, 8, "Abort code", format!("{code:08X}h"));
     } else if let Some(data) = expedited {
         let len = expedited_len(size, entry.and_then(|entry| entry.data_type.size()));
-        let value = match entry {
-            Some(entry) => value::show(object, entry.data_type, &data[..len]),
-            None => values::hex(&data[..len]),
+        let value = match (device, entry) {
+            (Some(device), Some(entry)) => {
+                value::show(device, object, entry.data_type, &data[..len])
+            }
+            _ => values::hex(&data[..len]),
         };
         fields.about(4, 4 + len, "Data", value, object);
     } else if let Some(size) = size {

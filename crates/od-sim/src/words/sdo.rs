@@ -115,9 +115,12 @@ impl Explainer<'_> {
         {
             return format!("\"{}\"", String::from_utf8_lossy(data));
         }
-        let find = |address| self.device?.dictionary().find(address).ok();
+        let find = |address| {
+            let device = self.device?;
+            Some((device, device.dictionary().find(address).ok()?))
+        };
         match object.and_then(find) {
-            Some(entry) => value::show(entry.address, entry.data_type, data),
+            Some((device, entry)) => value::show(device, entry.address, entry.data_type, data),
             None => values::hex(data),
         }
     }

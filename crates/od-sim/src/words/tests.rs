@@ -40,7 +40,8 @@ fn frames_are_described_in_words() {
             ),
             (
                 "601#2200600005AABBCC",
-                "SDO node 1: write 6000h Operating parameters = 43525 (AA05h)",
+                "SDO node 1: write 6000h Operating parameters = 43525 (AA05h): \
+                 code sequence counter-clockwise, scaling enabled",
             ),
             (
                 "581#6000600000000000",

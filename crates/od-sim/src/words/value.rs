@@ -3,16 +3,60 @@
 use std::format;
 use std::prelude::v1::*;
 
+#[cfg(feature = "eds")]
+use od_model::Kind;
 use od_model::{Address, DataType, values};
 use od_wire::CobId;
 
+use crate::device::VirtualDevice;
+
 /// Shows the value of an object: `2118h, 16 bit` for a mapping entry, `181h, not valid` for a COB-ID, others by their
-/// type.
-pub(super) fn show(address: Address, data_type: DataType, data: &[u8]) -> String {
+/// type, with what the number says in the documents of CiA: `1: profile position`.
+pub(super) fn show(
+    device: &VirtualDevice,
+    address: Address,
+    data_type: DataType,
+    data: &[u8],
+) -> String {
     let raw = data.try_into().map(u32::from_le_bytes);
-    raw.ok()
-        .and_then(|raw| meaning(address, raw))
-        .unwrap_or_else(|| values::show(data_type, data))
+    if let Some(special) = raw.ok().and_then(|raw| meaning(address, raw)) {
+        return special;
+    }
+    let shown = values::show(data_type, data);
+    match documented(device, address, data_type, data) {
+        Some(said) => format!("{shown}: {said}"),
+        None => shown,
+    }
+}
+
+/// What a number says in the documents of CiA, by the device profile in 1000h; only with the tables of `od-eds`.
+#[cfg(feature = "eds")]
+fn documented(
+    device: &VirtualDevice,
+    address: Address,
+    data_type: DataType,
+    data: &[u8],
+) -> Option<String> {
+    let size = data.len();
+    if data_type.size() != Some(size) || !(1..=8).contains(&size) {
+        return None;
+    }
+    let mut bytes = [0; 8];
+    bytes[..size].copy_from_slice(data);
+    let unused = 64 - 8 * size as u32;
+    let number = match data_type.kind() {
+        Kind::Unsigned => i64::try_from(u64::from_le_bytes(bytes)).ok()?,
+        Kind::Signed => i64::from_le_bytes(bytes) << unused >> unused,
+        _ => return None,
+    };
+    let kind = device.dictionary().entry(0x1000, 0)?.default.integer(0)?;
+    let profile = u16::try_from(kind & 0xFFFF).ok();
+    od_eds::outline::meaning(profile, address.index, address.sub, number)
+}
+
+#[cfg(not(feature = "eds"))]
+const fn documented(_: &VirtualDevice, _: Address, _: DataType, _: &[u8]) -> Option<String> {
+    None
 }
 
 /// The meaning of a value of four bytes (CiA 301, clause of the object); `None`: it is a number.
@@ -63,7 +107,58 @@ fn entry(raw: u32) -> String {
 
 #[cfg(test)]
 mod tests {
+    use od_runtime::NodeId;
+
     use super::*;
+
+    fn device(name: &str) -> VirtualDevice {
+        let kind = od_devices::find(name).expect("a built-in device");
+        VirtualDevice::new(kind, NodeId::ONE)
+    }
+
+    #[cfg(feature = "eds")]
+    #[test]
+    fn a_number_has_the_meaning_of_the_profile() {
+        use DataType::{Integer8, Unsigned8, Unsigned16, Unsigned32};
+        for (name, index, data_type, data, expected) in [
+            ("drive", 0x6060, Integer8, &[1][..], "1: profile position"),
+            (
+                "drive",
+                0x6060,
+                Integer8,
+                &[0xFF],
+                "-1: mode of the manufacturer",
+            ),
+            ("drive", 0x6060, Integer8, &[5], "5"),
+            (
+                "drive",
+                0x6041,
+                Unsigned16,
+                &[0x37, 2],
+                "567 (237h): Operation enabled",
+            ),
+            (
+                "drive",
+                0x6502,
+                Unsigned32,
+                &[1, 0, 0, 0],
+                "1: profile position",
+            ),
+            // Fewer bytes than the type has: no number.
+            ("drive", 0x6041, Unsigned16, &[0x37], "37"),
+            (
+                "gxmm",
+                0x1001,
+                Unsigned8,
+                &[0x11],
+                "17 (11h): generic error, communication error",
+            ),
+            ("gxmm", 0x6060, Integer8, &[1], "1"),
+        ] {
+            let shown = show(&device(name), Address::new(index, 0), data_type, data);
+            assert_eq!(shown, expected, "{name} {index:04X}h");
+        }
+    }
 
     #[test]
     fn mapping_entries_and_cob_ids_are_shown_as_what_they_are() {
@@ -86,7 +181,8 @@ mod tests {
             (0x6004, 0, 0x181, "385 (181h)"),
         ] {
             let address = Address::new(index, sub);
-            let shown = show(address, DataType::Unsigned32, &u32::to_le_bytes(raw));
+            let bytes = u32::to_le_bytes(raw);
+            let shown = show(&device("gxmm"), address, DataType::Unsigned32, &bytes);
             assert_eq!(shown, expected, "{address}");
         }
     }

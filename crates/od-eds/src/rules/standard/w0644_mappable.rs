@@ -9,7 +9,7 @@ pub(crate) static W0644: Rule = Rule {
     code: "W0644",
     severity: Warning,
     title: "standard object is mappable",
-    why: "A master may map the object, and the device aborts the mapping. CiA 301 allows a mapping of few of its objects, such as 1001h and 1013h.",
+    why: "A master may map the object, and the device aborts the mapping. CiA 301 allows a mapping of few of its objects, such as 1001h, 1013h and 1026h.",
     source: "CiA 301, chapter 7.5; CiA 302",
     fixability: Fixability::Unsafe,
     says: "{PDOMapping} of {object} ({name}) is 1, but {standard} does not allow a mapping",
@@ -20,7 +20,7 @@ pub(crate) static W0644: Rule = Rule {
 
 fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
     let index = entry.address.index;
-    let may = matches!(index, 0x1001..=0x1003 | 0x1013 | 0x1200..=0x12FF | 0x1F00..);
+    let may = matches!(index, 0x1001..=0x1003 | 0x1013 | 0x1026 | 0x1200..=0x12FF | 0x1F00..);
     if let Some(standard) = of(index).filter(|_| *entry.mappable && !may) {
         let finding = W0644.on(entry, entry.mappable.span);
         let finding = finding
