@@ -34,6 +34,8 @@ mod editor;
 mod eds;
 mod frames;
 mod journal;
+#[cfg(feature = "lessons")]
+mod labs;
 #[cfg(test)]
 mod layout;
 #[cfg(feature = "lessons")]

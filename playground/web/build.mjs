@@ -17,7 +17,7 @@ for (const path of Object.values(modules)) {
 
 const options = {
   absWorkingDir: new URL('.', import.meta.url).pathname,
-  entryPoints: { main: 'src/main.ts', worker: 'src/sim/worker.ts', editor: 'src/editor/worker.ts', style: 'src/styles/index.css', dialogs: 'src/styles/dialogs.css', lesson: 'src/styles/lesson.css', editing: 'src/styles/editing.css', seeing: 'src/styles/seeing.css', real: 'src/styles/real.css', machine: 'src/styles/machine.css' },
+  entryPoints: { main: 'src/main.ts', worker: 'src/sim/worker.ts', editor: 'src/editor/worker.ts', style: 'src/styles/index.css', dialogs: 'src/styles/dialogs.css', lesson: 'src/styles/lesson.css', editing: 'src/styles/editing.css', seeing: 'src/styles/seeing.css', real: 'src/styles/real.css', machine: 'src/styles/machine.css', labs: 'src/styles/labs.css' },
   outdir: out.pathname,
   bundle: true,
   splitting: true,

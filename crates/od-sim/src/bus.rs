@@ -1,5 +1,7 @@
 //! Several devices on one bus, in virtual time.
 
+#[cfg(feature = "training")]
+mod master;
 mod pins;
 mod run;
 mod traffic;
@@ -20,7 +22,7 @@ pub struct Sent {
     /// Time of the frame.
     pub at: Instant,
     /// Number of the device, counted from 0 in the order of [`Bus::add`]; `None` for a frame from
-    /// outside that was sent over a real line.
+    /// outside that was sent over a real line, or of the master.
     pub device: Option<usize>,
     /// The frame.
     pub frame: Frame,
@@ -42,6 +44,11 @@ pub struct Bus {
     pub line: Line,
     now: Instant,
     sent: VecDeque<Sent>,
+    #[cfg(feature = "training")]
+    master: Option<Box<crate::master::Master>>,
+    /// Frames of the master that the host has not polled yet.
+    #[cfg(all(feature = "training", feature = "serve"))]
+    of_master: VecDeque<Frame>,
 }
 
 /// How often in a row a device may have a deadline that is already due. After that the bus advances
@@ -227,6 +234,7 @@ impl Bus {
         }
         self.conduct();
         self.tell_controllers();
+        self.attend();
     }
 
     /// Sends a frame from outside. On an ideal line every device receives it, and the responses of
@@ -240,14 +248,20 @@ impl Bus {
         if !self.line.is_plugged(0) {
             return false;
         }
+        self.hand_over(frame);
+        self.conduct();
+        self.attend();
+        true
+    }
+
+    /// Hands a frame of the outside to the devices on an ideal line.
+    fn hand_over(&mut self, frame: &Frame) {
         for device in 0..self.devices.len() {
             if self.hears_outside(device) && self.line.is_plugged(device + 1) {
                 self.devices[device].handle_frame(self.now, frame);
                 self.settle(device);
             }
         }
-        self.conduct();
-        true
     }
 
     /// The outside and the devices, as stations of a real line.
@@ -292,6 +306,7 @@ impl Bus {
     fn step(&mut self, to: Instant) -> bool {
         let goes_on = self.step_without_wires(to);
         self.conduct();
+        self.attend();
         goes_on
     }
 
@@ -299,6 +314,15 @@ impl Bus {
         let due = (0..self.devices.len())
             .filter_map(|device| Some((self.deadline(device)?, device)))
             .min();
+        // What the master has to do at this moment follows in `attend`.
+        if let Some(at) = self.master_due()
+            && at <= to
+            && due.is_none_or(|(first, _)| at < first)
+            && self.line.medium.due().is_none_or(|first| at < first)
+        {
+            self.now = self.now.max(at);
+            return true;
+        }
         if let Some(at) = self.line.medium.due()
             && at <= to
             && due.is_none_or(|(first, _)| at <= first)
@@ -390,10 +414,40 @@ impl Bus {
                     device: Some(device),
                     frame,
                 });
+                self.tell_master(&frame);
             }
             if self.devices.len() > 1 {
                 carry.push_back((device, frame));
             }
         }
+    }
+}
+
+/// Without the feature `training` a bus has no master.
+#[cfg(not(feature = "training"))]
+impl Bus {
+    pub(crate) fn order_master(&mut self, _: &crate::master::Order) -> Result<(), String> {
+        Err("this program has no master".into())
+    }
+
+    pub(crate) fn standing(&self, _: od_wire::NodeId) -> Option<crate::master::Standing> {
+        None
+    }
+
+    fn master_due(&self) -> Option<Instant> {
+        None
+    }
+
+    fn has_master(&self) -> bool {
+        false
+    }
+
+    fn tell_master(&mut self, _: &Frame) {}
+
+    fn attend(&mut self) {}
+
+    #[cfg(feature = "serve")]
+    fn take_of_master(&mut self, _: &Frame) -> bool {
+        false
     }
 }

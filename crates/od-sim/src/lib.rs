@@ -19,6 +19,7 @@ pub mod journal;
 pub mod lesson;
 pub mod links;
 pub mod logs;
+pub mod master;
 #[cfg(feature = "serve")]
 pub mod recorded;
 pub mod rig;

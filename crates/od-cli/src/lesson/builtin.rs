@@ -88,6 +88,13 @@ pub(super) const LESSONS: &[(&str, &str)] = &[
         include_str!("../../lessons/28-drive-states.md"),
     ),
     ("io-process", include_str!("../../lessons/29-io-process.md")),
+    ("master", include_str!("../../lessons/30-master.md")),
+    (
+        "does-not-follow",
+        include_str!("../../lessons/31-does-not-follow.md"),
+    ),
+    ("rpdo-link", include_str!("../../lessons/32-rpdo-link.md")),
+    ("bus-length", include_str!("../../lessons/33-bus-length.md")),
 ];
 
 /// Name and German translation of each lesson that has one.
@@ -174,6 +181,19 @@ const GERMAN: &[(&str, &str)] = &[
     (
         "io-process",
         include_str!("../../lessons/de/29-io-process.md"),
+    ),
+    ("master", include_str!("../../lessons/de/30-master.md")),
+    (
+        "does-not-follow",
+        include_str!("../../lessons/de/31-does-not-follow.md"),
+    ),
+    (
+        "rpdo-link",
+        include_str!("../../lessons/de/32-rpdo-link.md"),
+    ),
+    (
+        "bus-length",
+        include_str!("../../lessons/de/33-bus-length.md"),
     ),
 ];
 

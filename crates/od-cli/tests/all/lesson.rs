@@ -249,7 +249,7 @@ fn codes_of_learners_become_a_table_and_a_truncated_one_is_reported() {
         "learner  lessons  steps      2      3\n\
          Ann Ü.         1      7   done    2/6\n\
          Bob            1      6      -   done\n\
-         \n2 learners, 29 lessons come with odkit\n  2  nmt\n  3  sdo\n"
+         \n2 learners, 33 lessons come with odkit\n  2  nmt\n  3  sdo\n"
     );
     // The page did two of these steps; the final test is not a lesson.
     let shown =
@@ -267,7 +267,7 @@ fn codes_of_learners_become_a_table_and_a_truncated_one_is_reported() {
             .out
             .contains("Eva            1      5  done~2   done\n")
             && table.out.contains("  ~  steps that the page did")
-            && table.out.ends_with(" 30  final-test\n"),
+            && table.out.ends_with(" 34  final-test\n"),
         "{}",
         table.out
     );

@@ -83,7 +83,7 @@ impl From<watch::Event> for Event {
 
 /// Events for the host. Ends of jobs are never dropped: there are as many as the
 /// host began.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Events {
     waiting: VecDeque<Event>,
     /// Number of events of the bus among them.

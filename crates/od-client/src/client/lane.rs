@@ -11,14 +11,14 @@ use crate::error::Error;
 use crate::sdo::{Channel, Download, Options, Upload};
 
 /// A transfer in progress.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 enum Transfer {
     Upload(Upload<Vec<u8>>),
     Download(Download<Vec<u8>>),
 }
 
 /// A waiting job; it writes `bytes` if there are some.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 struct Waiting {
     job: Job,
     object: Address,
@@ -27,7 +27,7 @@ struct Waiting {
 }
 
 /// The jobs of one node.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Lane {
     node: NodeId,
     active: Option<(Job, Transfer)>,

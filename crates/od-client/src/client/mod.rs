@@ -41,7 +41,7 @@ const NODES: usize = 127;
 /// let frame = client.poll_transmit(Instant::ZERO).expect("the NMT command");
 /// assert_eq!(frame.to_string(), "000#0101");
 /// ```
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Client {
     options: Options,
     jobs: u32,

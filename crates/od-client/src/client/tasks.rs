@@ -8,7 +8,7 @@ use super::events::{Event, Events, Job};
 use crate::lss::{Master, Options, Task};
 
 /// The service in progress, then the waiting ones.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Tasks {
     master: Master,
     active: Option<Job>,

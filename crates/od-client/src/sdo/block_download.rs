@@ -7,7 +7,7 @@ use super::line::Line;
 use crate::error::{Error, Expected};
 
 /// A block download after its initiation.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Blocks {
     /// The server checks a CRC.
     crc: bool,

@@ -8,7 +8,7 @@ use super::line::{Line, parse};
 use crate::error::{Error, Expected};
 
 /// A block upload after its initiation.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Blocks {
     /// The server computes a CRC.
     crc: bool,

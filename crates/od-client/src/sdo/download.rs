@@ -10,7 +10,7 @@ use super::line::{Line, parse};
 use super::options::Options;
 use crate::error::{Error, Expected};
 
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 enum State {
     /// The initiate request was sent, with or without data.
     Initiate { expedited: bool },
@@ -38,7 +38,7 @@ enum State {
 /// download.handle_frame(Instant::ZERO, &Frame::standard(0x581, &[0x60, 0x17, 0x10, 0, 0, 0, 0, 0]));
 /// assert_eq!(download.outcome(), Some(Ok(())));
 /// ```
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Download<D> {
     line: Line,
     data: D,

@@ -22,7 +22,7 @@ pub(super) const fn parse(data: &[u8; 8]) -> Response {
 }
 
 /// The client side of a channel during one transfer.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Line {
     channel: Channel,
     pub(super) address: Address,

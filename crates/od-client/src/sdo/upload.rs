@@ -11,7 +11,7 @@ use super::line::{Line, parse};
 use super::options::Options;
 use crate::error::{Error, Expected};
 
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 enum State {
     /// The initiate request was sent.
     Initiate,
@@ -37,7 +37,7 @@ enum State {
 /// upload.handle_frame(Instant::ZERO, &Frame::standard(0x581, &[0x43, 0, 0x10, 0, 0x96, 1, 2, 0]));
 /// assert_eq!((upload.outcome(), upload.bytes()), (Some(Ok(())), &[0x96, 1, 2, 0][..]));
 /// ```
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Upload<B> {
     line: Line,
     buffer: B,

@@ -31,6 +31,9 @@ impl Bus {
     /// Meets many deadlines at once for the only device on an ideal line. Returns the same as
     /// `step`; `None` if there are other devices, or an observer waits for frames.
     fn run(&mut self, to: Instant, frames: usize) -> Option<bool> {
+        if self.has_master() {
+            return None;
+        }
         let Self {
             devices,
             wiring,
@@ -38,6 +41,7 @@ impl Bus {
             line,
             sent,
             now,
+            ..
         } = self;
         let [device] = devices.as_mut_slice() else {
             return None;

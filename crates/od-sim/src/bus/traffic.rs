@@ -29,14 +29,20 @@ impl Bus {
         devices
             .chain(controller)
             .chain(self.line.medium.due())
+            .chain(self.master_due())
             .min()
     }
 
-    /// The next frame of a device; frames of the outside are dropped. For a host that has passed on
+    /// The next frame of a device or of the master; frames of the outside are dropped. For a host that has passed on
     /// frames of the outside already.
     #[cfg(feature = "serve")]
     pub(crate) fn poll_device(&mut self) -> Option<Sent> {
-        core::iter::from_fn(|| self.poll()).find(|sent| sent.device.is_some())
+        while let Some(sent) = self.poll() {
+            if sent.device.is_some() || self.take_of_master(&sent.frame) {
+                return Some(sent);
+            }
+        }
+        None
     }
 
     /// Returns whether a frame of this station waits for a real line or is being sent. Station 0 is
@@ -204,6 +210,9 @@ impl Bus {
                 device: sender,
                 frame,
             });
+            if sender.is_some() {
+                self.tell_master(&frame);
+            }
         }
         for other in (0..self.devices.len()).filter(|other| !ended.is_of(other + 1)) {
             let hears = match sender {
@@ -216,6 +225,7 @@ impl Bus {
                     self.wiring.hears(one, its)
                 }
             };
+            let hears = hears && !self.line.misreads(&frame, station, other + 1);
             if hears && self.line.hears(&stations, station, other + 1) {
                 self.devices[other].handle_frame(now, &frame);
                 self.load(other, now.plus_micros(PROCESSING));

@@ -5,8 +5,10 @@ use std::prelude::v1::*;
 
 use od_runtime::{BusEvent, Frame, PinKind};
 
+use super::master::MasterLine;
 use super::typed::{Typed, Write};
 use crate::bench::Bench;
+use crate::wire::cable::Property;
 
 /// A movement of a shaft.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -32,6 +34,8 @@ pub enum Wire {
     BitRate(Option<u16>),
     /// Whether the current device is connected.
     Plugged(bool),
+    /// A property of the cable, or of the current device on it.
+    Cable(Property),
 }
 
 /// An action that waits for nothing.
@@ -85,6 +89,8 @@ pub enum Deed {
     BusRate(Option<u16>),
     /// A change of the bus line.
     Line(Wire),
+    /// A line of the master's list, or what it is to do with the list.
+    Master(MasterLine),
 }
 
 impl Deed {
@@ -185,6 +191,10 @@ impl Deed {
             }
             Self::Controller(event) => bench.with(|device, now| device.handle_bus(*event, now))?,
             Self::BusRate(kbit) => bench.bus.set_bit_rate(*kbit),
+            Self::Master(line) => {
+                let order = line.order(&bench.bus)?;
+                bench.bus.order_master(&order)?;
+            }
             Self::Line(wire) => {
                 let (line, station) = (&mut bench.bus.line, bench.current + 1);
                 match *wire {
@@ -192,6 +202,7 @@ impl Deed {
                     Wire::Terminators(count) => line.terminators = count,
                     Wire::BitRate(kbit) => line.bit_rate = kbit,
                     Wire::Plugged(plugged) => line.set_plugged(station, plugged),
+                    Wire::Cable(property) => line.set_property(station, property)?,
                 }
             }
         }

@@ -4,8 +4,10 @@ use std::format;
 use std::prelude::v1::*;
 
 use od_model::{DataType, values};
+use od_wire::NodeId;
 use od_wire::nmt::State;
 
+use super::master::{Wanted, node};
 use super::problem::Problem;
 use super::test::{SIGNS, Test};
 use super::tokens::{Tokens, fault_name};
@@ -14,6 +16,7 @@ use crate::device::VirtualDevice;
 use crate::device::leds::Led;
 use crate::device::world::ShaftView;
 use crate::wire::Condition;
+use crate::wire::cable::Measure;
 
 /// A condition about a device or the bus line.
 #[derive(Clone, PartialEq, Debug)]
@@ -54,6 +57,10 @@ pub enum Fact {
     },
     /// Error state of the CAN controller on a real line.
     Controller(Condition),
+    /// A value of the cable, or of the device's clock.
+    Cable(Measure, Test),
+    /// The state of a node, as the master on the bench sees it.
+    Master(NodeId, Wanted),
 }
 
 /// Whether it holds, and the present value.
@@ -64,7 +71,7 @@ pub(crate) struct Found {
 }
 
 /// The first words of conditions, for messages.
-pub(crate) const NAMES: &str = "value, saved, state, led, node-id, bitrate, turned, rpm, broken, pin, terminators, tec, rec, controller";
+pub(crate) const NAMES: &str = "value, saved, state, led, node-id, bitrate, turned, rpm, broken, pin, terminators, tec, rec, controller, line-length, sample-point, sjw, clock, master";
 
 impl Fact {
     /// Reads a condition; `None` if the line begins with another word.
@@ -112,6 +119,11 @@ impl Fact {
                     ("bus-off", Condition::BusOff),
                 ],
             )?),
+            "line-length" => Self::Cable(Measure::Length, Test::number(tokens)?),
+            "sample-point" => Self::Cable(Measure::SamplePoint, Test::number(tokens)?),
+            "sjw" => Self::Cable(Measure::Jump, Test::number(tokens)?),
+            "clock" => Self::Cable(Measure::Clock, Test::number(tokens)?),
+            "master" => Self::Master(node(tokens)?, Wanted::parse(tokens)?),
             _ => {
                 *tokens = start;
                 return Ok(None);
@@ -179,6 +191,14 @@ impl Fact {
                 bus.with(device, look).ok_or_else(gone)?
             }
             Self::Terminators(test) => numbers(bus.line.terminators, test),
+            Self::Cable(measure, test) => numbers(bus.line.measure(device + 1, *measure), test),
+            Self::Master(node, wanted) => {
+                let standing = bus.standing(*node);
+                found(
+                    wanted.holds(standing),
+                    format!("node {node} {}", Wanted::of(standing).words()),
+                )
+            }
             Self::ErrorCounter { .. } | Self::Controller(_) if !bus.line.is_real() => {
                 Err("an ideal bus line has no errors; remove `line ideal`".into())
             }
@@ -248,7 +268,9 @@ impl Fact {
             | Self::Saved(..)
             | Self::Terminators(_)
             | Self::ErrorCounter { .. }
-            | Self::Controller(_) => found(false, ""),
+            | Self::Controller(_)
+            | Self::Cable(..)
+            | Self::Master(..) => found(false, ""),
         }
     }
 
@@ -297,6 +319,27 @@ impl Fact {
                 let which = if *transmit { "transmit" } else { "receive" };
                 format!("the {which} error counter{whose} {is} {}", test.words())
             }
+            Self::Cable(measure, test) => {
+                let what = match measure {
+                    Measure::Length => "the length of the line in metres",
+                    Measure::SamplePoint => "the sample point in percent",
+                    Measure::Jump => "the synchronisation jump width",
+                    Measure::Clock => "the deviation of the clock in percent",
+                };
+                let whose = if *measure == Measure::Clock {
+                    whose
+                } else {
+                    ""
+                };
+                format!("{what}{whose} {is} {}", test.words())
+            }
+            Self::Master(node, wanted) if not => {
+                format!(
+                    "for the master it is not so that node {node} {}",
+                    wanted.words()
+                )
+            }
+            Self::Master(node, wanted) => format!("for the master, node {node} {}", wanted.words()),
             Self::Controller(state) => {
                 format!("the CAN controller{whose} {is} {}", state.name())
             }

@@ -8,6 +8,7 @@
 //! | `line` | a complete line: its time, then a verb or a frame |
 //! | `draw` | the numbers that a `random` line draws |
 //! | `typed` | frames by name: `nmt start`, `sync`, `guard`, `read 1017h` |
+//! | `master` | lines about the master on the bench |
 //! | `pattern`, `frames` | expected frames |
 //! | `fact`, `test` | conditions about one moment |
 
@@ -17,6 +18,7 @@ pub(crate) mod draw;
 pub(crate) mod fact;
 pub(crate) mod frames;
 pub(crate) mod line;
+pub(crate) mod master;
 pub mod pattern;
 pub mod problem;
 pub(crate) mod shown;

@@ -130,8 +130,31 @@ pub fn resolve(
     }
 }
 
+/// `6001h = 4096 as u32`.
+pub(super) fn write(tokens: &mut Tokens<'_>) -> Result<Write, Problem> {
+    let object = match tokens.split_at_equals() {
+        Some(object) if !object.is_empty() => object.rest().to_owned(),
+        _ => return Err(tokens.wrong("the object is missing")),
+    };
+    let value = tokens.split_at_word(&["as"]);
+    if value.is_empty() {
+        return Err(tokens.wrong("the value is missing"));
+    }
+    let data_type = if tokens.take("as") {
+        Some(type_named(tokens)?)
+    } else {
+        None
+    };
+    tokens.end()?;
+    Ok(Write {
+        object,
+        value: value.rest().to_owned(),
+        data_type,
+    })
+}
+
 /// `u16`, `i8`, `UNSIGNED16` …
-pub(super) fn type_named(tokens: &mut Tokens<'_>) -> Result<DataType, Problem> {
+fn type_named(tokens: &mut Tokens<'_>) -> Result<DataType, Problem> {
     let here = *tokens;
     let name = tokens.next();
     let short = |data_type: &DataType| {

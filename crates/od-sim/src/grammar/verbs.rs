@@ -6,10 +6,11 @@ use super::action::{Action, Expect, Outcome, Timing};
 use super::deed::Deed;
 use super::fact::Fact;
 use super::frames::{self, Frames};
+use super::master::MasterLine;
 use super::pattern::Pattern;
 use super::problem::Problem;
 use super::tokens::{Tokens, nmt_command};
-use super::typed::{Typed, Write, type_named};
+use super::typed::{Typed, write};
 use super::world::{bus, connect, device, emcy, fault, label, pin, power, shaft, switch, wire};
 use crate::logs::candump;
 
@@ -23,7 +24,7 @@ pub(super) struct Verb {
 
 /// All verbs, in the order of messages.
 #[rustfmt::skip]
-pub(super) const VERBS: [Verb; 22] = [
+pub(super) const VERBS: [Verb; 23] = [
     Verb { name: "device", parse: device,
            usage: "`device gxmm`, `device gxmm node 5 as left`, or a file name" },
     Verb { name: "use", parse: |tokens| Ok(Action::Deed(Deed::Use(label(tokens)?))),
@@ -46,8 +47,11 @@ pub(super) const VERBS: [Verb; 22] = [
     Verb { name: "bus", parse: bus,
            usage: "bus active, warning, passive, off, overrun, bitrate 250 (kbit/s) or bitrate any" },
     Verb { name: "line", parse: wire,
-           usage: "line real, ideal, terminators 2, bitrate 250 (kbit/s), bitrate any, plug or \
-                   unplug" },
+           usage: "line real, ideal, terminators 2, bitrate 250 (kbit/s), bitrate any, plug, unplug, \
+                   length 100 (m), sample-point 87.5 (%), sjw 1 or clock 0.5 (%)" },
+    Verb { name: "master", parse: |tokens| Ok(Action::Deed(Deed::Master(MasterLine::parse(tokens)?))),
+           usage: "`master slave 5`, `master expect 5 1018h:02 = 10`, `master write 5 1017h = 100`, \
+                   `master heartbeat 5 300ms`, `master sync 100ms`, `master boot` or `master clear`" },
     Verb { name: "send", parse: send, usage: "`send 080# 3 times every 10ms`" },
     Verb { name: "nmt", parse: nmt, usage: "`nmt start`, `nmt start 5` or `nmt start all`" },
     Verb { name: "sync", parse: sync, usage: "`sync 15 times every 10ms` or `sync counter 3`" },
@@ -123,29 +127,6 @@ fn read(tokens: &mut Tokens<'_>) -> Result<Action, Problem> {
         "" => Err(tokens.wrong("the object is missing")),
         object => Ok(once(Typed::Read(object.to_owned()))),
     }
-}
-
-/// `6001h = 4096 as u32`.
-fn write(tokens: &mut Tokens<'_>) -> Result<Write, Problem> {
-    let object = match tokens.split_at_equals() {
-        Some(object) if !object.is_empty() => object.rest().to_owned(),
-        _ => return Err(tokens.wrong("the object is missing")),
-    };
-    let value = tokens.split_at_word(&["as"]);
-    if value.is_empty() {
-        return Err(tokens.wrong("the value is missing"));
-    }
-    let data_type = if tokens.take("as") {
-        Some(type_named(tokens)?)
-    } else {
-        None
-    };
-    tokens.end()?;
-    Ok(Write {
-        object,
-        value: value.rest().to_owned(),
-        data_type,
-    })
 }
 
 fn set(tokens: &mut Tokens<'_>) -> Result<Action, Problem> {

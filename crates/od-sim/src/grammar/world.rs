@@ -10,6 +10,7 @@ use super::deed::{Deed, Shaft, Wire};
 use super::problem::Problem;
 use super::tokens::{Tokens, fault_name};
 use crate::device::size;
+use crate::wire::cable::{self, Property};
 
 pub(super) fn device(tokens: &mut Tokens<'_>) -> Result<Action, Problem> {
     let head = tokens.split_at_word(&["node", "serial", "domain-size", "as", "on", "off"]);
@@ -221,8 +222,42 @@ pub(super) fn wire(tokens: &mut Tokens<'_>) -> Result<Action, Problem> {
         "bitrate" => Wire::BitRate(bit_rate(tokens)?),
         "plug" => Wire::Plugged(true),
         "unplug" => Wire::Plugged(false),
+        "length" => Wire::Cable(Property::Length(
+            tokens.number(0, cable::LONGEST.into())? as u16
+        )),
+        "sample-point" => {
+            let thousandths = percent(tokens, (50.0, 95.0))? * 10.0;
+            Wire::Cable(Property::SamplePoint(thousandths.round() as u16))
+        }
+        "sjw" => Wire::Cable(Property::Jump(
+            tokens.number(1, cable::MOST_JUMP.into())? as u8
+        )),
+        "clock" => {
+            let millionths = percent(tokens, (-5.0, 5.0))? * 10_000.0;
+            Wire::Cable(Property::Clock(millionths.round() as i32))
+        }
         word => return Err(here.wrong(format!("a line cannot `{word}`"))),
     })))
+}
+
+/// Reads a number of percent in a range, without the sign.
+fn percent(tokens: &mut Tokens<'_>, (low, high): (f64, f64)) -> Result<f64, Problem> {
+    let here = *tokens;
+    let word = tokens.next();
+    let value = word
+        .parse()
+        .ok()
+        .filter(|value| (low..=high).contains(value));
+    value.ok_or_else(|| {
+        let message = match word {
+            "" => String::from("a number is missing"),
+            _ => format!("`{word}` is not valid"),
+        };
+        here.problem(
+            message,
+            format!("write a percentage from {low} to {high}, such as {high}"),
+        )
+    })
 }
 
 /// Reads a bit rate in kbit/s, or `any`.

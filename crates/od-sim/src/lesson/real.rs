@@ -77,9 +77,11 @@ fn virtual_thing(one: &Alternative) -> Option<&'static str> {
         Fact::BitRate(_)
         | Fact::Terminators(_)
         | Fact::ErrorCounter { .. }
-        | Fact::Controller(_) => "a step looks at the bus line",
+        | Fact::Controller(_)
+        | Fact::Cable(..) => "a step looks at the bus line",
         Fact::Turned(_) | Fact::Rpm(_) => "a step turns the shaft",
         Fact::Broken(_) => "a step looks at a fault",
         Fact::Pin(..) => "a step looks at a connection",
+        Fact::Master(..) => "the bench has a master",
     })
 }

@@ -50,6 +50,8 @@ pub(super) struct Place {
     greetings: Vec<Sent>,
     pub(super) held: usize,
     frames: u64,
+    /// Frames of the master and, on a real line, of the script.
+    own: u64,
     chance: Chance,
     /// The drawn lines, each with the number of its `random` line.
     pub(super) drawn: Vec<(u32, String)>,
@@ -64,6 +66,7 @@ impl Place {
             greetings: Vec::new(),
             held: 0,
             frames: 0,
+            own: 0,
             chance: Chance::of_seed(seed),
             drawn: Vec::new(),
         }
@@ -156,7 +159,7 @@ impl Runner<'_> {
     fn carry_out(&mut self, statement: &Statement) -> Result<()> {
         let mut result = self.statement(statement);
         if let Some(limits) = self.limits
-            && self.place.frames > limits.frames
+            && self.place.frames.max(self.place.own) > limits.frames
         {
             result = impossible(limits.flood());
         } else if self.host.stops() {
@@ -414,7 +417,7 @@ impl Runner<'_> {
 
     /// Returns whether there were more frames than the limit of the script, or the host ends the run.
     fn must_end(&self) -> bool {
-        let frames = self.place.frames;
+        let frames = self.place.frames.max(self.place.own);
         self.limits.is_some_and(|limits| frames > limits.frames) || self.host.stops()
     }
 
@@ -424,6 +427,7 @@ impl Runner<'_> {
             self.host.frame(sent.at, origin, &sent.frame);
             self.host.look(&mut self.bench.bus);
             if sent.device.is_none() {
+                self.place.own += 1;
                 continue;
             }
             self.place.frames += 1;

@@ -204,9 +204,17 @@ impl Medium {
     pub(crate) fn due(&self) -> Option<Instant> {
         let nanos = match &self.flight {
             Some(flight) => flight.end,
-            None => self.waiting.iter().map(|one| self.start(one)).min()?,
+            None => self.candidates().map(|one| self.start(one)).min()?,
         };
         Some(Instant::from_micros(nanos.div_ceil(NANOS)))
+    }
+
+    /// The frames that can be the next one. A program sends its frames in order, so only the oldest of the outside can.
+    fn candidates(&self) -> impl Iterator<Item = &Waiting> {
+        let outside = self.waiting.iter().filter(|one| one.station == 0);
+        let oldest = outside.map(|one| one.order).min();
+        let can = move |one: &&Waiting| one.station != 0 || Some(one.order) == oldest;
+        self.waiting.iter().filter(can)
     }
 
     /// Time at which a frame may start if no other frame does, in nanoseconds.
@@ -223,15 +231,10 @@ impl Medium {
         if let Some(flight) = self.flight.take() {
             return Some(Due::End(flight.ended));
         }
-        // All frames that are ready at the first possible start take part. A program sends its frames in
-        // order, so only the oldest of the outside does.
-        let first = self.waiting.iter().map(|one| self.start(one)).min()?;
-        let outside = self.waiting.iter().filter(|one| one.station == 0);
-        let oldest = outside.map(|one| one.order).min();
-        let takes_part = |one: &Waiting| {
-            self.start(one) <= first && (one.station != 0 || Some(one.order) == oldest)
-        };
-        let mut parts: Vec<Waiting> = self.waiting.iter().copied().filter(takes_part).collect();
+        // All frames that are ready at the first possible start take part.
+        let first = self.candidates().map(|one| self.start(one)).min()?;
+        let takes_part = |one: &Waiting| self.start(one) <= first;
+        let mut parts: Vec<Waiting> = self.candidates().copied().filter(takes_part).collect();
         let lowest = parts.iter().map(|one| arbitration(&one.frame)).min()?;
         parts.retain(|one| arbitration(&one.frame) == lowest);
         parts.sort_by_key(|one| one.order);

@@ -5,9 +5,11 @@
 //! the lowest identifier first. A station with another bit rate destroys the frame while it is error active.
 //! Two stations that send different frames with one identifier at the same moment destroy both. A frame that
 //! no station acknowledges is repeated. A controller with too many errors goes bus-off. Random events are
-//! drawn from a seed, so the next run repeats them.
+//! drawn from a seed, so the next run repeats them. With a [`cable`] the line has a length, a sample point and clocks
+//! that deviate.
 
 pub mod bits;
+pub mod cable;
 mod controller;
 mod medium;
 
@@ -16,6 +18,7 @@ use std::prelude::v1::*;
 
 use od_runtime::{BusEvent, Frame, Instant};
 
+use self::cable::{Measure, Property};
 use self::controller::PASSIVE;
 pub use self::controller::{Condition, Controller};
 pub use self::medium::{Disturbance, Trouble};
@@ -60,6 +63,9 @@ pub struct Line {
     disturbed: VecDeque<Disturbance>,
     events: VecDeque<(usize, BusEvent)>,
     chance: Chance,
+    /// The physics of a real line.
+    #[cfg(feature = "training")]
+    pub cable: cable::Cable,
 }
 
 impl Default for Line {
@@ -74,6 +80,8 @@ impl Default for Line {
             disturbed: VecDeque::new(),
             events: VecDeque::new(),
             chance: Chance::new(CHANCE),
+            #[cfg(feature = "training")]
+            cable: cable::Cable::default(),
         }
     }
 }
@@ -154,6 +162,8 @@ impl Line {
     /// Removes a station; later ones move up.
     pub(super) fn remove(&mut self, station: usize) {
         self.medium.remove(station);
+        #[cfg(feature = "training")]
+        self.cable.remove(station);
         if station < self.controllers.len() {
             self.controllers.remove(station);
         }
@@ -268,7 +278,7 @@ impl Line {
             }
         }
         let senders: Vec<usize> = left.iter().map(|(station, _)| *station).collect();
-        let trouble = self.attempt(stations, &senders, &beaten);
+        let trouble = self.attempt(stations, &senders, &beaten, &left[0].1);
         Attempt {
             trouble,
             bits: medium::bits_of(&left[0].1, trouble),
@@ -295,11 +305,17 @@ impl Line {
         stations: &[Station],
         senders: &[usize],
         beaten: &[usize],
+        frame: &Frame,
     ) -> Option<Trouble> {
         let rate = stations[senders[0]].rate;
         let mut others = self.listeners(stations, senders);
         others.retain(|station| !beaten.contains(station));
-        let same = |station: &usize| same_rate(rate, stations[*station].rate);
+        // A clock that deviates too far is another bit rate for the frames that it cannot follow.
+        let follows: Vec<usize> = (others.iter().copied())
+            .filter(|station| same_rate(rate, stations[*station].rate))
+            .filter(|station| !self.misreads(frame, senders[0], *station))
+            .collect();
+        let same = |station: &usize| follows.contains(station);
         let strangers: Vec<usize> = others
             .iter()
             .copied()
@@ -310,9 +326,9 @@ impl Line {
         };
         let trouble = if strangers.iter().any(|other| destroys(self, other)) {
             Some(Trouble::OtherBitRate)
-        } else if self.is_unlucky(rate) {
+        } else if self.is_unlucky(rate) || self.is_slow(rate, others.len() + senders.len()) {
             Some(Trouble::Reflections)
-        } else if !others.iter().any(same) {
+        } else if !others.iter().any(same) || self.is_late(rate) {
             Some(Trouble::NoAcknowledge)
         } else {
             None
@@ -353,6 +369,68 @@ impl Line {
             _ => rate / 20 + 5,
         };
         (self.chance.number() >> 33) % 100 < percent
+    }
+}
+
+/// The physics of the line.
+#[cfg(feature = "training")]
+impl Line {
+    /// Returns whether a station cannot read a frame of another one because their clocks deviate.
+    pub(super) fn misreads(&self, frame: &Frame, from: usize, to: usize) -> bool {
+        self.cable.misreads(frame, from, to)
+    }
+
+    /// Sets a property of the line; a clock is that of this station.
+    ///
+    /// # Errors
+    /// Never with the feature `training`.
+    pub(crate) fn set_property(
+        &mut self,
+        station: usize,
+        property: Property,
+    ) -> Result<(), String> {
+        self.cable.set(station, property);
+        Ok(())
+    }
+
+    /// Returns a value of the line; a clock is that of this station.
+    pub(crate) fn measure(&self, station: usize, measure: Measure) -> f64 {
+        self.cable.measure(station, measure)
+    }
+
+    /// Returns whether acknowledgements come too late for the sender.
+    fn is_late(&self, rate: Option<u16>) -> bool {
+        self.cable.is_late(rate.unwrap_or(500))
+    }
+
+    /// Returns whether a recessive bit comes too late for all.
+    fn is_slow(&self, rate: Option<u16>, stations: usize) -> bool {
+        let rate = rate.unwrap_or(500);
+        self.cable.is_slow(rate, self.terminators, stations)
+    }
+}
+
+/// Without the feature `training` the line is short, and all clocks are right.
+#[cfg(not(feature = "training"))]
+impl Line {
+    pub(super) fn misreads(&self, _: &Frame, _: usize, _: usize) -> bool {
+        false
+    }
+
+    pub(crate) fn measure(&self, _: usize, _: Measure) -> f64 {
+        0.0
+    }
+
+    pub(crate) fn set_property(&mut self, _: usize, _: Property) -> Result<(), String> {
+        Err("this program has no physics of the line".into())
+    }
+
+    fn is_late(&self, _: Option<u16>) -> bool {
+        false
+    }
+
+    fn is_slow(&self, _: Option<u16>, _: usize) -> bool {
+        false
     }
 }
 

@@ -4,7 +4,7 @@
 import type { RealCommand, RealReport, RealState } from '../real/api';
 import type { Builtin, Bus, Chain, decodeEds, DeviceInfo, Entry, foreignFile, Input, JournalNews, judgeAnswer, Lesson, LessonState, LineStatus, plainEds, readLog, Status, Value, writeLog } from '../wasm/od_playground';
 
-export type { Added, Builtin, Chain, DeviceInfo, Diagnostic, Entry, Field, FrameTemplate, Input, Judgement, Lamp, Lesson, LessonState, LineStatus, Log, Mapped, MappingStep, ObjectRecord, Outcome, Pdo, Pin, Source, Status, Transfer, Value } from '../wasm/od_playground';
+export type { Added, Builtin, CableState, Chain, DeviceInfo, Diagnostic, Entry, Field, FrameTemplate, Input, Judgement, Lamp, Lesson, LessonState, LineStatus, Log, Mapped, MappingStep, MasterSlave, MasterState, ObjectRecord, Outcome, Pdo, Pin, Source, Status, Transfer, Value } from '../wasm/od_playground';
 
 export interface Address {
   index: number;
@@ -12,7 +12,7 @@ export interface Address {
 }
 
 /** Questions of the page to the bus; they change nothing. */
-export type Questions = Pick<Bus, 'describeAll' | 'fields' | 'mappingSteps' | 'pdos' | 'pins' | 'read'>;
+export type Questions = Pick<Bus, 'cable' | 'describeAll' | 'fields' | 'mappingSteps' | 'master' | 'pdos' | 'pins' | 'read'>;
 
 /** Functions of the whole module that need no bus. */
 export interface Tools {

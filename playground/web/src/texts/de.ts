@@ -25,10 +25,11 @@ import { bench } from './de/bench';
 import { bus } from './de/bus';
 import { dialogs } from './de/dialogs';
 import { editor } from './de/editor';
+import { labs } from './de/labs';
 import { machine } from './de/machine';
 import { page } from './de/page';
 import { real } from './de/real';
 import { seeing } from './de/seeing';
 
-/** `T`, `D`, `E`, `M`, `R` and `S` are the names under which the page uses these texts. */
-export const catalogue = { T: { ...bench, ...bus, ...page }, D: dialogs, E: editor, M: machine, R: real, S: seeing };
+/** `T`, `D`, `E`, `M`, `R`, `S` and `L` are the names under which the page uses these texts. */
+export const catalogue = { T: { ...bench, ...bus, ...page }, D: dialogs, E: editor, M: machine, R: real, S: seeing, L: labs };

@@ -5,6 +5,7 @@ import { html, nothing, type TemplateResult } from 'lit';
 import { keyed } from 'lit/directives/keyed.js';
 import { effect } from '@preact/signals-core';
 import { leaveLesson, playScript, setRunning } from '../actions';
+import { beside } from '../labs/open';
 import { language } from '../language';
 import { reached } from '../lessons/kept';
 import { again, backTo, following, lessons, openNamed, recalled, shortOf, translated, words, type Asked, type Listed } from '../lessons/open';
@@ -188,6 +189,7 @@ class LessonPanel extends View {
           </section>`,
         )}
       </div>
+      ${beside(lesson)}
       <footer class="lesson-foot">${keyed(`${state.lessonRun.value.count}/${shown}`, isDone ? this.goOn(shown, isLast) : this.open(step, shown, progress))}</footer>`;
   }
 }

@@ -2,6 +2,7 @@
 
 import { html, nothing, type PropertyValues, type TemplateResult } from 'lit';
 import { effect } from '@preact/signals-core';
+import { cards } from '../labs/open';
 import { language } from '../language';
 import { codeOf, finished, NEEDED, progress, QUESTIONS, type Done } from '../lessons/kept';
 import { lessons, openFile, openNamed, words, type Listed } from '../lessons/open';
@@ -121,6 +122,7 @@ class Lessons extends View {
           return html`<h3 id=${`level-${number}`} class="lesson-level">${level} <span class="muted num">${t.count(group.filter((one) => done.has(one.name)).length, group.length)}</span></h3>
             <ol class="lesson-list" aria-labelledby=${`level-${number}`}>${group.map((one) => this.card(one, done.has(one.name), known[one.name]))}</ol>`;
         })}
+        ${state.real.value || state.devices.value.length === 0 ? nothing : cards(close)}
         <section class="share-field"><p class="note">${t.test.hint(QUESTIONS, NEEDED)}</p><button @click=${() => void import('./final-test').then(() => (this.isTest = true))}>${t.test.begin}</button></section>
         ${this.code()}
         <label class="drop">${icons.file}<span><strong>${t.open}</strong><span class="muted">${t.openHint}</span></span>

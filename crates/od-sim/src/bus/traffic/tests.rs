@@ -231,3 +231,22 @@ fn frames_of_a_device_without_power_are_lost() {
     bus.set_power(0, true);
     assert_eq!(seen(&mut bus, 5_000_000).len(), 1);
 }
+
+/// The oldest frame of the outside waits a little longer because its controller is error passive. A second one
+/// behind it waits, too.
+#[test]
+fn two_frames_that_no_node_acknowledges_do_not_stop_time() {
+    let mut bus = bus(500, &[5]);
+    bus.set_power(0, false);
+    send(&mut bus, "080#");
+    send(&mut bus, "081#");
+    let end = bus.now().plus_millis(20);
+    seen(&mut bus, end.as_micros());
+    assert_eq!(bus.now(), end);
+    assert_eq!(bus.line.controller(0).transmit, 128);
+    bus.set_power(0, true);
+    let after = seen(&mut bus, end.as_micros() + 2_000_000);
+    let own = after.iter().filter(|(_, frame)| frame.starts_with("08"));
+    let own: Vec<&str> = own.map(|(_, frame)| frame.as_str()).collect();
+    assert_eq!(own, ["080#", "081#"]);
+}

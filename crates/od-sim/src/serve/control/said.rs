@@ -36,6 +36,7 @@ pub(super) fn said(deed: &Deed, bench: &Bench) -> String {
         Deed::Line(Wire::Plugged(true)) => String::from("connected to the bus line"),
         Deed::Line(Wire::Plugged(false)) => String::from("disconnected from the bus line"),
         Deed::Line(wire) => return line(*wire),
+        Deed::Master(_) => return String::from("the master has the line"),
         Deed::Power(true) => String::from("power on"),
         Deed::Power(false) => String::from("power off"),
         Deed::Cycle(micros) => format!("power off for {}, then on", duration(*micros)),
@@ -93,6 +94,6 @@ fn line(wire: Wire) -> String {
         Wire::Terminators(count) => format!("the bus line has {count} terminators"),
         Wire::BitRate(Some(kbit)) => format!("masters use {kbit} kbit/s on the bus line"),
         Wire::BitRate(None) => String::from("masters use the bit rate of the first node"),
-        Wire::Plugged(_) => String::from("done"),
+        Wire::Plugged(_) | Wire::Cable(_) => String::from("done"),
     }
 }
