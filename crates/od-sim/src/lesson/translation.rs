@@ -217,7 +217,9 @@ impl Composed {
                             self.problem(block.line, message, help);
                         }
                     }
-                    placed.push(block.name);
+                    if matches!(block.name, "checkpoint" | "answer") {
+                        placed.push(block.name);
+                    }
                 }
             }
         }

@@ -1,7 +1,7 @@
 //! Lessons: every text is read, or refused with line numbers; a valid lesson sets up a bench,
 //! asks questions, and judges any answer.
 
-use od_sim::lesson::{Lesson, Progress, pass};
+use od_sim::lesson::{Lesson, Progress, pass, translate};
 
 use super::script::{Bounded, WORDS as LINES, is_short};
 use crate::files::files;
@@ -50,9 +50,17 @@ pub(super) const TARGET: Target = Target {
     ..Target::PLAIN
 };
 
+const NMT: &str = include_str!("../../../../playground/lessons/02-nmt.md");
+
 fn run(input: &[u8]) {
     let text = String::from_utf8_lossy(input);
     let lines = text.lines().count() as u32 + 1;
+    // As the translation of a lesson, and of itself.
+    for original in [NMT, &text] {
+        for problem in translate(original, &text).err().into_iter().flatten() {
+            assert!((1..=lines).contains(&problem.line), "{problem}");
+        }
+    }
     let lesson = match Lesson::parse(&text) {
         Ok(lesson) => lesson,
         Err(problems) => {
