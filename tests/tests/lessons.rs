@@ -202,7 +202,7 @@ fn each_question_of_the_final_test_has_its_answer_in_a_lesson_and_not_in_its_tex
     for (number, (name, step, question)) in questions("en").into_iter().enumerate() {
         let (file, text) = lessons
             .iter()
-            .find(|(file, _)| file.ends_with(&format!("-{name}.md")))
+            .find(|(file, _)| file.get(3..) == Some(&format!("{name}.md")))
             .unwrap_or_else(|| panic!("{name} is not a lesson"));
         let lesson = read(file, text);
         let quiz = lesson.steps[step - 1].quiz.as_ref();
