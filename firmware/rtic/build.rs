@@ -1,4 +1,4 @@
-//! The memory of lm3s6965evb goes to the linker.
+//! Passes the memory layout of lm3s6965evb to the linker.
 
 use std::path::PathBuf;
 

@@ -1,4 +1,4 @@
-//! Start-up, the clock of the processor, and the way out to the emulator.
+//! Start-up, the clock of the processor, and calls of the emulator.
 
 use core::arch::{asm, global_asm};
 use core::cell::UnsafeCell;
@@ -6,10 +6,10 @@ use core::ffi::CStr;
 use core::panic::PanicInfo;
 use core::sync::atomic::{AtomicBool, Ordering};
 
-/// Content of RAM that nothing has written yet.
+/// Content of RAM that the program has not written yet.
 const PAINT: u32 = 0xA5A5_A5A5;
 
-// Paints the RAM, then .data gets its content and .bss its zeros.
+// Fills the RAM with the pattern; then .data gets its content and .bss its zeros.
 global_asm!(
     ".syntax unified",
     ".section .text.reset",
@@ -55,7 +55,7 @@ unsafe extern "C" {
     static mut __eeprom: [u8; 16 * 1024];
 }
 
-/// A static value that the program takes once, and owns from then on.
+/// A static value that the program takes once and then owns.
 pub struct Once<T>(UnsafeCell<T>, AtomicBool);
 
 // SAFETY: `take` hands the value out once, to its first caller.
@@ -76,8 +76,8 @@ impl<T> Once<T> {
     }
 }
 
-/// `N` bytes outside of the program's RAM, in place of an EEPROM. It is all zeros itself: a static node that has
-/// it takes no flash.
+/// `N` bytes outside the RAM of the program, as an EEPROM. The value itself is all zeros, so a
+/// static node that contains it takes no flash.
 pub struct Eeprom<const N: usize>(());
 
 impl<const N: usize> Eeprom<N> {
@@ -121,7 +121,7 @@ pub fn sizes() -> (u32, u32) {
     (of(&raw const __flash_end), ram)
 }
 
-/// The deepest that the stack has been, in bytes.
+/// Maximum size of the stack so far, in bytes.
 #[inline(never)]
 pub fn stack() -> u32 {
     let top = &raw const __stack_top;
@@ -146,7 +146,7 @@ pub fn start_clock() {
     }
 }
 
-/// Ticks of the clock, downwards, modulo 2²⁴.
+/// Ticks of the clock, counted downwards modulo 2²⁴.
 #[inline(always)]
 pub fn clock() -> u32 {
     // SAFETY: a register without side effects.
@@ -173,7 +173,7 @@ impl File {
         Self(semihosting(0x01, block.as_ptr() as usize))
     }
 
-    /// Reads as many bytes as there is room for, fewer at the end; returns their number.
+    /// Reads until `to` is full or the file ends; returns the number of bytes.
     pub fn read(&self, to: &mut [u8]) -> usize {
         let block = [self.0, to.as_mut_ptr() as usize, to.len()];
         let missing = semihosting(0x06, block.as_ptr() as usize);

@@ -1,4 +1,5 @@
-//! The master: it sends what every node has to answer, and measures what that takes.
+//! The master: it sends the requests to the node, and measures the time and the frames of the
+//! answers.
 
 use odkit::storage::Storage;
 use odkit::{Application, Device, Frame, Instant, Node};
@@ -75,7 +76,7 @@ impl<D: Device, A: Application, S: Storage> Bench<'_, D, A, S> {
         self.drain();
     }
 
-    /// Ticks until the first frame is out.
+    /// Ticks until the first frame is sent.
     #[inline(never)]
     fn power_on(&mut self) -> u32 {
         let before = board::clock();
@@ -84,8 +85,8 @@ impl<D: Device, A: Application, S: Storage> Bench<'_, D, A, S> {
         before.wrapping_sub(board::clock()) & 0xFF_FFFF
     }
 
-    /// Ticks of a frame, when it comes the second time, until all that it causes is sent, with those of
-    /// reading the clock.
+    /// Ticks from the second reception of a frame until all its effects are sent, including those
+    /// of reading the clock.
     #[inline(never)]
     fn ticks(&mut self, frame: &Frame) -> u32 {
         let mut ticks = 0;
@@ -99,9 +100,9 @@ impl<D: Device, A: Application, S: Storage> Bench<'_, D, A, S> {
     }
 }
 
-/// Plays a script, reports what it took, and ends the program.
+/// Runs a script, prints the measurements, and ends the program.
 ///
-/// `upload` is the request that is measured; `script` goes through all that the node can do.
+/// `upload` is the request that is measured; `script` uses everything that the node can do.
 pub fn run<D: Device, A: Application, S: Storage>(
     node: &mut Node<D, A, S>,
     upload: &Frame,

@@ -1,4 +1,4 @@
-//! The memory of the board goes to the linker.
+//! Passes the memory layout of the board to the linker.
 
 fn main() {
     let folder = std::env::var("CARGO_MANIFEST_DIR").unwrap_or_default();

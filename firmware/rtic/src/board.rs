@@ -1,4 +1,4 @@
-//! A board with a CAN controller and flash; here both are memory.
+//! A board with a CAN controller and flash, both simulated in memory.
 
 use embedded_can::{ErrorKind, nb};
 use embedded_storage::nor_flash::{
@@ -6,19 +6,19 @@ use embedded_storage::nor_flash::{
 };
 use odkit::Frame;
 
-/// A CAN controller whose bus is this program.
+/// A CAN controller without a bus: the program pushes and takes the frames.
 #[derive(Debug)]
 pub struct Can {
-    /// Frames that came.
+    /// Received frames.
     pub received: [Option<Frame>; 4],
-    /// Frames that were sent.
+    /// Number of sent frames.
     pub sent: u32,
     /// Number of responses to 1010h.
     pub saved: u32,
 }
 
 impl Can {
-    /// Nothing came, nothing was sent.
+    /// A controller that has received and sent nothing.
     pub const fn new() -> Self {
         Self {
             received: [None; 4],
@@ -27,7 +27,7 @@ impl Can {
         }
     }
 
-    /// A frame comes.
+    /// Receives a frame.
     pub fn push(&mut self, frame: Frame) {
         if let Some(room) = self.received.iter_mut().find(|frame| frame.is_none()) {
             *room = Some(frame);
@@ -35,7 +35,7 @@ impl Can {
     }
 }
 
-/// It does not fail.
+/// Sending cannot fail.
 #[derive(Debug)]
 pub enum Never {}
 
@@ -71,16 +71,16 @@ impl nb::Can for Can {
 /// Bytes of a page.
 pub const PAGE: usize = 4096;
 
-/// Three pages of flash; to erase one takes long, as it does in flash.
+/// Three pages of flash. Erasing takes long, as in real flash.
 #[derive(Debug)]
 pub struct Flash {
     bytes: [u8; 3 * PAGE],
-    /// Called in the middle of it.
+    /// Called during each erasure and each write.
     pub during: fn(),
 }
 
 impl Flash {
-    /// It is erased.
+    /// Erased flash.
     pub const fn new(during: fn()) -> Self {
         let bytes = [0xFF; 3 * PAGE];
         Self { bytes, during }

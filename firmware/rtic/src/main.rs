@@ -1,10 +1,10 @@
-//! A node in RTIC: the interrupt of the CAN controller handles frames, a task of low priority writes
-//! flash, and the two share the node.
+//! A node in RTIC. The interrupt of the CAN controller handles frames, a task of low priority
+//! writes flash, and the two share the node.
 //!
-//! A save is bounded steps of that task, so a SYNC that comes while flash is erased or written is answered
-//! at once. The program lets one come in each step, and prints instructions at worst: from the interrupt's
-//! request to the TPDO (`sync`), in which the task of low priority has the node for itself (`held`), and
-//! of the interrupt that takes a save over (`call`).
+//! That task makes a save in bounded steps, so the node responds to a SYNC at once while flash is
+//! erased or written. The program sends a SYNC in each step, and prints the maximum number of
+//! instructions: from the request of the interrupt to the TPDO (`sync`), while the task of low
+//! priority locks the node (`held`), and of the interrupt that takes over a save (`call`).
 #![no_std]
 #![no_main]
 
@@ -40,23 +40,24 @@ pub type Keeper = Log<Steps<Flash>, BUFFER>;
 /// Time when the interrupt was requested.
 static REQUESTED: AtomicU32 = AtomicU32::new(0);
 
-/// The longest that the task of low priority has had the node.
+/// Maximum time for which the task of low priority has locked the node.
 static HELD: AtomicU32 = AtomicU32::new(0);
 
-/// The longest that the interrupt took since the saves began.
+/// Maximum time of the interrupt since the saves began.
 static TOOK: AtomicU32 = AtomicU32::new(0);
 
-/// Ticks of the clock, upwards.
+/// Ticks of the clock, counted upwards.
 fn ticks() -> u32 {
     0xFF_FFFF - cortex_m::peripheral::SYST::get_current()
 }
 
-/// Instructions since a moment: an instruction takes 1024 ns with `-icount shift=10`, a tick 80 ns.
+/// Number of instructions since a time: an instruction takes 1024 ns with `-icount shift=10`, a
+/// tick 80 ns.
 fn instructions(since: u32) -> u32 {
     (ticks().wrapping_sub(since) & 0xFF_FFFF) * 80 / 1024
 }
 
-/// A frame comes, and the controller requests its interrupt.
+/// Receives a SYNC; the controller requests its interrupt.
 fn sync() {
     REQUESTED.store(ticks(), Ordering::Relaxed);
     rtic::pend(lm3s6965::Interrupt::GPIOA);
@@ -77,7 +78,7 @@ mod app {
     struct Shared {
         node: Node,
         can: Can,
-        /// The most that a SYNC waited.
+        /// Longest wait of a SYNC so far.
         longest: u32,
     }
 
@@ -131,7 +132,7 @@ mod app {
         TOOK.fetch_max(instructions(begin), Ordering::Relaxed);
     }
 
-    /// Keeps what the node saves.
+    /// Stores the values that the node saves.
     #[task(priority = 1, shared = [node], local = [log])]
     async fn keep(mut cx: keep::Context) {
         let log = cx.local.log;

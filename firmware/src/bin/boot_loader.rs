@@ -1,5 +1,6 @@
-//! A boot loader: a master writes a program to 1F50h:01 by block transfer, checks it by 1F56h and
-//! 1F57h, and starts it with 1F51h:01 (CiA 302-3). The program says so, and ends the emulator.
+//! A boot loader. A master writes a program to 1F50h:01 by block transfer, checks it by 1F56h and
+//! 1F57h, and starts it with 1F51h:01 (CiA 302-3). The program reports its start and ends the
+//! emulator.
 #![no_std]
 #![no_main]
 
@@ -39,7 +40,7 @@ const SIZE: usize = 8192;
 const ERASE_US: u64 = 20_000;
 const WRITE_US: u64 = 400;
 
-/// In place of flash: it is busy for a while after each command.
+/// A simulation of flash: it is busy for some time after each command.
 struct Flash {
     bytes: &'static mut [u8; SIZE],
     ready_at: Instant,
@@ -132,7 +133,7 @@ impl Master {
         self.node.handle_frame(self.now, &frame);
     }
 
-    /// Sends a request; its answer, which may take its time.
+    /// Sends a request, and returns its answer, which may be delayed.
     fn ask(&mut self, data: [u8; 8]) -> [u8; 8] {
         self.send(data);
         loop {
@@ -147,7 +148,7 @@ impl Master {
         }
     }
 
-    /// As [`ask`](Self::ask), where the answer has to begin with these bytes.
+    /// As [`ask`](Self::ask), but the answer must begin with these bytes.
     fn expect(&mut self, data: [u8; 8], answer: &[u8]) -> [u8; 8] {
         let found = self.ask(data);
         if !found.starts_with(answer) {
@@ -214,7 +215,7 @@ extern "C" fn main() -> ! {
     let start = [0x2F, 0x51, 0x1F, 1, 1, 0, 0, 0];
     master.expect(start, &[0x80, 0x51, 0x1F, 1, 0x24, 0, 0, 8]);
     master.load(program);
-    // Bit 0 of 1F57h says that pages are on their way into the flash.
+    // Bit 0 of 1F57h is 1 while pages are written into the flash.
     while master.ask([0x40, 0x57, 0x1F, 1, 0, 0, 0, 0]) != [0x43, 0x57, 0x1F, 1, 0, 0, 0, 0] {
         let Some(at) = master.node.poll_timeout() else {
             board::exit(false);
@@ -235,7 +236,7 @@ extern "C" fn main() -> ! {
     }
 }
 
-/// Leaves for a program: the stack pointer and the entry of its vector table.
+/// Starts a program, with the stack pointer and the entry of its vector table.
 fn jump(program: &[u8; SIZE]) -> ! {
     let [a, b, c, d, e, f, g, h, ..] = *program;
     let stack = u32::from_le_bytes([a, b, c, d]);

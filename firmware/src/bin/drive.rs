@@ -1,4 +1,4 @@
-//! The drive of CiA 402 with two axes, both in motion.
+//! A drive of CiA 402 with two axes, both in motion.
 #![no_std]
 #![no_main]
 

@@ -1,5 +1,5 @@
-//! A slave with every service of CiA 301 but LSS, on a dictionary of 170 values, without behaviour
-//! of its own.
+//! A slave with every service of CiA 301 except LSS, with a dictionary of 170 values and no
+//! application.
 #![no_std]
 #![no_main]
 

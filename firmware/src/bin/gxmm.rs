@@ -1,4 +1,4 @@
-//! GXMM complete, as on the bus: a multiturn encoder whose sensor is sampled.
+//! The complete GXMM: a multiturn encoder with a sampled sensor.
 #![no_std]
 #![no_main]
 
@@ -9,7 +9,7 @@ use odkit::{Device, Dictionary, Duration, Frame, Node, NodeId, Profile, Services
 use odkit_firmware::board::{Eeprom, Once};
 use odkit_firmware::master::{self, Step, frame, sdo};
 
-/// No object shows a speed, so no sample is remembered.
+/// No object contains a speed, so no sample is stored.
 type Shaft = Encoder<Sampled<Angle, 0>, Covers>;
 
 /// The encoders with a bus cover.
@@ -19,7 +19,7 @@ impl Family for Covers {
     const PROFILE: Option<&'static EncoderProfile> = Some(&ENCODER);
 }
 
-/// GXMM without what its profile switches off anyway.
+/// GXMM without the services that its profile switches off.
 struct Gxmm;
 
 impl Services for Gxmm {
@@ -75,7 +75,7 @@ static SCRIPT: [Step; 16] = [
     Step::Wait(1000),
     sdo([0x23, 0x10, 0x10, 1, b's', b'a', b'v', b'e']),
     sdo([0x23, 0x11, 0x10, 1, b'l', b'o', b'a', b'd']),
-    // LSS in Stopped: the vendor-ID is inquired.
+    // LSS in Stopped: the master inquires the vendor-ID.
     frame(0, [2, 0]),
     frame(0x7E5, [4, 1, 0, 0, 0, 0, 0, 0]),
     frame(0x7E5, [0x5A, 0, 0, 0, 0, 0, 0, 0]),

@@ -90,7 +90,7 @@ fn comparisons() -> bool {
     well
 }
 
-/// Divisions of numbers around powers of two: quotient and rest make the dividend again.
+/// Divisions of numbers near powers of two: quotient and remainder give the dividend again.
 fn divisions() -> bool {
     let mut well = true;
     let numbers = |bit: u32| [(1u64 << bit) - 1, 1 << bit, (1 << bit) + 1, (3 << bit) | 5];

@@ -1,4 +1,5 @@
-//! A small node with one service of the feature's name, or with none: what each costs.
+//! A small node with the one service that the feature names, or with none, to measure the size of
+//! each.
 #![no_std]
 #![no_main]
 
@@ -10,7 +11,7 @@ use odkit_firmware::board::{Eeprom, Once};
 use odkit_firmware::master::{self, Step, frame, sdo};
 
 odkit::object_dictionary! {
-    /// Objects of every variant, and in some those of a service.
+    /// The objects of every variant, and in some variants those of a service.
     mod slave {
         add 0x1000 { name = "Device type"; type = u32; access = const; default = 0 }
         add 0x1001 { name = "Error register"; type = u8; mappable = true }
@@ -115,7 +116,7 @@ const DICTIONARY: Dictionary<'static> = if cfg!(feature = "rpdos") {
     slave::DICTIONARY
 };
 
-/// The node, without all services but that one.
+/// The node, without all services except that one.
 struct Measured;
 
 impl Services for Measured {
@@ -157,7 +158,7 @@ static NODE: Once<Node<Measured, NoApplication, Memory<Eeprom<1024>>>> = Once::n
     Memory::new(unsafe { Eeprom::new() }),
 ));
 
-/// The master asks for the state of the node.
+/// The master requests the state of the node.
 const GUARD: Frame = match Frame::remote(CanId::standard(0x701), 1) {
     Some(guard) => guard,
     None => Frame::standard(0x701, &[]),
@@ -165,7 +166,7 @@ const GUARD: Frame = match Frame::remote(CanId::standard(0x701), 1) {
 
 #[unsafe(link_section = ".script")]
 static UPLOAD: Frame = Frame::standard(0x601, &[0x40, 0x00, 0x20, 0, 0, 0, 0, 0]);
-/// Goes through every service, whether or not the node has it.
+/// Uses every service, whether or not the node has it.
 #[unsafe(link_section = ".script")]
 static SCRIPT: [Step; 35] = [
     // 1008h by segments, and by block; 2001h likewise.
@@ -187,7 +188,7 @@ static SCRIPT: [Step; 35] = [
     frame(0x201, [1]),
     sdo([0x23, 0x00, 0x20, 0, 1, 0, 0, 0]),
     Step::Change,
-    // The master guards the node, and goes; node 5 sends heartbeats, and goes.
+    // The master guards the node and then stops; node 5 sends heartbeats and then stops.
     Step::Frame(GUARD),
     Step::Wait(1000),
     frame(0x705, [5]),

@@ -4,7 +4,7 @@ use core::ffi::CStr;
 
 use odkit_firmware::board::File;
 
-/// Bytes that are fetched or written at once.
+/// Number of bytes that are read or written at once.
 const ROOM: usize = 2048;
 
 /// A file that is read from its beginning to its end.
@@ -80,7 +80,7 @@ impl Output {
         }
     }
 
-    /// Writes what is left.
+    /// Writes the remaining bytes.
     pub fn write(&mut self) {
         self.file.write(&self.bytes[..self.len]);
         self.len = 0;

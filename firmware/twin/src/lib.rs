@@ -1,9 +1,9 @@
-//! Devices on a Cortex-M3 that do what those of the bench do.
+//! Devices on a Cortex-M3 that behave as those of the bench.
 //!
-//! The bench plays the conformance scripts, and logs the calls of a device: frames, time, angle of
-//! the shaft, switches, faults, power. A program here reads them from the file `calls` of the computer
-//! that runs the emulator, and writes the answers of its node to `answers`. `tests/firmware` compares
-//! them with those of the bench, byte for byte.
+//! The bench runs the conformance scripts and logs the calls of a device: frames, time, angle of
+//! the shaft, switches, faults, power. A program here reads them from the file `calls` of the
+//! computer that runs the emulator, and writes the answers of its node to `answers`.
+//! `tests/firmware` compares them with those of the bench, byte for byte.
 #![no_std]
 
 pub mod files;

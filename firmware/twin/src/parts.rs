@@ -1,10 +1,10 @@
-//! Parts of an encoder around its node: the shaft that a sensor looks at, and the EEPROM.
+//! Parts of an encoder around its node: the shaft with its sensor, and the EEPROM.
 
 use odkit::Instant;
 use odkit::encoder::{Angle, Counter, Fault, Gain, Motion, Sampled, Sensor};
 use odkit::storage::{Geometry, Memory, Storage, StorageError};
 
-/// A shaft of which samples come by themselves, by an interrupt: the node need not wake for them.
+/// A shaft whose samples come by an interrupt, so the node need not wake up for them.
 pub struct Shaft(pub Sampled<Angle, 128>);
 
 impl Motion for Shaft {
@@ -33,11 +33,11 @@ impl Motion for Shaft {
     }
 }
 
-/// An EEPROM that can break: it takes no byte then.
+/// An EEPROM that can break; a broken one accepts no byte.
 pub struct Eeprom {
     /// Its content.
     pub memory: Memory<&'static mut [u8]>,
-    /// Nothing can be written.
+    /// Whether it is broken.
     pub broken: bool,
 }
 

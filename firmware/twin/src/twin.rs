@@ -17,9 +17,9 @@
 //! | `X` | an error from the side of the device | code (2), register, information (5), 1 if it comes |
 //! | `D` | all values and the EEPROM are asked for | |
 //!
-//! Each call but the first five has an answer: state, node ID, hash of the events (4), next deadline
-//! in microseconds (8), ticks of the clock that it took (4), number of frames, and the frames as
-//! above. `D` adds a hash of each value (4) and the bytes of the EEPROM.
+//! Each call except the first five has an answer: state, node ID, hash of the events (4), next
+//! deadline in microseconds (8), ticks of the clock (4), number of frames, and the frames as above.
+//! `D` adds a hash of each value (4) and the bytes of the EEPROM.
 
 use odkit::encoder::{Angle, Encoder, Family, Fault, Motion, Sampled, Switches};
 use odkit::{
@@ -31,7 +31,7 @@ use odkit_firmware::board;
 use crate::files::{Input, Output};
 use crate::parts::{Eeprom, Shaft};
 
-/// Frames of one answer; a block of 127 segments is the longest there is.
+/// Maximum number of frames of an answer; the longest is a block of 127 segments.
 const FRAMES: usize = 160;
 
 /// FNV-1a of 32 bits.
@@ -56,27 +56,27 @@ impl core::fmt::Write for Hash {
     }
 }
 
-/// The node of a device, whose type is also its family.
+/// The node of a device; the type of the device is also its family.
 pub type Slave<D> = Node<D, Encoder<Shaft, D>, Eeprom>;
 
-/// A node without power, without EEPROM.
+/// A node without power, with an EEPROM of 0 bytes.
 pub const fn slave<D: Device + Family>(device: D, node_id: NodeId) -> Slave<D> {
     let shaft = Sampled::new(Angle::ZERO, Duration::from_millis(1));
     let encoder = Encoder::of_family(Shaft(shaft));
     Node::new(device, node_id, encoder, Eeprom::new(&mut []))
 }
 
-/// A node and its surroundings.
+/// A node and its environment.
 struct Twin<'b, D: Device> {
     node: &'b mut Slave<D>,
     calls: Input,
     answers: Output,
     frames: [Frame; FRAMES],
-    /// Ticks that pass between two looks at the clock.
+    /// Ticks between two consecutive reads of the clock.
     overhead: u32,
 }
 
-/// Plays the calls to their end.
+/// Handles all calls.
 pub fn run<D: Device + Family + Copy>(node: &mut Slave<D>, eeprom: &'static mut [u8]) -> ! {
     node.storage = Eeprom::new(eeprom);
     board::start_clock();
@@ -98,13 +98,13 @@ pub fn run<D: Device + Family + Copy>(node: &mut Slave<D>, eeprom: &'static mut 
     board::exit(true)
 }
 
-/// Ticks since a look at the clock.
+/// Ticks since the clock was read.
 fn since(before: u32) -> u32 {
     before.wrapping_sub(board::clock()) & 0xFF_FFFF
 }
 
 impl<D: Device + Family + Copy> Twin<'_, D> {
-    /// Handles a call; `None` where it makes no sense.
+    /// Handles a call; `None` if it is not valid.
     fn call(&mut self, call: u8) -> Option<()> {
         let now = Instant::from_micros(u64::from_le_bytes(self.calls.array()?));
         match call {
@@ -115,11 +115,11 @@ impl<D: Device + Family + Copy> Twin<'_, D> {
                 let angle = i64::from_le_bytes(self.calls.array()?);
                 self.node.application.shaft.0.source = Angle::from_fractions(angle);
                 if call == b'J' {
-                    // Nothing is known between the last sample and this one.
+                    // The angle between the last sample and this one is unknown.
                     self.node.application.shaft.power_off(now);
                 }
                 if self.node.is_powered() {
-                    // A sample has no fault here.
+                    // Samples have no faults here.
                     let _ = self.node.application.shaft.angle(now);
                 }
             }
@@ -165,7 +165,7 @@ impl<D: Device + Family + Copy> Twin<'_, D> {
         Some(())
     }
 
-    /// Calls that have an answer.
+    /// Handles the calls that have an answer.
     fn act(&mut self, call: u8, now: Instant) -> Option<()> {
         match call {
             b'F' => {
@@ -197,7 +197,7 @@ impl<D: Device + Family + Copy> Twin<'_, D> {
                 let value = value.get_mut(..len.into())?;
                 self.calls.fill(value)?;
                 self.answer(now, |node| {
-                    // What is refused is refused on the bench, too.
+                    // The bench refuses the same calls.
                     let _ = node.set_value(now, address, value);
                 });
             }
@@ -221,7 +221,7 @@ impl<D: Device + Family + Copy> Twin<'_, D> {
         Some(())
     }
 
-    /// Makes a call of the node, takes what it sends, and writes the answer.
+    /// Calls the node, takes the frames that it sends, and writes the answer.
     fn answer(&mut self, now: Instant, call: impl FnOnce(&mut Slave<D>)) {
         let before = board::clock();
         call(self.node);
@@ -255,7 +255,7 @@ impl<D: Device + Family + Copy> Twin<'_, D> {
         }
     }
 
-    /// Writes every value as it is now, and the EEPROM.
+    /// Writes every present value, and the EEPROM.
     fn show(&mut self, now: Instant) {
         let Self { node, answers, .. } = self;
         let (device, is_powered) = (*node.device(), node.is_powered());
@@ -267,7 +267,7 @@ impl<D: Device + Family + Copy> Twin<'_, D> {
                         now,
                         signals: &mut Signals::default(),
                     };
-                    // What cannot be had now shows as it was.
+                    // Without a new value, the last one is shown.
                     let _ = encoder.refresh(&mut context, entry.address);
                 }
                 let mut hash = Hash::new();
@@ -279,7 +279,7 @@ impl<D: Device + Family + Copy> Twin<'_, D> {
     }
 }
 
-/// A frame as it is written.
+/// A frame in its written form.
 fn frame(bytes: [u8; 13]) -> Option<Frame> {
     let [a, b, c, d, dlc, data @ ..] = bytes;
     let raw = u32::from_le_bytes([a, b, c, d]);

@@ -153,7 +153,7 @@ fn a_token_is_in_no_file() {
     let (folder, ready) = (path("tokens"), path("tokens-ready"));
     let _ = fs::remove_dir_all(&folder);
     fs::create_dir(&folder).expect("a folder");
-    // A bench that was killed, whose number another process has now.
+    // A killed bench, whose process ID another process has now.
     let user = nix::unistd::Uid::effective();
     let stale = folder.join(format!("odkit-sim-{user}-{}.json", std::process::id()));
     let own = std::process::id();

@@ -57,7 +57,7 @@ fn a_failure_has_seeds_and_a_script_that_run_plays() {
     let replay = odkit(&["run", "-"], script);
     assert_eq!(replay.code, 1, "{}", replay.err);
     assert!(replay.err.contains(expected), "{}", replay.err);
-    // Each seed gives its run again, alone and in `odkit run`.
+    // Each seed repeats its run, alone and in `odkit run`.
     assert_eq!(campaign("campaign-1.script", &[]).out, run.out);
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("campaign-1.script");
     for seed in 0..5 {

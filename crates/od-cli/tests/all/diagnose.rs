@@ -54,7 +54,7 @@ fn case(text: &str) -> Case<'_> {
     case
 }
 
-/// `FRAME FROM TO PERIOD JITTER`, in ms: the jitter is off by a different part of it each time.
+/// `FRAME FROM TO PERIOD JITTER`, in ms. Each frame is late by a random time of up to two jitters.
 fn foreign(text: &str) -> Vec<Record> {
     let words: Vec<&str> = text.split(' ').collect();
     let [frame, from, to, period, jitter] = words[..] else {

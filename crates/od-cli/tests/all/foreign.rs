@@ -36,7 +36,7 @@ fn eds() -> String {
     out
 }
 
-/// Another path for the same text: line ends inside a name come from XML.
+/// An XDD with the same text; in XML, a name can contain line ends.
 fn xdd(folder: &str) -> String {
     let (from, to) = (
         file(&format!("{folder}.eds"), &eds()),
@@ -54,7 +54,7 @@ fn xdd(folder: &str) -> String {
     to
 }
 
-/// Checks that a text acts on nothing.
+/// Checks that a text contains no control character and no hidden one.
 #[track_caller]
 fn harmless(what: &str, text: &str) {
     let hidden = |c: &char| is_hidden(*c) && !matches!(c, '\n' | '\t');
@@ -67,7 +67,7 @@ fn harmless(what: &str, text: &str) {
 #[track_caller]
 fn no_markup(what: &str, text: &str) {
     assert!(!text.contains("<script>"), "{what}: {text}");
-    // A code span or a fence of ours begins and ends elsewhere.
+    // The text does not end a code span or a fence of the page.
     assert!(!text.contains("|`x`"), "{what}: {text}");
 }
 

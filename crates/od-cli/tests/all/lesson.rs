@@ -189,7 +189,7 @@ fn a_lesson_is_shown_in_german_where_it_is_translated() {
         text.contains("## 1. Starte Knoten 5\n") && text.contains("Hint 2: Sende `000#01 05`"),
         "{text}"
     );
-    // A file has its translation beside it; what is missing is said.
+    // The translation is a file beside the lesson. If there is none, a message says so.
     assert_eq!(show(&lesson("02-nmt")).out, text);
     let run = odkit(
         &["lesson", "run", "boot-up-and-heartbeat", "--lang", "de"],

@@ -57,7 +57,7 @@ fn long_download() -> String {
 }
 
 #[test]
-fn a_domain_takes_what_the_option_says() {
+fn the_option_sets_the_size_of_a_domain() {
     let eds = repository("tests/interop/strings.eds");
     let read = "607#4002200000000000\n";
     let input = format!("{}{read}", long_download());
@@ -72,7 +72,8 @@ fn a_domain_takes_what_the_option_says() {
             assert!(sim.out.contains(frame), "{frame}\n{}", sim.out);
         }
     }
-    // Strings as well; a size that is announced too large is aborted at once.
+    // The option applies to strings, too. A transfer that announces too many bytes is aborted at
+    // once.
     let text = "607#2101200001040000\n";
     assert!(console(&[&eds], text).out.contains("587#6001200000000000"));
     let sim = console(&[&eds, "--domain-size", "1KiB"], &format!("{input}{text}"));

@@ -129,7 +129,7 @@ fn patched(
     }
     let checked = check(description);
     let index = |finding: &Finding| finding.object.map(|address| address.index);
-    // All else may be a consequence of a fault.
+    // All other findings may be consequences of an error.
     let is_own = |finding: &&Finding| {
         let of_one = finding.rule.is_of_one_value()
             && !faults.iter().any(|fault| index(fault) == index(finding));
@@ -137,8 +137,8 @@ fn patched(
             && (faults.is_empty() || finding.is_unsound() || of_one)
             && !before.contains(finding)
     };
-    // The last edit of the object, for a finding whose place is in the file, or that has none. What the file says
-    // elsewhere, such as in [DeviceInfo], no statement can correct.
+    // The last edit of the object, for a finding that has no place or one in the file. No statement
+    // can correct other parts of the file, such as [DeviceInfo].
     let culprit = |finding: &Finding| {
         if !finding.is_unsound() && !finding.rule.is_of_one_value() && finding.span().is_some() {
             return None;
