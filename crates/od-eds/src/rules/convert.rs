@@ -1,5 +1,5 @@
-//! 11: targets of `odkit convert` that cannot express all of a description. A warning is what a
-//! master sees of the target; of a remark it sees nothing.
+//! 11: targets of `odkit convert` that cannot express the whole description. A warning is about a
+//! loss that a master sees on the bus; a remark is about any other loss.
 
 use od_model::{Address, DataType};
 
@@ -190,7 +190,7 @@ pub(crate) static W1109: Rule = Rule {
     ..Rule::NEW
 };
 
-/// The finding about an object that no node of CANopenNode can do without.
+/// The finding about a missing object that every node of CANopenNode needs.
 pub(crate) fn w1109_cannot_start(missing: u16) -> Finding {
     let finding = W1109.finding().about(Address::new(missing, 0));
     let finding = finding.fact("object", Fact::Index(missing));
@@ -225,7 +225,7 @@ pub(crate) static W1111: Rule = Rule {
     ..Rule::NEW
 };
 
-/// The finding about an object past the 64 bits of a PDO.
+/// The finding about an object beyond the 64 bits of a PDO.
 pub(crate) fn w1111_no_room_in_message(pdo: Address, mapped: Address) -> Finding {
     let finding = W1111.finding().about(pdo);
     finding.fact("mapped", Fact::Object(mapped))

@@ -37,12 +37,12 @@ pub(crate) static E0701: Rule = Rule {
     ..Rule::NEW
 };
 
-/// An object whose index differs in one digit.
+/// Sentence for an object whose index differs in one digit.
 const E0701_NEAR: Form = Form {
     help: "write `{meant}` (\"{name}\")",
     ..Form::OWN
 };
-/// A target that nothing is like.
+/// Sentence for a target with no similar object.
 const E0701_FIRST: Form = Form {
     help: "write `add {target} {{ … }}` first",
     ..Form::OWN
@@ -58,7 +58,7 @@ pub(crate) fn e0701_object_missing(target: &Spanned<Target>) -> Finding {
     finding.fact("object", Fact::Index(target.index))
 }
 
-/// The same, with the object of this name that is likely meant.
+/// The same, with the object that the name probably means.
 pub(crate) fn e0701_near(target: &Spanned<Target>, meant: Target, name: &str) -> Finding {
     let finding = e0701_object_missing(target).form(&E0701_NEAR);
     finding.fact("meant", meant.to_string()).fact("name", name)
@@ -356,7 +356,7 @@ pub(crate) static E0712: Rule = Rule {
     ..Rule::NEW
 };
 
-/// Index 0, which is nothing.
+/// Sentence for index 0, which has no meaning.
 const E0712_ZERO: Form = Form {
     says: "{object} is not an index of an object",
     ..Form::OWN

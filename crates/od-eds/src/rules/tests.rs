@@ -1,4 +1,4 @@
-//! The table against itself and against the sources.
+//! The table agrees with itself and with the sources.
 
 use std::fs;
 use std::path::Path;
@@ -15,7 +15,8 @@ fn codes_are_unique_and_ascending() {
         assert!(pair[0].code[1..] < pair[1].code[1..], "{}", pair[1].code);
     }
     for r in RULES {
-        // A code is a name and stays; a severity was raised where a master stops, never lowered.
+        // A code never changes its name. Some severities were raised because a master stops; none
+        // was lowered.
         let letter = match r.code.as_bytes().first() {
             Some(b'E') => Severity::Error,
             Some(b'W') => Severity::Warning,
@@ -28,7 +29,7 @@ fn codes_are_unique_and_ascending() {
     }
 }
 
-/// A code in a comment or a test is one of a rule.
+/// A code in a comment or a test is that of a rule.
 #[test]
 fn every_code_in_the_sources_is_a_rule() {
     let mut sources = Vec::new();

@@ -1,4 +1,4 @@
-//! 01: text and INI structure: rules that the reader of lines, keys and encodings reports.
+//! 01: text and INI structure: rules reported by the reader of lines, keys and encodings.
 
 use alloc::format;
 use alloc::string::String;
@@ -63,7 +63,7 @@ pub(crate) fn w0101_no_sign(at: Span, key: &str, value: &str) -> Finding {
         .fix(Fix::safe().replace(at, "="))
 }
 
-/// The finding about a line that is nothing known.
+/// The finding about a line of no known form.
 pub(crate) fn w0101_unknown_line(line: Spanned<&str>) -> Finding {
     let finding = W0101.given(&line);
     finding.fix(Fix::safe().comment_out(line.span))
@@ -100,7 +100,7 @@ pub(crate) static W0103: Rule = Rule {
     ..Rule::NEW
 };
 
-/// The finding about a header that its line ends.
+/// The finding about a header without a closing bracket.
 pub(crate) fn w0103_no_closing_bracket(line: Span, name: Spanned<&str>) -> Finding {
     let fix = Fix::safe().replace(name.span, format!("{}]", *name));
     W0103.at(line).fact("given", *name).fix(fix)
@@ -118,7 +118,7 @@ pub(crate) static W0104: Rule = Rule {
     ..Rule::NEW
 };
 
-/// The finding about text behind a header, which becomes a comment below it.
+/// The finding about text after a header; the fix makes it a comment below the header.
 pub(crate) fn w0104_text_after_header(name: &str, text: Spanned<&str>) -> Finding {
     let comment = lines::comment(text.trim_start_matches([';', '#']));
     let comment = format!("\n{comment}");
@@ -156,7 +156,7 @@ pub(crate) static W0106: Rule = Rule {
 /// The label at the first of two.
 const FIRST: &str = "first defined here";
 
-/// The finding about a second section of a name.
+/// The finding about a second section with the same name.
 pub(crate) fn w0106_duplicate_section(second: &Placed<'_>, first: Span) -> Finding {
     let finding = W0106.at(second.header).fact("name", &*second.name.value);
     finding.related(first, FIRST)
@@ -174,7 +174,7 @@ pub(crate) static W0107: Rule = Rule {
     ..Rule::NEW
 };
 
-/// The finding about a second line of a key that says the same as the first.
+/// The finding about a second line of a key with the same value.
 pub(crate) fn w0107_duplicate_key(first: Span, key: &Text<'_>, value: &Text<'_>) -> Finding {
     repeated(&W0107, first, key, value).fix(Fix::safe().remove_line(key.span))
 }
@@ -217,7 +217,7 @@ pub(crate) static W0109: Rule = Rule {
     ..Rule::NEW
 };
 
-/// The finding about a value with a comment behind it, which gets a line of its own.
+/// The finding about a value with a comment after it; the fix gives the comment its own line.
 pub(crate) fn w0109_comment_after_value(key: Key, given: &Text<'_>, value: &str) -> Finding {
     let comment = given.get(value.len()..).unwrap_or_default().trim();
     let comment = format!(
@@ -264,7 +264,7 @@ const I0111_MARKED: Form = Form {
     ..Form::OWN
 };
 
-/// The finding about a file that is not ASCII, at its first character that is not.
+/// The finding about a file that is not ASCII, at the first such character.
 pub(crate) fn i0111_not_ascii(first: Span, encoding: Encoding, marked: bool) -> Finding {
     let finding = I0111.at(first).fact("encoding", encoding.name());
     if marked {
@@ -351,7 +351,7 @@ pub(crate) static E0115: Rule = Rule {
     ..Rule::NEW
 };
 
-/// The finding about a reference that leads to no parameter.
+/// The finding about a reference to a parameter that does not exist.
 #[cfg_attr(not(feature = "xdd"), allow(dead_code))]
 pub(crate) fn e0115_xdd_parameter_missing(at: Span, id: &str) -> Finding {
     E0115.at(at).fact("given", id)
@@ -369,7 +369,7 @@ pub(crate) static W0116: Rule = Rule {
     ..Rule::NEW
 };
 
-/// The finding about the first finding of a rule that is left out.
+/// The finding that further findings of a rule are left out.
 pub(crate) fn w0116_too_many_findings(
     first: Span,
     rule: &str,

@@ -1,4 +1,4 @@
-//! 02: lists, sections and keys against each other.
+//! 02: contradictions between lists, sections and keys.
 
 catalogue! {
     reader W0201

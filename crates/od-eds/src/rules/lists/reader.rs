@@ -1,4 +1,5 @@
-//! Rules about lists, sections and keys that the reader reports: it sees the lines, a description has lost them.
+//! Rules about lists, sections and keys that the reader reports, because a description no longer
+//! contains the lines.
 
 use alloc::format;
 use alloc::string::ToString;
@@ -108,8 +109,8 @@ pub(crate) fn w0204_in_xdd(given: &Spanned<String>, name: &'static str, found: u
     finding.fact("found", found).fix(fix)
 }
 
-/// The finding about a SupportedObjects that is missing, or not the number of entries. A tool that counts would lose
-/// an entry whose number is above a lower count, so the finding has no fix then.
+/// The finding about a SupportedObjects that is missing, or is not the number of entries. If a tool
+/// that counts would lose an entry with a higher number, the finding has no fix.
 pub(crate) fn w0204_supported_objects_count(
     header: Span,
     given: Option<&Text<'_>>,
@@ -159,7 +160,7 @@ pub(crate) static W0206: Rule = Rule {
     ..Rule::NEW
 };
 
-/// The finding about an entry in a list that is not for its object.
+/// The finding about an entry in the wrong list.
 pub(crate) fn w0206_wrong_list(entry: Span, index: u16, list: List) -> Finding {
     W0206
         .at(entry)
@@ -216,7 +217,7 @@ pub(crate) static W0209: Rule = Rule {
     ..Rule::NEW
 };
 
-/// The finding about a compact section of an object that has no CompactSubObj.
+/// The finding about a compact section of an object without CompactSubObj.
 pub(crate) fn w0209_compact_without_key(section: &Placed<'_>, index: u16) -> Finding {
     W0209
         .at(section.header)
@@ -253,21 +254,21 @@ pub(crate) static I0212: Rule = Rule {
     ..Rule::NEW
 };
 
-/// The finding about the section of an object whose name is written in another way.
+/// The finding about a section of an object with another spelling of its name.
 pub(crate) fn i0212_section_name_spelling(section: &Placed<'_>, right: &str) -> Finding {
-    // With another index the whole object is lost, with a leading 0 in the sub-index a sub-object.
+    // Another index loses the whole object, a leading 0 in the sub-index loses a sub-object.
     let own = |name: &str| name.get(..4).map(str::to_ascii_uppercase);
     let severity = if own(&section.name.value) == own(right) {
         Warning
     } else {
         Error
     };
-    // Fewer digits may be another index than the one that they make with zeros.
+    // Fewer digits may mean another index than the one with leading zeros.
     let plain = section.name.value.to_ascii_lowercase();
     let index = plain.split("sub").next().unwrap_or_default();
     let index = index.strip_prefix("0x").unwrap_or(index);
     let digits = index.bytes().filter(u8::is_ascii_hexdigit).count();
-    // A tool that ignores the section now would stop at an object without a type or an access.
+    // A tool that now ignores the section would stop at an object without a type or an access.
     let has = |key: &str| section.get(key).is_some_and(|value| !value.is_empty());
     let is_whole = has("DataType") && has("AccessType") || has("SubNumber") || has("CompactSubObj");
     let fix = if digits < 4 || !is_whole {
@@ -343,7 +344,7 @@ const W0215_UNLISTED: Form = Form {
     help: "add `0x{object:04X}` to [{list}]",
 };
 
-/// The finding about an entry of a module's list without a section.
+/// The finding about an entry in a module's list that has no section.
 pub(crate) fn w0215_no_section(entry: Span, index: u16, module: u16) -> Finding {
     let finding = W0215.at(entry).fact("object", Fact::Index(index));
     finding.fact("module", module)
@@ -433,7 +434,7 @@ pub(crate) static W0242: Rule = Rule {
     ..Rule::NEW
 };
 
-/// The finding about the first entry of a list whose number is not its place.
+/// The finding about the first entry of a list whose number is not its position.
 pub(crate) fn w0242_list_numbering(renumbered: Fix, key: &Text<'_>, place: i128) -> Finding {
     W0242
         .at(key.span)
@@ -442,7 +443,7 @@ pub(crate) fn w0242_list_numbering(renumbered: Fix, key: &Text<'_>, place: i128)
         .fix(renumbered)
 }
 
-/// Gives every entry the number of its place.
+/// Gives every entry the number of its position.
 pub(crate) fn w0242_renumbered(list: &Placed<'_>) -> Fix {
     let entries = list.pairs.iter();
     let entries = entries.filter(|(key, _)| number(key).is_some());
@@ -486,7 +487,7 @@ pub(crate) static W0252: Rule = Rule {
     ..Rule::NEW
 };
 
-/// Is this a key for a bit rate, whatever the rate?
+/// Returns whether this is a key for a bit rate, whatever the rate.
 pub(crate) fn is_rate(key: &str) -> bool {
     let start = key.get(.."BaudRate_".len());
     start.is_some_and(|start| start.eq_ignore_ascii_case("BaudRate_"))
@@ -494,7 +495,7 @@ pub(crate) fn is_rate(key: &str) -> bool {
 
 /// The finding about the key of another bit rate.
 pub(crate) fn w0252_bit_rate_unknown(key: &Text<'_>) -> Finding {
-    // Other tools do without it, too.
+    // Other tools work without it, too.
     W0252
         .at(key.span)
         .severity_of(Info)

@@ -37,7 +37,7 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
         if description.section(&section).is_none() {
             let finding = W0243.at(span).form(form).fact("section", section);
             let finding = finding.fact("module", module);
-            // The device cannot have it.
+            // The device does not support it.
             let is_connected = *form == CONNECTED;
             findings.push(if is_connected {
                 finding.severity_of(Severity::Error)

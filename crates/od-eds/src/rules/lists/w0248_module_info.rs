@@ -37,7 +37,7 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
             continue;
         };
         let finding = W0248.at(section.name.span).fact("section", name);
-        // A list of names is not needed: the number of modules says which there are.
+        // No list of names is needed: the number of modules gives their names.
         let is_listed = list.is_some_and(|list| {
             let has_names = list.pairs.iter().any(|(key, _)| number(key).is_some());
             let count = list.get("NrOfEntries").and_then(|count| number(count));

@@ -1,4 +1,4 @@
-//! The COB-IDs of a device that are in use, and what they are for.
+//! The COB-IDs of a device that are in use, and their services.
 
 use alloc::format;
 use alloc::string::String;
@@ -12,7 +12,7 @@ use crate::finding::{Finding, Rule};
 use crate::span::Span;
 use crate::subject::{Entry, Object, start_value};
 
-/// The bit that says 29-bit identifier.
+/// The bit for a 29-bit identifier.
 const EXTENDED: u32 = 1 << 29;
 
 /// What a device does with a CAN-ID.
@@ -20,12 +20,12 @@ const EXTENDED: u32 = 1 << 29;
 pub(super) enum Direction {
     Sends,
     Listens,
-    /// As the COB-ID says, or as other devices do.
+    /// Either, depending on the COB-ID or on other devices.
     Both,
 }
 
 impl Direction {
-    /// As a verb before "CAN-ID".
+    /// The verb before "CAN-ID".
     pub(super) const fn verb(self) -> &'static str {
         match self {
             Self::Sends => "sends with",
@@ -40,17 +40,17 @@ pub(super) struct CobId<'a> {
     pub(super) entry: Entry<'a>,
     pub(super) span: Span,
     pub(super) service: Service,
-    /// With the flags in bits 29 to 31.
+    /// Including the flags in bits 29 to 31.
     pub(super) value: u32,
-    /// Without them.
+    /// Without the flags.
     pub(super) identifier: u32,
     pub(super) extended: bool,
-    /// Does it depend on the node ID?
+    /// Whether it depends on the node ID.
     pub(super) formula: bool,
 }
 
 impl CobId<'_> {
-    /// The node IDs that the device can have: the one of a DCF, else all.
+    /// The possible node IDs of the device: the one of a DCF, otherwise all.
     pub(super) fn nodes(&self) -> RangeInclusive<u8> {
         match self.entry.description.commissioned_node_id() {
             Some(node) => node..=node,
@@ -67,7 +67,7 @@ impl CobId<'_> {
         }
     }
 
-    /// The first node ID for which the CAN-ID has more bits than bit 29 says.
+    /// The first node ID for which the CAN-ID has more bits than bit 29 allows.
     pub(super) fn too_long(&self) -> Option<u8> {
         self.nodes().find(|node| !self.fits(*node))
     }
@@ -76,8 +76,8 @@ impl CobId<'_> {
         self.can_id(node) <= if self.extended { 0x1FFF_FFFF } else { 0x7FF }
     }
 
-    /// The owner of the CAN-ID of a device with this node ID, and the range of CAN-IDs that it has, if CiA 301
-    /// reserves the CAN-ID for another service.
+    /// If CiA 301 reserves the CAN-ID of a device with this node ID for another service: the owner,
+    /// and its range of CAN-IDs.
     pub(super) fn reserved(&self, node: u8) -> Option<(RangeInclusive<u32>, CanIdOwner)> {
         if self.extended {
             return None;
@@ -89,15 +89,17 @@ impl CobId<'_> {
         })
     }
 
-    /// Can a device with this node ID use the CAN-ID, apart from its other services?
+    /// Returns whether a device with this node ID can use the CAN-ID, apart from its other
+    /// services.
     pub(super) fn is_usable(&self, node: u8) -> bool {
         self.fits(node) && self.reserved(node).is_none()
     }
 
-    /// The first node ID with which both have one CAN-ID, which is neither too long nor reserved.
+    /// The first node ID for which both have the same CAN-ID, and this CAN-ID is neither too long
+    /// nor reserved.
     ///
-    /// A number that the device listens to is that of a partner, and so is one that a partner listens to: then no
-    /// device has the partner's node ID, and a COB-ID with the node ID does not meet it.
+    /// If the device sends with one and listens to the other, the one that is a number belongs to a
+    /// partner. No device has the node ID of its partner, so the two never have the same CAN-ID.
     pub(super) fn meets(&self, other: &CobId<'_>) -> Option<u8> {
         let nodes = match (self.formula, other.formula) {
             _ if self.extended != other.extended => return None,
@@ -110,7 +112,7 @@ impl CobId<'_> {
         nodes.into_iter().find(is_usable)
     }
 
-    /// The node ID with which this formula is the number of the other.
+    /// The node ID for which this formula equals the number of the other.
     fn node_with(&self, number: &CobId<'_>) -> Option<RangeInclusive<u8>> {
         let node = number.identifier.checked_sub(self.identifier)?;
         let node = u8::try_from(node).ok()?;
@@ -118,13 +120,13 @@ impl CobId<'_> {
         (self.nodes().contains(&node) && !is_partner).then_some(node..=node)
     }
 
-    /// Is it the same number for both, with or without the node ID?
+    /// Returns whether both have the same number, with or without the node ID.
     pub(super) fn is_same(&self, other: &CobId<'_>) -> bool {
         let key = |one: &CobId<'_>| (one.formula, one.extended, one.identifier);
         key(self) == key(other)
     }
 
-    /// Is it the COB-ID of a PDO?
+    /// Returns whether it is the COB-ID of a PDO.
     pub(super) fn is_pdo(&self) -> bool {
         matches!(self.service, Service::Rpdo | Service::Tpdo)
     }
@@ -169,7 +171,7 @@ pub(super) fn cob_ids(description: &Description) -> impl Iterator<Item = CobId<'
                 _ => return None,
             };
             let span = value.span.or(entry.span);
-            // The default SDO has rules of its own.
+            // Other rules are about the default SDO.
             let is_valid = service.is_used(number) && entry.address.index != 0x1200;
             is_valid.then_some(CobId {
                 entry,

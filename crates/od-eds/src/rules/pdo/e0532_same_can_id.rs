@@ -24,7 +24,7 @@ const DEFAULT: Form = Form {
     ..Form::OWN
 };
 
-/// Sentence for a number and a COB-ID with the node ID, which meet for one node ID.
+/// Sentence for a number and a COB-ID with the node ID that are equal for one node ID.
 const ONE: Form = Form {
     says: "{object} has the CAN-ID of {other}, {can:03X}h, at node ID {node}",
     ..Form::OWN
@@ -44,7 +44,7 @@ const SHARED: Form = Form {
 
 fn check(description: &Description, findings: &mut Vec<Finding>) {
     let mut all: Vec<CobId<'_>> = cob_ids(description).collect();
-    // The one that is where it belongs keeps its CAN-ID.
+    // The one that is at its default keeps its CAN-ID.
     all.sort_by_key(|cob_id| (!is_default(cob_id), cob_id.service, cob_id.entry.address));
     for (number, cob_id) in all.iter().enumerate() {
         let about = |other: Fact| {
@@ -84,14 +84,14 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
     }
 }
 
-/// The first node ID with which the CAN-ID is one that the predefined connection set gives to another service,
+/// The first node ID for which the pre-defined connection set gives the CAN-ID to another service,
 /// and that service.
 fn by_default(cob_id: &CobId<'_>, all: &[CobId<'_>]) -> Option<(u8, &'static str)> {
     let has = |service| all.iter().any(|other| other.service == service);
     if cob_id.extended {
         return None;
     }
-    // A client that asks the node's own server.
+    // A client of the node's own server.
     let is_own = |node| [0x580, 0x600].contains(&cob_id.can_id(node).wrapping_sub(u32::from(node)));
     if cob_id.service == Service::SdoClient && cob_id.nodes().all(is_own) {
         return Some((*cob_id.nodes().start(), "the node's own SDO"));
@@ -109,7 +109,7 @@ fn by_default(cob_id: &CobId<'_>, all: &[CobId<'_>]) -> Option<(u8, &'static str
     })
 }
 
-/// Is it the COB-ID that the predefined connection set gives the service?
+/// Returns whether the pre-defined connection set gives the service this COB-ID.
 const fn is_default(cob_id: &CobId<'_>) -> bool {
     let index = cob_id.entry.address.index;
     let (formula, base) = match index {
@@ -123,11 +123,12 @@ const fn is_default(cob_id: &CobId<'_>) -> bool {
     cob_id.formula == formula && cob_id.identifier == base
 }
 
-/// Can these two not have one CAN-ID? Two PDOs have a rule of their own, and of two consumers each hears it.
+/// Returns whether these two must not have the same CAN-ID. Two PDOs have their own rule, and two
+/// consumers may share a CAN-ID.
 fn collide(a: &CobId<'_>, b: &CobId<'_>) -> bool {
     let consumes = |cob_id: &CobId<'_>| cob_id.service == Service::EmcyConsumer;
     let pdos = a.is_pdo() && b.is_pdo();
-    // An entry of 1028h is the CAN-ID of another device's EMCY, and no device's SYNC or TIME.
+    // An entry of 1028h is the CAN-ID of another device's EMCY, never that of a SYNC or TIME.
     let shared = |cob_id: &CobId<'_>| matches!(cob_id.service, Service::Sync | Service::Time);
     !pdos && (!consumes(a) || shared(b)) && (!consumes(b) || shared(a))
 }

@@ -1,4 +1,4 @@
-//! Shared by the rules about PDOs: the entries of a mapping.
+//! Parts of several rules about PDOs: the entries of a mapping.
 
 use alloc::vec::Vec;
 
@@ -11,7 +11,7 @@ use crate::rules::values::shared::DECLARED;
 use crate::span::{Span, Spanned};
 use crate::subject::{Entry, Object, shown, start_number, start_value};
 
-/// Does this object hold the mapping of an RPDO? `None` if it holds no mapping.
+/// Returns whether this object is the mapping of an RPDO; `None` if it is no mapping.
 pub(crate) const fn maps_rpdo(index: u16) -> Option<bool> {
     match index {
         0x1600..=0x17FF => Some(true),
@@ -20,13 +20,13 @@ pub(crate) const fn maps_rpdo(index: u16) -> Option<bool> {
     }
 }
 
-/// Is this the communication parameter of a PDO?
+/// Returns whether this is the communication parameter of a PDO.
 pub(crate) const fn is_communication(index: u16) -> bool {
     matches!(index, 0x1400..=0x15FF | 0x1800..=0x19FF)
 }
 
-/// Number of objects that a mapping maps; an error if they do not fit into a PDO. 254
-/// and 255 are multiplexed PDOs, of which nothing is known, as of a mapping without a number.
+/// Number of objects in a mapping; an error if they do not fit into a PDO. The content of a
+/// multiplexed PDO (254, 255) and of a mapping without a number is not known.
 pub(super) fn count(object: &Object<'_>) -> Result<u8, Spanned<u64>> {
     let address = Address::new(object.index, 0);
     let Some(count) = start_number(object.description, address) else {
@@ -39,7 +39,7 @@ pub(super) fn count(object: &Object<'_>) -> Result<u8, Spanned<u64>> {
     }
 }
 
-/// The entries of a mapping that its number counts.
+/// The entries of a mapping up to its number.
 pub(super) fn counted<'a>(object: &Object<'a>) -> impl Iterator<Item = Entry<'a>> + use<'a> {
     let is_mapping = maps_rpdo(object.index).is_some() && object.code.has_members();
     let count = if is_mapping {
@@ -51,7 +51,7 @@ pub(super) fn counted<'a>(object: &Object<'a>) -> impl Iterator<Item = Entry<'a>
     entries.filter(move |entry| (1..=count).contains(&entry.address.sub))
 }
 
-/// The numbers in those of the entries that can hold one.
+/// The numbers of the entries that can contain one.
 pub(super) fn numbers<'a>(
     object: &Object<'a>,
 ) -> impl Iterator<Item = (Entry<'a>, Spanned<u32>)> + use<'a> {
@@ -65,12 +65,12 @@ pub(super) fn numbers<'a>(
     })
 }
 
-/// A mapping entry, and what it maps.
+/// A mapping entry with its object.
 pub(super) struct Mapped<'a> {
     pub(super) entry: Entry<'a>,
     pub(super) span: Span,
     pub(super) number: u32,
-    /// Into an RPDO?
+    /// Whether it is mapped into an RPDO.
     pub(super) rpdo: bool,
     pub(super) target: Address,
     pub(super) bits: u8,
@@ -101,7 +101,7 @@ pub(super) const WRONG_LENGTH: &str =
 /// The help for an entry with another length.
 pub(super) const WRITE_ENTRY: &str = "write `{entry}`{fix}";
 
-/// An object that is mapped with another length than it has.
+/// An object that is mapped with another length than its own.
 pub(super) struct WrongLength {
     /// The object in a sentence.
     shown: Fact,
@@ -110,7 +110,7 @@ pub(super) struct WrongLength {
 }
 
 impl<'a> Mapped<'a> {
-    /// Is a data type mapped, to fill a gap?
+    /// Returns whether a data type is mapped as a gap.
     pub(super) fn is_dummy(&self) -> bool {
         (1..=0x1F).contains(&self.target.index)
     }
@@ -123,7 +123,7 @@ impl<'a> Mapped<'a> {
         entries.find(|entry| entry.address == self.target)
     }
 
-    /// Can the value be mapped, and in this direction?
+    /// Returns whether the value can be mapped in this direction.
     pub(super) fn takes(&self, value: &Entry<'_>) -> bool {
         let direction = if self.rpdo {
             value.access.maps_to_rpdo()
@@ -133,7 +133,7 @@ impl<'a> Mapped<'a> {
         *value.mappable && direction
     }
 
-    /// The length that it should be mapped with, if that is another; only of what can be mapped.
+    /// The correct length, if it differs; `None` for a value that cannot be mapped.
     pub(super) fn wrong_length(&self) -> Option<WrongLength> {
         let (shown, data_type, own) = match self.value() {
             Some(value) if self.takes(&value) => {
@@ -165,12 +165,12 @@ impl<'a> Mapped<'a> {
 }
 
 impl WrongLength {
-    /// Is it a BOOLEAN in a byte of its own?
+    /// Returns whether it is a BOOLEAN mapped as a byte.
     pub(super) const fn is_boolean(&self, mapped: &Mapped<'_>) -> bool {
         self.right == 1 && mapped.bits == 8
     }
 
-    /// The finding of it.
+    /// The finding about it.
     pub(super) fn finding(self, rule: &'static Rule, mapped: &Mapped<'_>) -> Finding {
         let Address { index, sub } = mapped.target;
         let right = alloc::format!("0x{index:04X}{sub:02X}{:02X}", self.right);
@@ -187,16 +187,16 @@ impl WrongLength {
     }
 }
 
-/// A COB-ID of the default SDO that is not the standard's.
+/// A COB-ID of the default SDO that differs from the standard.
 pub(super) struct DefaultSdo {
     pub(super) span: Span,
     /// Number to which the node ID is added.
     pub(super) base: u32,
-    /// Is it a number, not the node ID and a number?
+    /// Whether it is a number without the node ID.
     pub(super) lacks_node_id: bool,
 }
 
-/// The COB-ID of the default SDO at this entry, if it is another than the standard's.
+/// The COB-ID of the default SDO at this entry, if it differs from the standard.
 pub(super) fn default_sdo(entry: &Entry<'_>) -> Option<DefaultSdo> {
     let base = match (entry.address.index, entry.address.sub) {
         (0x1200, 1) => 0x600,

@@ -51,7 +51,7 @@ const SOME: Form = Form {
 
 fn check(description: &Description, findings: &mut Vec<Finding>) {
     for cob_id in cob_ids(description) {
-        // 0 of a client, a consumer or a PDO that maps nothing says that it is not used.
+        // A client, a consumer or a PDO without mapping is not used if its COB-ID is 0.
         let is_idle = match cob_id.service {
             Service::SdoClient | Service::EmcyConsumer => true,
             Service::Rpdo | Service::Tpdo => maps_nothing(description, cob_id.entry.address.index),
@@ -89,7 +89,7 @@ fn finding(cob_id: &CobId<'_>) -> Option<Finding> {
     })
 }
 
-/// Is the mapping of this PDO empty?
+/// Returns whether the mapping of this PDO is empty.
 fn maps_nothing(description: &Description, communication: u16) -> bool {
     let count = start_number(description, Address::new(communication + 0x200, 0));
     count.is_none_or(|count| count.value == 0)

@@ -17,7 +17,7 @@ pub(crate) static W0521: Rule = Rule {
     ..Rule::NEW
 };
 
-/// Sentence for a number and a COB-ID with the node ID, which meet for one node ID.
+/// Sentence for a number and a COB-ID with the node ID that are equal for one node ID.
 const ONE: Form = Form {
     says: "{object} has the CAN-ID of {first}, {can:03X}h, at node ID {node}",
     ..Form::OWN
@@ -40,7 +40,7 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
                     .fact("can", cob_id.can_id(node))
                     .fact("node", node)
             };
-            // A node does not hear itself: only its partner is wrong.
+            // A node does not receive its own frames: only its partner is wrong.
             let finding = if first.service == cob_id.service {
                 finding
             } else {

@@ -19,7 +19,7 @@ pub(crate) static W0525: Rule = Rule {
 
 fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
     for (entry, number) in numbers(object) {
-        // Nothing, not even a length: there is nothing else to judge.
+        // The entry is 0, even its length, so no other part needs a check.
         if number.value == 0 {
             findings.push(W0525.on(&entry, number.span));
         }

@@ -18,7 +18,7 @@ pub(crate) static W0526: Rule = Rule {
     ..Rule::NEW
 };
 
-/// The first such entry is enough: most of a device's mappings are alike.
+/// Only the first such entry is reported: usually most mappings of a device are alike.
 fn check(description: &Description, findings: &mut Vec<Finding>) {
     let info = description.section("DeviceInfo");
     let given = info.and_then(|info| number(info.get("Granularity")?));

@@ -19,10 +19,10 @@ pub(crate) static W0539: Rule = Rule {
     ..Rule::NEW
 };
 
-/// The lowest of the upper bits that a master has to set, with another one or without.
+/// The lowest of the upper bits that a master must be able to set.
 const fn bit(index: u16, sub: u8) -> Option<u32> {
     match (index, sub) {
-        // Bit 30 makes a producer, bit 31 a consumer.
+        // Bit 30 enables a producer, bit 31 a consumer.
         (0x1012, 0) => Some(30),
         (0x1014, 0) | (0x1201..=0x12FF, 1 | 2) | (0x1400..=0x15FF | 0x1800..=0x19FF, 1) => Some(31),
         _ => None,

@@ -25,7 +25,7 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
         object.index,
         0x607B | 0x607D | 0x608F..=0x6092 | 0x6099 | 0x60C2
     );
-    // An object without any sub-object has rules of its own.
+    // Other rules are about an object without any sub-object.
     if !is_pair || own.is_empty() || !object.code.has_members() {
         return;
     }

@@ -1,4 +1,4 @@
-//! Objects that a device of a profile must have, and lacks.
+//! Objects that the profile of a device requires, and that the device does not have.
 
 use alloc::vec::Vec;
 
@@ -125,7 +125,8 @@ pub(crate) static W0904: Rule = Rule {
     ..Rule::NEW
 };
 
-/// Objects of every encoder, with their names. Of several, one is enough.
+/// Objects that every encoder has, with their names. If an entry has several, one of them is
+/// enough.
 const ENCODER: [(&[u16], &str); 10] = [
     (&[0x6000], "operating parameters"),
     (&POSITIONS, "position value"),

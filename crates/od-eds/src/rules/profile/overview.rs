@@ -1,5 +1,5 @@
-//! How the objects of a device differ from the object overview of its profile: CiA 406 has codes of its own, the other
-//! profiles share theirs.
+//! Differences between the objects of a device and the object overview of its profile. CiA 406 has
+//! its own rules, the other profiles share theirs.
 
 use alloc::format;
 use alloc::vec::Vec;
@@ -15,7 +15,7 @@ use crate::fix::Fix;
 use crate::rules::profile::shared::in_profile;
 use crate::subject::Object;
 
-/// Profiles of which all objects are known; CiA 406 is the encoder's.
+/// Profiles of which all objects are known; the rules about encoders are about CiA 406.
 const OTHERS: [u16; 3] = [401, 402, 404];
 const ENCODER: [u16; 1] = [406];
 

@@ -1,4 +1,4 @@
-//! The device type (1000h), and what the rules about profiles share.
+//! The device type (1000h), and parts of several rules about profiles.
 
 use od_model::{Address, DataType, ObjectCode};
 
@@ -15,7 +15,7 @@ pub(super) struct DeviceType {
 }
 
 impl DeviceType {
-    /// Returns if this bit of the upper half of 1000h is set.
+    /// Returns whether this bit of the upper half of 1000h is set.
     pub(super) const fn has(self, bit: u32) -> bool {
         self.additional & 1 << bit != 0
     }
@@ -36,7 +36,8 @@ fn device_type(description: &Description) -> Option<DeviceType> {
     })
 }
 
-/// Of an I/O module: a bit of 1000h, the objects one of which it announces, and the channels.
+/// Of an I/O module: a bit of 1000h, the objects of which the device must have one, and the
+/// channels.
 pub(super) const IO_BLOCKS: [(u32, &[u16], &str); 4] = [
     (0, &[0x6000, 0x6100, 0x6120], "digital inputs"),
     (1, &[0x6200, 0x6300, 0x6320], "digital outputs"),
@@ -52,12 +53,12 @@ pub(super) const IO_BLOCKS: [(u32, &[u16], &str); 4] = [
     ),
 ];
 
-/// Does the profile of the device specify an ARRAY here?
+/// Returns whether the profile of the device specifies an ARRAY here.
 pub(crate) fn is_profile_array(object: &Object<'_>) -> bool {
     in_profile(object).is_some_and(|(_, standard)| standard.code == ObjectCode::Array)
 }
 
-/// The type that the profile of the device gives a value.
+/// The type of a value in the profile of the device.
 pub(crate) fn profile_type(description: &Description, address: Address) -> Option<DataType> {
     let standard = checked(device_type(description)?.profile, address.index)?;
     if standard.code.has_members() && address.sub == 0 {
@@ -67,7 +68,7 @@ pub(crate) fn profile_type(description: &Description, address: Address) -> Optio
     }
 }
 
-/// The profile of the device, and what it says of this object.
+/// The profile of the device, and its specification of this object.
 pub(super) fn in_profile(object: &Object<'_>) -> Option<(u16, &'static Checked)> {
     if !matches!(object.index, 0x6000..=0x9FFF) {
         return None;
@@ -86,7 +87,7 @@ pub(super) struct Encoder<'a> {
 pub(super) const POSITIONS: [u16; 4] = [0x6004, 0x6008, 0x6020, 0x6050];
 
 impl<'a> Encoder<'a> {
-    /// The device, if it is one.
+    /// The device, if it is an encoder.
     pub(super) fn of(description: &'a Description) -> Option<Self> {
         let device = device(description, 406)?;
         Some(Self {
@@ -95,17 +96,17 @@ impl<'a> Encoder<'a> {
         })
     }
 
-    /// The number that an object starts with.
+    /// The number with which an object starts.
     pub(super) fn value(&self, index: u16) -> Option<Spanned<u64>> {
         start_number(self.description, Address::new(index, 0))
     }
 
-    /// Returns if its type is not one of the profile. FFFFh: several logical devices.
+    /// Returns whether its type is not in the profile. FFFFh: several logical devices.
     pub(super) const fn has_unknown_type(&self) -> bool {
         !matches!(self.device.additional, 1..=10 | 0xFFFF)
     }
 
-    /// Returns if it counts revolutions; `None` for linear and unknown encoders.
+    /// Returns whether it counts revolutions; `None` for linear and unknown encoders.
     pub(super) const fn is_multiturn(&self) -> Option<bool> {
         match self.device.additional {
             1 => Some(false),

@@ -27,7 +27,7 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
     }
     if let Some((modes, mode)) = modes.zip(mode)
         && let Some(number @ 1..=10) = mode.integer(0)
-        // A device that says nothing says nothing of this mode.
+        // 6502h = 0 gives no information about this mode.
         && modes.value != 0
         && modes.value & 1 << (number - 1) == 0
     {

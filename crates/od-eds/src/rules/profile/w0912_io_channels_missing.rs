@@ -24,7 +24,7 @@ const MORE: Form = Form {
     help: "remove the sub-object, or add the channel",
 };
 
-/// The objects one of which has the channels that an object sets.
+/// The objects of which one has the channels of a parameter object.
 const fn channels(index: u16) -> &'static [u16] {
     match index {
         0x6002 | 0x6003 | 0x6006..=0x6008 => &[0x6000],
@@ -65,11 +65,11 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
             let more = object
                 .entries()
                 .find(|entry| (last + 1..255).contains(&entry.address.sub));
-            // A module without channels has them by its modules.
+            // The channels of such a module are those of its extension modules.
             if let Some(entry) = more.filter(|_| last > 0) {
                 let finding = named(W0912.on(&entry, entry.span), *channels).form(&MORE);
                 let finding = finding.fact("sub", entry.address.sub);
-                // Nobody sets the parameter of a channel that is not there.
+                // A parameter of a channel that does not exist is never set.
                 findings.push(finding.fact("last", last).severity_of(Severity::Info));
             }
         }

@@ -27,7 +27,7 @@ fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
     };
     let number = |address| start_number(entry.description, address);
     if let Some((given, most)) = number(entry.address).zip(number(Address::new(limit, 0)))
-        // A maximum of 0 is not set.
+        // A maximum of 0 means: not set.
         && most.value > 0
         && given.value > most.value
         && device(entry.description, 402).is_some()

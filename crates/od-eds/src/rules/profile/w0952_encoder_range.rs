@@ -30,7 +30,7 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
     };
     let all = u128::from(units.value) * u128::from(turns);
     let own = u128::from(range.value);
-    // A smaller range is sound if it divides the whole one.
+    // A smaller range is correct if it divides the whole one.
     let divides = own < all && all.is_multiple_of(own);
     if units.value == 0 || range.value == 0 || all == own || divides {
         return;

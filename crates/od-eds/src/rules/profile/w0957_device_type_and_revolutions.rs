@@ -31,7 +31,7 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
     let (Some(turns), Some(many)) = (encoder.value(0x6502), encoder.is_multiturn()) else {
         return;
     };
-    // Some devices count steps in 6502h, as in 6002h.
+    // In some devices 6502h contains steps, as 6002h does.
     let revolutions = match (encoder.value(0x6002), encoder.value(0x6501)) {
         (Some(range), Some(physical))
             if range.value == turns.value && (2..=turns.value).contains(&physical.value) =>

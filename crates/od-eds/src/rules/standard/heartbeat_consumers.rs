@@ -1,4 +1,4 @@
-//! Rules about the entries of 1016h: a node is watched once, and exists.
+//! Rules about the entries of 1016h: no node is monitored twice, and each node ID is valid.
 
 use alloc::collections::BTreeMap;
 use alloc::vec::Vec;

@@ -49,7 +49,8 @@ pub(crate) fn w0609_key_value_not_valid(
         Wanted::Version => finding.form(&W0609_VERSION),
         _ => finding,
     };
-    // A number of the device, or a flag, that no tool can use; dates and versions of the file are for people.
+    // A number or a flag of the device, which no tool can use. Dates and versions of the file are
+    // only read by people.
     let is_read = section.eq_ignore_ascii_case("DeviceInfo") || wanted == Wanted::Flag;
     let finding = if is_read {
         finding.severity_of(Error)
@@ -100,7 +101,8 @@ pub(crate) static I0611: Rule = Rule {
     ..Rule::NEW
 };
 
-/// The finding about the header. A tool that ignores the section now may stop at a value that is not valid.
+/// The finding about the header. A tool that now ignores the section may stop at an invalid value
+/// in it.
 pub(crate) fn i0611_commissioning_spelling(header: Span, is_valid: bool) -> Finding {
     let fix = if is_valid {
         Fix::safe()
@@ -123,7 +125,7 @@ pub(crate) static W0658: Rule = Rule {
     ..Rule::NEW
 };
 
-/// The finding about a DCF of no node.
+/// The finding about a DCF without the section of its node.
 pub(crate) fn w0658_commissioning_missing() -> Finding {
     W0658.finding()
 }

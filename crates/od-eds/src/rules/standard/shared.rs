@@ -1,4 +1,4 @@
-//! What the rules about standard objects share.
+//! Parts of several rules about standard objects.
 
 use alloc::format;
 

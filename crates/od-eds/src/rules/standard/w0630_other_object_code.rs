@@ -25,7 +25,7 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
         && !own_rule
         && (!standard.is_like(*object.code) || is_record(object))
     {
-        // A RECORD of one type has the same values on the bus.
+        // A RECORD whose sub-objects have one type has the same values on the bus.
         let severity = if standard.is_like(*object.code) {
             Severity::Warning
         } else {
@@ -42,8 +42,9 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
     }
 }
 
-/// Is an object a RECORD that the standard specifies as a list of equal values? A tool that reads an ARRAY by the
-/// description of sub-index 1 knows only the sub-objects that the file describes.
+/// Returns whether the standard specifies the object as a list of equal values, and it is a RECORD.
+/// A tool that reads an ARRAY by the description of sub-index 1 knows only the sub-objects in the
+/// file.
 fn is_record(object: &Object<'_>) -> bool {
     is_standard_array(object.index) && *object.code == ObjectCode::Record
 }

@@ -31,7 +31,7 @@ fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
         && let Some(value) = standard.value(sub)
         && let Some(given) = entry.data_type.filter(|given| **given != value.data_type)
         && !own_rule
-        // The same bytes on the bus.
+        // The bytes on the bus are the same.
         && (*given, value.data_type) != (DataType::Domain, DataType::OctetString)
     {
         let code = format!("0x{:04X}", value.data_type.code());

@@ -26,9 +26,9 @@ fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
     };
     let own = *entry.access;
     let fixed = match standard.value(sub).map(|value| value.access) {
-        // Values that the device itself sets; what cannot be read has a rule of its own.
+        // The device itself sets these values. Another rule is about values that cannot be read.
         Some(Access::Ro | Access::Const) if own.writable() && own != Access::Wo => Access::Ro,
-        // A master empties the error history by writing 0.
+        // A master clears the error history by writing 0.
         None if (index, sub) == (0x1003, 0) && !own.writable() => Access::Rw,
         _ => return,
     };

@@ -20,7 +20,7 @@ pub(crate) static W0633: Rule = Rule {
 };
 
 fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
-    // An object without sub-objects, 1018h and the PDOs have rules of their own.
+    // Other rules are about objects without sub-objects, 1018h and the PDOs.
     let own_rule = matches!(object.index, 0x1018 | 0x1400..=0x1BFF);
     let own = &object.object.entries;
     let Some(standard) = of(object.index).filter(|found| found.is_like(*object.code)) else {

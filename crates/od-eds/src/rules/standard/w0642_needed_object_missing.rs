@@ -44,7 +44,7 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
         .then(|| start_number(object.description, Address::new(0x1F80, 0)))
         .flatten();
     if let Some(startup) = startup.filter(|startup| startup.value & 1 != 0) {
-        // A master can find its slaves in another way.
+        // A master can know its slaves in another way.
         let found = report(0x1F81, startup.span, &MASTER);
         findings.extend(found.map(|found| found.severity_of(Severity::Info)));
     }

@@ -29,7 +29,7 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
     let index = object.index;
     let shown = Fact::Index(index);
     if matches!(index, 0x1004 | 0x100B | 0x100E | 0x100F) {
-        // Earlier versions of CiA 301 had them: a device may keep them.
+        // Earlier versions of CiA 301 define them, so a device may have them.
         let finding = W0647.on(object, object.span).severity_of(Severity::Info);
         findings.push(finding.fact("object", shown));
         return;

@@ -18,11 +18,11 @@ pub(crate) static W0648: Rule = Rule {
     ..Rule::NEW
 };
 
-/// Is a number with reserved bits or in a reserved range, and which?
+/// Returns the part of a number that is reserved: bits or a range.
 fn reserved(address: Address, number: u64) -> Option<&'static str> {
     let Address { index, sub } = address;
     let (wrong, what) = match (index, sub) {
-        // Without a profile there is nothing that the upper half could add to; FFFFh: several logical devices.
+        // The upper half depends on the profile. FFFFh: several logical devices.
         (0x1000, 0) => {
             let wrong = number & 0xFFFF == 0 && !matches!(number >> 16, 0 | 0xFFFF);
             (wrong, "bits 16 to 31 without a device profile")
@@ -57,7 +57,7 @@ fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
             .fact("given", number)
             .fact("standard", standard.source());
         let finding = finding.fact("reserved", what);
-        // A SYNC producer cannot count to it.
+        // A SYNC producer cannot have this counter value.
         findings.push(if entry.address.index == 0x1019 {
             finding.severity_of(Severity::Error)
         } else {

@@ -40,7 +40,7 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
     let given = section
         .get("LSS_SerialNumber")
         .filter(|given| !given.is_empty());
-    // 0 is the serial number of a type of device.
+    // 0 is the serial number of a device type.
     let own = start_number(description, address).filter(|own| own.value != 0);
     if let Some((given, own)) = given.zip(own)
         && let Some(serial) = number(given)

@@ -17,14 +17,14 @@ pub(crate) static I0345: Rule = Rule {
 };
 
 fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
-    // Sub-objects of the standards are known by their number.
+    // Tools identify sub-objects of the standards by their number.
     if !object.code.has_members() || matches!(object.index, 0x1000..=0x1FFF) {
         return;
     }
     let mut names = BTreeMap::new();
     for entry in object.entries().filter(|entry| !entry.name.is_empty()) {
         let (name, span) = (entry.entry.name.value.as_str(), entry.name.span);
-        // All sub-objects of one CompactSubObj have the place of one name.
+        // All sub-objects of a CompactSubObj have one name and one place.
         if let Some(first) = names.insert(name, span)
             && first != span
         {

@@ -20,7 +20,7 @@ pub(crate) static I0346: Rule = Rule {
 
 fn check(description: &Description, findings: &mut Vec<Finding>) {
     let mut names = BTreeMap::new();
-    // Objects of the standards are known by their index.
+    // Tools identify objects of the standards by their index.
     let own = objects(description).filter(|object| !matches!(object.index, 0x1000..=0x1FFF));
     for object in own.filter(|object| !object.name.is_empty()) {
         let (name, span) = (object.object.name.value.as_str(), object.name.span);

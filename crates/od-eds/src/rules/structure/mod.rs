@@ -1,4 +1,4 @@
-//! 03: what an object consists of.
+//! 03: the parts of an object.
 
 mod shared;
 

@@ -1,4 +1,5 @@
-//! Rules about objects that the reader reports: it sees the keys of a section, a description has lost them.
+//! Rules about objects that the reader reports, because a description no longer contains the keys
+//! of a section.
 
 use alloc::format;
 use alloc::string::{String, ToString};
@@ -106,7 +107,8 @@ const E0305_COMPACT: Form = Form {
     ..Form::OWN
 };
 
-/// The finding about sub-objects of an object whose code allows none, at its code if that is given.
+/// The finding about sub-objects of an object whose code does not allow them, at the code if the
+/// file has it.
 pub(crate) fn e0305_var_with_sub_objects(
     member: Span,
     code: Spanned<ObjectCode>,
@@ -261,8 +263,9 @@ pub(crate) static I0320: Rule = Rule {
     ..Rule::NEW
 };
 
-/// The finding about a key without the value that it needs. There is no fix if the key follows once more, which odkit
-/// would read then, or if tools stop at an object without the key: AccessType and DataType need a value.
+/// The finding about a key without the value that it needs. It has no fix if the same key follows,
+/// which odkit would read then, or if tools stop at an object without the key: AccessType and
+/// DataType need a value.
 pub(crate) fn i0320_empty_value(key: &Text<'_>, is_single: bool) -> Finding {
     let finding = I0320.at(key.span).fact("name", &*key.value);
     let is_needed = ["AccessType", "DataType"]
@@ -294,8 +297,8 @@ const W0321_MISSING: Form = Form {
     ..Form::OWN
 };
 
-/// The finding about an NrOfEntries that is missing, or not the number of entries. It is not lowered where an entry
-/// without a value is left, for which a tool may have room.
+/// The finding about an NrOfEntries that is missing, or is not the number of entries. The fix does
+/// not lower it if an entry without a value remains, because a tool may reserve space for it.
 pub(crate) fn w0321_nr_of_entries(
     header: Span,
     given: Option<&Text<'_>>,
@@ -433,7 +436,7 @@ pub(crate) static E0353: Rule = Rule {
     ..Rule::NEW
 };
 
-/// The finding about a count of sub-objects that is too much.
+/// The finding about too high a number of sub-objects.
 pub(crate) fn e0353_too_many_sub_objects(count: Span) -> Finding {
     E0353
         .at(count)

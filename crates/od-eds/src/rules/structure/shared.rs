@@ -1,4 +1,4 @@
-//! Sub-index 0 and the highest sub-index, for the rules about them.
+//! Parts of several rules about sub-index 0 and the highest sub-index.
 
 use alloc::format;
 use alloc::string::ToString;
@@ -12,7 +12,7 @@ use crate::rules::pdo::shared::maps_rpdo;
 use crate::span::{Spanned, token_of};
 use crate::subject::{Entry, Object, start_number};
 
-/// Returns if the object has sub-objects, which a sub-index 0 is to count.
+/// Returns whether the object has sub-objects that sub-index 0 must count.
 pub(super) fn counts(object: &Object<'_>) -> bool {
     let described = object.code.has_members() && *object.code != ObjectCode::DefStruct;
     described && !object.object.entries.is_empty()
@@ -24,7 +24,7 @@ pub(super) fn highest(object: &Object<'_>) -> u8 {
     subs.map(|(sub, _)| *sub).next_back().unwrap_or(0)
 }
 
-/// A sub-index whose section is named in decimal, and the one that is meant: `sub10` behind sub-index 9.
+/// A sub-index whose section has a decimal number, and the intended one: `sub10` after sub-index 9.
 pub(super) fn decimal(object: &ObjectDescription) -> Option<(u8, u8)> {
     let mut subs = object.entries.keys().zip(object.entries.keys().skip(1));
     let (before, sub) = subs.find(|(before, sub)| u16::from(**before) + 1 < u16::from(**sub))?;
@@ -32,8 +32,8 @@ pub(super) fn decimal(object: &ObjectDescription) -> Option<(u8, u8)> {
     (meant == before + 1 && *sub != meant).then_some((*sub, meant))
 }
 
-/// Returns if a section is about the object and is not a sub-object: probably one with a wrong name, which a count
-/// of the sub-objects lacks.
+/// Returns whether a section is about the object and is not a sub-object. Its name is probably
+/// wrong, so the number of sub-objects does not include it.
 pub(super) fn has_lost(description: &Description, index: u16) -> bool {
     let start = format!("{index:04X}");
     description.sections.iter().any(|section| {
@@ -61,7 +61,8 @@ pub(super) struct Count<'a> {
 }
 
 impl<'a> Count<'a> {
-    /// The count of an object; `None` where it has none, or one that counts nothing.
+    /// The number in sub-index 0 of an object; `None` if there is none, or if it is not the number
+    /// of sub-objects.
     pub(super) fn of(object: &Object<'a>) -> Option<Self> {
         let entry = sub_index_0(object)?;
         if entry
@@ -83,19 +84,19 @@ impl<'a> Count<'a> {
         })
     }
 
-    /// Returns if it says more than exists.
+    /// Returns whether it is higher than the highest sub-index.
     pub(super) fn is_too_high(&self) -> bool {
         self.given.value > u64::from(self.highest)
     }
 
-    /// Returns if it makes a device unsound: a PDO cannot be made of entries that do not exist. The
-    /// values of a macro call are the author's own to correct.
+    /// Returns whether it is an error: a PDO cannot consist of entries that do not exist, and the
+    /// author of a macro call can correct its values.
     pub(super) fn is_error(&self) -> bool {
         maps_rpdo(self.entry.address.index).is_some() || token_of(self.given.span).is_some()
     }
 
-    /// The finding that it is wrong. A fix would be wrong where the sub-objects are: of a CompactSubObj beside
-    /// sections, where a sub-index is written in decimal, or where the name of its section is.
+    /// The finding that it is wrong. It has no fix if the sub-objects are probably wrong: a
+    /// CompactSubObj beside sections, a sub-index in decimal, or a misspelled name of a section.
     pub(super) fn finding(&self, rule: &'static Rule) -> Finding {
         let object = self.entry.object;
         let compact = object

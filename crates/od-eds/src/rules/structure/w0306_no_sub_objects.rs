@@ -19,7 +19,7 @@ pub(crate) static W0306: Rule = Rule {
 
 fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
     let has_some = object.code.has_members() && *object.code != ObjectCode::DefStruct;
-    // The reader reported a CompactSubObj that it could not read.
+    // The reader has reported a CompactSubObj that it could not read.
     let unread = object
         .extra
         .iter()

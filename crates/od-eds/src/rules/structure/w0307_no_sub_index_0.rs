@@ -31,7 +31,7 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
     findings.push(finding.fact("right", DataType::Unsigned8).fix(fix(object)));
 }
 
-/// A sub-index 0 above the first sub-object.
+/// Adds a sub-index 0 before the first sub-object.
 fn fix(object: &Object<'_>) -> Fix {
     let Some(first) = object.entries().next() else {
         return Fix::unsafe_fix();

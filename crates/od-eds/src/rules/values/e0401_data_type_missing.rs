@@ -21,7 +21,7 @@ pub(crate) static E0401: Rule = Rule {
 };
 
 fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
-    // An unknown DataType was found by the reader.
+    // The reader has reported an unknown DataType.
     let missing = entry.data_type.is_none() && !entry.is_unread(Key::DataType);
     if missing && !is_definition(entry.object) {
         findings.push(finding(entry.description, entry.address, entry.span));

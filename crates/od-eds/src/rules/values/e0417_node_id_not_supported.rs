@@ -33,7 +33,7 @@ fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
     }
 }
 
-/// The finding about a formula, as it is given, under a type that holds none.
+/// The finding about a formula of a type that cannot have one.
 pub(crate) fn finding(
     key: Key,
     given: impl Into<Fact>,

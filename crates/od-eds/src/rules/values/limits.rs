@@ -1,4 +1,5 @@
-//! Rules about LowLimit and HighLimit: values outside of them, limits that are swapped, or that allow one value only.
+//! Rules about LowLimit and HighLimit: values outside them, limits in the wrong order, and limits
+//! that allow only one value.
 
 use alloc::vec::Vec;
 use core::cmp::Ordering;
@@ -32,7 +33,7 @@ fn check_configured(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
     findings.extend(fails.map(|outside| outside.finding(&E0414, entry)));
 }
 
-/// A master that configures by a DCF gets an abort; a default is only unusual.
+/// A master that configures by a DCF receives an abort; a default is only unusual.
 fn fails(outside: &Outside<'_>) -> bool {
     outside.key == Key::ParameterValue
 }
@@ -104,7 +105,7 @@ fn check_single(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
     }
 }
 
-/// The limits of an entry that are values of its type.
+/// The limits of an entry that are valid for its type.
 fn limits<'a>(entry: &Entry<'a>) -> (Option<&'a Spanned<Value>>, Option<&'a Spanned<Value>>) {
     let Some(data_type) = entry.data_type else {
         return (None, None);
@@ -138,7 +139,7 @@ const ABOVE: Form = Form {
 };
 
 impl Outside<'_> {
-    /// The finding of it.
+    /// The finding about it.
     fn finding(&self, rule: &'static Rule, entry: &Entry<'_>) -> Finding {
         let finding = rule
             .on(entry, self.value.span)
@@ -153,8 +154,8 @@ impl Outside<'_> {
     }
 }
 
-/// The default and the configured value, each with every limit that it is outside of; nothing
-/// if the limits leave nothing between them.
+/// The default and the configured value, each with every limit that it exceeds; nothing if the
+/// limits allow no value.
 fn outside<'a>(entry: &Entry<'a>) -> impl Iterator<Item = Outside<'a>> + use<'a> {
     let (low, high) = limits(entry);
     let data_type = entry.data_type;
@@ -180,13 +181,14 @@ fn outside<'a>(entry: &Entry<'a>) -> impl Iterator<Item = Outside<'a>> + use<'a>
     })
 }
 
-/// Is the low limit above the high one?
+/// Returns whether the low limit is above the high one.
 fn crossed(low: Option<&Spanned<Value>>, high: Option<&Spanned<Value>>) -> bool {
     let order = low.zip(high).and_then(|(low, high)| order(low, high));
     order == Some(Ordering::Greater)
 }
 
-/// Order of two values for every node ID; `None` if that depends on it, or they do not compare.
+/// Order of two values for every node ID; `None` if it depends on the node ID, or if they cannot be
+/// compared.
 fn order(a: &Value, b: &Value) -> Option<Ordering> {
     if let (Value::Real(a), Value::Real(b)) = (a, b) {
         return a.partial_cmp(b);

@@ -74,7 +74,7 @@ fn check_limits(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
     }
 }
 
-/// The finding with a fix: the limit is emptied, for it limits nothing.
+/// The finding with a fix that empties the limit, which limits nothing.
 pub(crate) fn w0416_emptied(finding: Finding) -> Finding {
     match finding.span() {
         Some(span) => finding.fix(Fix::unsafe_fix().replace(span, "")),
@@ -92,7 +92,8 @@ pub(crate) fn w0416_no_limits(key: Key, given: &Text<'_>, data_type: Spanned<Dat
     w0416_emptied(finding.related(data_type.span, DECLARED))
 }
 
-/// Reports the values under these keys that are not valid for their type; formulas have other rules.
+/// Reports the values under these keys that are not valid for their type. Other rules are about
+/// formulas.
 fn report_unfit(rule: &'static Rule, entry: &Entry<'_>, keys: &[Key], findings: &mut Vec<Finding>) {
     let Some(data_type) = data_type(entry) else {
         return;

@@ -1,4 +1,5 @@
-//! Rules about types, access and flags that the reader reports: it sees the text, a description has only the value.
+//! Rules about types, access and flags that the reader reports: it has the text, a description has
+//! only the value.
 
 use alloc::format;
 use alloc::string::String;
@@ -24,7 +25,7 @@ pub(crate) static E0402: Rule = Rule {
     ..Rule::NEW
 };
 
-/// The finding about a DataType that no type has.
+/// The finding about a DataType of no known type.
 pub(crate) fn e0402_data_type_unknown(given: &Text<'_>) -> Finding {
     let finding = E0402.given(given).key(Key::DataType);
     finding.fact("right", DataType::Unsigned32)
@@ -95,7 +96,7 @@ pub(crate) fn w0406_in_xdd(given: &Spanned<String>) -> Finding {
         .severity_of(Error)
 }
 
-/// The finding about a PDOMapping that says neither yes nor no.
+/// The finding about a PDOMapping that is neither yes nor no.
 pub(crate) fn w0406_pdo_mapping_not_valid(given: &Text<'_>) -> Finding {
     W0406.given(given).key(Key::PdoMapping)
 }
@@ -171,7 +172,8 @@ pub(crate) static E0428: Rule = Rule {
     ..Rule::NEW
 };
 
-/// The finding about a formula with this offset, whose name of the node ID is not the one of CiA 306.
+/// The finding about a formula with this offset and another name for the node ID than that of CiA
+/// 306.
 pub(crate) fn e0428_node_id_misspelled(key: Key, given: &Text<'_>, offset: u32) -> Finding {
     let right = format!("$NODEID+0x{offset:X}");
     let finding = E0428.given(given).key(key).fact("offset", offset);

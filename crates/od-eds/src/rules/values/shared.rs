@@ -1,4 +1,5 @@
-//! Shared by the rules about values: the values of an entry, and values that do not fit their type.
+//! Parts of several rules about values: the values of an entry, and values that do not fit their
+//! type.
 
 use od_model::{DataType, Kind};
 
@@ -27,7 +28,7 @@ pub(super) const FORMULA: Form = Form {
     ..Form::OWN
 };
 
-/// The type of an entry's value, if it is one that a value can have.
+/// The type of an entry's value; `None` if no value can have it.
 pub(super) fn data_type(entry: &Entry<'_>) -> Option<Spanned<DataType>> {
     entry
         .data_type
@@ -49,7 +50,7 @@ pub(super) fn values<'a>(
     values.filter_map(|(key, value)| Some((key, value.as_ref()?)))
 }
 
-/// The finding that a value, as it is given, is not valid for its type.
+/// The finding about a value that is not valid for its type, with the text of the value.
 pub(crate) fn unfit(
     rule: &'static Rule,
     key: Key,
@@ -65,7 +66,7 @@ pub(crate) fn unfit(
         .related(data_type.span, DECLARED)
 }
 
-/// The finding that a formula is not valid.
+/// The finding about a formula that is not valid.
 pub(crate) fn unfit_formula(
     rule: &'static Rule,
     key: Key,

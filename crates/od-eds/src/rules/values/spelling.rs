@@ -1,4 +1,4 @@
-//! How a value is spelt: each of these texts has one meaning, but not every tool reads it.
+//! Spellings of a value that have one meaning, but that not every tool reads.
 
 use crate::fact::Key;
 use crate::finding::{
@@ -132,7 +132,7 @@ pub(crate) static W0424: Rule = Rule {
     ..Rule::NEW
 };
 
-/// The finding that a value is understood, though not every tool would.
+/// The finding about a value that odkit reads, though not every tool does.
 pub(crate) fn read_as(rule: &'static Rule, key: Key, given: &Text<'_>, right: &str) -> Finding {
     rule.at(given.span)
         .key(key)

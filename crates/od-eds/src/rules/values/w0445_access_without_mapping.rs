@@ -22,7 +22,7 @@ pub(crate) static W0445: Rule = Rule {
 fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
     let denied = !*entry.mappable && !entry.is_unread(Key::PdoMapping);
     if matches!(*entry.access, Access::Rwr | Access::Rww) && denied {
-        // PDOMapping is what the vendor says; the direction is what no tool uses then.
+        // The vendor decides on PDOMapping; no tool uses the direction without it.
         let fix = Fix::unsafe_fix().replace(entry.access.span, "rw");
         let finding = W0445
             .on(entry, entry.access.span)

@@ -21,7 +21,7 @@ pub(crate) static W0453: Rule = Rule {
 fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
     let none = entry.default.is_none() && entry.parameter.is_none();
     let none = none && !entry.is_unread(Key::DefaultValue);
-    // An empty string is a value, and is not written.
+    // An empty string is a value, although the file does not contain it.
     let text =
         |given: Spanned<DataType>| matches!(*given, DataType::VisibleString | DataType::Domain);
     if *entry.access == Access::Const && none && !entry.data_type.is_some_and(text) {
