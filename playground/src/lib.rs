@@ -46,7 +46,6 @@ mod objects;
 mod packed;
 #[cfg(feature = "pins")]
 mod pins;
-#[cfg(feature = "eds")]
 mod places;
 #[cfg(feature = "real")]
 mod plain;

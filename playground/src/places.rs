@@ -1,6 +1,7 @@
 //! Positions in a text in UTF-16 units, as in JavaScript; the edits of a fix with such positions.
 
 use crate::crossing::record;
+#[cfg(feature = "eds")]
 use od_eds::fix;
 
 record! {
@@ -20,12 +21,14 @@ record! {
 }
 
 /// Maps bytes of a text to units of the JavaScript string.
+#[cfg(feature = "eds")]
 pub(crate) struct Places<'a> {
     text: &'a str,
     /// Units before each byte; empty if the text is ASCII.
     units: Vec<u32>,
 }
 
+#[cfg(feature = "eds")]
 impl<'a> Places<'a> {
     pub(crate) fn of(text: &'a str) -> Self {
         let mut units = Vec::new();

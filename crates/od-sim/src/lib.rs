@@ -19,6 +19,7 @@ pub mod journal;
 pub mod lesson;
 pub mod links;
 pub mod logs;
+#[cfg_attr(not(feature = "training"), allow(dead_code))]
 pub mod master;
 #[cfg(feature = "serve")]
 pub mod recorded;

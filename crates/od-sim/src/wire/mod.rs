@@ -9,6 +9,7 @@
 //! that deviate.
 
 pub mod bits;
+#[cfg_attr(not(feature = "training"), allow(dead_code))]
 pub mod cable;
 mod controller;
 mod medium;

@@ -79,7 +79,7 @@ class LineLab extends Lab {
         ${this.slider(t.samplePoint, `${cable.samplePoint} %`, cable.samplePoint, [50, 95, 0.5], 'sample-point')}
         ${this.slider(t.sjw, t.quanta(cable.sjw, cable.quanta), cable.sjw, [1, 4, 1], 'sjw')}
         ${this.slider(t.clock(state.nodeId.value), t.slow(clock), clock, [-4, 4, 0.1], 'clock')}
-        <div class="row"><span id="lab-terminators">${t.terminators}</span><span class="segmented" role="group" aria-labelledby="lab-terminators">${[0, 1, 2, 3].map((count) => html`<button class="small" aria-pressed=${line.terminators === count} @click=${() => act({ op: 'line', real: true, terminators: count, rate: line.fixedRate })}>${count}</button>`)}</span></div>
+        <div class="lab-row"><span id="lab-terminators">${t.terminators}</span><span class="segmented" role="group" aria-labelledby="lab-terminators">${[0, 1, 2, 3].map((count) => html`<button class="small" aria-pressed=${line.terminators === count} @click=${() => act({ op: 'line', real: true, terminators: count, rate: line.fixedRate })}>${count}</button>`)}</span></div>
       </div>
       ${this.bit(cable)}
       <p class="note" role="status" data-tone=${isLate || isSlow ? 'error' : ''}>${cable.length ? t.verdict(isLate, isSlow, cable.longest) : t.bench} ${most ? t.table(cable.rate, most) : nothing} ${t.tolerance(cable.tolerance)}</p>

@@ -80,7 +80,7 @@ class Master extends Lab {
       <header><h3>${t.title}</h3><span class="spacer"></span>
         <button class="small primary" title=${t.bootTitle} @click=${() => void this.boot()}>${t.boot}</button>
         <button class="small" title=${t.clearTitle} @click=${() => void this.clear()}>${t.clear}</button></header>
-      <textarea class="num" rows="6" spellcheck="false" autocapitalize="off" aria-label=${t.list} placeholder=${t.hint} .value=${live(this.text)}
+      <textarea class="num" rows="5" spellcheck="false" autocapitalize="off" aria-label=${t.list} placeholder=${t.hint} .value=${live(this.text)}
         @input=${(event: Event) => { this.draft = (event.target as HTMLTextAreaElement).value; this.wrong = ''; }}></textarea>
       <p class="note" role="status" data-tone=${this.wrong ? 'error' : ''} ?hidden=${!this.wrong && !isChanged}>${this.wrong || t.changed}</p>
       <div class="charts" aria-live="polite">${this.known?.slaves.length ? this.known.slaves.map((slave) => this.chart(slave)) : html`<p class="note">${t.none}</p>`}</div>
