@@ -72,7 +72,7 @@ pub use journal::{check_run, read_input};
 #[cfg(feature = "lessons")]
 pub use lesson::{judge_answer, parse_lesson, translate_lesson};
 #[cfg(feature = "logs")]
-pub use logs::{read_log, write_log};
+pub use logs::{diagnose, read_log, write_log};
 #[cfg(feature = "real")]
 pub use plain::plain_eds;
 #[cfg(feature = "real")]

@@ -1,6 +1,7 @@
-//! Reads and writes logs of other tools.
+//! Reads and writes logs of other tools, and finds the faults in them.
 
 use od_runtime::Instant;
+use od_sim::diagnose::{self, Known};
 use od_sim::logs::{Format, Record, What, read};
 use wasm_bindgen::prelude::*;
 
@@ -22,7 +23,7 @@ record! {
     }
 }
 
-/// Reads a log: candump, ASC, TRC, pcap or pcapng.
+/// Reads a log: candump, ASC, BLF, TRC, pcap or pcapng.
 ///
 /// # Errors
 /// Reason why it is not a log.
@@ -47,6 +48,51 @@ pub fn read_log(file: &[u8]) -> Result<JsValue, JsError> {
     Ok(log.value())
 }
 
+record! {
+    /// A fault in a log.
+    Incident {
+        /// What happened, in one sentence.
+        text: String,
+        /// Begin, end, and whether the bus recovered.
+        span: String,
+        causes: Vec<Cause>,
+        /// Places in the log of the frames that show it.
+        frames: Vec<usize>,
+    }
+
+    /// A likely cause of a fault.
+    Cause {
+        text: String,
+        /// What to check first.
+        check: String,
+    }
+}
+
+/// Finds the faults in packed frames, in the order of their beginning; `rate` is the bit rate in kbit/s, if it is known.
+#[wasm_bindgen(unchecked_return_type = "Incident[]")]
+pub fn diagnose(frames: &[u8], rate: Option<u16>) -> JsValue {
+    let known = Known {
+        bit_rate: rate,
+        dictionary: None,
+    };
+    let found = diagnose::diagnose(&records(frames), known);
+    let incidents: Vec<Incident> = found.into_iter().map(incident).collect();
+    incidents.value()
+}
+
+fn incident(found: diagnose::Incident) -> Incident {
+    let cause = |one: diagnose::Cause| Cause {
+        text: one.text,
+        check: one.check,
+    };
+    Incident {
+        span: found.span(),
+        text: found.text,
+        causes: found.causes.into_iter().map(cause).collect(),
+        frames: found.records,
+    }
+}
+
 /// Writes packed frames as a log; `ending` is `log`, `asc`, `trc` or `pcapng`.
 ///
 /// # Errors
@@ -55,8 +101,11 @@ pub fn read_log(file: &[u8]) -> Result<JsValue, JsError> {
 pub fn write_log(ending: &str, frames: &[u8]) -> Result<Vec<u8>, JsError> {
     let format = Format::of_ending(ending)
         .ok_or_else(|| JsError::new(&format!("`{ending}` is not a format of logs")))?;
-    let lines: Vec<Record> = frames.chunks_exact(packed::LEN).filter_map(line).collect();
-    Ok(format.write(&lines))
+    Ok(format.write(&records(frames)))
+}
+
+fn records(frames: &[u8]) -> Vec<Record> {
+    frames.chunks_exact(packed::LEN).filter_map(line).collect()
 }
 
 fn line(bytes: &[u8]) -> Option<Record> {

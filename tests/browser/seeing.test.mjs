@@ -242,3 +242,26 @@ check('a log in the send list runs onto the bus and only to be looked at, at any
   await button('Remove the log from the send list').click();
   await becomes('logs in the send list', () => log.count(), 0);
 });
+
+/** A node with a heartbeat that restarts three times without a command. */
+const RESTARTS = Array.from({ length: 40 }, (_, at) => `(${(at / 10).toFixed(6)}) can0 705#${at % 10 === 0 ? '00' : '05'}`).join('\n');
+
+check('the diagnosis of a log names the faults, their causes and the frames, and shows a frame in the console', async (page) => {
+  await stopTime(page);
+  await page.getByLabel('Open log').setInputFiles({ name: 'restarts.log', mimeType: 'text/plain', buffer: Buffer.from(RESTARTS) });
+  await page.getByRole('button', { name: 'Replace the capture', exact: true }).click();
+  await becomes('the frames', () => captured(page), 40);
+  await page.getByRole('button', { name: 'Diagnosis', exact: true }).click();
+  const region = page.getByRole('region', { name: 'Diagnosis' });
+  await becomes('what was found', () => region.getByRole('status').textContent(), /^1 fault in 40 frames\./);
+  await becomes('the fault', () => region.getByRole('heading').allTextContents(), ['node 5 restarts 3 times without a command']);
+  assert.match(await region.textContent(), /Check: /);
+  const shown = region.getByRole('list', { name: 'Frames that show it' }).getByRole('button');
+  assert.match(await shown.nth(1).textContent(), /^1\.000000 705 00$/);
+  await shown.nth(1).click();
+  await becomes('the chosen frame', () => page.locator('.frame[data-chosen] .time').allTextContents(), ['1.000000']);
+  await page.getByRole('button', { name: 'Diagnosis', exact: true }).click();
+  await page.getByRole('button', { name: 'Clear', exact: true }).click();
+  await page.getByRole('button', { name: 'Look again', exact: true }).click();
+  await becomes('what was found', () => region.getByRole('status').textContent(), /^No fault in 0 frames\./);
+});

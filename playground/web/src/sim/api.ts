@@ -2,9 +2,9 @@
 // between page and worker. Only numbers, strings and plain records.
 
 import type { RealCommand, RealReport, RealState } from '../real/api';
-import type { Builtin, Bus, Chain, decodeEds, DeviceInfo, Entry, foreignFile, Input, JournalNews, judgeAnswer, Lesson, LessonState, LineStatus, plainEds, readLog, Status, Value, writeLog } from '../wasm/od_playground';
+import type { Builtin, Bus, Chain, decodeEds, DeviceInfo, diagnose, Entry, foreignFile, Input, JournalNews, judgeAnswer, Lesson, LessonState, LineStatus, plainEds, readLog, Status, Value, writeLog } from '../wasm/od_playground';
 
-export type { Added, Builtin, CableState, Chain, DeviceInfo, Diagnostic, Entry, Field, FrameTemplate, Input, Judgement, Lamp, Lesson, LessonState, LineStatus, Log, Mapped, MappingStep, MasterSlave, MasterState, ObjectRecord, Outcome, Pdo, Pin, Source, Status, Transfer, Value } from '../wasm/od_playground';
+export type { Added, Builtin, CableState, Chain, DeviceInfo, Diagnostic, Entry, Field, FrameTemplate, Incident, Input, Judgement, Lamp, Lesson, LessonState, LineStatus, Log, Mapped, MappingStep, MasterSlave, MasterState, ObjectRecord, Outcome, Pdo, Pin, Source, Status, Transfer, Value } from '../wasm/od_playground';
 
 export interface Address {
   index: number;
@@ -17,6 +17,7 @@ export type Questions = Pick<Bus, 'cable' | 'describeAll' | 'fields' | 'mappingS
 /** Functions of the whole module that need no bus. */
 export interface Tools {
   decodeEds: typeof decodeEds;
+  diagnose: typeof diagnose;
   foreignFile: typeof foreignFile;
   judgeAnswer: typeof judgeAnswer;
   plainEds: typeof plainEds;

@@ -78,6 +78,14 @@ export const seeing = {
     value: 'Value',
     time: 'Time in s',
   },
+  diagnosis: {
+    running: 'Looking for faults…',
+    found: (count: number, frames: number) => `${count || 'No'} fault${count > 1 ? 's' : ''} in ${frames} frame${frames === 1 ? '' : 's'}.`,
+    again: 'Look again',
+    check: 'Check',
+    frames: 'Frames that show it',
+    gone: 'The capture does not contain this frame any more.',
+  },
   ids: {
     columns: ['CAN-ID', 'Type', 'Count', 'Cycle', 'Shortest', 'Mean', 'Longest', 'Jitter', 'Last change', 'Data', 'Meaning'],
     titles: ['', '', 'Frames of this capture', 'Last period', 'Shortest period', 'Mean period', 'Longest period', 'Longest minus shortest of the last 32 periods', 'When the data changed last', '', ''],

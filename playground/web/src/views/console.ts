@@ -15,6 +15,14 @@ import './frame-detail';
 
 const FORMATS = ['log', 'asc', 'trc', 'pcapng'] as const;
 
+/** The views of the capture; all but the first are loaded on request. */
+const VIEWS: [typeof view.value, (() => Promise<unknown>)?][] = [
+  ['order'],
+  ['ids', () => import('../seeing/identifiers')],
+  ['plot', () => import('../seeing/plot')],
+  ['diagnosis', () => import('../seeing/diagnosis')],
+];
+
 class Console extends View {
   static override properties = { isFinding: { state: true }, hasTrigger: { state: true }, finding: { state: true }, findNote: { state: true } };
   declare isFinding: boolean;
@@ -68,9 +76,7 @@ class Console extends View {
       <label class="search grow">${icons.filter}<input type="search" class="num" placeholder=${t.filterHint} aria-label=${t.filter} autocomplete="off" spellcheck="false"
         aria-invalid=${error !== null} aria-describedby="filter-note" .value=${filterText.value} @input=${(event: Event) => setFilter((event.target as HTMLInputElement).value)}></label>
       <span class="segmented" role="group" aria-label=${t.view}>
-        <button class="small" aria-pressed=${view.value === 'order'} @click=${() => (view.value = 'order')}>${t.order}</button>
-        <button class="small" aria-pressed=${view.value === 'ids'} @click=${() => show('ids', () => import('../seeing/identifiers'))}>${t.ids}</button>
-        <button class="small" aria-pressed=${view.value === 'plot'} @click=${() => show('plot', () => import('../seeing/plot'))}>${T.plot}</button>
+        ${VIEWS.map(([name, part]) => html`<button class="small" aria-pressed=${view.value === name} @click=${() => show(name, part)}>${{ ...t, plot: T.plot }[name]}</button>`)}
       </span>
       <button class="icon-button" aria-pressed=${folds.value} aria-label=${t.folds} title=${t.folds} @click=${() => setFolds(!folds.value)}>${icons.fold}</button>
       <button class="icon-button" aria-label=${t.find} title=${t.findTitle} @click=${() => this.openFind()}>${icons.search}</button>
@@ -114,7 +120,7 @@ class Console extends View {
           if (select.value) void saveLog(select.value as (typeof FORMATS)[number]);
           select.value = '';
         }}><option value="">…</option>${FORMATS.map((format) => html`<option value=${format}>${t.formats[format]}</option>`)}</select></label>
-        <label class="button small" title=${t.open}>${icons.file} <span class="wide">${t.open}</span><input class="sr" type="file" accept=".log,.asc,.trc,.pcap,.pcapng,.candump,.dump,.txt" aria-label=${t.open} @change=${(event: Event) => {
+        <label class="button small" title=${t.open}>${icons.file} <span class="wide">${t.open}</span><input class="sr" type="file" accept=".log,.asc,.blf,.trc,.pcap,.pcapng,.candump,.dump,.txt" aria-label=${t.open} @change=${(event: Event) => {
           const input = event.target as HTMLInputElement;
           if (input.files?.[0]) void openFile(input.files[0], 1, 'new').then(() => (input.value = ''));
         }}></label>
@@ -124,16 +130,16 @@ class Console extends View {
       <od-frames ?hidden=${view.value !== 'order'}></od-frames>
       ${view.value === 'ids' ? html`<od-identifiers></od-identifiers>` : nothing}
       ${view.value === 'plot' ? html`<od-plot></od-plot>` : nothing}
+      ${view.value === 'diagnosis' ? html`<od-diagnosis></od-diagnosis>` : nothing}
       <od-frame-detail></od-frame-detail>
       <od-bus-status></od-bus-status>
     `;
   }
 }
 
-/** A view that is loaded on request. */
-function show(name: 'ids' | 'plot', part: () => Promise<unknown>): void {
+function show(name: typeof view.value, part?: () => Promise<unknown>): void {
   view.value = name;
-  load(part);
+  if (part) load(part);
 }
 
 function load(part: () => Promise<unknown>): void {

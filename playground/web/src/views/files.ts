@@ -5,7 +5,7 @@ import * as state from '../state';
 import { T } from '../texts';
 
 /** Recognises a bus log by its name. */
-const LOG = /\.(log|asc|trc|pcap|pcapng|candump|dump)$/i;
+const LOG = /\.(log|asc|blf|trc|pcap|pcapng|candump|dump)$/i;
 /** Name of a text of any kind. */
 const TEXT = /\.(txt|csv|out|text)$|^[^.]+$/i;
 const LONGEST_LOG = 100_000_000;

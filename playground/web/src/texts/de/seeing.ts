@@ -81,6 +81,14 @@ export const seeing = {
     value: 'Wert',
     time: 'Zeit in s',
   },
+  diagnosis: {
+    running: 'Fehler werden gesucht…',
+    found: (count: number, frames: number) => `${count || 'Kein'} Fehler in ${frames} ${frames === 1 ? 'Frame' : 'Frames'}.`,
+    again: 'Erneut suchen',
+    check: 'Prüfen',
+    frames: 'Frames, die es zeigen',
+    gone: 'Die Aufzeichnung enthält dieses Frame nicht mehr.',
+  },
   ids: {
     columns: ['CAN-ID', 'Typ', 'Anzahl', 'Zyklus', 'Kürzester', 'Mittel', 'Längster', 'Jitter', 'Letzte Änderung', 'Daten', 'Bedeutung'],
     titles: ['', '', 'Frames dieser Aufzeichnung', 'Letzte Periode', 'Kürzeste Periode', 'Mittlere Periode', 'Längste Periode', 'Längste minus kürzeste der letzten 32 Perioden', 'Wann sich die Daten zuletzt geändert haben', '', ''],
