@@ -9,6 +9,8 @@ same, so every failure is judged in judged.txt.
 
 import fnmatch
 import json
+import os
+import re
 import shutil
 import subprocess
 import sys
@@ -17,19 +19,40 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
-ODKIT = ROOT / "target/debug/odkit"
+ODKIT = Path(os.environ.get("ODKIT", ROOT / "target/debug/odkit"))
+PORT = "30401"
+LINK = ["--link", f"slcan:127.0.0.1:{PORT}"]
+SOURCES = {
+    "CANopenNode": ("https://github.com/CANopenNode/CANopenNode", "9b8beed"),
+    "CANopenDemo": ("https://github.com/CANopenNode/CANopenDemo", "1f16f49"),
+    "lely-core": ("https://gitlab.com/lely_industries/lely-core", "620d1858"),
+}
 CARGO = """[package]
-name = "zencan-slave"
+name = "{name}-slave"
 version = "0.1.0"
-edition = "2021"
+edition = "2024"
 
-[dependencies]
+{dependencies}
+
+[workspace]
+"""
+ZENCAN = """[dependencies]
 zencan-node = { version = "=0.0.5", features = ["std"] }
 
 [build-dependencies]
 zencan-build = "=0.0.5"
-
-[workspace]
+"""
+CANOPEN_RS = """[dependencies]
+canopen-rs = { version = "=0.6.1", features = ["std"] }
+"""
+STARTUP = """
+[1F80]
+ParameterName=NMT startup
+ObjectType=0x7
+DataType=0x0007
+AccessType=rw
+DefaultValue=4
+PDOMapping=0
 """
 BUILD = 'fn main() {\n    zencan_build::build_node_from_device_config("SLAVE", "slave.toml").expect("a configuration");\n}\n'
 
@@ -42,42 +65,143 @@ def python_canopen(folder):
     if not env.exists():
         subprocess.run([sys.executable, "-m", "venv", env], check=True)
         subprocess.run([env / "bin/pip", "install", "-q", "canopen==2.4.1", "python-can==4.6.1"], check=True)
-    return [env / "bin/python", HERE / "local_node.py", "30401", eds, "5"], eds
+    return [env / "bin/python", HERE / "local_node.py", PORT, eds, "5"], eds
+
+
+def crate(folder, name, source, dependencies):
+    """A crate around the source of a slave: its folder and its program."""
+    path = folder / name
+    (path / "src").mkdir(parents=True, exist_ok=True)
+    (path / "Cargo.toml").write_text(CARGO.format(name=name, dependencies=dependencies))
+    shutil.copy(HERE / source, path / "src/main.rs")
+    shutil.copy(HERE / "slcan.rs", path / "src/slcan.rs")
+    return path, path / f"target/debug/{name}-slave"
 
 
 def zencan(folder):
     """zencan-node with a TPDO and an RPDO; its EDS is learned from it."""
-    crate = folder / "zencan"
-    (crate / "src").mkdir(parents=True, exist_ok=True)
-    (crate / "Cargo.toml").write_text(CARGO)
-    (crate / "build.rs").write_text(BUILD)
-    shutil.copy(HERE / "zencan.toml", crate / "slave.toml")
-    shutil.copy(HERE / "zencan.rs", crate / "src/main.rs")
-    subprocess.run(["cargo", "build"], cwd=crate, check=True)
-    return [crate / "target/debug/zencan-slave", "30401", "5"], None
+    path, program = crate(folder, "zencan", "zencan.rs", ZENCAN)
+    (path / "build.rs").write_text(BUILD)
+    shutil.copy(HERE / "zencan.toml", path / "slave.toml")
+    subprocess.run(["cargo", "build"], cwd=path, check=True)
+    return [program, PORT, "5"], None
+
+
+def canopen_rs(folder):
+    """canopen-rs with a TPDO and an RPDO; its EDS is learned from it."""
+    path, program = crate(folder, "canopen-rs", "canopen_rs.rs", CANOPEN_RS)
+    subprocess.run(["cargo", "build"], cwd=path, check=True)
+    return [program, PORT, "5"], None
+
+
+def source(folder, name):
+    """The checkout of a stack; a clone that is there already is used."""
+    path = folder / name
+    address, commit = SOURCES[name]
+    if not path.exists():
+        subprocess.run(["git", "clone", "-q", address, path], check=True)
+    subprocess.run(["git", "-C", path, "checkout", "-q", commit], check=True)
+    return path
+
+
+def compiled(program, sources, flags):
+    """A program of C, compiled unless it is newer than its sources."""
+    newest = max(path.stat().st_mtime for path in [*sources, *HERE.rglob("*.[ch]")])
+    if not program.exists() or program.stat().st_mtime < newest:
+        subprocess.run(["cc", "-O1", "-w", *flags, *sources, "-o", program, "-lm"], check=True)
+    return program
+
+
+def canopennode(folder):
+    """CANopenNode with the objects of its demo device."""
+    stack, demo = source(folder, "CANopenNode"), source(folder, "CANopenDemo") / "demo"
+    parts = ["CO_ODinterface", "CO_NMT_Heartbeat", "CO_HBconsumer", "CO_Emergency", "CO_SDOserver", "CO_TIME", "CO_SYNC", "CO_PDO"]
+    files = [stack / f"301/{part}.c" for part in [*parts, "crc16-ccitt"]]
+    files += [stack / part for part in ["303/CO_LEDs.c", "305/CO_LSSslave.c", "storage/CO_storage.c", "CANopen.c"]]
+    files += [demo / f"{part}.c" for part in ["OD", "CO_identificators", "objectAccessOD", "domainDemo"]]
+    folders = [HERE / "canopennode", stack, demo, demo / "linux"]
+    program = compiled(folder / "canopennode-slave", [HERE / "canopennode/main.c", *files], [f"-I{path}" for path in folders])
+    eds = folder / "canopennode.eds"
+    shutil.copy(demo / "demoDevice.eds", eds)
+    return [program, PORT, "5"], eds
+
+
+def lely(folder):
+    """Lely core with the EDS of a slave of all services."""
+    stack = source(folder, "lely-core")
+    files = [path for part in ["libc", "util", "can", "co"] for path in sorted((stack / "src" / part).glob("*.c"))]
+    files = [path for path in files if path.name not in ("vci.c", "socket.c", "threads-win32.c")]
+    flags = [f"-I{stack / 'include'}", "-D_GNU_SOURCE", "-DNDEBUG", "-DLELY_NO_CANFD=1", "-DLELY_NO_CXX=1", "-pthread"]
+    program = compiled(folder / "lely-slave", [HERE / "lely.c", *files], flags)
+    eds = folder / "lely.eds"
+    # Without 1F80h it starts by itself.
+    text = (ROOT / "firmware/eds/ds301.eds").read_text()
+    text = re.sub(r"(?m)^33=.*$", r"\g<0>\n34=0x1F80", text.replace("SupportedObjects=33", "SupportedObjects=34"), count=1)
+    eds.write_text(text + STARTUP)
+    return [program, PORT, "5", eds], eds
 
 
 STACKS = [
+    ("CANopenNode", "4.1, commit 9b8beed, its demo device", canopennode),
+    ("Lely core", "2.4.0, commit 620d1858", lely),
     ("python-canopen", "2.4.1, `LocalNode`", python_canopen),
     ("zencan-node", "0.0.5", zencan),
+    ("canopen-rs", "0.6.1", canopen_rs),
 ]
-LINK = ["--link", "slcan:127.0.0.1:30401"]
+
+
+def running(command):
+    """The slave as a process that is ready for a client."""
+    slave = subprocess.Popen([str(part) for part in command])
+    time.sleep(3)
+    return slave
 
 
 def tested(name, make, folder):
-    """The report of one stack, as JSON."""
+    """Writes the report of one stack, as JSON."""
     command, eds = make(folder)
-    slave = subprocess.Popen([str(part) for part in command])
+    slave = running(command)
     try:
-        time.sleep(3)
         if eds is None:
             eds = folder / f"{name}.eds"
             subprocess.run([ODKIT, "learn", "5", *LINK, "--allow-writes", "-o", eds], check=True)
         report = folder / f"{name}.json"
         test = [ODKIT, "conform", *LINK, "--node-id", "5", "--eds", eds, "--allow-reset", "--allow-store"]
         subprocess.run([*test, "--report", report], stdout=subprocess.DEVNULL)
+        assert slave.poll() is None, f"{name} ended"
     finally:
         slave.kill()
+
+
+def learned(folder):
+    """Compares the EDS that is learned from CANopenNode with its own, and with the node: differences of each."""
+    command, own = canopennode(folder)
+    slave = running(command)
+    try:
+        eds = folder / "learned.eds"
+        eds.unlink(missing_ok=True)
+        subprocess.run([ODKIT, "learn", "5", *LINK, "--allow-writes", "-o", eds], check=True)
+        pairs = {"own": [own, eds], "live": [eds, *LINK, "--node-id", "5"]}
+        found = {}
+        for name, arguments in pairs.items():
+            done = subprocess.run([ODKIT, "diff", *arguments, "--format", "json"], stdout=subprocess.PIPE, text=True)
+            found[name] = json.loads(done.stdout)["differences"]
+        found["entries"] = len(re.findall(r"(?m)^DataType=", own.read_text()))
+    finally:
+        slave.kill()
+    (folder / "learned.json").write_text(json.dumps(found))
+
+
+#: Why a field of a learned EDS differs.
+REASONS = {
+    "default": "values that the stack computes, and texts that its EDS leaves out",
+    "data-type": "whether an integer has a sign, or is a REAL64, is not in a response; a text with bytes beyond ASCII is an OCTET_STRING",
+    "access": "sub-index 0 of a list: `const` for `ro`",
+    "mapping": "`learn` marks the objects that are mapped, and does not try others",
+    "storage": "CANopenEditor's own key for the storage of an object",
+    "name": "names come from the standards",
+    "high-limit": "a limit that the probe of the value found",
+}
 
 
 def judgements():
@@ -95,6 +219,7 @@ def page(folder):
         "`tests/stacks/stacks.py` builds each stack outside the repository, puts a slave made with it behind slcan, and runs",
         "`odkit conform` with resets and stores allowed. A failure belongs to this slave and the EDS of the test: a service that the EDS declares and",
         "the stack leaves to its application counts as a failure, too. Each failure was judged by its frames.",
+        "Skipped are the case that switches the power, and those in which the computer of the test was late.",
         "",
         "| stack | version | passed | failed | skipped | not applicable |",
         "|---|---|---|---|---|---|",
@@ -121,6 +246,20 @@ def page(folder):
                     out.append(f"| {text} | {', '.join(own)} |")
         if failed:
             out.append(f"| not judged | {', '.join(failed)} |")
+    found = json.loads((folder / "learned.json").read_text())
+    out += [
+        "",
+        "## `odkit learn` on CANopenNode",
+        "",
+        f"The EDS that `odkit learn --allow-writes` makes of the node has the {found['entries']} values of the stack's own EDS. They differ in:",
+        "",
+        "| field | differences | why |",
+        "|---|---|---|",
+    ]
+    fields = [one["field"] for one in found["own"]]
+    out += [f"| {field} | {fields.count(field)} | {REASONS.get(field, 'not judged')} |" for field in sorted(set(fields))]
+    live = len(found["live"])
+    out += ["", f"Against the running node `odkit diff` finds {live} difference{'' if live == 1 else 's'} in it."]
     return "\n".join(out) + "\n"
 
 
@@ -130,6 +269,8 @@ def main():
     for name, _, make in STACKS:
         if "--again" in sys.argv or not (folder / f"{name}.json").exists():
             tested(name, make, folder)
+    if "--again" in sys.argv or not (folder / "learned.json").exists():
+        learned(folder)
     (ROOT / "docs/CONFORMANCE.md").write_text(page(folder))
 
 
