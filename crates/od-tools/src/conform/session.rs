@@ -20,8 +20,8 @@ const SILENCES: u8 = 3;
 const LATE: u64 = 5_000;
 /// A frame counts as missing after this many times the lateness of the test itself.
 const PATIENCE: u64 = 50;
-/// Some servers end a transfer if its client pauses for half a second or longer.
-const PAUSE: u64 = 200_000;
+/// Some servers end a transfer if its client pauses: the most impatient known one after 25 ms.
+const PAUSE: u64 = 20_000;
 /// Groups whose cases measure time or depend on it: they may fail because the test itself is late.
 const TIMED: [&str; 6] = [
     "NMT",

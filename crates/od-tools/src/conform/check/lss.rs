@@ -412,7 +412,7 @@ fn started_as(dut: &mut Dut<'_>, ids: [NodeId; 2]) -> Checked {
 /// Configures a node ID without storing it, and resets the communication. Returns whether the node
 /// has the node ID then.
 pub(super) fn renumber(dut: &mut Dut<'_>, node: NodeId) -> Checked<bool> {
-    configured(dut)?;
+    let all = configured(dut)?;
     let node_id = node.raw();
     let answer = ask(dut, Request::ConfigureNodeId { node_id })?;
     waiting(dut)?;
@@ -430,7 +430,14 @@ pub(super) fn renumber(dut: &mut Dut<'_>, node: NodeId) -> Checked<bool> {
             dut.wait(20_000)?;
             Ok(true)
         }
-        _ => Ok(false),
+        _ => {
+            // The node may have taken the node ID without a boot-up message: it gets its own again.
+            select(dut, all)?;
+            let node_id = before.raw();
+            ask(dut, Request::ConfigureNodeId { node_id })?;
+            waiting(dut)?;
+            Ok(false)
+        }
     }
 }
 
