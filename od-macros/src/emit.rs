@@ -138,7 +138,7 @@ fn hand_on(from: &str, to: &str) -> String {
 
 fn item(out: &mut String, root: &str, item: &Item, family: Option<&Item>) {
     match &item.body {
-        Body::Value(handle) => constant(out, root, item.index, handle),
+        Body::Value(handle) => constant(out, item.index, handle),
         Body::Members(handles) => {
             let _ = writeln!(
                 out,
@@ -166,7 +166,7 @@ fn item(out: &mut String, root: &str, item: &Item, family: Option<&Item>) {
             for handle in own(handles, series) {
                 match others.iter().find(|other| other.alike(handle)) {
                     Some(other) => handed_on.push(hand_on(&other.name, &handle.name)),
-                    None => constant(out, root, item.index, handle),
+                    None => constant(out, item.index, handle),
                 }
             }
             if let (Some(family), false) = (family, handed_on.is_empty()) {
@@ -198,7 +198,7 @@ fn series(out: &mut String, index: u16, first: &Handle, last: &Handle, count: us
 }
 
 /// The handle of a value, and its address for patterns: `LIMIT`, `LIMIT::ADDRESS`.
-fn constant(out: &mut String, root: &str, index: u16, handle: &Handle) {
+fn constant(out: &mut String, index: u16, handle: &Handle) {
     let Handle {
         name,
         doc,
@@ -213,12 +213,7 @@ fn constant(out: &mut String, root: &str, index: u16, handle: &Handle) {
         Some(bits) => writeln!(out, "__v({index:#06X}, {sub}, {offset}, {len}, {bits});"),
         None => writeln!(out, "__t({index:#06X}, {sub}, {offset}, {len});"),
     };
-    // A module and a constant may have one name. A pattern needs a constant of the type `Address`.
-    let _ = writeln!(
-        out,
-        "#[doc(hidden)] pub mod {name} {{ pub const ADDRESS: {root}::Address = \
-         {root}::Address {{ index: {index:#06X}, sub: {sub} }}; }}"
-    );
+    let _ = writeln!(out, "__a!({name} {index:#06X} {sub});");
 }
 
 /// `DICTIONARY` with its tables inside, so that they need no names outside.

@@ -1,8 +1,25 @@
 //! Helpers of generated code; not an API.
 
 pub use super::{Const, NoPdo, Pdo, Ro, Rw, Rwr, Rww, Series, Text, Var, Wo};
+pub use crate::__address as __a;
 use crate::address::Address;
 use crate::entry::Slot;
+
+/// Writes the address of a handle as a constant in a module with the name of the handle: a pattern needs a constant of
+/// the type `Address`, and a module and a constant may have one name.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! __address {
+    ($name:ident $index:literal $sub:literal) => {
+        #[doc(hidden)]
+        pub mod $name {
+            pub const ADDRESS: $crate::Address = $crate::Address {
+                index: $index,
+                sub: $sub,
+            };
+        }
+    };
+}
 
 pub const fn __v<T, A, M>(index: u16, sub: u8, offset: u32, len: u16, bits: u8) -> Var<T, A, M> {
     Var::new(Address::new(index, sub), Slot { offset, len }, bits)
