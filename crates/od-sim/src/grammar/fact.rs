@@ -194,10 +194,7 @@ impl Fact {
             Self::Cable(measure, test) => numbers(bus.line.measure(device + 1, *measure), test),
             Self::Master(node, wanted) => {
                 let standing = bus.standing(*node);
-                found(
-                    wanted.holds(standing),
-                    format!("node {node} {}", Wanted::of(standing).words()),
-                )
+                found(wanted.holds(standing), Wanted::of(standing).short())
             }
             Self::ErrorCounter { .. } | Self::Controller(_) if !bus.line.is_real() => {
                 Err("an ideal bus line has no errors; remove `line ideal`".into())

@@ -199,7 +199,19 @@ impl Wanted {
         }
     }
 
-    /// The present state of a slave in words.
+    /// The state in one or a few words, for use after "it is".
+    pub(super) fn short(self) -> String {
+        match self {
+            Self::Waiting => "not booted yet".into(),
+            Self::Booting => "being booted".into(),
+            Self::Started => "started".into(),
+            Self::Failed(None) => "failed".into(),
+            Self::Failed(Some(status)) => format!("failed, error status {}", status.letter()),
+            Self::Lost => "lost".into(),
+        }
+    }
+
+    /// The state of a slave as a condition names it.
     pub(super) fn of(standing: Option<Standing>) -> Self {
         match standing {
             None => Self::Waiting,
