@@ -59,10 +59,7 @@ pub fn check(entries: &[Entry], until: Instant) -> Result<(), Error> {
 
 #[cfg(test)]
 mod tests {
-    use std::format;
-
     use super::super::parts::Source;
-    use super::super::{Journal, Trouble};
     use super::*;
 
     fn add(place: Option<u8>) -> Input {
@@ -123,6 +120,9 @@ mod tests {
     #[cfg(feature = "lessons")]
     #[test]
     fn scripts_and_lessons_of_a_journal_have_limits() {
+        use super::super::{Journal, Trouble};
+        use std::format;
+
         let mut journal = Journal::new(od_devices::DEVICES);
         journal.restore(Vec::new(), false);
         journal.act(add(None));
