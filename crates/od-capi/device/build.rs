@@ -46,7 +46,10 @@ fn run() -> Result<()> {
         });
         let name = node.name.as_deref().unwrap_or("NODE");
         exports += &format!("{handle} = ODKIT_{name}: device_{device}, ");
-        handles += &format!("#define ODKIT_{name} {handle}u /* {} */\n", comment(&node.files));
+        handles += &format!(
+            "#define ODKIT_{name} {handle}u /* {} */\n",
+            comment(&node.files)
+        );
         let prefix = match &node.name {
             Some(name) => format!("OD_{name}"),
             None => String::from("OD"),
