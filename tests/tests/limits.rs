@@ -178,3 +178,36 @@ fn time_grows_with_the_length_of_a_text() {
         }
     }
 }
+
+/// An overlay as long as its base: sections and keys that change, that are new and that go.
+#[test]
+fn time_grows_with_the_length_of_an_overlay() {
+    let own = |n: usize| format!("[Own{n}]\na=1");
+    let base = lines("", 50_000, own);
+    let keys = lines(VAR, 100_000, |n| format!("k{n}=1")) + &"\n".repeat(50_000);
+    for (name, base, overlay) in [
+        ("changed sections", &base, lines("", 50_000, own)),
+        (
+            "removed sections",
+            &base,
+            lines("", 50_000, |n| format!("[Own{n}]\nRemove=1")),
+        ),
+        (
+            "changed keys",
+            &keys,
+            lines(VAR, 100_000, |n| format!("k{}=2", 99_999 - n)),
+        ),
+        (
+            "one section again and again",
+            &keys,
+            lines("", 50_000, |n| format!("[2000]\nnew{n}=2")),
+        ),
+    ] {
+        let start = processor_time();
+        od_eds::overlay(base, &overlay).unwrap_or_else(|faults| panic!("{name}: {faults:?}"));
+        let most = if cfg!(debug_assertions) { 2_000 } else { 200 };
+        if let (Some(start), Some(end)) = (start, processor_time()) {
+            assert!(end - start <= most, "{name}: {} ms", (end - start) * 10);
+        }
+    }
+}

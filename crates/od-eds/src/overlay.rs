@@ -13,7 +13,7 @@
 //! Both become one text, so every rule of the reader and of the checks applies to it, and
 //! every finding has its place in the original file.
 
-use alloc::collections::BTreeSet;
+use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec;
@@ -102,14 +102,14 @@ pub fn overlay(base: &str, overlay: &str) -> Result<Overlaid, Vec<(u32, String)>
         let why = "the base is XML; write an EDS of it with `odkit convert`";
         return Err(vec![(1, why.to_string())]);
     }
-    let mut sections = read(base, Origin::Base);
+    let parts = read(base, Origin::Base);
+    let before = objects(&parts);
+    let mut sections = Sections::default();
+    parts.into_iter().for_each(|part| sections.push(part));
     let mut faults = Vec::new();
-    let (before, changed) = (objects(&sections), read(overlay, Origin::Overlay));
-    for section in changed.into_iter().skip(1) {
+    for section in read(overlay, Origin::Overlay).into_iter().skip(1) {
         if section.has("Remove", "1") {
-            let count = sections.len();
-            sections.retain(|other| !section.removes(other));
-            if sections.len() == count {
+            if !sections.remove(&section.name) {
                 let line = section.lines.first().map_or(0, |line| line.number);
                 faults.push((
                     line,
@@ -118,7 +118,7 @@ pub fn overlay(base: &str, overlay: &str) -> Result<Overlaid, Vec<(u32, String)>
             }
             continue;
         }
-        match sections.iter_mut().find(|other| other.is(&section.name)) {
+        match sections.named(&section.name) {
             Some(other) => other.take_over(section),
             None => sections.push(section),
         }
@@ -126,6 +126,7 @@ pub fn overlay(base: &str, overlay: &str) -> Result<Overlaid, Vec<(u32, String)>
     if !faults.is_empty() {
         return Err(faults);
     }
+    let mut sections: Vec<Part<'_>> = sections.parts.into_iter().flatten().collect();
     let after = objects(&sections);
     if before != after {
         list(&mut sections, &after);
@@ -156,10 +157,60 @@ impl Line<'_> {
 }
 
 /// A header and the lines below it; the first part of a text has no header.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 struct Part<'t> {
     name: String,
     lines: Vec<Line<'t>>,
+    /// The empty lines at the end, once an overlay has changed the part.
+    blanks: Vec<Line<'t>>,
+    /// Where the first line of each key is, in small letters, once an overlay has changed the part.
+    keys: Option<BTreeMap<String, usize>>,
+}
+
+/// The parts of the base. An overlay may be as long as the base, so they are found by name and by object.
+#[derive(Debug, Default)]
+struct Sections<'t> {
+    /// In the order of the text; `None`: removed.
+    parts: Vec<Option<Part<'t>>>,
+    /// By name, in small letters.
+    names: BTreeMap<String, Vec<usize>>,
+    /// An object with its members and lists.
+    objects: BTreeMap<u16, Vec<usize>>,
+}
+
+impl<'t> Sections<'t> {
+    fn push(&mut self, part: Part<'t>) {
+        let at = self.parts.len();
+        let name = part.name.to_ascii_lowercase();
+        self.names.entry(name).or_default().push(at);
+        if let Some(index) = object_of(&part.name) {
+            self.objects.entry(index).or_default().push(at);
+        }
+        self.parts.push(Some(part));
+    }
+
+    /// The first part with a name; that without a header has none.
+    fn named(&mut self, name: &str) -> Option<&mut Part<'t>> {
+        let positions = self.names.get(&name.to_ascii_lowercase())?;
+        let there = |at: &&usize| self.parts.get(**at).is_some_and(Option::is_some);
+        let at = *positions.iter().find(there).filter(|_| !name.is_empty())?;
+        self.parts.get_mut(at)?.as_mut()
+    }
+
+    /// Removes the parts with a name; an object with its members and lists. Returns whether there was one.
+    fn remove(&mut self, name: &str) -> bool {
+        if name.is_empty() {
+            return false;
+        }
+        let whole = object_of(name).filter(|_| name.len() == 4);
+        let members = whole.and_then(|index| self.objects.remove(&index));
+        let same = self.names.remove(&name.to_ascii_lowercase());
+        let mut was_there = false;
+        for at in [members, same].into_iter().flatten().flatten() {
+            was_there |= self.parts.get_mut(at).and_then(Option::take).is_some();
+        }
+        was_there
+    }
 }
 
 impl<'t> Part<'t> {
@@ -175,38 +226,37 @@ impl<'t> Part<'t> {
         })
     }
 
-    /// An object is removed with its members and lists.
-    fn removes(&self, other: &Part<'_>) -> bool {
-        other.is(&self.name)
-            || self.name.len() == 4
-                && object_of(&self.name).is_some()
-                && object_of(&other.name) == object_of(&self.name)
-    }
-
     /// Keys of the overlay replace the same keys; others are added at the end.
     fn take_over(&mut self, overlay: Part<'t>) {
-        for line in overlay.lines.into_iter().skip(1) {
-            let key = line.key().map(ToString::to_string);
-            let same = key.and_then(|key| self.lines.iter().position(|own| own.is_key(&key)));
-            if let Some(at) = same {
-                self.lines[at] = line;
-                continue;
-            }
-            if line.text.trim().is_empty() {
-                continue;
-            }
-            let is_blank = |line: &Line<'_>| line.text.trim().is_empty();
+        let is_blank = |line: &Line<'_>| line.text.trim().is_empty();
+        let keys = self.keys.get_or_insert_with(|| {
             let end = self.lines.iter().rposition(|own| !is_blank(own));
-            self.lines.insert(end.map_or(0, |end| end + 1), line);
+            self.blanks = self.lines.split_off(end.map_or(0, |end| end + 1));
+            let mut keys = BTreeMap::new();
+            for (at, line) in self.lines.iter().enumerate() {
+                if let Some(key) = line.key() {
+                    keys.entry(key.to_ascii_lowercase()).or_insert(at);
+                }
+            }
+            keys
+        });
+        for line in overlay.lines.into_iter().skip(1) {
+            let key = line.key().map(str::to_ascii_lowercase);
+            let same = key.as_ref().and_then(|key| keys.get(key));
+            if let Some(own) = same.and_then(|at| self.lines.get_mut(*at)) {
+                *own = line;
+            } else if !is_blank(&line) {
+                if let Some(key) = key {
+                    keys.insert(key, self.lines.len());
+                }
+                self.lines.push(line);
+            }
         }
     }
 }
 
 fn read(text: &str, origin: Origin) -> Vec<Part<'_>> {
-    let mut parts = vec![Part {
-        name: String::new(),
-        lines: Vec::new(),
-    }];
+    let mut parts = vec![Part::default()];
     let mut byte = 0;
     for (number, piece) in (1..).zip(with_ends(text)) {
         let line = Line {
@@ -227,7 +277,7 @@ fn read(text: &str, origin: Origin) -> Vec<Part<'_>> {
         if let Some((name, _)) = name {
             parts.push(Part {
                 name: name.trim().into(),
-                lines: Vec::new(),
+                ..Part::default()
             });
         }
         if let Some(part) = parts.last_mut() {
@@ -275,10 +325,14 @@ fn list(parts: &mut Vec<Part<'_>>, objects: &BTreeSet<u16>) {
             })
             .collect();
         match at.and_then(|at| parts.get_mut(at)) {
-            Some(part) => part.lines = lines,
+            Some(part) => {
+                part.lines = lines;
+                part.blanks.clear();
+            }
             None => parts.push(Part {
                 name: list.name().into(),
                 lines,
+                ..Part::default()
             }),
         }
     }
@@ -286,7 +340,8 @@ fn list(parts: &mut Vec<Part<'_>>, objects: &BTreeSet<u16>) {
 
 fn join(parts: &[Part<'_>]) -> Overlaid {
     let mut made = Overlaid::default();
-    for line in parts.iter().flat_map(|part| &part.lines) {
+    let lines = parts.iter().flat_map(|part| [&part.lines, &part.blanks]);
+    for line in lines.flatten() {
         // The last line of a file may have no end, but another line follows now.
         if !made.text.is_empty() && !made.text.ends_with('\n') {
             made.text.push('\n');

@@ -164,3 +164,10 @@ fn a_base_of_xml_is_refused() {
     let refused = overlay("<?xml version=\"1.0\"?><a/>", "[2000]\nDefaultValue=4\n");
     assert!(refused.is_err_and(|why| why[0].1.contains("odkit convert")));
 }
+
+#[test]
+fn a_section_that_is_changed_twice_keeps_its_empty_lines_at_its_end() {
+    let made = laid("[Own]\n; a\n\n[Own]\nA=1\n[Own]\nB=2\n[own]\na=3\n");
+    let own = made.text.split_once("[Own]").map(|(_, own)| own);
+    assert_eq!(own, Some("\n; a\na=3\nB=2\n\n"));
+}
