@@ -45,7 +45,7 @@ for (const [name, start] of Object.entries(ENGINES)) {
       await row('581', '43 18 10 02');
 
       await click('button', 'Learn');
-      await until('the list of lessons', () => run(`const it = all('.lesson-list .card')[0]; it?.click(); return !!it`));
+      await until('the list of lessons', () => run(`const it = all('[aria-labelledby^=level-] .card')[0]; it?.click(); return !!it`));
       const step = text('.lesson-step h3 .num');
       for (let number = 1; number <= 5; number++) {
         await becomes('the step', step, String(number));

@@ -2,7 +2,7 @@
 
 pub use super::{Const, NoPdo, Pdo, Ro, Rw, Rwr, Rww, Series, Text, Var, Wo};
 pub use crate::__address as __a;
-use crate::address::Address;
+pub use crate::address::Address;
 use crate::entry::Slot;
 
 /// Writes the address of a handle as a constant in a module with the name of the handle: a pattern needs a constant of
@@ -13,7 +13,7 @@ macro_rules! __address {
     ($name:ident $index:literal $sub:literal) => {
         #[doc(hidden)]
         pub mod $name {
-            pub const ADDRESS: $crate::Address = $crate::Address {
+            pub const ADDRESS: $crate::typed::emit::Address = $crate::typed::emit::Address {
                 index: $index,
                 sub: $sub,
             };

@@ -31,15 +31,12 @@ impl Counts {
                     sum.add(&words, 1, ["pass", "fail", "skipped"]);
                     sum.add(&words, 1, ["", "cancelled", "todo"]);
                 }
-                // pytest: `1 failed, 46 passed in 7.77s`.
+                // pytest: `1 failed, 46 passed in 7.77s`, and `in 85.07s (0:01:25)` from a minute on.
                 [
                     number,
                     "passed" | "failed" | "error" | "errors" | "skipped",
                     ..,
-                    "in",
-                    _,
-                    _,
-                ] if number.parse::<u64>().is_ok() => {
+                ] if words.contains(&"in") && number.parse::<u64>().is_ok() => {
                     sum.add(&words, -1, ["passed", "failed", "skipped"]);
                     sum.add(&words, -1, ["", "error", ""]);
                     sum.add(&words, -1, ["", "errors", ""]);
@@ -142,6 +139,7 @@ mod tests {
         check("ℹ tests 2\nℹ pass 1\nℹ fail 0\nℹ cancelled 1\n", 1, 1, 0);
         check("Ran 12 tests in 3.4s\n\nOK (skipped=2)\n", 10, 0, 2);
         check("====== 46 passed in 7.77s ======\n", 46, 0, 0);
+        check("154 passed, 4 deselected in 85.07s (0:01:25)\n", 154, 0, 0);
         check("1 failed, 3 passed, 2 skipped, 1 error in 0.50s\n", 3, 2, 2);
         let python = "FAILED (failures=1, errors=2, skipped=3)\n";
         check(&format!("Ran 9 tests in 3.4s\n\n{python}"), 3, 3, 3);

@@ -7,8 +7,7 @@
 //! comparison of the date of a configuration (1F26h, 1F27h), the flying master, and slaves that stay Operational while
 //! the master starts.
 //!
-//! The master is sans-io like a device: [`handle_frame`](Master::handle_frame), [`poll_transmit`](Master::poll_transmit),
-//! [`poll_timeout`](Master::poll_timeout). A [`Bus`](crate::bus::Bus) connects it to the CAN interface of the outside.
+//! The master is sans-io like a device: `handle_frame`, `poll_transmit`, `poll_timeout`. A [`Bus`](crate::bus::Bus) connects it to the CAN interface of the outside.
 
 mod boot;
 mod plan;
