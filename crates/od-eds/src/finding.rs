@@ -73,7 +73,7 @@ impl Form {
     pub(crate) const OWN: Self = Self { says: "", help: "" };
 }
 
-/// How a rule finds its findings.
+/// The check of a rule: what it looks at, and the function that reports the findings.
 #[derive(Clone, Copy)]
 pub(crate) enum Check {
     /// A check of each value.
@@ -87,7 +87,7 @@ pub(crate) enum Check {
     Elsewhere,
 }
 
-/// One rule: the meaning of its code, the sentences of its findings, and how they are found.
+/// One rule: the meaning of its code, the sentences of its findings, and its check.
 #[derive(Clone, Copy)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Rule {
@@ -119,7 +119,7 @@ pub struct Rule {
     /// Whether a device can be built from the file although this is an error; then only its master
     /// fails.
     pub buildable: bool,
-    /// How the findings are found.
+    /// The check that reports its findings.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub(crate) check: Check,
 }

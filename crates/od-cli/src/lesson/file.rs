@@ -75,7 +75,8 @@ fn translation(path: &Path, folder: &str) -> Result<Option<String>, Failure> {
     path.is_file().then(|| text(&path)).transpose()
 }
 
-/// The German translation beside the file of a lesson, with the blocks of the lesson; `None` if there is none.
+/// The German translation beside the file of a lesson, with set-up, conditions and solutions of the lesson; `None` if that
+/// file does not exist.
 pub(super) fn translated(path: &Path) -> Result<Option<File>, Failure> {
     let language = Language::De;
     let is_there = |folder| beside(path, folder).is_file();

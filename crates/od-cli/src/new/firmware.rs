@@ -67,7 +67,7 @@ const FILES: [Template; 12] = [
         include_str!("template/boot-up.script.in"),
     ),
 ];
-/// What the linker of a Cortex-M gets.
+/// Build script and linker script of a firmware for a Cortex-M.
 const CORTEX_M: [Template; 2] = [
     (
         "firmware/build.rs",
