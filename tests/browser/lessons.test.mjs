@@ -232,7 +232,7 @@ test("a trainer's own lesson is opened from a file; a wrong one says in which li
   await booted(page);
   await page.getByRole('button', { name: 'Learn' }).click();
   const list = page.getByRole('dialog', { name: 'Lessons' });
-  const give = (name, text) => list.getByLabel('Open a lesson from a file').setInputFiles({ name, mimeType: 'text/markdown', buffer: Buffer.from(text) });
+  const give = (name, text) => list.getByLabel('Open lessons from files').setInputFiles([name].flat().map((one) => ({ name: one, mimeType: 'text/markdown', buffer: Buffer.from(text) })));
 
   const bad = OWN.replace('state operational', 'state running');
   const line = bad.split('\n').findIndex((one) => one.includes('state running')) + 1;
@@ -255,6 +255,23 @@ test("a trainer's own lesson is opened from a file; a wrong one says in which li
   await page.getByText('You did it').waitFor();
   await page.getByRole('button', { name: 'Begin again' }).click();
   await page.getByRole('button', { name: 'A hint' }).waitFor();
+
+  // Several files become a group of the list; what is no lesson is left out, and they are there in the next visit.
+  await page.getByRole('button', { name: 'Other lessons' }).click();
+  const group = list.getByRole('list', { name: 'Your own lessons' });
+  await becomes('the lesson of before', async () => (await group.locator('strong').allTextContents()).map((text) => text.trim()), ['A lesson of my own Done']);
+  await give(['own.md', 'two.md'], OWN);
+  await becomes('two lessons', () => group.getByRole('listitem').count(), 2);
+  await give(['README.md', 'NOTES.md'], '# Not a lesson');
+  await page.getByText('There is no lesson among these files.').waitFor();
+  await give(['bad.md', 'worse.md'], bad);
+  await becomes('both are named', () => faulty.locator('h3').allTextContents(), ['bad.md cannot be opened: it has 1 problem.', 'worse.md cannot be opened: it has 1 problem.']);
+  await page.goto('about:blank');
+  await page.goto(new URL('#lesson=two.md', URL_OF_PAGE).href);
+  await page.getByRole('heading', { name: 'A lesson of my own' }).waitFor();
+  await page.getByRole('button', { name: 'Other lessons' }).click();
+  await list.getByRole('button', { name: 'Remove from this list' }).click();
+  await becomes('none', () => group.count(), 0);
   assert.deepEqual(faults, []);
   await close();
 });

@@ -193,12 +193,12 @@ export async function begin(wanted: { source: Source; nodeId: number }[]): Promi
 export async function openLesson(name: string, text: string, solutions: string[] = []): Promise<boolean> {
   const { node, diagnostics } = await add({ op: 'lesson', text });
   if (node === null) {
-    state.lessonFailed.value = { name, problems: diagnostics };
+    state.lessonFailed.value = [{ name, problems: diagnostics }];
     return false;
   }
   dropFrames();
   state.tour.value = null;
-  state.lessonFailed.value = null;
+  state.lessonFailed.value = [];
   // What was typed and chosen before belongs to another bench.
   state.draft.value = null;
   state.selected.value = null;

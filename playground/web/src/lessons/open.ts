@@ -6,26 +6,13 @@ import { german, language } from '../language';
 import * as state from '../state';
 import { D } from '../views/texts';
 import { finished } from './kept';
-
-/** A built-in lesson. */
-export interface Listed {
-  name: string;
-  title: string;
-  summary: string;
-  level: number;
-  minutes: number;
-  /** Title and summary in German, if the lesson is translated. */
-  de?: { title: string; summary: string };
-}
+import { keep, LONGEST, own, type Listed } from './own';
 
 /** Title and summary in the language of the page, or in English. */
 export const words = (one: Listed): { title: string; summary: string } => (german.value && one.de) || one;
 
 /** The file of a lesson in the language of the page, or in English. */
 const fileOf = (one: Listed): string => `lesson-${one.name}${german.value && one.de ? '.de' : ''}.md`;
-
-/** Maximum size of a text in bytes. */
-const LONGEST = 1_000_000;
 
 /** Milliseconds that a server has to send a lesson. */
 const PATIENCE = 10_000;
@@ -35,13 +22,16 @@ const SLOW = 1500;
 
 let list: Promise<Listed[]> | null = null;
 
-/** The built-in lessons; they are fetched once. */
-export function lessons(): Promise<Listed[]> {
+/** The lessons beside the page, which are fetched once, and those of the user. */
+export async function lessons(): Promise<Listed[]> {
   list ??= load('lessons.json').then((text) => JSON.parse(text) as Listed[]);
   // The next attempt may succeed.
   list.catch(() => (list = null));
-  return list;
+  return [...(await list), ...(await own())];
 }
+
+/** The text of a lesson of the list, in the language of the page. */
+export const textOf = async (one: Listed): Promise<string> => one.text ?? load(fileOf(one));
 
 async function load(address: string): Promise<string> {
   const answer = await fetch(new URL(address, new URL('./', location.href)), { signal: AbortSignal.timeout(PATIENCE) });
@@ -96,7 +86,7 @@ function unreachable(name: string, error: unknown): false {
 }
 
 /**
- * Opens a built-in lesson, or the text at an address; false if that fails. While a slow server
+ * Opens a lesson of the list, or the text at an address; false if that fails. While a slow server
  * loads, `meanwhile` makes a bench, which the lesson replaces.
  */
 export async function openNamed(name: string, meanwhile?: () => Promise<void>): Promise<boolean> {
@@ -104,11 +94,11 @@ export async function openNamed(name: string, meanwhile?: () => Promise<void>): 
   const timer = setTimeout(() => (made = meanwhile?.()), SLOW);
   try {
     const ours = (await lessons().catch(() => [])).find((one) => one.name === name);
-    const text = await load(ours ? fileOf(ours) : name);
+    const text = await (ours ? textOf(ours) : load(name));
     clearTimeout(timer);
     await made;
     if (!(await tried(name, text))) return false;
-    if (ours) history.replaceState(null, '', `${location.pathname}#lesson=${name}`);
+    if (ours) history.replaceState(null, '', `${location.pathname}#lesson=${encodeURIComponent(name)}`);
     return true;
   } catch (error) {
     clearTimeout(timer);
@@ -117,13 +107,14 @@ export async function openNamed(name: string, meanwhile?: () => Promise<void>): 
   }
 }
 
-/** Opens a file of the user; false if that fails. */
+/** Opens a file of the user, and adds it to the list; false if that fails. */
 export async function openFile(file: File): Promise<boolean> {
   if (file.size > LONGEST) return unreachable(file.name, D.lessons.tooLarge);
-  const isOpen = await tried(file.name, await file.text());
-  // A file has no address to reload it from.
-  if (isOpen) history.replaceState(null, '', location.pathname);
-  return isOpen;
+  const text = await file.text();
+  if (!(await tried(file.name, text))) return false;
+  await keep(file.name, text);
+  history.replaceState(null, '', `${location.pathname}#lesson=${encodeURIComponent(file.name)}`);
+  return true;
 }
 
 let last = '';
@@ -159,10 +150,10 @@ export async function backTo(step: number): Promise<void> {
   await openLesson(state.lessonRun.value.name, last, steps.slice(0, step).map(({ solution }) => solution));
 }
 
-/** Starts a step of a built-in lesson again in the language of the page. */
+/** Starts a step of a lesson of the list again in the language of the page. */
 export async function translated(one: Listed, step: number): Promise<void> {
   try {
-    last = await load(fileOf(one));
+    last = await textOf(one);
   } catch (error) {
     unreachable(one.name, error);
     return;

@@ -2,7 +2,7 @@
 // between page and worker. Only numbers, strings and plain records.
 
 import type { RealCommand, RealReport, RealState } from '../real/api';
-import type { Builtin, Bus, Chain, decodeEds, DeviceInfo, diagnose, Entry, foreignFile, Input, JournalNews, judgeAnswer, Lesson, LessonState, LineStatus, plainEds, readLog, Status, Value, writeLog } from '../wasm/od_playground';
+import type { Builtin, Bus, Chain, decodeEds, DeviceInfo, diagnose, Entry, foreignFile, Input, JournalNews, judgeAnswer, Lesson, LessonState, LineStatus, parseLesson, plainEds, readLog, Status, Value, writeLog } from '../wasm/od_playground';
 
 export type { Added, Builtin, CableState, Chain, DeviceInfo, Diagnostic, Entry, Field, FrameTemplate, Incident, Input, Judgement, Lamp, Lesson, LessonState, LineStatus, Log, Mapped, MappingStep, MasterSlave, MasterState, ObjectRecord, Outcome, Pdo, Pin, Source, Status, Transfer, Value } from '../wasm/od_playground';
 
@@ -20,6 +20,7 @@ export interface Tools {
   diagnose: typeof diagnose;
   foreignFile: typeof foreignFile;
   judgeAnswer: typeof judgeAnswer;
+  parseLesson: typeof parseLesson;
   plainEds: typeof plainEds;
   readLog: typeof readLog;
   writeLog: typeof writeLog;

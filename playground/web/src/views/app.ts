@@ -40,10 +40,14 @@ class App extends View {
       if (event.relatedTarget === null) this.isDropping = false;
     });
     window.addEventListener('drop', (event) => {
-      const file = event.dataTransfer?.files[0];
+      const { files, items } = event.dataTransfer!;
+      const [file] = files;
       if (!file) return;
       event.preventDefault();
       this.isDropping = false;
+      // Several files, or a folder: lessons.
+      const entries = [...items].map((item) => item.webkitGetAsEntry()).filter((entry) => entry !== null);
+      if (entries[0]?.isDirectory || (files.length > 1 && [...files].every(({ name }) => /\.md$/i.test(name)))) return void import('../lessons/own').then(async ({ filesOf, openAll }) => openAll(await filesOf(entries)));
       void openFile(file, state.nodeId.value, state.deviceDialog.value ?? state.selectedNode.value);
     });
     // Most visits open no dialog and no lesson.

@@ -1,11 +1,12 @@
-// The list of lessons, and a file of the user.
+// The list of lessons, and lessons of the user.
 
 import { html, nothing, type PropertyValues, type TemplateResult } from 'lit';
 import { effect } from '@preact/signals-core';
 import { cards } from '../labs/open';
 import { language } from '../language';
-import { codeOf, finished, NEEDED, progress, QUESTIONS, type Done } from '../lessons/kept';
-import { lessons, openFile, openNamed, words, type Listed } from '../lessons/open';
+import { codeOf, finished, NEEDED, progress, QUESTIONS, type Done, type Progress } from '../lessons/kept';
+import { lessons, openFile, openNamed, words } from '../lessons/open';
+import { changes, clear, openAll, type Listed } from '../lessons/own';
 import { sheet } from '../sheet';
 import * as state from '../state';
 import { T } from '../texts';
@@ -39,9 +40,10 @@ class Lessons extends View {
     super.firstUpdated(changed);
     const dialog = this.querySelector('dialog')!;
     this.unopen = effect(() => {
-      if (state.lessonDialog.value && !dialog.open) {
-        dialog.showModal();
-        lessons().then((list) => (this.list = list), () => (this.list = null));
+      void changes.value;
+      if (state.lessonDialog.value) {
+        if (!dialog.open) dialog.showModal();
+        this.load();
         this.requestUpdate();
       } else if (!state.lessonDialog.value && dialog.open) {
         dialog.close();
@@ -55,14 +57,12 @@ class Lessons extends View {
   }
 
   private failed() {
-    const failed = state.lessonFailed.value;
-    if (!failed) return nothing;
-    return html`<section class="faults" role="alert">
-      <header role="none"><h3>${D.lessons.failed(failed.name, failed.problems.length)}</h3></header>
-      <ol class="scroll" tabindex="0" aria-label=${D.lessons.failed(failed.name, failed.problems.length)}>${failed.problems.map((one) => html`<li data-severity="error">
+    return state.lessonFailed.value.map(({ name, problems }) => html`<section class="faults" role="alert">
+      <header role="none"><h3>${D.lessons.failed(name, problems.length)}</h3></header>
+      <ol class="scroll" tabindex="0" aria-label=${D.lessons.failed(name, problems.length)}>${problems.map((one) => html`<li data-severity="error">
         <span class="where">${one.line ? D.lessons.line(one.line) : nothing}</span>
         <span>${one.message}${one.help ? html`<span class="help muted">${one.help}</span>` : nothing}</span></li>`)}</ol>
-    </section>`;
+    </section>`);
   }
 
   /** The progress as a code, for a trainer. */
@@ -94,6 +94,19 @@ class Lessons extends View {
       <span class="muted">${t.minutes(one.minutes)}${isForeign ? `, ${t.onlyEnglish}` : ''}${shown ? `, ${t.shown(shown)}` : ''}</span></button></li>`;
   }
 
+  /** Lessons under a heading; nothing without lessons. */
+  private group(id: string, title: string, group: Listed[], done: Set<string>, known: Progress) {
+    if (group.length === 0) return nothing;
+    const t = D.lessons;
+    return html`<h3 id=${id} class="lesson-level">${title} <span class="muted num">${t.count(group.filter((one) => done.has(one.name)).length, group.length)}</span>
+        ${group.some((one) => one.text !== undefined) ? html`<button class="small" @click=${() => void clear()}>${t.own.remove}</button>` : nothing}</h3>
+      <ol class="lesson-list" aria-labelledby=${id}>${group.map((one) => this.card(one, done.has(one.name), known[one.name]))}</ol>`;
+  }
+
+  private load(): void {
+    lessons().then((list) => (this.list = list), () => (this.list = null));
+  }
+
   /** The dialog with this title and content. */
   private framed(close: () => void, title: string, content: TemplateResult): TemplateResult {
     return html`<dialog class="dialog wide" aria-labelledby="lessons-title" @close=${close} @click=${(event: Event) => event.target === event.currentTarget && close()}>
@@ -110,26 +123,23 @@ class Lessons extends View {
     const known = progress();
     const close = (): void => {
       state.lessonDialog.value = false;
-      state.lessonFailed.value = null;
+      state.lessonFailed.value = [];
       this.isTest = false;
     };
     if (this.isTest) return this.framed(close, D.lessons.test.title, html`<od-final-test></od-final-test><div><button @click=${() => (this.isTest = false)}>${D.lessons.test.back}</button></div>`);
     return this.framed(close, T.lessons.title, html`${this.failed()}
         ${this.list === null ? html`<p class="note" role="alert">${t.noList}</p>` : nothing}
-        ${t.levels.map((level, number) => {
-          const group = (this.list ?? []).filter((one) => one.level === number);
-          if (group.length === 0) return nothing;
-          return html`<h3 id=${`level-${number}`} class="lesson-level">${level} <span class="muted num">${t.count(group.filter((one) => done.has(one.name)).length, group.length)}</span></h3>
-            <ol class="lesson-list" aria-labelledby=${`level-${number}`}>${group.map((one) => this.card(one, done.has(one.name), known[one.name]))}</ol>`;
-        })}
+        ${this.group('own-lessons', t.own.title, (this.list ?? []).filter((one) => one.isOwn), done, known)}
+        ${t.levels.map((level, number) => this.group(`level-${number}`, level, (this.list ?? []).filter((one) => one.level === number && !one.isOwn), done, known))}
         ${state.real.value || state.devices.value.length === 0 ? nothing : cards(close)}
         <section class="share-field"><p class="note">${t.test.hint(QUESTIONS, NEEDED)}</p><button @click=${() => void import('./final-test').then(() => (this.isTest = true))}>${t.test.begin}</button></section>
         ${this.code()}
         <label class="drop">${icons.file}<span><strong>${t.open}</strong><span class="muted">${t.openHint}</span></span>
-          <input class="sr" type="file" accept=".md,.markdown,text/markdown,text/plain" aria-label=${t.open} @change=${(event: Event) => {
+          <input class="sr" type="file" multiple accept=".md,.markdown,text/markdown,text/plain" aria-label=${t.open} @change=${(event: Event) => {
             const input = event.target as HTMLInputElement;
-            const file = input.files?.[0];
-            if (file) void openFile(file);
+            const files = [...(input.files ?? [])];
+            if (files.length > 1) void openAll(files);
+            else if (files[0]) void openFile(files[0]);
             // The same file can be selected again after a correction.
             input.value = '';
           }}></label>
