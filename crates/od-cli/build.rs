@@ -1,5 +1,5 @@
-//! Embeds the sources of the crates that a device of `odkit new` needs, so that the device builds
-//! without other files.
+//! Embeds the lessons, and the sources of the crates that a device of `odkit new` needs, so that the
+//! device builds without other files.
 //!
 //! A checkout has these sources. A packaged `od-cli` lacks them and does not need them: it was built with
 //! the published crates, and so is a device. The list is then empty.
@@ -24,8 +24,13 @@ const CRATES: [&str; 10] = [
 
 fn main() {
     let var = |name: &str| PathBuf::from(std::env::var_os(name).unwrap_or_default());
-    let root = var("CARGO_MANIFEST_DIR").join("../..");
+    let own = var("CARGO_MANIFEST_DIR");
+    let root = own.join("../..");
     println!("cargo::rerun-if-changed=build.rs");
+    for (folder, list) in [("lessons", "lessons.rs"), ("lessons/de", "lessons_de.rs")] {
+        let list = var("OUT_DIR").join(list);
+        fs::write(list, lessons(&own.join(folder))).expect("OUT_DIR can be written");
+    }
     let mut list = String::from("&[\n");
     if root.join("crates/odkit/Cargo.toml").is_file() {
         let crates: Vec<&str> = CRATES
@@ -59,6 +64,28 @@ fn main() {
     fs::write(out, list).expect("OUT_DIR can be written");
 }
 
+/// The lessons of a folder by the numbers of their files: `01-name.md` is `name`.
+fn lessons(folder: &Path) -> String {
+    println!("cargo::rerun-if-changed={}", folder.display());
+    let mut list = String::from("&[\n");
+    for path in files(folder) {
+        let name = path.file_name().and_then(|name| name.to_str());
+        let name = name.and_then(|name| name.strip_suffix(".md")?.get(3..));
+        if let (Some(name), Ok(file)) = (name, path.canonicalize()) {
+            let _ = writeln!(list, "({name:?}, include_str!({file:?})),");
+        }
+    }
+    list + "]"
+}
+
+/// The paths in a folder, sorted.
+fn files(folder: &Path) -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+    let mut paths: Vec<PathBuf> = entries.map(|entry| entry.path()).collect();
+    paths.sort();
+    paths
+}
+
 /// The path of a copy: this repository has most crates in a folder.
 fn copy(path: &str) -> &str {
     path.strip_prefix("crates/").unwrap_or(path)
@@ -78,10 +105,7 @@ fn add(list: &mut String, root: &Path, file: &Path) {
 
 /// Lists all files of a folder except those of its tests.
 fn sources(list: &mut String, root: &Path, folder: &Path) {
-    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
-    let mut paths: Vec<PathBuf> = entries.map(|entry| entry.path()).collect();
-    paths.sort();
-    for path in paths {
+    for path in files(folder) {
         if path.file_stem().is_some_and(|name| name == "tests") {
             continue;
         }
