@@ -107,7 +107,7 @@ enum Command {
     Diagnose(diagnose::Args),
 }
 
-/// Commands in groups, as `--help` lists them; commands that are missing here come last.
+/// Commands in groups, as `--help` lists them.
 const GROUPS: [(&str, &[&str]); 4] = [
     (
         "Simulate and learn",
@@ -116,7 +116,7 @@ const GROUPS: [(&str, &[&str]); 4] = [
     (
         "Device files",
         &[
-            "check", "explain", "dump", "export", "convert", "diff", "lsp",
+            "check", "explain", "dump", "export", "convert", "diff", "network", "lsp",
         ],
     ),
     (
@@ -134,27 +134,19 @@ const GROUPS: [(&str, &[&str]); 4] = [
 
 /// The grouped list of commands, for `--help`.
 fn groups(command: &clap::Command) -> String {
-    let named = |name: &str| GROUPS.iter().any(|(_, names)| names.contains(&name));
-    let all = || command.get_subcommands().filter(|one| !one.is_hide_set());
-    let others: Vec<&str> = all()
-        .map(clap::Command::get_name)
-        .filter(|name| !named(name))
-        .collect();
-    let mut text = String::new();
-    for (title, names) in GROUPS.into_iter().chain([("Others", others.as_slice())]) {
-        let own = names
-            .iter()
-            .filter_map(|name| all().find(|one| one.get_name() == *name));
-        let lines = own.map(|one| {
-            let about = one.get_about().map(ToString::to_string).unwrap_or_default();
-            format!("  {:<8}  {about}\n", one.get_name())
-        });
-        let lines: String = lines.collect();
-        if !lines.is_empty() {
-            text.push_str(&format!("{title}:\n{lines}\n"));
-        }
-    }
-    text
+    let line = |name: &&str| {
+        let about = command
+            .find_subcommand(name)
+            .and_then(clap::Command::get_about);
+        format!(
+            "  {name:<8}  {}\n",
+            about.map(ToString::to_string).unwrap_or_default()
+        )
+    };
+    let group = |(title, names): (&str, &[&str])| {
+        format!("{title}:\n{}\n", names.iter().map(line).collect::<String>())
+    };
+    GROUPS.into_iter().map(group).collect()
 }
 
 /// The program `odkit`: parses the command line, runs the command, returns the exit code.
@@ -230,4 +222,26 @@ fn exit(result: Result<(), Failure>) -> ExitCode {
     };
     output::error(&message);
     ExitCode::from(code)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn help_lists_each_command_once() {
+        let mut listed: Vec<&str> = GROUPS
+            .iter()
+            .flat_map(|(_, names)| *names)
+            .copied()
+            .collect();
+        let command = Cli::command();
+        let mut all: Vec<&str> = command
+            .get_subcommands()
+            .map(clap::Command::get_name)
+            .collect();
+        listed.sort_unstable();
+        all.sort_unstable();
+        assert_eq!(listed, all, "the names in GROUPS, and the commands");
+    }
 }
