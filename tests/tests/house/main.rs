@@ -1,5 +1,6 @@
 //! The order of the workspace: no files that import each other in a cycle, no dependency on a
-//! higher layer, no import of a name through `lib.rs`, and no short file without a reason. The test
+//! higher layer, no import of a name through `lib.rs`, no file that is not compiled, and no short file without
+//! a reason. The test
 //! reads the files as text.
 
 mod graph;
@@ -49,6 +50,11 @@ fn faults(files: &BTreeMap<String, String>) -> Vec<String> {
         format!(
             "{file}:{line} takes `{name}` from lib.rs that another file defines: write the path of that \
              file, as `crate::frame::Frame`"
+        )
+    }));
+    found.extend(modules.undeclared(files).into_iter().map(|file| {
+        format!(
+            "{file} is not compiled: no file of its crate has its `mod`; declare it, or remove it"
         )
     }));
     found.extend(small::faults(files));

@@ -99,6 +99,29 @@ impl<'t> Modules<'t> {
         found
     }
 
+    /// The files of a `src` that no other file of their crate declares or includes: the compiler does not read
+    /// them.
+    pub(crate) fn undeclared(&self, files: &BTreeMap<String, String>) -> Vec<&'t str> {
+        let is_declared = |(root, names): &Place| {
+            let Some(name) = names.last() else {
+                return true;
+            };
+            let is_target =
+                |folder: &str| matches!(folder, "bin" | "tests" | "examples" | "benches");
+            let folder = names.iter().rev().nth(1);
+            let folder = folder.map_or(root.rsplit('/').next().unwrap_or(root), String::as_str);
+            let (declared, included) = (format!("mod {name};"), format!("{name}.rs\""));
+            is_target(folder)
+                || files
+                    .range(format!("{root}/")..format!("{root}0"))
+                    .any(|(_, text)| text.contains(&declared) || text.contains(&included))
+        };
+        let is_product = |module: &&Module<'_>| module.place.0.ends_with("/src");
+        let modules = self.all.iter().filter(is_product);
+        let undeclared = modules.filter(|module| !is_declared(&module.place));
+        undeclared.map(|module| module.file).collect()
+    }
+
     /// The imports of a file, and the paths in its code, both from the root of the crate.
     fn names(&self, module: &Module<'_>) -> (Vec<Use>, Vec<(Vec<String>, usize)>) {
         let (mut uses, mut paths) = (Vec::new(), Vec::new());
@@ -389,6 +412,23 @@ mod tests {
             ],
             &[],
         );
+    }
+
+    #[test]
+    fn a_file_that_no_other_declares_is_found() {
+        let files = files(&[
+            (
+                "x/src/lib.rs",
+                "mod a; const B: &str = include_str!(\"b.rs\");",
+            ),
+            ("x/src/a.rs", ""),
+            ("x/src/b.rs", ""),
+            ("x/src/c.rs", ""),
+            ("x/src/bin/d.rs", ""),
+            ("y/src/lib.rs", "mod c;"),
+        ]);
+        let modules = Modules::of(&files);
+        assert_eq!(modules.undeclared(&files), ["x/src/c.rs"]);
     }
 
     #[test]
