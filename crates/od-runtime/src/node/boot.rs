@@ -68,6 +68,8 @@ impl<D: Device, A, S> Node<D, A, S> {
 }
 
 impl<D: Device> Machines<D> {
+    /// Carries out a reset: stops all services, loads the values, and boots up, at once or after the time that the
+    /// profile says.
     pub(super) fn reset(&mut self, objects: &mut Objects<'_, D>, reset: Reset) {
         let nmt = &objects.profile.nmt;
         let delay = match reset {
@@ -75,9 +77,8 @@ impl<D: Device> Machines<D> {
             Reset::Communication => nmt.reset_communication_us,
             Reset::Defaults => 0,
         };
-        // NMT reset node may restart the NMT state only.
-        let light = nmt.reset_node_light.filter(|_| reset == Reset::Node);
-        let light = light.is_some_and(|switch| objects.has_bits(switch));
+        let switch = nmt.reset_node_light.filter(|_| reset == Reset::Node);
+        let keeps_values = switch.is_some_and(|switch| objects.has_bits(switch));
         self.cut_transfers(objects);
         self.stop_pdos();
         self.heartbeat.stop();
@@ -99,8 +100,8 @@ impl<D: Device> Machines<D> {
             self.configure_clocks(objects);
         }
         let mut rate = None;
-        if light {
-            // This reset leaves the values unchanged, and a save continues.
+        if keeps_values {
+            // Only the NMT state restarts, and a save continues.
             self.forget_bus_errors(objects);
         } else {
             // The reset ends an incomplete save; `load` detects it.
@@ -166,7 +167,7 @@ impl<D: Device> Machines<D> {
         // Reset communication restores 1000h to 1FFFh and the objects of node ID and bit rate, or
         // everything that can be saved or written. Errors that last stay.
         let profile = objects.profile;
-        let which = |row: &Row| {
+        let is_loaded = |row: &Row| {
             let address = row.address();
             let starts_with = |lss: &LssProfile| address == lss.node_id || address == lss.bit_rate;
             all || match address.index {
@@ -179,9 +180,9 @@ impl<D: Device> Machines<D> {
             }
         };
         for pass in 0..2 {
-            profile.store.reset(&mut objects.store, &which);
+            profile.store.reset(&mut objects.store, &is_loaded);
             let loaded = if D::STORAGE {
-                objects.load(&which)
+                objects.load(&is_loaded)
             } else {
                 Loaded::Blank
             };
@@ -231,7 +232,7 @@ impl<D: Device> Machines<D> {
         let self_start = objects.profile.nmt.self_start;
         if self_start.is_some_and(|switch| objects.has_bits(switch)) {
             self.enter(objects, State::Operational);
-            self.react_to_lasting(objects);
+            self.react_to_active(objects);
         }
         self.finish(objects);
     }

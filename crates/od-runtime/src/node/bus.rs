@@ -45,9 +45,9 @@ impl<D: Device> Machines<D> {
             if profile.off.boots {
                 return self.reset(objects, Reset::Communication);
             }
-            self.come_back(objects);
+            self.leave_bus_off(objects);
         } else if event == BusEvent::Off {
-            self.fall_off(objects, restarts);
+            self.enter_bus_off(objects, restarts);
         } else {
             self.take_state(objects, event);
         }
@@ -83,7 +83,7 @@ impl<D: Device> Machines<D> {
     }
 
     /// Enters bus-off: the node neither sends nor receives, and 1029h acts as the profile says.
-    fn fall_off(&mut self, objects: &mut Objects<'_, D>, restarts: bool) {
+    fn enter_bus_off(&mut self, objects: &mut Objects<'_, D>, restarts: bool) {
         let profile = objects.profile.errors;
         if let Some(bit_rate) = self.mute.and_then(Mute::bit_rate) {
             self.event(Event::BitRate(bit_rate));
@@ -104,7 +104,7 @@ impl<D: Device> Machines<D> {
     }
 
     /// Leaves bus-off: the CAN controller restarted, and the NMT state stays.
-    fn come_back(&mut self, objects: &mut Objects<'_, D>) {
+    fn leave_bus_off(&mut self, objects: &mut Objects<'_, D>) {
         self.mute = None;
         self.event(Event::BusOn);
         self.emcy().set_silent(&mut objects.store, 0);

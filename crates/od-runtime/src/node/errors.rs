@@ -39,12 +39,12 @@ impl<D: Device> Machines<D> {
         if (D::GUARDING || D::CONSUMER)
             && let Some(lost) = self.monitor().poll()
         {
-            self.tell(objects, lost);
+            self.report_lost(objects, lost);
         }
     }
 
     /// Reports a lost node, or that all nodes have returned.
-    fn tell(&mut self, objects: &mut Objects<'_, D>, lost: bool) {
+    fn report_lost(&mut self, objects: &mut Objects<'_, D>, lost: bool) {
         let notice = objects.profile.errors.lost;
         let info = objects.application.error_info(&objects.store);
         if lost {
@@ -68,21 +68,21 @@ impl<D: Device> Machines<D> {
         if self.state == State::Initialising || profile.operational_only && !operational {
             return;
         }
-        let mut gravest = if lost {
-            asked(&objects.store, 1, operational)
+        let mut reaction = if lost {
+            requested(&objects.store, 1, operational)
         } else {
             Behaviour::Nothing
         };
         for (_, sub) in profile.behaviour.iter().filter(|(of, _)| of & bits != 0) {
-            gravest = gravest.max(asked(&objects.store, *sub, operational));
+            reaction = reaction.max(requested(&objects.store, *sub, operational));
         }
-        if gravest >= Behaviour::Stopped && self.sends_emcy() {
+        if reaction >= Behaviour::Stopped && self.sends_emcy() {
             let now = objects.now;
             while let Some(frame) = self.emcy().poll::<D>(&objects.store, now) {
                 self.push(frame);
             }
         }
-        match gravest {
+        match reaction {
             Behaviour::Nothing => {}
             Behaviour::PreOperational => self.enter(objects, State::PreOperational),
             Behaviour::Stopped => self.enter(objects, State::Stopped),
@@ -90,8 +90,8 @@ impl<D: Device> Machines<D> {
         }
     }
 
-    /// Carries out 1029h for errors that are active when the node enters Operational.
-    pub(super) fn react_to_lasting(&mut self, objects: &mut Objects<'_, D>) {
+    /// Carries out 1029h for the errors that are active when the node enters Operational.
+    pub(super) fn react_to_active(&mut self, objects: &mut Objects<'_, D>) {
         let bits = self.emcy.register(self.rooms.all().errors);
         let lost = self.was_lost;
         if bits != 0 || lost {
@@ -127,7 +127,7 @@ impl<D: Device> Machines<D> {
 }
 
 /// Reaction that a sub-index of 1029h requests.
-fn asked(store: &Store<'_>, sub: u8, operational: bool) -> Behaviour {
+fn requested(store: &Store<'_>, sub: u8, operational: bool) -> Behaviour {
     match store.try_word(0x1029, sub) {
         None | Some(0) if operational => Behaviour::PreOperational,
         Some(2) => Behaviour::Stopped,

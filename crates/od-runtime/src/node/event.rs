@@ -9,10 +9,6 @@ use od_wire::NodeId;
 use od_wire::emcy::Emcy;
 use od_wire::nmt::State;
 
-impl Blank for Event {
-    const BLANK: Self = Self::State(State::Initialising);
-}
-
 /// Event in the node.
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -58,4 +54,8 @@ pub enum Event {
     /// 16 EMCY messages wait for the inhibit time (1015h), so the node dropped the message of the
     /// error before this event. 1001h and 1003h contain the error.
     EmcyDropped,
+}
+
+impl Blank for Event {
+    const BLANK: Self = Self::State(State::Initialising);
 }

@@ -135,7 +135,7 @@ impl<D: Device> Machines<D> {
             _ if !is_operational => return,
             Service::Sync => self.handle_sync(objects, frame),
             Service::Rpdo(number) => self.handle_rpdo(objects, number, frame),
-            Service::TpdoRequest(number) => self.handle_request(objects, number),
+            Service::TpdoRequest(number) => self.handle_tpdo_request(objects, number),
         }
         self.finish(objects);
     }
@@ -185,7 +185,7 @@ impl<D: Device> Machines<D> {
         match command {
             Command::Start => {
                 self.enter(objects, State::Operational);
-                self.react_to_lasting(objects);
+                self.react_to_active(objects);
             }
             Command::Stop => self.enter(objects, State::Stopped),
             Command::EnterPreOperational => self.enter(objects, State::PreOperational),
@@ -229,12 +229,13 @@ impl<D: Device> Machines<D> {
             }
         }
         self.finish(objects);
+        // The master has assigned a node ID: the node boots with it.
         if self.unconfigured && is_ready {
             self.reset(objects, Reset::Communication);
         }
     }
 
-    /// Handles a guarding request of a master (CiA 301, chapter 7.2.8.3.2).
+    /// Handles a guarding request of a master (CiA 301, chapter 7.2.8.3.2.1).
     fn handle_guarding(&mut self, objects: &mut Objects<'_, D>) {
         let (state, now) = (self.state, objects.now);
         if let Some(response) = self.monitor().guard(state, now) {
@@ -243,7 +244,7 @@ impl<D: Device> Machines<D> {
         self.poll_monitor(objects);
     }
 
-    /// Handles a heartbeat or boot-up message of a monitored node (CiA 301, chapter 7.2.8.3.1).
+    /// Handles a heartbeat or boot-up message of a monitored node (CiA 301, chapter 7.2.8.3.2.2).
     fn handle_heartbeat(&mut self, objects: &mut Objects<'_, D>, frame: &Frame) {
         let node = (frame.id().raw() & 0x7F) as u8;
         self.monitor().heartbeat(node, objects.now);
@@ -251,7 +252,7 @@ impl<D: Device> Machines<D> {
     }
 
     /// Handles a remote frame that requests a TPDO (CiA 301, chapter 7.2.2.5.2).
-    fn handle_request(&mut self, objects: &mut Objects<'_, D>, number: u16) {
+    fn handle_tpdo_request(&mut self, objects: &mut Objects<'_, D>, number: u16) {
         let rooms = self.rooms.all_mut();
         if let Some(pdo) = rooms.tpdos.get_mut(usize::from(number))
             && let Some(frame) = pdo.request(objects, rooms.mapped)

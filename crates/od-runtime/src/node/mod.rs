@@ -390,6 +390,8 @@ impl<D: Device> Machines<D> {
         }
     }
 
+    /// Enters an NMT state: informs host and application, and starts or stops the services that work in this state
+    /// only.
     fn enter(&mut self, objects: &mut Objects<'_, D>, state: State) {
         if self.state == state {
             return;

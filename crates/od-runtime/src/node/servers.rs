@@ -94,10 +94,11 @@ impl<D: Device> Machines<D> {
             }
             return;
         }
-        self.ask(objects, at, data, frame.dlc());
+        self.serve_request(objects, at, data, frame.dlc());
     }
 
-    fn ask(&mut self, objects: &mut Objects<'_, D>, at: usize, data: &[u8; 8], dlc: u8) {
+    /// Passes a request to its server, queues the response, and carries out the command that the request wrote.
+    fn serve_request(&mut self, objects: &mut Objects<'_, D>, at: usize, data: &[u8; 8], dlc: u8) {
         let Some(mut server) = self.server(at) else {
             return;
         };
@@ -135,6 +136,7 @@ impl<D: Device> Machines<D> {
             return false;
         }
         let servers = self.rooms.all().servers;
+        // Command specifiers of initiate download and upload, of a block download, and of a block upload.
         let begins = matches!(data[0] >> 5, 1 | 2)
             || data[0] >> 5 == 5 && data[0] & 3 == 0
             || data[0] >> 5 == 6 && data[0] & 1 == 0;
@@ -200,7 +202,7 @@ impl<D: Device> Machines<D> {
             self.respond_late(objects, at, done);
             let server = self.rooms.all_mut().servers.get_mut(at);
             if let Some((data, dlc)) = server.and_then(|server| server.held()) {
-                self.ask(objects, at, &data, dlc);
+                self.serve_request(objects, at, &data, dlc);
             }
         }
     }

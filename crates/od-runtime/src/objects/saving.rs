@@ -174,12 +174,13 @@ impl<D: Services> Objects<'_, D> {
     fn prepare(&mut self, command: Command) {
         self.refresh_life_record();
         if command != KEEP {
-            self.tell(true);
+            self.announce_save(true);
         }
     }
+
     /// Ends 1010h, at once or after the duration of a save.
     fn saved(&mut self, sub: u8, begun: bool) -> Option<bool> {
-        self.tell(false);
+        self.announce_save(false);
         self.saving.as_mut()?.sub = sub;
         let profile = &self.profile.store;
         if begun && profile.duration_us > 0 {
@@ -190,7 +191,7 @@ impl<D: Services> Objects<'_, D> {
     }
 
     /// Tells the application that its values will be saved, or that they have been read.
-    fn tell(&mut self, begins: bool) {
+    fn announce_save(&mut self, begins: bool) {
         self.application(|application, context| application.saving(context, begins));
     }
 
