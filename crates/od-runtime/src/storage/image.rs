@@ -236,26 +236,6 @@ pub fn save(
     )
 }
 
-/// Saves the values at these addresses, independent of their group; other saved values stay. LSS
-/// stores node ID and bit rate in this way.
-///
-/// # Errors
-/// As [`save`].
-pub fn save_only(
-    storage: &mut dyn Storage,
-    store: &Store<'_>,
-    profile: &StoreProfile,
-    addresses: &[Address],
-) -> Result<(), StorageError> {
-    write(
-        storage,
-        device(store.dictionary()),
-        store,
-        profile,
-        Plan::Only(addresses),
-    )
-}
-
 /// Removes the saved values that sub-index `sub` of 1011h covers, so that the next power-on loads
 /// their defaults; the saved values of the other groups stay.
 ///

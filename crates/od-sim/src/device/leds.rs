@@ -1,6 +1,5 @@
 //! The dual LED of the bus cover (manual 000, chapter 7.3).
 
-use od_runtime::Instant;
 use od_wire::nmt::State;
 
 /// State of one die of the LED.
@@ -17,15 +16,6 @@ pub enum Led {
 impl Led {
     /// Every one.
     pub const ALL: [Self; 3] = [Self::Off, Self::Flashing, Self::On];
-
-    /// Is it lit at this moment? Every LED of a bench flashes in step, as CiA 303-3 wants.
-    pub const fn lit(self, now: Instant) -> bool {
-        match self {
-            Self::Off => false,
-            Self::On => true,
-            Self::Flashing => (now.as_micros() / 200_000).is_multiple_of(2),
-        }
-    }
 
     /// `off`, `flashing`, `on`.
     pub const fn name(self) -> &'static str {
