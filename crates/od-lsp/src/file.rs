@@ -46,7 +46,7 @@ pub(crate) struct File {
 /// The file below an overlay, or the reason why there is none: a place in the overlay and a sentence.
 pub(crate) type Base = Result<Box<File>, Problem>;
 
-/// A problem of an overlay, which no rule has: its place and a sentence.
+/// A problem of an overlay that no rule reports: its place and a sentence.
 pub(crate) type Problem = (Range<usize>, String);
 
 /// A text that odkit has read.

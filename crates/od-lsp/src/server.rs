@@ -89,7 +89,7 @@ impl Server {
         self.inbox.push_back(incoming);
     }
 
-    /// Notes input that is no message at all.
+    /// Answers input that is not a message.
     pub fn reject(&mut self, why: &str) {
         let fault = message::refusal(&Value::Null, &Fault::parse(why));
         self.outbox.push_back(fault);
@@ -130,7 +130,7 @@ impl Server {
         }
     }
 
-    /// Answers a waiting request with "cancelled"; one that is already answered stays so.
+    /// Answers a waiting request with "cancelled". A request that is already answered is ignored.
     fn cancel(&mut self, params: &Value) {
         let Some(id) = params.get("id") else {
             return;
@@ -150,7 +150,7 @@ impl Server {
         }
         let Incoming { id, method, params } = incoming;
         let Some(method) = method else {
-            // A response of the client, none of which matters; or nothing.
+            // Responses of the client are ignored.
             return;
         };
         let Some(id) = id else {

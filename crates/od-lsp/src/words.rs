@@ -125,7 +125,7 @@ fn special(at: Address, number: Option<i128>) -> Option<String> {
         (0x1016, 1..) => format!("heartbeat of node {third} within {half} ms"),
         (0x1400..=0x15FF | 0x1800..=0x19FF, 2) => transmission(at.index, number)?,
         (0x1400..=0x15FF | 0x1800..=0x19FF, 3) => {
-            format!("inhibit time {},{} ms", number / 10, number % 10)
+            format!("inhibit time {}.{} ms", number / 10, number % 10)
         }
         (0x1400..=0x15FF | 0x1800..=0x19FF, 5) if number == 0 => "event timer off".into(),
         (0x1400..=0x15FF | 0x1800..=0x19FF, 5) => format!("event timer {number} ms"),
@@ -139,7 +139,7 @@ fn transmission(index: u16, number: u32) -> Option<String> {
     Some(match (number, is_tpdo) {
         (0, true) => "synchronous (acyclic)".into(),
         (1, true) => "synchronous, with every SYNC".into(),
-        (2..=240, true) => format!("synchronous, with every {number}th SYNC"),
+        (2..=240, true) => format!("synchronous, once in {number} SYNCs"),
         (0..=240, false) => "synchronous".into(),
         (252, true) => "RTR-only (synchronous)".into(),
         (253, true) => "RTR-only (event-driven)".into(),
@@ -227,5 +227,30 @@ pub(crate) fn of_type(entry: &EntryDescription) -> String {
     match entry.data_type {
         Some(data_type) => format!("{}, {}", data_type.name(), entry.access.name()),
         None => entry.access.name().into(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_value_of_a_communication_object_has_its_meaning() {
+        for (index, sub, number, words) in [
+            (0x1800, 2, 1, "synchronous, with every SYNC"),
+            (0x1800, 2, 2, "synchronous, once in 2 SYNCs"),
+            (0x1400, 2, 2, "synchronous"),
+            (0x1800, 3, 105, "inhibit time 10.5 ms"),
+            (0x1800, 5, 0, "event timer off"),
+            (0x1016, 1, 0x0005_03E8, "heartbeat of node 5 within 1000 ms"),
+        ] {
+            let address = Address::new(index, sub);
+            assert_eq!(
+                special(address, Some(number)).as_deref(),
+                Some(words),
+                "{address}"
+            );
+        }
+        assert_eq!(special(Address::new(0x1800, 2), Some(241)), None);
     }
 }
