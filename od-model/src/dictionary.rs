@@ -307,7 +307,7 @@ impl<'a> Dictionary<'a> {
         }
     }
 
-    /// Position and row of an address, if the dictionary has it; in registers.
+    /// Position and row of an address, if the dictionary has it. Both are returned in registers.
     #[doc(hidden)]
     pub fn locate(&self, address: Address) -> Option<(usize, &'a Row)> {
         index::position(self.buckets, self.rows, address.key())

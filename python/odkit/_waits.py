@@ -254,7 +254,7 @@ class Clock:
         self.moment = bench, micros = _odkit.moment() or (None, 0)
         now = self._real() if bench is None else micros * 1000
         ahead = self._ahead.setdefault(bench, self._last - now)
-        # Without a bench the clock goes on from where the last one was.
+        # Without a bench the clock continues from the time of the last one.
         self._last = max(self._last, now + ahead) if bench is None else now + ahead
         return self._last
 
@@ -301,7 +301,7 @@ class _Shown(Clock):
             self._readings = 0
             sleep(0.001)
             now = super().__call__()
-        # Each reading is later than the one before: what is left of a time-out comes to an end.
+        # Each reading is later than the one before, so that a loop with a time-out ends.
         return now + self._readings
 
 

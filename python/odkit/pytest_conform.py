@@ -6,7 +6,7 @@ import odkit
 
 
 class Failed(Exception):
-    """The node is wrong."""
+    """The node failed a case."""
 
 
 class Node(pytest.Collector):
@@ -25,7 +25,7 @@ class Node(pytest.Collector):
         self.node_id = option("--odkit-node-id") or (int(node) if node.isdigit() else 1)
         if simulated is not None and not node:
             self.link = f"{link}@{self.node_id}"
-        #: A simulated device can take everything.
+        #: A simulated device allows every case.
         self.may = [simulated is not None or option(f"--odkit-allow-{what}") for what in ("reset", "store")]
         self._test = None
         try:

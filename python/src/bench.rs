@@ -338,8 +338,8 @@ impl Bench {
         Ok(())
     }
 
-    /// What happened so far as a script: `odkit run` plays it with the same frames. Times of a loop that runs beside it do not
-    /// matter, since it contains what programs sent, and when.
+    /// What happened so far as a script: `odkit run` plays it with the same frames. The script contains what programs sent
+    /// and when, so it needs none of them.
     ///
     /// Raises `ValueError` if a script has no line for something, such as a real line or a new EEPROM.
     fn script(&self) -> PyResult<String> {

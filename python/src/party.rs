@@ -76,7 +76,7 @@ impl Party {
         self.thread.as_ref().is_some_and(|own| own.id() == id)
     }
 
-    /// It acts.
+    /// Notes that the thread runs: it neither waits nor is silent.
     pub(crate) fn touch(&mut self) {
         (self.wait, self.silent) = (None, None);
         (self.is_asleep, self.is_known) = (false, true);

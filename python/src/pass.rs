@@ -77,7 +77,7 @@ pub(crate) fn pass(
 
 pub(crate) struct Pass<'w> {
     wire: &'w Wire,
-    /// Its wait is over, but others come first, since this moment.
+    /// Time since when its wait is over while other threads come first.
     pub(crate) blocked: Option<Clock>,
     pub(crate) idle: u32,
     steps: u32,
@@ -282,7 +282,7 @@ impl<'w> Pass<'w> {
         state.wake();
         self.steps += 1;
         if let Step::Call(task, place) = step {
-            // Python runs in this thread now.
+            // The function of the task runs in this thread, which therefore does not wait.
             state.leave(thread::current().id());
             drop(state);
             wire::call(py, self.wire, task, place)?;
@@ -341,7 +341,7 @@ pub(crate) fn sleep(py: Python<'_>, time: Duration) -> PyResult<()> {
     py.check_signals()
 }
 
-/// The length of a pause: the longer it takes, the longer.
+/// The length of the next pause; pauses grow while nothing happens.
 pub(crate) fn length(idle: u32, most: Duration) -> Duration {
     let pause = Duration::from_micros(25 << idle.saturating_add(1).min(8));
     pause.min(NAP).min(most.max(Duration::from_micros(50)))

@@ -54,7 +54,7 @@ impl Host for Player {
     }
 }
 
-/// Plays a script as `odkit run` does, and returns the state at its end: `odkit.Bench(odkit.play(script))` goes on
+/// Plays a script as `odkit run` does, and returns the state at its end: `odkit.Bench(odkit.play(script))` continues
 /// from there.
 ///
 /// Raises `AssertionError` with the line if an expectation fails, `ValueError` if a line cannot be read or

@@ -132,7 +132,7 @@ impl Waiting {
         let id = thread::current().id();
         let idle = self.idle.load(Ordering::Relaxed);
         let (mut moved, mut pause, mut is_over) = (false, NAP, true);
-        // A bus stands still while one of its threads waits on another bus.
+        // The time of a bus does not move while one of its threads waits on another bus.
         let stands = |wire: &Wire| wire.lock().parties.iter().any(|party| party.elsewhere);
         let all_stand = waits.iter().all(|(wire, ..)| stands(wire));
         for (wire, wait, began, blocked) in waits {

@@ -212,7 +212,7 @@ pub(crate) fn own() -> Vec<Arc<Wire>> {
     })
 }
 
-/// Returns whether this thread has ever taken part on a bus that exists, by a look that costs nothing.
+/// Returns whether this thread has ever taken part on a bus that exists, without taking a lock.
 pub(crate) fn is_known() -> bool {
     OWN.with_borrow(|own| !own.is_empty())
 }

@@ -5,7 +5,7 @@ use od_runtime::{Duration, Instant};
 /// Time of a counter with `HZ` ticks per second and `BITS` bits, at most 32, that starts again at
 /// 0.
 ///
-/// Call [`at`](Self::at) at least once in that time (71 minutes for 32 bits at 1 MHz);
+/// Call [`at`](Self::at) at least once in each round of the counter (71 minutes for 32 bits at 1 MHz);
 /// [`Clock::LONGEST`] is a good limit for a sleep. The conversion to microseconds loses no tick,
 /// however long the clock runs.
 ///
@@ -31,7 +31,7 @@ impl<const HZ: u32, const BITS: u32> Clock<HZ, BITS> {
     const MASK: u32 = u32::MAX >> (32 - BITS);
     const COMMON: u64 = {
         let (mut a, mut b) = (1_000_000, HZ as u64);
-        assert!(b > 0, "a counter counts");
+        assert!(b > 0, "HZ is above 0");
         while b > 0 {
             (a, b) = (b, a % b);
         }

@@ -276,12 +276,12 @@ fn report(args: &Apply, dictionary: Dictionary<'_>, applied: &Applied) -> Result
         ));
     }
     for address in &applied.left {
-        lines.push(format!("{address} could not be put back"));
+        lines.push(format!("{address} could not be restored"));
     }
     let equal = plural(applied.equal, "value");
     let written = plural(applied.written, "value");
     lines.push(match (applied.wrong.is_empty(), applied.is_put_back) {
-        (true, _) => format!("{written} written and read back, {equal} already right"),
+        (true, _) => format!("{written} written and read back, {equal} unchanged"),
         (false, true) => "the node has its earlier values".into(),
         (false, false) => format!("{written} written; see above for what differs"),
     });

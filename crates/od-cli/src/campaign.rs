@@ -177,7 +177,7 @@ fn add(kinds: &mut Kinds, first: Fails, seeds: &[u64]) {
     kind.seeds.extend(seeds);
 }
 
-/// A failure as it is told.
+/// A failure as text.
 struct Told {
     seeds: Vec<u64>,
     reason: Reason,
@@ -210,7 +210,7 @@ fn code_of(reason: &Reason) -> u8 {
     }
 }
 
-/// The script with the whole paths of its files: it may be played in another folder.
+/// The script with absolute paths of its files, so that it can be played in another folder.
 fn with_paths(script: &str, path: &Path) -> String {
     let folder = path.parent().unwrap_or(Path::new(""));
     let line = |line: &str| {

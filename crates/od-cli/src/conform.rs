@@ -332,7 +332,7 @@ fn all(session: &mut Session<'_>, cases: &[Case], told: bool) -> Vec<Record> {
     records
 }
 
-/// Says how long the test takes: as long as with the simulated device of the same EDS.
+/// Prints how long the test will take: the time that the simulated device of the same EDS needs.
 fn announce(text: &str, eds: &Eds, leave: Leave, cases: &[Case]) {
     let options = od_sim::EdsOptions {
         node_id: None,
@@ -349,7 +349,7 @@ fn announce(text: &str, eds: &Eds, leave: Leave, cases: &[Case]) {
     let micros: u64 = {
         let mut session = Session::new(&mut rig as &mut dyn Rig, eds, node, leave);
         let records = all(&mut session, cases, false);
-        // About a millisecond a frame is added for those that need no waiting.
+        // A bench needs no time for a frame; a real bus needs about a millisecond.
         let took = |record: &Record| record.micros + 1000 * record.frames.len() as u64;
         records.iter().map(took).sum()
     };

@@ -38,7 +38,7 @@ pub(crate) struct Args {
     /// Bus to listen to instead: slcan:HOST:PORT, slcan:DEVICE[@BAUD], socketcan:INTERFACE or socketcand:HOST:PORT[/BUS]
     #[arg(long, value_name = "LINK")]
     link: Option<String>,
-    /// Stop to listen after this time, in seconds [default: until Ctrl-C]
+    /// Stop listening after this time, in seconds [default: until Ctrl-C]
     #[arg(long = "for", value_name = "SECONDS", requires = "link")]
     time: Option<f64>,
     /// Bit rate in kbit/s, for the bus load [default: estimated from frames without a pause between them]

@@ -17,7 +17,8 @@ use crate::{bus, conform, files, output};
 
 /// Make an EDS from a node on a bus
 ///
-/// A node that has an EDS of itself (1021h) sends it. Of any other node odkit reads all objects from 1000h to 9FFFh, and tries which can be written without changing a value.
+/// If the node stores its own EDS (1021h), odkit reads it. Otherwise odkit reads all objects from 1000h to 9FFFh, and
+/// tests which of them can be written, without changing a value.
 /// Comments in the file list what odkit could not find out: types of objects that no standard
 /// defines, limits, which values are saved.
 #[derive(clap::Args)]
@@ -33,7 +34,7 @@ pub(crate) struct Args {
     /// Write to this file instead of standard output
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// Read all objects also of a node that has an EDS of itself (1021h)
+    /// Read all objects even if the node stores its own EDS (1021h)
     #[arg(long)]
     ignore_stored: bool,
     /// Probe limits by writing values, and restore the values, also after Ctrl-C
@@ -67,18 +68,18 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     learned(args, link)
 }
 
-/// The EDS that the node has of itself.
+/// The EDS that the node stores (1021h).
 fn sent(args: &Args, link: &mut Box<dyn Link>) -> Result<Option<String>, Failure> {
     let node = args.node.raw();
     Ok(match stored(link, args.node)? {
         Some(Stored::Eds(text)) => {
             output::note!(
-                "this is the EDS that node {node} has of itself (1021h); add `--ignore-stored` to read all objects"
+                "this is the EDS that node {node} stores (1021h); add `--ignore-stored` to read all objects"
             );
             Some(text)
         }
         Some(Stored::Unreadable(why)) => {
-            output::note!("node {node} has an EDS of itself (1021h), but {why}");
+            output::note!("node {node} stores its own EDS (1021h), but {why}");
             None
         }
         _ => None,

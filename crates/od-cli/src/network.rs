@@ -136,7 +136,7 @@ fn one(args: &Args, mut network: Network, folder: Option<&Path>) -> Result<usize
         .count())
 }
 
-/// The description of a node, from the folder of the project on, else from the current one.
+/// The description of a node. A relative path begins in the folder of the project, otherwise in the current folder.
 fn load(folder: &Path, name: &str) -> Result<Description, String> {
     let beside = folder.join(name);
     let path = if beside.exists() {

@@ -9,8 +9,8 @@ use od_model::Visible;
 use crate::failure::Failure;
 use crate::files;
 
-/// A text of ours with the texts of others in it, as it may go to a terminal: hidden characters are
-/// escaped. JSON stays JSON with the same strings.
+/// The form of a text that is safe for a terminal: hidden characters, which names of files and devices may
+/// contain, are escaped. JSON stays JSON with the same strings.
 fn shown(text: &str) -> Cow<'_, str> {
     let lines = Visible(text).lines();
     let is_json = |text| serde_json::from_str::<serde::de::IgnoredAny>(text).is_ok();
@@ -49,7 +49,7 @@ impl Output {
         open(writeln!(self.0, "{}", shown(line)))
     }
 
-    /// As [`line`](Self::line), for a text with our colours.
+    /// As [`line`](Self::line), for a text with colours.
     pub(crate) fn coloured(&mut self, text: &str) -> Result<bool, Failure> {
         if colours() {
             open(writeln!(self.0, "{}", coloured(text)))
@@ -58,20 +58,20 @@ impl Output {
         }
     }
 
-    /// Whatever is left goes out.
+    /// Writes the rest of the buffer.
     pub(crate) fn flush(&mut self) -> Result<bool, Failure> {
         open(self.0.flush())
     }
 }
 
-/// A text and the end of its last line, to standard output.
+/// Writes a text to standard output, with the end of its last line.
 pub(crate) fn print(text: &str) -> Result<(), Failure> {
     let mut output = Output::new();
     output.line(text.trim_end())?;
     output.flush().map(drop)
 }
 
-/// A text as it is, to standard output at once.
+/// Writes a text to standard output unchanged and at once.
 pub(crate) fn print_raw(text: &str) -> io::Result<()> {
     let mut output = io::stdout().lock();
     output.write_all(text.as_bytes())?;
@@ -111,12 +111,12 @@ pub(crate) fn print_or_ignore(error: &clap::Error) {
     let _ = error.print();
 }
 
-/// One line on standard error, with our name before it.
+/// Prints a line on standard error that begins with `odkit:`.
 pub(crate) fn error(message: &str) {
     note_text(&format!("odkit: {message}\n"));
 }
 
-/// A line on standard error. Unlike `eprintln!` it does not panic without a listener.
+/// Prints a line on standard error. Unlike `eprintln!` it does not panic without a listener.
 macro_rules! note {
     ($($argument:tt)*) => {
         $crate::output::note_text(&format!("{}\n", format_args!($($argument)*)))
@@ -124,12 +124,12 @@ macro_rules! note {
 }
 pub(crate) use note;
 
-/// Text on standard error.
+/// Prints a text on standard error.
 pub(crate) fn note_text(text: &str) {
     let _ = io::stderr().write_all(shown(text).as_bytes());
 }
 
-/// As [`note_text`], for a text with our colours.
+/// As [`note_text`], for a text with colours.
 pub(crate) fn note_coloured(text: &str) {
     if error_colours() {
         drop(io::stderr().write_all(coloured(text).as_bytes()))
@@ -138,12 +138,12 @@ pub(crate) fn note_coloured(text: &str) {
     }
 }
 
-/// May what goes to standard output be coloured?
+/// Returns whether a text on standard output may have colours.
 pub(crate) fn colours() -> bool {
     io::stdout().is_terminal() && allowed()
 }
 
-/// May what goes to standard error be coloured?
+/// Returns whether a text on standard error may have colours.
 pub(crate) fn error_colours() -> bool {
     io::stderr().is_terminal() && allowed()
 }
@@ -153,15 +153,15 @@ fn allowed() -> bool {
     !set("NO_COLOR") && std::env::var_os("TERM").is_none_or(|term| term != "dumb")
 }
 
-/// A line on a terminal that says how far something is; elsewhere nothing.
+/// Progress bar on a terminal; without a terminal it prints nothing.
 pub(crate) struct Bar {
     what: &'static str,
-    /// The share that is shown; `None`: nothing is, or it must not be.
+    /// The percentage that is shown; `None`: the bar is not visible.
     shown: Option<u8>,
     is_terminal: bool,
-    /// Bytes of a transfer, as far as its frames tell.
+    /// Number of transferred bytes, estimated from the frames.
     bytes: usize,
-    /// Bytes that the transfer has in the end; 0: not known.
+    /// Size of the value in bytes; 0: not known.
     total: usize,
 }
 
@@ -176,7 +176,7 @@ impl Bar {
         }
     }
 
-    /// Shows a share from 0 to 100.
+    /// Shows a percentage, 0 to 100.
     pub(crate) fn show(&mut self, percent: u8) {
         if self.is_terminal && self.shown != Some(percent) {
             self.shown = Some(percent);
@@ -186,14 +186,14 @@ impl Bar {
         }
     }
 
-    /// Counts a frame of an upload: the first answer may tell the size.
+    /// Counts a frame of an upload; the first response may contain the size.
     pub(crate) fn transfer(&mut self, frame: &od_wire::Frame) {
         let id = frame.id().as_standard().unwrap_or(0);
         if !(0x581..=0x5FF).contains(&id) {
             return;
         }
         let [first, _, _, _, size @ ..] = *frame.bytes();
-        // The answers to initiate upload and block upload that tell a size.
+        // The responses to initiate upload and block upload that contain a size.
         let is_first = self.bytes == 0 && (first & 0xE3 == 0x41 || first & 0xE3 == 0xC2);
         if is_first {
             self.total = u32::from_le_bytes(size) as usize;
@@ -210,14 +210,14 @@ impl Bar {
         }
     }
 
-    /// Seven bytes more.
+    /// Adds the seven bytes of a segment.
     fn count(&mut self) {
         self.bytes += 7;
         let percent = (100 * self.bytes).checked_div(self.total).unwrap_or(0);
         self.show(percent.min(100) as u8);
     }
 
-    /// Takes the line away.
+    /// Removes the bar.
     pub(crate) fn clear(&mut self) {
         if self.shown.take().is_some() {
             note_text(&format!("\r{:60}\r", ""));

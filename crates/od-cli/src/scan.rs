@@ -166,7 +166,7 @@ fn title(one: &Found) -> String {
         }
     }
     if !one.answers {
-        parts.push("does not answer SDO requests".into());
+        parts.push("does not respond to SDO requests".into());
     }
     parts.join(", ")
 }

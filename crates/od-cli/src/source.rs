@@ -169,7 +169,6 @@ impl Source {
         }
     }
 
-    /// This base with the overlay at a path; the base may have an overlay itself.
     /// An overlay on the base that its comment `;odkit-base=my.eds` names, otherwise on the only EDS or DCF in its
     /// folder.
     fn on_base(path: &Path, overlay: &Document) -> Result<Self, Failure> {
@@ -188,6 +187,7 @@ impl Source {
         base.with_overlay(path)
     }
 
+    /// This base with the overlay at a path; the base may have an overlay itself.
     fn with_overlay(self, path: &Path) -> Result<Self, Failure> {
         let shown = path.display().to_string();
         let bytes = files::read(path).map_err(|error| {

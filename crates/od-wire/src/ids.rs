@@ -140,7 +140,7 @@ impl CobId {
     }
 
     /// Returns whether CiA 301 reserves the CAN-ID for NMT, SDO, error control or LSS
-    /// ([`od_model::is_restricted`]); one of 29 bits never is.
+    /// ([`od_model::is_restricted`]). It reserves no CAN-ID of 29 bits.
     pub const fn is_restricted(self) -> bool {
         match self.can_id().as_standard() {
             Some(id) => od_model::is_restricted(id as u32),

@@ -36,7 +36,7 @@ export const isDeed = (line: string): boolean => !state.real.value && /^\s*(powe
 /** Does such an action on the selected device. */
 export async function doLine(line: string): Promise<void> {
   const { diagnostics } = await add({ op: 'script', text: `use ${state.selectedNode.value + 1}\n${line}` });
-  // Without the line number, which counts in a script of two lines.
+  // The place is left out: it is line 2 of this script, and the user typed one line.
   if (diagnostics[0]) state.toast.value = { text: diagnostics[0].message.replace(/^line 2 [^\n]*\n\s*|^2:\d+: /, ''), tone: 'error' };
 }
 
@@ -111,8 +111,8 @@ export function download(content: string | Uint8Array<ArrayBuffer>, name: string
 }
 
 /**
- * Puts a device on the bus, in the place of another or in a new one. Returns its number; null and the reason if its file
- * cannot be used (no reason if the file itself shows it). Reports that it replaced a device, unless `told` is false.
+ * Puts a device on the bus, in the place of another or in a new one. Returns its number. If its file cannot be used, returns
+ * null and the reason, which is empty if the report of the file has it. Reports a replaced device, unless `told` is false.
  */
 export async function openDevice(source: Source, nodeId: number, place: number | 'new' = state.selectedNode.value, told = true): Promise<{ node: number | null; why: string }> {
   const before = place === 'new' ? undefined : state.devices.value[place];

@@ -11,7 +11,7 @@ create_exception!(
     odkit,
     NodeError,
     PyException,
-    "A node says what no node should, or refuses a service."
+    "A node violated the protocol, or refused a service."
 );
 create_exception!(
     odkit,
@@ -47,7 +47,7 @@ pub(crate) fn of_transfer(
             };
             let error =
                 SdoAbort::new_err(format!("node {node}: {address}: abort {code:08X}h{text}"));
-            // It cannot fail in a way worth reporting.
+            // An exception object accepts any attribute.
             _ = error.value(py).setattr("code", code);
             error
         }

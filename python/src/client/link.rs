@@ -77,8 +77,8 @@ impl fmt::Display for Line {
     }
 }
 
-/// Opens a real link. That takes seconds if nobody answers, so another thread does it; after Ctrl-C it is left to
-/// itself.
+/// Opens a real link. That takes seconds if nobody answers, so another thread does it; after Ctrl-C nobody waits for
+/// this thread.
 fn open_by_name(py: Python<'_>, name: String) -> PyResult<Box<dyn Link + Send>> {
     let opening = thread::spawn(move || links::open_between_threads(&name, None));
     while !opening.is_finished() {

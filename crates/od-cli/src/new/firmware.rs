@@ -212,7 +212,7 @@ impl Board {
         }
     }
 
-    /// Returns how a device fits.
+    /// Returns how the memory of the board is divided for a device.
     ///
     /// # Errors
     /// A sentence with what it needs, what the board has, and what to do.

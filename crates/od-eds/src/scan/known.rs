@@ -202,7 +202,7 @@ pub fn key(known: &Known, key: &str) -> Option<(&'static str, Form)> {
     known.keys.iter().copied().find(|(name, _)| is(key, name))
 }
 
-/// Returns whether the section is one of the other known ones: objects of modules, and links.
+/// Returns whether the section has a known form but is not in [`SECTIONS`]: objects of modules, and links.
 pub(crate) fn is_of_objects(name: &str) -> bool {
     let links = name.split_at_checked(4).is_some_and(|(index, rest)| {
         rest.eq_ignore_ascii_case("ObjectLinks") && matches!(place(index), Place::Object(_))

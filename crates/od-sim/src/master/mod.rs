@@ -1,5 +1,5 @@
-//! A small NMT master on the virtual bench. Its user programs it by a list, as the objects 1F80h to 1F89h of a CANopen
-//! manager hold it, and it boots the slaves of this list.
+//! A small NMT master on the virtual bench. It boots the slaves of a list, which has the content of the objects 1F80h
+//! to 1F89h of a CANopen manager.
 //!
 //! The process is the one that CiA 302-2 calls *boot NMT slave*: reset communication, boot-up message, device type,
 //! identity, configuration, error control, start. A slave that does not follow stops it, with an error status of CiA 302-2
@@ -202,7 +202,8 @@ impl Master {
     }
 }
 
-/// Returns whether a frame only ends a transfer that had no response: one more frame that no node would acknowledge.
+/// Returns whether a frame only aborts a transfer without a response. The master does not send it, because no node
+/// would acknowledge it.
 fn is_timeout(frame: &Frame) -> bool {
     let request = frame.data().try_into().map(Request::parse);
     let is_timeout = |code| code == AbortCode::Timeout.code();

@@ -36,7 +36,7 @@ class LineLab extends Lab {
       <output class="num">${shown}</output></label>`;
   }
 
-  /** One bit: the sample point, and what must be over before it. */
+  /** One bit: the sample point, and the delays that must have ended before it. */
   private bit(cable: CableState) {
     const t = L.line;
     const end = Math.max(cable.bit, cable.length ? cable.roundTrip : 0) * 1.04;

@@ -7,7 +7,7 @@ import { askBus } from '../sim/link';
 import { Lab } from './lab';
 import { L } from './texts';
 
-/** Stages that have nothing to do without a line of the list: their places among `checks`. */
+/** Stages of the boot process that compare a value of the list: for each the index in `checks`. */
 const CHECKS: Record<number, number> = { 3: 0, 4: 1, 5: 2, 6: 3 };
 const BOOT_UP = 2;
 

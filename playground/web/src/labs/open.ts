@@ -34,7 +34,7 @@ export function beside(lesson: Lesson) {
   });
 }
 
-/** Opens a lab of the free bench; its line has to be real, and the whole module has to be there. */
+/** Opens a lab of the free bench. It needs a line with bit times, and the whole module. */
 export async function openLab(name: Name): Promise<void> {
   await Promise.all([load(name), add({ op: 'script', text: 'line real' })]);
   const home = document.createElement('aside');

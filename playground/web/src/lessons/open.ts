@@ -69,11 +69,11 @@ export function questions(): Promise<Asked[]> {
 export const shortOf = async (name: string): Promise<Map<number, string>> =>
   new Map((await questions()).filter((one) => one.lesson === name).map((one) => [one.step - 1, one.question]));
 
-/** A question of a lesson that is done, for the beginning of another one; null if there is none. */
+/** A question of a completed lesson, asked at the start of the lesson with this name; null if there is none. */
 export async function recalled(name: string): Promise<Asked | null> {
   const done = finished();
   const known = (await questions()).filter((one) => one.lesson !== name && done.has(one.lesson));
-  // Each lesson asks for another one, and the same at each start.
+  // Different lessons ask different questions; a lesson asks the same one at each start.
   const place = (await lessons()).findIndex((one) => one.name === name);
   return known[(place * 7) % known.length] ?? null;
 }

@@ -44,7 +44,7 @@ const MODES: [number, string][] = [
   [8, 'Cyclic synchronous position'],
   [9, 'Cyclic synchronous velocity'],
 ];
-/** Commands with their controlwords, and the states in which they do something. */
+/** Commands with their controlwords, and the states in which they have an effect. */
 const COMMANDS: [number, string, Name[]][] = [
   [0x06, 'Shutdown', ['disabled', 'on', 'enabled']],
   [0x07, 'Switch on', ['ready', 'enabled']],

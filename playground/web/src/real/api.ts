@@ -5,7 +5,7 @@ import type { Input, Source } from '../wasm/od_playground';
 /** Location of the bus: behind a WebSocket, or behind an adapter whose port the page has opened. */
 export type Target = { kind: 'ws'; address: string; name: string } | { kind: 'serial'; rate: number | null; name: string };
 
-/** Reason why no connection was made. `said`: in the words of the other side. */
+/** Reason why no connection was made. `said`: the text is the message of the other side. */
 export type Why = { kind: 'refused' | 'denied' | 'slow' | 'silent' | 'closed' | 'gone' } | { kind: 'said'; text: string };
 
 export type RealCommand =

@@ -10,7 +10,7 @@ import { beside as besideLog, close, putBeside, showLive } from './shelf';
 import './shelf-tabs';
 import { S } from './texts';
 
-/** The end of the capture while a log is shown and no frame has followed. */
+/** End of the ring when a log replaced the capture; null: the ring has a capture. The next frame makes it one again. */
 let onlyLog: { cleared: number; end: number } | null = null;
 
 /** Whether the frames that are shown are those of a log only. */

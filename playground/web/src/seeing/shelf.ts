@@ -1,10 +1,10 @@
-// A log that is open beside the capture: one of the two is shown, the shelf has the other.
+// A log that is open beside the capture. The console shows one of the two; the shelf keeps the other.
 
 import { batch, signal } from '@preact/signals-core';
 import * as state from '../state';
 import type { Ring } from '../trace/ring';
 
-/** The log beside the capture, and which of them is shown. Its ring has the one that is hidden. */
+/** The log beside the capture, and which of the two is shown. `ring` has the frames of the hidden one. */
 export const beside = signal<{ name: string; ring: Ring; isShown: boolean } | null>(null);
 
 /** Shows the log, or the capture. */

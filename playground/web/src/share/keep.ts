@@ -52,7 +52,7 @@ async function left(patience = 0): Promise<{ key: IDBValidKey; kept: Kept }[]> {
     .sort((a, b) => b.kept.at - a.kept.at);
 }
 
-/** The stored bench of this tab before it was loaded again. */
+/** The bench that this tab stored before its page was reloaded. */
 const KEY_OF_TAB = 'odkit.bench';
 
 function ofTab(): string | null {
@@ -66,7 +66,7 @@ function ofTab(): string | null {
   }
 }
 
-/** Continues the lesson of this name where this tab was before it was loaded again; false if there is none. */
+/** Continues the lesson of this name where this tab was before a reload; false if it was in another one. */
 export async function resume(name: string): Promise<boolean> {
   const key = ofTab();
   if (!key) return false;

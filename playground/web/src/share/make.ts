@@ -32,7 +32,7 @@ export function open(bench: Bench): void {
   restore(entries, trace ? bench.now : 0, !trace);
   setSpeed(bench.speed);
   setRunning(bench.running);
-  // It can be shown now.
+  // Selects the device of the bench as soon as it exists.
   const stop = effect(() => {
     if (state.devices.value.length <= node || state.replaying.value) return;
     queueMicrotask(() => {

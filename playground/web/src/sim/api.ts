@@ -36,7 +36,7 @@ export type Command =
   | { op: 'run'; running: boolean }
   | { op: 'speed'; factor: number }
   | { op: 'step'; micros: number; frames: number }
-  /** To a moment, whose later inputs are repeated; or to the moment before a journal entry, which removes the later inputs. */
+  /** Goes back to a moment (later inputs are repeated), or to the moment before a journal entry (later inputs are removed). */
   | { op: 'back'; to: number }
   | { op: 'back'; to: null; entry: number; ticket: number }
   | { op: 'select'; node: number }
@@ -92,7 +92,7 @@ export interface Snapshot {
   words: string[];
   /** Events of EEPROMs: damage, interrupted saves. */
   notices: string[];
-  /** The changed end of the journal. */
+  /** The entries of the journal from the first changed one on. */
   journal: JournalNews | null;
   /** For the selected node: the steps from the raw position to the position value; null without a shaft. */
   chain: Chain | null;

@@ -76,7 +76,7 @@ export class Engine {
     this.schedule();
   }
 
-  /** Shows a real bus, or returns to the virtual bench, which was paused meanwhile. */
+  /** Shows a real bus, or returns to the virtual bench, which was paused during that time. */
   show(live: Live | null): void {
     this.live = live;
     this.world = live ?? this.home;
@@ -170,7 +170,7 @@ export class Engine {
         world.transfer(command);
         break;
       case 'ask': {
-        // The first module does not have all of them.
+        // The small module does not have all functions.
         const ask = world.bus[command.name] as ((...args: unknown[]) => unknown) | undefined;
         this.answer(command.ticket, command.calls.map((args) => ask?.apply(world.bus, args)));
         return;
@@ -244,7 +244,7 @@ export class Engine {
         this.until = null;
         // Inputs of this moment are part of it.
         world.bus.advance(0, MOST_FRAMES);
-        // Goals of a repeated run were reached before.
+        // Checkpoints of a repeated run were reported before.
         world.reachedGoal();
         this.tellDevices();
       }

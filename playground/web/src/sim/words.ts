@@ -7,7 +7,7 @@ import { askBus, listen } from './link';
 import { T } from '../texts';
 import { FRAME_BYTES, type Packed } from './packed';
 
-/** As many as the capture has frames, while a filter checks all of them. */
+/** Maximum number of texts: one for each frame of the capture, for a filter that checks all of them. */
 const MOST_KEPT = 220_000;
 
 const known = new Map<number, string>();

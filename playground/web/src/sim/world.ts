@@ -8,7 +8,7 @@ import type { Adapter, Bus as Simulation } from '../wasm/od_playground';
 export interface Module extends Partial<Tools> {
   Bus: new (micros?: number) => Simulation;
   builtinDevices(): Builtin[];
-  /** The protocol of an adapter; in the whole module. */
+  /** The protocol of an adapter; only the whole module has it. */
   Adapter?: new () => Adapter;
   identify?(vendor: number, product: number): string | null;
   /** Whether it can run EDS texts and lessons. */
@@ -27,7 +27,7 @@ const BUDGET = 50;
 /** Virtual microseconds and frames between two checks of the budget. */
 const SLICE = 1_000_000;
 const MOST_FRAMES = 2000;
-/** A checkpoint or a full batch can stop time once; a run that stops again and again ends. */
+/** Number of stops without progress after which a run ends: a checkpoint or a full batch can stop time once. */
 const MOST_STUCK = 1000;
 
 const WHOLE: ReadonlySet<Input['op']> = new Set<Input['op']>(['lesson', 'leave', 'script']);
@@ -192,7 +192,7 @@ export class World {
 
   /** Returns whether a checkpoint was reached since the last call. */
   reachedGoal(): boolean {
-    // Checked before time advances: a switch that was moved counts, too.
+    // Checked before time advances, so that a moved switch can reach a checkpoint.
     return this.lessonState() !== null && this.bus.lessonEvents().length > 0;
   }
 }

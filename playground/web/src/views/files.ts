@@ -25,7 +25,7 @@ export async function openFile(file: File, nodeId: number, place: number | 'new'
     await openLog(file.name, new Uint8Array(await file.arrayBuffer()));
     return true;
   }
-  // A log may have any name: what the log readers accept is one.
+  // A log may have any name: the readers of logs decide.
   if (TEXT.test(file.name) && file.size < LONGEST_LOG) {
     const bytes = new Uint8Array(await file.arrayBuffer());
     const [read, { opened }] = await Promise.all([use('readLog', bytes), import('../seeing/log')]);

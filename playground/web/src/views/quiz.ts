@@ -9,7 +9,7 @@ import { View } from './view';
 
 type Asked = NonNullable<Lesson['steps'][number]['quiz']>;
 
-/** Bytes to check again, counted from 0 as everywhere. */
+/** Bytes to check again, counted from 0. */
 function wrongParts(found: Judgement): string {
   const t = D.lessons;
   const bytes = found.wrongBytes.join(', ');

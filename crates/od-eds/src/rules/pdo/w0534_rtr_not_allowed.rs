@@ -8,7 +8,7 @@ pub(crate) static W0534: Rule = Rule {
     code: "W0534",
     severity: Warning,
     title: "RTR-only TPDO does not allow RTR",
-    why: "A master never gets the TPDO: the device sends it only on a remote frame, and bit 30 of its COB-ID says that it does not answer one.",
+    why: "A master never gets the TPDO: the device sends it only on a remote frame, but bit 30 of its COB-ID forbids remote frames.",
     source: "CiA 301, PDO communication parameter",
     says: "transmission type {given} is RTR-only, but bit 30 of the COB-ID does not allow RTR",
     help: "clear bit 30 of sub-index 1, or write 254 or 255",
