@@ -32,6 +32,8 @@ mod direct;
 mod editor;
 #[cfg(feature = "eds")]
 mod eds;
+#[cfg(feature = "lessons")]
+mod faults;
 mod frames;
 mod journal;
 #[cfg(feature = "lessons")]
@@ -68,6 +70,8 @@ pub use device::builtin_devices;
 pub use editor::{LanguageServer, compare_eds, device_eds, encode_eds, rule_titles};
 #[cfg(feature = "eds")]
 pub use eds::{check_eds, decode_eds, fix_eds, foreign_file};
+#[cfg(feature = "lessons")]
+pub use faults::{case_row, fault_cases, judge_case, open_case, try_probe};
 pub use journal::{check_run, read_input};
 #[cfg(feature = "lessons")]
 pub use lesson::{judge_answer, parse_lesson, translate_lesson};

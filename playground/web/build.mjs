@@ -17,7 +17,7 @@ for (const path of Object.values(modules)) {
 
 const options = {
   absWorkingDir: new URL('.', import.meta.url).pathname,
-  entryPoints: { main: 'src/main.ts', worker: 'src/sim/worker.ts', editor: 'src/editor/worker.ts', style: 'src/styles/index.css', dialogs: 'src/styles/dialogs.css', lesson: 'src/styles/lesson.css', editing: 'src/styles/editing.css', seeing: 'src/styles/seeing.css', real: 'src/styles/real.css', machine: 'src/styles/machine.css', labs: 'src/styles/labs.css' },
+  entryPoints: { main: 'src/main.ts', worker: 'src/sim/worker.ts', editor: 'src/editor/worker.ts', style: 'src/styles/index.css', dialogs: 'src/styles/dialogs.css', lesson: 'src/styles/lesson.css', editing: 'src/styles/editing.css', seeing: 'src/styles/seeing.css', real: 'src/styles/real.css', machine: 'src/styles/machine.css', labs: 'src/styles/labs.css', cases: 'src/styles/cases.css' },
   outdir: out.pathname,
   bundle: true,
   splitting: true,
@@ -38,6 +38,7 @@ await index();
 for (const name of ['icon.svg', 'manifest.webmanifest']) await cp(new URL(`src/${name}`, import.meta.url), new URL(name, out));
 for (const [name, path] of Object.entries(modules)) await cp(new URL(path, import.meta.url), new URL(name, out));
 await lessons();
+for (const language of ['en', 'de']) await cp(new URL(`../cases/${language}.md`, import.meta.url), new URL(`cases.${language}.md`, out));
 if (watch) {
   await (await context(options)).watch();
   console.log('watching');

@@ -3,7 +3,10 @@
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::thread;
 
+use od_sim::faults::sight::Language;
+use od_sim::faults::{Case, Collection, Trial};
 use od_sim::lesson::{Lesson, prove, translate};
 use od_sim::script::Bare;
 
@@ -223,5 +226,158 @@ fn each_question_of_the_final_test_has_its_answer_in_a_lesson_and_not_in_its_tex
             "de.md has the order of en.md"
         );
         assert_eq!(facts(translated), facts(&question), "{name} {step}");
+    }
+}
+
+/// The fault cases in English, and their German words.
+fn fault_cases() -> (String, String) {
+    let file = |language: &str| {
+        let path = folder().join(format!("../cases/{language}.md"));
+        fs::read_to_string(path).expect("the cases are there")
+    };
+    (file("en"), file("de"))
+}
+
+/// With each cause the symptom shows, and the probes separate it from each other cause. Each case has another seed.
+#[test]
+fn every_fault_case_can_be_decided_for_each_cause() {
+    let (text, _) = fault_cases();
+    let collection = Collection::parse(&text).unwrap_or_else(|problems| panic!("{problems:#?}"));
+    assert_eq!(collection.cases.len(), 20);
+    let cases: Vec<_> = (0..).zip(&collection.cases).collect();
+    let prove = |(seed, case): &(u64, &Case)| {
+        let trial = Trial::new(&collection, &case.name, *seed).expect("the case exists");
+        trial.prove(&mut Bare(od_devices::DEVICES))
+    };
+    // Each case plays some hundred seconds of the bus.
+    let found: Vec<String> = thread::scope(|scope| {
+        let parts = cases.chunks(5);
+        let parts =
+            parts.map(|part| scope.spawn(|| part.iter().flat_map(prove).collect::<Vec<_>>()));
+        let parts: Vec<_> = parts.collect();
+        let found = parts
+            .into_iter()
+            .map(|part| part.join().expect("no proof panics"));
+        found.flatten().collect()
+    });
+    for case in &collection.cases {
+        for cause in &case.causes {
+            let title = &collection.causes[*cause].title;
+            assert!(
+                !case.story.contains(title.as_str()),
+                "{} tells its cause",
+                case.name
+            );
+        }
+    }
+    for cause in 0..collection.causes.len() {
+        let is_used = collection
+            .cases
+            .iter()
+            .any(|case| case.causes.contains(&cause));
+        assert!(is_used, "no case has {}", collection.causes[cause].name);
+    }
+    assert!(found.is_empty(), "{}", found.join("\n"));
+}
+
+/// Each seed is one cause, again and again; all causes are drawn, and a mark says what the probes told.
+#[test]
+fn a_fault_case_is_marked_by_its_probes() {
+    let (text, _) = fault_cases();
+    let collection = Collection::parse(&text).expect("the cases have no mistakes");
+    let trial = |seed| Trial::new(&collection, "dead-end", seed).expect("the case exists");
+    let drawn: Vec<usize> = (0..40).map(|seed| trial(seed).cause()).collect();
+    let again: Vec<usize> = (0..40).map(|seed| trial(seed).cause()).collect();
+    assert_eq!(drawn, again);
+    assert_eq!(drawn.iter().collect::<BTreeSet<_>>().len(), 4, "{drawn:?}");
+
+    let host = &mut Bare(od_devices::DEVICES);
+    let seed = drawn
+        .iter()
+        .position(|cause| *cause == 1)
+        .expect("no power") as u64;
+    let trial = trial(seed);
+    // The probe of the supply voltage is the third of the case.
+    let reading = trial.probe(2, host).expect("the bench can be made");
+    let english: Vec<_> = reading
+        .sights
+        .iter()
+        .map(|one| one.words(Language::English))
+        .collect();
+    assert_eq!(english, ["node 4: 0 V"]);
+    let mark = trial.judge(&[2], 1, host).expect("the benches can be made");
+    assert!(mark.is_right && mark.is_proven);
+    assert_eq!((mark.fewest, mark.told[0].left.as_slice()), (1, &[1][..]));
+    // The resistance is right with three causes: it proves none of them, and a guess is not a proof.
+    let mark = trial.judge(&[1], 1, host).expect("the benches can be made");
+    assert!(mark.is_right && !mark.is_proven);
+    assert_eq!(mark.told[0].fit, [1, 2, 3]);
+    let mark = trial
+        .judge(&[1, 2], 0, host)
+        .expect("the benches can be made");
+    assert!(!mark.is_right && mark.is_proven);
+    let unmade = trial.judge(&[], 0, host).expect("the benches can be made");
+    assert!(!unmade.is_proven && unmade.told.is_empty());
+    assert!(trial.probe(9, host).is_err());
+}
+
+#[test]
+fn fault_cases_are_in_german_with_their_facts() {
+    let (text, translation) = fault_cases();
+    let english = Collection::parse(&text).expect("the cases have no mistakes");
+    let german = english.clone().translate(&translation);
+    let german = german.unwrap_or_else(|problems| panic!("{problems:#?}"));
+    for (one, other) in english.causes.iter().zip(&german.causes) {
+        assert_eq!(facts(&one.title), facts(&other.title), "{}", one.name);
+        assert_eq!(facts(&one.proof), facts(&other.proof), "{}", one.name);
+    }
+    for (one, other) in english.cases.iter().zip(&german.cases) {
+        assert_eq!(facts(&one.title), facts(&other.title), "{}", one.name);
+        assert_eq!(facts(&one.story), facts(&other.story), "{}", one.name);
+    }
+    for (wrong, why) in [
+        (
+            translation.replacen("## flood:", "## food:", 1),
+            "`flood` is not translated",
+        ),
+        (
+            format!("{translation}\n## more: Mehr\n"),
+            "`more` does not exist, or has blocks",
+        ),
+    ] {
+        let problems = english.clone().translate(&wrong).expect_err(why);
+        assert!(
+            problems.iter().any(|one| one.message == why),
+            "{problems:?}"
+        );
+    }
+    for (from, to, why) in [
+        (
+            "read suspect 1000h\n```\n\n```causes",
+            "look suspect\n```\n\n```causes",
+            "`look suspect` is not a probe",
+        ),
+        (
+            "```causes\nno-power\n",
+            "```causes\nno-light\n",
+            "cause `no-light` does not exist",
+        ),
+        (
+            "bench encoders",
+            "bench elsewhere",
+            "bench `elsewhere` does not exist",
+        ),
+        (
+            "## flood: ",
+            "## flood ",
+            "the heading is not `## name: title` below `# Benches`, `# Causes` or `# Cases`",
+        ),
+        ("line terminators 1", "line terminator", "7"),
+    ] {
+        let problems = Collection::parse(&text.replacen(from, to, 1)).expect_err(why);
+        assert!(
+            problems.iter().any(|one| one.message == why || why == "7"),
+            "{problems:?}"
+        );
     }
 }

@@ -1,6 +1,7 @@
 //! `odkit lesson`: lists, shows, runs and checks lessons without the page.
 
 mod builtin;
+mod case;
 mod check;
 mod file;
 mod list;
@@ -33,6 +34,8 @@ enum Command {
     /// Check lessons: no checkpoint holds at the start, the solution reaches every checkpoint,
     /// and each of its lines is needed
     Check(check::Args),
+    /// Take a fault case: a symptom, probes, and a mark for the cause that you name
+    Case(case::Args),
     /// Make a table of a class from the codes that learners export from the page
     Progress(progress::Args),
 }
@@ -43,6 +46,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         Command::Show(args) => show::run(args),
         Command::Run(args) => play::run(args),
         Command::Check(args) => check::run(args),
+        Command::Case(args) => case::run(args),
         Command::Progress(args) => progress::run(args),
     }
 }

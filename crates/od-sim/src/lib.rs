@@ -14,6 +14,7 @@ mod chance;
 mod cursor;
 mod device;
 pub mod diagnose;
+pub mod faults;
 pub mod grammar;
 pub mod journal;
 pub mod lesson;

@@ -26,7 +26,14 @@ async function open(): Promise<void> {
     await import('./real/dialog');
     return document.querySelector<Connect>('od-connect')!.go(bus);
   }
-  const lesson = new URLSearchParams(hash.slice(1)).get('lesson') ?? (hash.length > 1 ? null : new URLSearchParams(location.search).get('lesson'));
+  const asked = new URLSearchParams(hash.slice(1));
+  const fault = asked.get('case');
+  if (fault) {
+    state.faultCase.value = { name: fault, seed: Number(asked.get('seed')) >>> 0 };
+    state.lessonDialog.value = true;
+    if (state.devices.value.length > 0) return;
+  }
+  const lesson = asked.get('lesson') ?? (hash.length > 1 ? null : new URLSearchParams(location.search).get('lesson'));
   if (lesson) {
     const { resume } = await import('./share/keep');
     if (state.devices.value.length === 0 && (await resume(lesson).catch(() => false))) return;

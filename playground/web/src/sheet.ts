@@ -3,7 +3,7 @@
 const sheets = new Map<string, Promise<void>>();
 
 /** Loads a style sheet of the page once; resolves when it is active, or could not be loaded. */
-export function sheet(name: 'dialogs' | 'editing' | 'labs' | 'lesson' | 'real' | 'seeing'): Promise<void> {
+export function sheet(name: 'cases' | 'dialogs' | 'editing' | 'labs' | 'lesson' | 'real' | 'seeing'): Promise<void> {
   let known = sheets.get(name);
   if (!known) {
     const link = Object.assign(document.createElement('link'), { rel: 'stylesheet', href: new URL(`${name}.css`, import.meta.url).href });

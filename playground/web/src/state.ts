@@ -99,6 +99,8 @@ export const lessonRun = signal({ name: '', count: 0, step: 0 });
 /** Lessons that could not be opened, and the reasons. */
 export const lessonFailed = signal<{ name: string; problems: Pick<Diagnostic, 'line' | 'message' | 'help'>[] }[]>([]);
 export const lessonDialog = signal(false);
+/** The fault case in the dialog of the lessons, with an empty name the list of all; null for the lessons. */
+export const faultCase = signal<{ name: string; seed: number } | null>(null);
 
 /** Whether the encoder is shown beside a lesson. */
 export const encoderOpen = signal(false);

@@ -290,3 +290,75 @@ fn codes_of_learners_become_a_table_and_a_truncated_one_is_reported() {
     let missing = odkit(&["lesson", "progress", "nosuch.txt"], "");
     assert_eq!(missing.code, 2);
 }
+
+#[test]
+fn a_fault_case_is_shown_probed_and_marked() {
+    let list = odkit(&["lesson", "case"], "");
+    assert_eq!(
+        (list.code, list.out.lines().count()),
+        (0, 20),
+        "{}",
+        list.err
+    );
+    let shown = odkit(&["lesson", "case", "dead-end", "--lang", "de"], "");
+    assert!(
+        shown.out.starts_with("# Die Knoten 4 und 6 sind tot\n"),
+        "{}",
+        shown.out
+    );
+    let case = |rest: &[&str]| {
+        odkit(
+            &[&["lesson", "case", "dead-end", "--seed", "7"], rest].concat(),
+            "",
+        )
+    };
+    // Trace, resistance and supply voltage prove one of the four causes: named, it is the one with exit code 0.
+    let all = [
+        "--probe", "1", "--probe", "2", "--probe", "3", "--probe", "4",
+    ];
+    let marks: Vec<_> = ["1", "2", "3", "4"]
+        .map(|cause| case(&[&all[..], &["--cause", cause]].concat()))
+        .into();
+    let right: Vec<_> = marks.iter().filter(|mark| mark.code == 0).collect();
+    assert_eq!(right.len(), 1);
+    assert!(
+        right[0].out.contains("\nRight: ")
+            && right[0]
+                .out
+                .contains("Your probes prove it (4); 1 probe can.")
+    );
+    assert_eq!(
+        marks
+            .iter()
+            .filter(|mark| mark.out.contains("Not right. The cause is: "))
+            .count(),
+        3
+    );
+    let guess = case(&["--cause", "1"]);
+    assert!(
+        guess.code == 1
+            && guess
+                .out
+                .contains("Your probes do not prove it: 4 causes fit them."),
+        "{}",
+        guess.out
+    );
+    for (wrong, why) in [
+        (
+            &["--probe", "9"][..],
+            "probe 9 does not exist; the case has probes 1 to 6",
+        ),
+        (
+            &["--cause", "0"],
+            "cause 0 does not exist; the case has causes 1 to 4",
+        ),
+    ] {
+        let failed = case(wrong);
+        assert!(
+            failed.code == 2 && failed.err.contains(why),
+            "{}",
+            failed.err
+        );
+    }
+    assert_eq!(odkit(&["lesson", "case", "no-such"], "").code, 2);
+}

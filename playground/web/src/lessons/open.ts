@@ -33,7 +33,8 @@ export async function lessons(): Promise<Listed[]> {
 /** The text of a lesson of the list, in the language of the page. */
 export const textOf = async (one: Listed): Promise<string> => one.text ?? load(fileOf(one));
 
-async function load(address: string): Promise<string> {
+/** A text beside the page. */
+export async function load(address: string): Promise<string> {
   const answer = await fetch(new URL(address, new URL('./', location.href)), { signal: AbortSignal.timeout(PATIENCE) });
   if (!answer.ok) throw new Error(`${answer.status} ${answer.statusText}`.trim());
   const body = await answer.blob();

@@ -2,9 +2,9 @@
 // between page and worker. Only numbers, strings and plain records.
 
 import type { RealCommand, RealReport, RealState } from '../real/api';
-import type { Builtin, Bus, Chain, decodeEds, DeviceInfo, diagnose, Entry, foreignFile, Input, JournalNews, judgeAnswer, Lesson, LessonState, LineStatus, parseLesson, plainEds, readLog, Status, Value, writeLog } from '../wasm/od_playground';
+import type { Builtin, Bus, caseRow, Chain, decodeEds, DeviceInfo, diagnose, Entry, faultCases, foreignFile, Input, JournalNews, judgeAnswer, judgeCase, Lesson, LessonState, LineStatus, openCase, parseLesson, plainEds, readLog, Status, tryProbe, Value, writeLog } from '../wasm/od_playground';
 
-export type { Added, Builtin, CableState, Chain, DeviceInfo, Diagnostic, Entry, Field, FrameTemplate, Incident, Input, Judgement, Lamp, Lesson, LessonState, LineStatus, Log, Mapped, MappingStep, MasterSlave, MasterState, ObjectRecord, Outcome, Pdo, Pin, Source, Status, Transfer, Value } from '../wasm/od_playground';
+export type { Added, Builtin, CableState, CaseMark, Chain, DeviceInfo, Diagnostic, Entry, FaultCase, Field, FrameTemplate, Incident, Input, Judgement, Lamp, Lesson, LessonState, LineStatus, Log, Mapped, MappingStep, MasterSlave, MasterState, ObjectRecord, OpenedCase, Outcome, Pdo, Pin, ProbeReading, Source, Status, Transfer, Value } from '../wasm/od_playground';
 
 export interface Address {
   index: number;
@@ -16,13 +16,18 @@ export type Questions = Pick<Bus, 'cable' | 'describeAll' | 'fields' | 'mappingS
 
 /** Functions of the whole module that need no bus. */
 export interface Tools {
+  caseRow: typeof caseRow;
   decodeEds: typeof decodeEds;
   diagnose: typeof diagnose;
+  faultCases: typeof faultCases;
   foreignFile: typeof foreignFile;
   judgeAnswer: typeof judgeAnswer;
+  judgeCase: typeof judgeCase;
+  openCase: typeof openCase;
   parseLesson: typeof parseLesson;
   plainEds: typeof plainEds;
   readLog: typeof readLog;
+  tryProbe: typeof tryProbe;
   writeLog: typeof writeLog;
 }
 

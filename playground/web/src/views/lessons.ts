@@ -4,6 +4,7 @@ import { html, nothing, type PropertyValues, type TemplateResult } from 'lit';
 import { effect } from '@preact/signals-core';
 import { cards } from '../labs/open';
 import { language } from '../language';
+import { F } from '../cases/texts';
 import { codeOf, finished, NEEDED, progress, QUESTIONS, type Done, type Progress } from '../lessons/kept';
 import { lessons, openFile, openNamed, words } from '../lessons/open';
 import { changes, clear, openAll, type Listed } from '../lessons/own';
@@ -125,7 +126,13 @@ class Lessons extends View {
       state.lessonDialog.value = false;
       state.lessonFailed.value = [];
       this.isTest = false;
+      if (state.faultCase.value?.name) history.replaceState(null, '', location.pathname + location.search);
+      state.faultCase.value = null;
     };
+    if (state.faultCase.value) {
+      void import('../cases/view').then(() => this.requestUpdate());
+      return this.framed(close, F.title, html`<od-fault-cases></od-fault-cases><div><button @click=${() => (state.faultCase.value = null)}>${F.back}</button></div>`);
+    }
     if (this.isTest) return this.framed(close, D.lessons.test.title, html`<od-final-test></od-final-test><div><button @click=${() => (this.isTest = false)}>${D.lessons.test.back}</button></div>`);
     return this.framed(close, T.lessons.title, html`${this.failed()}
         ${this.list === null ? html`<p class="note" role="alert">${t.noList}</p>` : nothing}
@@ -133,6 +140,7 @@ class Lessons extends View {
         ${t.levels.map((level, number) => this.group(`level-${number}`, level, (this.list ?? []).filter((one) => one.level === number && !one.isOwn), done, known))}
         ${state.real.value || state.devices.value.length === 0 ? nothing : cards(close)}
         <section class="share-field"><p class="note">${t.test.hint(QUESTIONS, NEEDED)}</p><button @click=${() => void import('./final-test').then(() => (this.isTest = true))}>${t.test.begin}</button></section>
+        <section class="share-field"><p class="note">${F.hint}</p><button @click=${() => (state.faultCase.value = { name: '', seed: 0 })}>${F.begin}</button></section>
         ${this.code()}
         <label class="drop">${icons.file}<span><strong>${t.open}</strong><span class="muted">${t.openHint}</span></span>
           <input class="sr" type="file" multiple accept=".md,.markdown,text/markdown,text/plain" aria-label=${t.open} @change=${(event: Event) => {
