@@ -28,6 +28,7 @@ mod refused;
 mod restricted;
 #[doc(hidden)]
 pub mod row;
+mod transmission_type;
 pub mod typed;
 mod types;
 mod value;
@@ -46,6 +47,7 @@ pub use entry::{Entry, Missing, Object, Slot};
 #[cfg(feature = "alloc")]
 pub use refused::Refused;
 pub use restricted::{CanIdOwner, is_restricted, restricted};
+pub use transmission_type::TransmissionType;
 pub use types::{DataType, Kind, ObjectCode};
 pub use value::{Literal, Range};
 #[cfg(feature = "alloc")]

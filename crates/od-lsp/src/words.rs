@@ -2,7 +2,7 @@
 
 use od_eds::outline::meaning;
 use od_eds::{Description, EntryDescription, Value};
-use od_model::{Access, Address, DataType, ObjectCode, Visible};
+use od_model::{Access, Address, DataType, ObjectCode, TransmissionType, Visible};
 
 use crate::cob_ids::{self, CobId};
 use crate::mentions::{Mapped, is_mapping};
@@ -135,17 +135,18 @@ fn special(at: Address, number: Option<i128>) -> Option<String> {
 
 /// A transmission type of a PDO (CiA 301, chapter 7.5.2.37).
 fn transmission(index: u16, number: u32) -> Option<String> {
-    let is_tpdo = index >= 0x1800;
-    Some(match (number, is_tpdo) {
-        (0, true) => "synchronous (acyclic)".into(),
-        (1, true) => "synchronous, with every SYNC".into(),
-        (2..=240, true) => format!("synchronous, once in {number} SYNCs"),
-        (0..=240, false) => "synchronous".into(),
-        (252, true) => "RTR-only (synchronous)".into(),
-        (253, true) => "RTR-only (event-driven)".into(),
+    let kind = TransmissionType::new(number.try_into().ok()?);
+    let is_rpdo = index < 0x1800;
+    Some(match (number, kind.cycle()) {
+        _ if kind.is_reserved(is_rpdo) => return None,
+        _ if is_rpdo && kind.is_synchronous() => "synchronous".into(),
+        (_, Some(1)) => "synchronous, with every SYNC".into(),
+        (_, Some(cycle)) => format!("synchronous, once in {cycle} SYNCs"),
+        (0, _) => "synchronous (acyclic)".into(),
+        (252, _) => "RTR-only (synchronous)".into(),
+        (253, _) => "RTR-only (event-driven)".into(),
         (254, _) => "event-driven (manufacturer-specific)".into(),
-        (255, _) => "event-driven (device profile and application profile)".into(),
-        _ => return None,
+        _ => "event-driven (device profile and application profile)".into(),
     })
 }
 

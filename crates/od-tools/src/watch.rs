@@ -2,7 +2,7 @@
 
 use od_client::{Client, Event, Job, pdo};
 use od_model::typed::MapEntry;
-use od_model::{Address, DataType};
+use od_model::{Address, DataType, TransmissionType};
 use od_wire::{AbortCode, CanId, Duration, Frame, Instant, NodeId};
 
 use crate::error::Error;
@@ -80,7 +80,10 @@ pub fn sources(
             continue;
         };
         let kind = number_of(Error::or_abort(master.upload(Address::new(index, 2)))?);
-        if matches!(kind, Some(252 | 253)) {
+        let kind = kind
+            .and_then(|kind| u8::try_from(kind).ok())
+            .map(TransmissionType::new);
+        if kind.is_some_and(TransmissionType::is_rtr_only) {
             // The TPDO is sent on request only.
             continue;
         }

@@ -1,5 +1,7 @@
 //! Frames that a network sends periodically, and their bus load.
 
+use od_model::TransmissionType;
+
 use alloc::vec::Vec;
 
 use super::node::Node;
@@ -68,11 +70,12 @@ pub fn frames(nodes: &[Node], sync_period: u32) -> Vec<Frame> {
                     }
                     let index = 0x17FF + number;
                     let timer = per_second(own.number(index, 5).into());
-                    let rate = match own.number(index, 2) {
-                        every @ 1..=240 => sync.map(|sync| sync / f64::from(every)),
-                        254 | 255 => timer,
+                    let kind = TransmissionType::new(own.number(index, 2).try_into().unwrap_or(0));
+                    let rate = match kind.cycle() {
+                        Some(cycle) => sync.map(|sync| sync / f64::from(cycle)),
+                        None if kind.is_event_driven() => timer,
                         // Synchronous and acyclic, or on request.
-                        _ => None,
+                        None => None,
                     };
                     (bits.div_ceil(8).min(8) as u8, rate)
                 }

@@ -6,6 +6,7 @@ use crate::blank::Blank;
 use crate::deadline::Deadline;
 use crate::objects::Objects;
 use crate::services::Services;
+use od_model::TransmissionType;
 use od_wire::{CanId, CobId, Frame, Instant};
 
 /// An RPDO: its configuration, and a frame that waits for SYNC.
@@ -63,7 +64,8 @@ impl Rpdo {
         let parameter = 0x1400 + number;
         let store = &objects.store;
         let cob_id = CobId::new(store.word(parameter, 1, 1 << 31));
-        let synchronous = store.word(parameter, 2, 0) <= 240;
+        let kind = TransmissionType::new(store.word(parameter, 2, 0) as u8);
+        let synchronous = kind.is_synchronous();
         let event_ms = if D::DEADLINES {
             store.word(parameter, 5, 0) as u16
         } else {

@@ -7,16 +7,8 @@ use crate::deadline::Deadline;
 use crate::objects::Objects;
 use crate::profile::EventTimer;
 use crate::services::Services;
+use od_model::TransmissionType;
 use od_wire::{CanId, CobId, Frame, Instant};
-
-/// Transmission types of CiA 301 (table 72).
-mod kind {
-    pub(super) const ACYCLIC: u8 = 0;
-    pub(super) const LAST_CYCLIC: u8 = 240;
-    pub(super) const SYNC_RTR: u8 = 252;
-    pub(super) const RTR: u8 = 253;
-    pub(super) const EVENT_FIRST: u8 = 254;
-}
 
 /// Whether a TPDO is sent.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -35,7 +27,7 @@ enum Validity {
 #[derive(Clone, Copy, PartialEq, Debug)]
 struct Config {
     validity: Validity,
-    kind: u8,
+    kind: TransmissionType,
     repeat: u8,
     sync_start: u8,
     id: CanId,
@@ -72,7 +64,7 @@ impl Blank for Tpdo {
     const BLANK: Self = Self {
         config: Config {
             validity: Validity::Off,
-            kind: 0,
+            kind: TransmissionType::new(0),
             repeat: 0,
             sync_start: 0,
             id: CanId::standard(0),
@@ -104,11 +96,11 @@ impl Config {
         let word = |index, sub| objects.store.word(index, sub, 0);
         let parameter = 0x1800 + number;
         let cob_id = CobId::new(objects.store.word(parameter, 1, 1 << 31));
-        let kind = word(parameter, 2) as u8;
+        let kind = TransmissionType::new(word(parameter, 2) as u8);
         let is_sync_only = profile
             .sync_only
             .is_some_and(|(index, bits)| word(index, 0) & bits == bits);
-        let is_allowed = kind <= kind::LAST_CYCLIC || !is_sync_only;
+        let is_allowed = kind.is_synchronous() || !is_sync_only;
         let repeat = profile.repeat_counter.map(|first| first + number);
         Self {
             validity: match cob_id.usable_id() {
@@ -170,14 +162,6 @@ impl Tpdo {
         self.is_valid().then_some(self.config.id)
     }
 
-    fn is_cyclic(&self) -> bool {
-        (1..=kind::LAST_CYCLIC).contains(&self.config.kind)
-    }
-
-    fn is_event_driven(&self) -> bool {
-        self.config.kind >= kind::EVENT_FIRST
-    }
-
     /// Starts in Operational, with the first period of the event timer and the first SYNC.
     pub(crate) fn start<D: Services>(&mut self, objects: &mut Objects<'_, D>, mapped: &[Mapped]) {
         self.syncs = 0;
@@ -187,7 +171,7 @@ impl Tpdo {
         self.sampled = false;
         self.inhibited_until = objects.now;
         self.event_at = Deadline::NEVER;
-        if self.is_valid() && self.is_event_driven() && self.config.event > 0 {
+        if self.is_valid() && self.config.kind.is_event_driven() && self.config.event > 0 {
             self.event_at = Deadline::at(objects.now.plus_millis(self.config.event.into()));
         }
         if self.is_valid() {
@@ -198,7 +182,7 @@ impl Tpdo {
     /// Sends the first values when Operational begins, in a family that sends changes.
     pub(crate) fn announce<D: Services>(&mut self, objects: &Objects<'_, D>) {
         let sends_changes = objects.profile.pdo.event_on_change;
-        self.pending |= sends_changes && self.is_valid() && self.is_event_driven();
+        self.pending |= sends_changes && self.is_valid() && self.config.kind.is_event_driven();
     }
 
     /// Stops at the end of Operational.
@@ -219,7 +203,7 @@ impl Tpdo {
         objects: &mut Objects<'_, D>,
         mapped: &[Mapped],
     ) -> Option<Frame> {
-        if self.config.kind <= kind::SYNC_RTR {
+        if self.config.kind.is_sampled_at_sync() {
             if !self.sampled {
                 self.last = self.mapping.sample(objects, mapped);
             }
@@ -245,25 +229,21 @@ impl Tpdo {
                 _ => self.waits_for_start = false,
             }
             // The SYNC that starts the count also triggers the first PDO.
-            self.syncs = self.config.kind.saturating_sub(1);
+            self.syncs = self.config.kind.raw().saturating_sub(1);
         }
-        match self.config.kind {
-            kind::SYNC_RTR => {
-                self.last = self.mapping.sample(objects, mapped);
-                self.sampled = true;
+        let kind = self.config.kind;
+        if kind.is_acyclic() {
+            let data = self.mapping.sample(objects, mapped);
+            self.pending = data != self.last || !self.sampled;
+        } else if let Some(cycle) = kind.cycle() {
+            self.syncs += 1;
+            if self.syncs >= cycle {
+                self.syncs = 0;
+                self.due(objects, mapped);
             }
-            kind::ACYCLIC => {
-                let data = self.mapping.sample(objects, mapped);
-                self.pending = data != self.last || !self.sampled;
-            }
-            _ if self.is_cyclic() => {
-                self.syncs += 1;
-                if self.syncs >= self.config.kind {
-                    self.syncs = 0;
-                    self.due(objects, mapped);
-                }
-            }
-            _ => {}
+        } else if kind.is_rtr_only() && kind.is_sampled_at_sync() {
+            self.last = self.mapping.sample(objects, mapped);
+            self.sampled = true;
         }
     }
 
@@ -298,7 +278,7 @@ impl Tpdo {
 
     /// Returns whether a change of a mapped value sends it, in a family that sends changes.
     pub(crate) fn watches_changes(&self) -> bool {
-        self.is_valid() && self.is_event_driven()
+        self.is_valid() && self.config.kind.is_event_driven()
     }
 
     /// Returns whether a mapped value may change without notifying the node.
@@ -343,7 +323,7 @@ impl Tpdo {
         self.pending = false;
         self.last = data;
         self.sampled = true;
-        if self.config.kind >= kind::RTR {
+        if !self.config.kind.is_sampled_at_sync() {
             let inhibit = u64::from(self.config.inhibit) * 100;
             self.inhibited_until = objects.now.plus_micros(inhibit);
         }

@@ -1,6 +1,7 @@
 use alloc::vec::Vec;
 
 use crate::finding::{Check, Finding, Rule, Severity::Error};
+use crate::rules::pdo::shared::transmission_type;
 use crate::subject::{Object, start_number};
 use od_model::Address;
 
@@ -18,18 +19,18 @@ pub(crate) static E0537: Rule = Rule {
 };
 
 fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
-    let description = object.description;
-    if !matches!(object.index, 0x1400..=0x15FF | 0x1800..=0x19FF) {
+    let Some(given) = transmission_type(object).filter(|given| !given.value.is_event_driven())
+    else {
         return;
-    }
-    let count = start_number(description, Address::new(object.index + 0x200, 0));
-    let address = Address::new(object.index, 2);
-    if let Some(count) = count.filter(|count| matches!(count.value, 254 | 255))
-        && let Some(given) = start_number(description, address)
-        && given.value < 254
+    };
+    let count = Address::new(object.index + 0x200, 0);
+    if let Some(count) = start_number(object.description, count)
+        && matches!(count.value, 254 | 255)
     {
-        let finding = E0537.on(object, given.span).about(address);
-        let finding = finding.fact("given", given.value);
+        let finding = E0537
+            .on(object, given.span)
+            .about(Address::new(object.index, 2));
+        let finding = finding.fact("given", given.value.raw());
         findings.push(finding.related(count.span, "multiplexed by this number"));
     }
 }

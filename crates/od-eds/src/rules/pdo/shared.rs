@@ -2,7 +2,7 @@
 
 use alloc::vec::Vec;
 
-use od_model::{Address, DataType};
+use od_model::{Address, DataType, TransmissionType};
 
 use crate::description::Value;
 use crate::fact::Fact;
@@ -23,6 +23,13 @@ pub(crate) const fn maps_rpdo(index: u16) -> Option<bool> {
 /// Returns whether this is the communication parameter of a PDO.
 pub(crate) const fn is_communication(index: u16) -> bool {
     matches!(index, 0x1400..=0x15FF | 0x1800..=0x19FF)
+}
+
+/// The transmission type of a PDO, in the object of its communication parameter.
+pub(super) fn transmission_type(object: &Object<'_>) -> Option<Spanned<TransmissionType>> {
+    let given = start_number(object.description, Address::new(object.index, 2))?;
+    let kind = u8::try_from(given.value).ok()?;
+    is_communication(object.index).then(|| Spanned::new(TransmissionType::new(kind), given.span))
 }
 
 /// Number of objects in a mapping; an error if they do not fit into a PDO. The content of a

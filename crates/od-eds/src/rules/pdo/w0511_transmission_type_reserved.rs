@@ -1,7 +1,8 @@
 use alloc::vec::Vec;
 
 use crate::finding::{Check, Finding, Form, Rule, Severity::Error};
-use crate::subject::{Object, start_number};
+use crate::rules::pdo::shared::transmission_type;
+use crate::subject::Object;
 use od_model::Address;
 
 pub(crate) static W0511: Rule = Rule {
@@ -25,19 +26,18 @@ const RPDO: Form = Form {
 };
 
 fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
-    let (last, rpdo) = match object.index {
-        0x1400..=0x15FF => (253, true),
-        0x1800..=0x19FF => (251, false),
-        _ => return,
-    };
-    let address = Address::new(object.index, 2);
-    if let Some(given) = start_number(object.description, address)
-        && (241..=last).contains(&given.value)
+    let is_rpdo = object.index < 0x1800;
+    if let Some(given) = transmission_type(object)
+        && given.value.is_reserved(is_rpdo)
     {
         let finding = W0511
             .on(object, given.span)
-            .about(address)
-            .fact("given", given.value);
-        findings.push(if rpdo { finding.form(&RPDO) } else { finding });
+            .about(Address::new(object.index, 2))
+            .fact("given", given.value.raw());
+        findings.push(if is_rpdo {
+            finding.form(&RPDO)
+        } else {
+            finding
+        });
     }
 }

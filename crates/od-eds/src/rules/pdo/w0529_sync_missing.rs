@@ -2,8 +2,8 @@ use alloc::vec::Vec;
 
 use crate::fact::Fact;
 use crate::finding::{Check, Finding, Rule, Severity::Warning};
-use crate::rules::pdo::shared::is_communication;
-use crate::subject::{Object, start_number};
+use crate::rules::pdo::shared::transmission_type;
+use crate::subject::Object;
 use od_model::Address;
 
 pub(crate) static W0529: Rule = Rule {
@@ -19,19 +19,16 @@ pub(crate) static W0529: Rule = Rule {
 };
 
 fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
-    let description = object.description;
-    if !is_communication(object.index) || description.objects.contains_key(&0x1005) {
-        return;
-    }
-    let address = Address::new(object.index, 2);
-    if let Some(given) = start_number(description, address)
-        && matches!(given.value, 0..=240 | 252)
+    if let Some(given) = transmission_type(object)
+        && given.value.is_sampled_at_sync()
+        && !given.value.is_reserved(false)
+        && !object.description.objects.contains_key(&0x1005)
     {
         findings.push(
             W0529
                 .on(object, given.span)
-                .about(address)
-                .fact("given", given.value)
+                .about(Address::new(object.index, 2))
+                .fact("given", given.value.raw())
                 .fact("missing", Fact::Section(0x1005, None)),
         );
     }

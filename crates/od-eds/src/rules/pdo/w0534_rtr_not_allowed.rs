@@ -1,7 +1,8 @@
 use alloc::vec::Vec;
 
 use crate::finding::{Check, Finding, Rule, Severity::Warning};
-use crate::subject::{Object, start_number, start_value};
+use crate::rules::pdo::shared::transmission_type;
+use crate::subject::{Object, start_value};
 use od_model::Address;
 
 pub(crate) static W0534: Rule = Rule {
@@ -17,13 +18,9 @@ pub(crate) static W0534: Rule = Rule {
 };
 
 fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
-    if !matches!(object.index, 0x1800..=0x19FF) {
-        return;
-    }
-    let address = Address::new(object.index, 2);
-    let given = start_number(object.description, address);
     let cob_id = object.object.entries.get(&1).and_then(start_value);
-    if let Some(given) = given.filter(|given| matches!(given.value, 252 | 253))
+    if let Some(given) = transmission_type(object).filter(|given| given.value.is_rtr_only())
+        && object.index >= 0x1800
         && let Some(cob_id) = cob_id
         && cob_id
             .integer(0)
@@ -31,8 +28,8 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
     {
         let finding = W0534
             .on(object, given.span)
-            .about(address)
-            .fact("given", given.value);
+            .about(Address::new(object.index, 2))
+            .fact("given", given.value.raw());
         findings.push(finding.related(cob_id.span, "bit 30 is set here"));
     }
 }

@@ -1,6 +1,6 @@
 //! The TPDO that the cases use: finds it, configures it, and waits for it.
 
-use od_model::Address;
+use od_model::{Address, TransmissionType};
 use od_wire::nmt::Command;
 use od_wire::{CanId, CobId, Frame};
 
@@ -129,7 +129,10 @@ pub(super) fn timed(dut: &mut Dut<'_>, millis: u16) -> Checked<Tpdo> {
 /// Changes the transmission type to 254 or 255.
 fn event_driven(dut: &mut Dut<'_>, pdo: &Tpdo) -> Checked {
     let now = dut.keep(pdo.address(2))?;
-    if matches!(now.first(), Some(254 | 255)) {
+    if now
+        .first()
+        .is_some_and(|kind| TransmissionType::new(*kind).is_event_driven())
+    {
         return Ok(());
     }
     for kind in [254, 255] {
