@@ -94,6 +94,9 @@ test('every list has four rows, and no text is cut or covered, in every window',
     await page.getByRole('button', { name: 'Close the frame' }).click();
     await page.getByRole('button', { name: 'By CAN-ID' }).click();
     await roomy(page, `${width}, by CAN-ID`);
+    await page.getByRole('button', { name: 'Nodes', exact: true }).click();
+    await page.locator('od-node-list td').first().waitFor();
+    await roomy(page, `${width}, nodes`);
     await page.getByRole('button', { name: 'Plot', exact: true }).click();
     await page.locator('.plot-area canvas').first().waitFor();
     await roomy(page, `${width}, plots`);

@@ -1,7 +1,7 @@
 // Figures of each CAN-ID and SDO client, and plots of the whole capture.
 import assert from 'node:assert/strict';
 import { readFile } from 'node:fs/promises';
-import { becomes, booted, captured, nmt, row, rows, sdo, sdoNote, stays, stopTime, until } from './bench.mjs';
+import { becomes, booted, captured, nmt, row, rows, sdo, sdoNote, sendRaw, stays, stopTime, until } from './bench.mjs';
 import { checks } from './check.mjs';
 
 const check = checks(booted);
@@ -264,4 +264,21 @@ check('the diagnosis of a log names the faults, their causes and the frames, and
   await page.getByRole('button', { name: 'Clear', exact: true }).click();
   await page.getByRole('button', { name: 'Look again', exact: true }).click();
   await becomes('what was found', () => region.getByRole('status').textContent(), /^No fault in 0 frames\./);
+});
+
+check('the nodes of the bus: state, heartbeat, EMCY and device, from the frames', { hash: '#device=gxmm&node=1&device=gcam&node=6' }, async (page) => {
+  await page.getByRole('button', { name: 'Nodes' }).click();
+  const table = page.getByRole('region', { name: 'Nodes' });
+  const cells = (number) => table.getByRole('row').nth(number).getByRole('cell').allInnerTexts();
+  await becomes('two nodes', async () => [await cells(1), await cells(2)].map((row) => row.slice(0, 5)), [['1', 'gxmm', 'Pre-operational', 'none', 'none'], ['6', 'gcam', 'Pre-operational', 'none', 'none']]);
+  // A command is a guess until a heartbeat confirms it.
+  await sendRaw(page, '000#0106');
+  await becomes('the ordered state', async () => (await cells(2))[2], 'Operational ?');
+  await sendRaw(page, '606#2B171000C8000000');
+  await becomes('the confirmed state', async () => (await cells(2))[2], 'Operational');
+  await becomes('the heartbeat', async () => (await cells(2))[3], /^0\.\d s ago, every 0\.2 s$/);
+  await sendRaw(page, '081#3081110000000000');
+  await becomes('the error', async () => (await cells(1))[4], /8130h life guard or heartbeat error/);
+  await table.getByRole('button', { name: '6', exact: true }).click();
+  await becomes('the filter', () => page.getByRole('searchbox', { name: 'Filter' }).inputValue(), 'node:6');
 });

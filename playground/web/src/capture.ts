@@ -13,7 +13,7 @@ trace.words = knownWords;
 /** Changes when all rows were computed again. */
 export const refiltered = signal(0);
 /** In order, one row for each CAN-ID, a plot of values, or the faults in the frames. */
-export const view = signal<'order' | 'ids' | 'plot' | 'diagnosis'>('order');
+export const view = signal<'order' | 'ids' | 'nodes' | 'plot' | 'diagnosis'>('order');
 export const filterText = signal('');
 /** Message and place of an error in the filter. */
 export const filterError = signal<{ error: string; at: number } | null>(null);

@@ -30,6 +30,7 @@ export const bus = {
     view: 'View',
     order: 'In order',
     ids: 'By CAN-ID',
+    nodes: 'Nodes',
     diagnosis: 'Diagnosis',
     filter: 'Filter frames',
     filterHint: 'Filter: node:5 sdo, 181,281, position, !hb',

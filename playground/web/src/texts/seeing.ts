@@ -3,6 +3,19 @@
 const seconds = (micros: number): string => `${(micros / 1e6).toFixed(6)} s`;
 
 export const seeing = {
+  nodes: {
+    columns: ['Node', 'Device', 'NMT state', 'Heartbeat', 'Last EMCY', 'Last frame'],
+    none: 'No node has sent a frame yet. A node announces itself with its boot-up message when it starts.',
+    only: (node: number) => `Only frames of node ${node}`,
+    unread: 'not read',
+    profile: (number: number) => (number === 0 ? 'no profile' : `CiA ${number}`),
+    ordered: 'By the last NMT command. No heartbeat has confirmed it.',
+    noHeartbeat: 'none',
+    heartbeat: (age: string, period: string | null) => `${age} s ago${period === null ? '' : `, every ${period} s`}`,
+    late: 'late',
+    noEmcy: 'none',
+    ago: (age: string) => `${age} s ago`,
+  },
   log: {
     opened: (name: string, count: number, isBeside: boolean) => `${name}: ${count} frames are in the console${isBeside ? ', beside the capture' : '; time is paused'}.`,
     skipped: (count: number, line: number, why: string) => `${count} line${count === 1 ? '' : 's'} could not be read; the first is line ${line}: ${why}.`,

@@ -19,6 +19,7 @@ const FORMATS = ['log', 'asc', 'trc', 'pcapng'] as const;
 const VIEWS: [typeof view.value, (() => Promise<unknown>)?][] = [
   ['order'],
   ['ids', () => import('../seeing/identifiers')],
+  ['nodes', () => import('../seeing/node-list')],
   ['plot', () => import('../seeing/plot')],
   ['diagnosis', () => import('../seeing/diagnosis')],
 ];
@@ -129,6 +130,7 @@ class Console extends View {
       ${this.filterBar()}
       <od-frames ?hidden=${view.value !== 'order'}></od-frames>
       ${view.value === 'ids' ? html`<od-identifiers></od-identifiers>` : nothing}
+      ${view.value === 'nodes' ? html`<od-node-list></od-node-list>` : nothing}
       ${view.value === 'plot' ? html`<od-plot></od-plot>` : nothing}
       ${view.value === 'diagnosis' ? html`<od-diagnosis></od-diagnosis>` : nothing}
       <od-frame-detail></od-frame-detail>

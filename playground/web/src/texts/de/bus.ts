@@ -32,6 +32,7 @@ export const bus = {
     view: 'Ansicht',
     order: 'Nach Zeit',
     ids: 'Nach CAN-ID',
+    nodes: 'Knoten',
     diagnosis: 'Diagnose',
     filter: 'Frames filtern',
     filterHint: 'Filter: node:5 sdo, 181,281, position, !hb',

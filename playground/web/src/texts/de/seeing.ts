@@ -6,6 +6,19 @@ const seconds = (micros: number): string => `${(micros / 1e6).toFixed(6)} s`;
 const frames = (count: number): string => `${count} Frame${count === 1 ? '' : 's'}`;
 
 export const seeing = {
+  nodes: {
+    columns: ['Knoten', 'Gerät', 'NMT-Zustand', 'Heartbeat', 'Letzte EMCY', 'Letzter Frame'],
+    none: 'Noch kein Knoten hat einen Frame gesendet. Ein Knoten meldet sich mit seiner Boot-up-Nachricht, wenn er startet.',
+    only: (node) => `Nur Frames von Knoten ${node}`,
+    unread: 'nicht gelesen',
+    profile: (number) => (number === 0 ? 'kein Profil' : `CiA ${number}`),
+    ordered: 'Nach dem letzten NMT-Kommando. Kein Heartbeat hat es bestätigt.',
+    noHeartbeat: 'keiner',
+    heartbeat: (age, period) => `vor ${age} s${period === null ? '' : `, alle ${period} s`}`,
+    late: 'zu spät',
+    noEmcy: 'keine',
+    ago: (age) => `vor ${age} s`,
+  },
   log: {
     opened: (name, count, isBeside) => `${name}: ${frames(count)} in der Konsole${isBeside ? ', neben der Aufzeichnung' : '; die Zeit steht'}.`,
     skipped: (count, line, why) => `${count} ${count === 1 ? 'Zeile war' : 'Zeilen waren'} nicht lesbar; die erste ist Zeile ${line}: ${why}.`,
