@@ -105,6 +105,47 @@ fn no_question_contains_its_answer() {
     }
 }
 
+/// An abort code in the text of a lesson is one that its device sends, unless the sentence says that others send it.
+#[test]
+fn an_abort_code_in_a_text_is_shown_in_the_lesson() {
+    let mut found = Vec::new();
+    for (name, text) in lessons() {
+        let (mut prose, mut blocks) = (String::new(), String::new());
+        for (number, part) in text.split("```").enumerate() {
+            let place = if number % 2 == 0 {
+                &mut prose
+            } else {
+                &mut blocks
+            };
+            place.push_str(part);
+        }
+        for sentence in prose.split(['.', ';']) {
+            let words = sentence.split(|one: char| !one.is_ascii_alphanumeric());
+            let codes = words.filter_map(|word| word.strip_suffix('h'));
+            for code in codes.filter(|code| code.len() == 8 && code.starts_with(['0'])) {
+                let Ok(value) = u32::from_str_radix(code, 16) else {
+                    continue;
+                };
+                if !matches!(value >> 24, 5 | 6 | 8) {
+                    continue;
+                }
+                let bytes = value
+                    .to_le_bytes()
+                    .map(|byte| format!("{byte:02X}"))
+                    .join(" ");
+                let is_shown = blocks.contains(&format!("{code}h")) || blocks.contains(&bytes);
+                if !is_shown && !sentence.to_lowercase().contains("other") {
+                    found.push(format!("{name}: {code}h"));
+                }
+            }
+        }
+    }
+    assert!(
+        found.is_empty(),
+        "abort codes that the lesson does not show; add `facts` with `aborts`, or say that other devices send it: {found:?}"
+    );
+}
+
 /// Lessons without a German text in `playground/lessons/de`; a new lesson is translated, or listed here until it is.
 const NOT_IN_GERMAN: [&str; 0] = [];
 
