@@ -62,7 +62,7 @@ export function readLine(text: string, nodeId: number, find: (index: number, sub
 /** Example frames for a node. */
 export const templates = (nodeId: number): FrameTemplate[] => (isReady.value ? frameTemplates(nodeId) : []);
 
-export type Encoded = { bytes: Uint8Array; note: string } | { error: string };
+type Encoded = { bytes: Uint8Array; note: string } | { error: string };
 
 /** The bytes of a typed value for an object, and its description. */
 export function encode(text: string, object: ObjectRecord): Encoded {

@@ -34,7 +34,7 @@ function isFlags(object: ObjectRecord): boolean {
     : object.sub === 0 && object.parent === null && /COB|device type|register|alarm|warning|options|operating (parameter|status)|version/i.test(object.name);
 }
 
-export function hexValue(value: number | bigint, bits: number): string {
+function hexValue(value: number | bigint, bits: number): string {
   const width = Math.max(1, Math.ceil((bits || 32) / 4));
   const masked = BigInt.asUintN(bits || 64, BigInt(value));
   return `${masked.toString(16).toUpperCase().padStart(width, '0')}h`;

@@ -6,7 +6,7 @@ import type { RealState } from './real/api';
 import type { Builtin, Chain, DeviceInfo, Diagnostic, Entry, Lesson, LessonState, LineStatus, ObjectRecord, Source, Status, Value } from './sim/api';
 import { Ring } from './trace/ring';
 
-export type Health = 'starting' | 'running' | 'restarting' | 'failed';
+type Health = 'starting' | 'running' | 'restarting' | 'failed';
 
 export const health = signal<Health>('starting');
 /** The devices on the bus, in the order of their numbers. */

@@ -17,7 +17,7 @@ const load = (name: Name): Promise<unknown> =>
   parts[name]().catch(() => (state.toast.value = { text: L.failed, tone: 'error' }));
 
 /** The labs that the solutions of a lesson use. */
-export function labsOf(lesson: Lesson): Name[] {
+function labsOf(lesson: Lesson): Name[] {
   const uses = (word: RegExp): boolean => lesson.steps.some(({ solution }) => word.test(solution));
   const names: Name[] = [];
   if (uses(/^\s*master /m)) names.push('master');
@@ -35,7 +35,7 @@ export function beside(lesson: Lesson) {
 }
 
 /** Opens a lab of the free bench. It needs a line with bit times, and the whole module. */
-export async function openLab(name: Name): Promise<void> {
+async function openLab(name: Name): Promise<void> {
   await Promise.all([load(name), add({ op: 'script', text: 'line real' })]);
   const home = document.createElement('aside');
   home.className = 'floating-lab';

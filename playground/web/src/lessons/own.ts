@@ -100,7 +100,7 @@ export async function openAll(files: File[]): Promise<void> {
   state.lessonDialog.value = true;
 }
 
-export const isMarkdown = (name: string): boolean => /\.(md|markdown)$/i.test(name);
+const isMarkdown = (name: string): boolean => /\.(md|markdown)$/i.test(name);
 
 /** The files of what was dropped; a folder gives those that lie directly in it. */
 export async function filesOf(entries: FileSystemEntry[]): Promise<File[]> {

@@ -57,7 +57,7 @@ const COMMANDS: [number, string, Name[]][] = [
 type Name = keyof typeof STATES;
 
 /** The state in the statusword (CiA 402, statusword). */
-export function stateOf(word: number | null): Name | null {
+function stateOf(word: number | null): Name | null {
   if (word === null) return null;
   const known: [number, number, Name][] = [
     [0x4f, 0x00, 'notReady'],

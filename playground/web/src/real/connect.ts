@@ -43,7 +43,7 @@ export const problem = signal('');
 export const isConnecting = signal(false);
 
 /** The address as a WebSocket URL, from what odkit prints, from `--link`, or from `HOST:PORT`. */
-export function addressOf(text: string): { address: string; name: string } | { error: string } {
+function addressOf(text: string): { address: string; name: string } | { error: string } {
   const trimmed = text.trim();
   if (trimmed === '') return { error: R.bad.empty };
   let url: URL;

@@ -9,7 +9,7 @@ export interface Port {
 }
 
 /** Events of a port. */
-export interface Ears {
+interface Ears {
   opened(): void;
   came(bytes: Uint8Array): void;
   ended(why: Why): void;

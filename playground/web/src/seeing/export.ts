@@ -23,7 +23,7 @@ export function csv(columns: readonly { name: string; series: Series }[]): strin
 /** Height of a caption above its chart. */
 const CAPTION = 24;
 
-export interface Panel {
+interface Panel {
   canvas: HTMLCanvasElement;
   /** The lines, each with its colour. */
   captions: { text: string; colour: string }[];

@@ -3,7 +3,7 @@
 
 import type { Value } from '../sim/api';
 
-export const MOST_POINTS = 16_000;
+const MOST_POINTS = 16_000;
 
 /** A value as a number, or null if it is not one: a gap in the line. */
 export function numeric(value: Value | undefined): number | null {

@@ -11,7 +11,7 @@ import { standIn } from '../views/object-search';
 import { S } from './texts';
 
 /** Position of a mapped object in the frames of its PDO. */
-export interface Place {
+interface Place {
   id: number;
   extended: boolean;
   first: number;

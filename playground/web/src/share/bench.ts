@@ -4,7 +4,7 @@
 import type { Entry, Input } from '../sim/api';
 import { checkRun, readInput } from '../codec';
 
-export const VERSION = 1;
+const VERSION = 1;
 
 export interface Bench {
   /** With the frames so far. */

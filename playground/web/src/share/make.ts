@@ -44,8 +44,6 @@ export function open(bench: Bench): void {
 
 export const hashOf = async (bench: Bench): Promise<string> => `#${KEY}${await pack(write(bench))}`;
 
-export const holdsBench = (hash: string): boolean => hash.startsWith(`#${KEY}`);
-
 /** Opens the bench in an address; false, with a message, if it has none. */
 export async function openHash(hash: string): Promise<boolean> {
   return tried(async () => open(read(await unpack(hash.slice(KEY.length + 1)))), D.share.badLink);

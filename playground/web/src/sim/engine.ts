@@ -33,7 +33,7 @@ const NOT_REAL: ReadonlySet<Command['op']> = new Set<Command['op']>(['run', 'spe
 const FARTHEST = 60_000_000;
 
 /** A bench whose time is that of a real bus. */
-export interface Live extends World {
+interface Live extends World {
   /** Advances to the present. */
   follow(): void;
   link(): RealState;

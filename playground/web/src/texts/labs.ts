@@ -37,7 +37,6 @@ export const labs = {
     sjw: 'SJW',
     quanta: (sjw: number, all: number) => `${sjw}/${all} bit`,
     clock: (node: number) => `Clock of node ${node}`,
-    percent: (value: number) => `${value > 0 ? '+' : ''}${value.toFixed(1)} %`,
     slow: (value: number) => (value === 0 ? 'exact' : `${Math.abs(value).toFixed(1)} % ${value > 0 ? 'too slow' : 'too fast'}`),
     terminators: 'Terminators',
     bit: (rate: number, bit: number) => `One bit at ${rate} kbit/s, ${micros(bit)}`,

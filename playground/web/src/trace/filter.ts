@@ -6,7 +6,7 @@ import { T } from '../texts';
 import type { Frame } from './ring';
 
 /** Returns whether a frame passes. If its text is not known, terms that need it let it pass. */
-export type Test = (frame: Frame, words: string | undefined) => boolean;
+type Test = (frame: Frame, words: string | undefined) => boolean;
 
 export interface Filter {
   test: Test;
@@ -14,7 +14,7 @@ export interface Filter {
   needsWords: boolean;
 }
 
-export type ParsedFilter = { filter: Filter | null } | { error: string; at: number };
+type ParsedFilter = { filter: Filter | null } | { error: string; at: number };
 
 interface Token {
   text: string;

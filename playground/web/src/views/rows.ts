@@ -1,7 +1,7 @@
 // Long lists with few elements: a few rows are drawn, and reused while the
 // list scrolls.
 
-export interface RowSource {
+interface RowSource {
   /** Number of rows. */
   count(): number;
   /** Creates an empty row. */

@@ -39,7 +39,6 @@ export const labs = {
     sjw: 'SJW',
     quanta: (sjw, all) => `${sjw}/${all} Bit`,
     clock: (node) => `Takt von Knoten ${node}`,
-    percent: (value) => `${value > 0 ? '+' : ''}${value.toFixed(1)} %`,
     slow: (value) => (value === 0 ? 'genau' : `${Math.abs(value).toFixed(1)} % zu ${value > 0 ? 'langsam' : 'schnell'}`),
     terminators: 'Abschluss',
     bit: (rate, bit) => `Ein Bit bei ${rate} kbit/s, ${micros(bit)}`,
