@@ -149,7 +149,7 @@ pub(crate) static I1107: Rule = Rule {
     why: "OD.c compiles, but CANopen.c does not, or its init functions fail, unless the services of these objects are off in CO_driver_target.h: heartbeat consumer (1016h), SYNC producer (1006h), EMCY (1003h, 1014h).",
     source: "CANopenNode 4, CANopen.c and 301/CO_config.h",
     example: "a file without [1016]",
-    says: "CANopenNode needs {objects} unless their services are off",
+    says: "CANopenNode needs {objects}, unless CO_driver_target.h switches the service off",
     help: "add the objects, or set CO_CONFIG_EM, CO_CONFIG_HB_CONS or CO_CONFIG_SYNC in CO_driver_target.h",
     ..Rule::NEW
 };

@@ -51,9 +51,12 @@ pub fn read(bytes: &[u8]) -> Result<Log, Refused> {
     let lines: Vec<&str> = lines(text.trim_start_matches('\u{feff}')).collect();
     let lacks_times = is_untimed(&lines);
     let Some(mut reader) = choose(&lines, lacks_times) else {
-        let known = foreign::name(bytes);
-        let why = known
-            .unwrap_or_else(|| "it is not a candump log, ASC, BLF, TRC, pcap or pcapng".into());
+        let why = if text.trim().is_empty() {
+            "it is empty: no frame was recorded".into()
+        } else {
+            let known = foreign::name(bytes);
+            known.unwrap_or_else(|| "it is not a candump log, ASC, BLF, TRC, pcap or pcapng".into())
+        };
         return Err(why.into());
     };
     let mut records = Vec::new();

@@ -1,4 +1,4 @@
-//! The EDS that a node has of itself: 1021h, in the format of 1022h (CiA 301, 7.5.2.24 and 7.5.2.25).
+//! The EDS that a node stores: 1021h, in the format of 1022h (CiA 301, 7.5.2.24 and 7.5.2.25).
 
 use od_eds::Document;
 use od_model::Address;
@@ -18,7 +18,7 @@ pub enum Stored {
     Unreadable(String),
 }
 
-/// Reads the EDS that a node has of itself; `None` if it has none.
+/// Reads the EDS that a node stores; `None` if it stores none.
 ///
 /// # Errors
 /// The link is lost, or the node stops responding.

@@ -167,6 +167,7 @@ fn an_unreadable_log_is_an_error_that_names_it() {
     let cut = &Format::Pcapng.write(&records())[..90];
     for (bytes, why) in [
         (&b"hello\nworld\n"[..], "it is not a candump log"),
+        (&b"\n"[..], "it is empty"),
         (b"LOGG\x90\0\0\0", "it has no CAN frame"),
         (
             b"MDF     4.10",
