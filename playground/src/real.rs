@@ -103,7 +103,7 @@ impl Adapter {
     /// empty if slcan does not have this rate.
     pub fn begin(&mut self, rate: Option<u16>) -> Vec<u8> {
         (self.is_open, self.is_closed) = (false, false);
-        self.adapter.begin(rate, false).unwrap_or_default()
+        self.adapter.begin(rate, false, false).unwrap_or_default()
     }
 
     /// Handles bytes of the adapter; their frames are on the bus then.

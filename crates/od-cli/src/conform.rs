@@ -8,6 +8,7 @@ use od_tools::Error;
 use od_tools::bench::OnBench;
 use od_tools::conform::case::{Case, built_in, in_folder};
 use od_tools::conform::eds::Eds;
+use od_tools::conform::pulse::Pulse;
 use od_tools::conform::record::{Record, Verdict};
 use od_tools::conform::report::{About, Format, Report};
 use od_tools::conform::rig::{RealBus, Rig};
@@ -211,8 +212,12 @@ fn tested(args: &Args, cases: &[Case]) -> Result<Report, Failure> {
     announce(eds.text(), &parsed, leave, cases);
     let link = link.as_deref().unwrap_or_default();
     let mut rig = RealBus {
-        link: Box::new(Interruptible::new(links::open(link)?, bus::stop()?)),
+        link: Box::new(Interruptible::new(
+            links::open_measuring(link, None)?,
+            bus::stop()?,
+        )),
         power: args.power.clone(),
+        pulse: Some(Pulse::start()),
     };
     let mut session = Session::new(&mut rig, &parsed, node, leave);
     let records = all(&mut session, cases, true);

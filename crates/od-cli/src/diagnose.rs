@@ -133,7 +133,7 @@ fn read(path: &PathBuf) -> Result<Vec<Record>, Failure> {
 }
 
 fn listen(args: &Args, name: &str) -> Result<Vec<Record>, Failure> {
-    let mut bus = Interruptible::new(links::open_at(name, args.bit_rate)?, bus::stop()?);
+    let mut bus = Interruptible::new(links::open_measuring(name, args.bit_rate)?, bus::stop()?);
     if args.time.is_none() {
         note!("listening until Ctrl-C");
     }

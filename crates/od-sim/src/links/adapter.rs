@@ -42,8 +42,9 @@ pub struct Adapter {
 
 impl Adapter {
     /// Returns the bytes that open the channel, at `rate` in kbit/s or otherwise at the present rate of the
-    /// adapter; with `listens`, without acknowledging frames. `None` for a rate that slcan does not have.
-    pub fn begin(&mut self, rate: Option<u16>, listens: bool) -> Option<Vec<u8>> {
+    /// adapter; with `listens`, without acknowledging frames; with `stamps`, with time stamps if the adapter has them.
+    /// `None` for a rate that slcan does not have.
+    pub fn begin(&mut self, rate: Option<u16>, listens: bool, stamps: bool) -> Option<Vec<u8>> {
         // The first end of line completes a line that an earlier host left.
         let mut text = String::from("\rC\r");
         *self = Self {
@@ -53,6 +54,10 @@ impl Adapter {
         if let Some(rate) = rate {
             let number = RATES.iter().position(|one| *one == rate)?;
             text.push_str(&format!("S{number}\r"));
+            self.due += 1;
+        }
+        if stamps {
+            text.push_str("Z1\r");
             self.due += 1;
         }
         text.push_str(if listens { "L\r" } else { "O\r" });
@@ -128,7 +133,7 @@ mod tests {
         let mut server = slcan::Channel::default();
         for rate in [None, Some(10), Some(1000)] {
             let mut adapter = Adapter::default();
-            let begin = adapter.begin(rate, false).unwrap_or_default();
+            let begin = adapter.begin(rate, false, false).unwrap_or_default();
             let (mut steps, mut answer) = (Vec::new(), Vec::new());
             server.receive(&begin, Instant::ZERO, &mut steps);
             for step in steps {
@@ -142,7 +147,7 @@ mod tests {
                 "{rate:?}"
             );
         }
-        assert_eq!(Adapter::default().begin(Some(300), false), None);
+        assert_eq!(Adapter::default().begin(Some(300), false, false), None);
     }
 
     #[test]
@@ -150,11 +155,11 @@ mod tests {
         let mut adapter = Adapter::default();
         assert!(
             adapter
-                .begin(None, true)
+                .begin(None, true, false)
                 .is_some_and(|text| text.ends_with(b"L\r"))
         );
         assert_eq!(said(&mut adapter, b"\r\r\x07").last(), Some(&Said::Closed));
-        assert!(adapter.begin(Some(500), false).is_some());
+        assert!(adapter.begin(Some(500), false, false).is_some());
         assert_eq!(said(&mut adapter, b"\r\r\r\r").last(), Some(&Said::Open));
         assert_eq!(said(&mut adapter, b"t7011"), []);
         let boot = Said::Frame(Frame::standard(0x701, &[5]));

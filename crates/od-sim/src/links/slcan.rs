@@ -147,6 +147,17 @@ pub fn frame_of(line: &[u8]) -> Option<Frame> {
     }
 }
 
+/// The time stamp of a frame's line in milliseconds, if it has one.
+pub fn stamp_of(line: &[u8]) -> Option<u16> {
+    let (kind, rest) = line.split_first()?;
+    let id = if kind.is_ascii_uppercase() { 8 } else { 3 };
+    let dlc = rest.get(id)?.checked_sub(b'0')?;
+    let is_remote = kind.eq_ignore_ascii_case(&b'r');
+    let data = if is_remote { 0 } else { 2 * usize::from(dlc) };
+    let stamp = rest.get(id + 1 + data..).filter(|rest| is_stamp(rest))?;
+    u16::try_from(hex(stamp)?).ok()
+}
+
 fn is_hex(text: &[u8]) -> bool {
     text.iter().all(u8::is_ascii_hexdigit)
 }
@@ -295,6 +306,22 @@ mod tests {
         out.clear();
         channel.encode(&frame, Instant::ZERO, 0, &mut out);
         assert!(out.is_empty());
+    }
+
+    #[test]
+    fn a_line_may_have_a_time_stamp() {
+        for (line, stamp) in [
+            ("t70110003E8", Some(1000)),
+            ("t701100", None),
+            ("T0000070100000", Some(0)),
+            ("r7010EA5F", Some(59_999)),
+            ("r7018", None),
+            ("t701100123", None),
+            ("t", None),
+            ("", None),
+        ] {
+            assert_eq!(stamp_of(line.as_bytes()), stamp, "{line}");
+        }
     }
 
     #[test]

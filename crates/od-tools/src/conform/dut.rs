@@ -19,6 +19,8 @@ pub(crate) const QUIET: u64 = 100_000;
 const BOOT: u64 = 10_000_000;
 /// Time limit for an NMT command.
 const SETTLE: u64 = 20_000;
+/// How long a frame may take from the bus to the test: some serial adapters keep bytes for 16 ms.
+const TRANSPORT: u64 = 20_000;
 
 /// The node under test, while a case is run.
 pub struct Dut<'d> {
@@ -46,9 +48,11 @@ pub struct Dut<'d> {
     /// Whether the case waited for anything but SDO responses: it then depends on the time at which the test did what it
     /// did.
     pub(crate) is_timed: bool,
-    /// Longest delay of the test itself, in microseconds: a wait that lasted longer than requested, because the
-    /// computer was busy.
+    /// Longest delay of the test itself, in microseconds: a wait that lasted longer than requested, or a pause between
+    /// two calls, because the computer was busy.
     pub(crate) late: u64,
+    /// End of the last call of the rig; `None` before the first, and after a call that may take any time.
+    pub(crate) called: Option<Instant>,
 }
 
 impl Dut<'_> {
@@ -56,11 +60,29 @@ impl Dut<'_> {
         self.rig.now()
     }
 
+    /// The time at which a call of the rig begins. Nothing between two calls takes long, so a pause is a delay of the
+    /// test itself.
+    fn begin(&mut self) -> Instant {
+        let now = self.now();
+        if let Some(called) = self.called {
+            self.delayed(now, called);
+        }
+        now
+    }
+
+    /// Records that something that was due at `due` was done at `now`. Virtual time is never late.
+    fn delayed(&mut self, now: Instant, due: Instant) {
+        if self.rig.slack() > 0 {
+            self.late = self.late.max(now.micros_since(due));
+        }
+    }
+
     /// Sends a frame.
     pub(crate) fn send(&mut self, frame: Frame) -> Checked {
-        let at = self.now();
+        let at = self.begin();
         self.silence = 0;
         self.rig.send(&frame)?;
+        self.called = Some(self.now());
         self.frames.push(Traced {
             at,
             ours: true,
@@ -87,13 +109,13 @@ impl Dut<'_> {
 
     /// Waits for the next frame until a moment.
     pub(crate) fn receive(&mut self, until: Instant) -> Checked<Option<Heard>> {
-        let from = self.now();
+        let from = self.begin();
         let heard = self.rig.receive(until)?;
-        // Virtual time is never late, and a frame that was waiting is not a delay.
-        if self.rig.slack() > 0 {
-            let due = heard.map_or(until, |heard| heard.at).max(from);
-            self.late = self.late.max(self.now().micros_since(due));
-        }
+        let now = self.now();
+        self.called = Some(now);
+        // A frame that was waiting is not a delay.
+        let due = heard.map_or(until, |heard| heard.at.plus_micros(TRANSPORT));
+        self.delayed(now, due.max(from));
         if let Some(Heard { at, frame }) = heard {
             self.frames.push(Traced {
                 at,
@@ -241,6 +263,7 @@ impl Dut<'_> {
     /// Switches the power of the node.
     pub(crate) fn power(&mut self, on: bool) -> Checked {
         self.rig.power(on)?;
+        self.called = None;
         self.is_off = !on;
         Ok(())
     }

@@ -28,6 +28,7 @@
 //! | `case` | a case: head and steps |
 //! | `eds` | facts about the node in the EDS: which cases apply |
 //! | `rig` | a link that may also switch the power |
+//! | `pulse` | how late this computer is, as evidence for the node |
 //! | `dut`, `sdo` | the node under test, and strict transfers with it |
 //! | `check/` | the table of the built-in cases, and their checks in Rust, a file for each service |
 //! | `cases/` | the built-in cases that are scripts |
@@ -45,6 +46,7 @@ pub mod eds;
 mod end;
 pub mod official;
 mod play;
+pub mod pulse;
 pub mod record;
 pub mod report;
 pub mod rig;

@@ -5,6 +5,7 @@ use std::process::Command;
 
 use od_sim::bus::Bus;
 
+use super::pulse::Pulse;
 use crate::bench::OnBench;
 use crate::error::Error;
 use crate::link::{Heard, Link};
@@ -29,6 +30,11 @@ pub trait Rig: Link {
     fn slack(&self) -> u64 {
         0
     }
+
+    /// How late this computer let a waiting program run since the last call, in microseconds; 0 in virtual time.
+    fn host_late(&self) -> u64 {
+        0
+    }
 }
 
 impl<B: BorrowMut<Bus>> Rig for OnBench<B> {
@@ -48,6 +54,8 @@ pub struct RealBus {
     pub link: Box<dyn Link>,
     /// A command line; `on` or `off` is appended to it. `None`: the power is not switched.
     pub power: Option<String>,
+    /// Measures how busy this computer is. `None` for a link with virtual time.
+    pub pulse: Option<Pulse>,
 }
 
 impl Link for RealBus {
@@ -94,5 +102,9 @@ impl Rig for RealBus {
 
     fn slack(&self) -> u64 {
         10_000
+    }
+
+    fn host_late(&self) -> u64 {
+        self.pulse.as_ref().map_or(0, Pulse::take)
     }
 }

@@ -6,6 +6,7 @@ mod slcan;
 #[cfg(target_os = "linux")]
 mod socketcan;
 mod socketcand;
+mod stamps;
 mod stream;
 
 use od_sim::links::address::Address;
@@ -37,11 +38,24 @@ pub fn open_at(name: &str, kbit: Option<u16>) -> Result<Box<dyn Link>, Error> {
     Ok(open_between_threads(name, kbit)?)
 }
 
+/// As [`open_at`], a link that measures when a frame was on the bus, and not when it was read: an slcan adapter is asked
+/// for time stamps. Some adapters remember this setting; the end of the link resets it.
+///
+/// # Errors
+/// As [`open_at`].
+pub fn open_measuring(name: &str, kbit: Option<u16>) -> Result<Box<dyn Link>, Error> {
+    Ok(opened(name, kbit, true)?)
+}
+
 /// As [`open_at`], a link that any thread may use.
 ///
 /// # Errors
 /// As [`open_at`].
 pub fn open_between_threads(name: &str, kbit: Option<u16>) -> Result<Box<dyn Link + Send>, Error> {
+    opened(name, kbit, false)
+}
+
+fn opened(name: &str, kbit: Option<u16>, stamps: bool) -> Result<Box<dyn Link + Send>, Error> {
     let (address, bus) = parse(name)?;
     if let (Some(kbit), Address::SocketCan(_) | Address::Socketcand(_)) = (kbit, &address) {
         return Err(Error::Usage(format!(
@@ -53,11 +67,19 @@ pub fn open_between_threads(name: &str, kbit: Option<u16>) -> Result<Box<dyn Lin
         Address::Serial(path, baud) => {
             let name = format!("slcan:{path}");
             let port = ports::serial(&path, baud)?;
-            Ok(Box::new(Stream::open(port, Slcan::new(kbit), name)?))
+            Ok(Box::new(Stream::open(
+                port,
+                Slcan::new(kbit, stamps),
+                name,
+            )?))
         }
         Address::Slcan(place) => {
             let (stream, name) = ports::connect("slcan", &place)?;
-            Ok(Box::new(Stream::open(stream, Slcan::new(kbit), name)?))
+            Ok(Box::new(Stream::open(
+                stream,
+                Slcan::new(kbit, stamps),
+                name,
+            )?))
         }
         Address::Socketcand(place) => {
             let (stream, name) = ports::connect("socketcand", &place)?;

@@ -4,6 +4,7 @@ use od_sim::links::adapter::{self, Adapter, RATES};
 use od_sim::links::slcan;
 use od_wire::{Duration, Frame};
 
+use super::stamps::Stamp;
 use super::stream::{Protocol, Said, shown};
 
 /// How long to wait for the response of an adapter; some never respond.
@@ -14,15 +15,38 @@ const PATIENCE: Duration = Duration::from_millis(300);
 pub(super) struct Slcan {
     /// Requested bit rate in kbit/s; `None`: the adapter keeps its own.
     rate: Option<u16>,
+    /// Whether to request time stamps.
+    stamps: bool,
+    /// Greatest time stamp so far, in milliseconds.
+    greatest: u16,
     adapter: Adapter,
 }
 
 impl Slcan {
-    pub(super) fn new(rate: Option<u16>) -> Self {
+    /// A client that sets the bit rate, if there is one, and requests time stamps from the adapter.
+    pub(super) fn new(rate: Option<u16>, stamps: bool) -> Self {
         Self {
             rate,
+            stamps,
             ..Self::default()
         }
+    }
+}
+
+impl Slcan {
+    /// The time stamp of a frame. The clock of an adapter begins again after a minute, or after 65,536 ms.
+    fn stamp(&mut self, line: &[u8]) -> Option<Stamp> {
+        let millis = slcan::stamp_of(line)?;
+        self.greatest = self.greatest.max(millis);
+        let period = if self.greatest < 60_000 {
+            60_000
+        } else {
+            65_536
+        };
+        Some(Stamp {
+            micros: u64::from(millis) * 1000,
+            period: period * 1000,
+        })
     }
 }
 
@@ -30,7 +54,7 @@ impl Protocol for Slcan {
     fn begin(&mut self, listen_at: Option<u16>) -> Result<Vec<u8>, String> {
         let rate = listen_at.or(self.rate);
         self.adapter
-            .begin(rate, listen_at.is_some())
+            .begin(rate, listen_at.is_some(), self.stamps)
             .ok_or_else(|| {
                 let rates = RATES.map(|rate| rate.to_string()).join(", ");
                 let rate = rate.unwrap_or_default();
@@ -48,7 +72,7 @@ impl Protocol for Slcan {
             None => return Ok(None),
         };
         Ok(Some(match self.adapter.line(line, is_right) {
-            adapter::Said::Frame(frame) => Said::Frame(frame),
+            adapter::Said::Frame(frame) => Said::Frame(frame, self.stamp(line)),
             adapter::Said::Open => Said::Open,
             adapter::Said::Nothing => Said::Nothing,
             adapter::Said::Closed => {
@@ -80,6 +104,6 @@ impl Protocol for Slcan {
     }
 
     fn end(&self) -> &'static [u8] {
-        b"C\r"
+        if self.stamps { b"C\rZ0\r" } else { b"C\r" }
     }
 }

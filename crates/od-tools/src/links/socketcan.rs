@@ -1,11 +1,11 @@
 //! A CAN interface of Linux.
 
-use std::io::{self, ErrorKind, Read, Write};
+use std::io::{self, ErrorKind, Write};
 use std::time;
 
 use od_sim::links::can_frame;
-use od_wire::{Duration, Frame, Instant};
-use socketcan::{CanSocket, Socket};
+use od_wire::{CanId, Duration, Frame, Instant};
+use socketcan::{CanFrame, CanSocket, EmbeddedFrame, Socket, SocketOptions};
 
 use crate::error::Error;
 use crate::link::{Heard, Link};
@@ -33,6 +33,8 @@ impl Interface {
         // A socket for all interfaces shows whether the kernel supports CAN.
         CanSocket::open_iface(0).map_err(failed)?;
         let socket = CanSocket::open(name).map_err(failed)?;
+        // The moment at which the driver handed a frame over.
+        socket.set_recv_timestamp(true).map_err(failed)?;
         let interface = Self {
             socket,
             name: name.to_owned(),
@@ -86,14 +88,18 @@ impl Link for Interface {
                 self.socket.set_read_timeout(wait)
             });
             set.map_err(|error| self.lost(&error))?;
-            let mut bytes = [0; can_frame::SIZE];
-            match self.socket.as_raw_socket().read(&mut bytes) {
-                Ok(count) => {
-                    if let Some(frame) = can_frame::decode(&bytes[..count]) {
-                        let at = self.now();
+            match self.socket.read_frame_with_timestamps() {
+                Ok((frame, stamps)) => {
+                    if let Some(frame) = taken(&frame) {
+                        // Stamps are in the time of day, which may be set at any time.
+                        let age = stamps.socket.and_then(|stamp| stamp.elapsed().ok());
+                        let at = self.start.elapsed().saturating_sub(age.unwrap_or_default());
+                        let at = Instant::ZERO + at;
                         return Ok(Some(Heard { at, frame }));
                     }
                 }
+                // A frame of CAN FD.
+                Err(error) if error.kind() == ErrorKind::InvalidData => {}
                 Err(error) if error.kind() == ErrorKind::Interrupted => {}
                 Err(error)
                     if matches!(error.kind(), ErrorKind::WouldBlock | ErrorKind::TimedOut) =>
@@ -111,6 +117,19 @@ impl Link for Interface {
             "the system sets the bit rate of {name}; to listen at {kbit} kbit/s write `sudo ip link set \
              {name} type can bitrate {kbit}000 listen-only on`"
         )))
+    }
+}
+
+/// The frame, unless it is an error message of the controller.
+fn taken(frame: &CanFrame) -> Option<Frame> {
+    let id = match frame.id() {
+        socketcan::Id::Standard(id) => CanId::standard(id.as_raw()),
+        socketcan::Id::Extended(id) => CanId::extended(id.as_raw()),
+    };
+    match frame {
+        CanFrame::Data(frame) => Frame::new(id, frame.data()),
+        CanFrame::Remote(frame) => Frame::remote(id, u8::try_from(frame.dlc()).ok()?),
+        CanFrame::Error(_) => None,
     }
 }
 

@@ -3,6 +3,7 @@
 use od_sim::logs::candump::parse_frame;
 use od_wire::Frame;
 
+use super::stamps::Stamp;
 use super::stream::{Protocol, Said, shown};
 
 /// State of the conversation with the daemon.
@@ -46,14 +47,15 @@ impl Socketcand {
             }
             (kind @ ("frame" | "rtr"), _) => {
                 let id = words.next().unwrap_or_default();
-                // The time of day follows.
-                let data: String = words.skip(1).collect();
+                let stamp = words.next().and_then(time_of_day);
+                let data: String = words.collect();
                 let data = match kind {
                     "rtr" => format!("R{data}"),
                     _ => data,
                 };
                 let frame = parse_frame(&format!("{id}#{data}"));
-                frame.map(Said::Frame).map_err(|_| unexpected(text))
+                let said = frame.map(|frame| Said::Frame(frame, stamp));
+                said.map_err(|_| unexpected(text))
             }
             // With a number it is an error frame of the bus.
             ("error", _) => match words.next() {
@@ -69,6 +71,17 @@ impl Socketcand {
             _ => Err(unexpected(text)),
         }
     }
+}
+
+/// Reads the time of day of a frame, such as `1700000000.123456`.
+fn time_of_day(text: &str) -> Option<Stamp> {
+    let (seconds, micros) = text.split_once('.')?;
+    let seconds: u64 = seconds.parse().ok()?;
+    let micros: u64 = format!("{micros:0<6.6}").parse().ok()?;
+    Some(Stamp {
+        micros: seconds.checked_mul(1_000_000)?.checked_add(micros)?,
+        period: 0,
+    })
 }
 
 fn unexpected(text: &str) -> String {

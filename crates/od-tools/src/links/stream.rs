@@ -6,6 +6,7 @@ use std::time;
 
 use od_wire::{Duration, Frame, Instant};
 
+use super::stamps::{Stamp, Stamps};
 use crate::error::Error;
 use crate::link::{Heard, Link};
 
@@ -25,8 +26,8 @@ pub(super) trait Port {
 
 /// A message of the server.
 pub(super) enum Said {
-    /// A frame of the bus.
-    Frame(Frame),
+    /// A frame of the bus, and when the server received it if it says so.
+    Frame(Frame, Option<Stamp>),
     /// The server expects these bytes.
     Reply(Vec<u8>),
     /// The bus is open.
@@ -70,6 +71,7 @@ pub(super) struct Stream<P: Port, S: Protocol> {
     rest: Vec<u8>,
     /// Frames that arrived while the bus was being opened.
     early: VecDeque<Heard>,
+    stamps: Stamps,
     /// Origin of the link's time.
     start: time::Instant,
 }
@@ -82,6 +84,7 @@ impl<P: Port, S: Protocol> Stream<P, S> {
             name,
             rest: Vec::new(),
             early: VecDeque::new(),
+            stamps: Stamps::default(),
             start: time::Instant::now(),
         };
         stream.begin(None)?;
@@ -97,9 +100,9 @@ impl<P: Port, S: Protocol> Stream<P, S> {
         loop {
             match self.hear(until)? {
                 Some(Said::Open) => return Ok(()),
-                Some(Said::Frame(frame)) => {
-                    let at = self.now();
-                    self.early.push_back(Heard { at, frame });
+                Some(Said::Frame(frame, stamp)) => {
+                    let heard = self.heard(frame, stamp);
+                    self.early.push_back(heard);
                 }
                 Some(_) => {}
                 None if is_open_after => return Ok(()),
@@ -142,6 +145,13 @@ impl<P: Port, S: Protocol> Stream<P, S> {
         }
     }
 
+    /// A frame that has just arrived.
+    fn heard(&mut self, frame: Frame, stamp: Option<Stamp>) -> Heard {
+        let now = self.now();
+        let at = stamp.map_or(now, |stamp| self.stamps.place(now, stamp));
+        Heard { at, frame }
+    }
+
     fn write(&mut self, bytes: &[u8]) -> Result<(), Error> {
         self.port.write(bytes).map_err(|error| match error.kind() {
             ErrorKind::WouldBlock | ErrorKind::TimedOut => {
@@ -173,10 +183,7 @@ impl<P: Port, S: Protocol> Link for Stream<P, S> {
         }
         loop {
             match self.hear(until)? {
-                Some(Said::Frame(frame)) => {
-                    let at = self.now();
-                    return Ok(Some(Heard { at, frame }));
-                }
+                Some(Said::Frame(frame, stamp)) => return Ok(Some(self.heard(frame, stamp))),
                 Some(_) => {}
                 None => return Ok(None),
             }

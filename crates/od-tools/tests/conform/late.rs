@@ -61,6 +61,7 @@ fn heartbeats_between_request_and_response_fail_no_case() {
         let mut rig = RealBus {
             link: Box::new(Late { link, heard }),
             power: None,
+            pulse: None,
         };
         let mut session = Session::new(&mut rig, &eds, NodeId::ONE, Leave::default());
         for case in built_in() {
@@ -83,6 +84,7 @@ fn a_case_about_heartbeats_receives_them() {
     let mut rig = RealBus {
         link: Box::new(OnBench(bus)),
         power: None,
+        pulse: None,
     };
     let mut session = Session::new(&mut rig, &eds, NodeId::ONE, Leave::default());
     for (first, is_heard) in [("", false), ("expect 701#7F\n", true)] {

@@ -1,5 +1,6 @@
 //! A node that works is never reported as lost, and a failure in one case does not affect the next.
 
+use std::cell::Cell;
 use std::collections::VecDeque;
 
 use od_sim::bus::Bus;
@@ -128,6 +129,8 @@ struct Busy {
     random: u64,
     /// Longest delay in microseconds.
     longest: u64,
+    /// Longest delay since the last look, as a thread beside the test would measure it.
+    late: Cell<u64>,
     /// What is received instead of a frame of the node; `None` if the frame is lost.
     spoiled: fn(Frame) -> Option<Frame>,
 }
@@ -163,7 +166,9 @@ impl Link for Busy {
             .wrapping_mul(6_364_136_223_846_793_005)
             .wrapping_add(1);
         if self.random >> 62 == 0 {
-            let end = self.now().plus_micros((self.random >> 33) % self.longest);
+            let late = (self.random >> 33) % self.longest;
+            self.late.set(self.late.get().max(late));
+            let end = self.now().plus_micros(late);
             while let Some(heard) = self.bus.receive(end)? {
                 let frame = (self.spoiled)(heard.frame);
                 self.waiting
@@ -178,6 +183,10 @@ impl Rig for Busy {
     fn slack(&self) -> u64 {
         10_000
     }
+
+    fn host_late(&self) -> u64 {
+        self.late.take()
+    }
 }
 
 #[test]
@@ -190,6 +199,7 @@ fn a_busy_computer_reports_no_node_as_wrong() {
             waiting: VecDeque::new(),
             random: seed,
             longest: 150_000,
+            late: Cell::default(),
             spoiled: SPOTLESS,
         };
         let leave = Leave {
@@ -241,6 +251,7 @@ fn a_busy_computer_knows_what_a_node_accepts() {
                 waiting: VecDeque::new(),
                 random,
                 longest: 15_000,
+                late: Cell::default(),
                 spoiled,
             };
             let mut session = Session::new(&mut rig, &eds, NodeId::ONE, Leave::default());
@@ -265,6 +276,7 @@ fn a_busy_computer_detects_missing_frames() {
         waiting: VecDeque::new(),
         random: 5,
         longest: 150_000,
+        late: Cell::default(),
         spoiled: |frame| {
             let is_boot = frame.id().as_standard() == Some(0x701) && frame.data() == [0];
             (!is_boot).then_some(frame)
@@ -283,5 +295,68 @@ fn a_busy_computer_detects_missing_frames() {
         let case = built_in().iter().find(|case| case.id == id);
         let record = session.run(case.expect("a case"));
         assert!(record.verdict.is_fail(), "{id}: {:?}", record.verdict);
+    }
+}
+
+/// A node whose heartbeats are lost, by their number; the test itself is never late.
+struct Starved {
+    bus: OnBench<Bus>,
+    beats: u32,
+    is_lost: fn(u32) -> bool,
+}
+
+impl Link for Starved {
+    fn now(&self) -> Instant {
+        self.bus.now()
+    }
+
+    fn send(&mut self, frame: &Frame) -> Result<(), Error> {
+        self.bus.send(frame)
+    }
+
+    fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Error> {
+        loop {
+            let heard = self.bus.receive(until)?;
+            let is_beat = |heard: Heard| {
+                heard.frame.id().as_standard() == Some(0x701) && heard.frame.data() != [0]
+            };
+            self.beats += u32::from(heard.is_some_and(is_beat));
+            if !heard.is_some_and(is_beat) || !(self.is_lost)(self.beats) {
+                return Ok(heard);
+            }
+        }
+    }
+}
+
+impl Rig for Starved {
+    fn slack(&self) -> u64 {
+        10_000
+    }
+}
+
+/// A slave on the same busy computer is late when the test is not.
+#[test]
+fn a_failure_that_depends_on_time_must_be_seen_twice() {
+    let kind = od_devices::find("gxmm").expect("a device");
+    let eds = Eds::read(&od_devices::text::eds(kind));
+    let case = built_in().iter().find(|case| case.id == "heartbeat-period");
+    let case = case.expect("a case");
+    for (is_lost, expected) in [
+        ((|_| false) as fn(u32) -> bool, "pass"),
+        (|beat| beat == 5, "inconclusive: it failed once"),
+        (|beat| beat % 5 == 0, "fail"),
+    ] {
+        let mut rig = Starved {
+            bus: OnBench(bus("gxmm")),
+            beats: 0,
+            is_lost,
+        };
+        let mut session = Session::new(&mut rig, &eds, NodeId::ONE, Leave::default());
+        let verdict = session.run(case).verdict;
+        let is = match &verdict {
+            Verdict::Skipped(why) => why,
+            other => other.word(),
+        };
+        assert!(is.starts_with(expected), "{expected}: {verdict:?}");
     }
 }

@@ -202,6 +202,7 @@ fn a_power_command_that_fails_is_named() {
     let mut rig = RealBus {
         link: Box::new(OnBench(bus("gxmm"))),
         power: Some("exit 3; echo".into()),
+        pulse: None,
     };
     let mut session = Session::new(&mut rig, &eds, NodeId::ONE, Leave::ALL);
     let case = built_in().iter().find(|case| case.id == "nmt-power-on");

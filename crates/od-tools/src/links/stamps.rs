@@ -1,0 +1,127 @@
+//! Time stamps of an adapter or a server, on the clock of the link.
+
+use od_wire::Instant;
+
+/// A difference to the time of arrival, in microseconds, that no transport causes: the other clock was set.
+const STEP: i64 = 5_000_000;
+/// Greatest difference of the rates of two clocks, in parts per million.
+const DRIFT: i64 = 200;
+
+/// Time at which an adapter or a server received a frame, by its own clock.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) struct Stamp {
+    /// Microseconds.
+    pub(super) micros: u64,
+    /// The clock begins again at 0 after so many microseconds; 0 if it does not.
+    pub(super) period: u64,
+}
+
+/// Translates the stamps of one clock.
+///
+/// A frame can only arrive late: the smallest difference between arrival and stamp so far is that of the two clocks.
+#[derive(Default)]
+pub(super) struct Stamps {
+    /// Difference of the clocks in microseconds, and the last arrival.
+    known: Option<(i64, i64)>,
+}
+
+impl Stamps {
+    /// When the frame was on the bus, by the clock of the link. It arrived at `now`.
+    pub(super) fn place(&mut self, now: Instant, stamp: Stamp) -> Instant {
+        let arrival = signed(now.as_micros());
+        let (micros, period) = (signed(stamp.micros), signed(stamp.period));
+        let Some((offset, last)) = self.known else {
+            self.known = Some((arrival - micros, arrival));
+            return now;
+        };
+        let turns = match period {
+            0 => 0,
+            period => (arrival - offset - micros + period / 2).div_euclid(period),
+        };
+        let micros = micros + turns * period;
+        let drift = (arrival - last) * DRIFT / 1_000_000;
+        let difference = arrival - micros;
+        let offset = if difference - offset > STEP {
+            difference
+        } else {
+            difference.min(offset + drift)
+        };
+        // The turn is counted in the stamp, not in the difference.
+        self.known = Some((offset, arrival));
+        Instant::from_micros(u64::try_from(micros + offset).unwrap_or(0))
+    }
+}
+
+fn signed(micros: u64) -> i64 {
+    i64::try_from(micros).unwrap_or(i64::MAX / 4)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Stamp, Stamps};
+    use od_wire::Instant;
+
+    /// Places stamps in milliseconds that arrive at these milliseconds.
+    fn placed(period: u64, frames: &[(u64, u64)]) -> Vec<u64> {
+        let mut stamps = Stamps::default();
+        let place = |(stamp, now): &(u64, u64)| {
+            let stamp = Stamp {
+                micros: stamp * 1000,
+                period: period * 1000,
+            };
+            let at = stamps.place(Instant::from_micros(now * 1000), stamp);
+            at.as_micros() / 1000
+        };
+        frames.iter().map(place).collect()
+    }
+
+    #[test]
+    fn a_late_arrival_does_not_move_a_frame() {
+        let frames = [(5000, 10), (5100, 110), (5200, 290), (5300, 310)];
+        assert_eq!(placed(0, &frames), [10, 110, 210, 310]);
+        // The first one was late itself.
+        let frames = [(5000, 90), (5100, 110), (5200, 290), (5300, 310)];
+        assert_eq!(placed(0, &frames), [90, 110, 210, 310]);
+    }
+
+    #[test]
+    fn the_clock_of_an_adapter_begins_again() {
+        let frames = [
+            (59_900, 10),
+            (0, 110),
+            (100, 210),
+            (59_950, 60_060),
+            (50, 60_160),
+        ];
+        assert_eq!(placed(60_000, &frames), [10, 110, 210, 60_060, 60_160]);
+    }
+
+    #[test]
+    fn a_clock_that_is_set_is_followed() {
+        let frames = [
+            (50_000, 10),
+            (40_000, 110),
+            (40_100, 210),
+            (90_000, 310),
+            (90_100, 410),
+        ];
+        assert_eq!(placed(0, &frames), [10, 110, 210, 310, 410]);
+    }
+
+    #[test]
+    fn a_clock_may_be_slower() {
+        // 100 ppm slower for an hour.
+        let frames: Vec<_> = (0..36_000).map(|n| (n * 100 - n / 100, n * 100)).collect();
+        let at = placed(0, &frames);
+        assert!(at.iter().zip(&frames).all(|(at, (_, now))| now - at <= 1));
+    }
+
+    #[test]
+    fn any_stamp_is_placed() {
+        let mut stamps = Stamps::default();
+        for (micros, period) in [(u64::MAX, 0), (0, u64::MAX), (1, 1), (u64::MAX, u64::MAX)] {
+            let now = Instant::from_micros(7);
+            assert!(stamps.place(now, Stamp { micros, period }) <= now);
+        }
+    }
+}
