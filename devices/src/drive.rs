@@ -86,7 +86,7 @@ const REGISTER: u8 = 0x21;
 
 /// Length of a step of the ramps in microseconds.
 const STEP: u64 = 1000;
-/// Greatest number of steps that a late call makes up for; more are skipped.
+/// Maximum number of steps of one call; a call that is later skips the rest.
 const MOST_STEPS: u32 = 100;
 
 /// The behaviour: two axes, and the time of their next step.

@@ -195,7 +195,7 @@ impl Bench {
         Ok(self.device_at(first.ok_or_else(|| Fault::value("no device is named"))?))
     }
 
-    /// Lets `seconds` pass. Programs that listen to the bus run meanwhile.
+    /// Lets `seconds` pass. Programs that listen to the bus run during this time.
     ///
     /// Raises `ValueError` if `seconds` is negative.
     fn run(&self, py: Python<'_>, seconds: f64) -> PyResult<()> {

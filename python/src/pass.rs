@@ -145,7 +145,7 @@ impl<'w> Pass<'w> {
         }
     }
 
-    /// Returns whether this thread may go on if its wait is over: no thread runs, and none comes before it.
+    /// Returns whether this thread may continue if its wait is over: no thread runs, and none comes before it.
     pub(crate) fn is_next(&mut self, state: &mut State, wait: Wait, began: Instant) -> bool {
         let id = thread::current().id();
         let place = state.parties.iter().position(|party| party.is(id));

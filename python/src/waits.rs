@@ -60,7 +60,7 @@ pub(crate) fn patch(on: bool) {
 /// clock as on the bus. Python itself does the waiting, in pauses of the lengths that an iteration yields: a program that
 /// ends would stop a thread inside this module, and Python handles its signals.
 ///
-/// It ends when Python drops it, which is no code of Python: Ctrl-C in a finalizer in Python would be lost.
+/// It ends when Python drops it. This runs no Python code, in which Ctrl-C would be lost.
 #[pyclass(frozen, module = "odkit._odkit")]
 pub(crate) struct Waiting {
     waits: Mutex<Vec<Waited>>,

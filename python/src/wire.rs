@@ -152,7 +152,7 @@ impl Wire {
             let Some(at) = at else { continue };
             let party = &mut state.parties[at];
             if party.wait.is_some() || party.is(id) {
-                // The thread that it waits for has ended, so it goes on.
+                // The thread that it waits for has ended, so it continues.
                 runs |= party.target.is_some() && !is_awaited;
                 continue;
             }

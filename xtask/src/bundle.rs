@@ -147,7 +147,7 @@ fn compile(repo: &Repo, console: &Console, module: &Module) -> Result<PathBuf> {
     Ok(folder.join(format!("{}.wasm", module.package.1)))
 }
 
-/// Step 2 with the tool that `tool` returns, unless its result for this module is there; the folder of the result.
+/// Step 2 with the tool that `tool` returns, unless its result for this module exists; returns the folder of the result.
 fn bind(
     repo: &Repo,
     console: &Console,

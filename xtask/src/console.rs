@@ -31,7 +31,7 @@ pub(crate) struct Console {
     limit: Duration,
     /// Whether its programs run with low priority.
     yields: bool,
-    /// Where another thread says that programs have to stop.
+    /// Set by another thread: running programs have to stop.
     stop: Arc<AtomicBool>,
     last: RefCell<String>,
     /// Processor time of the programs that ended.

@@ -7,7 +7,7 @@ use crate::live::Live;
 
 /// Join links to one bus, such as a CAN interface and a page in a browser
 ///
-/// A frame that comes over one link goes out over all others. Press Ctrl-C to stop.
+/// A frame from one link is sent over all others. Press Ctrl-C to stop.
 ///
 /// Links: slcan:HOST:PORT (TCP), slcan:pty (a pseudo-terminal), slcan:/dev/ttyUSB0[@BAUD] (a host on a
 /// serial line), socketcand:HOST:PORT, socketcan:can0 (Linux), ws:HOST:PORT (the page of odkit in a browser;

@@ -228,7 +228,7 @@ fn tested(args: &Args, cases: &[Case]) -> Result<Report, Failure> {
     Ok(report)
 }
 
-/// Where, when, by whom and with what the test is run.
+/// The circumstances of the test: place, time, person, program.
 fn about(args: &Args, eds: &str) -> About {
     let today = today();
     let hash = Sha256::digest(eds.as_bytes());

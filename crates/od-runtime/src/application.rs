@@ -271,11 +271,11 @@ pub trait Stream {
 pub struct Pin {
     /// Name in scripts, as in `in1`.
     pub name: &'static str,
-    /// Who sets it, and when.
+    /// The side that sets it.
     pub kind: PinKind,
 }
 
-/// Who sets a [`Pin`], and when.
+/// The side that sets a [`Pin`], and its value without power.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum PinKind {
     /// The world outside sets it.

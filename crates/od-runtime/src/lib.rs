@@ -34,7 +34,7 @@
 //! let mut node = Node::new(device, NodeId::ONE, NoApplication, NoStorage);
 //! let mut bus = Vec::new(); // in place of the CAN controller
 //!
-//! // Power comes: the boot-up message goes out.
+//! // Power on: the node sends its boot-up message.
 //! let mut now = Instant::ZERO;
 //! node.power_on(now);
 //! while let Some(frame) = node.poll_transmit(now) {

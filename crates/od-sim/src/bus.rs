@@ -51,7 +51,7 @@ pub struct Bus {
     of_master: VecDeque<Frame>,
 }
 
-/// How often in a row a device may have a deadline that is already due. After that the bus advances
+/// Maximum number of times in a row that a device has a deadline that is already due. After that the bus advances
 /// by a microsecond, so that no device can stop time.
 const STUCK: u32 = 1000;
 

@@ -5,9 +5,9 @@
 pub(crate) struct Chance(u64);
 
 impl Chance {
-    /// The sequence that goes on from a state.
+    /// The sequence that continues from a state.
     pub(crate) fn new(state: u64) -> Self {
-        // From 0 there is no way on.
+        // A state of 0 would stay 0.
         Self(state.max(1))
     }
 

@@ -38,7 +38,7 @@ pub enum Error {
 }
 
 impl Error {
-    /// Splits the abort codes from the other errors, for a program that goes on after an abort.
+    /// Splits the abort codes from the other errors, for a program that continues after an abort.
     ///
     /// # Errors
     /// All but [`Error::Abort`].

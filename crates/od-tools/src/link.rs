@@ -26,7 +26,7 @@ pub trait Link {
     fn send(&mut self, frame: &Frame) -> Result<(), Error>;
 
     /// Waits until `until` for the next frame of another sender; with a time in the past it returns a frame
-    /// that is there already, and does not wait. Frames sent over this link are not received.
+    /// that has already arrived, and does not wait. Frames sent over this link are not received.
     ///
     /// # Errors
     /// [`Error::Link`] if the link is lost.

@@ -9,7 +9,7 @@ use od_wire::{Duration, Frame, Instant, NodeId, lss};
 use crate::error::Error;
 use crate::link::Link;
 
-/// How long to wait for a response; storing takes the longest.
+/// Maximum time to wait for a response; storing takes the longest.
 const PATIENCE: Duration = Duration::from_secs(5);
 /// Longest time until a slave with a new node ID boots.
 const BOOT: Duration = Duration::from_secs(3);

@@ -27,7 +27,7 @@ pub struct Master<L> {
     link: L,
     node: NodeId,
     client: Client,
-    /// How long to wait for a response.
+    /// Maximum time to wait for a response.
     timeout: Duration,
     /// Data types of the node's objects, as far as they are known.
     types: BTreeMap<Address, DataType>,

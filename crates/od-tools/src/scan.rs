@@ -28,7 +28,7 @@ const SERIAL: Address = Address::new(0x1018, 4);
 pub struct Options {
     /// Time to listen before the first request.
     pub listen: Duration,
-    /// How long to wait for a response.
+    /// Maximum time to wait for a response.
     pub answer: Duration,
 }
 

@@ -31,7 +31,7 @@ pub(super) struct Line {
     out: Option<[u8; 8]>,
     deadline: Option<Instant>,
     outcome: Option<Result<(), Error>>,
-    /// A request waits to be sent. A frame that comes before is no response to it.
+    /// A request waits to be sent. A frame that comes before is not a response to it.
     is_open: bool,
 }
 

@@ -19,7 +19,7 @@ pub fn saved(node: &Node) -> Result<Vec<Write>, Refused> {
     let mut pdos = BTreeSet::new();
     for (address, entry) in node.description.entries() {
         let Address { index, sub } = address;
-        // Commands are no configuration.
+        // Commands are not part of a configuration.
         let is_command = matches!(index, 0x1003 | 0x1010 | 0x1011 | 0x1F50..=0x1F5F);
         if entry.parameter.is_none() || !entry.access.writable() || is_command {
             continue;

@@ -13,7 +13,7 @@ use crate::rules::edits::{
 };
 use crate::span::Spanned;
 
-/// The finding that `target` is missing in `description`; `None` if it is there.
+/// The finding that `target` is missing in `description`; `None` if it exists.
 pub fn missing(description: &Description, target: &Spanned<Target>) -> Option<Finding> {
     let Some(object) = description.objects.get(&target.index) else {
         return Some(match near_index(description, target.value) {

@@ -33,7 +33,7 @@ pub(crate) struct Client {
     pub(crate) server: Server,
     id: i32,
     version: i64,
-    /// Messages that are no answers.
+    /// Messages that are not responses.
     pub(crate) others: Vec<Value>,
 }
 

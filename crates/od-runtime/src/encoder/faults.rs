@@ -37,7 +37,7 @@ pub(super) struct Faults {
     watchdog: bool,
     /// The storage holds damaged values: [`Fault::Memory`] until a save replaces them.
     damaged: bool,
-    /// How often each fault appeared; kept without power.
+    /// Number of occurrences of each fault; kept without power.
     counts: [u32; Fault::NAMES.len()],
     /// Rows that the check at the last start found.
     found: u32,

@@ -86,7 +86,7 @@ pub struct Options {
     pub keep_offset: u32,
     /// Bits that make 1800h:05 longer than 6200h (MANUALS.md C-GX-26).
     pub delay_timer: u32,
-    /// How much longer it is, in milliseconds.
+    /// Milliseconds that `delay_timer` adds.
     pub delay_ms: u16,
     /// Bits that make speed and acceleration independent of the code sequence (6000h, bit 0;
     /// MANUALS.md C-EAM-33).

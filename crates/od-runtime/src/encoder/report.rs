@@ -108,7 +108,7 @@ pub enum Appears {
     /// While the device runs: a fault that appeared since the start. A fault that was present
     /// before is detected, too, unless another report of the same fault detects it at the start.
     Runtime,
-    /// Never by itself: only a test injects it.
+    /// Does not occur in operation: only a test injects it.
     Injected,
 }
 
@@ -143,7 +143,7 @@ pub struct Report {
     /// Event that ends the report.
     pub until: Until,
     /// With [`Appears::Startup`]: time without power, in milliseconds, that the check at a start
-    /// needs (a battery is tested meanwhile; MANUALS.md C-EAM-37). 0: every start checks.
+    /// needs (a battery is tested during this time; MANUALS.md C-EAM-37). 0: every start checks.
     pub off_ms: u32,
     /// Code that injects the fault ([`Role::InjectedError`](super::Role::InjectedError)).
     pub injection: Option<u32>,

@@ -15,7 +15,7 @@ use crate::{emcy, sync};
 
 impl<D: Device, A: Application, S: Storage> Node<D, A, S> {
     /// Sends a TIME message with what [`Application::time`](crate::Application::time) returns, as
-    /// [`Signals::send_time`](crate::Signals::send_time) does. Returns whether it goes out: bit 30 of
+    /// [`Signals::send_time`](crate::Signals::send_time) does. Returns whether the node sends it: bit 30 of
     /// 1012h is set, and the NMT state is Pre-operational or Operational.
     pub fn send_time(&mut self, now: Instant) -> bool {
         let sent = self.call(now, |node, objects| {

@@ -128,7 +128,7 @@ impl<D: Services> Server<'_, D> {
     pub(super) fn close(&mut self, objects: &mut Objects<'_, D>, end: StreamEnd) {
         if D::STREAMS && core::mem::take(&mut self.state.is_streaming) {
             let address = self.state.address;
-            // If the application has no such stream any more, nothing has to be told.
+            // An application that no longer has this stream needs no notification.
             let _ = objects.stream(address, |stream, cx| {
                 stream.end(cx, address, end);
                 Ok(())

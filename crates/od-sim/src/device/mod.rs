@@ -70,7 +70,7 @@ pub(crate) type Node = od_runtime::Node<Loaded, Behaviour, Eeprom>;
 /// A CANopen device that lives in virtual time.
 ///
 /// Drain [`poll_transmit`](Self::poll_transmit) after every call that takes a moment;
-/// [`Bus`](crate::bus::Bus) does it for you. A copy goes on as this device would, without its
+/// [`Bus`](crate::bus::Bus) does it for you. A copy continues as this device would, without its
 /// [twin](Self::with_twin), and with an EEPROM in memory.
 #[derive(Clone)]
 pub struct VirtualDevice {
@@ -92,7 +92,7 @@ pub struct VirtualDevice {
     pub(super) has_leds: bool,
     /// Receives the calls of this device, too.
     pub(super) twin: Twins,
-    /// Who is on the bus for it.
+    /// The node that is on the bus for it.
     pub(super) role: Role,
 }
 
@@ -350,7 +350,7 @@ impl VirtualDevice {
         self.call(now, Call::Boot, |node| node.boot_at_once(now));
     }
 
-    /// Power goes. Time goes on, and the shaft with it.
+    /// Switches the power off. The shaft keeps turning.
     pub fn power_off(&mut self, now: Instant) {
         self.forward(now, Call::PowerOff);
         if let Some(encoder) = self.node.application.encoder_mut() {

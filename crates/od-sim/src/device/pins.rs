@@ -9,7 +9,7 @@ use od_runtime::{Application, Instant, Pin, PinKind};
 
 use crate::device::VirtualDevice;
 
-/// What an encoder has: the angle of its shaft from the sensor's zero point, in 2⁻³² revolutions.
+/// The pin of an encoder: the angle of its shaft from the sensor's zero point, in 2⁻³² revolutions.
 const SHAFT: &[Pin] = &[Pin::input("shaft")];
 
 impl VirtualDevice {

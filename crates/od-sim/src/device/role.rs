@@ -1,4 +1,4 @@
-//! Who is on the bus for a device: its simulated node, the same node as it was recorded, or a node of a real bus.
+//! The node that is on the bus for a device: simulated, recorded, or a node of a real bus.
 //!
 //! All three are one type, because scripts, pages and masters treat them alike: only the calls of the bus differ.
 
@@ -19,7 +19,7 @@ use crate::recorded::play::Playing;
 #[cfg(feature = "real")]
 use crate::words::fold::Folder;
 
-/// Who is on the bus for a device.
+/// The node that is on the bus for a device.
 #[derive(Clone, Default)]
 pub(crate) enum Role {
     /// Its node.

@@ -17,7 +17,7 @@ const OBJECT: &[u8] = b"LOBJ";
 /// Length of the head that all objects have, and of the least head of an event.
 const HEAD: usize = 16;
 const EVENT_HEAD: usize = 32;
-/// Objects are aligned by up to so many bytes.
+/// Maximum number of bytes between two objects, for alignment.
 const PADDING: usize = 8;
 /// Largest container, in bytes; programs write 128 KiB.
 const CONTAINER: usize = 1 << 26;
@@ -53,7 +53,7 @@ fn records(bytes: &[u8]) -> Result<Capture, String> {
     let mut capture = Capture::default();
     let start = word(bytes, 4).unwrap_or(0) as usize;
     let mut objects = Objects::of(bytes, start);
-    // What was unpacked, and of it the begin of an object that goes on in the next container.
+    // Number of unpacked bytes, and the beginning of an object that continues in the next container.
     let (mut unpacked, mut rest) = (0, Vec::new());
     while let Some(object) = objects.next() {
         if object.kind != kind::CONTAINER {

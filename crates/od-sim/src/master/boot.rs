@@ -97,7 +97,7 @@ impl Boot {
         }
         self.deadline = None;
         match self.stage {
-            // The upload of the device type shows whether the node is there.
+            // The upload of the device type shows whether the node exists.
             Stage::BootUp => {
                 self.is_silent = true;
                 self.read_device_type(client, now);

@@ -41,7 +41,7 @@ impl VirtualDevice {
 
     /// Takes the frames of the node, and returns the frame that is due now.
     pub(crate) fn poll_recorded(&mut self, now: Instant) -> Option<Frame> {
-        // The recording looks at the device, which has none meanwhile.
+        // The recording reads the device, so it cannot be a part of it during this call.
         let Role::Recorded(mut playing) = mem::take(&mut self.role) else {
             return None;
         };

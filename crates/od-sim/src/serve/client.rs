@@ -96,7 +96,7 @@ impl Client {
         self.writable |= writable;
     }
 
-    /// Reads into `buffer`. `None`: nothing is there now. 0 bytes: the client has ended.
+    /// Reads into `buffer`. `None`: no bytes are waiting. 0 bytes: the client has ended.
     pub(super) fn read(&mut self, buffer: &mut [u8]) -> io::Result<Option<usize>> {
         match self.port.read(buffer) {
             Err(error) if error.kind() == ErrorKind::WouldBlock => {

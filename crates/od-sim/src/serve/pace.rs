@@ -73,7 +73,7 @@ mod tests {
         let millis = |millis: u64| Instant::from_micros(millis * 1000);
         let day = pace.stamp(millis(100));
         assert_eq!(pace.at(after(100)), millis(100));
-        // 50 ms are no delay, and a bus with nothing due is never late.
+        // A bus counts as late only after 50 ms, and never while nothing is due.
         assert_eq!(pace.shift(millis(100), after(150)), None);
         assert_eq!(pace.shift(millis(900), after(700)), None);
         assert_eq!(pace.at(after(150)), millis(150));

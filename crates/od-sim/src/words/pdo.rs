@@ -21,7 +21,7 @@ pub(super) fn explain(devices: &[VirtualDevice], frame: &Frame) -> Option<Words>
 }
 
 /// Returns the objects in the data of a PDO by its current mapping, each with its first bit and its number
-/// of bits. `None` for a frame that is no PDO of these devices.
+/// of bits. `None` for a frame that is not a PDO of these devices.
 pub fn layout(devices: &[VirtualDevice], frame: &Frame) -> Option<Vec<(Address, u32, u32)>> {
     let (device, _, _, index) = find(devices, frame)?;
     let mut first = 0;

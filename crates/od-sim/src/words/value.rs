@@ -1,4 +1,4 @@
-//! Values of communication objects in words: mapping entries and COB-IDs are no numbers for a reader.
+//! Values of communication objects in words: mapping entries and COB-IDs, whose bits have meanings of their own.
 
 use std::format;
 use std::prelude::v1::*;

@@ -16,7 +16,7 @@ use crate::error::Error;
 
 /// A node that did not respond at all in this number of consecutive cases is lost.
 const SILENCES: u8 = 3;
-/// If the test itself is later than this, in microseconds, one run is no evidence against the node.
+/// If the test itself is later than this, in microseconds, one run does not show that the node is wrong.
 const LATE: u64 = 5_000;
 /// A frame counts as missing after this many times the lateness of the test itself.
 const PATIENCE: u64 = 50;
@@ -360,7 +360,7 @@ fn revive(dut: &mut Dut<'_>) -> Checked<bool> {
         });
     }
     for reset in resets {
-        // A missing boot-up message is no evidence: the node may respond all the same.
+        // A missing boot-up message proves nothing: the node may still respond.
         if let Err(End::Lost(fault)) = reset(dut) {
             return Err(End::Lost(fault));
         }

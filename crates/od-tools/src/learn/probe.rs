@@ -38,7 +38,7 @@ pub(super) enum Room {
 const DEVICE_TYPE: Address = Address::new(0x1000, 0);
 /// A sub-index that no object has.
 const BEYOND: u8 = 0xFE;
-/// How long to wait for the response of a selected LSS slave.
+/// Maximum time to wait for the response of a selected LSS slave.
 const SELECTED: Duration = Duration::from_millis(200);
 
 /// A length that no string of a device has.

@@ -7,7 +7,7 @@ use od_wire::{Duration, Frame};
 use super::stamps::Stamp;
 use super::stream::{Protocol, Said, shown};
 
-/// How long to wait for the response of an adapter; some never respond.
+/// Maximum time to wait for the response of an adapter; some never respond.
 const PATIENCE: Duration = Duration::from_millis(300);
 
 /// State of the conversation with an adapter.

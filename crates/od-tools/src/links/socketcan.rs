@@ -10,7 +10,7 @@ use socketcan::{CanFrame, CanSocket, EmbeddedFrame, Socket, SocketOptions};
 use crate::error::Error;
 use crate::link::{Heard, Link};
 
-/// How long to wait while the send queue of the interface is full.
+/// Maximum time to wait while the send queue of the interface is full.
 const FULL: Duration = Duration::from_millis(1000);
 
 // Numbers of the system, the same on every Linux.

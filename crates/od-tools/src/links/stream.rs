@@ -10,7 +10,7 @@ use super::stamps::{Stamp, Stamps};
 use crate::error::Error;
 use crate::link::{Heard, Link};
 
-/// How long to wait for the first responses of the server.
+/// Maximum time to wait for the first responses of the server.
 const OPENING: Duration = Duration::from_secs(2);
 /// Limit of bytes without the end of a line or command.
 const LONGEST: usize = 256;
@@ -50,7 +50,7 @@ pub(super) trait Protocol {
     /// Adds the bytes that send a frame.
     fn write(&self, frame: &Frame, out: &mut Vec<u8>);
 
-    /// How long to wait until the bus is open, and whether it counts as open after that time.
+    /// Maximum time to wait until the bus is open, and whether it counts as open after that time.
     fn patience(&self) -> (Duration, bool) {
         (OPENING, false)
     }

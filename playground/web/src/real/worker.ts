@@ -14,7 +14,7 @@ export async function handle(engine: Engine, what: RealCommand): Promise<void> {
       leave(engine);
       const own = new Real(engine.virtual, await engine.virtual.modules.whole(), what.to, (report) => engine.report({ op: 'real', what: report }));
       real = own;
-      // Other work continues meanwhile.
+      // Other work continues during this time.
       void own.open().then(async (why) => {
         if (why === null) {
           for (const { source, nodeId } of what.devices) await own.act({ op: 'add', source, nodeId });

@@ -23,7 +23,7 @@ export interface Seen {
   /** Time of the last heartbeat, and the time between the last two; null: not known. */
   heartbeat: number | null;
   period: number | null;
-  /** Number of its last EMCY message, and the error code; 0 is no error. */
+  /** Number of its last EMCY message, and the error code; 0: no error. */
   emcy: { number: number; code: number; at: number } | null;
   /** Value of 1000h, if a client read it. */
   type: number | null;

@@ -161,7 +161,7 @@ class LessonPanel extends View {
     // The reason comes first; the rest can be opened if the window is low.
     const [why, ...more] = lesson.intro.trim().split(/\n\s*\n/);
     const { name } = state.lessonRun.value;
-    // A lesson that resumes has no name until its run is there.
+    // A resumed lesson has no name until its run is restored.
     if (name) reached(name, progress.step, all, this.isShown);
     if (isDone && isLast && !this.upNext) void following(name).then((next) => (this.upNext = next));
     return html`

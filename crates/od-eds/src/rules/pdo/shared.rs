@@ -11,7 +11,7 @@ use crate::rules::values::shared::DECLARED;
 use crate::span::{Span, Spanned};
 use crate::subject::{Entry, Object, shown, start_number, start_value};
 
-/// Returns whether this object is the mapping of an RPDO; `None` if it is no mapping.
+/// Returns whether this object is the mapping of an RPDO; `None` if it is not a mapping.
 pub(crate) const fn maps_rpdo(index: u16) -> Option<bool> {
     match index {
         0x1600..=0x17FF => Some(true),

@@ -33,7 +33,7 @@ fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
 }
 
 /// Returns whether the encoder scales its position by 6002h, as bit 2 of 6000h says. A range of 0
-/// means 2^32 units in an encoder with so many units.
+/// means 2^32 units in an encoder with this number of units.
 fn scales(entry: &Entry<'_>) -> bool {
     let number = |index| {
         let number = start_number(entry.description, Address::new(index, 0));

@@ -128,7 +128,7 @@ fn read(mut reading: impl Read, heard: &SyncSender<io::Result<Vec<u8>>>, waker: 
     }
 }
 
-/// For a serial line a time-out without data is no error.
+/// For a serial line a time-out without data is not an error.
 fn passes(error: &io::Error) -> bool {
     matches!(
         error.kind(),

@@ -106,7 +106,7 @@ pub(super) fn procedure(dut: &mut Dut<'_>) -> Checked {
     )
 }
 
-/// Another entry is refused while sub-index 0 is not 0. The entry that is there changes nothing, so a node may accept it.
+/// Another entry is refused while sub-index 0 is not 0. The present entry changes nothing, so a node may accept it.
 pub(super) fn without_procedure(dut: &mut Dut<'_>) -> Checked {
     let pdo = variable(dut)?;
     let entries = entries(dut, &pdo)?;

@@ -38,7 +38,7 @@ pub(super) struct BuiltIn {
     pub(super) needs: &'static str,
 }
 
-/// What a built-in case does.
+/// The test of a built-in case.
 pub(super) enum Test {
     /// One step in Rust.
     Check(Check),

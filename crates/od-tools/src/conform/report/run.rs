@@ -12,7 +12,7 @@ use crate::conform::record::{Record, Times, Traced, Verdict, percentile};
 pub struct About {
     /// Date and time, UTC.
     pub date: String,
-    /// Who ran the test.
+    /// Name of the person or company that ran the test.
     pub tester: Option<String>,
     /// Name and version of the program.
     pub version: String,
