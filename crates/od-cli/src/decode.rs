@@ -13,7 +13,7 @@ use crate::report::{plural, plural_of};
 
 /// Show logs in words, as CSV or as JSON
 ///
-/// Reads candump, ASC, BLF, TRC (1.0 to 2.1), pcap and pcapng. With --eds values have names and types.
+/// Reads candump, ASC, BLF, TRC (1.0 to 2.1), pcap, pcapng, CSV and text of other programs. With --eds values have names and types.
 ///
 /// Exit code 0: all lines were read; 1: a file is not a log, or lines of it could not be read.
 #[derive(clap::Args)]

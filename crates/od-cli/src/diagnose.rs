@@ -22,7 +22,7 @@ use crate::report::{plural, plural_of};
 
 /// Find the faults in logs or on a bus, and their likely causes
 ///
-/// Reads candump, ASC, BLF, TRC (1.0 to 2.1), pcap and pcapng. Each fault is one incident, with its begin and end, its likely
+/// Reads candump, ASC, BLF, TRC (1.0 to 2.1), pcap, pcapng, CSV and text of other programs. Each fault is one incident, with its begin and end, its likely
 /// causes in order, what to check first, and the frames that show it. With --eds mappings and consumer times are known.
 ///
 /// Exit code 0: the logs were read; with --check 1 if there is an incident.

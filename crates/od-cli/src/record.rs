@@ -35,7 +35,7 @@ pub(crate) struct Args {
 
 /// Send the frames of a log, with their timing
 ///
-/// Reads candump, ASC, BLF, TRC, pcap and pcapng. Frames keep their distance in time.
+/// Reads candump, ASC, BLF, TRC, pcap, pcapng, CSV and text of other programs. Frames keep their distance in time.
 #[derive(clap::Args)]
 pub(crate) struct Replay {
     /// Log to send

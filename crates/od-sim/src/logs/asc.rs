@@ -15,6 +15,19 @@ pub(super) fn is_one(line: &str) -> bool {
         Some("base") => words
             .next()
             .is_some_and(|base| ["hex", "dec"].contains(&base.to_ascii_lowercase().as_str())),
+        Some(time) => time.contains('.') && stamp::seconds(time).is_some() && is_frame(words),
+        None => false,
+    }
+}
+
+/// Returns whether the words after the time are those of a frame, as in a log without its first lines.
+fn is_frame<'t>(words: impl Iterator<Item = &'t str>) -> bool {
+    let words: Vec<String> = words.take(4).map(str::to_ascii_lowercase).collect();
+    let words: Vec<&str> = words.iter().map(String::as_str).collect();
+    match words[..] {
+        ["canfd", channel, "rx" | "tx", _] | [channel, _, "rx" | "tx", "d" | "r"] => {
+            channel.parse::<u8>().is_ok()
+        }
         _ => false,
     }
 }
@@ -95,6 +108,12 @@ fn record(at: Instant, words: &[&str], radix: u32) -> Result<Entry, String> {
 }
 
 fn asc_id(word: &str, radix: u32) -> Result<od_wire::CanId, String> {
+    let digits = word.strip_suffix('x').unwrap_or(word);
+    if !digits.chars().all(|digit| digit.is_digit(radix)) {
+        return Err(format!(
+            "`{word}` is the name of a message; write the log without a database, so that it has CAN-IDs"
+        ));
+    }
     id(word.trim_end_matches('x'), radix, word.ends_with('x'))
 }
 

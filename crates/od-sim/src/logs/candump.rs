@@ -5,6 +5,7 @@
 //! | log (`candump -L`) | `(0.100000) can0 601#4004600000000000` |
 //! | `cansend` | `601#40.04.60.00`, `701#R`, `701#R4`, `1F334455#11` |
 //! | screen (`candump`) | `can0  601   [8]  40 04 60 00 00 00 00 00` |
+//! | bits, last byte first (`candump -i`, `-S`) | `can0  601   [2]  01000000 00000100`, <code>can0  601   [2]  04\`40</code> |
 //! | screen (`candump -tA -x -a`) | `(2026-11-25 15:50:01.123456)  can0  RX - -  601   [2]  40 41   '@A'` |
 //!
 //! Any other text is an [`Error`] with the place and the reason.
@@ -229,8 +230,12 @@ pub(crate) fn parse_id(text: &str) -> Result<CanId, Error> {
     }
 }
 
-/// Hex bytes, with or without dots or blanks between them.
+/// Hex bytes, with or without dots or blanks between them. After eight bytes candump writes a DLC above 8 as `_9` to `_F`.
 fn parse_data(text: &str) -> Result<([u8; 8], usize), Error> {
+    let text = match text.split_once('_') {
+        Some((bytes, "9" | "A" | "B" | "C" | "D" | "E" | "F")) if bytes.len() >= 16 => bytes,
+        _ => text,
+    };
     let mut bytes = [0; 8];
     let mut len = 0;
     let mut high = None;
@@ -291,14 +296,41 @@ fn screen(column: usize, id: &str, rest: &mut Cursor<'_>) -> Result<Frame, Error
         return Ok(request);
     }
     let mut data = [0; 8];
-    for byte in data.iter_mut().take(request.dlc().into()) {
+    let room = &mut data[..request.dlc().into()];
+    if rest.peek().contains('`') {
+        let (column, word) = next_word(rest, DATA)?;
+        let words: Vec<&str> = word.rsplit('`').collect();
+        if words.len() != room.len() {
+            return Err(Error::new(
+                column,
+                format!("`{word}` is not {} bytes", room.len()),
+                DATA,
+            ));
+        }
+        for (byte, word) in room.iter_mut().zip(words) {
+            *byte = screen_byte(column, word)?;
+        }
+        return Ok(Frame::with_dlc(id, data, request.dlc()));
+    }
+    for byte in room {
         let (column, word) = next_word(rest, "write as many bytes as the length gives")?;
-        *byte = match (word.len(), u8::from_str_radix(word, 16)) {
-            (2, Ok(byte)) => byte,
-            _ => return Err(Error::new(column, format!("`{word}` is not a byte"), DATA)),
-        };
+        *byte = screen_byte(column, word)?;
     }
     Ok(Frame::with_dlc(id, data, request.dlc()))
+}
+
+/// A byte of the screen form: two hex digits, or eight bits (`candump -i`).
+fn screen_byte(column: usize, word: &str) -> Result<u8, Error> {
+    let radix = match word.len() {
+        2 => 16,
+        8 => 2,
+        _ => 0,
+    };
+    let digits = word.chars().all(|digit| radix > 0 && digit.is_digit(radix));
+    let byte = u8::from_str_radix(word, radix.max(2))
+        .ok()
+        .filter(|_| digits);
+    byte.ok_or_else(|| Error::new(column, format!("`{word}` is not a byte"), DATA))
 }
 
 fn time_stamp(rest: &mut Cursor<'_>) -> Result<Instant, Error> {

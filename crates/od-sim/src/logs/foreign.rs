@@ -11,11 +11,6 @@ const TEXTS: [(&str, &str, &str); 4] = [
         "BUSMASTER converts it to ASC (format converter, `Log to ASC`)",
     ),
     (
-        "time stamp,id,extended,",
-        "a CSV log of SavvyCAN (GVRET)",
-        "SavvyCAN saves it as a candump log (`Save Log File`)",
-    ),
-    (
         "timestamp,arbitration_id,",
         "a CSV log of python-can",
         "`can_logconvert` of python-can turns it into a candump log (`can_logconvert FILE.csv FILE.log`)",
@@ -25,14 +20,26 @@ const TEXTS: [(&str, &str, &str); 4] = [
         "a trace of CANHacker",
         "SavvyCAN opens it and saves it as a candump log",
     ),
+    (
+        "no.     time  ",
+        "a text of Wireshark, which lacks the bytes of the frames",
+        "save the capture as pcapng (`File`, `Save As`)",
+    ),
 ];
 
 /// First bytes of other logs, name, and the way to a log that odkit reads.
-const BINARIES: [(&[u8], &str, &str); 1] = [(
-    b"MDF     ",
-    "an MDF log (MF4)",
-    "export it as ASC, with the program that wrote it or with `mdf2asc`",
-)];
+const BINARIES: [(&[u8], &str, &str); 2] = [
+    (
+        b"MDF     ",
+        "an MDF log (MF4)",
+        "export it as ASC, with the program that wrote it or with `mdf2asc`",
+    ),
+    (
+        b"SQLite format 3",
+        "a database, such as python-can writes",
+        "`can_logconvert` of python-can turns it into a candump log (`can_logconvert FILE.db FILE.log`)",
+    ),
+];
 
 /// Returns what a file is and how to convert it, if it is a known log that odkit does not read.
 pub(super) fn name(bytes: &[u8]) -> Option<String> {

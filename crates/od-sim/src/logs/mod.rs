@@ -5,6 +5,8 @@
 mod asc;
 mod blf;
 pub mod candump;
+mod columns;
+mod csv;
 mod foreign;
 mod pcap;
 mod pcapng;

@@ -6,8 +6,8 @@ use std::prelude::v1::*;
 use od_wire::Instant;
 
 use super::pcap::Capture;
-use super::record::{Entry, Problem, Reader, Record};
-use super::{asc, blf, candump, foreign, pcap, pcapng, stamp, trc};
+use super::record::{Entry, Problem, Reader, Record, What};
+use super::{asc, blf, candump, columns, csv, foreign, pcap, pcapng, stamp, trc};
 use crate::cursor::Cursor;
 
 /// A log that was read.
@@ -29,7 +29,8 @@ const WALL_CLOCK: u64 = 1_000_000_000_000;
 /// The format of a text must show within this number of lines.
 const HEAD: usize = 200;
 
-/// Reads a log: candump, ASC, BLF, TRC (1.0 to 2.1), pcap or pcapng.
+/// Reads a log: candump, ASC, BLF, TRC (1.0 to 2.1), pcap or pcapng; CSV of SavvyCAN, CL2000, CANedge, Kvaser or IXXAT; what
+/// python-can prints, or Kvaser CanKing.
 ///
 /// # Errors
 /// The reason why it is not a log, or the first line if no line can be read.
@@ -47,7 +48,7 @@ pub fn read(bytes: &[u8]) -> Result<Log, Refused> {
             ..finish(records, skipped)
         });
     }
-    let text = String::from_utf8_lossy(bytes);
+    let text = plain(&String::from_utf8_lossy(bytes));
     let lines: Vec<&str> = lines(text.trim_start_matches('\u{feff}')).collect();
     let lacks_times = is_untimed(&lines);
     let Some(mut reader) = choose(&lines, lacks_times) else {
@@ -55,7 +56,9 @@ pub fn read(bytes: &[u8]) -> Result<Log, Refused> {
             "it is empty: no frame was recorded".into()
         } else {
             let known = foreign::name(bytes);
-            known.unwrap_or_else(|| "it is not a candump log, ASC, BLF, TRC, pcap or pcapng".into())
+            known.unwrap_or_else(|| {
+                "it is not a candump log, ASC, BLF, TRC, CSV, pcap or pcapng".into()
+            })
         };
         return Err(why.into());
     };
@@ -63,7 +66,8 @@ pub fn read(bytes: &[u8]) -> Result<Log, Refused> {
     let mut skipped = Vec::new();
     let mut others = 0;
     for (line, text) in (1..).zip(&lines) {
-        if text.trim().is_empty() {
+        // A log in an issue is often between two fences of Markdown.
+        if text.trim().is_empty() || text.starts_with("```") {
             continue;
         }
         match reader(text) {
@@ -85,6 +89,17 @@ pub fn read(bytes: &[u8]) -> Result<Log, Refused> {
             ..finish(records, skipped)
         }),
     }
+}
+
+/// The text without the colours of a terminal (`candump -c`): ESC, `[`, digits, `m`.
+fn plain(text: &str) -> String {
+    let mut parts = text.split("\u{1b}[");
+    let mut plain: String = parts.next().unwrap_or_default().into();
+    for part in parts {
+        let rest = part.trim_start_matches(|c: char| c.is_ascii_digit() || c == ';');
+        plain.push_str(rest.strip_prefix('m').unwrap_or(part));
+    }
+    plain
 }
 
 /// Lines that end with `\n`, `\r\n` or `\r`.
@@ -123,18 +138,39 @@ fn choose<'t>(lines: &[&'t str], lacks_times: bool) -> Option<Reader<'t>> {
     if head().any(asc::is_one) {
         return Some(asc::reader(lines));
     }
+    if head().any(csv::is_one) {
+        return Some(csv::reader(lines));
+    }
+    if head().any(columns::is_one) {
+        return Some(columns::reader());
+    }
     let is_candump = |line: &str| {
         let mut rest = Cursor::new(line);
         stamp::take(&mut rest).is_some() && rest.text.contains(char::is_whitespace)
     };
     let is_one = lacks_times || head().any(is_candump);
-    is_one.then(|| Box::new(move |text| line(text, lacks_times)) as Reader<'t>)
+    let mut is_error = false;
+    is_one.then(|| {
+        Box::new(move |text: &'t str| {
+            // `candump -e` explains an error frame in lines that begin with a tabulator.
+            if is_error && text.starts_with('\t') {
+                return Ok(Entry::Nothing);
+            }
+            let read = line(text, lacks_times);
+            is_error = matches!(&read, Ok(Entry::Record(record)) if record.what == What::Error);
+            read
+        }) as Reader<'t>
+    })
 }
 
 /// Reads a line of candump, in the log or the screen form.
 fn line(text: &str, lacks_times: bool) -> Result<Entry, String> {
     if text.trim_start().starts_with(['#', ';']) {
         return Ok(Entry::Nothing);
+    }
+    if let Some(lost) = text.trim_start().strip_prefix("DROPCOUNT: dropped ") {
+        let count = lost.split(' ').next().unwrap_or_default();
+        return Err(format!("candump lost frames here: {count}"));
     }
     let missing = "the time stamp in parentheses is missing";
     if !text.trim_start().starts_with('(') && !lacks_times {

@@ -31,7 +31,7 @@ pub(crate) fn seconds(text: &str) -> Option<u64> {
 }
 
 /// Microseconds from 1970 to `2026-11-25 15:50:01.123456`.
-fn date(text: &str) -> Option<u64> {
+pub(crate) fn date(text: &str) -> Option<u64> {
     let (date, time) = text.split_once(' ')?;
     let mut date = date.split('-');
     let year = number(date.next()?, 1970..=9999)?;

@@ -47,6 +47,26 @@ fn the_three_forms_read_the_same() {
         "(1970-01-01 00:00:01.5) can0 181 [1] 41 'A'",
         "(1.500000) can0 181#41",
     );
+    // -i, -S, and a DLC above 8 (-8).
+    check("can0 181 [2] 01000001 11101100", "181#41EC");
+    check("can0 181 [3] 20`27`41", "181#412720");
+    check("can0 181 [2] 11101100`01000001", "181#41EC");
+    check("can0 181#0102030405060708_F", "181#0102030405060708");
+}
+
+/// What other options and a terminal add to a log.
+#[test]
+fn a_log_may_have_other_lines() {
+    let text = "```\n\u{1b}[31m  can0  701   [1]  00\u{1b}[0m\n\
+        \x20 can0  20000004   [8]  00 08 00 00 00 00 60 00   ERRORFRAME\n\
+        \tcontroller-problem{tx-error-warning}\n\terror-counter-tx-rx{{96}{0}}\n\
+        DROPCOUNT: dropped 12 CAN frames on 'can0' socket (total drops 12)\n\
+        \x20 can0  701   [1]  05\n```\n";
+    let log = crate::logs::read(text.as_bytes()).expect("a log");
+    assert_eq!(log.records.len(), 3);
+    assert_eq!(log.records[1].what, What::Error);
+    let problems: Vec<_> = log.skipped.iter().map(ToString::to_string).collect();
+    assert_eq!(problems, ["line 6: candump lost frames here: 12"]);
 }
 
 #[test]
@@ -73,6 +93,9 @@ fn errors_name_the_place_and_the_problem() {
         "can0  20000004   [8]  00 00 00 00 00 00 00 00   ERRORFRAME",
         "7: `20000004` is an error frame",
     );
+    check("can0 181 [2] 20`27`41", "14: `20`27`41` is not 2 bytes");
+    check("can0 181 [1] 0000000x", "14: `0000000x` is not a byte");
+    check("can0 181#01_F", "12: `_` is not a hex digit");
     check("can0 RX", "8: the line ends here");
     check("can0 RX X 601#11", "9: `X` is not a valid CAN-ID");
 }

@@ -178,8 +178,12 @@ fn an_unreadable_log_is_an_error_that_names_it() {
             "it is a BUSMASTER log",
         ),
         (
-            b"Time Stamp,ID,Extended,Dir,Bus,LEN\n1,701,false,Rx,0,1\n",
-            "it is a CSV log of SavvyCAN",
+            b"SQLite format 3\0",
+            "it is a database, such as python-can writes",
+        ),
+        (
+            b"No.     Time           Source\n1 0.0\n",
+            "it is a text of Wireshark",
         ),
         (
             b"timestamp,arbitration_id,extended\n0.1,0x701,0\n",

@@ -1,0 +1,167 @@
+//! Logs of programs that print a frame per line in columns: python-can (`print(message)`, `can_logger`), Kvaser CanKing.
+
+use std::prelude::v1::*;
+
+use od_wire::Instant;
+
+use super::record::{Entry, FD, Reader, Record, frame, id};
+use super::stamp;
+
+/// Returns whether this line is one of python-can, or the line over the columns of CanKing.
+pub(super) fn is_one(line: &str) -> bool {
+    is_printed(line) || is_head(line)
+}
+
+fn is_printed(line: &str) -> bool {
+    line.starts_with("Timestamp:") && line.contains(" ID:") && line.contains(" DL:")
+}
+
+fn is_head(line: &str) -> bool {
+    let mut words = line.split_whitespace();
+    words.next() == Some("Chn") && words.next() == Some("Identifier")
+}
+
+pub(super) fn reader<'t>() -> Reader<'t> {
+    Box::new(|line| {
+        let line = line.trim();
+        if is_head(line) {
+            Ok(Entry::Nothing)
+        } else if is_printed(line) {
+            printed(line)
+        } else {
+            canking(line)
+        }
+    })
+}
+
+/// `Timestamp: 1700000000.123456    ID: 0701    S Rx    DL:  1    00    '.'    Channel: can0`. The letters are `X` or `S`
+/// (29 or 11 bits), `Rx` or `Tx`, `E` (error frame), `R` (remote frame), `F` (CAN FD).
+fn printed(line: &str) -> Result<Entry, String> {
+    let mut words = line.split_whitespace();
+    let mut after = |name: &str| {
+        words.find(|word| *word == name)?;
+        words.next()
+    };
+    let at = after("Timestamp:").and_then(stamp::seconds);
+    let at = Instant::from_micros(at.ok_or("the time is missing")?);
+    let digits = after("ID:").unwrap_or_default();
+    let mut words = line.split_whitespace().skip_while(|word| *word != "ID:");
+    let flags: Vec<&str> = words
+        .by_ref()
+        .skip(2)
+        .take_while(|word| *word != "DL:")
+        .collect();
+    if flags.contains(&"E") {
+        return Ok(Entry::Record(Record::error(at)));
+    }
+    if flags.contains(&"F") {
+        return Err(FD.into());
+    }
+    let id = id(digits, 16, flags.contains(&"X"))?;
+    let length = words.next().unwrap_or_default();
+    let dlc = length
+        .parse()
+        .map_err(|_| format!("`{length}` is not a valid length"))?;
+    let frame = frame(id, dlc, flags.contains(&"R"), words, 16)?;
+    let sent = flags.contains(&"Tx");
+    Ok(Entry::Record(Record::received(at, frame).sent(sent)))
+}
+
+/// `0    00000701    X    1  00    0.000000 R`: channel, CAN-ID, flags or none (`X` 29 bits, `R` remote frame), length, bytes,
+/// seconds, direction.
+fn canking(line: &str) -> Result<Entry, String> {
+    let words: Vec<&str> = line.split_whitespace().collect();
+    let is_number = |word: &&&str| word.bytes().all(|byte| byte.is_ascii_digit());
+    let seconds = words.iter().rev().find(|word| word.contains('.'));
+    let (Some(_), Some(seconds)) = (words.first().filter(is_number), seconds) else {
+        // The program writes when logging began and ended.
+        return Ok(Entry::Other);
+    };
+    let at = stamp::seconds(seconds).ok_or_else(|| format!("`{seconds}` is not a time"))?;
+    let at = Instant::from_micros(at);
+    if line.contains("ErrorFrame") {
+        return Ok(Entry::Record(Record::error(at)));
+    }
+    let digits = words.get(1).copied().unwrap_or_default();
+    let flags = words.get(2).filter(|word| !is_number(word));
+    let rest = words.get(2 + usize::from(flags.is_some())..);
+    let (length, data) = rest
+        .and_then(<[_]>::split_first)
+        .ok_or("the frame is cut")?;
+    let has = |flag| flags.is_some_and(|flags| flags.contains(flag));
+    let raw = digits.trim_start_matches('0');
+    let id = id(if raw.is_empty() { "0" } else { raw }, 16, has('X'))?;
+    let dlc = length
+        .parse()
+        .map_err(|_| format!("`{length}` is not a valid length"))?;
+    let frame = frame(id, dlc, has('R'), data.iter().copied(), 16)?;
+    let sent = words.last() == Some(&"T");
+    Ok(Entry::Record(Record::received(at, frame).sent(sent)))
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::logs::{What, read};
+    use std::format;
+    use std::prelude::v1::*;
+
+    fn told(text: &str) -> Vec<String> {
+        let log = read(text.as_bytes()).expect("a log");
+        let told = |what| match what {
+            What::Frame(frame) => format!("{frame}"),
+            What::Error => "error".into(),
+        };
+        let records = log.records.iter().map(|record| {
+            let sent = if record.sent { " sent" } else { "" };
+            format!(
+                "{} {}{sent}",
+                record.at.as_micros() / 1000,
+                told(record.what)
+            )
+        });
+        let problems = log.skipped.iter().map(|problem| format!("{problem}"));
+        records.chain(problems).collect()
+    }
+
+    #[test]
+    fn what_python_can_prints_is_read() {
+        let text = "\
+Timestamp:        1.500000    ID:      701    S Rx                DL:  1    00                          Channel: 0
+Timestamp:        1.600000        ID: 0601    S Tx                DL:  8    40 18 10 01 00 00 00 00     '@.......' Channel: can0
+Timestamp:        1.700000    ID: 00000123    X Rx   R            DL:  0
+Timestamp:        1.800000    ID: 00000000    S Rx E              DL:  0
+Timestamp:        1.900000    ID: 0123    S Rx     F BS           DL: 12    00 00 00 00 00 00 00 00 00 00 00 00";
+        assert_eq!(
+            told(text),
+            [
+                "1500 701#00",
+                "1600 601#4018100100000000 sent",
+                "1700 00000123#R",
+                "1800 error",
+                "line 5: it is a CAN FD frame, and CANopen does not use CAN FD"
+            ]
+        );
+    }
+
+    #[test]
+    fn the_columns_of_canking_are_read() {
+        let text = "\
+Chn Identifier Flg   DLC  D0...1...2...3...4...5...6..D7       Time     Dir
+ 0    00000701         1  00                                   1.500000 R
+ 0    00000601         8  40  18  10  01  00  00  00  00       1.600000 T
+ 0    00000123 X       0                                       1.700000 R
+ 0    00000701  R      0                                       1.800000 R
+ 0    ErrorFrame                                               1.900000 R
+Logging stopped.";
+        assert_eq!(
+            told(text),
+            [
+                "1500 701#00",
+                "1600 601#4018100100000000 sent",
+                "1700 00000123#",
+                "1800 701#R",
+                "1900 error"
+            ]
+        );
+    }
+}
