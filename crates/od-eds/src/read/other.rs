@@ -16,7 +16,7 @@ use crate::rules::structure::reader::{i0319_unknown_key, w0318_key_misspelled};
 use crate::scan::known;
 use crate::scan::known::{Form, Known, OBJECT_KEYS};
 use crate::scan::names::List;
-use crate::scan::number;
+use crate::scan::number::{self, Note};
 use crate::scan::placed::{Placed, Text};
 use od_model::Address;
 
@@ -117,7 +117,14 @@ fn check_value(known: &Known, key: &str, value: &Text<'_>, form: Form, log: &mut
 /// Returns whether a value has this form.
 fn fits(value: &str, form: Form) -> bool {
     let text = number::before_comment(value);
-    let read = number::integer(text, &mut Vec::new()).map(|number| number.value);
+    let mut notes = Vec::new();
+    let read = number::integer(text, &mut notes).map(|number| number.value);
+    // Other tools stop at `7AB` and `1.0`.
+    let read = read.filter(|_| {
+        !notes
+            .iter()
+            .any(|note| matches!(note, Note::BareHex | Note::Suffix))
+    });
     match form {
         Form::Text => true,
         Form::Flag => matches!(read, Some(0 | 1)),

@@ -144,6 +144,12 @@ pub(crate) fn is_standard_array(index: u16) -> bool {
     of(index).is_some_and(|standard| matches!(standard.members, Members::Array(_)))
 }
 
+/// Returns whether the sub-indices of an object of CiA 302 are the node IDs of other devices, so that any of them may
+/// be missing.
+pub(crate) const fn has_node_ids(index: u16) -> bool {
+    matches!(index, 0x1F20..=0x1F22 | 0x1F25..=0x1F27 | 0x1F81..=0x1F88 | 0x1F8A)
+}
+
 /// The entry of an index.
 pub(crate) fn of(index: u16) -> Option<&'static Standard> {
     let at = TABLE.partition_point(|entry| entry.last < index);

@@ -3,7 +3,7 @@
 
 use od_model::DataType::{Integer8, Integer16, Integer32, Unsigned8, Unsigned16, Unsigned32};
 
-use super::row::{Row, array, named, ro, rw, var};
+use super::row::{Row, array, named, record, ro, rw, var};
 
 /// The objects by ascending index.
 #[rustfmt::skip]
@@ -15,13 +15,13 @@ pub(super) const TABLE: &[Row] = &[
     var(0x6042, &[Integer16], "vl target velocity"),
     ro(0x6043, &[Integer16], "vl velocity demand"),
     ro(0x6044, &[Integer16], "vl velocity actual value"),
-    named(0x6046, 0x6046, "vl velocity min max amount").with(&[(1, 4, Unsigned32)]),
-    named(0x6047, 0x6047, "vl velocity min max").with(&[(1, 4, Unsigned32)]),
-    named(0x6048, 0x6048, "vl velocity acceleration").with(&[(1, 1, Unsigned32), (2, 2, Unsigned16)]),
-    named(0x6049, 0x6049, "vl velocity deceleration").with(&[(1, 1, Unsigned32), (2, 2, Unsigned16)]),
-    named(0x604A, 0x604A, "vl velocity quick stop").with(&[(1, 1, Unsigned32), (2, 2, Unsigned16)]),
-    named(0x604B, 0x604B, "vl set-point factor").with(&[(1, 2, Integer16)]),
-    named(0x604C, 0x604C, "vl dimension factor").with(&[(1, 2, Integer32)]),
+    array(0x6046, 0x6046, &[Unsigned32], "vl velocity min max amount"),
+    array(0x6047, 0x6047, &[Unsigned32], "vl velocity min max"),
+    record(0x6048, &[(1, 1, Unsigned32), (2, 2, Unsigned16)], "vl velocity acceleration"),
+    record(0x6049, &[(1, 1, Unsigned32), (2, 2, Unsigned16)], "vl velocity deceleration"),
+    record(0x604A, &[(1, 1, Unsigned32), (2, 2, Unsigned16)], "vl velocity quick stop"),
+    array(0x604B, 0x604B, &[Integer16], "vl set-point factor"),
+    array(0x604C, 0x604C, &[Integer32], "vl dimension factor"),
     named(0x604D, 0x604D, "vl pole number"),
     named(0x604E, 0x604E, "vl velocity reference"),
     named(0x604F, 0x604F, "vl ramp function time"),
@@ -117,7 +117,7 @@ pub(super) const TABLE: &[Row] = &[
     named(0x60BD, 0x60BD, "Touch probe 2 negative edge").with(&[(0, 0, Integer32)]),
     named(0x60C0, 0x60C0, "Interpolation sub mode select").with(&[(0, 0, Integer16)]),
     named(0x60C1, 0x60C1, "Interpolation data record").with(&[(1, 0xFE, Integer32)]),
-    named(0x60C2, 0x60C2, "Interpolation time period").with(&[(1, 1, Unsigned8), (2, 2, Integer8)]),
+    record(0x60C2, &[(1, 1, Unsigned8), (2, 2, Integer8)], "Interpolation time period"),
     named(0x60C3, 0x60C3, "Interpolation sync definition"),
     named(0x60C4, 0x60C4, "Interpolation data configuration").with(&[(1, 2, Unsigned32), (3, 3, Unsigned8), (4, 4, Unsigned16), (5, 6, Unsigned8)]),
     var(0x60C5, &[Unsigned32], "Max acceleration"),

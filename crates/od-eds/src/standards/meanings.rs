@@ -89,6 +89,7 @@ const TABLE: &[Row] = &[
     row(0, 0x1F81, 0x1F81, ALL, Bits(&[
         (0, "slave of this master"), (2, "is booted again after an error control event"), (3, "mandatory slave"),
         (4, "is not reset while it is Operational"), (5, "its program is verified"), (6, "its program is updated"),
+        (7, "its configuration is restored (1F8Ah)"),
     ])),
     row(0, 0x1F51, 0x1F51, ALL, Values(&[
         (0, 0, "stop the program"), (1, 1, "start the program"), (2, 2, "reset the program"), (3, 3, "clear the program"),
@@ -310,6 +311,11 @@ mod tests {
             );
         }
         assert_eq!(meaning(None, 0x6060, 0, 1), None);
+        let slave = meaning(None, 0x1F81, 5, 0x81);
+        assert_eq!(
+            slave.as_deref(),
+            Some("slave of this master, its configuration is restored (1F8Ah)")
+        );
         assert_eq!(meaning(None, 0x1F80, 0, 1).as_deref(), Some("NMT master"));
     }
 }

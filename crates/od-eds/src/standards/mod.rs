@@ -89,6 +89,6 @@ mod tests {
         assert_eq!(profile_types(402, 0x6049, 2), [DataType::Unsigned16]);
         assert_eq!(profile_types(404, 0x7130, 1), [DataType::Integer16]);
         assert_eq!(profile_types(404, 0x6110, 1), [DataType::Unsigned16]);
-        assert!(checked(404, 0x6111).is_none() && checked(402, 0x6049).is_none());
+        assert!(checked(404, 0x6111).is_none() && checked(402, 0x604D).is_none());
     }
 }

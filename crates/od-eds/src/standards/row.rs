@@ -16,8 +16,10 @@ pub(super) struct Row {
 pub(crate) struct Checked {
     /// VAR or ARRAY; an ARRAY may be a RECORD as well.
     pub(crate) code: ObjectCode,
-    /// The types that the value, or every sub-object, may have.
+    /// The types that the value, or every sub-object, may have; empty if each sub-object has a type of its own.
     pub(crate) data_types: &'static [DataType],
+    /// First and last sub-index, and their type.
+    pub(crate) members: &'static [(u8, u8, DataType)],
     /// Whether a master may write it; `None`: the profile does not say.
     pub(crate) writable: Option<bool>,
 }
@@ -33,6 +35,16 @@ pub(super) const fn named(first: u16, last: u16, name: &'static str) -> Row {
     }
 }
 
+impl Checked {
+    /// The types that a value may have: of a VAR, or of a sub-object except the count.
+    pub(crate) fn types(&self, sub: u8) -> impl Iterator<Item = DataType> {
+        let own = self.members.iter();
+        let own = own.filter(move |(first, last, _)| (*first..=*last).contains(&sub));
+        let own = own.map(|(_, _, data_type)| *data_type);
+        self.data_types.iter().copied().chain(own)
+    }
+}
+
 impl Row {
     pub(super) const fn checked(
         self,
@@ -43,6 +55,7 @@ impl Row {
         let checked = Some(Checked {
             code,
             data_types,
+            members: &[],
             writable,
         });
         Self { checked, ..self }
@@ -51,6 +64,26 @@ impl Row {
     /// Types that no rule checks: first and last sub-index, type.
     pub(super) const fn with(self, types: &'static [(u8, u8, DataType)]) -> Self {
         Self { types, ..self }
+    }
+}
+
+/// A RECORD with these sub-objects: first and last sub-index, type.
+pub(super) const fn record(
+    index: u16,
+    members: &'static [(u8, u8, DataType)],
+    name: &'static str,
+) -> Row {
+    let row = named(index, index, name);
+    let checked = Some(Checked {
+        code: ObjectCode::Record,
+        data_types: &[],
+        members,
+        writable: None,
+    });
+    Row {
+        checked,
+        types: members,
+        ..row
     }
 }
 

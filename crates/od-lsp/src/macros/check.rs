@@ -239,8 +239,21 @@ fn raw_or_none(source: &str, value: &[Token]) -> Option<Option<Raw>> {
     }
 }
 
-/// An integer, a truth value or a text; the macro checks other values.
+/// An integer, a formula with the node ID, a truth value or a text; the macro checks other values.
 fn raw(source: &str, value: &[Token]) -> Option<Raw> {
+    if let [sign, name, rest @ ..] = value
+        && sign.kind == Kind::Sign(b'$')
+        && source.get(name.bytes.clone()) == Some("NODEID")
+    {
+        return match rest {
+            [] => Some(Raw::NodeId(0)),
+            [plus, offset @ ..] if plus.kind == Kind::Sign(b'+') => match raw(source, offset)? {
+                Raw::Integer(offset) => u32::try_from(offset).ok().map(Raw::NodeId),
+                _ => None,
+            },
+            _ => None,
+        };
+    }
     let (negative, token) = match value {
         [sign, token] if sign.kind == Kind::Sign(b'-') => (true, token),
         [token] => (false, token),

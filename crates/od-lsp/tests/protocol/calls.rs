@@ -73,6 +73,34 @@ fn calls_of_the_macro_use_the_objects_of_their_file() {
 }
 
 #[test]
+fn a_row_with_a_formula_counts() {
+    let mut client = Client::new(Files::default(), json!({}));
+    let uri = "file:///w/lib.rs";
+    let rows = |cob_id: &str| {
+        format!(
+            "object_dictionary! {{ mod a {{ add 0x1000 {{ name = \"a\"; type = u32; access = const; default = 0 }}
+add 0x1001 {{ name = \"b\"; type = u8; mappable = true }} add 0x1018 {{ code = record; name = \"c\" }}
+add 0x1018sub1 {{ name = \"d\"; type = u32; default = 1 }} add 0x1017 {{ name = \"e\"; type = u16; access = rw }}
+add 0x1800 {{ code = record; name = \"f\" }} add 0x1800sub1 {{ name = \"g\"; type = u32; access = rw; default = {cob_id} }}
+add 0x1800sub2 {{ name = \"h\"; type = u8; access = rw; default = 254 }} add 0x1A00 {{ code = record; name = \"i\" }}
+add 0x1A00sub1 {{ name = \"j\"; type = u32; access = rw; default = 0x1001_0008 }} }} }}"
+        )
+    };
+    for (cob_id, expected) in [
+        ("$NODEID + 0x180", &[][..]),
+        ("$NODEID + 0x580", &["W0520"]),
+        ("$NODEID", &["W0520"]),
+        ("$NODEID + 0x7A0", &["W0520", "W0522"]),
+    ] {
+        let text = rows(cob_id);
+        client.open(uri, &text);
+        let found = client.diagnostics(uri);
+        let codes: Vec<_> = found.iter().map(|one| one["code"].clone()).collect();
+        assert_eq!(codes, expected, "{cob_id}: {found:?}");
+    }
+}
+
+#[test]
 fn a_warning_that_a_statement_brings_about_is_at_the_statement() {
     let mut files = Files::default();
     files.0.insert("/w/a.eds".into(), TEXT.into());

@@ -231,6 +231,7 @@ pub(crate) static I0211: Rule = Rule {
     title: "section is not defined in CiA 306",
     why: "A typo in the name of an object hides the object. odkit keeps the section and ignores it; some tools store notes in sections of their own.",
     source: "CiA 306-1, file format",
+    buildable: true,
     says: "[{name}] is not a section of CiA 306",
     help: "write `[2000]` or `[2000sub1]` if an object is meant",
     ..Rule::NEW
@@ -238,7 +239,18 @@ pub(crate) static I0211: Rule = Rule {
 
 /// The finding about a section that CiA 306 does not define.
 pub(crate) fn i0211_unknown_section(section: &Placed<'_>) -> Finding {
-    I0211.at(section.header).fact("name", &*section.name.value)
+    let finding = I0211.at(section.header).fact("name", &*section.name.value);
+    if is_object(section) {
+        finding.severity_of(Error)
+    } else {
+        finding
+    }
+}
+
+/// Returns whether a section has the keys of an object, which no tool then finds.
+fn is_object(section: &Placed<'_>) -> bool {
+    let has = |key| section.get(key).is_some();
+    has("ParameterName") && (has("DataType") || has("ObjectType"))
 }
 
 pub(crate) static I0212: Rule = Rule {
@@ -287,6 +299,7 @@ pub(crate) fn i0212_section_name_spelling(section: &Placed<'_>, right: &str) -> 
 pub(crate) static W0213: Rule = Rule {
     code: "W0213",
     severity: Warning,
+    buildable: true,
     title: "section name is probably misspelled",
     why: "A tool ignores the section. odkit keeps it and ignores it.",
     source: "CiA 306-1, file format",
@@ -302,6 +315,7 @@ pub(crate) fn w0213_section_misspelled(section: &Placed<'_>, meant: &str) -> Fin
         .at(section.header)
         .fact("name", &*section.name.value)
         .fact("meant", meant)
+        .severity_of(if is_object(section) { Error } else { Warning })
         .fix(Fix::unsafe_fix().replace(section.header, format!("[{meant}]")))
 }
 

@@ -50,7 +50,7 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
     let connected = description.section("ConnectedModules");
     let slots = connected.iter().flat_map(|section| &section.pairs);
     for (_, given) in slots.filter(|(key, _)| number(key).is_some()) {
-        if let Some(module) = number(given).filter(|module| *module > count) {
+        if let Some(module) = number(given).filter(|module| !(1..=count).contains(module)) {
             needs(module, given.span, &CONNECTED);
         }
     }

@@ -12,7 +12,7 @@ pub(crate) static W0254: Rule = Rule {
     source: "CiA 306-1, object links",
     says: "ObjectLinks is {given}, but the section has {count:entry|entries}",
     help: "write `ObjectLinks={count}`",
-    also: &[TARGET],
+    also: &[TARGET, OWNER],
     check: Check::Device(check),
     ..Rule::NEW
 };
@@ -23,13 +23,20 @@ const TARGET: Form = Form {
     help: "write the index of an object of this file, or remove the entry",
 };
 
+/// Sentence for the links of an object that is missing.
+const OWNER: Form = Form {
+    says: "object {object:04X}h, which the section links to others, does not exist",
+    help: "write the index of an object of this file in the header, or remove the section",
+};
+
 fn check(description: &Description, findings: &mut Vec<Finding>) {
-    let is_links = |name: &str| {
-        name.get(4..)
-            .is_some_and(|word| word.eq_ignore_ascii_case("ObjectLinks"))
-    };
     let sections = description.sections.iter();
-    for section in sections.filter(|section| is_links(&section.name)) {
+    for section in sections.filter(|section| object_of_links(&section.name).is_some()) {
+        let owner = object_of_links(&section.name);
+        if let Some(index) = owner.filter(|index| !description.objects.contains_key(index)) {
+            let finding = W0254.at(section.name.span).form(&OWNER);
+            findings.push(finding.fact("object", u32::from(index)));
+        }
         let entries = section.pairs.iter();
         let entries: Vec<_> = entries.filter(|(key, _)| number(key).is_some()).collect();
         let count = entries.len();
@@ -46,4 +53,11 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
             }
         }
     }
+}
+
+/// The object that a section `[2000ObjectLinks]` links to others.
+fn object_of_links(name: &str) -> Option<u16> {
+    let (index, word) = name.split_at_checked(4)?;
+    let is_links = word.eq_ignore_ascii_case("ObjectLinks");
+    u16::from_str_radix(index, 16).ok().filter(|_| is_links)
 }

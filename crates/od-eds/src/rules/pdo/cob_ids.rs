@@ -116,7 +116,10 @@ impl CobId<'_> {
     fn node_with(&self, number: &CobId<'_>) -> Option<RangeInclusive<u8>> {
         let node = number.identifier.checked_sub(self.identifier)?;
         let node = u8::try_from(node).ok()?;
-        let is_partner = self.direction() != number.direction() && self.nodes().count() > 1;
+        // SYNC and TIME are for all nodes, and belong to no partner.
+        let shared = number.direction() == Direction::Both;
+        let differ = self.direction() != number.direction();
+        let is_partner = differ && !shared && self.nodes().count() > 1;
         (self.nodes().contains(&node) && !is_partner).then_some(node..=node)
     }
 

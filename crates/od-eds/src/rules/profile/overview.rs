@@ -122,14 +122,17 @@ fn types(rule: &'static Rule, profiles: &[u16], object: &Object<'_>, findings: &
         .entries()
         .filter(|entry| subs.contains(&entry.address.sub))
     {
-        let types = standard.data_types;
-        let given = entry.data_type.filter(|given| !types.contains(given));
-        if let (Some(given), Some(right)) = (given, types.first()) {
+        let mut types = standard.types(entry.address.sub);
+        let right = standard.types(entry.address.sub).next();
+        let given = entry
+            .data_type
+            .filter(|given| !types.any(|own| own == **given));
+        if let (Some(given), Some(right)) = (given, right) {
             let fix = Fix::unsafe_fix().replace(given.span, format!("0x{:04X}", right.code()));
             let finding = rule.on(&entry, given.span).key(Key::DataType);
             let finding = finding.fact("object", entry.shown());
             let finding = finding
-                .fact("right", *right)
+                .fact("right", right)
                 .fact("profile", u32::from(profile));
             findings.push(finding.fact("given", *given).fix(fix));
         }

@@ -64,12 +64,12 @@ pub(crate) fn profile_type(description: &Description, address: Address) -> Optio
     if standard.code.has_members() && address.sub == 0 {
         Some(DataType::Unsigned8)
     } else {
-        standard.data_types.first().copied()
+        standard.types(address.sub).next()
     }
 }
 
 /// The profile of the device, and its specification of this object.
-pub(super) fn in_profile(object: &Object<'_>) -> Option<(u16, &'static Checked)> {
+pub(crate) fn in_profile(object: &Object<'_>) -> Option<(u16, &'static Checked)> {
     if !matches!(object.index, 0x6000..=0x9FFF) {
         return None;
     }

@@ -19,7 +19,7 @@ pub(crate) static W0915: Rule = Rule {
 
 fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
     let profile = match (entry.address.index, entry.address.sub) {
-        (0x608F..=0x6092, 2) => 402,
+        (0x608F..=0x6092, 1 | 2) => 402,
         (0x6001 | 0x6002 | 0x6501, 0) => 406,
         _ => return,
     };

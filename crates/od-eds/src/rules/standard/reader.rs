@@ -1,5 +1,8 @@
 //! Rules about keys outside the object sections that the reader reports.
 
+use alloc::format;
+use alloc::string::String;
+
 use crate::finding::{
     Finding, Fixability, Form, Rule,
     Severity::{Error, Info, Warning},
@@ -16,9 +19,10 @@ pub(crate) static W0609: Rule = Rule {
     title: "value outside the object sections is not valid",
     why: "A tool cannot use the value. odkit keeps it as text and treats it as missing. A flag is 0 or 1, and each number has a range.",
     source: "CiA 306-1, FileInfo, DeviceInfo, DummyUsage, DeviceComissioning",
+    fixability: Fixability::Unsafe,
     says: "{name} `{given}` in [{section}] is not valid",
     help: "write `0` or `1`, or leave the value empty",
-    also: &[W0609_NUMBER, W0609_LONG, W0609_VERSION],
+    also: &[W0609_NUMBER, W0609_LONG, W0609_HEX, W0609_VERSION],
     ..Rule::NEW
 };
 
@@ -28,6 +32,10 @@ const W0609_NUMBER: Form = Form {
 };
 const W0609_LONG: Form = Form {
     help: "write a number such as `0x1A` with at most 32 bits, or leave the value empty",
+    ..Form::OWN
+};
+const W0609_HEX: Form = Form {
+    help: "write `{meant}`{fix}",
     ..Form::OWN
 };
 const W0609_VERSION: Form = Form {
@@ -49,9 +57,18 @@ pub(crate) fn w0609_key_value_not_valid(
         Wanted::Version => finding.form(&W0609_VERSION),
         _ => finding,
     };
+    let finding = match hexadecimal(given).filter(|_| matches!(wanted, Wanted::Number(_))) {
+        Some(meant) => {
+            let fix = Fix::unsafe_fix().replace(given.span, meant.as_str());
+            finding.form(&W0609_HEX).fact("meant", meant).fix(fix)
+        }
+        None => finding,
+    };
     // A number or a flag of the device, which no tool can use. Dates and versions of the file are
     // only read by people.
-    let is_read = section.eq_ignore_ascii_case("DeviceInfo") || wanted == Wanted::Flag;
+    let is_read = section.eq_ignore_ascii_case("DeviceInfo")
+        || key.eq_ignore_ascii_case("NodeID")
+        || wanted == Wanted::Flag;
     let finding = if is_read {
         finding.severity_of(Error)
     } else {
@@ -61,6 +78,15 @@ pub(crate) fn w0609_key_value_not_valid(
         .fact("section", section)
         .fact("name", key)
         .fact("given", &*given.value)
+}
+
+/// The number that is probably meant by hexadecimal digits without `0x`: `0xDEF` for `DEF`. Digits that are a decimal
+/// number as well are read as that.
+fn hexadecimal(text: &str) -> Option<String> {
+    let digits = text.strip_suffix(['h', 'H']).unwrap_or(text);
+    let is_hex = matches!(digits.len(), 1..=8) && digits.bytes().all(|b| b.is_ascii_hexdigit());
+    let is_decimal = text.bytes().all(|b| b.is_ascii_digit());
+    (is_hex && !is_decimal).then(|| format!("0x{}", digits.to_ascii_uppercase()))
 }
 
 pub(crate) static I0610: Rule = Rule {

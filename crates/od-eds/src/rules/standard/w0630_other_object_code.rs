@@ -2,7 +2,7 @@ use alloc::vec::Vec;
 
 use crate::fact::Fact;
 use crate::finding::{Check, Finding, Rule, Severity};
-use crate::standards::cia301::{is_standard_array, of};
+use crate::standards::cia301::{Members, Standard, of};
 use crate::subject::Object;
 use od_model::ObjectCode;
 
@@ -22,10 +22,9 @@ pub(crate) static W0630: Rule = Rule {
 fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
     let own_rule = matches!(object.index, 0x1000 | 0x1001 | 0x1018);
     if let Some(standard) = of(object.index)
-        && !own_rule
-        && (!standard.is_like(*object.code) || is_record(object))
+        && (!own_rule && !standard.is_like(*object.code) || is_other_list(object, standard))
     {
-        // A RECORD whose sub-objects have one type has the same values on the bus.
+        // Both have the same values on the bus.
         let severity = if standard.is_like(*object.code) {
             Severity::Warning
         } else {
@@ -42,9 +41,13 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
     }
 }
 
-/// Returns whether the standard specifies the object as a list of equal values, and it is a RECORD.
-/// A tool that reads an ARRAY by the description of sub-index 1 knows only the sub-objects in the
-/// file.
-fn is_record(object: &Object<'_>) -> bool {
-    is_standard_array(object.index) && *object.code == ObjectCode::Record
+/// Returns whether the object is a RECORD that the standard specifies as an ARRAY, or an ARRAY that it specifies as a
+/// RECORD; a mapping and 1026h are lists of equal values as well. A tool that reads an ARRAY by the description of sub-index 1 reads other sub-objects.
+fn is_other_list(object: &Object<'_>, standard: &Standard) -> bool {
+    let own = *object.code;
+    let is_list = object.index == 0x1026 || matches!(standard.members, Members::Record([]));
+    own != standard.code()
+        && !is_list
+        && matches!(own, ObjectCode::Array | ObjectCode::Record)
+        && standard.is_like(own)
 }

@@ -2,7 +2,7 @@ use alloc::vec::Vec;
 
 use crate::fact::Fact;
 use crate::finding::{Check, Finding, Rule, Severity::Error};
-use crate::standards::cia301::{Members, of};
+use crate::standards::cia301::{Members, has_node_ids, of};
 use crate::subject::Object;
 use od_model::Address;
 
@@ -28,6 +28,9 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
     };
     let subs: Vec<u8> = match &standard.members {
         Members::Var(_) => return,
+        // Date and time of the configuration.
+        Members::Array(_) if object.index == 0x1020 => [1, 2].into(),
+        Members::Array(_) if has_node_ids(object.index) => return,
         Members::Array(_) => [1].into(),
         Members::Record(members) => {
             let mandatory = members.iter().filter(|(_, _, mandatory)| *mandatory);

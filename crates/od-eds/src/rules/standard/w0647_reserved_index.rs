@@ -2,7 +2,7 @@ use alloc::vec::Vec;
 
 use crate::fact::Fact;
 use crate::finding::{Check, Finding, Form, Rule, Severity};
-use crate::standards::cia301::of;
+use crate::standards::cia301::{has_node_ids, of};
 use crate::subject::Object;
 
 pub(crate) static W0647: Rule = Rule {
@@ -35,9 +35,10 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
         return;
     }
     // FFh describes the structure of any object.
-    let is_of_nodes = matches!(index, 0x1F20..=0x1F22 | 0x1F25..=0x1F27 | 0x1F81 | 0x1F84..=0x1F88);
+    let is_of_nodes = has_node_ids(index);
     let last = match index {
-        // The sub-index is a node ID.
+        // 128 is all nodes.
+        0x1F82 | 0x1F83 => 128,
         _ if is_of_nodes => 127,
         0x1018 => 4,
         0x1029 => 254,
@@ -48,9 +49,20 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
     let Some(standard) = of(index).filter(|_| object.code.has_members()) else {
         return;
     };
+    // Earlier versions of CiA 301, and the records 0020h and 0022h, define them. Said once for all PDOs.
+    let (first, older): (u16, &[u8]) = match index {
+        0x1200 => (index, &[3]),
+        0x1400..=0x15FF => (0x1400, &[4, 6]),
+        0x1800..=0x19FF => (0x1800, &[4]),
+        _ => (index, &[]),
+    };
+    let mut before = object.description.objects.range(first..index);
+    let is_said = before.any(|(_, own)| older.iter().any(|sub| own.entries.contains_key(sub)));
+    let older = if is_said { &[] } else { older };
+    let is_reserved = |sub: u8| (last + 1..255).contains(&sub) || older.contains(&sub);
     for entry in object
         .entries()
-        .filter(|entry| (last + 1..255).contains(&entry.address.sub))
+        .filter(|entry| is_reserved(entry.address.sub))
     {
         let finding = W0647
             .on(&entry, entry.span)
@@ -60,6 +72,8 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
         let finding = finding.fact("sub", entry.address.sub);
         findings.push(if is_of_nodes {
             finding.severity_of(Severity::Error)
+        } else if older.contains(&entry.address.sub) {
+            finding.severity_of(Severity::Info)
         } else {
             finding
         });

@@ -2,6 +2,7 @@ use alloc::vec::Vec;
 
 use crate::finding::{Check, Finding, Fixability, Rule, Severity::Warning};
 use crate::fix::Fix;
+use crate::rules::profile::shared::in_profile;
 use crate::rules::structure::shared::counts_in_use;
 use crate::subject::Object;
 
@@ -19,7 +20,8 @@ pub(crate) static W0347: Rule = Rule {
 };
 
 fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
-    let fixed = matches!(object.index, 0x1000..0x1F00) && !counts_in_use(object.index);
+    let standard = matches!(object.index, 0x1000..0x1F00) || in_profile(object).is_some();
+    let fixed = standard && !counts_in_use(object.index);
     if !fixed || !object.code.has_members() {
         return;
     }

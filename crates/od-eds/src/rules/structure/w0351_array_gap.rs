@@ -4,6 +4,7 @@ use alloc::vec::Vec;
 use crate::finding::{Check, Finding, Fixability, Form, Rule, Severity::Warning};
 use crate::fix::Fix;
 use crate::rules::structure::shared::decimal;
+use crate::standards::cia301::has_node_ids;
 use crate::subject::Object;
 use od_model::ObjectCode;
 
@@ -32,7 +33,8 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
     let entries = entries.filter(|entry| (1..=254).contains(&entry.address.sub));
     let mut gaps = (1u8..=254).zip(entries);
     let gap = gaps.find(|(expected, entry)| entry.address.sub != *expected);
-    if let Some((missing, entry)) = gap.filter(|_| *object.code == ObjectCode::Array) {
+    let is_list = *object.code == ObjectCode::Array && !has_node_ids(object.index);
+    if let Some((missing, entry)) = gap.filter(|_| is_list) {
         let finding = W0351.on(&entry, entry.span).fact("missing", missing);
         let finding = finding.fact("given", entry.address.sub);
         findings.push(match decimal(object.object) {
