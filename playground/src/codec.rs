@@ -3,7 +3,7 @@
 
 use od_model::{Address, DataType};
 use od_runtime::NodeId;
-use od_sim::script::{Known, frame_of, typed};
+use od_sim::script::{LineContext, frame_of, typed};
 use od_sim::wire::bits::{Bit, Part, bits};
 use od_sim::words::fold::{Folder, State};
 use od_sim::words::{TAGS, tag};
@@ -103,7 +103,7 @@ pub fn tags(frames: &[u8]) -> Vec<u32> {
 /// `objects` gives the types of the objects of the node.
 #[wasm_bindgen(js_name = readLine, unchecked_return_type = "LineResult")]
 pub fn read_line(text: &str, node_id: u8, objects: &Objects) -> JsValue {
-    let known = Known {
+    let known = LineContext {
         node: NodeId::new(node_id).unwrap_or(NodeId::ONE),
         type_of: &|at| named(&objects.type_of(at.index, at.sub)?),
         real: &real,

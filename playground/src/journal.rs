@@ -2,7 +2,9 @@
 
 use od_runtime::Instant;
 use od_sim::VirtualDevice;
-use od_sim::journal::{self, Error, Fields, Input, Placed, Source, Trouble, Value, check};
+use od_sim::journal::{
+    self, AddedDevice, Error, Fields, Input, InputProblem, Source, Value, check,
+};
 use wasm_bindgen::prelude::*;
 
 use crate::bus::Bus;
@@ -143,7 +145,7 @@ impl Bus {
             .devices()
             .iter()
             .zip(self.journal.rig.bus.devices());
-        let info = |(placed, device): (&Placed, &VirtualDevice)| {
+        let info = |(placed, device): (&AddedDevice, &VirtualDevice)| {
             let objects = values::dictionary(device.dictionary(), device.node_id().raw());
             DeviceInfo {
                 name: placed.name.clone(),
@@ -187,10 +189,10 @@ pub fn check_run(
 /// The result of an input, with the findings of its text.
 pub(crate) fn outcome(added: journal::Added, text: &str) -> Added {
     let diagnostics = match added.trouble {
-        Trouble::Message(message) => vec![diagnostics::message(&message)],
+        InputProblem::Message(message) => vec![diagnostics::message(&message)],
         #[cfg(feature = "eds")]
-        Trouble::Findings(found) => diagnostics::findings(&found, text),
-        Trouble::Problems(all) => all.iter().map(diagnostics::problem).collect(),
+        InputProblem::Findings(found) => diagnostics::findings(&found, text),
+        InputProblem::Problems(all) => all.iter().map(diagnostics::problem).collect(),
         _ => Vec::new(),
     };
     #[cfg(not(feature = "eds"))]

@@ -1,7 +1,7 @@
 //! Reads and writes logs of other tools, and finds the faults in them.
 
 use od_runtime::Instant;
-use od_sim::diagnose::{self, Known};
+use od_sim::diagnose::{self, BusFacts};
 use od_sim::logs::{Format, Record, What, read};
 use wasm_bindgen::prelude::*;
 
@@ -71,7 +71,7 @@ record! {
 /// Finds the faults in packed frames, in the order of their beginning; `rate` is the bit rate in kbit/s, if it is known.
 #[wasm_bindgen(unchecked_return_type = "Incident[]")]
 pub fn diagnose(frames: &[u8], rate: Option<u16>) -> JsValue {
-    let known = Known {
+    let known = BusFacts {
         bit_rate: rate,
         dictionary: None,
     };

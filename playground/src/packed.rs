@@ -17,7 +17,7 @@
 use od_runtime::{Frame, Instant};
 use od_sim::journal;
 use od_sim::rig::Seen;
-use od_sim::wire::Trouble;
+use od_sim::wire::FrameError;
 
 /// Bytes of a packed frame.
 pub(crate) const LEN: usize = 24;
@@ -76,10 +76,10 @@ pub(crate) fn push_seen(batch: &mut Vec<u8>, seen: &Seen) {
         Seen::Disturbed(one) => one,
     };
     let why = match one.trouble {
-        Trouble::NoAcknowledge => 1,
-        Trouble::OtherBitRate => 2,
-        Trouble::Reflections => 3,
-        Trouble::SameId => 4,
+        FrameError::NoAcknowledge => 1,
+        FrameError::OtherBitRate => 2,
+        FrameError::Reflections => 3,
+        FrameError::SameId => 4,
     };
     let [low, high] = one.transmit_errors.to_le_bytes();
     let [a, b, c, d] = one.attempts.to_le_bytes();

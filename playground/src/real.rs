@@ -323,10 +323,10 @@ mod tests {
     }
 
     fn begin(bus: &mut Bus, text: &str) -> Result<(), String> {
-        use od_sim::journal::Trouble;
+        use od_sim::journal::InputProblem;
         let added = bus.journal.act(Input::Lesson { text: text.into() });
         match added.trouble {
-            Trouble::Problems(all) => Err(all.iter().map(|one| one.message.clone()).collect()),
+            InputProblem::Problems(all) => Err(all.iter().map(|one| one.message.clone()).collect()),
             _ => Ok(()),
         }
     }

@@ -1,6 +1,6 @@
 //! The faults in the frames of a bench, and their likely causes.
 
-use od_sim::diagnose::{Incident as Found, Known, diagnose as incidents};
+use od_sim::diagnose::{BusFacts, Incident as Found, diagnose as incidents};
 use pyo3::prelude::*;
 
 use crate::state::State;
@@ -68,7 +68,7 @@ pub(crate) fn of(state: &mut State) -> Vec<Incident> {
         let device = all.find(|device| device.node_id().raw() == node)?;
         Some(device.dictionary())
     };
-    let known = Known {
+    let known = BusFacts {
         bit_rate: state.bus.bit_rate(),
         dictionary: Some(&dictionary),
     };

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use od_model::{Dictionary, Visible};
 use od_runtime::NodeId;
-use od_sim::diagnose::{Incident, Known, diagnose};
+use od_sim::diagnose::{BusFacts, Incident, diagnose};
 use od_sim::logs::{self, Record, What};
 use od_tools::Error;
 use od_tools::interrupt::Interruptible;
@@ -83,7 +83,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         let of = |node: u8| -> Option<Dictionary<'_>> {
             Some(names.given(NodeId::new(node)?)?.dictionary)
         };
-        let known = Known {
+        let known = BusFacts {
             bit_rate: args.bit_rate,
             dictionary: Some(&of),
         };

@@ -2,7 +2,7 @@
 
 use od_model::Visible;
 use od_tools::link::Link;
-use od_tools::scan::{self, Found, Options, Scan};
+use od_tools::scan::{self, FoundNode, Options, Scan};
 use od_wire::Duration;
 use serde_json::{Value, json};
 
@@ -136,7 +136,7 @@ fn text(scan: &Scan, rate: Option<u16>, names: &Names) -> String {
 }
 
 /// The state, if it is known.
-fn state(one: &Found) -> String {
+fn state(one: &FoundNode) -> String {
     match (one.state, one.has_booted, one.answers) {
         (Some(state), _, _) => state.to_string(),
         (None, true, _) => "booted".into(),
@@ -145,7 +145,7 @@ fn state(one: &Found) -> String {
     }
 }
 
-fn title(one: &Found) -> String {
+fn title(one: &FoundNode) -> String {
     let mut parts: Vec<String> = Vec::new();
     let [name, hardware, software] = &one.texts;
     let is_shown = |text: &&String| !text.is_empty();
@@ -172,7 +172,7 @@ fn title(one: &Found) -> String {
 }
 
 fn report(scan: &Scan, rate: Option<u16>, names: &Names) -> Value {
-    let node = |one: &Found| {
+    let node = |one: &FoundNode| {
         let [vendor, product, revision, serial] = one.identity;
         let [name, hardware, software] = &one.texts;
         json!({

@@ -44,7 +44,7 @@ impl Default for Options {
 
 /// A node that was found.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Found {
+pub struct FoundNode {
     /// Node ID.
     pub node: NodeId,
     /// State in its last heartbeat; `None`: it sent none while odkit listened.
@@ -67,7 +67,7 @@ pub struct Found {
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Scan {
     /// The nodes, by node ID.
-    pub nodes: Vec<Found>,
+    pub nodes: Vec<FoundNode>,
     /// An LSS slave without a node ID is on the bus.
     pub has_unconfigured: bool,
 }
@@ -125,7 +125,7 @@ pub fn scan(
         progress(80 + (20 * at / there.len()) as u8);
         let types = types.remove(node).unwrap_or_default();
         let serials = serials.remove(node).unwrap_or_default();
-        let mut one = Found::new(*node);
+        let mut one = FoundNode::new(*node);
         one.answers = true;
         one.device_type = types.first().and_then(number);
         if types.len() > 1 || serials.len() > 1 {
@@ -141,7 +141,7 @@ pub fn scan(
     // Frames that arrived while nodes were read.
     heard.listen(link, Duration::ZERO)?;
     for node in heard.states.keys().chain(&heard.boot_ups) {
-        found.entry(*node).or_insert_with(|| Found::new(*node));
+        found.entry(*node).or_insert_with(|| FoundNode::new(*node));
     }
     for (node, one) in &mut found {
         one.state = heard.states.get(node).copied();
@@ -153,7 +153,7 @@ pub fn scan(
     })
 }
 
-impl Found {
+impl FoundNode {
     fn new(node: NodeId) -> Self {
         Self {
             node,

@@ -145,8 +145,8 @@ pub(crate) struct Found {
     conflict: Vec<u32>,
 }
 
-impl From<scan::Found> for Found {
-    fn from(found: scan::Found) -> Self {
+impl From<scan::FoundNode> for Found {
+    fn from(found: scan::FoundNode) -> Self {
         let [name, hardware, software] = found.texts;
         Self {
             node_id: found.node.raw(),

@@ -6,7 +6,7 @@ use od_model::Visible;
 use od_runtime::NodeId;
 use od_sim::VirtualDevice;
 use od_sim::words::{self, Decoder, Field, Words, tag};
-use od_tools::filter::{Filter, Seen};
+use od_tools::filter::{Filter, FilteredFrame};
 use od_wire::{Frame, Instant};
 use serde_json::{Value, json};
 
@@ -25,7 +25,7 @@ pub(crate) struct Narrator {
 }
 
 /// A frame and its meaning.
-pub(crate) struct Told {
+pub(crate) struct ExplainedFrame {
     pub(crate) at: Instant,
     pub(crate) frame: Frame,
     pub(crate) sent: bool,
@@ -51,7 +51,7 @@ impl Narrator {
     }
 
     /// Explains the next frame; `None`: the filter excludes it.
-    pub(crate) fn tell(&mut self, at: Instant, frame: Frame, sent: bool) -> Option<Told> {
+    pub(crate) fn tell(&mut self, at: Instant, frame: Frame, sent: bool) -> Option<ExplainedFrame> {
         let node = tag(&frame).node;
         if let Some(node) = NodeId::new(node).filter(|node| !self.seen.contains(&node.raw())) {
             // A file that describes no device has no names; its errors were reported when it was read.
@@ -59,13 +59,13 @@ impl Narrator {
         }
         let words = self.decoder.explain(&self.devices, &frame);
         let text = words.to_string();
-        let seen = Seen {
+        let seen = FilteredFrame {
             frame: &frame,
             sent,
             words: &text,
         };
         let passes = self.filter.passes(&seen);
-        passes.then_some(Told {
+        passes.then_some(ExplainedFrame {
             at,
             frame,
             sent,
@@ -88,7 +88,7 @@ impl Narrator {
     }
 }
 
-impl Told {
+impl ExplainedFrame {
     /// `   0.100000  181  92 95 07 00              PDO node 1: TPDO1 …`
     pub(crate) fn line(&self) -> String {
         let at = self.at.as_micros();

@@ -12,13 +12,13 @@ use crossterm::{cursor, execute, queue};
 use od_model::Visible;
 use od_sim::words::Service;
 use od_tools::Error;
-use od_tools::filter::{Filter, Seen};
+use od_tools::filter::{Filter, FilteredFrame};
 use od_tools::link::Link;
 use od_wire::Instant;
 
 use super::stats::Stats;
 use crate::bus::Bus;
-use crate::bus::words::{Narrator, Told};
+use crate::bus::words::{ExplainedFrame, Narrator};
 use crate::failure::Failure;
 use crate::record::Recorder;
 
@@ -63,7 +63,7 @@ impl Drop for Screen {
 struct Console<'r> {
     view: View,
     stats: Stats,
-    frames: VecDeque<Told>,
+    frames: VecDeque<ExplainedFrame>,
     /// The last EMCY message in words.
     emcy: Option<String>,
     is_paused: bool,
@@ -132,7 +132,7 @@ pub(super) fn run(
 }
 
 impl Console<'_> {
-    fn add(&mut self, told: Told) {
+    fn add(&mut self, told: ExplainedFrame) {
         self.stats.add(&told);
         if told.words.service == Service::Emcy {
             self.emcy = Some(told.line());
@@ -255,13 +255,17 @@ impl Console<'_> {
     fn newest(&self, rows: usize) -> Vec<String> {
         let passing = self.frames.iter().rev().filter(|told| {
             let words = told.words.to_string();
-            self.view.filter.passes(&Seen {
+            self.view.filter.passes(&FilteredFrame {
                 frame: &told.frame,
                 sent: told.sent,
                 words: &words,
             })
         });
-        let mut lines: Vec<String> = passing.skip(self.back).take(rows).map(Told::line).collect();
+        let mut lines: Vec<String> = passing
+            .skip(self.back)
+            .take(rows)
+            .map(ExplainedFrame::line)
+            .collect();
         lines.reverse();
         lines
     }

@@ -5,11 +5,11 @@ use std::collections::{BTreeMap, VecDeque};
 use od_model::values;
 use od_sim::stats::{Ids, Row};
 use od_sim::wire::bits::{INTERMISSION, bits};
-use od_tools::filter::{Filter, Seen};
+use od_tools::filter::{Filter, FilteredFrame};
 use od_wire::{CanId, Instant};
 use serde_json::{Value, json};
 
-use crate::bus::words::Told;
+use crate::bus::words::ExplainedFrame;
 
 /// Interval of the load, in microseconds.
 const WINDOW: u64 = 1_000_000;
@@ -41,7 +41,7 @@ fn period(row: &Row) -> Option<f64> {
 }
 
 impl Stats {
-    pub(super) fn add(&mut self, told: &Told) {
+    pub(super) fn add(&mut self, told: &ExplainedFrame) {
         self.count += 1;
         let bits = bits(&told.frame).len() as u64 + INTERMISSION;
         self.recent.push_back((told.at, bits));
@@ -88,7 +88,7 @@ impl Stats {
             "COB-ID", "frames", "per s", "jitter", "data"
         )];
         let rows = self.ids.rows().iter().filter(|row| {
-            filter.passes(&Seen {
+            filter.passes(&FilteredFrame {
                 frame: &row.frame,
                 sent: false,
                 words: self.words(row),

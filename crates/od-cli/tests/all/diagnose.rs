@@ -5,7 +5,7 @@ use od_model::{Dictionary, Refused};
 use od_sim::EdsOptions;
 use od_sim::VirtualDevice;
 use od_sim::bus::Bus;
-use od_sim::diagnose::{Incident, Known, diagnose, rules};
+use od_sim::diagnose::{BusFacts, Incident, diagnose, rules};
 use od_sim::logs::{Record, What};
 use od_sim::script::{Host, Origin, Script, run};
 use od_wire::{Frame, Instant, NodeId};
@@ -152,7 +152,7 @@ fn diagnosed(case: &Case<'_>) -> (Vec<Record>, Vec<Incident>) {
             let (own, tables) = tables.as_ref()?;
             (*own == node).then(|| tables.dictionary())
         };
-        let known = Known {
+        let known = BusFacts {
             bit_rate: None,
             dictionary: Some(&of),
         };

@@ -6,7 +6,7 @@ use std::prelude::v1::*;
 use od_runtime::{Frame, Instant};
 
 use super::{Bus, Sent};
-use crate::wire::{Condition, Disturbance, Due, Ended, PROCESSING, Trouble, Waiting};
+use crate::wire::{Condition, Disturbance, Due, Ended, FrameError, PROCESSING, Waiting};
 
 /// Bits of an extended frame with eight bytes, with the greatest number of stuff bits and the three
 /// bits after it.
@@ -178,7 +178,7 @@ impl Bus {
             .iter()
             .copied()
             .filter_map(|one| Some((one, ended.trouble?)));
-        let beaten = ended.beaten.iter().map(|one| (*one, Trouble::SameId));
+        let beaten = ended.beaten.iter().map(|one| (*one, FrameError::SameId));
         for (mut waiting, trouble) in failed.chain(beaten) {
             waiting.attempts = waiting.attempts.saturating_add(1);
             waiting.trouble = Some(trouble);
@@ -242,7 +242,7 @@ impl Bus {
 
     /// Reports a failed attempt. While nothing changes between attempts, one report per second is
     /// enough.
-    fn report(&mut self, waiting: &mut Waiting, trouble: Trouble) {
+    fn report(&mut self, waiting: &mut Waiting, trouble: FrameError) {
         let controller = self.line.controller(waiting.station);
         let is_soon = |before: Instant| self.now.micros_since(before) < BETWEEN_REPORTS;
         if waiting.repeats() && waiting.reported.is_some_and(is_soon) {

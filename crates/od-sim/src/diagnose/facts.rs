@@ -18,7 +18,7 @@ const RATES: [u16; 9] = [10, 20, 50, 100, 125, 250, 500, 800, 1000];
 
 /// Facts about the bus that its log does not contain.
 #[derive(Clone, Copy, Default)]
-pub struct Known<'k> {
+pub struct BusFacts<'k> {
     /// Bit rate in kbit/s; `None`: it is estimated from frames that follow each other without a pause.
     pub bit_rate: Option<u16>,
     /// Dictionary of a node, by its EDS.
@@ -173,11 +173,11 @@ pub(super) struct Facts<'a> {
     pub(super) rate: Option<u16>,
     /// Bits in each window of [`WINDOW`] microseconds from the beginning.
     windows: Vec<u32>,
-    pub(super) known: Known<'a>,
+    pub(super) known: BusFacts<'a>,
 }
 
 impl<'a> Facts<'a> {
-    pub(super) fn of(records: &'a [Record], known: Known<'a>) -> Self {
+    pub(super) fn of(records: &'a [Record], known: BusFacts<'a>) -> Self {
         let mut facts = Self {
             begin: records.first().map_or(Instant::ZERO, |record| record.at),
             end: records.last().map_or(Instant::ZERO, |record| record.at),

@@ -12,7 +12,7 @@ mod rules;
 
 use std::prelude::v1::*;
 
-pub use facts::Known;
+pub use facts::BusFacts;
 pub use incident::{Cause, Incident};
 
 use crate::logs::Record;
@@ -21,7 +21,7 @@ use crate::logs::Record;
 const MOST: usize = 1000;
 
 /// The incidents of a log, in the order of their beginning. A healthy log has none.
-pub fn diagnose<'k>(records: &'k [Record], known: Known<'k>) -> Vec<Incident> {
+pub fn diagnose<'k>(records: &'k [Record], known: BusFacts<'k>) -> Vec<Incident> {
     let facts = facts::Facts::of(records, known);
     let found = rules::ALL.iter().flat_map(|rule| {
         let mut all = (rule.check)(&facts);

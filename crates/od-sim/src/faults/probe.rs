@@ -12,7 +12,7 @@ use crate::bench::Bench;
 use crate::bus::Bus;
 use crate::grammar::problem::Problem;
 use crate::rig::Seen;
-use crate::wire::Trouble;
+use crate::wire::FrameError;
 
 /// Time in which the learner listens, in microseconds.
 const LISTEN: u64 = 3_000_000;
@@ -461,7 +461,7 @@ impl Reading {
             all += 1;
             if let Seen::Disturbed(one) = seen {
                 failed += 1;
-                unheard += usize::from(one.trouble == Trouble::NoAcknowledge);
+                unheard += usize::from(one.trouble == FrameError::NoAcknowledge);
             }
         }
         let share = Share::of(failed, all);

@@ -8,7 +8,7 @@ use od_wire::NodeId;
 use super::input::{Input, frame};
 use super::limits::MOST_DEVICES;
 use super::parts::{Dip, Rate, Source};
-use super::{Journal, Placed};
+use super::{AddedDevice, Journal};
 use crate::device::VirtualDevice;
 use crate::grammar::problem::Problem;
 use crate::script::Limits;
@@ -21,13 +21,13 @@ pub struct Added {
     /// Number of the device, 0 for a lesson; `None` if it cannot run.
     pub node: Option<usize>,
     /// The findings or problems of the text.
-    pub trouble: Trouble,
+    pub trouble: InputProblem,
 }
 
 /// Findings of an EDS text, problems of a lesson or a script.
 #[derive(Debug, Default)]
 #[non_exhaustive]
-pub enum Trouble {
+pub enum InputProblem {
     /// Nothing.
     #[default]
     None,
@@ -40,7 +40,7 @@ pub enum Trouble {
     Problems(Vec<Problem>),
 }
 
-impl Trouble {
+impl InputProblem {
     /// Returns why an input could not be carried out; `None` if it could.
     pub(super) fn why(&self, is_done: bool) -> Option<String> {
         match self {
@@ -55,7 +55,7 @@ impl Added {
     fn failed(why: impl Into<String>) -> Self {
         Self {
             node: None,
-            trouble: Trouble::Message(why.into()),
+            trouble: InputProblem::Message(why.into()),
         }
     }
 }
@@ -176,7 +176,7 @@ impl Journal {
                 Some(kind) if full(kind.channels) => Added::failed(Limits::PAGE.room()),
                 Some(kind) => Added {
                     node: Some(self.rig.put_kind(kind, id, place)),
-                    trouble: Trouble::None,
+                    trouble: InputProblem::None,
                 },
                 None => Added::failed(format!("device `{name}` does not exist")),
             },
@@ -191,7 +191,7 @@ impl Journal {
                 let (device, findings) = VirtualDevice::read_eds(text, options);
                 Added {
                     node: device.map(|device| self.rig.put(device, place)),
-                    trouble: Trouble::Findings(findings),
+                    trouble: InputProblem::Findings(findings),
                 }
             }
             #[cfg(not(feature = "eds"))]
@@ -204,7 +204,7 @@ impl Journal {
                 Source::Eds { .. } => devices.get(node).map_or("", |one| one.title()).into(),
             };
             let source = source.clone();
-            let placed = Placed {
+            let placed = AddedDevice {
                 source,
                 node_id: id,
                 name,
@@ -215,7 +215,7 @@ impl Journal {
             }
             // The further channels of a redundant encoder are separate nodes.
             for (channel, device) in (2..).zip(devices.iter().skip(self.devices.len())) {
-                self.devices.push(Placed {
+                self.devices.push(AddedDevice {
                     source: source_of(&self.devices, node),
                     node_id: device.node_id(),
                     name: format!("{}.{channel}", self.devices[node].name),
@@ -227,7 +227,7 @@ impl Journal {
     }
 }
 
-fn source_of(devices: &[Placed], node: usize) -> Source {
+fn source_of(devices: &[AddedDevice], node: usize) -> Source {
     devices[node].source.clone()
 }
 
@@ -242,7 +242,7 @@ impl Journal {
             Err(problems) => {
                 return Added {
                     node: None,
-                    trouble: Trouble::Problems(problems),
+                    trouble: InputProblem::Problems(problems),
                 };
             }
         }
@@ -267,7 +267,7 @@ impl Journal {
                 },
                 None => Source::Builtin { name: name.clone() },
             };
-            Placed {
+            AddedDevice {
                 source,
                 node_id: device.node_id(),
                 name,
@@ -276,7 +276,7 @@ impl Journal {
         self.devices = self.rig.bus.devices().iter().map(placed).collect();
         Added {
             node: Some(0),
-            trouble: Trouble::None,
+            trouble: InputProblem::None,
         }
     }
 

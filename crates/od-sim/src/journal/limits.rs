@@ -120,7 +120,7 @@ mod tests {
     #[cfg(feature = "lessons")]
     #[test]
     fn scripts_and_lessons_of_a_journal_have_limits() {
-        use super::super::{Journal, Trouble};
+        use super::super::{InputProblem, Journal};
         use std::format;
 
         let mut journal = Journal::new(od_devices::DEVICES);
@@ -130,7 +130,7 @@ mod tests {
         for text in ["wait 1000000000s", &"device gxmm\n".repeat(2000)] {
             let added = journal.act(Input::Script { text: text.into() });
             assert!(
-                matches!(added.trouble, Trouble::Message(why) if why.contains("limit") || why.contains("room"))
+                matches!(added.trouble, InputProblem::Message(why) if why.contains("limit") || why.contains("room"))
             );
             assert_eq!(journal.rig.bus.now(), at, "nothing of it happened");
         }
@@ -138,7 +138,7 @@ mod tests {
         let text = "send 601#2B 00 18 05 01 00\nnmt start\nwait 500s";
         let added = journal.act(Input::Script { text: text.into() });
         assert!(
-            matches!(&added.trouble, Trouble::Message(why) if why.contains("100000 frames")),
+            matches!(&added.trouble, InputProblem::Message(why) if why.contains("100000 frames")),
             "{:?}",
             added.trouble
         );
@@ -150,7 +150,7 @@ mod tests {
         });
         assert!(added.node.is_none());
         assert!(
-            matches!(&added.trouble, Trouble::Problems(all) if format!("{all:?}").contains("limit")),
+            matches!(&added.trouble, InputProblem::Problems(all) if format!("{all:?}").contains("limit")),
             "{:?}",
             added.trouble
         );

@@ -18,7 +18,7 @@ use od_wire::{Instant, NodeId};
 
 use crate::rig::Rig;
 
-pub use self::apply::{Added, Trouble};
+pub use self::apply::{Added, InputProblem};
 pub use self::field::{Error, Fields, Sink, Value};
 pub use self::input::{Entry, Input, frame};
 pub use self::limits::check;
@@ -29,7 +29,7 @@ const PORTION: usize = 5000;
 
 /// A device added by the journal.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Placed {
+pub struct AddedDevice {
     /// Its text or built-in device.
     pub source: Source,
     /// Its node ID.
@@ -44,7 +44,7 @@ pub struct Journal {
     pub rig: Rig,
     /// The built-in devices.
     roster: &'static [DeviceKind],
-    devices: Vec<Placed>,
+    devices: Vec<AddedDevice>,
     #[cfg(feature = "lessons")]
     lesson: Option<crate::lesson::Lesson>,
     entries: Vec<Entry>,
@@ -76,7 +76,7 @@ impl Journal {
     }
 
     /// The devices on the bus.
-    pub fn devices(&self) -> &[Placed] {
+    pub fn devices(&self) -> &[AddedDevice] {
         &self.devices
     }
 

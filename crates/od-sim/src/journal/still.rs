@@ -9,7 +9,7 @@ use od_wire::nmt::{Command, State};
 
 use super::input::{Entry, Input};
 use super::parts::{Dip, Rate};
-use super::{Journal, Placed};
+use super::{AddedDevice, Journal};
 
 /// The present state of a device.
 struct Station {
@@ -189,7 +189,7 @@ fn switches(node: u8, station: &Station) -> Vec<Input> {
     vec![switches(Some(id), None), dip(1), dip(2), dip(4)]
 }
 
-fn is_channel(device: &Placed) -> bool {
+fn is_channel(device: &AddedDevice) -> bool {
     let rest = device.name.strip_prefix(device.source.name());
     rest.is_some_and(|rest| rest.starts_with('.'))
 }

@@ -264,7 +264,7 @@ fn news_come_once_and_begin_at_the_first_difference() {
     assert!(journal.act(add("none", 5)).node.is_none());
     assert!(matches!(
         journal.act(add("gxmm", 0)).trouble,
-        Trouble::Message(_)
+        InputProblem::Message(_)
     ));
     assert_eq!(journal.news(), None);
 }
@@ -345,7 +345,7 @@ fn the_bus_has_room_for_16_devices_in_a_repeated_run_too() {
     let mut journal = bench((0..20).map(|_| add("gxmm", 5)).collect());
     assert_eq!(journal.devices().len(), 16);
     let added = journal.act(add("gxmm", 5));
-    assert!(matches!(added.trouble, Trouble::Message(why) if why.contains("16 devices")));
+    assert!(matches!(added.trouble, InputProblem::Message(why) if why.contains("16 devices")));
     assert_eq!(
         journal.act(in_place(0)).node,
         Some(0),

@@ -21,7 +21,7 @@ use crate::cursor::Cursor;
 
 /// A frame with the other fields of its log line.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Line {
+pub struct LogLine {
     /// The time stamp, if there is one.
     pub at: Option<Instant>,
     /// The interface, if there is one.
@@ -68,7 +68,7 @@ impl core::error::Error for Error {}
 ///
 /// # Errors
 /// [`Error`] names the first invalid character.
-pub fn parse_line(line: &str) -> Result<Line, Error> {
+pub fn parse_line(line: &str) -> Result<LogLine, Error> {
     let Logged {
         at,
         interface,
@@ -77,7 +77,7 @@ pub fn parse_line(line: &str) -> Result<Line, Error> {
     } = logged(line)?;
     let (column, word) = frame.column;
     match frame.what {
-        What::Frame(frame) => Ok(Line {
+        What::Frame(frame) => Ok(LogLine {
             at,
             interface: interface.map(str::to_owned),
             frame,

@@ -12,7 +12,7 @@ use crate::grammar::tokens::{Tokens, nmt_command};
 use crate::logs::candump;
 
 /// Context of a line.
-pub struct Known<'k> {
+pub struct LineContext<'k> {
     /// The node of the line.
     pub node: NodeId,
     /// The type of an object of that node.
@@ -27,7 +27,7 @@ pub struct Known<'k> {
 ///
 /// # Errors
 /// The problem, and the text to write instead.
-pub fn frame_of(text: &str, known: &Known<'_>) -> Result<Frame, Problem> {
+pub fn frame_of(text: &str, known: &LineContext<'_>) -> Result<Frame, Problem> {
     let start = Tokens::new(1, text);
     let mut words = start;
     let mut verb = words.next().to_ascii_lowercase();
@@ -73,7 +73,7 @@ fn typed_or_logged(text: &str, start: Tokens<'_>) -> Result<Frame, Problem> {
 }
 
 /// `6001h = 4096`.
-fn write(mut words: Tokens<'_>, known: &Known<'_>) -> Result<Frame, Problem> {
+fn write(mut words: Tokens<'_>, known: &LineContext<'_>) -> Result<Frame, Problem> {
     let start = words;
     let object = words
         .split_at_equals()
@@ -115,7 +115,7 @@ mod tests {
     fn read(text: &str) -> Result<String, Problem> {
         let node = NodeId::new(5).expect("1 to 127");
         let known = Address::new(0x6001, 0);
-        let known = Known {
+        let known = LineContext {
             node,
             type_of: &|address| (address == known).then_some(DataType::Unsigned32),
             real: &|text| text.parse().ok(),

@@ -27,7 +27,7 @@ pub use console::Console;
 pub(crate) use host::Recorder;
 pub use host::{Bare, Host, Limited, Origin};
 pub use limits::Limits;
-pub use line::{Known, frame_of};
+pub use line::{LineContext, frame_of};
 pub use outcome::{Reason, Stop, Summary};
 pub use read::{Reader, Script, Statement};
 pub use run::{run, run_on};

@@ -10,7 +10,7 @@ use super::bits::{self, BEHIND_ACKNOWLEDGE, INTERMISSION, arbitration};
 
 /// Reason why a frame failed.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub enum Trouble {
+pub enum FrameError {
     /// Nobody acknowledged it.
     NoAcknowledge,
     /// A station with another bit rate destroyed it.
@@ -32,7 +32,7 @@ pub struct Disturbance {
     /// The frame.
     pub frame: Frame,
     /// Reason.
-    pub trouble: Trouble,
+    pub trouble: FrameError,
     /// Number of failed attempts of this frame so far, this one included.
     pub attempts: u32,
     /// Transmit error counter of the sender after the attempt.
@@ -61,10 +61,10 @@ const UNTIL_PASSIVE: u32 = 16;
 const NANOS: u64 = 1000;
 
 /// Bits of an attempt to send a frame, without the intermission.
-pub(super) fn bits_of(frame: &Frame, trouble: Option<Trouble>) -> u64 {
+pub(super) fn bits_of(frame: &Frame, trouble: Option<FrameError>) -> u64 {
     match trouble {
         None => bits::count(frame),
-        Some(Trouble::NoAcknowledge) => bits::count(frame) - BEHIND_ACKNOWLEDGE + ERROR_FRAME,
+        Some(FrameError::NoAcknowledge) => bits::count(frame) - BEHIND_ACKNOWLEDGE + ERROR_FRAME,
         Some(_) => DESTROYED,
     }
 }
@@ -83,7 +83,7 @@ pub(crate) struct Waiting {
     pub(crate) frame: Frame,
     /// Number of failed attempts, and the reason of the last one.
     pub(crate) attempts: u32,
-    pub(crate) trouble: Option<Trouble>,
+    pub(crate) trouble: Option<FrameError>,
     /// Time of the last attempt that was reported.
     pub(crate) reported: Option<Instant>,
     /// Time from which it may start, in nanoseconds.
@@ -95,7 +95,7 @@ impl Waiting {
     /// Returns whether the next attempts change nothing: no station acknowledges the frame, and its sender is error
     /// passive with a counter of 128.
     pub(crate) fn repeats(&self) -> bool {
-        self.trouble == Some(Trouble::NoAcknowledge) && self.attempts > UNTIL_PASSIVE
+        self.trouble == Some(FrameError::NoAcknowledge) && self.attempts > UNTIL_PASSIVE
     }
 }
 
@@ -114,7 +114,7 @@ pub(crate) struct Ended {
     /// Senders that failed while the frame of the others went on.
     pub(crate) beaten: Vec<Waiting>,
     /// Reason of the failure; `None`: the frame came through.
-    pub(crate) trouble: Option<Trouble>,
+    pub(crate) trouble: Option<FrameError>,
 }
 
 impl Ended {

@@ -22,7 +22,7 @@ use od_runtime::{BusEvent, Frame, Instant};
 use self::cable::{Measure, Property};
 use self::controller::PASSIVE;
 pub use self::controller::{Condition, Controller};
-pub use self::medium::{Disturbance, Trouble};
+pub use self::medium::{Disturbance, FrameError};
 pub(crate) use self::medium::{Due, Ended, Medium, PROCESSING, Waiting};
 use crate::chance::Chance;
 
@@ -43,7 +43,7 @@ pub(crate) struct Station {
 /// The result of an attempt of one or more stations with the same identifier.
 pub(super) struct Attempt {
     /// Reason of the failure; `None` if the frame will get through.
-    pub(super) trouble: Option<Trouble>,
+    pub(super) trouble: Option<FrameError>,
     /// Bits until the line is free for the intermission.
     pub(super) bits: u64,
     /// Stations whose frame was another one, and that could not stop the frame: they are error passive.
@@ -267,7 +267,7 @@ impl Line {
                     }
                 }
                 return Attempt {
-                    trouble: Some(Trouble::SameId),
+                    trouble: Some(FrameError::SameId),
                     bits: medium::bits_until(place),
                     beaten,
                 };
@@ -307,7 +307,7 @@ impl Line {
         senders: &[usize],
         beaten: &[usize],
         frame: &Frame,
-    ) -> Option<Trouble> {
+    ) -> Option<FrameError> {
         let rate = stations[senders[0]].rate;
         let mut others = self.listeners(stations, senders);
         others.retain(|station| !beaten.contains(station));
@@ -326,11 +326,11 @@ impl Line {
             line.controller(*station).condition() == Condition::ErrorActive
         };
         let trouble = if strangers.iter().any(|other| destroys(self, other)) {
-            Some(Trouble::OtherBitRate)
+            Some(FrameError::OtherBitRate)
         } else if self.is_unlucky(rate) || self.is_slow(rate, others.len() + senders.len()) {
-            Some(Trouble::Reflections)
+            Some(FrameError::Reflections)
         } else if !others.iter().any(same) || self.is_late(rate) {
-            Some(Trouble::NoAcknowledge)
+            Some(FrameError::NoAcknowledge)
         } else {
             None
         };
@@ -344,7 +344,7 @@ impl Line {
             match trouble {
                 None => controller.sent(),
                 // An error passive sender without an acknowledgement does not count further.
-                Some(Trouble::NoAcknowledge) if controller.transmit >= PASSIVE => {}
+                Some(FrameError::NoAcknowledge) if controller.transmit >= PASSIVE => {}
                 Some(_) => controller.erred_sending(),
             }
         }

@@ -19,7 +19,7 @@ fn stations(rates: &[u16]) -> Vec<Station> {
 }
 
 /// Tries to send a frame up to 100 times; returns the reasons of the failed attempts, and whether it got through.
-fn send(line: &mut Line, stations: &[Station], from: usize) -> (Vec<Trouble>, bool) {
+fn send(line: &mut Line, stations: &[Station], from: usize) -> (Vec<FrameError>, bool) {
     let mut failed = Vec::new();
     while failed.len() < 100 && line.controller(from).condition() != Condition::BusOff {
         let frame = Frame::standard(0x80, &[]);
@@ -45,7 +45,7 @@ fn equal_rates_and_two_terminators_lose_nothing() {
 fn a_station_with_another_rate_disturbs_until_error_passive_and_goes_bus_off_when_it_sends() {
     let (mut line, stations) = (real(2), stations(&[500, 500, 250]));
     let first = send(&mut line, &stations, 0);
-    assert_eq!(first, (vec![Trouble::OtherBitRate; 16], true));
+    assert_eq!(first, (vec![FrameError::OtherBitRate; 16], true));
     assert_eq!(line.controller(2).condition(), Condition::ErrorPassive);
     assert_eq!(send(&mut line, &stations, 0), (Vec::new(), true));
     assert!(!line.hears(&stations, 0, 2));
@@ -60,7 +60,7 @@ fn a_station_with_another_rate_disturbs_until_error_passive_and_goes_bus_off_whe
 fn alone_on_the_line_a_node_repeats_and_is_never_bus_off() {
     let (mut line, stations) = (real(2), stations(&[500, 500]));
     line.set_plugged(0, false);
-    let alone = (vec![Trouble::NoAcknowledge; 100], false);
+    let alone = (vec![FrameError::NoAcknowledge; 100], false);
     assert_eq!(send(&mut line, &stations, 1), alone);
     assert_eq!(line.controller(1).transmit, 128);
     assert_eq!(line.controller(1).condition(), Condition::ErrorPassive);
@@ -82,7 +82,7 @@ fn different_frames_with_one_identifier_destroy_each_other_while_error_active() 
         let attempt = both();
         assert_eq!(
             (attempt.trouble, attempt.beaten),
-            (Some(Trouble::SameId), vec![])
+            (Some(FrameError::SameId), vec![])
         );
         assert!((44..62).contains(&attempt.bits), "{}", attempt.bits);
     }
@@ -103,7 +103,7 @@ fn equal_frames_of_one_moment_are_one_frame_and_need_a_third_station_to_acknowle
     assert_eq!((attempt.trouble, attempt.beaten), (None, vec![]));
     line.set_plugged(0, false);
     let attempt = line.try_once(Instant::ZERO, &stations, &both);
-    assert_eq!(attempt.trouble, Some(Trouble::NoAcknowledge));
+    assert_eq!(attempt.trouble, Some(FrameError::NoAcknowledge));
     assert_eq!(line.controller(2).transmit, 8);
 }
 

@@ -8,7 +8,7 @@ use self::term::{Term, term};
 use self::tokens::{Token, mistake, tokens};
 use crate::error::Error;
 
-pub use self::term::Seen;
+pub use self::term::FilteredFrame;
 
 /// A filter for frames; an empty filter accepts all.
 #[derive(Clone, PartialEq, Debug, Default)]
@@ -43,13 +43,13 @@ impl Filter {
     }
 
     /// Returns whether the filter accepts a frame.
-    pub fn passes(&self, seen: &Seen<'_>) -> bool {
+    pub fn passes(&self, seen: &FilteredFrame<'_>) -> bool {
         self.0.as_ref().is_none_or(|rule| rule.passes(seen))
     }
 }
 
 impl Rule {
-    fn passes(&self, seen: &Seen<'_>) -> bool {
+    fn passes(&self, seen: &FilteredFrame<'_>) -> bool {
         match self {
             Self::All(rules) => rules.iter().all(|rule| rule.passes(seen)),
             Self::Any(rules) => rules.iter().any(|rule| rule.passes(seen)),
@@ -146,7 +146,7 @@ mod tests {
         let frame = od_sim::logs::candump::parse_frame(frame).expect(frame);
         let filter = Filter::parse(text).unwrap_or_else(|why| panic!("{text}: {why}"));
         let sent = false;
-        filter.passes(&Seen {
+        filter.passes(&FilteredFrame {
             frame: &frame,
             sent,
             words,

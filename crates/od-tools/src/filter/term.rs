@@ -9,7 +9,7 @@ use crate::error::Error;
 
 /// A frame with the properties that a filter tests.
 #[derive(Clone, Copy, Debug)]
-pub struct Seen<'f> {
+pub struct FilteredFrame<'f> {
     /// The frame.
     pub frame: &'f Frame,
     /// Whether this program sent it.
@@ -54,7 +54,7 @@ const PDOS: &[&str] = &[
 ];
 
 impl Term {
-    pub(super) fn passes(&self, seen: &Seen<'_>) -> bool {
+    pub(super) fn passes(&self, seen: &FilteredFrame<'_>) -> bool {
         let frame = seen.frame;
         let tag = tag(frame);
         let service = TAGS[usize::from(tag.tag)];

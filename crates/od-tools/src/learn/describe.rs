@@ -7,16 +7,20 @@ use od_eds::{EntryDescription, ObjectDescription, Spanned, Value};
 use od_model::{Access, Address, DataType, Kind, ObjectCode};
 use od_wire::NodeId;
 
-use super::probe::Found;
+use super::probe::FoundObject;
 use super::types::{From, Guess};
 
 /// Returns whether the object is a VAR.
-pub(super) fn is_whole(found: &[Found]) -> bool {
+pub(super) fn is_whole(found: &[FoundObject]) -> bool {
     found.len() == 1 && found[0].address.sub == 0
 }
 
 /// The object with its values and their types.
-pub(super) fn describe(found: &[Found], guesses: &[Guess], node: NodeId) -> ObjectDescription {
+pub(super) fn describe(
+    found: &[FoundObject],
+    guesses: &[Guess],
+    node: NodeId,
+) -> ObjectDescription {
     let index = found[0].address.index;
     let is_whole = is_whole(found);
     let mut entries = BTreeMap::new();

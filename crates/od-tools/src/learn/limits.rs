@@ -2,7 +2,7 @@
 
 use od_model::DataType;
 
-use super::probe::{Found, Probe};
+use super::probe::{FoundObject, Probe};
 use super::types::with_sign;
 use crate::error::Error;
 use crate::link::Link;
@@ -23,7 +23,7 @@ pub(super) struct Learned {
 /// lowest number of the signed type.
 pub(super) fn limits<L: Link>(
     probe: &mut Probe<L>,
-    found: &Found,
+    found: &FoundObject,
     data_type: DataType,
     is_sure: bool,
 ) -> Result<Learned, Error> {
@@ -49,7 +49,7 @@ pub(super) fn limits<L: Link>(
 
 fn probed<L: Link>(
     probe: &mut Probe<L>,
-    found: &Found,
+    found: &FoundObject,
     bytes: &[u8],
     is_sure: bool,
     learned: &mut Learned,

@@ -19,7 +19,7 @@ use od_model::Address;
 use od_wire::NodeId;
 
 use self::known::Profiles;
-use self::probe::{Found, Probe, There};
+use self::probe::{FoundObject, Probe, There};
 use crate::conform::eds::is_touchy;
 use crate::error::Error;
 use crate::link::Link;
@@ -47,7 +47,7 @@ pub fn learn(
     mut told: impl FnMut(u16),
 ) -> Result<Learned, Error> {
     let mut probe = Probe::new(link, node);
-    let mut all: BTreeMap<u16, Vec<Found>> = BTreeMap::new();
+    let mut all: BTreeMap<u16, Vec<FoundObject>> = BTreeMap::new();
     for index in 0x1000..=0x9FFF {
         if index % 0x1000 == 0 {
             told(index);
@@ -60,7 +60,7 @@ pub fn learn(
     // The other objects show the profile of an object.
     let values = all.values().flatten();
     let lengths: Vec<_> = values
-        .filter_map(|one: &Found| {
+        .filter_map(|one: &FoundObject| {
             let Address { index, sub } = one.address;
             Some((index, sub, one.bytes.as_ref()?.len()))
         })
@@ -88,7 +88,7 @@ pub fn learn(
 }
 
 /// Bits 0 to 15 of a value; 0 if the node does not have it.
-fn low_word(all: &BTreeMap<u16, Vec<Found>>, index: u16) -> u16 {
+fn low_word(all: &BTreeMap<u16, Vec<FoundObject>>, index: u16) -> u16 {
     let bytes = all.get(&index).and_then(|found| found[0].bytes.as_deref());
     match bytes {
         Some([low, high, ..]) => u16::from_le_bytes([*low, *high]),
@@ -97,7 +97,7 @@ fn low_word(all: &BTreeMap<u16, Vec<Found>>, index: u16) -> u16 {
 }
 
 /// The values of an object.
-fn members<L: Link>(probe: &mut Probe<L>, index: u16) -> Result<Vec<Found>, Error> {
+fn members<L: Link>(probe: &mut Probe<L>, index: u16) -> Result<Vec<FoundObject>, Error> {
     let mut all = Vec::new();
     if probe.lacks(index)? {
         return Ok(all);
@@ -133,7 +133,7 @@ fn members<L: Link>(probe: &mut Probe<L>, index: u16) -> Result<Vec<Found>, Erro
 }
 
 /// The four numbers of 1018h; `None` if the node lacks one.
-fn identity(all: &BTreeMap<u16, Vec<Found>>) -> Option<[u32; 4]> {
+fn identity(all: &BTreeMap<u16, Vec<FoundObject>>) -> Option<[u32; 4]> {
     let number = |sub: u8| {
         let mut found = all.get(&0x1018)?.iter();
         let one = found.find(|one| one.address.sub == sub)?;
@@ -146,7 +146,7 @@ fn identity(all: &BTreeMap<u16, Vec<Found>>) -> Option<[u32; 4]> {
 /// Finds access and limits by writing.
 fn probe_writes<L: Link>(
     probe: &mut Probe<L>,
-    found: &mut [Found],
+    found: &mut [FoundObject],
     object: &mut ObjectDescription,
 ) -> Result<(), Error> {
     for one in found {
@@ -167,7 +167,7 @@ fn probe_writes<L: Link>(
 
 fn probe_limits<L: Link>(
     probe: &mut Probe<L>,
-    one: &Found,
+    one: &FoundObject,
     object: &mut ObjectDescription,
 ) -> Result<(), Error> {
     let Some(entry) = object.entries.get_mut(&one.address.sub) else {

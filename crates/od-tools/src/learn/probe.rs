@@ -13,7 +13,7 @@ use crate::master::Master;
 
 /// A value with the properties that the node shows.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub(super) struct Found {
+pub(super) struct FoundObject {
     pub(super) address: Address,
     /// The bytes; `None` if the node has no data at present.
     pub(super) bytes: Option<Vec<u8>>,
@@ -57,7 +57,7 @@ const NUMBERS: [(u16, u8); 5] = [
 pub(super) enum There {
     NoObject,
     NoSubIndex,
-    Value(Found),
+    Value(FoundObject),
 }
 
 /// Asks one node.
@@ -105,7 +105,7 @@ impl<L: Link> Probe<L> {
             }
             _ => None,
         };
-        Ok(There::Value(Found {
+        Ok(There::Value(FoundObject {
             address,
             bytes,
             is_write_only,
@@ -127,7 +127,7 @@ impl<L: Link> Probe<L> {
 
     /// Returns whether an object is a VAR: by the standard, or because the node responds with the same value to a
     /// sub-index that the object cannot have.
-    pub(super) fn is_var(&mut self, whole: &Found) -> Result<bool, Error> {
+    pub(super) fn is_var(&mut self, whole: &FoundObject) -> Result<bool, Error> {
         let index = whole.address.index;
         if specified(index).is_some_and(|known| !known.code.has_members()) {
             return Ok(true);
@@ -143,7 +143,7 @@ impl<L: Link> Probe<L> {
     }
 
     /// Writes the current value, and returns whether the node accepts it; `None` if it cannot be read.
-    pub(super) fn takes_its_value(&mut self, found: &Found) -> Result<Option<bool>, Error> {
+    pub(super) fn takes_its_value(&mut self, found: &FoundObject) -> Result<Option<bool>, Error> {
         let Some(bytes) = found.bytes.as_deref().filter(|bytes| !bytes.is_empty()) else {
             return Ok(None);
         };

@@ -35,7 +35,7 @@ pub struct Watch {
 
 /// A recording, and the behaviour that it does not contain.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Seen {
+pub struct Recording {
     /// The recording, for [`od_sim::VirtualDevice::play_recorded`]; its text is appended to the EDS.
     pub recorded: Recorded,
     /// Behaviour that the recording does not contain, one sentence each.
@@ -51,8 +51,8 @@ pub fn record(
     node: NodeId,
     description: &Description,
     watch: Watch,
-) -> Result<Seen, Error> {
-    let mut seen = Seen {
+) -> Result<Recording, Error> {
+    let mut seen = Recording {
         recorded: Recorded {
             length: watch.length.as_micros() as u64,
             ..Recorded::default()
@@ -97,7 +97,7 @@ fn begin(
     link: &mut impl Link,
     node: NodeId,
     watch: Watch,
-    seen: &mut Seen,
+    seen: &mut Recording,
 ) -> Result<Option<u8>, Error> {
     if !watch.reset {
         let text = "boot-up time and errors at start: they need --allow-reset";
@@ -155,7 +155,7 @@ fn listen(
     node: NodeId,
     description: &Description,
     watch: Watch,
-    seen: &mut Seen,
+    seen: &mut Recording,
 ) -> Result<(), Error> {
     let default = |index: u16, sub: u8| {
         let entry = description.objects.get(&index)?.entries.get(&sub)?;
@@ -220,7 +220,7 @@ fn values(
     node: NodeId,
     description: &Description,
     watch: Watch,
-    seen: &mut Seen,
+    seen: &mut Recording,
 ) -> Result<(), Error> {
     let mut master = Master::new(link, node);
     let mut last: BTreeMap<Address, Vec<u8>> = BTreeMap::new();

@@ -4,7 +4,7 @@ use od_eds::outline::data_type;
 use od_model::{Address, DataType, Kind};
 
 use super::known::Profiles;
-use super::probe::{Found, Room};
+use super::probe::{FoundObject, Room};
 
 /// The type of a value, and its source.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -27,7 +27,7 @@ pub(super) enum From {
 /// The types of the values of one object.
 pub(super) fn types(
     profiles: &Profiles,
-    found: &[Found],
+    found: &[FoundObject],
     is_whole: bool,
     version: u16,
 ) -> Vec<Guess> {
@@ -50,7 +50,7 @@ pub(super) fn types(
     all
 }
 
-fn guess(profiles: &Profiles, one: &Found, is_whole: bool, version: u16) -> Guess {
+fn guess(profiles: &Profiles, one: &FoundObject, is_whole: bool, version: u16) -> Guess {
     let Address { index, sub } = one.address;
     let sure = |data_type| Guess {
         data_type,
@@ -86,7 +86,7 @@ fn guess(profiles: &Profiles, one: &Found, is_whole: bool, version: u16) -> Gues
 }
 
 /// Returns whether the value has the length of the type.
-fn fits(data_type: DataType, found: &Found) -> bool {
+fn fits(data_type: DataType, found: &FoundObject) -> bool {
     match (&found.bytes, data_type.size(), found.room) {
         (Some(bytes), Some(size), _) => bytes.len() == size,
         (None, Some(size), Some(Room::Bytes(room))) => room == size,
@@ -96,7 +96,7 @@ fn fits(data_type: DataType, found: &Found) -> bool {
     }
 }
 
-fn by_value(found: &Found) -> Guess {
+fn by_value(found: &FoundObject) -> Guess {
     let length = |data_type| Guess {
         data_type,
         from: From::Length,

@@ -3,12 +3,12 @@ use super::*;
 #[track_caller]
 fn check(line: &str, expected: &str) {
     let shown = match parse_line(line) {
-        Ok(Line {
+        Ok(LogLine {
             at: Some(at),
             interface,
             frame,
         }) => format_line(at, interface.as_deref().unwrap_or("-"), &frame),
-        Ok(Line { frame, .. }) => frame.to_string(),
+        Ok(LogLine { frame, .. }) => frame.to_string(),
         Err(error) => format!("{}: {}", error.column, error.message),
     };
     assert_eq!(shown, expected, "{line}");
