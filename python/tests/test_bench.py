@@ -308,6 +308,8 @@ CALLS = [
     # A frame every 0.2 ms: there is always something to do.
     'real.run(inf)',
     "foreign.run(inf)",
+    # Nobody reads what is sent; that is an error after 2 s.
+    "full()",
 ]
 
 
@@ -327,6 +329,16 @@ def test_ctrl_c_ends_every_call():
         threading.Thread(target=talk, daemon=True).start()
         real = odkit.Client(f"slcan:127.0.0.1:{loud.getsockname()[1]}")
         foreign = odkit.Client(can.Bus("nobody", interface="virtual"))
+        deaf = socket.create_server(("127.0.0.1", 0))
+        def greet():
+            other = deaf.accept()[0]
+            other.sendall(b"\\r" * 4)
+            threading.Event().wait()
+        threading.Thread(target=greet, daemon=True).start()
+        def full():
+            other = odkit.Client(f"slcan:127.0.0.1:{deaf.getsockname()[1]}")
+            while True:
+                other.send(0x123, bytes(8))
         # A run in the background of a shell script ignores SIGINT, and its programs inherit that.
         signal.signal(signal.SIGINT, signal.default_int_handler)
         sent = []
@@ -341,9 +353,14 @@ def test_ctrl_c_ends_every_call():
                 held = threading.Thread(target=threading.Event().wait, daemon=True)
                 held.start()
             if "busy" in call:
-                busy = odkit.Client(odkit.Bench("gxmm@1"))
+                # The thread has the client as soon as it reads from the bus.
+                reads = threading.Event()
+                bus = can.Bus("busy", interface="virtual")
+                recv = bus.recv
+                bus.recv = lambda timeout: (reads.set(), recv(timeout))[1]
+                busy = odkit.Client(bus)
                 threading.Thread(target=busy.run, args=[inf], daemon=True).start()
-                time.sleep(0.05)
+                reads.wait()
             try:
                 # Under load it may come before the call.
                 threading.Thread(target=interrupt).start()

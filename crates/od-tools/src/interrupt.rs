@@ -13,7 +13,7 @@ const SLICE: u64 = 50;
 
 /// A link that ends each wait with [`Error::Interrupted`] while `stop` is set.
 ///
-/// It still sends, so that values on the bus can be restored.
+/// It still sends, so that values on the bus can be restored; only a wait for the other side to accept a frame ends, too.
 #[derive(Debug)]
 pub struct Interruptible<L> {
     link: L,
@@ -33,7 +33,17 @@ impl<L: Link> Link for Interruptible<L> {
     }
 
     fn send(&mut self, frame: &Frame) -> Result<(), Error> {
-        self.link.send(frame)
+        let was_stopped = self.stop.load(Ordering::Relaxed);
+        self.link.begin_send(frame)?;
+        loop {
+            let slice = self.link.now().plus_millis(SLICE);
+            if self.link.finish_send(slice)? {
+                return Ok(());
+            }
+            if !was_stopped && self.stop.load(Ordering::Relaxed) {
+                return Err(Error::Interrupted);
+            }
+        }
     }
 
     fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Error> {

@@ -25,6 +25,24 @@ pub trait Link {
     /// [`Error::Link`] if the link is lost.
     fn send(&mut self, frame: &Frame) -> Result<(), Error>;
 
+    /// Begins to send a frame. A link that may have to wait for the other side returns at once;
+    /// [`finish_send`](Self::finish_send) completes the frame.
+    ///
+    /// # Errors
+    /// As [`send`](Self::send).
+    fn begin_send(&mut self, frame: &Frame) -> Result<(), Error> {
+        self.send(frame)
+    }
+
+    /// Waits until `until` for the other side to accept the frame that was begun; returns whether it did. A frame that is
+    /// not completed goes out before the next one.
+    ///
+    /// # Errors
+    /// As [`send`](Self::send).
+    fn finish_send(&mut self, _until: Instant) -> Result<bool, Error> {
+        Ok(true)
+    }
+
     /// Waits until `until` for the next frame of another sender; with a time in the past it returns a frame
     /// that has already arrived, and does not wait. Frames sent over this link are not received.
     ///
@@ -56,6 +74,14 @@ impl<L: Link + ?Sized> Link for &mut L {
         (**self).send(frame)
     }
 
+    fn begin_send(&mut self, frame: &Frame) -> Result<(), Error> {
+        (**self).begin_send(frame)
+    }
+
+    fn finish_send(&mut self, until: Instant) -> Result<bool, Error> {
+        (**self).finish_send(until)
+    }
+
     fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Error> {
         (**self).receive(until)
     }
@@ -76,6 +102,14 @@ impl<L: Link + ?Sized> Link for Box<L> {
 
     fn send(&mut self, frame: &Frame) -> Result<(), Error> {
         (**self).send(frame)
+    }
+
+    fn begin_send(&mut self, frame: &Frame) -> Result<(), Error> {
+        (**self).begin_send(frame)
+    }
+
+    fn finish_send(&mut self, until: Instant) -> Result<bool, Error> {
+        (**self).finish_send(until)
     }
 
     fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Error> {

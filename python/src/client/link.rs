@@ -102,8 +102,17 @@ impl Link for Line {
         match self {
             Self::Wire(one) => one.send(frame),
             Self::Bus(one) => one.send(frame),
-            // It takes up to 2 s if the other side does not read.
-            Self::Real(one, _) => Python::attach(|py| py.detach(|| one.send(frame))),
+            Self::Real(one, error) => Python::attach(|py| {
+                one.begin_send(frame)?;
+                // It takes up to 2 s if the other side does not read.
+                while !py.detach(|| one.finish_send(one.now() + SLICE))? {
+                    if let Err(why) = look(py) {
+                        *error = Some(why);
+                        return Err(Error::Interrupted);
+                    }
+                }
+                Ok(())
+            }),
         }
     }
 

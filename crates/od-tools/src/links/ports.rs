@@ -11,8 +11,6 @@ use crate::error::Error;
 
 /// Longest time until a server accepts a connection.
 const CONNECT: Duration = Duration::from_secs(5);
-/// How long a write may take.
-const WRITE: Duration = Duration::from_secs(2);
 
 /// Connects to `HOST:PORT`.
 pub(super) fn connect(kind: &str, place: &str) -> Result<(TcpStream, String), Error> {
@@ -25,14 +23,10 @@ pub(super) fn connect(kind: &str, place: &str) -> Result<(TcpStream, String), Er
     let mut last = io::Error::from(ErrorKind::NotFound);
     for address in addresses {
         match TcpStream::connect_timeout(&address, CONNECT) {
-            Ok(stream) => {
-                let ready = stream.set_nodelay(true);
-                let ready = ready.and_then(|()| stream.set_write_timeout(Some(WRITE)));
-                match ready {
-                    Ok(()) => return Ok((stream, name)),
-                    Err(error) => last = error,
-                }
-            }
+            Ok(stream) => match stream.set_nodelay(true) {
+                Ok(()) => return Ok((stream, name)),
+                Err(error) => last = error,
+            },
             Err(error) => last = error,
         }
     }
@@ -49,9 +43,11 @@ impl Port for TcpStream {
         Read::read(self, buffer)
     }
 
-    fn write(&mut self, bytes: &[u8]) -> io::Result<()> {
-        self.set_nonblocking(false)?;
-        self.write_all(bytes)
+    fn write(&mut self, bytes: &[u8], wait: Duration) -> io::Result<usize> {
+        // A time-out of zero would mean no time-out.
+        self.set_nonblocking(wait.is_zero())?;
+        self.set_write_timeout(Some(wait).filter(|wait| !wait.is_zero()))?;
+        Write::write(self, bytes)
     }
 }
 
@@ -69,20 +65,22 @@ pub(super) fn serial(path: &str, baud: u32) -> Result<SerialPort, Error> {
             _ => format!("{path} at {baud} bit/s: {error}"),
         })
     };
-    let mut port = SerialPort::open(path, baud).map_err(failed)?;
-    port.set_write_timeout(WRITE).map_err(failed)?;
-    Ok(port)
+    SerialPort::open(path, baud).map_err(failed)
+}
+
+/// The system counts the time-outs of a serial port in milliseconds.
+fn whole_millis(wait: Duration) -> Duration {
+    Duration::from_millis(u64::try_from(wait.as_micros().div_ceil(1000)).unwrap_or(u64::MAX))
 }
 
 impl Port for SerialPort {
     fn read(&mut self, buffer: &mut [u8], wait: Duration) -> io::Result<usize> {
-        // The system counts in milliseconds.
-        let millis = u64::try_from(wait.as_micros().div_ceil(1000)).unwrap_or(u64::MAX);
-        self.set_read_timeout(Duration::from_millis(millis))?;
+        self.set_read_timeout(whole_millis(wait))?;
         Self::read(self, buffer)
     }
 
-    fn write(&mut self, bytes: &[u8]) -> io::Result<()> {
-        self.write_all(bytes)
+    fn write(&mut self, bytes: &[u8], wait: Duration) -> io::Result<usize> {
+        self.set_write_timeout(whole_millis(wait))?;
+        Self::write(self, bytes)
     }
 }

@@ -22,6 +22,8 @@ const ENXIO: i32 = 6;
 /// A raw socket of an interface.
 pub(super) struct Interface {
     socket: CanSocket,
+    /// A frame that the interface has not accepted yet, and when it began to wait.
+    unsent: Option<(Vec<u8>, Instant)>,
     name: String,
     /// Origin of the link's time.
     start: time::Instant,
@@ -37,6 +39,7 @@ impl Interface {
         socket.set_recv_timestamp(true).map_err(failed)?;
         let interface = Self {
             socket,
+            unsent: None,
             name: name.to_owned(),
             start: time::Instant::now(),
         };
@@ -57,26 +60,43 @@ impl Link for Interface {
     }
 
     fn send(&mut self, frame: &Frame) -> Result<(), Error> {
+        self.begin_send(frame)?;
+        while !self.finish_send(self.now() + FULL)? {}
+        Ok(())
+    }
+
+    fn begin_send(&mut self, frame: &Frame) -> Result<(), Error> {
+        // A frame that is still waiting goes first.
+        while !self.finish_send(self.now() + FULL)? {}
         let mut bytes = Vec::new();
         can_frame::encode(frame, &mut bytes);
-        let until = self.now() + FULL;
-        loop {
-            match self.socket.as_raw_socket().write(&bytes) {
-                Ok(_) => return Ok(()),
+        self.unsent = Some((bytes, self.now()));
+        Ok(())
+    }
+
+    fn finish_send(&mut self, until: Instant) -> Result<bool, Error> {
+        while let Some((bytes, since)) = &self.unsent {
+            match self.socket.as_raw_socket().write(bytes) {
+                Ok(_) => self.unsent = None,
                 Err(error) if error.kind() == ErrorKind::Interrupted => {}
                 Err(error) if error.raw_os_error() == Some(ENOBUFS) => {
-                    if self.now() >= until {
+                    let now = self.now();
+                    if now >= *since + FULL {
                         return Err(Error::Link(format!(
                             "{}: no frame leaves the interface; is another node on the bus, at this \
                              bit rate, and is the bus terminated?",
                             self.name
                         )));
                     }
+                    if now >= until {
+                        return Ok(false);
+                    }
                     std::thread::sleep(Duration::from_millis(1));
                 }
                 Err(error) => return Err(self.lost(&error)),
             }
         }
+        Ok(true)
     }
 
     fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Error> {

@@ -12,6 +12,10 @@ use crate::link::{Heard, Link};
 
 /// Maximum time to wait for the first responses of the server.
 const OPENING: Duration = Duration::from_secs(2);
+/// How long the other side may accept no byte.
+const WRITE: Duration = Duration::from_secs(2);
+/// How long the end of a link waits until its last bytes are accepted.
+const LAST: Duration = Duration::from_millis(50);
 /// Limit of bytes without the end of a line or command.
 const LONGEST: usize = 256;
 
@@ -20,8 +24,8 @@ pub(super) trait Port {
     /// Reads available bytes, or waits for some; 0: the connection is closed.
     fn read(&mut self, buffer: &mut [u8], wait: Duration) -> io::Result<usize>;
 
-    /// Writes all of it, in at most 2 s.
-    fn write(&mut self, bytes: &[u8]) -> io::Result<()>;
+    /// Writes some of it, or waits until the other side accepts some.
+    fn write(&mut self, bytes: &[u8], wait: Duration) -> io::Result<usize>;
 }
 
 /// A message of the server.
@@ -69,6 +73,10 @@ pub(super) struct Stream<P: Port, S: Protocol> {
     name: String,
     /// Bytes of an incomplete message.
     rest: Vec<u8>,
+    /// Bytes that the other side has not accepted yet.
+    unsent: Vec<u8>,
+    /// When the link is lost if it still accepts none.
+    patience: Instant,
     /// Frames that arrived while the bus was being opened.
     early: VecDeque<Heard>,
     stamps: Stamps,
@@ -83,6 +91,8 @@ impl<P: Port, S: Protocol> Stream<P, S> {
             protocol,
             name,
             rest: Vec::new(),
+            unsent: Vec::new(),
+            patience: Instant::ZERO,
             early: VecDeque::new(),
             stamps: Stamps::default(),
             start: time::Instant::now(),
@@ -152,13 +162,43 @@ impl<P: Port, S: Protocol> Stream<P, S> {
         Heard { at, frame }
     }
 
+    /// Writes all of it.
     fn write(&mut self, bytes: &[u8]) -> Result<(), Error> {
-        self.port.write(bytes).map_err(|error| match error.kind() {
-            ErrorKind::WouldBlock | ErrorKind::TimedOut => {
-                self.lost("the other side no longer accepts bytes")
+        self.queue(bytes);
+        while !self.flush(self.patience)? {}
+        Ok(())
+    }
+
+    /// Adds bytes to those that have to be written.
+    fn queue(&mut self, bytes: &[u8]) {
+        self.unsent.extend_from_slice(bytes);
+        self.patience = self.now() + WRITE;
+    }
+
+    /// Writes what is left, until a moment; returns whether nothing is left.
+    fn flush(&mut self, until: Instant) -> Result<bool, Error> {
+        while !self.unsent.is_empty() {
+            let wait = Duration::from_micros(until.micros_since(self.now()));
+            match self.port.write(&self.unsent, wait) {
+                Ok(0) => return Err(self.lost("the other side closed the connection")),
+                Ok(count) => {
+                    self.unsent.drain(..count);
+                    self.patience = self.now() + WRITE;
+                }
+                Err(error) if error.kind() == ErrorKind::Interrupted => {}
+                Err(error) if is_time_out(&error) => {
+                    let now = self.now();
+                    if now >= self.patience {
+                        return Err(self.lost("the other side no longer accepts bytes"));
+                    }
+                    if now >= until {
+                        return Ok(false);
+                    }
+                }
+                Err(error) => return Err(self.lost(&error.to_string())),
             }
-            _ => self.lost(&error.to_string()),
-        })
+        }
+        Ok(true)
     }
 
     fn lost(&self, why: &str) -> Error {
@@ -172,9 +212,20 @@ impl<P: Port, S: Protocol> Link for Stream<P, S> {
     }
 
     fn send(&mut self, frame: &Frame) -> Result<(), Error> {
+        self.begin_send(frame)?;
+        while !self.flush(self.patience)? {}
+        Ok(())
+    }
+
+    fn begin_send(&mut self, frame: &Frame) -> Result<(), Error> {
         let mut bytes = Vec::new();
         self.protocol.write(frame, &mut bytes);
-        self.write(&bytes)
+        self.queue(&bytes);
+        Ok(())
+    }
+
+    fn finish_send(&mut self, until: Instant) -> Result<bool, Error> {
+        self.flush(until)
     }
 
     fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Error> {
@@ -198,8 +249,10 @@ impl<P: Port, S: Protocol> Link for Stream<P, S> {
 
 impl<P: Port, S: Protocol> Drop for Stream<P, S> {
     fn drop(&mut self) {
-        // Without a connection there is nothing to restore.
-        let _ = self.port.write(self.protocol.end());
+        self.queue(self.protocol.end());
+        // Without a connection there is nothing to restore, and without a reader nobody to restore it.
+        let until = self.now() + LAST;
+        let _ = self.flush(until);
     }
 }
 
