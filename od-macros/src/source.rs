@@ -39,7 +39,17 @@ pub(crate) fn read(input: &Input, report: &mut Report) -> Source {
     };
     let mut paths = vec![path];
     let (files, text) = match &input.overlay {
-        None => (files, text),
+        None => {
+            if let Some(base) = base(literal, &text) {
+                let shown = literal.value();
+                let said = format!(
+                    "`{shown}` is an overlay\nhelp: write `eds = \"{base}\" + \"{shown}\";`"
+                );
+                report.at(literal.span(), said);
+                return nothing(files);
+            }
+            (files, text)
+        }
         Some(literal) => {
             let Some((path, over)) = file(literal, report) else {
                 return nothing(files);
@@ -95,6 +105,19 @@ pub(crate) fn read(input: &Input, report: &mut Report) -> Source {
         allows: od_eds::check::Allows::of(&text),
         description: parsed.description,
     }
+}
+
+/// If a file is an overlay, the path of its base for the call: the one that it names, otherwise an example.
+fn base(literal: &LitStr, text: &str) -> Option<String> {
+    let shown = literal.value();
+    if let Some(base) = od_eds::base_of(text) {
+        let path = Path::new(&shown).with_file_name(base.value);
+        return Some(path.display().to_string());
+    }
+    let is_overlay = Path::new(&shown)
+        .extension()
+        .is_some_and(|end| end.eq_ignore_ascii_case("overlay"));
+    is_overlay.then(|| "my_device.eds".to_string())
 }
 
 /// Path and text of one file; `None` if it cannot be read, which is reported.

@@ -20,7 +20,10 @@ pub(crate) struct CobId {
     can_id: u32,
     /// Whether the node ID is added.
     node_id: bool,
+    /// Bit 31.
     invalid: bool,
+    /// Bit 30: a producer of SYNC or TIME, or no RTR of a TPDO; an RPDO does not use it.
+    bit_30: bool,
     extended: bool,
 }
 
@@ -36,6 +39,7 @@ impl CobId {
             can_id: number & 0x1FFF_FFFF,
             node_id,
             invalid: number & 1 << 31 != 0,
+            bit_30: number & 1 << 30 != 0,
             extended: number & 1 << 29 != 0,
         })
     }
@@ -55,10 +59,17 @@ impl CobId {
         if self.extended {
             words.push_str(", 29 bits");
         }
-        // In SYNC and TIME this bit has another meaning.
-        if self.invalid && !matches!(address.index, 0x1005 | 0x1012) {
-            words.push_str(", not valid");
-        }
+        words.push_str(match (address.index, self.invalid) {
+            (0x1005, _) | (_, false) => "",
+            (0x1012, true) => ", TIME consumer",
+            (_, true) => ", not valid",
+        });
+        words.push_str(match (address.index, self.bit_30) {
+            (0x1005, true) => ", SYNC producer",
+            (0x1012, true) => ", TIME producer",
+            (0x1800..=0x19FF, true) => ", no RTR",
+            _ => "",
+        });
         words
     }
 }
@@ -85,5 +96,29 @@ pub(crate) const fn mapping_of(index: u16) -> Option<u16> {
     match index {
         0x1400..=0x15FF | 0x1800..=0x19FF => Some(index + 0x200),
         _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn flags_have_the_meaning_of_their_object() {
+        for (index, sub, number, expected) in [
+            (0x1005, 0, 0x4000_0080, "80h, SYNC producer"),
+            (0x1005, 0, 0x8000_0080, "80h"),
+            (0x1012, 0, 0x8000_0100, "100h, TIME consumer"),
+            (0x1012, 0, 0xC000_0100, "100h, TIME consumer, TIME producer"),
+            (0x1014, 0, 0x8000_0081, "81h, not valid"),
+            (0x1800, 1, 0xC000_0181, "181h, not valid, no RTR"),
+            (0x1800, 1, 0x6001_2345, "12345h, 29 bits, no RTR"),
+            // An RPDO does not use bit 30.
+            (0x1400, 1, 0x4000_0201, "201h"),
+        ] {
+            let id = CobId::of(&Value::Unsigned(number)).unwrap();
+            let found = id.words(Address::new(index, sub));
+            assert_eq!(found, expected, "{index:04X}h:{sub:02X} = {number:X}h");
+        }
     }
 }
