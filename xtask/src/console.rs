@@ -214,6 +214,9 @@ pub(crate) fn clean(program: &Path, dir: &Path, args: &[&str]) -> Command {
         command.env("CARGO_PROFILE_RELEASE_DEBUG", "0");
         // The other lanes use the processors, and each codegen unit has a cost.
         command.env("CARGO_PROFILE_DEV_CODEGEN_UNITS", "2");
+        // Of macros and what they need, too: then some crates are the same for them and for the tests.
+        command.env("CARGO_PROFILE_DEV_BUILD_OVERRIDE_CODEGEN_UNITS", "2");
+        command.env("CARGO_PROFILE_RELEASE_BUILD_OVERRIDE_CODEGEN_UNITS", "2");
     }
     command.args(args).current_dir(dir);
     command

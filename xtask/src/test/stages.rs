@@ -40,6 +40,8 @@ pub(super) enum Lane {
     Page,
     /// Tests on a bus, which mostly wait.
     Bus,
+    /// Programs as a user runs them, which mostly wait.
+    Programs,
     /// Microcontrollers, built and emulated; they use one processor.
     Board,
     /// Code that compiles for other computers or into separate target directories: one compiler waits for another
@@ -49,18 +51,19 @@ pub(super) enum Lane {
 
 impl Lane {
     /// All lanes except that of cargo.
-    pub(super) const BESIDE: [Lane; 6] = [
+    pub(super) const BESIDE: [Lane; 7] = [
         Lane::Outside,
         Lane::Lint,
         Lane::Page,
         Lane::Bus,
+        Lane::Programs,
         Lane::Board,
         Lane::Cross,
     ];
 
     /// Returns whether its tests depend on time; other lanes then run with lower priority.
     pub(super) fn looks_at_the_time(self) -> bool {
-        matches!(self, Lane::Page | Lane::Bus | Lane::Board)
+        matches!(self, Lane::Page | Lane::Bus | Lane::Programs | Lane::Board)
     }
 }
 
@@ -128,6 +131,7 @@ pub(super) const STAGES: &[Stage] = &[
     stage("no_std", Check, "what runs in a node builds for a bare Cortex-M3 and M0", rust::no_std).beside(Lane::Cross),
     stage("hosts", Check, "the command line compiles for Windows and macOS", rust::hosts).long().beside(Lane::Cross),
     stage("build", Check, "all tests compile", rust::build),
+    stage("programs", Tests, "the command line as a user runs it, and the client and the node as a whole", rust::programs).beside(Lane::Programs),
     stage("firmware", Tests, "conformance scripts on an emulated Cortex-M3, to the byte", rust::firmware).beside(Lane::Board),
     stage("c", Tests, "a node in C answers as the bench does: here, and on an emulated Cortex-M3", c::c).beside(Lane::Board),
     stage("ui", Tests, "what must not compile, and what the compiler says", |c| rust::outside(c, &["ui", "pass"])).beside(Lane::Cross),

@@ -75,6 +75,9 @@ pub(super) fn odkit(context: &Context<'_>) -> Result<PathBuf> {
     Ok(context.repo.target.join("debug"))
 }
 
+/// Test targets of [`programs`].
+const PROGRAMS: [&str; 1] = ["all"];
+
 /// Builds all test programs in one call of cargo, which compiles in parallel what several stages run.
 pub(super) fn build(context: &Context<'_>) -> Result<()> {
     odkit(context)?;
@@ -83,7 +86,8 @@ pub(super) fn build(context: &Context<'_>) -> Result<()> {
     run(context, "test programs", &args)
 }
 
-/// The tests of all packages except the integration tests; in a quick run only those inside the sources. Without
+/// The tests of all packages except the integration tests and [`programs`]; in a quick run only those inside the
+/// sources. Without
 /// the packages of the other stages, some would have fewer features and would be built again.
 pub(super) fn unit(context: &Context<'_>) -> Result<()> {
     let names = if context.quick {
@@ -93,6 +97,14 @@ pub(super) fn unit(context: &Context<'_>) -> Result<()> {
     };
     let what = ["--lib", "--bins", "--examples", "--no-fail-fast"];
     test(context, "unit tests", &[&ALL[..], &what].concat(), &names)
+}
+
+/// The command line as a user runs it, and the client and the node as a whole: half of the time of all tests beside
+/// sources, and mostly waiting for programs and buses.
+pub(super) fn programs(context: &Context<'_>) -> Result<()> {
+    let names = PROGRAMS.map(String::from);
+    let args = [&ALL[..], &["--no-fail-fast"]].concat();
+    test(context, "tests of programs", &args, &names)
 }
 
 /// The test targets of the packages that [`unit`] tests.
@@ -110,6 +122,7 @@ fn beside_sources(context: &Context<'_>) -> Result<Vec<String>> {
             }
         }
     }
+    names.retain(|name| !PROGRAMS.contains(&name.as_str()));
     Ok(names)
 }
 
