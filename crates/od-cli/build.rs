@@ -1,5 +1,5 @@
-//! Embeds the lessons, and the sources of the crates that a device of `odkit new` needs, so that the
-//! device builds without other files.
+//! Embeds the lessons, the sources of the crates that a device of `odkit new` needs, so that the
+//! device builds without other files, and the page that `odkit class` serves.
 //!
 //! A checkout has these sources. A packaged `od-cli` lacks them and does not need them: it was built with
 //! the published crates, and so is a device. The list is then empty.
@@ -62,6 +62,24 @@ fn main() {
     list.push(']');
     let out = var("OUT_DIR").join("vendored.rs");
     fs::write(out, list).expect("OUT_DIR can be written");
+    fs::write(var("OUT_DIR").join("page.rs"), page()).expect("OUT_DIR can be written");
+}
+
+/// The files of the page for `odkit class`, if `ODKIT_PAGE` names their folder: the programs of a release contain them.
+fn page() -> String {
+    println!("cargo::rerun-if-env-changed=ODKIT_PAGE");
+    let mut list = String::from("&[\n");
+    if let Some(folder) = std::env::var_os("ODKIT_PAGE") {
+        let folder = PathBuf::from(folder);
+        println!("cargo::rerun-if-changed={}", folder.display());
+        for file in files(&folder).iter().filter(|file| file.is_file()) {
+            let name = file.file_name().unwrap_or_default().to_string_lossy();
+            let file = file.canonicalize().expect("a file of the page");
+            let _ = writeln!(list, "({name:?}, include_bytes!({file:?})),");
+        }
+    }
+    list.push(']');
+    list
 }
 
 /// The lessons of a folder by the numbers of their files: `01-name.md` is `name`.

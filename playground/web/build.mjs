@@ -17,7 +17,7 @@ for (const path of Object.values(modules)) {
 
 const options = {
   absWorkingDir: new URL('.', import.meta.url).pathname,
-  entryPoints: { main: 'src/main.ts', worker: 'src/sim/worker.ts', editor: 'src/editor/worker.ts', style: 'src/styles/index.css', dialogs: 'src/styles/dialogs.css', lesson: 'src/styles/lesson.css', editing: 'src/styles/editing.css', seeing: 'src/styles/seeing.css', real: 'src/styles/real.css', machine: 'src/styles/machine.css', labs: 'src/styles/labs.css', cases: 'src/styles/cases.css' },
+  entryPoints: { main: 'src/main.ts', trainer: 'src/class/trainer.ts', worker: 'src/sim/worker.ts', editor: 'src/editor/worker.ts', style: 'src/styles/index.css', dialogs: 'src/styles/dialogs.css', lesson: 'src/styles/lesson.css', editing: 'src/styles/editing.css', seeing: 'src/styles/seeing.css', real: 'src/styles/real.css', machine: 'src/styles/machine.css', labs: 'src/styles/labs.css', cases: 'src/styles/cases.css', 'trainer-style': 'src/styles/trainer.css' },
   outdir: out.pathname,
   bundle: true,
   splitting: true,
@@ -47,11 +47,18 @@ if (watch) {
   await serviceWorker();
 }
 
-/** The page contains its policy, for servers that send none. On them a lesson may come from another server. */
+/** The page contains its policy, for servers that send none. On them a lesson may come from another server. So does the page of a trainer. */
 async function index() {
   const html = await readFile(new URL('src/index.html', import.meta.url), 'utf8');
   const meta = `<meta http-equiv="Content-Security-Policy" content="${policy(inline(html), "'self' https:")}">`;
-  await writeFile(new URL('index.html', out), html.replace('<meta charset="utf-8">', `<meta charset="utf-8">\n  ${meta}`));
+  const page = html.replace('<meta charset="utf-8">', `<meta charset="utf-8">\n  ${meta}`);
+  await writeFile(new URL('index.html', out), page);
+  const trainer = page
+    .replaceAll('"main.js"', '"trainer.js"')
+    .replace('<link rel="stylesheet" href="style.css">', '$&\n  <link rel="stylesheet" href="trainer-style.css">')
+    .replace('<od-app>', '<od-trainer>')
+    .replace('</od-app>', '</od-trainer>');
+  await writeFile(new URL('trainer.html', out), trainer);
 }
 
 /** Each lesson is a file that the page fetches when it is opened, in each language that it has; a list names them all. */

@@ -1,9 +1,9 @@
 //! `odkit lesson`: lists, shows, runs and checks lessons without the page.
 
-mod builtin;
+pub(crate) mod builtin;
 mod case;
 mod check;
-mod file;
+pub(crate) mod file;
 mod list;
 mod play;
 mod progress;

@@ -10,6 +10,7 @@ mod bridge;
 mod bus;
 mod campaign;
 mod check;
+mod class;
 mod clock;
 mod config;
 mod conform;
@@ -75,6 +76,7 @@ enum Command {
     Run(run::Args),
     Campaign(campaign::Args),
     Lesson(lesson::Args),
+    Class(class::Args),
     Check(check::Args),
     Explain(explain::Args),
     Lsp(lsp::Args),
@@ -111,7 +113,9 @@ enum Command {
 const GROUPS: [(&str, &[&str]); 4] = [
     (
         "Simulate and learn",
-        &["sim", "bridge", "ctl", "run", "campaign", "lesson", "new"],
+        &[
+            "sim", "bridge", "ctl", "run", "campaign", "lesson", "class", "new",
+        ],
     ),
     (
         "Device files",
@@ -182,6 +186,7 @@ pub fn main() -> ExitCode {
         Command::Run(args) => run::run(&args),
         Command::Campaign(args) => campaign::run(&args),
         Command::Lesson(args) => lesson::run(&args),
+        Command::Class(args) => class::run(&args),
         Command::Check(args) => check::run(&args),
         Command::Explain(args) => explain::run(&args),
         Command::Lsp(args) => lsp::run(&args),

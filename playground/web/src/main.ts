@@ -67,6 +67,8 @@ async function settle(): Promise<void> {
   if ('embed' in document.documentElement.dataset) return;
   const { start: keep } = await import('./share/keep');
   await keep();
+  // A class serves the page: it reports there, and is not for later without it.
+  if ('class' in document.documentElement.dataset) return (await import('./class/session')).start();
   const { register } = await import('./share/offline');
   await register();
 }

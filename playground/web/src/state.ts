@@ -101,6 +101,10 @@ export const lessonFailed = signal<{ name: string; problems: Pick<Diagnostic, 'l
 export const lessonDialog = signal(false);
 /** The fault case in the dialog of the lessons, with an empty name the list of all; null for the lessons. */
 export const faultCase = signal<{ name: string; seed: number } | null>(null);
+/** Wrong answers and opened hints of the step in progress. */
+export const effort = signal({ wrong: 0, hints: 0 });
+/** The student in a class, without a name until she has joined; null outside a class. */
+export const member = signal<{ name: string; change(): void } | null>(null);
 
 /** Whether the encoder is shown beside a lesson. */
 export const encoderOpen = signal(false);

@@ -2,6 +2,7 @@ import { assert, test } from './testing';
 import { bench } from './texts/bench';
 import { bus } from './texts/bus';
 import { cases } from './texts/cases';
+import { classroom } from './texts/class';
 import { catalogue } from './texts/de';
 import { dialogs } from './texts/dialogs';
 import { editor } from './texts/editor';
@@ -28,7 +29,7 @@ function differences(english: unknown, german: unknown, place: string): string[]
 }
 
 test('each text of the page is in German', () => {
-  const english = { T: { ...bench, ...bus, ...page }, D: dialogs, E: editor, M: machine, R: real, S: seeing, L: labs, F: cases };
+  const english = { T: { ...bench, ...bus, ...page }, D: dialogs, E: editor, M: machine, R: real, S: seeing, L: labs, F: cases, C: classroom };
   assert.deepEqual(differences(english, catalogue, 'texts'), []);
   // The comparison itself sees each kind of difference.
   const { plot: _, ...less } = catalogue.T;

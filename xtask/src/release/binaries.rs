@@ -5,6 +5,7 @@ use std::path::Path;
 use super::dist::Dist;
 use super::notices;
 use super::systems::{SYSTEMS, System};
+use crate::bundle;
 use crate::console::{cargo, which, without_paths};
 use crate::error::Result;
 use crate::files;
@@ -13,6 +14,8 @@ use crate::setup::{apt, target};
 
 pub(super) fn make(dist: &Dist<'_>, folder: &Path) -> Result<()> {
     let (repo, console) = (dist.repo, dist.console);
+    // `odkit class` serves it.
+    bundle::page(repo, console)?;
     for System { linker, .. } in &SYSTEMS {
         if let Some((program, Some(package))) = linker
             && which(program).is_none()
@@ -30,6 +33,7 @@ pub(super) fn make(dist: &Dist<'_>, folder: &Path) -> Result<()> {
         target::add(repo, console, triple)?;
         let mut build = cargo(&repo.root, &["build", "--release", "--locked"]);
         build.args(["--package", CLI.0, "--bin", CLI.1, "--target", triple]);
+        build.env("ODKIT_PAGE", repo.dist());
         build.env("CARGO_ENCODED_RUSTFLAGS", without_paths(&repo.root));
         if let Some((program, _)) = linker {
             let name = triple.to_uppercase().replace('-', "_");

@@ -2,7 +2,7 @@
 
 /// Language of the text of a lesson.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, clap::ValueEnum)]
-pub(super) enum Language {
+pub(crate) enum Language {
     #[default]
     En,
     De,

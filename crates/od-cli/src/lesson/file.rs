@@ -100,24 +100,84 @@ pub(super) fn files(paths: &[PathBuf], language: Language) -> Result<Vec<File>, 
             all.push(File::read(path, language)?);
             continue;
         }
-        let entries = fs::read_dir(path).map_err(|error| {
-            let why = read_error(&error);
-            Failure::Usage(format!("{}: {why}", path.display()))
-        })?;
-        let mut found: Vec<_> = entries
-            .filter_map(|entry| entry.ok().map(|entry| entry.path()))
-            .filter(|path| path.extension().is_some_and(|kind| kind == "md"))
-            .collect();
-        found.sort();
-        if found.is_empty() {
-            let shown = path.display();
-            return Err(Failure::Usage(format!(
-                "{shown}: the folder contains no lesson (*.md)"
-            )));
-        }
-        for path in found {
+        for path in in_folder(path)? {
             all.push(File::read(&path, language)?);
         }
+    }
+    Ok(all)
+}
+
+/// The Markdown files of a folder, in order.
+fn in_folder(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
+    let shown = folder.display();
+    let entries = fs::read_dir(folder).map_err(|error| {
+        let why = read_error(&error);
+        Failure::Usage(format!("{shown}: {why}"))
+    })?;
+    let mut found: Vec<_> = entries
+        .filter_map(|entry| entry.ok().map(|entry| entry.path()))
+        .filter(|path| path.extension().is_some_and(|kind| kind == "md"))
+        .collect();
+    found.sort();
+    if found.is_empty() {
+        return Err(Failure::Usage(format!(
+            "{shown}: the folder contains no lesson (*.md)"
+        )));
+    }
+    Ok(found)
+}
+
+/// A lesson of a file with the texts that a page reads.
+pub(crate) struct Texts {
+    pub(crate) path: PathBuf,
+    /// The lesson, and its text.
+    pub(crate) own: (Lesson, String),
+    /// The same in German, if there is a translation.
+    pub(crate) german: Option<(Lesson, String)>,
+}
+
+/// The lessons of files and folders for a page. In a folder, a Markdown file that does not begin with the front matter of a
+/// lesson is ignored.
+///
+/// # Errors
+/// A file cannot be read, or has mistakes, which are printed.
+pub(crate) fn texts(paths: &[PathBuf]) -> Result<Vec<Texts>, Failure> {
+    let mut all = Vec::new();
+    let mut bad = 0;
+    for path in paths {
+        let is_folder = path.is_dir();
+        let files = if is_folder {
+            in_folder(path)?
+        } else {
+            vec![path.clone()]
+        };
+        for path in files {
+            let own = text(&path)?;
+            if is_folder
+                && !own
+                    .trim_start_matches('\u{feff}')
+                    .trim_start()
+                    .starts_with("+++")
+            {
+                continue;
+            }
+            let words = translation(&path, "de")?;
+            let lesson = |path: &Path, text: Result<String, Vec<Problem>>| {
+                let read = text.and_then(|text| Ok((Lesson::parse(&text)?, text)));
+                read.map_err(|problems| show_problems(&path.display().to_string(), &problems))
+            };
+            let german = words.map(|words| lesson(&beside(&path, "de"), translate(&own, &words)));
+            match (lesson(&path, Ok(own)), german.transpose()) {
+                (Ok(own), Ok(german)) => all.push(Texts { path, own, german }),
+                _ => bad += 1,
+            }
+        }
+    }
+    if bad > 0 {
+        let count = report::plural(bad, "lesson");
+        return Err(Failure::Usage(format!(
+            "{count} with mistakes; see LESSONS.md"
+        )));
     }
     Ok(all)
 }

@@ -11,6 +11,7 @@ mod bus;
 mod campaign;
 mod canopennode;
 mod check;
+mod class;
 mod conform;
 #[cfg(unix)]
 mod control;

@@ -4,9 +4,12 @@
 export type Done = [done: number, all: number, day: string, shown?: number];
 export type Progress = Record<string, Done>;
 
+/** A class serves the page: what it keeps belongs to the class. */
+export const isClass = 'class' in (globalThis.document?.documentElement.dataset ?? {});
+
 /** Lessons that are done, as earlier versions of the page kept them. */
 const OLD = 'odkit.lessons';
-const KEY = 'odkit.progress';
+const KEY = isClass ? 'odkit.class.progress' : 'odkit.progress';
 
 const read = <T>(key: string, none: T): T => {
   try {
@@ -19,6 +22,15 @@ const read = <T>(key: string, none: T): T => {
 const isDone = (value: unknown): value is Done =>
   Array.isArray(value) && (value.length === 3 || value.length === 4) && [value[0], value[1], value[3] ?? 0].every((count) => Number.isSafeInteger(count) && count >= 0) && /^\d{4}-\d\d-\d\d$/.test(String(value[2]));
 
+/** Removes the progress. */
+export function clear(): void {
+  try {
+    localStorage.removeItem(KEY);
+  } catch {
+    // Storage is not allowed: there is none.
+  }
+}
+
 /** Other content of the storage is ignored. */
 export const progress = (): Progress => {
   const known: unknown = read(KEY, {});
@@ -26,7 +38,7 @@ export const progress = (): Progress => {
 };
 
 const old = (): string[] => {
-  const names: unknown = read(OLD, []);
+  const names: unknown = isClass ? [] : read(OLD, []);
   return Array.isArray(names) ? names.filter((name) => typeof name === 'string') : [];
 };
 

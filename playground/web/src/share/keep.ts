@@ -2,8 +2,9 @@
 
 import { effect } from '@preact/signals-core';
 import { loaded } from '../codec';
-import { createStore, del, entries, set } from 'idb-keyval';
+import { clear, createStore, del, entries, set } from 'idb-keyval';
 import { language } from '../language';
+import { isClass } from '../lessons/kept';
 import * as state from '../state';
 import { D } from '../views/texts';
 import { resumed } from '../lessons/open';
@@ -26,7 +27,7 @@ interface Kept {
   text: string;
 }
 
-const store = createStore('odkit', 'kept');
+const store = createStore(isClass ? 'odkit-class' : 'odkit', 'kept');
 
 /** Each visit stores its bench under a name of its own, so that two tabs do not overwrite each other. */
 const own = crypto.randomUUID?.() ?? `${Date.now()} ${Math.random()}`;
@@ -91,6 +92,15 @@ const lockOf = (key: IDBValidKey): string => `odkit bench ${String(key)}`;
 /** Returns whether anything was done except putting devices on the bus. */
 const isWorth = (): boolean => state.journal.entries.some(({ input }) => input.op !== 'add');
 
+/** The stored benches are removed, and nothing is stored any more. */
+let isOver = false;
+
+/** Removes all stored benches; this visit stores no other. */
+export function forget(): Promise<void> {
+  isOver = true;
+  return clear(store);
+}
+
 /** Starts to store the bench, and offers the previous one. */
 export async function start(): Promise<void> {
   // The lock is held while this tab is open.
@@ -107,10 +117,10 @@ export async function start(): Promise<void> {
   let timer = 0;
   const keep = async (): Promise<void> => {
     timer = 0;
-    if (!isWorth() || state.replaying.peek() || state.real.peek()) return;
+    if (isOver || !isWorth() || state.replaying.peek() || state.real.peek()) return;
     const isLong = state.journal.entries.length > MOST_ENTRIES || state.now.peek() > LONGEST_RUN;
     const bench = await now(!isLong);
-    if (bench.entries.length === 0) return;
+    if (isOver || bench.entries.length === 0) return;
     try {
       await set(own, { at: Date.now(), names: state.devices.peek().map((one) => one.name), lesson: state.lesson.peek() ? state.lessonRun.peek().name : '', text: write(bench) }, store);
       await Promise.all((await left()).slice(MOST_KEPT).map(({ key }) => del(key, store)));

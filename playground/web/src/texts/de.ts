@@ -24,6 +24,7 @@
 import { bench } from './de/bench';
 import { bus } from './de/bus';
 import { cases } from './de/cases';
+import { classroom } from './de/class';
 import { dialogs } from './de/dialogs';
 import { editor } from './de/editor';
 import { labs } from './de/labs';
@@ -32,5 +33,5 @@ import { page } from './de/page';
 import { real } from './de/real';
 import { seeing } from './de/seeing';
 
-/** `T`, `D`, `E`, `M`, `R`, `S`, `L` and `F` are the names under which the page uses these texts. */
-export const catalogue = { T: { ...bench, ...bus, ...page }, D: dialogs, E: editor, M: machine, R: real, S: seeing, L: labs, F: cases };
+/** `T`, `D`, `E`, `M`, `R`, `S`, `L`, `F` and `C` are the names under which the page uses these texts. */
+export const catalogue = { T: { ...bench, ...bus, ...page }, D: dialogs, E: editor, M: machine, R: real, S: seeing, L: labs, F: cases, C: classroom };

@@ -77,6 +77,7 @@ class LessonPanel extends View {
 
   private hint(): void {
     this.hints += 1;
+    state.effort.value = { ...state.effort.peek(), hints: this.hints };
     void this.updateComplete.then(() => this.querySelector('.hint:last-of-type')?.scrollIntoView({ block: 'nearest' }));
   }
 

@@ -2,6 +2,7 @@
 
 import { html, nothing, type PropertyValues, type TemplateResult } from 'lit';
 import { effect } from '@preact/signals-core';
+import { C } from '../class/texts';
 import { cards } from '../labs/open';
 import { language } from '../language';
 import { F } from '../cases/texts';
@@ -66,9 +67,11 @@ class Lessons extends View {
     </section>`);
   }
 
-  /** The progress as a code, for a trainer. */
+  /** The name in a class; otherwise the progress as a code, for a trainer. */
   private code() {
     const known = progress();
+    const { value: member } = state.member;
+    if (member) return html`<section class="share-field"><p class="note">${member.name ? C.student.member(member.name) : C.student.none}</p><button @click=${() => { state.lessonDialog.value = false; member.change(); }}>${C.student.change}</button></section>`;
     if (Object.keys(known).length === 0) return nothing;
     const t = D.lessons.code;
     const code = codeOf(this.learner, known);

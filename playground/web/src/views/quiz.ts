@@ -3,6 +3,7 @@
 import { html, nothing } from 'lit';
 import type { Judgement, Lesson } from '../sim/api';
 import { use } from '../sim/link';
+import * as state from '../state';
 import { markdown } from './markdown';
 import { D } from './texts';
 import { View } from './view';
@@ -41,6 +42,7 @@ class Quiz extends View {
     const judged = await use('judgeAnswer', this.quiz.answer, given);
     const found = 'value' in judged ? judged.value : null;
     this.isTold ||= found?.right ?? false;
+    if (found && !found.right) state.effort.value = { ...state.effort.peek(), wrong: state.effort.peek().wrong + 1 };
     this.said = !found ? D.lessons.noFrame : found.right ? D.lessons.right : D.lessons.wrong(wrongParts(found));
   }
 

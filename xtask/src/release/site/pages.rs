@@ -56,6 +56,7 @@ const PARTS: [(&str, &[&str]); 9] = [
     ]),
     ("Learn CANopen", &[
         "docs/how-to/learn-canopen.md",
+        "docs/how-to/teach-a-class.md",
         "docs/how-to/frames-in-the-page.md",
         "docs/how-to/edit-an-eds-in-the-page.md",
     ]),

@@ -1,0 +1,181 @@
+// A class: the trainer's page, and two students in browsers of their own, on the program `odkit class`.
+import assert from 'node:assert/strict';
+import { mkdir, writeFile } from 'node:fs/promises';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { afterEach, before, test } from 'node:test';
+import { fileURLToPath } from 'node:url';
+import { flawless } from './axe.mjs';
+import { becomes, nmt } from './bench.mjs';
+import { browser } from './check.mjs';
+import { blank, opened, URL_OF_PAGE } from './harness.mjs';
+import { odkit } from './odkit.mjs';
+
+const PAGE = fileURLToPath(new URL('../../playground/web/dist', import.meta.url));
+
+/** A lesson of the trainer, in a folder of its own. */
+const folder = join(tmpdir(), `odkit-class-${process.pid}`);
+const OWN = `+++
+title = "Our machine"
+level = 1
+minutes = 5
++++
+
+An encoder of our machine.
+
+\`\`\`set-up
+device gxam node 3
+\`\`\`
+
+## Start it
+
+Start node 3.
+
+\`\`\`checkpoint
+state operational
+\`\`\`
+
+### Predict
+
+Which frame starts it?
+
+\`\`\`answer
+000#01 03
+\`\`\`
+
+The command is 01h.
+
+### Hint
+
+Send the NMT command *start*.
+
+### What just happened
+
+It runs.
+
+\`\`\`solution
+nmt start
+\`\`\`
+`;
+
+let running;
+before(async () => {
+  await mkdir(folder, { recursive: true });
+  await writeFile(join(folder, 'machine.md'), OWN);
+});
+afterEach(() => running?.stop());
+
+const start = async (port) => (running = await odkit(['class', '--host', '127.0.0.1', '--port', String(port), '--page', PAGE, '--lessons', folder], /(http:\S+trainer\.html#\w+)/));
+
+/** Opens an address in a browser profile of its own; `faults` are the errors of the page. */
+async function visit(address, context = {}) {
+  const page = await blank(browser, context);
+  const faults = [];
+  opened.set(page, faults);
+  await page.goto(address);
+  return { page, faults };
+}
+
+const introduce = async (page, name) => {
+  const dialog = page.getByRole('dialog', { name: 'Welcome to the class' });
+  await dialog.getByRole('textbox', { name: 'Your name' }).fill(name);
+  await dialog.getByRole('button', { name: 'Join the class' }).click();
+  return dialog;
+};
+
+test('a trainer sees two students, offers a lesson, sees who is stuck, and empties the class for the next group', async () => {
+  const { found: address } = await start(0);
+  const site = new URL('/', address);
+  const { page: trainer, faults } = await visit(address);
+  await trainer.getByText('No student has joined yet.').waitFor();
+  assert.equal(new URL(trainer.url()).hash, '', 'the word is not on the projector');
+  await trainer.getByText(site.href).waitFor();
+
+  const { page: anna, faults: ofAnna } = await visit(site.href);
+  const { page: ben, faults: ofBen } = await visit(site.href);
+  await (await introduce(anna, ' Anna  <b>')).waitFor({ state: 'hidden' });
+  // A name that is there is refused.
+  const dialog = await introduce(ben, 'anna <B>');
+  await dialog.getByText('A student with this name is here already.').waitFor();
+  await flawless(ben, 'the question for the name', 'dialog[open]');
+  await introduce(ben, 'Ben');
+  await dialog.waitFor({ state: 'hidden' });
+  const row = (name) => trainer.getByRole('row', { name });
+  const cell = (name, column) => row(name).locator('td').nth(column).innerText();
+  await becomes('both are here', () => trainer.getByRole('status').first().innerText(), '2 of 2 here');
+  await becomes('the names', () => trainer.locator('tbody strong').allTextContents(), ['Anna <b>', 'Ben']);
+
+  // The trainer's own lesson is the first to offer; Anna opens it, Ben does not.
+  await trainer.getByRole('button', { name: 'Offer to all' }).click();
+  await anna.getByText('Your trainer offers the lesson “Our machine”.').waitFor();
+  await becomes('it waits', () => cell('Anna', 0), 'free bench\noffered: Our machine');
+  await anna.getByRole('button', { name: 'Open it' }).click();
+  await anna.getByRole('heading', { name: 'Our machine' }).waitFor();
+  await ben.getByText('Your trainer offers').waitFor();
+  await ben.getByRole('button', { name: 'Not now' }).click();
+  await becomes('where Anna is', () => cell('Anna', 0), 'Our machine');
+  await becomes('her step', () => cell('Anna', 1), '1 of 1');
+  await becomes('Ben has dismissed it', () => cell('Ben', 0), 'free bench');
+
+  // Wrong answers and a hint.
+  const answer = anna.locator('.lesson-foot').getByRole('textbox', { name: 'Your frame' });
+  for (const wrong of ['001#01 03', '000#02 03', '000#01 04']) {
+    await answer.fill(wrong);
+    await answer.press('Enter');
+    await anna.getByText('Not quite').waitFor();
+  }
+  await becomes('she is stuck', () => trainer.getByRole('status').first().innerText(), /^2 of 2 here\s+stuck: Anna <b> \(Our machine, 1\)$/);
+  await becomes('her answers', () => cell('Anna', 3), '3');
+  await flawless(trainer, "the trainer's page", 'body');
+
+  // A reload comes back to the same row, step and bench.
+  await anna.reload();
+  await anna.getByRole('heading', { name: 'Our machine' }).waitFor();
+  await becomes('one row for her', () => trainer.locator('tbody tr').count(), 2);
+  await nmt(anna, 'Start');
+  await anna.getByText('You did it').waitFor();
+  await becomes('she is done', () => cell('Anna', 1), 'done');
+  await becomes('one lesson', () => cell('Anna', 5), '1');
+
+  // Only Ben gets the next offer; the program starts again under him.
+  await trainer.getByRole('combobox', { name: 'Lesson to offer' }).selectOption('sdo');
+  await trainer.getByRole('button', { name: /^Offer “.*” to Ben$/ }).click();
+  await ben.getByRole('button', { name: 'Open it' }).click();
+  await becomes('where Ben is', () => cell('Ben', 1), /^1 of \d$/);
+  assert.equal(await anna.getByText('Your trainer offers').count(), 0);
+  await running.stop();
+  await trainer.getByText('odkit class does not answer.').waitFor();
+  await start(site.port);
+  const { page: again } = await visit(running.found);
+  await becomes('both report again', async () => (await again.locator('tbody strong').allTextContents()).sort(), ['Anna <b>', 'Ben']);
+  await becomes('Ben is where he was', () => again.getByRole('row', { name: 'Ben' }).locator('td').nth(1).innerText(), /^1 of \d$/);
+
+  // The next group: what the pages keep of the class is gone, and what they had before is not.
+  await anna.evaluate(() => localStorage.setItem('odkit.progress', '{"nmt":[4,4,"2026-11-26"]}'));
+  await again.getByRole('button', { name: 'Next group' }).click();
+  await again.getByRole('button', { name: 'Yes, empty it' }).click();
+  for (const page of [anna, ben]) {
+    await page.getByRole('dialog', { name: 'Welcome to the class' }).waitFor();
+    assert.equal(await page.locator('od-lesson').count(), 0);
+    assert.deepEqual(await page.evaluate(() => ['odkit.class', 'odkit.class.progress'].map((key) => localStorage.getItem(key))), [null, null]);
+  }
+  assert.equal(await anna.evaluate(() => localStorage['odkit.progress']), '{"nmt":[4,4,"2026-11-26"]}');
+  await again.getByText('No student has joined yet.').waitFor();
+  await introduce(anna, 'Carla');
+  await becomes('the next group', () => again.locator('tbody strong').allTextContents(), ['Carla']);
+  const unreachable = (text) => !/ERR_CONNECTION_REFUSED|40[39]|410/.test(text);
+  for (const [of, all] of Object.entries({ faults, ofAnna, ofBen })) assert.deepEqual(all.filter(unreachable), [], of);
+  for (const page of [trainer, again, anna, ben]) await page.context().close();
+});
+
+test("without the trainer's word or without a class the page says what to open", async () => {
+  const { found: address } = await start(0);
+  const { page } = await visit(new URL('/trainer.html', address).href);
+  await page.getByText('This page needs the trainer’s address').waitFor();
+  await page.goto('about:blank');
+  await page.goto(new URL('/trainer.html#0000', address).href);
+  await page.getByText('This page needs the trainer’s address').waitFor();
+  const { page: alone } = await visit(new URL('trainer.html', URL_OF_PAGE).href);
+  await alone.getByText('Start “odkit class”').waitFor();
+  for (const one of [page, alone]) await one.context().close();
+});
