@@ -43,8 +43,9 @@ pub(super) fn browser(context: &Context<'_>) -> Result<()> {
     let built = odkit(context)?;
     node::ci(context.console, &tests, "fetching npm packages")?;
     let server = Server::start(context.repo, Some(0))?;
-    // One process: one browser serves all files with tests.
-    let mut command = node_test(context, &tests, &["all.mjs"]);
+    // Two processes side by side: the tests mostly wait, and one browser serves all files of a process.
+    let halves = ["--test-concurrency=2", "first.mjs", "second.mjs"];
+    let mut command = node_test(context, &tests, &halves);
     command
         .env("ODKIT_URL", &server.url)
         .env("ODKIT", built.join(program(CLI.1)))
@@ -152,9 +153,9 @@ fn package_tests(context: &Context<'_>, package: &Path) -> Result<()> {
     context.console.run("package tests", &mut command)
 }
 
-fn node_test(context: &Context<'_>, dir: &Path, files: &[&str]) -> Command {
+fn node_test(context: &Context<'_>, dir: &Path, args: &[&str]) -> Command {
     let mut command = Command::new("node");
-    command.args(["--test", "--test-reporter=tap"]).args(files);
+    command.args(["--test", "--test-reporter=tap"]).args(args);
     command.current_dir(dir);
     long(context, &mut command);
     command
