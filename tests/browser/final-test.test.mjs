@@ -50,6 +50,22 @@ check('the final test fails without answers, passes with ten of twelve, and prin
   await page.emulateMedia({ media: 'screen' });
 });
 
+check('a lesson is printed as a handout, and with its solutions', async (page) => {
+  await page.evaluate(() => (window.print = () => {}));
+  await page.getByRole('button', { name: 'Learn' }).click();
+  await page.getByRole('combobox', { name: 'Print a lesson' }).selectOption('nmt');
+  const paper = page.locator('body > .handout');
+  for (const [button, hasSolutions] of [['Handout', false], ['With solutions', true]]) {
+    await page.getByRole('button', { name: button }).click();
+    await becomes('the sheet', () => paper.locator('.about').textContent(), hasSolutions ? /With solutions/ : /min$/);
+    assert.equal((await paper.locator('pre').count()) > 0, hasSolutions);
+    await page.emulateMedia({ media: 'print' });
+    await until('only the sheet on paper', async () => (await paper.isVisible()) && !(await page.locator('od-app').isVisible()));
+    await page.emulateMedia({ media: 'screen' });
+    assert.equal(await paper.isVisible(), false);
+  }
+});
+
 check('a lesson asks without the recipe, which can be opened', { hash: '#lesson=nmt' }, async (page) => {
   const quiz = page.locator('od-lesson .lesson-foot od-quiz');
   await becomes('the question', () => quiz.locator('.question').innerText(), 'Which frame starts node 5, and only this node?');

@@ -85,6 +85,7 @@ export const dialogs = {
     finished: 'You did it: every step of this lesson is done.',
     open: 'Open lessons from files',
     openHint: 'Or drop them or their folder anywhere on the page. Markdown, as crates/od-cli/LESSONS.md describes it. They stay on this computer.',
+    print: { title: 'Print a lesson', handout: 'Handout', solutions: 'With solutions', name: 'Name', date: 'Date', notes: 'Notes', solution: 'Solution', failed: 'its text cannot be read' },
     own: { title: 'Your own lessons', remove: 'Remove from this list', none: 'There is no lesson among these files. A lesson is a Markdown file that begins with +++.' },
     tooLarge: 'it is too large for a lesson',
     tooSlow: 'its server does not answer',

@@ -107,6 +107,20 @@ class Lessons extends View {
       <ol class="lesson-list" aria-labelledby=${id}>${group.map((one) => this.card(one, done.has(one.name), known[one.name]))}</ol>`;
   }
 
+  /** A lesson on paper. */
+  private paper() {
+    if (!this.list?.length) return nothing;
+    const t = D.lessons.print;
+    const print = (hasSolutions: boolean): void => {
+      const name = this.querySelector<HTMLSelectElement>('#paper')?.value;
+      const one = this.list?.find((other) => other.name === name);
+      if (one) void import('../lessons/print').then(({ print: begin }) => begin(one, hasSolutions));
+    };
+    return html`<section class="paper"><label for="paper">${t.title}</label>
+      <select id="paper">${this.list.map((one) => html`<option value=${one.name}>${words(one).title}</option>`)}</select>
+      <button @click=${() => print(false)}>${t.handout}</button><button @click=${() => print(true)}>${t.solutions}</button></section>`;
+  }
+
   private load(): void {
     lessons().then((list) => (this.list = list), () => (this.list = null));
   }
@@ -144,6 +158,7 @@ class Lessons extends View {
         ${state.real.value || state.devices.value.length === 0 ? nothing : cards(close)}
         <section class="share-field"><p class="note">${t.test.hint(QUESTIONS, NEEDED)}</p><button @click=${() => void import('./final-test').then(() => (this.isTest = true))}>${t.test.begin}</button></section>
         <section class="share-field"><p class="note">${F.hint}</p><button @click=${() => (state.faultCase.value = { name: '', seed: 0 })}>${F.begin}</button></section>
+        ${this.paper()}
         ${this.code()}
         <label class="drop">${icons.file}<span><strong>${t.open}</strong><span class="muted">${t.openHint}</span></span>
           <input class="sr" type="file" multiple accept=".md,.markdown,text/markdown,text/plain" aria-label=${t.open} @change=${(event: Event) => {

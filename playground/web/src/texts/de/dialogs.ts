@@ -88,6 +88,7 @@ export const dialogs = {
     finished: 'Geschafft: Alle Schritte dieser Lektion sind erledigt.',
     open: 'Lektionen aus Dateien öffnen',
     openHint: 'Oder zieh sie oder ihren Ordner auf die Seite. Markdown, wie es crates/od-cli/LESSONS.md beschreibt. Sie bleiben auf diesem Computer.',
+    print: { title: 'Lektion drucken', handout: 'Arbeitsblatt', solutions: 'Mit Lösungen', name: 'Name', date: 'Datum', notes: 'Notizen', solution: 'Lösung', failed: 'ihr Text ist nicht lesbar' },
     own: { title: 'Deine eigenen Lektionen', remove: 'Aus dieser Liste entfernen', none: 'Unter diesen Dateien ist keine Lektion. Eine Lektion ist eine Markdown-Datei, die mit +++ beginnt.' },
     tooLarge: 'die Datei ist zu groß für eine Lektion',
     tooSlow: 'der Server antwortet nicht',
