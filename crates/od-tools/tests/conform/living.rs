@@ -3,6 +3,8 @@
 use std::cell::Cell;
 use std::collections::VecDeque;
 
+use od_model::Address;
+use od_sim::VirtualDevice;
 use od_sim::bus::Bus;
 use od_tools::Error;
 use od_tools::bench::OnBench;
@@ -12,9 +14,12 @@ use od_tools::conform::record::{Record, Verdict};
 use od_tools::conform::rig::Rig;
 use od_tools::conform::session::{Leave, Session};
 use od_tools::link::{Heard, Link};
-use od_wire::{Frame, Instant, NodeId};
+use od_tools::master::Master;
+use od_tools::nmt;
+use od_wire::nmt::Command;
+use od_wire::{Duration, Frame, Instant, NodeId};
 
-use crate::simulated::bus;
+use crate::simulated::{alone, bus};
 
 /// A node whose frames `change` replaces or drops.
 struct Odd<F> {
@@ -358,5 +363,45 @@ fn a_failure_that_depends_on_time_must_be_seen_twice() {
             other => other.word(),
         };
         assert!(is.starts_with(expected), "{expected}: {verdict:?}");
+    }
+}
+
+/// A case about LSS gives the node another node ID, or none; afterwards the node has its own, also after a reset, and also if
+/// it sends no boot-up message.
+#[test]
+fn a_node_has_its_own_node_id_after_each_case_about_lss() {
+    let cases = || built_in().iter().filter(|case| case.group == "LSS");
+    assert!(cases().count() > 15, "{}", cases().count());
+    let own = NodeId::new(5).expect("a node ID");
+    for name in ["gxmm", "eam_mt", "en580c"] {
+        let kind = od_devices::find(name).expect("a device");
+        let eds = Eds::read(&od_devices::text::eds(kind));
+        for has_boot_up in [true, false] {
+            let mut passed = 0;
+            for case in cases() {
+                let mut rig = Odd {
+                    bus: OnBench(alone(VirtualDevice::new(kind, own))),
+                    change: |frame: Frame| {
+                        let is_boot_up = frame.id().raw() >> 7 == 0x700 >> 7 && frame.data() == [0];
+                        (has_boot_up || !is_boot_up).then_some(frame)
+                    },
+                };
+                let record = Session::new(&mut rig, &eds, own, Leave::ALL).run(case);
+                passed += u32::from(record.verdict.is_pass());
+                let mut master = Master::new(rig.bus, own);
+                for command in [Command::EnterPreOperational, Command::ResetNode] {
+                    let wait = Duration::from_millis(500);
+                    let told = nmt::command(master.link(), Some(own), command, wait);
+                    assert!(told.is_ok(), "{told:?}");
+                    let vendor = master.upload(Address::new(0x1018, 1));
+                    assert!(
+                        vendor.is_ok(),
+                        "{name}, {}, {command:?}: {vendor:?}",
+                        case.id
+                    );
+                }
+            }
+            assert!(!has_boot_up || passed > 5, "{name}: {passed}");
+        }
     }
 }
