@@ -191,20 +191,25 @@ export async function begin(wanted: { source: Source; nodeId: number }[]): Promi
  * valid.
  */
 export async function openLesson(name: string, text: string, solutions: string[] = []): Promise<boolean> {
+  state.lessonOpening.value = true;
   const { node, diagnostics } = await add({ op: 'lesson', text });
   if (node === null) {
+    state.lessonOpening.value = false;
     state.lessonFailed.value = [{ name, problems: diagnostics }];
     return false;
   }
   dropFrames();
   state.tour.value = null;
   state.lessonFailed.value = [];
-  // What was typed and chosen before belongs to another bench.
+  state.lessonState.value = null;
+  // What was said, typed and chosen before belongs to another bench.
+  if (state.toast.value?.tone === 'info') state.toast.value = null;
   state.draft.value = null;
   state.selected.value = null;
   state.chosenFrame.value = null;
   for (const solution of solutions) await playScript(solution);
   state.lessonRun.value = { name, count: state.lessonRun.value.count + 1, step: solutions.length };
+  state.lessonOpening.value = false;
   select(0);
   setSpeed(1);
   setRunning(true);

@@ -96,6 +96,8 @@ export const lesson = signal<Lesson | null>(null);
 export const lessonState = signal<LessonState | null>(null);
 /** Its name in the list or the address, how often it was started, and at which step. */
 export const lessonRun = signal({ name: '', count: 0, step: 0 });
+/** A lesson is being opened: until its state is there, the steps are those of the lesson before it. */
+export const lessonOpening = signal(false);
 /** Lessons that could not be opened, and the reasons. */
 export const lessonFailed = signal<{ name: string; problems: Pick<Diagnostic, 'line' | 'message' | 'help'>[] }[]>([]);
 export const lessonDialog = signal(false);

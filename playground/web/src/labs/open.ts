@@ -17,7 +17,7 @@ const load = (name: Name): Promise<unknown> =>
   parts[name]().catch(() => (state.toast.value = { text: L.failed, tone: 'error' }));
 
 /** The labs that the solutions of a lesson use. */
-function labsOf(lesson: Lesson): Name[] {
+export function labsOf(lesson: Lesson): Name[] {
   const uses = (word: RegExp): boolean => lesson.steps.some(({ solution }) => word.test(solution));
   const names: Name[] = [];
   if (uses(/^\s*master /m)) names.push('master');

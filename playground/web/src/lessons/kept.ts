@@ -22,8 +22,12 @@ const read = <T>(key: string, none: T): T => {
 const isDone = (value: unknown): value is Done =>
   Array.isArray(value) && (value.length === 3 || value.length === 4) && [value[0], value[1], value[3] ?? 0].every((count) => Number.isSafeInteger(count) && count >= 0) && /^\d{4}-\d\d-\d\d$/.test(String(value[2]));
 
+/** The progress of this visit, if the browser stores nothing. */
+let unstored: Progress = {};
+
 /** Removes the progress. */
 export function clear(): void {
+  unstored = {};
   try {
     localStorage.removeItem(KEY);
   } catch {
@@ -33,7 +37,7 @@ export function clear(): void {
 
 /** Other content of the storage is ignored. */
 export const progress = (): Progress => {
-  const known: unknown = read(KEY, {});
+  const known: unknown = { ...read(KEY, {}), ...unstored };
   return Object.fromEntries(Object.entries(known ?? {}).filter((one): one is [string, Done] => isDone(one[1])));
 };
 
@@ -57,10 +61,12 @@ export function reached(name: string, done: number, all: number, wasShown: boole
   const known = progress();
   const [before = 0, of, , shown = 0] = Object.hasOwn(known, name) ? known[name]! : [];
   if (done === 0 || (done <= before && of === all)) return;
+  const now: Progress = { ...known, [name]: [done, all, new Date().toISOString().slice(0, 10), shown + (wasShown ? 1 : 0)] };
   try {
-    localStorage.setItem(KEY, JSON.stringify({ ...known, [name]: [done, all, new Date().toISOString().slice(0, 10), shown + (wasShown ? 1 : 0)] }));
+    localStorage.setItem(KEY, JSON.stringify(now));
   } catch {
-    // Storage is not allowed: nothing is kept.
+    // Storage is not allowed, or full.
+    unstored = now;
   }
 }
 

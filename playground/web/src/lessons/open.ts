@@ -1,11 +1,11 @@
 // Opens a lesson by its name, from an address, or from a file.
 
 import { effect } from '@preact/signals-core';
-import { openLesson } from '../actions';
+import { openLesson, setRunning } from '../actions';
 import { german, language } from '../language';
 import * as state from '../state';
 import { D } from '../views/texts';
-import { finished } from './kept';
+import { finished, progress } from './kept';
 import { keep, LONGEST, own, type Listed } from './own';
 
 /** Title and summary in the language of the page, or in English. */
@@ -98,7 +98,9 @@ export async function openNamed(name: string, meanwhile?: () => Promise<void>): 
     const text = await (ours ? textOf(ours) : load(name));
     clearTimeout(timer);
     await made;
+    const [done = 0, all = 0] = progress()[name] ?? [];
     if (!(await tried(name, text))) return false;
+    if (done > 0 && done < all && all === state.lesson.value?.steps.length && !state.real.value) await goOn(done, all);
     if (ours) history.replaceState(null, '', `${location.pathname}#lesson=${encodeURIComponent(name)}`);
     return true;
   } catch (error) {
@@ -106,6 +108,12 @@ export async function openNamed(name: string, meanwhile?: () => Promise<void>): 
     await made;
     return unreachable(name, error);
   }
+}
+
+/** Continues a lesson that the learner left after this number of steps, and says so. */
+async function goOn(done: number, all: number): Promise<void> {
+  await backTo(done);
+  state.toast.value = { text: D.lessons.goesOn(done + 1, all), tone: 'info', action: { text: D.lessons.fromStart, run: () => void again() } };
 }
 
 /** Opens a file of the user, and adds it to the list; false if that fails. */
@@ -138,6 +146,8 @@ export function resumed(name: string, text: string): void {
     queueMicrotask(() => {
       stop();
       state.lessonRun.value = { name, count: state.lessonRun.peek().count + 1, step: progress.step };
+      // The step that was done had paused the time; the next one is open.
+      setRunning(true);
     });
   });
 }

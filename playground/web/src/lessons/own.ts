@@ -30,7 +30,9 @@ const MOST = 100;
 export const LONGEST = 1_000_000;
 
 const KEY = 'all';
-const store = createStore('odkit-lessons', 'own');
+const kept = createStore('odkit-lessons', 'own');
+/** A browser without storage may refuse at once; a promise is refused then. */
+const store: typeof kept = async (mode, callback) => kept(mode, callback);
 /** The lessons of this visit; undefined until they are read. */
 let known: Own[] | undefined;
 /** Counts how often the list changed. */

@@ -2,7 +2,7 @@
 
 import { effect } from '@preact/signals-core';
 import { loaded } from '../codec';
-import { clear, createStore, del, entries, set } from 'idb-keyval';
+import { clear, createStore, del, entries, get, set } from 'idb-keyval';
 import { language } from '../language';
 import { isClass } from '../lessons/kept';
 import * as state from '../state';
@@ -41,17 +41,21 @@ async function left(patience = 0): Promise<{ key: IDBValidKey; kept: Kept }[]> {
   const all = await entries<IDBValidKey, Kept>(store);
   const held = await navigator.locks?.query().then(({ held: locks }) => locks, () => []);
   const open = new Set(held?.map(({ name }) => name));
-  const isOther = all.some(([key]) => key !== own && open.has(lockOf(key)));
+  const isOther = all.some(([key]) => visitOf(key) !== own && open.has(lockOf(key)));
   // The previous page of the same tab releases its lock a moment after it is closed.
   if (isOther && patience > 0) {
     await new Promise((resolve) => setTimeout(resolve, LOOK));
     return left(patience - 1);
   }
   return all
-    .filter(([key, kept]) => kept && key !== own && !open.has(lockOf(key)))
+    .filter(([key, kept]) => kept && visitOf(key) !== own && !open.has(lockOf(key)))
     .map(([key, kept]) => ({ key, kept }))
     .sort((a, b) => b.kept.at - a.kept.at);
 }
+
+/** A lesson has an entry of its own: the bench that was there before it is offered when the learner leaves it. */
+const LESSON = ' lesson';
+const keyNow = (): string => (state.lesson.peek() ? own + LESSON : own);
 
 /** The bench that this tab stored before its page was reloaded. */
 const KEY_OF_TAB = 'odkit.bench';
@@ -72,7 +76,7 @@ export async function resume(name: string): Promise<boolean> {
   const key = ofTab();
   if (!key) return false;
   const all = await left(4).catch(() => []);
-  const kept = all.find((one) => one.key === key)?.kept;
+  const kept = all.find((one) => one.key === key + LESSON)?.kept;
   if (kept?.lesson !== name) return false;
   await loaded;
   const bench = read(kept.text);
@@ -80,14 +84,17 @@ export async function resume(name: string): Promise<boolean> {
   if (lesson?.op !== 'lesson') return false;
   open(bench);
   resumed(name, lesson.text);
-  resumedKey = key;
+  resumedKey = key + LESSON;
   return true;
 }
 
 /** The bench that this visit continues; it is not offered again. */
 let resumedKey: string | null = null;
 
-const lockOf = (key: IDBValidKey): string => `odkit bench ${String(key)}`;
+/** The visit that stored an entry. */
+const visitOf = (key: IDBValidKey): string => String(key).replace(LESSON, '');
+
+const lockOf = (key: IDBValidKey): string => `odkit bench ${visitOf(key)}`;
 
 /** Returns whether anything was done except putting devices on the bus. */
 const isWorth = (): boolean => state.journal.entries.some(({ input }) => input.op !== 'add');
@@ -122,7 +129,7 @@ export async function start(): Promise<void> {
     const bench = await now(!isLong);
     if (isOver || bench.entries.length === 0) return;
     try {
-      await set(own, { at: Date.now(), names: state.devices.peek().map((one) => one.name), lesson: state.lesson.peek() ? state.lessonRun.peek().name : '', text: write(bench) }, store);
+      await set(keyNow(), { at: Date.now(), names: state.devices.peek().map((one) => one.name), lesson: state.lesson.peek() ? state.lessonRun.peek().name : '', text: write(bench) }, store);
       await Promise.all((await left()).slice(MOST_KEPT).map(({ key }) => del(key, store)));
     } catch {
       // The disk is full, or the browser forbids it: the page works without.
@@ -131,6 +138,19 @@ export async function start(): Promise<void> {
   effect(() => {
     void state.journaled.value;
     if (isWorth()) timer ||= window.setTimeout(() => void keep(), PAUSE);
+  });
+  // A step that is done is stored at once: the next thing may be a reload.
+  let step = -1;
+  effect(() => {
+    const reached = state.lessonState.value?.step ?? -1;
+    if (reached > step && reached > 0) void keep();
+    step = reached;
+  });
+  let isLesson = false;
+  effect(() => {
+    const was = isLesson;
+    isLesson = state.lesson.value !== null;
+    if (was && !isLesson) void get<Kept>(own, store).then((kept) => kept && offer(kept), () => undefined);
   });
   document.addEventListener('visibilitychange', () => {
     if (document.visibilityState === 'hidden') void keep();

@@ -9,7 +9,7 @@ export const real = {
   markTitle: 'These frames are on a real bus. Click for the connection.',
   title: 'Connect to a real bus',
   connected: 'Real bus',
-  what: 'The frames of a real CAN bus are shown in this page. The virtual bench is paused and kept. Sending is off until you switch it on.',
+  what: 'The frames of a real CAN bus are shown in this page. The virtual bench is paused and kept. Sending is off until you switch it on. Without hardware, close this: the bench of the page needs none.',
   webSocket: 'odkit on this computer',
   address: 'Address',
   addressHint: 'odkit sim and odkit bridge print it, for example: odkit bridge --link socketcan:can0 --link ws:127.0.0.1:29538',

@@ -5,7 +5,7 @@ import { html, nothing, type TemplateResult } from 'lit';
 import { keyed } from 'lit/directives/keyed.js';
 import { effect } from '@preact/signals-core';
 import { leaveLesson, playScript, setRunning } from '../actions';
-import { beside } from '../labs/open';
+import { beside, labsOf } from '../labs/open';
 import { language } from '../language';
 import { reached } from '../lessons/kept';
 import { again, backTo, following, lessons, openNamed, recalled, shortOf, translated, words, type Asked } from '../lessons/open';
@@ -24,8 +24,14 @@ await sheet('lesson');
 
 /** Minimum height of a window in which a lesson shows its introduction in full. */
 const TALL = 900;
+/** Below this height a question is beside its step, not above the checklist. */
+const LOW = 700;
+/** A lesson has a column of its own from this width on; otherwise the page scrolls. */
+const WIDE = 1024;
 
 type Step = Lesson['steps'][number];
+
+const isLow = (): boolean => window.innerHeight < LOW && window.innerWidth >= WIDE;
 
 const choose = (): void => void (state.lessonDialog.value = true);
 
@@ -45,6 +51,7 @@ class LessonPanel extends View {
   /** Whether the solution was played for this step. */
   private isShown = false;
   private unfollow: (() => void) | undefined;
+  private unwatch: (() => void) | undefined;
 
   constructor() {
     super();
@@ -68,11 +75,21 @@ class LessonPanel extends View {
       this.isShown = false;
       this.upNext = null;
     });
+    // A step that is done while another panel covers the lesson.
+    let before = Infinity;
+    this.unwatch = effect(() => {
+      const { step = Infinity } = state.lessonState.value ?? {};
+      if (step === before + 1 && !state.lessonOpening.peek() && !this.checkVisibility()) {
+        state.toast.value = { text: D.lessons.stepDone(step), tone: 'info', action: { text: D.lessons.happened, run: () => (state.tab.value = 'lesson') } };
+      }
+      before = step;
+    });
   }
 
   override disconnectedCallback(): void {
     super.disconnectedCallback();
     this.unfollow?.();
+    this.unwatch?.();
   }
 
   private hint(): void {
@@ -82,9 +99,8 @@ class LessonPanel extends View {
   }
 
   private next(step: number): void {
-    this.seen = step;
-    this.hints = 0;
-    this.isShown = false;
+    // Another panel, such as that of the other language, begins with this step.
+    state.lessonRun.value = { ...state.lessonRun.peek(), step };
     setRunning(true);
     void this.updateComplete.then(() => {
       const text = this.querySelector<HTMLElement>('.lesson');
@@ -133,11 +149,15 @@ class LessonPanel extends View {
     await playScript(step.solution);
   }
 
+  private quiz(step: Step, number: number) {
+    const isOurs = state.lesson.value?.language === language();
+    return step.quiz ? html`<od-quiz .quiz=${step.quiz} .short=${isOurs ? (this.short.get(number) ?? '') : ''}></od-quiz>` : nothing;
+  }
+
   private open(step: Step, number: number, progress: LessonState): TemplateResult {
     const t = D.lessons;
-    const lesson = state.lesson.value;
     const isLost = progress.step === number && progress.requirements.some(({ lost }) => lost);
-    return html`${step.quiz ? html`<od-quiz .quiz=${step.quiz} .short=${lesson?.language === language() ? (this.short.get(number) ?? '') : ''}></od-quiz>` : nothing}
+    return html`${isLow() ? nothing : this.quiz(step, number)}
       <div class="asked"><ul class="checks" aria-live="polite" aria-label=${t.checks}>${progress.requirements.map(
         (one) => html`<li data-done=${one.holds}>${one.holds ? icons.tick : html`<i></i>`}<span><span class="sr">${one.holds ? t.isDone : t.isOpen}</span>${one.text}</span></li>`,
       )}</ul>
@@ -161,9 +181,13 @@ class LessonPanel extends View {
     const isLast = shown === all - 1;
     // The reason comes first; the rest can be opened if the window is low.
     const [why, ...more] = lesson.intro.trim().split(/\n\s*\n/);
+    const isFirst = shown === 0 && why !== undefined && why !== '' && !isDone;
+    // What to do comes first where a lab or a low window leaves little room.
+    const isTight = isLow() || (labsOf(lesson).length > 0 && window.innerHeight < TALL && window.innerWidth >= WIDE);
+    const recall = this.recall ? html`<details class="recall"><summary>${t.recall(this.recall.title)}</summary><od-quiz .quiz=${this.recall}></od-quiz></details>` : nothing;
     const { name } = state.lessonRun.value;
     // A resumed lesson has no name until its run is restored.
-    if (name) reached(name, progress.step, all, this.isShown);
+    if (name && !state.lessonOpening.value) reached(name, progress.step, all, this.isShown);
     if (isDone && isLast && !this.upNext) void following(name).then((next) => (this.upNext = next));
     return html`
       <header class="panel-head">
@@ -176,18 +200,22 @@ class LessonPanel extends View {
       <div class="lesson scroll" tabindex="0" role="region" aria-label=${lesson.title} lang=${lesson.language}>
         <div class="lesson-steps" role="img" aria-label=${t.step(shown + 1, all)}>${lesson.steps.map((_, i) => html`<i data-state=${i < progress.step ? 'done' : i === shown ? 'now' : ''}></i>`)}</div>
         ${this.foreign(lesson, shown)}
-        ${shown === 0 && why && !isDone
-          ? html`<div class="prose">${markdown(why)}</div>
-            ${more.length ? html`<details ?open=${window.innerHeight >= TALL}><summary>${t.background}</summary><div class="prose">${markdown(more.join('\n\n'))}</div></details>` : nothing}
-            ${this.recall ? html`<details class="recall"><summary>${t.recall(this.recall.title)}</summary><od-quiz .quiz=${this.recall}></od-quiz></details>` : nothing}
-            <p class="begin">${icons.down} ${t.begin}</p>`
-          : nothing}
+        ${!isFirst
+          ? nothing
+          : isTight
+            ? html`<details><summary>${t.background}</summary><div class="prose">${markdown(lesson.intro)}</div></details>`
+            : html`<div class="prose">${markdown(why)}</div>
+              ${more.length ? html`<details ?open=${window.innerHeight >= TALL}><summary>${t.background}</summary><div class="prose">${markdown(more.join('\n\n'))}</div></details>` : nothing}
+              ${recall}
+              <p class="begin">${icons.down} ${t.begin}</p>`}
         ${keyed(
           `${state.lessonRun.value.count}/${shown}`,
           html`<section class="lesson-step">
             <h3><span class="muted num">${shown + 1}</span> ${step.title}</h3>
             ${isDone ? this.done(step, isLast) : html`<div class="prose">${markdown(step.text)}</div>`}
             ${isDone ? nothing : step.hints.slice(0, this.hints).map((hint) => html`<div class="hint prose">${markdown(hint)}</div>`)}
+            ${isDone || !isLow() ? nothing : this.quiz(step, shown)}
+            ${isFirst && isTight ? recall : nothing}
           </section>`,
         )}
       </div>
