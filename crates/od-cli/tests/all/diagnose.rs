@@ -8,7 +8,7 @@ use od_sim::bus::Bus;
 use od_sim::diagnose::{BusFacts, Incident, diagnose, rules};
 use od_sim::logs::{Record, What};
 use od_sim::script::{Host, Origin, Script, run};
-use od_wire::{Frame, Instant, NodeId};
+use od_wire::{CanId, Frame, Instant, NodeId};
 
 use crate::support::odkit;
 
@@ -280,4 +280,43 @@ fn a_healthy_log_has_no_incident() {
         all.len(),
         wrong.join("\n")
     );
+}
+
+/// The same signs for hours: each rule takes time in proportion to the log. One that looks at each pair of frames would take
+/// minutes.
+#[test]
+fn a_long_log_takes_no_longer_for_each_frame() {
+    const FRAMES: u64 = 40_000;
+    let signs: [(&str, &[(u16, &[u8])]); 6] = [
+        ("boots", &[(0x705, &[0])]),
+        ("EMCY", &[(0x85, &[0x10, 0x81, 0x11, 0, 0, 0, 0, 0])]),
+        ("SYNC", &[(0x80, &[]), (0x185, &[1, 2])]),
+        ("two nodes", &[(0x705, &[5]), (0x705, &[0x7F])]),
+        (
+            "refused",
+            &[
+                (0x605, &[0x40, 0, 0x20, 0, 0, 0, 0, 0]),
+                (0x585, &[0x80, 0, 0x20, 0, 0, 0, 2, 6]),
+            ],
+        ),
+        ("unanswered", &[(0x605, &[0x40, 0, 0x20, 0, 0, 0, 0, 0])]),
+    ];
+    let from = std::time::Instant::now();
+    for (title, frames) in signs {
+        let records: Vec<Record> = (0..FRAMES)
+            .zip(frames.iter().cycle())
+            .map(|(number, (id, data))| {
+                let frame = Frame::new(CanId::standard(*id), data).expect("a frame");
+                record(number * 20_000, What::Frame(frame))
+            })
+            .collect();
+        let known = BusFacts {
+            bit_rate: None,
+            dictionary: None,
+        };
+        let incidents = diagnose(&records, known);
+        assert!(incidents.len() < 1000, "{title}: {}", incidents.len());
+    }
+    // Some seconds on a busy computer.
+    assert!(from.elapsed().as_secs() < 60, "{:?}", from.elapsed());
 }
