@@ -24,6 +24,8 @@ mod codec;
 #[cfg(feature = "eds")]
 mod configured;
 mod crossing;
+#[cfg(feature = "logs")]
+mod dbc;
 mod device;
 mod diagnostics;
 #[cfg(feature = "direct")]
@@ -65,6 +67,8 @@ pub use bus::Bus;
 pub use codec::{
     Transfers, decode_value, encode_value, frame_bits, read_line, tag_names, tags, type_range,
 };
+#[cfg(feature = "logs")]
+pub use dbc::{dbc_words, read_dbc};
 pub use device::builtin_devices;
 #[cfg(feature = "editor")]
 pub use editor::{LanguageServer, compare_eds, device_eds, encode_eds, rule_titles};

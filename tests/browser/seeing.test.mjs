@@ -282,3 +282,21 @@ check('the nodes of the bus: state, heartbeat, EMCY and device, from the frames'
   await table.getByRole('button', { name: '6', exact: true }).click();
   await becomes('the filter', () => page.getByRole('searchbox', { name: 'Filter' }).inputValue(), 'node:6');
 });
+
+check('a DBC file adds its signals to the words of frames, until it is closed', async (page) => {
+  const dbc = 'VERSION ""\n\nBU_: A\n\nBO_ 389 Motion: 8 A\n SG_ Speed : 0|16@1- (0.5,0) [0|0] "rpm" A\n SG_ Mode : 16|8@1+ (1,0) [0|0] "" A\n\nVAL_ 389 Mode 3 "torque" ;\n';
+  const open = (name, text) => page.locator('od-console input[type=file]').setInputFiles({ name, mimeType: 'text/plain', buffer: Buffer.from(text) });
+  await sendRaw(page, '185#F6FF03');
+  await open('motion.dbc', dbc);
+  await row(page, 'the signals', (one) => one.id === '185' && one.words.endsWith('| Motion: Speed -5.0 rpm, Mode torque'));
+  // Frames that come later have them, too.
+  await sendRaw(page, '185#0200');
+  await row(page, 'the next signals', (one) => one.id === '185' && one.words.endsWith('| Motion: Speed 1.0 rpm'));
+  await page.getByRole('searchbox', { name: 'Filter' }).fill('torque');
+  await becomes('the rows', async () => (await rows(page)).length, 1);
+  await page.getByRole('searchbox', { name: 'Filter' }).fill('');
+  await open('wrong.dbc', 'VERSION ""\nBO_ x\n');
+  await page.getByText('wrong.dbc cannot be read: line 2: `BO_ x` is not a line of a DBC file.').waitFor();
+  await page.getByRole('button', { name: 'Close motion.dbc' }).click();
+  await row(page, 'the plain words', (one) => one.id === '185' && !one.words.includes('Motion'));
+});

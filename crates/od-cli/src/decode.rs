@@ -1,8 +1,9 @@
 //! `odkit decode`: logs in words, CSV or JSON.
 
 use std::io::Read;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
+use od_sim::dbc::Database;
 use od_sim::logs::{self, What};
 
 use crate::bus::names::Names;
@@ -25,6 +26,9 @@ pub(crate) struct Args {
     /// may be repeated
     #[arg(long, value_name = "[ID=]FILE")]
     eds: Vec<String>,
+    /// DBC file whose signals are shown beside each frame, with name, value and unit; may be repeated
+    #[arg(long, value_name = "FILE")]
+    dbc: Vec<PathBuf>,
     /// Frames that are shown: `node:5 sdo`, `185:7FF`, `position`, `!hb`
     #[arg(long, value_name = "FILTER", default_value = "")]
     filter: String,
@@ -58,15 +62,22 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         let log = logs::read(&bytes).map_err(|why| Failure::Failed(format!("{shown}: {why}")))?;
         read.push((shown.to_string(), log));
     }
+    let databases = args
+        .dbc
+        .iter()
+        .map(|path| database(path))
+        .collect::<Result<Vec<_>, _>>()?;
     let mut skipped = 0;
     let mut output = Output::new();
     let mut frames = Vec::new();
     if args.format == Format::Csv {
-        output.line(CSV)?;
+        let signals = if args.dbc.is_empty() { "" } else { ",signals" };
+        output.line(&format!("{CSV}{signals}"))?;
     }
     for (path, log) in read {
         // A transfer does not continue in the next log.
-        let mut narrator = Narrator::new(Names::read(&args.eds)?, &args.filter)?;
+        let narrator = Narrator::new(Names::read(&args.eds)?, &args.filter)?;
+        let mut narrator = narrator.with_databases(databases.clone());
         for problem in &log.skipped {
             note!("{path}: {problem}");
         }
@@ -115,4 +126,10 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
             plural(count, "line")
         ))),
     }
+}
+
+fn database(path: &Path) -> Result<Database, Failure> {
+    let failed = |why: String| Failure::Failed(format!("{}: {why}", path.display()));
+    let bytes = crate::files::read(path).map_err(|error| failed(read_error(&error)))?;
+    Database::read(&bytes).map_err(|why| failed(why.to_string()))
 }

@@ -12,6 +12,8 @@ mod bench;
 pub mod bus;
 mod chance;
 mod cursor;
+#[cfg(feature = "dbc")]
+pub mod dbc;
 mod device;
 pub mod diagnose;
 pub mod faults;

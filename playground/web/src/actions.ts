@@ -31,7 +31,7 @@ export function sendLine(line: string): void {
 }
 
 /** Returns whether a line is an action outside the bus: `power off`, `set 6000h:01 = 5`. */
-export const isDeed = (line: string): boolean => !state.real.value && /^\s*(power|shaft|switch|fault|bus|line|set|emcy)\s/.test(line);
+export const isDeed = (line: string): boolean => !state.real.value && /^\s*(power|shaft|switch|fault|bus|line|set|emcy|pin|wire|master)\s/.test(line);
 
 /** Does such an action on the selected device. */
 export async function doLine(line: string): Promise<void> {

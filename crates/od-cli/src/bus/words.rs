@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use od_model::Visible;
 use od_runtime::NodeId;
 use od_sim::VirtualDevice;
+use od_sim::dbc::{Database, Value as Signal};
 use od_sim::words::{self, Decoder, Field, Words, tag};
 use od_tools::filter::{Filter, FilteredFrame};
 use od_wire::{Frame, Instant};
@@ -22,6 +23,8 @@ pub(crate) struct Narrator {
     seen: BTreeSet<u8>,
     decoder: Decoder,
     filter: Filter,
+    /// DBC files; the first one that describes a frame has its signals.
+    databases: Vec<Database>,
 }
 
 /// A frame and its meaning.
@@ -30,6 +33,15 @@ pub(crate) struct ExplainedFrame {
     pub(crate) frame: Frame,
     pub(crate) sent: bool,
     pub(crate) words: Words,
+    /// The signals of a DBC file; `None` without one.
+    signals: Option<Signals>,
+}
+
+/// The message of a DBC file with its signals; both are empty if no file describes the frame.
+#[derive(Default)]
+struct Signals {
+    words: String,
+    values: Vec<Signal>,
 }
 
 impl Narrator {
@@ -42,12 +54,18 @@ impl Narrator {
             seen: BTreeSet::new(),
             decoder: Decoder::default(),
             filter,
+            databases: Vec::new(),
         };
         let named: Vec<NodeId> = narrator.names.nodes().collect();
         for node in named {
             narrator.meet(node)?;
         }
         Ok(narrator)
+    }
+
+    /// Adds the signals of DBC files to each frame.
+    pub(crate) fn with_databases(self, databases: Vec<Database>) -> Self {
+        Self { databases, ..self }
     }
 
     /// Explains the next frame; `None`: the filter excludes it.
@@ -58,7 +76,12 @@ impl Narrator {
             let _ = self.meet(node);
         }
         let words = self.decoder.explain(&self.devices, &frame);
-        let text = words.to_string();
+        let signals = self.signals(&frame);
+        let mut text = words.to_string();
+        if let Some(signals) = signals.as_ref() {
+            text.push(' ');
+            text.push_str(&signals.words);
+        }
         let seen = FilteredFrame {
             frame: &frame,
             sent,
@@ -70,12 +93,26 @@ impl Narrator {
             frame,
             sent,
             words,
+            signals,
         })
     }
 
     /// The values that a frame contains.
     pub(crate) fn fields(&self, frame: &Frame) -> Vec<Field> {
         words::fields(&self.devices, frame)
+    }
+
+    fn signals(&self, frame: &Frame) -> Option<Signals> {
+        self.databases.first()?;
+        let known = self
+            .databases
+            .iter()
+            .find(|one| one.message(frame).is_some());
+        let signals = known.map(|database| Signals {
+            words: database.words(frame).unwrap_or_default(),
+            values: database.signals(frame),
+        });
+        Some(signals.unwrap_or_default())
     }
 
     fn meet(&mut self, node: NodeId) -> Result<(), Failure> {
@@ -100,10 +137,15 @@ impl ExplainedFrame {
         };
         let id = self.frame.id().to_string();
         let mark = if self.words.error { "! " } else { "" };
-        format!(
+        let mut line = format!(
             "{seconds:>5}.{micros:06}  {id:>3}  {data:<23}  {mark}{}",
             self.words
-        )
+        );
+        if let Some(signals) = self.signals.as_ref().filter(|one| !one.words.is_empty()) {
+            line.push_str("  | ");
+            line.push_str(&signals.words);
+        }
+        line
     }
 
     pub(crate) fn json(&self, fields: &[Field]) -> Value {
@@ -114,7 +156,12 @@ impl ExplainedFrame {
                 "object": field.object.map(|object| object.to_string()),
             })
         });
-        json!({
+        let signals = self.signals.as_ref().map(|signals| {
+            let signal =
+                |one: &Signal| json!({ "name": one.name, "value": one.value, "unit": one.unit });
+            signals.values.iter().map(signal).collect::<Vec<_>>()
+        });
+        let mut told = json!({
             "time": self.at.as_micros() as f64 / 1e6,
             "id": self.frame.id().to_string(),
             "data": od_model::values::hex(self.frame.data()),
@@ -126,10 +173,14 @@ impl ExplainedFrame {
             "error": self.words.error,
             "text": self.words.text,
             "fields": fields.collect::<Vec<_>>(),
-        })
+        });
+        if let Some(signals) = signals {
+            told["signals"] = signals.into();
+        }
+        told
     }
 
-    /// The columns of [`CSV`].
+    /// The columns of [`CSV`], and with DBC files that of the signals.
     pub(crate) fn csv(&self) -> String {
         let at = self.at.as_micros();
         let words = &self.words;
@@ -145,7 +196,10 @@ impl ExplainedFrame {
             words.error.to_string(),
             words.text.clone(),
         ];
-        cells.map(|cell| Visible(&cell).csv()).join(",")
+        let signals = self.signals.iter().map(|signals| signals.words.clone());
+        let cells = cells.into_iter().chain(signals);
+        let cells: Vec<_> = cells.map(|cell| Visible(&cell).csv()).collect();
+        cells.join(",")
     }
 }
 

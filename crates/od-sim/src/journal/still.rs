@@ -114,6 +114,7 @@ impl Journal {
             terminators: line.terminators,
             rate: Rate(line.bit_rate.map(u32::from)),
         });
+        inputs.extend(self.training());
         let is_seed = |input: &&&Input| matches!(input, Input::Seed { .. });
         inputs.extend(past.iter().rev().find(is_seed).map(|seed| (*seed).clone()));
         let all = (1..=self.devices.len()).chain([0]);
@@ -125,6 +126,45 @@ impl Journal {
         let at = Instant::ZERO;
         let entry = |input| Entry { at, input };
         Some(inputs.into_iter().map(entry).collect())
+    }
+
+    /// The list of the master and the physics of the line, as lines of a script; `None` if both are those of an empty bench.
+    #[cfg(feature = "training")]
+    fn training(&self) -> Option<Input> {
+        let bus = &self.rig.bus;
+        let devices = bus.devices().len();
+        if devices == 0 {
+            return None;
+        }
+        let (cable, new) = (&bus.line.cable, crate::wire::cable::Cable::default());
+        let mut lines = Vec::new();
+        if cable.length != new.length {
+            lines.push(std::format!("line length {}", cable.length));
+        }
+        if cable.sample_point != new.sample_point {
+            let percent = f64::from(cable.sample_point) / 10.0;
+            lines.push(std::format!("line sample-point {percent}"));
+        }
+        if cable.jump != new.jump {
+            lines.push(std::format!("line sjw {}", cable.jump));
+        }
+        for station in (1..=devices).filter(|station| cable.deviation(*station) != 0) {
+            let percent = f64::from(cable.deviation(station)) / 10_000.0;
+            lines.push(std::format!("use {station}"));
+            lines.push(std::format!("line clock {percent}"));
+        }
+        let plan = bus
+            .master()
+            .map_or(Vec::new(), |master| master.plan().lines());
+        lines.extend(plan.iter().map(|line| std::format!("master {line}")));
+        let text = lines.join("\n");
+        (!lines.is_empty()).then_some(Input::Script { text })
+    }
+
+    /// Without the feature `training` a bench has neither.
+    #[cfg(not(feature = "training"))]
+    fn training(&self) -> Option<Input> {
+        None
     }
 
     fn station(&mut self, node: usize) -> Option<Station> {

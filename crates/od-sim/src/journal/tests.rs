@@ -340,6 +340,38 @@ fn a_bench_without_its_history_is_the_same() {
     assert_eq!(moved.still().is_none(), channels > 0);
 }
 
+/// What lines of a script did to master and line is part of the bench without its history.
+#[cfg(all(feature = "lessons", feature = "training"))]
+#[test]
+fn a_bench_without_its_history_has_the_list_of_the_master_and_the_physics_of_the_line() {
+    let text = "line real\nline length 120\nline sample-point 75\nline sjw 2\nuse 2\nline clock -1.5\nmaster slave 5\n\
+                master write 5 1017h = 100\nmaster heartbeat 5 250ms\nmaster sync 50ms";
+    let script = Input::Script { text: text.into() };
+    let mut first = bench(vec![add("gxmm", 5), add("gxmm", 6), script]);
+    let entries = first.still().expect("devices in order");
+    let mut second = Journal::new(DEVICES);
+    second.restore(entries, true);
+    second.advance(1000, usize::MAX);
+    assert!(second.refused().is_empty());
+    let seen = |journal: &Journal| {
+        let bus = &journal.rig.bus;
+        let list = bus.master().map(|master| master.plan().lines());
+        (list, bus.line.cable.clone())
+    };
+    assert_eq!(seen(&first), seen(&second));
+    assert_eq!(seen(&second).0.map_or(0, |list| list.len()), 4);
+    assert_eq!(seen(&second).1.deviation(2), -15_000);
+    // A bench without them has no script, which the first module of the page could not run.
+    let plain = bench(vec![add("gxmm", 5)])
+        .still()
+        .expect("devices in order");
+    assert!(
+        !plain
+            .iter()
+            .any(|entry| matches!(entry.input, Input::Script { .. }))
+    );
+}
+
 #[test]
 fn the_bus_has_room_for_16_devices_in_a_repeated_run_too() {
     let mut journal = bench((0..20).map(|_| add("gxmm", 5)).collect());

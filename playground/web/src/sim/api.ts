@@ -2,7 +2,7 @@
 // between page and worker. Only numbers, strings and plain records.
 
 import type { RealCommand, RealReport, RealState } from '../real/api';
-import type { Builtin, Bus, caseRow, Chain, decodeEds, DeviceInfo, diagnose, Entry, faultCases, foreignFile, Input, JournalNews, judgeAnswer, judgeCase, Lesson, LessonState, LineStatus, openCase, parseLesson, plainEds, readLog, Status, tryProbe, Value, writeLog } from '../wasm/od_playground';
+import type { Builtin, Bus, caseRow, Chain, dbcWords, decodeEds, DeviceInfo, diagnose, Entry, faultCases, foreignFile, Input, JournalNews, judgeAnswer, judgeCase, Lesson, LessonState, LineStatus, openCase, parseLesson, plainEds, readDbc, readLog, Status, tryProbe, Value, writeLog } from '../wasm/od_playground';
 
 export type { Added, Builtin, CableState, CaseMark, Chain, DeviceInfo, Diagnostic, Entry, FaultCase, Field, FrameTemplate, Incident, Input, Judgement, Lamp, Lesson, LessonState, LineStatus, Log, Mapped, MappingStep, MasterSlave, MasterState, ObjectRecord, OpenedCase, Outcome, Pdo, Pin, ProbeReading, Source, Status, Transfer, Value } from '../wasm/od_playground';
 
@@ -17,6 +17,7 @@ export type Questions = Pick<Bus, 'cable' | 'describeAll' | 'fields' | 'mappingS
 /** Functions of the whole module that need no bus. */
 export interface Tools {
   caseRow: typeof caseRow;
+  dbcWords: typeof dbcWords;
   decodeEds: typeof decodeEds;
   diagnose: typeof diagnose;
   faultCases: typeof faultCases;
@@ -26,6 +27,7 @@ export interface Tools {
   openCase: typeof openCase;
   parseLesson: typeof parseLesson;
   plainEds: typeof plainEds;
+  readDbc: typeof readDbc;
   readLog: typeof readLog;
   tryProbe: typeof tryProbe;
   writeLog: typeof writeLog;

@@ -4,6 +4,7 @@
 import { effect, signal } from '@preact/signals-core';
 import { cleared, devices, lesson, ring } from '../state';
 import { askBus, listen } from './link';
+import { german } from '../language';
 import { T } from '../texts';
 import { FRAME_BYTES, type Packed } from './packed';
 
@@ -16,13 +17,23 @@ const asked = new Set<number>();
 /** Changes when texts arrived later. */
 export const wordsArrived = signal(0);
 
+/** The signals of a DBC file in packed frames, in words; null without a file. */
+let signalsIn: ((frames: Uint8Array) => Promise<string[]>) | null = null;
+
+/** Adds signals to the text of each frame, or ends that. */
+export function addSignals(of: typeof signalsIn): void {
+  signalsIn = of;
+  forget();
+}
+
 listen(({ words, frames }, first) => {
+  if (signalsIn) return;
   if (known.size > MOST_KEPT) known.clear();
   const end = first + frames.length / FRAME_BYTES;
   // The others are not shown, or not captured.
   if (end !== ring.end) return;
   const from = end - words.length;
-  words.forEach((text, i) => known.set(from + i, text));
+  words.forEach((text, i) => known.set(from + i, german.peek()?.W(text) ?? text));
 });
 
 /** The texts of these frames, as far as they are known; requests the others. */
@@ -55,9 +66,14 @@ export async function learnWords(most: number): Promise<boolean> {
 effect(() => {
   void devices.value;
   void cleared.value;
+  void german.value;
+  forget();
+});
+
+function forget(): void {
   known.clear();
   wordsArrived.value = wordsArrived.peek() + 1;
-});
+}
 
 async function ask(numbers: number[]): Promise<void> {
   const frames = new Uint8Array(numbers.length * FRAME_BYTES);
@@ -65,10 +81,14 @@ async function ask(numbers: number[]): Promise<void> {
     asked.add(number);
     frames.set(ring.raw(number), i * FRAME_BYTES);
   });
-  const words = (await askBus('describeAll', frames)) ?? [];
+  const of = signalsIn;
+  const [words, signals] = await Promise.all([askBus('describeAll', frames), of?.(frames)]);
   numbers.forEach((number, i) => {
     asked.delete(number);
-    known.set(number, words[i] ?? '');
+    if (of !== signalsIn) return;
+    const [english = '', more] = [words?.[i], signals?.[i]];
+    const text = german.peek()?.W(english) ?? english;
+    known.set(number, more ? `${text} | ${more}` : text);
   });
   wordsArrived.value += 1;
 }

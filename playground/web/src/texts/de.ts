@@ -32,6 +32,7 @@ import { machine } from './de/machine';
 import { page } from './de/page';
 import { real } from './de/real';
 import { seeing } from './de/seeing';
+import { words } from './de/words';
 
-/** `T`, `D`, `E`, `M`, `R`, `S`, `L`, `F` and `C` are the names under which the page uses these texts. */
-export const catalogue = { T: { ...bench, ...bus, ...page }, D: dialogs, E: editor, M: machine, R: real, S: seeing, L: labs, F: cases, C: classroom };
+/** `T`, `D`, `E`, `M`, `R`, `S`, `L`, `F` and `C` are the names under which the page uses these texts, `W` translates the words of a frame. */
+export const catalogue = { T: { ...bench, ...bus, ...page }, D: dialogs, E: editor, M: machine, R: real, S: seeing, L: labs, F: cases, C: classroom, W: words };

@@ -3,6 +3,12 @@
 const seconds = (micros: number): string => `${(micros / 1e6).toFixed(6)} s`;
 
 export const seeing = {
+  dbc: {
+    opened: (name: string, messages: number) => `${name}: the signals of ${messages} message${messages === 1 ? '' : 's'} follow the words of their frames.`,
+    wrong: (name: string, why: string) => `${name} cannot be read: ${why}.`,
+    title: (messages: number) => `DBC file with ${messages} message${messages === 1 ? '' : 's'}`,
+    close: (name: string) => `Close ${name}`,
+  },
   nodes: {
     columns: ['Node', 'Device', 'NMT state', 'Heartbeat', 'Last EMCY', 'Last frame'],
     none: 'No node has sent a frame yet. A node announces itself with its boot-up message when it starts.',

@@ -105,7 +105,7 @@ class Console extends View {
     const trigger = state.trigger.value;
     return html`
       <header class="panel-head">
-        <h2>${t.title}</h2><od-shelf></od-shelf>
+        <h2>${t.title}</h2><od-shelf></od-shelf><od-dbc></od-dbc>
         <span class="muted num count" aria-label=${t.captured}>${grouped(kept)}</span>
         ${trace.filter ? html`<span class="muted num passing" role="status">${t.passing(grouped(trace.count), grouped(kept))}</span>
           <button class="small" title=${t.saveFilteredTitle} ?disabled=${trace.count === 0} @click=${() => void saveLog('log', passing())}>${icons.save} ${t.saveFiltered}</button>` : nothing}
@@ -121,7 +121,7 @@ class Console extends View {
           if (select.value) void saveLog(select.value as (typeof FORMATS)[number]);
           select.value = '';
         }}><option value="">…</option>${FORMATS.map((format) => html`<option value=${format}>${t.formats[format]}</option>`)}</select></label>
-        <label class="button small" title=${t.open}>${icons.file} <span class="wide">${t.open}</span><input class="sr" type="file" accept=".log,.asc,.blf,.trc,.pcap,.pcapng,.candump,.dump,.txt" aria-label=${t.open} @change=${(event: Event) => {
+        <label class="button small" title=${t.open}>${icons.file} <span class="wide">${t.open}</span><input class="sr" type="file" accept=".log,.asc,.blf,.trc,.pcap,.pcapng,.candump,.dump,.txt,.dbc" aria-label=${t.open} @change=${(event: Event) => {
           const input = event.target as HTMLInputElement;
           if (input.files?.[0]) void openFile(input.files[0], 1, 'new').then(() => (input.value = ''));
         }}></label>

@@ -25,6 +25,10 @@ export async function openFile(file: File, nodeId: number, place: number | 'new'
     await openLog(file.name, new Uint8Array(await file.arrayBuffer()));
     return true;
   }
+  if (/\.dbc$/i.test(file.name) && file.size < LONGEST) {
+    const { opened } = await import('../seeing/dbc');
+    return opened(file.name, new Uint8Array(await file.arrayBuffer()));
+  }
   // A log may have any name: the readers of logs decide.
   if (TEXT.test(file.name) && file.size < LONGEST_LOG) {
     const bytes = new Uint8Array(await file.arrayBuffer());

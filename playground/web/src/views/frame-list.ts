@@ -231,7 +231,7 @@ class FrameList extends View {
     const has = (index: number): boolean => state.objectsByKey.value.has(state.keyOf(index, 0));
     const ask = (index: number, bytes: Uint8Array | null) => () => void transfer({ index, sub: 0 }, bytes);
     return html`<div class="hints">
-      <p class="about">${T.send.about}</p>
+      <p class="about">${state.status.value?.shaft === null ? T.send.aboutOther : T.send.about}</p>
       <p>${T.send.node(node)}</p>
       <div>
         ${has(0x6004) ? html`<button class="small" @click=${ask(0x6004, null)}>${T.send.position}</button>` : nothing}

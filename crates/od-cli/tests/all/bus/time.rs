@@ -14,6 +14,58 @@ const LOG: &str = "(0.100000) can0 000#0105\n(0.110000) can0 185#929507000000000
                    (0.131000) can0 585#4300100096010200\n(0.200000) can0 705#05\n";
 
 #[test]
+fn signals_of_a_dbc_file_are_beside_the_words() {
+    let log = file("bus-dbc.log", LOG).display().to_string();
+    let dbc = file(
+        "bus.dbc",
+        &done(&["convert", "gxmm", "--to", "dbc", "--node-id", "5"]),
+    );
+    let dbc = dbc.display().to_string();
+    let text = done(&["decode", &log, "--eds", "5=gxmm", "--dbc", &dbc]);
+    let pdo = text
+        .lines()
+        .find(|line| line.contains(" 185 "))
+        .unwrap_or_default();
+    assert!(
+        pdo.ends_with("Position value = 497042 (79592h)  | N5_TPDO1: Position_value 497042"),
+        "{text}"
+    );
+    let csv = done(&["decode", &log, "--dbc", &dbc, "--format", "csv"]);
+    assert!(
+        csv.starts_with("time,id,data,service,node,object,error,text,signals\n"),
+        "{csv}"
+    );
+    let json = done(&["decode", &log, "--dbc", &dbc, "--format", "json"]);
+    let report: Value = serde_json::from_str(&json).expect("JSON");
+    assert_eq!(
+        report["frames"][1]["signals"][0]["value"], "497042",
+        "{json}"
+    );
+    // The filter looks for words of signals, too.
+    let name = report["frames"][1]["signals"][0]["name"]
+        .as_str()
+        .unwrap_or_default();
+    let only = done(&[
+        "decode",
+        &log,
+        "--dbc",
+        &dbc,
+        "--filter",
+        &name.to_lowercase(),
+    ]);
+    assert!(only.lines().count() == 1 && only.contains(name), "{only}");
+    let wrong = file("wrong.dbc", "VERSION \"\"\nBO_ x\n")
+        .display()
+        .to_string();
+    let failed = odkit(&["decode", &log, "--dbc", &wrong], "");
+    assert!(
+        failed.code == 1 && failed.err.contains("wrong.dbc: line 2: `BO_ x`"),
+        "{}",
+        failed.err
+    );
+}
+
+#[test]
 fn a_log_of_any_format_is_shown_in_words() {
     let log = file("bus-a.log", LOG).display().to_string();
     let text = done(&["decode", &log, "--eds", "5=gxmm"]);

@@ -105,6 +105,7 @@ export const bus = {
     hint: 'CAN-ID, `#`, Bytes hexadezimal; `#R` fordert mit einem Remote-Frame an',
     sync: 'SYNC senden (80h)',
     bytes: (count) => `${count} Byte${count === 1 ? '' : 's'}`,
+    aboutOther: 'Das ist ein CANopen-Gerät an einem CAN-Bus, in deinem Browser simuliert: zum Lesen, Einstellen und Kaputtmachen.',
     about: 'Das ist ein CANopen-Encoder an einem CAN-Bus, in deinem Browser simuliert: ein Gerät zum Lesen, Einstellen, Drehen und Kaputtmachen.',
     node: (node) => `Knoten ${node} ist am Bus. Dreh die Welle, gib unten einen Frame ein, oder probier:`,
     position: 'Position lesen',

@@ -6,6 +6,12 @@ const seconds = (micros: number): string => `${(micros / 1e6).toFixed(6)} s`;
 const frames = (count: number): string => `${count} Frame${count === 1 ? '' : 's'}`;
 
 export const seeing = {
+  dbc: {
+    opened: (name, messages) => `${name}: Die Signale von ${messages} ${messages === 1 ? 'Botschaft' : 'Botschaften'} stehen hinter den Worten ihrer Frames.`,
+    wrong: (name, why) => `${name} ist nicht lesbar: ${why}.`,
+    title: (messages) => `DBC-Datei mit ${messages} ${messages === 1 ? 'Botschaft' : 'Botschaften'}`,
+    close: (name) => `${name} schließen`,
+  },
   nodes: {
     columns: ['Knoten', 'Gerät', 'NMT-Zustand', 'Heartbeat', 'Letzte EMCY', 'Letzter Frame'],
     none: 'Noch kein Knoten hat einen Frame gesendet. Ein Knoten meldet sich mit seiner Boot-up-Nachricht, wenn er startet.',

@@ -1,0 +1,112 @@
+// The words of frames in German. The module describes frames in English; names of objects and values stay as they are.
+
+/** Texts of the SDO abort codes (CiA 301, table 22). */
+const ABORTS: Record<string, string> = {
+  '05030000': 'Toggle-Bit wechselte nicht',
+  '05040000': 'SDO-Transfer dauerte zu lange',
+  '05040001': 'Kommando unbekannt oder nicht an der Reihe',
+  '05040002': 'Blockgröße außerhalb des Bereichs',
+  '05040003': 'Folgenummer im Block falsch',
+  '05040004': 'Prüfsumme des Blocks falsch',
+  '05040005': 'kein Speicher für den Transfer',
+  '06010000': 'so nicht zugreifbar',
+  '06010001': 'Objekt kann nur geschrieben werden',
+  '06010002': 'Objekt kann nur gelesen werden',
+  '06010003': 'Subindex 0 muss zuerst 0 sein',
+  '06020000': 'Objekt existiert nicht',
+  '06040041': 'Objekt kann nicht in ein PDO gemappt werden',
+  '06040042': 'Mapping länger als das PDO',
+  '06040043': 'Parameter passen nicht zusammen',
+  '06040047': 'das Gerät kann das intern nicht',
+  '06060000': 'Hardwarefehler beim Zugriff auf das Objekt',
+  '06070010': 'Länge passt nicht zum Datentyp',
+  '06070012': 'Daten länger als das Objekt',
+  '06070013': 'Daten kürzer als das Objekt',
+  '06090011': 'Subindex existiert nicht',
+  '06090030': 'Wert nicht erlaubt',
+  '06090031': 'Wert über der oberen Grenze',
+  '06090032': 'Wert unter der unteren Grenze',
+  '06090036': 'Maximum kleiner als Minimum',
+  '060A0023': 'Ressource nicht verfügbar',
+  '08000000': 'allgemeiner Fehler',
+  '08000020': 'Daten können nicht gespeichert werden (falsche Signatur)',
+  '08000021': 'Daten können wegen lokaler Bedienung nicht gespeichert werden',
+  '08000022': 'nicht in diesem Zustand des Geräts',
+  '08000023': 'Objektverzeichnis fehlt oder wurde nicht erzeugt',
+  '08000024': 'keine Daten verfügbar',
+};
+
+const abort = (code: string, english: string): string => `${code}h ${ABORTS[code] ?? english}`.trim();
+
+/** What follows the node, from the whole text to its parts; the first that fits is taken. `$1` is what stays. */
+const WORDS: [RegExp, string | ((...parts: string[]) => string)][] = [
+  [/^(start|stop|enter Pre-operational|reset node|reset communication) node (\d+)$/, '$1, Knoten $2'],
+  [/^boot-up$/, 'Boot-up'],
+  [/^node guarding request$/, 'Anfrage (Node Guarding)'],
+  [/^unknown state (.*)$/, 'unbekannter Zustand $1'],
+  [/^one byte is required$/, 'ein Byte ist nötig'],
+  [/^(.*), all nodes$/, '$1, alle Knoten'],
+  [/^counter (\d+)$/, 'Zähler $1'],
+  [/^triggers synchronous PDOs$/, 'löst synchrone PDOs aus'],
+  [/^time stamp$/, 'Zeitstempel'],
+  [/^no service uses this CAN-ID$/, 'kein Dienst nutzt diese CAN-ID'],
+  [/^unknown command (.*)$/, 'unbekanntes Kommando $1'],
+  [/^command not defined in CiA 301$/, 'Kommando nicht in CiA 301'],
+  [/^eight bytes are required$/, 'acht Bytes sind nötig'],
+  [/^(.*), but an SDO message has 8$/, '$1, aber eine SDO-Nachricht hat 8'],
+  [/^(.*) aborted: ([0-9A-F]{8})h(?: (.*))?$/, (_, name, code, english) => `${name} abgebrochen: ${abort(code!, english ?? '')}`],
+  [/^(?:.*) \(([0-9A-F]{8})h\): (.*) aborted$/, (_, code, name) => `${abort(code!, '')}: ${name} abgebrochen`],
+  [/^read (.*) in blocks of (\d+)$/, '$1 in Blöcken von $2 lesen'],
+  [/^read (.*)$/, '$1 lesen'],
+  [/^write of (.*) confirmed$/, 'Schreiben von $1 bestätigt'],
+  [/^write of (.*) accepted in blocks of (\d+)$/, 'Schreiben von $1 in Blöcken von $2 angenommen'],
+  [/^write (.*), (\d+) bytes? in segments$/, '$1 schreiben, $2 Bytes in Segmenten'],
+  [/^write (.*) in segments$/, '$1 in Segmenten schreiben'],
+  [/^write (.*) in blocks(?:, (\d+) bytes?)?$/, (_, name, size) => `${name} in Blöcken schreiben${size ? `, ${size} Bytes` : ''}`],
+  [/^write (.*)$/, '$1 schreiben'],
+  [/^next segment of (.*)$/, 'nächstes Segment von $1'],
+  [/^last segment of (.*)$/, 'letztes Segment von $1'],
+  [/^last segment (\d+) of a block of (.*)$/, 'letztes Segment $1 eines Blocks von $2'],
+  [/^segment (\d+) of a block of (.*)$/, 'Segment $1 eines Blocks von $2'],
+  [/^segment of (.*) confirmed$/, 'Segment von $1 bestätigt'],
+  [/^segment of (.*), (\d+) bytes?$/, 'Segment von $1, $2 Bytes'],
+  [/^block of (.*) confirmed up to segment (\d+)$/, 'Block von $1 bis Segment $2 bestätigt'],
+  [/^start blocks of (.*)$/, 'Blöcke von $1 beginnen'],
+  [/^end of (.*), CRC (.*)$/, 'Ende von $1, CRC $2'],
+  [/^(.*) is complete(.*)$/, '$1 ist vollständig$2'],
+  [/^(.*) follows in segments$/, '$1 folgt in Segmenten'],
+  [/^(.*) has (\d+) bytes?, in blocks$/, '$1 hat $2 Bytes, in Blöcken'],
+  [/^(.*) has data, in blocks$/, '$1 hat Daten, in Blöcken'],
+  [/^(.*) requested \(RTR\)$/, '$1 angefordert (RTR)'],
+  [/^([0-9A-Fa-f]{4}h.*) has (\d+) bytes?$/, '$1 hat $2 Bytes'],
+  [/^([0-9A-Fa-f]{4}h.*?) is (.*)$/, '$1 ist $2'],
+  [/^([0-9A-F]{4}h) (.*), error register (\w\wh)(.*)$/, (_, code, english, register, rest) => `${code} ${EMCYS[english!] ?? english}, Fehlerregister ${register}${rest}`],
+];
+
+/** Error codes of EMCY messages that encoders and CANopen itself send. */
+const EMCYS: Record<string, string> = {
+  'no error, or error reset': 'kein Fehler, oder Fehler beendet',
+  'life guard or heartbeat error': 'Fehler bei Life Guarding oder Heartbeat',
+  'battery low': 'Batterie schwach',
+  'position error': 'Positionsfehler',
+  'EEPROM error': 'EEPROM-Fehler',
+  'internal communication error': 'interner Kommunikationsfehler',
+  'software reset (watchdog)': 'Software-Reset (Watchdog)',
+  'CAN overrun (objects lost)': 'CAN-Überlauf (Frames verloren)',
+  'CAN in error passive mode': 'CAN-Controller error passive',
+  'recovered from bus-off': 'von Bus-off zurückgekehrt',
+};
+
+/** The words of a frame in German; a text begins with a capital letter. */
+export function words(text: string): string {
+  const [, node, said = ''] = /^(?:Node (\d+): )?([^]*)$/.exec(text)!;
+  const first = node ? `Knoten ${node}: ` : '';
+  const rest = said.charAt(0).toLowerCase() + said.slice(1);
+  for (const [pattern, german] of WORDS) {
+    if (!pattern.test(rest)) continue;
+    // `replace` has two forms for the two kinds.
+    const whole = first + (typeof german === 'string' ? rest.replace(pattern, german) : rest.replace(pattern, german));
+    return whole.charAt(0).toUpperCase() + whole.slice(1);
+  }
+  return first + said;
+}

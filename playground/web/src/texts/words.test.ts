@@ -1,0 +1,25 @@
+import { assert, test } from '../testing';
+import { words } from './de/words';
+
+test('the words of frames in German; names of objects and values stay', () => {
+  for (const [english, german] of [
+    ['Node 5: boot-up', 'Knoten 5: Boot-up'],
+    ['Node 5: Operational', 'Knoten 5: Operational'],
+    ['Start node 5', 'Start, Knoten 5'],
+    ['Reset communication, all nodes', 'Reset communication, alle Knoten'],
+    ['Triggers synchronous PDOs', 'Löst synchrone PDOs aus'],
+    ['Read 1018h:01 Identity object.Vendor-ID', '1018h:01 Identity object.Vendor-ID lesen'],
+    ['1000h Device type is 00020196h', '1000h Device type ist 00020196h'],
+    ['Write 1017h Producer heartbeat time = 500', '1017h Producer heartbeat time = 500 schreiben'],
+    ['Write of 1017h Producer heartbeat time confirmed', 'Schreiben von 1017h Producer heartbeat time bestätigt'],
+    ['Value above the upper limit (06090031h): 6001h aborted', '06090031h Wert über der oberen Grenze: 6001h abgebrochen'],
+    ['6001h aborted: 06020000h object does not exist', '6001h abgebrochen: 06020000h Objekt existiert nicht'],
+    ['1008h Manufacturer device name has 26 bytes', '1008h Manufacturer device name hat 26 Bytes'],
+    ['Last segment of 1008h Manufacturer device name: "gxmm"', 'Letztes Segment von 1008h Manufacturer device name: "gxmm"'],
+    ['Node 5: 8130h life guard or heartbeat error, error register 11h, 00 00 00 00 00', 'Knoten 5: 8130h Fehler bei Life Guarding oder Heartbeat, Fehlerregister 11h, 00 00 00 00 00'],
+    ['TPDO1 Position value = 5', 'TPDO1 Position value = 5'],
+    ['', ''],
+  ]) assert.equal(words(english!), german);
+  // An abort code that CiA 301 does not define has no text.
+  assert.equal(words('Unknown abort code (12345678h): 6001h aborted'), '12345678h: 6001h abgebrochen');
+});
