@@ -160,7 +160,7 @@ fn content_that_is_lost_is_reported() {
         "warning[W1104]: CANopenNode needs 1601h",
         "10 mapping entries of a PDO",
         "remark[I1106]: the node does not check the limits of 1 value",
-        "remark[I1107]: CANopenNode needs 1003h, 1014h, 1016h unless",
+        "remark[I1107]: CANopenNode needs 1003h, 1014h, 1016h, unless",
         "remark[I1108]",
         "warning[W1109]: CANopenNode does not start without 1001h",
         "warning[W1109]: CANopenNode does not start without 1017h",

@@ -5,7 +5,7 @@
 //! | log (`candump -L`) | `(0.100000) can0 601#4004600000000000` |
 //! | `cansend` | `601#40.04.60.00`, `701#R`, `701#R4`, `1F334455#11` |
 //! | screen (`candump`) | `can0  601   [8]  40 04 60 00 00 00 00 00` |
-//! | bits, last byte first (`candump -i`, `-S`) | `can0  601   [2]  01000000 00000100`, <code>can0  601   [2]  04\`40</code> |
+//! | bits, last byte first (`candump -i`, `-S`) | `can0  601   [2]  01000000 00000100`, <code>can0  601   \[2\]  04\`40</code> |
 //! | screen (`candump -tA -x -a`) | `(2026-11-25 15:50:01.123456)  can0  RX - -  601   [2]  40 41   '@A'` |
 //!
 //! Any other text is an [`Error`] with the place and the reason.

@@ -58,9 +58,10 @@ export class Code {
         highlightActiveLine(),
         highlightActiveLineGutter(),
         search({ top: true }),
+        // Before autocompletion, whose keys have the same precedence.
+        Prec.highest(keymap.of([{ key: 'Enter', run: (view) => this.isWhole(view) && closeCompletion(view) && insertNewlineAndIndent(view) }])),
         autocompletion({ override: [(context) => this.complete(context)], icons: false }),
         hoverTooltip((_, at) => this.hover(at), { hoverTime: 250 }),
-        Prec.highest(keymap.of([{ key: 'Enter', run: (view) => this.isWhole(view) && closeCompletion(view) && insertNewlineAndIndent(view) }])),
         keymap.of([
           { key: 'F12', run: () => (void this.jump(), true) },
           { key: 'F8', run: () => this.next(1), shift: () => this.next(-1) },

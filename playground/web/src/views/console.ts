@@ -11,7 +11,6 @@ import { openFile } from './files';
 import { icons } from './icons';
 import { View } from './view';
 import './frame-list';
-import './frame-detail';
 
 const FORMATS = ['log', 'asc', 'trc', 'pcapng'] as const;
 
@@ -37,6 +36,10 @@ class Console extends View {
     this.hasTrigger = false;
     this.finding = '';
     this.findNote = '';
+    // The details of a frame are loaded with the first frame that is selected.
+    effect(() => {
+      if (state.chosenFrame.value !== null) load(() => import('./frame-detail'));
+    });
     this.addEventListener('keydown', (event) => {
       const isFind = (event.key === 'f' && (event.ctrlKey || event.metaKey)) || (event.key === '/' && !(event.target as HTMLElement).closest('input'));
       if (!isFind) return;
