@@ -9,7 +9,7 @@ import { grouped } from '../format';
 import { T } from '../texts';
 import { openFile } from './files';
 import { icons } from './icons';
-import { View } from './view';
+import { load, View } from './view';
 import './frame-list';
 
 const FORMATS = ['log', 'asc', 'trc', 'pcapng'] as const;
@@ -145,10 +145,6 @@ class Console extends View {
 function show(name: typeof view.value, part?: () => Promise<unknown>): void {
   view.value = name;
   if (part) load(part);
-}
-
-function load(part: () => Promise<unknown>): void {
-  part().catch(() => (state.toast.value = { text: T.frames.unloaded, tone: 'error' }));
 }
 
 /** The invalid part of a text, and the rest. */

@@ -9,11 +9,10 @@ import { grouped } from '../format';
 import { T } from '../texts';
 import { choose, motionOf, parseMotion, PROFILES } from './motion';
 import { icons } from './icons';
-import { View } from './view';
+import { load, View } from './view';
 import './shaft';
 import './chain';
 import { waitsFor } from './hardware';
-import './eeprom';
 
 const FASTEST = 6000;
 
@@ -81,6 +80,7 @@ class Encoder extends View {
 
   private show(part: Part): void {
     this.shown = part;
+    if (part === 'eeprom') load(() => import('./eeprom'));
     state.encoderOpen.value = true;
   }
 
