@@ -162,9 +162,9 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     for kind in failed.into_iter().flat_map(Kinds::into_values) {
         add(&mut kinds, kind.first, &kind.seeds);
     }
-    let told: Vec<Told> = kinds
+    let told: Vec<FailureText> = kinds
         .into_values()
-        .map(|kind| Told::of(kind, path))
+        .map(|kind| FailureText::of(kind, path))
         .collect();
     report(args, &told, count, began.elapsed().as_secs_f64())
 }
@@ -178,7 +178,7 @@ fn add(kinds: &mut Kinds, first: Fails, seeds: &[u64]) {
 }
 
 /// A failure as text.
-struct Told {
+struct FailureText {
     seeds: Vec<u64>,
     reason: Reason,
     /// The line with its number, time and draw, and the reason.
@@ -186,7 +186,7 @@ struct Told {
     script: String,
 }
 
-impl Told {
+impl FailureText {
     fn of(kind: Kind, path: &Path) -> Self {
         let script = kind.first.shrunk(&mut Workshop::beside(path));
         let stop = kind.first.stop;
@@ -243,7 +243,7 @@ fn with_paths(script: &str, path: &Path) -> String {
         .collect()
 }
 
-fn report(args: &Args, told: &[Told], count: u64, seconds: f64) -> Result<(), Failure> {
+fn report(args: &Args, told: &[FailureText], count: u64, seconds: f64) -> Result<(), Failure> {
     let failed: usize = told.iter().map(|one| one.seeds.len()).sum();
     if let Some(path) = &args.junit {
         let xml = junit(&args.script, told, count, seconds);
@@ -292,7 +292,7 @@ fn report(args: &Args, told: &[Told], count: u64, seconds: f64) -> Result<(), Fa
 }
 
 /// The report as JUnit XML: a case for each seed that failed, and one for all others.
-fn junit(script: &str, told: &[Told], count: u64, seconds: f64) -> String {
+fn junit(script: &str, told: &[FailureText], count: u64, seconds: f64) -> String {
     let failed: usize = told.iter().map(|one| one.seeds.len()).sum();
     let passed = count - failed as u64;
     let script = escape(script);

@@ -121,7 +121,7 @@ fn serve(listener: &TcpListener, desk: &Arc<Desk>) {
     let open = Arc::new(AtomicUsize::new(0));
     loop {
         let Ok((stream, _)) = listener.accept() else {
-            // The system has no more sockets: it has soon.
+            // The system has no free socket at the moment.
             thread::sleep(Duration::from_millis(50));
             continue;
         };

@@ -24,7 +24,7 @@ fn page(name: &str) -> String {
     folder.display().to_string()
 }
 
-/// A folder of lessons: one with its translation, and a file that is none.
+/// A folder of lessons: one lesson with its translation, and a file that is not a lesson.
 fn lessons(name: &str) -> String {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     fs::create_dir_all(folder.join("de")).expect("a folder");

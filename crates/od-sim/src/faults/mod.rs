@@ -22,4 +22,4 @@ pub mod sight;
 mod trial;
 
 pub use collection::{Case, Cause, Collection};
-pub use trial::{Mark, Told, Trial};
+pub use trial::{Mark, Trial, UsedProbe};

@@ -63,7 +63,7 @@ pub enum Probe {
 /// The result of a probe.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct Reading {
-    /// What was seen, rounded as far as a person sees it: two causes fit a reading if all of this is equal.
+    /// What was seen, rounded so that two readings differ only if a person sees it. A cause fits a reading if all sights are equal.
     pub sights: Vec<Sight>,
     /// Frames and error frames, oldest first.
     pub frames: Vec<Seen>,

@@ -1,4 +1,4 @@
-//! What a probe shows, rounded as far as a person sees it, with its words in English and German.
+//! What a probe shows, rounded so that two readings differ only if a person sees it, with its words in English and German.
 
 use std::format;
 use std::prelude::v1::*;

@@ -47,13 +47,13 @@ pub struct Mark {
     /// Such probes.
     pub best: Vec<usize>,
     /// The probes of the learner, in order.
-    pub told: Vec<Told>,
+    pub told: Vec<UsedProbe>,
 }
 
-/// What a probe told.
+/// A probe that the learner used, and what it ruled out.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Told {
-    /// The probe.
+pub struct UsedProbe {
+    /// Its position in the list of the case.
     pub probe: usize,
     /// Causes that fit its reading.
     pub fit: Vec<usize>,
@@ -166,13 +166,13 @@ impl<'c> Trial<'c> {
             let fit: Vec<_> = all.clone().filter(|cause| fits(*probe, *cause)).collect();
             left.retain(|cause| fit.contains(cause));
             let left = left.clone();
-            Told {
+            UsedProbe {
                 probe: *probe,
                 fit,
                 left,
             }
         });
-        let told: Vec<Told> = told.collect();
+        let told: Vec<UsedProbe> = told.collect();
         let best = self.best(fits);
         Mark {
             cause: self.cause,
