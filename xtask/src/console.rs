@@ -12,6 +12,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use crate::error::{Error, Result};
+use crate::processes::{self, processor_time};
 use crate::repo::is_ci;
 
 /// The variable that names a folder of device files, which tests read instead of `tests/corpus`.
@@ -28,6 +29,7 @@ pub(crate) fn say(line: &str) {
 #[derive(Debug)]
 pub(crate) struct Console {
     log: Option<File>,
+    /// A program that writes nothing for so long is stopped.
     limit: Duration,
     /// Whether its programs run with low priority.
     yields: bool,
@@ -51,7 +53,7 @@ impl Console {
         }
     }
 
-    /// Writes everything to `log`, and stops a program that runs longer than `limit`. With
+    /// Writes everything to `log`, and stops a program that writes nothing there for `limit`. With
     /// `yields`, programs run with low priority.
     pub(crate) fn to_log(log: File, limit: Duration, yields: bool) -> Console {
         Console {
@@ -134,7 +136,8 @@ impl Console {
     fn wait(&self, child: &mut Child, started: Instant, shown: &str) -> Result<ExitStatus> {
         let lost = |e| Error::Failed(format!("`{shown}` was lost: {e}"));
         let before = self.used.get();
-        while started.elapsed() < self.limit && !self.stop.load(Ordering::Relaxed) {
+        let (mut length, mut wrote) = (0, started);
+        while wrote.elapsed() < self.limit && !self.stop.load(Ordering::Relaxed) {
             // A program that ended keeps its times until `try_wait` takes note of it.
             if let Some(time) = processor_time(&child.id().to_string()) {
                 self.used.set(before + time);
@@ -142,24 +145,21 @@ impl Console {
             if let Some(status) = child.try_wait().map_err(lost)? {
                 return Ok(status);
             }
+            let log = self.log.as_ref().and_then(|log| log.metadata().ok());
+            let now = log.map_or(0, |log| log.len());
+            if now != length {
+                (length, wrote) = (now, Instant::now());
+            }
             std::thread::sleep(Duration::from_millis(20));
         }
-        let _ = child.kill();
-        let _ = child.wait();
+        self.used.set(before + processes::stop(child));
         let time = seconds(started.elapsed());
-        Err(Error::Failed(format!("`{shown}` was stopped after {time}")))
+        let mut text = format!("`{shown}` was stopped after {time}");
+        if wrote.elapsed() >= self.limit {
+            let _ = write!(text, ": it wrote nothing for {}", seconds(self.limit));
+        }
+        Err(Error::Failed(text))
     }
-}
-
-/// The processor time of a process (`self`, or its number) and of its children that ended; `None` where the system
-/// has no `/proc`.
-pub(crate) fn processor_time(process: &str) -> Option<Duration> {
-    let text = std::fs::read_to_string(format!("/proc/{process}/stat")).ok()?;
-    // Behind the name, which may contain anything: fields 14 to 17 of proc_pid_stat(5), in 1/100 s.
-    let (_, fields) = text.rsplit_once(')')?;
-    let ticks = fields.split_whitespace().skip(11).take(4);
-    let ticks: u64 = ticks.filter_map(|field| field.parse::<u64>().ok()).sum();
-    Some(Duration::from_millis(ticks * 10))
 }
 
 fn append(mut log: &File, line: &str) {

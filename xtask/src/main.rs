@@ -14,6 +14,7 @@ mod fuzz;
 mod mutants;
 mod packages;
 mod play;
+mod processes;
 mod progress;
 mod release;
 mod repo;

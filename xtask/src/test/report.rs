@@ -6,7 +6,9 @@ use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
 use super::counts::Counts;
-use crate::console::{processor_time, say, seconds};
+use super::running::running;
+use crate::console::{say, seconds};
+use crate::processes::processor_time;
 use crate::repo::is_ci;
 
 /// Number of lines that a failing stage shows at most; the log has all of them.
@@ -130,6 +132,9 @@ fn explain(name: &str, why: &str, (log, place): (&str, &Path), command: &str) {
     }
     let ci = if is_ci() { "CI=true " } else { "" };
     say(&format!("\n  {name}: {why}"));
+    for test in running(&lines) {
+        say(&format!("  did not end: {test}"));
+    }
     for line in matters(&lines) {
         say(&format!("  | {line}"));
     }

@@ -52,7 +52,7 @@ pub(super) fn corpus(context: &Context<'_>) -> Result<()> {
     let package = [
         "-m",
         "pytest",
-        "-q",
+        "-v",
         "-p",
         "no:cacheprovider",
         "-k",

@@ -1,7 +1,6 @@
 //! The stage that makes a release and uses it without the repository. Only with `--long`.
 
 use std::env;
-use std::process::Command;
 
 use crate::console::{ask_in, which};
 use crate::error::Result;
@@ -40,9 +39,7 @@ pub(super) fn dist(context: &Context<'_>) -> Result<()> {
     if given.is_none() {
         release::run(repo, console, &Options::whole(&folder))?;
     }
-    let mut tests = Command::new("node");
-    tests.args(["--test", "--test-reporter=tap"]);
-    tests.current_dir(repo.root.join("tests/dist"));
+    let mut tests = node::tests(repo, &repo.root.join("tests/dist"));
     tests.env("ODKIT_DIST", &folder).env("CHROMIUM", chromium);
     // The packages are built with the compiler that packed them.
     let rustc = ask_in(&repo.root, "rustup", &["show", "active-toolchain"]);

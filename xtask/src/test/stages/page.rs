@@ -154,9 +154,8 @@ fn package_tests(context: &Context<'_>, package: &Path) -> Result<()> {
 }
 
 fn node_test(context: &Context<'_>, dir: &Path, args: &[&str]) -> Command {
-    let mut command = Command::new("node");
-    command.args(["--test", "--test-reporter=tap"]).args(args);
-    command.current_dir(dir);
+    let mut command = node::tests(context.repo, dir);
+    command.args(args);
     long(context, &mut command);
     command
 }

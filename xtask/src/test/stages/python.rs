@@ -106,10 +106,10 @@ fn write(path: &PathBuf, text: &str) -> Result<()> {
 fn tests(context: &Context<'_>, python: &Path, site: Option<&Path>) -> Result<()> {
     // A test plays scripts of a bench with the command.
     let odkit = odkit(context)?.join(program(CLI.1));
-    // Not started in `python/`, whose folder `odkit` lacks the module.
+    // Not started in `python/`, whose folder `odkit` lacks the module. With `-v` the log names the test that runs.
     let mut pytest = Command::new(python);
     pytest
-        .args(["-m", "pytest", "-q", "-p", "no:cacheprovider"])
+        .args(["-m", "pytest", "-v", "-p", "no:cacheprovider"])
         .args(["python/tests", "examples/python-ci/tests"])
         .arg("examples/campaign/tests")
         .current_dir(&context.repo.root)
