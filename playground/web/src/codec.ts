@@ -5,6 +5,7 @@ import { decodeValue, encodeValue, frameTemplates, initSync, readLine as read, t
 import type { FrameTemplate, ObjectRecord, Value } from './sim/api';
 import { T } from './texts';
 import { grouped } from './format';
+import { said } from './language';
 
 export { checkRun, frameBits, mappedValues, readInput, readValues, Statistics, Transfers } from './wasm/core/od_playground';
 
@@ -56,7 +57,7 @@ export type ReadLine = { frame: Typed } | { error: string; at: number };
 export function readLine(text: string, nodeId: number, find: (index: number, sub: number) => ObjectRecord | undefined): ReadLine {
   if (!isReady.value || text.trim() === '') return { error: T.typed.frame, at: 0 };
   const result: LineResult = read(text, nodeId, { typeOf: (index, sub) => find(index, sub)?.type });
-  return result.error === undefined ? { frame: result } : { error: result.error, at: result.at };
+  return result.error === undefined ? { frame: result } : { error: said(result.error), at: result.at };
 }
 
 /** Example frames for a node. */
@@ -70,7 +71,7 @@ export function encode(text: string, object: ObjectRecord): Encoded {
     const bytes = encodeValue(object.type, text);
     return { bytes, note: noteOn(bytes, object) };
   } catch (error) {
-    return { error: error instanceof Error ? error.message : String(error) };
+    return { error: said(error instanceof Error ? error.message : String(error)) };
   }
 }
 

@@ -11,6 +11,9 @@ export const german = signal<typeof catalogue | null>(null);
 /** The language of the page. */
 export const language = (): Language => (german.value ? 'de' : 'en');
 
+/** A text of the module, which speaks English, in the language of the page: words of a frame, a refusal, a notice. */
+export const said = (english: string): string => german.peek()?.W(english) ?? english;
+
 /** Shows the page in this language; rejects if its texts cannot be loaded. */
 export async function speak(chosen: Language): Promise<void> {
   german.value = chosen === 'de' ? (await import('./texts/de')).catalogue : null;

@@ -186,6 +186,8 @@ pub(super) struct Room {
     next: u32,
     /// Number of the last offer.
     offers: u32,
+    /// The last offer to all: a student who joins later gets it, too.
+    for_all: Option<Offer>,
     former: VecDeque<String>,
     removed: VecDeque<String>,
 }
@@ -199,6 +201,7 @@ impl Room {
             rows: Vec::new(),
             next: 1,
             offers: 0,
+            for_all: None,
             former: VecDeque::new(),
             removed: VecDeque::new(),
         }
@@ -236,7 +239,7 @@ impl Room {
                 at: None,
                 since: now,
                 finished: Vec::new(),
-                offer: None,
+                offer: self.for_all.clone(),
                 answered: 0,
             });
             self.next += 1;
@@ -283,6 +286,9 @@ impl Room {
             number: self.offers,
             lesson: lesson.into(),
         };
+        if id.is_none() {
+            self.for_all = Some(offer.clone());
+        }
         let mut found = id.is_none();
         for row in &mut self.rows {
             if id.is_none_or(|id| id == row.id) {
@@ -306,6 +312,7 @@ impl Room {
     pub(super) fn reset(&mut self, group: String) {
         remember(&mut self.former, std::mem::replace(&mut self.group, group));
         self.rows.clear();
+        self.for_all = None;
         self.removed.clear();
     }
 
@@ -450,6 +457,11 @@ mod tests {
         assert_eq!(room.rows(now)[0].offer, None);
         assert!(room.offer("nmt", None));
         assert!(room.rows(now).iter().all(|row| row.offer == Some("nmt")));
+        room.join("late", "c".into(), now).expect("joined");
+        assert_eq!(room.rows(now)[2].offer, Some("nmt"), "an offer to all");
+        room.reset("second".into());
+        room.join("next", "d".into(), now).expect("joined");
+        assert_eq!(room.rows(now)[0].offer, None, "another group");
     }
 
     #[test]

@@ -1,5 +1,4 @@
-//! Frames on a line that takes time: which is sent next, who receives it, and which are repeated.
-//! again.
+//! Frames on a line that takes time: which is sent next, who receives it, and which are sent again.
 
 use std::prelude::v1::*;
 
@@ -163,6 +162,7 @@ impl Bus {
             senders,
             beaten,
             trouble: attempt.trouble,
+            received: attempt.received,
         };
         let medium = &mut self.line.medium;
         medium.begin(ended, rate.unwrap_or(500), attempt.bits);
@@ -170,8 +170,15 @@ impl Bus {
 
     /// Ends a frame: delivers it, or lets its controllers repeat it.
     fn end(&mut self, ended: Ended) {
-        if ended.trouble.is_none() {
+        if ended.received {
             self.deliver(&ended);
+        }
+        if ended.trouble.is_none() {
+            // Its senders have room for the next frame.
+            let senders = ended.senders.iter();
+            for device in senders.filter_map(|one| one.station.checked_sub(1)) {
+                self.load(device, self.now);
+            }
         }
         let failed = ended
             .senders
@@ -180,9 +187,9 @@ impl Bus {
             .filter_map(|one| Some((one, ended.trouble?)));
         let beaten = ended.beaten.iter().map(|one| (*one, FrameError::SameId));
         for (mut waiting, trouble) in failed.chain(beaten) {
-            waiting.attempts = waiting.attempts.saturating_add(1);
-            waiting.trouble = Some(trouble);
-            let condition = self.line.controller(waiting.station).condition();
+            let controller = self.line.controller(waiting.station);
+            waiting.failed(trouble, controller.transmit);
+            let condition = controller.condition();
             self.report(&mut waiting, trouble);
             if condition != Condition::BusOff {
                 let is_passive = condition == Condition::ErrorPassive;
@@ -193,8 +200,7 @@ impl Bus {
         }
     }
 
-    /// Delivers a transmitted frame to all stations that can receive it; its senders have room for
-    /// the next one.
+    /// Delivers a frame to all stations that can receive it.
     fn deliver(&mut self, ended: &Ended) {
         let Some(Waiting { station, frame, .. }) = ended.senders.first().copied() else {
             return;
@@ -231,13 +237,6 @@ impl Bus {
                 self.load(other, now.plus_micros(PROCESSING));
             }
         }
-        for device in ended
-            .senders
-            .iter()
-            .filter_map(|one| one.station.checked_sub(1))
-        {
-            self.load(device, now);
-        }
     }
 
     /// Reports a failed attempt. While nothing changes between attempts, one report per second is
@@ -245,7 +244,7 @@ impl Bus {
     fn report(&mut self, waiting: &mut Waiting, trouble: FrameError) {
         let controller = self.line.controller(waiting.station);
         let is_soon = |before: Instant| self.now.micros_since(before) < BETWEEN_REPORTS;
-        if waiting.repeats() && waiting.reported.is_some_and(is_soon) {
+        if waiting.repeats && waiting.reported.is_some_and(is_soon) {
             return;
         }
         waiting.reported = Some(self.now);

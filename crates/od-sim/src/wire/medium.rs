@@ -56,8 +56,6 @@ const ERROR_FRAME: u64 = FLAG + 8;
 const DESTROYED: u64 = 20 + FLAG + ERROR_FRAME;
 /// Bits that an error passive controller waits after the intermission before it sends again (ISO 11898-1).
 const SUSPENSION: u64 = 8;
-/// Failed attempts without an acknowledgement until the sender is error passive.
-const UNTIL_PASSIVE: u32 = 16;
 const NANOS: u64 = 1000;
 
 /// Bits of an attempt to send a frame, without the intermission.
@@ -81,9 +79,12 @@ pub(crate) struct Waiting {
     /// Station: 0 is the outside, then come the devices.
     pub(crate) station: usize,
     pub(crate) frame: Frame,
-    /// Number of failed attempts, and the reason of the last one.
+    /// Number of failed attempts.
     pub(crate) attempts: u32,
-    pub(crate) trouble: Option<FrameError>,
+    /// Transmit error counter of its sender after the last attempt.
+    pub(crate) transmit_errors: u16,
+    /// Whether the last attempt failed as the one before it did, without a change.
+    pub(crate) repeats: bool,
     /// Time of the last attempt that was reported.
     pub(crate) reported: Option<Instant>,
     /// Time from which it may start, in nanoseconds.
@@ -92,10 +93,13 @@ pub(crate) struct Waiting {
 }
 
 impl Waiting {
-    /// Returns whether the next attempts change nothing: no station acknowledges the frame, and its sender is error
-    /// passive with a counter of 128.
-    pub(crate) fn repeats(&self) -> bool {
-        self.trouble == Some(FrameError::NoAcknowledge) && self.attempts > UNTIL_PASSIVE
+    /// Notes a failed attempt, after which the sender has this transmit error counter. Without an acknowledgement it stops
+    /// at 128: the next attempts change nothing.
+    pub(crate) fn failed(&mut self, trouble: FrameError, transmit_errors: u16) {
+        self.repeats =
+            trouble == FrameError::NoAcknowledge && self.transmit_errors == transmit_errors;
+        self.attempts = self.attempts.saturating_add(1);
+        self.transmit_errors = transmit_errors;
     }
 }
 
@@ -115,6 +119,8 @@ pub(crate) struct Ended {
     pub(crate) beaten: Vec<Waiting>,
     /// Reason of the failure; `None`: the frame came through.
     pub(crate) trouble: Option<FrameError>,
+    /// Whether the receivers take the frame.
+    pub(crate) received: bool,
 }
 
 impl Ended {
@@ -159,7 +165,8 @@ impl Medium {
             station,
             frame,
             attempts: 0,
-            trouble: None,
+            transmit_errors: 0,
+            repeats: false,
             reported: None,
             ready: ready.as_micros() * NANOS,
             order: self.order,
@@ -191,7 +198,7 @@ impl Medium {
     pub(crate) fn repeats(&self, station: usize) -> bool {
         let flying = self.flight.iter().flat_map(|flight| &flight.ended.senders);
         let mut all = self.waiting.iter().chain(flying);
-        all.any(|one| one.station == station && one.repeats())
+        all.any(|one| one.station == station && one.repeats)
     }
 
     /// Returns whether this frame of the outside waits.

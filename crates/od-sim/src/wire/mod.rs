@@ -44,6 +44,8 @@ pub(crate) struct Station {
 pub(super) struct Attempt {
     /// Reason of the failure; `None` if the frame will get through.
     pub(super) trouble: Option<FrameError>,
+    /// Whether the receivers take the frame. Those behind a line that is too long do, although its sender repeats it.
+    pub(super) received: bool,
     /// Bits until the line is free for the intermission.
     pub(super) bits: u64,
     /// Stations whose frame was another one, and that could not stop the frame: they are error passive.
@@ -268,6 +270,7 @@ impl Line {
                 }
                 return Attempt {
                     trouble: Some(FrameError::SameId),
+                    received: false,
                     bits: medium::bits_until(place),
                     beaten,
                 };
@@ -279,9 +282,10 @@ impl Line {
             }
         }
         let senders: Vec<usize> = left.iter().map(|(station, _)| *station).collect();
-        let trouble = self.attempt(stations, &senders, &beaten, &left[0].1);
+        let (trouble, received) = self.attempt(stations, &senders, &beaten, &left[0].1);
         Attempt {
             trouble,
+            received,
             bits: medium::bits_of(&left[0].1, trouble),
             beaten,
         }
@@ -300,14 +304,19 @@ impl Line {
             .collect()
     }
 
-    /// Makes one attempt of stations that send the same frame; `None` if it succeeds.
+    /// Makes one attempt of stations that send the same frame. Returns the reason if it fails, and whether the receivers take the
+    /// frame.
+    ///
+    /// An error passive sender without an acknowledgement counts only if it sees a dominant bit while it sends its error
+    /// flag (ISO 11898-1, fault confinement, rule c, exception 1): the acknowledgement of a station far away, or the
+    /// flag of another sender. A sender that is alone sees none, so it never goes bus-off.
     fn attempt(
         &mut self,
         stations: &[Station],
         senders: &[usize],
         beaten: &[usize],
         frame: &Frame,
-    ) -> Option<FrameError> {
+    ) -> (Option<FrameError>, bool) {
         let rate = stations[senders[0]].rate;
         let mut others = self.listeners(stations, senders);
         others.retain(|station| !beaten.contains(station));
@@ -325,15 +334,21 @@ impl Line {
         let destroys = |line: &Self, station: &usize| {
             line.controller(*station).condition() == Condition::ErrorActive
         };
+        let is_late = self.is_late(rate);
         let trouble = if strangers.iter().any(|other| destroys(self, other)) {
             Some(FrameError::OtherBitRate)
         } else if self.is_unlucky(rate) || self.is_slow(rate, others.len() + senders.len()) {
             Some(FrameError::Reflections)
-        } else if !others.iter().any(same) || self.is_late(rate) {
+        } else if !others.iter().any(same) || is_late {
             Some(FrameError::NoAcknowledge)
         } else {
             None
         };
+        // The error flag of an active sender begins behind the acknowledge slot and destroys the frame.
+        let has_active = senders.iter().any(|sender| destroys(self, sender));
+        let is_unheard = trouble == Some(FrameError::NoAcknowledge);
+        let received = trouble.is_none() || is_unheard && is_late && !has_active;
+        let sees_dominant = !is_unheard || has_active || !follows.is_empty();
         // A station that destroys a frame that all others accept was the first to see the error.
         let by = if others.iter().any(same) { 8 } else { 1 };
         for station in strangers {
@@ -343,18 +358,18 @@ impl Line {
             let controller = &mut self.controllers[*sender];
             match trouble {
                 None => controller.sent(),
-                // An error passive sender without an acknowledgement does not count further.
-                Some(FrameError::NoAcknowledge) if controller.transmit >= PASSIVE => {}
+                Some(_) if controller.transmit >= PASSIVE && !sees_dominant => {}
                 Some(_) => controller.erred_sending(),
             }
         }
         for station in others.into_iter().filter(same) {
-            match trouble {
-                None => self.controllers[station].received(),
-                Some(_) => self.controllers[station].erred_receiving(1),
+            if received {
+                self.controllers[station].received();
+            } else {
+                self.controllers[station].erred_receiving(1);
             }
         }
-        trouble
+        (trouble, received)
     }
 
     /// Returns whether reflections destroy this attempt. A faster line makes it more likely.

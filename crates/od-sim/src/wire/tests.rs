@@ -108,6 +108,53 @@ fn equal_frames_of_one_moment_are_one_frame_and_need_a_third_station_to_acknowle
 }
 
 #[test]
+fn an_error_passive_sender_counts_if_it_sees_the_error_flag_of_another() {
+    let (mut line, stations) = (real(2), stations(&[500, 500, 500]));
+    let boot_up = Frame::standard(0x701, &[0]);
+    line.set_plugged(0, false);
+    line.set_plugged(2, false);
+    // Alone on the line until it is error passive; then another node sends the same frame with it.
+    for _ in 0..20 {
+        line.try_once(Instant::ZERO, &stations, &[(1, boot_up)]);
+    }
+    assert_eq!(line.controller(1).transmit, 128);
+    line.set_plugged(2, true);
+    let both = [(1, boot_up), (2, boot_up)];
+    for attempt in 1..=16 {
+        let outcome = line.try_once(Instant::ZERO, &stations, &both);
+        assert_eq!(outcome.trouble, Some(FrameError::NoAcknowledge));
+        let is_off = attempt == 16;
+        assert_eq!(
+            line.controller(1).condition() == Condition::BusOff,
+            is_off,
+            "{attempt}"
+        );
+    }
+    // The other one is error passive now, and nobody is left to see its flag.
+    line.try_once(Instant::ZERO, &stations, &[(2, boot_up)]);
+    assert_eq!(line.controller(2).transmit, 128);
+}
+
+/// The acknowledgement arrives in the bit behind the slot: an error active sender destroys the frame there; an error passive
+/// one sees a dominant bit in its error flag, while the receivers take the frame.
+#[cfg(feature = "training")]
+#[test]
+fn a_late_acknowledgement_leads_to_bus_off_and_frames_that_arrive_several_times() {
+    let (mut line, stations) = (real(2), stations(&[500, 500]));
+    line.cable.length = 150;
+    let frame = Frame::standard(0x705, &[0x7F]);
+    let mut received = Vec::new();
+    while line.controller(1).condition() != Condition::BusOff {
+        let attempt = line.try_once(Instant::ZERO, &stations, &[(1, frame)]);
+        assert_eq!(attempt.trouble, Some(FrameError::NoAcknowledge));
+        received.push(attempt.received);
+    }
+    assert_eq!(received.len(), 32);
+    assert_eq!(received.iter().position(|one| *one), Some(16));
+    assert_eq!(line.controller(0).receive, 0, "16 errors, then 16 frames");
+}
+
+#[test]
 fn a_missing_terminator_disturbs_fast_lines_and_a_seed_repeats_it() {
     let count = |rate, terminators| {
         let (mut line, stations) = (real(terminators), stations(&[rate, rate]));

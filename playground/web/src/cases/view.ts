@@ -1,6 +1,7 @@
 // The fault cases: a list, and a case with its probes, its causes and the mark. The whole module plays them; the page only shows.
 
 import { html, nothing, type TemplateResult } from 'lit';
+import { copyText } from '../clipboard';
 import { load } from '../lessons/open';
 import { german } from '../language';
 import type { CaseMark, FaultCase, OpenedCase, ProbeReading } from '../sim/api';
@@ -174,7 +175,7 @@ class FaultCases extends View {
   private case(opened: OpenedCase): TemplateResult {
     const { name, seed } = state.faultCase.value!;
     const isOver = this.mark !== null;
-    const copy = (): void => void navigator.clipboard.writeText(location.href).then(() => (this.isCopied = true), () => {});
+    const copy = (): void => void copyText(location.href).then((isCopied) => (this.isCopied = isCopied));
     return html`<div class="case-head"><h3>${opened.title}</h3><span class="spacer"></span><span class="num muted">${F.seed(seed)}</span>
         <button class="small" title=${F.copyTitle} @click=${copy}>${this.isCopied ? F.copied : F.copy}</button>
         <button class="small" title=${F.anotherTitle} @click=${() => this.open(name)}>${F.another}</button>

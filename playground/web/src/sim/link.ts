@@ -2,6 +2,7 @@
 // turns its reports into state.
 
 import { batch } from '@preact/signals-core';
+import { said } from '../language';
 import * as state from '../state';
 import { T } from '../texts';
 import { begin } from '../codec';
@@ -259,7 +260,7 @@ function apply(snapshot: Snapshot): void {
     }
     if (snapshot.frames.length > 0) frames(snapshot);
     const text = snapshot.notices.at(-1);
-    if (text) state.toast.value = { text, tone: 'error' };
+    if (text) state.toast.value = { text: said(text), tone: 'error' };
   });
   for (const listener of listeners) listener(snapshot, first);
 }

@@ -2,6 +2,7 @@
 
 import { decode } from '../codec';
 import { address, otherSpelling, showValue } from '../format';
+import { said } from '../language';
 import { nodeId, powered } from '../state';
 import { T } from '../texts';
 import type { Address, ObjectRecord, Outcome } from './api';
@@ -17,7 +18,7 @@ export const transfer = ({ index, sub }: Address, bytes: Uint8Array | null): Pro
   maySend() ? ask((ticket) => ({ op: 'transfer', ticket, node: nodeId.value, index, sub, bytes }), SILENT) : (hooks.held(), Promise.resolve({ ...SILENT, words: T.sdo.held }));
 
 /** Reason why no value was read. */
-export const failure = ({ words }: Outcome): string => words || (powered.value ? T.sdo.stopped : T.sdo.off);
+export const failure = ({ words }: Outcome): string => said(words) || (powered.value ? T.sdo.stopped : T.sdo.off);
 
 export function inWords(object: ObjectRecord, isWrite: boolean, outcome: Outcome): Said {
   const where = address(object.index, object.sub);

@@ -4,7 +4,7 @@
 import { effect, signal } from '@preact/signals-core';
 import { cleared, devices, lesson, ring } from '../state';
 import { askBus, listen } from './link';
-import { german } from '../language';
+import { german, said } from '../language';
 import { T } from '../texts';
 import { FRAME_BYTES, type Packed } from './packed';
 
@@ -33,7 +33,7 @@ listen(({ words, frames }, first) => {
   // The others are not shown, or not captured.
   if (end !== ring.end) return;
   const from = end - words.length;
-  words.forEach((text, i) => known.set(from + i, german.peek()?.W(text) ?? text));
+  words.forEach((text, i) => known.set(from + i, said(text)));
 });
 
 /** The texts of these frames, as far as they are known; requests the others. */
@@ -86,8 +86,7 @@ async function ask(numbers: number[]): Promise<void> {
   numbers.forEach((number, i) => {
     asked.delete(number);
     if (of !== signalsIn) return;
-    const [english = '', more] = [words?.[i], signals?.[i]];
-    const text = german.peek()?.W(english) ?? english;
+    const [text, more] = [said(words?.[i] ?? ''), signals?.[i]];
     known.set(number, more ? `${text} | ${more}` : text);
   });
   wordsArrived.value += 1;

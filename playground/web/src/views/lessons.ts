@@ -3,6 +3,7 @@
 import { html, nothing, type PropertyValues, type TemplateResult } from 'lit';
 import { effect } from '@preact/signals-core';
 import { C } from '../class/texts';
+import { copyText } from '../clipboard';
 import { cards } from '../labs/open';
 import { language } from '../language';
 import { F } from '../cases/texts';
@@ -79,7 +80,7 @@ class Lessons extends View {
       <label for="learner">${t.title}</label>
       <p class="note">${t.hint}</p>
       <input id="learner" placeholder=${t.learner} aria-label=${t.learner} autocomplete="name" maxlength="60" .value=${this.learner} @input=${(event: Event) => { this.learner = (event.target as HTMLInputElement).value; this.isCopied = false; }}>
-      <button ?disabled=${this.learner.trim() === ''} @click=${() => void navigator.clipboard.writeText(code).then(() => (this.isCopied = true), () => this.querySelector<HTMLInputElement>('#progress-code')?.select())}>${this.isCopied ? D.share.copied : t.copy}</button>
+      <button ?disabled=${this.learner.trim() === ''} @click=${() => void copyText(code).then((isCopied) => (isCopied ? (this.isCopied = true) : this.querySelector<HTMLInputElement>('#progress-code')?.select()))}>${this.isCopied ? D.share.copied : t.copy}</button>
       ${this.learner.trim() ? html`<input id="progress-code" class="num" readonly aria-label=${t.code} .value=${code} @focus=${(event: Event) => (event.target as HTMLInputElement).select()}>` : nothing}
     </section>`;
   }

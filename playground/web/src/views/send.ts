@@ -7,6 +7,7 @@ import * as state from '../state';
 import { doLine, isDeed, readTyped, sendFrame, sendLine } from '../actions';
 import { templates } from '../codec';
 import { typedForm } from '../format';
+import { said } from '../language';
 import { askBus } from '../sim/link';
 import { pack, unpack } from '../sim/packed';
 import { icons } from './icons';
@@ -84,7 +85,7 @@ class RawFrame extends View {
     const { frame } = parsed;
     const typed = pack({ ...frame, data: frame.remote ? new Uint8Array(0) : frame.data, dlc: frame.data.length, time: 0, fromPage: true });
     const words = await askBus('describeAll', typed);
-    if (this.text === text) this.meaning = words?.[0] ?? '';
+    if (this.text === text) this.meaning = said(words?.[0] ?? '');
   }
 
   private submit(event: Event): void {

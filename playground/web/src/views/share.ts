@@ -2,6 +2,7 @@
 
 import { html, nothing, type PropertyValues } from 'lit';
 import { effect } from '@preact/signals-core';
+import { copyText } from '../clipboard';
 import { sheet } from '../sheet';
 import * as state from '../state';
 import { T } from '../texts';
@@ -74,13 +75,9 @@ class Share extends View {
 
   private async copy(what: 'link' | 'frame'): Promise<void> {
     const field = this.querySelector<HTMLInputElement>(`#share-${what}`)!;
-    try {
-      await navigator.clipboard.writeText(field.value);
-      this.copied = what;
-    } catch {
-      // The browser does not allow copying: the text is selected, so that the user can copy it.
-      field.select();
-    }
+    if (await copyText(field.value)) this.copied = what;
+    // The text is selected, so that the user can copy it.
+    else field.select();
   }
 
   private async save(): Promise<void> {

@@ -1,4 +1,4 @@
-// The words of frames in German. The module describes frames in English; names of objects and values stay as they are.
+// What the module says, in German: words of frames, refusals and notices. Names of objects and values stay as they are.
 
 /** Texts of the SDO abort codes (CiA 301, table 22). */
 const ABORTS: Record<string, string> = {
@@ -37,6 +37,47 @@ const ABORTS: Record<string, string> = {
 };
 
 const abort = (code: string, english: string): string => `${code}h ${ABORTS[code] ?? english}`.trim();
+
+/** Names of the LSS commands (CiA 305). */
+const LSS: Record<string, string> = {
+  'switch state global': 'Zustand global wechseln',
+  'configure node ID': 'Node-ID einstellen',
+  'configure bit timing': 'Bit-Timing einstellen',
+  'activate bit timing': 'Bit-Timing aktivieren',
+  'store configuration': 'Konfiguration speichern',
+  'switch state selective, vendor-ID': 'Zustand selektiv wechseln, Vendor-ID',
+  'switch state selective, product code': 'Zustand selektiv wechseln, Product Code',
+  'switch state selective, revision number': 'Zustand selektiv wechseln, Revision Number',
+  'switch state selective, serial number': 'Zustand selektiv wechseln, Serial Number',
+  'switch state selective, confirmed': 'Zustand selektiv wechseln, bestätigt',
+  'identify remote slave, vendor-ID': 'Slave identifizieren, Vendor-ID',
+  'identify remote slave, product code': 'Slave identifizieren, Product Code',
+  'identify remote slave, lowest revision': 'Slave identifizieren, kleinste Revision',
+  'identify remote slave, highest revision': 'Slave identifizieren, größte Revision',
+  'identify remote slave, lowest serial number': 'Slave identifizieren, kleinste Serial Number',
+  'identify remote slave, highest serial number': 'Slave identifizieren, größte Serial Number',
+  'identify non-configured slave': 'nicht konfigurierten Slave identifizieren',
+  'identify slave': 'Slave identifiziert',
+  'non-configured slave': 'nicht konfigurierter Slave',
+  fastscan: 'Fastscan',
+  'inquire vendor-ID': 'Vendor-ID abfragen',
+  'inquire product code': 'Product Code abfragen',
+  'inquire revision number': 'Revision Number abfragen',
+  'inquire serial number': 'Serial Number abfragen',
+  'inquire node ID': 'Node-ID abfragen',
+};
+
+const commands = Object.keys(LSS).sort((a, b) => b.length - a.length).join('|');
+
+/** What follows the name of an LSS command. */
+const lssRest = (rest: string): string =>
+  rest
+    .replace(/^ (\d+)$/, ': $1')
+    .replace(/^: done$/, ': erledigt')
+    .replace(/^: error (.*)$/, ': Fehler $1')
+    .replace(/^, table (\d+), index (\d+)$/, ', Tabelle $1, Index $2')
+    .replace(/^, delay (.*)$/, ', Verzögerung $1')
+    .replace(/^: (\d+) bytes?, but an LSS message has 8 (.*)$/, ': $1 Bytes, aber eine LSS-Nachricht hat 8 $2');
 
 /** What follows the node, from the whole text to its parts; the first that fits is taken. `$1` is what stays. */
 const WORDS: [RegExp, string | ((...parts: string[]) => string)][] = [
@@ -77,6 +118,37 @@ const WORDS: [RegExp, string | ((...parts: string[]) => string)][] = [
   [/^(.*) follows in segments$/, '$1 folgt in Segmenten'],
   [/^(.*) has (\d+) bytes?, in blocks$/, '$1 hat $2 Bytes, in Blöcken'],
   [/^(.*) has data, in blocks$/, '$1 hat Daten, in Blöcken'],
+  [new RegExp(`^(${commands})([^]*)$`), (_, name, rest) => LSS[name!]! + lssRest(rest!)],
+  [/^no command$/, 'kein Kommando'],
+  // A line or a value that is refused.
+  [/^the frame is missing$/, 'das Frame fehlt'],
+  [/^a CAN frame has at most 8 bytes$/, 'ein CAN-Frame hat höchstens 8 Bytes'],
+  [/^\[(\d+)\] is followed by (\d+) bytes$/, 'auf [$1] folgen $2 Bytes'],
+  [/^an 11-bit CAN-ID is at most 7FF$/, 'eine CAN-ID mit 11 Bit ist höchstens 7FF'],
+  [/^the CAN-ID has to be a hexadecimal number, such as 601$/, 'die CAN-ID muss eine hexadezimale Zahl sein, zum Beispiel 601'],
+  [/^a CAN-ID has up to 3 digits, or 8 digits \(29 bits, up to 1FFFFFFF\)$/, 'eine CAN-ID hat bis zu 3 Ziffern, oder 8 (29 Bit, bis 1FFFFFFF)'],
+  [/^“(.*)” is not a hexadecimal digit$/, '„$1“ ist keine hexadezimale Ziffer'],
+  [/^the value is missing$/, 'der Wert fehlt'],
+  [/^“(.*)” is longer than (\d+) bytes$/, '„$1“ ist länger als $2 Bytes'],
+  [/^“(.*)” is not a number$/, '„$1“ ist keine Zahl'],
+  [/^“(.*)” is not a whole number \(decimal, 0x1F or 1Fh\)$/, '„$1“ ist keine ganze Zahl (dezimal, 0x1F oder 1Fh)'],
+  [/^(-?\d+) does not fit (.*)$/, '$1 passt nicht in $2'],
+  [/^type the bytes in hexadecimal$/, 'gib die Bytes hexadezimal ein'],
+  [/^a (number|duration) is missing$/, (_, what) => (what === 'number' ? 'eine Zahl fehlt' : 'eine Dauer fehlt')],
+  [/^`(.*)` is not a duration$/, '`$1` ist keine Dauer'],
+  [/^`(.*)` is not valid$/, '`$1` ist nicht gültig'],
+  [/^unexpected `(.*)`$/, '`$1` ist hier nicht erlaubt'],
+  [/^(.*) is missing$/, '$1 fehlt'],
+  [/^(.*) `(.*)` does not exist$/, '$1 `$2` gibt es nicht'],
+  [/^the transfer failed$/, 'der Transfer ist gescheitert'],
+  // Notices about the EEPROM of a device.
+  [/^(\d+) saved values? in the EEPROM did not fit the device, which loaded the others$/, '$1 gespeicherte Werte im EEPROM passen nicht zum Gerät; es hat die anderen geladen'],
+  [/^bits of the EEPROM changed; the device loaded the last save, which is whole$/, 'Bits des EEPROM haben sich geändert; das Gerät hat den letzten Speicherstand geladen, der ganz ist'],
+  [/^the last save in the EEPROM is damaged; the device loaded the older one before it$/, 'der letzte Speicherstand im EEPROM ist beschädigt; das Gerät hat den älteren davor geladen'],
+  [/^another device or an older odkit wrote the EEPROM; the device loaded defaults, and the saved values stay until the next save$/, 'ein anderes Gerät oder ein älteres odkit hat das EEPROM geschrieben; das Gerät hat Standardwerte geladen, und die gespeicherten Werte bleiben bis zum nächsten Speichern'],
+  [/^the EEPROM is damaged; the device loaded defaults$/, 'das EEPROM ist beschädigt; das Gerät hat Standardwerte geladen'],
+  [/^a save was interrupted; the device loaded its factory values$/, 'ein Speichern wurde unterbrochen; das Gerät hat seine Werkswerte geladen'],
+  [/^a save (?:was interrupted|failed); the values saved before it remain$/, 'ein Speichern ist gescheitert; die Werte, die vorher gespeichert waren, bleiben'],
   [/^(.*) requested \(RTR\)$/, '$1 angefordert (RTR)'],
   [/^([0-9A-Fa-f]{4}h.*) has (\d+) bytes?$/, '$1 hat $2 Bytes'],
   [/^([0-9A-Fa-f]{4}h.*?) is (.*)$/, '$1 ist $2'],
@@ -97,7 +169,7 @@ const EMCYS: Record<string, string> = {
   'recovered from bus-off': 'von Bus-off zurückgekehrt',
 };
 
-/** The words of a frame in German; a text begins with a capital letter. */
+/** A text of the module in German; it begins with a capital letter. One that is not known stays English. */
 export function words(text: string): string {
   const [, node, said = ''] = /^(?:Node (\d+): )?([^]*)$/.exec(text)!;
   const first = node ? `Knoten ${node}: ` : '';
