@@ -138,7 +138,9 @@ impl Patch<'_> {
                     }
                     report.span(edit.target.span)
                 }
-                _ => report.token(finding),
+                (Some(_), _) => report.token(finding),
+                // The token of another patch: what it says is right without this one.
+                (None, None) => None,
             };
             let text = at_token(&told, description, self.files);
             let text = format!("{}{text}", self.context);

@@ -5,6 +5,8 @@ mod project;
 mod table;
 mod yaml;
 
+use std::cell::RefCell;
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -46,7 +48,8 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     })?;
     let document = Document::new(bytes);
     let folder = path.parent().unwrap_or(Path::new(""));
-    let load = |name: &str| load(folder, name);
+    let known = RefCell::new(Files::default());
+    let load = |name: &str| known.borrow_mut().load(folder, name);
     let is_list = path
         .extension()
         .is_some_and(|ending| ending.eq_ignore_ascii_case("cpj"));
@@ -136,7 +139,33 @@ fn one(args: &Args, mut network: Network, folder: Option<&Path>) -> Result<usize
         .count())
 }
 
-/// The description of a node. A relative path begins in the folder of the project, otherwise in the current folder.
+/// Limit of values in the files of all nodes together, which each node has for itself.
+const MAX_VALUES: usize = 500_000;
+
+/// The files that the nodes name; many nodes have the same.
+#[derive(Default)]
+struct Files {
+    read: BTreeMap<String, Result<Description, String>>,
+    values: usize,
+}
+
+impl Files {
+    /// The description of a node.
+    fn load(&mut self, folder: &Path, name: &str) -> Result<Description, String> {
+        let found = self.read.entry(name.into());
+        let description = found.or_insert_with(|| load(folder, name)).as_ref();
+        let description = description.map_err(Clone::clone)?;
+        self.values += description.entries().count();
+        if self.values > MAX_VALUES {
+            return Err(format!(
+                "the files of all nodes have more than {MAX_VALUES} values; check the nodes in parts"
+            ));
+        }
+        Ok(description.clone())
+    }
+}
+
+/// Reads the description of a node. A relative path begins in the folder of the project, otherwise in the current folder.
 fn load(folder: &Path, name: &str) -> Result<Description, String> {
     let beside = folder.join(name);
     let path = if beside.exists() {

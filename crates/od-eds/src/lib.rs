@@ -86,5 +86,7 @@ pub mod outline {
     pub use crate::scan::number::{before_comment, number};
     pub use crate::scan::placed::{Placed, Text};
     pub use crate::standards::cia301::{Specified, data_type, specified};
-    pub use crate::standards::{meaning, profile_name, profile_objects, profile_types};
+    pub use crate::standards::{
+        meaning, meaning_of_bytes, profile_name, profile_objects, profile_types,
+    };
 }

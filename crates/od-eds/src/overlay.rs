@@ -23,7 +23,11 @@ use crate::document::is_xml;
 use crate::finding::{Finding, Place};
 use crate::scan::lines::{lines, with_ends};
 use crate::scan::names::{List, object_of};
+use crate::scan::number::number;
 use crate::span::{Span, Spanned};
+
+/// Maximum number of characters of a value in a sentence.
+const MAX_SHOWN: usize = 20;
 
 /// The file that a line comes from.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -94,9 +98,11 @@ pub fn base_of(overlay: &str) -> Option<Spanned<&str>> {
 
 /// Lays an overlay over a base.
 ///
+/// A section has one place in an overlay, except that a removed one can be defined again below.
+///
 /// # Errors
-/// Objects and sections that the overlay removes but the base lacks, or a base that is XML: a sentence each, with
-/// the line of the overlay.
+/// Objects and sections that the overlay removes but the base lacks, another `Remove=` than 1, a section that is
+/// in the overlay twice, or a base that is XML: a sentence each, with the line of the overlay.
 pub fn overlay(base: &str, overlay: &str) -> Result<Overlaid, Vec<(u32, String)>> {
     if is_xml(base) {
         let why = "the base is XML; write an EDS of it with `odkit convert`";
@@ -107,14 +113,27 @@ pub fn overlay(base: &str, overlay: &str) -> Result<Overlaid, Vec<(u32, String)>
     let mut sections = Sections::default();
     parts.into_iter().for_each(|part| sections.push(part));
     let mut faults = Vec::new();
+    let mut seen = Seen::default();
     for section in read(overlay, Origin::Overlay).into_iter().skip(1) {
-        if section.has("Remove", "1") {
+        let removes = match section.removes() {
+            Ok(removes) => removes,
+            Err(fault) => {
+                faults.push(fault);
+                continue;
+            }
+        };
+        if let Some(first) = seen.before(&section, removes) {
+            let fault = format!(
+                "section [{}] is already in line {first}; move its lines there",
+                section.name
+            );
+            faults.push((section.line(), fault));
+            continue;
+        }
+        if removes {
             if !sections.remove(&section.name) {
-                let line = section.lines.first().map_or(0, |line| line.number);
-                faults.push((
-                    line,
-                    format!("section [{}] to remove is missing", section.name),
-                ));
+                let fault = format!("section [{}] to remove is missing", section.name);
+                faults.push((section.line(), fault));
             }
             continue;
         }
@@ -165,6 +184,20 @@ struct Part<'t> {
     blanks: Vec<Line<'t>>,
     /// Where the first line of each key is, in small letters, once an overlay has changed the part.
     keys: Option<BTreeMap<String, usize>>,
+}
+
+/// The sections of an overlay so far: line of the header, and whether it is removed there.
+#[derive(Debug, Default)]
+struct Seen(BTreeMap<String, (u32, bool)>);
+
+impl Seen {
+    /// The line of the same section above, unless it is removed there and defined again here.
+    fn before(&mut self, section: &Part<'_>, removes: bool) -> Option<u32> {
+        let name = section.name.to_ascii_lowercase();
+        let above = self.0.insert(name, (section.line(), removes));
+        let (line, removed) = above?;
+        (!removed || removes).then_some(line)
+    }
 }
 
 /// The parts of the base. An overlay may be as long as the base, so they are found by name and by object.
@@ -218,12 +251,29 @@ impl<'t> Part<'t> {
         !self.name.is_empty() && self.name.eq_ignore_ascii_case(name)
     }
 
-    fn has(&self, key: &str, value: &str) -> bool {
-        let mut lines = self.lines.iter().filter(|line| line.is_key(key));
-        lines.any(|line| {
-            let given = line.text.split_once('=').map(|(_, given)| given);
-            given.is_some_and(|given| given.split(';').next().unwrap_or("").trim() == value)
-        })
+    /// Line number of the header.
+    fn line(&self) -> u32 {
+        self.lines.first().map_or(0, |line| line.number)
+    }
+
+    /// Returns whether the overlay removes the section.
+    ///
+    /// # Errors
+    /// `Remove=` with another value than 1: the line and a sentence.
+    fn removes(&self) -> Result<bool, (u32, String)> {
+        let mut removes = false;
+        for line in self.lines.iter().filter(|line| line.is_key("Remove")) {
+            let given = line.text.split_once('=').map_or("", |(_, given)| given);
+            let given = given.split(';').next().unwrap_or("").trim();
+            if number(given) != Some(1) {
+                let given: String = given.chars().take(MAX_SHOWN).collect();
+                let fault =
+                    format!("`Remove={given}` is not valid; write `Remove=1`, or remove the line");
+                return Err((line.number, fault));
+            }
+            removes = true;
+        }
+        Ok(removes)
     }
 
     /// Keys of the overlay replace the same keys; others are added at the end.

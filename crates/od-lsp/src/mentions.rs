@@ -1,17 +1,18 @@
-//! The mentions of objects in a text: headers, list entries, mapping entries.
+//! The mentions of objects in a text: headers, list entries, mapping entries; elements of an XDD.
 
 use std::ops::Range;
 
 use od_eds::outline::{self, Compact, Place};
 use od_model::Address;
 
-use crate::file::File;
-use crate::layout::{Layout, Pair, Section};
+use crate::file::{File, Seen};
+use crate::layout::{Pair, Section};
+use crate::xdd::{self, Element};
 
 /// Kind of a mention.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum What {
-    /// `[2000]`, `[2000sub1]`, `[2000Value]`, `[2000ObjectLinks]`
+    /// `[2000]`, `[2000sub1]`, `[2000Value]`, `[2000ObjectLinks]`, `index="2000"`
     Header,
     /// `1=0x2000` of a list or of links.
     Entry,
@@ -146,12 +147,43 @@ pub(crate) fn value(text: &str, section: &Section, pair: &Pair) -> Option<Mentio
     })
 }
 
+/// The mentions in an element of an XDD: its index, and the values of a mapping.
+pub(crate) fn of_element<'a>(
+    text: &'a str,
+    element: &'a Element,
+) -> impl Iterator<Item = Mention> + 'a {
+    let header = match element.place {
+        Place::Object(index) => xdd::attribute(text, &element.tag, "index").map(|bytes| Mention {
+            what: What::Header,
+            object: Address::new(index, 0),
+            index: Some(bytes.clone()),
+            bytes,
+        }),
+        _ => None,
+    };
+    let is_entry = matches!(element.place, Place::Member(index, 1..) if is_mapping(index));
+    let fields = element.fields.iter().filter(move |_| is_entry);
+    let entries = fields.filter(|field| is_value_key(&field.key));
+    let entries = entries.filter_map(move |field| {
+        let number = outline::number(text.get(field.value.clone())?)?;
+        Some(Mention {
+            what: What::Mapping,
+            object: Mapped::of(number)?.object,
+            index: digits(text, &field.value, 4),
+            bytes: field.value.clone(),
+        })
+    });
+    header.into_iter().chain(entries)
+}
+
 /// All mentions, in file order.
-pub(crate) fn all<'a>(file: &'a File, layout: &'a Layout) -> impl Iterator<Item = Mention> + 'a {
+pub(crate) fn all<'a>(file: &'a File, seen: &'a Seen) -> impl Iterator<Item = Mention> + 'a {
     let text = file.str();
-    layout.sections.iter().flat_map(move |section| {
+    let sections = seen.layout.sections.iter().flat_map(move |section| {
         let values = section.pairs.iter();
         let values = values.filter_map(move |pair| value(text, section, pair));
         header(text, section).into_iter().chain(values)
-    })
+    });
+    let elements = seen.elements.iter();
+    sections.chain(elements.flat_map(move |element| of_element(text, element)))
 }

@@ -14,7 +14,7 @@ pub(crate) struct Element {
     pub(crate) name: String,
     /// Its start tag.
     pub(crate) tag: Range<usize>,
-    fields: Vec<Field>,
+    pub(crate) fields: Vec<Field>,
 }
 
 /// A field of an element, or of the parameter that it refers to.
@@ -60,4 +60,38 @@ pub(crate) fn at(elements: &[Element], offset: usize) -> Option<(&Element, Optio
             Some((own, None))
         }
     }
+}
+
+/// The value of an attribute between its quotation marks, in a start tag.
+pub(crate) fn attribute(text: &str, tag: &Range<usize>, name: &str) -> Option<Range<usize>> {
+    let own = text.get(tag.clone())?;
+    let mut at = own.find(char::is_whitespace)?;
+    loop {
+        let key = own.get(at..)?.trim_start();
+        let equals = key.find('=')?;
+        let value = key.get(equals + 1..)?.trim_start();
+        let quote = value.chars().next().filter(|c| matches!(c, '"' | '\''))?;
+        let start = own.len() - value.len() + 1;
+        let end = start + own.get(start..)?.find(quote)?;
+        if key.get(..equals)?.trim_end().eq_ignore_ascii_case(name) {
+            return Some(tag.start + start..tag.start + end);
+        }
+        at = end + 1;
+    }
+}
+
+/// The start tag of the parameter whose uniqueIDRef is at a byte.
+pub(crate) fn parameter(text: &str, elements: &[Element], offset: usize) -> Option<Range<usize>> {
+    let (element, _) = at(elements, offset)?;
+    let given = attribute(text, &element.tag, "uniqueIDRef")?;
+    if !(given.start..=given.end).contains(&offset) {
+        return None;
+    }
+    let id = text.get(given)?;
+    text.match_indices(" uniqueID").find_map(|(at, _)| {
+        let start = text[..at].rfind('<')?;
+        let tag = start..start + text[start..].find('>')? + 1;
+        let own = attribute(text, &tag, "uniqueID")?;
+        (text.get(own)? == id).then_some(tag)
+    })
 }

@@ -1,5 +1,6 @@
 //! A value of a node, as lines and as JSON.
 
+use od_eds::outline::meaning_of_bytes;
 use od_model::{Address, DataType, Dictionary, Entry, Kind, values};
 use od_runtime::AbortCode;
 use od_tools::objects;
@@ -10,6 +11,9 @@ pub(crate) struct Shown {
     pub(crate) address: Address,
     place: String,
     name: String,
+    /// The value in words, and the meaning of its number in the documents of CiA.
+    words: String,
+    meaning: Option<String>,
     pub(crate) result: Result<(DataType, Vec<u8>), u32>,
 }
 
@@ -26,11 +30,21 @@ impl Shown {
                 bytes,
             )
         };
+        let result = result.map(typed);
+        let (words, meaning) = match &result {
+            Ok((data_type, bytes)) => (
+                words(dictionary, address, *data_type, bytes),
+                meaning(dictionary, address, *data_type, bytes),
+            ),
+            Err(_) => (String::new(), None),
+        };
         Self {
             address,
             place: objects::place(dictionary, address),
             name: objects::name(dictionary, entry),
-            result: result.map(typed),
+            words,
+            meaning,
+            result,
         }
     }
 
@@ -43,7 +57,7 @@ impl Shown {
     pub(crate) fn text(&self) -> String {
         match &self.result {
             Ok((_, bytes)) if bytes.is_empty() => "empty".into(),
-            Ok((data_type, bytes)) => values::show(*data_type, bytes),
+            Ok(_) => self.words.clone(),
             Err(_) if self.has_no_data() => "no data".into(),
             Err(code) => abort(*code),
         }
@@ -63,6 +77,9 @@ impl Shown {
                 value["type"] = json!(data_type.name());
                 value["value"] = plain(*data_type, bytes);
                 value["bytes"] = json!(values::hex(bytes));
+                if let Some(meaning) = &self.meaning {
+                    value["meaning"] = json!(meaning);
+                }
             }
             Err(code) => {
                 value["abort"] = json!(format!("{code:08X}h"));
@@ -71,6 +88,29 @@ impl Shown {
         }
         value
     }
+}
+
+/// A value in words, with the meaning of its number in the documents of CiA: `1: profile position`.
+pub(crate) fn words(
+    dictionary: Option<Dictionary<'_>>,
+    address: Address,
+    data_type: DataType,
+    bytes: &[u8],
+) -> String {
+    let shown = values::show(data_type, bytes);
+    match meaning(dictionary, address, data_type, bytes) {
+        Some(meaning) => format!("{shown}: {meaning}"),
+        None => shown,
+    }
+}
+
+fn meaning(
+    dictionary: Option<Dictionary<'_>>,
+    address: Address,
+    data_type: DataType,
+    bytes: &[u8],
+) -> Option<String> {
+    meaning_of_bytes(dictionary?, address, data_type, bytes)
 }
 
 /// A value in JSON: a number, a boolean or a text; bytes in hexadecimal digits.

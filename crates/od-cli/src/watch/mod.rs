@@ -6,7 +6,7 @@ use std::fs::File;
 use std::io::{BufWriter, IsTerminal, Write};
 use std::path::PathBuf;
 
-use od_model::{DataType, Visible, values};
+use od_model::{DataType, Dictionary, Visible};
 use od_runtime::NodeId;
 use od_tools::Error;
 use od_tools::master::Master;
@@ -152,7 +152,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
             return Ok(false);
         }
         let (one, source) = (&shown[sample.source], &sources[sample.source]);
-        let goes_on = show(&mut sink, file.as_mut(), one, source, sample)?;
+        let goes_on = show(&mut sink, file.as_mut(), one, source, sample, dictionary)?;
         told += 1;
         Ok(goes_on && args.count.is_none_or(|count| told < count))
     };
@@ -181,13 +181,14 @@ fn show(
     one: &Shown,
     source: &Source,
     sample: &Sample,
+    dictionary: Option<Dictionary<'_>>,
 ) -> Result<bool, Failure> {
     let micros = sample.at.as_micros();
     let at = format!("{}.{:06}", micros / 1_000_000, micros % 1_000_000);
     let plain = sample.value.as_ref().ok().map(|bytes| {
         let data_type = one.type_of(source, bytes);
         (
-            values::show(data_type, bytes),
+            value::words(dictionary, source.address, data_type, bytes),
             value::plain(data_type, bytes),
         )
     });

@@ -94,11 +94,42 @@ fn objects_are_added_and_removed_in_the_lists_too() {
 }
 
 #[test]
-fn a_missing_object_cannot_be_removed() {
-    let faults = overlay(BASE, "\n[2005]\nRemove=1\n[2001sub7]\nRemove=1 ; why\n");
-    let faults = faults.expect_err("two faults");
-    assert_eq!(faults[0], (2, "section [2005] to remove is missing".into()));
-    assert_eq!(faults[1].0, 4);
+fn what_an_overlay_cannot_mean_is_a_fault() {
+    for (text, expected) in [
+        (
+            "\n[2005]\nRemove=1\n[2001sub7]\nRemove=1 ; why\n",
+            "2 section [2005] to remove is missing, 4 section [2001sub7] to remove is missing",
+        ),
+        (
+            "[2000]\nRemove=2 ; both\n[2005]\nremove=\n",
+            "2 `Remove=2` is not valid; write `Remove=1`, or remove the line, \
+             4 `Remove=` is not valid; write `Remove=1`, or remove the line",
+        ),
+        (
+            "[2000]\nRemove=1\n[2000]\nRemove=1\n",
+            "3 section [2000] is already in line 1; move its lines there",
+        ),
+        (
+            "[2001sub1]\nLowLimit=1\n[1000]\nDefaultValue=2\n[2001SUB1]\nLowLimit=2\n",
+            "5 section [2001SUB1] is already in line 1; move its lines there",
+        ),
+        (
+            "[2000]\nDefaultValue=1\n[2000]\nRemove=1\n",
+            "3 section [2000] is already in line 1; move its lines there",
+        ),
+    ] {
+        let faults = overlay(BASE, text).expect_err(text).into_iter();
+        let faults: Vec<String> = faults.map(|(line, why)| format!("{line} {why}")).collect();
+        assert_eq!(faults.join(", "), expected);
+    }
+}
+
+#[test]
+fn a_removed_object_can_be_defined_again() {
+    let made = laid("[2001]\nRemove=0x1\n[2001]\nParameterName=Pair\nDataType=5\nAccessType=rw\n");
+    let description = crate::parse(&made.text).description;
+    let again = &description.objects[&0x2001];
+    assert!(again.entries.len() == 1 && !made.text.contains("2001sub"));
 }
 
 #[test]
@@ -166,8 +197,9 @@ fn a_base_of_xml_is_refused() {
 }
 
 #[test]
-fn a_section_that_is_changed_twice_keeps_its_empty_lines_at_its_end() {
-    let made = laid("[Own]\n; a\n\n[Own]\nA=1\n[Own]\nB=2\n[own]\na=3\n");
+fn a_section_that_is_changed_keeps_its_empty_lines_at_its_end() {
+    let base = format!("{BASE}\n[Own]\n; a\nA=1\n\n");
+    let made = overlay(&base, "[own]\nB=2\n\na=3\n").expect("it fits");
     let own = made.text.split_once("[Own]").map(|(_, own)| own);
     assert_eq!(own, Some("\n; a\na=3\nB=2\n\n"));
 }

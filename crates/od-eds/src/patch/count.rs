@@ -50,9 +50,10 @@ fn is_counted(object: &ObjectDescription) -> bool {
 /// Index of the error history. Its sub-index 0 is the number of errors, and a master clears it by writing 0.
 const ERROR_HISTORY: u16 = 0x1003;
 
-/// Sets sub-index 0 to the highest sub-index, of 1003h to 0; it is added if it is missing.
+/// Sets sub-index 0 to the highest sub-index, of 1003h to 0; it is added if it is missing and the object has others.
 pub(super) fn count_members(index: u16, object: &mut ObjectDescription, span: Span) {
-    if !object.code.has_members() {
+    // A count of nothing would hide that the sub-objects are missing.
+    if !object.code.has_members() || object.entries.is_empty() {
         return;
     }
     let highest = highest(object).unwrap_or(0);

@@ -34,6 +34,7 @@ table! {
     E0117
     E0118
     E0119 (example)
+    W0120 (xdd)
 }
 
 pub(crate) static W0101: Rule = Rule {
@@ -434,4 +435,21 @@ pub(crate) static E0119: Rule = Rule {
 pub(crate) fn e0119_too_large(at: Span, part: &str, most: usize, of: &str) -> Finding {
     let finding = E0119.at(at).fact("part", part);
     finding.fact("most", most).fact("of", of)
+}
+
+pub(crate) static W0120: Rule = Rule {
+    code: "W0120",
+    severity: Warning,
+    title: "value of an XDD has no objectType",
+    why: "The schema requires the attribute, and a tool that checks a file by it rejects the file. odkit assumes 7 (VAR).",
+    source: "CiA 311, CANopenObject and CANopenSubObject",
+    says: "attribute objectType is missing",
+    help: "add `objectType=\"7\"` (VAR), or `objectType=\"2\"` for a DOMAIN",
+    ..Rule::NEW
+};
+
+/// The finding about a value without objectType.
+#[cfg_attr(not(feature = "xdd"), allow(dead_code))]
+pub(crate) fn w0120_object_type_missing(at: Span) -> Finding {
+    W0120.at(at)
 }

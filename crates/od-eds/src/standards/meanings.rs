@@ -5,6 +5,8 @@ use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
+use od_model::{Address, DataType, Dictionary, Kind};
+
 /// Values of one object, or of a range of objects of the same kind.
 struct Row {
     /// Number of the device profile; 0 for CiA 301 and CiA 302.
@@ -197,6 +199,31 @@ pub fn meaning(profile: Option<u16>, index: u16, sub: u8, number: i64) -> Option
         }
         Unit => unit(u32::try_from(number).ok()?),
     }
+}
+
+/// Returns the [`meaning`] of the bytes of a value, in a device whose profile its 1000h gives. `None` also for bytes
+/// that are not a number of this type.
+pub fn meaning_of_bytes(
+    dictionary: Dictionary<'_>,
+    address: Address,
+    data_type: DataType,
+    bytes: &[u8],
+) -> Option<String> {
+    let size = bytes.len();
+    if data_type.size() != Some(size) || !(1..=8).contains(&size) {
+        return None;
+    }
+    let mut wide = [0; 8];
+    wide[..size].copy_from_slice(bytes);
+    let unused = 64 - 8 * size as u32;
+    let number = match data_type.kind() {
+        Kind::Unsigned => i64::try_from(u64::from_le_bytes(wide)).ok()?,
+        Kind::Signed => i64::from_le_bytes(wide) << unused >> unused,
+        _ => return None,
+    };
+    let kind = dictionary.entry(0x1000, 0)?.default.integer(0)?;
+    let profile = u16::try_from(kind & 0xFFFF).ok();
+    meaning(profile, address.index, address.sub, number)
 }
 
 /// Powers of ten by their number, which is a signed byte.

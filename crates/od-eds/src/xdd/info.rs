@@ -6,6 +6,8 @@ use alloc::vec::Vec;
 
 use roxmltree::Node;
 
+use crate::rules::lists::reader::w0252_in_xdd;
+use crate::rules::standard::w0638_dcf_bit_rate::w0638_default_not_supported;
 use crate::scan::known;
 use crate::scan::placed::Placed;
 use crate::span::{Span, Spanned};
@@ -102,7 +104,7 @@ fn time(given: Spanned<String>) -> Spanned<String> {
     Spanned::new(known::time(&given).trim().to_string(), given.span)
 }
 
-fn device_info(root: Node<'_, '_>, reader: &Reader<'_>) -> Option<Placed<'static>> {
+fn device_info(root: Node<'_, '_>, reader: &mut Reader<'_>) -> Option<Placed<'static>> {
     let identity = below(root, "DeviceIdentity").next();
     let general = below(root, "CANopenGeneralFeatures").next();
     let master = below(root, "CANopenMasterFeatures").next();
@@ -122,6 +124,7 @@ fn device_info(root: Node<'_, '_>, reader: &Reader<'_>) -> Option<Placed<'static
         text("orderCode").or_else(|| text("orderNumber")),
     );
     bit_rates(&mut made, root, reader);
+    let reader = &*reader;
     let flag = |node: Option<Node<'_, '_>>, name| reader.attribute(node?, name).map(flag);
     let number = |name| reader.attribute(general?, name);
     made.put("SimpleBootUpMaster", flag(master, "bootUpMaster"));
@@ -135,8 +138,11 @@ fn device_info(root: Node<'_, '_>, reader: &Reader<'_>) -> Option<Placed<'static
     Some(made.placed)
 }
 
-/// The supported bit rates as flags: `500 Kbps` becomes BaudRate_500.
-fn bit_rates(made: &mut Made, root: Node<'_, '_>, reader: &Reader<'_>) {
+/// Bit rates of CiA 301 in kbit/s; 100 is one of older versions.
+const RATES: [u32; 9] = [10, 20, 50, 100, 125, 250, 500, 800, 1000];
+
+/// The supported bit rates as flags: `500 Kbps` becomes BaudRate_500. An EDS has no key for the default bit rate.
+fn bit_rates(made: &mut Made, root: Node<'_, '_>, reader: &mut Reader<'_>) {
     let Some(rates) = below(root, "baudRate").next() else {
         return;
     };
@@ -144,11 +150,22 @@ fn bit_rates(made: &mut Made, root: Node<'_, '_>, reader: &Reader<'_>) {
     let given: Vec<Spanned<String>> = children(rates, "supportedBaudRate")
         .filter_map(|rate| reader.attribute(rate, "value"))
         .collect();
-    for rate in [10, 20, 50, 100, 125, 250, 500, 800, 1000] {
-        let found = given.iter().find(|given| {
-            let digits = given.split(|c: char| !c.is_ascii_digit()).next();
-            digits.and_then(|digits| digits.parse().ok()) == Some(rate)
-        });
+    let default = reader.attribute(rates, "defaultValue");
+    let default = default.filter(|default| !default.is_empty() && !given.is_empty());
+    if let Some(default) = default {
+        let is_supported = |one: &Spanned<String>| kbits(one) == kbits(&default);
+        if kbits(&default).is_none() || !given.iter().any(is_supported) {
+            reader.log.push(w0638_default_not_supported(&default));
+        }
+    }
+    for one in &given {
+        let is_known = kbits(one).is_some_and(|rate| RATES.contains(&rate));
+        if !is_known && !one.starts_with("auto") {
+            reader.log.push(w0252_in_xdd(one));
+        }
+    }
+    for rate in RATES {
+        let found = given.iter().find(|given| kbits(given) == Some(rate));
         // CiA 306 has no key for 100 kbit/s.
         if found.is_some() || rate != 100 {
             let flag = if found.is_some() { "1" } else { "0" };
@@ -159,6 +176,15 @@ fn bit_rates(made: &mut Made, root: Node<'_, '_>, reader: &Reader<'_>) {
             );
         }
     }
+}
+
+/// The number of `500 Kbps`.
+fn kbits(given: &str) -> Option<u32> {
+    given
+        .split(|c: char| !c.is_ascii_digit())
+        .next()?
+        .parse()
+        .ok()
 }
 
 /// `true` becomes `1`.

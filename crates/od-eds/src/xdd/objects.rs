@@ -7,7 +7,9 @@ use alloc::vec::Vec;
 use roxmltree::Node;
 
 use crate::rules::lists::reader::w0204_in_xdd;
-use crate::rules::text::{e0114_xdd_index_not_valid, e0115_xdd_parameter_missing};
+use crate::rules::text::{
+    e0114_xdd_index_not_valid, e0115_xdd_parameter_missing, w0120_object_type_missing,
+};
 use crate::rules::values::reader::{e0429_access_of_parameter, w0406_in_xdd};
 use crate::scan::placed::Placed;
 use crate::span::{Span, Spanned};
@@ -186,13 +188,16 @@ fn value(
     let header = made.placed.header;
     let data_type = data_type(node, found, default.as_deref(), reader, header);
     let code = node.attribute("objectType").and_then(object_code);
+    if node.attribute("objectType").is_none() {
+        reader.log.push(w0120_object_type_missing(header));
+    }
     let is_domain = code == Some(ObjectCode::Domain);
     made.put(
         "DataType",
         data_type.filter(|_| !is_domain || found.is_some()),
     );
     let (access, mappable) = access(node, parameter, reader, header);
-    made.put("AccessType", Some(access));
+    made.put("AccessType", access);
     made.put("DefaultValue", default);
     for (key, attribute, limit) in [
         ("LowLimit", "lowLimit", "minValue"),
@@ -234,14 +239,14 @@ fn data_type(
     Some(Spanned::new(format!("0x{:04X}", data_type.code()), header))
 }
 
-/// AccessType and PDOMapping. An object that is mapped in one direction only, and that a master can
+/// AccessType and PDOMapping; `None` if neither the object nor a parameter gives them. An object that is mapped in one direction only, and that a master can
 /// write, is `rwr` or `rww`.
 fn access(
     node: Node<'_, '_>,
     parameter: Option<Parameter<'_, '_>>,
     reader: &mut Reader<'_>,
     header: Span,
-) -> (Spanned<String>, Option<Spanned<String>>) {
+) -> (Option<Spanned<String>>, Option<Spanned<String>>) {
     let mapping = reader.attribute(node, "PDOmapping");
     let direction = mapping.as_ref().map_or("", |mapping| mapping.as_str());
     // CiA 311 has different words for accessType of an object and for access of a parameter.
@@ -258,20 +263,26 @@ fn access(
             reader.log.push(finding);
         }
     }
-    let given = own
-        .or_else(|| parameter?.access(reader))
-        .unwrap_or_else(|| Spanned::new("read".into(), header));
-    let word = match given.as_str() {
-        "read" | "noAccess" => "ro",
-        "write" => "wo",
-        "readWrite" | "rw" if direction.eq_ignore_ascii_case("TPDO") => "rwr",
-        "readWrite" | "rw" if direction.eq_ignore_ascii_case("RPDO") => "rww",
-        "readWrite" => "rw",
-        "readWriteInput" => "rwr",
-        "readWriteOutput" => "rww",
-        other => other,
+    // A parameter without access is readable.
+    let of_parameter = |parameter: Parameter<'_, '_>| {
+        let access = parameter.access(reader);
+        access.unwrap_or_else(|| Spanned::new("read".into(), header))
     };
-    let access = Spanned::new(word.to_string(), given.span);
+    let given = own.or_else(|| parameter.map(of_parameter));
+    let word = |given: &Spanned<String>| {
+        match given.as_str() {
+            "read" | "noAccess" => "ro",
+            "write" => "wo",
+            "readWrite" | "rw" if direction.eq_ignore_ascii_case("TPDO") => "rwr",
+            "readWrite" | "rw" if direction.eq_ignore_ascii_case("RPDO") => "rww",
+            "readWrite" => "rw",
+            "readWriteInput" => "rwr",
+            "readWriteOutput" => "rww",
+            other => other,
+        }
+        .to_string()
+    };
+    let access = given.map(|given| Spanned::new(word(&given), given.span));
     let mappable = mapping.map(|mapping| {
         let flag = match mapping.to_ascii_lowercase().as_str() {
             "no" => "0".into(),

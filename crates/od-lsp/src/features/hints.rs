@@ -3,24 +3,21 @@
 use std::ops::Range;
 
 use od_eds::Description;
-use od_eds::outline::Place;
+use od_eds::outline::{self, Place};
 use od_model::{Address, DataType, ObjectCode};
 
 use crate::cob_ids::{self, CobId};
-use crate::file::File;
-use crate::layout::{Layout, Pair, Section};
-use crate::mentions::{is_value_key, listed, mapped, number, plain};
+use crate::file::{File, Seen};
+use crate::layout::{Pair, Section};
+use crate::mentions::{Mapped, is_mapping, is_value_key, listed, mapped, number, plain};
 use crate::standard;
 use crate::types::InlayHint;
 use crate::words;
+use crate::xdd::{Element, Field};
 
 /// The hints of the values between two bytes.
-pub(crate) fn of(
-    file: &File,
-    layout: &Layout,
-    description: &Description,
-    within: &Range<usize>,
-) -> Vec<InlayHint> {
+pub(crate) fn of(file: &File, seen: &Seen, within: &Range<usize>) -> Vec<InlayHint> {
+    let (layout, description) = (&seen.layout, &seen.description);
     let profile = standard::profile(description);
     let from = layout
         .sections
@@ -29,19 +26,64 @@ pub(crate) fn of(
     let sections = sections.take_while(|section| section.header.start <= within.end);
     let pairs = sections.flat_map(|section| section.pairs.iter().map(move |pair| (section, pair)));
     let inside = |pair: &Pair| within.start <= pair.value.end && pair.value.start <= within.end;
-    pairs
-        .filter(|(_, pair)| inside(pair))
-        .filter_map(|(section, pair)| {
-            let (label, tooltip) = hint(file.str(), description, section, pair, profile)?;
-            Some(InlayHint {
-                position: file.text.position(plain(file.str(), pair).end),
-                label,
-                kind: None,
-                padding_left: true,
-                tooltip,
-            })
-        })
-        .collect()
+    let shown = |at: usize, (label, tooltip)| InlayHint {
+        position: file.text.position(at),
+        label,
+        kind: None,
+        padding_left: true,
+        tooltip,
+    };
+    let pairs = pairs.filter(|(_, pair)| inside(pair));
+    let hints = pairs.filter_map(|(section, pair)| {
+        let hint = hint(file.str(), description, section, pair, profile)?;
+        Some(shown(plain(file.str(), pair).end, hint))
+    });
+    let elements = seen.elements.iter();
+    let fields =
+        elements.flat_map(|element| element.fields.iter().map(move |field| (element, field)));
+    let inside = |field: &Field| within.start <= field.value.end && field.value.start <= within.end;
+    let fields = fields.filter(|(_, field)| inside(field));
+    let in_xdd = fields.filter_map(|(element, field)| {
+        let hint = of_field(file.str(), description, element, field)?;
+        // Behind the closing quotation mark.
+        Some(shown(field.value.end + 1, hint))
+    });
+    hints.chain(in_xdd).collect()
+}
+
+/// The hint of a field of an XDD.
+fn of_field(
+    text: &str,
+    description: &Description,
+    element: &Element,
+    field: &Field,
+) -> Option<(String, Option<String>)> {
+    let at = match element.place {
+        Place::Object(index) => Address::new(index, 0),
+        Place::Member(index, sub) => Address::new(index, sub),
+        _ => return None,
+    };
+    let object = description.objects.get(&at.index)?;
+    let entry = object.entries.get(&at.sub);
+    match field.key.as_str() {
+        "DataType" => Some((entry?.data_type?.name().into(), None)),
+        "ObjectType" if matches!(element.place, Place::Object(_)) => {
+            Some((object.code.name().into(), None))
+        }
+        "DefaultValue" | "ParameterValue" if is_mapping(at.index) && at.sub != 0 => {
+            let mapped = Mapped::of(outline::number(text.get(field.value.clone())?)?)?;
+            Some((
+                words::mapping(mapped),
+                words::mapped_name(description, mapped),
+            ))
+        }
+        "DefaultValue" | "ParameterValue" if cob_ids::is_one(at) => {
+            let values = [&entry?.default, &entry?.parameter].into_iter().flatten();
+            let mut own = values.filter(|value| value.span.start as usize == field.value.start);
+            Some((CobId::of(&own.next()?.value)?.words(at), None))
+        }
+        _ => None,
+    }
 }
 
 fn hint(

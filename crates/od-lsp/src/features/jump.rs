@@ -10,6 +10,7 @@ use crate::file::{File, Kind, Seen};
 use crate::host::NoHost;
 use crate::layout::Spot;
 use crate::mentions::{self, Mention, What, number};
+use crate::xdd;
 
 /// Subject of a place.
 enum Target {
@@ -21,6 +22,9 @@ enum Target {
 
 fn target(file: &File, seen: &Seen, offset: usize) -> Option<Target> {
     let text = file.str();
+    if !seen.elements.is_empty() {
+        return in_element(text, seen, offset);
+    }
     match seen.layout.spot(offset)? {
         Spot::Header(section) => {
             let header = mentions::header(text, section)?;
@@ -47,36 +51,69 @@ fn target(file: &File, seen: &Seen, offset: usize) -> Option<Target> {
     }
 }
 
+/// The subject of a place in an XDD: of a mapping entry, a COB-ID, or the element itself.
+fn in_element(text: &str, seen: &Seen, offset: usize) -> Option<Target> {
+    let (element, field) = xdd::at(&seen.elements, offset)?;
+    let holds = |mention: &Mention| (mention.bytes.start..=mention.bytes.end).contains(&offset);
+    if let Some(mention) = mentions::of_element(text, element).find(holds) {
+        return Some(Target::Object(mention.object, is_sub(seen, &mention)));
+    }
+    let mut ids = cob_ids::all(&seen.description);
+    let cob = field.and_then(|field| ids.find(|(_, _, bytes)| *bytes == field.value));
+    match (cob, element.place) {
+        (Some((at, id, bytes)), _) => Some(Target::Cob(at, id, bytes)),
+        (None, Place::Object(index)) => Some(Target::Object(Address::new(index, 0), false)),
+        (None, Place::Member(index, sub)) => Some(Target::Object(Address::new(index, sub), true)),
+        (None, _) => None,
+    }
+}
+
+/// Place where the file describes an object or a sub-object: a header, or a start tag.
+fn described(seen: &Seen, place: Place) -> Option<Range<usize>> {
+    let element = || seen.elements.iter().find(|element| element.place == place);
+    let header = seen.layout.section_of(place);
+    header
+        .map(|section| section.header.clone())
+        .or_else(|| element().map(|element| element.tag.clone()))
+}
+
+/// The object or the sub-object whose header or start tag is at a byte.
+fn describes(seen: &Seen, offset: usize) -> Option<Place> {
+    match seen.layout.spot(offset) {
+        Some(Spot::Header(section)) => Some(section.place),
+        Some(_) => None,
+        None => xdd::at(&seen.elements, offset).map(|(element, _)| element.place),
+    }
+}
+
 /// Returns whether a mapping contains several sub-objects.
 fn is_sub(seen: &Seen, mention: &Mention) -> bool {
     let object = seen.description.objects.get(&mention.object.index);
     mention.what == What::Mapping && object.is_some_and(|object| object.code.has_members())
 }
 
-/// Place of the object's description; for a COB-ID, the other values with it, or the mapping of its PDO.
+/// Place of the object's description; for a COB-ID, the other values with it, or the mapping of its PDO; for a
+/// uniqueIDRef, the parameter.
 pub(crate) fn definition(file: &File, seen: &Seen, offset: usize) -> Vec<Range<usize>> {
+    if let Some(tag) = xdd::parameter(file.str(), &seen.elements, offset) {
+        return vec![tag];
+    }
     match target(file, seen, offset) {
         None => Vec::new(),
         Some(Target::Object(at, is_sub)) => {
             let own = Place::Member(at.index, at.sub);
-            let header = match seen.layout.spot(offset) {
-                // From a sub-object to its object.
-                Some(Spot::Header(section)) if section.place == own => None,
-                _ => seen.layout.section_of(own).filter(|_| is_sub),
-            };
-            let header = header.or_else(|| seen.layout.section_of(Place::Object(at.index)));
-            header
-                .map(|section| section.header.clone())
-                .into_iter()
-                .collect()
+            // From a sub-object to its object.
+            let from_own = describes(seen, offset) == Some(own);
+            let header = described(seen, own).filter(|_| is_sub && !from_own);
+            let header = header.or_else(|| described(seen, Place::Object(at.index)));
+            header.into_iter().collect()
         }
         Some(Target::Cob(at, id, own)) => {
             let like = like(seen, id).filter(|bytes| *bytes != own);
             let mut found: Vec<_> = like.collect();
             if found.is_empty() {
                 let mapping = cob_ids::mapping_of(at.index).map(Place::Object);
-                let section = mapping.and_then(|place| seen.layout.section_of(place));
-                found.extend(section.map(|section| section.header.clone()));
+                found.extend(mapping.and_then(|place| described(seen, place)));
             }
             found
         }
@@ -142,7 +179,7 @@ fn of_object(
         (true, What::Entry) => false,
         (false, _) => mention.object.index == at.index,
     };
-    let mut found: Vec<_> = mentions::all(file, &seen.layout)
+    let mut found: Vec<_> = mentions::all(file, seen)
         .filter(|mention| declared || mention.what != What::Header)
         .filter(about)
         .map(|mention| mention.bytes)

@@ -9,10 +9,15 @@ use crate::layout::{Section, Spot};
 use crate::mentions::{self, Mention, What, listed, number, plain};
 use crate::types::{Position, TextEdit};
 use crate::words;
+use crate::xdd;
 
 /// The mention of an object at a place.
 fn mention(file: &File, seen: &Seen, offset: usize) -> Option<Mention> {
     let text = file.str();
+    if let Some((element, _)) = xdd::at(&seen.elements, offset) {
+        let holds = |found: &Mention| (found.bytes.start..=found.bytes.end).contains(&offset);
+        return mentions::of_element(text, element).find(holds);
+    }
     match seen.layout.spot(offset)? {
         Spot::Header(section) => mentions::header(text, section),
         Spot::Value(section, pair) => mentions::value(text, section, pair),
@@ -63,8 +68,11 @@ pub(crate) fn edits(file: &File, seen: &Seen, old: u16, new: u16) -> Result<Vec<
         let named = words::name(&seen.description, at).unwrap_or_default();
         return Err(format!("object {new:04X}h {named:?} already exists"));
     }
-    let moved = moved(file, seen, old, new);
-    let own = mentions::all(file, &seen.layout).filter(|mention| mention.object.index == old);
+    let mut moved = moved(file, seen, old, new);
+    if !seen.elements.is_empty() {
+        moved.extend(counts(file, old, new));
+    }
+    let own = mentions::all(file, seen).filter(|mention| mention.object.index == old);
     let own = own.filter(|mention| {
         mention.what != What::Entry || moved.is_empty() || !is_of_list(seen, mention)
     });
@@ -116,6 +124,24 @@ fn written(file: &File, mention: Mention, new: u16) -> (Range<usize>, String) {
         format!("{new:04X}")
     };
     (digits, text)
+}
+
+/// The counts of the object list of an XDD, for an object that moves from one of its kinds to another.
+fn counts(file: &File, old: u16, new: u16) -> Vec<(Range<usize>, String)> {
+    let text = file.str();
+    let (from, to) = (List::of(old), List::of(new));
+    let start = text.find("<CANopenObjectList").filter(|_| from != to);
+    let tag = start.and_then(|start| Some(start..start + text[start..].find('>')? + 1));
+    let count = |list: List, change: i64| {
+        // `[OptionalObjects]` is the attribute optionalObjects.
+        let bytes = xdd::attribute(text, tag.as_ref()?, list.name())?;
+        let number: i64 = text.get(bytes.clone())?.trim().parse().ok()?;
+        Some((bytes, (number + change).max(0).to_string()))
+    };
+    [count(from, -1), count(to, 1)]
+        .into_iter()
+        .flatten()
+        .collect()
 }
 
 fn is_of_list(seen: &Seen, mention: &Mention) -> bool {

@@ -48,7 +48,16 @@ fn of_call(file: &File, call: &Call, find: Find<'_>) -> Vec<Diagnostic> {
     } else {
         check(&whole)
     };
-    let before = patched(file, call, None, &mut whole, &before, &mut found);
+    let mut places = Vec::new();
+    let before = patched(
+        file,
+        call,
+        None,
+        &mut whole,
+        &before,
+        &mut places,
+        &mut found,
+    );
     let variants = call.statements.iter().filter_map(|own| own.variant).max();
     for variant in 0..variants.map_or(0, |last| last + 1) {
         patched(
@@ -57,6 +66,7 @@ fn of_call(file: &File, call: &Call, find: Find<'_>) -> Vec<Diagnostic> {
             Some(variant),
             &mut whole.clone(),
             &before,
+            &mut places,
             &mut found,
         );
     }
@@ -104,26 +114,28 @@ fn of_file(file: &File, base: &Base, home: &Range<usize>, found: &mut Vec<Diagno
 }
 
 /// Applies the statements of a variant, or those outside variants, to a description of which the checks found `before`;
-/// findings are at their tokens. Returns what the checks find in the result.
+/// findings are at their tokens, or at the statement that caused them. `places` are the tokens of the call so far.
+/// Returns what the checks find in the result.
 fn patched(
     file: &File,
     call: &Call,
     variant: Option<usize>,
     description: &mut Description,
     before: &[Finding],
+    places: &mut Vec<Range<usize>>,
     found: &mut Vec<Diagnostic>,
 ) -> Vec<Finding> {
-    let mut places = Vec::new();
+    let first = places.len();
     let own = call.statements.iter().filter(|own| own.variant == variant);
     let own: Vec<&Statement> = own.collect();
     let edits: Vec<Edit> = own
         .iter()
-        .filter_map(|own| edit(file.str(), own, &mut places))
+        .filter_map(|own| edit(file.str(), own, places))
         .collect();
     let mut faults = patch::apply(description, &edits);
     for statement in own.iter().filter(|own| own.action.is_none()) {
         if let Some((target, bytes)) = &statement.target {
-            let target = Spanned::new(*target, mark(bytes, &mut places));
+            let target = Spanned::new(*target, mark(bytes, places));
             faults.extend(patch::missing(description, &target));
         }
     }
@@ -140,15 +152,15 @@ fn patched(
     // The last edit of the object, for a finding that has no place or one in the file. No statement
     // can correct other parts of the file, such as [DeviceInfo].
     let culprit = |finding: &Finding| {
-        if !finding.is_unsound() && !finding.rule.is_of_one_value() && finding.span().is_some() {
+        let is_in_file = finding.span().is_some_and(|span| token_of(span).is_none());
+        if !finding.is_unsound() && !finding.rule.is_of_one_value() && is_in_file {
             return None;
         }
-        let of_object = |edit: &&Edit| Some(edit.target.index) == index(finding);
-        edits
-            .iter()
-            .rev()
-            .find(of_object)
-            .map(|edit| edit.target.span)
+        let last = |index: u16| edits.iter().rev().find(|edit| edit.target.index == index);
+        let facts = finding.facts.iter();
+        let of_facts = || facts.filter_map(|(_, fact)| last(fact.index()?)).next();
+        let edit = index(finding).and_then(last).or_else(of_facts);
+        edit.map(|edit| edit.target.span)
     };
     let new = checked.iter().filter(is_own);
     let mut placed: Vec<(u32, &Finding)> = faults
@@ -156,6 +168,7 @@ fn patched(
         .chain(new)
         .filter_map(|finding| {
             let own = finding.span().and_then(token_of);
+            let own = own.filter(|id| *id as usize >= first);
             let id = own.or_else(|| culprit(finding).and_then(token_of))?;
             Some((id, finding))
         })

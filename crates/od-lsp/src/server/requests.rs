@@ -89,7 +89,7 @@ impl Server {
                 Ok(message::answer(id, &edits))
             }),
             "textDocument/inlayHint" => self.within(params, |file, seen, _, bytes| {
-                let found = hints::of(file, &seen.layout, &seen.description, bytes);
+                let found = hints::of(file, seen, bytes);
                 Ok(message::answer(id, &found))
             }),
             "textDocument/semanticTokens/range" => self.within(params, |file, seen, _, bytes| {

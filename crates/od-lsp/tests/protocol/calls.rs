@@ -124,3 +124,40 @@ fn a_warning_that_a_statement_brings_about_is_at_the_statement() {
     let found = client.diagnostics(uri);
     assert!(found.iter().all(|one| one["severity"] == 1), "{found:?}");
 }
+
+#[test]
+fn a_variant_that_breaks_a_row_of_the_call_is_reported_at_its_statement() {
+    let rows = "object_dictionary! {\n    mod a {\n        \
+                add 0x1000 { name = \"t\"; type = u32; access = const; default = 0 }\n        \
+                add 0x1001 { name = \"e\"; type = u8 }\n        \
+                add 0x1018 { code = record; name = \"i\" }\n        \
+                add 0x1018sub1 { name = \"v\"; type = u32; default = 0x5F }\n        \
+                add 0x1017 { name = \"h\"; type = u16; access = rw; default = 1000 }\n        \
+                add 0x2000 { name = \"x\"; type = i16; mappable = true; default = 215 }\n        \
+                add 0x1800 { code = record; name = \"c\" }\n        \
+                add 0x1800sub1 { name = \"i\"; type = u32; access = rw; default = $NODEID + 0x180 }\n        \
+                add 0x1800sub2 { name = \"t\"; type = u8; access = rw; default = 254 }\n        \
+                add 0x1A00 { code = record; name = \"m\" }\n        \
+                add 0x1A00sub1 { name = \"1\"; type = u32; access = rw; default = 0x2000_0010 }\n        \
+                variant v { STATEMENT }\n    }\n}\n";
+    let mut client = Client::new(Files::default(), json!({}));
+    for (statement, code) in [
+        ("remove 0x2000;", "E0501"),
+        ("modify 0x2000 { type = i32 }", "E0504"),
+        ("modify 0x2000 { mappable = false }", "E0502"),
+        ("modify 0x2000 { high = 100 }", "W0452"),
+    ] {
+        let text = rows.replace("STATEMENT", statement);
+        let uri = format!("file:///w/{code}.rs");
+        client.open(&uri, &text);
+        let found = client.diagnostics(&uri);
+        let [one] = &found[..] else {
+            panic!("{statement}: {found:?}");
+        };
+        assert_eq!(one["code"], code);
+        assert_eq!(covered(&text, &one["range"]), "0x2000", "{statement}");
+        let at = one["range"]["start"]["line"].as_u64().unwrap() as usize;
+        let line = text.lines().nth(at).unwrap();
+        assert!(line.contains("variant v"), "{statement}: {line}");
+    }
+}

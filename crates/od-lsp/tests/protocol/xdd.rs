@@ -1,8 +1,8 @@
-//! An XDD in an editor: hover, outline and quick fixes.
+//! An XDD in an editor: hover, outline, quick fixes, jumps, hints.
 
 use serde_json::{Value, json};
 
-use crate::support::{Client, Files, TEXT, edited, place};
+use crate::support::{Client, Files, TEXT, covered, edited, place};
 
 const URI: &str = "file:///w/a.xdd";
 
@@ -130,4 +130,113 @@ fn a_finding_has_a_quick_fix() {
         let again = od_eds::load(&fixed).findings;
         assert!(again.iter().all(|one| one.code() != "W0308"), "{only}");
     }
+}
+
+/// The response to a request about the place of the `|` in a mark.
+fn asked(client: &mut Client, method: &str, text: &str, mark: &str) -> Value {
+    let params = json!({ "textDocument": { "uri": URI }, "position": place(text, mark) });
+    client.request(method, params)
+}
+
+#[test]
+fn a_mapping_leads_to_its_object_and_a_reference_to_its_parameter() {
+    let text = text();
+    let mut client = client(&text);
+    let object = asked(&mut client, "textDocument/definition", &text, "0x6004|0020");
+    let tag = covered(&text, &object[0]["range"]);
+    assert!(tag.starts_with("<CANopenObject index=\"6004\""), "{tag}");
+    // From a sub-object to its object.
+    let whole = asked(
+        &mut client,
+        "textDocument/definition",
+        &text,
+        "subIndex=\"01\" name=\"Vendor|-ID",
+    );
+    let tag = covered(&text, &whole[0]["range"]);
+    assert!(tag.contains("index=\"1018\""), "{tag}");
+    let referred = text.replacen(
+        "<CANopenObject index=\"6004\"",
+        "<CANopenObject index=\"6004\" uniqueIDRef=\"P_1\"",
+        1,
+    );
+    let referred = referred.replacen(
+        "</ProfileBody>",
+        "<parameterList><parameter access=\"read\" uniqueID=\"P_1\"><UDINT/></parameter></parameterList></ProfileBody>",
+        1,
+    );
+    client.change(URI, json!({ "text": referred }));
+    let found = asked(
+        &mut client,
+        "textDocument/definition",
+        &referred,
+        "uniqueIDRef=\"P|_1",
+    );
+    let tag = covered(&referred, &found[0]["range"]);
+    assert_eq!(tag, "<parameter access=\"read\" uniqueID=\"P_1\">");
+    let mut found = client.request(
+        "textDocument/references",
+        json!({
+            "textDocument": { "uri": URI }, "position": place(&referred, "0x6004|0020"),
+            "context": { "includeDeclaration": true },
+        }),
+    );
+    let found = found.as_array_mut().unwrap().iter();
+    let found: Vec<&str> = found.map(|one| covered(&referred, &one["range"])).collect();
+    assert_eq!(found, ["0x60040020", "6004"]);
+}
+
+#[test]
+fn an_object_gets_another_index_with_its_mappings_and_counts() {
+    let text = text();
+    let mut client = client(&text);
+    let params = json!({
+        "textDocument": { "uri": URI }, "position": place(&text, "0x6004|0020"), "newName": "2500",
+    });
+    let found = client.request("textDocument/rename", params);
+    let renamed = edited(&text, &found["changes"][URI]);
+    assert!(renamed.contains("defaultValue=\"0x25000020\""), "{renamed}");
+    assert!(renamed.contains("<CANopenObject index=\"2500\"") && !renamed.contains("6004"));
+    let before = od_eds::load(&text).findings;
+    let after = od_eds::load(&renamed).findings;
+    let counts = |all: &[od_eds::Finding]| all.iter().filter(|one| one.code() == "W0204").count();
+    assert_eq!((counts(&before), counts(&after)), (0, 0), "{renamed}");
+}
+
+#[test]
+fn numbers_have_hints() {
+    let text = text();
+    let mut client = client(&text);
+    let lines = text.lines().count();
+    let params = json!({
+        "textDocument": { "uri": URI },
+        "range": { "start": { "line": 0, "character": 0 }, "end": { "line": lines, "character": 0 } },
+    });
+    let found = client.request("textDocument/inlayHint", params);
+    let found = found.as_array().unwrap();
+    let hints: Vec<(&str, &str)> = found
+        .iter()
+        .map(|hint| {
+            let at = json!({ "start": hint["position"], "end": hint["position"] });
+            let line = text
+                .lines()
+                .nth(at["start"]["line"].as_u64().unwrap() as usize);
+            let column = at["start"]["character"].as_u64().unwrap() as usize;
+            let before = &line.unwrap()[..column];
+            (
+                &before[before.rfind(' ').unwrap() + 1..],
+                hint["label"].as_str().unwrap(),
+            )
+        })
+        .collect();
+    for expected in [
+        ("objectType=\"9\"", "RECORD"),
+        ("dataType=\"0007\"", "UNSIGNED32"),
+        ("defaultValue=\"0x60040020\"", "6004h:00, 32 bits"),
+    ] {
+        assert!(hints.contains(&expected), "{expected:?}: {hints:?}");
+    }
+    assert!(
+        hints.iter().any(|(_, label)| *label == "180h + node ID"),
+        "{hints:?}"
+    );
 }

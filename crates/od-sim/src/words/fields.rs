@@ -9,7 +9,7 @@ use od_wire::nmt::State;
 use od_wire::sdo::{Request, Response, expedited_len};
 use od_wire::{Frame, emcy, nmt};
 
-use super::pdo::layout;
+use super::pdo::{Part, parts};
 use super::said::bytes;
 use super::tag::{TAGS, answered, requested, tag};
 use super::value;
@@ -43,8 +43,8 @@ pub fn fields(devices: &[VirtualDevice], frame: &Frame) -> Vec<Field> {
     let tag = tag(frame);
     let device = devices.iter().find(|one| one.node_id().raw() == tag.node);
     let data = frame.data();
-    if let Some(parts) = layout(devices, frame) {
-        mapped(&mut fields, devices, frame, &parts);
+    if let Some((device, parts)) = parts(devices, frame) {
+        mapped(&mut fields, device, frame, &parts);
         return fields.all;
     }
     match TAGS[usize::from(tag.tag)] {
@@ -141,13 +141,8 @@ fn number(data: &[u8], len: usize) -> u64 {
 }
 
 /// The objects of a PDO by its current mapping.
-fn mapped(
-    fields: &mut Fields,
-    devices: &[VirtualDevice],
-    frame: &Frame,
-    parts: &[(Address, u32, u32)],
-) {
-    let data = frame.data();
+fn mapped(fields: &mut Fields, device: &VirtualDevice, frame: &Frame, parts: &[Part]) {
+    let (dictionary, data) = (device.dictionary(), frame.data());
     for (address, first, bits) in parts {
         let (from, to) = (*first as usize / 8, (first + bits).div_ceil(8) as usize);
         if data.len() < to {
@@ -157,16 +152,12 @@ fn mapped(
         let value = pdo::bits(data, *first as u8, *bits as u8).unwrap_or_default();
         let value = value.to_le_bytes();
         let bytes = &value[..bits.div_ceil(8) as usize];
-        let dictionaries = devices.iter().map(VirtualDevice::dictionary);
-        let entry = dictionaries
-            .filter_map(|dictionary| Some((dictionary, dictionary.find(*address).ok()?)))
-            .next();
-        let (name, value) = match entry {
-            Some((dictionary, entry)) => (
+        let (name, value) = match dictionary.find(*address) {
+            Ok(entry) => (
                 dictionary.text(entry.name).to_owned(),
-                values::show_bits(entry.data_type, bytes, *bits as u8),
+                value::show_mapped(device, *address, entry.data_type, bytes, *bits as u8),
             ),
-            None => (address.to_string(), values::hex(bytes)),
+            Err(_) => (address.to_string(), values::hex(bytes)),
         };
         fields.push(from, to, name, value, Some(*address));
     }
@@ -345,7 +336,7 @@ mod tests {
             all: Vec::new(),
         };
         let parts = [(register, 0, 1), (register, 1, 3), (register, 4, 8)];
-        mapped(&mut fields, &[device], &frame, &parts);
+        mapped(&mut fields, &device, &frame, &parts);
         let values = fields.all.into_iter().map(|field| field.value);
         assert_eq!(values.collect::<Vec<_>>(), ["0", "5", "240 (F0h)"]);
     }

@@ -9,6 +9,7 @@ use od_model::{Address, values};
 use od_runtime::{CobId, Frame};
 
 use super::said::{Service, Words, bytes};
+use super::value::show_mapped;
 use crate::device::VirtualDevice;
 
 /// Limit of PDOs that are searched in a device's dictionary: 512.
@@ -20,9 +21,20 @@ pub(super) fn explain(devices: &[VirtualDevice], frame: &Frame) -> Option<Words>
     Some(words(device, service, number, mapping, frame))
 }
 
+/// An object in the data of a PDO, its first bit and its number of bits.
+pub(super) type Part = (Address, u32, u32);
+
 /// Returns the objects in the data of a PDO by its current mapping, each with its first bit and its number
 /// of bits. `None` for a frame that is not a PDO of these devices.
-pub fn layout(devices: &[VirtualDevice], frame: &Frame) -> Option<Vec<(Address, u32, u32)>> {
+pub fn layout(devices: &[VirtualDevice], frame: &Frame) -> Option<Vec<Part>> {
+    parts(devices, frame).map(|(_, parts)| parts)
+}
+
+/// The [`layout`] of a PDO, and its device.
+pub(super) fn parts<'d>(
+    devices: &'d [VirtualDevice],
+    frame: &Frame,
+) -> Option<(&'d VirtualDevice, Vec<Part>)> {
     let (device, _, _, index) = find(devices, frame)?;
     let mut first = 0;
     let place = |raw| {
@@ -30,7 +42,8 @@ pub fn layout(devices: &[VirtualDevice], frame: &Frame) -> Option<Vec<(Address, 
         first += u32::from(bits);
         (address, first - u32::from(bits), bits.into())
     };
-    Some(mapping(device, index).into_iter().map(place).collect())
+    let parts = mapping(device, index).into_iter().map(place);
+    Some((device, parts.collect()))
 }
 
 /// The current mapping entries of a mapping object.
@@ -93,17 +106,20 @@ fn words(
         let (name, shown) = match field.entry {
             Some(entry) => (
                 values::name(dictionary, &entry),
-                values::show_bits(entry.data_type, bytes, field.bits),
+                show_mapped(device, field.address, entry.data_type, bytes, field.bits),
             ),
             None => (field.address.to_string(), values::hex(bytes)),
         };
         format!("{name} = {shown}")
     });
     let parts: Vec<String> = parts.collect();
+    // A value with words may have a comma.
+    let has_words = parts.iter().any(|part| part.contains(", "));
     let text = if parts.is_empty() {
         format!("{kind}{number} {}", bytes(frame.data().len()))
     } else {
-        format!("{kind}{number} {}", parts.join(", "))
+        let between = if has_words { "; " } else { ", " };
+        format!("{kind}{number} {}", parts.join(between))
     };
     Words::new(service, node, text)
 }

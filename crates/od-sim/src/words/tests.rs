@@ -185,3 +185,24 @@ fn an_emergency_is_explained_by_the_profile_of_its_device() {
         ],
     );
 }
+
+#[test]
+fn a_mapped_value_has_the_meaning_of_its_profile() {
+    let kind = od_devices::find("drive").expect("a built-in device");
+    let device = VirtualDevice::new(kind, NodeId::ONE);
+    explained(
+        device,
+        &[
+            (
+                "201#0F0001",
+                "PDO node 1: RPDO1 Controlword = 15 (Fh): enable operation, \
+                 Modes of operation = 1: profile position",
+            ),
+            (
+                "181#370206",
+                "PDO node 1: TPDO1 Statusword = 567 (237h): Operation enabled, \
+                 Modes of operation display = 6: homing",
+            ),
+        ],
+    );
+}

@@ -3,8 +3,6 @@
 use std::format;
 use std::prelude::v1::*;
 
-#[cfg(feature = "eds")]
-use od_model::Kind;
 use od_model::{Address, DataType, values};
 use od_wire::CobId;
 
@@ -29,34 +27,36 @@ pub(super) fn show(
     }
 }
 
-/// What a number says in the documents of CiA, by the device profile in 1000h; only with the tables of `od-eds`.
-#[cfg(feature = "eds")]
+/// Shows a value in a PDO, which has its first `bits` bits, like [`show`].
+pub(super) fn show_mapped(
+    device: &VirtualDevice,
+    address: Address,
+    data_type: DataType,
+    data: &[u8],
+    bits: u8,
+) -> String {
+    let shown = values::show_bits(data_type, data, bits);
+    let is_whole = data_type.bits() == Some(bits.into());
+    match documented(device, address, data_type, data).filter(|_| is_whole) {
+        Some(said) => format!("{shown}: {said}"),
+        None => shown,
+    }
+}
+
+/// What a number says in the documents of CiA; only with the tables of `od-eds`.
 fn documented(
     device: &VirtualDevice,
     address: Address,
     data_type: DataType,
     data: &[u8],
 ) -> Option<String> {
-    let size = data.len();
-    if data_type.size() != Some(size) || !(1..=8).contains(&size) {
-        return None;
+    #[cfg(feature = "eds")]
+    return od_eds::outline::meaning_of_bytes(device.dictionary(), address, data_type, data);
+    #[cfg(not(feature = "eds"))]
+    {
+        let _ = (device, address, data_type, data);
+        None
     }
-    let mut bytes = [0; 8];
-    bytes[..size].copy_from_slice(data);
-    let unused = 64 - 8 * size as u32;
-    let number = match data_type.kind() {
-        Kind::Unsigned => i64::try_from(u64::from_le_bytes(bytes)).ok()?,
-        Kind::Signed => i64::from_le_bytes(bytes) << unused >> unused,
-        _ => return None,
-    };
-    let kind = device.dictionary().entry(0x1000, 0)?.default.integer(0)?;
-    let profile = u16::try_from(kind & 0xFFFF).ok();
-    od_eds::outline::meaning(profile, address.index, address.sub, number)
-}
-
-#[cfg(not(feature = "eds"))]
-const fn documented(_: &VirtualDevice, _: Address, _: DataType, _: &[u8]) -> Option<String> {
-    None
 }
 
 /// The meaning of a value of four bytes (CiA 301, clause of the object); `None`: it is a number.

@@ -79,6 +79,7 @@ pub(crate) fn w0203_lists_missing() -> Finding {
 pub(crate) static W0204: Rule = Rule {
     code: "W0204",
     severity: Warning,
+    buildable: true,
     title: "SupportedObjects does not match its list",
     why: "Many tools read only as many entries as SupportedObjects says. odkit reads all entries.",
     source: "CiA 306-1, object lists",
@@ -126,6 +127,13 @@ pub(crate) fn w0204_supported_objects_count(
             .at(header)
             .form(&W0204_MISSING)
             .fix(Fix::safe().below(header, format!("SupportedObjects={found}"))),
+    };
+    // No tool can use a text that is not a number.
+    let is_text = given.is_some_and(|given| number(given).is_none());
+    let finding = if is_text {
+        finding.severity_of(Error)
+    } else {
+        finding
     };
     finding.fact("found", found)
 }
@@ -498,8 +506,22 @@ pub(crate) static W0252: Rule = Rule {
     source: "CiA 306-1, DeviceInfo; CiA 301, bit rates",
     says: "`{name}` is not a key of [DeviceInfo]",
     help: "write BaudRate_10, 20, 50, 125, 250, 500, 800 or 1000, or remove the line",
+    also: &[W0252_XDD],
     ..Rule::NEW
 };
+
+/// Sentence for a bit rate of an XDD.
+const W0252_XDD: Form = Form {
+    says: "`{name}` is not a bit rate of CiA 301",
+    help: "write `10 Kbps`, 20, 50, 125, 250, 500, 800 or `1000 Kbps`, or remove the element",
+};
+
+/// The finding about a supported bit rate of an XDD that no bus has.
+#[cfg(feature = "xdd")]
+pub(crate) fn w0252_in_xdd(given: &Spanned<String>) -> Finding {
+    let finding = W0252.at(given.span).form(&W0252_XDD).severity_of(Info);
+    finding.fact("name", given.as_str())
+}
 
 /// Returns whether this is a key for a bit rate, whatever the rate.
 pub(crate) fn is_rate(key: &str) -> bool {

@@ -36,6 +36,7 @@ catalogue! {
     e0537_mpdo_synchronous E0537
     w0538_sdo_client_other_server W0538
     w0539_limit_without_flag_bits W0539
+    w0540_sdo_with_one_cob_id W0540
 }
 
 pub(crate) mod e0501_mapped_object_missing;
@@ -70,3 +71,4 @@ pub(crate) mod w0535_inhibit_above_event_timer;
 pub(crate) mod w0536_sync_start_without_counter;
 pub(crate) mod w0538_sdo_client_other_server;
 pub(crate) mod w0539_limit_without_flag_bits;
+pub(crate) mod w0540_sdo_with_one_cob_id;

@@ -13,7 +13,7 @@ catalogue! {
     missing E0908
     w0909_drive_mode_object_missing W0909
     w0910_drive_start_mode W0910
-    w0911_drive_limits W0911
+    w0911_lower_above_upper W0911
     w0912_io_channels_missing W0912
     w0913_io_channels_not_declared W0913
     w0914_value_reserved W0914
@@ -42,7 +42,7 @@ pub(crate) mod missing;
 pub(crate) mod overview;
 pub(crate) mod w0909_drive_mode_object_missing;
 pub(crate) mod w0910_drive_start_mode;
-pub(crate) mod w0911_drive_limits;
+pub(crate) mod w0911_lower_above_upper;
 pub(crate) mod w0912_io_channels_missing;
 pub(crate) mod w0913_io_channels_not_declared;
 pub(crate) mod w0914_value_reserved;

@@ -10,8 +10,8 @@ pub(crate) static W0917: Rule = Rule {
     code: "W0917",
     severity: Warning,
     title: "value of a drive is above its maximum",
-    why: "The drive moves slower than a master that reads the value expects, or aborts its download.",
-    source: "CiA 402, objects 607Fh, 60C5h and 60C6h",
+    why: "The drive has less speed or torque than a master that reads the value expects, or aborts its download.",
+    source: "CiA 402, objects 6072h, 607Fh, 60C5h and 60C6h",
     says: "{object} is {given}, but its maximum ({limit}) is {most}",
     help: "write {most} or less, or raise {limit}",
     check: Check::Entry(check),
@@ -20,6 +20,7 @@ pub(crate) static W0917: Rule = Rule {
 
 fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
     let limit = match (entry.address.index, entry.address.sub) {
+        (0x6071, 0) => 0x6072,
         (0x6081, 0) => 0x607F,
         (0x6083, 0) => 0x60C5,
         (0x6084 | 0x6085, 0) => 0x60C6,

@@ -38,6 +38,7 @@ catalogue! {
     i0657_vendor_id_0 I0657
     reader W0658
     w0659_identity_with_node_id W0659
+    w0660_slave_bit_missing W0660
 }
 
 pub(crate) mod e0606_identity_differs;
@@ -67,3 +68,4 @@ pub(crate) mod w0653_commissioning_incomplete;
 pub(crate) mod w0655_error_register_not_0;
 pub(crate) mod w0656_guarding_and_heartbeat;
 pub(crate) mod w0659_identity_with_node_id;
+pub(crate) mod w0660_slave_bit_missing;

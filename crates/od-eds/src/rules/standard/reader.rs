@@ -65,12 +65,17 @@ pub(crate) fn w0609_key_value_not_valid(
         None => finding,
     };
     // A number or a flag of the device, which no tool can use. Dates and versions of the file are
-    // only read by people.
+    // only read by people; many files have a FileVersion such as `1.0`.
     let is_read = section.eq_ignore_ascii_case("DeviceInfo")
         || key.eq_ignore_ascii_case("NodeID")
         || wanted == Wanted::Flag;
+    let is_of_file = ["FileVersion", "FileRevision"]
+        .iter()
+        .any(|own| key.eq_ignore_ascii_case(own));
     let finding = if is_read {
         finding.severity_of(Error)
+    } else if is_of_file && is_version(given) {
+        finding.severity_of(Info)
     } else {
         finding
     };
@@ -78,6 +83,12 @@ pub(crate) fn w0609_key_value_not_valid(
         .fact("section", section)
         .fact("name", key)
         .fact("given", &*given.value)
+}
+
+/// Returns whether this is a version with a point, such as `1.0` or `2.1.3`.
+fn is_version(text: &str) -> bool {
+    let mut parts = text.split('.');
+    parts.all(|part| !part.is_empty() && part.bytes().all(|byte| byte.is_ascii_digit()))
 }
 
 /// The number that is probably meant by hexadecimal digits without `0x`: `0xDEF` for `DEF`. Digits that are a decimal

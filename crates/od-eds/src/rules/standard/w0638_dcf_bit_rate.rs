@@ -1,20 +1,22 @@
 use alloc::format;
+use alloc::string::String;
 use alloc::vec::Vec;
 
 use crate::description::Description;
 use crate::finding::{Check, Finding, Form, Rule, Severity::Warning};
 use crate::rules::standard::shared::commissioning;
 use crate::scan::number::number;
+use crate::span::Spanned;
 
 pub(crate) static W0638: Rule = Rule {
     code: "W0638",
     severity: Warning,
-    title: "bit rate of a DCF is not valid",
-    why: "A configuration tool cannot set the bit rate. CiA 301 defines the bit rates, and [DeviceInfo] gives those of the device.",
-    source: "CiA 306-1, DeviceComissioning",
+    title: "bit rate in use is not valid",
+    why: "A configuration tool cannot set the bit rate of a DCF, and the device cannot start with that of an XDD. CiA 301 defines the bit rates, and [DeviceInfo] gives those of the device.",
+    source: "CiA 306-1, DeviceComissioning; CiA 311, baudRate",
     says: "Baudrate `{given}` is not valid",
     help: "write 10, 20, 50, 125, 250, 500, 800 or 1000 (kbit/s)",
-    also: &[LACKS],
+    also: &[LACKS, DEFAULT],
     check: Check::Device(check),
     ..Rule::NEW
 };
@@ -24,6 +26,18 @@ const LACKS: Form = Form {
     says: "Baudrate is {given}, but BaudRate_{given} in [DeviceInfo] is 0",
     help: "write a bit rate that the device supports",
 };
+
+/// Sentence for the default bit rate of an XDD.
+const DEFAULT: Form = Form {
+    says: "default bit rate `{given}` is not one of the supported bit rates",
+    help: "write a bit rate that has a supportedBaudRate, or add one for it",
+};
+
+#[cfg_attr(not(feature = "xdd"), allow(dead_code))]
+/// The finding about the default bit rate of an XDD that the device does not support.
+pub(crate) fn w0638_default_not_supported(given: &Spanned<String>) -> Finding {
+    W0638.given(given).form(&DEFAULT)
+}
 
 fn check(description: &Description, findings: &mut Vec<Finding>) {
     let given = commissioning(description).and_then(|section| section.get("Baudrate"));

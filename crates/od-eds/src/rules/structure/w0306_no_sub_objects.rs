@@ -12,7 +12,7 @@ pub(crate) static W0306: Rule = Rule {
     why: "A master finds nothing to read or write. odkit leaves the object out of the dictionary.",
     source: "CiA 306-1, object sections",
     says: "the {code} has no sub-objects",
-    help: "add {missing} and one for each sub-object",
+    help: "add {missing} and its other sub-objects, or remove the object",
     check: Check::Object(check),
     ..Rule::NEW
 };
@@ -25,7 +25,7 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
         .iter()
         .any(|(key, _)| Key::CompactSubObj.is(key));
     if has_some && object.object.entries.is_empty() && !unread {
-        let missing = Fact::Section(object.index, Some(0));
+        let missing = Fact::Section(object.index, Some(1));
         let finding = W0306.on(object, object.span).fact("code", *object.code);
         findings.push(finding.fact("missing", missing));
     }

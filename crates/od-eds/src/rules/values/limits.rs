@@ -189,7 +189,7 @@ fn crossed(low: Option<&Spanned<Value>>, high: Option<&Spanned<Value>>) -> bool 
 
 /// Order of two values for every node ID; `None` if it depends on the node ID, or if they cannot be
 /// compared.
-fn order(a: &Value, b: &Value) -> Option<Ordering> {
+pub(crate) fn order(a: &Value, b: &Value) -> Option<Ordering> {
     if let (Value::Real(a), Value::Real(b)) = (a, b) {
         return a.partial_cmp(b);
     }
