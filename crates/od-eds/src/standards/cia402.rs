@@ -135,8 +135,8 @@ pub(super) const TABLE: &[Row] = &[
     named(0x60DA, 0x60DA, "Function settings"),
     named(0x60E0, 0x60E0, "Positive torque limit value"),
     named(0x60E1, 0x60E1, "Negative torque limit value"),
-    // 16 bits since version 5.
-    ro_array(0x60E3, 0x60E3, &[Integer8, Integer16], "Supported homing methods"),
+    // 16 bits since version 5; drives have bytes without a sign, too, which are the same for the methods of CiA.
+    ro_array(0x60E3, 0x60E3, &[Integer8, Integer16, Unsigned8], "Supported homing methods"),
     named(0x60E4, 0x60E4, "Additional position actual value").with(&[(0, 0xFE, Integer32)]),
     named(0x60E5, 0x60E5, "Additional velocity actual value").with(&[(0, 0xFE, Integer32)]),
     named(0x60E6, 0x60E6, "Additional position encoder resolution: encoder increments"),

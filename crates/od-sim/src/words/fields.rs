@@ -329,7 +329,7 @@ mod tests {
     fn each_mapped_object_has_its_own_bits() {
         let kind = od_devices::find("gxmm").expect("it is built in");
         let device = VirtualDevice::new(kind, NodeId::ONE);
-        let register = Address::new(0x1001, 0);
+        let register = Address::new(0x1800, 2);
         let frame = parse_frame("181#0AFF").expect("a frame");
         let mut fields = Fields {
             len: 2,
