@@ -138,7 +138,7 @@ fn frames_missed_by_a_suspended_bench_are_not_sent() {
     let mut client = sim.client();
     let mut wait_for = pdos(&mut client);
     wait_for(20);
-    sim.signal("-STOP");
+    sim.suspend();
     // The bench is stopped for this time; the test waits for nothing else.
     std::thread::sleep(Duration::from_millis(600));
     // Taken before it continues: on a busy computer `kill` may return long after the signal arrived.

@@ -5,6 +5,8 @@ use std::net::TcpStream;
 use std::process::Stdio;
 use std::time::Duration;
 
+#[cfg(unix)]
+use crate::support::quiet::until;
 use crate::support::sim::{Sim, say};
 use crate::support::{command, odkit};
 
@@ -208,6 +210,33 @@ fn a_client_that_closes_its_half_still_gets_responses() {
     let mut answer = String::new();
     client.read_to_string(&mut answer).expect("an answer");
     assert_eq!(answer, "\rz\rt58184300100096010200\r");
+}
+
+/// A program that sends an NMT command and ends has seldom read all heartbeats: the system then resets its connection.
+#[cfg(unix)]
+#[test]
+fn the_last_frames_of_a_client_that_resets_its_connection_reach_the_bus() {
+    let sim = Sim::start(&["gxmm"]);
+    let mut client = sim.client();
+    // 1017h: a heartbeat every 10 ms, which the client never reads.
+    let response = "\rz\rt58186017100000000000\r";
+    say(&mut client, "O\rt60182B1710000A000000\r", response);
+    let mut witness = sim.client();
+    say(&mut witness, "O\r", "\r");
+    client.set_read_timeout(None).expect("no time limit");
+    client.peek(&mut [0]).expect("a heartbeat");
+    // The bench finds the command and the reset at the same time, and has heartbeats to send.
+    sim.suspend();
+    client.write_all(b"t00020101\r").expect("it connects");
+    drop(client);
+    sim.signal("-CONT");
+    let mut heard = String::new();
+    until("Operational", || {
+        let mut bytes = [0; 256];
+        let len = witness.read(&mut bytes).expect("a frame");
+        heard += &String::from_utf8_lossy(&bytes[..len]);
+        heard.contains("t701105\r").then_some(())
+    });
 }
 
 #[cfg(unix)]

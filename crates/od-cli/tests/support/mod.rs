@@ -3,6 +3,7 @@
 #![allow(dead_code)] // each test file uses what it needs
 
 pub(crate) mod crowd;
+mod patience;
 pub(crate) mod quiet;
 pub(crate) mod sim;
 
@@ -20,8 +21,10 @@ pub(crate) struct Done {
     pub(crate) err: String,
 }
 
-/// The binary under test, or the one that `ODKIT` names; always without colours.
+/// The binary under test, or the one that `ODKIT` names; always without colours. The test has a
+/// time limit from here on.
 pub(crate) fn command() -> Command {
+    patience::limit();
     let built = || env!("CARGO_BIN_EXE_odkit").into();
     let mut command = Command::new(std::env::var_os("ODKIT").unwrap_or_else(built));
     command.env("NO_COLOR", "1");

@@ -6,6 +6,8 @@ use std::process::{Child, ChildStderr, Command, Stdio};
 use std::time::Duration;
 
 use super::command;
+#[cfg(unix)]
+use super::quiet::until;
 
 /// `odkit sim` on an slcan port of its own; it ends when this is dropped.
 pub(crate) struct Sim {
@@ -89,6 +91,19 @@ impl Sim {
             }
             seen.push_str(&line);
         }
+    }
+
+    /// Stops it. On a busy computer a process stops some time after the signal.
+    #[cfg(unix)]
+    pub(crate) fn suspend(&self) {
+        self.signal("-STOP");
+        let process = self.child.id().to_string();
+        until("a stopped process", || {
+            let mut ps = Command::new("ps");
+            ps.args(["-o", "stat=", "-p", &process]);
+            let state = ps.output().expect("ps").stdout;
+            state.starts_with(b"T").then_some(())
+        });
     }
 
     /// Sends it a signal.

@@ -31,6 +31,8 @@ use crate::words::plural;
 const TURN: usize = 4 * 1024;
 /// Turns after which the frames of all clients are sent.
 const ROUND: usize = 4;
+/// Limit of reads from a client whose connection is lost.
+const LAST: usize = 64;
 
 /// The bus in real time.
 pub(super) struct Live {
@@ -210,7 +212,7 @@ impl Live {
     /// Sends the bytes that wait for clients.
     fn flush(&mut self) {
         for (number, error) in self.clients.flush() {
-            self.end(number, Some(error));
+            self.lose(number, error);
         }
     }
 
@@ -267,9 +269,22 @@ impl Live {
         // Its answers are sent before the next turn.
         let flushed = self.clients.get(number).map(|client| client.flush());
         if let Some(Err(error)) = flushed {
-            self.end(number, Some(error));
+            self.lose(number, error);
         }
         has_sent
+    }
+
+    /// Ends a client that no bytes reach. What it sent before still counts: a program that sends a frame and closes its
+    /// connection without having read all frames of the bus resets it.
+    fn lose(&mut self, number: usize, error: io::Error) {
+        let mut buffer = [0; TURN];
+        for _ in 0..LAST {
+            match self.clients.read(number, &mut buffer) {
+                Ok(Some(len)) if len > 0 => self.receive(number, &buffer[..len]),
+                _ => break,
+            }
+        }
+        self.end(number, Some(error));
     }
 
     fn receive(&mut self, number: usize, bytes: &[u8]) {

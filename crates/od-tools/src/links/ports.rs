@@ -1,7 +1,7 @@
 //! Ports that carry bytes: TCP and serial lines.
 
 use std::io::{self, ErrorKind, Read, Write};
-use std::net::{TcpStream, ToSocketAddrs};
+use std::net::{Shutdown, TcpStream, ToSocketAddrs};
 
 use od_wire::Duration;
 use serial2::SerialPort;
@@ -48,6 +48,11 @@ impl Port for TcpStream {
         self.set_nonblocking(wait.is_zero())?;
         self.set_write_timeout(Some(wait).filter(|wait| !wait.is_zero()))?;
         Write::write(self, bytes)
+    }
+
+    fn finish(&mut self) -> io::Result<bool> {
+        self.shutdown(Shutdown::Write)?;
+        Ok(true)
     }
 }
 

@@ -14,7 +14,7 @@ use crate::link::{Heard, Link};
 const OPENING: Duration = Duration::from_secs(2);
 /// How long the other side may accept no byte.
 const WRITE: Duration = Duration::from_secs(2);
-/// How long the end of a link waits until its last bytes are accepted.
+/// How long the end of a link waits until its last bytes are accepted, and then until the other side closes it.
 const LAST: Duration = Duration::from_millis(50);
 /// Limit of bytes without the end of a line or command.
 const LONGEST: usize = 256;
@@ -26,6 +26,11 @@ pub(super) trait Port {
 
     /// Writes some of it, or waits until the other side accepts some.
     fn write(&mut self, bytes: &[u8], wait: Duration) -> io::Result<usize>;
+
+    /// Says that nothing more is written. Returns whether the other side then closes the connection.
+    fn finish(&mut self) -> io::Result<bool> {
+        Ok(false)
+    }
 }
 
 /// A message of the server.
@@ -201,6 +206,21 @@ impl<P: Port, S: Protocol> Stream<P, S> {
         Ok(true)
     }
 
+    /// Reads until the other side closes the connection. A connection that is closed with bytes unread is reset, and the
+    /// other side may then lose the last frames.
+    fn drain(&mut self) {
+        let mut bytes = [0; 4096];
+        let until = self.now() + LAST;
+        while self.now() < until {
+            let wait = Duration::from_micros(until.micros_since(self.now()));
+            match self.port.read(&mut bytes, wait) {
+                Ok(count) if count > 0 => {}
+                Err(error) if error.kind() == ErrorKind::Interrupted => {}
+                _ => break,
+            }
+        }
+    }
+
     fn lost(&self, why: &str) -> Error {
         Error::Link(format!("{}: {why}", self.name))
     }
@@ -252,7 +272,9 @@ impl<P: Port, S: Protocol> Drop for Stream<P, S> {
         self.queue(self.protocol.end());
         // Without a connection there is nothing to restore, and without a reader nobody to restore it.
         let until = self.now() + LAST;
-        let _ = self.flush(until);
+        if self.flush(until).is_ok() && self.port.finish().is_ok_and(|closes| closes) {
+            self.drain();
+        }
     }
 }
 
