@@ -104,7 +104,9 @@ pub fn parse(data_type: DataType, text: &str) -> Result<Vec<u8>, Refused> {
     let value = match text {
         "true" => 1,
         "false" => 0,
-        _ => integer(text).ok_or_else(|| format!("`{text}` is not a number"))?,
+        _ => integer(text)
+            .or_else(|| with_base(text))
+            .ok_or_else(|| not_a_number(text, data_type))?,
     };
     let (low, high) = data_type.integer_range().unwrap_or((0, 0));
     if value < low || value > high {
@@ -112,6 +114,27 @@ pub fn parse(data_type: DataType, text: &str) -> Result<Vec<u8>, Refused> {
     }
     let size = data_type.size().unwrap_or(0).min(16);
     Ok(value.to_le_bytes()[..size].to_vec())
+}
+
+/// Reads a number as a PLC writes it (IEC 61131-3): `16#3E8`, `2#101`; or `0b101`, `$3E8`.
+fn with_base(text: &str) -> Option<i128> {
+    let (radix, digits) = [("16#", 16), ("$", 16), ("2#", 2), ("0b", 2)]
+        .into_iter()
+        .find_map(|(start, radix)| Some((radix, text.strip_prefix(start)?)))?;
+    let digits = digits.replace('_', "");
+    let is_number = digits.chars().all(|digit| digit.is_digit(radix));
+    let value = u64::from_str_radix(&digits, radix).ok();
+    value.filter(|_| is_number).map(i128::from)
+}
+
+/// Says what to write for a text of the length of the value, such as the signature `save` of 1010h.
+fn not_a_number(text: &str, data_type: DataType) -> String {
+    let is_word = text.bytes().all(|byte| byte.is_ascii_alphabetic());
+    if is_word && data_type.size() == Some(text.len()) {
+        format!("`{text}` is not a number; write the text as `\"{text}\"`")
+    } else {
+        format!("`{text}` is not a number")
+    }
 }
 
 /// Reads a decimal or hexadecimal number (`0x…`, `…h`) with an optional minus and underscores between digits.
@@ -141,11 +164,11 @@ fn parse_hex(text: &str) -> Option<Vec<u8>> {
     text.split_whitespace().map(byte).collect()
 }
 
-/// Reads an address as users write it: `6004h`, `1018h:02`, `0x1018:2`, `1018sub2`. The sub-index
-/// is hexadecimal, and 0 if missing.
+/// Reads an address as users write it: `6004h`, `1018h:02`, `0x1018:2`, `1018sub2`, `0x1018,2`, `1018/2`, `16#1018:2`. The
+/// sub-index is hexadecimal, and 0 if missing.
 pub fn address(text: &str) -> Option<Address> {
     let text = text.trim();
-    let (index, sub) = match text.split_once(':') {
+    let (index, sub) = match text.split_once([':', ',', '/']) {
         Some((index, sub)) => (index, Some(sub)),
         None => match text.find("sub") {
             Some(at) => (&text[..at], Some(&text[at + 3..])),
@@ -153,7 +176,11 @@ pub fn address(text: &str) -> Option<Address> {
         },
     };
     let hex = |text: &str| {
-        let digits = text.strip_prefix("0x").unwrap_or(text);
+        let text = text.trim();
+        let digits = ["0x", "0X", "16#"]
+            .into_iter()
+            .find_map(|start| text.strip_prefix(start))
+            .unwrap_or(text);
         let digits = digits.strip_suffix(['h', 'H']).unwrap_or(digits);
         u32::from_str_radix(digits, 16)
             .ok()
@@ -189,7 +216,12 @@ pub fn find(dictionary: Dictionary<'_>, text: &str) -> Result<Entry, Refused> {
             first.address, second.address
         )
         .into()),
-        (None, _) => Err(format!("no object is called `{wanted}`").into()),
+        (None, _) => {
+            // `1018.1` and `1018 1` are ways of other tools.
+            let meant = address(&wanted.replacen(['.', ' '], ":", 1));
+            let help = meant.map_or(String::new(), |meant| format!("; write `{meant}`"));
+            Err(format!("no object is called `{wanted}`{help}").into())
+        }
     }
 }
 
@@ -249,13 +281,38 @@ mod tests {
             "7121 (1BD1h)"
         );
         assert_eq!(show_bits(DataType::Unsigned8, &[5], 8), "5");
+        for text in ["1000", "16#3E8", "$3e8", "2#11_1110_1000", "0b1111101000"] {
+            assert_eq!(
+                parse(DataType::Unsigned16, text).as_deref(),
+                Ok(&[0xE8, 3][..]),
+                "{text}"
+            );
+        }
+        for text in ["16#", "16#-1", "2#2", "$", "#1"] {
+            assert!(parse(DataType::Unsigned16, text).is_err(), "{text}");
+        }
+        let save = parse(DataType::Unsigned32, "save").map_err(|why| why.to_string());
+        assert_eq!(
+            save,
+            Err("`save` is not a number; write the text as `\"save\"`".into())
+        );
         assert!(parse(DataType::Unsigned8, "256").is_err());
         assert!(parse(DataType::Unsigned8, "").is_err());
     }
 
     #[test]
     fn addresses_are_written_in_many_ways() {
-        for text in ["1018h:02", "1018:2", "0x1018:02h", "1018sub2", " 1018h:2 "] {
+        for text in [
+            "1018h:02",
+            "1018:2",
+            "0x1018:02h",
+            "1018sub2",
+            " 1018h:2 ",
+            "0x1018,2",
+            "0X1018, 0x02",
+            "1018/2",
+            "16#1018:16#2",
+        ] {
             assert_eq!(address(text), Some(Address::new(0x1018, 2)), "{text}");
         }
         assert_eq!(address("6004h"), Some(Address::new(0x6004, 0)));

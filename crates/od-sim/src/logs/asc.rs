@@ -15,7 +15,7 @@ pub(super) fn is_one(line: &str) -> bool {
         Some("base") => words
             .next()
             .is_some_and(|base| ["hex", "dec"].contains(&base.to_ascii_lowercase().as_str())),
-        Some(time) => time.contains('.') && stamp::seconds(time).is_some() && is_frame(words),
+        Some(time) => time.contains(POINTS) && stamp::seconds(time).is_some() && is_frame(words),
         None => false,
     }
 }
@@ -31,6 +31,9 @@ fn is_frame<'t>(words: impl Iterator<Item = &'t str>) -> bool {
         _ => false,
     }
 }
+
+/// Decimal points: a program on a computer with another language writes a comma.
+const POINTS: [char; 2] = ['.', ','];
 
 /// Words that begin a line about the log itself.
 const HEADS: [&str; 6] = ["date", "base", "internal", "no", "begin", "end"];
@@ -53,7 +56,7 @@ pub(super) fn reader<'t>(lines: &[&'t str]) -> Reader<'t> {
         if first.starts_with("//") || HEADS.contains(&first.to_ascii_lowercase().as_str()) {
             return Ok(Entry::Nothing);
         }
-        let time = stamp::seconds(first).filter(|_| first.contains('.'));
+        let time = stamp::seconds(first).filter(|_| first.contains(POINTS));
         let time = time.ok_or("the time stamp is missing")?;
         last = if is_relative {
             time.saturating_add(last)

@@ -110,9 +110,9 @@ pub(super) fn is_record(line: &str) -> bool {
     logged(line).is_ok_and(|line| line.at.is_some() && line.interface.is_some())
 }
 
-/// Returns whether a line is a frame with its interface and without a time stamp.
+/// Returns whether a line is a frame without a time stamp, with or without its interface.
 pub(super) fn is_untimed(line: &str) -> bool {
-    logged(line).is_ok_and(|line| line.at.is_none() && line.interface.is_some())
+    logged(line).is_ok_and(|line| line.at.is_none())
 }
 
 /// Reads a line in any of the three forms, including error frames.

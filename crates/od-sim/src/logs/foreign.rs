@@ -4,7 +4,7 @@
 const HEAD: usize = 20;
 
 /// Texts of other logs: the beginning of a line in lower case, name, and the way to a log that odkit reads.
-const TEXTS: [(&str, &str, &str); 4] = [
+const TEXTS: [(&str, &str, &str); 8] = [
     (
         "***busmaster",
         "a BUSMASTER log",
@@ -24,6 +24,45 @@ const TEXTS: [(&str, &str, &str); 4] = [
         "no.     time  ",
         "a text of Wireshark, which lacks the bytes of the frames",
         "save the capture as pcapng (`File`, `Save As`)",
+    ),
+    (
+        "frame 1: ",
+        "a text of Wireshark, of one packet in words",
+        "save the capture as pcapng (`File`, `Save As`)",
+    ),
+    (
+        "0000  ",
+        "a dump of bytes, as tshark and Wireshark print it",
+        "`text2pcap -l 227 FILE OUT.pcap` turns it into a capture",
+    ),
+    (
+        "can-id;type;length;",
+        "the list of received messages of PCAN-View, which has no times",
+        "record a trace (page `Trace`) and save it as TRC",
+    ),
+    (
+        "microchip technology inc.",
+        "a log of the Microchip CAN Bus Analyzer",
+        "SavvyCAN opens it and saves it as a candump log",
+    ),
+];
+
+/// As [`TEXTS`], for words anywhere in a line.
+const WORDS: [(&str, &str, &str); 3] = [
+    (
+        "< cansniffer ",
+        "the screen of `cansniffer`, which shows only the last bytes of a CAN-ID",
+        "`candump -L` records every frame",
+    ),
+    (
+        " cxx info type:crtd",
+        "a CRTD log",
+        "SavvyCAN opens it and saves it as a candump log",
+    ),
+    (
+        "), length: ",
+        "a text of Wireshark or tshark, which lacks the bytes of the frames",
+        "save the capture as pcapng (`File`, `Save As`; `tshark -w`)",
     ),
 ];
 
@@ -52,7 +91,8 @@ pub(super) fn name(bytes: &[u8]) -> Option<String> {
     let lines = text.trim_start_matches('\u{feff}').lines().take(HEAD);
     let mut known = lines.filter_map(|line| {
         let is_one = |(start, ..): &&(&str, _, _)| line.trim_start().starts_with(start);
-        TEXTS.iter().find(is_one)
+        let has = |(word, ..): &&(&str, _, _)| line.contains(word);
+        TEXTS.iter().find(is_one).or_else(|| WORDS.iter().find(has))
     });
     known.next().map(|(_, name, way)| said(name, way))
 }

@@ -2,6 +2,7 @@
 //!
 //! [`read`] takes the bytes of a file and detects its format; [`Format::write`] writes one.
 
+mod adapters;
 mod asc;
 mod blf;
 pub mod candump;

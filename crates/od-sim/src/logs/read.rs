@@ -7,7 +7,7 @@ use od_wire::Instant;
 
 use super::pcap::Capture;
 use super::record::{Entry, Problem, Reader, Record, What};
-use super::{asc, blf, candump, columns, csv, foreign, pcap, pcapng, stamp, trc};
+use super::{adapters, asc, blf, candump, columns, csv, foreign, pcap, pcapng, stamp, trc};
 use crate::cursor::Cursor;
 
 /// A log that was read.
@@ -19,7 +19,8 @@ pub struct Log {
     pub skipped: Vec<Problem>,
     /// Number of the entries that are not frames: events of an ASC or a TRC, packets of other protocols.
     pub others: usize,
-    /// Whether the log has no times, as `candump` prints it without `-t`. All records then have time 0.
+    /// Whether the log has no times, as `candump` prints it without `-t`, or an adapter of slcan sends it. All records then
+    /// have time 0.
     pub lacks_times: bool,
 }
 
@@ -30,7 +31,7 @@ const WALL_CLOCK: u64 = 1_000_000_000_000;
 const HEAD: usize = 200;
 
 /// Reads a log: candump, ASC, BLF, TRC (1.0 to 2.1), pcap or pcapng; CSV of SavvyCAN, CL2000, CANedge, Kvaser or IXXAT; what
-/// python-can prints, or Kvaser CanKing.
+/// python-can prints, or Kvaser CanKing; lines of slcan or socketcand; commands of `cansend`.
 ///
 /// # Errors
 /// The reason why it is not a log, or the first line if no line can be read.
@@ -57,7 +58,9 @@ pub fn read(bytes: &[u8]) -> Result<Log, Refused> {
         } else {
             let known = foreign::name(bytes);
             known.unwrap_or_else(|| {
-                "it is not a candump log, ASC, BLF, TRC, CSV, pcap or pcapng".into()
+                "it is not a candump log, ASC, BLF, TRC, CSV, slcan, pcap or pcapng; SavvyCAN opens many other logs and saves \
+                 them as a candump log"
+                    .into()
             })
         };
         return Err(why.into());
@@ -124,10 +127,19 @@ fn finish(mut records: Vec<Record>, skipped: Vec<Problem>) -> Log {
     }
 }
 
-/// Returns whether no line has a time stamp, and a line is a frame with its interface: what `candump` prints without `-t`.
+/// Returns whether no line has a time stamp, and a line is a frame: what `candump` prints without `-t`, or an adapter sends.
 fn is_untimed(lines: &[&str]) -> bool {
     let head = || lines.iter().take(HEAD).map(|line| line.trim_start());
-    !head().any(|line| line.starts_with('(')) && head().any(candump::is_untimed)
+    let is_untimed = |line: &str| candump::is_untimed(command(line)) || adapters::is_untimed(line);
+    let is_timed =
+        |line: &str| line.starts_with('(') || adapters::is_one(line) && !adapters::is_untimed(line);
+    !head().any(is_timed) && head().any(is_untimed)
+}
+
+/// The arguments of a command of `cansend`; any other line is itself.
+fn command(line: &str) -> &str {
+    let line = line.trim_start();
+    line.strip_prefix("cansend ").unwrap_or(line)
 }
 
 fn choose<'t>(lines: &[&'t str], lacks_times: bool) -> Option<Reader<'t>> {
@@ -143,6 +155,9 @@ fn choose<'t>(lines: &[&'t str], lacks_times: bool) -> Option<Reader<'t>> {
     }
     if head().any(columns::is_one) {
         return Some(columns::reader());
+    }
+    if head().any(adapters::is_one) {
+        return Some(adapters::reader());
     }
     let is_candump = |line: &str| {
         let mut rest = Cursor::new(line);
@@ -176,7 +191,7 @@ fn line(text: &str, lacks_times: bool) -> Result<Entry, String> {
     if !text.trim_start().starts_with('(') && !lacks_times {
         return Err(missing.into());
     }
-    let logged = candump::logged(text).map_err(|error| error.message)?;
+    let logged = candump::logged(command(text)).map_err(|error| error.message)?;
     let at = match logged.at {
         None if lacks_times => Instant::ZERO,
         at => at.ok_or(missing)?,

@@ -14,9 +14,9 @@ pub(crate) fn take(rest: &mut Cursor<'_>) -> Option<u64> {
     Some(micros)
 }
 
-/// Microseconds of a decimal number of seconds; digits after the sixth are cut off.
+/// Microseconds of a decimal number of seconds, with a point or a comma; digits after the sixth are cut off.
 pub(crate) fn seconds(text: &str) -> Option<u64> {
-    let (whole, fraction) = text.split_once('.').unwrap_or((text, ""));
+    let (whole, fraction) = text.split_once(['.', ',']).unwrap_or((text, ""));
     if !is_digits(whole) || !is_digits(fraction) || whole.len() + fraction.len() == 0 {
         return None;
     }

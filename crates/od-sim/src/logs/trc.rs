@@ -29,7 +29,9 @@ fn numbered(line: &str) -> Option<(Instant, impl Iterator<Item = &str>)> {
 }
 
 fn millis(word: &str) -> Option<Instant> {
+    // A program on a computer with another language writes a comma.
     let millis = word
+        .replace(',', ".")
         .parse::<f64>()
         .ok()
         .filter(|at| at.is_finite() && *at >= 0.0)?;

@@ -321,6 +321,18 @@ impl Dut<'_> {
         }
     }
 
+    /// Fails if a download is accepted, whatever the code of its abort. The caller restores a value that was written.
+    pub(crate) fn cannot_change(&mut self, address: Address, bytes: &[u8], why: &str) -> Checked {
+        let shown = values::label(self.eds.dictionary(), address);
+        match self.download(address, bytes)? {
+            Ok(()) => fail(
+                format!("an abort for {shown} = {}, {why}", values::hex(bytes)),
+                "the value was accepted",
+            ),
+            Err(_) => Ok(()),
+        }
+    }
+
     /// Fails unless the server is ready for a new transfer.
     pub(crate) fn still_serves(&mut self) -> Checked {
         // An abort is a response, too; another case tests whether 1000h exists.

@@ -5,10 +5,11 @@ use od_wire::nmt::Command;
 use od_wire::{AbortCode, CanId, CobId, Frame, NodeId};
 
 use super::lss::renumber;
+use super::transmit::{learn_sync, timed};
 use crate::bench::OnBench;
 use crate::conform::dut::{Dut, QUIET, is_data};
 use crate::conform::end::{Checked, End, ensure, fail, lacks, skip};
-use crate::conform::sdo::{abort_text, number, request};
+use crate::conform::sdo::{abort_text, is_abort, number, request};
 
 use od_sim::bus::Bus;
 
@@ -184,10 +185,23 @@ pub(super) fn access(dut: &mut Dut<'_>) -> Checked {
             continue;
         }
         any = true;
-        if let Err(code) = dut.download(entry.address, &bytes)? {
-            let name = values::label(dut.eds.dictionary(), entry.address);
-            let expected = format!("{name}, {} in the EDS, to take its own value", entry.access);
-            dut.fault(fail(expected, abort_text(code)))?;
+        let name = values::label(dut.eds.dictionary(), entry.address);
+        let mut written = vec![(bytes.clone(), "its own value")];
+        let is_pdo = matches!(entry.address.index, 0x1400..=0x15FF | 0x1800..=0x19FF);
+        if is_pdo && cob_id.is_valid() {
+            let off = (cob_id.raw() | 1 << 31).to_le_bytes().to_vec();
+            written.push((off, "bit 31"));
+            written.push((bytes, "its own value again"));
+        }
+        for (value, shown) in written {
+            if dut.eds.excludes(entry.address, &value, dut.node).is_some() {
+                break;
+            }
+            if let Err(code) = dut.download(entry.address, &value)? {
+                let expected = format!("{name}, {} in the EDS, to take {shown}", entry.access);
+                dut.fault(fail(expected, abort_text(code)))?;
+                break;
+            }
         }
     }
     if any {
@@ -197,24 +211,139 @@ pub(super) fn access(dut: &mut Dut<'_>) -> Checked {
     }
 }
 
-/// Restricted CAN-IDs, one of each range of the table of restricted CAN-IDs (CiA 301).
-const RESTRICTED: [u32; 9] = [
-    0x001, 0x07F, 0x101, 0x180, 0x581, 0x601, 0x6E0, 0x701, 0x7FF,
+/// Restricted CAN-IDs, the first and the last of each range of the table of restricted CAN-IDs (CiA 301).
+const RESTRICTED: [u32; 14] = [
+    0x000, 0x001, 0x07F, 0x101, 0x180, 0x581, 0x5FF, 0x601, 0x67F, 0x6E0, 0x6FF, 0x701, 0x780,
+    0x7FF,
 ];
 
-/// COB-IDs of PDO and EMCY refuse restricted CAN-IDs.
-pub(super) fn restricted(dut: &mut Dut<'_>) -> Checked {
-    let first = |base: u16| {
-        let numbers = dut.eds.pdos(base).into_iter().map(|pdo| base + pdo);
-        numbers
-            .map(|com| Address::new(com, 1))
-            .find(|address| dut.eds.writes(address.index, 1))
+/// The COB-IDs that can be written of PDOs and EMCY, in the order of their objects.
+fn with_bit_31(dut: &Dut<'_>) -> Vec<Address> {
+    let pdos = |base: u16| {
+        let numbers = dut.eds.pdos(base).into_iter();
+        numbers.map(move |pdo| Address::new(base + pdo, 1))
     };
-    let mut all: Vec<Address> = [0x1400, 0x1800].into_iter().filter_map(first).collect();
-    if dut.eds.writes(0x1014, 0) {
-        all.push(Address::new(0x1014, 0));
-    }
+    let all = [Address::new(0x1014, 0)].into_iter();
+    let all = all.chain(pdos(0x1400)).chain(pdos(0x1800));
+    all.filter(|address| dut.eds.writes(address.index, address.sub))
+        .collect()
+}
+
+/// The CAN-ID of a valid PDO or EMCY cannot be changed.
+pub(super) fn fixed(dut: &mut Dut<'_>) -> Checked {
+    /// A CAN-ID that no service has.
+    const OTHER: u32 = 0x4F5;
     let mut any = false;
+    for address in with_bit_31(dut) {
+        let before = number(&dut.read(address)?) as u32;
+        let cob_id = CobId::new(before);
+        let other = (before & !0x3FFF_FFFF) | OTHER;
+        if !cob_id.is_valid() || cob_id.is_restricted() || other == before {
+            continue;
+        }
+        if dut
+            .eds
+            .excludes(address, &other.to_le_bytes(), dut.node)
+            .is_some()
+        {
+            continue;
+        }
+        any = true;
+        let done = dut.cannot_change(
+            address,
+            &other.to_le_bytes(),
+            "as the COB-ID is valid with another CAN-ID",
+        );
+        if done.is_err() {
+            dut.fault(done)?;
+            for value in [other | 1 << 31, before | 1 << 31, before] {
+                let _ = dut.download(address, &value.to_le_bytes())?;
+            }
+        }
+    }
+    if any {
+        Ok(())
+    } else {
+        lacks("no COB-ID that is valid can be written")
+    }
+}
+
+/// A TPDO with a CAN-ID of 29 bits is sent with it, or the node refuses bit 29.
+pub(super) fn extended(dut: &mut Dut<'_>) -> Checked {
+    const OTHER: u32 = 1 << 29 | 0x04F1_F1F1 & 0x1FFF_FFFF;
+    let pdo = timed(dut, 50)?;
+    if !dut.eds.writes(pdo.com, 1) {
+        return lacks("the COB-ID cannot be written");
+    }
+    let address = pdo.address(1);
+    let off = pdo.cob_id | 1 << 31;
+    dut.write(address, &off.to_le_bytes())?;
+    let codes = [AbortCode::ValueRange, AbortCode::ValueTooHigh];
+    let mut done = Ok(());
+    let mut is_taken = true;
+    for value in [OTHER | 1 << 31, OTHER] {
+        if let Err(code) = dut.download(address, &value.to_le_bytes())? {
+            done = is_abort(&request(0x80, address, code.to_le_bytes()), &codes);
+            is_taken = false;
+            break;
+        }
+    }
+    if is_taken {
+        dut.nmt(Command::Start)?;
+        let ids = [CobId::new(OTHER).can_id(), pdo.id()];
+        let low = CanId::standard((OTHER & 0x7FF) as u16);
+        let heard = dut.next(500_000, |frame| {
+            (ids.contains(&frame.id()) || frame.id() == low) && !frame.is_remote()
+        })?;
+        dut.nmt(Command::EnterPreOperational)?;
+        done = match heard {
+            Some(heard) => ensure(
+                heard.frame.id() == ids[0],
+                format!("the TPDO with the CAN-ID {}, of 29 bits", ids[0]),
+                format!("{} came", heard.frame),
+            ),
+            None => fail(
+                format!("the TPDO with the CAN-ID {}, of 29 bits", ids[0]),
+                "none came, and bit 29 was accepted",
+            ),
+        };
+    }
+    for value in [OTHER | 1 << 31, off, pdo.cob_id] {
+        let _ = dut.download(address, &value.to_le_bytes())?;
+    }
+    done
+}
+
+/// SYNC and TIME refuse restricted CAN-IDs.
+fn refuse_restricted(dut: &mut Dut<'_>, index: u16) -> Checked<bool> {
+    let address = Address::new(index, 0);
+    if !dut.eds.writes(index, 0) {
+        return Ok(false);
+    }
+    let before = dut.keep(address)?;
+    // Neither a producer nor a consumer meanwhile.
+    let flags = number(&before) as u32 & !(0xC000_0000 | 0x1FFF_FFFF);
+    for id in RESTRICTED {
+        let codes = [
+            AbortCode::ValueRange,
+            AbortCode::ValueTooHigh,
+            AbortCode::ValueTooLow,
+        ];
+        let done = dut.refuses_value(address, &(flags | id).to_le_bytes(), &codes);
+        if done.is_err() {
+            dut.fault(done)?;
+            let _ = dut.download(address, &before)?;
+            break;
+        }
+    }
+    Ok(true)
+}
+
+/// COB-IDs of PDO, EMCY, SYNC and TIME refuse restricted CAN-IDs.
+pub(super) fn restricted(dut: &mut Dut<'_>) -> Checked {
+    learn_sync(dut)?;
+    let mut any = refuse_restricted(dut, 0x1005)? | refuse_restricted(dut, 0x1012)?;
+    let all = with_bit_31(dut);
     for address in all {
         let before = dut.keep(address)?;
         let off = number(&before) as u32 | 1 << 31;

@@ -7,7 +7,7 @@ use od_wire::{CobId, Frame};
 
 use super::heartbeat::{beat, emcy, watch};
 use crate::conform::dut::{Dut, QUIET, is_data};
-use crate::conform::end::{Checked, ensure, fail, lacks};
+use crate::conform::end::{Checked, End, ensure, fail, lacks};
 use crate::conform::sdo::{abort_text, is_abort, request};
 
 const HISTORY: Address = Address::new(0x1003, 0);
@@ -26,8 +26,8 @@ pub(super) fn register(dut: &mut Dut<'_>) -> Checked {
     let bytes = dut.read(Address::new(0x1001, 0))?;
     let shown = values::hex(&bytes);
     ensure(
-        bytes.len() == 1 && (bytes[0] == 0 || bytes[0] & 1 == 1),
-        "one byte in 1001h, with bit 0 if there is any error",
+        bytes.len() == 1 && (bytes[0] == 0 || bytes[0] & 1 == 1) && bytes[0] & 0x40 == 0,
+        "one byte in 1001h, with bit 0 if there is any error, and without bit 6, which is reserved",
         format!("{shown} was read"),
     )
 }
@@ -57,13 +57,32 @@ pub(super) fn history(dut: &mut Dut<'_>) -> Checked {
 }
 
 pub(super) fn history_clear(dut: &mut Dut<'_>) -> Checked {
+    // With an entry, if the node can be made to report an error.
+    let has_entry = match provoked(dut) {
+        Ok((node, _)) => {
+            beat(dut, node)?;
+            dut.nmt(Command::EnterPreOperational)?;
+            true
+        }
+        Err(End::Fail { .. } | End::NotApplicable(_)) => false,
+        Err(other) => return Err(other),
+    };
     dut.write(HISTORY, &[0])?;
     let count = dut.number(0x1003, 0)?;
     ensure(
         count == 0,
         "no entry after 0 was written to 1003h:00",
         format!("1003h:00 is {count}"),
-    )
+    )?;
+    let first = Address::new(0x1003, 1);
+    match dut.upload(first)? {
+        Ok(bytes) if has_entry => ensure(
+            bytes.iter().all(|byte| *byte == 0),
+            "no error in 1003h:01 after 0 was written to 1003h:00",
+            format!("{} was read", values::hex(&bytes)),
+        ),
+        _ => Ok(()),
+    }
 }
 
 /// 1015h is the shortest time between two EMCY messages.
@@ -247,6 +266,23 @@ pub(super) fn once(dut: &mut Dut<'_>) -> Checked {
         "one EMCY 0000h for the end of the error",
         format!("{ends} came"),
     )
+}
+
+/// The same error is reported again when it occurs again.
+pub(super) fn again(dut: &mut Dut<'_>) -> Checked {
+    let (node, _) = provoked(dut)?;
+    for _ in 0..5 {
+        beat(dut, node)?;
+        dut.wait(50_000)?;
+    }
+    dut.drain()?;
+    match emcy(dut, 0x8130, 1_000_000)? {
+        Some(_) => Ok(()),
+        None => fail(
+            "EMCY 8130h again within 1 s of the last heartbeat",
+            "it came for the first error only",
+        ),
+    }
 }
 
 pub(super) fn off(dut: &mut Dut<'_>) -> Checked {

@@ -108,6 +108,21 @@ pub(super) fn emcy(dut: &mut Dut<'_>, code: u16, micros: u64) -> Checked<Option<
     Ok(dut.next(micros, is_it)?.map(|heard| heard.frame))
 }
 
+/// As [`emcy`], with those that came since `from`, the number of a frame: also while the test waited for another frame.
+fn emcy_since(dut: &mut Dut<'_>, from: usize, code: u16, micros: u64) -> Checked<Option<Frame>> {
+    let id = dut.id(0x80);
+    let came = |dut: &Dut<'_>| {
+        let frames = dut.frames.get(from..).unwrap_or_default().iter();
+        let mut own = frames.filter(|traced| !traced.ours && is_data(&traced.frame, id));
+        let found = own.find(|traced| traced.frame.data().starts_with(&code.to_le_bytes()));
+        found.map(|traced| traced.frame)
+    };
+    match came(dut) {
+        Some(frame) => Ok(Some(frame)),
+        None => emcy(dut, code, micros),
+    }
+}
+
 /// Ends the case as not applicable if the node has no EMCY according to the EDS.
 pub(super) fn sends_emcy(dut: &Dut<'_>) -> Checked {
     let Some(entry) = dut.eds.entry(0x1014, 0) else {
@@ -123,10 +138,11 @@ pub(super) fn sends_emcy(dut: &Dut<'_>) -> Checked {
 
 pub(super) fn consumer_in_time(dut: &mut Dut<'_>) -> Checked {
     let node = watch(dut, 200)?;
+    let from = dut.frames.len();
     dut.nmt(Command::Start)?;
     for _ in 0..6 {
         beat(dut, node)?;
-        if let Some(frame) = emcy(dut, 0x8130, 100_000)? {
+        if let Some(frame) = emcy_since(dut, from, 0x8130, 100_000)? {
             return fail(
                 "no EMCY 8130h while the heartbeat is in time",
                 format!("{frame} came"),
@@ -139,6 +155,17 @@ pub(super) fn consumer_in_time(dut: &mut Dut<'_>) -> Checked {
 pub(super) fn consumer_too_late(dut: &mut Dut<'_>) -> Checked {
     let node = watch(dut, 200)?;
     dut.nmt(Command::Start)?;
+    reports_silence(dut, node)
+}
+
+/// The node monitors in Pre-operational, too.
+pub(super) fn consumer_pre_operational(dut: &mut Dut<'_>) -> Checked {
+    let node = watch(dut, 200)?;
+    reports_silence(dut, node)
+}
+
+/// One heartbeat, and EMCY 8130h after the heartbeat time of 200 ms.
+fn reports_silence(dut: &mut Dut<'_>, node: u8) -> Checked {
     beat(dut, node)?;
     let from = dut.now();
     match emcy(dut, 0x8130, 1_000_000)? {
@@ -157,8 +184,9 @@ pub(super) fn consumer_too_late(dut: &mut Dut<'_>) -> Checked {
 /// A node that never sent a heartbeat is not reported as lost.
 pub(super) fn consumer_waits(dut: &mut Dut<'_>) -> Checked {
     watch(dut, 100)?;
+    let from = dut.frames.len();
     dut.nmt(Command::Start)?;
-    match emcy(dut, 0x8130, 500_000)? {
+    match emcy_since(dut, from, 0x8130, 500_000)? {
         Some(frame) => fail(
             "no EMCY 8130h before the first heartbeat",
             format!("{frame} came"),
@@ -210,9 +238,10 @@ pub(super) fn consumer_each(dut: &mut Dut<'_>) -> Checked {
 /// An entry of 1016h with the time 0 monitors no node.
 pub(super) fn consumer_off(dut: &mut Dut<'_>) -> Checked {
     let node = watch(dut, 0)?;
+    let from = dut.frames.len();
     dut.nmt(Command::Start)?;
     beat(dut, node)?;
-    match emcy(dut, 0x8130, 500_000)? {
+    match emcy_since(dut, from, 0x8130, 500_000)? {
         Some(frame) => fail("no EMCY 8130h with the time 0", format!("{frame} came")),
         None => Ok(()),
     }
@@ -225,13 +254,49 @@ pub(super) fn consumer_reset(dut: &mut Dut<'_>) -> Checked {
     beat(dut, node)?;
     dut.wait(50_000)?;
     dut.reset(Command::ResetCommunication)?;
+    let from = dut.frames.len();
     dut.nmt(Command::Start)?;
-    match emcy(dut, 0x8130, 700_000)? {
+    match emcy_since(dut, from, 0x8130, 700_000)? {
         Some(frame) => fail(
             "no EMCY 8130h after reset communication, as no heartbeat came since",
             format!("{frame} came"),
         ),
         None => Ok(()),
+    }
+}
+
+/// After reset communication the heartbeat is what 1017h says then.
+pub(super) fn over_reset(dut: &mut Dut<'_>) -> Checked {
+    let id = dut.id(0x700);
+    dut.set(PRODUCER, &[50, 0])?;
+    if dut.next_of(id, 200_000)?.is_none() {
+        return fail("a heartbeat every 50 ms", "none came");
+    }
+    dut.reset(Command::ResetCommunication)?;
+    match dut.number(0x1017, 0)? {
+        0 => {
+            dut.drain()?;
+            dut.silent(id, 300_000, "no heartbeat after the reset with 1017h = 0")
+        }
+        50 => lacks("1017h is 50 after the reset"),
+        millis => {
+            let heard = [millis, millis]
+                .map(|millis| dut.next_of(id, (2 * millis + 500) * 1000))
+                .into_iter()
+                .collect::<Checked<Vec<_>>>()?;
+            let [Some(first), Some(second)] = heard[..] else {
+                return fail(
+                    format!("heartbeats after the reset, as 1017h = {millis}"),
+                    "none came",
+                );
+            };
+            let gap = second.at.micros_since(first.at);
+            ensure(
+                gap + dut.rig.slack() + 10_000 >= 900 * millis,
+                format!("a heartbeat every {millis} ms after the reset"),
+                format!("one came after {} ms", gap / 1000),
+            )
+        }
     }
 }
 
@@ -296,12 +361,14 @@ pub(super) fn guarding_other_node(dut: &mut Dut<'_>) -> Checked {
     let other = if own == 127 { 126 } else { own + 1 };
     dut.drain()?;
     dut.ask_for(od_wire::CanId::standard(0x700 + u16::from(other)), 1)?;
-    let id = dut.id(0x700);
-    dut.silent(
-        id,
-        QUIET,
-        "no response to a guarding request to another node",
-    )?;
+    let ids = [dut.id(0x700), dut.id(0x80)];
+    let is_own = |frame: &Frame| ids.iter().any(|id| is_data(frame, *id));
+    if let Some(heard) = dut.next(QUIET, is_own)? {
+        return fail(
+            "no response to a guarding request to another node",
+            format!("{} came", heard.frame),
+        );
+    }
     let after = guarded(dut)?;
     ensure(
         (before ^ after) & 0x80 != 0,
@@ -354,9 +421,10 @@ pub(super) fn life_guarding(dut: &mut Dut<'_>) -> Checked {
     dut.set(Address::new(0x100C, 0), &[100, 0])?;
     dut.set(Address::new(0x100D, 0), &[2])?;
     dut.nmt(Command::Start)?;
+    let from = dut.frames.len();
     for _ in 0..3 {
         guarded(dut)?;
-        if emcy(dut, 0x8130, 80_000)?.is_some() {
+        if emcy_since(dut, from, 0x8130, 80_000)?.is_some() {
             return fail("no EMCY 8130h while the node is guarded", "it came");
         }
     }
@@ -364,6 +432,50 @@ pub(super) fn life_guarding(dut: &mut Dut<'_>) -> Checked {
         Some(_) => Ok(()),
         None => fail("EMCY 8130h within 500 ms of the last request", "none came"),
     }
+}
+
+/// After reset communication life guarding waits for the first request again.
+pub(super) fn life_guarding_reset(dut: &mut Dut<'_>) -> Checked {
+    sends_emcy(dut)?;
+    without_heartbeat(dut)?;
+    dut.set(Address::new(0x100C, 0), &[100, 0])?;
+    dut.set(Address::new(0x100D, 0), &[2])?;
+    dut.nmt(Command::Start)?;
+    guarded(dut)?;
+    dut.reset(Command::ResetCommunication)?;
+    let from = dut.frames.len();
+    dut.nmt(Command::Start)?;
+    match emcy_since(dut, from, 0x8130, 700_000)? {
+        Some(frame) => fail(
+            "no EMCY 8130h after reset communication, as no request came since",
+            format!("{frame} came"),
+        ),
+        None => Ok(()),
+    }
+}
+
+/// When requests come again, 1001h has the value from before the error.
+pub(super) fn life_guarding_ends(dut: &mut Dut<'_>) -> Checked {
+    sends_emcy(dut)?;
+    without_heartbeat(dut)?;
+    let before = dut.number(0x1001, 0)?;
+    dut.set(Address::new(0x100C, 0), &[100, 0])?;
+    dut.set(Address::new(0x100D, 0), &[2])?;
+    dut.nmt(Command::Start)?;
+    guarded(dut)?;
+    if emcy(dut, 0x8130, 600_000)?.is_none() {
+        return fail("EMCY 8130h within 600 ms of the last request", "none came");
+    }
+    for _ in 0..3 {
+        guarded(dut)?;
+        dut.wait(50_000)?;
+    }
+    let after = dut.number(0x1001, 0)?;
+    ensure(
+        after == before,
+        format!("1001h = {before:02X}h when requests come again, as before the error"),
+        format!("{after:02X}h was read"),
+    )
 }
 
 /// Life guarding begins with the first request.
@@ -374,8 +486,9 @@ pub(super) fn life_guarding_waits(dut: &mut Dut<'_>) -> Checked {
     dut.set(Address::new(0x100D, 0), &[2])?;
     // Guarding requests of earlier cases do not count after a reset; their life time may be over by
     // now.
+    let from = dut.frames.len();
     dut.nmt(Command::Start)?;
-    match emcy(dut, 0x8130, 600_000)? {
+    match emcy_since(dut, from, 0x8130, 600_000)? {
         Some(frame) => fail(
             "no EMCY 8130h before the first request",
             format!("{frame} came"),

@@ -174,8 +174,13 @@ pub(super) fn identify(dut: &mut Dut<'_>) -> Checked {
         answer = ask(dut, Request::IdentifyRemote { step, value })?;
     }
     match answer {
-        Some([0x4F, ..]) => {}
-        Some(other) => return fail("LSS response 4F", values::hex(&other)),
+        Some([0x4F, 0, 0, 0, 0, 0, 0, 0]) => {}
+        Some(other) => {
+            return fail(
+                "LSS response 4F with 0 in bytes 1 to 7",
+                values::hex(&other),
+            );
+        }
         None => {
             return lacks(
                 "the node does not answer LSS identify remote slave; one that has fastscan need not",
@@ -267,7 +272,11 @@ pub(super) fn store(dut: &mut Dut<'_>) -> Checked {
         dut.send(Frame::standard(MASTER, &Request::Store.emit()))?;
         match dut.next(2_000_000, |frame| is_data(frame, SLAVE))? {
             Some(heard) => match heard.frame.data() {
-                [0x17, 0, ..] => Ok(()),
+                [0x17, 0, _, 0, 0, 0, 0, 0] => Ok(()),
+                [0x17, 0, ..] => fail(
+                    "0 in the reserved bytes 3 to 7 of the LSS response 17h",
+                    format!("{} came", heard.frame),
+                ),
                 [0x17, 1, ..] => lacks("the node does not store its configuration"),
                 _ => fail("LSS response 17 00", format!("{} came", heard.frame)),
             },
@@ -292,15 +301,28 @@ pub(super) fn leave_silent(dut: &mut Dut<'_>) -> Checked {
             "no LSS response and no boot-up message when the configuration state is left",
             format!("{} came", heard.frame),
         ),
-        None => Ok(()),
+        None => stays_silent(
+            dut,
+            Request::InquireNodeId.emit(),
+            "as the node left the configuration state",
+        ),
     }
 }
 
 /// Bytes that CiA 305 reserves in responses are 0.
 pub(super) fn reserved(dut: &mut Dut<'_>) -> Checked {
+    let all = begin(dut)?;
     // In older versions of CiA 305, and in many devices, byte 1 of the response 44h is the state.
-    configured(dut)?;
-    let mut answers = vec![(ask(dut, Request::InquireNodeId)?, 2)];
+    let mut answers = vec![(select(dut, all)?, 2)];
+    if answers[0].0.is_none() {
+        return fail("LSS response 44 to switch state selective", "none came");
+    }
+    answers.push((ask(dut, Request::InquireNodeId)?, 2));
+    let timing = Request::ConfigureBitTiming {
+        table: 0,
+        index: 0x55,
+    };
+    answers.push((ask(dut, timing)?, 3));
     answers.push((ask(dut, Request::Inquire { part: Part::Vendor })?, 5));
     let node_id = dut.node.raw();
     answers.push((ask(dut, Request::ConfigureNodeId { node_id })?, 3));

@@ -2,13 +2,13 @@
 
 use od_model::{Address, Entry, values};
 use od_wire::AbortCode::{
-    DeviceState, Incompatible, NoObject, NoSubIndex, NotMappable, PdoTooLong, SubZeroFirst,
-    UnsupportedAccess, ValueRange, ValueTooHigh,
+    DeviceState, Incompatible, Length, NoObject, NoSubIndex, NotMappable, PdoTooLong, SubZeroFirst,
+    TooLong, UnsupportedAccess, ValueRange, ValueTooHigh,
 };
 
 use od_wire::nmt::Command;
 
-use super::transmit::{Tpdo, first, mapping, timed};
+use super::transmit::{Tpdo, contradiction, first, is_on, mapping, timed};
 use crate::conform::dut::Dut;
 use crate::conform::end::{Checked, End, ensure, fail, lacks};
 use crate::conform::sdo::{is_abort, request};
@@ -43,7 +43,7 @@ fn open(dut: &mut Dut<'_>) -> Checked<Open> {
 }
 
 /// The entries of the mapping now.
-fn entries(dut: &mut Dut<'_>, pdo: &Tpdo) -> Checked<Vec<u32>> {
+pub(super) fn entries(dut: &mut Dut<'_>, pdo: &Tpdo) -> Checked<Vec<u32>> {
     let all = mapping(dut, pdo.map())?;
     let raw = |mapped: &super::transmit::Mapped| {
         let Address { index, sub } = mapped.address;
@@ -106,17 +106,26 @@ pub(super) fn procedure(dut: &mut Dut<'_>) -> Checked {
     )
 }
 
-/// Another entry is refused while sub-index 0 is not 0. The present entry changes nothing, so a node may accept it.
 pub(super) fn without_procedure(dut: &mut Dut<'_>) -> Checked {
-    let pdo = variable(dut)?;
+    let pdo = first(dut)?;
+    refuses_without_procedure(dut, pdo, Entry::maps_to_tpdo)
+}
+
+/// Another entry is refused while sub-index 0 is not 0. The present entry changes nothing, so a node may accept it.
+pub(super) fn refuses_without_procedure(
+    dut: &mut Dut<'_>,
+    pdo: Tpdo,
+    fits: impl Fn(&Entry) -> bool,
+) -> Checked {
+    let pdo = changeable(dut, pdo)?;
     let entries = entries(dut, &pdo)?;
     let Some(first) = entries.first() else {
-        return lacks("the TPDO has no mapped object");
+        return lacks("the PDO has no mapped object");
     };
     let mut others = dut.eds.dictionary().entries();
     let other = others.find(|entry| {
         let bits = raw(entry) & 0xFF;
-        entry.maps_to_tpdo() && raw(entry) != *first && (1..=first & 0xFF).contains(&bits)
+        fits(entry) && raw(entry) != *first && (1..=first & 0xFF).contains(&bits)
     });
     let Some(other) = other else {
         return lacks("no other object of this length can be mapped");
@@ -138,9 +147,14 @@ pub(super) fn without_procedure(dut: &mut Dut<'_>) -> Checked {
     done
 }
 
-/// Writing sub-index 0 of a valid PDO is refused, or 0 empties the PDO.
 pub(super) fn while_on(dut: &mut Dut<'_>) -> Checked {
-    let pdo = variable(dut)?;
+    let pdo = first(dut)?;
+    refuses_while_on(dut, pdo)
+}
+
+/// Writing sub-index 0 of a valid PDO is refused, or 0 empties the PDO.
+pub(super) fn refuses_while_on(dut: &mut Dut<'_>, pdo: Tpdo) -> Checked {
+    let pdo = changeable(dut, pdo)?;
     let zero = Address::new(pdo.map(), 0);
     let count = dut.read(zero)?;
     let codes = [UnsupportedAccess, NotMappable, DeviceState, Incompatible];
@@ -159,7 +173,13 @@ pub(super) fn while_on(dut: &mut Dut<'_>) -> Checked {
 }
 
 pub(super) fn too_many(dut: &mut Dut<'_>) -> Checked {
-    with(dut, |dut, map| {
+    let pdo = first(dut)?;
+    refuses_too_many(dut, pdo)
+}
+
+/// The PDO refuses 65 mapped objects.
+pub(super) fn refuses_too_many(dut: &mut Dut<'_>, pdo: Tpdo) -> Checked {
+    on(dut, pdo, |dut, map| {
         let codes = [
             PdoTooLong,
             ValueRange,
@@ -173,8 +193,8 @@ pub(super) fn too_many(dut: &mut Dut<'_>) -> Checked {
     })
 }
 
-/// The longest object that a TPDO may map according to the EDS.
-fn mappable(dut: &Dut<'_>) -> Option<Entry> {
+/// The longest object that a PDO may map according to the EDS and `may`.
+fn longest(dut: &Dut<'_>, may: impl Fn(&Entry) -> bool) -> Option<Entry> {
     let entries = dut.eds.dictionary().entries();
     let bits = |entry: &Entry| {
         entry
@@ -182,7 +202,7 @@ fn mappable(dut: &Dut<'_>) -> Option<Entry> {
             .bits()
             .filter(|bits| (8..=64).contains(bits))
     };
-    let fits = |entry: &Entry| entry.maps_to_tpdo() && bits(entry).is_some();
+    let fits = |entry: &Entry| may(entry) && bits(entry).is_some();
     entries.filter(fits).max_by_key(bits)
 }
 
@@ -194,16 +214,26 @@ pub(super) fn raw(entry: &Entry) -> u32 {
 }
 
 pub(super) fn too_long(dut: &mut Dut<'_>) -> Checked {
-    let Some(entry) = mappable(dut) else {
+    let pdo = first(dut)?;
+    refuses_too_long(dut, pdo, Entry::maps_to_tpdo)
+}
+
+/// The PDO refuses more than 64 bits.
+pub(super) fn refuses_too_long(
+    dut: &mut Dut<'_>,
+    pdo: Tpdo,
+    may: impl Fn(&Entry) -> bool,
+) -> Checked {
+    let pdo = changeable(dut, pdo)?;
+    let Some(entry) = longest(dut, may) else {
         return lacks("no object can be mapped");
     };
     let bits = entry.data_type.bits().unwrap_or(8);
     let count = 64 / bits + 1;
-    let pdo = variable(dut)?;
     if !dut.eds.writes(pdo.map(), count) {
         return lacks("the mapping has no room for more than 64 bits of the first object");
     }
-    with(dut, |dut, map| {
+    on(dut, pdo, |dut, map| {
         for sub in 1..=count {
             let address = Address::new(map, sub);
             // Some servers refuse the entry itself.
@@ -218,17 +248,71 @@ pub(super) fn too_long(dut: &mut Dut<'_>) -> Checked {
 }
 
 pub(super) fn missing_object(dut: &mut Dut<'_>) -> Checked {
+    let pdo = first(dut)?;
+    refuses_missing(dut, pdo)
+}
+
+/// The PDO refuses an object that the EDS does not have.
+pub(super) fn refuses_missing(dut: &mut Dut<'_>, pdo: Tpdo) -> Checked {
     let Some(index) = dut.eds.absent(&[0x9FFF, 0x5FFF, 0x9FFE]) else {
         return lacks("the EDS has every object that could be missing");
     };
-    refused_entry(dut, u32::from(index) << 16 | 8)
+    refused_by(dut, pdo, u32::from(index) << 16 | 8)
 }
 
 pub(super) fn not_mappable(dut: &mut Dut<'_>) -> Checked {
     let entry = dut.eds.entry(0x1000, 0).filter(|entry| !entry.mappable);
     match entry {
-        Some(entry) => refused_entry(dut, raw(&entry)),
+        Some(entry) => {
+            first(dut)?;
+            each_refuses(dut, 0x1800, raw(&entry))
+        }
         None => lacks("the EDS lets a TPDO carry 1000h"),
+    }
+}
+
+pub(super) fn wrong_length(dut: &mut Dut<'_>) -> Checked {
+    let pdo = first(dut)?;
+    refuses_wrong_length(dut, pdo, Entry::maps_to_tpdo)
+}
+
+/// The PDO refuses more bits than an object has.
+pub(super) fn refuses_wrong_length(
+    dut: &mut Dut<'_>,
+    pdo: Tpdo,
+    may: impl Fn(&Entry) -> bool,
+) -> Checked {
+    let mut entries = dut.eds.dictionary().entries();
+    let fits = |entry: &Entry| may(entry) && matches!(entry.data_type.bits(), Some(8 | 16 | 32));
+    match entries.find(fits) {
+        // Twice its length: the low byte of the entry.
+        Some(entry) => refused_by(dut, pdo, raw(&entry) + (raw(&entry) & 0xFF)),
+        None => lacks("no object of 8, 16 or 32 bits can be mapped"),
+    }
+}
+
+/// Every valid PDO from the communication parameter `base` on refuses this mapping entry.
+pub(super) fn each_refuses(dut: &mut Dut<'_>, base: u16, entry: u32) -> Checked {
+    let mut any = false;
+    for number in dut.eds.pdos(base) {
+        let com = base + number;
+        let cob_id = dut.number(com, 1)? as u32;
+        let all = mapping(dut, com + 0x200)?;
+        if !is_on(cob_id) || contradiction(dut.eds, &all, base == 0x1800).is_some() {
+            continue;
+        }
+        match refused_by(dut, Tpdo { com, cob_id }, entry) {
+            Err(End::NotApplicable(_)) => {}
+            done => {
+                dut.fault(done)?;
+                any = true;
+            }
+        }
+    }
+    if any {
+        Ok(())
+    } else {
+        lacks("the mapping cannot be written")
     }
 }
 
@@ -242,7 +326,14 @@ fn refused_entry(dut: &mut Dut<'_>, entry: u32) -> Checked {
 /// entries.
 pub(super) fn refused_by(dut: &mut Dut<'_>, pdo: Tpdo, entry: u32) -> Checked {
     on(dut, pdo, |dut, map| {
-        let codes = [NotMappable, NoObject, NoSubIndex];
+        let codes = [
+            NotMappable,
+            NoObject,
+            NoSubIndex,
+            PdoTooLong,
+            Length,
+            TooLong,
+        ];
         let first = Address::new(map, 1);
         match dut.download(first, &entry.to_le_bytes())? {
             Ok(()) => dut.refuses_value(Address::new(map, 0), &[1], &codes),
@@ -253,7 +344,7 @@ pub(super) fn refused_by(dut: &mut Dut<'_>, pdo: Tpdo, entry: u32) -> Checked {
 
 /// The objects of another mapping are in the TPDO.
 pub(super) fn new_mapping(dut: &mut Dut<'_>) -> Checked {
-    let Some(entry) = mappable(dut) else {
+    let Some(entry) = longest(dut, Entry::maps_to_tpdo) else {
         return lacks("no object can be mapped");
     };
     with(dut, |dut, map| {
@@ -275,7 +366,10 @@ pub(super) fn direction(dut: &mut Dut<'_>) -> Checked {
         entry.maps_to_rpdo() && !entry.maps_to_tpdo() && entry.data_type.bits().is_some()
     };
     match entries.find(is_output) {
-        Some(entry) => refused_entry(dut, raw(&entry)),
+        Some(entry) => {
+            first(dut)?;
+            each_refuses(dut, 0x1800, raw(&entry))
+        }
         None => lacks("every object that an RPDO may carry a TPDO may carry, too"),
     }
 }

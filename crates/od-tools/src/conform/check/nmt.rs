@@ -60,6 +60,11 @@ fn first_frame(dut: &mut Dut<'_>, command: Command) -> Checked {
     dut.drain()?;
     let node = dut.node.raw();
     dut.send(Frame::standard(0, &Repr { command, node }.emit()))?;
+    boots_first(dut)
+}
+
+/// The first frame of the node is its boot-up message.
+fn boots_first(dut: &mut Dut<'_>) -> Checked {
     let ids = [0x80, 0x180, 0x280, 0x380, 0x480, 0x580, 0x700].map(|base| dut.id(base));
     let ours = |frame: &Frame| frame.id().as_standard().is_some_and(|id| ids.contains(&id));
     let boot = dut.id(0x700);
@@ -142,9 +147,9 @@ pub(super) fn power_on(dut: &mut Dut<'_>) -> Checked {
     dut.drain()?;
     dut.power(false)?;
     dut.wait(500_000)?;
-    let from = dut.now();
+    dut.drain()?;
     dut.power(true)?;
-    dut.booted(from)
+    boots_first(dut)
 }
 
 pub(super) fn pre_operational_after_reset(dut: &mut Dut<'_>) -> Checked {
@@ -193,11 +198,21 @@ pub(super) fn transitions(dut: &mut Dut<'_>) -> Checked {
 fn change(dut: &mut Dut<'_>, steps: &[(Command, u8)]) -> Checked {
     dut.follow_state()?;
     dut.is_in(PRE_OPERATIONAL)?;
+    let from = dut.frames.len();
     for (command, state) in steps {
         dut.nmt(*command)?;
         dut.is_in(*state)?;
     }
-    Ok(())
+    let boot = dut.id(0x700);
+    let sent = dut.frames.get(from..).unwrap_or_default().iter();
+    let mut own = sent.filter(|traced| !traced.ours && is_data(&traced.frame, boot));
+    match own.find(|traced| traced.frame.data() == [0]) {
+        Some(traced) => fail(
+            "a boot-up message after a reset only",
+            format!("{} came after another command", traced.frame),
+        ),
+        None => Ok(()),
+    }
 }
 
 pub(super) fn all_nodes(dut: &mut Dut<'_>) -> Checked {

@@ -2,12 +2,13 @@
 
 use od_model::{Access, Address, Entry, Group, Kind, values};
 use od_wire::AbortCode::{NoObject, NoSubIndex, ReadOnly, UnsupportedAccess, WriteOnly};
+use od_wire::CobId;
 use od_wire::nmt::Command;
 
 use super::transfer::{out_of_range, outside};
 use crate::conform::dut::Dut;
 use crate::conform::end::{Checked, End, ensure, fail, lacks};
-use crate::conform::sdo::{abort_text, request};
+use crate::conform::sdo::{abort_text, number, request};
 
 /// Returns whether an abort means that an object has no data now, not that it does not exist.
 fn is_empty(code: u32) -> bool {
@@ -251,6 +252,36 @@ pub(super) fn sub_index_255(dut: &mut Dut<'_>) -> Checked {
     Ok(())
 }
 
+/// Sub-indices between those of the EDS do not exist.
+pub(super) fn gaps(dut: &mut Dut<'_>) -> Checked {
+    let dictionary = dut.eds.dictionary();
+    let mut any = false;
+    for object in dictionary.objects() {
+        // An object of 254 sub-objects has its gaps by a count that the EDS need not repeat.
+        if !object.code.has_members() || !(0x1000..0xA000).contains(&object.index) {
+            continue;
+        }
+        let subs: Vec<u8> = dictionary
+            .members(&object)
+            .map(|entry| entry.address.sub)
+            .collect();
+        for pair in subs.windows(2) {
+            let between = pair[0].saturating_add(1)..pair[1];
+            for sub in between.filter(|_| pair[1] < 0xFF).take(4) {
+                any = true;
+                let address = Address::new(object.index, sub);
+                let done = dut.refuses(request(0x40, address, [0; 4]), &[NoSubIndex]);
+                dut.fault(done)?;
+            }
+        }
+    }
+    if any {
+        Ok(())
+    } else {
+        lacks("no object of the EDS leaves a sub-index out")
+    }
+}
+
 /// Objects of CiA 301 that the EDS lacks do not exist.
 pub(super) fn unlisted(dut: &mut Dut<'_>) -> Checked {
     for index in 0x1000..=0x102B {
@@ -323,20 +354,33 @@ fn defaults(dut: &mut Dut<'_>, which: impl Fn(&Entry) -> bool) -> Checked {
 
 /// Communication objects that a case writes, with another value, to see whether other objects
 /// change.
-const WRITTEN: [(u16, u8); 7] = [
+const WRITTEN: [(u16, u8); 11] = [
     (0x1017, 0),
     (0x100C, 0),
+    (0x100D, 0),
     (0x1015, 0),
     (0x1016, 1),
+    (0x1029, 1),
     (0x1800, 5),
     (0x1800, 2),
+    (0x1800, 1),
     (0x1400, 2),
+    (0x1400, 1),
 ];
 
 /// A write changes only its own object.
 pub(super) fn neighbours(dut: &mut Dut<'_>) -> Checked {
     let mut any = false;
-    for (index, sub) in WRITTEN {
+    // Two values of the application that move nothing, beside those of communication.
+    let own = dut.eds.writable().into_iter();
+    let own = own.filter(|entry| {
+        (0x2000..0xA000).contains(&entry.address.index) && entry.group != Group::None
+    });
+    let own: Vec<_> = own
+        .map(|entry| (entry.address.index, entry.address.sub))
+        .take(2)
+        .collect();
+    for (index, sub) in WRITTEN.into_iter().chain(own) {
         let address = Address::new(index, sub);
         if !dut.eds.writes(index, sub) {
             continue;
@@ -345,13 +389,13 @@ pub(super) fn neighbours(dut: &mut Dut<'_>) -> Checked {
             continue;
         };
         // Two readings: a value that differs between them changes without a write.
-        let (first, second) = (snapshot(dut)?, snapshot(dut)?);
+        let (first, second) = (snapshot(dut, index)?, snapshot(dut, index)?);
         dut.undo.push((address, before));
         if dut.download(address, &other)?.is_err() {
             continue;
         }
         any = true;
-        let after = snapshot(dut)?;
+        let after = snapshot(dut, index)?;
         for (was, (again, is)) in first.iter().zip(second.iter().zip(&after)) {
             let moves = was.1 != again.1 || was.0 == address;
             if !moves && again.1 != is.1 {
@@ -386,9 +430,21 @@ fn different(dut: &mut Dut<'_>, address: Address) -> Checked<Option<(Vec<u8>, Ve
         return Ok(None);
     };
     let mut other = before.clone();
+    // A restricted COB-ID could not be written back; another case finds it.
+    if matches!(address.index, 0x1400..=0x15FF | 0x1800..=0x19FF) && address.sub == 1 {
+        let cob_id = CobId::new(number(&before) as u32);
+        if cob_id.is_restricted() || !cob_id.is_consistent() {
+            return Ok(None);
+        }
+    }
     match (address.index, address.sub, &mut other[..]) {
         (0x1016, _, [time, ..]) => *time ^= 0x40,
         (0x1400..=0x15FF | 0x1800..=0x19FF, 2, [kind]) => *kind = if *kind == 1 { 255 } else { 1 },
+        // Bit 31: the PDO is not valid.
+        (0x1400..=0x15FF | 0x1800..=0x19FF, 1, [.., flags]) if *flags & 0x80 == 0 => *flags |= 0x80,
+        (0x1400..=0x15FF | 0x1800..=0x19FF, 1, _) => return Ok(None),
+        (0x1029, _, [class]) => *class = if *class == 1 { 0 } else { 1 },
+        (0x2000.., _, [first, ..]) => *first ^= 1,
         (_, _, [first, ..]) => *first ^= 0x40,
         _ => return Ok(None),
     }
@@ -396,13 +452,20 @@ fn different(dut: &mut Dut<'_>, address: Address) -> Checked<Option<(Vec<u8>, Ve
     Ok(is_allowed.then_some((other, before)))
 }
 
-/// The readable communication values, without counters and reports.
-fn snapshot(dut: &mut Dut<'_>) -> Checked<Vec<(Address, Vec<u8>)>> {
+/// The readable values around an object: those of communication without counters and reports, or those of the application
+/// that are saved. One may be another name of the other: 6200h of an encoder is the event timer of a TPDO (CiA 406).
+fn snapshot(dut: &mut Dut<'_>, index: u16) -> Checked<Vec<(Address, Vec<u8>)>> {
+    let (from, to) = if index < 0x2000 {
+        (0x1005, 0x1FFF)
+    } else {
+        (0x2000, 0x9FFF)
+    };
     let mut all = Vec::new();
-    for entry in entries(dut, 0x1005, 0x1FFF) {
+    for entry in entries(dut, from, to) {
         let is_small = entry.data_type.size().is_some_and(|size| size <= 4);
-        if entry.access.readable() && is_small && !(0x1F50..=0x1F5F).contains(&entry.address.index)
-        {
+        let is_kept = index < 0x2000 || entry.access.writable() && entry.group != Group::None;
+        let is_program = (0x1F50..=0x1F5F).contains(&entry.address.index);
+        if entry.access.readable() && is_small && is_kept && !is_program {
             let value = dut.upload(entry.address)?;
             all.push((entry.address, value.unwrap_or_default()));
         }

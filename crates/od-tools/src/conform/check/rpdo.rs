@@ -5,7 +5,8 @@ use od_wire::nmt::Command;
 use od_wire::{CobId, Frame};
 
 use super::heartbeat::{emcy, sends_emcy};
-use super::mapping::{DUMMY, on, raw, refused_by};
+use super::mapping::{self, DUMMY, each_refuses, on, raw};
+use super::tpdo::refuses_types;
 use super::transmit::{Mapped, Tpdo, contradiction, is_on, learn_sync, mapping, sync};
 use crate::conform::dut::Dut;
 use crate::conform::end::{Checked, End, ensure, fail, lacks};
@@ -87,9 +88,44 @@ impl Rpdo {
 pub(super) fn write(dut: &mut Dut<'_>) -> Checked {
     let pdo = first(dut, 255)?;
     dut.nmt(Command::Start)?;
-    let (bytes, value) = pdo.other(dut)?;
+    let (mut bytes, value) = pdo.other(dut)?;
+    // The last of several objects has another value, too, if it moves nothing and its limits allow it.
+    let last = pdo.all.last().filter(|_| pdo.all.len() > 1);
+    let mut wanted = None;
+    if let Some(Mapped { address, bits }) = last
+        && let Some(entry) = dut.eds.entry(address.index, address.sub)
+        && entry.access.readable()
+        && dut.eds.writable().contains(&entry)
+    {
+        let mut other = dut.keep(*address)?;
+        if other.len() == bits / 8
+            && bytes.len() >= other.len()
+            && let Some(first) = other.first_mut()
+        {
+            *first ^= 1;
+            if dut.eds.excludes(*address, &other, dut.node).is_none() {
+                let from = bytes.len() - other.len();
+                bytes[from..].copy_from_slice(&other);
+                wanted = Some((*address, other));
+            }
+        }
+    }
     pdo.send(dut, &bytes)?;
-    pdo.holds(dut, &value, ", as the RPDO has it")
+    pdo.holds(dut, &value, ", as the RPDO has it")?;
+    let Some((address, other)) = wanted else {
+        return Ok(());
+    };
+    let is = dut.read(address)?;
+    ensure(
+        is == other,
+        format!("{} in {address}, as the RPDO has it", values::hex(&other)),
+        format!("{} was read", values::hex(&is)),
+    )
+}
+
+/// RPDOs refuse the reserved transmission types.
+pub(super) fn reserved_types(dut: &mut Dut<'_>) -> Checked {
+    refuses_types(dut, 0x1400, [241, 253])
 }
 
 pub(super) fn not_in_pre_operational(dut: &mut Dut<'_>) -> Checked {
@@ -192,8 +228,8 @@ pub(super) fn direction(dut: &mut Dut<'_>) -> Checked {
     let Some(entry) = entries.find(is_input) else {
         return lacks("every object that a TPDO may carry an RPDO may carry, too");
     };
-    let pdo = any_on(dut)?;
-    refused_by(dut, pdo, raw(&entry))
+    any_on(dut)?;
+    each_refuses(dut, 0x1400, raw(&entry))
 }
 
 /// An RPDO refuses an object that cannot be mapped.
@@ -201,8 +237,38 @@ pub(super) fn not_mappable(dut: &mut Dut<'_>) -> Checked {
     let Some(entry) = dut.eds.entry(0x1000, 0).filter(|entry| !entry.mappable) else {
         return lacks("the EDS lets an RPDO carry 1000h");
     };
+    any_on(dut)?;
+    each_refuses(dut, 0x1400, raw(&entry))
+}
+
+pub(super) fn mapping_missing_object(dut: &mut Dut<'_>) -> Checked {
     let pdo = any_on(dut)?;
-    refused_by(dut, pdo, raw(&entry))
+    mapping::refuses_missing(dut, pdo)
+}
+
+pub(super) fn mapping_without_procedure(dut: &mut Dut<'_>) -> Checked {
+    let pdo = any_on(dut)?;
+    mapping::refuses_without_procedure(dut, pdo, Entry::maps_to_rpdo)
+}
+
+pub(super) fn mapping_while_on(dut: &mut Dut<'_>) -> Checked {
+    let pdo = any_on(dut)?;
+    mapping::refuses_while_on(dut, pdo)
+}
+
+pub(super) fn mapping_too_many(dut: &mut Dut<'_>) -> Checked {
+    let pdo = any_on(dut)?;
+    mapping::refuses_too_many(dut, pdo)
+}
+
+pub(super) fn mapping_too_long(dut: &mut Dut<'_>) -> Checked {
+    let pdo = any_on(dut)?;
+    mapping::refuses_too_long(dut, pdo, Entry::maps_to_rpdo)
+}
+
+pub(super) fn mapping_wrong_length(dut: &mut Dut<'_>) -> Checked {
+    let pdo = any_on(dut)?;
+    mapping::refuses_wrong_length(dut, pdo, Entry::maps_to_rpdo)
 }
 
 /// Objects of 8, 16 or 32 bits that an RPDO may map and that can be read, in order.
@@ -257,6 +323,53 @@ fn takes(dut: &mut Dut<'_>, pdo: &Tpdo, map: u16, entries: &[u32]) -> Checked {
     )
 }
 
+/// A synchronous RPDO of this one object waits for SYNC, and one that is not valid writes nothing.
+fn waits(dut: &mut Dut<'_>, pdo: &Tpdo, entry: u32) -> Checked {
+    let address = Address::new((entry >> 16) as u16, (entry >> 8) as u8);
+    let before = dut.read(address)?;
+    let mut other = before.clone();
+    if let Some(first) = other.first_mut() {
+        *first ^= 1;
+    }
+    let Some(frame) = Frame::new(pdo.id(), &other) else {
+        return Ok(());
+    };
+    let number = pdo.com - 0x13FF;
+    let unchanged = |dut: &mut Dut<'_>, why: &str| {
+        dut.nmt(Command::Start)?;
+        dut.send(frame)?;
+        dut.wait(20_000)?;
+        let is = dut.read(address)?;
+        ensure(
+            is == before,
+            format!(
+                "{} in {address}, as RPDO{number} {why}",
+                values::hex(&before)
+            ),
+            format!("{} was read", values::hex(&is)),
+        )
+    };
+    if dut.download(pdo.address(2), &[1])?.is_ok() {
+        unchanged(dut, "waits for SYNC")?;
+        sync(dut)?;
+        dut.wait(20_000)?;
+        let is = dut.read(address)?;
+        dut.nmt(Command::EnterPreOperational)?;
+        ensure(
+            is == other,
+            format!("{} in {address} after SYNC", values::hex(&other)),
+            format!("{} was read", values::hex(&is)),
+        )?;
+        // The same frame once more would change nothing.
+        dut.write(address, &before)?;
+        let _ = dut.download(pdo.address(2), &[255])?;
+    }
+    dut.write(pdo.address(1), &(pdo.cob_id | 1 << 31).to_le_bytes())?;
+    let done = unchanged(dut, "is off");
+    dut.nmt(Command::EnterPreOperational)?;
+    done
+}
+
 /// An RPDO writes the objects of a new mapping.
 pub(super) fn mapping_used(dut: &mut Dut<'_>) -> Checked {
     let pdo = any_on(dut)?;
@@ -286,6 +399,7 @@ pub(super) fn dummy(dut: &mut Dut<'_>) -> Checked {
 
 /// Every valid RPDO writes the objects of its mapping; one without a mapping gets one.
 pub(super) fn each(dut: &mut Dut<'_>) -> Checked {
+    learn_sync(dut)?;
     let all = outputs(dut);
     let mut any = false;
     for number in dut.eds.pdos(0x1400) {
@@ -301,7 +415,11 @@ pub(super) fn each(dut: &mut Dut<'_>) -> Checked {
             return lacks("no object can be mapped");
         };
         let pdo = Tpdo { com, cob_id };
-        match on(dut, pdo, |dut, map| takes(dut, &pdo, map, &[entry])) {
+        let done = on(dut, pdo, |dut, map| {
+            takes(dut, &pdo, map, &[entry])?;
+            waits(dut, &pdo, entry)
+        });
+        match done {
             Err(End::NotApplicable(_)) => {}
             done => {
                 dut.fault(done)?;

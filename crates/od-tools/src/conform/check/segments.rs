@@ -5,6 +5,7 @@ use od_wire::AbortCode::{
     InvalidCommand, Length, OutOfMemory, ToggleBit, TooLong, TooShort, UnsupportedAccess,
 };
 use od_wire::Frame;
+use od_wire::nmt::Command;
 
 use crate::conform::dut::{Dut, QUIET};
 use crate::conform::end::{Checked, ensure, lacks, skip};
@@ -240,6 +241,21 @@ pub(super) fn aborted(dut: &mut Dut<'_>) -> Checked {
     ensure(
         abort_of(&answer).is_some(),
         "an abort: the transfer is over",
+        format!("{} came", values::hex(&answer)),
+    )?;
+    let again = dut.read(address)?;
+    ensure(again == bytes, values::hex(&bytes), values::hex(&again))
+}
+
+/// Reset communication ends an open transfer.
+pub(super) fn over_reset(dut: &mut Dut<'_>) -> Checked {
+    let (address, bytes) = long_value(dut)?;
+    begin(dut, address)?;
+    dut.reset(Command::ResetCommunication)?;
+    let answer = dut.answer([0x60, 0, 0, 0, 0, 0, 0, 0])?;
+    ensure(
+        abort_of(&answer).is_some(),
+        "an abort: the reset ended the transfer",
         format!("{} came", values::hex(&answer)),
     )?;
     let again = dut.read(address)?;

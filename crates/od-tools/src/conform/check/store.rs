@@ -5,6 +5,7 @@ use od_wire::AbortCode::{LocalControl, NotStored};
 use od_wire::nmt::Command;
 
 use super::transfer::another_saved;
+use super::transmit::{Tpdo, first};
 use crate::conform::dut::{Dut, is_data};
 use crate::conform::end::{Checked, End, ensure, fail, lacks};
 
@@ -116,15 +117,22 @@ fn saved(dut: &mut Dut<'_>, sub: u8) -> Checked {
         // A node that does not reload its values at a reset must have saved the value all the same.
         dut.write(address, &before)?;
         dut.reset(Command::ResetNode)?;
-        let after = dut.read(address)?;
-        ensure(
-            after == bytes,
-            format!(
-                "{} in {address} after the reset, as saved",
-                values::hex(&bytes)
-            ),
-            format!("{} was read", values::hex(&after)),
-        )
+        for command in [None, Some(Command::ResetCommunication)] {
+            if let Some(command) = command {
+                dut.write(address, &before)?;
+                dut.reset(command)?;
+            }
+            let after = dut.read(address)?;
+            ensure(
+                after == bytes,
+                format!(
+                    "{} in {address} after the reset, as saved",
+                    values::hex(&bytes)
+                ),
+                format!("{} was read", values::hex(&after)),
+            )?;
+        }
+        Ok(())
     });
     if let Err(End::Lost(_)) = done {
         return done;
@@ -181,12 +189,17 @@ fn loaded(dut: &mut Dut<'_>, sub: u8) -> Checked {
 
 /// Communication parameters that can be changed, saved and reset without harm.
 fn several(dut: &Dut<'_>) -> Vec<Entry> {
-    let all = dut.eds.writable().into_iter();
+    // A case may change the inhibit time of EMCY messages, which acts at once and is restored.
+    let inhibit = dut.eds.entry(0x1015, 0);
+    let inhibit = inhibit.filter(|entry| entry.access.writable());
+    let all = dut.eds.writable().into_iter().chain(inhibit);
     let is_quiet = |entry: &Entry| {
         let Address { index, sub } = entry.address;
         let is_kind = match index {
-            0x100C | 0x100D | 0x1016 | 0x1017 => true,
-            0x1800..=0x19FF => sub == 5,
+            0x100C | 0x100D | 0x1015 | 0x1016 | 0x1017 => true,
+            0x1029 => sub == 1,
+            0x1400..=0x15FF => sub == 2,
+            0x1800..=0x19FF => matches!(sub, 2 | 5),
             _ => false,
         };
         is_kind && (sub > 0 || index != 0x1016) && entry.group.covered_by(1)
@@ -197,8 +210,11 @@ fn several(dut: &Dut<'_>) -> Vec<Entry> {
     all
 }
 
-/// Changes values, saves, resets and compares; then saves the earlier values again.
-pub(super) fn save_all(dut: &mut Dut<'_>) -> Checked {
+/// A changed communication parameter: address, value before and now.
+type Change = (Address, Vec<u8>, Vec<u8>);
+
+/// Changes several communication parameters.
+fn change_several(dut: &mut Dut<'_>) -> Checked<Vec<Change>> {
     let mut changed = Vec::new();
     for entry in several(dut) {
         let address = entry.address;
@@ -210,6 +226,8 @@ pub(super) fn save_all(dut: &mut Dut<'_>) -> Checked {
             (0x1016, [low, high, node, _]) => {
                 (*low, *high, *node) = (0x10, 0x27, 100u8.saturating_add(number).min(127));
             }
+            (0x1400..=0x19FF, [kind]) if number == 2 => *kind = if *kind == 1 { 255 } else { 1 },
+            (0x1029, [class]) => *class = if *class == 1 { 0 } else { 1 },
             (_, [first, ..]) => *first ^= 0x30,
             _ => continue,
         }
@@ -225,6 +243,12 @@ pub(super) fn save_all(dut: &mut Dut<'_>) -> Checked {
         }
         return lacks("fewer than two parameters of communication can be changed");
     }
+    Ok(changed)
+}
+
+/// Changes values, saves, resets and compares; then saves the earlier values again.
+pub(super) fn save_all(dut: &mut Dut<'_>) -> Checked {
+    let changed = change_several(dut)?;
     let done = command(dut, 0x1010, 1, b"save").and_then(|()| {
         // A node that does not reload its values at a reset must have saved the values all the
         // same.
@@ -254,6 +278,117 @@ pub(super) fn save_all(dut: &mut Dut<'_>) -> Checked {
     dut.notes
         .push(format!("saved {} values again", changed.len()));
     done
+}
+
+/// A restore brings back every default, of several changed values.
+pub(super) fn load_all(dut: &mut Dut<'_>) -> Checked {
+    let before = backup(dut)?;
+    let changed = change_several(dut)?;
+    let done = command(dut, 0x1010, 1, b"save").and_then(|()| {
+        command(dut, 0x1011, 1, b"load")?;
+        dut.reset(Command::ResetNode)?;
+        for (address, ..) in &changed {
+            let entry = dut.eds.entry(address.index, address.sub);
+            let Some(default) = entry.and_then(|entry| dut.eds.default(&entry, dut.node)) else {
+                continue;
+            };
+            let after = dut.read(*address)?;
+            let name = values::label(dut.eds.dictionary(), *address);
+            let done = ensure(
+                after == default,
+                format!(
+                    "{} in {name} after the reset, the default",
+                    values::hex(&default)
+                ),
+                format!("{} was read", values::hex(&after)),
+            );
+            dut.fault(done)?;
+        }
+        Ok(())
+    });
+    if let Err(End::Lost(_)) = done {
+        return done;
+    }
+    done.and(bring_back(dut, &before))
+}
+
+/// CAN-ID and mapping of a TPDO are saved.
+pub(super) fn save_mapping(dut: &mut Dut<'_>) -> Checked {
+    let pdo = first(dut)?;
+    let (com, map) = (pdo.address(1), pdo.map());
+    let covered = |address: Address| {
+        let entry = dut.eds.entry(address.index, address.sub);
+        entry.is_some_and(|entry| entry.access.writable() && entry.group.covered_by(1))
+    };
+    if !covered(com) || !covered(Address::new(map, 0)) || !covered(Address::new(map, 1)) {
+        return lacks("1010h:01 does not save a mapping that can be written, by the EDS");
+    }
+    let old = super::mapping::entries(dut, &pdo)?;
+    let mut others = dut.eds.dictionary().entries();
+    let other = others.find(|entry| {
+        let raw = super::mapping::raw(entry);
+        entry.maps_to_tpdo() && matches!(raw & 0xFF, 8 | 16 | 32) && old.first() != Some(&raw)
+    });
+    let Some(other) = other.map(|entry| super::mapping::raw(&entry)) else {
+        return lacks("no other object can be mapped");
+    };
+    let cob_id = (pdo.cob_id & !0x3FFF_FFFF) | 0x4F4;
+    if !configured(dut, &pdo, &[other], cob_id)? {
+        configured(dut, &pdo, &old, pdo.cob_id)?;
+        return lacks("the node does not take another mapping and CAN-ID");
+    }
+    let done = command(dut, 0x1010, 1, b"save").and_then(|()| {
+        configured(dut, &pdo, &old, pdo.cob_id)?;
+        dut.reset(Command::ResetNode)?;
+        let wanted = [
+            (com, cob_id.to_le_bytes().to_vec()),
+            (Address::new(map, 0), vec![1]),
+            (Address::new(map, 1), other.to_le_bytes().to_vec()),
+        ];
+        for (address, wanted) in wanted {
+            let after = dut.read(address)?;
+            let name = values::label(dut.eds.dictionary(), address);
+            let kept = ensure(
+                after == wanted,
+                format!(
+                    "{} in {name} after the reset, as saved",
+                    values::hex(&wanted)
+                ),
+                format!("{} was read", values::hex(&after)),
+            );
+            dut.fault(kept)?;
+        }
+        Ok(())
+    });
+    if let Err(End::Lost(_)) = done {
+        return done;
+    }
+    configured(dut, &pdo, &old, pdo.cob_id)?;
+    command(dut, 0x1010, 1, b"save")?;
+    done
+}
+
+/// Writes mapping and COB-ID of a TPDO. Returns whether the node accepts all of it.
+fn configured(dut: &mut Dut<'_>, pdo: &Tpdo, entries: &[u32], cob_id: u32) -> Checked<bool> {
+    let map = pdo.map();
+    let now = dut.number(pdo.com, 1)? as u32;
+    let mut writes = vec![
+        (pdo.address(1), (now | 1 << 31).to_le_bytes().to_vec()),
+        (Address::new(map, 0), vec![0]),
+    ];
+    for (sub, entry) in (1..).zip(entries) {
+        writes.push((Address::new(map, sub), entry.to_le_bytes().to_vec()));
+    }
+    writes.push((Address::new(map, 0), vec![entries.len() as u8]));
+    for cob_id in [cob_id | 1 << 31, cob_id] {
+        writes.push((pdo.address(1), cob_id.to_le_bytes().to_vec()));
+    }
+    for (address, bytes) in writes {
+        if dut.download(address, &bytes)?.is_err() {
+            return Ok(false);
+        }
+    }
+    Ok(true)
 }
 
 /// The second of two saves is valid.

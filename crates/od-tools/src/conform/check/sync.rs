@@ -6,7 +6,7 @@ use od_wire::{CobId, Frame};
 
 use super::transmit::{learn_sync, sync, typed};
 use crate::conform::dut::{Dut, QUIET};
-use crate::conform::end::{Checked, ensure, fail, lacks};
+use crate::conform::end::{Checked, End, ensure, fail, lacks};
 use crate::link::Heard;
 
 const COB_ID: Address = Address::new(0x1005, 0);
@@ -42,6 +42,125 @@ pub(super) fn other_cob_id(dut: &mut Dut<'_>) -> Checked {
     let came = dut.next(QUIET, |frame| frame.id() == id)?;
     dut.sync_id = old;
     ensure(came.is_some(), "a TPDO with the new SYNC 4F2h", "none came")
+}
+
+/// A new period takes effect while the node produces SYNC.
+pub(super) fn other_period(dut: &mut Dut<'_>) -> Checked {
+    let raw = produce(dut)?;
+    let id = CobId::new(raw).can_id();
+    let is_sync = |frame: &Frame| frame.id() == id;
+    if dut.next(200_000, is_sync)?.is_none() {
+        return fail("a SYNC message every 50 ms", "none came for 200 ms");
+    }
+    dut.write(Address::new(0x1006, 0), &20_000u32.to_le_bytes())?;
+    // The period from before may end first.
+    dut.wait(60_000)?;
+    let mut last = None;
+    let mut gaps = Vec::new();
+    for _ in 0..6 {
+        let Some(heard) = dut.next(200_000, is_sync)? else {
+            return fail("a SYNC message every 20 ms", "none came for 200 ms");
+        };
+        if let Some(before) = last.replace(heard.at) {
+            gaps.push(heard.at.micros_since(before));
+        }
+    }
+    dut.nmt(Command::EnterPreOperational)?;
+    dut.write(COB_ID, &raw.to_le_bytes())?;
+    gaps.sort_unstable();
+    let middle = gaps[gaps.len() / 2];
+    ensure(
+        middle.abs_diff(20_000) <= 2_000 + dut.rig.slack(),
+        "a SYNC message every 20 ms after a change of 1006h from 50 ms, 10 % off at most",
+        format!("they came every {middle} us"),
+    )
+}
+
+/// While the node produces SYNC, the CAN-ID in 1005h cannot be changed.
+pub(super) fn cob_id_fixed(dut: &mut Dut<'_>) -> Checked {
+    let raw = produce(dut)?;
+    let on = raw | 1 << 30;
+    let other = (on & !0x7FF) | 0x4F2;
+    let done = dut.cannot_change(
+        COB_ID,
+        &other.to_le_bytes(),
+        "as the node produces SYNC with another CAN-ID",
+    );
+    dut.nmt(Command::EnterPreOperational)?;
+    if matches!(done, Err(End::Fail { .. })) {
+        let off = other & !(1 << 30);
+        dut.write(COB_ID, &off.to_le_bytes())?;
+    }
+    dut.write(COB_ID, &raw.to_le_bytes())?;
+    done
+}
+
+/// After reset communication the node produces SYNC only if 1005h says so.
+pub(super) fn producer_reset(dut: &mut Dut<'_>) -> Checked {
+    let raw = produce(dut)?;
+    let id = CobId::new(raw).can_id();
+    if dut.next(200_000, |frame| frame.id() == id)?.is_none() {
+        return fail("a SYNC message every 50 ms", "none came for 200 ms");
+    }
+    dut.reset(Command::ResetCommunication)?;
+    if dut.number(0x1005, 0)? as u32 & 1 << 30 != 0 {
+        return lacks("the node produces SYNC after a reset");
+    }
+    dut.nmt(Command::Start)?;
+    dut.drain()?;
+    match dut.next(300_000, |frame| frame.id() == id)? {
+        Some(heard) => fail(
+            "no SYNC after the reset, as bit 30 of 1005h is 0",
+            format!("{} came", heard.frame),
+        ),
+        None => Ok(()),
+    }
+}
+
+/// The counter of SYNC begins with 1 after Stopped.
+pub(super) fn counter_restart(dut: &mut Dut<'_>) -> Checked {
+    // 1019h can be written only while the period is 0.
+    dut.set(Address::new(0x1006, 0), &[0; 4])?;
+    dut.set(Address::new(0x1019, 0), &[240])?;
+    let raw = produce(dut)?;
+    let id = CobId::new(raw).can_id();
+    let mut last = 0;
+    while last < 2 {
+        match dut.next(200_000, |frame| frame.id() == id)? {
+            Some(heard) if heard.frame.dlc() == 1 => last = heard.frame.bytes()[0],
+            Some(heard) => return fail("SYNC with a counter", format!("{} came", heard.frame)),
+            None => return fail("a SYNC message every 50 ms", "none came for 200 ms"),
+        }
+    }
+    dut.nmt(Command::Stop)?;
+    dut.wait(QUIET)?;
+    dut.drain()?;
+    dut.nmt(Command::Start)?;
+    let first = dut
+        .frames
+        .iter()
+        .rev()
+        .take_while(|traced| !traced.ours)
+        .filter(|traced| traced.frame.id() == id)
+        .last()
+        .map(|traced| traced.frame);
+    let first = match first {
+        Some(frame) => Some(frame),
+        None => dut
+            .next(200_000, |frame| frame.id() == id)?
+            .map(|heard| heard.frame),
+    };
+    dut.nmt(Command::EnterPreOperational)?;
+    dut.write(COB_ID, &raw.to_le_bytes())?;
+    dut.write(Address::new(0x1006, 0), &[0; 4])?;
+    match first {
+        Some(frame) => ensure(
+            frame.data() == [1],
+            "the SYNC counter 1 after Stopped",
+            format!("{frame} came"),
+        ),
+        None => fail("a SYNC message every 50 ms after Stopped", "none came"),
+    }
 }
 
 /// Makes the node produce SYNC every 50 ms; returns 1005h without bit 30.

@@ -262,6 +262,23 @@ pub(super) fn each(dut: &mut Dut<'_>) -> Checked {
     if any { Ok(()) } else { lacks("no TPDO is on") }
 }
 
+/// Bit 31 of its COB-ID makes the TPDO not valid.
+fn is_silent_while_off(dut: &mut Dut<'_>, pdo: &Tpdo) -> Checked {
+    if !dut.eds.writes(pdo.com, 1) {
+        return Ok(());
+    }
+    dut.write(pdo.address(1), &(pdo.cob_id | 1 << 31).to_le_bytes())?;
+    dut.nmt(Command::Start)?;
+    let expected = format!(
+        "no TPDO{} while bit 31 of its COB-ID is set",
+        pdo.com - 0x17FF
+    );
+    let done = sync(dut).and_then(|()| none(dut, pdo, QUIET, &expected));
+    dut.nmt(Command::EnterPreOperational)?;
+    dut.write(pdo.address(1), &pdo.cob_id.to_le_bytes())?;
+    done
+}
+
 /// Waits for the TPDO, by SYNC or event timer, and checks its length.
 fn is_sent(dut: &mut Dut<'_>, pdo: &Tpdo, len: usize) -> Checked {
     dut.keep(pdo.address(2))?;
@@ -280,24 +297,20 @@ fn is_sent(dut: &mut Dut<'_>, pdo: &Tpdo, len: usize) -> Checked {
     let heard = next(dut, pdo, 500_000)?;
     dut.nmt(Command::EnterPreOperational)?;
     let name = format!("TPDO{}, {:04X}h,", pdo.com - 0x17FF, pdo.com);
-    match heard {
-        Some(heard) => ensure(
-            usize::from(heard.frame.dlc()) == len,
-            format!("{len} bytes in {name} as mapped"),
-            format!("{} came", heard.frame),
-        ),
-        None => fail(
-            format!(
-                "{name} with {}",
-                if is_synchronous {
-                    "a SYNC"
-                } else {
-                    "its event timer"
-                }
-            ),
-            "none came",
-        ),
-    }
+    let Some(heard) = heard else {
+        let by = if is_synchronous {
+            "a SYNC"
+        } else {
+            "its event timer"
+        };
+        return fail(format!("{name} with {by}"), "none came");
+    };
+    ensure(
+        usize::from(heard.frame.dlc()) == len,
+        format!("{len} bytes in {name} as mapped"),
+        format!("{} came", heard.frame),
+    )?;
+    is_silent_while_off(dut, pdo)
 }
 
 pub(super) fn not_in_pre_operational(dut: &mut Dut<'_>) -> Checked {
@@ -314,7 +327,12 @@ pub(super) fn not_in_stopped(dut: &mut Dut<'_>) -> Checked {
     dut.wait(QUIET)?;
     dut.nmt(Command::Stop)?;
     dut.drain()?;
-    quiet(dut, &pdo, "Stopped")
+    quiet(dut, &pdo, "Stopped")?;
+    dut.nmt(Command::Start)?;
+    match next(dut, &pdo, 500_000)? {
+        Some(_) => Ok(()),
+        None => fail("the TPDO again after another start", "none came"),
+    }
 }
 
 pub(super) fn sync_not_in_stopped(dut: &mut Dut<'_>) -> Checked {
@@ -406,6 +424,7 @@ fn read(dut: &mut Dut<'_>, all: &[Mapped]) -> Checked<Vec<Option<u64>>> {
 
 /// Bit 31 of the COB-ID makes the TPDO not valid.
 pub(super) fn off(dut: &mut Dut<'_>) -> Checked {
+    learn_sync(dut)?;
     let pdo = timed(dut, 50)?;
     if !dut.eds.writes(pdo.com, 1) {
         return lacks("the COB-ID cannot be written");
@@ -418,6 +437,7 @@ pub(super) fn off(dut: &mut Dut<'_>) -> Checked {
         300_000,
         "no TPDO while bit 31 of its COB-ID is set",
     )?;
+    quiet(dut, &pdo, "Operational with bit 31 of its COB-ID")?;
     dut.write(pdo.address(1), &pdo.cob_id.to_le_bytes())?;
     match next(dut, &pdo, 500_000)? {
         Some(_) => Ok(()),
@@ -457,15 +477,83 @@ pub(super) fn cob_id(dut: &mut Dut<'_>) -> Checked {
 }
 
 pub(super) fn reserved_types(dut: &mut Dut<'_>) -> Checked {
+    first(dut)?;
+    refuses_types(dut, 0x1800, [241, 251])
+}
+
+/// Every PDO from the communication parameter `base` on refuses these transmission types.
+pub(super) fn refuses_types(dut: &mut Dut<'_>, base: u16, kinds: [u8; 2]) -> Checked {
+    let mut any = false;
+    for number in dut.eds.pdos(base) {
+        let com = base + number;
+        if !dut.eds.writes(com, 2) {
+            continue;
+        }
+        any = true;
+        let address = Address::new(com, 2);
+        dut.keep(address)?;
+        for kind in kinds {
+            let done = dut.refuses_value(address, &[kind], &[ValueRange, ValueTooHigh]);
+            dut.fault(done)?;
+        }
+    }
+    if any {
+        Ok(())
+    } else {
+        lacks("the transmission type cannot be written")
+    }
+}
+
+/// The inhibit time of a valid TPDO cannot be changed.
+pub(super) fn inhibit_fixed(dut: &mut Dut<'_>) -> Checked {
     let pdo = first(dut)?;
-    if !dut.eds.writes(pdo.com, 2) {
-        return lacks("the transmission type cannot be written");
+    if !dut.eds.writes(pdo.com, 3) || !dut.eds.writes(pdo.com, 1) {
+        return lacks("the inhibit time cannot be written");
     }
-    dut.keep(pdo.address(2))?;
-    for kind in [241, 251] {
-        dut.refuses_value(pdo.address(2), &[kind], &[ValueRange, ValueTooHigh])?;
+    let address = pdo.address(3);
+    let before = dut.read(address)?;
+    let mut other = before.clone();
+    if let Some(first) = other.first_mut() {
+        *first ^= 1;
     }
-    Ok(())
+    let done = dut.cannot_change(address, &other, "as the TPDO is valid");
+    if matches!(done, Err(End::Fail { .. })) {
+        dut.write(pdo.address(1), &(pdo.cob_id | 1 << 31).to_le_bytes())?;
+        dut.write(address, &before)?;
+        dut.write(pdo.address(1), &pdo.cob_id.to_le_bytes())?;
+    }
+    done
+}
+
+/// After reset communication the event timer is what sub-index 5 says then.
+pub(super) fn over_reset(dut: &mut Dut<'_>) -> Checked {
+    let pdo = timed(dut, 50)?;
+    dut.nmt(Command::Start)?;
+    if next(dut, &pdo, 500_000)?.is_none() {
+        return fail("a TPDO every 50 ms", "none came");
+    }
+    dut.reset(Command::ResetCommunication)?;
+    let millis = dut.number(pdo.com, 5)?;
+    if millis == 50 {
+        return lacks("the event timer is 50 ms after the reset");
+    }
+    dut.nmt(Command::Start)?;
+    let mut last = None;
+    let until = dut.now().plus_micros(500_000);
+    let mut same = 0;
+    while let Some(heard) = dut.receive(until)? {
+        if pdo.carries(&heard.frame) {
+            let data = heard.frame.data().to_vec();
+            same += u32::from(last.replace(data.clone()) == Some(data));
+        }
+    }
+    // A changed value is an event; a timer that is slower than 50 ms sends at most every 51 ms.
+    let most = 500u64.checked_div(millis).unwrap_or(0) + 2;
+    ensure(
+        u64::from(same) <= most,
+        format!("no TPDO by the event timer from before the reset, as it is {millis} ms now"),
+        format!("{same} came within 500 ms"),
+    )
 }
 
 pub(super) fn inhibit(dut: &mut Dut<'_>) -> Checked {

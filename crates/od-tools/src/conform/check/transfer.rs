@@ -1,6 +1,6 @@
 //! Expedited transfers, and requests that a server refuses.
 
-use od_model::{Access, Address, Entry, values};
+use od_model::{Access, Address, Entry, Group, values};
 use od_wire::AbortCode::{
     InvalidCommand, Length, NoObject, NoSubIndex, ReadOnly, TooLong, TooShort, UnsupportedAccess,
     ValueRange, ValueTooHigh, ValueTooLow, WriteOnly,
@@ -177,7 +177,20 @@ pub(super) fn too_long(dut: &mut Dut<'_>) -> Checked {
     let before = dut.keep(entry.address)?;
     let mut bytes = [0; 4];
     bytes[..before.len().min(4)].copy_from_slice(&before[..before.len().min(4)]);
-    dut.refuses_value(entry.address, &bytes, &[Length, TooLong])
+    // Another value, so that the abort shows whether it was written.
+    bytes[0] ^= 1;
+    dut.refuses_value(entry.address, &bytes, &[Length, TooLong])?;
+    unchanged(dut, entry.address, &before)
+}
+
+/// A refused value does not change the object.
+fn unchanged(dut: &mut Dut<'_>, address: Address, before: &[u8]) -> Checked {
+    let after = dut.read(address)?;
+    ensure(
+        after == before,
+        format!("{} in {address} after the abort", values::hex(before)),
+        format!("{} was read", values::hex(&after)),
+    )
 }
 
 pub(super) fn too_short(dut: &mut Dut<'_>) -> Checked {
@@ -185,8 +198,9 @@ pub(super) fn too_short(dut: &mut Dut<'_>) -> Checked {
         return lacks("no object of two bytes can be written");
     };
     let before = dut.keep(entry.address)?;
-    let bytes = [before.first().copied().unwrap_or(0)];
-    dut.refuses_value(entry.address, &bytes, &[Length, TooShort])
+    let bytes = [before.first().copied().unwrap_or(0) ^ 1];
+    dut.refuses_value(entry.address, &bytes, &[Length, TooShort])?;
+    unchanged(dut, entry.address, &before)
 }
 
 fn shorter_than_four(dut: &Dut<'_>, least: usize) -> Option<Entry> {
@@ -236,6 +250,11 @@ pub(super) fn out_of_range(dut: &mut Dut<'_>, entry: &Entry, bytes: &[u8], high:
     let code = if high { ValueTooHigh } else { ValueTooLow };
     let before = dut.read(entry.address)?;
     let done = dut.refuses_value(entry.address, bytes, &[ValueRange, code]);
+    // A value that changes without a write, such as a counter, is not saved.
+    let done = done.and_then(|()| match entry.group {
+        Group::None => Ok(()),
+        _ => unchanged(dut, entry.address, &before),
+    });
     if done.is_err() {
         dut.undo.push((entry.address, before));
     }
