@@ -86,6 +86,19 @@ def report(reference: _Thread, strict: bool) -> None:
     warnings.warn(text, RuntimeWarning, stacklevel=2)
 
 
+def report_long(reference: _Thread) -> None:
+    """Warns that a thread has long been running while others wait for it."""
+    thread = reference()
+    if thread is not None:
+        warnings.warn(
+            f"{thread.name} has been running for 10 s without a wait that odkit sees, now at {_place(thread)}: the time of "
+            "the bus stands still until it waits; a loop that waits for another thread needs a call such as "
+            "`time.sleep(0.001)`",
+            RuntimeWarning,
+            stacklevel=2,
+        )
+
+
 def _place(thread: threading.Thread) -> str:
     with tempfile.TemporaryFile("w+") as file:
         faulthandler.dump_traceback(file, all_threads=True)

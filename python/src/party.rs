@@ -42,11 +42,30 @@ pub(crate) struct Party {
     pub(crate) is_asleep: bool,
     /// It has called this package; a thread that never does is forgotten once it is silent.
     pub(crate) is_known: bool,
+    /// Since when it has run without a call of this package, as far as others have looked.
+    runs: Option<Clock>,
     /// Its processor time, and since when that has not changed.
     silent: Option<(Clock, f64)>,
+    /// It had no processor time while another thread competed with it: a thread that could run would have had some.
+    pub(crate) has_lost: bool,
 }
 
-/// Without processor time for this long, a thread waits for something that odkit does not see.
+/// What another thread sees of a thread that runs.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Seen {
+    Runs,
+    /// It has run for `LONG`.
+    Computes,
+    /// It has had no processor time for `SILENT`: it waits for something that odkit does not see, or the computer is
+    /// busy.
+    Silent,
+    /// It waits for something that odkit does not see.
+    Asleep,
+}
+
+/// A thread that runs for this long without a call of this package is reported.
+const LONG: Duration = Duration::from_secs(10);
+/// Without processor time for this long, a thread may wait for something that odkit does not see.
 const SILENT: Duration = Duration::from_secs(1);
 /// Like `SILENT`, if the system does not report the processor time of a thread.
 const UNKNOWN: Duration = Duration::from_secs(10);
@@ -67,7 +86,9 @@ impl Party {
             target: None,
             elsewhere: false,
             is_asleep: false,
+            runs: None,
             silent: None,
+            has_lost: false,
         }
     }
 
@@ -76,21 +97,40 @@ impl Party {
         self.thread.as_ref().is_some_and(|own| own.id() == id)
     }
 
-    /// Notes that the thread runs: it neither waits nor is silent.
-    pub(crate) fn touch(&mut self) {
-        (self.wait, self.silent) = (None, None);
-        (self.is_asleep, self.is_known) = (false, true);
+    /// Notes that the thread waits.
+    pub(crate) fn begin(&mut self, wait: Wait) {
+        (self.wait, self.runs) = (Some(wait), None);
     }
 
-    /// Returns whether it runs, but has had no processor time for long: `time` is what it has had so far.
-    pub(crate) fn is_silent(&mut self, time: Option<f64>) -> bool {
+    /// Notes that the thread runs: it neither waits nor is silent.
+    pub(crate) fn touch(&mut self) {
+        (self.wait, self.runs, self.silent) = (None, None, None);
+        (self.is_asleep, self.has_lost, self.is_known) = (false, false, true);
+    }
+
+    /// Looks at the thread while it runs: `time` is the processor time that it has had so far.
+    pub(crate) fn look(&mut self, time: Option<f64>) -> Seen {
         let long = if time.is_some() { SILENT } else { UNKNOWN };
         let time = time.unwrap_or(0.0);
+        let now = Clock::now();
+        let runs = *self.runs.get_or_insert(now);
         match self.silent {
-            Some((since, before)) if before == time => since.elapsed() >= long,
+            Some((since, before)) if before == time => {
+                if now - since < long {
+                    Seen::Runs
+                } else if self.has_lost {
+                    Seen::Asleep
+                } else {
+                    Seen::Silent
+                }
+            }
             _ => {
-                self.silent = Some((Clock::now(), time));
-                false
+                (self.silent, self.has_lost) = (Some((now, time)), false);
+                if now - runs >= LONG {
+                    Seen::Computes
+                } else {
+                    Seen::Runs
+                }
             }
         }
     }

@@ -13,6 +13,7 @@ use std::time::{Duration, Instant as Clock};
 
 use od_wire::Instant;
 use pyo3::exceptions::PyRuntimeError;
+use pyo3::intern;
 use pyo3::prelude::*;
 
 use crate::party::Wait;
@@ -37,10 +38,11 @@ pub(crate) enum Moved {
 
 /// Maximum pause of a thread that waits for others.
 pub(crate) const NAP: Duration = Duration::from_millis(2);
-/// Maximum time for which a thread lets others run first.
-const TURN: Duration = Duration::from_secs(1);
 /// Time on the clock between two checks for signals such as Ctrl-C.
 pub(crate) const LOOK: Duration = Duration::from_millis(10);
+/// Processor time in seconds for which a thread competes with one that may wait for something unseen: many of the
+/// scheduler's turns.
+const SHARE: f64 = 0.05;
 /// Maximum time that passes on the bus in one step, in ms: without frames a step costs up to 1 ms per second.
 const STEP: u64 = 10_000;
 /// Number of steps after which a thread that is alone lets other threads of Python run.
@@ -77,8 +79,6 @@ pub(crate) fn pass(
 
 pub(crate) struct Pass<'w> {
     wire: &'w Wire,
-    /// Time since when its wait is over while other threads come first.
-    pub(crate) blocked: Option<Clock>,
     pub(crate) idle: u32,
     steps: u32,
     /// A frame is received only while no other thread runs.
@@ -89,7 +89,6 @@ impl<'w> Pass<'w> {
     pub(crate) fn new(wire: &'w Wire, in_turn: bool) -> Self {
         Self {
             wire,
-            blocked: None,
             idle: 0,
             steps: 0,
             in_turn,
@@ -146,32 +145,31 @@ impl<'w> Pass<'w> {
     }
 
     /// Returns whether this thread may continue if its wait is over: no thread runs, and none comes before it.
-    pub(crate) fn is_next(&mut self, state: &mut State, wait: Wait, began: Instant) -> bool {
+    pub(crate) fn is_next(&self, state: &mut State, wait: Wait, began: Instant) -> bool {
         let id = thread::current().id();
         let place = state.parties.iter().position(|party| party.is(id));
         let Some(turn) = state.turn(wait, place.unwrap_or(0)) else {
             return true;
         };
+        let is_closed = |port| !state.listeners.iter().any(|one| one.id == port);
+        if wait.port.is_some_and(is_closed) {
+            return true;
+        }
         let has_turns = match turn.0 {
             0 => self.in_turn,
             1 => true,
             _ => state.now() > began,
         };
-        let waited = self.blocked.get_or_insert_with(Clock::now).elapsed();
         if !has_turns {
             return true;
         }
         state.begin(id, wait);
         let mut others = state.parties.iter().enumerate();
-        let is_next = others.all(|(at, party)| match party.wait {
+        others.all(|(at, party)| match party.wait {
             _ if party.is(id) => true,
-            None => party.elsewhere || party.is_asleep || waited >= TURN,
+            None => party.elsewhere || party.is_asleep,
             Some(other) => state.turn(other, at).is_none_or(|other| other >= turn),
-        });
-        if is_next {
-            self.blocked = None;
-        }
-        is_next
+        })
     }
 
     /// Forgets threads that have ended, if this one has waited for others a while.
@@ -329,6 +327,30 @@ pub(crate) fn look(py: Python<'_>) -> PyResult<()> {
     LOOKED.set(Some(Clock::now()));
     py.check_signals()?;
     detached(py, || ());
+    Ok(())
+}
+
+/// Uses the processor for `SHARE`. A thread that could run gets its share of the processor meanwhile, however busy the
+/// computer is.
+///
+/// # Errors
+/// As [`look`].
+pub(crate) fn compete(py: Python<'_>) -> PyResult<()> {
+    let time = py.import(intern!(py, "time"))?;
+    let used = || -> PyResult<f64> {
+        let seconds = time.call_method0(intern!(py, "thread_time"))?;
+        seconds.extract()
+    };
+    let end = used()? + SHARE;
+    while used()? < end {
+        detached(py, || {
+            let began = Clock::now();
+            while began.elapsed() < NAP {
+                std::hint::spin_loop();
+            }
+        });
+        py.check_signals()?;
+    }
     Ok(())
 }
 

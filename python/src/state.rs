@@ -77,6 +77,8 @@ pub(crate) struct State {
     pub(crate) strict: bool,
     /// The program was warned that time follows the clock.
     pub(crate) warned: bool,
+    /// The program was warned that a thread has long been computing.
+    pub(crate) told: bool,
     /// Counts all changes of the bus.
     pub(crate) changes: u64,
     ids: u32,
@@ -102,6 +104,7 @@ impl Default for State {
             pace: 1.0,
             strict: false,
             warned: false,
+            told: false,
             changes: 0,
             ids: 0,
             process: std::process::id(),
@@ -325,15 +328,15 @@ impl State {
             let counts = at == 0 || wait.until.is_some();
             wait.paced.filter(|_| counts)
         });
-        let pace = self.pace;
-        waits
-            .chain(self.follows)
-            .filter_map(|(clock, from)| {
-                let left =
-                    to.micros_since(from) as f64 / 1e6 / pace - clock.elapsed().as_secs_f64();
-                (left > 0.0).then(|| Duration::from_secs_f64(left.min(1e6)))
-            })
-            .max()
+        let follows = waits.chain(self.follows);
+        follows.filter_map(|start| self.left(start, to)).max()
+    }
+
+    /// How long the clock takes to a moment, from the start of a wait that follows it; `None`: it has reached it.
+    pub(crate) fn left(&self, (clock, from): (Clock, Instant), to: Instant) -> Option<Duration> {
+        let time = to.micros_since(from) as f64 / 1e6 / self.pace;
+        let left = time - clock.elapsed().as_secs_f64();
+        (left > 0.0).then(|| Duration::from_secs_f64(left.min(1e6)))
     }
 
     /// A thread acts, or ends a wait. Returns whether it takes part.
@@ -354,7 +357,7 @@ impl State {
     /// A thread begins a wait.
     pub(crate) fn begin(&mut self, id: ThreadId, wait: Wait) {
         if let Some(party) = self.parties.iter_mut().find(|party| party.is(id)) {
-            party.wait = Some(wait);
+            party.begin(wait);
         }
     }
 

@@ -68,8 +68,8 @@ pub(crate) struct Waiting {
     thread: ThreadId,
 }
 
-/// A bus, the wait on it, its time at the start of the wait, and since when other threads come first.
-type Waited = (Arc<Wire>, Wait, Instant, Option<Clock>);
+/// A bus, the wait on it, and its time at the start of the wait.
+type Waited = (Arc<Wire>, Wait, Instant);
 
 #[pymethods]
 impl Waiting {
@@ -95,7 +95,7 @@ impl Waiting {
                 own.target = target.as_ref().map(|target| target.clone_ref(py));
             }
             drop(state);
-            waits.push((wire, wait, now, None));
+            waits.push((wire, wait, now));
         }
         Self {
             waits: Mutex::new(waits),
@@ -128,24 +128,32 @@ impl Drop for Waiting {
 }
 
 impl Waiting {
-    fn pause_on(&self, py: Python<'_>, waits: &mut [Waited]) -> PyResult<Option<f64>> {
+    fn pause_on(&self, py: Python<'_>, waits: &mut Vec<Waited>) -> PyResult<Option<f64>> {
         let id = thread::current().id();
+        let is_closed = |(wire, ..): &Waited| !wire.is_open();
+        for (wire, ..) in waits.iter().filter(|one| is_closed(one)) {
+            // The others on a closed bus do not wait for this thread.
+            wire.lock().parties.retain(|party| !party.is(id));
+        }
+        if waits.iter().all(is_closed) {
+            return Ok(waits.first_mut().and_then(rest));
+        }
+        waits.retain(|one| !is_closed(one));
         let idle = self.idle.load(Ordering::Relaxed);
         let (mut moved, mut pause, mut is_over) = (false, NAP, true);
         // The time of a bus does not move while one of its threads waits on another bus.
         let stands = |wire: &Wire| wire.lock().parties.iter().any(|party| party.elsewhere);
         let all_stand = waits.iter().all(|(wire, ..)| stands(wire));
-        for (wire, wait, began, blocked) in waits {
+        for (wire, wait, began) in waits {
             if !all_stand && stands(wire) {
                 continue;
             }
             let mut pass = Pass::new(wire, false);
-            (pass.idle, pass.blocked) = (idle, *blocked);
+            pass.idle = idle;
             let mut state = wire.lock();
             state.begin(id, *wait);
             let is_late = wait.until.is_some_and(|until| until <= state.now());
             let is_next = is_late && pass.is_next(&mut state, *wait, *began);
-            *blocked = pass.blocked;
             if is_next {
                 continue;
             }
@@ -170,6 +178,17 @@ impl Waiting {
         self.idle.store(idle.saturating_add(1), Ordering::Relaxed);
         Ok(Some(length(idle, pause).as_secs_f64()))
     }
+}
+
+/// The pause of a wait whose buses were all closed during it: its rest takes its time on the clock.
+fn rest((wire, wait, _): &mut Waited) -> Option<f64> {
+    let state = wire.lock();
+    let start = *wait.paced.get_or_insert((Clock::now(), state.now()));
+    let left = match wait.until {
+        Some(until) => state.left(start, until)?,
+        None => NAP,
+    };
+    Some(left.min(NAP).as_secs_f64())
 }
 
 /// A number that no thread has.

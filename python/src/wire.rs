@@ -12,7 +12,8 @@ use pyo3::sync::PyOnceLock;
 use pyo3::types::PyDict;
 
 use crate::faults::Fault;
-use crate::party::Party;
+use crate::party::{Party, Seen};
+use crate::pass::compete;
 use crate::state::State;
 
 /// A bus with a name. Its lock is held with the interpreter attached, and never while a thread
@@ -84,6 +85,11 @@ impl Wire {
         self.is_released.store(true, Ordering::Relaxed);
     }
 
+    /// Returns whether a program can still use it: it has its name, or a bus of python-can.
+    pub(crate) fn is_open(&self) -> bool {
+        self.has_name() || !self.lock().listeners.is_empty()
+    }
+
     /// Its state, to read.
     pub(crate) fn lock(&self) -> MutexGuard<'_, State> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
@@ -146,7 +152,7 @@ impl Wire {
             )?
             .extract()?;
         let mut state = self.lock();
-        let (mut runs, mut silent) = (false, None);
+        let (mut runs, mut asleep, mut computes, mut silent) = (false, None, None, Vec::new());
         for ((ident, object, ..), (lives, time, is_awaited)) in asked.iter().zip(known) {
             let at = state.parties.iter().position(|party| party.ident == *ident);
             let Some(at) = at else { continue };
@@ -156,31 +162,52 @@ impl Wire {
                 runs |= party.target.is_some() && !is_awaited;
                 continue;
             }
-            let is_silent = lives && party.is_silent(time);
-            if !lives || (is_silent && !party.is_known) {
+            let seen = party.look(time);
+            party.is_asleep = seen == Seen::Asleep;
+            if !lives || (party.is_asleep && !party.is_known) {
                 state.parties.remove(at);
                 // A thread that waited for its end may have been asked before it ended.
                 runs = true;
-            } else if is_silent {
-                party.is_asleep = true;
-                silent = Some(object.clone_ref(py));
-            } else {
-                runs = true;
+                continue;
             }
+            match seen {
+                Seen::Runs => {}
+                Seen::Computes => computes = Some(object),
+                Seen::Silent => silent.push(*ident),
+                Seen::Asleep => asleep = Some(object),
+            }
+            runs |= seen != Seen::Asleep;
         }
-        let Some(silent) = silent else {
+        if !silent.is_empty() {
+            let changes = state.changes;
+            drop(state);
+            compete(py)?;
+            let mut state = self.lock();
+            if state.changes == changes {
+                let parties = state.parties.iter_mut();
+                let silent = parties.filter(|party| silent.contains(&party.ident));
+                silent.for_each(|party| party.has_lost = true);
+            }
+            return Ok(true);
+        }
+        if asleep.is_none() {
             state.follows = None;
+        }
+        if let Some(object) = computes.filter(|_| !state.told) {
+            state.told = true;
+            drop(state);
+            waits(py)?.call_method1(intern!(py, "report_long"), (object,))?;
+            return Ok(runs);
+        }
+        let Some(asleep) = asleep.filter(|_| !runs && state.follows.is_none()) else {
             return Ok(runs);
         };
-        if runs || state.follows.is_some() {
-            return Ok(runs);
-        }
         let now = state.now();
         state.follows = Some((Clock::now(), now));
         let (strict, warned) = (state.strict, std::mem::replace(&mut state.warned, true));
         drop(state);
         if strict || !warned {
-            waits(py)?.call_method1(intern!(py, "report"), (silent, strict))?;
+            waits(py)?.call_method1(intern!(py, "report"), (asleep, strict))?;
         }
         Ok(true)
     }
@@ -200,8 +227,8 @@ thread_local! {
 pub(crate) fn own() -> Vec<Arc<Wire>> {
     let id = thread::current().id();
     let takes_part = |wire: &Arc<Wire>| {
+        let is_open = wire.is_open();
         let state = wire.lock();
-        let is_open = wire.has_name() || !state.listeners.is_empty();
         is_open && state.real.is_none() && state.parties.iter().any(|party| party.is(id))
     };
     OWN.with_borrow(|own| {
