@@ -401,6 +401,22 @@ fn homing_finds_edges_and_index_pulses() {
     }
 }
 
+/// CiA 402-2, statusword in homing mode: bit 10 is 0 only while homing is in progress, or stops with an error.
+#[test]
+fn homing_that_is_not_in_progress_has_bit_10() {
+    let mut bench = Bench::enabled(6);
+    let flags = REACHED | ACKNOWLEDGED | ERROR;
+    bench.wait(5);
+    assert_eq!(bench.status() & flags, REACHED, "not started");
+    bench.write(0x6098, 0, &[19]);
+    bench.control(0x1F);
+    bench.wait(200);
+    assert_eq!(bench.status() & flags, 0, "in progress");
+    bench.control(0x11F);
+    bench.wait(5_000);
+    assert_eq!(bench.status() & flags, REACHED, "interrupted by halt");
+}
+
 #[test]
 fn homing_fails_at_the_wrong_switch() {
     let mut bench = Bench::enabled(6);

@@ -87,11 +87,11 @@ def report(reference: _Thread, strict: bool) -> None:
 
 
 def report_long(reference: _Thread) -> None:
-    """Warns that a thread has long been running while others wait for it."""
+    """Warns that a thread has computed for long while others wait for it."""
     thread = reference()
     if thread is not None:
         warnings.warn(
-            f"{thread.name} has been running for 10 s without a wait that odkit sees, now at {_place(thread)}: the time of "
+            f"{thread.name} has computed for 10 s without a wait that odkit sees, now at {_place(thread)}: the time of "
             "the bus stands still until it waits; a loop that waits for another thread needs a call such as "
             "`time.sleep(0.001)`",
             RuntimeWarning,

@@ -42,8 +42,8 @@ pub(crate) struct Party {
     pub(crate) is_asleep: bool,
     /// It has called this package; a thread that never does is forgotten once it is silent.
     pub(crate) is_known: bool,
-    /// Since when it has run without a call of this package, as far as others have looked.
-    runs: Option<Clock>,
+    /// Its processor time when another thread first saw it run after its last call of this package.
+    runs: Option<f64>,
     /// Its processor time, and since when that has not changed.
     silent: Option<(Clock, f64)>,
     /// It had no processor time while another thread competed with it: a thread that could run would have had some.
@@ -54,7 +54,7 @@ pub(crate) struct Party {
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Seen {
     Runs,
-    /// It has run for `LONG`.
+    /// It has used the processor for `LONG`.
     Computes,
     /// It has had no processor time for `SILENT`: it waits for something that odkit does not see, or the computer is
     /// busy.
@@ -63,8 +63,8 @@ pub(crate) enum Seen {
     Asleep,
 }
 
-/// A thread that runs for this long without a call of this package is reported.
-const LONG: Duration = Duration::from_secs(10);
+/// Processor time in seconds after which a thread without a call of this package is reported.
+const LONG: f64 = 10.0;
 /// Without processor time for this long, a thread may wait for something that odkit does not see.
 const SILENT: Duration = Duration::from_secs(1);
 /// Like `SILENT`, if the system does not report the processor time of a thread.
@@ -113,7 +113,7 @@ impl Party {
         let long = if time.is_some() { SILENT } else { UNKNOWN };
         let time = time.unwrap_or(0.0);
         let now = Clock::now();
-        let runs = *self.runs.get_or_insert(now);
+        let runs = *self.runs.get_or_insert(time);
         match self.silent {
             Some((since, before)) if before == time => {
                 if now - since < long {
@@ -126,7 +126,7 @@ impl Party {
             }
             _ => {
                 (self.silent, self.has_lost) = (Some((now, time)), false);
-                if now - runs >= LONG {
+                if time - runs >= LONG {
                     Seen::Computes
                 } else {
                     Seen::Runs

@@ -307,7 +307,7 @@ def test_a_loop_without_a_wait_is_named():
     with odkit.Bench("gxmm@1") as bench:
         bus, reader, got = notified(bench)
         end = time.perf_counter() + 60
-        with pytest.warns(RuntimeWarning, match=r"MainThread has been running .* at .*test_threads.py"):
+        with pytest.warns(RuntimeWarning, match=r"MainThread has computed .* at .*test_threads.py"):
             # Nothing lets time pass until the heartbeat, so only the warning ends this loop.
             with warnings.catch_warnings(record=True) as seen:
                 warnings.simplefilter("always")

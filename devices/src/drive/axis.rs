@@ -588,7 +588,7 @@ impl Axis {
                 let window = self.get(store, 0x606D) * UNIT;
                 (target - self.actual.speed).abs() <= window
             }
-            HOMING => self.homing.is_over(),
+            HOMING => !self.is_homing(),
             INTERPOLATED_POSITION => self.course.is_none_or(|(_, left)| left == 0),
             _ => {
                 let window = self.get(store, 0x6067) * UNIT;
@@ -632,6 +632,15 @@ impl Axis {
         }
     }
 
+    /// Returns whether homing is in progress: bit 4 is set, nothing halts the axis, and the home position is not found.
+    const fn is_homing(&self) -> bool {
+        self.controlword & (control::START | control::HALT) == control::START
+            && !matches!(
+                self.homing,
+                Homing::Idle | Homing::Attained | Homing::Failed
+            )
+    }
+
     fn statusword(&self, store: &Store<'_>) -> u16 {
         let mut word = self.state.bits() | status::REMOTE;
         let mut set = |bit, holds| word |= if holds { bit } else { 0 };
@@ -650,7 +659,8 @@ impl Axis {
                 false,
             ),
             HOMING => (
-                self.homing.is_over() && self.actual.speed == 0,
+                // Also while homing is not started, or interrupted: only its progress has 0 here.
+                self.actual.speed == 0 && !self.is_homing(),
                 self.homing == Homing::Attained,
                 self.homing == Homing::Failed,
             ),

@@ -56,10 +56,3 @@ impl Method {
         })
     }
 }
-
-impl Homing {
-    /// Returns whether homing has succeeded or failed.
-    pub(super) const fn is_over(self) -> bool {
-        matches!(self, Self::Attained | Self::Failed)
-    }
-}
