@@ -34,7 +34,7 @@ fn build(repo: &Repo, console: &Console, package: &str, what: &str) -> Result<Pa
     } else {
         format!("building {what} (once, about half a minute)")
     };
-    let mut build = cargo(&repo.root, &["build", "--quiet", "--locked"]);
+    let mut build = cargo(&repo.root, &["build", "--locked"]);
     build.args(["--package", package, "--target-dir"]);
     build.arg(&target);
     build.args(["--manifest-path", "xtask/bindgen/Cargo.toml"]);

@@ -26,7 +26,7 @@ pub(crate) fn get(repo: &Repo, console: &Console, package: &Package) -> Result<P
     if tool.is_file() {
         return Ok(tool);
     }
-    let mut install = cargo(&repo.root, &["install", "--locked", "--quiet", name]);
+    let mut install = cargo(&repo.root, &["install", "--locked", name]);
     install.args(["--version", version]).args(*args);
     install.arg("--root").arg(&place);
     // Nobody else needs what it is built of.

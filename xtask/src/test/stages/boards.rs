@@ -79,7 +79,7 @@ pub(super) fn boards(context: &Context<'_>) -> Result<()> {
             let firmware = workspace.join("firmware");
             if context.long {
                 // What a firmware engineer would see as a warning.
-                let mut check = cargo(&firmware, &["clippy", "--quiet", "--release", "--target"]);
+                let mut check = cargo(&firmware, &["clippy", "--release", "--target"]);
                 check.arg(name).arg("--target-dir").arg(&repo.target);
                 check.args(["--", "-D", "warnings"]);
                 console.run(&format!("{board} for {name}, checked"), &mut check)?;
@@ -155,7 +155,7 @@ fn make(
 /// Builds the firmware of a workspace for a target.
 fn build(context: &Context<'_>, workspace: &Path, target: &str, what: &str) -> Result<()> {
     let firmware = workspace.join("firmware");
-    let mut build = cargo(&firmware, &["build", "--quiet", "--release", "--target"]);
+    let mut build = cargo(&firmware, &["build", "--release", "--target"]);
     build
         .arg(target)
         .arg("--target-dir")
@@ -195,7 +195,7 @@ fn emulate(context: &Context<'_>, firmware: &Path) -> Result<()> {
         let why = "the emulator of the Cortex-M3 is missing";
         apt::install(console, &[EMULATOR], why)?;
     }
-    let mut build = cargo(firmware, &["build", "--quiet", "--release", "--target-dir"]);
+    let mut build = cargo(firmware, &["build", "--release", "--target-dir"]);
     console.run("the firmware for the emulator", build.arg(&repo.target))?;
     let program = repo
         .target
