@@ -7,9 +7,9 @@ use std::os::unix::fs::PermissionsExt;
 use std::path::Path;
 use std::process::Stdio;
 
-use crate::support::quiet::{Sim, path, until};
+use crate::support::quiet::{Sim, until};
 use crate::support::sim::say;
-use crate::support::{command, odkit};
+use crate::support::{command, odkit, temporary};
 use od_sim::logs;
 use serde_json::Value;
 
@@ -28,8 +28,9 @@ fn logged(path: &Path) -> Vec<String> {
 
 #[test]
 fn a_log_outlives_a_kill() {
+    let folder = temporary();
     for name in ["frames.log", "frames.pcapng"] {
-        let log = path(name);
+        let log = folder.path().join(name);
         let mut sim = Sim::start(&["gxmm", "--log", &log.display().to_string()]);
         let mut client = sim.client();
         let answer = "\rz\rt58184300100096010200\r";
@@ -46,7 +47,7 @@ fn a_log_outlives_a_kill() {
         assert_eq!(logged(&log), frames, "{name}");
     }
     // Seconds since 1970.
-    let log = path("times");
+    let log = folder.path().join("times");
     let _sim = Sim::start(&["gxmm", "--log", &log.display().to_string()]);
     let text = until("a log", || {
         fs::read_to_string(&log)
@@ -96,7 +97,8 @@ fn a_log_that_cannot_be_written_does_not_stop_the_bus() {
 
 #[test]
 fn a_ready_file_exists_while_all_links_listen() {
-    let ready = path("ready");
+    let folder = temporary();
+    let ready = folder.path().join("ready");
     // A killed bench left this file.
     let old = r#"{"version":1,"pid":1,"links":[],"nodes":[],"control":null}"#;
     fs::write(&ready, old).expect("a file");
@@ -150,9 +152,8 @@ fn a_ready_file_exists_while_all_links_listen() {
 
 #[test]
 fn a_token_is_in_no_file() {
-    let (folder, ready) = (path("tokens"), path("tokens-ready"));
-    let _ = fs::remove_dir_all(&folder);
-    fs::create_dir(&folder).expect("a folder");
+    let (folder, ready) = (temporary(), temporary());
+    let (folder, ready) = (folder.path(), ready.path().join("ready"));
     // A killed bench, whose process ID another process has now.
     let user = nix::unistd::Uid::effective();
     let stale = folder.join(format!("odkit-sim-{user}-{}.json", std::process::id()));
@@ -170,7 +171,7 @@ fn a_token_is_in_no_file() {
         .args(["sim", "gxmm", "--quiet", "--ready-file"])
         .arg(&ready)
         .args(args)
-        .env("XDG_RUNTIME_DIR", &folder)
+        .env("XDG_RUNTIME_DIR", folder)
         .spawn()
         .expect("odkit starts");
     until("a ready file", || fs::metadata(&ready).ok());
@@ -184,7 +185,7 @@ fn a_token_is_in_no_file() {
     let get = ["get", "1", "1000h"];
     let done = command()
         .args(get)
-        .env("XDG_RUNTIME_DIR", &folder)
+        .env("XDG_RUNTIME_DIR", folder)
         .output()
         .expect("it ends");
     let _ = child.kill();
@@ -193,14 +194,13 @@ fn a_token_is_in_no_file() {
     let said = String::from_utf8_lossy(&done.stderr);
     assert!(done.status.success(), "{said}");
     assert!(!stale.exists());
-    fs::remove_dir_all(&folder).expect("it is there");
-    fs::remove_file(&ready).expect("it was killed");
 }
 
 #[test]
 fn a_file_limit_ends_the_log_and_not_the_bench() {
+    let folder = temporary();
     for name in ["limit.log", "limit.pcapng"] {
-        let log = path(name);
+        let log = folder.path().join(name);
         let mut child = std::process::Command::new("sh");
         let mut child = child
             .args(["-c", "ulimit -f 8; exec \"$@\"", "sh"])
@@ -216,6 +216,7 @@ fn a_file_limit_ends_the_log_and_not_the_bench() {
                 "--log",
             ])
             .arg(&log)
+            .env("XDG_RUNTIME_DIR", folder.path())
             .stdout(Stdio::piped())
             .stderr(Stdio::piped())
             .spawn()
@@ -253,20 +254,18 @@ fn a_file_limit_ends_the_log_and_not_the_bench() {
         TcpStream::connect(address).expect("it listens");
         let _ = child.kill();
         let _ = child.wait();
-        fs::remove_file(&log).expect("a log");
     }
 }
 
 #[test]
 fn the_hint_is_printed_once_in_a_terminal() {
-    let folder = path("runtime");
-    let _ = fs::remove_dir_all(&folder);
-    fs::create_dir(&folder).expect("a folder");
+    let (folder, others) = (temporary(), temporary());
     let greeting = || {
         let pair = nix::pty::openpty(None, None).expect("a terminal");
         let mut child = command()
             .args(["sim", "gxmm", "--slcan", "127.0.0.1:0"])
-            .env("XDG_RUNTIME_DIR", &folder)
+            .env("XDG_RUNTIME_DIR", folder.path())
+            .env("TMPDIR", others.path())
             .stdout(pair.slave)
             .stderr(Stdio::null())
             .spawn()
@@ -288,7 +287,7 @@ fn the_hint_is_printed_once_in_a_terminal() {
         "{second}"
     );
     // If it cannot be recorded that the hint was shown, it is printed again.
-    fs::remove_dir_all(&folder).expect("it is there");
+    fs::remove_dir_all(folder.path()).expect("it is there");
     assert!(greeting().contains("python-canopen"));
     assert!(greeting().contains("python-canopen"));
 }

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use crate::support::{Done, file, odkit, repository};
+use crate::support::{Done, file, folder, fresh, odkit, repository};
 
 /// 1017h is not saved, so it is 0 again after a power cut.
 const SCRIPT: &str = "device gxmm node 5\n\
@@ -98,9 +98,7 @@ fn the_parts_are_all_seeds_once() {
 
 #[test]
 fn reports_and_scripts_are_files() {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
-    let (report, scripts) = (folder.join("campaign.xml"), folder.join("campaign-scripts"));
-    let _ = fs::remove_dir_all(&scripts);
+    let (report, scripts) = (fresh("campaign.xml"), fresh("campaign-scripts"));
     let names = [&report, &scripts].map(|path| path.display().to_string());
     let run = campaign(
         "campaign-3.script",
@@ -133,8 +131,7 @@ fn reports_and_scripts_are_files() {
 #[test]
 fn a_script_of_files_plays_in_any_folder() {
     let eds = fs::read(repository("devices/eds/GXMM.eds")).expect("an EDS of ours");
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("campaign beside");
-    fs::create_dir_all(&folder).expect("a folder");
+    let folder = folder("campaign beside", &[]);
     fs::write(folder.join("own.eds"), eds).expect("a file");
     let path = folder.join("it.script");
     let text = "device own.eds node 3\nrandom set 1017h = 1..9\nexpect value 1017h = 0\n";

@@ -7,7 +7,7 @@ use std::process::Command;
 use od_eds::Tables;
 use od_model::{Dictionary, Entry, Literal};
 
-use crate::support::{file, odkit, repository};
+use crate::support::{file, folder, odkit, repository};
 
 /// The files of these tests.
 fn own(name: &str) -> PathBuf {
@@ -16,16 +16,9 @@ fn own(name: &str) -> PathBuf {
         .join(name)
 }
 
-/// A folder of this test run.
-fn folder(name: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("canopennode-{name}"));
-    fs::create_dir_all(&folder).expect("a folder for test files");
-    folder
-}
-
 /// The values of a node that was built from an EDS, as print.c prints them; `None` if there is no compiler.
 fn printed(name: &str, eds: &str, node: &[&str]) -> Option<String> {
-    let folder = folder(name);
+    let folder = folder(&format!("canopennode-{name}"), &[]);
     let output = folder.join("OD.c").display().to_string();
     let arguments = ["convert", eds, "-o", &output, "--to", "canopennode"];
     let made = odkit(&[&arguments, node].concat(), "");
@@ -117,7 +110,7 @@ fn a_node_has_each_value_of_the_eds() {
 #[test]
 fn the_files_are_as_expected() {
     let eds = own("every.eds").display().to_string();
-    let folder = folder("bytes");
+    let folder = folder("canopennode-bytes", &[]);
     let output = folder.join("OD.c").display().to_string();
     let arguments = ["convert", &eds, "-o", &output, "--to", "canopennode"];
     assert_eq!(odkit(&arguments, "").code, 0);
@@ -148,7 +141,10 @@ const ODD: &str = "[1000]\nParameterName=Device type\nDataType=7\nAccessType=ro\
 #[test]
 fn content_that_is_lost_is_reported() {
     let path = file("odd.eds", ODD).display().to_string();
-    let output = folder("odd").join("OD.c").display().to_string();
+    let output = folder("canopennode-odd", &[])
+        .join("OD.c")
+        .display()
+        .to_string();
     let arguments = ["convert", &path, "-o", &output, "--to", "canopennode"];
     let made = odkit(&arguments, "");
     assert_eq!(made.code, 1, "{}", made.err);
@@ -183,7 +179,10 @@ fn the_arguments_are_checked() {
     assert_eq!(made.code, 2);
     assert!(made.err.contains("add `-o OD.c`"), "{}", made.err);
     // The name of the dictionary is the name of the file.
-    let output = folder("name").join("my-od.c").display().to_string();
+    let output = folder("canopennode-name", &[])
+        .join("my-od.c")
+        .display()
+        .to_string();
     let made = odkit(&[&gxmm[..], &["-o", &output]].concat(), "");
     assert_eq!(made.code, 0, "{}", made.err);
     let source = fs::read_to_string(&output).expect("a file");

@@ -1,9 +1,8 @@
 //! `odkit check` beyond the text report, and `odkit explain`.
 
 use std::fs;
-use std::path::Path;
 
-use crate::support::{file, odkit, repository};
+use crate::support::{file, folder, odkit, repository};
 
 /// A safe fix, an unsafe fix, a remark, two kinds of line ends, and an encoding to keep.
 const ODD: &[u8] =
@@ -106,8 +105,7 @@ fn codes_are_allowed_by_file_and_by_object() {
 
 #[test]
 fn several_folders_and_files_have_one_report() {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("tree/of/files");
-    fs::create_dir_all(&folder).expect("a folder for test files");
+    let folder = folder("tree/of/files", &[]);
     for name in ["b.eds", "a.DCF", "notes.txt"] {
         fs::write(folder.join(name), ODD).expect("a folder for test files");
     }

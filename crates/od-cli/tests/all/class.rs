@@ -6,36 +6,29 @@ use std::net::TcpStream;
 use std::path::Path;
 use std::process::{Child, Stdio};
 
-use crate::support::{command, odkit, repository};
+use crate::support::{command, folder, odkit, read, repository};
 
 /// A small page in a folder of its own.
 fn page(name: &str) -> String {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
-    fs::create_dir_all(&folder).expect("a folder");
-    for (file, text) in [
+    let files = [
         ("index.html", "<!doctype html>\n<html lang=\"en\">"),
         ("trainer.html", "<!doctype html>\n<html lang=\"en\">"),
         ("lessons.json", r#"[{"name":"nmt"}]"#),
         ("main.js", "let it;"),
         ("sw.js", "never"),
-    ] {
-        fs::write(folder.join(file), text).expect("a file");
-    }
-    folder.display().to_string()
+    ];
+    folder(name, &files).display().to_string()
 }
 
 /// A folder of lessons: one lesson with its translation, and a file that is not a lesson.
 fn lessons(name: &str) -> String {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
-    fs::create_dir_all(folder.join("de")).expect("a folder");
-    let copy = |from: &str, to: &str| {
-        let from = repository(&format!("playground/lessons/{from}"));
-        fs::copy(from, folder.join(to)).expect("a copy");
-    };
-    copy("02-nmt.md", "our nmt.md");
-    copy("de/02-nmt.md", "de/our nmt.md");
-    fs::write(folder.join("README.md"), "# Our lessons\n").expect("a file");
-    folder.display().to_string()
+    let lesson = |name| read(Path::new(&repository("playground/lessons")), name);
+    let files = [
+        ("our nmt.md", &*lesson("02-nmt.md")),
+        ("de/our nmt.md", &*lesson("de/02-nmt.md")),
+        ("README.md", "# Our lessons\n"),
+    ];
+    folder(name, &files).display().to_string()
 }
 
 /// A class on a port of its own; it ends when this is dropped.

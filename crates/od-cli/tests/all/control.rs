@@ -6,9 +6,9 @@ use std::net::TcpStream;
 use std::os::unix::fs::PermissionsExt;
 use std::os::unix::net::UnixStream;
 
-use crate::support::quiet::{Sim, path, unix, until};
+use crate::support::quiet::{Sim, unix, until};
 use crate::support::sim::say;
-use crate::support::{file, odkit};
+use crate::support::{file, odkit, temporary};
 use serde_json::Value;
 
 #[test]
@@ -31,7 +31,8 @@ fn lines_act_on_a_running_bench_and_are_answered() {
         [6000sub0]\nParameterName=Highest\nDataType=5\nAccessType=const\nDefaultValue=1\n\
         [6000sub1]\nParameterName=Input 1\nDataType=5\nAccessType=ro\nHighLimit=9\nPDOMapping=1\n";
     let eds = file("control.eds", eds).display().to_string();
-    let socket = path("lines");
+    let folder = temporary();
+    let socket = folder.path().join("lines");
     let sim = Sim::start(&[&eds, "gxmm", "--node-id", "5", "--control", &unix(&socket)]);
     assert_eq!(sim.control(), unix(&socket));
     assert_eq!(sim.ready["nodes"][0]["node_id"], 5);
@@ -92,7 +93,7 @@ fn lines_act_on_a_running_bench_and_are_answered() {
         assert_eq!(done.code, code, "{lines:?}: {}", done.err);
         assert!(done.err.contains(why), "{lines:?}: {}", done.err);
     }
-    let gone = path("nobody");
+    let gone = folder.path().join("nobody");
     let done = odkit(&["ctl", &unix(&gone), "power off"], "");
     assert_eq!(done.code, 1);
     assert!(done.err.contains("no `odkit sim --control"), "{}", done.err);
@@ -101,7 +102,8 @@ fn lines_act_on_a_running_bench_and_are_answered() {
 
 #[test]
 fn figures_are_text_and_json() {
-    let socket = path("stats");
+    let folder = temporary();
+    let socket = folder.path().join("stats");
     let sim = Sim::start(&["gxmm", "--control", &unix(&socket)]);
     let mut client = sim.client();
     let requests = "O\rt60184000100000000000\rt60184000200000000000\rt12310A\r";
@@ -130,7 +132,8 @@ fn figures_are_text_and_json() {
 
 #[test]
 fn a_control_socket_has_one_owner() {
-    let socket = path("owner");
+    let folder = temporary();
+    let socket = folder.path().join("owner");
     let control = unix(&socket);
     let mut sim = Sim::start(&["gxmm", "--control", &control]);
     let mode = fs::metadata(&socket)
@@ -222,7 +225,8 @@ fn tcp_is_for_this_computer_and_not_for_browsers() {
 
 #[test]
 fn no_client_of_the_control_socket_harms_another() {
-    let socket = path("flood");
+    let folder = temporary();
+    let socket = folder.path().join("flood");
     let sim = Sim::start(&["gxmm", "--control", &unix(&socket)]);
     let connect = || UnixStream::connect(&socket).expect("it listens");
     // Bytes that are not text, and a line without an end.

@@ -1,9 +1,7 @@
 //! `odkit diff`: two dictionaries, and a dictionary with a device on a bus.
 
-use std::io::{BufRead, BufReader};
-use std::process::{Child, Stdio};
-
-use crate::support::{command, file, odkit, repository};
+use crate::support::sim::Sim;
+use crate::support::{file, odkit, repository};
 
 #[test]
 fn a_device_equals_its_own_file() {
@@ -61,39 +59,11 @@ fn json_and_markdown_have_the_same_content() {
     assert_eq!(rows, found.len() + 1, "{markdown}");
 }
 
-/// `odkit sim` on a port of its own.
-struct Sim(Child, String);
-
-impl Sim {
-    fn start(device: &str) -> Self {
-        let mut child = command()
-            .args(["sim", device, "--node-id", "5", "--slcan", "127.0.0.1:0"])
-            .stdout(Stdio::piped())
-            .stderr(Stdio::null())
-            .spawn()
-            .expect("odkit starts");
-        let mut lines = BufReader::new(child.stdout.take().expect("a pipe")).lines();
-        let mut greeting = String::new();
-        while !greeting.contains("Ctrl-C") {
-            greeting += &lines.next().expect("a greeting").expect("text");
-        }
-        let after = greeting.split("127.0.0.1:").nth(1).expect("an address");
-        let port: String = after.chars().take_while(char::is_ascii_digit).collect();
-        Self(child, format!("slcan:{port}"))
-    }
-}
-
-impl Drop for Sim {
-    fn drop(&mut self) {
-        let _ = self.0.kill();
-        let _ = self.0.wait();
-    }
-}
-
 #[test]
 fn a_live_device_is_read_object_by_object() {
-    let sim = Sim::start("gxam");
-    let live = ["--link", &sim.1, "--node-id", "5", "--fail-on", "any"];
+    let sim = Sim::start(&["gxam", "--node-id", "5"]);
+    let link = format!("slcan:{}", sim.port);
+    let live = ["--link", &link, "--node-id", "5", "--fail-on", "any"];
     let same = odkit(&[&["diff", "gxam"], &live[..]].concat(), "");
     assert_eq!(same.code, 0, "{}{}", same.out, same.err);
     let other = odkit(&[&["diff", "gxmm"], &live[..]].concat(), "");
@@ -107,7 +77,7 @@ fn a_live_device_is_read_object_by_object() {
     let path = path.display().to_string();
     let lacks = odkit(&[&["diff", &path], &live[..]].concat(), "");
     assert!(lacks.out.contains("!- 2202h"), "{}", lacks.out);
-    let nobody = odkit(&["diff", "gxam", "--link", &sim.1, "--node-id", "6"], "");
+    let nobody = odkit(&["diff", "gxam", "--link", &link, "--node-id", "6"], "");
     assert_eq!(nobody.code, 1);
     assert!(
         nobody.err.contains("node 6 does not respond"),

@@ -2,22 +2,15 @@
 //! messages at the start.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use crate::support::sim::Sim;
-use crate::support::{Done, file, odkit};
+use crate::support::{Done, file, fresh, odkit};
 
 /// Saves all values of node 1, and waits as long as the slowest device needs.
 const SAVE: &str = "601#2B17100064000000\nwait 20ms\n601#2310100173617665\nwait 700ms\n";
 /// Bytes before those of the EEPROM.
 const HEADER: usize = 512;
-
-/// A path in the folder of this test, where no file is.
-fn path(name: &str) -> PathBuf {
-    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
-    let _ = fs::remove_file(&path);
-    path
-}
 
 fn sim(device: &str, path: &Path, more: &[&str], input: &str) -> Done {
     let path = path.to_str().expect("UTF-8");
@@ -40,7 +33,7 @@ const READ: &str = "601#4017100000000000\nwait 20ms\n";
 
 #[test]
 fn the_file_of_another_device_is_refused_until_it_is_reset() {
-    let path = path("of-gxmm.bin");
+    let path = fresh("of-gxmm.bin");
     assert_eq!(sim("gxmm", &path, &[], SAVE).code, 0);
     let whole = fs::read(&path).expect("a file");
     for other in ["gcam", "gxam", "eam_mt", "en580c"] {
@@ -81,7 +74,7 @@ fn the_same_identity_with_another_layout_is_another_device() {
     assert_ne!(changed, text);
     let changed = file("changed.eds", &changed).display().to_string();
     let renamed = file("renamed.eds", &text).display().to_string();
-    let path = path("of-one.bin");
+    let path = fresh("of-one.bin");
     assert_eq!(sim(&one, &path, &[], SAVE).code, 0);
     let refused = sim(&changed, &path, &[], "");
     assert_eq!(refused.code, 1, "{}", refused.err);
@@ -99,7 +92,7 @@ fn the_same_identity_with_another_layout_is_another_device() {
 
 #[test]
 fn a_file_in_use_is_refused_with_the_process_that_uses_it() {
-    let path = path("in-use.bin");
+    let path = fresh("in-use.bin");
     let name = path.to_str().expect("UTF-8");
     let first = Sim::start(&["gxmm", "--eeprom", name]);
     for more in [&[][..], &["--eeprom-reset"]] {
@@ -119,7 +112,7 @@ fn a_file_in_use_is_refused_with_the_process_that_uses_it() {
 fn a_file_of_an_older_odkit_is_refused_and_kept() {
     let mut bytes = b"odkit EEPROM 1\r\n\x69odk\x01\0\0\0".to_vec();
     bytes.resize(16 + 614, 0xFF);
-    let path = path("older.bin");
+    let path = fresh("older.bin");
     fs::write(&path, &bytes).expect("a file");
     let refused = sim("gxmm", &path, &[], "");
     assert_eq!(refused.code, 1, "{}", refused.err);
@@ -130,7 +123,7 @@ fn a_file_of_an_older_odkit_is_refused_and_kept() {
 
 #[test]
 fn a_start_reports_which_set_it_loaded() {
-    let path = path("damaged.bin");
+    let path = fresh("damaged.bin");
     let other = SAVE.replace("6400", "C800");
     assert_eq!(sim("gxmm", &path, &[], &format!("{SAVE}{other}")).code, 0);
     let whole = fs::read(&path).expect("a file");

@@ -8,7 +8,7 @@ use std::time::Duration;
 #[cfg(unix)]
 use crate::support::quiet::until;
 use crate::support::sim::{Sim, say};
-use crate::support::{command, odkit};
+use crate::support::{command, odkit, temporary};
 
 #[test]
 fn socketcand_clients_get_the_exact_responses() {
@@ -119,8 +119,10 @@ fn standard_output_that_fails_is_a_lost_link() {
 
 #[test]
 fn the_end_of_standard_input_does_not_end_a_server() {
+    let reports = temporary();
     let mut child = command()
         .args(["sim", "gxmm", "--link", "-", "--slcan", "127.0.0.1:0"])
+        .env("XDG_RUNTIME_DIR", reports.path())
         .stdin(Stdio::null())
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())

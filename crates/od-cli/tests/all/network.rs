@@ -3,21 +3,12 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::support::{Done, odkit, repository};
-
-/// An empty folder of this test run.
-fn folder(name: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("network-{name}"));
-    let _ = fs::remove_dir_all(&folder);
-    fs::create_dir_all(&folder).expect("a folder for test files");
-    folder
-}
+use crate::support::{Done, folder, odkit, repository};
 
 /// Runs a project or node list with this text.
 fn network(name: &str, file: &str, text: &str) -> (Done, PathBuf) {
-    let folder = folder(name);
+    let folder = folder(&format!("network-{name}"), &[(file, text)]);
     let path = folder.join(file);
-    fs::write(&path, text).expect("a file");
     let out = folder.join("out");
     let paths = [path.display().to_string(), out.display().to_string()];
     (odkit(&["network", &paths[0], "-o", &paths[1]], ""), out)
@@ -26,7 +17,7 @@ fn network(name: &str, file: &str, text: &str) -> (Done, PathBuf) {
 #[test]
 fn concise_dcfs_are_those_of_dcfgen() {
     let own = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/network");
-    let out = folder("dcfgen");
+    let out = folder("network-dcfgen", &[]);
     let project = own.join("project.yml").display().to_string();
     let run = odkit(&["network", &project, "-o", &out.display().to_string()], "");
     assert_eq!(run.code, 0, "{}", run.err);
@@ -81,7 +72,7 @@ fn remote_pdos_are_those_of_dcfgen() {
     let own = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/network");
     let project = own.join("project.yml").display().to_string();
     let read = |option: &[&str]| {
-        let out = folder("remote");
+        let out = folder("network-remote", &[]);
         let path = out.display().to_string();
         let run = odkit(&[&["network", &project, "-o", &path], option].concat(), "");
         assert_eq!(run.code, 0, "{}", run.err);
@@ -234,7 +225,7 @@ fn a_text_that_is_not_a_project_is_refused() {
 
 #[test]
 fn a_node_list_has_the_dcfs_of_its_nodes() {
-    let folder = folder("list");
+    let folder = folder("network-list", &[]);
     let eds = repository("devices/eds/GXMM.eds");
     for (id, rest) in [
         ("4", ["--set", "1017h=200"]),

@@ -3,19 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::support::{file, odkit, repository};
-
-/// A folder of this test that does not exist yet.
-fn fresh(name: &str) -> PathBuf {
-    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
-    // It may exist from an earlier run.
-    let _ = fs::remove_dir_all(&path);
-    path
-}
-
-fn read(folder: &Path, name: &str) -> String {
-    fs::read_to_string(folder.join(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
-}
+use crate::support::{file, fresh, odkit, read, repository};
 
 #[test]
 fn a_file_without_errors_is_copied_unchanged() {

@@ -1,9 +1,9 @@
 //! The output of `odkit new --firmware`. `cargo xtask test --only boards` builds it.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use crate::support::{file, odkit, repository};
+use crate::support::{file, fresh, odkit, read, repository};
 
 /// Boards, and texts that the files of each contain.
 const BOARDS: [(&str, &str, &str); 5] = [
@@ -13,17 +13,6 @@ const BOARDS: [(&str, &str, &str); 5] = [
     ("esp32c3", "esp-hal", "riscv32imc-unknown-none-elf"),
     ("generic", "embedded-can", "thumbv7m-none-eabi"),
 ];
-
-fn fresh(name: &str) -> PathBuf {
-    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
-    // It may exist from an earlier run.
-    let _ = fs::remove_dir_all(&path);
-    path
-}
-
-fn read(folder: &Path, name: &str) -> String {
-    fs::read_to_string(folder.join(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
-}
 
 /// Creates a workspace with the name of its folder.
 fn make(eds: &str, board: &str, name: &str) -> PathBuf {

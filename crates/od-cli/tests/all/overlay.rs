@@ -1,9 +1,8 @@
 //! `base.eds+variant.eds` in place of a device.
 
 use std::fs;
-use std::path::Path;
 
-use crate::support::{file, odkit, repository};
+use crate::support::{file, folder, odkit, repository};
 
 const VARIANT: &str = "\
 ; a coarse one without customer data
@@ -77,9 +76,7 @@ fn findings_are_in_the_file_that_they_are_about() {
 
 #[test]
 fn an_overlay_alone_names_its_base() {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("overlay-alone");
-    let _ = fs::remove_dir_all(&folder);
-    fs::create_dir_all(&folder).expect("a folder for test files");
+    let folder = folder("overlay-alone", &[]);
     fs::copy(repository("devices/eds/GXMM.eds"), folder.join("a.eds")).expect("a file");
     let write = |name: &str, text: &str| {
         let path = folder.join(name);

@@ -1,24 +1,12 @@
 //! `odkit.toml`, formats of the report of `odkit check`, and findings of base and overlay.
 
 use std::fs;
-use std::path::PathBuf;
 
-use crate::support::{Done, odkit, repository};
+use crate::support::{Done, folder, odkit, repository};
 
 /// A remark (I0410), a warning with a safe fix (W0108) and an error (E0412).
 const FILE: &str = "[2000]\nParameterName=Gain\nDataType:0x2\nAccessType=rw\nDefaultValue=0xFF\n\
     [2001]\nParameterName=Speed\nDataType=0x5\nAccessType=rw\nDefaultValue=300\n";
-
-/// A folder of this test run with these files.
-fn folder(name: &str, files: &[(&str, &str)]) -> PathBuf {
-    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
-    for (path, content) in files {
-        let path = folder.join(path);
-        fs::create_dir_all(path.parent().expect("a folder")).expect("a folder for test files");
-        fs::write(path, content).expect("a folder for test files");
-    }
-    folder
-}
 
 fn check(folder: &std::path::Path, args: &[&str]) -> Done {
     let path = folder.display().to_string();

@@ -1,7 +1,7 @@
 //! `odkit sim` as a process: its greeting, its devices, its console, its refusals.
 
 use crate::support::sim::{Sim, say};
-use crate::support::{file, odkit, repository};
+use crate::support::{file, fresh, odkit, repository};
 
 #[test]
 fn it_prints_how_to_connect_and_responds() {
@@ -281,8 +281,7 @@ fn two_devices_with_one_node_id_get_a_warning() {
 #[cfg(unix)]
 #[test]
 fn a_fifo_is_not_an_eeprom() {
-    let path = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("eeprom.fifo");
-    let _ = std::fs::remove_file(&path);
+    let path = fresh("eeprom.fifo");
     let made = std::process::Command::new("mkfifo").arg(&path).status();
     assert!(made.expect("mkfifo").success());
     let sim = odkit(

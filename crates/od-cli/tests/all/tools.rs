@@ -1,25 +1,14 @@
 //! `odkit check --for`: how other tools read a file.
 
 use std::fs;
-use std::path::PathBuf;
 
-use crate::support::{Done, odkit};
+use crate::support::{Done, folder, odkit};
 
 /// python-canopen reads it with another default and without the mapping; nothing stops it.
 const DIFFERS: &str = "[2000]\nParameterName=Gain\nObjectType=7\nDataType=0x5\nAccessType=rw\n\
     DefaultValue=010\nPdoMapping=1\n";
 /// It stops python-canopen, which expects numbers.
 const STOPS: &str = "[DeviceInfo]\nVendorNumber=\n";
-
-/// A folder of this test run with these files.
-fn folder(name: &str, files: &[(&str, &str)]) -> PathBuf {
-    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
-    fs::create_dir_all(&folder).expect("a folder for test files");
-    for (path, content) in files {
-        fs::write(folder.join(path), content).expect("a folder for test files");
-    }
-    folder
-}
 
 fn check(path: &std::path::Path, args: &[&str]) -> Done {
     let path = path.display().to_string();

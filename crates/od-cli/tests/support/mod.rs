@@ -7,9 +7,12 @@ mod patience;
 pub(crate) mod quiet;
 pub(crate) mod sim;
 
+use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
+
+use tempfile::TempDir;
 
 /// Result of a run of `odkit`.
 pub(crate) struct Done {
@@ -53,11 +56,43 @@ pub(crate) fn odkit(args: &[&str], input: &str) -> Done {
     }
 }
 
+/// An empty folder that is removed when the value is dropped. Its path is short enough for a socket in it.
+pub(crate) fn temporary() -> TempDir {
+    let folder = tempfile::Builder::new().prefix("odkit-").tempdir();
+    folder.expect("a folder for temporary files")
+}
+
+/// A path among the files of this test run. What an earlier run left there is removed.
+pub(crate) fn fresh(name: &str) -> PathBuf {
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let _ = fs::remove_dir_all(&path);
+    let _ = fs::remove_file(&path);
+    path
+}
+
 /// A file of this test run, with this content.
 pub(crate) fn file(name: &str, content: &str) -> PathBuf {
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
-    std::fs::write(&path, content).expect("a folder for test files");
+    fs::write(&path, content).expect("a folder for test files");
     path
+}
+
+/// A folder of this test run with these files and no others.
+pub(crate) fn folder(name: &str, files: &[(&str, &str)]) -> PathBuf {
+    let folder = fresh(name);
+    fs::create_dir_all(&folder).expect("a folder for test files");
+    for (path, content) in files {
+        let path = folder.join(path);
+        fs::create_dir_all(path.parent().expect("a folder")).expect("a folder for test files");
+        fs::write(path, content).expect("a folder for test files");
+    }
+    folder
+}
+
+/// The text of a file in a folder.
+#[track_caller]
+pub(crate) fn read(folder: &Path, name: &str) -> String {
+    fs::read_to_string(folder.join(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
 }
 
 /// A file of the repository.

@@ -1,21 +1,23 @@
 //! A quiet `odkit sim`, for tests of runs in the background.
 
-use std::fs;
 use std::io::{BufRead, BufReader, Read};
 use std::net::TcpStream;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Child, Stdio};
 use std::time::{Duration, Instant};
 
 use serde_json::Value;
+use tempfile::TempDir;
 
-use super::{Done, command, odkit};
+use super::{Done, command, odkit, temporary};
 
 /// A quiet `odkit sim` on an slcan port of its own; it ends when this is dropped.
 pub(crate) struct Sim {
     pub(crate) child: Child,
     /// Its line on standard output.
     pub(crate) ready: Value,
+    /// Where it leaves its report for other programs: a killed bench cannot remove it.
+    _reports: TempDir,
 }
 
 impl Sim {
@@ -25,8 +27,10 @@ impl Sim {
 
     /// Any subcommand that runs a live bench.
     pub(crate) fn run(args: &[&str]) -> Self {
+        let reports = temporary();
         let mut child = command()
             .args(args)
+            .env("XDG_RUNTIME_DIR", reports.path())
             .args(["--quiet", "--ready-file", "-"])
             .stdout(Stdio::piped())
             .stderr(Stdio::piped())
@@ -36,7 +40,11 @@ impl Sim {
         let mut out = BufReader::new(child.stdout.take().expect("a pipe"));
         out.read_line(&mut line).expect("a line");
         let ready = serde_json::from_str(&line).unwrap_or_else(|why| panic!("{line:?}: {why}"));
-        Self { child, ready }
+        Self {
+            child,
+            ready,
+            _reports: reports,
+        }
     }
 
     pub(crate) fn client(&self) -> TcpStream {
@@ -75,13 +83,6 @@ impl Drop for Sim {
         let _ = self.child.kill();
         let _ = self.child.wait();
     }
-}
-
-/// A path for this test; the path of a socket has a small maximum length.
-pub(crate) fn path(name: &str) -> PathBuf {
-    let path = std::env::temp_dir().join(format!("odkit-{}-{name}", std::process::id()));
-    let _ = fs::remove_file(&path);
-    path
 }
 
 pub(crate) fn unix(path: &Path) -> String {

@@ -5,9 +5,11 @@ use std::net::TcpStream;
 use std::process::{Child, ChildStderr, Command, Stdio};
 use std::time::Duration;
 
-use super::command;
+use tempfile::TempDir;
+
 #[cfg(unix)]
 use super::quiet::until;
+use super::{command, temporary};
 
 /// `odkit sim` on an slcan port of its own; it ends when this is dropped.
 pub(crate) struct Sim {
@@ -17,6 +19,8 @@ pub(crate) struct Sim {
     pub(crate) port: u16,
     /// Its standard error, unless it is not captured.
     errors: Option<BufReader<ChildStderr>>,
+    /// Where it leaves its report for other programs: a killed bench cannot remove it.
+    _reports: TempDir,
 }
 
 impl Sim {
@@ -40,7 +44,9 @@ impl Sim {
     }
 
     fn spawn(mut command: Command, args: &[&str], errors: Stdio) -> Self {
+        let reports = temporary();
         let mut child = command
+            .env("XDG_RUNTIME_DIR", reports.path())
             .arg("sim")
             .args(args)
             .args(["--slcan", "127.0.0.1:0"])
@@ -64,6 +70,7 @@ impl Sim {
             greeting,
             port: 0,
             errors,
+            _reports: reports,
         };
         sim.port = sim.port_of("slcan on 127.0.0.1:");
         sim

@@ -2,16 +2,14 @@
 
 use std::io::{BufRead, BufReader};
 #[cfg(unix)]
-use std::path::Path;
 #[cfg(unix)]
 use std::process::{Child, Command, Stdio};
 
 use super::{done, fails};
 #[cfg(unix)]
-use crate::support::command;
-use crate::support::file;
-#[cfg(unix)]
 use crate::support::sim::Sim;
+#[cfg(unix)]
+use crate::support::{command, file, fresh};
 
 /// A test over slcan that is disturbed while it runs: standard output and error, and the exit code.
 #[cfg(unix)]
@@ -86,9 +84,7 @@ fn ctrl_c_ends_in_a_report() {
 #[cfg(unix)]
 #[test]
 fn a_command_switches_the_power() {
-    let socket = Path::new(env!("CARGO_TARGET_TMPDIR")).join("power.sock");
-    // A file of an earlier run that was killed.
-    let _ = std::fs::remove_file(&socket);
+    let socket = fresh("power.sock");
     let place = format!("unix:{}", socket.display());
     let sim = Sim::start(&["gxmm", "--control", &place]);
     let link = format!("slcan:127.0.0.1:{}", sim.port);

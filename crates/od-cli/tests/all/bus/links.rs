@@ -7,7 +7,7 @@ use std::thread;
 
 use super::{done, fails};
 use crate::support::quiet::Sim;
-use crate::support::{command, odkit};
+use crate::support::{command, odkit, temporary};
 
 #[test]
 fn each_link_reads_the_same_value() {
@@ -74,12 +74,11 @@ fn each_link_reads_the_same_value() {
 
 #[test]
 fn the_default_is_the_running_sim() {
-    let folder = std::env::temp_dir().join(format!("odkit-default-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).expect("a folder");
+    let folder = temporary();
     let get = || {
         let mut get = command();
         get.args(["get", "5", "1000h"])
-            .env("XDG_RUNTIME_DIR", &folder);
+            .env("XDG_RUNTIME_DIR", folder.path());
         get.output().expect("odkit runs")
     };
     let nobody = get();
@@ -100,7 +99,7 @@ fn the_default_is_the_running_sim() {
         "--quiet",
     ]);
     sim.args(["--ready-file", "-"])
-        .env("XDG_RUNTIME_DIR", &folder);
+        .env("XDG_RUNTIME_DIR", folder.path());
     let mut sim = sim.stdout(Stdio::piped()).spawn().expect("odkit starts");
     let mut byte = [0];
     sim.stdout
@@ -119,7 +118,6 @@ fn the_default_is_the_running_sim() {
     sim.wait().expect("it ends");
     // The bench was killed, so its file still exists.
     assert_eq!(get().status.code(), Some(1));
-    std::fs::remove_dir_all(&folder).expect("a folder");
 }
 
 /// A server that responds to the first bytes of a client, and then disconnects.
