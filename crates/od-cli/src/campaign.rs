@@ -11,7 +11,7 @@ use od_runtime::NodeId;
 use od_sim::VirtualDevice;
 use od_sim::script::campaign::Failure as Fails;
 use od_sim::script::{Campaign, Host, Reason, Script};
-use od_tools::conform::report::junit::escape;
+use od_tools::junit::{Case, Outcome, Run, Suite};
 
 use crate::failure::Failure;
 use crate::output::{self, note};
@@ -245,8 +245,9 @@ fn with_paths(script: &str, path: &Path) -> String {
 
 fn report(args: &Args, told: &[FailureText], count: u64, seconds: f64) -> Result<(), Failure> {
     let failed: usize = told.iter().map(|one| one.seeds.len()).sum();
+    let passed = count - failed as u64;
     if let Some(path) = &args.junit {
-        let xml = junit(&args.script, told, count, seconds);
+        let xml = junit(&args.script, told, passed, seconds);
         output::write(path, xml.as_bytes())?;
     }
     if let Some(folder) = &args.save {
@@ -283,7 +284,6 @@ fn report(args: &Args, told: &[FailureText], count: u64, seconds: f64) -> Result
     if !text.is_empty() {
         output::print(&text)?;
     }
-    let passed = count - failed as u64;
     note!("{passed} of {count} seeds passed in {seconds:.1} s");
     match told.iter().map(|one| code_of(&one.reason)).max() {
         None => Ok(()),
@@ -292,34 +292,36 @@ fn report(args: &Args, told: &[FailureText], count: u64, seconds: f64) -> Result
 }
 
 /// The report as JUnit XML: a case for each seed that failed, and one for all others.
-fn junit(script: &str, told: &[FailureText], count: u64, seconds: f64) -> String {
-    let failed: usize = told.iter().map(|one| one.seeds.len()).sum();
-    let passed = count - failed as u64;
-    let script = escape(script);
-    let counts = format!(
-        r#"tests="{}" failures="{failed}" time="{seconds:.3}""#,
-        failed + 1
-    );
-    let mut lines = vec![
-        String::from(r#"<?xml version="1.0" encoding="UTF-8"?>"#),
-        format!(r#"<testsuites name="odkit campaign" {counts}>"#),
-        format!(r#"  <testsuite name="{script}" {counts}>"#),
-        format!(r#"    <testcase name="{passed} seeds that pass" classname="{script}"/>"#),
-    ];
+fn junit(script: &str, told: &[FailureText], passed: u64, seconds: f64) -> String {
+    let case = |name: String, outcome: Outcome| Case {
+        name,
+        micros: None,
+        outcome,
+        output: Vec::new(),
+    };
+    let mut cases = vec![case(format!("{passed} seeds that pass"), Outcome::Passed)];
     for one in told {
-        let message = escape(one.text.lines().next().unwrap_or_default());
-        let text = escape(&format!("{}\nscript:\n{}", one.text, one.script));
         for (place, seed) in one.seeds.iter().enumerate() {
             let text = match place {
-                0 => text.clone(),
+                0 => format!("{}\nscript:\n{}", one.text, one.script),
                 _ => format!("as {}: odkit run {script} --seed {seed}", one.name()),
             };
-            lines.push(format!(
-                "    <testcase name=\"seed {seed}\" classname=\"{script}\">\
-                 <failure message=\"{message}\">{text}</failure></testcase>"
+            let message = one.text.lines().next().unwrap_or_default().to_owned();
+            cases.push(case(
+                format!("seed {seed}"),
+                Outcome::Failed { message, text },
             ));
         }
     }
-    lines.push("  </testsuite>\n</testsuites>\n".into());
-    lines.join("\n")
+    let suite = Suite {
+        name: script.to_owned(),
+        micros: (seconds * 1e6) as u64,
+        cases,
+    };
+    let run = Run {
+        name: String::from("odkit campaign"),
+        properties: Vec::new(),
+        suites: vec![suite],
+    };
+    run.render()
 }

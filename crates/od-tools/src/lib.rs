@@ -10,6 +10,7 @@ pub mod conform;
 mod error;
 pub mod filter;
 pub mod interrupt;
+pub mod junit;
 pub mod learn;
 pub mod link;
 pub mod links;

@@ -1,8 +1,8 @@
 //! The report as one HTML page, with every frame behind its case; it can be printed.
 
-use super::junit::escape;
 use super::run::{Narrator, Report, groups, millis, source};
 use crate::conform::record::{Record, Verdict};
+use crate::junit::escape;
 
 const STYLE: &str = "\
 :root{color-scheme:light dark}\

@@ -2,7 +2,7 @@
 
 mod html;
 mod json;
-pub mod junit;
+mod junit;
 mod markdown;
 mod run;
 mod text;
