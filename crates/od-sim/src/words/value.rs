@@ -36,7 +36,7 @@ pub(super) fn show_mapped(
     bits: u8,
 ) -> String {
     let shown = values::show_bits(data_type, data, bits);
-    let is_whole = data_type.bits() == Some(bits.into());
+    let is_whole = data_type.bits() == Some(bits);
     match documented(device, address, data_type, data).filter(|_| is_whole) {
         Some(said) => format!("{shown}: {said}"),
         None => shown,
