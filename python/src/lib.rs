@@ -74,7 +74,7 @@ mod _odkit {
     #[pymodule_export]
     use crate::files::value::Relative;
     #[pymodule_export]
-    use crate::pass::end_program;
+    use crate::party::end_program;
     #[pymodule_export]
     use crate::play::{play, restore_snapshot, shrink};
     #[pymodule_export]

@@ -1,9 +1,11 @@
 //! The threads that take part on a bus, and what each of them waits for.
 
-use std::thread::{Thread, ThreadId};
+use std::sync::OnceLock;
+use std::thread::{self, Thread, ThreadId};
 use std::time::{Duration, Instant as Clock};
 
 use od_wire::Instant;
+use pyo3::intern;
 use pyo3::prelude::*;
 
 /// Condition for which a thread waits.
@@ -70,6 +72,12 @@ const SILENT: Duration = Duration::from_secs(1);
 /// Like `SILENT`, if the system does not report the processor time of a thread.
 const UNKNOWN: Duration = Duration::from_secs(10);
 
+/// Processor time in seconds for which a thread competes with one that may wait for something unseen: many of the
+/// scheduler's turns.
+const SHARE: f64 = 0.05;
+/// Time on the clock between two looks at the processor time.
+const SLICE: Duration = Duration::from_millis(2);
+
 impl Party {
     /// A thread that runs.
     pub(crate) fn new(
@@ -134,4 +142,48 @@ impl Party {
             }
         }
     }
+}
+
+/// Uses the processor for `SHARE`. A thread that could run gets its share of the processor meanwhile, however busy the
+/// computer is.
+///
+/// # Errors
+/// What a signal such as Ctrl-C raises.
+pub(crate) fn compete(py: Python<'_>) -> PyResult<()> {
+    let time = py.import(intern!(py, "time"))?;
+    let used = || -> PyResult<f64> {
+        let seconds = time.call_method0(intern!(py, "thread_time"))?;
+        seconds.extract()
+    };
+    let end = used()? + SHARE;
+    while used()? < end {
+        detached(py, || {
+            let began = Clock::now();
+            while began.elapsed() < SLICE {
+                std::hint::spin_loop();
+            }
+        });
+        py.check_signals()?;
+    }
+    Ok(())
+}
+
+/// The program ends: a thread that is not attached to the interpreter stays so.
+#[pyfunction]
+pub(crate) fn end_program() {
+    let _ = ENDS.set(thread::current().id());
+}
+
+/// The thread that ends the program.
+static ENDS: OnceLock<ThreadId> = OnceLock::new();
+
+/// Does something without the interpreter's lock.
+pub(crate) fn detached<T: Send>(py: Python<'_>, act: impl Send + FnOnce() -> T) -> T {
+    py.detach(|| {
+        let result = act();
+        while ENDS.get().is_some_and(|one| *one != thread::current().id()) {
+            thread::park();
+        }
+        result
+    })
 }

@@ -7,16 +7,14 @@
 //! waits for something that Python does not report.
 
 use std::cell::Cell;
-use std::sync::OnceLock;
-use std::thread::{self, ThreadId};
+use std::thread;
 use std::time::{Duration, Instant as Clock};
 
 use od_wire::Instant;
 use pyo3::exceptions::PyRuntimeError;
-use pyo3::intern;
 use pyo3::prelude::*;
 
-use crate::party::Wait;
+use crate::party::{Wait, detached};
 use crate::state::{State, Step};
 use crate::wire::{self, Wire};
 
@@ -40,9 +38,6 @@ pub(crate) enum Moved {
 pub(crate) const NAP: Duration = Duration::from_millis(2);
 /// Time on the clock between two checks for signals such as Ctrl-C.
 pub(crate) const LOOK: Duration = Duration::from_millis(10);
-/// Processor time in seconds for which a thread competes with one that may wait for something unseen: many of the
-/// scheduler's turns.
-const SHARE: f64 = 0.05;
 /// Maximum time that passes on the bus in one step, in ms: without frames a step costs up to 1 ms per second.
 const STEP: u64 = 10_000;
 /// Number of steps after which a thread that is alone lets other threads of Python run.
@@ -330,30 +325,6 @@ pub(crate) fn look(py: Python<'_>) -> PyResult<()> {
     Ok(())
 }
 
-/// Uses the processor for `SHARE`. A thread that could run gets its share of the processor meanwhile, however busy the
-/// computer is.
-///
-/// # Errors
-/// As [`look`].
-pub(crate) fn compete(py: Python<'_>) -> PyResult<()> {
-    let time = py.import(intern!(py, "time"))?;
-    let used = || -> PyResult<f64> {
-        let seconds = time.call_method0(intern!(py, "thread_time"))?;
-        seconds.extract()
-    };
-    let end = used()? + SHARE;
-    while used()? < end {
-        detached(py, || {
-            let began = Clock::now();
-            while began.elapsed() < NAP {
-                std::hint::spin_loop();
-            }
-        });
-        py.check_signals()?;
-    }
-    Ok(())
-}
-
 /// Waits for a time on the clock, or until another thread wakes this one.
 ///
 /// # Errors
@@ -367,24 +338,4 @@ pub(crate) fn sleep(py: Python<'_>, time: Duration) -> PyResult<()> {
 pub(crate) fn length(idle: u32, most: Duration) -> Duration {
     let pause = Duration::from_micros(25 << idle.saturating_add(1).min(8));
     pause.min(NAP).min(most.max(Duration::from_micros(50)))
-}
-
-/// The program ends: a thread that is not attached to the interpreter stays so.
-#[pyfunction]
-pub(crate) fn end_program() {
-    let _ = ENDS.set(thread::current().id());
-}
-
-/// The thread that ends the program.
-static ENDS: OnceLock<ThreadId> = OnceLock::new();
-
-/// Does something without the interpreter's lock.
-fn detached<T: Send>(py: Python<'_>, act: impl Send + FnOnce() -> T) -> T {
-    py.detach(|| {
-        let result = act();
-        while ENDS.get().is_some_and(|one| *one != thread::current().id()) {
-            thread::park();
-        }
-        result
-    })
 }

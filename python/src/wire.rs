@@ -12,8 +12,7 @@ use pyo3::sync::PyOnceLock;
 use pyo3::types::PyDict;
 
 use crate::faults::Fault;
-use crate::party::{Party, Seen};
-use crate::pass::compete;
+use crate::party::{Party, Seen, compete};
 use crate::state::State;
 
 /// A bus with a name. Its lock is held with the interpreter attached, and never while a thread

@@ -12,7 +12,7 @@ pub(crate) static W0911: Rule = Rule {
     severity: Warning,
     title: "lower limit of a device is above the upper one",
     why: "No value is between the limits: a drive rejects every position, and an area or an alarm has no effect.",
-    source: "CiA 401, objects 6424h, 6425h, 6429h and 642Ah; CiA 402, objects 6046h, 607Bh and 607Dh; CiA 404, input limits 6134h and 6135h; CiA 406, objects 6401h and 6402h",
+    source: "CiA 401, 6424h, 6425h, 6429h, 642Ah; CiA 402, 6046h, 607Bh, 607Dh; CiA 404, 6134h, 6135h; CiA 406, 6401h, 6402h",
     says: "upper limit {object} is {high}, but lower limit {lower} is {low}",
     help: "write the lower limit to {lower} and the upper limit to {object}",
     check: Check::Entry(check),
