@@ -35,13 +35,13 @@ pub(crate) fn get(repo: &Repo, console: &Console) -> Result<PathBuf> {
     Ok(dir.join("node_modules/.bin"))
 }
 
-/// The command that optimises `input` into `output`, with as much effort as `level` says.
+/// The command that optimises `input` into `output`, with the options of `level`.
 pub(crate) fn command(repo: &Repo, level: &str, input: &Path, output: &Path) -> Command {
     // A JavaScript program: Windows does not start it by its name.
     let mut command = Command::new("node");
     command.arg(REMEMBERS).current_dir(&repo.root);
     command
-        .arg(level)
+        .args(level.split_whitespace())
         .args(FLAGS)
         .arg(input)
         .arg("-o")
