@@ -359,7 +359,7 @@ test('a reload resumes a lesson where it was; the list says how far, and what wa
   await list.getByRole('button', { name: /^NMT states and commands 2 of 4.*1 step shown/s }).waitFor();
   await list.getByRole('heading', { name: /^First steps 0 of \d/ }).waitFor();
   await list.getByRole('button', { name: /^Preset, then save/ }).click();
-  await page.getByRole('heading', { name: 'Preset, then save' }).waitFor();
+  await page.getByRole('heading', { name: 'Preset, then save', exact: true }).waitFor();
   await becomes('the object of the last lesson', () => page.locator('#sdo-object').inputValue(), '');
   await becomes('the view of the encoder', () => page.getByRole('group', { name: 'Encoder views' }).getByRole('button', { name: 'Shaft' }).getAttribute('aria-pressed'), 'true');
   // A link to a lesson that was left, while another one runs; and the way back.
@@ -367,7 +367,7 @@ test('a reload resumes a lesson where it was; the list says how far, and what wa
   await page.getByText('This lesson goes on with step 3 of 4.').waitFor();
   await becomes('the step after the link', stepNumber, '3');
   await page.goBack();
-  await page.getByRole('heading', { name: 'Preset, then save' }).waitFor();
+  await page.getByRole('heading', { name: 'Preset, then save', exact: true }).waitFor();
   await becomes('the step after the way back', stepNumber, '1');
   await lesson.getByRole('button', { name: 'Other lessons' }).first().click();
   await list.getByRole('button', { name: /^NMT states and commands 2 of 4/ }).waitFor();
