@@ -78,7 +78,7 @@ pub(crate) struct State {
     /// The program was warned that time follows the clock.
     pub(crate) warned: bool,
     /// The program was warned that a thread has long been computing.
-    pub(crate) told: bool,
+    pub(crate) is_warned: bool,
     /// Counts all changes of the bus.
     pub(crate) changes: u64,
     ids: u32,
@@ -104,7 +104,7 @@ impl Default for State {
             pace: 1.0,
             strict: false,
             warned: false,
-            told: false,
+            is_warned: false,
             changes: 0,
             ids: 0,
             process: std::process::id(),

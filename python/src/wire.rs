@@ -192,8 +192,8 @@ impl Wire {
         if asleep.is_none() {
             state.follows = None;
         }
-        if let Some(object) = computes.filter(|_| !state.told) {
-            state.told = true;
+        if let Some(object) = computes.filter(|_| !state.is_warned) {
+            state.is_warned = true;
             drop(state);
             waits(py)?.call_method1(intern!(py, "report_long"), (object,))?;
             return Ok(runs);

@@ -1,7 +1,6 @@
 //! A limit for the time of a test.
 //!
-//! A test that waits for a process for ever would be stopped with all others by whoever runs them, and nothing would say which
-//! one it was.
+//! Without it, one test that waits for ever would stop the whole run, and nothing would name that test.
 
 use std::collections::HashMap;
 use std::io::Write;

@@ -16,7 +16,7 @@ pub(crate) struct Sim {
     pub(crate) child: Child,
     /// Its line on standard output.
     pub(crate) ready: Value,
-    /// Where it leaves its report for other programs: a killed bench cannot remove it.
+    /// The folder of the file by which other programs find it. A bench that is killed cannot remove that file.
     _reports: TempDir,
 }
 

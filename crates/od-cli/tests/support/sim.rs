@@ -19,7 +19,7 @@ pub(crate) struct Sim {
     pub(crate) port: u16,
     /// Its standard error, unless it is not captured.
     errors: Option<BufReader<ChildStderr>>,
-    /// Where it leaves its report for other programs: a killed bench cannot remove it.
+    /// The folder of the file by which other programs find it. A bench that is killed cannot remove that file.
     _reports: TempDir,
 }
 
