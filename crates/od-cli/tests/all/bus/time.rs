@@ -163,10 +163,18 @@ fn a_bus_is_recorded_replayed_and_monitored() {
         .concat(),
     );
     let report: Value = serde_json::from_str(&by_id).expect("JSON");
-    let period = report["ids"][0]["period_ms"].as_f64().expect("a period");
-    // 20 ms, and more on a busy computer; neither seconds nor microseconds.
-    assert!((1.0..2000.0).contains(&period), "{by_id}");
-    assert!(report["load_percent"].as_f64() > Some(0.0), "{by_id}");
+    // A bench that got no processor time sends what is due in a burst, so the values are tested with given times, in
+    // `monitor::stats`.
+    let row = &report["ids"][0];
+    assert_eq!(
+        (row["id"].as_str(), row["frames"].as_u64()),
+        (Some("705"), Some(4)),
+        "{by_id}"
+    );
+    assert!(
+        row["period_ms"].is_number() && report["load_percent"].is_number(),
+        "{by_id}"
+    );
     for ending in ["log", "pcapng"] {
         let path = file(&format!("bus-recorded.{ending}"), "")
             .display()
