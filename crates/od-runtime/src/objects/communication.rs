@@ -107,9 +107,12 @@ pub(super) fn check<D: Services>(
                 let mut types = profile.pdo.tpdo_types.iter();
                 allow(types.any(|(low, high)| (*low..=*high).contains(&(value as u8))))
             }
-            // The inhibit time cannot change while the PDO exists (chapter 7.5.2.37).
+            // The inhibit time and the SYNC start value cannot change while the PDO exists (chapter 7.5.2.37).
             3 if const { may_have::<D>(0x1800, 0x19FF, Some(3)) } => {
-                allow(!is_valid(store, index) || profile.pdo.direct_cob_id)
+                allow(may_be(store, profile, row, value))
+            }
+            6 if const { may_have::<D>(0x1800, 0x19FF, Some(6)) } => {
+                allow(value <= 240 && may_be(store, profile, row, value))
             }
             _ => Ok(()),
         },
@@ -199,6 +202,13 @@ fn check_cob_id(
 /// Returns whether the PDO of a communication parameter is valid (bit 31 of its COB-ID is 0).
 fn is_valid(store: &Store<'_>, parameter: u16) -> bool {
     CobId::new(store.word(parameter, 1, 1 << 31)).is_valid()
+}
+
+/// Returns whether a communication parameter of a PDO may have this value now: the one that it has, or any
+/// while the PDO is not valid (unless the family allows more).
+fn may_be(store: &Store<'_>, profile: &Profile, row: &Row, value: u32) -> bool {
+    let is_free = profile.pdo.direct_cob_id || !is_valid(store, row.address().index);
+    is_free || store.number_of(row) as u32 == value
 }
 
 /// Checks sub-index 0 of a mapping: 0 disables the mapping; a higher value needs as many entries

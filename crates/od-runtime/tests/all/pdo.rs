@@ -251,13 +251,19 @@ fn a_remote_frame_before_the_first_sync_gets_the_current_value() {
 
 #[test]
 fn a_sync_start_value_waits_for_its_counter() {
-    let mut bench = running(&["2F00180202000000", "2F00180603000000"]);
+    let setup = [
+        "2300180181010080",
+        "2F00180202000000",
+        "2F00180603000000",
+        "2300180181010000",
+    ];
+    let mut bench = running(&setup);
     let sent: Vec<_> = [1, 2, 3, 4, 5, 6]
         .map(|counter| bench.send(&format!("080#{counter:02X}")).len())
         .into();
     assert_eq!(sent, [0, 0, 1, 0, 1, 0], "SYNC 3 is the first of the count");
     // Without a counter in SYNC the node cannot wait for one.
-    let mut bench = running(&["2F00180202000000", "2F00180603000000"]);
+    let mut bench = running(&setup);
     assert_eq!(bench.send("080#").len(), 1);
     assert_eq!(bench.send("080#").len(), 0);
 }

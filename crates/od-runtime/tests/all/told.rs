@@ -94,11 +94,23 @@ fn after_an_immediate_restore_services_read_their_objects_again() {
 }
 
 #[test]
-fn an_inhibit_time_changes_only_while_the_pdo_is_not_valid() {
+fn inhibit_time_and_sync_start_value_change_only_while_the_pdo_is_not_valid() {
+    const DONE: &str = "60";
     let mut bench = bench();
-    assert_eq!(bench.ask("601#2B00180364000000"), "581#8000180330000906");
-    bench.ask("601#2300180181010080");
-    assert_eq!(bench.ask("601#2B00180364000000"), "581#6000180300000000");
+    for (request, answer) in [
+        ("2B00180364000000", "581#8000180330000906"),
+        ("2F00180603000000", "581#8000180630000906"),
+        ("2B00180300000000", DONE), // the value that it has
+        ("2F00180600000000", DONE),
+        ("2300180181010080", DONE),
+        ("2B00180364000000", DONE),
+        ("2F001806F0000000", DONE),
+        ("2F001806F1000000", "581#8000180630000906"), // 241 is not a counter of SYNC
+    ] {
+        let got = bench.ask(&format!("601#{request}"));
+        let got = if answer == DONE { &got[4..6] } else { &got };
+        assert_eq!(got, answer, "{request}");
+    }
     bench.node.device_mut().profile.pdo.direct_cob_id = true;
     bench.ask("601#2300180181010000");
     assert_eq!(bench.ask("601#2B00180365000000"), "581#6000180300000000");

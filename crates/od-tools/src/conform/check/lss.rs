@@ -253,6 +253,32 @@ pub(super) fn bit_timing_range(dut: &mut Dut<'_>) -> Checked {
     })
 }
 
+/// The bit rates of the table that the EDS does not name are refused; a node that accepts one is reset.
+pub(super) fn bit_rates(dut: &mut Dut<'_>) -> Checked {
+    let Some(named) = dut.eds.description.lss_bit_rates() else {
+        return lacks("the EDS does not declare LSS");
+    };
+    // Index 5 is reserved, and some devices have 100 kbit/s there.
+    let others = (0u8..)
+        .zip(named)
+        .filter(|(index, named)| *index != 5 && !named);
+    let others: Vec<u8> = others.map(|(index, _)| index).collect();
+    if others.is_empty() {
+        return lacks("the EDS names all bit rates of the table");
+    }
+    let done = with(dut, |dut, _| {
+        for index in others {
+            let request = Request::ConfigureBitTiming { table: 0, index };
+            answers(dut, request, &[0x13, 1])?;
+        }
+        Ok(())
+    });
+    if matches!(done, Err(End::Fail { .. })) {
+        dut.reset(Command::ResetNode)?;
+    }
+    done
+}
+
 pub(super) fn unknown(dut: &mut Dut<'_>) -> Checked {
     with(dut, |dut, _| {
         for command in [0x60, 0x02, 0x70] {

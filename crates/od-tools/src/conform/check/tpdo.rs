@@ -506,11 +506,21 @@ pub(super) fn refuses_types(dut: &mut Dut<'_>, base: u16, kinds: [u8; 2]) -> Che
 
 /// The inhibit time of a valid TPDO cannot be changed.
 pub(super) fn inhibit_fixed(dut: &mut Dut<'_>) -> Checked {
+    fixed(dut, 3, "the inhibit time cannot be written")
+}
+
+/// The SYNC start value of a valid TPDO cannot be changed.
+pub(super) fn start_value_fixed(dut: &mut Dut<'_>) -> Checked {
+    fixed(dut, 6, "the SYNC start value cannot be written")
+}
+
+/// Fails if a sub-index of the communication parameter changes while the TPDO is valid.
+fn fixed(dut: &mut Dut<'_>, sub: u8, without: &str) -> Checked {
     let pdo = first(dut)?;
-    if !dut.eds.writes(pdo.com, 3) || !dut.eds.writes(pdo.com, 1) {
-        return lacks("the inhibit time cannot be written");
+    if !dut.eds.writes(pdo.com, sub) || !dut.eds.writes(pdo.com, 1) {
+        return lacks(without);
     }
-    let address = pdo.address(3);
+    let address = pdo.address(sub);
     let before = dut.read(address)?;
     let mut other = before.clone();
     if let Some(first) = other.first_mut() {
