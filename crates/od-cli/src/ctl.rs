@@ -11,7 +11,7 @@ use crate::output::Output;
 /// Send lines to a running `odkit sim --control PATH`
 ///
 /// The lines are those that `odkit sim --link -` accepts (SCRIPTS.md): `power cycle 2s`,
-/// `shaft rpm 60`, `fault battery-low on`, `set 6000h:01 = 5`, `emcy 4200h`, `use 2`, frames; and
+/// `shaft rpm 60`, `fault battery-low on`, `set 1017h = 500`, `emcy 4200h`, `use 2`, frames; and
 /// `stats`. Each line gets its answer when it is done.
 ///
 /// Exit code 0: every line is done; 1: no bench answers, or it cannot carry out a line; 2: a
