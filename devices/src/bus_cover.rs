@@ -6,7 +6,7 @@
 //! 406. The eight devices differ only in their dictionaries.
 
 use odkit::Address;
-use odkit::encoder::{EncoderProfile, Fault, Options, Report, Role, Total};
+use odkit::encoder::{EncoderProfile, Fault, OptionObject, Report, Role, Total};
 use odkit::{
     AbortCode, BusOffProfile, CommunicationReset, CutSave, ErrorProfile, ErrorReset, EventTimer,
     LengthRule, LssProfile, NmtProfile, Notice, PdoProfile, Profile, Restore, SaveAnswer,
@@ -261,12 +261,12 @@ pub static ENCODER: EncoderProfile = EncoderProfile {
         (Address::new(0x6508, 0), Role::TenthHoursSinceStart),
     ],
     below_limit: AbortCode::ValueRange,
-    options: Some(Options {
+    options: Some(OptionObject {
         index: 0x2110,
         keep_offset: 1 << 9,
         delay_timer: 1 << 8,
         delay_ms: 2,
-        ..Options::NONE
+        ..OptionObject::NONE
     }),
     bit_rates: &[10, 20, 50, 100, 125, 250, 500, 800, 1000],
     // Chapter 7.2.2: other codes than in 2100h; 100 kbit/s is not supported (C-GX-35).

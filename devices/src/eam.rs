@@ -9,8 +9,8 @@
 
 use odkit::Address;
 use odkit::encoder::{
-    Counter, EncoderProfile, Gear, GearKind, Movement, Options, Quantity, RangeRule, Role, Sensor,
-    Source, Total,
+    Counter, EncoderProfile, Gear, GearKind, Movement, OptionObject, Quantity, RangeRule, Role,
+    Sensor, Source, Total,
 };
 use odkit::{
     AbortCode, BusOffProfile, CommunicationReset, CutSave, ErrorProfile, ErrorReset, EventTimer,
@@ -254,10 +254,10 @@ const BASE: EncoderProfile = EncoderProfile {
     ],
     below_limit: AbortCode::ValueRange,
     // C-EAM-33.
-    options: Some(Options {
+    options: Some(OptionObject {
         index: 0x2110,
         ignore_code_sequence: 1 << 0,
-        ..Options::NONE
+        ..OptionObject::NONE
     }),
     bit_rates: &[10, 20, 50, 100, 125, 250, 500, 800, 1000],
     // The device has no switches.

@@ -51,7 +51,7 @@ impl Bus {
     pub fn drain(&mut self) -> Vec<u8> {
         let rig = &mut self.journal.rig;
         let mut batch = Vec::with_capacity(rig.pending() * packed::LEN);
-        rig.drain_to(|one| packed::push_seen(&mut batch, one));
+        rig.drain_to(|one| packed::push_event(&mut batch, one));
         batch
     }
 }

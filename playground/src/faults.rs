@@ -2,7 +2,7 @@
 
 use od_sim::faults::sight::{Language, Sight};
 use od_sim::faults::{Case, Cause, Collection, Mark, Trial};
-use od_sim::rig::Seen;
+use od_sim::rig::LineEvent;
 use od_sim::script::Bare;
 use od_sim::words::Decoder;
 use wasm_bindgen::prelude::*;
@@ -49,8 +49,8 @@ record! {
         more: usize,
     }
 
-    /// What a probe told. Causes and probes are places in the lists of the case.
-    ProbeTold {
+    /// A probe that the learner used, and what it ruled out. Causes and probes are places in the lists of the case.
+    UsedProbe {
         probe: usize,
         /// Causes that fit the reading.
         fit: Vec<usize>,
@@ -67,7 +67,7 @@ record! {
         /// Smallest number of probes that proves it.
         fewest: usize,
         best: Vec<usize>,
-        told: Vec<ProbeTold>,
+        used: Vec<UsedProbe>,
         /// What proves the cause, as Markdown.
         proof: String,
     }
@@ -149,10 +149,10 @@ pub fn try_probe(
         .take(SHOWN)
         .map(|seen| {
             let (at, frame, is_error) = match seen {
-                Seen::Frame { at, frame, .. } | Seen::Heard { at, frame, .. } => {
+                LineEvent::Frame { at, frame, .. } | LineEvent::Heard { at, frame, .. } => {
                     (*at, frame, false)
                 }
-                Seen::Disturbed(one) => (one.at, &one.frame, true),
+                LineEvent::Disturbed(one) => (one.at, &one.frame, true),
             };
             let begin = *begin.get_or_insert(at);
             let data = frame.data().iter().map(|byte| format!("{byte:02X} "));
@@ -222,9 +222,9 @@ pub fn judge_case(
         is_proven,
         fewest,
         best,
-        told,
+        used,
     } = mark;
-    let told = told.into_iter().map(|one| ProbeTold {
+    let used = used.into_iter().map(|one| UsedProbe {
         probe: one.probe,
         fit: one.fit,
         left: one.left,
@@ -236,7 +236,7 @@ pub fn judge_case(
         is_proven,
         fewest,
         best,
-        told: told.collect(),
+        used: used.collect(),
         proof: trial.causes().nth(cause).map_or(String::new(), proof),
     };
     Ok(mark.value())

@@ -16,7 +16,7 @@
 
 use od_runtime::{Frame, Instant};
 use od_sim::journal;
-use od_sim::rig::Seen;
+use od_sim::rig::LineEvent;
 use od_sim::wire::FrameError;
 
 /// Bytes of a packed frame.
@@ -58,10 +58,10 @@ pub(crate) fn push(batch: &mut Vec<u8>, at: Instant, device: Option<usize>, fram
 }
 
 /// Adds an event of the bus line.
-pub(crate) fn push_seen(batch: &mut Vec<u8>, seen: &Seen) {
+pub(crate) fn push_event(batch: &mut Vec<u8>, seen: &LineEvent) {
     let one = match seen {
-        Seen::Frame { at, device, frame } => return push(batch, *at, *device, frame),
-        Seen::Heard {
+        LineEvent::Frame { at, device, frame } => return push(batch, *at, *device, frame),
+        LineEvent::Heard {
             at: when,
             device,
             frame,
@@ -73,7 +73,7 @@ pub(crate) fn push_seen(batch: &mut Vec<u8>, seen: &Seen) {
             }
             return;
         }
-        Seen::Disturbed(one) => one,
+        LineEvent::Disturbed(one) => one,
     };
     let why = match one.trouble {
         FrameError::NoAcknowledge => 1,

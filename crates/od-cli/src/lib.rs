@@ -249,4 +249,24 @@ mod tests {
         all.sort_unstable();
         assert_eq!(listed, all, "the names in GROUPS, and the commands");
     }
+
+    #[test]
+    fn every_command_and_argument_has_a_help_text() {
+        fn missing(path: &str, command: &clap::Command, found: &mut Vec<String>) {
+            if command.get_about().is_none() {
+                found.push(path.to_owned());
+            }
+            let silent = command.get_arguments().filter(|one| {
+                one.get_help()
+                    .is_none_or(|help| help.to_string().is_empty())
+            });
+            found.extend(silent.map(|argument| format!("{path} {argument}")));
+            for one in command.get_subcommands() {
+                missing(&format!("{path} {}", one.get_name()), one, found);
+            }
+        }
+        let mut found = Vec::new();
+        missing("odkit", &Cli::command(), &mut found);
+        assert!(found.is_empty(), "no help text: {found:#?}");
+    }
 }

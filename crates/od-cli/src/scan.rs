@@ -2,7 +2,7 @@
 
 use od_model::Visible;
 use od_tools::link::Link;
-use od_tools::scan::{self, FoundNode, Options, Scan};
+use od_tools::scan::{self, FoundNode, Scan, ScanTimes};
 use od_wire::Duration;
 use serde_json::{Value, json};
 
@@ -35,9 +35,9 @@ pub(crate) struct Args {
 
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let names = args.bus.names()?;
-    let times = Options::default();
-    let options = Options {
-        listen: args.listen.map_or(times.listen, Duration::from_millis),
+    let default = ScanTimes::default();
+    let times = ScanTimes {
+        listen: args.listen.map_or(default.listen, Duration::from_millis),
         answer: Duration::from_millis(args.answer),
     };
     let rate = if args.detect {
@@ -49,7 +49,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         Some(rate) => args.bus.open_at(Some(rate))?,
         None => args.bus.open()?,
     };
-    let scan = look(&mut bus, options)?;
+    let scan = look(&mut bus, times)?;
     drop(bus);
     output::print(&match args.bus.format {
         Format::Text => text(&scan, rate, &names),
@@ -63,9 +63,9 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     }
 }
 
-fn look(link: &mut impl Link, options: Options) -> Result<Scan, Failure> {
+fn look(link: &mut impl Link, times: ScanTimes) -> Result<Scan, Failure> {
     let mut bar = output::Bar::new("scanning");
-    let scan = scan::scan(link, options, |percent| bar.show(percent))?;
+    let scan = scan::scan(link, times, |percent| bar.show(percent))?;
     bar.clear();
     Ok(scan)
 }

@@ -71,7 +71,7 @@ pub use load::{load, parse};
 pub use overlay::{Origin, Overlaid, base_of, overlay};
 pub use read::modules::{Count, Extension, Module, connected_modules, modules, with_modules};
 pub use scan::encoding::{Encoding, decode};
-pub use scan::known::nearest;
+pub use scan::forms::nearest;
 pub use span::{Span, Spanned, token, token_of};
 pub use write::canonical::{canonical, complete};
 pub use write::describe::{About, describe};
@@ -80,11 +80,11 @@ pub use write::eds::write;
 /// The text of an EDS for a tool that edits it: sections, keys and values with their places, and
 /// their descriptions in CiA 306 and CiA 301.
 pub mod outline {
-    pub use crate::scan::known::{Form, Known, OBJECT_KEYS, SECTIONS, key, section};
+    pub use crate::scan::forms::{Form, OBJECT_KEYS, SECTIONS, SectionForm, key, section};
     pub use crate::scan::lines::sections;
     pub use crate::scan::names::{Compact, List, Place, place};
     pub use crate::scan::number::{before_comment, number};
-    pub use crate::scan::placed::{Placed, Text};
+    pub use crate::scan::section::{Text, TextSection};
     pub use crate::standards::cia301::{Specified, data_type, specified};
     pub use crate::standards::{
         meaning, meaning_of_bytes, profile_name, profile_objects, profile_types,

@@ -14,7 +14,7 @@ use crate::rules::lists::W0216;
 use crate::rules::text::{i0111_not_ascii, w0112_encoding};
 use crate::scan::encoding::Encoding;
 use crate::scan::lines;
-use crate::scan::placed::Placed;
+use crate::scan::section::TextSection;
 #[cfg(feature = "xdd")]
 use crate::xdd;
 
@@ -50,12 +50,12 @@ impl Document {
 
     /// Like [`load`](Self::load). `see` receives the sections that [`outline::sections`](crate::outline::sections)
     /// finds; of an XDD it receives what its elements say as sections of an EDS, with the places of the attributes.
-    pub fn load_with(&self, see: &mut dyn FnMut(&[Placed<'_>])) -> Parsed {
+    pub fn load_with(&self, see: &mut dyn FnMut(&[TextSection<'_>])) -> Parsed {
         let (description, log) = self.read(see);
         checked(description, log, self.text())
     }
 
-    fn read(&self, see: &mut dyn FnMut(&[Placed<'_>])) -> (Description, Log) {
+    fn read(&self, see: &mut dyn FnMut(&[TextSection<'_>])) -> (Description, Log) {
         let mut log = Log::default();
         let description = read(self.text(), self.file_name.as_deref(), see, &mut log);
         log.extend(encoded(self));
@@ -67,7 +67,7 @@ impl Document {
 fn read(
     text: &str,
     file: Option<&str>,
-    see: &mut dyn FnMut(&[Placed<'_>]),
+    see: &mut dyn FnMut(&[TextSection<'_>]),
     log: &mut Log,
 ) -> Description {
     #[cfg(feature = "xdd")]

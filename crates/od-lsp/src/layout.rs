@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use od_eds::Span;
-use od_eds::outline::{self, Place, Placed};
+use od_eds::outline::{self, Place, TextSection};
 
 /// The byte range of a span.
 pub(crate) const fn bytes(span: Span) -> Range<usize> {
@@ -87,7 +87,7 @@ impl Layout {
         Self::new(&outline::sections(text))
     }
 
-    pub(crate) fn new(sections: &[Placed<'_>]) -> Self {
+    pub(crate) fn new(sections: &[TextSection<'_>]) -> Self {
         let sections = sections.iter().map(|placed| Section {
             place: outline::place(&placed.name),
             name: bytes(placed.name.span),

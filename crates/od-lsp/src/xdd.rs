@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use od_eds::outline::{self, Place, Placed};
+use od_eds::outline::{self, Place, TextSection};
 
 use crate::layout::bytes;
 
@@ -26,7 +26,7 @@ pub(crate) struct Field {
 }
 
 /// The elements of the sections that the reader makes of an XDD, in file order.
-pub(crate) fn elements(sections: &[Placed<'_>]) -> Vec<Element> {
+pub(crate) fn elements(sections: &[TextSection<'_>]) -> Vec<Element> {
     let elements = sections.iter().map(|section| {
         let pairs = section.pairs.iter();
         // A field that the file does not write has the place of the start tag.

@@ -25,14 +25,14 @@ const SERIAL: Address = Address::new(0x1018, 4);
 
 /// Times of a scan.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Options {
+pub struct ScanTimes {
     /// Time to listen before the first request.
     pub listen: Duration,
     /// Maximum time to wait for a response.
     pub answer: Duration,
 }
 
-impl Default for Options {
+impl Default for ScanTimes {
     /// 500 ms and 200 ms: with the requests it listens for 2.1 s.
     fn default() -> Self {
         Self {
@@ -92,11 +92,11 @@ struct Heard {
 /// The link is lost.
 pub fn scan(
     link: &mut impl Link,
-    options: Options,
+    times: ScanTimes,
     mut progress: impl FnMut(u8),
 ) -> Result<Scan, Error> {
     let mut heard = Heard::default();
-    heard.listen(link, options.listen)?;
+    heard.listen(link, times.listen)?;
     link.send(&Frame::full(
         CanId::standard(lss::MASTER),
         lss::Request::IdentifyNonConfigured.emit(),
@@ -104,20 +104,20 @@ pub fn scan(
     let all: Vec<NodeId> = (1..=127).filter_map(NodeId::new).collect();
     for (done, batch) in all.chunks(AT_ONCE).enumerate() {
         progress((done * 10) as u8);
-        heard.ask(link, batch, DEVICE_TYPE, options.answer)?;
+        heard.ask(link, batch, DEVICE_TYPE, times.answer)?;
     }
     // The last nodes have as much time for a late response as the others had.
-    heard.listen(link, options.answer)?;
+    heard.listen(link, times.answer)?;
     let mut types = core::mem::take(&mut heard.answers);
     let there: Vec<NodeId> = types.keys().copied().collect();
     for batch in there.chunks(AT_ONCE) {
         // Two nodes of one type send the same response at the same time, which is one frame. Their
         // serial numbers differ.
-        heard.ask(link, batch, SERIAL, options.answer)?;
+        heard.ask(link, batch, SERIAL, times.answer)?;
     }
     let until = link.now() + LATE;
     while link.now() < until && heard.answers.len() < there.len() {
-        heard.listen(link, options.answer)?;
+        heard.listen(link, times.answer)?;
     }
     let mut serials = core::mem::take(&mut heard.answers);
     let mut found = BTreeMap::new();

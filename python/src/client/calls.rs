@@ -7,7 +7,7 @@ use od_client::lss::Identity;
 use od_tools::Error;
 use od_tools::link::Link;
 use od_tools::lss::{Lss, Slaves};
-use od_tools::scan::{Options, scan};
+use od_tools::scan::{ScanTimes, scan};
 use od_wire::{Frame, NodeId};
 use pyo3::exceptions::{PyOSError, PyRuntimeError, PyTimeoutError, PyValueError};
 use pyo3::prelude::*;
@@ -369,11 +369,11 @@ impl Client {
     /// responds within `answer` seconds. It changes nothing on the bus.
     #[pyo3(signature = (listen=0.5, answer=0.2))]
     fn scan(&self, py: Python<'_>, listen: f64, answer: f64) -> PyResult<Vec<Found>> {
-        let options = Options {
+        let times = ScanTimes {
             listen: seconds_of(listen, "the time to listen")?,
             answer: seconds_of(answer, "the time for an answer")?,
         };
-        let found = self.with(py, |core| scan(&mut core.line, options, |_| ()))?;
+        let found = self.with(py, |core| scan(&mut core.line, times, |_| ()))?;
         Ok(found.nodes.into_iter().map(Found::from).collect())
     }
 

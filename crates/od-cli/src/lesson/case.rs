@@ -127,19 +127,19 @@ fn marked(trial: &Trial<'_>, mark: &Mark, probes: &[String]) -> String {
     });
     let _ = writeln!(text, "{}\n", cause.title);
     let mut before = causes.len();
-    for told in &mark.told {
-        let left = told.left.len();
+    for one in &mark.used {
+        let left = one.left.len();
         let _ = writeln!(
             text,
             "probe {}: rules out {}, {left} left",
-            told.probe + 1,
+            one.probe + 1,
             before - left
         );
         before = left;
     }
     let fewest = report::plural(mark.fewest, "probe");
     let _ = if mark.is_proven {
-        let used = mark.told.len();
+        let used = mark.used.len();
         writeln!(text, "Your probes prove it ({used}); {fewest} can.")
     } else {
         writeln!(

@@ -8,7 +8,7 @@ use od_runtime::NodeId;
 use od_tools::Error;
 use od_tools::lss::{Lss, Slaves};
 use od_tools::master::Master;
-use od_tools::scan::Options;
+use od_tools::scan::ScanTimes;
 use od_wire::Duration;
 use serde_json::json;
 
@@ -232,11 +232,11 @@ fn scan(args: &bus::Args) -> Result<(), Failure> {
 
 /// Names the nodes that have a node ID: they take no part in a fastscan.
 fn note_configured(args: &bus::Args) -> Result<(), Failure> {
-    let options = Options {
+    let times = ScanTimes {
         listen: Duration::ZERO,
-        ..Options::default()
+        ..ScanTimes::default()
     };
-    let scan = od_tools::scan::scan(&mut args.open()?, options, |_| {})?;
+    let scan = od_tools::scan::scan(&mut args.open()?, times, |_| {})?;
     let nodes: Vec<String> = scan.nodes.iter().map(|one| one.node.to_string()).collect();
     if let Some(first) = nodes.first() {
         note!(

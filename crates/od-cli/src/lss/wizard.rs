@@ -10,7 +10,7 @@ use od_client::lss::Identity;
 use od_runtime::NodeId;
 use od_tools::Error;
 use od_tools::lss::Lss;
-use od_tools::scan::{self, Options};
+use od_tools::scan::{self, ScanTimes};
 use serde_json::json;
 
 use crate::bus::{self, Format};
@@ -30,7 +30,7 @@ pub(super) fn run(args: &bus::Args, first: NodeId, yes: bool, store: bool) -> Re
     let names = args.names()?;
     let mut bus = args.open()?;
     let mut bar = Bar::new("looking for node IDs in use");
-    let there = scan::scan(&mut bus, Options::default(), |percent| bar.show(percent))?;
+    let there = scan::scan(&mut bus, ScanTimes::default(), |percent| bar.show(percent))?;
     bar.clear();
     let mut used: BTreeSet<NodeId> = there.nodes.iter().map(|one| one.node).collect();
     if !used.is_empty() {

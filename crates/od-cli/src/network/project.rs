@@ -2,7 +2,7 @@
 //! share `defaults`.
 
 use od_eds::network::{
-    Configuration, Master, Node, Options, PdoConfiguration, configure, consume_heartbeats,
+    Configuration, Master, Node, PdoConfiguration, ProjectSettings, configure, consume_heartbeats,
 };
 use od_model::Address;
 
@@ -167,7 +167,7 @@ impl Section<'_> {
         })
     }
 
-    fn master(&self, options: &Options) -> Result<Master, String> {
+    fn master(&self, settings: &ProjectSettings) -> Result<Master, String> {
         let default = Master::default();
         let number = |key, default: u32| Ok::<u32, String>(self.number(key)?.unwrap_or(default));
         let mut identity = [0; 4];
@@ -209,7 +209,7 @@ impl Section<'_> {
             emcy_inhibit_time: number("emcy_inhibit_time", 0)?,
             heartbeat_multiplier: self
                 .real("heartbeat_multiplier")?
-                .unwrap_or(options.heartbeat_multiplier),
+                .unwrap_or(settings.heartbeat_multiplier),
             consumes_heartbeat: self.flag("heartbeat_consumer").unwrap_or(true),
             heartbeat_producer: number("heartbeat_producer", 0)?,
             error_behavior,
@@ -255,15 +255,15 @@ pub(super) fn read(
     load: &dyn Fn(&str) -> Result<od_eds::Description, String>,
 ) -> Result<Network, String> {
     let whole = Yaml::read(text)?;
-    let mut options = Options::default();
+    let mut settings = ProjectSettings::default();
     if let Some(yaml) = whole.get("options") {
         let own = Section {
             name: "options",
             yaml,
         };
-        options.dcf_path = own.text("dcf_path").unwrap_or_default();
-        options.heartbeat_multiplier = own.real("heartbeat_multiplier")?.unwrap_or(3.0);
-        options.retry_factor = own.number("retry_factor")?.unwrap_or(3);
+        settings.dcf_path = own.text("dcf_path").unwrap_or_default();
+        settings.heartbeat_multiplier = own.real("heartbeat_multiplier")?.unwrap_or(3.0);
+        settings.retry_factor = own.number("retry_factor")?.unwrap_or(3);
     }
     let master = whole
         .get("master")
@@ -272,7 +272,7 @@ pub(super) fn read(
         name: "master",
         yaml: master,
     }
-    .master(&options)?;
+    .master(&settings)?;
     let mut nodes = Vec::new();
     for (name, yaml) in slaves(&whole) {
         let section = Section {
@@ -293,7 +293,7 @@ pub(super) fn read(
             ));
         };
         let mut node = Node::new(name.clone(), id, description);
-        configure(&mut node, &section.configuration()?, &mut options)?;
+        configure(&mut node, &section.configuration()?, &mut settings)?;
         nodes.push(node);
     }
     consume_heartbeats(&master, &mut nodes)?;

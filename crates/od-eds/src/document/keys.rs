@@ -9,7 +9,7 @@ use crate::fact::Key;
 use crate::scan::lines;
 use crate::scan::number;
 use crate::scan::number::Note;
-use crate::scan::placed::{Placed, Text};
+use crate::scan::section::{Text, TextSection};
 use crate::span::Span;
 
 impl Document {
@@ -131,7 +131,7 @@ impl Document {
     }
 
     /// Deletes a section: its lines up to a blank line after its last key, and the blank lines that follow.
-    pub(super) fn without_section(&self, section: &Placed<'_>) -> Edit {
+    pub(super) fn without_section(&self, section: &TextSection<'_>) -> Edit {
         let last = section
             .pairs
             .last()
@@ -160,16 +160,16 @@ impl Document {
 
 /// The sections of a name, ignoring case.
 pub(super) fn named<'s, 'a>(
-    sections: &'s [Placed<'a>],
+    sections: &'s [TextSection<'a>],
     name: &'s str,
-) -> impl Iterator<Item = &'s Placed<'a>> {
+) -> impl Iterator<Item = &'s TextSection<'a>> {
     sections
         .iter()
         .filter(move |section| section.name.eq_ignore_ascii_case(name))
 }
 
 fn pairs<'s, 'a>(
-    sections: &'s [Placed<'a>],
+    sections: &'s [TextSection<'a>],
     section: &'s str,
     key: &'s str,
 ) -> impl Iterator<Item = &'s (Text<'a>, Text<'a>)> {

@@ -10,7 +10,7 @@ use crate::description::ObjectDescription;
 use crate::scan::lines;
 use crate::scan::names::{List, Place, place};
 use crate::scan::number;
-use crate::scan::placed::Placed;
+use crate::scan::section::TextSection;
 use crate::write::eds;
 
 impl Document {
@@ -58,7 +58,7 @@ impl Document {
     }
 
     /// A new last entry of a list.
-    fn entry_edits(&self, section: &Placed<'_>, index: u16, edits: &mut Vec<Edit>) {
+    fn entry_edits(&self, section: &TextSection<'_>, index: u16, edits: &mut Vec<Edit>) {
         let mut number = 0;
         let mut count = 0;
         let mut last = section.header;
@@ -76,7 +76,7 @@ impl Document {
         count_edit(section, count + 1, edits);
     }
 
-    fn unlist_edits(&self, section: &Placed<'_>, index: u16, edits: &mut Vec<Edit>) {
+    fn unlist_edits(&self, section: &TextSection<'_>, index: u16, edits: &mut Vec<Edit>) {
         let entries = section
             .pairs
             .iter()
@@ -102,7 +102,7 @@ impl Document {
     }
 }
 
-fn is_of(section: &Placed<'_>, index: u16) -> bool {
+fn is_of(section: &TextSection<'_>, index: u16) -> bool {
     match place(&section.name) {
         Place::Object(of) | Place::Member(of, _) | Place::Compact(of, _) => of == index,
         Place::List(_) | Place::Other => false,
@@ -114,7 +114,7 @@ fn read(text: &str) -> Option<i128> {
 }
 
 /// The correct SupportedObjects, in the same spelling as before.
-fn count_edit(section: &Placed<'_>, count: usize, edits: &mut Vec<Edit>) {
+fn count_edit(section: &TextSection<'_>, count: usize, edits: &mut Vec<Edit>) {
     let found = section
         .pairs
         .iter()

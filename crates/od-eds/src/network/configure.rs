@@ -11,7 +11,7 @@ use od_model::{Address, Refused};
 
 /// Settings of a project for all nodes.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Options {
+pub struct ProjectSettings {
     /// Folder of the concise DCFs on the master; empty: the folder of the master's files.
     pub dcf_path: String,
     /// Factor between the heartbeat time and the consumer time.
@@ -22,7 +22,7 @@ pub struct Options {
     pub next: u32,
 }
 
-impl Default for Options {
+impl Default for ProjectSettings {
     fn default() -> Self {
         Self {
             dcf_path: String::new(),
@@ -70,7 +70,7 @@ pub struct Configuration {
 pub fn configure(
     node: &mut Node,
     wanted: &Configuration,
-    options: &mut Options,
+    settings: &mut ProjectSettings,
 ) -> Result<(), Refused> {
     node.revision_number = wanted
         .revision_number
@@ -83,7 +83,7 @@ pub fn configure(
     node.serial_number = serial.unwrap_or_else(|| node.number(0x1018, 4));
     node.heartbeat_multiplier = wanted
         .heartbeat_multiplier
-        .unwrap_or(options.heartbeat_multiplier);
+        .unwrap_or(settings.heartbeat_multiplier);
     node.consumes_heartbeat = wanted.heartbeat_consumer;
     for (index, number) in [
         (0x1012, wanted.time_cob_id),
@@ -111,7 +111,7 @@ pub fn configure(
             if !node.has(index) {
                 return Err(format!("{}: object {index:04X}h does not exist", node.name).into());
             }
-            pdo::configure(node, index, pdo, &mut options.next)?;
+            pdo::configure(node, index, pdo, &mut settings.next)?;
         }
     }
     for &(address, number) in &wanted.sdo {
@@ -123,9 +123,9 @@ pub fn configure(
         wanted.software_version,
         wanted.restore_configuration,
     );
-    node.assignment = assignment(node, wanted, options);
+    node.assignment = assignment(node, wanted, settings);
     if !node.writes.is_empty() {
-        let folder = wanted.dcf_path.as_ref().unwrap_or(&options.dcf_path);
+        let folder = wanted.dcf_path.as_ref().unwrap_or(&settings.dcf_path);
         let separator = if folder.is_empty() || folder.ends_with('/') {
             ""
         } else {
@@ -137,7 +137,7 @@ pub fn configure(
 }
 
 /// The entry of 1F81h (CiA 302-2, NMT slave assignment).
-fn assignment(node: &Node, wanted: &Configuration, options: &Options) -> u32 {
+fn assignment(node: &Node, wanted: &Configuration, settings: &ProjectSettings) -> u32 {
     let effective = |index, wanted: Option<u32>| wanted.unwrap_or_else(|| node.number(index, 0));
     let guard_time = effective(0x100C, wanted.guard_time);
     let guards = guard_time != 0
@@ -153,6 +153,6 @@ fn assignment(node: &Node, wanted: &Configuration, options: &Options) -> u32 {
         (wanted.restore_configuration != 0, 7),
     ];
     let bits = bits.iter().map(|(is_set, bit)| u32::from(*is_set) << bit);
-    let retry_factor = wanted.retry_factor.unwrap_or(options.retry_factor);
+    let retry_factor = wanted.retry_factor.unwrap_or(settings.retry_factor);
     bits.sum::<u32>() | (retry_factor & 0xFF) << 8 | (u32::from(guards) * guard_time) << 16
 }

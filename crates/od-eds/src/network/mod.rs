@@ -18,7 +18,7 @@ mod saved;
 mod write;
 
 pub use concise::{Write, bytes};
-pub use configure::{Configuration, Options, configure};
+pub use configure::{Configuration, ProjectSettings, configure};
 pub use dcf::dcf;
 pub use load::{BIT_RATES, Frame, frame_bits, frames, load};
 pub use master::{Master, consume_heartbeats, writes};

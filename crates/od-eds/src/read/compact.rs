@@ -15,13 +15,13 @@ use crate::rules::structure::reader::{
 };
 use crate::scan::names::Compact;
 use crate::scan::number;
-use crate::scan::placed;
-use crate::scan::placed::{Placed, Text};
+use crate::scan::section;
+use crate::scan::section::{Text, TextSection};
 use crate::span::Spanned;
 use od_model::{Access, Address, DataType};
 
 /// The `[xxxxName]`, `[xxxxValue]` and `[xxxxDenotation]` of an object.
-pub(crate) type CompactSections<'a> = BTreeMap<Compact, Placed<'a>>;
+pub(crate) type CompactSections<'a> = BTreeMap<Compact, TextSection<'a>>;
 
 /// The highest sub-index of a member.
 const HIGHEST: u8 = 254;
@@ -95,7 +95,7 @@ pub(crate) fn expand(
 }
 
 /// Reports an NrOfEntries that differs from the number of entries of its section.
-fn entry_count(section: &Placed<'_>, address: Address, log: &mut Log) {
+fn entry_count(section: &TextSection<'_>, address: Address, log: &mut Log) {
     let entries = section
         .pairs
         .iter()
@@ -111,7 +111,7 @@ fn entry_count(section: &Placed<'_>, address: Address, log: &mut Log) {
 
 fn give(mut reader: Reader<'_>, entry: &mut EntryDescription, compact: Compact, value: &Text<'_>) {
     match compact {
-        Compact::Name => entry.name = placed::owned(value.clone()),
+        Compact::Name => entry.name = section::owned(value.clone()),
         Compact::Denotation => {
             let unread = core::mem::take(&mut entry.extra);
             entry.extra = extra(

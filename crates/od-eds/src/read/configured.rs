@@ -4,7 +4,7 @@ use crate::log::Log;
 use crate::rules::lists::reader::{w0217_dcf_key, w0217_dcf_section};
 use crate::rules::standard::reader::w0658_commissioning_missing;
 use crate::scan::names::{Compact, Place, place};
-use crate::scan::placed::Placed;
+use crate::scan::section::TextSection;
 
 /// Keys of objects that only a DCF has.
 const KEYS: [&str; 5] = [
@@ -24,8 +24,8 @@ const SECTIONS: [&str; 3] = [
 
 /// Reports keys and sections of a DCF if the file is an EDS, and the missing commissioning if it is a DCF: by its
 /// name on the disk, otherwise by FileName.
-pub(crate) fn check(sections: &[Placed<'_>], file: Option<&str>, log: &mut Log) {
-    let info = |section: &&Placed<'_>| section.name.eq_ignore_ascii_case("FileInfo");
+pub(crate) fn check(sections: &[TextSection<'_>], file: Option<&str>, log: &mut Log) {
+    let info = |section: &&TextSection<'_>| section.name.eq_ignore_ascii_case("FileInfo");
     let name = sections
         .iter()
         .find(info)
@@ -35,7 +35,7 @@ pub(crate) fn check(sections: &[Placed<'_>], file: Option<&str>, log: &mut Log) 
     let is = |kind: &str| ends.is_some_and(|ends| ends.eq_ignore_ascii_case(kind));
     if is(".dcf") {
         let names = ["DeviceComissioning", "DeviceCommissioning"];
-        let is_one = |section: &Placed<'_>| {
+        let is_one = |section: &TextSection<'_>| {
             names
                 .iter()
                 .any(|name| section.name.eq_ignore_ascii_case(name))

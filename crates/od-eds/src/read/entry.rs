@@ -23,8 +23,8 @@ use crate::rules::values::reader::{
 use crate::rules::values::{e0417_node_id_not_supported, shared, spelling};
 use crate::scan::number;
 use crate::scan::number::Note;
-use crate::scan::placed;
-use crate::scan::placed::Text;
+use crate::scan::section;
+use crate::scan::section::Text;
 use crate::span::{Span, Spanned};
 use crate::standards::cia301;
 use od_model::{Access, Address, DataType, Kind, ObjectCode};
@@ -63,7 +63,7 @@ impl Reader<'_> {
     /// ParameterName; empty if missing.
     pub(crate) fn name(&mut self, fields: &mut Fields<'_>) -> Spanned<String> {
         let place = fields.place("ParameterName").unwrap_or(fields.header);
-        let name = fields.take("ParameterName").map(placed::owned);
+        let name = fields.take("ParameterName").map(section::owned);
         name.unwrap_or_else(|| {
             self.report(w0315_name_missing(place));
             Spanned::from(String::new())

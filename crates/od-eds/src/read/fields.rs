@@ -12,7 +12,7 @@ use crate::rules;
 use crate::rules::structure::reader::i0320_empty_value;
 use crate::rules::text::{e0117_duplicate_key_differs, w0107_duplicate_key};
 use crate::scan::number::before_comment;
-use crate::scan::placed::{Placed, Text};
+use crate::scan::section::{Text, TextSection};
 use crate::span::{Span, Spanned};
 use od_model::{Address, Group};
 
@@ -29,7 +29,7 @@ pub(crate) struct Fields<'a> {
 
 impl<'a> Fields<'a> {
     /// The fields of a section; of duplicate keys, the first.
-    pub(crate) fn new(placed: Placed<'a>, address: Address, log: &mut Log) -> Self {
+    pub(crate) fn new(placed: TextSection<'a>, address: Address, log: &mut Log) -> Self {
         let mut pairs = placed.pairs;
         let twice = duplicates(&pairs, log);
         let repeated = twice.iter().map(|at| pairs[*at].0.value.clone());

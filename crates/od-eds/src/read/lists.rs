@@ -14,12 +14,12 @@ use crate::rules::lists::reader::{
 };
 use crate::scan::names::List;
 use crate::scan::number::{before_comment, number};
-use crate::scan::placed::{Placed, Text};
+use crate::scan::section::{Text, TextSection};
 use crate::span::Span;
 
 /// Compares the lists of a file with its objects, and with those that CompactPDO added.
 pub(crate) fn check(
-    lists: &BTreeMap<List, Vec<Placed<'_>>>,
+    lists: &BTreeMap<List, Vec<TextSection<'_>>>,
     description: &Description,
     made: &BTreeMap<u16, ObjectDescription>,
     log: &mut Log,
@@ -46,7 +46,7 @@ pub(crate) fn check(
 
 fn entries(
     list: List,
-    placed: &Placed<'_>,
+    placed: &TextSection<'_>,
     description: &Description,
     made: &BTreeMap<u16, ObjectDescription>,
     listed: &mut BTreeMap<u16, Span>,
@@ -127,7 +127,7 @@ fn entries(
 
 /// Returns whether a list names an object that it or an earlier list names, too.
 fn names_twice(
-    placed: &Placed<'_>,
+    placed: &TextSection<'_>,
     description: &Description,
     listed: &BTreeMap<u16, Span>,
 ) -> bool {

@@ -18,10 +18,10 @@ use crate::rules::lists::reader::{
 };
 use crate::rules::standard::reader::w0609_key_value_not_valid;
 use crate::rules::structure::reader::w0323_module_count;
-use crate::scan::known::{self, Form, ModulePart};
+use crate::scan::forms::{self, Form, ModulePart};
 use crate::scan::names::Place;
 use crate::scan::number::{self, integer};
-use crate::scan::placed::{Placed, Text};
+use crate::scan::section::{Text, TextSection};
 use crate::span::{Span, Spanned};
 
 /// One kind of module.
@@ -149,14 +149,14 @@ pub(crate) fn check(description: &Description, log: &mut Log) {
     let sections = &description.sections;
     let is_part = |section: &Section| {
         let name = &section.name;
-        known::module_part(name).is_some() || list_of(name).is_some()
+        forms::module_part(name).is_some() || list_of(name).is_some()
     };
     if !sections.iter().any(is_part) {
         return;
     }
     let modules = read(sections, log);
     for section in sections {
-        let part = known::module_part(&section.name).filter(|part| part.extends);
+        let part = forms::module_part(&section.name).filter(|part| part.extends);
         if let Some(part) = part
             && let Place::Object(index) = part.place
         {
@@ -202,7 +202,7 @@ fn read(sections: &[Section], log: &mut Log) -> Vec<Module> {
             module,
             extends,
             place,
-        }) = known::module_part(&section.name)
+        }) = forms::module_part(&section.name)
         {
             parts
                 .entry((module, extends))
@@ -246,13 +246,13 @@ fn borrow(text: &Spanned<String>) -> Text<'_> {
 }
 
 /// Renames the section of an object of a module to that of an object.
-fn placed<'a>(section: &'a Section, place: Place, without: &[&str]) -> Placed<'a> {
+fn placed<'a>(section: &'a Section, place: Place, without: &[&str]) -> TextSection<'a> {
     let name = place.name().unwrap_or_default();
     let is_own = |key: &str| !without.iter().any(|word| key.eq_ignore_ascii_case(word));
     let pairs = section.pairs.iter().filter(|(key, _)| is_own(key));
     let pairs = pairs.map(|(key, value)| (borrow(key), borrow(value)));
     let header = section.name.span;
-    let mut placed = Placed::new(Spanned::new(Cow::Owned(name), header), header);
+    let mut placed = TextSection::new(Spanned::new(Cow::Owned(name), header), header);
     placed.pairs.extend(pairs);
     placed
 }

@@ -17,15 +17,15 @@ use crate::rules::structure::reader::{
     w0302_object_type_missing, w0316_sub_number_not_a_number, w0317_sub_number_missing,
     w0322_sub_index_not_var, w0324_compact_beside_sections, w0325_value_of_array,
 };
-use crate::scan::placed::{Placed, Text};
+use crate::scan::section::{Text, TextSection};
 use crate::span::Spanned;
 use od_model::{Address, ObjectCode};
 
 /// The sections of one object.
 #[derive(Default)]
 pub(crate) struct Sections<'a> {
-    pub(crate) own: Option<Placed<'a>>,
-    pub(crate) members: BTreeMap<u8, Placed<'a>>,
+    pub(crate) own: Option<TextSection<'a>>,
+    pub(crate) members: BTreeMap<u8, TextSection<'a>>,
     pub(crate) compact: CompactSections<'a>,
 }
 
@@ -146,7 +146,7 @@ fn room(reader: &mut Reader<'_>, count: Spanned<u8>) -> Spanned<u8> {
 /// Members whose object has no section.
 fn orphan(
     index: u16,
-    members: BTreeMap<u8, Placed<'_>>,
+    members: BTreeMap<u8, TextSection<'_>>,
     log: &mut Log,
 ) -> Option<ObjectDescription> {
     let span = members.values().next()?.header;
@@ -166,7 +166,7 @@ fn orphan(
     })
 }
 
-fn member(address: Address, section: Placed<'_>, log: &mut Log) -> EntryDescription {
+fn member(address: Address, section: TextSection<'_>, log: &mut Log) -> EntryDescription {
     let mut fields = Fields::new(section, address, log);
     let mut reader = Reader { address, log };
     let name = reader.name(&mut fields);
@@ -254,7 +254,7 @@ fn contradiction(
     reader: &mut Reader<'_>,
     fields: &Fields<'_>,
     code: Spanned<ObjectCode>,
-    members: &BTreeMap<u8, Placed<'_>>,
+    members: &BTreeMap<u8, TextSection<'_>>,
     count: Option<&Spanned<u8>>,
 ) -> Spanned<ObjectCode> {
     let span = match (members.values().next(), count) {

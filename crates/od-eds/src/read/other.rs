@@ -13,20 +13,20 @@ use crate::rules::standard::reader::{
     i0610_date_or_time, i0611_commissioning_spelling, w0609_key_value_not_valid,
 };
 use crate::rules::structure::reader::{i0319_unknown_key, w0318_key_misspelled};
-use crate::scan::known;
-use crate::scan::known::{Form, Known, OBJECT_KEYS};
+use crate::scan::forms;
+use crate::scan::forms::{Form, OBJECT_KEYS, SectionForm};
 use crate::scan::names::List;
 use crate::scan::number::{self, Note};
-use crate::scan::placed::{Placed, Text};
+use crate::scan::section::{Text, TextSection};
 use od_model::Address;
 
 /// Reports unknown keys of a section, and invalid values.
-pub(crate) fn check(placed: &Placed<'_>, log: &mut Log) {
+pub(crate) fn check(placed: &TextSection<'_>, log: &mut Log) {
     let name = &placed.name;
-    if name.is_empty() || known::is_of_objects(name) {
+    if name.is_empty() || forms::is_of_objects(name) {
         return;
     }
-    let Some((_, known)) = known::section(name) else {
+    let Some((_, known)) = forms::section(name) else {
         unknown_section(placed, log);
         return;
     };
@@ -35,14 +35,14 @@ pub(crate) fn check(placed: &Placed<'_>, log: &mut Log) {
         let is_valid = |(key, value): &(Text<'_>, Text<'_>)| {
             // python-canopen takes the bit rate as a decimal number, and stops at `Baudrate=0x7D`.
             let is_taken = !key.eq_ignore_ascii_case("Baudrate") || value.parse::<u32>().is_ok();
-            let form = known::key(known, key).map(|(_, form)| form);
+            let form = forms::key(known, key).map(|(_, form)| form);
             form.is_none_or(|form| value.is_empty() || is_taken && fits(value, form))
         };
         let finding = i0611_commissioning_spelling(placed.header, pairs.all(is_valid));
         log.push(finding);
     }
     for (key, value) in &placed.pairs {
-        match known::key(known, key) {
+        match forms::key(known, key) {
             Some((_, form)) => check_value(known, key, value, form, log),
             None if known.name == "DeviceInfo" && is_rate(key) => {
                 log.push(w0252_bit_rate_unknown(key));
@@ -56,14 +56,14 @@ pub(crate) fn check(placed: &Placed<'_>, log: &mut Log) {
     }
 }
 
-fn unknown_section(placed: &Placed<'_>, log: &mut Log) {
+fn unknown_section(placed: &TextSection<'_>, log: &mut Log) {
     let name = &placed.name;
-    let names = known::SECTIONS
+    let names = forms::SECTIONS
         .iter()
         .map(|known| known.name)
         .chain(List::ALL.map(List::name));
     let object = object_section(name);
-    log.push(match object.as_deref().or(known::near(name, names)) {
+    log.push(match object.as_deref().or(forms::near(name, names)) {
         Some(meant) => w0213_section_misspelled(placed, meant),
         None => i0211_unknown_section(placed),
     });
@@ -81,13 +81,13 @@ fn object_section(name: &str) -> Option<String> {
     };
     let sub = u8::from_str_radix(rest.get(word.len()..)?, 16).ok()?;
     let index = u16::from_str_radix(index, 16).ok()?;
-    known::nearest(word.trim(), ["sub"].into_iter(), 1)?;
+    forms::nearest(word.trim(), ["sub"].into_iter(), 1)?;
     Some(format!("{index:04X}sub{sub:X}"))
 }
 
 /// The finding about a key that odkit ignores, with the key that may be intended.
 fn unknown_key<'a>(key: &Text<'_>, value: &str, keys: impl Iterator<Item = &'a str>) -> Finding {
-    match known::near(key, keys) {
+    match forms::near(key, keys) {
         Some(meant) => w0318_key_misspelled(key, value, &meant.replace('#', "1")),
         None => i0319_unknown_key(key),
     }
@@ -105,7 +105,7 @@ pub(crate) fn unknown_object_keys(rest: &[(Text<'_>, Text<'_>)], address: Addres
     }
 }
 
-fn check_value(known: &Known, key: &str, value: &Text<'_>, form: Form, log: &mut Log) {
+fn check_value(known: &SectionForm, key: &str, value: &Text<'_>, form: Form, log: &mut Log) {
     if !value.is_empty() && !fits(value, form) {
         log.push(match form {
             Form::Date | Form::Time => i0610_date_or_time(key, value, form),

@@ -10,7 +10,7 @@ use crate::log::Log;
 use crate::read::object::Sections;
 use crate::rules::values::reader::i0425_own_data_type;
 use crate::scan::number::{self, number};
-use crate::scan::placed::{Placed, Text};
+use crate::scan::section::{Text, TextSection};
 use crate::span::Spanned;
 use od_model::{Address, DataType};
 
@@ -60,7 +60,7 @@ pub(crate) fn resolve<'a>(objects: &mut BTreeMap<u16, Sections<'a>>, log: &mut L
 }
 
 /// A limit of the type, if the value has none of its own.
-fn add<'a>(section: &mut Placed<'a>, key: &'static str, limit: &Option<Text<'a>>) {
+fn add<'a>(section: &mut TextSection<'a>, key: &'static str, limit: &Option<Text<'a>>) {
     let has_one = section.get(key).is_some_and(|own| !own.is_empty());
     if let Some(limit) = limit
         && !has_one

@@ -25,14 +25,14 @@ use crate::rules::text::{
 use crate::scan::lines::{self, Fault};
 use crate::scan::names::{List, Place, intended, place};
 use crate::scan::number::number;
-use crate::scan::placed::{Placed, owned};
+use crate::scan::section::{TextSection, owned};
 use crate::span::Span;
 
 /// Reads an EDS or a DCF; `file` is its name on the disk, if it has one, and `see` receives the sections.
 pub(crate) fn eds(
     text: &str,
     file: Option<&str>,
-    see: &mut dyn FnMut(&[Placed<'_>]),
+    see: &mut dyn FnMut(&[TextSection<'_>]),
     log: &mut Log,
 ) -> Description {
     let sections = lines::scan(text, &mut |fault| report(fault, log));
@@ -45,15 +45,15 @@ pub(crate) fn eds(
 
 /// Reads only the sections of objects, for an XDD and for the modules of a device, where no
 /// list names them.
-pub(crate) fn objects(sections: Vec<Placed<'_>>, log: &mut Log) -> Description {
+pub(crate) fn objects(sections: Vec<TextSection<'_>>, log: &mut Log) -> Description {
     Sorted::of(sections, log).described()
 }
 
 /// The sections of a file by their subject.
 struct Sorted<'a, 'l> {
     objects: BTreeMap<u16, Sections<'a>>,
-    lists: BTreeMap<List, Vec<Placed<'a>>>,
-    others: Vec<Placed<'a>>,
+    lists: BTreeMap<List, Vec<TextSection<'a>>>,
+    others: Vec<TextSection<'a>>,
     names: BTreeMap<String, Span>,
     /// Keys of duplicate sections, with their positions among the pairs of the first section.
     repeated: BTreeMap<Place, BTreeMap<String, usize>>,
@@ -62,7 +62,7 @@ struct Sorted<'a, 'l> {
 }
 
 impl<'a, 'l> Sorted<'a, 'l> {
-    fn of(sections: Vec<Placed<'a>>, log: &'l mut Log) -> Self {
+    fn of(sections: Vec<TextSection<'a>>, log: &'l mut Log) -> Self {
         let mut sorted = Self {
             objects: BTreeMap::new(),
             lists: BTreeMap::new(),
@@ -78,7 +78,7 @@ impl<'a, 'l> Sorted<'a, 'l> {
         sorted
     }
 
-    fn add(&mut self, section: Placed<'a>) {
+    fn add(&mut self, section: TextSection<'a>) {
         let place = self.place(&section);
         let (index, sub) = match place {
             Place::Object(index) | Place::Compact(index, _) => (index, 0),
@@ -108,7 +108,7 @@ impl<'a, 'l> Sorted<'a, 'l> {
     }
 
     /// The place of a section, even if its name is misspelled.
-    fn place(&mut self, section: &Placed<'_>) -> Place {
+    fn place(&mut self, section: &TextSection<'_>) -> Place {
         let name = &section.name;
         let exact = place(name);
         let meant = match exact {
@@ -123,7 +123,7 @@ impl<'a, 'l> Sorted<'a, 'l> {
         meant
     }
 
-    fn other(&mut self, section: Placed<'a>) {
+    fn other(&mut self, section: TextSection<'a>) {
         duplicates(&section.pairs, self.log);
         other::check(&section, self.log);
         let name = &section.name;
@@ -165,7 +165,7 @@ impl<'a, 'l> Sorted<'a, 'l> {
 }
 
 /// A section in the form of a description.
-fn kept(section: Placed<'_>) -> Section {
+fn kept(section: TextSection<'_>) -> Section {
     let pairs = section.pairs.into_iter();
     Section {
         name: owned(section.name),
@@ -176,21 +176,21 @@ fn kept(section: Placed<'_>) -> Section {
 }
 
 /// Returns whether a section describes an object, whatever its name.
-fn describes(section: &Placed<'_>) -> bool {
+fn describes(section: &TextSection<'_>) -> bool {
     ["ParameterName", "DataType", "SubNumber"]
         .iter()
         .any(|key| section.get(key).is_some())
 }
 
 /// Returns whether the object has a CompactSubObj that is not 0.
-fn counts_members(own: &Placed<'_>) -> bool {
+fn counts_members(own: &TextSection<'_>) -> bool {
     own.get("CompactSubObj")
         .and_then(|count| number(count))
         .is_some_and(|count| count > 0)
 }
 
 /// The first position of each key of a section.
-fn keys(section: &Placed<'_>) -> BTreeMap<String, usize> {
+fn keys(section: &TextSection<'_>) -> BTreeMap<String, usize> {
     let mut keys = BTreeMap::new();
     for (at, (key, _)) in section.pairs.iter().enumerate() {
         keys.entry(key.to_ascii_lowercase()).or_insert(at);
@@ -200,9 +200,9 @@ fn keys(section: &Placed<'_>) -> BTreeMap<String, usize> {
 
 /// The finding about a second section; its fix adds the keys that the first section (with these keys) lacks.
 fn twice<'a>(
-    first: &mut Placed<'a>,
+    first: &mut TextSection<'a>,
     keys: &mut BTreeMap<String, usize>,
-    second: Placed<'a>,
+    second: TextSection<'a>,
 ) -> Finding {
     let contradict = second.pairs.iter().any(|(key, value)| {
         let same = keys.get(&key.to_ascii_lowercase());

@@ -11,7 +11,7 @@ use crate::finding::{
 use crate::fix::Fix;
 use crate::scan::encoding::Encoding;
 use crate::scan::lines;
-use crate::scan::placed::{Placed, Text};
+use crate::scan::section::{Text, TextSection};
 use crate::span::{Span, Spanned};
 
 table! {
@@ -158,7 +158,7 @@ pub(crate) static W0106: Rule = Rule {
 const FIRST: &str = "first defined here";
 
 /// The finding about a second section with the same name.
-pub(crate) fn w0106_duplicate_section(second: &Placed<'_>, first: Span) -> Finding {
+pub(crate) fn w0106_duplicate_section(second: &TextSection<'_>, first: Span) -> Finding {
     let finding = W0106.at(second.header).fact("name", &*second.name.value);
     finding.related(first, FIRST)
 }

@@ -9,8 +9,8 @@ use alloc::string::String;
 use alloc::vec::Vec;
 
 use crate::scan::either;
-use crate::scan::known::OBJECT_KEYS;
-use crate::scan::placed::{Placed, Text};
+use crate::scan::forms::OBJECT_KEYS;
+use crate::scan::section::{Text, TextSection};
 use crate::span::{Span, Spanned};
 
 /// Maximum number of bytes of a line, and of a value of an XDD: half of it as the bytes of a DOMAIN.
@@ -23,7 +23,7 @@ const LINES: usize = 200_000;
 /// Scanning a text, line by line.
 struct Scan<'a, 'f> {
     /// Sections in file order, with duplicates.
-    sections: Vec<Placed<'a>>,
+    sections: Vec<TextSection<'a>>,
     /// Number of headers and keys.
     count: usize,
     /// Receives the lines that are ignored, or not read as written, in file order.
@@ -182,12 +182,12 @@ pub(crate) fn comment(text: &str) -> String {
 }
 
 /// The sections of a text, in file order, with duplicates; a byte order mark is skipped.
-pub fn sections(text: &str) -> Vec<Placed<'_>> {
+pub fn sections(text: &str) -> Vec<TextSection<'_>> {
     scan(text, &mut |_| {})
 }
 
 /// As [`sections`]; `fault` receives the lines that are not plain INI, in file order.
-pub(crate) fn scan<'a>(text: &'a str, fault: &mut dyn FnMut(&Fault<'a>)) -> Vec<Placed<'a>> {
+pub(crate) fn scan<'a>(text: &'a str, fault: &mut dyn FnMut(&Fault<'a>)) -> Vec<TextSection<'a>> {
     let mut scan = Scan {
         sections: Vec::new(),
         count: 0,
@@ -270,7 +270,8 @@ impl<'a> Scan<'a, '_> {
         let whole = &trimmed[..trimmed.len() - behind.len()];
         let header = line.span(whole.trim_end());
         self.count += 1;
-        self.sections.push(Placed::new(line.text(name), header));
+        self.sections
+            .push(TextSection::new(line.text(name), header));
     }
 
     fn pair(&mut self, line: &Line<'a>, trimmed: &'a str) {
@@ -306,7 +307,7 @@ impl<'a> Scan<'a, '_> {
                 let start = line.span(&trimmed[..0]);
                 let line = line.span(trimmed);
                 (self.fault)(&Fault::NoSection { line, key });
-                let mut section = Placed::new(Spanned::new(Cow::Borrowed(""), start), start);
+                let mut section = TextSection::new(Spanned::new(Cow::Borrowed(""), start), start);
                 section.pairs.push(pair);
                 self.sections.push(section);
             }
@@ -315,7 +316,7 @@ impl<'a> Scan<'a, '_> {
 }
 
 /// Adds a key with its value; memory is reserved for the usual number of keys.
-fn add<'a>(section: &mut Placed<'a>, pair: (Text<'a>, Text<'a>)) {
+fn add<'a>(section: &mut TextSection<'a>, pair: (Text<'a>, Text<'a>)) {
     if section.pairs.is_empty() {
         section.pairs.reserve(8);
     }

@@ -2,11 +2,11 @@
 //! their places.
 
 pub(crate) mod encoding;
-pub(crate) mod known;
+pub(crate) mod forms;
 pub(crate) mod lines;
 pub(crate) mod names;
 pub(crate) mod number;
-pub(crate) mod placed;
+pub(crate) mod section;
 
 /// Position of the first of two ASCII characters.
 ///

@@ -14,8 +14,8 @@ use od_model::Visible;
 
 use crate::description::{Description, ObjectDescription, Section};
 use crate::load;
-use crate::scan::known;
-use crate::scan::known::{Form, Known};
+use crate::scan::forms;
+use crate::scan::forms::{Form, SectionForm};
 use crate::scan::number;
 use crate::span::Spanned;
 use crate::write::describe::section;
@@ -88,7 +88,7 @@ fn sections(description: &Description) -> Vec<Canonical> {
     }
     for name in ["FileInfo", "DeviceInfo", "DummyUsage"] {
         if !made.iter().any(|(_, made)| made.name == name) {
-            let order = known::section(name).map_or(0, |(order, _)| order);
+            let order = forms::section(name).map_or(0, |(order, _)| order);
             let (name, pairs) = (name.to_string(), Vec::new());
             made.push((order, Canonical { name, pairs }));
         }
@@ -103,10 +103,10 @@ fn sections(description: &Description) -> Vec<Canonical> {
 }
 
 fn name(section: &Section) -> (usize, String) {
-    match known::section(&section.name) {
+    match forms::section(&section.name) {
         Some((_, known)) if known.name == "DeviceCommissioning" => {
             let name = "DeviceComissioning";
-            let order = known::section(name).map_or(0, |(order, _)| order);
+            let order = forms::section(name).map_or(0, |(order, _)| order);
             (order, name.into())
         }
         Some((order, known)) if !known.name.contains('#') => (order, known.name.into()),
@@ -116,7 +116,7 @@ fn name(section: &Section) -> (usize, String) {
 
 /// Adds the keys that the section does not have yet.
 fn take(made: &mut Canonical, keys: &mut BTreeSet<String>, section: &Section) {
-    let known = known::section(&made.name).map(|(_, known)| known);
+    let known = forms::section(&made.name).map(|(_, known)| known);
     for (key, value) in &section.pairs {
         let (key, value) = match known.and_then(|known| pair(known, key, value)) {
             Some(Some(canonical)) => canonical,
@@ -130,8 +130,8 @@ fn take(made: &mut Canonical, keys: &mut BTreeSet<String>, section: &Section) {
 }
 
 /// A known key with its value; `Some(None)` if the value has no content.
-fn pair(known: &Known, key: &str, value: &str) -> Option<Option<(String, String)>> {
-    let (name, form) = known::key(known, key)?;
+fn pair(known: &SectionForm, key: &str, value: &str) -> Option<Option<(String, String)>> {
+    let (name, form) = forms::key(known, key)?;
     let name = match name.split_once('#') {
         // The number in the key, with capitals if it is hexadecimal.
         Some((before, _)) => format!("{before}{}", key[before.len()..].to_ascii_uppercase()),
@@ -139,8 +139,8 @@ fn pair(known: &Known, key: &str, value: &str) -> Option<Option<(String, String)
     };
     let text = match form {
         Form::Text => return Some(Some((name, value.into()))),
-        Form::Date => known::date(value),
-        Form::Time => known::time(value),
+        Form::Date => forms::date(value),
+        Form::Time => forms::time(value),
         Form::Version => number::before_comment(value).into(),
         Form::Flag | Form::Number(_) => numeric(value, form),
     };

@@ -8,8 +8,8 @@ use roxmltree::Node;
 
 use crate::rules::lists::reader::w0252_in_xdd;
 use crate::rules::standard::w0638_dcf_bit_rate::w0638_default_not_supported;
-use crate::scan::known;
-use crate::scan::placed::Placed;
+use crate::scan::forms;
+use crate::scan::section::TextSection;
 use crate::span::{Span, Spanned};
 use crate::xdd::source::Made;
 use crate::xdd::source::{Reader, below, children};
@@ -20,7 +20,7 @@ pub(super) const COMMENTS: &str = "Comments";
 pub(super) const REVISION: &str = "File revision";
 
 /// FileInfo, DeviceInfo, DummyUsage, Comments and DeviceComissioning, if the file has them.
-pub(super) fn sections(root: Node<'_, '_>, reader: &mut Reader<'_>) -> Vec<Placed<'static>> {
+pub(super) fn sections(root: Node<'_, '_>, reader: &mut Reader<'_>) -> Vec<TextSection<'static>> {
     let mut made = Vec::new();
     let mut bodies = below(root, "ProfileBody");
     if let Some(body) = bodies.next() {
@@ -33,7 +33,7 @@ pub(super) fn sections(root: Node<'_, '_>, reader: &mut Reader<'_>) -> Vec<Place
     made
 }
 
-fn file_info(root: Node<'_, '_>, body: Node<'_, '_>, reader: &Reader<'_>) -> Placed<'static> {
+fn file_info(root: Node<'_, '_>, body: Node<'_, '_>, reader: &Reader<'_>) -> TextSection<'static> {
     let mut made = Made::new("FileInfo", reader.tag(body));
     let take = |name| {
         reader
@@ -85,7 +85,7 @@ fn characteristic(
     Some((reader.tag(found), contents.collect()))
 }
 
-fn comments(root: Node<'_, '_>, reader: &Reader<'_>) -> Option<Placed<'static>> {
+fn comments(root: Node<'_, '_>, reader: &Reader<'_>) -> Option<TextSection<'static>> {
     let (header, lines) = characteristic(root, COMMENTS, reader)?;
     let mut made = Made::new("Comments", header);
     let count = lines.len().to_string();
@@ -97,14 +97,14 @@ fn comments(root: Node<'_, '_>, reader: &Reader<'_>) -> Option<Placed<'static>> 
 }
 
 fn date(given: Spanned<String>) -> Spanned<String> {
-    Spanned::new(known::date(&given).trim().to_string(), given.span)
+    Spanned::new(forms::date(&given).trim().to_string(), given.span)
 }
 
 fn time(given: Spanned<String>) -> Spanned<String> {
-    Spanned::new(known::time(&given).trim().to_string(), given.span)
+    Spanned::new(forms::time(&given).trim().to_string(), given.span)
 }
 
-fn device_info(root: Node<'_, '_>, reader: &mut Reader<'_>) -> Option<Placed<'static>> {
+fn device_info(root: Node<'_, '_>, reader: &mut Reader<'_>) -> Option<TextSection<'static>> {
     let identity = below(root, "DeviceIdentity").next();
     let general = below(root, "CANopenGeneralFeatures").next();
     let master = below(root, "CANopenMasterFeatures").next();
@@ -198,7 +198,7 @@ fn flag(given: Spanned<String>) -> Spanned<String> {
 }
 
 /// `<dummy entry="Dummy0005=1"/>`
-fn dummies(root: Node<'_, '_>, reader: &Reader<'_>) -> Option<Placed<'static>> {
+fn dummies(root: Node<'_, '_>, reader: &Reader<'_>) -> Option<TextSection<'static>> {
     let usage = below(root, "dummyUsage").next()?;
     let mut made = Made::new("DummyUsage", reader.tag(usage));
     for dummy in children(usage, "dummy") {
@@ -218,7 +218,7 @@ fn dummies(root: Node<'_, '_>, reader: &Reader<'_>) -> Option<Placed<'static>> {
     Some(made.placed)
 }
 
-fn commissioning(root: Node<'_, '_>, reader: &Reader<'_>) -> Option<Placed<'static>> {
+fn commissioning(root: Node<'_, '_>, reader: &Reader<'_>) -> Option<TextSection<'static>> {
     let element = below(root, "deviceCommissioning").next()?;
     let mut made = Made::new("DeviceComissioning", reader.tag(element));
     let take = |name| {

@@ -25,7 +25,7 @@ use crate::description::Description;
 use crate::log::Log;
 use crate::read::sorted;
 use crate::rules::text::{e0113_xml_not_well_formed, e0119_too_large};
-use crate::scan::placed::Placed;
+use crate::scan::section::TextSection;
 use crate::xdd::source::{Places, Reader};
 
 pub use write::write;
@@ -34,7 +34,11 @@ pub use write::write;
 ///
 /// Never fails and never panics. A text that is not well-formed XML gives an empty description and
 /// a finding at the error.
-pub(crate) fn parse(text: &str, see: &mut dyn FnMut(&[Placed<'_>]), log: &mut Log) -> Description {
+pub(crate) fn parse(
+    text: &str,
+    see: &mut dyn FnMut(&[TextSection<'_>]),
+    log: &mut Log,
+) -> Description {
     if let Some(large) = limits::exceeded(text) {
         let line = text[..large.at].matches('\n').count() as u32 + 1;
         let at = Places::new(text).at(line, 1);

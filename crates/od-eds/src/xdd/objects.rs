@@ -11,7 +11,7 @@ use crate::rules::text::{
     e0114_xdd_index_not_valid, e0115_xdd_parameter_missing, w0120_object_type_missing,
 };
 use crate::rules::values::reader::{e0429_access_of_parameter, w0406_in_xdd};
-use crate::scan::placed::Placed;
+use crate::scan::section::TextSection;
 use crate::span::{Span, Spanned};
 use crate::xdd::parameters::Parameter;
 use crate::xdd::source::Made;
@@ -20,7 +20,7 @@ use crate::xdd::types::{self, Found};
 use od_model::{DataType, ObjectCode};
 
 /// The sections of all objects.
-pub(super) fn sections(root: Node<'_, '_>, reader: &mut Reader<'_>) -> Vec<Placed<'static>> {
+pub(super) fn sections(root: Node<'_, '_>, reader: &mut Reader<'_>) -> Vec<TextSection<'static>> {
     let ids = Ids::new(root);
     let mut made = Vec::new();
     for list in below(root, "CANopenObjectList") {

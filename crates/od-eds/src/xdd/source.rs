@@ -8,7 +8,7 @@ use alloc::vec::Vec;
 use roxmltree::Node;
 
 use crate::log::Log;
-use crate::scan::placed::Placed;
+use crate::scan::section::TextSection;
 use crate::span::{Span, Spanned};
 
 /// Shared by the parts of this module: places and findings.
@@ -172,14 +172,14 @@ impl<'a, 'i> Ids<'a, 'i> {
 
 /// A section that is being built.
 pub(super) struct Made {
-    pub(super) placed: Placed<'static>,
+    pub(super) placed: TextSection<'static>,
 }
 
 impl Made {
     /// A section without keys.
     pub(super) fn new(name: impl Into<String>, header: Span) -> Self {
         Self {
-            placed: Placed::new(Spanned::new(Cow::Owned(name.into()), header), header),
+            placed: TextSection::new(Spanned::new(Cow::Owned(name.into()), header), header),
         }
     }
 

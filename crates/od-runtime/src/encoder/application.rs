@@ -6,7 +6,7 @@ use super::configure::STEPS;
 use super::faults::{self, Faults};
 use super::motion::Motion;
 use super::position::Angle;
-use super::profile::{Family, Options, Role};
+use super::profile::{Family, OptionObject, Role};
 use super::state::Encoder;
 use super::timer::{EVENT_TIMER, TIMER};
 use crate::application::{Application, Context, Reset};
@@ -227,7 +227,11 @@ impl<M: Motion, F: Family> Encoder<M, F> {
     }
 
     /// Returns whether one of these bits of the manufacturer options is set.
-    pub(super) fn has_option(&self, store: &Store<'_>, bits: impl Fn(&Options) -> u32) -> bool {
+    pub(super) fn has_option(
+        &self,
+        store: &Store<'_>,
+        bits: impl Fn(&OptionObject) -> u32,
+    ) -> bool {
         let Some(options) = &self.profile().options else {
             return false;
         };

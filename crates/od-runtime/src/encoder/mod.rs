@@ -22,7 +22,7 @@ pub use configure::{REVERSED, SCALING};
 pub use motion::{Gain, Motion};
 pub use position::{Angle, Scale, Sensor};
 pub use profile::{AnyFamily, Counter, EncoderProfile, Family, Gear, GearKind, Mirror, Movement};
-pub use profile::{Options, Quantity, RangeRule, Role, Source, Total};
+pub use profile::{OptionObject, Quantity, RangeRule, Role, Source, Total};
 pub use report::{Appears, Fault, Report, Until};
 pub use sampled::{PositionSource, Sampled};
 pub use state::{Encoder, Switches};

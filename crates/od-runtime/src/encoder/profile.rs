@@ -79,7 +79,7 @@ pub enum GearKind {
 
 /// Object of manufacturer options whose bits change the encoder (2110h; MANUALS.md C-X-12).
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Options {
+pub struct OptionObject {
     /// Index of the object.
     pub index: u16,
     /// Bits that keep the offset after a new resolution.
@@ -93,8 +93,8 @@ pub struct Options {
     pub ignore_code_sequence: u32,
 }
 
-impl Options {
-    /// Options without a meaning, for `..Options::NONE`.
+impl OptionObject {
+    /// Options without a meaning, for `..OptionObject::NONE`.
     pub const NONE: Self = Self {
         index: 0x2110,
         keep_offset: 0,
@@ -250,7 +250,7 @@ pub struct EncoderProfile {
     /// Abort code for a value below its lower limit (MANUALS.md U-05).
     pub below_limit: AbortCode,
     /// Manufacturer options.
-    pub options: Option<Options>,
+    pub options: Option<OptionObject>,
     /// Bit rates by the codes of the object for the bit rate ([`Role::BitRate`]), in kbit/s; 0 if a
     /// code is not supported (MANUALS.md C-X-10).
     pub bit_rates: &'static [u16],

@@ -11,7 +11,7 @@ use super::sight::{Answer, Language, Often, Share, Sight, Subject, named};
 use crate::bench::Bench;
 use crate::bus::Bus;
 use crate::grammar::problem::Problem;
-use crate::rig::Seen;
+use crate::rig::LineEvent;
 use crate::wire::FrameError;
 
 /// Time in which the learner listens, in microseconds.
@@ -66,7 +66,7 @@ pub struct Reading {
     /// What was seen, rounded so that two readings differ only if a person sees it. A cause fits a reading if all sights are equal.
     pub sights: Vec<Sight>,
     /// Frames and error frames, oldest first.
-    pub frames: Vec<Seen>,
+    pub frames: Vec<LineEvent>,
 }
 
 /// Node IDs of the devices with names, as they were on the healthy bench.
@@ -329,7 +329,7 @@ impl Reading {
         // On a real line it is polled after its transmission.
         if bus.receive(&frame) {
             let device = None;
-            self.frames.push(Seen::Frame { at, device, frame });
+            self.frames.push(LineEvent::Frame { at, device, frame });
         }
     }
 
@@ -342,12 +342,12 @@ impl Reading {
                 // The learner does not see the attempts of a node that is not on the line.
                 let station = one.device.map_or(0, |device| device + 1);
                 if bus.line.is_plugged(station) {
-                    self.frames.push(Seen::Disturbed(one));
+                    self.frames.push(LineEvent::Disturbed(one));
                 }
             }
             while let Some(one) = bus.poll() {
                 let (at, device, frame) = (one.at, one.device, one.frame);
-                self.frames.push(Seen::Frame { at, device, frame });
+                self.frames.push(LineEvent::Frame { at, device, frame });
             }
             if !sent || self.frames.len() >= KEPT {
                 break;
@@ -365,7 +365,7 @@ impl Reading {
         self.pass(bus, RESPONSE);
         let mut answers = Vec::new();
         for seen in &self.frames[from..] {
-            if let Seen::Frame { frame, .. } = seen
+            if let LineEvent::Frame { frame, .. } = seen
                 && frame.id().as_standard() == Some(0x580 + u16::from(node))
                 && let Some(answer) = Answer::of(frame)
                 && !answers.contains(&answer)
@@ -400,9 +400,9 @@ impl Reading {
         self.pass(bus, LISTEN);
         let mut rates = Vec::new();
         for seen in &self.frames {
-            let (Seen::Frame { device, .. }
-            | Seen::Heard { device, .. }
-            | Seen::Disturbed(crate::wire::Disturbance { device, .. })) = seen;
+            let (LineEvent::Frame { device, .. }
+            | LineEvent::Heard { device, .. }
+            | LineEvent::Disturbed(crate::wire::Disturbance { device, .. })) = seen;
             let Some(device) = *device else { continue };
             let rate = bus.devices().get(device).and_then(|one| one.bit_rate());
             let rate = rate.or(bus.line.bit_rate).unwrap_or(500);
@@ -423,7 +423,7 @@ impl Reading {
     fn sum_up(&mut self, request: Option<Frame>, micros: u64) {
         let mut subjects: Vec<(Subject, u32, &Frame, bool)> = Vec::new();
         for seen in &self.frames {
-            let Seen::Frame { frame, device, .. } = seen else {
+            let LineEvent::Frame { frame, device, .. } = seen else {
                 continue;
             };
             if device.is_none() && Some(*frame) == request {
@@ -459,7 +459,7 @@ impl Reading {
         let (mut failed, mut all, mut unheard) = (0, 0, 0);
         for seen in &self.frames[from..] {
             all += 1;
-            if let Seen::Disturbed(one) = seen {
+            if let LineEvent::Disturbed(one) = seen {
                 failed += 1;
                 unheard += usize::from(one.trouble == FrameError::NoAcknowledge);
             }
@@ -474,9 +474,9 @@ impl Reading {
 }
 
 /// The time of a frame or an error frame.
-fn time(seen: &Seen) -> Instant {
+fn time(seen: &LineEvent) -> Instant {
     match seen {
-        Seen::Frame { at, .. } | Seen::Heard { at, .. } => *at,
-        Seen::Disturbed(one) => one.at,
+        LineEvent::Frame { at, .. } | LineEvent::Heard { at, .. } => *at,
+        LineEvent::Disturbed(one) => one.at,
     }
 }

@@ -47,7 +47,7 @@ pub struct Mark {
     /// Such probes.
     pub best: Vec<usize>,
     /// The probes of the learner, in order.
-    pub told: Vec<UsedProbe>,
+    pub used: Vec<UsedProbe>,
 }
 
 /// A probe that the learner used, and what it ruled out.
@@ -155,14 +155,14 @@ impl<'c> Trial<'c> {
     }
 
     /// As [`judge`](Self::judge), with the [rows](Self::row) of all causes; what probes show can have any form.
-    pub fn mark<R: PartialEq>(&self, table: &[Vec<R>], used: &[usize], named: usize) -> Mark {
+    pub fn mark<R: PartialEq>(&self, table: &[Vec<R>], order: &[usize], named: usize) -> Mark {
         let all = 0..self.case.causes.len();
         let fits = |probe: usize, cause: usize| {
             let reading = |cause: usize| table.get(cause).and_then(|row| row.get(probe));
             reading(cause) == reading(self.cause)
         };
         let mut left: Vec<usize> = all.clone().collect();
-        let told = used.iter().map(|probe| {
+        let used = order.iter().map(|probe| {
             let fit: Vec<_> = all.clone().filter(|cause| fits(*probe, *cause)).collect();
             left.retain(|cause| fit.contains(cause));
             let left = left.clone();
@@ -172,15 +172,15 @@ impl<'c> Trial<'c> {
                 left,
             }
         });
-        let told: Vec<UsedProbe> = told.collect();
+        let used: Vec<UsedProbe> = used.collect();
         let best = self.best(fits);
         Mark {
             cause: self.cause,
             is_right: named == self.cause,
-            is_proven: told.last().is_some_and(|last| last.left == [self.cause]),
+            is_proven: used.last().is_some_and(|last| last.left == [self.cause]),
             fewest: best.len(),
             best,
-            told,
+            used,
         }
     }
 

@@ -4,7 +4,7 @@ use od_devices::DEVICES;
 use od_model::Address;
 
 use super::*;
-use crate::rig::Seen;
+use crate::rig::LineEvent;
 
 /// Fields by name, like those of an outside program.
 #[derive(Clone, Default, PartialEq, Debug)]
@@ -43,11 +43,11 @@ fn bench(inputs: Vec<Input>) -> Journal {
 }
 
 fn frames(journal: &mut Journal) -> Vec<String> {
-    let line = |seen: Seen| match seen {
-        Seen::Frame { at, frame, .. } | Seen::Heard { at, frame, .. } => {
+    let line = |seen: LineEvent| match seen {
+        LineEvent::Frame { at, frame, .. } | LineEvent::Heard { at, frame, .. } => {
             Some(format!("{} {frame}", at.as_micros()))
         }
-        Seen::Disturbed(..) => None,
+        LineEvent::Disturbed(..) => None,
     };
     journal.rig.drain().into_iter().filter_map(line).collect()
 }

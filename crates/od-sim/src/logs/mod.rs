@@ -18,5 +18,5 @@ mod trc;
 mod write;
 
 pub use read::{Log, read};
-pub use record::{Problem, Record, What};
+pub use record::{Record, Unread, What};
 pub use write::Format;

@@ -4,7 +4,7 @@ use std::prelude::v1::*;
 
 use od_wire::{CanId, Frame, Instant};
 
-use super::record::{ERROR, EXTENDED, FD, Problem, REMOTE, Record};
+use super::record::{ERROR, EXTENDED, FD, REMOTE, Record, Unread};
 
 /// The link type of SocketCAN frames in a capture.
 pub(super) const LINK: u16 = 227;
@@ -28,7 +28,7 @@ fn is_can(link: u16) -> bool {
 #[derive(Default)]
 pub(super) struct Capture {
     pub(super) records: Vec<Record>,
-    pub(super) skipped: Vec<Problem>,
+    pub(super) skipped: Vec<Unread>,
     /// Packets of other protocols.
     pub(super) others: usize,
     /// Packets so far.
@@ -64,7 +64,7 @@ impl Capture {
 
     /// Notes that the current packet cannot be read.
     pub(super) fn skip(&mut self, why: String) {
-        self.skipped.push(Problem {
+        self.skipped.push(Unread {
             line: self.count.max(1),
             is_frame: true,
             why,

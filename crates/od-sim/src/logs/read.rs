@@ -6,7 +6,7 @@ use std::prelude::v1::*;
 use od_wire::Instant;
 
 use super::pcap::Capture;
-use super::record::{Entry, Problem, Reader, Record, What};
+use super::record::{Entry, Reader, Record, Unread, What};
 use super::{adapters, asc, blf, candump, columns, csv, foreign, pcap, pcapng, stamp, trc};
 use crate::cursor::Cursor;
 
@@ -16,7 +16,7 @@ pub struct Log {
     /// Records, in the order of their times.
     pub records: Vec<Record>,
     /// Lines or frames that could not be read.
-    pub skipped: Vec<Problem>,
+    pub skipped: Vec<Unread>,
     /// Number of the entries that are not frames: events of an ASC or a TRC, packets of other protocols.
     pub others: usize,
     /// Whether the log has no times, as `candump` prints it without `-t`, or an adapter of slcan sends it. All records then
@@ -77,7 +77,7 @@ pub fn read(bytes: &[u8]) -> Result<Log, Refused> {
             Ok(Entry::Record(record)) => records.push(record),
             Ok(Entry::Other) => others += 1,
             Ok(Entry::Nothing) => {}
-            Err(why) => skipped.push(Problem {
+            Err(why) => skipped.push(Unread {
                 line,
                 is_frame: false,
                 why,
@@ -111,7 +111,7 @@ fn lines(text: &str) -> impl Iterator<Item = &str> {
         .flat_map(|line| line.strip_suffix('\r').unwrap_or(line).split('\r'))
 }
 
-fn finish(mut records: Vec<Record>, skipped: Vec<Problem>) -> Log {
+fn finish(mut records: Vec<Record>, skipped: Vec<Unread>) -> Log {
     records.sort_by_key(|record| record.at);
     let start = records.first().map_or(0, |record| record.at.as_micros());
     if start > WALL_CLOCK {

@@ -116,7 +116,7 @@ pub(super) const FD: &str = "it is a CAN FD frame, and CANopen does not use CAN 
 
 /// A line of a text, or a frame of a capture, that could not be read.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Problem {
+pub struct Unread {
     /// Number of the line, or of the frame, from 1.
     pub line: u32,
     /// Whether it is a frame of a capture.
@@ -125,7 +125,7 @@ pub struct Problem {
     pub why: String,
 }
 
-impl fmt::Display for Problem {
+impl fmt::Display for Unread {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let unit = if self.is_frame { "frame" } else { "line" };
         write!(f, "{unit} {}: {}", self.line, self.why)

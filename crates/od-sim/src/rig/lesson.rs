@@ -5,7 +5,7 @@ use std::prelude::v1::*;
 use od_model::Refused;
 use od_wire::Instant;
 
-use super::{Rig, Seen, Taken};
+use super::{LineEvent, Rig, Taken};
 use crate::bench::Bench;
 use crate::bus::Bus;
 use crate::grammar::problem::Problem;
@@ -73,7 +73,7 @@ impl Rig {
                 Origin::Script => None,
                 Origin::Device(device) => Some(device),
             };
-            seen.push(Seen::Frame { at, device, frame });
+            seen.push(LineEvent::Frame { at, device, frame });
         };
         let mut recorder = Recorder { host, record };
         let (result, bus) = match &mut self.taken {
@@ -98,15 +98,15 @@ impl Rig {
     }
 
     /// Passes a transmitted frame to the lesson. A frame from a link counts as that of a device.
-    pub(super) fn watched(&mut self, seen: &Seen) {
+    pub(super) fn watched(&mut self, seen: &LineEvent) {
         let (at, origin, frame) = match *seen {
-            Seen::Frame { at, device, frame } => {
+            LineEvent::Frame { at, device, frame } => {
                 (at, device.map_or(Origin::Script, Origin::Device), frame)
             }
-            Seen::Heard { at, device, frame } => {
+            LineEvent::Heard { at, device, frame } => {
                 (at, Origin::Device(device.unwrap_or(usize::MAX)), frame)
             }
-            Seen::Disturbed(..) => return,
+            LineEvent::Disturbed(..) => return,
         };
         if let Some(taken) = &mut self.taken {
             taken.progress.frame(at, origin, &frame);

@@ -29,7 +29,7 @@ pub use self::client::Outcome;
 
 /// Event on the bus line.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Seen {
+pub enum LineEvent {
     /// A frame.
     Frame {
         /// Time of the frame.
@@ -58,7 +58,7 @@ pub struct Rig {
     /// The bus. [`settle`](Self::settle) records the frames that devices send because of a change.
     pub bus: Bus,
     clockwork: Clockwork,
-    seen: Vec<Seen>,
+    seen: Vec<LineEvent>,
     asker: Asker,
     outcomes: VecDeque<Outcome>,
     /// Whether new devices describe nodes of a real bus.
@@ -125,7 +125,7 @@ impl Rig {
         let came_through = self.bus.receive(frame);
         self.settle_line();
         if came_through {
-            self.saw(Seen::Frame {
+            self.saw(LineEvent::Frame {
                 at: now,
                 device: None,
                 frame: *frame,
@@ -238,12 +238,12 @@ impl Rig {
     }
 
     /// Returns the items since the last call.
-    pub fn drain(&mut self) -> Vec<Seen> {
+    pub fn drain(&mut self) -> Vec<LineEvent> {
         std::mem::take(&mut self.seen)
     }
 
     /// As [`drain`](Self::drain), without allocating a list: calls a function with each item.
-    pub fn drain_to(&mut self, each: impl FnMut(&Seen)) {
+    pub fn drain_to(&mut self, each: impl FnMut(&LineEvent)) {
         self.seen.iter().for_each(each);
         self.seen.clear();
     }
@@ -253,7 +253,7 @@ impl Rig {
         self.settle_line();
         if !self.is_watched() {
             let sent = self.bus.poll_all();
-            let seen = |Sent { at, device, frame }| Seen::Frame { at, device, frame };
+            let seen = |Sent { at, device, frame }| LineEvent::Frame { at, device, frame };
             self.seen.extend(sent.map(seen));
             return;
         }
@@ -264,7 +264,7 @@ impl Rig {
             if device.is_some() {
                 self.asker.handle_frame(at, &frame);
             }
-            self.saw(Seen::Frame { at, device, frame });
+            self.saw(LineEvent::Frame { at, device, frame });
         }
         self.look();
     }
@@ -277,11 +277,11 @@ impl Rig {
     fn settle_line(&mut self) {
         while let Some(one) = self.bus.line.poll() {
             self.lost(one.at);
-            self.seen.push(Seen::Disturbed(one));
+            self.seen.push(LineEvent::Disturbed(one));
         }
     }
 
-    fn saw(&mut self, seen: Seen) {
+    fn saw(&mut self, seen: LineEvent) {
         self.bound();
         self.seen.push(seen);
         self.watched(&seen);
@@ -303,7 +303,7 @@ impl Rig {
 
 #[cfg(not(feature = "lessons"))]
 impl Rig {
-    fn watched(&mut self, _: &Seen) {}
+    fn watched(&mut self, _: &LineEvent) {}
 
     fn lost(&mut self, _: Instant) {}
 

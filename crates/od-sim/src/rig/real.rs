@@ -4,7 +4,7 @@ use std::prelude::v1::*;
 
 use od_wire::Frame;
 
-use super::{Port, Rig, Seen};
+use super::{LineEvent, Port, Rig};
 
 /// Limit of items that wait to be drained; the oldest are dropped.
 const MOST: usize = 20_000;
@@ -35,7 +35,7 @@ impl Rig {
         let mut devices = self.bus.devices().iter();
         let device = devices.position(|one| one.is_sender(frame));
         self.asker.handle_frame(now, frame);
-        self.saw(Seen::Heard {
+        self.saw(LineEvent::Heard {
             at: now,
             device,
             frame: *frame,

@@ -28,9 +28,9 @@ fn run(rig: &mut Rig, micros: u64) {
 }
 
 fn frames(rig: &mut Rig) -> Vec<String> {
-    let text = |seen: Seen| match seen {
-        Seen::Frame { frame, .. } | Seen::Heard { frame, .. } => frame.to_string(),
-        Seen::Disturbed(one) => format!("lost {}", one.frame),
+    let text = |seen: LineEvent| match seen {
+        LineEvent::Frame { frame, .. } | LineEvent::Heard { frame, .. } => frame.to_string(),
+        LineEvent::Disturbed(one) => format!("lost {}", one.frame),
     };
     rig.drain().into_iter().map(text).collect()
 }

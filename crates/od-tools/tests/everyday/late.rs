@@ -7,7 +7,7 @@ use od_tools::Error;
 use od_tools::bench::OnBench;
 use od_tools::link::{Heard, Link};
 use od_tools::master::Master;
-use od_tools::scan::{Options, scan};
+use od_tools::scan::{ScanTimes, scan};
 use od_wire::{Duration, Frame, Instant, NodeId};
 
 use crate::bus;
@@ -76,7 +76,7 @@ fn a_scan_of_slow_nodes_neither_misses_a_node_nor_sees_two() {
     for node in [1, 127] {
         let mut bus = bus(&[("gxmm", node)]);
         let mut link = Late::responses(OnBench(&mut bus), 250);
-        let found = scan(&mut link, Options::default(), |_| {}).expect("a scan");
+        let found = scan(&mut link, ScanTimes::default(), |_| {}).expect("a scan");
         let nodes = found.nodes.iter();
         let all: Vec<_> = nodes
             .map(|one| (one.node.raw(), one.conflict.len()))

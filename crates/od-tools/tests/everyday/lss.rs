@@ -9,7 +9,7 @@ use od_tools::bench::OnBench;
 use od_tools::link::{Heard, Link};
 use od_tools::lss::{Lss, Slaves};
 use od_tools::master::Master;
-use od_tools::scan::{Options, scan};
+use od_tools::scan::{ScanTimes, scan};
 use od_wire::{Frame, Instant, NodeId};
 
 use crate::id;
@@ -43,7 +43,7 @@ fn three_new_encoders_get_their_node_ids() {
     let serials = [4711, 4712, 0x8000_0001];
     let mut bus = new(&serials);
     assert!(
-        scan(&mut OnBench(&mut bus), Options::default(), |_| {})
+        scan(&mut OnBench(&mut bus), ScanTimes::default(), |_| {})
             .expect("a link")
             .has_unconfigured
     );
@@ -72,7 +72,7 @@ fn three_new_encoders_get_their_node_ids() {
         bus.set_power(device, false);
         bus.set_power(device, true);
     }
-    let found = scan(&mut OnBench(&mut bus), Options::default(), |_| {}).expect("a link");
+    let found = scan(&mut OnBench(&mut bus), ScanTimes::default(), |_| {}).expect("a link");
     assert_eq!(
         found
             .nodes

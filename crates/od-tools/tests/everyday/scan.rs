@@ -6,14 +6,14 @@ use od_tools::bench::OnBench;
 use od_tools::link::{Heard, Link};
 use od_tools::master::Master;
 use od_tools::nmt;
-use od_tools::scan::{Options, RATES, Scan, detect, scan};
+use od_tools::scan::{RATES, Scan, ScanTimes, detect, scan};
 use od_wire::nmt::{Command, State};
 use od_wire::{Duration, Frame, Instant};
 
 use crate::{bus, id};
 
 fn look(link: &mut impl Link) -> Scan {
-    scan(link, Options::default(), |_| {}).expect("a link")
+    scan(link, ScanTimes::default(), |_| {}).expect("a link")
 }
 
 #[test]

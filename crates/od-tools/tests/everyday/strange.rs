@@ -4,7 +4,7 @@ use od_model::Address;
 use od_tools::Error;
 use od_tools::link::{Heard, Link};
 use od_tools::master::Master;
-use od_tools::scan::{Options, scan};
+use od_tools::scan::{ScanTimes, scan};
 use od_tools::watch::{By, Source, watch};
 use od_wire::{Duration, Frame, Instant};
 
@@ -82,7 +82,7 @@ fn endless(request: &[u8; 8]) -> Option<[u8; 8]> {
 #[test]
 fn a_scan_ends_whatever_a_node_sends() {
     let mut slave = Slave::new(endless);
-    let scan = scan(&mut slave, Options::default(), |_| {}).expect("a link");
+    let scan = scan(&mut slave, ScanTimes::default(), |_| {}).expect("a link");
     assert_eq!(scan.nodes.len(), 1);
     assert_eq!(scan.nodes[0].device_type, Some(0x0403_0201));
     assert_eq!(scan.nodes[0].texts, [None, None, None]);

@@ -153,18 +153,18 @@ class FaultCases extends View {
   }
 
   private told(number: number) {
-    const told = this.mark?.told ?? [];
-    const at = told.findIndex((one) => one.probe === number);
+    const used = this.mark?.used ?? [];
+    const at = used.findIndex((one) => one.probe === number);
     if (at < 0) return nothing;
-    const before = at === 0 ? this.opened!.causes.length : told[at - 1]!.left.length;
-    return html`<p class="case-told">${F.told(before - told[at]!.left.length, told[at]!.left.length)}</p>`;
+    const before = at === 0 ? this.opened!.causes.length : used[at - 1]!.left.length;
+    return html`<p class="case-told">${F.told(before - used[at]!.left.length, used[at]!.left.length)}</p>`;
   }
 
   private result(opened: OpenedCase, mark: CaseMark) {
-    const left = mark.told.at(-1)?.left.length ?? opened.causes.length;
+    const left = mark.used.at(-1)?.left.length ?? opened.causes.length;
     return html`<section class="case-mark" role="status" data-tone=${mark.isRight ? (mark.isProven ? 'good' : 'amber') : 'bad'}>
       <p><strong>${mark.isRight ? F.right : F.wrong(opened.causes[mark.cause]!)}</strong>
-        ${mark.isProven ? F.proven(mark.told.length, mark.fewest) : F.guessed(left, mark.fewest)}</p>
+        ${mark.isProven ? F.proven(mark.used.length, mark.fewest) : F.guessed(left, mark.fewest)}</p>
       <h4>${F.explanation}</h4><div class="prose">${markdown(mark.proof)}</div>
       <h4>${F.best}</h4><ul>${mark.best.map((probe) => html`<li>${opened.probes[probe]}</li>`)}</ul>
       <div class="button-row"><button class="primary" @click=${() => this.open(state.faultCase.peek()!.name)}>${F.another}</button>

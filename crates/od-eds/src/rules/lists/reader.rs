@@ -12,7 +12,7 @@ use crate::finding::{
 use crate::fix::Fix;
 use crate::scan::names::List;
 use crate::scan::number::number;
-use crate::scan::placed::{Placed, Text};
+use crate::scan::section::{Text, TextSection};
 use crate::span::Span;
 #[cfg(feature = "xdd")]
 use crate::span::Spanned;
@@ -226,7 +226,7 @@ pub(crate) static W0209: Rule = Rule {
 };
 
 /// The finding about a compact section of an object without CompactSubObj.
-pub(crate) fn w0209_compact_without_key(section: &Placed<'_>, index: u16) -> Finding {
+pub(crate) fn w0209_compact_without_key(section: &TextSection<'_>, index: u16) -> Finding {
     W0209
         .at(section.header)
         .index(index)
@@ -246,7 +246,7 @@ pub(crate) static I0211: Rule = Rule {
 };
 
 /// The finding about a section that CiA 306 does not define.
-pub(crate) fn i0211_unknown_section(section: &Placed<'_>) -> Finding {
+pub(crate) fn i0211_unknown_section(section: &TextSection<'_>) -> Finding {
     let finding = I0211.at(section.header).fact("name", &*section.name.value);
     if is_object(section) {
         finding.severity_of(Error)
@@ -256,7 +256,7 @@ pub(crate) fn i0211_unknown_section(section: &Placed<'_>) -> Finding {
 }
 
 /// Returns whether a section has the keys of an object, which no tool then finds.
-fn is_object(section: &Placed<'_>) -> bool {
+fn is_object(section: &TextSection<'_>) -> bool {
     let has = |key| section.get(key).is_some();
     has("ParameterName") && (has("DataType") || has("ObjectType"))
 }
@@ -275,7 +275,7 @@ pub(crate) static I0212: Rule = Rule {
 };
 
 /// The finding about a section of an object with another spelling of its name.
-pub(crate) fn i0212_section_name_spelling(section: &Placed<'_>, right: &str) -> Finding {
+pub(crate) fn i0212_section_name_spelling(section: &TextSection<'_>, right: &str) -> Finding {
     // Another index loses the whole object, a leading 0 in the sub-index loses a sub-object.
     let own = |name: &str| name.get(..4).map(str::to_ascii_uppercase);
     let severity = if own(&section.name.value) == own(right) {
@@ -318,7 +318,7 @@ pub(crate) static W0213: Rule = Rule {
 };
 
 /// The finding about a section whose name is probably misspelled.
-pub(crate) fn w0213_section_misspelled(section: &Placed<'_>, meant: &str) -> Finding {
+pub(crate) fn w0213_section_misspelled(section: &TextSection<'_>, meant: &str) -> Finding {
     W0213
         .at(section.header)
         .fact("name", &*section.name.value)
@@ -466,7 +466,7 @@ pub(crate) fn w0242_list_numbering(renumbered: Fix, key: &Text<'_>, place: i128)
 }
 
 /// Gives every entry the number of its position.
-pub(crate) fn w0242_renumbered(list: &Placed<'_>) -> Fix {
+pub(crate) fn w0242_renumbered(list: &TextSection<'_>) -> Fix {
     let entries = list.pairs.iter();
     let entries = entries.filter(|(key, _)| number(key).is_some());
     (1i128..)

@@ -8,8 +8,8 @@ use crate::finding::{
     Severity::{Error, Info, Warning},
 };
 use crate::fix::Fix;
-use crate::scan::known::Form as Wanted;
-use crate::scan::placed::Text;
+use crate::scan::forms::Form as Wanted;
+use crate::scan::section::Text;
 use crate::span::Span;
 
 pub(crate) static W0609: Rule = Rule {

@@ -12,7 +12,7 @@ use crate::finding::{
 };
 use crate::fix::Fix;
 use crate::log::EXPANDED;
-use crate::scan::placed::{Placed, Text};
+use crate::scan::section::{Text, TextSection};
 use crate::span::{Span, Spanned};
 
 pub(crate) static E0301: Rule = Rule {
@@ -62,7 +62,10 @@ pub(crate) static E0303: Rule = Rule {
 };
 
 /// The finding about a second section that contradicts the first.
-pub(crate) fn e0303_duplicate_object_differs(first: &Placed<'_>, second: &Placed<'_>) -> Finding {
+pub(crate) fn e0303_duplicate_object_differs(
+    first: &TextSection<'_>,
+    second: &TextSection<'_>,
+) -> Finding {
     twice(&E0303, first, second)
 }
 
@@ -78,12 +81,16 @@ pub(crate) static W0304: Rule = Rule {
 };
 
 /// The finding about a second section that does not contradict the first.
-pub(crate) fn w0304_duplicate_object(first: &Placed<'_>, second: &Placed<'_>) -> Finding {
+pub(crate) fn w0304_duplicate_object(first: &TextSection<'_>, second: &TextSection<'_>) -> Finding {
     twice(&W0304, first, second)
 }
 
 /// A finding about the second of two sections.
-pub(super) fn twice(rule: &'static Rule, first: &Placed<'_>, second: &Placed<'_>) -> Finding {
+pub(super) fn twice(
+    rule: &'static Rule,
+    first: &TextSection<'_>,
+    second: &TextSection<'_>,
+) -> Finding {
     let finding = rule.at(second.header).fact("name", &*second.name.value);
     finding.related(first.header, "first defined here")
 }

@@ -12,7 +12,7 @@ use crate::finding::{
 };
 use crate::fix::Fix;
 use crate::rules::values::shared::{DECLARED, FORMULA, NOT_VALID, data_type, unfit, values};
-use crate::scan::placed::Text;
+use crate::scan::section::Text;
 use crate::span::Spanned;
 use crate::subject::Entry;
 

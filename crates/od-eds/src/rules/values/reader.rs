@@ -11,7 +11,7 @@ use crate::finding::{
     Severity::{Error, Info, Warning},
 };
 use crate::fix::Fix;
-use crate::scan::placed::Text;
+use crate::scan::section::Text;
 use crate::span::{Span, Spanned};
 
 pub(crate) static E0402: Rule = Rule {

@@ -6,7 +6,7 @@ use od_model::{DataType, Kind};
 use crate::description::Value;
 use crate::fact::{Fact, Key};
 use crate::finding::{Finding, Form, Rule};
-use crate::scan::placed::Text;
+use crate::scan::section::Text;
 use crate::span::{Span, Spanned};
 use crate::subject::Entry;
 

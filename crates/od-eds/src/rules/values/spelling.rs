@@ -6,7 +6,7 @@ use crate::finding::{
     Severity::{Info, Warning},
 };
 use crate::fix::Fix;
-use crate::scan::placed::Text;
+use crate::scan::section::Text;
 
 /// The help for a value that odkit reads, though not every tool does.
 const WRITE: &str = "write `{key={right}}`{fix}";

@@ -31,12 +31,12 @@ static PROFILE: EncoderProfile = EncoderProfile {
         (Address::new(0x2201, 2), Role::Seconds),
         (Address::new(0x6508, 0), Role::TenthHoursSinceStart),
     ],
-    options: Some(Options {
+    options: Some(OptionObject {
         index: 0x2110,
         keep_offset: 1 << 9,
         delay_timer: 1 << 8,
         delay_ms: 2,
-        ..Options::NONE
+        ..OptionObject::NONE
     }),
     bit_rates: &[10, 20, 50, 100, 125, 250, 500, 800, 1000],
     switch_rates: &[10, 20, 50, 125, 250, 500, 800, 1000],

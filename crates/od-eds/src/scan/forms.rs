@@ -25,7 +25,7 @@ pub enum Form {
 }
 
 /// A section with its keys; a `#` in a name stands for a number.
-pub struct Known {
+pub struct SectionForm {
     /// Name.
     pub name: &'static str,
     /// Keys and the forms of their values.
@@ -52,8 +52,8 @@ const COMMENTS: &[(&str, Form)] = &[("Lines", U16), ("Line#", Form::Text)];
 const INDEX_LIST: &[(&str, Form)] = &[("NrOfEntries", U16), ("#", U16)];
 
 /// The sections, in the order in which they are written.
-pub const SECTIONS: &[Known] = &[
-    Known {
+pub const SECTIONS: &[SectionForm] = &[
+    SectionForm {
         name: "FileInfo",
         keys: &[
             ("FileName", Form::Text),
@@ -70,7 +70,7 @@ pub const SECTIONS: &[Known] = &[
             ("ModifiedBy", Form::Text),
         ],
     },
-    Known {
+    SectionForm {
         name: "DeviceInfo",
         keys: &[
             ("VendorName", Form::Text),
@@ -104,31 +104,31 @@ pub const SECTIONS: &[Known] = &[
             ("NrOfNG_MonitoredNodes", U16),
         ],
     },
-    Known {
+    SectionForm {
         name: "DummyUsage",
         keys: &[("Dummy#", Form::Flag)],
     },
-    Known {
+    SectionForm {
         name: "Comments",
         keys: COMMENTS,
     },
-    Known {
+    SectionForm {
         name: "DeviceComissioning",
         keys: COMMISSIONING,
     },
-    Known {
+    SectionForm {
         name: "DeviceCommissioning",
         keys: COMMISSIONING,
     },
-    Known {
+    SectionForm {
         name: "SupportedModules",
         keys: &[("NrOfEntries", U16), ("#", Form::Text)],
     },
-    Known {
+    SectionForm {
         name: "ConnectedModules",
         keys: INDEX_LIST,
     },
-    Known {
+    SectionForm {
         name: "DynamicChannels",
         keys: &[
             ("NrOfSeg", U8),
@@ -138,7 +138,7 @@ pub const SECTIONS: &[Known] = &[
             ("PPOffset#", U32),
         ],
     },
-    Known {
+    SectionForm {
         name: "M#ModuleInfo",
         keys: &[
             ("ProductName", Form::Text),
@@ -147,23 +147,23 @@ pub const SECTIONS: &[Known] = &[
             ("OrderCode", Form::Text),
         ],
     },
-    Known {
+    SectionForm {
         name: "M#Comments",
         keys: COMMENTS,
     },
-    Known {
+    SectionForm {
         name: "M#FixedObjects",
         keys: INDEX_LIST,
     },
-    Known {
+    SectionForm {
         name: "M#SubExtends",
         keys: INDEX_LIST,
     },
-    Known {
+    SectionForm {
         name: "Tools",
         keys: &[("Items", U16)],
     },
-    Known {
+    SectionForm {
         name: "Tool#",
         keys: &[("Name", Form::Text), ("Command", Form::Text)],
     },
@@ -190,7 +190,7 @@ pub const OBJECT_KEYS: [&str; 16] = [
 ];
 
 /// The section with this name, and its position in [`SECTIONS`].
-pub fn section(name: &str) -> Option<(usize, &'static Known)> {
+pub fn section(name: &str) -> Option<(usize, &'static SectionForm)> {
     SECTIONS
         .iter()
         .enumerate()
@@ -198,7 +198,7 @@ pub fn section(name: &str) -> Option<(usize, &'static Known)> {
 }
 
 /// A known key: its spelling, unless it contains a number, and its form.
-pub fn key(known: &Known, key: &str) -> Option<(&'static str, Form)> {
+pub fn key(known: &SectionForm, key: &str) -> Option<(&'static str, Form)> {
     known.keys.iter().copied().find(|(name, _)| is(key, name))
 }
 

@@ -11,7 +11,7 @@ pub type Text<'a> = Spanned<Cow<'a, str>>;
 
 /// A section as written in the text.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Placed<'a> {
+pub struct TextSection<'a> {
     /// The trimmed text between the brackets; empty for the keys before the first section.
     pub name: Text<'a>,
     /// Keys and values, trimmed, in file order.
@@ -24,7 +24,7 @@ pub struct Placed<'a> {
     pub again: Vec<String>,
 }
 
-impl<'a> Placed<'a> {
+impl<'a> TextSection<'a> {
     /// A section without keys.
     pub(crate) const fn new(name: Text<'a>, header: Span) -> Self {
         Self {
