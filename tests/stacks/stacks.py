@@ -4,7 +4,8 @@
 
 FOLDER is outside the repository: stacks are fetched and built there, and their results stay there. A stack whose result is there is
 not run again without `--again`. Each stack is a slave of its own behind slcan over TCP; what it is not made for is in its EDS all the
-same, so every failure is judged in judged.txt.
+same, so every failure is judged in judged.txt. The driver of ros2_canopen for drives is a master instead: it commands the built-in
+drive. It needs a compiler of C++ and the headers of Boost.
 """
 
 import fnmatch
@@ -26,6 +27,7 @@ SOURCES = {
     "CANopenNode": ("https://github.com/CANopenNode/CANopenNode", "9b8beed"),
     "CANopenDemo": ("https://github.com/CANopenNode/CANopenDemo", "1f16f49"),
     "lely-core": ("https://gitlab.com/lely_industries/lely-core", "620d1858"),
+    "ros2_canopen": ("https://github.com/ros-industrial/ros2_canopen", "6ada1969"),
 }
 CARGO = """[package]
 name = "{name}-slave"
@@ -61,11 +63,8 @@ def python_canopen(folder):
     """python-canopen's LocalNode with the EDS of a slave of all services: command and EDS."""
     eds = folder / "ds301.eds"
     shutil.copy(ROOT / "firmware/eds/ds301.eds", eds)
-    env = folder / "python"
-    if not env.exists():
-        subprocess.run([sys.executable, "-m", "venv", env], check=True)
-        subprocess.run([env / "bin/pip", "install", "-q", "canopen==2.4.1", "python-can==4.6.1"], check=True)
-    return [env / "bin/python", HERE / "local_node.py", PORT, eds, "5"], eds
+    programs = environment(folder / "python", "canopen==2.4.1", "python-can==4.6.1")
+    return [programs / "python", HERE / "local_node.py", PORT, eds, "5"], eds
 
 
 def crate(folder, name, source, dependencies):
@@ -104,12 +103,21 @@ def source(folder, name):
     return path
 
 
-def compiled(program, sources, flags):
-    """A program of C, compiled unless it is newer than its sources."""
-    newest = max(path.stat().st_mtime for path in [*sources, *HERE.rglob("*.[ch]")])
+def compiled(program, sources, flags, compiler="cc"):
+    """A program of C or C++, compiled unless it is newer than its sources."""
+    own = [path for path in HERE.rglob("*.*") if path.suffix in (".c", ".h", ".cpp", ".hpp")]
+    newest = max(path.stat().st_mtime for path in [*sources, *own])
     if not program.exists() or program.stat().st_mtime < newest:
-        subprocess.run(["cc", "-O1", "-w", *flags, *sources, "-o", program, "-lm"], check=True)
+        subprocess.run([compiler, "-O1", "-w", *flags, *sources, "-o", program, "-lm"], check=True)
     return program
+
+
+def environment(folder, *packages):
+    """A folder for Python programs of its own, with these packages."""
+    if not folder.exists():
+        subprocess.run([sys.executable, "-m", "venv", folder], check=True)
+        subprocess.run([folder / "bin/pip", "install", "-q", *packages], check=True)
+    return folder / "bin"
 
 
 def canopennode(folder):
@@ -139,6 +147,46 @@ def lely(folder):
     text = re.sub(r"(?m)^33=.*$", r"\g<0>\n34=0x1F80", text.replace("SupportedObjects=33", "SupportedObjects=34"), count=1)
     eds.write_text(text + STARTUP)
     return [program, PORT, "5", eds], eds
+
+
+def ros2_drive(folder):
+    """ros2_canopen's driver for drives on the master of Lely core: the program, and the folder with its network."""
+    stack, ros = source(folder, "lely-core"), source(folder, "ros2_canopen")
+    parts = ["libc", "util", "can", "co", "ev", "io2", "io2/can", "io2/linux", "io2/sys", "io2/user"]
+    files = [path for part in parts for path in sorted((stack / "src" / part).glob("*.c"))]
+    files = [path for path in files if path.name not in ("vci.c", "socket.c", "threads-win32.c")]
+    files += [stack / f"src/io2/posix/{part}.c" for part in ("fd", "io", "sigset")]
+    flags = [f"-I{stack / 'include'}", "-D_GNU_SOURCE", "-DNDEBUG", "-pthread"]
+    library = compiled(folder / "liblely-master.so", files, [*flags, "-shared", "-fPIC"])
+    files = [path for part in ("util", "coapp", "io2") for path in sorted((stack / "src" / part).glob("*.cpp"))]
+    files += [ros / f"canopen_402_driver/src/{part}.cpp" for part in ("motor", "command", "state", "default_homing_mode")]
+    files += [ros / "canopen_base_driver/src/lely_driver_bridge.cpp", HERE / "ros2/drive.cpp", library]
+    folders = [HERE / "ros2/stand_ins", *(ros / part / "include" for part in ("canopen_402_driver", "canopen_base_driver", "canopen_core"))]
+    flags += [*(f"-I{path}" for path in folders), f"-Wl,-rpath,{folder}", "-std=c++17"]
+    program = compiled(folder / "ros2-drive", files, flags, "c++")
+    network = folder / "ros2-network"
+    network.mkdir(exist_ok=True)
+    eds = subprocess.run([ODKIT, "export", "drive"], stdout=subprocess.PIPE, check=True)
+    (network / "drive.eds").write_bytes(eds.stdout)
+    shutil.copy(HERE / "ros2/bus.yml", network)
+    programs = environment(folder / "dcf-tools", "dcf-tools==2.4.2", "setuptools<81")
+    subprocess.run([programs / "dcfgen", "-r", "bus.yml"], cwd=network, check=True)
+    return program, network
+
+
+def driven(folder):
+    """Lets the driver of ros2_canopen command the built-in drive, and writes its steps: name and whether it is done."""
+    program, network = ros2_drive(folder)
+    control = str(int(PORT) + 1)
+    links = ["--link", f"slcan:127.0.0.1:{PORT}", "--control", f"tcp:127.0.0.1:{control}"]
+    drive = running([ODKIT, "sim", "drive@3", *links, "--quiet"])
+    try:
+        command = [program, PORT, control, "master.dcf", "drive.eds", "drive.bin"]
+        done = subprocess.run(command, cwd=network, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, timeout=300)
+    finally:
+        drive.kill()
+    steps = re.findall(r"(?m)^(ok|failed) (.*)$", done.stdout)
+    (folder / "ros2-drive.json").write_text(json.dumps([[name, result == "ok"] for result, name in steps]))
 
 
 STACKS = [
@@ -260,6 +308,25 @@ def page(folder):
     out += [f"| {field} | {fields.count(field)} | {REASONS.get(field, 'not judged')} |" for field in sorted(set(fields))]
     live = len(found["live"])
     out += ["", f"Against the running node `odkit diff` finds {live} difference{'' if live == 1 else 's'} in it."]
+    steps = json.loads((folder / "ros2-drive.json").read_text())
+    done = [name for name, is_done in steps if is_done]
+    out += [
+        "",
+        "## ros2_canopen commands the drive",
+        "",
+        "`Motor402` and `LelyDriverBridge` of ros2_canopen (commit 6ada1969, 0.3.4, unchanged) on the master of Lely core (commit 620d1858)",
+        "command both axes of `odkit sim drive@3` every 10 ms. Small classes of ours replace what they use of rclcpp.",
+        "Two things that its user has to know: the RPDO with the set-point is event-driven, or the controlword overtakes it; and",
+        "`handleInit` on an enabled motor reads an old state and ends at once, so the motor is shut down before.",
+        f"{len(done)} of {len(steps)} steps are done:",
+        "",
+        "| step | axis 1 | axis 2 |",
+        "|---|---|---|",
+    ]
+    for name in dict.fromkeys(re.sub(r"^axis \d: ", "", name) for name, _ in steps):
+        cells = [{True: "done", False: "failed"}.get(dict(steps).get(f"axis {axis}: {name}"), "") for axis in (1, 2)]
+        if any(cells):
+            out.append(f"| {name} | {' | '.join(cells)} |")
     return "\n".join(out) + "\n"
 
 
@@ -271,6 +338,8 @@ def main():
             tested(name, make, folder)
     if "--again" in sys.argv or not (folder / "learned.json").exists():
         learned(folder)
+    if "--again" in sys.argv or not (folder / "ros2-drive.json").exists():
+        driven(folder)
     (ROOT / "docs/CONFORMANCE.md").write_text(page(folder))
 
 

@@ -1,0 +1,3 @@
+// The driver includes this file and uses nothing of it.
+#pragma once
+#include <cstdarg>
