@@ -52,6 +52,9 @@ export async function stays(page, what, probe, milliseconds) {
   ).then((found) => found.value);
 }
 
+/** A file for an input of the page, from memory: no test leaves one on the disk. */
+export const file = (name, text) => ({ name, mimeType: 'text/plain', buffer: Buffer.from(text) });
+
 /** Virtual time in milliseconds. */
 export async function clock(page) {
   const text = await page.getByRole('timer').textContent();

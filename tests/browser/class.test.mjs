@@ -1,9 +1,9 @@
 // A class: the trainer's page, and two students in browsers of their own, on the program `odkit class`.
 import assert from 'node:assert/strict';
-import { mkdir, writeFile } from 'node:fs/promises';
+import { mkdtemp, rm, writeFile } from 'node:fs/promises';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { afterEach, before, test } from 'node:test';
+import { after, afterEach, before, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
 import { flawless } from './axe.mjs';
 import { becomes, nmt } from './bench.mjs';
@@ -14,7 +14,7 @@ import { odkit } from './odkit.mjs';
 const PAGE = fileURLToPath(new URL('../../playground/web/dist', import.meta.url));
 
 /** A lesson of the trainer, in a folder of its own. */
-const folder = join(tmpdir(), `odkit-class-${process.pid}`);
+let folder;
 const OWN = `+++
 title = "Our machine"
 level = 1
@@ -60,9 +60,10 @@ nmt start
 
 let running;
 before(async () => {
-  await mkdir(folder, { recursive: true });
+  folder = await mkdtemp(join(tmpdir(), 'odkit-class-'));
   await writeFile(join(folder, 'machine.md'), OWN);
 });
+after(() => rm(folder, { recursive: true, force: true }));
 afterEach(() => running?.stop());
 
 const start = async (port) => (running = await odkit(['class', '--host', '127.0.0.1', '--port', String(port), '--page', PAGE, '--lessons', folder], /(http:\S+trainer\.html#\w+)/));

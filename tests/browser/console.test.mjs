@@ -1,7 +1,7 @@
 // The frame console: filters, views, folds, search, marks, the send list, logs.
 import assert from 'node:assert/strict';
 import { readFile } from 'node:fs/promises';
-import { becomes, booted, captured, nmt, row, rows, sdo, sdoNote, sendRaw, stays, until } from './bench.mjs';
+import { becomes, booted, captured, file, nmt, row, rows, sdo, sdoNote, sendRaw, stays, until } from './bench.mjs';
 import { checks } from './check.mjs';
 
 const check = checks(booted);
@@ -63,7 +63,7 @@ check('a filter takes lists and says how many frames pass; these can be saved al
 const TEXT_LOG = ` (1.000000)  can0  705   [1]  00\n (1.100000)  can0  20000004   [8]  00 04 00 00 00 00 00 00   ERRORFRAME\n${Array.from({ length: 300 }, (_, i) => ` (${(1.2 + i / 100).toFixed(6)})  can0  185   [4]  0${i % 10} 00 00 00`).join('\n')}\n`;
 
 check('a candump log called .txt is a log: it opens at its beginning, with its error frames, and is plotted from the log', {}, async (page) => {
-  await page.getByLabel('Open log').setInputFiles({ name: 'machine.txt', mimeType: 'text/plain', buffer: Buffer.from(TEXT_LOG) });
+  await page.getByLabel('Open log').setInputFiles(file('machine.txt', TEXT_LOG));
   const replace = page.getByRole('button', { name: 'Replace the capture' });
   await replace.click();
   await becomes('the first row', async () => (await rows(page))[0]?.id, '705');

@@ -1,9 +1,7 @@
 // The object dictionary: marks, writing, the frames of an object, the mapping of PDOs, a DCF.
 import assert from 'node:assert/strict';
-import { readFile, writeFile } from 'node:fs/promises';
-import { tmpdir } from 'node:os';
-import { join } from 'node:path';
-import { becomes, booted, captured, nmt, row, rows, sdo, sdoNote, until } from './bench.mjs';
+import { readFile } from 'node:fs/promises';
+import { becomes, booted, captured, file, nmt, row, rows, sdo, sdoNote, until } from './bench.mjs';
 import { checks } from './check.mjs';
 
 const check = checks(async (page) => {
@@ -129,10 +127,9 @@ check('the state as a DCF, of ours and of a dropped EDS', async (page) => {
   assert.match(first.text, /NodeID=1\n/);
   assert.match(first.text, /\[6001\][^[]*ParameterValue=0x800\n/);
   // The DCF is opened again with another value: the rest of the file is unchanged.
-  const path = join(tmpdir(), `odkit-${process.pid}.dcf`);
-  await writeFile(path, `; a comment\n${first.text.replace('[6001]', '[Vendor]\nKey=kept\n\n[6001]')}`);
+  const changed = file('changed.dcf', `; a comment\n${first.text.replace('[6001]', '[Vendor]\nKey=kept\n\n[6001]')}`);
   await page.locator('.device-button').click();
-  await page.getByLabel('EDS or DCF file').setInputFiles(path);
+  await page.getByLabel('EDS or DCF file').setInputFiles(changed);
   await until('the device of the file', async () => /node 1/.test(await page.locator('.topbar').textContent()) && !(await page.getByRole('dialog').isVisible()));
   await search(page, '6001');
   await becomes('its value', () => object(page, '6001h').locator('.value').textContent(), /2.?048/);

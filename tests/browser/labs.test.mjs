@@ -38,12 +38,21 @@ test('the lab of the line opens from the list of lessons, and a line that is too
   await booted(page);
   await page.getByRole('button', { name: 'Learn' }).click();
   await page.getByRole('dialog', { name: 'Lessons' }).getByRole('button', { name: /^Line/ }).click();
-  const lab = page.locator('.floating-lab od-line-lab');
+  const lab = page.locator('od-lab od-line-lab');
   const length = lab.getByRole('slider', { name: 'Length' });
   await slide(length, (await length.getAttribute('max')) ?? '200');
   await lab.getByText('the sender does not see it').waitFor();
+  // Error counters and send lines are in sight beside each other, without scrolling.
+  const seen = (locator) => locator.evaluate((it) => {
+    const { left, top, width, height } = it.getBoundingClientRect();
+    return it.contains(document.elementFromPoint(left + width / 2, top + height - 2));
+  });
+  for (const [width, height] of [[1024, 768], [1366, 625], [1920, 1080]]) {
+    await page.setViewportSize({ width, height });
+    for (const part of [lab.getByRole('list', { name: 'Error counters' }), page.locator('od-raw-frame'), page.getByRole('button', { name: 'NMT Start' })]) await becomes(`in sight at ${width}`, () => seen(part), true);
+  }
   await page.getByRole('button', { name: 'Close Line' }).click();
-  assert.equal(await page.locator('.floating-lab').count(), 0);
+  assert.equal(await page.locator('od-lab').count(), 0);
   assert.deepEqual(faults, [], 'the page complained');
   await close();
 });

@@ -98,6 +98,17 @@ check('another bit rate makes a stranger on the bus, and bus-off of who talks', 
   await page.getByRole('group', { name: 'Devices on the bus' }).getByRole('button', { name: /gxmm/ }).click();
   await sdo(page, '1000');
   await note(page, /1000h = /);
+  // The page with a bit rate that no node has: what to do is said where it happens.
+  const rate = page.getByRole('combobox', { name: 'Bit rate of this page' });
+  await rate.selectOption('125');
+  await sdo(page, '1000');
+  const off = page.locator('od-console od-bus-off');
+  await off.getByText('This page is bus-off').waitFor();
+  await rate.selectOption('0');
+  await off.getByRole('button', { name: 'Restart' }).click();
+  await off.getByText('This page is bus-off').waitFor({ state: 'detached' });
+  await sdo(page, '1000');
+  await note(page, /1000h = /);
 });
 
 check('without its terminators the wire loses frames, alone on it nobody acknowledges', {}, async (page) => {

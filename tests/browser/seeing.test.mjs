@@ -1,7 +1,7 @@
 // Figures of each CAN-ID and SDO client, and plots of the whole capture.
 import assert from 'node:assert/strict';
 import { readFile } from 'node:fs/promises';
-import { becomes, booted, captured, nmt, row, rows, sdo, sdoNote, sendRaw, stays, stopTime, until } from './bench.mjs';
+import { becomes, booted, captured, file, nmt, row, rows, sdo, sdoNote, sendRaw, stays, stopTime, until } from './bench.mjs';
 import { checks } from './check.mjs';
 
 const check = checks(booted);
@@ -248,7 +248,7 @@ const RESTARTS = Array.from({ length: 40 }, (_, at) => `(${(at / 10).toFixed(6)}
 
 check('the diagnosis of a log names the faults, their causes and the frames, and shows a frame in the console', async (page) => {
   await stopTime(page);
-  await page.getByLabel('Open log').setInputFiles({ name: 'restarts.log', mimeType: 'text/plain', buffer: Buffer.from(RESTARTS) });
+  await page.getByLabel('Open log').setInputFiles(file('restarts.log', RESTARTS));
   await page.getByRole('button', { name: 'Replace the capture', exact: true }).click();
   await becomes('the frames', () => captured(page), 40);
   await page.getByRole('button', { name: 'Diagnosis', exact: true }).click();
@@ -285,7 +285,7 @@ check('the nodes of the bus: state, heartbeat, EMCY and device, from the frames'
 
 check('a DBC file adds its signals to the words of frames, until it is closed', async (page) => {
   const dbc = 'VERSION ""\n\nBU_: A\n\nBO_ 389 Motion: 8 A\n SG_ Speed : 0|16@1- (0.5,0) [0|0] "rpm" A\n SG_ Mode : 16|8@1+ (1,0) [0|0] "" A\n\nVAL_ 389 Mode 3 "torque" ;\n';
-  const open = (name, text) => page.locator('od-console input[type=file]').setInputFiles({ name, mimeType: 'text/plain', buffer: Buffer.from(text) });
+  const open = (name, text) => page.locator('od-console input[type=file]').setInputFiles(file(name, text));
   await sendRaw(page, '185#F6FF03');
   await open('motion.dbc', dbc);
   await row(page, 'the signals', (one) => one.id === '185' && one.words.endsWith('| Motion: Speed -5.0 rpm, Mode torque'));

@@ -1,13 +1,11 @@
 // Sharing a bench: by link, by file, after closing the page; without a network; in a frame.
 import assert from 'node:assert/strict';
 import { createHash } from 'node:crypto';
-import { readFile, writeFile } from 'node:fs/promises';
+import { readFile } from 'node:fs/promises';
 import { createServer } from 'node:http';
-import { tmpdir } from 'node:os';
-import { join } from 'node:path';
 import { test } from 'node:test';
 import { deflateRawSync } from 'node:zlib';
-import { becomes, booted, captured, nmt, pass, position, row, rows, sdo, sdoNote, sendRaw, state, stays, stopTime, until } from './bench.mjs';
+import { becomes, booted, captured, file, nmt, pass, position, row, rows, sdo, sdoNote, sendRaw, state, stays, stopTime, until } from './bench.mjs';
 import { browser, checks, open } from './check.mjs';
 import { URL_OF_PAGE } from './harness.mjs';
 
@@ -132,9 +130,8 @@ check('two nodes, switches, a wire without terminators', async (page) => {
 
 check('a dropped EDS, its node and its values go along', async (page) => {
   await booted(page);
-  const eds = join(tmpdir(), `odkit-share-${process.pid}.eds`);
   const entry = (index, name, type, access, value) => `[${index}]\nParameterName=${name}\nObjectType=7\nDataType=${type}\nAccessType=${access}\nDefaultValue=${value}\nPDOMapping=0\n`;
-  await writeFile(eds, `[FileInfo]\nFileName=x.eds\n[DeviceInfo]\nProductName=Travelled\n${entry('1000', 'Device type', '0x0007', 'ro', 0)}${entry('1001', 'Error register', '0x0005', 'ro', 0)}${entry('2000', 'Grösse', '0x0006', 'rw', 7)}`);
+  const eds = file('travelled.eds', `[FileInfo]\nFileName=x.eds\n[DeviceInfo]\nProductName=Travelled\n${entry('1000', 'Device type', '0x0007', 'ro', 0)}${entry('1001', 'Error register', '0x0005', 'ro', 0)}${entry('2000', 'Grösse', '0x0006', 'rw', 7)}`);
   await page.locator('.device-button').click();
   await page.getByRole('spinbutton', { name: 'Node ID' }).fill('9');
   await page.getByLabel('EDS or DCF file').setInputFiles(eds);
@@ -197,8 +194,7 @@ check('a file is saved and opened again', async (page) => {
   const other = await open();
   await booted(other.page);
   const opening = await shareDialog(other.page);
-  const damaged = join(tmpdir(), `odkit-damaged-${process.pid}.json`);
-  await writeFile(damaged, (await readFile(path, 'utf8')).slice(0, 300));
+  const damaged = file('damaged.json', (await readFile(path, 'utf8')).slice(0, 300));
   await opening.getByLabel('Saved bench').setInputFiles(damaged);
   await until('a message', () => other.page.getByText(/cannot be opened/).isVisible());
   await opening.getByLabel('Saved bench').setInputFiles(path);
@@ -252,8 +248,7 @@ test('it loads without a network after the first visit', async () => {
   await sendRaw(page, '601#4000100000000000');
   await row(page, 'an answer', (one) => one.id === '581');
   // This includes files that are loaded on request: the module that reads EDS texts.
-  const eds = join(tmpdir(), `odkit-offline-${process.pid}.eds`);
-  await writeFile(eds, '[FileInfo]\nFileName=x.eds\n[DeviceInfo]\nProductName=Offline\n[1000]\nParameterName=Device type\nObjectType=7\nDataType=0x0007\nAccessType=ro\nDefaultValue=0\nPDOMapping=0\n');
+  const eds = file('offline.eds', '[FileInfo]\nFileName=x.eds\n[DeviceInfo]\nProductName=Offline\n[1000]\nParameterName=Device type\nObjectType=7\nDataType=0x0007\nAccessType=ro\nDefaultValue=0\nPDOMapping=0\n');
   await page.locator('.device-button').click();
   await page.getByLabel('EDS or DCF file').setInputFiles(eds);
   await until('the file in the module that reads it', async () =>

@@ -114,6 +114,12 @@ export const encoderOpen = signal(false);
 /** The step of the tour; null if there is none. */
 export const tour = signal<number | null>(null);
 
+/** The lab of the free bench that is open beside the bus, in the place of a lesson. */
+export const lab = signal<'master' | 'line' | null>(null);
+
+/** Whether a lesson or a lab is beside the bus. */
+export const isBeside = computed(() => lab.value !== null || lesson.value !== null);
+
 export type Tab = 'encoder' | 'console' | 'objects' | 'lesson';
 export const tab = signal<Tab>('encoder');
 

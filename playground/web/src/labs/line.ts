@@ -43,12 +43,14 @@ class LineLab extends Lab {
     const x = (nanos: number): number => Math.min(WIDTH, (nanos / end) * WIDTH);
     const sample = x(cable.sampleTime);
     const bar = (y: number, nanos: number, word: string) => svg`<rect x="0" y=${y} width=${x(nanos)} height="9" rx="2" class=${nanos > cable.sampleTime ? 'late' : 'early'}></rect><text x="4" y=${y + 20}>${word}</text>`;
-    return html`<svg class="bit" viewBox="0 0 ${WIDTH} 104" role="img" aria-label=${`${t.bit(cable.rate, cable.bit)}, ${t.sampled(cable.sampleTime)}, ${t.returns(cable.roundTrip)}`}>
+    // Without a length there are no delays to draw.
+    const low = cable.length ? 92 : 32;
+    return html`<svg class="bit" viewBox="0 0 ${WIDTH} ${low + 12}" role="img" aria-label=${`${t.bit(cable.rate, cable.bit)}, ${t.sampled(cable.sampleTime)}, ${t.returns(cable.roundTrip)}`}>
       <path d=${`M0 26 V8 H${x(cable.bit)} V26`} class="edge"></path>
       <text x="4" y="22">${t.bit(cable.rate, cable.bit)}</text>
       ${cable.length ? svg`${bar(34, cable.roundTrip, t.returns(cable.roundTrip))}${bar(64, cable.settling, t.settles(cable.settling))}` : nothing}
-      <path d=${`M${sample} 2 V92`} class="sample"></path>
-      <text x=${sample - 4} y="102" text-anchor="end">${t.sampled(cable.sampleTime)}</text>
+      <path d=${`M${sample} 2 V${low}`} class="sample"></path>
+      <text x=${sample - 4} y=${low + 10} text-anchor="end">${t.sampled(cable.sampleTime)}</text>
     </svg>`;
   }
 
@@ -57,9 +59,12 @@ class LineLab extends Lab {
     const line = state.line.value;
     const all = state.statuses.value.map((one) => ({ name: L.master.node(one.nodeId), ...one }));
     if (!line) return nothing;
-    return html`<table class="num" aria-label=${t.counters}><thead><tr><th></th><th>${t.tec}</th><th>${t.rec}</th><th></th></tr></thead>
-      <tbody>${[...all, { ...line, name: t.page }].map((one) => html`<tr><th scope="row">${one.name}</th><td>${one.transmitErrors}</td><td>${one.receiveErrors}</td>
-        <td><span class="pill" data-tone=${one.controller === 'bus-off' ? 'bad' : one.controller === 'error passive' ? 'amber' : 'good'}>${one.controller}</span></td></tr>`)}</tbody></table>`;
+    return html`<ul class="counters num" aria-label=${t.counters}>${[...all, { ...line, name: t.page }].map((one, station) => {
+      const tone = one.controller === 'bus-off' ? 'bad' : one.controller === 'error passive' ? 'amber' : 'good';
+      return html`<li><strong>${one.name}</strong><span>${t.tec} ${one.transmitErrors}</span><span>${t.rec} ${one.receiveErrors}</span>
+        <span class="pill" data-tone=${tone}>${one.controller}</span>
+        ${station < all.length ? html`<od-bus-off .node=${station}></od-bus-off>` : html`<od-bus-off></od-bus-off>`}</li>`;
+    })}</ul>`;
   }
 
   protected override render() {
@@ -81,9 +86,9 @@ class LineLab extends Lab {
         ${this.slider(t.clock(state.nodeId.value), t.slow(clock), clock, [-4, 4, 0.1], 'clock')}
         <div class="lab-row"><span id="lab-terminators">${t.terminators}</span><span class="segmented" role="group" aria-labelledby="lab-terminators">${[0, 1, 2, 3].map((count) => html`<button class="small" aria-pressed=${line.terminators === count} @click=${() => act({ op: 'line', real: true, terminators: count, rate: line.fixedRate })}>${count}</button>`)}</span></div>
       </div>
+      ${this.counters()}
       ${this.bit(cable)}
       <p class="note" role="status" data-tone=${isLate || isSlow ? 'error' : ''}>${cable.length ? t.verdict(isLate, isSlow, cable.longest) : t.bench} ${most ? t.table(cable.rate, most) : nothing} ${t.tolerance(cable.tolerance)}</p>
-      ${this.counters()}
     </section>`;
   }
 }

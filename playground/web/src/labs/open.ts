@@ -1,17 +1,16 @@
-// Opens a lab beside the bench, or the labs that a lesson needs within it.
+// Opens a lab in the column beside the bus, or the labs that a lesson needs within it.
 
-import { html, nothing, render } from 'lit';
+import { html, nothing } from 'lit';
 import { add } from '../sim/link';
 import type { Lesson } from '../sim/api';
 import * as state from '../state';
-import { icons } from '../views/icons';
 import { L } from './texts';
 
-export type Name = 'master' | 'line';
+type Name = NonNullable<typeof state.lab.value>;
 
 const parts = { master: () => import('./master'), line: () => import('./line') };
 
-const shown = (name: Name) => (name === 'master' ? html`<od-master></od-master>` : html`<od-line-lab></od-line-lab>`);
+export const shown = (name: Name) => (name === 'master' ? html`<od-master></od-master>` : html`<od-line-lab></od-line-lab>`);
 
 const load = (name: Name): Promise<unknown> =>
   parts[name]().catch(() => (state.toast.value = { text: L.failed, tone: 'error' }));
@@ -36,17 +35,9 @@ export function beside(lesson: Lesson) {
 
 /** Opens a lab of the free bench. It needs a line with bit times, and the whole module. */
 async function openLab(name: Name): Promise<void> {
-  await Promise.all([load(name), add({ op: 'script', text: 'line real' })]);
-  const home = document.createElement('aside');
-  home.className = 'floating-lab';
-  home.setAttribute('aria-label', L[name].title);
-  const before = document.querySelector('.floating-lab');
-  const close = (): void => home.remove();
-  home.addEventListener('keydown', (event) => event.key === 'Escape' && close());
-  render(html`<button class="icon-button" aria-label=${L.close(L[name].title)} title=${L.close(L[name].title)} @click=${close}>${icons.close}</button>${shown(name)}`, home);
-  before?.remove();
-  document.body.append(home);
-  home.querySelector<HTMLElement>('button')?.focus();
+  await Promise.all([load(name), import('./panel'), add({ op: 'script', text: 'line real' })]);
+  state.lab.value = name;
+  state.tab.value = 'lesson';
 }
 
 /** The labs as cards of the list of lessons. */

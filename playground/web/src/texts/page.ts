@@ -7,7 +7,7 @@ export const page = {
     empty: 'odkit – virtual CANopen encoder',
     devices: (names: string) => `${names} – odkit`,
     panels: 'Panels',
-    tabs: { encoder: 'Encoder', console: 'Bus', objects: 'Objects', lesson: 'Lesson' },
+    tabs: { encoder: 'Encoder', console: 'Bus', objects: 'Objects', lesson: 'Lesson', lab: 'Lab' },
     dismiss: 'Dismiss',
     drop: 'Drop the file to open it',
     failed: 'The simulation does not run in this browser.',

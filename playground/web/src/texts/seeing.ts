@@ -9,6 +9,11 @@ export const seeing = {
     title: (messages: number) => `DBC file with ${messages} message${messages === 1 ? '' : 's'}`,
     close: (name: string) => `Close ${name}`,
   },
+  busOff: {
+    page: 'This page is bus-off: too many of its frames failed, so its CAN controller has left the bus. It sends and receives nothing. Correct the cause first (bit rate, terminators, a node with the same CAN-ID), then restart it.',
+    node: 'This node is bus-off: it sends and receives nothing. A CAN controller that is restarted takes part again after 128 × 11 recessive bits; this device waits for its power. Correct the cause first (bit rate, terminators, a node with the same CAN-ID).',
+    power: 'Power off and on',
+  },
   nodes: {
     columns: ['Node', 'Device', 'NMT state', 'Heartbeat', 'Last EMCY', 'Last frame'],
     none: 'No node has sent a frame yet. A node announces itself with its boot-up message when it starts.',

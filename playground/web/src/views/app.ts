@@ -5,6 +5,7 @@ import { effect } from '@preact/signals-core';
 import * as state from '../state';
 import { togglePause } from '../actions';
 import { T } from '../texts';
+import { besideWord } from './beside';
 import { icons } from './icons';
 import { View } from './view';
 import { openFile } from './files';
@@ -125,14 +126,16 @@ class App extends View {
 
   protected override render() {
     const tab = state.tab.value;
+    const lab = state.lab.value;
+    const isBeside = state.isBeside.value;
     return html`
       <od-topbar></od-topbar>
       <div><od-tour></od-tour><od-offers></od-offers><od-report></od-report></div>
-      <main class="bench" data-tab=${tab} ?data-lesson=${state.lesson.value !== null} data-encoder=${state.encoderOpen.value ? 'open' : 'folded'}>
+      <main class="bench" data-tab=${tab} ?data-lesson=${isBeside} data-encoder=${state.encoderOpen.value ? 'open' : 'folded'}>
         <h1 class="sr">${T.app.title}</h1>
         <div class="side">
           ${state.real.value && state.status.value?.real !== false ? html`<od-real-node class="panel" data-panel="encoder"></od-real-node>` : html`<od-encoder class="panel" data-panel="encoder"></od-encoder>`}
-          ${state.lesson.value ? html`<od-lesson class="panel" data-panel="lesson"></od-lesson>` : nothing}
+          ${lab ? html`<od-lab class="panel" data-panel="lesson"></od-lab>` : isBeside ? html`<od-lesson class="panel" data-panel="lesson"></od-lesson>` : nothing}
           <od-objects class="panel" data-panel="objects"></od-objects>
         </div>
         <div class="panel bus" data-panel="console">
@@ -141,9 +144,9 @@ class App extends View {
         </div>
       </main>
       <div class="foot">${this.toast()}<nav aria-label=${T.app.panels}><div class="tabs" role="tablist" aria-label=${T.app.panels}>
-        ${TABS.filter((one) => one !== 'lesson' || state.lesson.value).map(
+        ${TABS.filter((one) => one !== 'lesson' || isBeside).map(
           (one) => html`<button role="tab" aria-selected=${one === tab} @click=${() => (state.tab.value = one)}>
-            ${icons[one]}<span>${one === 'encoder' ? deviceWord() : T.app.tabs[one]}</span>
+            ${icons[one]}<span>${one === 'encoder' ? deviceWord() : one === 'lesson' ? besideWord() : T.app.tabs[one]}</span>
           </button>`,
         )}
       </div></nav></div>

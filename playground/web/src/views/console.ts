@@ -40,6 +40,10 @@ class Console extends View {
     effect(() => {
       if (state.chosenFrame.value !== null) load(() => import('./frame-detail'));
     });
+    // So is what to do after bus-off, of this page or of a node.
+    effect(() => {
+      if ([state.line.value, ...state.statuses.value].some((one) => one?.controller === 'bus-off')) load(() => import('../seeing/bus-off'));
+    });
     this.addEventListener('keydown', (event) => {
       const isFind = (event.key === 'f' && (event.ctrlKey || event.metaKey)) || (event.key === '/' && !(event.target as HTMLElement).closest('input'));
       if (!isFind) return;
@@ -137,6 +141,7 @@ class Console extends View {
       ${view.value === 'plot' ? html`<od-plot></od-plot>` : nothing}
       ${view.value === 'diagnosis' ? html`<od-diagnosis></od-diagnosis>` : nothing}
       <od-frame-detail></od-frame-detail>
+      <od-bus-off></od-bus-off>
       <od-bus-status></od-bus-status>
     `;
   }

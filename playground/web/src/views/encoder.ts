@@ -62,7 +62,7 @@ class Encoder extends View {
     const hasShaft = state.shaft.value !== null || state.device.value === null;
     return html`
       <header class="panel-head">
-        ${state.lesson.value ? html`<button class="icon-button fold-button" aria-expanded=${state.encoderOpen.value} aria-label=${T.encoder.fold} title=${T.encoder.fold} @click=${() => (state.encoderOpen.value = !state.encoderOpen.value)}>${icons.chevron}</button>` : nothing}
+        ${state.isBeside.value ? html`<button class="icon-button fold-button" aria-expanded=${state.encoderOpen.value} aria-label=${T.encoder.fold} title=${T.encoder.fold} @click=${() => (state.encoderOpen.value = !state.encoderOpen.value)}>${icons.chevron}</button>` : nothing}
         <h2>${deviceWord()}</h2>
         <span class="pill" data-nmt=${nmtState} role="status" aria-label=${T.encoder.nmt}>${T.encoder.states[nmtState]}</span>
         <div class="spacer"></div>

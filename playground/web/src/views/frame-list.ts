@@ -264,7 +264,7 @@ class FrameList extends View {
         )}</div>
         <div class="frames scroll" tabindex="0" role="rowgroup" aria-label=${t.rows}></div>
       </div>
-      ${kept > 0 && kept < 4 && !state.lesson.value && paused === null && state.powered.value && !trace.filter ? this.hints() : nothing}
+      ${kept > 0 && kept < 4 && !state.isBeside.value && paused === null && state.powered.value && !trace.filter ? this.hints() : nothing}
       ${kept === 0 ? html`<p class="frames-empty">${state.real.value ? t.quiet : state.powered.value ? t.empty : t.off}</p>` : trace.count === 0 && trace.filter ? html`<p class="frames-empty">${t.nothing}</p>` : nothing}
       ${this.behind && paused === null ? html`<button class="to-end" @click=${() => this.toEnd()}>${icons.down} ${t.toEnd}</button>` : nothing}
     </div>`;

@@ -70,6 +70,7 @@ class Hardware extends View {
     return html`<section>
       <h3>${T.hardware.node}</h3>
       ${counters('node', status, station)}
+      <od-bus-off .node=${station - 1}></od-bus-off>
     </section>`;
   }
 
@@ -91,6 +92,7 @@ class Hardware extends View {
       </div>
       <h3>${T.hardware.page}</h3>
       ${counters('page', line, 0)}
+      <od-bus-off></od-bus-off>
     </section>`;
   }
 }

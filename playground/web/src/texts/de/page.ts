@@ -9,7 +9,7 @@ export const page = {
     empty: 'odkit – virtueller CANopen-Encoder',
     devices: (names) => `${names} – odkit`,
     panels: 'Bereiche',
-    tabs: { encoder: 'Encoder', console: 'Bus', objects: 'Objekte', lesson: 'Lektion' },
+    tabs: { encoder: 'Encoder', console: 'Bus', objects: 'Objekte', lesson: 'Lektion', lab: 'Labor' },
     dismiss: 'Ausblenden',
     drop: 'Datei hier ablegen, um sie zu öffnen',
     failed: 'Die Simulation läuft in diesem Browser nicht.',

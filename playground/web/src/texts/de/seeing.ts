@@ -12,6 +12,11 @@ export const seeing = {
     title: (messages) => `DBC-Datei mit ${messages} ${messages === 1 ? 'Botschaft' : 'Botschaften'}`,
     close: (name) => `${name} schließen`,
   },
+  busOff: {
+    page: 'Diese Seite ist bus-off: Zu viele ihrer Frames sind gescheitert, darum hat ihr CAN-Controller den Bus verlassen. Sie sendet und empfängt nichts. Behebe zuerst die Ursache (Bitrate, Abschlusswiderstände, ein Knoten mit derselben CAN-ID), dann starte ihn neu.',
+    node: 'Dieser Knoten ist bus-off: Er sendet und empfängt nichts. Ein CAN-Controller, der neu gestartet wird, nimmt nach 128 × 11 rezessiven Bits wieder teil; dieses Gerät wartet auf seine Versorgung. Behebe zuerst die Ursache (Bitrate, Abschlusswiderstände, ein Knoten mit derselben CAN-ID).',
+    power: 'Aus- und einschalten',
+  },
   nodes: {
     columns: ['Knoten', 'Gerät', 'NMT-Zustand', 'Heartbeat', 'Letzte EMCY', 'Letzter Frame'],
     none: 'Noch kein Knoten hat einen Frame gesendet. Ein Knoten meldet sich mit seiner Boot-up-Nachricht, wenn er startet.',
