@@ -348,17 +348,17 @@ fn a_fault_case_is_marked_by_its_probes() {
     assert_eq!(english, ["node 4: 0 V"]);
     let mark = trial.judge(&[2], 1, host).expect("the benches can be made");
     assert!(mark.is_right && mark.is_proven);
-    assert_eq!((mark.fewest, mark.told[0].left.as_slice()), (1, &[1][..]));
+    assert_eq!((mark.fewest, mark.used[0].left.as_slice()), (1, &[1][..]));
     // The resistance is right with three causes: it proves none of them, and a guess is not a proof.
     let mark = trial.judge(&[1], 1, host).expect("the benches can be made");
     assert!(mark.is_right && !mark.is_proven);
-    assert_eq!(mark.told[0].fit, [1, 2, 3]);
+    assert_eq!(mark.used[0].fit, [1, 2, 3]);
     let mark = trial
         .judge(&[1, 2], 0, host)
         .expect("the benches can be made");
     assert!(!mark.is_right && mark.is_proven);
     let unmade = trial.judge(&[], 0, host).expect("the benches can be made");
-    assert!(!unmade.is_proven && unmade.told.is_empty());
+    assert!(!unmade.is_proven && unmade.used.is_empty());
     assert!(trial.probe(9, host).is_err());
 }
 
