@@ -239,7 +239,7 @@ fn fits(
 
 fn report(args: &Apply, dictionary: Dictionary<'_>, applied: &Applied) -> Result<(), Failure> {
     let show = |address, bytes: &[u8]| match dictionary.find(address) {
-        Ok(entry) => values::show(entry.data_type, bytes),
+        Ok(entry) => value::words(Some(dictionary), address, entry.data_type, bytes),
         Err(_) => values::hex(bytes),
     };
     let found = |address, found: &Result<Vec<u8>, u32>| match found {

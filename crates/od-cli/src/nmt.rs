@@ -1,5 +1,6 @@
 //! `odkit nmt`: NMT commands.
 
+use clap::ValueEnum;
 use od_runtime::NodeId;
 use od_tools::nmt;
 use od_wire::Duration;
@@ -16,7 +17,7 @@ use crate::output;
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// Node ID, or `all`
-    #[arg(value_name = "NODE|all", value_parser = bus::node_or_all)]
+    #[arg(value_name = "NODE|all", value_parser = node)]
     node: std::option::Option<NodeId>,
     /// Command
     #[arg(value_name = "COMMAND")]
@@ -28,7 +29,7 @@ pub(crate) struct Args {
     bus: bus::Args,
 }
 
-#[derive(Clone, Copy, clap::ValueEnum)]
+#[derive(Clone, Copy, ValueEnum)]
 enum Order {
     /// To Operational
     Start,
@@ -40,6 +41,14 @@ enum Order {
     Reset,
     /// Reset communication
     ResetComm,
+}
+
+/// Reads the first argument; the command in its place is the order of other tools.
+fn node(text: &str) -> Result<Option<NodeId>, String> {
+    match Order::from_str(text, true) {
+        Ok(_) => Err(format!("the node comes first: `odkit nmt NODE {text}`")),
+        Err(_) => bus::node_or_all(text),
+    }
 }
 
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {

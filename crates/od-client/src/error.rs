@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use od_wire::AbortCode;
+use od_wire::AbortReason;
 use od_wire::sdo::Response;
 
 /// Reason why an SDO transfer or an LSS service failed.
@@ -19,7 +19,7 @@ use od_wire::sdo::Response;
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[non_exhaustive]
 pub enum Error {
-    /// The server aborts with this code (CiA 301, table 22); [`AbortCode::from_code`] has its text.
+    /// The server aborts with this code (CiA 301, table 22); [`AbortReason`] has its text.
     Abort(u32),
     /// No response came in time.
     Silent,
@@ -59,10 +59,7 @@ pub enum Error {
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Abort(code) => match AbortCode::from_code(*code) {
-                Some(code) => write!(f, "SDO abort {code}"),
-                None => write!(f, "SDO abort {code:08X}h"),
-            },
+            Self::Abort(code) => write!(f, "SDO abort {}", AbortReason(*code)),
             Self::Silent => f.write_str("no response comes in time"),
             Self::OutOfTurn { expected, got } => {
                 write!(f, "{expected} was expected, but {got:?} came")

@@ -3,7 +3,7 @@
 use od_eds::diff::{Difference, Field, Impact};
 use od_model::values;
 use od_model::{Access, Address, Dictionary, Entry, Object};
-use od_wire::{AbortCode, NodeId};
+use od_wire::{AbortCode, AbortReason, NodeId};
 
 use crate::error::Error;
 use crate::link::Link;
@@ -63,10 +63,7 @@ pub fn compare(
                     Err(code) => (
                         Field::Access,
                         entry.access.name().into(),
-                        match AbortCode::from_code(code) {
-                            Some(code) => format!("abort {code}"),
-                            None => format!("abort {code:08X}h"),
-                        },
+                        format!("abort {}", AbortReason(code)),
                         Impact::Breaking,
                     ),
                 };

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use od_model::Refused;
-use od_wire::AbortCode;
+use od_wire::AbortReason;
 
 /// Reason why a request on a bus failed. The text names the place, the error and the correction.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -57,10 +57,7 @@ impl fmt::Display for Error {
             Self::Usage(text) | Self::Link(text) | Self::Node(text) => f.write_str(text),
             Self::Filter { at, what } => write!(f, "{what} (at character {})", at + 1),
             Self::Case { id, line, message } => write!(f, "{id}.script:{line}: {message}"),
-            Self::Abort(code) => match AbortCode::from_code(*code) {
-                Some(known) => write!(f, "SDO abort {known}"),
-                None => write!(f, "SDO abort {code:08X}h"),
-            },
+            Self::Abort(code) => write!(f, "SDO abort {}", AbortReason(*code)),
             Self::Interrupted => f.write_str("stopped by Ctrl-C"),
         }
     }

@@ -117,6 +117,54 @@ impl From<Missing> for AbortCode {
     }
 }
 
+/// Why a transfer was aborted, by the number in the abort message, which CiA 301 may not define.
+///
+/// Shown as the number and its [`text`](Self::text).
+///
+/// ```
+/// use od_wire::AbortReason;
+///
+/// assert_eq!(AbortReason(0x0602_0000).to_string(), "06020000h object does not exist");
+/// let other = "0609002Ah value or sub-index is refused (CiA 301 does not define the code)";
+/// assert_eq!(AbortReason(0x0609_002A).to_string(), other);
+/// ```
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub struct AbortReason(pub u32);
+
+impl AbortReason {
+    /// Returns a short English description; for a code that CiA 301 does not define, that of its class, which the
+    /// first two bytes give (5: protocol, 6: access, 8: other).
+    pub const fn text(self) -> &'static str {
+        match AbortCode::from_code(self.0) {
+            Some(code) => code.text(),
+            None => self.class(),
+        }
+    }
+
+    const fn class(self) -> &'static str {
+        match self.0 >> 16 {
+            0x0500..=0x05FF => "error of the SDO protocol (CiA 301 does not define the code)",
+            0x0602 => "object or its content does not exist (CiA 301 does not define the code)",
+            0x0604 => "parameters do not go together (CiA 301 does not define the code)",
+            0x0606 => "hardware error (CiA 301 does not define the code)",
+            0x0607 => "type or length does not match (CiA 301 does not define the code)",
+            0x0609 => "value or sub-index is refused (CiA 301 does not define the code)",
+            0x060A => "resource not available (CiA 301 does not define the code)",
+            0x0600..=0x06FF => "access is refused (CiA 301 does not define the code)",
+            0x0800..=0x08FF => {
+                "error of the device or its application (CiA 301 does not define the code)"
+            }
+            _ => "code of a device profile or of the manufacturer (CiA 301 does not define it)",
+        }
+    }
+}
+
+impl fmt::Display for AbortReason {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:08X}h {}", self.0, self.text())
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -32,7 +32,7 @@ pub mod sdo;
 mod time;
 pub mod time_of_day;
 
-pub use abort::AbortCode;
+pub use abort::{AbortCode, AbortReason};
 pub use frame::{CanId, Frame};
 pub use ids::{CobId, NodeId};
 pub use time::{Duration, Instant};

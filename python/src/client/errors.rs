@@ -2,7 +2,7 @@
 
 use od_model::Address;
 use od_tools::Error;
-use od_wire::{AbortCode, NodeId};
+use od_wire::{AbortReason, NodeId};
 use pyo3::create_exception;
 use pyo3::exceptions::{PyException, PyKeyboardInterrupt, PyOSError, PyTimeoutError, PyValueError};
 use pyo3::prelude::*;
@@ -41,12 +41,9 @@ pub(crate) fn of_transfer(
 ) -> PyErr {
     match error {
         od_client::Error::Abort(code) => {
-            let text = match AbortCode::from_code(code) {
-                Some(known) => format!(": {}", known.text()),
-                None => String::new(),
-            };
+            let text = AbortReason(code).text();
             let error =
-                SdoAbort::new_err(format!("node {node}: {address}: abort {code:08X}h{text}"));
+                SdoAbort::new_err(format!("node {node}: {address}: abort {code:08X}h: {text}"));
             // An exception object accepts any attribute.
             _ = error.value(py).setattr("code", code);
             error

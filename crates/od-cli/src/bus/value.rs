@@ -2,8 +2,8 @@
 
 use od_eds::outline::meaning_of_bytes;
 use od_model::{Address, DataType, Dictionary, Entry, Kind, values};
-use od_runtime::AbortCode;
 use od_tools::objects;
+use od_wire::{AbortCode, AbortReason};
 use serde_json::{Value, json};
 
 /// A value that was read or written, or the SDO abort code instead.
@@ -137,10 +137,7 @@ pub(crate) fn plain(data_type: DataType, bytes: &[u8]) -> Value {
 
 /// An SDO abort code in words.
 pub(crate) fn abort(code: u32) -> String {
-    match AbortCode::from_code(code) {
-        Some(code) => format!("SDO abort {code}"),
-        None => format!("SDO abort {code:08X}h"),
-    }
+    format!("SDO abort {}", AbortReason(code))
 }
 
 /// A table of values: place, name, value.

@@ -51,6 +51,7 @@ fn lines_act_on_a_running_bench_and_are_answered() {
     // Each client selects a device for its lines.
     let done = sim.ctl(&[
         "use 2",
+        "set 6000h = 4",
         "switch node 12",
         "power cycle",
         "wait 1ms",

@@ -144,10 +144,9 @@ pub(crate) fn is_standard_array(index: u16) -> bool {
     of(index).is_some_and(|standard| matches!(standard.members, Members::Array(_)))
 }
 
-/// Returns whether the sub-indices of an object of CiA 302 are the node IDs of other devices, so that any of them may
-/// be missing.
+/// Returns whether the sub-indices of an object are the node IDs of other devices, so that any of them may be missing.
 pub(crate) const fn has_node_ids(index: u16) -> bool {
-    matches!(index, 0x1F20..=0x1F22 | 0x1F25..=0x1F27 | 0x1F81..=0x1F88 | 0x1F8A)
+    matches!(index, 0x1028 | 0x1F20..=0x1F22 | 0x1F25..=0x1F27 | 0x1F81..=0x1F88 | 0x1F8A)
 }
 
 /// The entry of an index.
@@ -311,6 +310,8 @@ const TABLE: &[Standard] = &[
     array(0x1F22, "concise DCF", Domain, Rw),
     array(0x1F23, "store EDS of NMT slaves", Domain, Rw),
     array(0x1F24, "store format of EDS", Unsigned8, Rw).needs(0x1F23),
+    // Each master.dcf of dcfgen has UNSIGNED8: W0631 accepts it.
+    array(0x1F25, "request configuration", Unsigned32, Wo),
     array(0x1F26, "expected configuration date", Unsigned32, Rw).needs(0x1F27),
     array(0x1F27, "expected configuration time", Unsigned32, Rw).needs(0x1F26),
     array(0x1F50, "program data", Domain, Wo),

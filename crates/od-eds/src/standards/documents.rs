@@ -30,9 +30,7 @@ const DOCUMENTS: &[Document] = &[
         (0x102A, 0x102A, ""), (0x1F80, 0x1F8A, ""), (0x1F90, 0x1F91, ""),
     ] },
     Document { name: "CiA 302-3", profile: 0, objects: &[
-        (0x1F20, 0x1F24, ""),
-        (0x1F25, 0x1F25, "UNSIGNED32 in the document (the signature `conf`), UNSIGNED8 in each master.dcf of dcfgen"),
-        (0x1F26, 0x1F27, ""), (0x1F50, 0x1F51, ""), (0x1F52, 0x1F52, NO_FILE), (0x1F53, 0x1F57, ""),
+        (0x1F20, 0x1F27, ""), (0x1F50, 0x1F51, ""), (0x1F52, 0x1F52, NO_FILE), (0x1F53, 0x1F57, ""),
         (0x1F58, 0x1F58, "the program of an NMT slave: master.dcf of dcfgen has it, with an access of its own"),
     ] },
     Document { name: "CiA 302-4", profile: 0, objects: &[

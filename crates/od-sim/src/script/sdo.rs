@@ -6,11 +6,12 @@ use std::prelude::v1::*;
 use od_client::sdo::{Channel, Options};
 use od_client::{Client, Event, Job, lss};
 use od_model::{DataType, values};
-use od_wire::{AbortCode, CanId, Frame, NodeId};
+use od_wire::{AbortReason, CanId, Frame, NodeId};
 
 use super::run::{Result, Runner, failed, impossible};
 use crate::grammar::action::Outcome;
 use crate::grammar::typed::{Write, resolve};
+use crate::words::value_text;
 
 /// A script uses segmented transfers for values of any length.
 const SDO: Options = Options::SEGMENTED;
@@ -24,13 +25,14 @@ impl Runner<'_> {
         let (address, data_type) = resolve(dictionary, object).or_else(impossible)?;
         let result = self.transfer(|client, node| client.read(node, address))?;
         let data_type = data_type.unwrap_or(DataType::Domain);
-        let shown = |bytes: &[u8]| format!("{} was read", values::show(data_type, bytes));
-        let done = ended(outcome, result, &format!("a value of {object}"), shown)?;
+        let device = self.device()?;
+        let shown = |bytes: &[u8]| value_text(device, address, data_type, bytes);
+        let read = |bytes: &[u8]| format!("{} was read", shown(bytes));
+        let done = ended(outcome, result, &format!("a value of {object}"), read)?;
         if let (Outcome::Value(value), Some(bytes)) = (outcome, done) {
             let wanted = values::parse(data_type, value).or_else(impossible)?;
             if wanted != bytes {
-                let wanted = values::show(data_type, &wanted);
-                return failed(format!("{object} = {wanted}"), shown(&bytes));
+                return failed(format!("{object} = {}", shown(&wanted)), read(&bytes));
             }
         }
         self.place.held += 1;
@@ -137,8 +139,5 @@ fn ended(
 }
 
 fn aborted(code: u32) -> String {
-    match AbortCode::from_code(code) {
-        Some(code) => format!("SDO abort {code}"),
-        None => format!("SDO abort {code:08X}h"),
-    }
+    format!("SDO abort {}", AbortReason(code))
 }

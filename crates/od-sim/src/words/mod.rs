@@ -30,6 +30,7 @@ pub use pdo::layout;
 pub(crate) use said::plural;
 pub use said::{Service, Words};
 pub use tag::{TAGS, Tag, tag};
+pub(crate) use value::show as value_text;
 
 use self::sorted::Sorted;
 use crate::device::VirtualDevice;

@@ -4,7 +4,8 @@ use std::format;
 use std::prelude::v1::*;
 
 use od_model::{Address, values};
-use od_runtime::{AbortCode, Frame};
+use od_runtime::Frame;
+use od_wire::AbortReason;
 use od_wire::sdo::{Request, Response, expedited_len};
 
 use super::said::{Service, Words, bytes};
@@ -262,9 +263,8 @@ impl Explainer<'_> {
     }
 
     fn abort(&mut self, address: Address, code: u32) -> Words {
-        let known = AbortCode::from_code(code);
-        let why = known.map_or_else(|| format!("{code:08X}h"), |code| code.to_string());
-        let reason = known.map_or("unknown abort code", AbortCode::text);
+        let why = AbortReason(code);
+        let reason = why.text();
         let name = self.name(address);
         let mut words = self.words(format!("{name} aborted: {why}")).error();
         words.address = Some(address);

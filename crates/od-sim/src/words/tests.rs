@@ -56,6 +56,16 @@ fn frames_are_described_in_words() {
                 "SDO node 1: 2000h:00 aborted: 06020000h object does not exist",
             ),
             (
+                "581#8000200099000906",
+                "SDO node 1: 2000h:00 aborted: 06090099h value or sub-index is refused \
+                 (CiA 301 does not define the code)",
+            ),
+            (
+                "581#80002000BFFF000F",
+                "SDO node 1: 2000h:00 aborted: 0F00FFBFh code of a device profile or of the \
+                 manufacturer (CiA 301 does not define it)",
+            ),
+            (
                 "581#4308100047584D4D",
                 "SDO node 1: 1008h Manufacturer device name is \"GXMM\"",
             ),

@@ -10,7 +10,7 @@ use crate::device::VirtualDevice;
 
 /// Shows the value of an object: `2118h, 16 bit` for a mapping entry, `181h, not valid` for a COB-ID, others by their
 /// type, with what the number says in the documents of CiA: `1: profile position`.
-pub(super) fn show(
+pub(crate) fn show(
     device: &VirtualDevice,
     address: Address,
     data_type: DataType,

@@ -1,7 +1,7 @@
 //! Strict SDO transfers: every byte of a response is checked.
 
 use od_model::{Address, values};
-use od_wire::{AbortCode, Frame, sdo};
+use od_wire::{AbortCode, AbortReason, Frame, sdo};
 
 use super::dut::{ANSWER, Dut, is_data};
 use super::end::{Checked, ensure, fail, skip};
@@ -19,10 +19,7 @@ pub(crate) fn request(command: u8, address: Address, rest: [u8; 4]) -> [u8; 8] {
 
 /// An abort in words.
 pub(crate) fn abort_text(code: u32) -> String {
-    match AbortCode::from_code(code) {
-        Some(code) => format!("abort {code}"),
-        None => format!("abort {code:08X}h"),
-    }
+    format!("abort {}", AbortReason(code))
 }
 
 /// A list of aborts in words.

@@ -98,6 +98,8 @@ fn values_are_checked_then_written() {
     );
     let said = done(&[&["nmt", "5", "start"], &at[..]].concat());
     assert!(said.contains("Operational"), "{said}");
+    let said = fails(2, &[&["nmt", "start", "5"], &at[..]].concat());
+    assert!(said.contains("`odkit nmt NODE start`"), "{said}");
     assert!(done(&[&["save", "5"], &at[..]].concat()).contains("saved"));
     done(&[&["restore", "5", "--group", "all"], &at[..]].concat());
     let said = done(

@@ -1,7 +1,10 @@
 use alloc::vec::Vec;
 
 use crate::fact::Fact;
-use crate::finding::{Check, Finding, Rule, Severity::Error};
+use crate::finding::{
+    Check, Finding, Form, Rule,
+    Severity::{Error, Warning},
+};
 use crate::rules::profile::shared::device;
 use crate::subject::Object;
 use od_model::Address;
@@ -15,8 +18,15 @@ pub(crate) static E0916: Rule = Rule {
     source: "CiA 402, objects 607Bh, 607Dh, 608Fh to 6092h, 6099h and 60C2h",
     says: "{object} lacks sub-index {sub}",
     help: "add {missing}",
+    also: &[MORE],
     check: Check::Object(check),
     ..Rule::NEW
+};
+
+/// Sentence for a sub-object that the profile does not have.
+const MORE: Form = Form {
+    says: "{object} has sub-index {sub}, but CiA 402 ends at 2",
+    help: "remove the sub-object, or move it to 2000h to 5FFFh (manufacturer-specific objects)",
 };
 
 fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
@@ -29,8 +39,20 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
     if !is_pair || own.is_empty() || !object.code.has_members() {
         return;
     }
+    if device(object.description, 402).is_none() {
+        return;
+    }
+    if let Some(entry) = object
+        .entries()
+        .find(|entry| (3..255).contains(&entry.address.sub))
+    {
+        let finding = E0916.on(&entry, entry.span).form(&MORE);
+        let finding = finding.fact("object", Fact::Index(object.index));
+        let finding = finding.fact("sub", entry.address.sub);
+        findings.push(finding.severity_of(Warning));
+    }
     let missing = [1, 2].into_iter().filter(|sub| !own.contains_key(sub));
-    for sub in missing.filter(|_| device(object.description, 402).is_some()) {
+    for sub in missing {
         let finding = E0916
             .on(object, object.span)
             .about(Address::new(object.index, sub));

@@ -8,9 +8,9 @@ use crate::subject::Object;
 pub(crate) static W0912: Rule = Rule {
     code: "W0912",
     severity: Severity::Warning,
-    title: "parameters of channels that the I/O module lacks",
+    title: "parameters of channels that the device lacks",
     why: "A master that sets the parameter of a channel finds no channel for it.",
-    source: "CiA 401, object overview",
+    source: "CiA 401 and CiA 404, object overview",
     says: "{object} sets channels of {channels}, which is missing",
     help: "add {missing}, or remove {object}",
     also: &[MORE],
@@ -24,7 +24,26 @@ const MORE: Form = Form {
     help: "remove the sub-object, or add the channel",
 };
 
-/// The objects of which one has the channels of a parameter object.
+/// The objects of which one has the channels of a parameter object of a measuring device (CiA 404).
+const fn measuring(index: u16) -> &'static [u16] {
+    const INPUTS: &[u16] = &[
+        0x6130, 0x7130, 0x8130, 0x9130, 0x6100, 0x7100, 0x8100, 0x9100,
+    ];
+    const OUTPUTS: &[u16] = &[
+        0x6300, 0x7300, 0x8300, 0x9300, 0x6330, 0x7330, 0x8330, 0x9330,
+    ];
+    match (index, index & 0xFFF) {
+        (0x6000..=0x9FFF, 0x120..=0x124 | 0x133..=0x136 | 0x148..=0x149) => INPUTS,
+        (0x6110..=0x6114 | 0x6125..=0x6127 | 0x6131..=0x6132 | 0x6150 | 0x61A0..=0x61A1, _) => {
+            INPUTS
+        }
+        (0x6000..=0x9FFF, 0x320..=0x321 | 0x341) => OUTPUTS,
+        (0x6301..=0x6302 | 0x6310 | 0x6340, _) => OUTPUTS,
+        _ => &[],
+    }
+}
+
+/// The objects of which one has the channels of a parameter object of an I/O module (CiA 401).
 const fn channels(index: u16) -> &'static [u16] {
     match index {
         0x6002 | 0x6003 | 0x6006..=0x6008 => &[0x6000],
@@ -41,8 +60,13 @@ const fn channels(index: u16) -> &'static [u16] {
 
 fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
     let description = object.description;
-    let of = channels(object.index);
-    let Some(first) = of.first().filter(|_| device(description, 401).is_some()) else {
+    let is_a = |profile| device(description, profile).is_some();
+    let of = match (channels(object.index), measuring(object.index)) {
+        (of @ [_, ..], _) if is_a(401) => of,
+        (_, of @ [_, ..]) if is_a(404) => of,
+        _ => return,
+    };
+    let Some(first) = of.first() else {
         return;
     };
     let present = of

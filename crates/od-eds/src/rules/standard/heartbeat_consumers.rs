@@ -1,4 +1,4 @@
-//! Rules about the entries of 1016h: no node is monitored twice, and each node ID is valid.
+//! Rules about the entries of 1016h: no node is monitored twice, each node ID is valid, and it is that of another node.
 
 use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
@@ -51,6 +51,24 @@ pub(crate) static W0651: Rule = Rule {
 fn check_nobody(object: &Object<'_>, findings: &mut Vec<Finding>) {
     let wrong = consumers(object).filter(|(_, _, node)| !(1..=127).contains(node));
     findings.extend(wrong.map(|(entry, span, node)| W0651.on(&entry, span).fact("node", node)));
+}
+
+pub(crate) static W0652: Rule = Rule {
+    code: "W0652",
+    severity: Warning,
+    title: "node monitors its own heartbeat",
+    why: "A node does not receive its own heartbeat, so after the first one of a node with the same ID it reports an error.",
+    source: "CiA 301, object 1016h",
+    says: "the entry monitors node {node}, which is this node",
+    help: "write the node ID of another node in bits 16 to 23, or 0 for no entry",
+    check: Check::Object(check_itself),
+    ..Rule::NEW
+};
+
+fn check_itself(object: &Object<'_>, findings: &mut Vec<Finding>) {
+    let own = object.description.commissioned_node_id();
+    let wrong = consumers(object).filter(|(_, _, node)| own.is_some_and(|own| own == *node));
+    findings.extend(wrong.map(|(entry, span, node)| W0652.on(&entry, span).fact("node", node)));
 }
 
 /// The entries of 1016h that have a heartbeat time, with their node IDs.

@@ -32,6 +32,7 @@ catalogue! {
     w0649_sync_contradiction W0649
     heartbeat_consumers E0650
     heartbeat_consumers W0651
+    heartbeat_consumers W0652
     w0653_commissioning_incomplete W0653
     w0655_error_register_not_0 W0655
     w0656_guarding_and_heartbeat W0656

@@ -27,10 +27,13 @@ fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
     let own_rule = matches!(index, 0x1000 | 0x1001 | 0x1018)
         || is_communication(index) && sub <= 2
         || maps_rpdo(index).is_some();
+    // The document says UNSIGNED32, the signature `conf`; each master.dcf of dcfgen has UNSIGNED8.
+    let is_of_dcfgen = |given: DataType| index == 0x1F25 && given == DataType::Unsigned8;
     if let Some(standard) = of(index).filter(|found| found.is_like(*entry.object.code))
         && let Some(value) = standard.value(sub)
         && let Some(given) = entry.data_type.filter(|given| **given != value.data_type)
         && !own_rule
+        && !is_of_dcfgen(*given)
         // The bytes on the bus are the same.
         && (*given, value.data_type) != (DataType::Domain, DataType::OctetString)
     {

@@ -41,6 +41,7 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
         0x1F82 | 0x1F83 => 128,
         _ if is_of_nodes => 127,
         0x1018 => 4,
+        0x1600..=0x17FF | 0x1A00..=0x1BFF => 64,
         0x1029 => 254,
         0x1200..=0x12FF => 3,
         0x1400..=0x15FF | 0x1800..=0x19FF => 6,

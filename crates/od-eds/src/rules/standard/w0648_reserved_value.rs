@@ -45,12 +45,27 @@ fn reserved(address: Address, number: u64) -> Option<&'static str> {
     wrong.then_some(what)
 }
 
+/// Returns the node ID that is reserved in an SDO client whose COB-IDs are both valid.
+fn nobody(entry: &Entry<'_>, number: u64) -> Option<&'static str> {
+    let Address { index, sub } = entry.address;
+    let is_valid = |sub| {
+        let value = entry.description.entry(Address::new(index, sub));
+        let number = value
+            .and_then(start_value)
+            .and_then(|value| value.integer(1));
+        // A COB-ID of 0 is that of a client that is not used.
+        number.is_some_and(|number| number != 0 && number >> 31 & 1 == 0)
+    };
+    let is_client = matches!((index, sub), (0x1280..=0x12FF, 3));
+    (is_client && number == 0 && is_valid(1) && is_valid(2)).then_some("0")
+}
+
 fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
     if let Some(standard) = of(entry.address.index)
         && let Some(value) = start_value(entry.entry)
         && let Some(number) = value.integer(0)
         && let Ok(unsigned) = u64::try_from(number)
-        && let Some(what) = reserved(entry.address, unsigned)
+        && let Some(what) = reserved(entry.address, unsigned).or_else(|| nobody(entry, unsigned))
     {
         let finding = W0648.on(entry, value.span).fact("object", entry.shown());
         let finding = finding

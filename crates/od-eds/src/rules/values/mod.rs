@@ -39,6 +39,7 @@ catalogue! {
     limits W0452
     w0453_constant_without_value W0453
     w0454_mappable_without_length W0454
+    w0455_constant_changed W0455
 }
 
 pub(crate) mod e0401_data_type_missing;
@@ -55,3 +56,4 @@ pub(crate) mod w0445_access_without_mapping;
 pub(crate) mod w0446_text_not_ascii;
 pub(crate) mod w0453_constant_without_value;
 pub(crate) mod w0454_mappable_without_length;
+pub(crate) mod w0455_constant_changed;

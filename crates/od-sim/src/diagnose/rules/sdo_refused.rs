@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::format;
 use std::prelude::v1::*;
 
-use od_runtime::AbortCode;
+use od_wire::AbortReason;
 
 use crate::diagnose::facts::{Exchange, Facts, Outcome, after};
 use crate::diagnose::incident::{Cause, Incident};
@@ -41,7 +41,7 @@ fn check(facts: &Facts<'_>) -> Vec<Incident> {
             let object = first
                 .address
                 .map_or(String::from("an object"), |address| address.to_string());
-            let meaning = AbortCode::from_code(code).map_or("an unknown code", |code| code.text());
+            let meaning = AbortReason(code).text();
             let is_accepted = after(&node.exchanges, last.request.at).iter().any(|one| {
                 one.is_download && one.address == first.address && one.outcome == Outcome::Answered
             });

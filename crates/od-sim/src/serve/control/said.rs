@@ -8,7 +8,7 @@ use crate::bench::Bench;
 use crate::device::VirtualDevice;
 use crate::grammar::deed::{Deed, Shaft, Wire};
 use crate::grammar::shown::duration;
-use crate::words::emcy_text;
+use crate::words::{emcy_text, value_text};
 
 /// The effect of an action, on the bench as it is now.
 pub(super) fn said(deed: &Deed, bench: &Bench) -> String {
@@ -81,7 +81,10 @@ fn value(device: &VirtualDevice, address: od_model::Address, bytes: &[u8]) -> St
     let dictionary = device.dictionary();
     let label = values::label(dictionary, address);
     match dictionary.find(address) {
-        Ok(entry) => format!("{label} = {}", values::show(entry.data_type, bytes)),
+        Ok(entry) => {
+            let shown = value_text(device, address, entry.data_type, bytes);
+            format!("{label} = {shown}")
+        }
         Err(_) => label,
     }
 }
