@@ -1,37 +1,10 @@
-// Opens a lab in the column beside the bus, or the labs that a lesson needs within it.
+// Opens a lab in the column beside the bus.
 
-import { html, nothing } from 'lit';
+import { html } from 'lit';
 import { add } from '../sim/link';
-import type { Lesson } from '../sim/api';
 import * as state from '../state';
+import { load, type Name } from './shown';
 import { L } from './texts';
-
-type Name = NonNullable<typeof state.lab.value>;
-
-const parts = { master: () => import('./master'), line: () => import('./line') };
-
-export const shown = (name: Name) => (name === 'master' ? html`<od-master></od-master>` : html`<od-line-lab></od-line-lab>`);
-
-const load = (name: Name): Promise<unknown> =>
-  parts[name]().catch(() => (state.toast.value = { text: L.failed, tone: 'error' }));
-
-/** The labs that the solutions of a lesson use. */
-export function labsOf(lesson: Lesson): Name[] {
-  const uses = (word: RegExp): boolean => lesson.steps.some(({ solution }) => word.test(solution));
-  const names: Name[] = [];
-  if (uses(/^\s*master /m)) names.push('master');
-  if (uses(/^\s*line (length|sample-point|sjw|clock) /m)) names.push('line');
-  return names;
-}
-
-/** The labs of a lesson, as a part of its panel. */
-export function beside(lesson: Lesson) {
-  if (state.real.value) return nothing;
-  return labsOf(lesson).map((name) => {
-    void load(name);
-    return html`<div class="lesson-lab">${shown(name)}</div>`;
-  });
-}
 
 /** Opens a lab of the free bench. It needs a line with bit times, and the whole module. */
 async function openLab(name: Name): Promise<void> {

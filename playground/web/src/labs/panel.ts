@@ -7,7 +7,7 @@ import * as state from '../state';
 import { besideSwitch } from '../views/beside';
 import { icons } from '../views/icons';
 import { View } from '../views/view';
-import { shown } from './open';
+import { shown } from './shown';
 import { L } from './texts';
 
 await sheet('lesson');

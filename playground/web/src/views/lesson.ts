@@ -5,7 +5,7 @@ import { html, nothing, type TemplateResult } from 'lit';
 import { keyed } from 'lit/directives/keyed.js';
 import { effect } from '@preact/signals-core';
 import { leaveLesson, playScript, setRunning } from '../actions';
-import { beside, labsOf } from '../labs/open';
+import { beside, labsOf } from '../labs/shown';
 import { language } from '../language';
 import { reached } from '../lessons/kept';
 import { again, backTo, following, lessons, openNamed, recalled, shortOf, translated, words, type Asked } from '../lessons/open';
