@@ -252,6 +252,7 @@ class Conform:
         *,
         allow_reset: bool = False,
         allow_store: bool = False,
+        allow_motion: bool = False,
     ) -> Conform: ...
     def run(self, id: str) -> Record: ...
 

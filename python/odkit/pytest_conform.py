@@ -26,7 +26,7 @@ class Node(pytest.Collector):
         if simulated is not None and not node:
             self.link = f"{link}@{self.node_id}"
         #: A simulated device allows every case.
-        self.may = [simulated is not None or option(f"--odkit-allow-{what}") for what in ("reset", "store")]
+        self.may = [simulated is not None or option(f"--odkit-allow-{what}") for what in ("reset", "store", "motion")]
         self._test = None
         try:
             cases = odkit.conform_cases(option("--odkit-only"))
@@ -40,9 +40,9 @@ class Node(pytest.Collector):
         """The test; the link is opened for the first case."""
         if self._test is None:
             client = odkit.Client(self.link)
-            reset, store = self.may
+            reset, store, motion = self.may
             self._test = odkit.Conform(
-                client, self.node_id, self.eds, allow_reset=reset, allow_store=store
+                client, self.node_id, self.eds, allow_reset=reset, allow_store=store, allow_motion=motion
             )
         return self._test
 

@@ -62,6 +62,11 @@ def pytest_addoption(parser):
         action="store_true",
         help="allow save and restore commands; the cases restore the saved values",
     )
+    group.addoption(
+        "--odkit-allow-motion",
+        action="store_true",
+        help="allow cases that move the axes of a drive, and set the outputs of an I/O module",
+    )
 
 
 def pytest_configure(config):

@@ -58,6 +58,9 @@ pub(crate) struct Args {
     /// Allow save and restore commands; the cases restore the saved values
     #[arg(long)]
     allow_store: bool,
+    /// Allow cases that move the axes of a drive, a short way, and set the outputs of an I/O module
+    #[arg(long)]
+    allow_motion: bool,
     /// Command that switches the power of the node; `on` or `off` is appended
     #[arg(long, value_name = "COMMAND")]
     power: Option<String>,
@@ -208,6 +211,7 @@ fn tested(args: &Args, cases: &[Case]) -> Result<Report, Failure> {
     let leave = Leave {
         reset: args.allow_reset,
         store: args.allow_store,
+        motion: args.allow_motion,
     };
     announce(eds.text(), &parsed, leave, cases);
     let link = link.as_deref().unwrap_or_default();
@@ -237,6 +241,7 @@ fn about(args: &Args, eds: &str) -> About {
     let flags = [
         (args.allow_reset, "--allow-reset"),
         (args.allow_store, "--allow-store"),
+        (args.allow_motion, "--allow-motion"),
     ];
     options.extend(
         flags

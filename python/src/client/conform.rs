@@ -81,8 +81,8 @@ impl Record {
 /// profile.
 ///
 /// `client` is on the bus of the node, `eds` describes it (as for `odkit.read`). `allow_reset` and
-/// `allow_store` allow cases that reset the node, and save and restore its values; changed values are
-/// restored. On a bench the power is switched, too.
+/// `allow_store` allow cases that reset the node, and save and restore its values, `allow_motion` cases that move the
+/// axes of a drive and set the outputs of a module; changed values are restored. On a bench the power is switched, too.
 #[pyclass(frozen, module = "odkit")]
 pub(crate) struct Conform {
     client: Py<Client>,
@@ -96,13 +96,14 @@ pub(crate) struct Conform {
 #[pymethods]
 impl Conform {
     #[new]
-    #[pyo3(signature = (client, node_id, eds, *, allow_reset=false, allow_store=false))]
+    #[pyo3(signature = (client, node_id, eds, *, allow_reset=false, allow_store=false, allow_motion=false))]
     fn new(
         client: Py<Client>,
         node_id: u8,
         eds: &Bound<'_, PyAny>,
         allow_reset: bool,
         allow_store: bool,
+        allow_motion: bool,
     ) -> PyResult<Self> {
         let read = read_of(eds)?;
         read.has_objects()?;
@@ -113,6 +114,7 @@ impl Conform {
             leave: Leave {
                 reset: allow_reset,
                 store: allow_store,
+                motion: allow_motion,
             },
             lost: std::sync::Mutex::default(),
         })

@@ -32,12 +32,12 @@ pub struct Case {
     pub(crate) applies: Vec<String>,
     /// The built-in devices that it tests; empty: any device.
     pub(crate) devices: Vec<String>,
-    /// Permissions that the case needs: `reset`, `store`, `power`.
+    /// Permissions that the case needs: `reset`, `store`, `motion`, `power`.
     pub(crate) needs: Vec<String>,
     pub(crate) steps: Vec<Step>,
 }
 
-const NEEDS: [&str; 3] = ["reset", "store", "power"];
+const NEEDS: [&str; 4] = ["reset", "store", "motion", "power"];
 
 /// The parts of a comma-separated list.
 fn list(text: &str) -> Vec<String> {
@@ -124,7 +124,7 @@ impl Case {
                 self.needs = list(all);
                 if let Some(other) = self.needs.iter().find(|one| !NEEDS.contains(&one.as_str())) {
                     return Err(format!(
-                        "`{other}` is not valid; write reset, store or power"
+                        "`{other}` is not valid; write reset, store, motion or power"
                     ));
                 }
             }

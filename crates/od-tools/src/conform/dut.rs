@@ -34,6 +34,8 @@ pub struct Dut<'d> {
     pub(crate) notes: Vec<String>,
     /// Whether the case may reset the node.
     pub(crate) may_reset: bool,
+    /// Whether the case may move axes and set outputs.
+    pub(crate) may_move: bool,
     /// The last known COB-ID of SYNC.
     pub(crate) sync_id: u32,
     /// Makes the device again, if it is simulated.

@@ -108,8 +108,8 @@ impl Eds {
         Some(entry.default.integer(0)? & 0xFFFF)
     }
 
-    /// Whether a value moves a machine: the commands of a drive (CiA 402), the outputs of a module (CiA 401).
-    fn moves(&self, address: Address) -> bool {
+    /// Returns whether a value moves a machine: the commands of a drive (CiA 402), the outputs of a module (CiA 401).
+    pub(crate) fn moves(&self, address: Address) -> bool {
         match (self.profile(), address.index) {
             (Some(402), index @ 0x6000..=0x9FFF) => matches!(
                 index & 0x7FF,

@@ -43,6 +43,8 @@ pub struct Leave {
     pub reset: bool,
     /// Save and restore values in the node's memory.
     pub store: bool,
+    /// Move the axes of a drive, and set the outputs of a module.
+    pub motion: bool,
 }
 
 impl Leave {
@@ -50,6 +52,7 @@ impl Leave {
     pub const ALL: Self = Self {
         reset: true,
         store: true,
+        motion: true,
     };
 }
 
@@ -185,6 +188,7 @@ impl<'s> Session<'s> {
             undo: Vec::new(),
             notes: Vec::new(),
             may_reset: self.leave.reset,
+            may_move: self.leave.motion,
             sync_id: 0x80,
             fresh: self.simulated.map(|(_, fresh)| fresh),
             silence: 0,
@@ -310,6 +314,10 @@ fn may(
         let (allowed, option) = match need.as_str() {
             "reset" => (leave.reset, "--allow-reset"),
             "store" => (leave.store, "--allow-store"),
+            "motion" => (
+                leave.motion,
+                "--allow-motion, since it moves an axis or sets outputs",
+            ),
             _ => (dut.rig.has_power(), "--power COMMAND"),
         };
         if !allowed {

@@ -59,6 +59,7 @@ fn run(change: impl FnMut(Frame) -> Option<Frame>) -> (Vec<Record>, Option<Strin
     let leave = Leave {
         reset: true,
         store: false,
+        motion: true,
     };
     let mut session = Session::new(&mut rig, &eds, NodeId::ONE, leave);
     let records = built_in().iter().map(|case| session.run(case)).collect();
@@ -210,6 +211,7 @@ fn a_busy_computer_reports_no_node_as_wrong() {
         let leave = Leave {
             reset: true,
             store: false,
+            motion: true,
         };
         let mut session = Session::new(&mut rig, &eds, NodeId::ONE, leave);
         let records: Vec<_> = built_in().iter().map(|case| session.run(case)).collect();
@@ -290,6 +292,7 @@ fn a_busy_computer_detects_missing_frames() {
     let leave = Leave {
         reset: true,
         store: false,
+        motion: true,
     };
     let mut session = Session::new(&mut rig, &eds, NodeId::ONE, leave);
     for id in [
@@ -403,5 +406,50 @@ fn a_node_has_its_own_node_id_after_each_case_about_lss() {
             }
             assert!(!has_boot_up || passed > 5, "{name}: {passed}");
         }
+    }
+}
+
+/// Without the permission, no frame of the test enables an axis, writes a target or sets an output.
+#[test]
+fn nothing_moves_without_permission() {
+    let moves = |index: u16, sub: u8| match index {
+        0x6040..=0x7FFF => matches!((index & 0x7FF, sub), (0x7A | 0xFF, 0) | (0xC1, 1)),
+        _ => false,
+    };
+    for name in ["drive", "io"] {
+        let kind = od_devices::find(name).expect("a device");
+        let eds = Eds::read(&od_devices::text::eds(kind));
+        let mut rig = OnBench(bus(name));
+        let leave = Leave {
+            motion: false,
+            ..Leave::ALL
+        };
+        let mut session = Session::new(&mut rig, &eds, NodeId::ONE, leave);
+        let (mut skipped, mut wrong) = (0, Vec::new());
+        for case in built_in() {
+            let record = session.run(case);
+            let why = "the case needs --allow-motion";
+            skipped += usize::from(
+                matches!(&record.verdict, Verdict::Skipped(reason) if reason.starts_with(why)),
+            );
+            for sent in record.frames.iter().filter(|sent| sent.ours) {
+                let id = sent.frame.id().as_standard().unwrap_or(0);
+                let bytes = sent.frame.bytes();
+                let index = u16::from_le_bytes([bytes[1], bytes[2]]);
+                let is_download = id == 0x601 && bytes[0] & 0xE0 == 0x20;
+                // Sub-index 0 of a list is constant; a case writes it to be refused.
+                let is_output =
+                    matches!(index, 0x6200..=0x6237 | 0x6411) && bytes[3] > 0 && name == "io";
+                let enables = matches!(index, 0x6040 | 0x6840) && bytes[4] & 0xF == 0xF;
+                let is_target = name == "drive" && moves(index, bytes[3]);
+                // The RPDOs of the module map outputs only; those of the drive get other mappings.
+                let is_rpdo = name == "io" && matches!(id, 0x201 | 0x301);
+                if is_download && (is_output || enables || is_target) || is_rpdo {
+                    wrong.push(format!("{}: {}", record.id, sent.frame));
+                }
+            }
+        }
+        assert!(wrong.is_empty(), "{name}: {wrong:#?}");
+        assert!(skipped >= 6, "{name}: {skipped}");
     }
 }

@@ -10,8 +10,10 @@ mod heartbeat;
 mod lss;
 mod mapping;
 mod module;
+mod motion;
 mod nmt;
 mod objects;
+mod outputs;
 mod rpdo;
 mod segments;
 mod store;
@@ -535,6 +537,18 @@ pub(super) const GROUPS: &[(&str, &[BuiltIn])] = &[
             "CiA 401 1000h: Bits 16 to 19 of the device type say which kinds of inputs and outputs there are.").applies("cia401"),
         check("module-polarity", module::polarity,
             "CiA 401 6002h: 6002h inverts the digital inputs of 6000h.").applies("cia401, 6000h:01, 6002h:01").needs("reset"),
+        check("module-outputs", outputs::hold,
+            "CiA 401 6200h: A digital output holds the value that was written.").applies("cia401, 6200h:01 rw").needs("motion"),
+        check("module-output-polarity", outputs::polarity,
+            "CiA 401 6202h: 6202h inverts a digital output.").applies("cia401, 6000h:01, 6200h:01 rw, 6202h:01 rw").needs("motion"),
+        check("module-output-mask", outputs::filter_mask,
+            "CiA 401 6208h: An output whose bit in 6208h is 0 keeps its value.").applies("cia401, 6000h:01, 6200h:01 rw, 6208h:01 rw").needs("motion"),
+        check("module-output-error", outputs::error_value,
+            "CiA 401 6206h: After an error of communication, an output has the value of 6207h if its bit in 6206h is 1, and otherwise keeps its value.").applies("cia401, 6000h:01, 6200h:01 rw, 6206h:01 rw, 6207h:01 rw, 1016h:01 rw").needs("motion"),
+        check("module-interrupt-mask", outputs::interrupt_mask,
+            "CiA 401 6006h: An input sends its event-driven TPDO if 6005h and its bit in 6006h are 1.").applies("cia401, 6000h:01, 6200h:01 rw, 6005h rw, 6006h:01 rw").needs("motion"),
+        check("module-delta", outputs::delta,
+            "CiA 401 6426h: An analogue input sends its event-driven TPDO when it changed by the delta.").applies("cia401, 6401h:01, 6411h:01 rw, 6421h:01 rw, 6423h rw, 6426h:01 rw").needs("motion"),
     ]),
     ("CiA 402", &[
         check("drive-objects", drive::objects,
@@ -549,6 +563,32 @@ pub(super) const GROUPS: &[(&str, &[BuiltIn])] = &[
             "CiA 402 6061h: 6061h shows the mode that was written to 6060h.").applies("cia402, 6060h rw, 6061h, 6502h").needs("reset"),
         check("drive-other-mode", drive::other_mode,
             "CiA 402 6060h: A mode that 6502h lacks does not become active.").applies("cia402, 6060h rw, 6061h, 6502h").needs("reset"),
+        check("drive-enable", motion::enable,
+            "CiA 402 6040h: The commands of the controlword lead from Switch on disabled to Operation enabled, and back.").applies("cia402, 6040h rw, 6041h").needs("motion"),
+        check("drive-set-point", motion::set_point,
+            "CiA 402 6040h: In profile position mode, bits 4 and 12 hand over a set-point, and bit 10 is 1 at the target.").applies("cia402, 6040h rw, 6064h, 607Ah rw").needs("motion"),
+        check("drive-set-point-relative", motion::relative,
+            "CiA 402 6040h: With bit 6, 607Ah is the way from the last target position.").applies("cia402, 6040h rw, 6064h, 607Ah rw").needs("motion"),
+        check("drive-set-point-at-once", motion::at_once,
+            "CiA 402 6040h: With bit 5, a new set-point replaces the present one at once.").applies("cia402, 6040h rw, 6064h, 607Ah rw").needs("motion"),
+        check("drive-position-limit", motion::limit,
+            "CiA 402 607Dh: The axis stays within the software position limits.").applies("cia402, 6040h rw, 6064h, 607Ah rw, 607Dh:02 rw").needs("motion"),
+        check("drive-velocity", motion::velocity,
+            "CiA 402 60FFh: In profile velocity mode, 606Ch reaches 60FFh, and bits 10 and 12 show target reached and speed zero.").applies("cia402, 6040h rw, 606Ch, 60FFh rw").needs("motion"),
+        check("drive-cyclic-position", motion::cyclic_position,
+            "CiA 402 607Ah: In cyclic synchronous position mode, 6064h follows 607Ah.").applies("cia402, 6040h rw, 6064h, 607Ah rw").needs("motion"),
+        check("drive-cyclic-velocity", motion::cyclic_velocity,
+            "CiA 402 60FFh: In cyclic synchronous velocity mode, 606Ch follows 60FFh.").applies("cia402, 6040h rw, 606Ch, 60FFh rw").needs("motion"),
+        check("drive-homing", motion::homing,
+            "CiA 402 6098h: After homing, bits 12 and 10 are 1, bit 13 is 0, and 6064h is the home offset.").applies("cia402, 6040h rw, 6064h, 6098h rw, 607Ch rw").needs("motion"),
+        check("drive-quick-stop", motion::quick_stop,
+            "CiA 402 605Ah: After quick stop with option code 2 the drive is in Switch on disabled, with 6 in Quick stop active; the axis is at rest.").applies("cia402, 6040h rw, 605Ah rw, 606Ch, 60FFh rw").needs("motion"),
+        check("drive-stop-options", motion::stop_options,
+            "CiA 402 605Ch: With option code 1 in 605Bh and 605Ch the axis is at rest before the drive leaves Operation enabled.").applies("cia402, 6040h rw, 605Ch rw, 606Ch, 60FFh rw").needs("motion"),
+        check("drive-halt", motion::halt,
+            "CiA 402 605Dh: Halt stops the axis, which stays in Operation enabled, and moves on after it.").applies("cia402, 6040h rw, 605Dh, 606Ch, 60FFh rw").needs("motion"),
+        check("drive-fault", motion::connection_lost,
+            "CiA 402 6007h: With option code 1, NMT stop is a fault, which ends by bit 7 of 6040h only.").applies("cia402, 6040h rw, 6007h rw, 6041h").needs("motion"),
     ]),
     ("CiA 406", &[
         check("encoder-objects", encoder::objects,

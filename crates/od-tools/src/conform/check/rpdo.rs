@@ -9,8 +9,12 @@ use super::mapping::{self, DUMMY, each_refuses, on, raw};
 use super::tpdo::refuses_types;
 use super::transmit::{Mapped, Tpdo, contradiction, is_on, learn_sync, mapping, sync};
 use crate::conform::dut::Dut;
-use crate::conform::end::{Checked, End, ensure, fail, lacks};
+use crate::conform::end::{Checked, End, ensure, fail, lacks, skip};
 use crate::conform::sdo::abort_text;
+
+/// Reason to skip a case without the permission.
+const NEEDS_MOTION: &str =
+    "the case needs --allow-motion, since each RPDO moves an axis or sets outputs";
 
 /// A valid RPDO, and the first value that it writes.
 struct Rpdo {
@@ -21,6 +25,7 @@ struct Rpdo {
 
 /// The first valid RPDO with this transmission type.
 fn first(dut: &mut Dut<'_>, kind: u8) -> Checked<Rpdo> {
+    let mut is_held = false;
     for pdo in dut.eds.pdos(0x1400) {
         let com = 0x1400 + pdo;
         let cob_id = dut.number(com, 1)? as u32;
@@ -35,6 +40,10 @@ fn first(dut: &mut Dut<'_>, kind: u8) -> Checked<Rpdo> {
         if !works || !fits || !is_whole {
             continue;
         }
+        if !dut.may_move && all.iter().any(|one| dut.eds.moves(one.address)) {
+            is_held = true;
+            continue;
+        }
         dut.keep(one.address)?;
         let address = Address::new(com, 2);
         dut.keep(address)?;
@@ -42,6 +51,9 @@ fn first(dut: &mut Dut<'_>, kind: u8) -> Checked<Rpdo> {
             return lacks(format!("the RPDO does not take transmission type {kind}"));
         }
         return Ok(Rpdo { com, cob_id, all });
+    }
+    if is_held {
+        return skip(NEEDS_MOTION);
     }
     lacks("no RPDO is on and writes a value that can be read")
 }
@@ -271,14 +283,21 @@ pub(super) fn mapping_wrong_length(dut: &mut Dut<'_>) -> Checked {
     mapping::refuses_wrong_length(dut, pdo, Entry::maps_to_rpdo)
 }
 
-/// Objects of 8, 16 or 32 bits that an RPDO may map and that can be read, in order.
-fn outputs(dut: &Dut<'_>) -> Vec<Entry> {
+/// Objects of 8, 16 or 32 bits that an RPDO may map and that can be read, in order; without the permission, only those
+/// that move nothing.
+fn outputs(dut: &Dut<'_>) -> Checked<Vec<Entry>> {
     let fits = |entry: &Entry| {
         entry.maps_to_rpdo()
             && entry.access.readable()
             && matches!(entry.data_type.bits(), Some(8 | 16 | 32))
     };
-    dut.eds.dictionary().entries().filter(fits).collect()
+    let mut all: Vec<Entry> = dut.eds.dictionary().entries().filter(fits).collect();
+    let is_any = !all.is_empty();
+    all.retain(|entry| dut.may_move || !dut.eds.moves(entry.address));
+    if is_any && all.is_empty() {
+        return skip(NEEDS_MOTION);
+    }
+    Ok(all)
 }
 
 /// Maps only these entries to the RPDO (the last one is an object), and sends a value, which the
@@ -375,7 +394,7 @@ pub(super) fn mapping_used(dut: &mut Dut<'_>) -> Checked {
     let pdo = any_on(dut)?;
     let now = mapping(dut, pdo.map())?;
     let first = now.first().map(|mapped| mapped.address);
-    let all = outputs(dut);
+    let all = outputs(dut)?;
     let Some(other) = all.iter().find(|entry| Some(entry.address) != first) else {
         return lacks("no other object can be mapped");
     };
@@ -391,7 +410,7 @@ pub(super) fn dummy(dut: &mut Dut<'_>) -> Checked {
         return lacks("the EDS does not have Dummy0005=1 in [DummyUsage]");
     }
     let pdo = any_on(dut)?;
-    let Some(entry) = outputs(dut).first().map(raw) else {
+    let Some(entry) = outputs(dut)?.first().map(raw) else {
         return lacks("no object can be mapped");
     };
     on(dut, pdo, |dut, map| takes(dut, &pdo, map, &[DUMMY, entry]))
@@ -400,7 +419,7 @@ pub(super) fn dummy(dut: &mut Dut<'_>) -> Checked {
 /// Every valid RPDO writes the objects of its mapping; one without a mapping gets one.
 pub(super) fn each(dut: &mut Dut<'_>) -> Checked {
     learn_sync(dut)?;
-    let all = outputs(dut);
+    let all = outputs(dut)?;
     let mut any = false;
     for number in dut.eds.pdos(0x1400) {
         let com = 0x1400 + number;

@@ -1,0 +1,531 @@
+//! CiA 402: an axis in motion. Each case needs the permission `motion`.
+//!
+//! A case moves each axis a short way, and stops it again, also if it fails: quick stop, then disable voltage.
+
+use od_model::Address;
+use od_wire::nmt::Command;
+
+use crate::conform::dut::Dut;
+use crate::conform::end::{Checked, End, ensure, lacks};
+use crate::conform::sdo::abort_text;
+
+/// Time in which a drive changes to another state or mode, in microseconds.
+const CHANGE: u64 = 1_000_000;
+/// Time in which an axis reaches its target or stops, in microseconds.
+const MOVE: u64 = 10_000_000;
+/// Shortest way of a movement in position units.
+const WAY: i64 = 1000;
+
+/// Number of a mode in 6060h.
+const PROFILE_POSITION: i8 = 1;
+const PROFILE_VELOCITY: i8 = 3;
+const HOMING: i8 = 6;
+const CYCLIC_POSITION: i8 = 8;
+const CYCLIC_VELOCITY: i8 = 9;
+
+/// Controlword: enable operation, and its bits in the modes.
+const ENABLE: u16 = 0x0F;
+const START: u16 = 1 << 4;
+const AT_ONCE: u16 = 1 << 5;
+const RELATIVE: u16 = 1 << 6;
+const HALT: u16 = 1 << 8;
+
+/// What the statusword shows: words, mask, bits.
+type Shown = (&'static str, u64, u64);
+const DISABLED: Shown = ("Switch on disabled", 0x4F, 0x40);
+const READY: Shown = ("Ready to switch on", 0x6F, 0x21);
+const SWITCHED_ON: Shown = ("Switched on", 0x6F, 0x23);
+const ENABLED: Shown = ("Operation enabled", 0x6F, 0x27);
+const QUICK_STOP: Shown = ("Quick stop active", 0x6F, 0x07);
+const FAULT: Shown = ("Fault", 0x4F, 0x08);
+const REACHED: Shown = ("target reached, bit 10 = 1", 1 << 10, 1 << 10);
+
+/// An axis: the distance of its objects from those of the first axis.
+#[derive(Clone, Copy)]
+struct Axis(u16);
+
+/// A test with the operation enabled.
+type Test = fn(&mut Dut<'_>, Axis) -> Checked;
+
+/// Tests each axis that has the mode, enabled in it.
+fn each(dut: &mut Dut<'_>, mode: i8, test: Test) -> Checked {
+    let axes = (0..8).map(|number| Axis(number * 0x800));
+    let axes: Vec<Axis> = axes
+        .filter(|axis| dut.eds.writes(0x6040 + axis.0, 0))
+        .collect();
+    for axis in axes {
+        let done = axis.test(dut, mode, test);
+        dut.fault(done)?;
+    }
+    Ok(())
+}
+
+impl Axis {
+    const fn at(self, index: u16) -> Address {
+        Address::new(index + self.0, 0)
+    }
+
+    fn has(self, dut: &Dut<'_>, index: u16) -> bool {
+        dut.eds.has(index + self.0)
+    }
+
+    /// A value with its sign.
+    fn value(self, dut: &mut Dut<'_>, index: u16) -> Checked<i64> {
+        let bytes = dut.read(self.at(index))?;
+        Ok(signed(&bytes))
+    }
+
+    /// Writes a number with the length of the object; the old value returns after the case.
+    fn set(self, dut: &mut Dut<'_>, index: u16, value: i64) -> Checked {
+        let len = dut.keep(self.at(index))?.len();
+        dut.write(self.at(index), &value.to_le_bytes()[..len.min(8)])
+    }
+
+    /// Writes a number as [`set`](Self::set); a drive that refuses it skips the case.
+    fn choose(self, dut: &mut Dut<'_>, index: u16, value: i64) -> Checked {
+        let len = dut.keep(self.at(index))?.len();
+        match dut.download(self.at(index), &value.to_le_bytes()[..len.min(8)])? {
+            Ok(()) => Ok(()),
+            Err(code) => lacks(format!(
+                "{value} in {}: {}",
+                self.at(index),
+                abort_text(code)
+            )),
+        }
+    }
+
+    fn command(self, dut: &mut Dut<'_>, word: u16) -> Checked {
+        dut.write(self.at(0x6040), &word.to_le_bytes())
+    }
+
+    /// Waits until the statusword shows this.
+    fn shows(self, dut: &mut Dut<'_>, micros: u64, (what, mask, bits): Shown) -> Checked {
+        let end = dut.now().plus_micros(micros);
+        loop {
+            let is = self.value(dut, 0x6041)? as u64;
+            if is & mask == bits || dut.now() >= end {
+                return ensure(
+                    is & mask == bits,
+                    format!(
+                        "{what} in {} within {} s",
+                        self.at(0x6041),
+                        micros / 1_000_000
+                    ),
+                    format!("{:04X}h was read", is & 0xFFFF),
+                );
+            }
+            dut.wait(10_000)?;
+        }
+    }
+
+    /// Waits until a value is this one, or nearly so.
+    fn comes_to(
+        self,
+        dut: &mut Dut<'_>,
+        index: u16,
+        wanted: i64,
+        window: i64,
+        when: &str,
+    ) -> Checked {
+        let end = dut.now().plus_micros(MOVE);
+        loop {
+            let is = self.value(dut, index)?;
+            if (is - wanted).abs() <= window || dut.now() >= end {
+                return self.is_at(index, is, wanted, window, when);
+            }
+            dut.wait(10_000)?;
+        }
+    }
+
+    fn is_at(self, index: u16, is: i64, wanted: i64, window: i64, when: &str) -> Checked {
+        ensure(
+            (is - wanted).abs() <= window,
+            format!(
+                "{wanted}, {window} off at most, in {} {when}",
+                self.at(index)
+            ),
+            format!("{is} was read"),
+        )
+    }
+
+    /// Enables the operation in a mode, runs the test, and stops the axis.
+    fn test(self, dut: &mut Dut<'_>, mode: i8, test: Test) -> Checked {
+        if self.has(dut, 0x6502) {
+            let modes = self.value(dut, 0x6502)?;
+            if modes >> (mode - 1) & 1 == 0 {
+                return lacks(format!("{} does not have mode {mode}", self.at(0x6502)));
+            }
+        }
+        dut.nmt(Command::Start)?;
+        self.command(dut, 0)?;
+        if self.value(dut, 0x6041)? & 0x4F == 0x08 {
+            return lacks("the drive has a fault");
+        }
+        self.shows(dut, CHANGE, DISABLED)?;
+        if self.has(dut, 0x6060) {
+            self.set(dut, 0x6060, mode.into())?;
+        }
+        // A target of an earlier movement does not move the axis.
+        if self.has(dut, 0x60FF) {
+            self.set(dut, 0x60FF, 0)?;
+        }
+        if self.has(dut, 0x607A) && self.has(dut, 0x6064) {
+            let place = self.value(dut, 0x6064)?;
+            self.set(dut, 0x607A, place)?;
+        }
+        let done = self.enable(dut).and_then(|()| test(dut, self));
+        if matches!(done, Err(End::Lost(_))) {
+            return done;
+        }
+        let stopped = self.stop(dut);
+        done.and(stopped)
+    }
+
+    /// Transitions 2, 3 and 4.
+    fn enable(self, dut: &mut Dut<'_>) -> Checked {
+        for (word, state) in [(6, READY), (7, SWITCHED_ON), (ENABLE, ENABLED)] {
+            self.command(dut, word)?;
+            self.shows(dut, CHANGE, state)?;
+        }
+        Ok(())
+    }
+
+    /// Quick stop; after the stop, disable voltage.
+    fn stop(self, dut: &mut Dut<'_>) -> Checked {
+        dut.nmt(Command::Start)?;
+        self.command(dut, 2)?;
+        let end = dut.now().plus_micros(MOVE);
+        while self.value(dut, 0x6041)? & 0x4F == 0x07 && dut.now() < end {
+            if self.has(dut, 0x606C) && self.value(dut, 0x606C)?.abs() <= self.standing(dut)? {
+                break;
+            }
+            dut.wait(10_000)?;
+        }
+        self.command(dut, 0)
+    }
+
+    /// Greatest speed of an axis that is at rest (606Fh).
+    fn standing(self, dut: &mut Dut<'_>) -> Checked<i64> {
+        self.window(dut, 0x606F)
+    }
+
+    /// The value of a window, or 0 without the object.
+    fn window(self, dut: &mut Dut<'_>, index: u16) -> Checked<i64> {
+        if self.has(dut, index) {
+            let bytes = dut.read(self.at(index))?;
+            return Ok(crate::conform::sdo::number(&bytes) as i64);
+        }
+        Ok(0)
+    }
+
+    /// A place that is [`WAY`] away, or ten times the position window (6067h).
+    fn way(self, dut: &mut Dut<'_>) -> Checked<i64> {
+        match self.window(dut, 0x6067)? {
+            window @ 0..=100_000 => Ok(WAY.max(10 * window)),
+            _ => lacks("6067h is too wide to see whether the axis moves"),
+        }
+    }
+
+    /// A tenth of the profile velocity (6081h), or ten times the velocity window (606Dh).
+    fn pace(self, dut: &mut Dut<'_>) -> Checked<i64> {
+        let window = self.window(dut, 0x606D)?;
+        let most = if self.has(dut, 0x6081) {
+            self.window(dut, 0x6081)?
+        } else {
+            WAY
+        };
+        Ok((most / 10).max(10 * window).max(1))
+    }
+
+    /// Moves at this speed in a velocity mode.
+    fn runs(self, dut: &mut Dut<'_>, pace: i64) -> Checked {
+        let window = self.window(dut, 0x606D)?.max(pace / 100);
+        self.set(dut, 0x60FF, pace)?;
+        self.comes_to(dut, 0x606C, pace, window, "after 60FFh was written")
+    }
+
+    /// Writes a set-point, and waits for the handshake of bits 4 and 12.
+    fn set_point(self, dut: &mut Dut<'_>, target: i64, how: u16) -> Checked {
+        let acknowledged = 1 << 12;
+        self.command(dut, ENABLE | how)?;
+        self.shows(
+            dut,
+            CHANGE,
+            ("bit 12 = 0 before a new set-point", acknowledged, 0),
+        )?;
+        self.set(dut, 0x607A, target)?;
+        self.command(dut, ENABLE | how | START)?;
+        let set = (
+            "set-point acknowledged, bit 12 = 1, after bit 4 of the controlword",
+            acknowledged,
+            acknowledged,
+        );
+        self.shows(dut, CHANGE, set)?;
+        self.command(dut, ENABLE | how)?;
+        self.shows(dut, MOVE, ("bit 12 = 0 after bit 4 = 0", acknowledged, 0))
+    }
+
+    /// Waits for bit 10, and compares the place.
+    fn arrives(self, dut: &mut Dut<'_>, target: i64) -> Checked {
+        self.shows(dut, MOVE, REACHED)?;
+        let window = self.window(dut, 0x6067)?;
+        let is = self.value(dut, 0x6064)?;
+        self.is_at(0x6064, is, target, window, "when bit 10 is 1")
+    }
+}
+
+fn signed(bytes: &[u8]) -> i64 {
+    let value = crate::conform::sdo::number(bytes);
+    let unused = 64 - 8 * bytes.len().clamp(1, 8) as u32;
+    (value << unused) as i64 >> unused
+}
+
+/// Transitions 2 to 5, 8 and 9.
+pub(super) fn enable(dut: &mut Dut<'_>) -> Checked {
+    each(dut, PROFILE_VELOCITY, |dut, axis| {
+        for (word, state) in [
+            (7, SWITCHED_ON),
+            (ENABLE, ENABLED),
+            (6, READY),
+            (7, SWITCHED_ON),
+            (ENABLE, ENABLED),
+            (0, DISABLED),
+        ] {
+            axis.command(dut, word)?;
+            axis.shows(dut, CHANGE, state)?;
+        }
+        Ok(())
+    })
+}
+
+pub(super) fn set_point(dut: &mut Dut<'_>) -> Checked {
+    each(dut, PROFILE_POSITION, |dut, axis| {
+        let target = axis.value(dut, 0x6064)? + axis.way(dut)?;
+        axis.set_point(dut, target, 0)?;
+        axis.arrives(dut, target)
+    })
+}
+
+pub(super) fn relative(dut: &mut Dut<'_>) -> Checked {
+    each(dut, PROFILE_POSITION, |dut, axis| {
+        let (from, way) = (axis.value(dut, 0x6064)?, axis.way(dut)?);
+        axis.set_point(dut, way, RELATIVE)?;
+        axis.arrives(dut, from + way)?;
+        axis.set_point(dut, -way, RELATIVE)?;
+        axis.arrives(dut, from)
+    })
+}
+
+/// The second set-point arrives while the axis moves slowly to the first, which it must not reach.
+pub(super) fn at_once(dut: &mut Dut<'_>) -> Checked {
+    each(dut, PROFILE_POSITION, |dut, axis| {
+        let (from, way) = (axis.value(dut, 0x6064)?, axis.way(dut)?);
+        let far = from + 10 * way;
+        if axis.has(dut, 0x6081) {
+            let pace = axis.pace(dut)?;
+            axis.set(dut, 0x6081, pace)?;
+        }
+        axis.set_point(dut, far, 0)?;
+        axis.set_point(dut, from, AT_ONCE)?;
+        let place = axis.value(dut, 0x6064)?;
+        ensure(
+            place < far - way,
+            format!("{} on its way back, before {far}", axis.at(0x6064)),
+            format!("{place} was read"),
+        )?;
+        axis.arrives(dut, from)
+    })
+}
+
+pub(super) fn limit(dut: &mut Dut<'_>) -> Checked {
+    each(dut, PROFILE_POSITION, |dut, axis| {
+        let (from, way) = (axis.value(dut, 0x6064)?, axis.way(dut)?);
+        let most = Address::new(0x607D + axis.0, 2);
+        dut.keep(most)?;
+        let limit = from + way;
+        dut.write(most, &(limit as i32).to_le_bytes())?;
+        axis.set(dut, 0x607A, limit + way)?;
+        axis.command(dut, ENABLE | START)?;
+        let end = dut.now().plus_micros(CHANGE);
+        let window = axis.window(dut, 0x6067)?;
+        let mut place = from;
+        while dut.now() < end {
+            place = place.max(axis.value(dut, 0x6064)?);
+            dut.wait(10_000)?;
+        }
+        ensure(
+            place <= limit + window,
+            format!("{} not above {limit}, the limit in {most}", axis.at(0x6064)),
+            format!("{place} was read"),
+        )
+    })
+}
+
+/// Target velocity, then 0: bits 10 and 12.
+pub(super) fn velocity(dut: &mut Dut<'_>) -> Checked {
+    each(dut, PROFILE_VELOCITY, |dut, axis| {
+        let pace = axis.pace(dut)?;
+        axis.runs(dut, pace)?;
+        axis.shows(dut, CHANGE, REACHED)?;
+        axis.shows(dut, CHANGE, ("bit 12 = 0 while the axis moves", 1 << 12, 0))?;
+        axis.runs(dut, -pace)?;
+        axis.set(dut, 0x60FF, 0)?;
+        axis.shows(dut, MOVE, ("speed zero, bit 12 = 1", 1 << 12, 1 << 12))?;
+        let (is, window) = (axis.value(dut, 0x606C)?, axis.standing(dut)?);
+        axis.is_at(0x606C, is, 0, window, "when bit 12 is 1")
+    })
+}
+
+pub(super) fn cyclic_velocity(dut: &mut Dut<'_>) -> Checked {
+    each(dut, CYCLIC_VELOCITY, |dut, axis| {
+        let pace = axis.pace(dut)?;
+        axis.runs(dut, pace)?;
+        axis.shows(dut, CHANGE, FOLLOWS)?;
+        axis.runs(dut, 0)
+    })
+}
+
+const FOLLOWS: Shown = (
+    "drive follows the command value, bit 12 = 1",
+    1 << 12,
+    1 << 12,
+);
+
+/// Twenty target positions in a row.
+pub(super) fn cyclic_position(dut: &mut Dut<'_>) -> Checked {
+    each(dut, CYCLIC_POSITION, |dut, axis| {
+        let (from, way) = (axis.value(dut, 0x6064)?, axis.way(dut)?);
+        let mut target = from;
+        for step in 1..=20 {
+            target = from + way * step / 20;
+            axis.set(dut, 0x607A, target)?;
+            dut.wait(10_000)?;
+        }
+        axis.shows(dut, CHANGE, FOLLOWS)?;
+        let window = axis.window(dut, 0x6067)?.max(way / 100);
+        axis.comes_to(
+            dut,
+            0x6064,
+            target,
+            window,
+            "after the last target position",
+        )
+    })
+}
+
+/// Homing at the present position: bits 10, 12 and 13.
+pub(super) fn homing(dut: &mut Dut<'_>) -> Checked {
+    each(dut, HOMING, |dut, axis| {
+        const BITS: u64 = 1 << 10 | 1 << 12 | 1 << 13;
+        let method = axis.at(0x6098);
+        dut.keep(method)?;
+        // Method 35 has the number 37 since the second edition.
+        if dut.download(method, &[37])?.is_err() && dut.download(method, &[35])?.is_err() {
+            return lacks("the drive has neither homing method 37 nor 35");
+        }
+        let offset = axis.way(dut)?;
+        axis.set(dut, 0x607C, offset)?;
+        axis.shows(
+            dut,
+            CHANGE,
+            ("bits 12 and 13 = 0 before homing", 1 << 12 | 1 << 13, 0),
+        )?;
+        axis.command(dut, ENABLE | START)?;
+        let attained = "homing attained and target reached, bits 13, 12 and 10 = 011";
+        axis.shows(dut, MOVE, (attained, BITS, 1 << 10 | 1 << 12))?;
+        let (is, window) = (axis.value(dut, 0x6064)?, axis.window(dut, 0x6067)?);
+        axis.command(dut, ENABLE)?;
+        // The editions of the standard differ in the sign of the home offset.
+        axis.is_at(
+            0x6064,
+            is.abs(),
+            offset,
+            window,
+            "(without its sign) after homing, the home offset",
+        )
+    })
+}
+
+pub(super) fn quick_stop(dut: &mut Dut<'_>) -> Checked {
+    each(dut, PROFILE_VELOCITY, |dut, axis| {
+        let pace = axis.pace(dut)?;
+        for (code, state) in [(2, DISABLED), (6, QUICK_STOP)] {
+            axis.choose(dut, 0x605A, code)?;
+            axis.enable(dut)?;
+            axis.runs(dut, pace)?;
+            axis.command(dut, 2)?;
+            let window = axis.standing(dut)?;
+            axis.comes_to(dut, 0x606C, 0, window, "after quick stop")?;
+            axis.shows(dut, CHANGE, state)?;
+            axis.command(dut, 0)?;
+            axis.shows(dut, CHANGE, DISABLED)?;
+        }
+        Ok(())
+    })
+}
+
+/// Slow down, then the next state (code 1 in 605Bh and 605Ch).
+pub(super) fn stop_options(dut: &mut Dut<'_>) -> Checked {
+    each(dut, PROFILE_VELOCITY, |dut, axis| {
+        let pace = axis.pace(dut)?;
+        for (index, word, state) in [(0x605C, 7, SWITCHED_ON), (0x605B, 6, READY)] {
+            if !axis.has(dut, index) {
+                continue;
+            }
+            axis.choose(dut, index, 1)?;
+            axis.command(dut, 7)?;
+            axis.command(dut, ENABLE)?;
+            axis.shows(dut, CHANGE, ENABLED)?;
+            axis.runs(dut, pace)?;
+            axis.command(dut, word)?;
+            axis.shows(dut, MOVE, state)?;
+            let (is, window) = (axis.value(dut, 0x606C)?, axis.standing(dut)?);
+            let when = format!("in {}, with 1 in {}", state.0, axis.at(index));
+            axis.is_at(0x606C, is, 0, window, &when)?;
+        }
+        Ok(())
+    })
+}
+
+pub(super) fn halt(dut: &mut Dut<'_>) -> Checked {
+    each(dut, PROFILE_VELOCITY, |dut, axis| {
+        let pace = axis.pace(dut)?;
+        axis.runs(dut, pace)?;
+        axis.command(dut, ENABLE | HALT)?;
+        let window = axis.standing(dut)?;
+        axis.comes_to(dut, 0x606C, 0, window, "after halt, bit 8 of 6040h")?;
+        axis.shows(dut, CHANGE, ENABLED)?;
+        axis.shows(
+            dut,
+            CHANGE,
+            ("bit 10 = 1 when the axis is halted", REACHED.1, REACHED.2),
+        )?;
+        axis.command(dut, ENABLE)?;
+        let window = axis.window(dut, 0x606D)?.max(pace / 100);
+        axis.comes_to(dut, 0x606C, pace, window, "after halt ends")
+    })
+}
+
+/// A fault, by NMT stop with code 1 in 6007h, and its reset.
+pub(super) fn connection_lost(dut: &mut Dut<'_>) -> Checked {
+    each(dut, PROFILE_VELOCITY, |dut, axis| {
+        axis.choose(dut, 0x6007, 1)?;
+        dut.nmt(Command::Stop)?;
+        dut.nmt(Command::Start)?;
+        axis.shows(dut, MOVE, FAULT)?;
+        // A fault ends by bit 7 only.
+        axis.command(dut, 6)?;
+        axis.shows(dut, 0, FAULT)?;
+        if axis.has(dut, 0x603F) {
+            let code = axis.value(dut, 0x603F)?;
+            let done = ensure(
+                code != 0,
+                format!("the code of the fault in {}", axis.at(0x603F)),
+                "0 was read",
+            );
+            dut.fault(done)?;
+        }
+        axis.command(dut, 0x80)?;
+        axis.shows(dut, CHANGE, DISABLED)
+    })
+}

@@ -1,0 +1,259 @@
+//! CiA 401: outputs that change. Each case needs the permission `motion`.
+//!
+//! What a module makes of an output is seen at an input that is wired to it; a case looks for such a pair.
+
+use od_model::Address;
+use od_wire::CobId;
+use od_wire::nmt::Command;
+
+use super::heartbeat::{beat, watch};
+use super::transmit::{is_on, mapping};
+use crate::conform::dut::{Dut, QUIET};
+use crate::conform::end::{Checked, ensure, fail, lacks};
+
+/// Time in which an input follows an output, in microseconds.
+const REACTION: u64 = 50_000;
+
+/// A bit of an 8-bit object.
+#[derive(Clone, Copy)]
+struct Bit {
+    sub: u8,
+    mask: u8,
+}
+
+impl Bit {
+    /// Reads the bit of an object.
+    fn read(self, dut: &mut Dut<'_>, index: u16) -> Checked<bool> {
+        Ok(dut.number(index, self.sub)? & u64::from(self.mask) != 0)
+    }
+
+    /// Writes the bit of an object, and gives the module time; the old value returns after the case.
+    fn write(self, dut: &mut Dut<'_>, index: u16, on: bool) -> Checked {
+        let address = Address::new(index, self.sub);
+        let old = dut.keep(address)?;
+        let old = old.first().copied().unwrap_or_default();
+        let new = if on {
+            old | self.mask
+        } else {
+            old & !self.mask
+        };
+        dut.write(address, &[new])?;
+        dut.wait(REACTION)
+    }
+
+    fn toggle(self, dut: &mut Dut<'_>, index: u16) -> Checked {
+        let is = self.read(dut, index)?;
+        self.write(dut, index, !is)
+    }
+}
+
+/// An output that is wired to an input.
+struct Wire {
+    output: Bit,
+    input: Bit,
+}
+
+impl Wire {
+    /// Switches one output after the other until an input changes.
+    fn find(dut: &mut Dut<'_>) -> Checked<Self> {
+        dut.nmt(Command::Start)?;
+        let before = all(dut, 0x6000)?;
+        for sub in 1..=dut.number(0x6200, 0)?.min(0xFE) as u8 {
+            for mask in (0..8).map(|bit| 1 << bit) {
+                let output = Bit { sub, mask };
+                output.toggle(dut, 0x6200)?;
+                let after = all(dut, 0x6000)?;
+                output.toggle(dut, 0x6200)?;
+                let pairs = before.iter().zip(&after);
+                let changed = (1..).zip(pairs.map(|(before, after)| before ^ after));
+                let input = changed
+                    .map(|(sub, mask)| Bit { sub, mask })
+                    .find(|input| input.mask.count_ones() == 1);
+                if let Some(input) = input {
+                    return Ok(Self { output, input });
+                }
+            }
+        }
+        lacks("no digital output is wired to an input; connect one to run this case")
+    }
+
+    /// Fails unless the input has this value.
+    fn shows(&self, dut: &mut Dut<'_>, wanted: bool, why: &str) -> Checked {
+        let is = self.input.read(dut, 0x6000)?;
+        let Bit { sub, mask } = self.input;
+        ensure(
+            is == wanted,
+            format!(
+                "{} in bit {} of 6000h:{sub:02X} {why}",
+                u8::from(wanted),
+                mask.trailing_zeros()
+            ),
+            format!("{} was read", u8::from(is)),
+        )
+    }
+}
+
+/// The bytes of all sub-objects.
+fn all(dut: &mut Dut<'_>, index: u16) -> Checked<Vec<u8>> {
+    let count = dut.number(index, 0)?.min(0xFE) as u8;
+    (1..=count)
+        .map(|sub| Ok(dut.number(index, sub)? as u8))
+        .collect()
+}
+
+/// The CAN-ID of an event-driven TPDO with this object.
+fn event_of(dut: &mut Dut<'_>, index: u16, sub: u8) -> Checked<u16> {
+    for pdo in dut.eds.pdos(0x1800) {
+        let cob_id = dut.number(0x1800 + pdo, 1)? as u32;
+        let kind = dut.number(0x1800 + pdo, 2)?;
+        let is_mapped = mapping(dut, 0x1A00 + pdo)?
+            .iter()
+            .any(|one| one.address == Address::new(index, sub));
+        let id = CobId::new(cob_id).can_id().as_standard();
+        if let Some(id) = id.filter(|_| is_on(cob_id) && is_mapped && kind >= 0xFE) {
+            return Ok(id);
+        }
+    }
+    lacks(format!("no event-driven TPDO has {index:04X}h:{sub:02X}"))
+}
+
+/// Each output holds what was written.
+pub(super) fn hold(dut: &mut Dut<'_>) -> Checked {
+    dut.nmt(Command::Start)?;
+    for sub in 1..=dut.number(0x6200, 0)?.min(0xFE) as u8 {
+        let address = Address::new(0x6200, sub);
+        let old = dut.keep(address)?;
+        let new: Vec<u8> = old.iter().map(|byte| !byte).collect();
+        dut.write(address, &new)?;
+        dut.wait(REACTION)?;
+        let is = dut.read(address)?;
+        let done = ensure(
+            is == new,
+            format!("{new:02X?} in {address}, as was written"),
+            format!("{is:02X?} was read"),
+        );
+        dut.fault(done)?;
+    }
+    Ok(())
+}
+
+pub(super) fn polarity(dut: &mut Dut<'_>) -> Checked {
+    let wire = Wire::find(dut)?;
+    let before = wire.input.read(dut, 0x6000)?;
+    wire.output.toggle(dut, 0x6202)?;
+    wire.shows(dut, !before, "after 6202h inverted its output")
+}
+
+pub(super) fn filter_mask(dut: &mut Dut<'_>) -> Checked {
+    let wire = Wire::find(dut)?;
+    let before = wire.input.read(dut, 0x6000)?;
+    wire.output.write(dut, 0x6208, false)?;
+    wire.output.toggle(dut, 0x6200)?;
+    wire.shows(dut, before, "while 6208h masks its output")
+}
+
+/// Error mode 1: the error value; error mode 0: the last value.
+pub(super) fn error_value(dut: &mut Dut<'_>) -> Checked {
+    let wire = Wire::find(dut)?;
+    let before = wire.input.read(dut, 0x6000)?;
+    let value = wire.output.read(dut, 0x6200)?;
+    wire.output.write(dut, 0x6207, !value)?;
+    for (mode, wanted) in [(true, !before), (false, before)] {
+        wire.output.write(dut, 0x6206, mode)?;
+        let node = watch(dut, 200)?;
+        dut.nmt(Command::Start)?;
+        beat(dut, node)?;
+        wire.shows(dut, before, "while the heartbeat is in time")?;
+        dut.wait(500_000)?;
+        let why = format!(
+            "after a heartbeat is lost, with {} in 6206h",
+            u8::from(mode)
+        );
+        wire.shows(dut, wanted, &why)?;
+    }
+    Ok(())
+}
+
+pub(super) fn interrupt_mask(dut: &mut Dut<'_>) -> Checked {
+    let wire = Wire::find(dut)?;
+    let id = event_of(dut, 0x6000, wire.input.sub)?;
+    for (on, index) in [(false, 0x6007), (false, 0x6008), (true, 0x6006)] {
+        if dut.eds.has(index) {
+            wire.input.write(dut, index, on)?;
+        }
+    }
+    for (enabled, mask) in [(1, true), (1, false), (0, true)] {
+        dut.set(Address::new(0x6005, 0), &[enabled])?;
+        wire.input.write(dut, 0x6006, mask)?;
+        dut.drain()?;
+        let from = dut.frames.len();
+        wire.output.toggle(dut, 0x6200)?;
+        dut.wait(QUIET)?;
+        let sent = sent(dut, from, id);
+        let when = format!(
+            "after an input changed, with {enabled} in 6005h and {} in 6006h",
+            u8::from(mask)
+        );
+        expect(sent, enabled == 1 && mask, id, &when)?;
+    }
+    Ok(())
+}
+
+/// Number of data frames with this CAN-ID since the frame `from`.
+fn sent(dut: &Dut<'_>, from: usize, id: u16) -> usize {
+    let frames = dut.frames.get(from..).unwrap_or_default().iter();
+    frames
+        .filter(|one| !one.ours && crate::conform::dut::is_data(&one.frame, id))
+        .count()
+}
+
+fn expect(sent: usize, wanted: bool, id: u16, when: &str) -> Checked {
+    match (wanted, sent) {
+        (true, 0) => fail(format!("the TPDO {id:03X} {when}"), "none came"),
+        (false, 1..) => fail(format!("no TPDO {id:03X} {when}"), format!("{sent} came")),
+        _ => Ok(()),
+    }
+}
+
+/// An analogue output that is wired to an input; a small change and a great one.
+pub(super) fn delta(dut: &mut Dut<'_>) -> Checked {
+    const SMALL: i16 = 100;
+    const DELTA: u32 = 1000;
+    const GREAT: i16 = 2000;
+    dut.nmt(Command::Start)?;
+    let count = dut.number(0x6401, 0)?.min(0xFE) as u8;
+    for sub in 1..=dut.number(0x6411, 0)?.min(0xFE) as u8 {
+        let output = Address::new(0x6411, sub);
+        dut.keep(output)?;
+        let mut seen = [Vec::new(), Vec::new()];
+        for (value, seen) in [0, GREAT].into_iter().zip(&mut seen) {
+            dut.write(output, &value.to_le_bytes())?;
+            dut.wait(REACTION)?;
+            for input in 1..=count {
+                seen.push(dut.number(0x6401, input)?);
+            }
+        }
+        let mut inputs = (1..).zip(seen[0].iter().zip(&seen[1]));
+        let Some((input, _)) = inputs.find(|(_, (before, after))| before != after) else {
+            continue;
+        };
+        let id = event_of(dut, 0x6401, input)?;
+        dut.set(Address::new(0x6426, input), &DELTA.to_le_bytes())?;
+        dut.set(Address::new(0x6421, input), &[1 << 2])?;
+        dut.set(Address::new(0x6423, 0), &[1])?;
+        // The value of the last interrupt is GREAT, or 0 of an earlier one: this change passes in either case.
+        dut.write(output, &(2 * GREAT).to_le_bytes())?;
+        dut.wait(QUIET)?;
+        for (value, wanted) in [(2 * GREAT + SMALL, false), (3 * GREAT, true)] {
+            dut.drain()?;
+            let from = dut.frames.len();
+            dut.write(output, &value.to_le_bytes())?;
+            dut.wait(QUIET)?;
+            let sent = sent(dut, from, id);
+            let when = format!("after 6401h:{input:02X} changed, with {DELTA} in 6426h");
+            expect(sent, wanted, id, &when)?;
+        }
+        return Ok(());
+    }
+    lacks("no analogue output is wired to an input; connect one to run this case")
+}
