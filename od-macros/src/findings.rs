@@ -122,8 +122,8 @@ impl Patch<'_> {
             if self.files.is_none() && finding.object.is_none() && finding.span().is_none() {
                 continue;
             }
-            // What the file says elsewhere, such as in [DeviceInfo], no statement can correct; what it says of the value
-            // itself, such as its default, a statement can.
+            // A statement can correct a value of the file, such as a default, but not another key, such as one of
+            // [DeviceInfo].
             let is_in_file = finding.span().is_some_and(|span| token_of(span).is_none());
             if is_in_file && !finding.rule.is_of_one_value() && !finding.is_unsound() {
                 continue;

@@ -31,7 +31,7 @@ pub fn fix_eds(text: &str, guess: bool) -> String {
     fixed.document.text().into()
 }
 
-/// What a text is if it is a device file of another fieldbus, such as `an ESI file of EtherCAT`; `undefined` otherwise.
+/// Returns the kind of a device file of another fieldbus, such as `an ESI file of EtherCAT`; `undefined` for any other text.
 #[wasm_bindgen(js_name = foreignFile)]
 pub fn foreign_file(text: &str) -> Option<String> {
     od_eds::foreign(text).map(Into::into)

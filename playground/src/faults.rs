@@ -26,7 +26,7 @@ record! {
         story: String,
         /// The possible causes.
         causes: Vec<String>,
-        /// What the learner can do.
+        /// Actions that the learner can choose.
         probes: Vec<String>,
     }
 
@@ -41,7 +41,7 @@ record! {
         "isError" is_error: bool,
     }
 
-    /// What a probe shows.
+    /// Observations of a probe.
     ProbeReading {
         lines: Vec<String>,
         frames: Vec<ProbeFrame>,
@@ -68,7 +68,7 @@ record! {
         fewest: usize,
         best: Vec<usize>,
         used: Vec<UsedProbe>,
-        /// What proves the cause, as Markdown.
+        /// Proof of the cause, as Markdown.
         proof: String,
     }
 }

@@ -51,7 +51,7 @@ pub fn read_log(file: &[u8]) -> Result<JsValue, JsError> {
 record! {
     /// A fault in a log.
     Incident {
-        /// What happened, in one sentence.
+        /// The incident in one sentence.
         text: String,
         /// Begin, end, and whether the bus recovered.
         span: String,
@@ -63,7 +63,7 @@ record! {
     /// A likely cause of a fault.
     Cause {
         text: String,
-        /// What to check first.
+        /// First things to check.
         check: String,
     }
 }

@@ -338,8 +338,8 @@ impl Bench {
         Ok(())
     }
 
-    /// What happened so far as a script: `odkit run` plays it with the same frames. The script contains what programs sent
-    /// and when, so it needs none of them.
+    /// The inputs so far as a script: `odkit run` plays it with the same frames. The script contains the frames of
+    /// programs and their times, so it needs none of these programs.
     ///
     /// Raises `ValueError` if a script has no line for something, such as a real line or a new EEPROM.
     fn script(&self) -> PyResult<String> {

@@ -10,7 +10,7 @@ use crate::state::State;
 pub(crate) struct Incident {
     /// Name of the rule that found it, such as `heartbeat-lost`.
     rule: &'static str,
-    /// What happened, in one sentence.
+    /// The incident in one sentence.
     text: String,
     /// The nodes that it is about; empty: the whole bus.
     nodes: Vec<u8>,

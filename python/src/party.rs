@@ -52,7 +52,7 @@ pub(crate) struct Party {
     pub(crate) has_lost: bool,
 }
 
-/// What another thread sees of a thread that runs.
+/// State of a thread, as another thread sees it.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Seen {
     Runs,
@@ -148,7 +148,7 @@ impl Party {
 /// computer is.
 ///
 /// # Errors
-/// What a signal such as Ctrl-C raises.
+/// Exception that a signal such as Ctrl-C raises.
 pub(crate) fn compete(py: Python<'_>) -> PyResult<()> {
     let time = py.import(intern!(py, "time"))?;
     let used = || -> PyResult<f64> {

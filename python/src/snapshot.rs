@@ -24,7 +24,7 @@ pub(crate) struct Snapshot {
 /// The form of pickled snapshots and descriptions; another version of odkit may have another.
 pub(crate) const FORM: &str = concat!("odkit ", env!("CARGO_PKG_VERSION"), " form 1");
 
-/// What Python pickles: a function that restores the object, and its arguments.
+/// Form that Python pickles: a function that restores the object, and its arguments.
 pub(crate) type Pickled<'p, A> = PyResult<(Bound<'p, PyAny>, A)>;
 
 /// Refuses what another version has pickled.

@@ -59,7 +59,7 @@ pub(crate) struct State {
     pub(crate) cyclics: Vec<Cyclic>,
     pub(crate) parties: Vec<Party>,
     pub(crate) journal: Journal,
-    /// What happened, as a script.
+    /// The inputs so far, as a script.
     pub(crate) story: Story,
     /// The number of the first record that `expect` looks at.
     pub(crate) seen: usize,
@@ -320,8 +320,8 @@ impl State {
         }
     }
 
-    /// How long the clock takes to a moment that it has not reached yet, if time follows it: while the thread
-    /// that opened the bus waits in Python, and otherwise to the end of any wait in Python.
+    /// Time until the clock reaches a moment, if time follows the clock: while the thread that opened the bus waits in
+    /// Python, and otherwise to the end of any wait in Python. `None`: it has reached the moment.
     pub(crate) fn ahead_of_the_clock(&self, to: Instant) -> Option<Duration> {
         let waits = self.parties.iter().enumerate().filter_map(|(at, party)| {
             let wait = party.wait?;
@@ -332,7 +332,7 @@ impl State {
         follows.filter_map(|start| self.left(start, to)).max()
     }
 
-    /// How long the clock takes to a moment, from the start of a wait that follows it; `None`: it has reached it.
+    /// Time until the clock reaches a moment, from the start of a wait that follows it. `None`: it has reached the moment.
     pub(crate) fn left(&self, (clock, from): (Clock, Instant), to: Instant) -> Option<Duration> {
         let time = to.micros_since(from) as f64 / 1e6 / self.pace;
         let left = time - clock.elapsed().as_secs_f64();
@@ -370,7 +370,7 @@ impl State {
         }
     }
 
-    /// How its time moves.
+    /// Movement of its time.
     pub(crate) fn time(&self) -> Time {
         match self.real {
             Some(_) => Time::Real,

@@ -1,4 +1,4 @@
-//! What happened on a bench, as a script that `odkit run` plays.
+//! The inputs of a bench as a script that `odkit run` plays.
 
 use std::fmt;
 

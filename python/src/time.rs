@@ -1,8 +1,8 @@
-//! How the time of a bus moves, as a caller says it.
+//! Argument that says how the time of a bus moves.
 
 use crate::faults::Fault;
 
-/// How the time of a bus moves.
+/// Movement of the time of a bus.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub(crate) enum Time {
     /// While all threads that take part wait.

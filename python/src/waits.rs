@@ -78,7 +78,7 @@ impl Waiting {
     #[pyo3(signature = (timeout, paced=true, target=None))]
     fn new(py: Python<'_>, timeout: Option<f64>, paced: bool, target: Option<Py<PyAny>>) -> Self {
         let id = thread::current().id();
-        // What is left of 0.3 s after a call is 0.3 s.
+        // A call takes no time, so 0.3 s are left of 0.3 s.
         let micros =
             timeout.map(|seconds| (seconds * 1e3 - 1e-3).ceil().clamp(0.0, 9e15) as u64 * 1000);
         let mut waits = Vec::new();

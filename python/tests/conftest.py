@@ -13,7 +13,7 @@ def pytest_configure(config):
 
 
 def pytest_collection_modifyitems(config, items):
-    """What runs only with `--long` is left out, and not skipped."""
+    """Leaves out the tests that run only with `--long`, so that none is reported as skipped."""
     left_out = [item for item in items if item.get_closest_marker("long") and not LONG]
     if left_out:
         config.hook.pytest_deselected(items=left_out)

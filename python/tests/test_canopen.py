@@ -24,7 +24,7 @@ def files(folder):
 
 
 def reading(od):
-    """What `differences` compares, of an ObjectDictionary."""
+    """The parts of an ObjectDictionary that `differences` compares."""
     codes = {ODVariable: 7, ODArray: 8, ODRecord: 9}
     objects = {}
     for index, entry in od.indices.items():

@@ -20,11 +20,11 @@ use od_tools::conform::session::{Leave, Session};
 
 use crate::log::{Log, Writer};
 
-/// The devices of a script; those with this name have twins.
+/// Host of a script that logs the devices with this name, for their twins.
 struct Twins<'a> {
     folder: PathBuf,
     name: &'a str,
-    /// Of each device on the bus.
+    /// Log of each device on the bus; `None` for one with another name.
     logs: Vec<Option<Arc<Mutex<Log>>>>,
 }
 

@@ -17,7 +17,7 @@ INTERFACE = os.environ.get("ODKIT_CAN")
 
 class Links(BenchCase):
     def place(self, sim, pattern):
-        """What the greeting says of a link."""
+        """The line of the greeting about a link."""
         found = re.search(pattern, "\n".join(sim.errors))
         self.assertIsNotNone(found, sim.errors)
         return found.group(1)

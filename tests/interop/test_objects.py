@@ -8,7 +8,7 @@ from bench import EDS, BenchCase
 
 
 def family(name, device_type, product, steps, total, warnings):
-    """What a device has in place of GXMM's defaults (manual 000, chapter 4.4.1)."""
+    """Values of a device that differ from GXMM's defaults (manual 000, chapter 4.4.1)."""
     return {
         (0x1000, 0): device_type,
         (0x1008, 0): name,

@@ -14,7 +14,7 @@ class Lines(BenchCase):
         self.assertEqual(receive(client, len(expected)), expected)
 
     def hears_nothing(self, client):
-        """What came before is received: the next bytes answer a question."""
+        """Receives the frames from before, so that the next bytes are the response to a command."""
         self.say(client, b"V\r", b"V1013\r")
 
     def test_a_host_opens(self):

@@ -149,7 +149,7 @@ fn between(first: &str, last: &str) -> Vec<String> {
     }
 }
 
-/// Where clauses are implemented or shown, as Markdown.
+/// Places that implement or show a clause, as Markdown.
 #[derive(Default)]
 struct Evidence(BTreeMap<Place, Vec<String>>);
 

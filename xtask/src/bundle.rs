@@ -208,7 +208,7 @@ fn second_name(out: &Path) -> Result<()> {
     files::copy(&out.join(&module), &core.join(&module))
 }
 
-/// What step 3 needs.
+/// Files that step 3 needs.
 fn packages(repo: &Repo, console: &Console) -> Result<()> {
     node::ci(console, &repo.web(), "fetching the page's npm packages")
 }

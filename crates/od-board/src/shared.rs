@@ -56,7 +56,7 @@ pub struct Shared<M: RawMutex, B> {
     deadline: Signal<M, ()>,
     /// The filters may have changed.
     filters: Signal<M, ()>,
-    /// The controller is bus-off, or was: frames from before must not be sent any more.
+    /// The controller went bus-off: frames from before that must not be sent.
     off: Signal<M, ()>,
 }
 

@@ -29,7 +29,7 @@ pub(crate) struct Args {
     /// Objects: index, name or glob
     #[arg(value_name = "OBJECT", required = true)]
     objects: Vec<String>,
-    /// File that the bytes of the value go to, such as those of a DOMAIN
+    /// File for the bytes of the value, such as a DOMAIN
     #[arg(long, value_name = "FILE")]
     file: Option<PathBuf>,
     #[command(flatten)]

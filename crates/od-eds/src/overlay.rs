@@ -180,9 +180,9 @@ impl Line<'_> {
 struct Part<'t> {
     name: String,
     lines: Vec<Line<'t>>,
-    /// The empty lines at the end, once an overlay has changed the part.
+    /// The empty lines at the end; empty until an overlay changes the part.
     blanks: Vec<Line<'t>>,
-    /// Where the first line of each key is, in small letters, once an overlay has changed the part.
+    /// The first line of each key, by the key in lower case; empty until an overlay changes the part.
     keys: Option<BTreeMap<String, usize>>,
 }
 
@@ -205,7 +205,7 @@ impl Seen {
 struct Sections<'t> {
     /// In the order of the text; `None`: removed.
     parts: Vec<Option<Part<'t>>>,
-    /// By name, in small letters.
+    /// By name, in lower case.
     names: BTreeMap<String, Vec<usize>>,
     /// An object with its members and lists.
     objects: BTreeMap<u16, Vec<usize>>,

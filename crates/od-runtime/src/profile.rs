@@ -52,7 +52,7 @@ pub struct PdoProfile {
     pub tpdo_types: &'static [(u8, u8)],
     /// Types 254 and 255 send when a mapped value changes; otherwise by the event timer only.
     pub event_on_change: bool,
-    /// When the event timer of types 254 and 255 restarts.
+    /// Restart of the event timer of types 254 and 255.
     pub event_timer: EventTimer,
     /// A COB-ID can be changed while the PDO is valid. In CiA 301 bit 31 has to be set first
     /// (chapter 7.5.2.36).
@@ -65,7 +65,7 @@ pub struct PdoProfile {
     pub sync_only: Option<(u16, u32)>,
 }
 
-/// When the event timer of an event-driven TPDO (1800h:05) restarts.
+/// Restart of the event timer of an event-driven TPDO (1800h:05).
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum EventTimer {
     /// With each transmission: the PDO is sent when the time has elapsed without an event (CiA 301, chapter
@@ -89,7 +89,7 @@ pub enum Restore {
 pub enum SaveAnswer {
     /// At once; the device stores in the background.
     AtOnce,
-    /// When everything is stored. Until then NMT, PDOs and error control continue, and a further
+    /// After everything is stored. Until then NMT, PDOs and error control continue, and a further
     /// SDO request waits.
     AfterStoring,
 }

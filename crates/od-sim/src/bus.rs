@@ -314,7 +314,7 @@ impl Bus {
         let due = (0..self.devices.len())
             .filter_map(|device| Some((self.deadline(device)?, device)))
             .min();
-        // What the master has to do at this moment follows in `attend`.
+        // `attend` does the work of the master at this moment.
         if let Some(at) = self.master_due()
             && at <= to
             && due.is_none_or(|(first, _)| at < first)

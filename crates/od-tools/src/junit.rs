@@ -7,7 +7,7 @@ use od_model::{Visible, is_hidden};
 pub struct Run {
     /// Name of the run.
     pub name: String,
-    /// Where, when and with what it was run: names and values.
+    /// Place, time and equipment of the run: names and values.
     pub properties: Vec<(String, String)>,
     /// The groups of cases.
     pub suites: Vec<Suite>,
@@ -18,7 +18,7 @@ pub struct Run {
 pub struct Suite {
     /// Name of the group.
     pub name: String,
-    /// How long the group took, in microseconds.
+    /// Duration of the group, in microseconds.
     pub micros: u64,
     /// The cases.
     pub cases: Vec<Case>,
@@ -29,7 +29,7 @@ pub struct Suite {
 pub struct Case {
     /// Name of the case.
     pub name: String,
-    /// How long the case took, in microseconds, if it was measured.
+    /// Duration of the case, in microseconds, if it was measured.
     pub micros: Option<u64>,
     /// Result of the case.
     pub outcome: Outcome,

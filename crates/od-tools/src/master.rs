@@ -15,10 +15,10 @@ use crate::link::Link;
 /// is a fault of the device.
 const OPTIONS: Options = Options::DEFAULT;
 
-/// How often a read is tried if a response to another request arrives.
+/// Number of attempts of a read if a response to another request arrives.
 const TRIES: u8 = 3;
 
-/// How long to discard frames that arrived before a request, in ms.
+/// Time in which frames that arrived before a request are discarded, in ms.
 const DRAIN: u64 = 20;
 
 /// A master of one node on a link.

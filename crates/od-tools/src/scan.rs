@@ -14,7 +14,7 @@ use crate::master::Master;
 
 /// Number of requests without a response at the same time.
 const AT_ONCE: usize = 16;
-/// How long a scan waits for nodes that responded before.
+/// Time that a scan waits for nodes that responded before.
 const LATE: Duration = Duration::from_millis(800);
 /// Longest time to read one text of a node: some 1,000 segments.
 const TEXT: Duration = Duration::from_secs(1);

@@ -202,7 +202,7 @@ export async function openLesson(name: string, text: string, solutions: string[]
   state.tour.value = null;
   state.lessonFailed.value = [];
   state.lessonState.value = null;
-  // What was said, typed and chosen before belongs to another bench.
+  // Messages, inputs and choices from before belong to another bench.
   if (state.toast.value?.tone === 'info') state.toast.value = null;
   state.draft.value = null;
   state.selected.value = null;

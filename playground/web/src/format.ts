@@ -1,4 +1,4 @@
-// How the page writes numbers, bytes, addresses and frames.
+// Formats of numbers, bytes, addresses and frames on the page.
 
 import type { ObjectRecord, Value } from './sim/api';
 import type { Packed } from './sim/packed';

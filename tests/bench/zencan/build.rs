@@ -34,8 +34,8 @@ fn main() {
 }
 
 /// Does the work of `zencan_build::compile_device_config`, but without pretty-printing the
-/// result, which takes half a minute for 5,000 objects. Lines there must be,
-/// clippy takes four minutes over a single one of 8 MB.
+/// result, which takes half a minute for 5,000 objects. It breaks lines, because clippy takes four
+/// minutes for a single line of 8 MB.
 fn generate(config: &str) -> Result<String, Box<dyn Error>> {
     let config = DeviceConfig::load_from_str(config)?;
     let code = zencan_build::device_config_to_string(&config, false)?;

@@ -13,7 +13,7 @@ pub(crate) struct Arrow<'a> {
     pub(crate) to: &'a str,
     /// The line in `from`.
     pub(crate) line: usize,
-    /// What that line imports.
+    /// Name that the line imports.
     pub(crate) name: &'a str,
 }
 

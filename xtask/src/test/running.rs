@@ -1,8 +1,8 @@
 //! The tests in a log that began and did not end: one of them hangs if the program had to be stopped.
 
-/// What libtest writes once a test takes long, and `xtask/tools/long.mjs` for Node.js.
+/// Text that libtest writes once a test takes long, and `xtask/tools/long.mjs` for Node.js.
 const LONG: &str = " has been running for over 60 seconds";
-/// What libtest and unittest write between the name of a test and its result.
+/// Text that libtest and unittest write between the name of a test and its result.
 const RESULT: &str = " ...";
 
 /// The names of the tests of the last program in a log that did not end.

@@ -15,7 +15,7 @@ use crate::lesson::file::Texts;
 /// The page, in a program that was built with it.
 const PAGE: &[(&str, &[u8])] = include!(concat!(env!("OUT_DIR"), "/page.rs"));
 
-/// Where `cargo xtask play` puts the page, in a checkout.
+/// Folder of the page that `cargo xtask play` makes, in a checkout.
 const BUILT: &str = "playground/web/dist";
 
 /// Largest file of the page, in bytes.

@@ -79,7 +79,7 @@ enum What {
         #[command(flatten)]
         bus: bus::Args,
     },
-    /// Have one slave, or all, store node ID and bit rate
+    /// Store node ID and bit rate in one slave, or in all
     Store {
         #[command(flatten)]
         slave: Slave,
@@ -116,7 +116,7 @@ fn address(text: &str) -> Result<Identity, String> {
 }
 
 impl Slave {
-    /// Finds it; `None` if no slave was named.
+    /// Finds the slave; `None` if none was named.
     fn find(&self, bus: &mut Bus) -> Result<Option<Identity>, Failure> {
         if let Some(node) = self.of {
             let mut master = Master::new(bus, node);

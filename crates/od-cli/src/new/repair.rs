@@ -93,7 +93,7 @@ fn mapped_by_rpdos(description: &Description) -> BTreeSet<Address> {
     entries.flatten().map(|entry| entry.address).collect()
 }
 
-/// What changed of a value, old → new.
+/// Change of a value, old → new.
 fn changes(old: &EntryDescription, new: &EntryDescription) -> String {
     let value = |value: &Option<Spanned<Value>>| {
         value

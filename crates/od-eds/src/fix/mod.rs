@@ -55,13 +55,13 @@ pub struct Fix {
 pub struct Edit {
     /// The text to edit.
     pub span: Span,
-    /// What to do with that text.
+    /// Change of that text.
     pub action: Action,
     /// Text to write, `\n` for the line end of the file.
     pub text: String,
 }
 
-/// What an edit does with its span.
+/// Change that an edit makes at its span.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[cfg_attr(
     feature = "serde",

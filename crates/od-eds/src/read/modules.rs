@@ -48,7 +48,7 @@ pub struct Extension {
     pub extend: u8,
 }
 
-/// How the values of a module fill sub-indices.
+/// Way in which the values of a module fill sub-indices.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Count {
     /// Number of new sub-indices per module.

@@ -18,7 +18,7 @@ struct Row {
     what: What,
 }
 
-/// How a value gets its meaning.
+/// Table that gives a value its meaning.
 enum What {
     /// First and last value, and their meaning.
     Values(&'static [(i64, i64, &'static str)]),

@@ -166,7 +166,7 @@ fn xdd_and_overlays_have_findings() {
     );
 }
 
-/// What an overlay lacks is a finding at the line that says so.
+/// A base that is missing or unsuitable is a finding at the line of the overlay that names it.
 #[test]
 fn an_overlay_without_a_base_has_a_finding() {
     let mut files = Files::default();
@@ -218,7 +218,7 @@ fn an_overlay_without_a_base_has_a_finding() {
     );
 }
 
-/// The text of the editor counts, before it is saved.
+/// The overlay is checked with the text in the editor, which may not be saved yet.
 #[test]
 fn an_overlay_is_checked_with_the_unsaved_text_of_its_base() {
     let mut files = Files::default();

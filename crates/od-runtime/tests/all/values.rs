@@ -99,7 +99,7 @@ fn reals_of_both_lengths_have_their_limits() {
         (-1e30, TOO_LOW),
         (f32::INFINITY, TOO_HIGH),
         (f32::NEG_INFINITY, TOO_LOW),
-        // What is not a number is not between the limits.
+        // NaN is not between the limits.
         (f32::NAN, NOT_ALLOWED),
         (-f32::NAN, NOT_ALLOWED),
     ] {

@@ -21,7 +21,7 @@ impl Bus {
     ///
     /// # Errors
     /// A sentence: the list has no slave to boot.
-    pub fn order_master(&mut self, order: &Order) -> Result<(), Refused> {
+    pub(crate) fn order_master(&mut self, order: &Order) -> Result<(), Refused> {
         let now = self.now;
         let master = self.master.get_or_insert_default();
         master.order(now, order)?;

@@ -254,7 +254,7 @@ impl Behaviour {
         if value.len() <= room(&entry) {
             cx.store.put(&entry, &value)?;
         } else {
-            // What 1010h saves is the default.
+            // A value that 1010h saves begins with its default.
             cx.store.reset_entry(&entry);
             self.long().values.push((address, value));
         }

@@ -16,7 +16,7 @@ use crate::words::fold;
 impl VirtualDevice {
     /// Makes it the description of a node of a real bus, with the values of its file.
     #[must_use]
-    pub fn describing(mut self) -> Self {
+    pub(crate) fn describing(mut self) -> Self {
         // Power makes room for the values.
         self.node.power_on(Instant::ZERO);
         self.node.power_off();

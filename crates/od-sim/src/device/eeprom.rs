@@ -33,7 +33,7 @@ impl Clone for Keeper {
             Self::Lent(storage) => {
                 let mut storage = storage.borrow_mut();
                 let mut bytes = vec![0xFF; storage.capacity()];
-                // What cannot be read is erased in the copy.
+                // Bytes that cannot be read are erased in the copy.
                 if storage.read(0, &mut bytes).is_err() {
                     bytes.fill(0xFF);
                 }

@@ -166,7 +166,7 @@ impl VirtualDevice {
 
     /// Sets the device up for this bit rate in kbit/s, as for a bus line: an EEPROM that is empty at
     /// the first start contains it, if the device can save it.
-    pub fn set_up_for(&mut self, rate: Option<u16>) {
+    pub(crate) fn set_up_for(&mut self, rate: Option<u16>) {
         self.wanted_rate = rate;
     }
 
@@ -377,9 +377,9 @@ impl VirtualDevice {
         self.node.is_powered()
     }
 
-    /// Lets time pass until `to`, or until this number of `frames` was sent or an event came, while nothing
-    /// happens to it but that its deadlines come; `now` moves along. Returns whether there may be more to do at the moment that
-    /// it is now. `None`: somebody wants to know of each call, or acts between them.
+    /// Handles the deadlines of the device until `to`, or until it has sent `frames` frames or reports an event; `now`
+    /// becomes that time. Returns whether more deadlines may be due at `now`. `None`: each call has
+    /// to be seen, for example by a recorder.
     pub(crate) fn run(
         &mut self,
         now: &mut Instant,

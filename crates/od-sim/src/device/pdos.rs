@@ -11,7 +11,7 @@ use od_wire::{CobId, Frame, NodeId};
 use crate::device::VirtualDevice;
 
 /// Bits of a PDO at most.
-pub const MOST_BITS: u8 = 64;
+const MOST_BITS: u8 = 64;
 
 /// One PDO of a device.
 #[derive(Clone, PartialEq, Eq, Debug)]

@@ -80,7 +80,7 @@ impl VirtualDevice {
     pub fn image(&mut self) -> Vec<u8> {
         let mut memory = Memory::new(vec![0xFF; self.node.storage.capacity()]);
         let profile = self.profile().store;
-        // What does not fit is lost, as it would be in the device.
+        // Values that do not fit are lost, as they would be in the device.
         let _ = self
             .node
             .look(|_, store| image::save(&mut memory, store, &profile, 1));
@@ -89,7 +89,7 @@ impl VirtualDevice {
 
     /// The bytes that an object would have after a start: what was saved, else the default.
     /// `None` if the object does not exist or is not saved.
-    pub fn saved_bytes(&self, saved: &Saved, address: Address) -> Option<Vec<u8>> {
+    pub(crate) fn saved_bytes(&self, saved: &Saved, address: Address) -> Option<Vec<u8>> {
         let entry = self.dictionary().find(address).ok()?;
         let start = entry.slot.offset as usize;
         let range = start..start + usize::from(entry.slot.len);

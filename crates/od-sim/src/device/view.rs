@@ -37,7 +37,7 @@ impl VirtualDevice {
                     now,
                     signals: &mut Signals::default(),
                 };
-                // What cannot be had now shows as it was.
+                // A value that cannot be refreshed now is shown as it was.
                 let _ = behaviour.refresh(&mut context, address);
             }
             store.bytes(&entry, &mut [0; 8]).to_vec()
@@ -66,7 +66,7 @@ impl VirtualDevice {
     }
 
     /// Does it have the dual LED? A device of an EDS file always has one.
-    pub fn has_leds(&self) -> bool {
+    pub(crate) fn has_leds(&self) -> bool {
         self.has_leds
     }
 

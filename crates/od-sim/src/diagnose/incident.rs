@@ -11,7 +11,7 @@ pub struct Cause {
     pub id: &'static str,
     /// The cause, in one sentence.
     pub text: String,
-    /// What to check first.
+    /// First things to check.
     pub check: String,
 }
 
@@ -30,7 +30,7 @@ impl Cause {
 pub struct Incident {
     /// Name of the rule that found it.
     pub rule: &'static str,
-    /// What happened, in one sentence.
+    /// The incident in one sentence.
     pub text: String,
     /// The nodes that it is about; empty: the whole bus.
     pub nodes: Vec<u8>,

@@ -29,7 +29,7 @@ pub struct Cause {
     pub name: String,
     /// The cause in words.
     pub title: String,
-    /// What proves it and what to do, as Markdown.
+    /// Proof of the cause, and its correction, as Markdown.
     pub proof: String,
     /// The lines that make it on the bench of a case.
     pub fault: Block,

@@ -63,7 +63,7 @@ pub enum Probe {
 /// The result of a probe.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct Reading {
-    /// What was seen, rounded so that two readings differ only if a person sees it. A cause fits a reading if all sights are equal.
+    /// Observations, rounded so that two readings differ only if a person sees it. A cause fits a reading if all are equal.
     pub sights: Vec<Sight>,
     /// Frames and error frames, oldest first.
     pub frames: Vec<LineEvent>,
@@ -123,7 +123,7 @@ impl Probe {
         }
     }
 
-    /// What the learner does, in words.
+    /// Action of the learner, in words.
     pub(super) fn words(&self, nodes: &Nodes, language: Language) -> String {
         let node = self.device().and_then(|device| nodes.get(device));
         let node = node.copied().unwrap_or_default();

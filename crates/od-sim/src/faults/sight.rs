@@ -1,4 +1,4 @@
-//! What a probe shows, rounded so that two readings differ only if a person sees it, with its words in English and German.
+//! Observations of a probe, rounded so that two readings differ only if a person sees it, with words in English and German.
 
 use std::format;
 use std::prelude::v1::*;
@@ -102,7 +102,7 @@ impl Subject {
     }
 }
 
-/// How often frames came.
+/// Rate of frames.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub enum Often {
     /// Once.

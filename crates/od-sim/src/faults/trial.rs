@@ -125,7 +125,7 @@ impl<'c> Trial<'c> {
         }
     }
 
-    /// What each probe shows with a cause: a row of the table that a mark needs. It takes the time of all probes.
+    /// Observations of each probe with a cause: a row of the table that a mark needs. It takes the time of all probes.
     ///
     /// # Errors
     /// The bench cannot be made.
@@ -330,7 +330,7 @@ impl<'c> Trial<'c> {
     }
 }
 
-/// Lets time pass; what comes meanwhile is not part of a reading.
+/// Lets time pass; frames of that time are not part of a reading.
 fn settle(bench: &mut Bench, micros: u64) {
     let end = bench.bus.now().plus_micros(micros);
     bench.bus.advance(end);

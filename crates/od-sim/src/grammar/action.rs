@@ -14,7 +14,7 @@ use super::typed::Write;
 /// Time of a line.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum When {
-    /// When the line before it is done.
+    /// After the line before it is done.
     Next,
     /// At this moment.
     At(Instant),
@@ -22,7 +22,7 @@ pub enum When {
     After(u64),
 }
 
-/// What a line does.
+/// Action of a line.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Action {
     /// An action that a live bench supports, too.
@@ -56,7 +56,7 @@ pub enum Action {
 /// The content of a `random` line.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Draw {
-    /// How often one of the lines is drawn.
+    /// Number of draws among the lines.
     pub(crate) times: u32,
     pub(crate) choices: Vec<Choice>,
 }

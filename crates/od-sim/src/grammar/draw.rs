@@ -131,7 +131,7 @@ fn between(word: &str, low: i128, high: i128, number: Number<'_>) -> Result<i128
 struct Written {
     /// Its digits without the point.
     digits: i128,
-    /// How many of them are behind the point.
+    /// Number of digits behind the point.
     places: usize,
     /// The length of its unit in microseconds, for a duration.
     micros: Option<i128>,

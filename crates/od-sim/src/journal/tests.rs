@@ -340,7 +340,7 @@ fn a_bench_without_its_history_is_the_same() {
     assert_eq!(moved.still().is_none(), channels > 0);
 }
 
-/// What lines of a script did to master and line is part of the bench without its history.
+/// Changes that a script made to the master and the bus line are part of the bench without its history.
 #[cfg(all(feature = "lessons", feature = "training"))]
 #[test]
 fn a_bench_without_its_history_has_the_list_of_the_master_and_the_physics_of_the_line() {

@@ -111,7 +111,7 @@ impl Lesson {
 
 impl Lesson {
     /// The lesson with another built-in device in the place of the first one of its set-up.
-    pub fn with_device(&self, name: &str) -> Self {
+    pub(crate) fn with_device(&self, name: &str) -> Self {
         let mut lesson = self.clone();
         let mut is_first = true;
         let lines = self.set_up.text.lines().map(|line| {

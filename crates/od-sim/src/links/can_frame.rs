@@ -14,8 +14,8 @@ const EXTENDED: u32 = 1 << 31;
 const REMOTE: u32 = 1 << 30;
 const ERROR: u32 = 1 << 29;
 
-/// Returns whether a CAN interface of Linux is up; `None` if the system does not tell. An interface that comes up
-/// later works.
+/// Returns whether a CAN interface of Linux is up; `None` if the system does not say. An interface that comes up
+/// later works, too.
 #[cfg(all(feature = "serve", target_os = "linux"))]
 pub fn is_up(interface: &str) -> Option<bool> {
     const IFF_UP: u32 = 1;

@@ -14,7 +14,7 @@ use super::record::{FD, Record};
 
 const FILE: &[u8] = b"LOGG";
 const OBJECT: &[u8] = b"LOBJ";
-/// Length of the head that all objects have, and of the least head of an event.
+/// Length of the head of any object, and minimum length of the head of an event.
 const HEAD: usize = 16;
 const EVENT_HEAD: usize = 32;
 /// Maximum number of bytes between two objects, for alignment.
@@ -109,7 +109,7 @@ struct Object<'b> {
 /// Objects one after the other.
 struct Objects<'b> {
     bytes: &'b [u8],
-    /// Where the next object begins, or the one that is not complete.
+    /// Position of the next object, or of one that is not complete.
     at: usize,
 }
 

@@ -8,7 +8,7 @@ use od_wire::Instant;
 use super::record::{Entry, FD, Reader, Record, frame, id};
 use super::stamp;
 
-/// What a column contains. A column of another name is ignored.
+/// Content of a column. A column with another name is ignored.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Column {
     Time,

@@ -12,11 +12,11 @@ pub struct Record {
     pub at: Instant,
     /// Sent by the writer of the log (Tx); otherwise received.
     pub sent: bool,
-    /// What was on the bus.
+    /// Frame or error frame.
     pub what: What,
 }
 
-/// What was on the bus.
+/// Frame or error frame on the bus.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum What {
     /// A frame.

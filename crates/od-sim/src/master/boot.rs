@@ -147,7 +147,7 @@ impl Boot {
                 self.is_silent = false;
                 self.read_device_type(client, now);
             }
-            // It reports again without a boot-up message: it was cut off, and nobody knows its configuration.
+            // A heartbeat without a boot-up message: the node was disconnected, and its configuration is unknown.
             Event::Back(node)
                 if *node == self.node
                     && self.standing == Standing::Lost

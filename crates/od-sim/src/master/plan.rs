@@ -43,7 +43,7 @@ pub enum Order {
     Clear(Option<NodeId>),
 }
 
-/// What the list says of one node.
+/// Settings of one node in the list.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Slave {
     /// The node.
@@ -54,7 +54,7 @@ pub struct Slave {
     pub device_type: u32,
     /// Expected vendor-ID, product code, revision number and serial number (1F85h to 1F88h); 0: any.
     pub identity: [u32; 4],
-    /// What is written to it, in this order (1F22h).
+    /// Values to write to it, in this order (1F22h).
     pub downloads: Vec<Download>,
     /// Heartbeat consumer time in microseconds (1016h); 0: it is not watched.
     pub heartbeat: u64,
@@ -82,7 +82,7 @@ impl Default for Plan {
 }
 
 impl Plan {
-    /// What the list says of a node.
+    /// Settings of a node in the list.
     pub fn slave(&self, node: NodeId) -> Option<&Slave> {
         self.slaves.iter().find(|slave| slave.node == node)
     }

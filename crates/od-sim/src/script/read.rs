@@ -15,9 +15,9 @@ pub struct Statement {
     pub line: u32,
     /// The line without its comment.
     pub text: String,
-    /// When it acts.
+    /// Time of the action.
     pub when: When,
-    /// What it does.
+    /// The action.
     pub action: Action,
 }
 

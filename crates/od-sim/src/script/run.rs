@@ -40,7 +40,7 @@ pub(super) fn failed<T>(expected: impl Into<String>, got: impl Into<String>) -> 
     })
 }
 
-/// How far a script has come. With the bench it is all that the next line depends on.
+/// Progress of a script. The next line depends only on it and on the bench.
 #[derive(Clone)]
 pub(super) struct Place {
     /// Frames of the devices that no line has expected yet.

@@ -16,7 +16,7 @@ const LONGEST: u64 = 20_000;
 pub(super) struct Placed {
     /// Moments with the distance from the first position.
     ways: VecDeque<(Instant, Angle)>,
-    /// How long positions are remembered, in microseconds.
+    /// Time for which positions are remembered, in microseconds.
     interval: u32,
 }
 

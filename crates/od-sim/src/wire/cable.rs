@@ -12,13 +12,13 @@ use super::bits;
 /// Time quanta of a bit (CiA 301, bit rates and timing: 16 at 500 kbit/s and less).
 pub const QUANTA: u16 = 16;
 /// Sample point that CiA 301 recommends at 500 kbit/s and less, in thousandths of a bit.
-pub const SAMPLE_POINT: u16 = 875;
+const SAMPLE_POINT: u16 = 875;
 /// Highest synchronisation jump width in time quanta (ISO 11898-1).
-pub const MOST_JUMP: u8 = 4;
+pub(crate) const MOST_JUMP: u8 = 4;
 /// Limit of the length in metres; that of the table of CiA 301 is 5000 m at 10 kbit/s.
 pub const LONGEST: u16 = 6000;
 /// Limit of the deviation of a clock in millionths.
-pub const MOST_DEVIATION: i32 = 50_000;
+const MOST_DEVIATION: i32 = 50_000;
 
 /// Propagation delay of a line in nanoseconds per metre (CiA 301, bit rates and timing, note 1).
 const PER_METRE: u64 = 5;
@@ -88,7 +88,7 @@ impl Default for Cable {
 
 /// Delay of a station from its receiver to its transmitter in nanoseconds, at a bit rate in kbit/s. CiA 301 (bit rates and
 /// timing, note 1) assumes these values; those below 800 kbit/s contain opto-couplers.
-pub fn station_delay(kbit: u16) -> u64 {
+fn station_delay(kbit: u16) -> u64 {
     match kbit {
         800.. => 210,
         250.. => 300,
@@ -329,7 +329,7 @@ mod tests {
         assert!(narrow.first_wrong(&frame, 16_000).is_some());
         assert_eq!(wide.first_wrong(&frame, 16_000), None);
         assert!(wide.tolerance() > narrow.tolerance());
-        // What it costs: a shorter line.
+        // The price is a shorter line.
         assert!(wide.longest(500) < narrow.longest(500));
     }
 

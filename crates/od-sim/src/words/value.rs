@@ -43,7 +43,7 @@ pub(super) fn show_mapped(
     }
 }
 
-/// What a number says in the documents of CiA; only with the tables of `od-eds`.
+/// Meaning of a number in the documents of CiA; only with the tables of `od-eds`.
 fn documented(
     device: &VirtualDevice,
     address: Address,

@@ -13,13 +13,13 @@ use crate::link::Heard;
 
 /// Time limit for a response, in microseconds.
 pub(crate) const ANSWER: u64 = 1_000_000;
-/// How long to watch for a forbidden frame.
+/// Time to watch for a forbidden frame.
 pub(crate) const QUIET: u64 = 100_000;
 /// Time limit from a reset to the boot-up message.
 const BOOT: u64 = 10_000_000;
 /// Time limit for an NMT command.
 const SETTLE: u64 = 20_000;
-/// How long a frame may take from the bus to the test: some serial adapters keep bytes for 16 ms.
+/// Maximum time of a frame from the bus to the test: some serial adapters keep bytes for 16 ms.
 const TRANSPORT: u64 = 20_000;
 
 /// The node under test, while a case is run.

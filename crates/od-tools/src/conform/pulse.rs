@@ -1,4 +1,4 @@
-//! How late this computer lets a waiting program run.
+//! Delay with which this computer resumes a waiting program.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};

@@ -31,7 +31,7 @@ pub trait Rig: Link {
         0
     }
 
-    /// How late this computer let a waiting program run since the last call, in microseconds; 0 in virtual time.
+    /// Longest delay with which this computer resumed a waiting program since the last call, in microseconds; 0 in virtual time.
     fn host_late(&self) -> u64 {
         0
     }

@@ -56,14 +56,14 @@ impl Leave {
     };
 }
 
-/// How far a failure is evidence against the node.
+/// Weight of a failure as evidence against the node.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Trust {
     /// It is.
     Full,
     /// A slave on the same computer may have been late; a second failure is evidence.
     Unconfirmed,
-    /// The test itself was late by so many microseconds.
+    /// The test itself was late, by this number of microseconds.
     Late(u64),
 }
 

@@ -12,7 +12,7 @@ const DRIFT: i64 = 200;
 pub(super) struct Stamp {
     /// Microseconds.
     pub(super) micros: u64,
-    /// The clock begins again at 0 after so many microseconds; 0 if it does not.
+    /// Number of microseconds after which the clock begins again at 0; 0: it does not.
     pub(super) period: u64,
 }
 
@@ -26,7 +26,7 @@ pub(super) struct Stamps {
 }
 
 impl Stamps {
-    /// When the frame was on the bus, by the clock of the link. It arrived at `now`.
+    /// Time of the frame on the bus, by the clock of the link. It arrived at `now`.
     pub(super) fn place(&mut self, now: Instant, stamp: Stamp) -> Instant {
         let arrival = signed(now.as_micros());
         let (micros, period) = (signed(stamp.micros), signed(stamp.period));

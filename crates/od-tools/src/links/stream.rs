@@ -12,9 +12,9 @@ use crate::link::{Heard, Link};
 
 /// Maximum time to wait for the first responses of the server.
 const OPENING: Duration = Duration::from_secs(2);
-/// How long the other side may accept no byte.
+/// Time after which a link whose other side accepts no byte is lost.
 const WRITE: Duration = Duration::from_secs(2);
-/// How long the end of a link waits until its last bytes are accepted, and then until the other side closes it.
+/// Time that a link that is closed waits for its last bytes to be accepted, and then for the other side to close it.
 const LAST: Duration = Duration::from_millis(50);
 /// Limit of bytes without the end of a line or command.
 const LONGEST: usize = 256;
@@ -53,7 +53,7 @@ pub(super) trait Protocol {
     /// Removes a complete message from the front of `bytes`; `None` if it is incomplete.
     ///
     /// # Errors
-    /// Why the message cannot be read.
+    /// Reason why the message cannot be read.
     fn take(&mut self, bytes: &mut Vec<u8>) -> Result<Option<Said>, String>;
 
     /// Adds the bytes that send a frame.
@@ -80,7 +80,7 @@ pub(super) struct Stream<P: Port, S: Protocol> {
     rest: Vec<u8>,
     /// Bytes that the other side has not accepted yet.
     unsent: Vec<u8>,
-    /// When the link is lost if it still accepts none.
+    /// Time when the link is lost if it still accepts none.
     patience: Instant,
     /// Frames that arrived while the bus was being opened.
     early: VecDeque<Heard>,

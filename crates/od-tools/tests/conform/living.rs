@@ -137,7 +137,7 @@ struct Busy {
     longest: u64,
     /// Longest delay since the last look, as a thread beside the test would measure it.
     late: Cell<u64>,
-    /// What is received instead of a frame of the node; `None` if the frame is lost.
+    /// Frame that is received instead of one of the node; `None` if it is lost.
     spoiled: fn(Frame) -> Option<Frame>,
 }
 

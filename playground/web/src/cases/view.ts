@@ -56,7 +56,7 @@ class FaultCases extends View {
   declare note: string;
   declare isBusy: boolean;
   declare isCopied: boolean;
-  /** What is shown: case, seed and language. */
+  /** The case on show, with its seed and language. */
   private shown = '';
 
   constructor() {

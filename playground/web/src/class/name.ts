@@ -12,7 +12,7 @@ await sheet('dialogs');
 
 export type Refused = 'name' | 'taken' | 'full' | 'unreachable';
 
-/** What the dialog does. */
+/** Purpose of the dialog. */
 interface Deeds {
   /** Joins the class; the reason if that is refused. */
   join(name: string): Promise<Refused | null>;

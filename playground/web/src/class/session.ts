@@ -103,7 +103,7 @@ async function offer(number: number, name: string): Promise<void> {
   state.offers.value = [...others, { key: 'class', text: C.student.offer(one ? words(one).title : name), action: C.student.open, run: () => void openNamed(name) }];
 }
 
-/** What the class answered to a report. */
+/** Answer of the class to a report. */
 async function heard(response: Response): Promise<void> {
   const answer = (await response.json()) as { offer?: { number: number; lesson: string } | null; why?: 'reset' | 'removed' | 'unknown' };
   if (answer.why === 'reset') return leave();

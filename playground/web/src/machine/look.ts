@@ -1,4 +1,4 @@
-// What a view of a machine looks at: objects and connections of the selected device, some times a second.
+// Reads the objects and connections of the selected device that a view of a machine shows, some times a second.
 
 import { signal } from '@preact/signals-core';
 import type { Address, Pin, Snapshot, Value } from '../sim/api';

@@ -12,7 +12,7 @@ import { View } from '../views/view';
 import './style';
 import { S } from './texts';
 
-/** What was found: the number of the first frame, the number of frames, and the faults. */
+/** A diagnosis: the number of the first frame, the number of frames, and the faults. */
 interface Found {
   first: number;
   count: number;

@@ -48,7 +48,7 @@ class NodeList extends View {
     return beside.value?.isShown ? (ring.get(ring.end - 1)?.time ?? 0) : state.now.peek();
   }
 
-  /** What is known of the device: that of the bench with this node ID, or its device profile. */
+  /** The device of the bench with this node ID, or the device profile that 1000h names. */
   private device(one: Seen) {
     const at = beside.value?.isShown ? -1 : state.statuses.peek().findIndex(({ nodeId }) => nodeId === one.node);
     const device = state.devices.peek()[at];

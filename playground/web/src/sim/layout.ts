@@ -9,7 +9,7 @@ export const REMOTE = 2;
 export const FROM_PAGE = 4;
 export const DISTURBED = 8;
 
-/** Where its parts begin; numbers are little endian. */
+/** Offsets of its parts; numbers are little endian. */
 export const AT = {
   time: 0,
   id: 8,
@@ -22,7 +22,7 @@ export const AT = {
 /** Numbers of each frame in `tags`; of the first a mask for its parts, and the bits below the node ID and the object. */
 export const TAG = { length: 2, mask: 255, node: 8, object: 16 } as const;
 
-/** What `frameBits` says of a bit, and the numbers of two of its parts. */
+/** Codes of `frameBits` for a bit, and the numbers of two parts of a frame. */
 export const BIT = {
   recessive: 128,
   stuffed: 64,

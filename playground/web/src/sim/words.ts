@@ -92,7 +92,7 @@ async function ask(numbers: number[]): Promise<void> {
   wordsArrived.value += 1;
 }
 
-/** What a controller sees of a failed attempt to send a frame. The cause is for the free bench: in a lesson it is the question. */
+/** Error that a controller sees in a failed attempt to send a frame. Its cause is named on the free bench only: in a lesson it is the question. */
 export function troubleWords({ data }: Packed): string {
   const [why = 0, busOff = 0, low = 0, high = 0, ...attempts] = data;
   if (why === 0) return T.trouble.unknown;

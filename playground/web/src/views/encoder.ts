@@ -24,7 +24,7 @@ function profile(): number {
 
 type Part = keyof typeof T.encoder.tabs;
 
-/** What the selected device is, by its profile. */
+/** Kind of the selected device, by its profile. */
 export const deviceWord = (): string => T.encoder.titles[profile()] ?? T.encoder.title;
 
 class Encoder extends View {

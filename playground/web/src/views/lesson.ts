@@ -133,7 +133,7 @@ class LessonPanel extends View {
     this.hints = hints;
   }
 
-  /** What a lesson in another language offers. */
+  /** Offer of the lesson in another language. */
   private foreign(lesson: Lesson, shown: number) {
     if (lesson.language === language()) return nothing;
     const t = D.lessons;
@@ -182,7 +182,7 @@ class LessonPanel extends View {
     // The reason comes first; the rest can be opened if the window is low.
     const [why, ...more] = lesson.intro.trim().split(/\n\s*\n/);
     const isFirst = shown === 0 && why !== undefined && why !== '' && !isDone;
-    // What to do comes first where a lab or a low window leaves little room.
+    // The instructions come first if a lab or a low window leaves little room.
     const isTight = isLow() || (labsOf(lesson).length > 0 && window.innerHeight < TALL && window.innerWidth >= WIDE);
     const recall = this.recall ? html`<details class="recall"><summary>${t.recall(this.recall.title)}</summary><od-quiz .quiz=${this.recall}></od-quiz></details>` : nothing;
     const { name } = state.lessonRun.value;

@@ -230,7 +230,7 @@ function isChanged(object: ObjectRecord, live: Value): boolean {
   return object.access.startsWith('rw') && object.default !== null && live !== null && !sameValue(live, object.default);
 }
 
-/** Where a changed value is: only in RAM, saved as well, or not saved by this device. */
+/** Memory of a changed value: RAM only, saved as well, or not saved by this device. */
 function markOf(object: ObjectRecord, live: Value): '' | 'ram' | 'eeprom' | 'set' {
   if (state.unsaved.peek().has(state.keyOf(object.index, object.sub))) return 'ram';
   if (!isChanged(object, live)) return '';

@@ -45,7 +45,7 @@ fn each_sub_index_has_its_handle() {
     }
     let third = device::samples::THIRD;
     assert_eq!(samples.at(3).unwrap().slot(), third.slot());
-    // Where they are not all alike, each has a constant.
+    // If they are not all alike, each has a constant.
     assert_eq!(device::other::samples::SAMPLE_02.address().sub, 2);
     assert_eq!(device::other::samples::SAMPLE_42.address().sub, 0x42);
 }

@@ -78,7 +78,7 @@ pub(super) fn boards(context: &Context<'_>) -> Result<()> {
             target::add(repo, console, name)?;
             let firmware = workspace.join("firmware");
             if context.long {
-                // What a firmware engineer would see as a warning.
+                // Warnings that a firmware engineer would see.
                 let mut check = cargo(&firmware, &["clippy", "--release", "--target"]);
                 check.arg(name).arg("--target-dir").arg(&repo.target);
                 check.args(["--", "-D", "warnings"]);

@@ -10,7 +10,7 @@ use crate::setup::installed::{self, Package};
 use crate::setup::{python, toolchain};
 use crate::test::context::Context;
 
-/// What checks advisories, licences and sources; `.cargo/deny.toml` has the settings.
+/// Program that checks advisories, licences and sources; `.cargo/deny.toml` has the settings.
 const DENY: Package = Package {
     name: "cargo-deny",
     version: "0.20.2",
@@ -63,7 +63,7 @@ pub(super) fn minimal(context: &Context<'_>) -> Result<()> {
     console.run("what is published, with them", &mut check)
 }
 
-/// Where cargo-deny gets the advisories from.
+/// Database of the advisories for cargo-deny.
 const ADVISORIES: &str = "https://github.com/rustsec/advisory-db";
 
 /// Licences and sources of all dependencies, and advisories about them where these can be fetched.

@@ -15,7 +15,7 @@ use crate::subject::{Entry, Object, start_value};
 /// The bit for a 29-bit identifier.
 const EXTENDED: u32 = 1 << 29;
 
-/// What a device does with a CAN-ID.
+/// Direction of the frames with a CAN-ID, seen from the device.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Direction {
     Sends,
@@ -134,7 +134,7 @@ impl CobId<'_> {
         matches!(self.service, Service::Rpdo | Service::Tpdo)
     }
 
-    /// What the device does with the CAN-ID.
+    /// Returns whether the device sends the CAN-ID, receives it, or both.
     pub(super) const fn direction(&self) -> Direction {
         match (self.service, self.entry.address.sub) {
             (Service::Sync | Service::Time, _) => Direction::Both,

@@ -42,7 +42,8 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
 }
 
 /// Returns whether the object is a RECORD that the standard specifies as an ARRAY, or an ARRAY that it specifies as a
-/// RECORD; a mapping and 1026h are lists of equal values as well. A tool that reads an ARRAY by the description of sub-index 1 reads other sub-objects.
+/// RECORD. A mapping and 1026h are lists of equal values, so both codes fit. A tool that uses the description of
+/// sub-index 1 for a whole ARRAY reads wrong sub-objects.
 fn is_other_list(object: &Object<'_>, standard: &Standard) -> bool {
     let own = *object.code;
     let is_list = object.index == 0x1026 || matches!(standard.members, Members::Record([]));

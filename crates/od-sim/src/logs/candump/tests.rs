@@ -54,7 +54,7 @@ fn the_three_forms_read_the_same() {
     check("can0 181#0102030405060708_F", "181#0102030405060708");
 }
 
-/// What other options and a terminal add to a log.
+/// Columns that other options add to a log, and escape sequences of a terminal.
 #[test]
 fn a_log_may_have_other_lines() {
     let text = "```\n\u{1b}[31m  can0  701   [1]  00\u{1b}[0m\n\

@@ -454,7 +454,7 @@ pub(super) fn life_guarding_reset(dut: &mut Dut<'_>) -> Checked {
     }
 }
 
-/// When requests come again, 1001h has the value from before the error.
+/// After guarding requests resume, 1001h has the value from before the error.
 pub(super) fn life_guarding_ends(dut: &mut Dut<'_>) -> Checked {
     sends_emcy(dut)?;
     without_heartbeat(dut)?;

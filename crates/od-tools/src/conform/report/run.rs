@@ -7,7 +7,7 @@ use od_wire::{Instant, NodeId};
 use crate::conform::official::numbers;
 use crate::conform::record::{Record, Times, Traced, Verdict, percentile};
 
-/// Where, when, by whom and with what the test was run.
+/// Place, time, tester and equipment of the test.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct About {
     /// Date and time, UTC.
@@ -31,7 +31,7 @@ pub struct About {
 /// A run of the conformance test.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Report {
-    /// Where, when, by whom and with what.
+    /// Place, time, tester and equipment.
     pub about: About,
     /// The device, as the EDS names it.
     pub device: String,

@@ -1,4 +1,4 @@
-// What the module says, in German: words of frames, refusals and notices. Names of objects and values stay as they are.
+// Texts of the WebAssembly module in German: words of frames, refusals and notices. Names of objects and values stay English.
 
 /** Texts of the SDO abort codes (CiA 301, table 22). */
 const ABORTS: Record<string, string> = {
@@ -69,7 +69,7 @@ const LSS: Record<string, string> = {
 
 const commands = Object.keys(LSS).sort((a, b) => b.length - a.length).join('|');
 
-/** What follows the name of an LSS command. */
+/** Words after the name of an LSS command. */
 const lssRest = (rest: string): string =>
   rest
     .replace(/^ (\d+)$/, ': $1')
@@ -79,7 +79,7 @@ const lssRest = (rest: string): string =>
     .replace(/^, delay (.*)$/, ', Verzögerung $1')
     .replace(/^: (\d+) bytes?, but an LSS message has 8 (.*)$/, ': $1 Bytes, aber eine LSS-Nachricht hat 8 $2');
 
-/** What follows the node, from the whole text to its parts; the first that fits is taken. `$1` is what stays. */
+/** Words after the node, from the whole text to its parts; the first match applies. `$1` stays as it is. */
 const WORDS: [RegExp, string | ((...parts: string[]) => string)][] = [
   [/^(start|stop|enter Pre-operational|reset node|reset communication) node (\d+)$/, '$1, Knoten $2'],
   [/^boot-up$/, 'Boot-up'],
