@@ -131,6 +131,12 @@ fn time_grows_with_the_length_of_a_text() {
             format!("<CANopenObject index=\"{index:04X}\" name=\"é\" objectType=\"7\"/>")
         })
         .collect();
+    let references: String = (0..30_000)
+        .map(|n| {
+            let index = 0x2000 + n % 0x8000;
+            format!("<CANopenObject index=\"{index:04X}\" objectType=\"7\" uniqueIDRef=\"P{n}\"/>")
+        })
+        .collect();
     let object = |n: usize| format!("[{:04X}]\nParameterName=a", 0x1000 + n % 0xF000);
     let sub = |n: usize| format!("[{:04X}sub{:X}]\nDataType=7", 0x2000 + n / 250, n % 250);
     for (name, text, code) in [
@@ -140,6 +146,11 @@ fn time_grows_with_the_length_of_a_text() {
             "300,000 elements inside each other",
             "<a>".repeat(300_000),
             "E0119",
+        ),
+        (
+            "30,000 references to nothing",
+            format!("<a>{references}</a>"),
+            "E0115",
         ),
         ("objects in one line", format!("<a>{one_line}</a>"), "E0401"),
         ("a value of 5 MB", long("DefaultValue="), "E0119"),

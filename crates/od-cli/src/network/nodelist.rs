@@ -1,5 +1,7 @@
 //! `nodelist.cpj`: the networks of a project and the DCF of each node (CiA 306-3).
 
+use std::collections::BTreeMap;
+
 use ini::{Ini, ParseOption, Properties};
 use od_eds::network::{Node, saved};
 use od_eds::{Description, network};
@@ -35,27 +37,32 @@ pub(super) fn read(
     }
 }
 
-/// The value of a key, ignoring case.
-fn get<'a>(keys: &'a Properties, wanted: &str) -> Option<&'a str> {
-    let mut keys = keys.iter();
-    let found =
-        keys.find(|(key, value)| key.eq_ignore_ascii_case(wanted) && !value.trim().is_empty());
-    found.map(|(_, value)| value.trim())
+/// The values that are not empty, by their keys in small letters; of equal keys the first counts.
+fn values(keys: &Properties) -> BTreeMap<String, &str> {
+    let mut values = BTreeMap::new();
+    for (key, value) in keys.iter().filter(|(_, value)| !value.trim().is_empty()) {
+        values
+            .entry(key.to_ascii_lowercase())
+            .or_insert(value.trim());
+    }
+    values
 }
 
 fn topology(
     keys: &Properties,
     load: &dyn Fn(&str) -> Result<Description, String>,
 ) -> Result<Network, String> {
+    let values = values(keys);
+    let get = |key: &str| values.get(&key.to_ascii_lowercase()).copied();
     let mut network = Network {
-        name: get(keys, "NetName").unwrap_or_default().into(),
+        name: get("NetName").unwrap_or_default().into(),
         ..Network::default()
     };
     for id in 1..=127_u8 {
         // The number is decimal; some tools write hexadecimal digits.
         let key = |what: &str| {
-            let decimal = get(keys, &format!("Node{id}{what}"));
-            decimal.or_else(|| get(keys, &format!("Node0x{id:02X}{what}")))
+            let decimal = get(&format!("Node{id}{what}"));
+            decimal.or_else(|| get(&format!("Node0x{id:02X}{what}")))
         };
         let is_present = key("Present").and_then(od_model::values::integer);
         let Some(path) = key("DCFName").filter(|_| is_present != Some(0)) else {

@@ -180,7 +180,7 @@ impl Tree {
 /// A mapping from alternating keys and values: of equal keys the last counts, and `<<` adds missing
 /// entries of other mappings.
 fn map(values: Vec<Yaml>) -> Result<Yaml, String> {
-    let mut entries: Vec<(Yaml, Yaml)> = Vec::new();
+    let mut entries = Entries::default();
     let mut merged = Vec::new();
     let mut values = values.into_iter();
     while let (Some(key), Some(value)) = (values.next(), values.next()) {
@@ -192,26 +192,51 @@ fn map(values: Vec<Yaml>) -> Result<Yaml, String> {
                 }
                 _ => return Err("`<<` needs a mapping".into()),
             }
-        } else if let Some((_, old)) = entries.iter_mut().find(|(own, _)| *own == key) {
-            *old = value;
         } else {
-            entries.push((key, value));
+            *entries.of(key) = value;
         }
     }
     // Merged entries come first, as in PyYAML.
     let own = std::mem::take(&mut entries);
     for (key, value) in merged {
-        if !entries.iter().any(|(known, _)| *known == key) {
-            entries.push((key, value));
+        if !entries.has(&key) {
+            *entries.of(key) = value;
         }
     }
-    for (key, value) in own {
-        match entries.iter_mut().find(|(known, _)| *known == key) {
-            Some((_, old)) => *old = value,
-            None => entries.push((key, value)),
-        }
+    for (key, value) in own.all {
+        *entries.of(key) = value;
     }
-    Ok(Yaml::Map(entries))
+    Ok(Yaml::Map(entries.all))
+}
+
+/// The entries of a mapping, with the place of each key, so that a long mapping takes no longer for an entry.
+#[derive(Default)]
+struct Entries {
+    all: Vec<(Yaml, Yaml)>,
+    places: BTreeMap<String, usize>,
+}
+
+impl Entries {
+    /// The text of a key by which it is found: equal keys have equal texts.
+    fn name(key: &Yaml) -> String {
+        format!("{key:?}")
+    }
+
+    fn has(&self, key: &Yaml) -> bool {
+        self.places.contains_key(&Self::name(key))
+    }
+
+    /// The value of a key, which is added if it is new.
+    fn of(&mut self, key: Yaml) -> &mut Yaml {
+        let place = *self
+            .places
+            .entry(Self::name(&key))
+            .or_insert(self.all.len());
+        if place == self.all.len() {
+            self.all.push((key, Yaml::Null));
+        }
+        &mut self.all[place].1
+    }
 }
 
 /// A plain scalar by the rules of YAML 1.1.

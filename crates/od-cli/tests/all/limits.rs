@@ -83,3 +83,36 @@ fn a_file_that_is_too_large_has_a_finding_and_an_end() {
         std::fs::remove_file(Path::new(&path)).expect("the file of this test");
     }
 }
+
+/// Projects and node lists with more keys, deeper lists and longer lines than any network has.
+#[test]
+fn a_project_that_is_too_large_has_an_end() {
+    let lines = |count: usize, line: &dyn Fn(usize) -> String| -> String {
+        (0..count).map(|n| line(n) + "\n").collect()
+    };
+    let repeated = lines(60, &|n| {
+        let before = n.saturating_sub(1);
+        match n {
+            0 => "a0: &a0 [x, x]".into(),
+            _ => format!("a{n}: &a{n} [*a{before}, *a{before}]"),
+        }
+    });
+    for (name, content, exit) in [
+        ("keys.yml", lines(49_000, &|n| format!("key{n}: {n}")), 1),
+        ("values.yml", lines(60_000, &|n| format!("key{n}: {n}")), 1),
+        ("deep.yml", "[".repeat(200_000), 1),
+        ("dashes.yml", "- ".repeat(20_000) + "a", 1),
+        ("line.yml", format!("a: {}", "z".repeat(2_000_000)), 1),
+        ("aliases.yml", repeated, 1),
+        (
+            "list.cpj",
+            String::from("[Topology]\n") + &lines(300_000, &|n| format!("Node{n}Name=a")),
+            0,
+        ),
+    ] {
+        let path = file(&format!("limits-{name}"), &content);
+        let (code, text) = limited(&["network", &path.display().to_string()]);
+        assert_eq!(code, exit, "{name}: {text}");
+        std::fs::remove_file(path).expect("the file of this test");
+    }
+}

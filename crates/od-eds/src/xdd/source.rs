@@ -17,8 +17,8 @@ pub(super) struct Reader<'a> {
     pub(super) log: Log,
 }
 
-/// Bytes of text between two known numbers of characters.
-const STEP: usize = 1024;
+/// Bytes of text between two known numbers of characters. Each place counts the characters of at most so many bytes.
+const STEP: usize = 64;
 
 /// Lines and columns of bytes.
 pub(super) struct Places<'a> {

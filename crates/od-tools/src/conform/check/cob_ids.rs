@@ -339,11 +339,13 @@ fn refuse_restricted(dut: &mut Dut<'_>, index: u16) -> Checked<bool> {
     Ok(true)
 }
 
-/// COB-IDs of PDO, EMCY, SYNC and TIME refuse restricted CAN-IDs.
+/// COB-IDs of PDO, EMCY, further SDO servers, SYNC and TIME refuse restricted CAN-IDs.
 pub(super) fn restricted(dut: &mut Dut<'_>) -> Checked {
     learn_sync(dut)?;
     let mut any = refuse_restricted(dut, 0x1005)? | refuse_restricted(dut, 0x1012)?;
-    let all = with_bit_31(dut);
+    let servers = (0x1201..=0x127F).flat_map(|index| [1, 2].map(|sub| Address::new(index, sub)));
+    let servers = servers.filter(|address| dut.eds.writes(address.index, address.sub));
+    let all: Vec<_> = with_bit_31(dut).into_iter().chain(servers).collect();
     for address in all {
         let before = dut.keep(address)?;
         let off = number(&before) as u32 | 1 << 31;

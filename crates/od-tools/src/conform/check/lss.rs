@@ -45,9 +45,18 @@ fn answers(dut: &mut Dut<'_>, request: Request, wanted: &[u8]) -> Checked {
     match ask(dut, request)? {
         Some(answer) => {
             let got = format!("{} came", values::hex(&answer));
-            ensure(answer.starts_with(wanted), shown, got)
+            ensure(answer.starts_with(wanted), &*shown, got)?;
+            one(dut, &shown)
         }
         None => fail(shown, "none came"),
+    }
+}
+
+/// Fails if a second response follows the one that is shown.
+fn one(dut: &mut Dut<'_>, shown: &str) -> Checked {
+    match dut.next(10_000, |frame| is_data(frame, SLAVE))? {
+        Some(heard) => fail(format!("one {shown}"), format!("{} came, too", heard.frame)),
+        None => Ok(()),
     }
 }
 
@@ -298,7 +307,7 @@ pub(super) fn store(dut: &mut Dut<'_>) -> Checked {
         dut.send(Frame::standard(MASTER, &Request::Store.emit()))?;
         match dut.next(2_000_000, |frame| is_data(frame, SLAVE))? {
             Some(heard) => match heard.frame.data() {
-                [0x17, 0, _, 0, 0, 0, 0, 0] => Ok(()),
+                [0x17, 0, _, 0, 0, 0, 0, 0] => one(dut, "LSS response 17 00"),
                 [0x17, 0, ..] => fail(
                     "0 in the reserved bytes 3 to 7 of the LSS response 17h",
                     format!("{} came", heard.frame),
@@ -309,6 +318,17 @@ pub(super) fn store(dut: &mut Dut<'_>) -> Checked {
             None => fail("LSS response 17 00 within 2 s", "none came"),
         }
     })
+}
+
+/// Switch state global to the configuration state has no response.
+pub(super) fn global_silent(dut: &mut Dut<'_>) -> Checked {
+    begin(dut)?;
+    let request = Request::SwitchGlobal {
+        configuration: true,
+    };
+    let done = stays_silent(dut, request.emit(), "as it is for all slaves");
+    waiting(dut)?;
+    done
 }
 
 /// The slave leaves the configuration state without a response and without a boot-up message.
@@ -590,6 +610,12 @@ fn scan(dut: &mut Dut<'_>, all: [u32; 4]) -> Checked {
                 next: part,
             };
             let came = ask(dut, request)?;
+            if let Some(answer) = came.filter(|answer| answer[1..] != [0; 7]) {
+                return fail(
+                    "LSS response 4F with 0 in bytes 1 to 7",
+                    format!("{} came", values::hex(&answer)),
+                );
+            }
             let wanted = number >> bit & 1 == 0;
             if came.is_some() != wanted {
                 let word = |yes| if yes { "a response" } else { "no response" };

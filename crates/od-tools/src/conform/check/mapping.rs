@@ -382,6 +382,23 @@ pub(super) fn dummy(dut: &mut Dut<'_>) -> Checked {
 /// A mapping entry for a dummy of 8 bits.
 pub(super) const DUMMY: u32 = 0x0005_0008;
 
+/// The mappings of the other TPDOs: number of objects and first entry.
+fn others(dut: &mut Dut<'_>, map: u16) -> Checked<Vec<(Address, Vec<u8>)>> {
+    let mut all = Vec::new();
+    for pdo in dut.eds.pdos(0x1800) {
+        for sub in [0, 1] {
+            let address = Address::new(0x1A00 + pdo, sub);
+            if address.index != map
+                && dut.eds.entry(address.index, sub).is_some()
+                && let Ok(bytes) = dut.upload(address)?
+            {
+                all.push((address, bytes));
+            }
+        }
+    }
+    Ok(all)
+}
+
 /// A TPDO contains the objects of a new mapping.
 pub(super) fn sent(dut: &mut Dut<'_>) -> Checked {
     let pdo = timed(dut, 50)?;
@@ -401,6 +418,7 @@ pub(super) fn sent(dut: &mut Dut<'_>) -> Checked {
     let cob_id = pdo.cob_id;
     let com = pdo.address(1);
     on(dut, pdo, |dut, map| {
+        let neighbours = others(dut, map)?;
         if dut
             .download(Address::new(map, 1), &entry.to_le_bytes())?
             .is_err()
@@ -408,6 +426,13 @@ pub(super) fn sent(dut: &mut Dut<'_>) -> Checked {
             return lacks(format!("the node does not map {address} alone"));
         }
         dut.write(Address::new(map, 0), &[1])?;
+        for ((other, was), (_, is)) in neighbours.iter().zip(others(dut, map)?) {
+            ensure(
+                *was == is,
+                format!("{other} = {} still", values::hex(was)),
+                format!("{} was read after a write of {map:04X}h", values::hex(&is)),
+            )?;
+        }
         dut.write(com, &cob_id.to_le_bytes())?;
         dut.nmt(Command::Start)?;
         let before = dut.upload(address)?;

@@ -87,6 +87,12 @@ fn boots_first(dut: &mut Dut<'_>) -> Checked {
 /// From boot-up to the first start the node sends heartbeats, SYNC if it produces it, and responses.
 pub(super) fn silent_before_start(dut: &mut Dut<'_>) -> Checked {
     transmit::learn_sync(dut)?;
+    silent_after(dut, Command::ResetNode)?;
+    silent_after(dut, Command::ResetCommunication)
+}
+
+/// Fails if the node sends a PDO, or an EMCY message without an error, between this reset and the next start.
+fn silent_after(dut: &mut Dut<'_>, reset: Command) -> Checked {
     let mut ids = vec![
         CanId::standard(dut.id(0x80)),
         CanId::standard(dut.id(0x580)),
@@ -101,7 +107,7 @@ pub(super) fn silent_before_start(dut: &mut Dut<'_>) -> Checked {
     }
     dut.drain()?;
     let (boot, node) = (dut.id(0x700), dut.node.raw());
-    dut.send(Frame::standard(0, &[0x81, node]))?;
+    dut.send(Frame::standard(0, &[reset as u8, node]))?;
     if dut
         .next(10_000_000, |frame| {
             is_data(frame, boot) && frame.data() == [0]
@@ -199,9 +205,19 @@ fn change(dut: &mut Dut<'_>, steps: &[(Command, u8)]) -> Checked {
     dut.follow_state()?;
     dut.is_in(PRE_OPERATIONAL)?;
     let from = dut.frames.len();
+    let emcy = dut.id(0x80);
     for (command, state) in steps {
+        let sent = dut.frames.len();
         dut.nmt(*command)?;
         dut.is_in(*state)?;
+        let mut heard = dut.frames.get(sent..).unwrap_or_default().iter();
+        let heard = heard.find(|traced| !traced.ours && is_data(&traced.frame, emcy));
+        if let Some(traced) = heard.filter(|_| *state == STOPPED) {
+            return fail(
+                "no EMCY message in Stopped",
+                format!("{} came after the command stop", traced.frame),
+            );
+        }
     }
     let boot = dut.id(0x700);
     let sent = dut.frames.get(from..).unwrap_or_default().iter();
