@@ -18,7 +18,10 @@ const SHOWN: usize = 12;
 /// # Errors
 /// `AssertionError`: another frame came, or none.
 pub(crate) fn expect(py: Python<'_>, wire: &Wire, text: &str, within: f64) -> PyResult<String> {
-    let pattern = Pattern::parse(text).map_err(|error| Fault::value(error.to_string()))?;
+    let pattern = Pattern::parse(text).map_err(|error| {
+        let (column, message, help) = (error.column, error.message, error.help);
+        Fault::value(format!("column {column}: {message}; {help}"))
+    })?;
     let time = micros(within, "the time for a frame")?;
     let (from, until) = {
         let state = wire.enter(py)?;

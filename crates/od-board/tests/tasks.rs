@@ -232,7 +232,7 @@ fn a_controller_without_room_delays_neither_frames_nor_time() {
 }
 
 #[test]
-fn the_receiver_is_told_its_filters_when_they_change() {
+fn the_receiver_gets_its_filters_when_they_change() {
     run(|executor, _| {
         let told = |executor: &mut Executor<'_>| {
             let mut controller = executor.controller.lock().unwrap();
@@ -285,7 +285,7 @@ fn a_node_enters_and_leaves_bus_off() {
 }
 
 /// Frames of a node wait for the controller; then the node learns of bus-off in one of three ways.
-fn frames_of_before_bus_off(learn: impl Fn(&mut Executor<'_>, &Thermometer)) {
+fn loses_frames_at_bus_off(learn: impl Fn(&mut Executor<'_>, &Thermometer)) {
     run(|executor, shared| {
         executor.controller.lock().unwrap().is_full = true;
         executor.receives(Ok(frame("601#2B17100064000000")));
@@ -313,13 +313,13 @@ fn frames_of_before_bus_off(learn: impl Fn(&mut Executor<'_>, &Thermometer)) {
 #[test]
 fn frames_from_before_bus_off_are_not_sent_after_it() {
     // The receiving half reports it, as a `Watch` does.
-    frames_of_before_bus_off(|executor, _| executor.receives(Err(BusEvent::Off)));
+    loses_frames_at_bus_off(|executor, _| executor.receives(Err(BusEvent::Off)));
     // Another task reports it, such as an interrupt of the controller.
-    frames_of_before_bus_off(|_, shared| {
+    loses_frames_at_bus_off(|_, shared| {
         shared.with(|node, now| node.handle_bus(now, BusEvent::Off));
     });
     // The sending half reports it.
-    frames_of_before_bus_off(|executor, _| {
+    loses_frames_at_bus_off(|executor, _| {
         let mut controller = executor.controller.lock().unwrap();
         controller.refuses.push_back(BusEvent::Off);
         controller.writer.take().expect("somebody writes").wake();

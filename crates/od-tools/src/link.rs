@@ -65,62 +65,40 @@ pub trait Link {
     fn resume(&mut self) {}
 }
 
-impl<L: Link + ?Sized> Link for &mut L {
-    fn now(&self) -> Instant {
-        (**self).now()
-    }
+/// Implements [`Link`] for a pointer to a link.
+macro_rules! forward {
+    ($pointer:ty) => {
+        impl<L: Link + ?Sized> Link for $pointer {
+            fn now(&self) -> Instant {
+                (**self).now()
+            }
 
-    fn send(&mut self, frame: &Frame) -> Result<(), Error> {
-        (**self).send(frame)
-    }
+            fn send(&mut self, frame: &Frame) -> Result<(), Error> {
+                (**self).send(frame)
+            }
 
-    fn begin_send(&mut self, frame: &Frame) -> Result<(), Error> {
-        (**self).begin_send(frame)
-    }
+            fn begin_send(&mut self, frame: &Frame) -> Result<(), Error> {
+                (**self).begin_send(frame)
+            }
 
-    fn finish_send(&mut self, until: Instant) -> Result<bool, Error> {
-        (**self).finish_send(until)
-    }
+            fn finish_send(&mut self, until: Instant) -> Result<bool, Error> {
+                (**self).finish_send(until)
+            }
 
-    fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Error> {
-        (**self).receive(until)
-    }
+            fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Error> {
+                (**self).receive(until)
+            }
 
-    fn listen_at(&mut self, kbit: u16) -> Result<(), Error> {
-        (**self).listen_at(kbit)
-    }
+            fn listen_at(&mut self, kbit: u16) -> Result<(), Error> {
+                (**self).listen_at(kbit)
+            }
 
-    fn resume(&mut self) {
-        (**self).resume();
-    }
+            fn resume(&mut self) {
+                (**self).resume();
+            }
+        }
+    };
 }
 
-impl<L: Link + ?Sized> Link for Box<L> {
-    fn now(&self) -> Instant {
-        (**self).now()
-    }
-
-    fn send(&mut self, frame: &Frame) -> Result<(), Error> {
-        (**self).send(frame)
-    }
-
-    fn begin_send(&mut self, frame: &Frame) -> Result<(), Error> {
-        (**self).begin_send(frame)
-    }
-
-    fn finish_send(&mut self, until: Instant) -> Result<bool, Error> {
-        (**self).finish_send(until)
-    }
-
-    fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Error> {
-        (**self).receive(until)
-    }
-
-    fn listen_at(&mut self, kbit: u16) -> Result<(), Error> {
-        (**self).listen_at(kbit)
-    }
-
-    fn resume(&mut self) {
-        (**self).resume();
-    }
-}
+forward!(&mut L);
+forward!(Box<L>);

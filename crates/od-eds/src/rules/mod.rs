@@ -1,7 +1,7 @@
 //! The rules: every code of odkit is defined once.
 //!
 //! A rule with a check has a file of its own, or shares that of the rules with the same check. Other code reports the
-//! rest (the reader, a patch, a target of `convert`): these are words and a constructor, and stand together in a file
+//! rest (the reader, a patch, a target of `convert`): these are words and a constructor, together in a file
 //! named by who reports them.
 
 use crate::finding::Rule;

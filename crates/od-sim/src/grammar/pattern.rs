@@ -5,8 +5,8 @@ use std::{fmt, format};
 
 use od_runtime::{CanId, Frame};
 
+use super::problem::Problem;
 use crate::logs::candump;
-use crate::logs::candump::Error;
 
 /// An identifier, and bytes with gaps.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -24,11 +24,11 @@ impl Pattern {
     /// Reads `581#43 02 60 00 .. xx *`, `701#R`, `080#`.
     ///
     /// # Errors
-    /// [`Error`] names the first invalid character.
-    pub fn parse(text: &str) -> Result<Self, Error> {
+    /// [`Problem`] names the first invalid character.
+    pub fn parse(text: &str) -> Result<Self, Problem> {
         let text = text.trim();
         let Some((id, data)) = text.split_once('#') else {
-            return Err(Error::new(
+            return Err(Problem::at(
                 1,
                 format!("`{text}` has no `#`"),
                 "write a frame such as 581#60 *",
@@ -53,7 +53,7 @@ impl Pattern {
         while let Some((at, first)) = chars.next() {
             let column = start + at;
             if pattern.open {
-                return Err(Error::new(column, "unexpected byte after `*`", HELP));
+                return Err(Problem::at(column, "unexpected byte after `*`", HELP));
             }
             if first == '*' {
                 pattern.open = true;
@@ -65,17 +65,17 @@ impl Pattern {
                 [Some(high), Some(low)] => match (high.to_digit(16), low.to_digit(16)) {
                     (Some(high), Some(low)) => Some((high << 4 | low) as u8),
                     _ => {
-                        return Err(Error::new(
+                        return Err(Problem::at(
                             column,
                             format!("`{high}{low}` is not a byte"),
                             HELP,
                         ));
                     }
                 },
-                _ => return Err(Error::new(column, "half a byte", HELP)),
+                _ => return Err(Problem::at(column, "half a byte", HELP)),
             });
             if bytes.len() > 8 {
-                return Err(Error::new(column, "more than 8 bytes", HELP));
+                return Err(Problem::at(column, "more than 8 bytes", HELP));
             }
         }
         pattern.bytes = Some(bytes);

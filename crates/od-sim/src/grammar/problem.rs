@@ -26,6 +26,20 @@ impl Problem {
             help: help.into(),
         }
     }
+
+    /// A problem of a text of one line, from a character on.
+    pub(crate) fn at(column: usize, message: impl Into<String>, help: impl Into<String>) -> Self {
+        Self {
+            column,
+            ..Self::new(1, message, help)
+        }
+    }
+
+    /// The same problem in a line in which `before` characters precede the text.
+    pub(crate) fn shifted(mut self, before: usize) -> Self {
+        self.column += before;
+        self
+    }
 }
 
 impl fmt::Display for Problem {

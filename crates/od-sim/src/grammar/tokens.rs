@@ -9,7 +9,7 @@ use od_wire::nmt::Command;
 use super::problem::Problem;
 use super::shown::{brief, either};
 use crate::cursor::Cursor;
-use crate::logs::{candump, stamp};
+use crate::logs::stamp;
 
 /// Longest moment or duration: 100 years of 365 days, in microseconds.
 const LONGEST: u64 = 100 * 365 * 86_400 * 1_000_000;
@@ -158,8 +158,8 @@ impl<'t> Tokens<'t> {
     }
 
     /// A mistake in a frame at the front.
-    pub(crate) fn frame_problem(&self, error: &candump::Error) -> Problem {
-        let mut problem = self.problem(error.message.clone(), error.help);
+    pub(crate) fn frame_problem(&self, error: &Problem) -> Problem {
+        let mut problem = self.problem(error.message.clone(), error.help.clone());
         problem.column += error.column - 1;
         problem
     }

@@ -295,9 +295,7 @@ impl Reader {
             }
             Err(error) => self.problems.push(Problem {
                 line: fence.line,
-                column: error.column,
-                message: error.message,
-                help: error.help.into(),
+                ..error
             }),
         }
     }

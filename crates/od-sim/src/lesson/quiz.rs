@@ -54,12 +54,7 @@ pub fn judge(answer: &Pattern, given: &str) -> Result<Judgement, Problem> {
     } else {
         std::format!("{}#{given}", answer.id())
     };
-    let frame = candump::parse_frame(&whole).map_err(|error| Problem {
-        line: 1,
-        column: error.column,
-        message: error.message,
-        help: error.help.into(),
-    })?;
+    let frame = candump::parse_frame(&whole)?;
     let mut judgement = Judgement {
         right: answer.matches(&frame),
         wrong_identifier: answer.id() != frame.id(),

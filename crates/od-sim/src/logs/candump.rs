@@ -8,16 +8,17 @@
 //! | bits, last byte first (`candump -i`, `-S`) | `can0  601   [2]  01000000 00000100`, <code>can0  601   \[2\]  04\`40</code> |
 //! | screen (`candump -tA -x -a`) | `(2026-11-25 15:50:01.123456)  can0  RX - -  601   [2]  40 41   '@A'` |
 //!
-//! Any other text is an [`Error`] with the place and the reason.
+//! Any other text is a [`Problem`] with the place and the reason.
 
+use std::format;
 use std::prelude::v1::*;
-use std::{fmt, format};
 
 use od_runtime::{CanId, Frame, Instant};
 
 use super::record::{ERROR, What};
 use super::stamp;
 use crate::cursor::Cursor;
+use crate::grammar::problem::Problem;
 
 /// A frame with the other fields of its log line.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -30,45 +31,11 @@ pub struct LogLine {
     pub frame: Frame,
 }
 
-/// Error for a text that is not a frame.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Error {
-    /// The first invalid character, counted from 1.
-    pub column: usize,
-    /// The problem, one clause.
-    pub message: String,
-    /// Text to write instead.
-    pub help: &'static str,
-}
-
-impl Error {
-    pub(crate) fn new(column: usize, message: impl Into<String>, help: &'static str) -> Self {
-        Self {
-            column,
-            message: message.into(),
-            help,
-        }
-    }
-
-    fn shifted(mut self, by: usize) -> Self {
-        self.column += by;
-        self
-    }
-}
-
-impl fmt::Display for Error {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "column {}: {}; {}", self.column, self.message, self.help)
-    }
-}
-
-impl core::error::Error for Error {}
-
 /// Reads one line in any of the three forms. The caller handles empty lines.
 ///
 /// # Errors
-/// [`Error`] names the first invalid character.
-pub fn parse_line(line: &str) -> Result<LogLine, Error> {
+/// [`Problem`] names the first invalid character.
+pub fn parse_line(line: &str) -> Result<LogLine, Problem> {
     let Logged {
         at,
         interface,
@@ -82,7 +49,7 @@ pub fn parse_line(line: &str) -> Result<LogLine, Error> {
             interface: interface.map(str::to_owned),
             frame,
         }),
-        What::Error => Err(Error::new(
+        What::Error => Err(Problem::at(
             column,
             format!("`{word}` is an error frame"),
             "remove the line; an error frame cannot be sent",
@@ -116,7 +83,7 @@ pub(super) fn is_untimed(line: &str) -> bool {
 }
 
 /// Reads a line in any of the three forms, including error frames.
-pub(super) fn logged(line: &str) -> Result<Logged<'_>, Error> {
+pub(super) fn logged(line: &str) -> Result<Logged<'_>, Problem> {
     let mut rest = Cursor::new(line);
     let at = if rest.peek().starts_with('(') {
         Some(time_stamp(&mut rest)?)
@@ -181,15 +148,15 @@ const DATA: &str = "write 0 to 8 bytes of two hex digits each";
 /// Reads a frame in the form of `cansend`: `601#40046000`, `601#40.04.60.00`, `701#R`, `701#R4`.
 ///
 /// # Errors
-/// [`Error`] names the first invalid character.
-pub fn parse_frame(text: &str) -> Result<Frame, Error> {
+/// [`Problem`] names the first invalid character.
+pub fn parse_frame(text: &str) -> Result<Frame, Problem> {
     let Some((id, data)) = text.split_once('#') else {
-        return Err(Error::new(1, format!("`{text}` has no `#`"), FRAME));
+        return Err(Problem::at(1, format!("`{text}` has no `#`"), FRAME));
     };
     let start = id.chars().count() + 2;
     let id = parse_id(id)?;
     if data.starts_with('#') {
-        return Err(Error::new(
+        return Err(Problem::at(
             start,
             "`##` begins a CAN FD frame",
             "write one `#`; CANopen does not use CAN FD",
@@ -203,7 +170,7 @@ pub fn parse_frame(text: &str) -> Result<Frame, Error> {
         };
         let frame = length.and_then(|length| Frame::remote(id, length));
         return frame.ok_or_else(|| {
-            Error::new(
+            Problem::at(
                 start + 1,
                 format!("`{dlc}` is not a valid length"),
                 "write R, or R and a length from 0 to 8",
@@ -215,8 +182,8 @@ pub fn parse_frame(text: &str) -> Result<Frame, Error> {
 }
 
 /// An identifier of 3 or 8 hex digits.
-pub(crate) fn parse_id(text: &str) -> Result<CanId, Error> {
-    let bad = |message: String| Err(Error::new(1, message, ID));
+pub(crate) fn parse_id(text: &str) -> Result<CanId, Problem> {
+    let bad = |message: String| Err(Problem::at(1, message, ID));
     if let Some(at) = text.chars().position(|c| !c.is_ascii_hexdigit()) {
         return bad(format!("`{text}` is not a valid CAN-ID")).map_err(|error| error.shifted(at));
     }
@@ -231,7 +198,7 @@ pub(crate) fn parse_id(text: &str) -> Result<CanId, Error> {
 }
 
 /// Hex bytes, with or without dots or blanks between them. After eight bytes candump writes a DLC above 8 as `_9` to `_F`.
-fn parse_data(text: &str) -> Result<([u8; 8], usize), Error> {
+fn parse_data(text: &str) -> Result<([u8; 8], usize), Problem> {
     let text = match text.split_once('_') {
         Some((bytes, "9" | "A" | "B" | "C" | "D" | "E" | "F")) if bytes.len() >= 16 => bytes,
         _ => text,
@@ -244,7 +211,7 @@ fn parse_data(text: &str) -> Result<([u8; 8], usize), Error> {
             if matches!(c, '.' | ' ') && high.is_none() {
                 continue;
             }
-            return Err(Error::new(
+            return Err(Problem::at(
                 column,
                 format!("`{c}` is not a hex digit"),
                 DATA,
@@ -255,26 +222,26 @@ fn parse_data(text: &str) -> Result<([u8; 8], usize), Error> {
             continue;
         };
         let Some(byte) = bytes.get_mut(len) else {
-            return Err(Error::new(column, "more than 8 bytes", DATA));
+            return Err(Problem::at(column, "more than 8 bytes", DATA));
         };
         *byte = (first << 4 | digit) as u8;
         len += 1;
     }
     match high {
-        Some(_) => Err(Error::new(text.chars().count(), "half a byte", DATA)),
+        Some(_) => Err(Problem::at(text.chars().count(), "half a byte", DATA)),
         None => Ok((bytes, len)),
     }
 }
 
 /// `601   [8]  40 04 60 00 00 00 00 00`, or `701   [0]  remote request`.
-fn screen(column: usize, id: &str, rest: &mut Cursor<'_>) -> Result<Frame, Error> {
+fn screen(column: usize, id: &str, rest: &mut Cursor<'_>) -> Result<Frame, Problem> {
     let id = parse_id(id).map_err(|error| error.shifted(column - 1))?;
     let (column, length) = next_word(rest, FRAME)?;
     let length = length
         .strip_prefix('[')
         .and_then(|rest| rest.strip_suffix(']'));
     if length.is_some_and(|digits| digits.len() == 2 && digits.parse::<u8>().is_ok()) {
-        return Err(Error::new(
+        return Err(Problem::at(
             column,
             "a length of two digits belongs to a CAN FD frame",
             "remove the line; CANopen does not use CAN FD",
@@ -282,7 +249,7 @@ fn screen(column: usize, id: &str, rest: &mut Cursor<'_>) -> Result<Frame, Error
     }
     let dlc = length.and_then(|digits| digits.parse().ok());
     let Some(request) = dlc.and_then(|dlc| Frame::remote(id, dlc)) else {
-        return Err(Error::new(
+        return Err(Problem::at(
             column,
             "the length is not valid",
             "write the length as [0] to [8]",
@@ -301,7 +268,7 @@ fn screen(column: usize, id: &str, rest: &mut Cursor<'_>) -> Result<Frame, Error
         let (column, word) = next_word(rest, DATA)?;
         let words: Vec<&str> = word.rsplit('`').collect();
         if words.len() != room.len() {
-            return Err(Error::new(
+            return Err(Problem::at(
                 column,
                 format!("`{word}` is not {} bytes", room.len()),
                 DATA,
@@ -320,7 +287,7 @@ fn screen(column: usize, id: &str, rest: &mut Cursor<'_>) -> Result<Frame, Error
 }
 
 /// A byte of the screen form: two hex digits, or eight bits (`candump -i`).
-fn screen_byte(column: usize, word: &str) -> Result<u8, Error> {
+fn screen_byte(column: usize, word: &str) -> Result<u8, Problem> {
     let radix = match word.len() {
         2 => 16,
         8 => 2,
@@ -330,12 +297,12 @@ fn screen_byte(column: usize, word: &str) -> Result<u8, Error> {
     let byte = u8::from_str_radix(word, radix.max(2))
         .ok()
         .filter(|_| digits);
-    byte.ok_or_else(|| Error::new(column, format!("`{word}` is not a byte"), DATA))
+    byte.ok_or_else(|| Problem::at(column, format!("`{word}` is not a byte"), DATA))
 }
 
-fn time_stamp(rest: &mut Cursor<'_>) -> Result<Instant, Error> {
+fn time_stamp(rest: &mut Cursor<'_>) -> Result<Instant, Problem> {
     let (column, word) = (rest.column, rest.peek());
-    let not_one = || Error::new(column, format!("`{word}` is not a time stamp"), TIME);
+    let not_one = || Problem::at(column, format!("`{word}` is not a time stamp"), TIME);
     stamp::take(rest)
         .map(Instant::from_micros)
         .ok_or_else(not_one)
@@ -343,12 +310,12 @@ fn time_stamp(rest: &mut Cursor<'_>) -> Result<Instant, Error> {
 
 /// A log line may end with `R` or `T` (received or sent), a screen line with its bytes as characters (`candump -a`).
 /// Nothing else follows a frame.
-fn end(mut rest: Cursor<'_>) -> Result<bool, Error> {
+fn end(mut rest: Cursor<'_>) -> Result<bool, Problem> {
     match next_word(&mut rest, "") {
         Err(_) | Ok((_, "R" | "r")) => Ok(false),
         Ok((_, "T" | "t")) => Ok(true),
         Ok((_, word)) if word.starts_with('\'') => Ok(false),
-        Ok((column, word)) => Err(Error::new(
+        Ok((column, word)) => Err(Problem::at(
             column,
             format!("unexpected `{word}` after the frame"),
             "write one frame per line",
@@ -362,10 +329,10 @@ pub fn format_line(at: Instant, interface: &str, frame: &Frame) -> String {
 }
 
 /// The next word, with its column.
-fn next_word<'t>(rest: &mut Cursor<'t>, help: &'static str) -> Result<(usize, &'t str), Error> {
+fn next_word<'t>(rest: &mut Cursor<'t>, help: &'static str) -> Result<(usize, &'t str), Problem> {
     let column = rest.column;
     match rest.next() {
-        "" => Err(Error::new(column, "the line ends here", help)),
+        "" => Err(Problem::at(column, "the line ends here", help)),
         word => Ok((column, word)),
     }
 }

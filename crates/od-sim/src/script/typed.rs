@@ -5,7 +5,7 @@ use std::prelude::v1::*;
 use od_model::{DataType, Kind, Refused, values};
 use od_wire::{CanId, Frame};
 
-use crate::logs::candump::Error;
+use crate::grammar::problem::Problem;
 
 const EXAMPLE: &str = "type a CAN-ID and up to 8 bytes, such as 601#40 04 60 00";
 
@@ -13,13 +13,13 @@ const EXAMPLE: &str = "type a CAN-ID and up to 8 bytes, such as 601#40 04 60 00"
 /// `701#R`, `181 [4] rtr`, `12345678#0102` (eight digits: 29 bits).
 ///
 /// # Errors
-/// [`Error`] names the first invalid character.
-pub fn frame(text: &str) -> Result<Frame, Error> {
+/// [`Problem`] names the first invalid character.
+pub fn frame(text: &str) -> Result<Frame, Problem> {
     let mut rest = Text::new(text);
     rest.skip(char::is_whitespace);
     let start = rest.at;
     if rest.is_empty() {
-        return Err(Error::new(1, "the frame is missing", EXAMPLE));
+        return Err(Problem::at(1, "the frame is missing", EXAMPLE));
     }
     rest.take("0x");
     let digits = rest.word(|c| !c.is_whitespace() && !matches!(c, '#' | ':' | ','));
@@ -34,7 +34,7 @@ pub fn frame(text: &str) -> Result<Frame, Error> {
     }
     if let Some(remote) = rest.remote() {
         let dlc = remote.or(length).unwrap_or(0);
-        let error = || Error::new(rest.chars.len(), "a CAN frame has at most 8 bytes", EXAMPLE);
+        let error = || Problem::at(rest.chars.len(), "a CAN frame has at most 8 bytes", EXAMPLE);
         return Frame::remote(id, dlc).ok_or_else(error);
     }
     let from = rest.at;
@@ -42,14 +42,14 @@ pub fn frame(text: &str) -> Result<Frame, Error> {
     if let Some(length) = length.filter(|length| usize::from(*length) != data.len()) {
         let count = data.len();
         let message = format!("[{length}] is followed by {count} bytes");
-        return Err(Error::new(from + 1, message, EXAMPLE));
+        return Err(Problem::at(from + 1, message, EXAMPLE));
     }
-    let error = || Error::new(from + 1, "a CAN frame has at most 8 bytes", EXAMPLE);
+    let error = || Problem::at(from + 1, "a CAN frame has at most 8 bytes", EXAMPLE);
     Frame::new(id, &data).ok_or_else(error)
 }
 
-fn id(digits: &str, at: usize) -> Result<CanId, Error> {
-    let wrong = |message| Err(Error::new(at + 1, message, EXAMPLE));
+fn id(digits: &str, at: usize) -> Result<CanId, Problem> {
+    let wrong = |message| Err(Problem::at(at + 1, message, EXAMPLE));
     let raw = u32::from_str_radix(digits, 16).ok();
     match (raw, digits.len()) {
         (Some(raw), 1..=3) if raw <= 0x7FF => Ok(CanId::standard(raw as u16)),
@@ -144,7 +144,7 @@ impl Text {
     }
 
     /// Reads bytes of one or two digits; one digit needs a separator after it.
-    fn bytes(&mut self) -> Result<Vec<u8>, Error> {
+    fn bytes(&mut self) -> Result<Vec<u8>, Problem> {
         let between = |c: char| c.is_whitespace() || matches!(c, '.' | ',' | '_' | '-');
         let mut bytes = Vec::new();
         loop {
@@ -170,11 +170,11 @@ impl Text {
                 let at = if is_bad { self.at } else { from };
                 let wrong = self.chars.get(at).copied().unwrap_or(' ');
                 let message = format!("“{wrong}” is not a hexadecimal digit");
-                return Err(Error::new(at + 1, message, EXAMPLE));
+                return Err(Problem::at(at + 1, message, EXAMPLE));
             };
             if bytes.len() == 8 {
                 let message = "a CAN frame has at most 8 bytes";
-                return Err(Error::new(from + 1, message, EXAMPLE));
+                return Err(Problem::at(from + 1, message, EXAMPLE));
             }
             bytes.push(value as u8);
         }

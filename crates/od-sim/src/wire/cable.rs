@@ -1,7 +1,7 @@
 //! The physics of the line: its length against the bit rate, the sample point, terminators, and clocks that deviate.
 //!
-//! The model is simple. A bit has 16 time quanta. All stations sample at the same point. The longest line counts, from one end to
-//! the other, wherever a station is. What it answers is whether a frame can get through at all; each formula has its source.
+//! The model is simple. A bit has 16 time quanta. All stations sample at the same point. All stations are at the
+//! ends of the line. The model answers whether a frame can get through at all; each formula has its source.
 
 use std::prelude::v1::*;
 

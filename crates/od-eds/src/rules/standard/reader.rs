@@ -91,8 +91,8 @@ fn is_version(text: &str) -> bool {
     parts.all(|part| !part.is_empty() && part.bytes().all(|byte| byte.is_ascii_digit()))
 }
 
-/// The number that is probably meant by hexadecimal digits without `0x`: `0xDEF` for `DEF`. Digits that are a decimal
-/// number as well are read as that.
+/// The number that is probably meant by hexadecimal digits without `0x`: `0xDEF` for `DEF`. `None` for
+/// digits of a decimal number.
 fn hexadecimal(text: &str) -> Option<String> {
     let digits = text.strip_suffix(['h', 'H']).unwrap_or(text);
     let is_hex = matches!(digits.len(), 1..=8) && digits.bytes().all(|b| b.is_ascii_hexdigit());
