@@ -29,7 +29,7 @@ pub(crate) fn say(line: &str) {
 #[derive(Debug)]
 pub(crate) struct Console {
     log: Option<File>,
-    /// A program that writes nothing for so long is stopped.
+    /// Time without output after which a program is stopped.
     limit: Duration,
     /// Whether its programs run with low priority.
     yields: bool,

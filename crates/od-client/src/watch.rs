@@ -192,7 +192,7 @@ impl<const N: usize> Watch<N> {
         slot.state.filter(|_| !slot.is_lost)
     }
 
-    /// Takes a frame from the bus; only boot-up messages and heartbeats of watched nodes count.
+    /// Handles a frame from the bus. Frames other than boot-up messages and heartbeats of watched nodes are ignored.
     pub fn handle_frame(&mut self, now: Instant, frame: &Frame) {
         if let Some((node, state)) = parse(frame)
             && let Some(slot) = self.slot(node)

@@ -77,8 +77,8 @@ impl fmt::Display for Line {
     }
 }
 
-/// Opens a real link. That takes seconds if nobody answers, so another thread does it; after Ctrl-C nobody waits for
-/// this thread.
+/// Opens a real link. Without a response this takes seconds, so a thread of its own does it; Ctrl-C ends the wait for this
+/// thread.
 fn open_by_name(py: Python<'_>, name: String) -> PyResult<Box<dyn Link + Send>> {
     let opening = thread::spawn(move || links::open_between_threads(&name, None));
     while !opening.is_finished() {

@@ -21,9 +21,9 @@ use counts::Counts;
 use report::{Outcome, Report};
 use stages::{Kind, Lane, STAGES, Stage};
 
-/// A program of a stage that writes nothing for so long hangs and is stopped; with `--long`, four times as long. The time in
-/// all has no limit: a cold build on a slow computer takes long, but names what it compiles, and tests their results. On two
-/// cores the longest silence is that of a module with LTO, 2 minutes.
+/// Time without output after which a program of a stage is stopped, because it hangs; with `--long`, four times as long. The
+/// whole time of a program has no limit: a cold build on a slow computer takes long, but it names each crate, and a test its
+/// result. The longest silence on two cores is 2 minutes, while a module is linked with LTO.
 const LIMIT: Duration = Duration::from_secs(12 * 60);
 
 /// The command line of `test`.

@@ -37,7 +37,7 @@ pub(super) fn read(
     }
 }
 
-/// The values that are not empty, by their keys in small letters; of equal keys the first counts.
+/// The values that are not empty, by their keys in lower case; the first of equal keys is used.
 fn values(keys: &Properties) -> BTreeMap<String, &str> {
     let mut values = BTreeMap::new();
     for (key, value) in keys.iter().filter(|(_, value)| !value.trim().is_empty()) {

@@ -177,7 +177,7 @@ impl Tree {
     }
 }
 
-/// A mapping from alternating keys and values: of equal keys the last counts, and `<<` adds missing
+/// A mapping from alternating keys and values: the last of equal keys is used, and `<<` adds missing
 /// entries of other mappings.
 fn map(values: Vec<Yaml>) -> Result<Yaml, String> {
     let mut entries = Entries::default();

@@ -140,7 +140,7 @@ impl Master {
         self.work = None;
     }
 
-    /// Takes a frame from the bus; only responses of LSS slaves to the service count.
+    /// Handles a frame from the bus. Frames other than responses of LSS slaves to the service are ignored.
     pub fn handle_frame(&mut self, now: Instant, frame: &Frame) {
         let Some(work) = &mut self.work else { return };
         if frame.id() != CanId::standard(SLAVE) || work.deadline.is_none() {

@@ -81,7 +81,7 @@ pub(crate) fn expand(
                 number::integer(key, &mut Vec::new()).and_then(|n| u8::try_from(n.value).ok());
             let entry = sub.and_then(|sub| Some((sub, entries.get_mut(&sub)?)));
             match entry {
-                // Of duplicate keys the first counts; this was reported.
+                // The first of duplicate keys is used; the others were reported.
                 Some((sub, _)) if !given.insert((compact, sub)) => {}
                 Some((sub, entry)) => {
                     let address = Address::new(address.index, sub);

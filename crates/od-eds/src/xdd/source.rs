@@ -17,7 +17,7 @@ pub(super) struct Reader<'a> {
     pub(super) log: Log,
 }
 
-/// Bytes of text between two known numbers of characters. Each place counts the characters of at most so many bytes.
+/// Bytes of text between two known numbers of characters. To find a place, the characters of at most this number of bytes are counted.
 const STEP: usize = 64;
 
 /// Lines and columns of bytes.

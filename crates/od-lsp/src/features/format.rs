@@ -96,7 +96,7 @@ impl Comments {
             if let Some(pair) = pair {
                 let key = file.part(pair.key.clone()).to_ascii_lowercase();
                 if !written.insert((name.clone(), key.clone())) {
-                    // The first one counts.
+                    // The first one is used.
                     waiting.push(commented(own));
                     continue;
                 }

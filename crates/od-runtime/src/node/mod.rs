@@ -241,7 +241,7 @@ impl<D: Device, A: Application, S: Storage> Node<D, A, S> {
     /// Begins every call: takes the machines of the services, and the objects that they work on.
     /// `None` without power.
     ///
-    /// A time before the last one counts as the last one: time does not run backwards.
+    /// A time before that of the last call is treated as that of the last call: time does not run backwards.
     fn call<R>(
         &mut self,
         now: Instant,

@@ -22,7 +22,7 @@ impl Pace {
         }
     }
 
-    /// Takes a frame of the node. Only the first one is sent at once.
+    /// Accepts a frame of the node. Only the first one is sent at once.
     pub(super) fn passes(&mut self, now: Instant, frame: &Frame) -> bool {
         match &mut self.next {
             Some((_, held)) => {

@@ -65,7 +65,7 @@ impl Client {
 pub struct Clients(Vec<Client>);
 
 impl Clients {
-    /// Takes the next frame; only frames of a default SDO count.
+    /// Handles the next frame. Frames other than those of a default SDO are ignored.
     pub fn take(&mut self, at: Instant, frame: &Frame) {
         let Some((node, is_response)) = default_sdo(frame) else {
             return;

@@ -85,7 +85,7 @@ impl Row {
 pub struct Ids(Vec<Row>);
 
 impl Ids {
-    /// Takes the next frame.
+    /// Counts the next frame.
     pub fn take(&mut self, at: Instant, frame: &Frame) {
         let key = frame.id();
         let place = self.0.binary_search_by_key(&key, |row| row.frame.id());

@@ -130,7 +130,7 @@ fn an_error_passive_sender_counts_if_it_sees_the_error_flag_of_another() {
             "{attempt}"
         );
     }
-    // The other one is error passive now, and nobody is left to see its flag.
+    // The other one is error passive now, and no other station sees its flag.
     line.try_once(Instant::ZERO, &stations, &[(2, boot_up)]);
     assert_eq!(line.controller(2).transmit, 128);
 }

@@ -270,7 +270,7 @@ impl<P: Port, S: Protocol> Link for Stream<P, S> {
 impl<P: Port, S: Protocol> Drop for Stream<P, S> {
     fn drop(&mut self) {
         self.queue(self.protocol.end());
-        // Without a connection there is nothing to restore, and without a reader nobody to restore it.
+        // Without a connection there is nothing to restore, and without a reader no thread to restore it.
         let until = self.now() + LAST;
         if self.flush(until).is_ok() && self.port.finish().is_ok_and(|closes| closes) {
             self.drain();

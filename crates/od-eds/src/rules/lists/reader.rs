@@ -96,13 +96,13 @@ const W0204_MISSING: Form = Form {
     ..Form::OWN
 };
 
-/// Sentence for the object list of an W0204_XDD.
+/// Sentence for the object list of an XDD.
 const W0204_XDD: Form = Form {
     says: "{name} is {given}, but the list has {found:object|objects} of this kind",
     help: "write `{name}=\"{found}\"`{fix}",
 };
 
-/// The finding about a count in the object list of an W0204_XDD.
+/// The finding about a count in the object list of an XDD.
 #[cfg(feature = "xdd")]
 pub(crate) fn w0204_in_xdd(given: &Spanned<String>, name: &'static str, found: usize) -> Finding {
     let fix = Fix::safe().replace(given.span, found.to_string());

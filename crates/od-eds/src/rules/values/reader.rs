@@ -80,13 +80,13 @@ pub(crate) static W0406: Rule = Rule {
     ..Rule::NEW
 };
 
-/// Sentence for an W0406_XDD.
+/// Sentence for an XDD.
 const W0406_XDD: Form = Form {
     says: "PDOmapping `{given}` is not valid",
     help: "write `no`, `default`, `optional`, `TPDO` or `RPDO`",
 };
 
-/// The same in an W0406_XDD, whose schema has other words.
+/// The same finding in an XDD, whose schema has other words.
 #[cfg(feature = "xdd")]
 pub(crate) fn w0406_in_xdd(given: &Spanned<String>) -> Finding {
     W0406
