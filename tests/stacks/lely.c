@@ -69,7 +69,7 @@ static int on_store_lss(co_lss_t *lss, co_unsigned8_t id, co_unsigned16_t rate, 
 
 static int on_send(const struct can_msg *msg, void *data) {
     (void)data;
-    struct slcan_frame frame = {.id = msg->id, .rtr = (msg->flags & CAN_FLAG_RTR) != 0, .len = msg->len};
+    struct slcan_frame frame = {.id = msg->id, .extended = (msg->flags & CAN_FLAG_IDE) != 0, .rtr = (msg->flags & CAN_FLAG_RTR) != 0, .len = msg->len};
     memcpy(frame.data, msg->data, 8);
     slcan_send(&frame);
     return 0;
@@ -116,7 +116,7 @@ int main(int count, char **args) {
         if (came) {
             struct can_msg msg = CAN_MSG_INIT;
             msg.id = frame.id;
-            msg.flags = frame.rtr ? CAN_FLAG_RTR : 0;
+            msg.flags = (frame.rtr ? CAN_FLAG_RTR : 0) | (frame.extended ? CAN_FLAG_IDE : 0);
             msg.len = frame.len;
             memcpy(msg.data, frame.data, 8);
             can_net_recv(net, &msg);

@@ -17,9 +17,11 @@
 #include <time.h>
 #include <unistd.h>
 
-// A frame with an 11-bit CAN-ID.
+// A frame.
 struct slcan_frame {
-    uint16_t id;
+    uint32_t id;
+    // Whether the CAN-ID has 29 bits.
+    bool extended;
     bool rtr;
     uint8_t len;
     uint8_t data[8];
@@ -58,7 +60,9 @@ static void slcan_write(const char *text, size_t len) {
 
 static void slcan_send(const struct slcan_frame *frame) {
     char line[32];
-    int len = sprintf(line, "%c%03X%u", frame->rtr ? 'r' : 't', frame->id, frame->len);
+    char kind = frame->rtr ? 'r' : 't';
+    int digits = frame->extended ? 8 : 3;
+    int len = sprintf(line, "%c%0*X%u", frame->extended ? kind - 32 : kind, digits, (unsigned)frame->id, frame->len);
     for (int at = 0; at < frame->len && !frame->rtr; at++) {
         len += sprintf(line + len, "%02X", frame->data[at]);
     }
@@ -72,18 +76,23 @@ static bool slcan_line(const char *line, struct slcan_frame *frame) {
     switch (line[0]) {
     case 't':
     case 'r':
-        if (sscanf(line + 1, "%3x%1u", &id, &len) != 2 || len > 8) {
+    case 'T':
+    case 'R': {
+        bool extended = line[0] < 'a';
+        if (sscanf(line + 1, extended ? "%8x%1u" : "%3x%1u", &id, &len) != 2 || len > 8) {
             slcan_write("\a", 1);
             return false;
         }
-        *frame = (struct slcan_frame){.id = (uint16_t)id, .rtr = line[0] == 'r', .len = (uint8_t)len};
+        bool rtr = line[0] == 'r' || line[0] == 'R';
+        *frame = (struct slcan_frame){.id = id, .extended = extended, .rtr = rtr, .len = (uint8_t)len};
         for (unsigned at = 0; at < len && !frame->rtr; at++) {
             unsigned byte = 0;
-            sscanf(line + 5 + 2 * at, "%2x", &byte);
+            sscanf(line + (extended ? 10 : 5) + 2 * at, "%2x", &byte);
             frame->data[at] = (uint8_t)byte;
         }
-        slcan_write("z\r", 2);
+        slcan_write(extended ? "Z\r" : "z\r", 2);
         return true;
+    }
     case 'V': slcan_write("V1013\r", 6); return false;
     case 'N': slcan_write("N0001\r", 6); return false;
     case 'F': slcan_write("F00\r", 4); return false;

@@ -214,7 +214,7 @@ def tested(name, make, folder):
             eds = folder / f"{name}.eds"
             subprocess.run([ODKIT, "learn", "5", *LINK, "--allow-writes", "-o", eds], check=True)
         report = folder / f"{name}.json"
-        test = [ODKIT, "conform", *LINK, "--node-id", "5", "--eds", eds, "--allow-reset", "--allow-store"]
+        test = [ODKIT, "conform", *LINK, "--node-id", "5", "--eds", eds, "--allow-reset", "--allow-store", "--allow-motion"]
         subprocess.run([*test, "--report", report], stdout=subprocess.DEVNULL)
         assert slave.poll() is None, f"{name} ended"
     finally:
@@ -265,7 +265,7 @@ def page(folder):
         "# Open stacks in the conformance test",
         "",
         "`tests/stacks/stacks.py` builds each stack outside the repository, puts a slave made with it behind slcan, and runs",
-        "`odkit conform` with resets and stores allowed. A failure belongs to this slave and the EDS of the test: a service that the EDS declares and",
+        "`odkit conform` with resets, stores and outputs allowed. A failure belongs to this slave and the EDS of the test: a service that the EDS declares and",
         "the stack leaves to its application counts as a failure, too. Each failure was judged by its frames.",
         "Skipped are the case that switches the power, and those in which the computer of the test was late.",
         "",

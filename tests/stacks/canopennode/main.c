@@ -58,9 +58,12 @@ CO_ReturnError_t CO_CANsend(CO_CANmodule_t *module, CO_CANtx_t *buffer) {
 }
 
 static void receive(CO_CANmodule_t *module, const struct slcan_frame *frame) {
-    CO_CANrxMsg_t message = {.ident = frame->id, .DLC = frame->len};
+    CO_CANrxMsg_t message = {.ident = (uint16_t)frame->id, .DLC = frame->len};
     memcpy(message.data, frame->data, 8);
-    uint16_t ident = frame->id | (frame->rtr ? 0x800 : 0);
+    if (frame->extended) {
+        return;
+    }
+    uint16_t ident = (uint16_t)frame->id | (frame->rtr ? 0x800 : 0);
     for (int at = 0; at < module->rxSize; at++) {
         CO_CANrx_t *buffer = &module->rxArray[at];
         if (((ident ^ buffer->ident) & buffer->mask) == 0 && buffer->CANrx_callback != NULL) {
