@@ -364,6 +364,13 @@ impl Bench {
         Snapshot::of(&self.wire.lock())
     }
 
+    /// Refuses to be pickled, since other threads and buses may use the bench: its snapshot can be.
+    fn __reduce__(&self) -> PyResult<()> {
+        Err(PyTypeError::new_err(
+            "a Bench cannot be pickled or copied; use `bench.snapshot()`, and make a bench of it with `odkit.Bench(snapshot)`",
+        ))
+    }
+
     /// Restores a state, including its time. The journal starts again, and received frames that were
     /// not read are dropped.
     fn restore(&self, py: Python<'_>, snapshot: &Snapshot) -> PyResult<()> {

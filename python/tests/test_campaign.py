@@ -125,6 +125,8 @@ def test_snapshots_and_descriptions_can_be_pickled():
     restore, (form, *rest) = snapshot.__reduce__()
     with pytest.raises(ValueError, match="this snapshot was pickled by `odkit 9.9.9 form 1`.*same version"):
         restore("odkit 9.9.9 form 1", *rest)
+    with odkit.Bench("gxmm@1") as bench, pytest.raises(TypeError, match=r"use `bench.snapshot\(\)`"):
+        pickle.dumps(bench)
 
 
 def test_a_link_has_the_script():
