@@ -80,6 +80,7 @@ pub(crate) fn push_event(batch: &mut Vec<u8>, seen: &LineEvent) {
         FrameError::OtherBitRate => 2,
         FrameError::Reflections => 3,
         FrameError::SameId => 4,
+        FrameError::ShortCircuit => 5,
     };
     let [low, high] = one.transmit_errors.to_le_bytes();
     let [a, b, c, d] = one.attempts.to_le_bytes();

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use od_sim::lesson::{Lesson, Problem, translate};
+use od_sim::lesson::{Lesson, Problem, is_translation, translate};
 
 use super::builtin::{self, Language};
 use crate::failure::{Failure, read_error};
@@ -28,7 +28,7 @@ impl File {
         let Some(folder) = language.folder() else {
             return Ok(Self {
                 path: shown,
-                lesson: Lesson::parse(&text),
+                lesson: lesson_of(path, &text),
             });
         };
         let words = match builtin {
@@ -61,6 +61,33 @@ fn text(path: &Path) -> Result<String, Failure> {
     let failed = |why: &str| Failure::Usage(format!("{}: {why}", path.display()));
     let bytes = fs::read(path).map_err(|error| failed(&read_error(&error)))?;
     String::from_utf8(bytes).map_err(|_| failed("the file is not UTF-8"))
+}
+
+/// Reads a lesson of its own. A translation is named with the original that it belongs to.
+fn lesson_of(path: &Path, text: &str) -> Result<Lesson, Vec<Problem>> {
+    let lesson = Lesson::parse(text);
+    if lesson.is_ok() || !is_translation(text) {
+        return lesson;
+    }
+    let name = path.file_name().unwrap_or_default();
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let original = match folder.parent() {
+        Some(above) => above.join(name),
+        None => Path::new("..").join(name),
+    };
+    let shown = original.display();
+    let (message, help) = if original.is_file() {
+        (
+            format!("this is the translation of {shown}"),
+            format!("give {shown}: the translation is read with it"),
+        )
+    } else {
+        (
+            format!("this is a translation, and its original {shown} does not exist"),
+            String::from("put the original there, with the translation in a folder `de` beside it"),
+        )
+    };
+    Err(vec![Problem::new(1, message, &help)])
 }
 
 /// The place of the translation of a lesson: `lessons/de/01-name.md` for `lessons/01-name.md`.
@@ -163,7 +190,7 @@ pub(crate) fn texts(paths: &[PathBuf]) -> Result<Vec<Texts>, Failure> {
             }
             let words = translation(&path, "de")?;
             let lesson = |path: &Path, text: Result<String, Vec<Problem>>| {
-                let read = text.and_then(|text| Ok((Lesson::parse(&text)?, text)));
+                let read = text.and_then(|text| Ok((lesson_of(path, &text)?, text)));
                 read.map_err(|problems| show_problems(&path.display().to_string(), &problems))
             };
             let german = words.map(|words| lesson(&beside(&path, "de"), translate(&own, &words)));

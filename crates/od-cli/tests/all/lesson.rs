@@ -233,6 +233,27 @@ fn a_translation_that_does_not_fit_its_lesson_is_a_mistake() {
         "{}",
         bad.err
     );
+    // A translation alone is one message, which names its original.
+    let alone = |place: &std::path::Path| {
+        let done = odkit(&["lesson", "check", &place.display().to_string()], "");
+        assert_eq!(
+            (done.code, done.err.lines().count()),
+            (1, 2),
+            "{}",
+            done.err
+        );
+        done.err
+    };
+    let translation = folder.join("fits.md");
+    std::fs::write(&translation, &german).expect("it can be written");
+    let of = format!("this is the translation of {}", path.display());
+    assert!(alone(&translation).contains(&of));
+    std::fs::remove_file(&path).expect("it can be removed");
+    let gone = alone(&translation);
+    assert!(
+        gone.contains(&format!("its original {} does not exist", path.display())),
+        "{gone}"
+    );
 }
 
 /// The first code is written by the page in playground/web/src/lessons/kept.test.ts.

@@ -7,7 +7,7 @@ use std::prelude::v1::*;
 use od_model::{Address, values};
 use od_runtime::{Frame, Instant};
 
-use super::sight::{Answer, Language, Often, Share, Sight, Subject, named};
+use super::sight::{Answer, Edges, Language, Often, Share, Sight, Subject, named};
 use crate::bench::Bench;
 use crate::bus::Bus;
 use crate::grammar::problem::Problem;
@@ -22,6 +22,8 @@ const AFTER_COMMAND: u64 = 2_500_000;
 const RESPONSE: u64 = 500_000;
 /// Time between two readings of an object, in microseconds.
 const AFTER_READ: u64 = 1_000_000;
+/// Terminating resistor in ohms (ISO 11898-2).
+const TERMINATOR: u16 = 120;
 /// Most frames of a reading that are kept.
 const KEPT: usize = 2000;
 
@@ -257,6 +259,7 @@ impl Probe {
                 #[cfg(feature = "training")]
                 {
                     bus.line.cable.length = 0;
+                    bus.line.cable.shorted = false;
                 }
                 bus.set_power(place, false);
                 reading.pass(bus, RESPONSE);
@@ -272,9 +275,14 @@ impl Probe {
                 reading.sights.extend(rate.map(Sight::BitRate));
                 reading.listens(bus, None, AFTER_COMMAND);
             }
-            Self::Resistance => reading
-                .sights
-                .push(Sight::Terminators(bus.line.terminators)),
+            Self::Resistance => {
+                let ohms = match u16::from(bus.line.terminators) {
+                    _ if is_shorted(bus) => Some(0),
+                    0 => None,
+                    count => Some(TERMINATOR / count),
+                };
+                reading.sights.push(Sight::Resistance(ohms));
+            }
             Self::Scope => reading.scope(bus),
             Self::Length => {
                 #[cfg(feature = "training")]
@@ -309,6 +317,17 @@ fn unknown(line: u32, text: &str) -> Problem {
 
 /// Bit rates in kbit/s of the DIP switches of a bus cover.
 const SWITCHED: [u16; 8] = [10, 20, 50, 125, 250, 500, 800, 1000];
+
+/// Returns whether CAN_H and CAN_L are connected.
+fn is_shorted(bus: &Bus) -> bool {
+    #[cfg(feature = "training")]
+    return bus.line.cable.shorted;
+    #[cfg(not(feature = "training"))]
+    {
+        let _ = bus;
+        false
+    }
+}
 
 fn nmt(command: u8, node: u8) -> Frame {
     Frame::standard(0, &[command, node])
@@ -415,8 +434,16 @@ impl Reading {
         rates.sort_unstable();
         rates.dedup();
         let bit = |(rate, tenths)| Sight::BitTime { rate, tenths };
-        self.sights.extend(rates.into_iter().map(bit));
-        self.sights.push(Sight::Edges(bus.line.terminators));
+        let edges = match bus.line.terminators {
+            _ if is_shorted(bus) => Edges::Flat,
+            2 => Edges::Clean,
+            0 | 1 => Edges::Ringing,
+            _ => Edges::Low,
+        };
+        if edges != Edges::Flat {
+            self.sights.extend(rates.into_iter().map(bit));
+        }
+        self.sights.push(Sight::Edges(edges));
     }
 
     /// Notes the CAN-IDs that came, and the error frames.

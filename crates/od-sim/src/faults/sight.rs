@@ -237,10 +237,10 @@ pub enum Sight {
         /// Whether both have the same response, or none.
         same: bool,
     },
-    /// Terminators between the points of measurement.
-    Terminators(u8),
-    /// The shape of the edges with this number of terminators.
-    Edges(u8),
+    /// Ohms between CAN_H and CAN_L; `None`: more than can be measured.
+    Resistance(Option<u16>),
+    /// The shape of the bits.
+    Edges(Edges),
     /// Bits of a sender: bit rate in kbit/s, and tenths of a percent by which they are longer.
     BitTime {
         /// Bit rate in kbit/s.
@@ -280,6 +280,19 @@ pub enum Sight {
         /// Steps.
         by: Option<i64>,
     },
+}
+
+/// The shape of the bits on an oscilloscope.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Edges {
+    /// Clean edges and the full level.
+    Clean,
+    /// The edges ring: reflections.
+    Ringing,
+    /// The dominant level is too low.
+    Low,
+    /// CAN_H and CAN_L have the same level all the time.
+    Flat,
 }
 
 impl Sight {
@@ -356,17 +369,20 @@ impl Sight {
                     format!("{object}, Knoten {node}: {german}"),
                 )
             }
-            Self::Terminators(0) => ("more than 10 kΩ".into(), "mehr als 10 kΩ".into()),
-            Self::Terminators(count) => {
-                let ohms = format!("{} Ω", 120 / u32::from(*count));
-                (ohms.clone(), ohms)
-            }
-            Self::Edges(2) => (
+            Self::Resistance(None) => ("more than 10 kΩ".into(), "mehr als 10 kΩ".into()),
+            Self::Resistance(Some(ohms)) => (format!("{ohms} Ω"), format!("{ohms} Ω")),
+            Self::Edges(Edges::Clean) => (
                 "clean edges, full level".into(),
                 "saubere Flanken, voller Pegel".into(),
             ),
-            Self::Edges(0 | 1) => ("the edges ring".into(), "die Flanken schwingen nach".into()),
-            Self::Edges(_) => (
+            Self::Edges(Edges::Ringing) => {
+                ("the edges ring".into(), "die Flanken schwingen nach".into())
+            }
+            Self::Edges(Edges::Flat) => (
+                "CAN_H and CAN_L have the same level all the time".into(),
+                "CAN_H und CAN_L haben immer denselben Pegel".into(),
+            ),
+            Self::Edges(Edges::Low) => (
                 "the dominant level is too low".into(),
                 "der dominante Pegel ist zu niedrig".into(),
             ),

@@ -236,6 +236,7 @@ pub(super) fn wire(tokens: &mut Tokens<'_>) -> Result<Action, Problem> {
             let millionths = percent(tokens, (-5.0, 5.0))? * 10_000.0;
             Wire::Cable(Property::Clock(millionths.round() as i32))
         }
+        "short" => Wire::Cable(Property::Shorted(!tokens.take("off"))),
         word => return Err(here.wrong(format!("a line cannot `{word}`"))),
     })))
 }

@@ -141,6 +141,9 @@ impl Journal {
         if cable.length != new.length {
             lines.push(std::format!("line length {}", cable.length));
         }
+        if cable.shorted != new.shorted {
+            lines.push("line short".into());
+        }
         if cable.sample_point != new.sample_point {
             let percent = f64::from(cable.sample_point) / 10.0;
             lines.push(std::format!("line sample-point {percent}"));

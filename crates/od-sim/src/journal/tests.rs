@@ -344,7 +344,7 @@ fn a_bench_without_its_history_is_the_same() {
 #[cfg(all(feature = "lessons", feature = "training"))]
 #[test]
 fn a_bench_without_its_history_has_the_list_of_the_master_and_the_physics_of_the_line() {
-    let text = "line real\nline length 120\nline sample-point 75\nline sjw 2\nuse 2\nline clock -1.5\nmaster slave 5\n\
+    let text = "line real\nline length 120\nline short\nline sample-point 75\nline sjw 2\nuse 2\nline clock -1.5\nmaster slave 5\n\
                 master write 5 1017h = 100\nmaster heartbeat 5 250ms\nmaster sync 50ms";
     let script = Input::Script { text: text.into() };
     let mut first = bench(vec![add("gxmm", 5), add("gxmm", 6), script]);

@@ -12,6 +12,9 @@ use crate::device::VirtualDevice;
 use crate::grammar::problem::Problem;
 use crate::script::{Bench, Host, Limits, Origin, Script, Stop, run_on};
 
+/// Names of the blocks that are not part of the text; a device has a block `eds NAME`.
+pub(super) const BLOCKS: [&str; 5] = ["set-up", "checkpoint", "solution", "answer", "facts"];
+
 /// Longest time until the frames of a set-up are through, in microseconds: a full line always has a frame.
 const ON_ITS_WAY: u64 = 100_000;
 

@@ -37,5 +37,5 @@ pub use content::{Block, Lesson, Step};
 pub use progress::{Progress, Requirement};
 pub use proof::prove;
 pub use quiz::{Judgement, Quiz, judge};
-pub use translation::translate;
+pub use translation::{is_translation, translate};
 pub use watch::{Watched, pass};

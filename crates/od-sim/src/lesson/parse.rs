@@ -3,8 +3,9 @@
 use std::format;
 use std::prelude::v1::*;
 
-use super::content::{Block, Lesson, Step};
+use super::content::{BLOCKS, Block, Lesson, Step};
 use super::quiz::Quiz;
+use super::translation::is_translation;
 use super::{checkpoint, front, links};
 use crate::grammar::pattern::Pattern;
 use crate::grammar::problem::Problem;
@@ -42,16 +43,23 @@ struct Reader {
     seen: Vec<&'static str>,
 }
 
-/// Names of the blocks that are not part of the text; a device has a block `eds NAME`.
-pub(super) const BLOCKS: [&str; 5] = ["set-up", "checkpoint", "solution", "answer", "facts"];
-
 impl Lesson {
     /// Reads a lesson.
     ///
     /// # Errors
     /// All problems, in the order of their lines.
     pub fn parse(text: &str) -> Result<Self, Vec<Problem>> {
-        parse(text)
+        parse(text).map_err(|problems| {
+            if !is_translation(text) {
+                return problems;
+            }
+            let help = "open the original: it has the set-up, the conditions and the solutions";
+            vec![Problem::new(
+                1,
+                "this is a translation without its original",
+                help,
+            )]
+        })
     }
 }
 

@@ -3,7 +3,7 @@
 use std::format;
 use std::prelude::v1::*;
 
-use super::parse::BLOCKS;
+use super::content::BLOCKS;
 use crate::grammar::problem::Problem;
 
 /// Keys of the front matter that a translation has; the others are those of the original.
@@ -46,6 +46,24 @@ pub fn translate(original: &str, translation: &str) -> Result<String, Vec<Proble
     } else {
         Err(text.problems)
     }
+}
+
+/// Returns whether a text is a translation, which is no lesson without its original: it names its language and nothing else that
+/// a translation does not have, and it has no set-up and no solution.
+pub fn is_translation(text: &str) -> bool {
+    let (front, sections) = split(text);
+    let keys: Vec<&str> = (front.iter())
+        .filter_map(|(_, line)| line.split_once('='))
+        .map(|(key, _)| key.trim())
+        .collect();
+    let has = |name: &str| {
+        let mut blocks = sections.iter().flat_map(Section::blocks);
+        blocks.any(|block| block.name == name)
+    };
+    keys.contains(&"language")
+        && keys.iter().all(|key| KEYS.contains(key))
+        && !has("set-up")
+        && !has("solution")
 }
 
 /// A heading with what follows it; the first one of a lesson has no heading.
@@ -282,7 +300,7 @@ mod tests {
     use std::format;
     use std::prelude::v1::*;
 
-    use super::translate;
+    use super::{is_translation, translate};
 
     const ORIGINAL: &str = "+++\ntitle = \"Boot-up\"\nlevel = 1\nminutes = 5\n+++\n\nAn intro.\n\n```set-up\n\
                             device gxmm node 5 off\n```\n\n## Power it\n\nDo it.\n\n```checkpoint\n# first\ncame 705#00 -- it comes\n\
@@ -296,6 +314,15 @@ mod tests {
     fn a_translation_has_the_blocks_of_its_original() {
         let text = translate(ORIGINAL, GERMAN).expect("it fits");
         let lesson = crate::lesson::Lesson::parse(&text).expect("it is a lesson");
+        assert!(is_translation(GERMAN) && !is_translation(&text) && !is_translation(ORIGINAL));
+        let alone = crate::lesson::Lesson::parse(GERMAN).expect_err("its original is missing");
+        let [problem] = &alone[..] else {
+            panic!("{alone:?}");
+        };
+        assert_eq!(
+            problem.message,
+            "this is a translation without its original"
+        );
         let step = &lesson.steps[0];
         assert_eq!((&*lesson.title, &*lesson.language), ("Booten", "de"));
         assert_eq!((lesson.level, lesson.minutes), (1, 5));

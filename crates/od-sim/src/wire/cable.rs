@@ -47,6 +47,8 @@ pub enum Property {
     Jump(u8),
     /// Deviation of the clock of one station in millionths; a positive one is too slow.
     Clock(i32),
+    /// Whether CAN_H and CAN_L are connected.
+    Shorted(bool),
 }
 
 /// A value of the line or of a station on it, as conditions name it.
@@ -71,6 +73,8 @@ pub struct Cable {
     pub sample_point: u16,
     /// Synchronisation jump width in time quanta, 1 to 4.
     pub jump: u8,
+    /// CAN_H and CAN_L are connected: no bit is dominant.
+    pub shorted: bool,
     /// Deviation of each station's clock in millionths; a positive one is too slow.
     deviations: Vec<i32>,
 }
@@ -81,6 +85,7 @@ impl Default for Cable {
             length: 0,
             sample_point: SAMPLE_POINT,
             jump: 1,
+            shorted: false,
             deviations: Vec::new(),
         }
     }
@@ -155,6 +160,7 @@ impl Cable {
             Property::SamplePoint(thousandths) => self.sample_point = thousandths.clamp(500, 950),
             Property::Jump(quanta) => self.jump = quanta.clamp(1, MOST_JUMP),
             Property::Clock(millionths) => self.set_deviation(station, millionths),
+            Property::Shorted(shorted) => self.shorted = shorted,
         }
     }
 

@@ -19,6 +19,8 @@ pub enum FrameError {
     Reflections,
     /// Another station sent a different frame with the same identifier at the same moment.
     SameId,
+    /// A short circuit between CAN_H and CAN_L: the sender cannot make a bit dominant.
+    ShortCircuit,
 }
 
 /// A failed attempt to send a frame, at the end of its error frame. While a frame without an acknowledgement
@@ -63,6 +65,7 @@ pub(super) fn bits_of(frame: &Frame, trouble: Option<FrameError>) -> u64 {
     match trouble {
         None => bits::count(frame),
         Some(FrameError::NoAcknowledge) => bits::count(frame) - BEHIND_ACKNOWLEDGE + ERROR_FRAME,
+        Some(FrameError::ShortCircuit) => 1 + ERROR_FRAME,
         Some(_) => DESTROYED,
     }
 }

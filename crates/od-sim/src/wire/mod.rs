@@ -254,6 +254,23 @@ impl Line {
     /// all; error passive, it cannot, and the others go on.
     fn attempt_of(&mut self, stations: &[Station], starters: &[(usize, Frame)]) -> Attempt {
         let (mut left, mut beaten) = (starters.to_vec(), Vec::new());
+        if self.is_shorted()
+            && starters
+                .iter()
+                .any(|(station, _)| self.is_plugged(*station))
+        {
+            // Not even the start of frame is on the line, so no other station sees anything.
+            for (station, _) in starters {
+                self.controllers[*station].erred_sending();
+            }
+            let trouble = Some(FrameError::ShortCircuit);
+            return Attempt {
+                trouble,
+                received: false,
+                bits: medium::bits_of(&left[0].1, trouble),
+                beaten,
+            };
+        }
         while let Some((place, recessive)) = first_difference(&left) {
             let active = |(station, _): &(usize, Frame)| {
                 self.controller(*station).condition() == Condition::ErrorActive
@@ -414,6 +431,11 @@ impl Line {
         self.cable.measure(station, measure)
     }
 
+    /// Returns whether no bit can be dominant.
+    fn is_shorted(&self) -> bool {
+        self.cable.shorted
+    }
+
     /// Returns whether acknowledgements come too late for the sender.
     fn is_late(&self, rate: Option<u16>) -> bool {
         self.cable.is_late(rate.unwrap_or(500))
@@ -439,6 +461,10 @@ impl Line {
 
     pub(crate) fn set_property(&mut self, _: usize, _: Property) -> Result<(), String> {
         Err("this program has no physics of the line".into())
+    }
+
+    fn is_shorted(&self) -> bool {
+        false
     }
 
     fn is_late(&self, _: Option<u16>) -> bool {

@@ -154,6 +154,34 @@ fn a_late_acknowledgement_leads_to_bus_off_and_frames_that_arrive_several_times(
     assert_eq!(line.controller(0).receive, 0, "16 errors, then 16 frames");
 }
 
+/// Without a dominant bit the start of frame is a bit error of its sender, and the others see nothing.
+#[cfg(feature = "training")]
+#[test]
+fn on_a_short_circuited_line_each_sender_goes_bus_off() {
+    let (mut line, stations) = (real(2), stations(&[500, 500, 500]));
+    line.cable.shorted = true;
+    let (frame, other) = (
+        Frame::standard(0x705, &[0]),
+        Frame::standard(0x705, &[0x7F]),
+    );
+    for starters in [&[(1, frame)][..], &[(0, frame), (2, other)]] {
+        for _ in 0..32 {
+            let attempt = line.try_once(Instant::ZERO, &stations, starters);
+            assert_eq!(attempt.trouble, Some(FrameError::ShortCircuit));
+            assert!(!attempt.received);
+        }
+    }
+    for station in 0..3 {
+        let controller = line.controller(station);
+        assert_eq!(controller.condition(), Condition::BusOff, "{station}");
+        assert_eq!(controller.receive, 0, "{station}");
+        line.restart(station);
+    }
+    line.cable.shorted = false;
+    let attempt = line.try_once(Instant::ZERO, &stations, &[(1, frame)]);
+    assert_eq!(attempt.trouble, None);
+}
+
 #[test]
 fn a_missing_terminator_disturbs_fast_lines_and_a_seed_repeats_it() {
     let count = |rate, terminators| {

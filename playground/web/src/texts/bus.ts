@@ -92,8 +92,8 @@ export const bus = {
   plot: 'Plot',
   trouble: {
     unknown: 'Error frame',
-    seen: ['', 'no node acknowledged the frame', 'stuff error', 'bit error', 'bit error'],
-    cause: ['', '', 'a node has another bit rate', 'reflections, check the terminators', 'another node sent other data with this CAN-ID at the same moment'],
+    seen: ['', 'no node acknowledged the frame', 'stuff error', 'bit error', 'bit error', 'bit error'],
+    cause: ['', '', 'a node has another bit rate', 'reflections, check the terminators', 'another node sent other data with this CAN-ID at the same moment', 'CAN_H and CAN_L are short-circuited'],
     text: (seen: string, cause: string, attempts: number, errors: number, busOff: boolean) =>
       `Attempt ${attempts} failed, ${seen}${cause ? ` (${cause})` : ''}; transmit error counter ${errors}${busOff ? '. The sender is bus-off, the frame is lost' : ''}`,
   },

@@ -94,8 +94,8 @@ export const bus = {
   plot: 'Plot',
   trouble: {
     unknown: 'Error-Frame',
-    seen: ['', 'kein Knoten hat den Frame bestätigt', 'Stopffehler', 'Bitfehler', 'Bitfehler'],
-    cause: ['', '', 'ein Knoten hat eine andere Bitrate', 'Reflexionen, prüf die Abschlusswiderstände', 'ein anderer Knoten hat zur selben Zeit andere Daten mit dieser CAN-ID gesendet'],
+    seen: ['', 'kein Knoten hat den Frame bestätigt', 'Stopffehler', 'Bitfehler', 'Bitfehler', 'Bitfehler'],
+    cause: ['', '', 'ein Knoten hat eine andere Bitrate', 'Reflexionen, prüf die Abschlusswiderstände', 'ein anderer Knoten hat zur selben Zeit andere Daten mit dieser CAN-ID gesendet', 'CAN_H und CAN_L sind kurzgeschlossen'],
     text: (seen, cause, attempts, errors, busOff) =>
       `Versuch ${attempts} fehlgeschlagen, ${seen}${cause ? ` (${cause})` : ''}; Sendefehlerzähler ${errors}${busOff ? '. Der Sender ist Bus-off, der Frame ist verloren' : ''}`,
   },
