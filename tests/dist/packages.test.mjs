@@ -2,9 +2,12 @@
 import assert from 'node:assert/strict';
 import { appendFileSync, chmodSync, copyFileSync, mkdirSync, readFileSync, readdirSync, writeFileSync } from 'node:fs';
 import { homedir } from 'node:os';
-import { join, resolve } from 'node:path';
+import { basename, join, resolve } from 'node:path';
 import { test } from 'node:test';
 import { dist, file, room } from './room.mjs';
+
+/** The wheel for this computer. */
+const WHEEL = new RegExp(`manylinux2014_${process.arch === 'arm64' ? 'aarch64' : 'x86_64'}.*\\.whl$`);
 
 test('checksums and README name every file', () => {
   const { run } = room('sums');
@@ -16,12 +19,16 @@ test('checksums and README name every file', () => {
   for (const { name } of readdirSync(dist, { withFileTypes: true }).filter((one) => one.isDirectory())) assert.match(readme, new RegExp(`^## ${name}$`, 'm'));
 });
 
+test('a wheel for each system, and the sources for the others', () => {
+  for (const system of [/manylinux2014_x86_64/, /manylinux2014_aarch64/, /musllinux_1_2_x86_64/, /musllinux_1_2_aarch64/, /win_amd64\.whl$/, /\.tar\.gz$/]) file('python', system);
+});
+
 test('the wheel is a bus of python-can', () => {
   const { dir, run } = room('python');
   run('python3', ['-m', 'venv', 'venv']);
   const python = join(dir, 'venv/bin/python');
   run(python, ['-m', 'pip', 'install', '--quiet', 'python-can>=4.4', 'canopen>=2.3', 'pytest']);
-  run(python, ['-m', 'pip', 'install', '--quiet', '--no-index', '--no-deps', file('python', /\.whl$/)]);
+  run(python, ['-m', 'pip', 'install', '--quiet', '--no-index', '--no-deps', file('python', WHEEL)]);
   writeFileSync(
     join(dir, 'test_bus.py'),
     `import can
@@ -121,7 +128,7 @@ test('each part contains the licences of its third-party components', () => {
     run('python3', ['-m', 'zipfile', '-e', archive, 'unzipped']);
     return readFileSync(join(dir, 'unzipped', inner, name), 'utf8');
   };
-  const wheel = file('python', /\.whl$/);
+  const wheel = file('python', WHEEL);
   const info = `${wheel.match(/odkit-[\d.]+/)[0]}.dist-info`;
   const texts = {
     bin: readFileSync(join(dist, 'bin', name), 'utf8'),
@@ -145,7 +152,8 @@ test('no part names a folder of the computer that built it', () => {
   const { dir, run } = room('paths');
   const unpacked = [file('npm', /\.tgz$/), ...readdirSync(join(dist, 'crates')).map((name) => join(dist, 'crates', name))];
   for (const archive of unpacked) run('tar', ['-xzf', archive]);
-  for (const archive of [file('python', /\.whl$/), file('vscode', /\.vsix$/)]) run('python3', ['-m', 'zipfile', '-e', archive, '.']);
+  const wheels = readdirSync(join(dist, 'python')).filter((name) => name.endsWith('.whl'));
+  for (const archive of [...wheels.map((name) => join(dist, 'python', name)), file('vscode', /\.vsix$/)]) run('python3', ['-m', 'zipfile', '-e', archive, basename(archive)]);
   const folders = [`${process.env.CARGO_HOME ?? join(homedir(), '.cargo')}/`, ...['crates/', 'od-m'].map((name) => `${resolve(import.meta.dirname, '../..')}/${name}`)];
   let seen = 0;
   for (const place of [dir, join(dist, 'bin'), join(dist, 'site/playground'), join(dist, 'sbom')]) {

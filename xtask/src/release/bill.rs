@@ -8,6 +8,7 @@ use serde_json::Value;
 
 use super::dist::Dist;
 use super::systems::SYSTEMS;
+use super::wheel::WHEELS;
 use crate::console::ask_in;
 use crate::error::{Error, Result};
 use crate::files;
@@ -114,7 +115,7 @@ pub(super) fn of(dist: &Dist<'_>, part: &str) -> Result<Bill> {
             listed.into_iter().for_each(|one| bill.add(one));
             Ok(bill)
         }
-        "python" => cargo(dist, PYTHON, &["x86_64-unknown-linux-gnu"]),
+        "python" => cargo(dist, PYTHON, &WHEELS.map(|(triple, _)| triple)),
         "npm" => cargo(dist, PAGE.0, &[target::WASM]),
         "site" => {
             let mut bill = Bill::new("odkit-site", &dist.version);

@@ -8,6 +8,9 @@ pub(super) struct System {
     pub(super) linker: Option<(&'static str, Option<&'static str>)>,
 }
 
+/// The linker of programs for Windows, and Debian's package of it.
+pub(super) const MINGW: (&str, &str) = ("x86_64-w64-mingw32-gcc", "gcc-mingw-w64-x86-64");
+
 #[rustfmt::skip]
 pub(super) const SYSTEMS: [System; 3] = [
     System { triple: "x86_64-unknown-linux-musl", ending: "", linker: None },
@@ -15,7 +18,7 @@ pub(super) const SYSTEMS: [System; 3] = [
     System {
         triple: "x86_64-pc-windows-gnu",
         ending: ".exe",
-        linker: Some(("x86_64-w64-mingw32-gcc", Some("gcc-mingw-w64-x86-64"))),
+        linker: Some((MINGW.0, Some(MINGW.1))),
     },
 ];
 
