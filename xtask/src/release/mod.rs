@@ -40,7 +40,7 @@ const PARTS: [Part; 7] = [
     Part { name: "vscode", about: "the extension for Visual Studio Code: `code --install-extension FILE`", make: vscode::make },
     Part { name: "site", about: "the playground and the documentation, for any web server that sends files", make: site::make },
     Part { name: "sbom", about: "what each part is made of, as CycloneDX 1.5", make: sbom::make },
-    Part { name: "python", about: "the package for Python 3.9 and later: `pip install FILE`", make: wheel::make },
+    Part { name: "python", about: "the package for Python 3.9 and later, for Linux and Windows: `pip install FILE`; a Mac takes the sources and Rust", make: wheel::make },
     Part { name: "bin", about: "the command line, without further files: rename the one of your system to `odkit`", make: binaries::make },
 ];
 
