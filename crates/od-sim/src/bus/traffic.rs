@@ -131,16 +131,12 @@ impl Bus {
             stations.get(one.station).is_some_and(|it| it.present)
                 && self.line.controller(one.station).condition() != Condition::BusOff
         });
-        // A station that is not connected, or has another bit rate, does not compare its bits with
-        // those of the others.
-        let alone = |one: &Waiting| !self.line.is_plugged(one.station);
+        // A station with another bit rate does not compare its bits with those of the others.
         let rate = |one: &Waiting| stations[one.station].rate;
         if let Some(first) = starters.first().copied() {
-            let (together, later): (Vec<Waiting>, Vec<Waiting>) =
-                starters.into_iter().partition(|one| {
-                    one.station == first.station
-                        || !alone(one) && !alone(&first) && rate(one) == rate(&first)
-                });
+            let (together, later): (Vec<Waiting>, Vec<Waiting>) = starters
+                .into_iter()
+                .partition(|one| one.station == first.station || rate(one) == rate(&first));
             starters = together;
             for one in later {
                 self.line.medium.again(one, false);

@@ -23,6 +23,8 @@ use crate::grammar::tokens::Tokens;
 
 /// Longest wait for a frame on a line that takes time, in microseconds, where a script names no time.
 pub(super) const ON_ITS_WAY: u64 = 100_000;
+/// Longest time in which a frame of a script is sent, in microseconds: on a line that is always full it never gets its turn.
+const SENDING: u64 = 10_000_000;
 /// Time after which a run without frames asks whether it has to end, in microseconds.
 const STEP: u64 = 10_000_000;
 
@@ -364,10 +366,13 @@ impl Runner<'_> {
     }
 
     /// On a line that takes time, a script line is done when its frame was sent or lost, or repeats
-    /// without end. Station 0 is the script.
+    /// without end, or after [`SENDING`]. Station 0 is the script.
     fn send_out(&mut self, station: usize) {
+        let end = self.now().plus_micros(SENDING);
         while self.bench.bus.is_sending(station)
             && !self.bench.bus.is_stuck(station)
+            && !self.must_end()
+            && self.now() < end
             && self.bench.bus.advance_until_event()
         {
             self.collect();

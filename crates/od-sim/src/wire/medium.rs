@@ -1,7 +1,9 @@
-//! Frames on a line that takes time: one at a time, the lowest identifier first.
+//! Frames on a line that takes time: one at a time, the lowest identifier first. A station that is not connected has a
+//! wire of its own, so its attempts take no time of the others.
 //!
 //! Times are in nanoseconds, because a bit at 800 kbit/s takes 1.25 µs.
 
+use std::collections::BTreeMap;
 use std::prelude::v1::*;
 
 use od_runtime::{Frame, Instant};
@@ -134,15 +136,23 @@ impl Ended {
     }
 }
 
-/// The line, and the frames that wait for it.
+/// A wire with one frame at a time.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Medium {
-    waiting: Vec<Waiting>,
+struct Wire {
     flight: Option<Flight>,
     /// Time from which the next frame may start, in nanoseconds.
     free: u64,
     /// Duration of a bit of the last frame, in nanoseconds.
     bit: u64,
+}
+
+/// The line, the wires of stations that are not connected to it, and the frames that wait.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Medium {
+    waiting: Vec<Waiting>,
+    line: Wire,
+    /// Stations that are not connected, in their order.
+    apart: BTreeMap<usize, Wire>,
     /// Time during which the line was not idle, in nanoseconds.
     busy: u64,
     order: u64,
@@ -177,13 +187,39 @@ impl Medium {
         true
     }
 
+    /// Takes a station off the line, or connects it. A frame that it is sending apart from the others begins again.
+    pub(crate) fn set_apart(&mut self, station: usize, is_apart: bool) {
+        if is_apart {
+            self.apart.entry(station).or_default();
+        } else if let Some(Wire { flight, .. }) = self.apart.remove(&station) {
+            let own = flight.into_iter().flat_map(|flight| flight.ended.senders);
+            self.waiting.extend(own);
+        }
+    }
+
+    /// The wire of a station.
+    fn wire(&self, station: usize) -> &Wire {
+        self.apart.get(&station).unwrap_or(&self.line)
+    }
+
+    /// What is on the wires.
+    fn flights(&self) -> impl Iterator<Item = &Flight> {
+        let wires = [&self.line].into_iter().chain(self.apart.values());
+        wires.filter_map(|wire| wire.flight.as_ref())
+    }
+
+    fn flights_mut(&mut self) -> impl Iterator<Item = &mut Flight> {
+        let wires = [&mut self.line].into_iter().chain(self.apart.values_mut());
+        wires.filter_map(|wire| wire.flight.as_mut())
+    }
+
     /// Returns whether a device can queue another frame.
     pub(crate) fn has_room(&self, station: usize) -> bool {
         self.count(station) < MAILBOXES
     }
 
     fn count(&self, station: usize) -> usize {
-        let flies = self.flight.iter().flat_map(|flight| {
+        let flies = self.flights().flat_map(|flight| {
             let ended = &flight.ended;
             let all = ended.senders.iter().chain(&ended.beaten);
             all.map(|one| one.station)
@@ -199,7 +235,7 @@ impl Medium {
 
     /// Returns whether no station acknowledges a frame of this station, which it repeats without end.
     pub(crate) fn repeats(&self, station: usize) -> bool {
-        let flying = self.flight.iter().flat_map(|flight| &flight.ended.senders);
+        let flying = self.flights().flat_map(|flight| &flight.ended.senders);
         let mut all = self.waiting.iter().chain(flying);
         all.any(|one| one.station == station && one.repeats)
     }
@@ -212,39 +248,56 @@ impl Medium {
 
     /// Time of the next event.
     pub(crate) fn due(&self) -> Option<Instant> {
-        let nanos = match &self.flight {
-            Some(flight) => flight.end,
-            None => self.candidates().map(|one| self.start(one)).min()?,
-        };
+        let (nanos, _) = self.next()?;
         Some(Instant::from_micros(nanos.div_ceil(NANOS)))
     }
 
-    /// The frames that can be the next one. A program sends its frames in order, so only the oldest of the outside can.
-    fn candidates(&self) -> impl Iterator<Item = &Waiting> {
+    /// The time of the next event in nanoseconds, and the station apart on whose wire it is; `None`: on the line.
+    fn next(&self) -> Option<(u64, Option<usize>)> {
+        let apart = self.apart.keys().copied().map(Some);
+        let places = [None].into_iter().chain(apart);
+        let event = |place: Option<usize>| {
+            let wire = place.map_or(&self.line, |station| self.wire(station));
+            match &wire.flight {
+                Some(flight) => Some(flight.end),
+                None => self.candidates(place).map(|one| self.start(one)).min(),
+            }
+        };
+        let events = places.filter_map(|place| Some((event(place)?, place)));
+        events.min_by_key(|(nanos, _)| *nanos)
+    }
+
+    /// The frames that can be the next one on the line, or on the wire of a station. A program sends its frames in order, so
+    /// only the oldest of the outside can.
+    fn candidates(&self, place: Option<usize>) -> impl Iterator<Item = &Waiting> {
         let outside = self.waiting.iter().filter(|one| one.station == 0);
         let oldest = outside.map(|one| one.order).min();
-        let can = move |one: &&Waiting| one.station != 0 || Some(one.order) == oldest;
+        let can = move |one: &&Waiting| {
+            let of = Some(one.station).filter(|station| self.apart.contains_key(station));
+            of == place && (one.station != 0 || Some(one.order) == oldest)
+        };
         self.waiting.iter().filter(can)
     }
 
     /// Time at which a frame may start if no other frame does, in nanoseconds.
     fn start(&self, waiting: &Waiting) -> u64 {
-        self.free.max(waiting.ready)
+        self.wire(waiting.station).free.max(waiting.ready)
     }
 
     /// Takes the event of a time. The caller returns a frame that starts to
     /// [`begin`](Self::begin).
     pub(crate) fn take(&mut self, now: Instant) -> Option<Due> {
-        if self.due()? > now {
+        let (first, place) = self.next()?;
+        if Instant::from_micros(first.div_ceil(NANOS)) > now {
             return None;
         }
-        if let Some(flight) = self.flight.take() {
+        let wire = place.and_then(|station| self.apart.get_mut(&station));
+        if let Some(flight) = wire.unwrap_or(&mut self.line).flight.take() {
             return Some(Due::End(flight.ended));
         }
         // All frames that are ready at the first possible start take part.
-        let first = self.candidates().map(|one| self.start(one)).min()?;
         let takes_part = |one: &Waiting| self.start(one) <= first;
-        let mut parts: Vec<Waiting> = self.candidates().copied().filter(takes_part).collect();
+        let mut parts: Vec<Waiting> = self.candidates(place).copied().filter(takes_part).collect();
         let lowest = parts.iter().map(|one| arbitration(&one.frame)).min()?;
         parts.retain(|one| arbitration(&one.frame) == lowest);
         parts.sort_by_key(|one| one.order);
@@ -260,15 +313,23 @@ impl Medium {
         Some(Due::Start(starters))
     }
 
-    /// Puts a frame on the line for this number of bits at this bit rate in kbit/s; it will end with `ended`.
+    /// Puts a frame on the wire of its senders for this number of bits at this bit rate in kbit/s; it will end with `ended`.
     pub(crate) fn begin(&mut self, ended: Ended, kbit: u16, bits: u64) {
         let nanos = |count: u64| count * 1_000_000 / u64::from(kbit.max(1));
-        let starts = ended.senders.iter().map(|one| self.start(one));
-        let start = starts.max().unwrap_or(self.free);
-        self.free = start + nanos(bits + INTERMISSION);
-        self.bit = nanos(1);
-        self.busy += self.free - start;
-        self.flight = Some(Flight {
+        let all = || ended.senders.iter().chain(&ended.beaten);
+        let start = all().map(|one| self.start(one)).max();
+        let apart = all()
+            .next()
+            .and_then(|one| self.apart.get_mut(&one.station));
+        let is_line = apart.is_none();
+        let wire = apart.unwrap_or(&mut self.line);
+        let start = start.unwrap_or(wire.free);
+        wire.free = start + nanos(bits + INTERMISSION);
+        wire.bit = nanos(1);
+        if is_line {
+            self.busy += wire.free - start;
+        }
+        wire.flight = Some(Flight {
             end: start + nanos(bits),
             ended,
         });
@@ -278,7 +339,8 @@ impl Medium {
     /// (ISO 11898-1, suspend transmission).
     pub(crate) fn again(&mut self, mut waiting: Waiting, is_passive: bool) {
         if is_passive {
-            waiting.ready = self.free + SUSPENSION * self.bit;
+            let Wire { free, bit, .. } = self.wire(waiting.station);
+            waiting.ready = free + SUSPENSION * bit;
         }
         self.waiting.push(waiting);
     }
@@ -286,13 +348,14 @@ impl Medium {
     /// Forgets all frames.
     pub(crate) fn clear(&mut self) {
         self.waiting.clear();
-        self.flight = None;
+        self.line.flight = None;
+        self.apart.values_mut().for_each(|wire| wire.flight = None);
     }
 
     /// Forgets the frames of a station that lost its power.
     pub(crate) fn forget(&mut self, station: usize) {
         self.waiting.retain(|one| one.station != station);
-        if let Some(Flight { ended, .. }) = &mut self.flight {
+        for Flight { ended, .. } in self.flights_mut() {
             ended.senders.retain(|one| one.station != station);
             ended.beaten.retain(|one| one.station != station);
         }
@@ -301,15 +364,17 @@ impl Medium {
     /// Removes a station; later ones move up.
     pub(crate) fn remove(&mut self, station: usize) {
         self.forget(station);
-        let flying = self.flight.iter_mut().flat_map(|flight| {
-            let Ended {
-                senders, beaten, ..
-            } = &mut flight.ended;
-            senders.iter_mut().chain(beaten)
-        });
-        for one in self.waiting.iter_mut().chain(flying) {
-            one.station -= usize::from(one.station > station);
+        self.apart = std::mem::take(&mut self.apart)
+            .into_iter()
+            .filter(|(other, _)| *other != station)
+            .map(|(other, wire)| (other - usize::from(other > station), wire))
+            .collect();
+        let move_up = |one: &mut Waiting| one.station -= usize::from(one.station > station);
+        for Flight { ended, .. } in self.flights_mut() {
+            ended.senders.iter_mut().for_each(move_up);
+            ended.beaten.iter_mut().for_each(move_up);
         }
+        self.waiting.iter_mut().for_each(move_up);
     }
 
     /// Microseconds during which the line was not idle; a frame that is being sent counts completely.

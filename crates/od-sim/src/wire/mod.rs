@@ -155,6 +155,7 @@ impl Line {
             self.unplugged.resize(station + 1, false);
         }
         self.unplugged[station] = !plugged;
+        self.medium.set_apart(station, !plugged);
     }
 
     /// Returns whether a station is connected.

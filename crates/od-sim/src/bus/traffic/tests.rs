@@ -250,3 +250,29 @@ fn two_frames_that_no_node_acknowledges_do_not_stop_time() {
     let own: Vec<&str> = own.map(|(_, frame)| frame.as_str()).collect();
     assert_eq!(own, ["080#", "081#"]);
 }
+
+/// Two devices repeat their boot-up messages, which nobody acknowledges, on wires of their own (ISO 11898-1): the others
+/// have the whole line, also with a frame of lower priority.
+#[test]
+fn a_device_that_is_not_connected_takes_no_time_of_the_line() {
+    let mut bus = bus(500, &[1, 2, 9]);
+    for station in [1, 2] {
+        bus.line.set_plugged(station, false);
+    }
+    assert_eq!(seen(&mut bus, 400_000).len(), 1, "the boot-up of node 9");
+    assert_eq!(bus.line.controller(2).transmit, 128);
+    let (from, busy) = (bus.now().as_micros(), bus.line.busy());
+    send(&mut bus, "7E5#0400000000000000");
+    send(&mut bus, "609#4000100000000000");
+    let all = seen(&mut bus, from + 20_000);
+    assert_eq!(all.len(), 3, "{all:?}");
+    assert_eq!(all[2].1, "589#4300100096010200");
+    // Three frames of less than 135 bits, and the time of the device.
+    assert!(all[2].0 - from < 3 * 135 * 2 + 1000, "{all:?}");
+    assert!(bus.line.busy() - busy < 3 * 138 * 2);
+    // Connected again, they send what they repeated.
+    bus.line.set_plugged(1, true);
+    let all = seen(&mut bus, from + 40_000);
+    assert_eq!(all.len(), 1, "{all:?}");
+    assert_eq!(all[0].1, "701#00");
+}
