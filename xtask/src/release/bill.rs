@@ -7,8 +7,7 @@ use data_encoding::{BASE64, HEXLOWER};
 use serde_json::Value;
 
 use super::dist::Dist;
-use super::systems::SYSTEMS;
-use super::wheel::WHEELS;
+use super::systems::{SYSTEMS, WHEELS};
 use crate::console::ask_in;
 use crate::error::{Error, Result};
 use crate::files;

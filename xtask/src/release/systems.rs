@@ -1,4 +1,4 @@
-//! The systems that the command line is built for.
+//! The systems that the command line and the Python package are built for.
 
 /// A system, its name in file names, and the linker of its programs with Debian's package of it, unless rustc
 /// can link them itself: `rust-lld` comes with rustc.
@@ -20,6 +20,17 @@ pub(super) const SYSTEMS: [System; 3] = [
         ending: ".exe",
         linker: Some((MINGW.0, Some(MINGW.1))),
     },
+];
+
+/// The systems of the wheels, and the oldest one of each that may load the module. zig links for an old libc, and a wheel that needs
+/// more is an error of maturin; a wheel for Windows has no such promise. A Mac builds the sources: its linker needs
+/// files of Apple.
+pub(super) const WHEELS: [(&str, Option<&str>); 5] = [
+    ("x86_64-unknown-linux-gnu", Some("manylinux2014")),
+    ("aarch64-unknown-linux-gnu", Some("manylinux2014")),
+    ("x86_64-unknown-linux-musl", Some("musllinux_1_2")),
+    ("aarch64-unknown-linux-musl", Some("musllinux_1_2")),
+    ("x86_64-pc-windows-gnu", None),
 ];
 
 #[cfg(test)]

@@ -7,24 +7,13 @@ use std::process::Command;
 use super::dist::Dist;
 use super::notices;
 use super::sbom;
-use super::systems::MINGW;
+use super::systems::{MINGW, WHEELS};
 use crate::console::{clean, which, without_paths};
 use crate::error::{Error, Result};
 use crate::setup::{apt, python, target};
 
 /// The tested versions of the builder and of its linker for Linux.
 const REQUIREMENTS: &str = "xtask/tools/wheel.txt";
-
-/// The systems, and the oldest one of each that may load the module. zig links for an old libc, and a wheel that needs
-/// more is an error of maturin; a wheel for Windows has no such promise. A Mac builds the sources: its linker needs
-/// files of Apple.
-pub(super) const WHEELS: [(&str, Option<&str>); 5] = [
-    ("x86_64-unknown-linux-gnu", Some("manylinux2014")),
-    ("aarch64-unknown-linux-gnu", Some("manylinux2014")),
-    ("x86_64-unknown-linux-musl", Some("musllinux_1_2")),
-    ("aarch64-unknown-linux-musl", Some("musllinux_1_2")),
-    ("x86_64-pc-windows-gnu", None),
-];
 
 pub(super) fn make(dist: &Dist<'_>, folder: &Path) -> Result<()> {
     let (repo, console) = (dist.repo, dist.console);
