@@ -3,7 +3,6 @@
 //!
 //! Times are in nanoseconds, because a bit at 800 kbit/s takes 1.25 µs.
 
-use std::collections::BTreeMap;
 use std::prelude::v1::*;
 
 use od_runtime::{Frame, Instant};
@@ -151,8 +150,8 @@ struct Wire {
 pub(crate) struct Medium {
     waiting: Vec<Waiting>,
     line: Wire,
-    /// Stations that are not connected, in their order.
-    apart: BTreeMap<usize, Wire>,
+    /// Stations that are not connected.
+    apart: Vec<(usize, Wire)>,
     /// Time during which the line was not idle, in nanoseconds.
     busy: u64,
     order: u64,
@@ -189,27 +188,48 @@ impl Medium {
 
     /// Takes a station off the line, or connects it. A frame that it is sending apart from the others begins again.
     pub(crate) fn set_apart(&mut self, station: usize, is_apart: bool) {
-        if is_apart {
-            self.apart.entry(station).or_default();
-        } else if let Some(Wire { flight, .. }) = self.apart.remove(&station) {
-            let own = flight.into_iter().flat_map(|flight| flight.ended.senders);
-            self.waiting.extend(own);
+        let place = self.apart.iter().position(|(other, _)| *other == station);
+        match place {
+            None if is_apart => self.apart.push((station, Wire::default())),
+            Some(place) if !is_apart => {
+                let (_, Wire { flight, .. }) = self.apart.remove(place);
+                let own = flight.into_iter().flat_map(|flight| flight.ended.senders);
+                self.waiting.extend(own);
+            }
+            _ => {}
         }
     }
 
     /// The wire of a station.
     fn wire(&self, station: usize) -> &Wire {
-        self.apart.get(&station).unwrap_or(&self.line)
+        let apart = self.apart.iter().find(|(other, _)| *other == station);
+        apart.map_or(&self.line, |(_, wire)| wire)
+    }
+
+    fn wire_mut(&mut self, station: Option<usize>) -> &mut Wire {
+        let mut apart = self.apart.iter_mut();
+        match apart.find(|(other, _)| Some(*other) == station) {
+            Some((_, wire)) => wire,
+            None => &mut self.line,
+        }
+    }
+
+    /// Returns whether a station has a wire of its own.
+    fn is_apart(&self, station: usize) -> bool {
+        self.apart.iter().any(|(other, _)| *other == station)
     }
 
     /// What is on the wires.
     fn flights(&self) -> impl Iterator<Item = &Flight> {
-        let wires = [&self.line].into_iter().chain(self.apart.values());
+        let wires = [&self.line]
+            .into_iter()
+            .chain(self.apart.iter().map(|(_, wire)| wire));
         wires.filter_map(|wire| wire.flight.as_ref())
     }
 
     fn flights_mut(&mut self) -> impl Iterator<Item = &mut Flight> {
-        let wires = [&mut self.line].into_iter().chain(self.apart.values_mut());
+        let apart = self.apart.iter_mut().map(|(_, wire)| wire);
+        let wires = [&mut self.line].into_iter().chain(apart);
         wires.filter_map(|wire| wire.flight.as_mut())
     }
 
@@ -254,7 +274,7 @@ impl Medium {
 
     /// The time of the next event in nanoseconds, and the station apart on whose wire it is; `None`: on the line.
     fn next(&self) -> Option<(u64, Option<usize>)> {
-        let apart = self.apart.keys().copied().map(Some);
+        let apart = self.apart.iter().map(|(station, _)| Some(*station));
         let places = [None].into_iter().chain(apart);
         let event = |place: Option<usize>| {
             let wire = place.map_or(&self.line, |station| self.wire(station));
@@ -273,7 +293,7 @@ impl Medium {
         let outside = self.waiting.iter().filter(|one| one.station == 0);
         let oldest = outside.map(|one| one.order).min();
         let can = move |one: &&Waiting| {
-            let of = Some(one.station).filter(|station| self.apart.contains_key(station));
+            let of = Some(one.station).filter(|station| self.is_apart(*station));
             of == place && (one.station != 0 || Some(one.order) == oldest)
         };
         self.waiting.iter().filter(can)
@@ -291,8 +311,7 @@ impl Medium {
         if Instant::from_micros(first.div_ceil(NANOS)) > now {
             return None;
         }
-        let wire = place.and_then(|station| self.apart.get_mut(&station));
-        if let Some(flight) = wire.unwrap_or(&mut self.line).flight.take() {
+        if let Some(flight) = self.wire_mut(place).flight.take() {
             return Some(Due::End(flight.ended));
         }
         // All frames that are ready at the first possible start take part.
@@ -318,17 +337,15 @@ impl Medium {
         let nanos = |count: u64| count * 1_000_000 / u64::from(kbit.max(1));
         let all = || ended.senders.iter().chain(&ended.beaten);
         let start = all().map(|one| self.start(one)).max();
-        let apart = all()
-            .next()
-            .and_then(|one| self.apart.get_mut(&one.station));
-        let is_line = apart.is_none();
-        let wire = apart.unwrap_or(&mut self.line);
-        let start = start.unwrap_or(wire.free);
-        wire.free = start + nanos(bits + INTERMISSION);
-        wire.bit = nanos(1);
-        if is_line {
-            self.busy += wire.free - start;
+        let station = all().next().map(|one| one.station);
+        let taken = nanos(bits + INTERMISSION);
+        if station.is_none_or(|station| !self.is_apart(station)) {
+            self.busy += taken;
         }
+        let wire = self.wire_mut(station);
+        let start = start.unwrap_or(wire.free);
+        wire.free = start + taken;
+        wire.bit = nanos(1);
         wire.flight = Some(Flight {
             end: start + nanos(bits),
             ended,
@@ -349,7 +366,9 @@ impl Medium {
     pub(crate) fn clear(&mut self) {
         self.waiting.clear();
         self.line.flight = None;
-        self.apart.values_mut().for_each(|wire| wire.flight = None);
+        self.apart
+            .iter_mut()
+            .for_each(|(_, wire)| wire.flight = None);
     }
 
     /// Forgets the frames of a station that lost its power.
@@ -364,11 +383,10 @@ impl Medium {
     /// Removes a station; later ones move up.
     pub(crate) fn remove(&mut self, station: usize) {
         self.forget(station);
-        self.apart = std::mem::take(&mut self.apart)
-            .into_iter()
-            .filter(|(other, _)| *other != station)
-            .map(|(other, wire)| (other - usize::from(other > station), wire))
-            .collect();
+        self.apart.retain(|(other, _)| *other != station);
+        for (other, _) in &mut self.apart {
+            *other -= usize::from(*other > station);
+        }
         let move_up = |one: &mut Waiting| one.station -= usize::from(one.station > station);
         for Flight { ended, .. } in self.flights_mut() {
             ended.senders.iter_mut().for_each(move_up);
