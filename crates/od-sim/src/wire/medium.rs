@@ -138,6 +138,8 @@ impl Ended {
 /// A wire with one frame at a time.
 #[derive(Clone, Debug, Default)]
 struct Wire {
+    /// The only station on it, which is not connected to the line; `None`: the wire is the line.
+    station: Option<usize>,
     flight: Option<Flight>,
     /// Time from which the next frame may start, in nanoseconds.
     free: u64,
@@ -146,12 +148,11 @@ struct Wire {
 }
 
 /// The line, the wires of stations that are not connected to it, and the frames that wait.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub(crate) struct Medium {
     waiting: Vec<Waiting>,
-    line: Wire,
-    /// Stations that are not connected.
-    apart: Vec<(usize, Wire)>,
+    /// The first is the line.
+    wires: Vec<Wire>,
     /// Time during which the line was not idle, in nanoseconds.
     busy: u64,
     order: u64,
@@ -163,6 +164,17 @@ pub(crate) enum Due {
     Start(Vec<Waiting>),
     /// A frame ended, with or without success.
     End(Ended),
+}
+
+impl Default for Medium {
+    fn default() -> Self {
+        Self {
+            waiting: Vec::new(),
+            wires: vec![Wire::default()],
+            busy: 0,
+            order: 0,
+        }
+    }
 }
 
 impl Medium {
@@ -188,49 +200,30 @@ impl Medium {
 
     /// Takes a station off the line, or connects it. A frame that it is sending apart from the others begins again.
     pub(crate) fn set_apart(&mut self, station: usize, is_apart: bool) {
-        let place = self.apart.iter().position(|(other, _)| *other == station);
-        match place {
-            None if is_apart => self.apart.push((station, Wire::default())),
-            Some(place) if !is_apart => {
-                let (_, Wire { flight, .. }) = self.apart.remove(place);
-                let own = flight.into_iter().flat_map(|flight| flight.ended.senders);
-                self.waiting.extend(own);
-            }
-            _ => {}
+        let place = self.place(station);
+        if is_apart && place == 0 {
+            self.wires.push(Wire {
+                station: Some(station),
+                ..Wire::default()
+            });
+        } else if !is_apart
+            && place > 0
+            && let Some(flight) = self.wires.remove(place).flight
+        {
+            self.waiting.extend(flight.ended.senders);
         }
     }
 
-    /// The wire of a station.
-    fn wire(&self, station: usize) -> &Wire {
-        let apart = self.apart.iter().find(|(other, _)| *other == station);
-        apart.map_or(&self.line, |(_, wire)| wire)
-    }
-
-    fn wire_mut(&mut self, station: Option<usize>) -> &mut Wire {
-        let mut apart = self.apart.iter_mut();
-        match apart.find(|(other, _)| Some(*other) == station) {
-            Some((_, wire)) => wire,
-            None => &mut self.line,
-        }
-    }
-
-    /// Returns whether a station has a wire of its own.
-    fn is_apart(&self, station: usize) -> bool {
-        self.apart.iter().any(|(other, _)| *other == station)
+    /// The number of the wire of a station.
+    fn place(&self, station: usize) -> usize {
+        let mut wires = self.wires.iter();
+        let own = wires.position(|wire| wire.station == Some(station));
+        own.unwrap_or(0)
     }
 
     /// What is on the wires.
     fn flights(&self) -> impl Iterator<Item = &Flight> {
-        let wires = [&self.line]
-            .into_iter()
-            .chain(self.apart.iter().map(|(_, wire)| wire));
-        wires.filter_map(|wire| wire.flight.as_ref())
-    }
-
-    fn flights_mut(&mut self) -> impl Iterator<Item = &mut Flight> {
-        let apart = self.apart.iter_mut().map(|(_, wire)| wire);
-        let wires = [&mut self.line].into_iter().chain(apart);
-        wires.filter_map(|wire| wire.flight.as_mut())
+        self.wires.iter().filter_map(|wire| wire.flight.as_ref())
     }
 
     /// Returns whether a device can queue another frame.
@@ -272,36 +265,39 @@ impl Medium {
         Some(Instant::from_micros(nanos.div_ceil(NANOS)))
     }
 
-    /// The time of the next event in nanoseconds, and the station apart on whose wire it is; `None`: on the line.
-    fn next(&self) -> Option<(u64, Option<usize>)> {
-        let apart = self.apart.iter().map(|(station, _)| Some(*station));
-        let places = [None].into_iter().chain(apart);
-        let event = |place: Option<usize>| {
-            let wire = place.map_or(&self.line, |station| self.wire(station));
-            match &wire.flight {
+    /// The time of the next event in nanoseconds, and the number of its wire.
+    fn next(&self) -> Option<(u64, usize)> {
+        let mut first: Option<(u64, usize)> = None;
+        for (place, wire) in self.wires.iter().enumerate() {
+            let event = match &wire.flight {
                 Some(flight) => Some(flight.end),
                 None => self.candidates(place).map(|one| self.start(one)).min(),
+            };
+            if let Some(at) = event
+                && first.is_none_or(|(earliest, _)| at < earliest)
+            {
+                first = Some((at, place));
             }
-        };
-        let events = places.filter_map(|place| Some((event(place)?, place)));
-        events.min_by_key(|(nanos, _)| *nanos)
+        }
+        first
     }
 
-    /// The frames that can be the next one on the line, or on the wire of a station. A program sends its frames in order, so
-    /// only the oldest of the outside can.
-    fn candidates(&self, place: Option<usize>) -> impl Iterator<Item = &Waiting> {
+    /// The frames that can be the next one on a wire. A program sends its frames in order, so only the oldest of the outside
+    /// can.
+    fn candidates(&self, place: usize) -> impl Iterator<Item = &Waiting> {
         let outside = self.waiting.iter().filter(|one| one.station == 0);
         let oldest = outside.map(|one| one.order).min();
         let can = move |one: &&Waiting| {
-            let of = Some(one.station).filter(|station| self.is_apart(*station));
-            of == place && (one.station != 0 || Some(one.order) == oldest)
+            self.place(one.station) == place && (one.station != 0 || Some(one.order) == oldest)
         };
         self.waiting.iter().filter(can)
     }
 
     /// Time at which a frame may start if no other frame does, in nanoseconds.
     fn start(&self, waiting: &Waiting) -> u64 {
-        self.wire(waiting.station).free.max(waiting.ready)
+        self.wires[self.place(waiting.station)]
+            .free
+            .max(waiting.ready)
     }
 
     /// Takes the event of a time. The caller returns a frame that starts to
@@ -311,7 +307,7 @@ impl Medium {
         if Instant::from_micros(first.div_ceil(NANOS)) > now {
             return None;
         }
-        if let Some(flight) = self.wire_mut(place).flight.take() {
+        if let Some(flight) = self.wires[place].flight.take() {
             return Some(Due::End(flight.ended));
         }
         // All frames that are ready at the first possible start take part.
@@ -337,12 +333,12 @@ impl Medium {
         let nanos = |count: u64| count * 1_000_000 / u64::from(kbit.max(1));
         let all = || ended.senders.iter().chain(&ended.beaten);
         let start = all().map(|one| self.start(one)).max();
-        let station = all().next().map(|one| one.station);
+        let place = all().next().map_or(0, |one| self.place(one.station));
         let taken = nanos(bits + INTERMISSION);
-        if station.is_none_or(|station| !self.is_apart(station)) {
+        if place == 0 {
             self.busy += taken;
         }
-        let wire = self.wire_mut(station);
+        let wire = &mut self.wires[place];
         let start = start.unwrap_or(wire.free);
         wire.free = start + taken;
         wire.bit = nanos(1);
@@ -356,7 +352,7 @@ impl Medium {
     /// (ISO 11898-1, suspend transmission).
     pub(crate) fn again(&mut self, mut waiting: Waiting, is_passive: bool) {
         if is_passive {
-            let Wire { free, bit, .. } = self.wire(waiting.station);
+            let Wire { free, bit, .. } = self.wires[self.place(waiting.station)];
             waiting.ready = free + SUSPENSION * bit;
         }
         self.waiting.push(waiting);
@@ -365,34 +361,34 @@ impl Medium {
     /// Forgets all frames.
     pub(crate) fn clear(&mut self) {
         self.waiting.clear();
-        self.line.flight = None;
-        self.apart
-            .iter_mut()
-            .for_each(|(_, wire)| wire.flight = None);
+        self.wires.iter_mut().for_each(|wire| wire.flight = None);
     }
 
     /// Forgets the frames of a station that lost its power.
     pub(crate) fn forget(&mut self, station: usize) {
         self.waiting.retain(|one| one.station != station);
-        for Flight { ended, .. } in self.flights_mut() {
-            ended.senders.retain(|one| one.station != station);
-            ended.beaten.retain(|one| one.station != station);
+        for wire in &mut self.wires {
+            if let Some(Flight { ended, .. }) = &mut wire.flight {
+                ended.senders.retain(|one| one.station != station);
+                ended.beaten.retain(|one| one.station != station);
+            }
         }
     }
 
     /// Removes a station; later ones move up.
     pub(crate) fn remove(&mut self, station: usize) {
         self.forget(station);
-        self.apart.retain(|(other, _)| *other != station);
-        for (other, _) in &mut self.apart {
-            *other -= usize::from(*other > station);
+        self.wires.retain(|wire| wire.station != Some(station));
+        let move_up = |one: &mut usize| *one -= usize::from(*one > station);
+        for wire in &mut self.wires {
+            wire.station.iter_mut().for_each(move_up);
+            if let Some(Flight { ended, .. }) = &mut wire.flight {
+                let flying = ended.senders.iter_mut().chain(&mut ended.beaten);
+                flying.for_each(|one| move_up(&mut one.station));
+            }
         }
-        let move_up = |one: &mut Waiting| one.station -= usize::from(one.station > station);
-        for Flight { ended, .. } in self.flights_mut() {
-            ended.senders.iter_mut().for_each(move_up);
-            ended.beaten.iter_mut().for_each(move_up);
-        }
-        self.waiting.iter_mut().for_each(move_up);
+        let waiting = self.waiting.iter_mut();
+        waiting.for_each(|one| move_up(&mut one.station));
     }
 
     /// Microseconds during which the line was not idle; a frame that is being sent counts completely.
