@@ -35,11 +35,11 @@ fn written() -> String {
          /** Bytes of a packed frame (playground/src/packed.rs). */\n\
          export const FRAME_BYTES = {};\n\n\
          /** Its flags. */\n{}\n\
-         /** Where its parts begin; numbers are little endian. */\n\
+         /** Offsets of its parts; numbers are little endian. */\n\
          export const AT = {{\n{}}} as const;\n\n\
          /** Numbers of each frame in `tags`; of the first a mask for its parts, and the bits below the node ID and the object. */\n\
          export const TAG = {{ length: {TAG_LEN}, mask: {}, node: {TAG_NODE}, object: {TAG_OBJECT} }} as const;\n\n\
-         /** What `frameBits` says of a bit, and the numbers of two of its parts. */\n\
+         /** Codes of `frameBits` for a bit, and the numbers of two parts of a frame. */\n\
          export const BIT = {{\n{}}} as const;\n",
         packed::LEN,
         flags.concat(),

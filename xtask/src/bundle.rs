@@ -51,7 +51,7 @@ const WHOLE: Module = Module {
 const CORE: Module = Module {
     folder: "core",
     package: PAGE_CORE,
-    level: Some("-Oz --converge"),
+    level: Some("-Oz --converge --strip-producers --strip-target-features"),
     what: "compiling what the page begins with",
 };
 

@@ -33,7 +33,8 @@ fn every_expected_response_has_a_name_of_its_own() {
 fn errors_name_their_numbers() {
     let known = "SDO abort 06020000h object does not exist";
     assert_eq!(Error::Abort(0x0602_0000).to_string(), known);
-    assert_eq!(Error::Abort(0x0602_0001).to_string(), "SDO abort 06020001h");
+    let other = "SDO abort 06020001h object or its content does not exist (CiA 301 does not define the code)";
+    assert_eq!(Error::Abort(0x0602_0001).to_string(), other);
     let error = Error::Length {
         announced: 7,
         received: 5,

@@ -13,7 +13,7 @@ pub(crate) static W0919: Rule = Rule {
     why: "A master selects the mode by writing 6060h. The drive refuses it, so its other modes are never used.",
     source: "CiA 402, objects 6060h and 6502h",
     says: "6502h declares {count} modes, but 6060h cannot be written",
-    help: "write `AccessType=rw`, or declare one mode in 6502h",
+    help: "change {AccessType} to `rw`, or declare one mode in 6502h",
     check: Check::Device(check),
     ..Rule::NEW
 };
