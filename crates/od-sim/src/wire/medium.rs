@@ -150,6 +150,7 @@ struct Wire {
 /// The line, the wires of stations that are not connected to it, and the frames that wait.
 #[derive(Clone, Debug)]
 pub(crate) struct Medium {
+    /// In the order in which they were queued first.
     waiting: Vec<Waiting>,
     /// The first is the line.
     wires: Vec<Wire>,
@@ -198,19 +199,25 @@ impl Medium {
         true
     }
 
-    /// Takes a station off the line, or connects it. A frame that it is sending apart from the others begins again.
+    /// Takes a station off the line, or connects it. A frame that it is sending apart from the others begins again. No frame
+    /// begins before the last one ended, here or there.
     pub(crate) fn set_apart(&mut self, station: usize, is_apart: bool) {
         let place = self.place(station);
+        let free = self.wires[0].free;
         if is_apart && place == 0 {
             self.wires.push(Wire {
                 station: Some(station),
+                free,
                 ..Wire::default()
             });
-        } else if !is_apart
-            && place > 0
-            && let Some(flight) = self.wires.remove(place).flight
-        {
-            self.waiting.extend(flight.ended.senders);
+        } else if !is_apart && place > 0 {
+            let wire = self.wires.remove(place);
+            self.wires[0].free = free.max(wire.free);
+            let senders = wire.flight.map(|flight| flight.ended.senders);
+            senders
+                .into_iter()
+                .flatten()
+                .for_each(|one| self.queue(one));
         }
     }
 
@@ -285,8 +292,8 @@ impl Medium {
     /// The frames that can be the next one on a wire. A program sends its frames in order, so only the oldest of the outside
     /// can.
     fn candidates(&self, place: usize) -> impl Iterator<Item = &Waiting> {
-        let outside = self.waiting.iter().filter(|one| one.station == 0);
-        let oldest = outside.map(|one| one.order).min();
+        let mut waiting = self.waiting.iter();
+        let oldest = waiting.find(|one| one.station == 0).map(|one| one.order);
         let can = move |one: &&Waiting| {
             self.place(one.station) == place && (one.station != 0 || Some(one.order) == oldest)
         };
@@ -315,7 +322,6 @@ impl Medium {
         let mut parts: Vec<Waiting> = self.candidates(place).copied().filter(takes_part).collect();
         let lowest = parts.iter().map(|one| arbitration(&one.frame)).min()?;
         parts.retain(|one| arbitration(&one.frame) == lowest);
-        parts.sort_by_key(|one| one.order);
         // A station sends one frame at a time, its oldest.
         let mut starters: Vec<Waiting> = Vec::with_capacity(1);
         for one in parts {
@@ -355,7 +361,15 @@ impl Medium {
             let Wire { free, bit, .. } = self.wires[self.place(waiting.station)];
             waiting.ready = free + SUSPENSION * bit;
         }
-        self.waiting.push(waiting);
+        self.queue(waiting);
+    }
+
+    /// Puts a frame back to its place among those that wait.
+    fn queue(&mut self, waiting: Waiting) {
+        let later = |one: &Waiting| one.order > waiting.order;
+        let place = self.waiting.iter().position(later);
+        let place = place.unwrap_or(self.waiting.len());
+        self.waiting.insert(place, waiting);
     }
 
     /// Forgets all frames.
