@@ -30,6 +30,8 @@ for (const [width, height] of [[1366, 768], [390, 844]]) {
     await becomes('the position', () => value(page, 'position'), '-20\u2009000');
     await becomes('the target', () => value(page, 'target'), '-20\u2009000');
     await mode.selectOption({ label: 'Profile velocity' });
+    // The drive has to confirm the mode (6061h); then the target is that of the speed.
+    await becomes('the target', () => value(page, 'target'), '0');
     await page.getByRole('spinbutton', { name: 'Target' }).fill('5000');
     await press(page, 'Go');
     await becomes('the speed', () => value(page, 'velocity'), '5\u2009000');
