@@ -177,7 +177,7 @@ pub(crate) fn end_program() {
 /// The thread that ends the program.
 static ENDS: OnceLock<ThreadId> = OnceLock::new();
 
-/// Does something without the interpreter's lock.
+/// Calls `act` without the interpreter's lock; returns its result.
 pub(crate) fn detached<T: Send>(py: Python<'_>, act: impl Send + FnOnce() -> T) -> T {
     py.detach(|| {
         let result = act();

@@ -25,7 +25,7 @@ const CRATES: [&str; 10] = [
     "od-tools",
 ];
 
-/// What `ALL` in `xtask/src/test/stages/rust.rs` leaves out.
+/// Packages that `ALL` in `xtask/src/test/stages/rust.rs` leaves out.
 const EXCLUDED: [&str; 3] = ["od-benches", "od-benches-zencan", "od-playground-core"];
 
 #[test]

@@ -36,7 +36,7 @@ struct Module {
     /// Its package, and its library.
     package: (&'static str, &'static str),
     /// Optimisation options of wasm-opt, `None` for the profile that compiles soon. Those of the core take three times as
-    /// long as `-O1` and save 4 % more.
+    /// long as `-O1` and save 4 % more; it goes without the sections that only tools read.
     level: Option<&'static str>,
     what: &'static str,
 }

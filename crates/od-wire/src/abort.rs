@@ -117,7 +117,8 @@ impl From<Missing> for AbortCode {
     }
 }
 
-/// Why a transfer was aborted, by the number in the abort message, which CiA 301 may not define.
+/// Reason of an SDO abort, by the 32-bit abort code in the frame (CiA 301, table 22). Profiles and manufacturers define
+/// codes that this table does not have.
 ///
 /// Shown as the number and its [`text`](Self::text).
 ///

@@ -193,18 +193,18 @@ fn map(values: Vec<Yaml>) -> Result<Yaml, String> {
                 _ => return Err("`<<` needs a mapping".into()),
             }
         } else {
-            *entries.of(key) = value;
+            *entries.value(key) = value;
         }
     }
     // Merged entries come first, as in PyYAML.
     let own = std::mem::take(&mut entries);
     for (key, value) in merged {
         if !entries.has(&key) {
-            *entries.of(key) = value;
+            *entries.value(key) = value;
         }
     }
     for (key, value) in own.all {
-        *entries.of(key) = value;
+        *entries.value(key) = value;
     }
     Ok(Yaml::Map(entries.all))
 }
@@ -227,7 +227,7 @@ impl Entries {
     }
 
     /// The value of a key, which is added if it is new.
-    fn of(&mut self, key: Yaml) -> &mut Yaml {
+    fn value(&mut self, key: Yaml) -> &mut Yaml {
         let place = *self
             .places
             .entry(Self::name(&key))

@@ -17,7 +17,8 @@ pub(super) struct Reader<'a> {
     pub(super) log: Log,
 }
 
-/// Bytes of text between two known numbers of characters. To find a place, the characters of at most this number of bytes are counted.
+/// The number of characters is known for every place that is a multiple of this number of bytes. A column is counted from the
+/// last such place.
 const STEP: usize = 64;
 
 /// Lines and columns of bytes.

@@ -277,7 +277,7 @@ impl Probe {
             }
             Self::Resistance => {
                 let ohms = match u16::from(bus.line.terminators) {
-                    _ if is_shorted(bus) => Some(0),
+                    _ if bus.line.is_shorted() => Some(0),
                     0 => None,
                     count => Some(TERMINATOR / count),
                 };
@@ -317,17 +317,6 @@ fn unknown(line: u32, text: &str) -> Problem {
 
 /// Bit rates in kbit/s of the DIP switches of a bus cover.
 const SWITCHED: [u16; 8] = [10, 20, 50, 125, 250, 500, 800, 1000];
-
-/// Returns whether CAN_H and CAN_L are connected.
-fn is_shorted(bus: &Bus) -> bool {
-    #[cfg(feature = "training")]
-    return bus.line.cable.shorted;
-    #[cfg(not(feature = "training"))]
-    {
-        let _ = bus;
-        false
-    }
-}
 
 fn nmt(command: u8, node: u8) -> Frame {
     Frame::standard(0, &[command, node])
@@ -435,7 +424,7 @@ impl Reading {
         rates.dedup();
         let bit = |(rate, tenths)| Sight::BitTime { rate, tenths };
         let edges = match bus.line.terminators {
-            _ if is_shorted(bus) => Edges::Flat,
+            _ if bus.line.is_shorted() => Edges::Flat,
             2 => Edges::Clean,
             0 | 1 => Edges::Ringing,
             _ => Edges::Low,

@@ -199,8 +199,8 @@ impl Medium {
         true
     }
 
-    /// Takes a station off the line, or connects it. A frame that it is sending apart from the others begins again. No frame
-    /// begins before the last one ended, here or there.
+    /// Takes a station off the line, or connects it again. The frame on its own wire then begins anew on the line. On both, a
+    /// frame begins only after the last one ended.
     pub(crate) fn set_apart(&mut self, station: usize, is_apart: bool) {
         let place = self.place(station);
         let free = self.wires[0].free;
@@ -213,11 +213,10 @@ impl Medium {
         } else if !is_apart && place > 0 {
             let wire = self.wires.remove(place);
             self.wires[0].free = free.max(wire.free);
-            let senders = wire.flight.map(|flight| flight.ended.senders);
-            senders
-                .into_iter()
-                .flatten()
-                .for_each(|one| self.queue(one));
+            let flight = wire.flight.into_iter();
+            for one in flight.flat_map(|flight| flight.ended.senders) {
+                self.queue(one);
+            }
         }
     }
 
@@ -228,7 +227,7 @@ impl Medium {
         own.unwrap_or(0)
     }
 
-    /// What is on the wires.
+    /// The frames on the wires.
     fn flights(&self) -> impl Iterator<Item = &Flight> {
         self.wires.iter().filter_map(|wire| wire.flight.as_ref())
     }

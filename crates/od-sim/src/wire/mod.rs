@@ -432,8 +432,8 @@ impl Line {
         self.cable.measure(station, measure)
     }
 
-    /// Returns whether no bit can be dominant.
-    fn is_shorted(&self) -> bool {
+    /// Returns whether CAN_H and CAN_L are connected, so that no bit can be dominant.
+    pub(crate) fn is_shorted(&self) -> bool {
         self.cable.shorted
     }
 
@@ -464,7 +464,7 @@ impl Line {
         Err("this program has no physics of the line".into())
     }
 
-    fn is_shorted(&self) -> bool {
+    pub(crate) fn is_shorted(&self) -> bool {
         false
     }
 

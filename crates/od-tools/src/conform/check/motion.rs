@@ -30,7 +30,7 @@ const AT_ONCE: u16 = 1 << 5;
 const RELATIVE: u16 = 1 << 6;
 const HALT: u16 = 1 << 8;
 
-/// What the statusword shows: words, mask, bits.
+/// A state in the statusword (6041h): its name, the mask of its bits, and their values.
 type Shown = (&'static str, u64, u64);
 const DISABLED: Shown = ("Switch on disabled", 0x4F, 0x40);
 const READY: Shown = ("Ready to switch on", 0x6F, 0x21);

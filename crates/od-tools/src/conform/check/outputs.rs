@@ -1,6 +1,6 @@
 //! CiA 401: outputs that change. Each case needs the permission `motion`.
 //!
-//! What a module makes of an output is seen at an input that is wired to it; a case looks for such a pair.
+//! An output is seen at the input that is wired to it. A case looks for such a pair first.
 
 use od_model::Address;
 use od_wire::CobId;
