@@ -354,14 +354,14 @@ fn statement(body: ParseStream, allowed: &str, report: &mut Report) -> syn::Resu
     }
     let inner;
     braced!(inner in body);
-    let before = report.faults();
+    let before = report.error_count();
     let fields = fields::read(&inner, report);
-    if report.faults() > before {
+    if report.error_count() > before {
         report.half_read(target.target.index);
     }
     // A semicolon after the brace is harmless and easily typed.
     let _ = body.parse::<Option<Token![;]>>()?;
-    if action == Action::Modify && fields.is_empty() && report.faults() == before {
+    if action == Action::Modify && fields.is_empty() && report.error_count() == before {
         report.at(
             target.span,
             format!(

@@ -113,7 +113,7 @@ impl Report {
     }
 
     /// Number of errors so far.
-    pub(crate) fn faults(&self) -> usize {
+    pub(crate) fn error_count(&self) -> usize {
         self.errors.len()
     }
 

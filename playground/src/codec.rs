@@ -75,11 +75,11 @@ pub fn tag_names() -> Vec<String> {
     TAGS.into_iter().map(String::from).collect()
 }
 
-/// Numbers of each frame in `tags`.
+/// Count of numbers for each frame in `tags`.
 pub(crate) const TAG_LEN: usize = 2;
-/// Bits of the first for the place in `tagNames`, and again for the node ID above it.
+/// Position of the node ID in the first number; below it is the place in `tagNames`.
 pub(crate) const TAG_NODE: u32 = 8;
-/// Bits below the one that says whether there is an object.
+/// Position of the bit in the first number that says whether the frame names an object.
 pub(crate) const TAG_OBJECT: u32 = 16;
 
 /// For each packed frame two numbers: its place in `tagNames`, its node ID (0: none, or all) and whether it

@@ -36,7 +36,7 @@ impl odkit_storage {
     }
 }
 
-/// 0 is success.
+/// Converts what a callback returned: 0 is success, every other number an error.
 fn outcome(answer: i32) -> Result<(), StorageError> {
     match answer {
         0 => Ok(()),
@@ -51,7 +51,7 @@ impl Memory {
         storage: odkit_storage::none(),
     };
 
-    /// Offset and length in the form of C.
+    /// Offset and length as C takes them, if they are inside the memory.
     fn part(&self, offset: usize, len: usize) -> Result<(u32, u32), StorageError> {
         let capacity = self.storage.capacity as usize;
         match offset.checked_add(len) {

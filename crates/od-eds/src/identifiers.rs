@@ -1,4 +1,4 @@
-//! CAN-IDs of a node and contents of its PDOs, by its start values.
+//! CAN-IDs of a node and contents of its PDOs, as the start values of its description set them.
 
 use alloc::vec::Vec;
 

@@ -36,8 +36,8 @@ pub trait Services: Sized {
     const EVENTS: bool = true;
     /// SDO servers besides the default one (1201h to 127Fh): on if the dictionary has one.
     ///
-    /// For a dictionary known at run time the default is off; its implementation switches them on,
-    /// and so the SYNC producer and TIME.
+    /// Off for a dictionary known at run time, as are the SYNC producer and TIME: an implementation
+    /// of this trait for such a dictionary switches them on.
     const SERVERS: bool = match &Self::DICTIONARY {
         Some(dictionary) => dictionary.servers() > 0,
         None => false,
@@ -240,7 +240,7 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn services_of_few_devices_are_on_by_their_objects() {
+    fn a_rare_service_is_on_if_the_dictionary_has_its_object() {
         const NONE: [bool; 4] = [false, false, false, false];
         fn services<D: Services>() -> [bool; 4] {
             [D::SERVERS, D::SYNC_PRODUCER, D::TIME, D::STREAMS]

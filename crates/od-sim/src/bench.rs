@@ -1,4 +1,4 @@
-//! A bus with names for its devices, and the current device of lines.
+//! A bus with names for its devices, and the device that lines without a name are about.
 
 use std::format;
 use std::prelude::v1::*;
@@ -14,7 +14,7 @@ pub struct Bench {
     /// The bus.
     pub bus: Bus,
     pub(crate) labels: Vec<Option<String>>,
-    /// The current device of lines, counted from 0.
+    /// The device that lines without a name are about, counted from 0.
     pub(crate) current: usize,
 }
 

@@ -11,7 +11,7 @@ impl Chance {
         Self(state.max(1))
     }
 
-    /// The sequence of a seed; those of 0, 1, 2 have nothing in common.
+    /// The sequence of a seed. Seeds that are close together, such as 1 and 2, give unrelated sequences.
     pub(crate) fn of_seed(seed: u64) -> Self {
         // The last steps of splitmix64.
         let mixed = seed.wrapping_add(0x9E37_79B9_7F4A_7C15);

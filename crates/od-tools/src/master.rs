@@ -31,7 +31,7 @@ pub struct Master<L> {
     timeout: Duration,
     /// Data types of the node's objects, as far as they are known.
     types: BTreeMap<Address, DataType>,
-    /// Longest time of a whole transfer.
+    /// Time limit of each whole transfer; `None`: no limit.
     whole: Option<Duration>,
 }
 
@@ -152,7 +152,7 @@ impl<L: Link> Master<L> {
             {
                 let (node, seconds) = (self.node, whole.as_secs_f32());
                 return Err(Error::Node(format!(
-                    "node {node} does not come to the end of a transfer within {seconds} s"
+                    "node {node} does not finish a transfer within {seconds} s"
                 )));
             }
             let until = self.client.poll_timeout().unwrap_or(Instant::ZERO);
@@ -189,7 +189,7 @@ impl<L: Link> Master<L> {
                 self.timeout.as_secs_f32()
             ),
             Err(od_client::Error::OutOfTurn { expected, .. }) => format!(
-                "node {node}: {address}: {expected} was expected, and another SDO response came; does \
+                "node {node}: {address}: {expected} was expected, but another SDO response came; does \
                  another program read or write this node?"
             ),
             Err(od_client::Error::TooLong) => {

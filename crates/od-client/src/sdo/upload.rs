@@ -19,7 +19,7 @@ enum State {
     Segment { toggle: bool, size: Option<u32> },
     /// The initiate request of a block upload was sent.
     InitiateBlock,
-    /// Segments of blocks come, or the end response.
+    /// Segments of a block are due, or the end response.
     Blocks(Blocks),
 }
 

@@ -43,7 +43,7 @@ impl Value {
         }
     }
 
-    /// Returns whether this is a value of the type, whatever the node ID.
+    /// Returns whether the value is in the range of the type; `$NODEID+n` has to be for every node ID.
     pub fn fits(&self, data_type: DataType) -> bool {
         match (data_type.kind(), self) {
             (Kind::Text, Self::Text(_)) | (Kind::Bytes, Self::Bytes(_)) => true,
@@ -68,7 +68,7 @@ impl Value {
 
 /// One value of an object: a section of an EDS with a DataType.
 ///
-/// Two are equal if they have the same content, wherever they are in a text.
+/// Equality compares the content and ignores the place in the text.
 #[derive(Clone, Debug)]
 pub struct EntryDescription {
     /// ParameterName.
@@ -90,8 +90,8 @@ pub struct EntryDescription {
     /// Sub-index of 1010h that saves it. `None` if the text gives none: then a value that a master
     /// can write belongs to the group of its index.
     pub group: Option<Spanned<Group>>,
-    /// Bytes of a string or DOMAIN in the store, if its default is not longer; 0: none, because the
-    /// application streams the value. `None`: 64 bytes, or 1,024 of a DOMAIN that a master can write.
+    /// Room in the store for a string or DOMAIN, in bytes; a longer default makes it larger. 0: no room,
+    /// because the application streams the value. `None`: 64, or 1,024 for a DOMAIN that a master can write.
     pub capacity: Option<u16>,
     /// ObjFlags; 0 if missing.
     pub flags: u32,
@@ -194,7 +194,7 @@ impl EntryDescription {
 
 /// One object: a VAR with one entry, or an ARRAY or RECORD with its members.
 ///
-/// Two are equal if they have the same content, wherever they are in a text.
+/// Equality compares the content and ignores the place in the text.
 #[derive(Clone, Debug)]
 pub struct ObjectDescription {
     /// ObjectType; VAR if the text gives none.

@@ -1,4 +1,4 @@
-//! A concise DCF: the writes that configure a node, in the form of 1F22h (CiA 302-2).
+//! A concise DCF: the writes that configure a node, in the form of 1F22h (CiA 302-3).
 
 use alloc::format;
 use alloc::vec::Vec;

@@ -1,4 +1,4 @@
-//! A network of nodes: the concise DCF of each node (1F22h, CiA 302-2), the DCF of its master, and
+//! A network of nodes: the concise DCF of each node (1F22h, CiA 302-3), the DCF of its master, and
 //! contradictions between the nodes.
 //!
 //! The order of the writes and the objects of the master follow dcfgen (dcf-tools), so that a

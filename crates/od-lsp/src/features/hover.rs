@@ -198,7 +198,7 @@ fn access_of(access: Access) -> String {
     format!("`{}`: {}", access.name(), words::access(access))
 }
 
-/// The field of an XDD at a byte in words, with its object, and its place.
+/// Describes the XDD field at a byte and the object that it belongs to; also returns the place of the field.
 fn element(seen: &Seen, offset: usize) -> Option<(String, Range<usize>)> {
     let (element, field) = xdd::at(&seen.elements, offset)?;
     let place = field.map_or(&element.tag, |field| &field.value).clone();
@@ -217,7 +217,7 @@ fn element(seen: &Seen, offset: usize) -> Option<(String, Range<usize>)> {
     Some((said, place))
 }
 
-/// The value of a field of an XDD in words; `None` if those of its object include it.
+/// Describes the value of an XDD field; `None` if the description of the object already includes it.
 fn field_of(description: &Description, at: Address, key: &str) -> Option<String> {
     let object = description.objects.get(&at.index)?;
     let entry = || object.entries.get(&at.sub);

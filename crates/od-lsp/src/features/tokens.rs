@@ -112,7 +112,8 @@ fn encoded(file: &File, tokens: &[(Range<usize>, u32)]) -> Vec<u32> {
     data
 }
 
-/// Start, number of numbers to delete, and numbers to insert, to change `old` into `new`.
+/// The edit that changes `old` into `new`: where it starts, how many numbers it deletes, and the numbers that
+/// it inserts. `None` if both are the same.
 pub(crate) fn difference<'n>(old: &[u32], new: &'n [u32]) -> Option<(usize, usize, &'n [u32])> {
     if old == new {
         return None;

@@ -127,9 +127,9 @@ impl<D: Device> Machines<D> {
         }
     }
 
-    /// Takes the node ID of a device without an object for it: at a start the stored one, at NMT
-    /// reset communication the pending one (CiA 305, chapter 6.4.2). Returns the stored bit rate at
-    /// a start.
+    /// Sets the node ID of a device that has no object for it: the stored one at power-on and reset
+    /// node, the pending one at reset communication (CiA 305, chapter 6.4.2). Returns the stored bit
+    /// rate, except at reset communication.
     fn take_own(
         &mut self,
         objects: &mut Objects<'_, D>,
@@ -164,8 +164,8 @@ impl<D: Device> Machines<D> {
     /// everything again, because defaults may depend on the node ID.
     fn load(&mut self, objects: &mut Objects<'_, D>, reset: Reset) {
         let all = reset != Reset::Communication;
-        // Reset communication restores 1000h to 1FFFh and the objects of node ID and bit rate, or
-        // everything that can be saved or written. Errors that last stay.
+        // Reset communication restores 1000h to 1FFFh, except the errors (1001h, 1003h), and besides
+        // them the objects of node ID and bit rate, or everything that can be saved or written.
         let profile = objects.profile;
         let is_loaded = |row: &Row| {
             let address = row.address();
@@ -250,7 +250,7 @@ impl<D: Device> Machines<D> {
         [sync::can_id(store), emcy::can_id(store), time]
     }
 
-    /// Reports each service of an object whose CAN-ID is refused, once until it is valid again.
+    /// Reports SYNC, EMCY and TIME if their CAN-ID is refused: once, and again only after it was valid.
     fn report_refused(&mut self, objects: &Objects<'_, D>, senders: [Option<CanId>; 3]) {
         let [sync, emcy, time] = senders;
         let cob_id = |index| CobId::new(objects.store.word(index, 0, 0));

@@ -16,9 +16,10 @@
 //!
 //! Numbers are little-endian. A save marks the newest set, clears the other bank (flash: erases
 //! it), writes records and numbers, reads them back, and writes the commit word. So a power failure
-//! at any moment leaves the last complete set, never a mixture. Where a family then loads the
-//! factory values ([`CutSave::Factory`](crate::CutSave::Factory)), the mark says so. Each word is
-//! written once after it was erased, and a bank of one page is erased once for each save.
+//! at any moment leaves the last complete set, never a mixture. The mark tells a later start that a
+//! save was interrupted; some families then load the factory values
+//! ([`CutSave::Factory`](crate::CutSave::Factory)). Each word is written once after it was erased,
+//! and a bank of one page is erased once for each save.
 //!
 //! Any two codes differ in at least four bits, as do any two marks, and every other byte is covered
 //! by the CRC or is FFh. So a start notices any flipped bit ([`Loaded`]), and always knows which of
@@ -124,7 +125,7 @@ pub fn newest(storage: &mut dyn Storage) -> Result<Option<Range<usize>>, Storage
 /// rate and the device has no objects for them.
 pub const OWN_CAPACITY: usize = 2 * 2 * (RECORD + 1);
 
-/// Loads saved values into the store, for the entries for which `which` is true.
+/// Loads the saved values of the rows that `which` selects into the store.
 ///
 /// The store must contain the defaults before. A saved value is skipped if its object is missing,
 /// or cannot have the value (length, limits).

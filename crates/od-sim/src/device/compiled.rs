@@ -3,51 +3,23 @@
 use std::prelude::v1::*;
 
 use od_model::Dictionary;
-use od_runtime::encoder::Encoder;
-use od_runtime::{Application, Device, NodeId, Profile};
+use od_runtime::{Device, NodeId, Profile};
 
 use crate::device::VirtualDevice;
-use crate::device::behaviour::{Behaviour, Behind};
+use crate::device::behaviour::Behaviour;
 use crate::device::source::{Loaded, Source};
-use crate::shaft::Shaft;
 
 impl VirtualDevice {
-    /// A device of one's own with nothing but its dictionary and profile, and an encoder behind it where
-    /// there is a position (6004h).
+    /// A device with its dictionary and profile, and with a simulated encoder if it has a position (6004h).
+    /// A device with behaviour of its own is a [`DeviceKind`](od_runtime::kind::DeviceKind).
     ///
     /// `device` is the type that `object_dictionary!` made. Services that it switches off are off here, too.
     /// A device that does not know its dictionary does not compile.
     pub fn of<D: Device>(title: &str, device: D, node_id: NodeId) -> Self {
         let behaviour = Behaviour::of(dictionary::<D>());
-        Self::compiled(title, &device, node_id, behaviour)
-    }
-
-    /// As [`of`](Self::of), with behaviour of one's own.
-    pub fn with_application<D: Device>(
-        title: &str,
-        device: D,
-        node_id: NodeId,
-        application: impl Application + Clone + Send + 'static,
-    ) -> Self {
-        let behaviour = Behind::Own(Box::new(application)).into();
-        Self::compiled(title, &device, node_id, behaviour)
-    }
-
-    /// As [`of`](Self::of), with this encoder, which the bench turns.
-    pub fn with_encoder<D: Device>(
-        title: &str,
-        device: D,
-        node_id: NodeId,
-        encoder: Encoder<Shaft>,
-    ) -> Self {
-        let behaviour = Behind::Encoder(Box::new(encoder)).into();
-        Self::compiled(title, &device, node_id, behaviour)
-    }
-
-    fn compiled<D: Device>(title: &str, device: &D, node_id: NodeId, behaviour: Behaviour) -> Self {
         let loaded = Loaded {
             source: Source::Compiled(dictionary::<D>()),
-            profile: profile(device),
+            profile: profile(&device),
         };
         Self::build(title.into(), loaded, node_id, behaviour)
     }
@@ -57,8 +29,8 @@ const fn dictionary<D: Device>() -> Dictionary<'static> {
     const { D::DICTIONARY.expect("the dictionary is a constant") }
 }
 
-/// The profile of a device, without the services that it switches off. Of those that are not in the profile
-/// it has no objects.
+/// The profile of a device, without the services that it switches off. A service without a field in the profile
+/// needs no entry here: it follows from the objects, and the dictionary has none of them.
 fn profile<D: Device>(device: &D) -> Profile {
     let mut profile = *device.profile();
     profile.sdo.segmented_upload &= D::SEGMENTED;

@@ -1,9 +1,9 @@
 //! Logs that odkit does not read: their names, and the programs that convert them.
 
-/// Lines in which a text shows its kind.
+/// Number of lines at the start of a text that are searched.
 const HEAD: usize = 20;
 
-/// Texts of other logs: the beginning of a line in lower case, name, and the way to a log that odkit reads.
+/// Text logs: how a line begins (lower case), the name of the log, and how to get a log that odkit reads.
 const TEXTS: [(&str, &str, &str); 8] = [
     (
         "***busmaster",
@@ -27,7 +27,7 @@ const TEXTS: [(&str, &str, &str); 8] = [
     ),
     (
         "frame 1: ",
-        "a text of Wireshark, of one packet in words",
+        "a text of Wireshark that describes one packet in words",
         "save the capture as pcapng (`File`, `Save As`)",
     ),
     (
@@ -47,7 +47,7 @@ const TEXTS: [(&str, &str, &str); 8] = [
     ),
 ];
 
-/// As [`TEXTS`], for words anywhere in a line.
+/// As [`TEXTS`], but the words may be anywhere in a line.
 const WORDS: [(&str, &str, &str); 3] = [
     (
         "< cansniffer ",
@@ -66,7 +66,7 @@ const WORDS: [(&str, &str, &str); 3] = [
     ),
 ];
 
-/// First bytes of other logs, name, and the way to a log that odkit reads.
+/// Binary logs: their first bytes, the name of the log, and how to get a log that odkit reads.
 const BINARIES: [(&[u8], &str, &str); 2] = [
     (
         b"MDF     ",

@@ -113,7 +113,7 @@ fn words(
         format!("{name} = {shown}")
     });
     let parts: Vec<String> = parts.collect();
-    // A value with words may have a comma.
+    // A value in words may contain a comma.
     let has_words = parts.iter().any(|part| part.contains(", "));
     let text = if parts.is_empty() {
         format!("{kind}{number} {}", bytes(frame.data().len()))

@@ -1,4 +1,4 @@
-//! The cases of the official test of CiA, by number, that each of ours covers.
+//! The numbers of the cases of CiA's official test that each of our cases covers.
 
 /// ID of a case, and the numbers of the official cases.
 #[rustfmt::skip]

@@ -72,7 +72,7 @@ class Trainer extends View {
     this.chosen = '';
     this.fault = '';
     this.isSure = false;
-    // The word of another class replaces that of this one.
+    // An address with the token of another class was opened.
     window.addEventListener('hashchange', () => location.hash && location.reload());
     effect(() => {
       void german.value;
@@ -90,7 +90,7 @@ class Trainer extends View {
 
   private async look(): Promise<void> {
     await this.read();
-    // The program was started again, with another word.
+    // A program that was started again has another token, so asking again would not help.
     if (this.fault !== 'token') setTimeout(() => void this.look(), PAUSE);
   }
 

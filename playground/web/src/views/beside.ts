@@ -1,10 +1,10 @@
-// The column beside the bus during a lesson or in a lab: that, or the objects.
+// The column beside the bus: during a lesson or a lab it shows the lesson, the lab or the objects.
 
 import { html, nothing } from 'lit';
 import * as state from '../state';
 import { T } from '../texts';
 
-/** What the column has beside the objects, in a word. */
+/** Name of what the column can show instead of the objects. */
 export const besideWord = (): string => T.app.tabs[state.lab.value ? 'lab' : 'lesson'];
 
 export const besideSwitch = () =>

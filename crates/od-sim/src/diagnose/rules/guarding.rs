@@ -61,7 +61,7 @@ fn check(facts: &Facts<'_>) -> Vec<Incident> {
                     .shows([last.place, emcy.seen.place])
                     .cause(Cause::new(
                         "master-stopped",
-                        format!("the master stopped to guard node {id}"),
+                        format!("the master stopped guarding node {id}"),
                         format!("the master's task, or its guard time against 100Ch times 100Dh of node {id}"),
                     )),
                 );

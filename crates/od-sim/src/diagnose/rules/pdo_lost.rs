@@ -101,7 +101,7 @@ fn incident(facts: &Facts<'_>, id: u16, seen: &[Seen]) -> Option<Incident> {
     Some(incident)
 }
 
-/// Returns whether most of these frames follow a SYNC within 10 ms.
+/// Returns whether at least 90 % of these frames come within 10 ms after a SYNC.
 fn synchronous(facts: &Facts<'_>, seen: &[Seen]) -> bool {
     let follows = seen.iter().filter(|seen| {
         let before = facts.syncs.partition_point(|sync| sync.place < seen.place);
@@ -110,9 +110,10 @@ fn synchronous(facts: &Facts<'_>, seen: &[Seen]) -> bool {
     !facts.syncs.is_empty() && follows.count() * 10 >= seen.len() * 9
 }
 
+/// Number of SYNCs between two PDOs for which a PDO is missing.
 fn syncs_in(facts: &Facts<'_>, from: Seen, to: Seen) -> usize {
     let count = |place: usize| facts.syncs.partition_point(|sync| sync.place < place);
-    // Up to the SYNC of the next PDO.
+    // The last of these SYNCs belongs to the second PDO.
     count(to.place).saturating_sub(count(from.place) + 1)
 }
 
