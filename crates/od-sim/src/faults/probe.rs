@@ -60,6 +60,8 @@ pub enum Probe {
     Desk(String),
     /// Turns the shaft of an encoder by a quarter of a revolution.
     Turn(String),
+    /// Stops all nodes and selects a device by its LSS address (CiA 305).
+    Lss(String),
 }
 
 /// The result of a probe.
@@ -104,6 +106,7 @@ impl Probe {
             ["unplug", device] => Self::Unplug(name(device)),
             ["desk", device] => Self::Desk(name(device)),
             ["turn", device] => Self::Turn(name(device)),
+            ["lss", device] => Self::Lss(name(device)),
             _ => return Err(unknown(line, text)),
         })
     }
@@ -121,7 +124,8 @@ impl Probe {
             | Self::Leds(device)
             | Self::Unplug(device)
             | Self::Desk(device)
-            | Self::Turn(device) => Some(device),
+            | Self::Turn(device)
+            | Self::Lss(device) => Some(device),
         }
     }
 
@@ -208,6 +212,14 @@ impl Probe {
                     "Die Welle von Knoten {node} um eine Viertelumdrehung drehen und den Positionswert vergleichen"
                 ),
             ),
+            Self::Lss(_) => (
+                format!(
+                    "Stop the nodes and select node {node} by LSS, with the serial number on its label"
+                ),
+                format!(
+                    "Die Knoten stoppen und Knoten {node} mit LSS auswählen, mit der Seriennummer von seinem Typenschild"
+                ),
+            ),
         };
         language.of(english, german)
     }
@@ -283,6 +295,7 @@ impl Probe {
                 };
                 reading.sights.push(Sight::Resistance(ohms));
             }
+            Self::Lss(_) => reading.select(bus, place),
             Self::Scope => reading.scope(bus),
             Self::Length => {
                 #[cfg(feature = "training")]
@@ -311,7 +324,7 @@ impl Probe {
 
 fn unknown(line: u32, text: &str) -> Problem {
     let help = "write `listen`, `read DEVICE 1000h`, `compare DEVICE 6004h`, `reset DEVICE`, `start DEVICE`, `sync`, `resistance`, `scope`, `length`, \
-                `supply DEVICE`, `switches DEVICE`, `leds DEVICE`, `unplug DEVICE`, `desk DEVICE` or `turn DEVICE`";
+                `supply DEVICE`, `switches DEVICE`, `leds DEVICE`, `unplug DEVICE`, `desk DEVICE`, `turn DEVICE` or `lss DEVICE`";
     Problem::new(line, format!("`{text}` is not a probe"), help)
 }
 
@@ -401,6 +414,25 @@ impl Reading {
         let after = value(self.upload(bus, node, POSITION));
         let by = before.zip(after).map(|(before, after)| after - before);
         self.sights = Vec::from([Sight::Turned { node, by }]);
+    }
+
+    /// Stops all nodes, sends the LSS address of a device, and notes whether it responds (CiA 305, switch state selective).
+    fn select(&mut self, bus: &mut Bus, place: usize) {
+        let address = bus.devices().get(place).map(|one| one.lss_address());
+        self.send(bus, nmt(0x02, 0));
+        self.pass(bus, RESPONSE);
+        for (command, part) in (0x40..).zip(address.unwrap_or_default()) {
+            let [a, b, c, d] = part.to_le_bytes();
+            self.send(bus, Frame::standard(0x7E5, &[command, a, b, c, d, 0, 0, 0]));
+            self.pass(bus, RESPONSE);
+        }
+        let responds = self.frames.iter().any(|seen| match seen {
+            LineEvent::Frame { frame, .. } => {
+                frame.id().as_standard() == Some(0x7E4) && frame.data().first() == Some(&0x44)
+            }
+            _ => false,
+        });
+        self.sights = Vec::from([Sight::Selected(responds)]);
     }
 
     /// Notes the lengths of the bits of each sender, and their edges.

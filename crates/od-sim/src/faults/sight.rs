@@ -280,6 +280,8 @@ pub enum Sight {
         /// Steps.
         by: Option<i64>,
     },
+    /// Whether a device responds to its LSS address.
+    Selected(bool),
 }
 
 /// The shape of the bits on an oscilloscope.
@@ -423,6 +425,11 @@ impl Sight {
                     format!("grün {}, rot {}", green.1, red.1),
                 )
             }
+            Self::Selected(false) => ("no response".into(), "keine Antwort".into()),
+            Self::Selected(true) => (
+                "response 44h: it is selected".into(),
+                "Antwort 44h: Er ist ausgewählt".into(),
+            ),
             Self::Turned { node, by: None } => (
                 format!("node {node}: the position value cannot be read"),
                 format!("Knoten {node}: Der Positionswert lässt sich nicht lesen"),
