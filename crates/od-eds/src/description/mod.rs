@@ -156,24 +156,9 @@ impl EntryDescription {
 
     /// The name that a DCF gives this value in its application (Denotation).
     pub fn denotation(&self) -> Option<&str> {
-        self.extra("Denotation")
-    }
-
-    /// The file from which a configuration tool reads the value of a DOMAIN (UploadFile of a DCF).
-    pub fn upload_file(&self) -> Option<&str> {
-        self.extra("UploadFile")
-    }
-
-    /// The file into which a configuration tool writes the value of a DOMAIN (DownloadFile of a DCF).
-    pub fn download_file(&self) -> Option<&str> {
-        self.extra("DownloadFile")
-    }
-
-    fn extra(&self, key: &str) -> Option<&str> {
-        let found = self.extra.iter().find(|(k, _)| k.eq_ignore_ascii_case(key));
-        found
-            .map(|(_, value)| value.as_str())
-            .filter(|value| !value.is_empty())
+        let mut extra = self.extra.iter();
+        let (_, value) = extra.find(|(key, _)| key.eq_ignore_ascii_case("Denotation"))?;
+        (!value.is_empty()).then_some(value)
     }
 
     /// The group that saves this value at `address`.
@@ -447,7 +432,7 @@ mod tests {
     fn a_configuration_names_its_node() {
         let text = "[DeviceCommissioning]\nNodeId=0x11\nNodeName=Left\nBaudrate=500\nNetNumber=\n\
             CANopenManager=1\nLSS_SerialNumber=42\n\
-            [2000]\nParameterName=a\nObjectType=2\nDenotation=Image\nUploadFile=a.bin\nDownloadFile=\n";
+            [2000]\nParameterName=a\nObjectType=2\nDenotation=Image\n";
         let description = crate::load::parse(text).description;
         let expected = Commissioning {
             node_id: Some(17),
@@ -460,11 +445,7 @@ mod tests {
         assert_eq!(description.commissioning(), Some(expected));
         assert_eq!(description.commissioned_node_id(), Some(17));
         let image = &description.objects[&0x2000].entries[&0];
-        assert_eq!(
-            (image.denotation(), image.upload_file()),
-            (Some("Image"), Some("a.bin"))
-        );
-        assert_eq!(image.download_file(), None);
+        assert_eq!(image.denotation(), Some("Image"));
         assert_eq!(Description::default().commissioning(), None);
     }
 }

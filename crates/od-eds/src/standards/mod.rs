@@ -76,7 +76,13 @@ mod tests {
         for profile in [401, 402, 404, 406] {
             for rows in tables(profile) {
                 assert!(rows.iter().all(|row| row.first <= row.last));
-                assert!(rows.windows(2).all(|two| two[0].last < two[1].first));
+                for two in rows.windows(2) {
+                    let [row, next] = [two[0].last, two[1].first];
+                    assert!(
+                        row < next,
+                        "CiA {profile}: move the row of {next:04X}h before that of {row:04X}h"
+                    );
+                }
             }
         }
     }
