@@ -8,7 +8,8 @@
 use odkit::emcy::register;
 use odkit::nmt::State;
 use odkit::{
-    AbortCode, Address, Application, Context, Emcy, Instant, LssProfile, Profile, Reset, Store,
+    AbortCode, Address, Application, ChangeKind, Context, Emcy, Instant, LssProfile, Profile,
+    Reset, Store,
 };
 #[cfg(feature = "machines")]
 use odkit::{DeviceKind, Pin, kind::Behaviour};
@@ -173,8 +174,14 @@ impl Io {
             cx.store
                 .set_unsigned(Address::new(0x6401, sub), value as u16 as u64);
             let last = self.interrupted[channel];
-            if value != last && interrupts(cx.store, sub, last, value) {
+            if value == last {
+                continue;
+            }
+            let kind = analogue_change(cx.store, sub, last, value);
+            if kind != ChangeKind::BelowThreshold {
                 self.interrupted[channel] = value;
+            }
+            if kind == ChangeKind::Event {
                 self.sources |= 1 << channel;
             }
         }
@@ -246,19 +253,22 @@ impl Application for Io {
         cx.signals.wake();
     }
 
-    fn is_event(&self, store: &Store<'_>, address: Address, last: u64, now: u64) -> bool {
+    fn change_kind(&self, store: &Store<'_>, address: Address, last: u64, now: u64) -> ChangeKind {
         let sub = address.sub;
         let mask = |index| store.unsigned(index, sub);
         match address.index {
             0x6000 => {
                 let changed = last ^ now;
                 let events = changed & (mask(0x6006) | now & mask(0x6007) | last & mask(0x6008));
-                store.unsigned(0x6005, 0) != 0 && events != 0
+                if store.unsigned(0x6005, 0) != 0 && events != 0 {
+                    ChangeKind::Event
+                } else {
+                    ChangeKind::Masked
+                }
             }
-            0x6401 => {
-                store.unsigned(0x6423, 0) != 0 && interrupts(store, sub, last as i16, now as i16)
-            }
-            _ => true,
+            0x6401 if store.unsigned(0x6423, 0) == 0 => ChangeKind::BelowThreshold,
+            0x6401 => analogue_change(store, sub, last as i16, now as i16),
+            _ => ChangeKind::Event,
         }
     }
 
@@ -322,7 +332,7 @@ fn word(store: &Store<'_>, index: u16) -> u16 {
 /// Returns whether an analogue input causes an interrupt when it changes from `last`, the value of
 /// its last interrupt, to `now` (CiA 401, 6421h to 6428h). An exceeded limit causes an interrupt at
 /// each change, unless a delta is selected, too. Limits and deltas have the unit of 6401h.
-fn interrupts(store: &Store<'_>, sub: u8, last: i16, now: i16) -> bool {
+fn analogue_change(store: &Store<'_>, sub: u8, last: i16, now: i16) -> ChangeKind {
     let selected = store.unsigned(0x6421, sub);
     let has = |bit: u64| selected >> bit & 1 == 1;
     let limit = |index| store.signed(index, sub);
@@ -340,7 +350,16 @@ fn interrupts(store: &Store<'_>, sub: u8, last: i16, now: i16) -> bool {
     ];
     let is_limited = selected & 0b11 != 0;
     let is_stepped = selected & 0b1_1100 != 0;
-    selected != 0
-        && (!is_limited || limits.contains(&true))
-        && (!is_stepped || deltas.contains(&true))
+    if is_limited && !limits.contains(&true) {
+        // Inside its limits; without a delta the next value outside is a change.
+        if is_stepped {
+            ChangeKind::BelowThreshold
+        } else {
+            ChangeKind::Masked
+        }
+    } else if selected == 0 || is_stepped && !deltas.contains(&true) {
+        ChangeKind::BelowThreshold
+    } else {
+        ChangeKind::Event
+    }
 }

@@ -306,6 +306,19 @@ impl Pin {
     }
 }
 
+/// What a change of a mapped value means for an event-driven TPDO
+/// ([`Application::change_kind`]).
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum ChangeKind {
+    /// The TPDO is sent.
+    Event,
+    /// Nothing is sent; the next value is compared with the one that was sent last, as a dead band
+    /// needs it.
+    BelowThreshold,
+    /// Nothing is sent; the next value is compared with this one, as the mask of an edge needs it.
+    Masked,
+}
+
 /// Behaviour of a device: checks writes, reacts to them, and provides live values.
 ///
 /// Every function has an empty default, so a device without behaviour is [`NoApplication`].
@@ -412,11 +425,12 @@ pub trait Application {
     }
 
     /// Returns whether a change of a mapped value is an event for which an event-driven TPDO is
-    /// sent, by a dead band or a mask for example. `last` are the bits that the TPDO sent last,
-    /// `now` the current bits. By default each change is an event.
-    fn is_event(&self, store: &Store<'_>, address: Address, last: u64, now: u64) -> bool {
+    /// sent, by a dead band or a mask for example. `last` are the bits that the TPDO sent last, or
+    /// those of the last [masked](ChangeKind::Masked) change; `now` are the current bits. By
+    /// default each change is an event.
+    fn change_kind(&self, store: &Store<'_>, address: Address, last: u64, now: u64) -> ChangeKind {
         let _ = (store, address, last, now);
-        true
+        ChangeKind::Event
     }
 
     /// Connections of the device to the world outside the bus, for a host that simulates this

@@ -105,8 +105,8 @@ pub use od_wire::time_of_day::TimeOfDay;
 pub use od_wire::{AbortCode, CanId, CobId, Duration, Frame, Instant, NodeId};
 
 pub use application::{
-    Application, Chunk, Context, Halt, NoApplication, Pin, PinKind, Reset, Signals, Stream,
-    StreamEnd,
+    Application, ChangeKind, Chunk, Context, Halt, NoApplication, Pin, PinKind, Reset, Signals,
+    Stream, StreamEnd,
 };
 pub use device::Device;
 #[cfg(feature = "std")]

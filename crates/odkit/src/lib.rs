@@ -44,12 +44,12 @@ pub use od_model::{
     ObjectCode, Slot, typed,
 };
 pub use od_runtime::{
-    AbortCode, Application, BusEvent, BusOffProfile, CanId, Chunk, CobId, CommunicationReset,
-    Context, CutSave, Device, Duration, Emcy, ErrorProfile, ErrorReset, Event, EventTimer, Frame,
-    Halt, Instant, LengthRule, LssProfile, NmtProfile, NoApplication, Node, NodeId, Notice,
-    PdoProfile, Pin, PinKind, Profile, Reset, Restore, SaveAnswer, SavedCobIds, SdoProfile,
-    Services, Signals, Store, StoreProfile, StoreTooSmall, Stream, StreamEnd, TextTooLong,
-    TimeOfDay, encoder, program, rooms, storage,
+    AbortCode, Application, BusEvent, BusOffProfile, CanId, ChangeKind, Chunk, CobId,
+    CommunicationReset, Context, CutSave, Device, Duration, Emcy, ErrorProfile, ErrorReset, Event,
+    EventTimer, Frame, Halt, Instant, LengthRule, LssProfile, NmtProfile, NoApplication, Node,
+    NodeId, Notice, PdoProfile, Pin, PinKind, Profile, Reset, Restore, SaveAnswer, SavedCobIds,
+    SdoProfile, Services, Signals, Store, StoreProfile, StoreTooSmall, Stream, StreamEnd,
+    TextTooLong, TimeOfDay, encoder, program, rooms, storage,
 };
 #[cfg(feature = "std")]
 pub use od_runtime::{DeviceKind, kind};

@@ -24,6 +24,8 @@ use mode::{
 
 /// Bits of the controlword that a mode reads.
 mod control {
+    /// 0 is the command quick stop.
+    pub(super) const QUICK_STOP: u16 = 1 << 2;
     /// New set-point, start of homing, or start of interpolation.
     pub(super) const START: u16 = 1 << 4;
     pub(super) const AT_ONCE: u16 = 1 << 5;
@@ -434,7 +436,11 @@ impl Axis {
             (_, State::SwitchOnDisabled | State::Fault | State::FaultReactionActive) => {}
             (1, _) => self.fault(store, LOST),
             (2, _) => self.enter(State::SwitchOnDisabled),
-            (3, State::OperationEnabled) => self.quick_stop(store),
+            (3, State::OperationEnabled) => {
+                // The last command must not end the stop: the axis would move again.
+                self.controlword &= !control::QUICK_STOP;
+                self.quick_stop(store);
+            }
             _ => {}
         }
     }

@@ -4,6 +4,7 @@
 use od_model::row::Row;
 use od_model::typed::MapEntry;
 
+use crate::application::ChangeKind;
 use crate::objects::{Objects, check_mapped};
 use crate::services::Services;
 use crate::store::Store;
@@ -132,30 +133,35 @@ impl Mapping {
         self.read(&objects.store, mapped)
     }
 
-    /// Returns whether the application accepts a difference between two frames as an event.
+    /// Returns whether the application accepts a difference between two frames as an event. A
+    /// value whose change it masks becomes that of the last frame.
     pub(super) fn is_event<D: Services>(
         &self,
         objects: &Objects<'_, D>,
         mapped: &[Mapped],
-        last: [u8; 8],
+        last: &mut [u8; 8],
         now: [u8; 8],
     ) -> bool {
-        let (mut last, mut now) = (u64::from_le_bytes(last), u64::from_le_bytes(now));
+        let (mut sent, now) = (u64::from_le_bytes(*last), u64::from_le_bytes(now));
+        let mut from = 0;
         for entry in self.entries(mapped) {
             let bits = entry >> 24;
-            let own = u64::MAX.checked_shr(64 - bits.min(64)).unwrap_or(0);
-            let (was, is) = (last & own, now & own);
-            if was != is
+            let own = u64::MAX.checked_shr(64 - bits.min(64)).unwrap_or(0) << from;
+            let change = (sent ^ now) & own;
+            if change != 0
                 && let Some(row) = row(&objects.store, *entry)
-                && objects
-                    .application
-                    .is_event(&objects.store, row.address(), was, is)
             {
-                return true;
+                let (was, is) = ((sent & own) >> from, (now & own) >> from);
+                let (store, address) = (&objects.store, row.address());
+                match objects.application.change_kind(store, address, was, is) {
+                    ChangeKind::Event => return true,
+                    ChangeKind::BelowThreshold => {}
+                    ChangeKind::Masked => sent ^= change,
+                }
             }
-            last = last.checked_shr(bits).unwrap_or(0);
-            now = now.checked_shr(bits).unwrap_or(0);
+            from = (from + bits) & 63;
         }
+        *last = sent.to_le_bytes();
         false
     }
 

@@ -7,8 +7,8 @@ use od_model::{Address, Dictionary};
 use od_runtime::encoder::Encoder;
 use od_runtime::kind::Own;
 use od_runtime::{
-    AbortCode, Application, Context, Instant, NoApplication, NodeId, Pin, Reset, Store, Stream,
-    TimeOfDay,
+    AbortCode, Application, ChangeKind, Context, Instant, NoApplication, NodeId, Pin, Reset, Store,
+    Stream, TimeOfDay,
 };
 #[cfg(feature = "eds")]
 use od_runtime::{Chunk, Halt, StreamEnd};
@@ -167,8 +167,8 @@ impl Application for Behaviour {
         self.own_mut().master_lost(cx);
     }
 
-    fn is_event(&self, store: &Store<'_>, address: Address, last: u64, now: u64) -> bool {
-        self.own().is_event(store, address, last, now)
+    fn change_kind(&self, store: &Store<'_>, address: Address, last: u64, now: u64) -> ChangeKind {
+        self.own().change_kind(store, address, last, now)
     }
 
     fn pins(&self) -> &'static [Pin] {

@@ -357,6 +357,10 @@ impl Link for Spoiled {
 
     fn send(&mut self, frame: &Frame) -> Result<(), Error> {
         let at = self.now();
+        // After a reset the device has its own values.
+        if matches!(frame.bytes()[0], 0x81 | 0x82) && frame.id() == CanId::standard(0) {
+            self.shadows.clear();
+        }
         if let Some(answer) = self.shadowed(frame) {
             self.say(answer, at);
             return Ok(());

@@ -1,4 +1,4 @@
-//! The table of faults: at least 99 % are found, each by the case that tests the behaviour.
+//! The table of faults: each is found by the case that tests the behaviour.
 
 use std::collections::BTreeSet;
 
@@ -172,7 +172,7 @@ fn each_fault_is_found_by_its_case() {
     }
     assert!(broken.is_empty(), "{}", broken.join("\n"));
     assert!(
-        missed.len() * 100 <= all,
+        missed.is_empty(),
         "{} of {all} not found by their case:\n{}",
         missed.len(),
         missed.join("\n")

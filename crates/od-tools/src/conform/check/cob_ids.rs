@@ -211,10 +211,11 @@ pub(super) fn access(dut: &mut Dut<'_>) -> Checked {
     }
 }
 
-/// Restricted CAN-IDs, the first and the last of each range of the table of restricted CAN-IDs (CiA 301).
-const RESTRICTED: [u32; 14] = [
+/// Restricted CAN-IDs, the first and the last of each range of the table of restricted CAN-IDs (CiA 301), and those of
+/// LSS.
+const RESTRICTED: [u32; 16] = [
     0x000, 0x001, 0x07F, 0x101, 0x180, 0x581, 0x5FF, 0x601, 0x67F, 0x6E0, 0x6FF, 0x701, 0x780,
-    0x7FF,
+    0x7E4, 0x7E5, 0x7FF,
 ];
 
 /// The COB-IDs that can be written of PDOs and EMCY, in the order of their objects.

@@ -355,6 +355,24 @@ pub(super) fn leave_silent(dut: &mut Dut<'_>) -> Checked {
     }
 }
 
+/// A reset leads to the waiting state.
+pub(super) fn over_reset(dut: &mut Dut<'_>) -> Checked {
+    for reset in [Command::ResetCommunication, Command::ResetNode] {
+        dut.nmt(Command::EnterPreOperational)?;
+        configured(dut)?;
+        dut.reset(reset)?;
+        dut.nmt(Command::Stop)?;
+        let done = stays_silent(
+            dut,
+            Request::InquireNodeId.emit(),
+            "as the node is in the waiting state after a reset",
+        );
+        waiting(dut)?;
+        done?;
+    }
+    Ok(())
+}
+
 /// Bytes that CiA 305 reserves in responses are 0.
 pub(super) fn reserved(dut: &mut Dut<'_>) -> Checked {
     let all = begin(dut)?;

@@ -22,6 +22,7 @@ const PROFILE_VELOCITY: i8 = 3;
 const HOMING: i8 = 6;
 const CYCLIC_POSITION: i8 = 8;
 const CYCLIC_VELOCITY: i8 = 9;
+const INTERPOLATED: i8 = 7;
 
 /// Controlword: enable operation, and its bits in the modes.
 const ENABLE: u16 = 0x0F;
@@ -31,14 +32,14 @@ const RELATIVE: u16 = 1 << 6;
 const HALT: u16 = 1 << 8;
 
 /// A state in the statusword (6041h): its name, the mask of its bits, and their values.
-type Shown = (&'static str, u64, u64);
-const DISABLED: Shown = ("Switch on disabled", 0x4F, 0x40);
-const READY: Shown = ("Ready to switch on", 0x6F, 0x21);
-const SWITCHED_ON: Shown = ("Switched on", 0x6F, 0x23);
-const ENABLED: Shown = ("Operation enabled", 0x6F, 0x27);
-const QUICK_STOP: Shown = ("Quick stop active", 0x6F, 0x07);
-const FAULT: Shown = ("Fault", 0x4F, 0x08);
-const REACHED: Shown = ("target reached, bit 10 = 1", 1 << 10, 1 << 10);
+type Shown<'s> = (&'s str, u64, u64);
+const DISABLED: Shown<'_> = ("Switch on disabled", 0x4F, 0x40);
+const READY: Shown<'_> = ("Ready to switch on", 0x6F, 0x21);
+const SWITCHED_ON: Shown<'_> = ("Switched on", 0x6F, 0x23);
+const ENABLED: Shown<'_> = ("Operation enabled", 0x6F, 0x27);
+const QUICK_STOP: Shown<'_> = ("Quick stop active", 0x6F, 0x07);
+const FAULT: Shown<'_> = ("Fault", 0x4F, 0x08);
+const REACHED: Shown<'_> = ("target reached, bit 10 = 1", 1 << 10, 1 << 10);
 
 /// An axis: the distance of its objects from those of the first axis.
 #[derive(Clone, Copy)]
@@ -94,12 +95,31 @@ impl Axis {
         }
     }
 
+    /// The codes of an option code object that the drive accepts; without any the case is skipped.
+    fn codes(self, dut: &mut Dut<'_>, index: u16, codes: &[i64]) -> Checked<Vec<i64>> {
+        let mut all = Vec::new();
+        for code in codes {
+            match self.choose(dut, index, *code) {
+                Ok(()) => all.push(*code),
+                Err(End::NotApplicable(_)) => {}
+                Err(other) => return Err(other),
+            }
+        }
+        if all.is_empty() {
+            return lacks(format!(
+                "the drive refuses every code in {}",
+                self.at(index)
+            ));
+        }
+        Ok(all)
+    }
+
     fn command(self, dut: &mut Dut<'_>, word: u16) -> Checked {
         dut.write(self.at(0x6040), &word.to_le_bytes())
     }
 
     /// Waits until the statusword shows this.
-    fn shows(self, dut: &mut Dut<'_>, micros: u64, (what, mask, bits): Shown) -> Checked {
+    fn shows(self, dut: &mut Dut<'_>, micros: u64, (what, mask, bits): Shown<'_>) -> Checked {
         let end = dut.now().plus_micros(micros);
         loop {
             let is = self.value(dut, 0x6041)? as u64;
@@ -385,7 +405,7 @@ pub(super) fn cyclic_velocity(dut: &mut Dut<'_>) -> Checked {
     })
 }
 
-const FOLLOWS: Shown = (
+const FOLLOWS: Shown<'_> = (
     "drive follows the command value, bit 12 = 1",
     1 << 12,
     1 << 12,
@@ -410,6 +430,36 @@ pub(super) fn cyclic_position(dut: &mut Dut<'_>) -> Checked {
             window,
             "after the last target position",
         )
+    })
+}
+
+/// Twenty positions in a row while bit 4 is 1; without it the axis stays.
+pub(super) fn interpolated(dut: &mut Dut<'_>) -> Checked {
+    each(dut, INTERPOLATED, |dut, axis| {
+        let record = Address::new(0x60C1 + axis.0, 1);
+        dut.keep(record)?;
+        let (from, way) = (axis.value(dut, 0x6064)?, axis.way(dut)?);
+        let window = axis.window(dut, 0x6067)?.max(way / 100);
+        let active = "interpolation active, bit 12 = 1, with bit 4 of 6040h";
+        for (word, is_active, to) in [(ENABLE | START, true, from + way), (ENABLE, false, from)] {
+            let (begin, end) = (axis.value(dut, 0x6064)?, to);
+            dut.write(record, &(begin as i32).to_le_bytes())?;
+            axis.command(dut, word)?;
+            for step in 1..=20 {
+                let place = begin + (end - begin) * step / 20;
+                dut.write(record, &(place as i32).to_le_bytes())?;
+                dut.wait(10_000)?;
+            }
+            if is_active {
+                axis.shows(dut, CHANGE, (active, FOLLOWS.1, FOLLOWS.2))?;
+                axis.comes_to(dut, 0x6064, end, window, "after the last record of 60C1h")?;
+            } else {
+                dut.wait(200_000)?;
+                let is = axis.value(dut, 0x6064)?;
+                axis.is_at(0x6064, is, begin, window, "with bit 4 of 6040h = 0")?;
+            }
+        }
+        Ok(())
     })
 }
 
@@ -449,13 +499,18 @@ pub(super) fn homing(dut: &mut Dut<'_>) -> Checked {
 pub(super) fn quick_stop(dut: &mut Dut<'_>) -> Checked {
     each(dut, PROFILE_VELOCITY, |dut, axis| {
         let pace = axis.pace(dut)?;
-        for (code, state) in [(2, DISABLED), (6, QUICK_STOP)] {
+        let codes = axis.codes(dut, 0x605A, &[2, 6, 1, 5, 3, 7, 4, 8, 0])?;
+        for code in codes {
             axis.choose(dut, 0x605A, code)?;
             axis.enable(dut)?;
             axis.runs(dut, pace)?;
             axis.command(dut, 2)?;
-            let window = axis.standing(dut)?;
-            axis.comes_to(dut, 0x606C, 0, window, "after quick stop")?;
+            if code != 0 {
+                let window = axis.standing(dut)?;
+                let when = format!("after quick stop with {code} in 605Ah");
+                axis.comes_to(dut, 0x606C, 0, window, &when)?;
+            }
+            let state = if code < 5 { DISABLED } else { QUICK_STOP };
             axis.shows(dut, CHANGE, state)?;
             axis.command(dut, 0)?;
             axis.shows(dut, CHANGE, DISABLED)?;
@@ -491,18 +546,29 @@ pub(super) fn halt(dut: &mut Dut<'_>) -> Checked {
     each(dut, PROFILE_VELOCITY, |dut, axis| {
         let pace = axis.pace(dut)?;
         axis.runs(dut, pace)?;
-        axis.command(dut, ENABLE | HALT)?;
-        let window = axis.standing(dut)?;
-        axis.comes_to(dut, 0x606C, 0, window, "after halt, bit 8 of 6040h")?;
-        axis.shows(dut, CHANGE, ENABLED)?;
-        axis.shows(
-            dut,
-            CHANGE,
-            ("bit 10 = 1 when the axis is halted", REACHED.1, REACHED.2),
-        )?;
-        axis.command(dut, ENABLE)?;
-        let window = axis.window(dut, 0x606D)?.max(pace / 100);
-        axis.comes_to(dut, 0x606C, pace, window, "after halt ends")
+        let mut codes = vec![axis.value(dut, 0x605D)?];
+        if dut.eds.writes(0x605D + axis.0, 0) {
+            codes = axis.codes(dut, 0x605D, &[1, 2, 3, 4])?;
+        }
+        for code in codes {
+            if dut.eds.writes(0x605D + axis.0, 0) {
+                axis.choose(dut, 0x605D, code)?;
+            }
+            axis.command(dut, ENABLE | HALT)?;
+            let window = axis.standing(dut)?;
+            let when = format!("after halt, bit 8 of 6040h, with {code} in 605Dh");
+            axis.comes_to(dut, 0x606C, 0, window, &when)?;
+            axis.shows(dut, CHANGE, ENABLED)?;
+            axis.shows(
+                dut,
+                CHANGE,
+                ("bit 10 = 1 when the axis is halted", REACHED.1, REACHED.2),
+            )?;
+            axis.command(dut, ENABLE)?;
+            let window = axis.window(dut, 0x606D)?.max(pace / 100);
+            axis.comes_to(dut, 0x606C, pace, window, "after halt ends")?;
+        }
+        Ok(())
     })
 }
 
@@ -527,5 +593,55 @@ pub(super) fn connection_lost(dut: &mut Dut<'_>) -> Checked {
         }
         axis.command(dut, 0x80)?;
         axis.shows(dut, CHANGE, DISABLED)
+    })
+}
+
+/// The axis moves when the fault occurs: with code 1 or 2 in 605Eh it is at rest in Fault.
+pub(super) fn fault_reaction(dut: &mut Dut<'_>) -> Checked {
+    each(dut, PROFILE_VELOCITY, |dut, axis| {
+        axis.choose(dut, 0x6007, 1)?;
+        let pace = axis.pace(dut)?;
+        for code in axis.codes(dut, 0x605E, &[1, 2, 3, 4])? {
+            axis.choose(dut, 0x605E, code)?;
+            axis.command(dut, 0)?;
+            axis.shows(dut, CHANGE, DISABLED)?;
+            axis.enable(dut)?;
+            axis.runs(dut, pace)?;
+            dut.nmt(Command::Stop)?;
+            dut.nmt(Command::Start)?;
+            axis.shows(dut, MOVE, FAULT)?;
+            let (is, window) = (axis.value(dut, 0x606C)?, axis.standing(dut)?);
+            let when = format!("in Fault, with {code} in 605Eh");
+            axis.is_at(0x606C, is, 0, window, &when)?;
+            axis.command(dut, 0x80)?;
+            axis.shows(dut, CHANGE, DISABLED)?;
+        }
+        Ok(())
+    })
+}
+
+/// NMT stop with the other codes of 6007h: no action, disable voltage, quick stop.
+pub(super) fn connection_options(dut: &mut Dut<'_>) -> Checked {
+    each(dut, PROFILE_VELOCITY, |dut, axis| {
+        // Quick stop active shows that the stop was a quick stop.
+        let quick = axis.has(dut, 0x605A) && axis.choose(dut, 0x605A, 6).is_ok();
+        for code in axis.codes(dut, 0x6007, &[2, 3, 0])? {
+            let state = match code {
+                0 => ENABLED,
+                3 if quick => QUICK_STOP,
+                3 => continue,
+                _ => DISABLED,
+            };
+            axis.choose(dut, 0x6007, code)?;
+            axis.command(dut, 0)?;
+            axis.shows(dut, CHANGE, DISABLED)?;
+            axis.enable(dut)?;
+            dut.nmt(Command::Stop)?;
+            dut.nmt(Command::Start)?;
+            let (name, mask, bits) = state;
+            let name = format!("{name} after NMT stop, with {code} in 6007h,");
+            axis.shows(dut, CHANGE, (&name, mask, bits))?;
+        }
+        Ok(())
     })
 }

@@ -17,6 +17,15 @@ const PRE_OPERATIONAL: u8 = 0x7F;
 const TYPE: Address = Address::new(0x1000, 0);
 
 pub(super) fn boot_up(dut: &mut Dut<'_>) -> Checked {
+    for state in [Command::EnterPreOperational, Command::Start, Command::Stop] {
+        dut.nmt(state)?;
+        boots_once(dut)?;
+    }
+    Ok(())
+}
+
+/// NMT reset node, and one boot-up message.
+fn boots_once(dut: &mut Dut<'_>) -> Checked {
     dut.drain()?;
     let id = dut.id(0x700);
     let node = dut.node.raw();
@@ -44,7 +53,11 @@ pub(super) fn boot_up(dut: &mut Dut<'_>) -> Checked {
 }
 
 pub(super) fn boot_up_after_communication(dut: &mut Dut<'_>) -> Checked {
-    dut.reset(Command::ResetCommunication)
+    for state in [Command::EnterPreOperational, Command::Start, Command::Stop] {
+        dut.nmt(state)?;
+        dut.reset(Command::ResetCommunication)?;
+    }
+    Ok(())
 }
 
 pub(super) fn boot_up_first(dut: &mut Dut<'_>) -> Checked {

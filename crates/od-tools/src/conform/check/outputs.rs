@@ -185,11 +185,7 @@ pub(super) fn interrupt_mask(dut: &mut Dut<'_>) -> Checked {
     for (enabled, mask) in [(1, true), (1, false), (0, true)] {
         dut.set(Address::new(0x6005, 0), &[enabled])?;
         wire.input.write(dut, 0x6006, mask)?;
-        dut.drain()?;
-        let from = dut.frames.len();
-        wire.output.toggle(dut, 0x6200)?;
-        dut.wait(QUIET)?;
-        let sent = sent(dut, from, id);
+        let sent = caused(dut, id, |dut| wire.output.toggle(dut, 0x6200))?;
         let when = format!(
             "after an input changed, with {enabled} in 6005h and {} in 6006h",
             u8::from(mask)
@@ -215,45 +211,205 @@ fn expect(sent: usize, wanted: bool, id: u16, when: &str) -> Checked {
     }
 }
 
-/// An analogue output that is wired to an input; a small change and a great one.
+/// 6007h: from 0 to 1 only; 6008h: from 1 to 0 only.
+pub(super) fn edge_masks(dut: &mut Dut<'_>) -> Checked {
+    let wire = Wire::find(dut)?;
+    let id = event_of(dut, 0x6000, wire.input.sub)?;
+    dut.set(Address::new(0x6005, 0), &[1])?;
+    wire.input.write(dut, 0x6006, false)?;
+    for (rising, falling) in [(true, false), (false, true)] {
+        wire.input.write(dut, 0x6007, rising)?;
+        wire.input.write(dut, 0x6008, falling)?;
+        for _ in 0..2 {
+            let is_rising = !wire.input.read(dut, 0x6000)?;
+            let sent = caused(dut, id, |dut| wire.output.toggle(dut, 0x6200))?;
+            let when = format!(
+                "after an input became {}, with {} in 6007h and {} in 6008h",
+                u8::from(is_rising),
+                u8::from(rising),
+                u8::from(falling)
+            );
+            expect(sent, is_rising == rising, id, &when)?;
+        }
+    }
+    Ok(())
+}
+
+/// Number of frames with this CAN-ID that an action causes.
+fn caused(
+    dut: &mut Dut<'_>,
+    id: u16,
+    action: impl FnOnce(&mut Dut<'_>) -> Checked,
+) -> Checked<usize> {
+    dut.drain()?;
+    let from = dut.frames.len();
+    action(dut)?;
+    dut.wait(QUIET)?;
+    Ok(sent(dut, from, id))
+}
+
+/// Distance of the values that an analogue output gets.
+const STEP: i16 = 2000;
+
+/// An analogue output that is wired to an input.
+struct Analogue {
+    output: Address,
+    /// Sub-index of the input in 6401h.
+    input: u8,
+}
+
+impl Analogue {
+    /// Changes one output after the other until an input changes.
+    fn find(dut: &mut Dut<'_>) -> Checked<Self> {
+        dut.nmt(Command::Start)?;
+        let count = dut.number(0x6401, 0)?.min(0xFE) as u8;
+        for sub in 1..=dut.number(0x6411, 0)?.min(0xFE) as u8 {
+            let output = Address::new(0x6411, sub);
+            dut.keep(output)?;
+            let mut seen = [Vec::new(), Vec::new()];
+            for (value, seen) in [0, STEP].into_iter().zip(&mut seen) {
+                put(dut, output, value)?;
+                for input in 1..=count {
+                    seen.push(dut.number(0x6401, input)?);
+                }
+            }
+            let mut inputs = (1..).zip(seen[0].iter().zip(&seen[1]));
+            if let Some((input, _)) = inputs.find(|(_, (before, after))| before != after) {
+                return Ok(Self { output, input });
+            }
+        }
+        lacks("no analogue output is wired to an input; connect one to run this case")
+    }
+
+    /// The value of the input.
+    fn read(&self, dut: &mut Dut<'_>) -> Checked<i16> {
+        Ok(dut.number(0x6401, self.input)? as i16)
+    }
+
+    /// Writes the output; returns the value of the input then.
+    fn after(&self, dut: &mut Dut<'_>, value: i16) -> Checked<i16> {
+        put(dut, self.output, value)?;
+        self.read(dut)
+    }
+
+    /// Fails unless the input has this value, or nearly so.
+    fn shows(&self, dut: &mut Dut<'_>, wanted: i16, why: &str) -> Checked {
+        let is = self.read(dut)?;
+        ensure(
+            is.abs_diff(wanted) < STEP.unsigned_abs() / 4,
+            format!("about {wanted} in 6401h:{:02X} {why}", self.input),
+            format!("{is} was read"),
+        )
+    }
+
+    /// Lets the input send its TPDO for these reasons (6421h).
+    fn select(&self, dut: &mut Dut<'_>, reasons: u8) -> Checked {
+        dut.set(Address::new(0x6421, self.input), &[reasons])?;
+        dut.set(Address::new(0x6423, 0), &[1])
+    }
+}
+
+/// Writes an analogue output, and gives the module time.
+fn put(dut: &mut Dut<'_>, output: Address, value: i16) -> Checked {
+    dut.write(output, &value.to_le_bytes())?;
+    dut.wait(REACTION)
+}
+
+/// A small change and a great one.
 pub(super) fn delta(dut: &mut Dut<'_>) -> Checked {
     const SMALL: i16 = 100;
     const DELTA: u32 = 1000;
-    const GREAT: i16 = 2000;
-    dut.nmt(Command::Start)?;
-    let count = dut.number(0x6401, 0)?.min(0xFE) as u8;
-    for sub in 1..=dut.number(0x6411, 0)?.min(0xFE) as u8 {
-        let output = Address::new(0x6411, sub);
-        dut.keep(output)?;
-        let mut seen = [Vec::new(), Vec::new()];
-        for (value, seen) in [0, GREAT].into_iter().zip(&mut seen) {
-            dut.write(output, &value.to_le_bytes())?;
-            dut.wait(REACTION)?;
-            for input in 1..=count {
-                seen.push(dut.number(0x6401, input)?);
+    let wire = Analogue::find(dut)?;
+    let id = event_of(dut, 0x6401, wire.input)?;
+    dut.set(Address::new(0x6426, wire.input), &DELTA.to_le_bytes())?;
+    wire.select(dut, 1 << 2)?;
+    // The value of the last interrupt is STEP, or 0 of an earlier one: this change passes in either case.
+    put(dut, wire.output, 2 * STEP)?;
+    dut.wait(QUIET)?;
+    for (value, wanted) in [(2 * STEP + SMALL, false), (3 * STEP, true)] {
+        let sent = caused(dut, id, |dut| put(dut, wire.output, value))?;
+        let when = format!(
+            "after 6401h:{:02X} changed, with {DELTA} in 6426h",
+            wire.input
+        );
+        expect(sent, wanted, id, &when)?;
+    }
+    Ok(())
+}
+
+/// Values on both sides of an upper and a lower limit, and the interrupt source.
+pub(super) fn limits(dut: &mut Dut<'_>) -> Checked {
+    let wire = Analogue::find(dut)?;
+    let id = event_of(dut, 0x6401, wire.input)?;
+    // The limit is between one and two steps.
+    let (below, above) = (wire.after(dut, STEP)?, wire.after(dut, 2 * STEP)?);
+    let limit = (i32::from(below) + i32::from(above)) / 2;
+    let source = Address::new(0x6422, 1 + (wire.input - 1) / 32);
+    for (reasons, index, outside, inside) in [(1, 0x6424, 3, 0), (2, 0x6425, 0, 3)] {
+        dut.set(Address::new(index, wire.input), &limit.to_le_bytes())?;
+        wire.select(dut, reasons)?;
+        put(dut, wire.output, inside * STEP)?;
+        let near = (inside + 1).min(2);
+        for (steps, wanted) in [
+            (near, false),
+            (outside, true),
+            (near, false),
+            (outside, true),
+        ] {
+            if dut.eds.has(0x6422) {
+                dut.read(source)?;
+            }
+            let sent = caused(dut, id, |dut| put(dut, wire.output, steps * STEP))?;
+            let when = format!(
+                "after 6401h:{:02X} became {}, with {limit} in {index:04X}h and {reasons} in 6421h",
+                wire.input,
+                wire.read(dut)?
+            );
+            expect(sent, wanted, id, &when)?;
+            if dut.eds.has(0x6422) {
+                shows_source(dut, source, wire.input, wanted)?;
             }
         }
-        let mut inputs = (1..).zip(seen[0].iter().zip(&seen[1]));
-        let Some((input, _)) = inputs.find(|(_, (before, after))| before != after) else {
-            continue;
-        };
-        let id = event_of(dut, 0x6401, input)?;
-        dut.set(Address::new(0x6426, input), &DELTA.to_le_bytes())?;
-        dut.set(Address::new(0x6421, input), &[1 << 2])?;
-        dut.set(Address::new(0x6423, 0), &[1])?;
-        // The value of the last interrupt is GREAT, or 0 of an earlier one: this change passes in either case.
-        dut.write(output, &(2 * GREAT).to_le_bytes())?;
-        dut.wait(QUIET)?;
-        for (value, wanted) in [(2 * GREAT + SMALL, false), (3 * GREAT, true)] {
-            dut.drain()?;
-            let from = dut.frames.len();
-            dut.write(output, &value.to_le_bytes())?;
-            dut.wait(QUIET)?;
-            let sent = sent(dut, from, id);
-            let when = format!("after 6401h:{input:02X} changed, with {DELTA} in 6426h");
-            expect(sent, wanted, id, &when)?;
-        }
-        return Ok(());
     }
-    lacks("no analogue output is wired to an input; connect one to run this case")
+    Ok(())
+}
+
+/// 6422h has the bit of the input after its interrupt, and reading it clears the bit.
+fn shows_source(dut: &mut Dut<'_>, source: Address, input: u8, is_set: bool) -> Checked {
+    for (wanted, when) in [
+        (is_set, "after the input was inside or outside its limit"),
+        (false, "after it was read"),
+    ] {
+        let bits = dut.number(source.index, source.sub)?;
+        let bit = (input - 1) % 32;
+        ensure(
+            (bits >> bit & 1 == 1) == wanted,
+            format!("{} in bit {bit} of {source} {when}", u8::from(wanted)),
+            format!("{bits:08X}h was read"),
+        )?;
+    }
+    Ok(())
+}
+
+/// Error mode 1: the error value; error mode 0: the last value.
+pub(super) fn analogue_error(dut: &mut Dut<'_>) -> Checked {
+    let wire = Analogue::find(dut)?;
+    let error = wire.after(dut, 3 * STEP)?;
+    let value = wire.after(dut, STEP)?;
+    let sub = wire.output.sub;
+    dut.set(
+        Address::new(0x6444, sub),
+        &i32::from(3 * STEP).to_le_bytes(),
+    )?;
+    for (mode, wanted) in [(1, error), (0, value)] {
+        dut.set(Address::new(0x6443, sub), &[mode])?;
+        let node = watch(dut, 200)?;
+        dut.nmt(Command::Start)?;
+        beat(dut, node)?;
+        wire.shows(dut, value, "while the heartbeat is in time")?;
+        dut.wait(500_000)?;
+        let why = format!("after a heartbeat is lost, with {mode} in 6443h");
+        wire.shows(dut, wanted, &why)?;
+    }
+    Ok(())
 }

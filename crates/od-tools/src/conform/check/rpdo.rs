@@ -300,8 +300,59 @@ fn outputs(dut: &Dut<'_>) -> Checked<Vec<Entry>> {
     Ok(all)
 }
 
-/// Maps only these entries to the RPDO (the last one is an object), and sends a value, which the
-/// object must have then.
+/// A frame that changes the first byte of each object of a mapping.
+struct Changed {
+    bytes: Vec<u8>,
+    /// Each object, its value before, and that of the frame.
+    values: Vec<(Address, Vec<u8>, Vec<u8>)>,
+}
+
+impl Changed {
+    /// Reads the objects of these mapping entries; a dummy takes its bits as 0.
+    fn of(dut: &mut Dut<'_>, entries: &[u32]) -> Checked<Self> {
+        let (mut bytes, mut values) = (Vec::new(), Vec::new());
+        for entry in entries {
+            let address = Address::new((entry >> 16) as u16, (entry >> 8) as u8);
+            if address.index < 0x20 {
+                bytes.resize(bytes.len() + (entry & 0xFF) as usize / 8, 0);
+                continue;
+            }
+            let before = dut.keep(address)?;
+            let mut wanted = before.clone();
+            if let Some(first) = wanted.first_mut() {
+                *first ^= 1;
+            }
+            bytes.extend_from_slice(&wanted);
+            values.push((address, before, wanted));
+        }
+        Ok(Self { bytes, values })
+    }
+
+    /// Sends the frame in Operational.
+    fn send(&self, dut: &mut Dut<'_>, pdo: &Tpdo) -> Checked {
+        dut.nmt(Command::Start)?;
+        if let Some(frame) = Frame::new(pdo.id(), &self.bytes) {
+            dut.send(frame)?;
+        }
+        dut.wait(20_000)
+    }
+
+    /// Fails unless each object has its value before, or that of the frame.
+    fn holds(&self, dut: &mut Dut<'_>, is_new: bool, why: &str) -> Checked {
+        for (address, before, wanted) in &self.values {
+            let wanted = if is_new { wanted } else { before };
+            let is = dut.read(*address)?;
+            ensure(
+                is == *wanted,
+                format!("{} in {address}{why}", values::hex(wanted)),
+                format!("{} was read", values::hex(&is)),
+            )?;
+        }
+        Ok(())
+    }
+}
+
+/// Maps only these entries to the RPDO, and sends other values, which the objects must have then.
 fn takes(dut: &mut Dut<'_>, pdo: &Tpdo, map: u16, entries: &[u32]) -> Checked {
     for (sub, entry) in (1..).zip(entries) {
         if let Err(code) = dut.download(Address::new(map, sub), &entry.to_le_bytes())? {
@@ -315,78 +366,50 @@ fn takes(dut: &mut Dut<'_>, pdo: &Tpdo, map: u16, entries: &[u32]) -> Checked {
     dut.keep(pdo.address(2))?;
     let _ = dut.download(pdo.address(2), &[255])?;
     dut.write(pdo.address(1), &pdo.cob_id.to_le_bytes())?;
-    let last = entries.last().copied().unwrap_or(0);
-    let address = Address::new((last >> 16) as u16, (last >> 8) as u8);
-    let mut wanted = dut.keep(address)?;
-    if let Some(first) = wanted.first_mut() {
-        *first ^= 1;
-    }
-    let ahead: u32 = entries.iter().map(|entry| entry & 0xFF).sum::<u32>() - (last & 0xFF);
-    let mut bytes = vec![0; ahead as usize / 8];
-    bytes.extend_from_slice(&wanted);
-    dut.nmt(Command::Start)?;
-    if let Some(frame) = Frame::new(pdo.id(), &bytes) {
-        dut.send(frame)?;
-    }
-    dut.wait(20_000)?;
-    let is = dut.read(address)?;
+    let changed = Changed::of(dut, entries)?;
+    changed.send(dut, pdo)?;
+    let why = format!(", as RPDO{} has it", pdo.com - 0x13FF);
+    let done = changed.holds(dut, true, &why);
     dut.nmt(Command::EnterPreOperational)?;
-    ensure(
-        is == wanted,
-        format!(
-            "{} in {address}, as RPDO{} has it",
-            values::hex(&wanted),
-            pdo.com - 0x13FF
-        ),
-        format!("{} was read", values::hex(&is)),
-    )
+    done
 }
 
-/// A synchronous RPDO of this one object waits for SYNC, and one that is not valid writes nothing.
-fn waits(dut: &mut Dut<'_>, pdo: &Tpdo, entry: u32) -> Checked {
-    let address = Address::new((entry >> 16) as u16, (entry >> 8) as u8);
-    let before = dut.read(address)?;
-    let mut other = before.clone();
-    if let Some(first) = other.first_mut() {
-        *first ^= 1;
-    }
-    let Some(frame) = Frame::new(pdo.id(), &other) else {
-        return Ok(());
-    };
+/// A synchronous RPDO of these objects waits for SYNC, and one that is not valid writes nothing.
+fn waits(dut: &mut Dut<'_>, pdo: &Tpdo, entries: &[u32]) -> Checked {
+    let changed = Changed::of(dut, entries)?;
     let number = pdo.com - 0x13FF;
-    let unchanged = |dut: &mut Dut<'_>, why: &str| {
-        dut.nmt(Command::Start)?;
-        dut.send(frame)?;
-        dut.wait(20_000)?;
-        let is = dut.read(address)?;
-        ensure(
-            is == before,
-            format!(
-                "{} in {address}, as RPDO{number} {why}",
-                values::hex(&before)
-            ),
-            format!("{} was read", values::hex(&is)),
-        )
-    };
     if dut.download(pdo.address(2), &[1])?.is_ok() {
-        unchanged(dut, "waits for SYNC")?;
+        changed.send(dut, pdo)?;
+        changed.holds(dut, false, &format!(", as RPDO{number} waits for SYNC"))?;
         sync(dut)?;
         dut.wait(20_000)?;
-        let is = dut.read(address)?;
+        let done = changed.holds(dut, true, " after SYNC");
         dut.nmt(Command::EnterPreOperational)?;
-        ensure(
-            is == other,
-            format!("{} in {address} after SYNC", values::hex(&other)),
-            format!("{} was read", values::hex(&is)),
-        )?;
+        done?;
         // The same frame once more would change nothing.
-        dut.write(address, &before)?;
+        for (address, before, _) in &changed.values {
+            dut.write(*address, before)?;
+        }
         let _ = dut.download(pdo.address(2), &[255])?;
     }
     dut.write(pdo.address(1), &(pdo.cob_id | 1 << 31).to_le_bytes())?;
-    let done = unchanged(dut, "is off");
+    changed.send(dut, pdo)?;
+    let done = changed.holds(dut, false, &format!(", as RPDO{number} is off"));
     dut.nmt(Command::EnterPreOperational)?;
     done
+}
+
+/// This object, and another one behind it if the mapping has room for it.
+fn with_another(dut: &Dut<'_>, map: u16, all: &[Entry], first: &Entry) -> Vec<u32> {
+    let other = all.iter().find(|entry| {
+        let bits = (raw(first) & 0xFF) + (raw(entry) & 0xFF);
+        entry.address != first.address && bits <= 64 && dut.eds.writes(map, 2)
+    });
+    [Some(first), other]
+        .into_iter()
+        .flatten()
+        .map(raw)
+        .collect()
 }
 
 /// An RPDO writes the objects of a new mapping.
@@ -398,8 +421,8 @@ pub(super) fn mapping_used(dut: &mut Dut<'_>) -> Checked {
     let Some(other) = all.iter().find(|entry| Some(entry.address) != first) else {
         return lacks("no other object can be mapped");
     };
-    let entry = raw(other);
-    on(dut, pdo, |dut, map| takes(dut, &pdo, map, &[entry]))
+    let entries = with_another(dut, pdo.map(), &all, other);
+    on(dut, pdo, |dut, map| takes(dut, &pdo, map, &entries))
 }
 
 /// A dummy entry skips bits of the frame and writes nothing.
@@ -430,13 +453,14 @@ pub(super) fn each(dut: &mut Dut<'_>) -> Checked {
         let now = mapping(dut, com + 0x200)?;
         let own = now.first().map(|mapped| mapped.address);
         let own = all.iter().find(|entry| Some(entry.address) == own);
-        let Some(entry) = own.or_else(|| all.first()).map(raw) else {
+        let Some(entry) = own.or_else(|| all.first()) else {
             return lacks("no object can be mapped");
         };
         let pdo = Tpdo { com, cob_id };
+        let entries = with_another(dut, pdo.map(), &all, entry);
         let done = on(dut, pdo, |dut, map| {
-            takes(dut, &pdo, map, &[entry])?;
-            waits(dut, &pdo, entry)
+            takes(dut, &pdo, map, &entries)?;
+            waits(dut, &pdo, &entries)
         });
         match done {
             Err(End::NotApplicable(_)) => {}

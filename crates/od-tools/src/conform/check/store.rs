@@ -246,27 +246,33 @@ fn change_several(dut: &mut Dut<'_>) -> Checked<Vec<Change>> {
     Ok(changed)
 }
 
+/// Fails unless each value is the changed one.
+fn all_are_there(dut: &mut Dut<'_>, changed: &[Change], when: &str) -> Checked {
+    for (address, _, other) in changed {
+        let after = dut.read(*address)?;
+        let name = values::label(dut.eds.dictionary(), *address);
+        let kept = ensure(
+            after == *other,
+            format!("{} in {name} {when}", values::hex(other)),
+            format!("{} was read", values::hex(&after)),
+        );
+        dut.fault(kept)?;
+    }
+    Ok(())
+}
+
 /// Changes values, saves, resets and compares; then saves the earlier values again.
 pub(super) fn save_all(dut: &mut Dut<'_>) -> Checked {
     let changed = change_several(dut)?;
     let done = command(dut, 0x1010, 1, b"save").and_then(|()| {
+        all_are_there(dut, &changed, "after the save, which changes no value")?;
         // A node that does not reload its values at a reset must have saved the values all the
         // same.
         for (address, before, _) in &changed {
             dut.write(*address, before)?;
         }
         dut.reset(Command::ResetNode)?;
-        for (address, _, other) in &changed {
-            let after = dut.read(*address)?;
-            let name = values::label(dut.eds.dictionary(), *address);
-            let kept = ensure(
-                after == *other,
-                format!("{} in {name} after the reset, as saved", values::hex(other)),
-                format!("{} was read", values::hex(&after)),
-            );
-            dut.fault(kept)?;
-        }
-        Ok(())
+        all_are_there(dut, &changed, "after the reset, as saved")
     });
     if let Err(End::Lost(_)) = done {
         return done;

@@ -276,29 +276,38 @@ pub(super) fn start_value(dut: &mut Dut<'_>) -> Checked {
     let off = (pdo.cob_id | 1 << 31).to_le_bytes();
     dut.write(pdo.address(1), &off)?;
     let before = dut.read(pdo.address(6))?;
-    dut.write(pdo.address(6), &[3])?;
-    dut.write(pdo.address(1), &pdo.cob_id.to_le_bytes())?;
-    dut.nmt(Command::Start)?;
-    dut.wait(QUIET)?;
     let (id, tpdo) = (CobId::new(dut.sync_id).can_id(), pdo.id());
-    let mut came = Vec::new();
-    for count in 1..=5 {
-        if let Some(frame) = Frame::new(id, &[count]) {
-            dut.send(frame)?;
+    // The counter decides, and not the number of SYNC messages since the start.
+    for (start, counts, wanted) in [
+        (3, [1, 2, 3, 4, 5], &[3, 4, 5][..]),
+        (2, [9, 10, 1, 2, 3], &[2, 3]),
+    ] {
+        dut.write(pdo.address(6), &[start])?;
+        dut.write(pdo.address(1), &pdo.cob_id.to_le_bytes())?;
+        dut.nmt(Command::Start)?;
+        dut.wait(QUIET)?;
+        let mut came = Vec::new();
+        for count in counts {
+            if let Some(frame) = Frame::new(id, &[count]) {
+                dut.send(frame)?;
+            }
+            if dut.next(30_000, |frame| frame.id() == tpdo)?.is_some() {
+                came.push(count);
+            }
         }
-        if dut.next(30_000, |frame| frame.id() == tpdo)?.is_some() {
-            came.push(count);
-        }
+        dut.nmt(Command::EnterPreOperational)?;
+        dut.write(pdo.address(1), &off)?;
+        let done = ensure(
+            came == wanted,
+            format!(
+                "TPDOs with the SYNC counters {wanted:?} of {counts:?}, as the start value is {start}"
+            ),
+            format!("with the counters {came:?}"),
+        );
+        dut.fault(done)?;
     }
-    dut.nmt(Command::EnterPreOperational)?;
-    dut.write(pdo.address(1), &off)?;
     dut.write(pdo.address(6), &before)?;
-    dut.write(pdo.address(1), &pdo.cob_id.to_le_bytes())?;
-    ensure(
-        came == [3, 4, 5],
-        "TPDOs with the SYNC counters 3, 4 and 5, as the start value is 3",
-        format!("with the counters {came:?}"),
-    )
+    dut.write(pdo.address(1), &pdo.cob_id.to_le_bytes())
 }
 
 /// With 1019h the counter of SYNC runs from 1 to its value.

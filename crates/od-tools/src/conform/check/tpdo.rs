@@ -6,8 +6,8 @@ use od_wire::nmt::Command;
 use od_wire::{CanId, CobId};
 
 use super::transmit::{
-    Mapped, Tpdo, contradiction, first, gaps, is_on, learn_sync, mapping, next, none, sync, timed,
-    typed,
+    Mapped, Tpdo, contradiction, event_driven, first, gaps, is_on, learn_sync, mapping, next, none,
+    sync, timed, typed,
 };
 use crate::conform::dut::{Dut, QUIET};
 use crate::conform::end::{Checked, End, ensure, fail, lacks};
@@ -310,7 +310,48 @@ fn is_sent(dut: &mut Dut<'_>, pdo: &Tpdo, len: usize) -> Checked {
         format!("{len} bytes in {name} as mapped"),
         format!("{} came", heard.frame),
     )?;
-    is_silent_while_off(dut, pdo)
+    is_silent_while_off(dut, pdo)?;
+    keeps_times(dut, pdo)
+}
+
+/// The event timer and the inhibit time of this TPDO take effect.
+fn keeps_times(dut: &mut Dut<'_>, pdo: &Tpdo) -> Checked {
+    let number = pdo.com - 0x17FF;
+    let writes = |dut: &Dut<'_>, sub| dut.eds.writes(pdo.com, sub);
+    if !writes(dut, 5) || event_driven(dut, pdo).is_err() {
+        return Ok(());
+    }
+    dut.set(pdo.address(5), &[50, 0])?;
+    let done = gaps(
+        dut,
+        pdo,
+        2,
+        // A changed value is an event, so that it may be sent earlier.
+        |gap, slack| gap <= 55_000 + slack,
+        &format!("every 50 ms at least by the event timer of TPDO{number}"),
+    );
+    dut.nmt(Command::EnterPreOperational)?;
+    done?;
+    if !writes(dut, 3) || !writes(dut, 1) {
+        return Ok(());
+    }
+    let switch = |dut: &mut Dut<'_>, inhibit: &[u8]| {
+        dut.write(pdo.address(1), &(pdo.cob_id | 1 << 31).to_le_bytes())?;
+        dut.write(pdo.address(3), inhibit)?;
+        dut.write(pdo.address(1), &pdo.cob_id.to_le_bytes())
+    };
+    let before = dut.read(pdo.address(3))?;
+    switch(dut, &1000u16.to_le_bytes())?;
+    let done = gaps(
+        dut,
+        pdo,
+        2,
+        |gap, slack| gap + slack + 5_000 >= 100_000,
+        &format!("every 100 ms at most by the inhibit time of TPDO{number}"),
+    );
+    dut.nmt(Command::EnterPreOperational)?;
+    switch(dut, &before)?;
+    done
 }
 
 pub(super) fn not_in_pre_operational(dut: &mut Dut<'_>) -> Checked {

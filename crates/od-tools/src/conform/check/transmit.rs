@@ -127,7 +127,7 @@ pub(super) fn timed(dut: &mut Dut<'_>, millis: u16) -> Checked<Tpdo> {
 }
 
 /// Changes the transmission type to 254 or 255.
-fn event_driven(dut: &mut Dut<'_>, pdo: &Tpdo) -> Checked {
+pub(super) fn event_driven(dut: &mut Dut<'_>, pdo: &Tpdo) -> Checked {
     let now = dut.keep(pdo.address(2))?;
     if now
         .first()
