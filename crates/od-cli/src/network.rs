@@ -1,6 +1,5 @@
 //! `odkit network`: a project or a node list, its files and its report.
 
-mod nodelist;
 mod project;
 mod table;
 mod yaml;
@@ -54,7 +53,8 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         .extension()
         .is_some_and(|ending| ending.eq_ignore_ascii_case("cpj"));
     let networks = if is_list {
-        nodelist::read(document.text(), &load)
+        network::node_lists(document.text(), &load)
+            .map(|lists| lists.into_iter().map(Network::from).collect())
     } else {
         project::read(document.text(), &load).map(|network| vec![network])
     };
@@ -66,7 +66,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
             (Some(folder), true) => Some(folder.join(format!("network{number}"))),
             (folder, _) => folder.clone(),
         };
-        errors += one(args, network, folder.as_deref())?;
+        errors += one(args, document.text(), network, folder.as_deref())?;
     }
     match errors {
         0 => Ok(()),
@@ -74,8 +74,13 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     }
 }
 
-/// Writes the files and the report of a network, and counts its errors.
-fn one(args: &Args, mut network: Network, folder: Option<&Path>) -> Result<usize, Failure> {
+/// Writes the files and the report of a network, which is in this text, and counts its errors.
+fn one(
+    args: &Args,
+    text: &str,
+    mut network: Network,
+    folder: Option<&Path>,
+) -> Result<usize, Failure> {
     let mut outputs = Vec::new();
     for node in &network.nodes {
         if !node.writes.is_empty() {
@@ -127,10 +132,11 @@ fn one(args: &Args, mut network: Network, folder: Option<&Path>) -> Result<usize
         }
     }
     let rate = bit_rate.unwrap_or(1000);
-    let mut findings = network::check(&network.nodes, position, rate, sync_period);
+    let mut findings = std::mem::take(&mut network.findings);
+    findings.extend(network::check(&network.nodes, position, rate, sync_period));
     Config::of(&args.file)?.apply(&args.file, &mut findings);
     let colours = output::error_colours();
-    let text = report::render(&args.file, "", &findings, &Names::new(), colours);
+    let text = report::render(&args.file, text, &findings, &Names::new(), colours);
     output::note_coloured(&text);
     output::print(&table::table(&network, bit_rate, sync_period, &outputs))?;
     Ok(findings

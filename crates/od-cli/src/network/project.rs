@@ -1,8 +1,10 @@
 //! A project of dcfgen (dcf-tools) in YAML, also in the form of ros2_canopen, whose nodes are below `nodes` and
 //! share `defaults`.
 
+use od_eds::Finding;
 use od_eds::network::{
-    Configuration, Master, Node, PdoConfiguration, ProjectSettings, configure, consume_heartbeats,
+    Configuration, Master, Node, NodeList, PdoConfiguration, ProjectSettings, configure,
+    consume_heartbeats, misspelled_key,
 };
 use od_model::Address;
 
@@ -18,7 +20,59 @@ pub(super) struct Network {
     /// Bit rate in kbit/s, if the file of a node has one.
     pub(super) bit_rate: Option<u32>,
     pub(super) nodes: Vec<Node>,
+    /// Findings about the text.
+    pub(super) findings: Vec<Finding>,
 }
+
+impl From<NodeList> for Network {
+    fn from(list: NodeList) -> Self {
+        Self {
+            name: list.name,
+            master: None,
+            bit_rate: list.bit_rate,
+            nodes: list.nodes,
+            findings: list.findings,
+        }
+    }
+}
+
+/// The keys of a slave that dcfgen knows.
+const KEYS: &[&str] = &[
+    "dcf",
+    "dcf_path",
+    "node_id",
+    "revision_number",
+    "serial_number",
+    "time_cob_id",
+    "heartbeat_multiplier",
+    "heartbeat_consumer",
+    "heartbeat_producer",
+    "retry_factor",
+    "guard_time",
+    "life_time_factor",
+    "error_behavior",
+    "rpdo",
+    "tpdo",
+    "boot",
+    "mandatory",
+    "reset_communication",
+    "software_file",
+    "software_version",
+    "restore_configuration",
+    "sdo",
+];
+
+/// The keys of a PDO that dcfgen knows.
+const PDO_KEYS: &[&str] = &[
+    "enabled",
+    "cob_id",
+    "transmission",
+    "inhibit_time",
+    "event_timer",
+    "event_deadline",
+    "sync_start",
+    "mapping",
+];
 
 /// A section of a project: its name and its keys.
 struct Section<'a> {
@@ -133,6 +187,24 @@ impl Section<'_> {
             ))
         });
         pdos.collect()
+    }
+
+    /// The findings about misspelled keys. Drivers of ros2_canopen have keys of their own.
+    fn misspelled(&self) -> Vec<Finding> {
+        let unknown = |yaml: &Yaml, known: &'static [&'static str]| -> Vec<Finding> {
+            let keys = yaml.entries().iter().map(|(key, _)| key.text());
+            keys.filter_map(|key| misspelled_key(self.name, &key, known))
+                .collect()
+        };
+        let mut findings = unknown(self.yaml, KEYS);
+        for (_, pdo) in ["rpdo", "tpdo"]
+            .iter()
+            .filter_map(|key| self.yaml.get(key))
+            .flat_map(Yaml::entries)
+        {
+            findings.extend(unknown(pdo, PDO_KEYS));
+        }
+        findings
     }
 
     fn configuration(&self) -> Result<Configuration, String> {
@@ -274,11 +346,13 @@ pub(super) fn read(
     }
     .master(&settings)?;
     let mut nodes = Vec::new();
+    let mut findings = Vec::new();
     for (name, yaml) in slaves(&whole) {
         let section = Section {
             name: &name,
             yaml: &yaml,
         };
+        findings.extend(section.misspelled());
         let path = section
             .text("dcf")
             .ok_or_else(|| format!("{name}: the key `dcf` is missing"))?;
@@ -300,6 +374,7 @@ pub(super) fn read(
     Ok(Network {
         master: Some(master),
         nodes,
+        findings,
         ..Network::default()
     })
 }

@@ -107,8 +107,9 @@ fn a_project_that_is_too_large_has_an_end() {
         (
             "list.cpj",
             String::from("[Topology]\n") + &lines(300_000, &|n| format!("Node{n}Name=a")),
-            0,
+            1,
         ),
+        ("lists.cpj", "[Topology]\n".repeat(30_000), 0),
     ] {
         let path = file(&format!("limits-{name}"), &content);
         let (code, text) = limited(&["network", &path.display().to_string()]);

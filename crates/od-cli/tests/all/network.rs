@@ -143,7 +143,11 @@ fn contradictions_between_nodes_are_reported() {
         node("a", 5, fast),
         node("b", 5, ""),
         node("c", 6, "  tpdo: {1: {cob_id: 0x185}}\n"),
-        node("d", 7, "  heartbeat_producer: 100\n"),
+        node(
+            "d",
+            7,
+            "  heartbeat_producer: 100\n  hartbeat_producer: 5\n  scale_pos_to_dev: 1000\n",
+        ),
         node(
             "e",
             8,
@@ -162,6 +166,7 @@ fn contradictions_between_nodes_are_reported() {
         "error[E1202]: TPDO 1 of a and TPDO 1 of c have CAN-ID 185h",
         "error[E1204]: e waits 100 ms for the heartbeat of d, which comes every 100 ms",
         "warning[W1203]: heartbeat consumer 1016h:01 of f waits for the heartbeat of node 99",
+        "warning[W1208]: d: `hartbeat_producer` is not a key of dcfgen\n",
         "warning[W1205]: periodic frames take up to ",
     ] {
         assert!(run.err.contains(said), "{said}\n{}", run.err);
@@ -271,4 +276,47 @@ fn a_node_list_has_the_dcfs_of_its_nodes() {
     assert_eq!(right[4..15], first, "the PDO is not valid while it changes");
     let last = [0, 0x18, 1, 4, 0, 0, 0, 0x85, 1, 0, 0];
     assert_eq!(right[right.len() - 11..], last);
+
+    // A list that contradicts itself and the DCFs, each at its line.
+    let text = "[Topology]\nNodes=3\nNode4Present=yes\nNode4DCFName=n4.dcf\nNode6Present=1\n\
+        Node6DCFName=n5.dcf\nNode0Present=1\nNode128DCFName=n4.dcf\nNode200Present=0\n";
+    fs::write(&list, text).expect("a file");
+    let run = odkit(&["network", &paths[0]], "");
+    assert_eq!(run.code, 1, "{}", run.err);
+    for (line, message) in [
+        (2, "Nodes is 3, but 2 nodes are present"),
+        (3, "Node4Present is `yes`"),
+        (
+            6,
+            "the node ID is 6 in this list, but NodeID is 5 in the DCF",
+        ),
+        (7, "`Node0Present`: a node ID is 1 to 127"),
+        (8, "`Node128DCFName`: a node ID is 1 to 127"),
+    ] {
+        let found = run
+            .err
+            .find(message)
+            .unwrap_or_else(|| panic!("{message}: {}", run.err));
+        let place = run.err[found..].lines().nth(1).unwrap_or_default();
+        assert!(
+            place.contains(&format!("nodelist.cpj:{line}:")),
+            "{message}: {place}"
+        );
+    }
+    assert_eq!(run.err.matches("[W1207]").count(), 5, "{}", run.err);
+    for (text, message) in [
+        (
+            "[Topology]\nNode3Present=1\n",
+            "line 2: Node3DCFName is missing",
+        ),
+        (
+            "[Topology]\nNode3DCFName=none.dcf\n",
+            "line 2: node 3: none.dcf: ",
+        ),
+        ("[FileInfo]\n", "the section [Topology] is missing"),
+    ] {
+        fs::write(&list, text).expect("a file");
+        let run = odkit(&["network", &paths[0]], "");
+        assert!(run.err.contains(message), "{}", run.err);
+    }
 }

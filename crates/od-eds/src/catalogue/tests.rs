@@ -215,7 +215,18 @@ fn faults_of_networks() -> Vec<Finding> {
         node("b", 2, sender),
         node("c", 2, receiver),
     ];
-    crate::network::check(&nodes, None, 10, 0)
+    let mut found = crate::network::check(&nodes, None, 10, 0);
+    let list =
+        "[Topology]\nNodes=9\nNode0Present=1\nNode2Present=2\nNode2DCFName=250\nNode3DCFName=500\n";
+    let dcf = |rate: &str| {
+        let text = format!("[DeviceComissioning]\nNodeID=2\nBaudrate={rate}\n");
+        Ok(crate::load::parse(&text).description)
+    };
+    for list in crate::network::node_lists(list, &dcf).unwrap() {
+        found.extend(list.findings);
+    }
+    found.extend(crate::network::misspelled_key("a", "nodeid", &["node_id"]));
+    found
 }
 
 #[test]

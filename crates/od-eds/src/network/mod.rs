@@ -7,6 +7,7 @@
 mod concise;
 mod configure;
 mod dcf;
+mod list;
 mod load;
 mod master;
 mod node;
@@ -17,9 +18,11 @@ mod report;
 mod saved;
 mod write;
 
+pub use crate::rules::network::misspelled_key;
 pub use concise::{Write, bytes};
 pub use configure::{Configuration, ProjectSettings, configure};
 pub use dcf::dcf;
+pub use list::{NodeList, node_lists};
 pub use load::{BIT_RATES, Frame, frame_bits, frames, load};
 pub use master::{Master, consume_heartbeats, writes};
 pub use node::Node;

@@ -18,7 +18,7 @@ use crate::rules::values::not_valid::{w0416_emptied, w0416_no_limits};
 use crate::rules::values::reader::{
     e0402_data_type_unknown, e0405_access_type_not_valid, e0428_node_id_misspelled,
     w0404_access_type_missing, w0406_pdo_mapping_not_valid, w0407_obj_flags_not_a_number,
-    w0426_standard_type_missing,
+    w0426_standard_type_missing, w0456_file_of_number,
 };
 use crate::rules::values::{e0417_node_id_not_supported, shared, spelling};
 use crate::scan::number;
@@ -91,6 +91,7 @@ impl Reader<'_> {
             None if unread.is_empty() => self.assumed(assumed, fields.header).map(Spanned::from),
             given => given,
         };
+        self.files(fields, data_type);
         let access = self.access(fields, &mut unread);
         let mappable = self.mappable(fields, &mut unread);
         let mut value = |key, low| self.value(fields, key, data_type, low, &mut unread);
@@ -114,6 +115,19 @@ impl Reader<'_> {
             span: fields.header,
         };
         (entry, unread)
+    }
+
+    /// Reports the files of a value that is not a DOMAIN. The keys are kept with the unknown ones.
+    fn files(&mut self, fields: &Fields<'_>, data_type: Option<Spanned<DataType>>) {
+        let given = data_type.map(|given| given.value);
+        if let Some(data_type) = given.filter(|given| *given != DataType::Domain) {
+            for key in ["UploadFile", "DownloadFile"] {
+                // A generator may write the key without a file.
+                if let Some(place) = fields.place(key).filter(|_| fields.has(key)) {
+                    self.report(w0456_file_of_number(place, key, data_type));
+                }
+            }
+        }
     }
 
     /// The type of a section without one.

@@ -94,7 +94,6 @@ impl<'a> Fields<'a> {
     /// The keys that were not read, in file order; unknown ones are reported. The comment about the
     /// storage is one of them if its group does not express it completely: a word of another tool,
     /// or a group for the sub-objects of an object.
-    /// of them if its group does not say it all: with a word of another tool, or for the sub-objects of an object.
     pub(crate) fn rest(
         self,
         address: Address,

@@ -1,9 +1,11 @@
-//! 12: nodes of a network that do not fit together: rules that `network::check` reports.
+//! 12: nodes of a network that do not fit together: rules that `network::check` and the readers of networks report.
 
 use crate::finding::{
-    Finding, Rule,
+    Finding, Form, Rule,
     Severity::{Error, Warning},
 };
+use crate::scan::forms::near;
+use crate::scan::section::Text;
 
 table! {
     E1201 (example)
@@ -12,6 +14,8 @@ table! {
     E1204 (example)
     W1205 (example)
     W1206 (example)
+    W1207 (example)
+    W1208 (example)
 }
 
 pub(crate) static E1201: Rule = Rule {
@@ -137,4 +141,89 @@ pub(crate) fn w1206_pdo_too_short(
         .fact("producer", producer);
     let finding = finding.fact("mapped", i128::from(mapped));
     finding.fact("sent", i128::from(sent))
+}
+
+pub(crate) static W1207: Rule = Rule {
+    code: "W1207",
+    severity: Warning,
+    title: "node list contradicts itself or a DCF",
+    why: "A configuration tool leaves the node out, or configures it for another node ID or bit rate than it has.",
+    source: "CiA 306-3, Topology; CiA 306-1, DeviceComissioning",
+    example: "Node5DCFName=drive.dcf, and NodeID=6 in drive.dcf",
+    says: "Nodes is {given}, but {count:node is|nodes are} present",
+    help: "write `Nodes=0x{count:02X}`",
+    also: &[NODE_ID, PRESENT, OTHER_ID, BIT_RATE],
+    ..Rule::NEW
+};
+
+/// Sentence for the key of a node that cannot exist.
+const NODE_ID: Form = Form {
+    says: "`{key}`: a node ID is 1 to 127; odkit ignores the node",
+    help: "write the node ID of the node",
+};
+
+/// Sentence for a value of NodeXPresent.
+const PRESENT: Form = Form {
+    says: "Node{id}Present is `{given}`",
+    help: "write 1 if the node is present, otherwise 0 (odkit assumes 1)",
+};
+
+/// Sentence for the NodeID of a DCF.
+const OTHER_ID: Form = Form {
+    says: "the node ID is {id} in this list, but NodeID is {own} in the DCF",
+    help: "use one node ID in both files",
+};
+
+/// Sentence for the bit rate of a DCF.
+const BIT_RATE: Form = Form {
+    says: "Baudrate is {own} in the DCF, but {first} in that of an earlier node",
+    help: "write one Baudrate in the DCFs of all nodes",
+};
+
+/// The finding about the number of nodes.
+pub(crate) fn w1207_node_count(given: &Text<'_>, count: usize) -> Finding {
+    W1207.given(given).fact("count", count)
+}
+
+/// The finding about the key of a node that cannot exist.
+pub(crate) fn w1207_node_id_not_valid(key: &Text<'_>) -> Finding {
+    let finding = W1207.at(key.span).form(&NODE_ID).severity_of(Error);
+    finding.fact("key", key.as_ref())
+}
+
+/// The finding about a value of NodeXPresent.
+pub(crate) fn w1207_present_not_valid(given: &Text<'_>, id: u8) -> Finding {
+    W1207.given(given).form(&PRESENT).fact("id", id)
+}
+
+/// The finding about the NodeID of a DCF.
+pub(crate) fn w1207_node_id_differs(file: &Text<'_>, id: u8, own: u8) -> Finding {
+    let finding = W1207.at(file.span).form(&OTHER_ID).severity_of(Error);
+    finding.fact("id", id).fact("own", own)
+}
+
+/// The finding about the bit rate of a DCF.
+pub(crate) fn w1207_bit_rate_differs(file: &Text<'_>, own: u32, first: u32) -> Finding {
+    let finding = W1207.at(file.span).form(&BIT_RATE).severity_of(Error);
+    finding.fact("own", own).fact("first", first)
+}
+
+pub(crate) static W1208: Rule = Rule {
+    code: "W1208",
+    severity: Warning,
+    title: "key of a project is probably misspelled",
+    why: "dcfgen ignores the key, and the node keeps the value of its EDS.",
+    source: "dcf-tools, dcfgen; ros2_canopen",
+    example: "heartbeat_produce: 100",
+    says: "{node}: `{given}` is not a key of dcfgen",
+    help: "write `{right}`",
+    ..Rule::NEW
+};
+
+/// Returns the finding about a key of a node, if it looks like one that dcfgen knows.
+pub fn misspelled_key(node: &str, given: &str, known: &[&str]) -> Option<Finding> {
+    let is_known = known.contains(&given);
+    let right = near(given, known.iter().copied()).filter(|_| !is_known)?;
+    let finding = W1208.finding().fact("node", node).fact("given", given);
+    Some(finding.fact("right", right))
 }

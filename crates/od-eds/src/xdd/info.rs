@@ -159,7 +159,7 @@ fn bit_rates(made: &mut Made, root: Node<'_, '_>, reader: &mut Reader<'_>) {
         }
     }
     for one in &given {
-        let is_known = kbits(one).is_some_and(|rate| RATES.contains(&rate));
+        let is_known = RATES.iter().any(|rate| **one == format!("{rate} Kbps"));
         if !is_known && !one.starts_with("auto") {
             reader.log.push(w0252_in_xdd(one));
         }

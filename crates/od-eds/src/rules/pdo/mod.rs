@@ -37,6 +37,7 @@ catalogue! {
     w0538_sdo_client_other_server W0538
     w0539_limit_without_flag_bits W0539
     w0540_sdo_with_one_cob_id W0540
+    e0541_mpdo_objects E0541
 }
 
 pub(crate) mod e0501_mapped_object_missing;
@@ -51,6 +52,7 @@ pub(crate) mod e0512_mapped_sub_index_missing;
 pub(crate) mod e0532_same_can_id;
 pub(crate) mod e0533_default_sdo_cob_id;
 pub(crate) mod e0537_mpdo_synchronous;
+pub(crate) mod e0541_mpdo_objects;
 pub(crate) mod i0515_compact_pdo;
 pub(crate) mod i0528_mapped_twice;
 pub(crate) mod i0531_cob_id_without_node_id;

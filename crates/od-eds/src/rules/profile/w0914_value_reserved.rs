@@ -10,7 +10,7 @@ pub(crate) static W0914: Rule = Rule {
     severity: Warning,
     title: "value of a profile object is reserved",
     why: "A device that follows the profile aborts a download of the value, and a master may give the bits another meaning.",
-    source: "CiA 401, 6421h and 6443h; CiA 402, objects from 6007h to 6502h; CiA 404, 6110h; CiA 406, 6000h, 6503h to 6506h",
+    source: "CiA 401, 6421h and 6443h; CiA 402, objects from 6007h to 6502h; CiA 404, 6110h; CiA 406, 6000h, 6503h to 6506h; CiA 303-2, units",
     says: "{object} is {given}, but CiA {profile} reserves {reserved}",
     help: "write a value without {reserved}",
     check: Check::Entry(check),
@@ -46,6 +46,9 @@ fn reserved(address: Address, number: i128) -> Option<(u16, &'static str)> {
         }
         (0x60C2, 2) => (402, number > 63, "64 to 127"),
         (0x6502, 0) => (402, number & 0xF810 != 0, "bits 4 and 11 to 15"),
+        (0x6430 | 0x6450, 1..=254) => (401, !is_prefix(number), PREFIX),
+        (0x60A8..=0x60AB, 0) => (402, !is_prefix(number), PREFIX),
+        (0x6131 | 0x6301, 1..=254) => (404, !is_prefix(number), PREFIX),
         (0x6110, 1..=254) => (404, number == 0, "0"),
         (0x6000, 0) => (406, number & 0x0FF0 != 0, "bits 4 to 11"),
         (0x6503 | 0x6504, 0) => (406, number & 0x0FFC != 0, "bits 2 to 11"),
@@ -53,6 +56,14 @@ fn reserved(address: Address, number: i128) -> Option<(u16, &'static str)> {
         _ => return None,
     };
     wrong.then_some((profile, what))
+}
+
+/// Powers of ten of a unit that no prefix has.
+const PREFIX: &str = "bits 24 to 31 below -18 or above 18";
+
+/// Returns whether bits 24 to 31 of a unit are a power of ten that has a prefix.
+fn is_prefix(number: i128) -> bool {
+    (-18..=18).contains(&((number >> 24) as i8))
 }
 
 fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {

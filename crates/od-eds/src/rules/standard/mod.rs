@@ -40,6 +40,7 @@ catalogue! {
     reader W0658
     w0659_identity_with_node_id W0659
     w0660_slave_bit_missing W0660
+    w0661_group_messaging W0661
 }
 
 pub(crate) mod e0606_identity_differs;
@@ -70,3 +71,4 @@ pub(crate) mod w0655_error_register_not_0;
 pub(crate) mod w0656_guarding_and_heartbeat;
 pub(crate) mod w0659_identity_with_node_id;
 pub(crate) mod w0660_slave_bit_missing;
+pub(crate) mod w0661_group_messaging;

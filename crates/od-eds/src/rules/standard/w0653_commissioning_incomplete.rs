@@ -10,12 +10,12 @@ use od_model::Address;
 pub(crate) static W0653: Rule = Rule {
     code: "W0653",
     severity: Warning,
-    title: "[DeviceComissioning] is incomplete, or contradicts 1018h",
+    title: "[DeviceComissioning] is incomplete, or contradicts an object",
     why: "A configuration tool does not know which node it configures, or configures another one by LSS.",
     source: "CiA 306-1, DeviceComissioning",
     says: "[{section}] lacks `{field}`",
     help: "add `{field}=` and its value",
-    also: &[SERIAL],
+    also: &[SERIAL, MANAGER],
     check: Check::Device(check),
     ..Rule::NEW
 };
@@ -24,6 +24,12 @@ pub(crate) static W0653: Rule = Rule {
 const SERIAL: Form = Form {
     says: "LSS_SerialNumber is {given}, but 1018h:04 is {right}",
     help: "write `LSS_SerialNumber={right}`, or correct 1018h:04",
+};
+
+/// Sentence for a manager that is not an NMT master.
+const MANAGER: Form = Form {
+    says: "CANopenManager is 1, but 1F80h (NMT startup) is missing: the device is not an NMT master",
+    help: "write `CANopenManager=0`, or add 1F80h",
 };
 
 fn check(description: &Description, findings: &mut Vec<Finding>) {
@@ -50,5 +56,11 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
         let finding = W0653.at(given.span).about(address).form(&SERIAL);
         let finding = finding.fact("given", serial).fact("right", own.value);
         findings.push(finding.related(own.span, "serial number set here"));
+    }
+    if let Some(given) = section.get("CANopenManager")
+        && number(given) == Some(1)
+        && !description.objects.contains_key(&0x1F80)
+    {
+        findings.push(W0653.at(given.span).form(&MANAGER));
     }
 }

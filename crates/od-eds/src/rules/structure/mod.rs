@@ -38,6 +38,7 @@ catalogue! {
     w0351_array_gap W0351
     w0352_sub_number_of_var W0352
     reader E0353 (example)
+    w0354_type_definition W0354
 }
 
 pub(crate) mod e0309_sub_index_0_type;
@@ -56,3 +57,4 @@ pub(crate) mod w0347_sub_index_0_writable;
 pub(crate) mod w0350_sub_index_0_too_high;
 pub(crate) mod w0351_array_gap;
 pub(crate) mod w0352_sub_number_of_var;
+pub(crate) mod w0354_type_definition;

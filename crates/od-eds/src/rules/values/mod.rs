@@ -40,6 +40,7 @@ catalogue! {
     w0453_constant_without_value W0453
     w0454_mappable_without_length W0454
     w0455_constant_changed W0455
+    reader W0456
 }
 
 pub(crate) mod e0401_data_type_missing;

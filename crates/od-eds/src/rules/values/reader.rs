@@ -200,3 +200,26 @@ pub(crate) fn e0429_access_of_parameter(given: &Spanned<String>, right: &'static
     let finding = E0429.given(given).key(Key::AccessType);
     finding.fact("right", right).fix(fix)
 }
+
+pub(crate) static W0456: Rule = Rule {
+    code: "W0456",
+    severity: Warning,
+    title: "file of a value that is not a DOMAIN",
+    why: "A configuration tool reads or writes files for objects of the type DOMAIN only: the value stays as it is.",
+    source: "CiA 306-1, DCF",
+    says: "`{file}` is for a DOMAIN, but this value is {data_type}",
+    help: "write the value with `ParameterValue=`, or remove the line",
+    ..Rule::NEW
+};
+
+/// The finding about UploadFile or DownloadFile of a value with another type.
+pub(crate) fn w0456_file_of_number(
+    place: Span,
+    file: &'static str,
+    data_type: DataType,
+) -> Finding {
+    W0456
+        .at(place)
+        .fact("file", file)
+        .fact("data_type", data_type)
+}

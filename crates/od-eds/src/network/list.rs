@@ -1,0 +1,198 @@
+//! `nodelist.cpj`: the networks of a project and the DCF of each node (CiA 306-3).
+
+use alloc::collections::BTreeMap;
+use alloc::format;
+use alloc::string::{String, ToString};
+use alloc::vec::Vec;
+
+use super::node::Node;
+use super::saved::saved;
+use crate::description::Description;
+use crate::finding::Finding;
+use crate::log::Log;
+use crate::rules::network::{
+    w1207_bit_rate_differs, w1207_node_count, w1207_node_id_differs, w1207_node_id_not_valid,
+    w1207_present_not_valid,
+};
+use crate::scan::lines::{Fault, scan};
+use crate::scan::number::number;
+use crate::scan::section::{Text, TextSection};
+
+/// One network of a node list.
+pub struct NodeList {
+    /// NetName; empty if it has none.
+    pub name: String,
+    /// Bit rate in kbit/s of the first node whose DCF has one.
+    pub bit_rate: Option<u32>,
+    /// The nodes that are present, by ascending node ID, with the writes of their DCFs.
+    pub nodes: Vec<Node>,
+    /// Contradictions within the list, and with the DCFs.
+    pub findings: Vec<Finding>,
+}
+
+/// The keys of one node.
+#[derive(Default)]
+struct Listed<'a> {
+    present: Option<&'a Text<'a>>,
+    name: Option<&'a Text<'a>>,
+    file: Option<&'a Text<'a>>,
+}
+
+/// Reads the networks of a node list; `load` reads the description at a path.
+///
+/// # Errors
+/// The text is not a node list, or a description cannot be read; in words, with the line.
+pub fn node_lists(
+    text: &str,
+    load: &dyn Fn(&str) -> Result<Description, String>,
+) -> Result<Vec<NodeList>, String> {
+    let mut many = None;
+    let sections = scan(text, &mut |fault| {
+        if let Fault::Many { at, most, of } = fault {
+            many = Some(format!(
+                "line {}: a node list has at most {most} {of}",
+                at.line
+            ));
+        }
+    });
+    if let Some(many) = many {
+        return Err(many);
+    }
+    let is_network = |section: &&TextSection<'_>| {
+        let start = section.name.get(.."Topology".len());
+        start.is_some_and(|start| start.eq_ignore_ascii_case("Topology"))
+    };
+    let networks = sections.iter().filter(is_network);
+    let networks: Vec<_> = networks
+        .map(|section| topology(section, load))
+        .collect::<Result<_, _>>()?;
+    if networks.is_empty() {
+        Err("the section [Topology] is missing".into())
+    } else {
+        Ok(networks)
+    }
+}
+
+fn topology(
+    section: &TextSection<'_>,
+    load: &dyn Fn(&str) -> Result<Description, String>,
+) -> Result<NodeList, String> {
+    let mut log = Log::default();
+    let mut nodes: BTreeMap<u8, Listed<'_>> = BTreeMap::new();
+    // The number is decimal; some tools write hexadecimal digits. The first of equal keys is used.
+    for is_hex in [false, true] {
+        for (key, value) in section.pairs.iter().filter(|(_, value)| !value.is_empty()) {
+            let Some((id, what)) = node_key(key).filter(|_| is_hexadecimal(key) == is_hex) else {
+                continue;
+            };
+            let Some(id) = u8::try_from(id).ok().filter(|id| (1..=127).contains(id)) else {
+                if !matches!(what, What::Name) && number(value) != Some(0) {
+                    log.push(w1207_node_id_not_valid(key));
+                }
+                continue;
+            };
+            let node = nodes.entry(id).or_default();
+            let place = match what {
+                What::Present => &mut node.present,
+                What::Name => &mut node.name,
+                What::File => &mut node.file,
+            };
+            place.get_or_insert(value);
+        }
+    }
+    let mut list = NodeList {
+        name: section
+            .get("NetName")
+            .map(|name| name.to_string())
+            .unwrap_or_default(),
+        bit_rate: None,
+        nodes: Vec::new(),
+        findings: Vec::new(),
+    };
+    for (id, listed) in nodes {
+        let present = listed.present.map(|present| (present, number(present)));
+        if let Some((given, number)) = present
+            && !matches!(number, Some(0 | 1))
+        {
+            log.push(w1207_present_not_valid(given, id));
+        }
+        let is_present = present.and_then(|(_, number)| number);
+        let Some(file) = listed.file.filter(|_| is_present != Some(0)) else {
+            if let Some((present, Some(1..))) = present {
+                let line = present.span.line;
+                return Err(format!("line {line}: Node{id}DCFName is missing"));
+            }
+            continue;
+        };
+        let path = file.replace('\\', "/");
+        let line = file.span.line;
+        let description =
+            load(&path).map_err(|why| format!("line {line}: node {id}: {path}: {why}"))?;
+        if let Some(own) = description.commissioned_node_id().filter(|own| *own != id) {
+            log.push(w1207_node_id_differs(file, id, own));
+        }
+        let rate = description.commissioning().and_then(|own| own.bit_rate);
+        if let Some(rate) = rate.map(u32::from) {
+            let first = *list.bit_rate.get_or_insert(rate);
+            if first != rate {
+                log.push(w1207_bit_rate_differs(file, rate, first));
+            }
+        }
+        let name = listed
+            .name
+            .map_or_else(|| format!("node{id}"), |name| name.to_string());
+        let mut node = Node::new(name, id, description);
+        node.writes = saved(&node).map_err(|why| format!("line {line}: node {id}: {why}"))?;
+        if !node.writes.is_empty() {
+            node.configuration_file = format!("{}.bin", node.name);
+        }
+        list.nodes.push(node);
+    }
+    let count = section.get("Nodes").filter(|count| !count.is_empty());
+    if let Some(given) = count
+        && number(given) != Some(list.nodes.len() as i128)
+    {
+        log.push(w1207_node_count(given, list.nodes.len()));
+    }
+    list.findings = log.finish();
+    Ok(list)
+}
+
+/// The part of a node's key behind its number.
+#[derive(Clone, Copy)]
+enum What {
+    Present,
+    Name,
+    File,
+}
+
+fn is_hexadecimal(key: &str) -> bool {
+    let sign = key.get("Node".len().."Node0x".len());
+    sign.is_some_and(|sign| sign.eq_ignore_ascii_case("0x"))
+}
+
+/// The number and the rest of `Node5DCFName`; `None` for other keys.
+fn node_key(key: &str) -> Option<(u32, What)> {
+    let key = key.to_ascii_lowercase();
+    let rest = key.strip_prefix("node")?;
+    // Longest first: DCFName ends with Name.
+    let ends = [
+        ("present", What::Present),
+        ("dcfname", What::File),
+        ("name", What::Name),
+    ];
+    let (digits, what) = ends
+        .into_iter()
+        .find_map(|(end, what)| Some((rest.strip_suffix(end)?, what)))?;
+    let id = match digits.strip_prefix("0x") {
+        Some(hex) => u32::from_str_radix(hex, 16),
+        None => digits.parse(),
+    };
+    // A number with more digits is not valid, either.
+    let is_number = digits
+        .bytes()
+        .all(|byte| byte.is_ascii_hexdigit() || byte == b'x');
+    is_number
+        .then_some((id.unwrap_or(u32::MAX), what))
+        .filter(|_| !digits.is_empty())
+}
