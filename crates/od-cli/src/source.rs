@@ -108,10 +108,11 @@ impl Source {
         match files::read(&path) {
             Ok(bytes) => {
                 let name = path.display().to_string();
-                let document = canopen(Document::new(bytes).named(name.clone()))
-                    .map_err(|why| Failure::Failed(format!("{name}: {why}")))?;
+                let failed = |why| Failure::Failed(format!("{name}: {why}"));
+                let document = canopen(Document::new(bytes).named(name.clone())).map_err(failed)?;
                 if is_overlay(&path) {
-                    return Self::on_base(&path, &document);
+                    let base = base_of(&path, &document).map_err(failed)?;
+                    return Self::find(&base)?.with_overlay(&path);
                 }
                 Ok(Self::of(name, document))
             }
@@ -148,8 +149,10 @@ impl Source {
         match fs::read(path) {
             Ok(bytes) => {
                 let document = canopen(Document::new(bytes).named(path))?;
-                if is_overlay(Path::new(path)) {
-                    let laid = Self::on_base(Path::new(path), &document);
+                let overlay = Path::new(path);
+                if is_overlay(overlay) {
+                    let base = base_of(overlay, &document)?;
+                    let laid = Self::find(&base).and_then(|base| base.with_overlay(overlay));
                     return laid.map_err(|failure| failure.to_string());
                 }
                 Ok(Self::of(path.into(), document))
@@ -167,24 +170,6 @@ impl Source {
             document: document.into(),
             ..Self::default()
         }
-    }
-
-    /// An overlay on the base that its comment `;odkit-base=my.eds` names, otherwise on the only EDS or DCF in its
-    /// folder.
-    fn on_base(path: &Path, overlay: &Document) -> Result<Self, Failure> {
-        let failed = |why: &str| Failure::Failed(format!("{}: {why}", path.display()));
-        let folder = path.parent().unwrap_or(Path::new(""));
-        let base = match od_eds::base_of(overlay.text()) {
-            Some(named) => folder.join(*named),
-            None => only_eds(folder).ok_or_else(|| {
-                failed("an overlay needs a base; add a first line `;odkit-base=my.eds`")
-            })?,
-        };
-        if is_overlay(&base) {
-            return Err(failed("the base is an overlay, too; name an EDS or a DCF"));
-        }
-        let base = Self::find(&base.display().to_string())?;
-        base.with_overlay(path)
     }
 
     /// This base with the overlay at a path; the base may have an overlay itself.
@@ -405,6 +390,24 @@ fn has_ending(path: &Path, ending: &str) -> bool {
 
 fn is_overlay(path: &Path) -> bool {
     has_ending(path, "overlay")
+}
+
+/// The base of an overlay: the file that its comment `;odkit-base=my.eds` names, otherwise the only EDS or DCF in its
+/// folder.
+///
+/// # Errors
+/// The base is missing or is an overlay; the text says what to do.
+fn base_of(path: &Path, overlay: &Document) -> Result<String, String> {
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let base = match od_eds::base_of(overlay.text()) {
+        Some(named) => folder.join(*named),
+        None => only_eds(folder)
+            .ok_or("an overlay needs a base; add a first line `;odkit-base=my.eds`")?,
+    };
+    if is_overlay(&base) {
+        return Err("the base is an overlay, too; name an EDS or a DCF".into());
+    }
+    Ok(base.display().to_string())
 }
 
 /// The only EDS or DCF in a folder.

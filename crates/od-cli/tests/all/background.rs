@@ -77,7 +77,7 @@ fn a_log_that_cannot_be_written_does_not_stop_the_bus() {
         let said = sim.end("-TERM");
         assert_eq!(said.lines().count(), 1, "{said}");
         assert!(
-            said.contains("the log ends here, the bus goes on"),
+            said.contains("the log ends here, the bus continues"),
             "{said}"
         );
     }
@@ -238,7 +238,7 @@ fn a_file_limit_ends_the_log_and_not_the_bench() {
         let mut errors = BufReader::new(child.stderr.take().expect("a pipe"));
         errors.read_line(&mut said).expect("a message");
         assert!(
-            said.contains("the log ends here, the bus goes on"),
+            said.contains("the log ends here, the bus continues"),
             "{said}"
         );
         let frames = logged(&log).len();

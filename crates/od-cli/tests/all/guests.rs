@@ -151,7 +151,7 @@ fn frames_missed_by_a_suspended_bench_are_not_sent() {
     // A busy computer may have been late before, but not by this much.
     let mut late = 0;
     while late < 500 {
-        let line = sim.told("the bus goes on from now");
+        let line = sim.told("the bus continues from the present time");
         let mut words = line.split_whitespace();
         late = words.find_map(|word| word.parse().ok()).expect("a number");
     }

@@ -93,7 +93,9 @@ fn an_overlay_alone_names_its_base() {
         "[1000]\nParameterName=x\nDataType=7\nAccessType=ro\n",
     );
     let check = odkit(&["check", &plain], "");
-    assert!(check.err.contains(";odkit-base=my.eds"), "{}", check.err);
+    let said =
+        format!("odkit: {plain}: an overlay needs a base; add a first line `;odkit-base=my.eds`");
+    assert_eq!(check.err.lines().last(), Some(&*said));
     let named = write(
         "named.overlay",
         ";odkit-base=a.eds\n[6001]\nDefaultValue=0x1000\n",

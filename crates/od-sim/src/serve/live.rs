@@ -172,7 +172,7 @@ impl Live {
             && let Some(late) = self.pace.shift(due.max(before), clock)
         {
             note(&format!(
-                "odkit did not run for {} ms; the bus goes on from now",
+                "odkit did not run for {} ms; the bus continues from the present time",
                 late.as_millis()
             ));
         }

@@ -71,7 +71,7 @@ impl Log {
             if let Err(error) = write(file, format, &waiting) {
                 let name = path.display();
                 note(&format!(
-                    "{name}: {error}; the log ends here, the bus goes on"
+                    "{name}: {error}; the log ends here, the bus continues"
                 ));
             }
             drop(alive);
