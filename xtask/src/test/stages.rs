@@ -1,6 +1,6 @@
 //! The stages, in the order they start. The first ones build what the tests in a browser and on a bus need, which
-//! take longest. One cargo at a time writes into `target/debug`: `build` compiles all tests; the stages
-//! after it only run theirs, in parallel with the lints.
+//! take longest. One cargo at a time writes into `target/debug`, and the others wait for it: `build` compiles all tests,
+//! the stages after it only run theirs, and the lints, which compile again, come last.
 
 mod alone;
 mod boards;
@@ -141,10 +141,10 @@ pub(super) const STAGES: &[Stage] = &[
     stage("tests", Tests, "all other tests from outside", rust::other_outside).beside(Lane::Outside),
     stage("fuzz", Tests, "mutated input: SDO frames, node, EEPROM, EDS, scripts, adapters", rust::fuzz).beside(Lane::Outside),
     stage("corpus", Tests, "device files of others: the tests of tests/corpus on the folder that ODKIT_CORPUS names", corpus::corpus).beside(Lane::Bus),
+    stage("unit", Tests, "tests inside the crates", rust::unit).quick(),
     stage("clippy", Check, "no warning, with every feature on", rust::clippy).quick().beside(Lane::Lint),
     stage("rustdoc", Check, "the documentation builds without a warning", rust::rustdoc).beside(Lane::Lint),
     stage("doc", Tests, "the examples in the documentation", rust::doc).beside(Lane::Lint),
-    stage("unit", Tests, "tests inside the crates", rust::unit).quick(),
     stage("typos", Check, "spelling of code and documents", promised::typos).beside(Lane::Lint),
     stage("msrv", Check, "what is published compiles with the oldest Rust that it promises", promised::msrv).long().beside(Lane::Cross),
     stage("minimal", Check, "what is published compiles with the oldest versions of its dependencies", promised::minimal).long().beside(Lane::Cross),
