@@ -151,6 +151,19 @@ test('a trainer sees two students, offers a lesson, sees who is stuck, and empti
   await becomes('both report again', async () => (await again.locator('tbody strong').allTextContents()).sort(), ['Anna <b>', 'Ben']);
   await becomes('Ben is where he was', () => again.getByRole('row', { name: 'Ben' }).locator('td').nth(1).innerText(), /^1 of \d$/);
 
+  // The class counts its offers from 1 again. Of two pages of a student, the one that she used last reports; a trainer who
+  // reloads has the same choice.
+  await again.getByRole('combobox', { name: 'Lesson to offer' }).selectOption('nmt');
+  await again.reload();
+  await again.getByRole('button', { name: 'Offer to all' }).click();
+  for (const page of [anna, ben]) await page.getByText('Your trainer offers the lesson “NMT states and commands”.').waitFor();
+  const second = await anna.context().newPage();
+  await second.goto(new URL('#lesson=mapping', site).href);
+  await becomes('her second page', () => again.getByRole('row', { name: 'Anna' }).locator('td').first().innerText(), /^Mapping/);
+  await anna.evaluate(() => window.dispatchEvent(new Event('focus')));
+  await becomes('her first page', () => again.getByRole('row', { name: 'Anna' }).locator('td').first().innerText(), /^Our machine/);
+  await second.close();
+
   // The next group: what the pages keep of the class is gone, and what they had before is not.
   await anna.evaluate(() => localStorage.setItem('odkit.progress', '{"nmt":[4,4,"2026-11-26"]}'));
   await again.getByRole('button', { name: 'Next group' }).click();

@@ -26,6 +26,8 @@ pub(super) struct Desk {
 #[derive(Deserialize)]
 struct Join {
     name: String,
+    /// The key of a page that joined before.
+    key: Option<String>,
 }
 
 #[derive(Deserialize)]
@@ -68,8 +70,8 @@ impl Desk {
         let mut room = self.room.lock().unwrap_or_else(PoisonError::into_inner);
         let found = match request.path.as_str() {
             "/class/join" => {
-                let Join { name } = read(request)?;
-                return Ok(match room.join(&name, self.word()?, now) {
+                let Join { name, key } = read(request)?;
+                return Ok(match room.join(&name, key.as_deref(), self.word()?, now) {
                     Ok(joined) => Answer::json(200, &joined),
                     Err(why) => Answer::json(409, &json!({ "why": why })),
                 });

@@ -74,12 +74,19 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         })
     })?;
     let port = listener.local_addr()?.port();
-    let students = SocketAddr::new(reachable(args.host), port);
-    let own = if args.host.is_unspecified() {
-        SocketAddr::new(Ipv4Addr::LOCALHOST.into(), port)
+    let place = if args.host.is_unspecified() {
+        Ipv4Addr::LOCALHOST.into()
     } else {
-        students
+        args.host
     };
+    let own = SocketAddr::new(place, port);
+    let reachable = reachable(args.host);
+    if reachable.is_none() {
+        note!(
+            "warning: no network leads out of this computer, so its address is not known; give it with --host"
+        );
+    }
+    let students = SocketAddr::new(reachable.unwrap_or(place), port);
     let desk = Desk {
         site,
         room: Mutex::new(Room::new(
@@ -167,18 +174,16 @@ fn attend(stream: &TcpStream, desk: &Desk) {
     }
 }
 
-/// The address under which other computers reach this one: of the network that leads out. No packet is sent.
-fn reachable(host: IpAddr) -> IpAddr {
+/// The address under which other computers reach this one: of the network that leads out. `None`: no network leads out, as
+/// in a room without a router. No packet is sent.
+fn reachable(host: IpAddr) -> Option<IpAddr> {
     if !host.is_unspecified() {
-        return host;
+        return Some(host);
     }
-    let found = || {
-        let socket = UdpSocket::bind((Ipv4Addr::UNSPECIFIED, 0)).ok()?;
-        // An address for documentation (RFC 5737).
-        socket.connect((Ipv4Addr::new(192, 0, 2, 1), 9)).ok()?;
-        Some(socket.local_addr().ok()?.ip())
-    };
-    found().unwrap_or(Ipv4Addr::LOCALHOST.into())
+    let socket = UdpSocket::bind((Ipv4Addr::UNSPECIFIED, 0)).ok()?;
+    // An address for documentation (RFC 5737).
+    socket.connect((Ipv4Addr::new(192, 0, 2, 1), 9)).ok()?;
+    Some(socket.local_addr().ok()?.ip())
 }
 
 /// 128 random bits in hexadecimal.

@@ -207,11 +207,12 @@ impl Room {
         }
     }
 
-    /// Adds a student, or gives back the row of a student of this name whose connection is lost. `key` is a random word
-    /// that the page reports with.
+    /// Adds a student, or gives back the row of a student of this name whose connection is lost. The row of the page with
+    /// the key `former` gets another name. `key` is a random word that the page reports with.
     pub(super) fn join(
         &mut self,
         name: &str,
+        former: Option<&str>,
         key: String,
         now: Instant,
     ) -> Result<Joined, Refused> {
@@ -220,13 +221,20 @@ impl Room {
         if name.is_empty() || name.chars().count() > NAME || !is_visible {
             return Err(Refused::Name);
         }
-        let same = |row: &&mut Row| row.name.to_lowercase() == name.to_lowercase();
-        if let Some(row) = self.rows.iter_mut().find(same) {
-            if row.presence(now) != Presence::Lost {
+        let is_same = |row: &Row| row.name.to_lowercase() == name.to_lowercase();
+        let own = self.rows.iter().position(|row| former == Some(&row.key));
+        let same = self.rows.iter().position(is_same);
+        if let Some(place) = same.or(own) {
+            if Some(place) != own && self.rows[place].presence(now) != Presence::Lost {
                 return Err(Refused::Taken);
             }
+            let row = &mut self.rows[place];
+            row.name.clone_from(&name);
             row.key.clone_from(&key);
             row.heard = now;
+            if let Some(own) = own.filter(|own| *own != place) {
+                self.rows.remove(own);
+            }
         } else if self.rows.len() >= MOST {
             return Err(Refused::Full);
         } else {
@@ -374,35 +382,59 @@ mod tests {
     #[test]
     fn names_are_plain_short_and_unique() {
         let (mut room, now) = room();
-        let joined = room.join("  Anna \t Ü. ", "a".into(), now).expect("a name");
+        let joined = room
+            .join("  Anna \t Ü. ", None, "a".into(), now)
+            .expect("a name");
         assert_eq!(joined.name, "Anna Ü.");
         let long = "x".repeat(NAME + 1);
         for bad in ["", "  ", &long, "A\u{1b}[2J", "A\u{202e}B"] {
             assert_eq!(
-                room.join(bad, "b".into(), now),
+                room.join(bad, None, "b".into(), now),
                 Err(Refused::Name),
                 "{bad:?}"
             );
         }
-        assert_eq!(room.join("anna ü.", "b".into(), now), Err(Refused::Taken));
+        assert_eq!(
+            room.join("anna ü.", None, "b".into(), now),
+            Err(Refused::Taken)
+        );
         for number in 1..MOST {
-            room.join(&format!("student {number}"), format!("{number}"), now)
+            room.join(&format!("student {number}"), None, format!("{number}"), now)
                 .expect("there is room");
         }
-        assert_eq!(room.join("one more", "x".into(), now), Err(Refused::Full));
+        assert_eq!(
+            room.join("one more", None, "x".into(), now),
+            Err(Refused::Full)
+        );
     }
 
     #[test]
     fn a_lost_student_comes_back_to_the_same_row() {
         let (mut room, now) = room();
-        room.join("Anna", "a".into(), now).expect("joined");
+        room.join("Anna", None, "a".into(), now).expect("joined");
         room.report(report("a", 1, 0), now).expect("known");
         let later = now + LOST;
         assert_eq!(room.rows(later)[0].presence, Presence::Lost);
-        room.join("Anna", "new".into(), later).expect("her row");
+        room.join("Anna", None, "new".into(), later)
+            .expect("her row");
         assert_eq!(room.rows(later).len(), 1);
         assert_eq!(room.rows(later)[0].at.map(|at| at.step), Some(1));
         assert_eq!(room.report(report("a", 1, 0), later), Err(Gone::Unknown));
+        // She writes her name in another way, and then takes the row of a student who is lost.
+        room.join("Anna B.", Some("new"), "b".into(), later)
+            .expect("her row");
+        room.join("Ben", None, "ben".into(), now).expect("joined");
+        let names = |room: &Room| {
+            room.rows(later)
+                .iter()
+                .map(|row| row.name.to_owned())
+                .collect::<Vec<_>>()
+        };
+        assert_eq!(names(&room), ["Anna B.", "Ben"]);
+        assert_eq!(room.rows(later)[0].at.map(|at| at.step), Some(1));
+        room.join("ben", Some("b"), "new".into(), later)
+            .expect("a lost row");
+        assert_eq!(names(&room), ["ben"]);
         // A hidden tab reports seldom.
         let hidden = Report {
             hidden: true,
@@ -417,7 +449,7 @@ mod tests {
     #[test]
     fn a_student_without_progress_or_with_wrong_answers_is_stuck() {
         let (mut room, now) = room();
-        room.join("Anna", "a".into(), now).expect("joined");
+        room.join("Anna", None, "a".into(), now).expect("joined");
         let mut at = |minutes, step, wrong| {
             let now = now + MINUTE * minutes;
             room.report(report("a", step, wrong), now).expect("known");
@@ -437,7 +469,7 @@ mod tests {
     fn an_offer_waits_for_an_answer() {
         let (mut room, now) = room();
         for key in ["a", "b"] {
-            room.join(key, key.into(), now).expect("joined");
+            room.join(key, None, key.into(), now).expect("joined");
         }
         assert!(room.offer("sdo", Some(1)) && !room.offer("sdo", Some(7)));
         assert_eq!(room.report(report("b", 0, 0), now), Ok(None));
@@ -457,10 +489,10 @@ mod tests {
         assert_eq!(room.rows(now)[0].offer, None);
         assert!(room.offer("nmt", None));
         assert!(room.rows(now).iter().all(|row| row.offer == Some("nmt")));
-        room.join("late", "c".into(), now).expect("joined");
+        room.join("late", None, "c".into(), now).expect("joined");
         assert_eq!(room.rows(now)[2].offer, Some("nmt"), "an offer to all");
         room.reset("second".into());
-        room.join("next", "d".into(), now).expect("joined");
+        room.join("next", None, "d".into(), now).expect("joined");
         assert_eq!(room.rows(now)[0].offer, None, "another group");
     }
 
@@ -468,7 +500,7 @@ mod tests {
     fn a_page_learns_why_its_row_is_gone() {
         let (mut room, now) = room();
         for key in ["a", "b"] {
-            room.join(key, key.into(), now).expect("joined");
+            room.join(key, None, key.into(), now).expect("joined");
         }
         assert!(room.remove(1) && !room.remove(1));
         assert_eq!(room.report(report("a", 0, 0), now), Err(Gone::Removed));

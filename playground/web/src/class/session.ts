@@ -23,6 +23,9 @@ const PATIENCE = 5000;
 const MOST_FAILED = 3;
 
 const KEY = 'odkit.class';
+/** The page that the student used last reports, if she has several of them. */
+const LAST = 'odkit.class.page';
+const PAGE = String(Math.random());
 let member: Member | null = null;
 /** The class has accepted a report of this visit. */
 let isKnown = false;
@@ -56,6 +59,27 @@ function stored(): Member | null {
   }
 }
 
+/** Makes this page the one that reports, as the member that another page of the student may have become. */
+function use(): void {
+  if (document.hidden) return;
+  try {
+    localStorage.setItem(LAST, PAGE);
+  } catch {
+    // Storage is not allowed: each page is a student of its own.
+  }
+  const now = stored();
+  if (now && now.key !== member?.key) become(now);
+}
+
+/** Returns whether the student uses another page of this class. */
+function isElsewhere(): boolean {
+  try {
+    return (localStorage.getItem(LAST) ?? PAGE) !== PAGE;
+  } catch {
+    return false;
+  }
+}
+
 /** Asks for the name. `known`: a name that may be that of the student; empty for none. */
 async function ask(known: string): Promise<void> {
   const { NameDialog } = await import('./name');
@@ -65,10 +89,12 @@ async function ask(known: string): Promise<void> {
 /** Joins the class; the reason if that is refused. */
 async function join(name: string): Promise<Refused | null> {
   try {
-    const response = await post('join', { name });
+    const response = await post('join', { name, key: member?.key });
     const answer = (await response.json()) as Member & { why?: Refused };
     if (!response.ok) return answer.why ?? 'unreachable';
     become(answer);
+    // A class that was started again counts its offers from 1.
+    [shown, answered] = [0, 0];
     soon();
     return null;
   } catch {
@@ -127,7 +153,7 @@ async function heard(response: Response): Promise<void> {
 async function report(): Promise<void> {
   if (isReporting) return;
   window.clearTimeout(timer);
-  if (member) {
+  if (member && !isElsewhere()) {
     isReporting = true;
     const { key, group } = member;
     try {
@@ -173,7 +199,8 @@ export function start(): void {
     shown = 0;
     soon();
   });
-  document.addEventListener('visibilitychange', soon);
+  use();
+  for (const name of ['focus', 'visibilitychange']) window.addEventListener(name, () => { use(); soon(); });
   if (!member) void ask('');
   soon();
 }

@@ -94,11 +94,21 @@ class Trainer extends View {
     if (this.fault !== 'token') setTimeout(() => void this.look(), PAUSE);
   }
 
+  private choose(name: string): void {
+    this.chosen = name;
+    // A page that is loaded again has the same choice.
+    const place = new URL(location.href);
+    place.searchParams.set('lesson', name);
+    history.replaceState(null, '', place);
+  }
+
   private async read(): Promise<void> {
     try {
       if (this.lessons.length === 0) {
         this.lessons = (await (await fetch('lessons.json')).json()) as Listed[];
-        this.chosen ||= (this.lessons.find((one) => one.isOwn) ?? this.lessons[0])?.name ?? '';
+        const before = new URLSearchParams(location.search).get('lesson');
+        const first = this.lessons.find((one) => one.name === before) ?? this.lessons.find((one) => one.isOwn) ?? this.lessons[0];
+        this.chosen ||= first?.name ?? '';
       }
       const response = await this.ask('rows');
       if (response.status === 403) {
@@ -131,7 +141,7 @@ class Trainer extends View {
     const own = this.lessons.filter((one) => one.isOwn);
     const others = this.lessons.filter((one) => !one.isOwn);
     return html`<div class="trainer-tools">
-      <label><span>${t.lesson}</span><select @change=${(event: Event) => (this.chosen = (event.target as HTMLSelectElement).value)}>
+      <label><span>${t.lesson}</span><select @change=${(event: Event) => this.choose((event.target as HTMLSelectElement).value)}>
         ${own.length ? html`<optgroup label=${t.own}>${own.map((one) => this.option(one))}</optgroup>` : nothing}
         <optgroup label=${t.others}>${others.map((one) => this.option(one))}</optgroup></select></label>
       <button class="primary" ?disabled=${this.rows.length === 0} @click=${() => void this.act('offer', { lesson: this.chosen })}>${t.all}</button>
