@@ -1,15 +1,21 @@
-//! Logs of programs that print a frame per line in columns: python-can (`print(message)`, `can_logger`), Kvaser CanKing.
+//! Logs of programs that print a frame per line in columns: python-can (`print(message)`, `can_logger`), Kvaser CanKing,
+//! Kvaser Memorator (text).
 
 use std::prelude::v1::*;
 
 use od_wire::Instant;
 
-use super::record::{Entry, FD, Reader, Record, frame, id};
+use super::record::{Entry, FD, Reader, Record, bases, frame, id};
 use super::stamp;
 
-/// Returns whether this line is one of python-can, or the line over the columns of CanKing.
+/// Returns whether this line is one of python-can, or the line over the columns of CanKing or Memorator.
 pub(super) fn is_one(line: &str) -> bool {
-    is_printed(line) || is_head(line)
+    is_printed(line) || is_head(line) || is_memorator(line)
+}
+
+fn is_memorator(line: &str) -> bool {
+    let words = ["Time", "Chan", "Identifier", "Flags", "DLC", "Data"];
+    line.split_whitespace().take(6).eq(words)
 }
 
 fn is_printed(line: &str) -> bool {
@@ -21,10 +27,22 @@ fn is_head(line: &str) -> bool {
     words.next() == Some("Chn") && words.next() == Some("Identifier")
 }
 
-pub(super) fn reader<'t>() -> Reader<'t> {
-    Box::new(|line| {
+pub(super) fn reader<'t>(lines: &[&'t str]) -> Reader<'t> {
+    let bases = bases(lines);
+    let has_head = lines.iter().any(|line| is_memorator(line));
+    let mut is_begun = false;
+    Box::new(move |line| {
         let line = line.trim();
-        if is_head(line) {
+        if has_head {
+            let is_row = is_begun;
+            is_begun |= is_memorator(line);
+            // Lines about the logger come before the names, a line of `=` after them.
+            if is_row && !line.starts_with("===") {
+                memorator(line, bases)
+            } else {
+                Ok(Entry::Nothing)
+            }
+        } else if is_head(line) {
             Ok(Entry::Nothing)
         } else if is_printed(line) {
             printed(line)
@@ -99,6 +117,49 @@ fn canking(line: &str) -> Result<Entry, String> {
     Ok(Entry::Record(Record::received(at, frame).sent(sent)))
 }
 
+/// `0.100000  1       601    Rx        8  40 00 10 00 00 00 00 00   2`: seconds, channel, CAN-ID, `x` (29 bits), direction,
+/// flags (`F` CAN FD, `R` remote frame), length, bytes, counter.
+fn memorator(line: &str, [base, data_base]: [u32; 2]) -> Result<Entry, String> {
+    let words: Vec<&str> = line.split_whitespace().collect();
+    let Some(at) = words.first().and_then(|word| stamp::seconds(word)) else {
+        // The time of day of the logger.
+        return Ok(Entry::Other);
+    };
+    let at = Instant::from_micros(at);
+    match words.get(1) {
+        Some(&"Trigger") => return Ok(Entry::Other),
+        _ if line.contains("ErrorFrame") => return Ok(Entry::Record(Record::error(at))),
+        _ => {}
+    }
+    let digits = words.get(2).copied().unwrap_or_default();
+    // The letter of a long CAN-ID of 29 bits follows it at once.
+    let digits = digits
+        .strip_suffix('x')
+        .map_or((digits, false), |digits| (digits, true));
+    let mut rest = words
+        .iter()
+        .copied()
+        .skip(3)
+        .skip_while(|word| *word == "x");
+    let is_long = digits.1 || words.get(3) == Some(&"x");
+    let id = id(digits.0, base, is_long)?;
+    let direction = rest.next().unwrap_or_default();
+    let mut length = rest.next().unwrap_or_default();
+    let mut flags = "";
+    if !length.starts_with(|c: char| c.is_ascii_digit()) {
+        (flags, length) = (length, rest.next().unwrap_or_default());
+    }
+    if flags.contains('F') {
+        return Err(FD.into());
+    }
+    let dlc = length
+        .parse()
+        .map_err(|_| format!("`{length}` is not a valid length"))?;
+    let frame = frame(id, dlc, flags.contains('R'), rest, data_base)?;
+    let sent = direction.starts_with("Tx");
+    Ok(Entry::Record(Record::received(at, frame).sent(sent)))
+}
+
 #[cfg(test)]
 mod tests {
     use crate::logs::{What, read};
@@ -141,6 +202,36 @@ Timestamp:        1.900000    ID: 0123    S Rx     F BS           DL: 12    00 0
                 "line 5: it is a CAN FD frame, and CANopen does not use CAN FD"
             ]
         );
+    }
+
+    #[test]
+    fn the_text_of_kvaser_memorator_is_read_in_the_base_that_it_names() {
+        let log = |base: &str, rows: &str| {
+            format!(
+                "                              Kvaser Memorator Log\n\nSettings:\n   Format of data field: {base}\n   \
+                 Format of id field:   {base}\n   CAN channel:          1 2\n\n        Time Chan   Identifier Flags        DLC  \
+                 Data                                   Counter\n==========\n    0.000000  Trigger (type=0x1, active=0x00)\n{rows}"
+            )
+        };
+        let hex = "    1.500000  1         701    Rx           1  00                                     1\n    \
+            1.600000  1         601    Tx           8  40 18 10 01 00 00 00 00                   2\n    \
+            1.700000  2    18FF0001x   Rx           2  DE AD                                     3\n    \
+            1.800000  1         181    Rx       R   2  RTR                                       4\n    \
+            1.900000  1  ErrorFrame    Rx                ERROR FRAME                             5\n    \
+            2.000000  1         181    Rx    F      9  00                                        6\n";
+        assert_eq!(
+            told(&log("HEX", hex)),
+            [
+                "1500 701#00",
+                "1600 601#4018100100000000 sent",
+                "1700 18FF0001#DEAD",
+                "1800 181#R2",
+                "1900 error",
+                "line 16: it is a CAN FD frame, and CANopen does not use CAN FD"
+            ]
+        );
+        let decimal = "    1.500000  1        1793    Rx           2  127   5                                1\n";
+        assert_eq!(told(&log("DEC", decimal)), ["1500 701#7F05"]);
     }
 
     #[test]

@@ -5,7 +5,7 @@ use std::prelude::v1::*;
 
 use od_wire::Instant;
 
-use super::record::{Entry, FD, Reader, Record, frame, id};
+use super::record::{Entry, FD, Reader, Record, bases, frame, id};
 use super::stamp;
 
 /// Content of a column. A column with another name is ignored.
@@ -92,6 +92,7 @@ pub(super) fn reader<'t>(lines: &[&'t str]) -> Reader<'t> {
     let head = lines.iter().find(|line| is_one(line));
     let head = head.copied().unwrap_or_default();
     let columns = columns(head);
+    let bases = bases(lines);
     let mut is_begun = false;
     Box::new(move |line| {
         let is_head = line == head;
@@ -101,11 +102,15 @@ pub(super) fn reader<'t>(lines: &[&'t str]) -> Reader<'t> {
             return Ok(Entry::Nothing);
         }
         let words: Vec<&str> = fields(line).collect();
-        record(&columns, &words)
+        record(&columns, &words, bases)
     })
 }
 
-fn record(columns: &[Option<Column>], words: &[&str]) -> Result<Entry, String> {
+fn record(
+    columns: &[Option<Column>],
+    words: &[&str],
+    [base, data_base]: [u32; 2],
+) -> Result<Entry, String> {
     let place = |wanted| columns.iter().position(|column| *column == Some(wanted));
     let field = |wanted| {
         let at = place(wanted)?;
@@ -136,8 +141,9 @@ fn record(columns: &[Option<Column>], words: &[&str]) -> Result<Entry, String> {
     let digits = field(Column::Id).unwrap_or_default();
     let digits = digits.strip_prefix("0x").unwrap_or(digits);
     // Some of these logs do not say that a CAN-ID has 29 bits.
-    let is_long = u32::from_str_radix(digits, 16).is_ok_and(|raw| raw > 0x7FF);
-    let id = id(digits, 16, is(Column::Extended) || flag('X') || is_long)?;
+    let says = place(Column::Extended).or(place(Column::Flags)).is_some();
+    let is_long = !says && u32::from_str_radix(digits, base).is_ok_and(|raw| raw > 0x7FF);
+    let id = id(digits, base, is(Column::Extended) || flag('X') || is_long)?;
     let bytes = match (place(Column::First), field(Column::Data)) {
         (Some(at), _) => words.get(at..).unwrap_or_default().to_vec(),
         (None, data) => pairs(data.unwrap_or_default())?,
@@ -151,7 +157,7 @@ fn record(columns: &[Option<Column>], words: &[&str]) -> Result<Entry, String> {
         None => u8::try_from(bytes.len()).unwrap_or(u8::MAX),
     };
     let remote = is(Column::Remote) || flag('R');
-    let frame = frame(id, dlc, remote, bytes.into_iter(), 16)?;
+    let frame = frame(id, dlc, remote, bytes.into_iter(), data_base)?;
     let sent = match field(Column::Direction) {
         Some(word) => word == "1" || word.eq_ignore_ascii_case("tx"),
         None => field(Column::Flags).is_some_and(|flags| flags.eq_ignore_ascii_case("self")),
@@ -271,6 +277,18 @@ mod tests {
             \"00:01:00.500\",\"701\",\"Std\",\"\",\"00\"\n\
             \"00:01:00.600\",\"601\",\"Std\",\"Self\",\"40 18 10 01 00 00 00 00\"";
         assert_eq!(told(ixxat), ["60500 701#00", &format!("60600 {read} sent")]);
+    }
+
+    #[test]
+    fn kvaser_names_the_base_of_its_numbers() {
+        let text = "Kvaser Memorator Log\n   Format of data field: DEC\n   Format of id field:   DEC\n\
+            Time,Channel,ID,Flags,DLC,D0,D1,D2,D3,D4,D5,D6,D7,Counter\n0.5,1,1793,,1,127,,,,,,,,1\n";
+        assert_eq!(told(text), ["500 701#7F"]);
+        let undeclared = text.replace("DEC", "HEX") + "0.6,1,701,,1,05,,,,,,,,2\n";
+        assert_eq!(
+            told(&undeclared),
+            ["600 701#05", "line 5: the CAN-ID 1793 is too large"]
+        );
     }
 
     #[test]

@@ -31,7 +31,7 @@ const WALL_CLOCK: u64 = 1_000_000_000_000;
 const HEAD: usize = 200;
 
 /// Reads a log: candump, ASC, BLF, TRC (1.0 to 2.1), pcap or pcapng; CSV of SavvyCAN, CL2000, CANedge, Kvaser or IXXAT; what
-/// python-can prints, or Kvaser CanKing; lines of slcan or socketcand; commands of `cansend`.
+/// python-can prints, Kvaser CanKing, or Kvaser Memorator (text); lines of slcan or socketcand; commands of `cansend`.
 ///
 /// # Errors
 /// The reason why it is not a log, or the first line if no line can be read.
@@ -49,7 +49,7 @@ pub fn read(bytes: &[u8]) -> Result<Log, Refused> {
             ..finish(records, skipped)
         });
     }
-    let text = plain(&String::from_utf8_lossy(bytes));
+    let text = plain(&decoded(bytes));
     let lines: Vec<&str> = lines(text.trim_start_matches('\u{feff}')).collect();
     let lacks_times = is_untimed(&lines);
     let Some(mut reader) = choose(&lines, lacks_times) else {
@@ -84,6 +84,13 @@ pub fn read(bytes: &[u8]) -> Result<Log, Refused> {
             }),
         }
     }
+    if are_deltas(&records) {
+        let mut at = Instant::ZERO;
+        for record in &mut records {
+            at = at.plus_micros(record.at.as_micros());
+            record.at = at;
+        }
+    }
     match skipped.first() {
         Some(first) if records.is_empty() => Err(first.to_string().into()),
         _ => Ok(Log {
@@ -92,6 +99,19 @@ pub fn read(bytes: &[u8]) -> Result<Log, Refused> {
             ..finish(records, skipped)
         }),
     }
+}
+
+/// The text of a file in UTF-8, or in UTF-16 with a byte order mark, as PowerShell writes the output of a command.
+fn decoded(bytes: &[u8]) -> String {
+    let unit: fn([u8; 2]) -> u16 = match bytes {
+        [0xFF, 0xFE, ..] => u16::from_le_bytes,
+        [0xFE, 0xFF, ..] => u16::from_be_bytes,
+        _ => return String::from_utf8_lossy(bytes).into_owned(),
+    };
+    let pairs = bytes.chunks_exact(2).map(|pair| unit([pair[0], pair[1]]));
+    char::decode_utf16(pairs)
+        .map(|one| one.unwrap_or(char::REPLACEMENT_CHARACTER))
+        .collect()
 }
 
 /// The text without the colours of a terminal (`candump -c`): ESC, `[`, digits, `m`.
@@ -127,6 +147,16 @@ fn finish(mut records: Vec<Record>, skipped: Vec<Unread>) -> Log {
     }
 }
 
+/// Returns whether the times are those since the frame before, as `candump -td` prints them: the first is 0, and one of
+/// four is less than the one before it.
+fn are_deltas(records: &[Record]) -> bool {
+    let falls = records.windows(2).filter(|pair| pair[1].at < pair[0].at);
+    records
+        .first()
+        .is_some_and(|first| first.at == Instant::ZERO)
+        && falls.count() * 4 >= records.len().max(4) - 1
+}
+
 /// Returns whether no line has a time stamp, and a line is a frame: what `candump` prints without `-t`, or an adapter sends.
 fn is_untimed(lines: &[&str]) -> bool {
     let head = || lines.iter().take(HEAD).map(|line| line.trim_start());
@@ -144,6 +174,10 @@ fn command(line: &str) -> &str {
 
 fn choose<'t>(lines: &[&'t str], lacks_times: bool) -> Option<Reader<'t>> {
     let head = || lines.iter().take(HEAD).map(|line| line.trim_start());
+    // The rows of some of them look like those of an ASC log.
+    if head().any(columns::is_one) {
+        return Some(columns::reader(lines));
+    }
     if head().any(trc::is_one) {
         return Some(trc::reader(lines));
     }
@@ -152,9 +186,6 @@ fn choose<'t>(lines: &[&'t str], lacks_times: bool) -> Option<Reader<'t>> {
     }
     if head().any(csv::is_one) {
         return Some(csv::reader(lines));
-    }
-    if head().any(columns::is_one) {
-        return Some(columns::reader());
     }
     if head().any(adapters::is_one) {
         return Some(adapters::reader());

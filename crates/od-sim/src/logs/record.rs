@@ -94,6 +94,18 @@ pub(super) fn frame<'w>(
     Ok(Frame::with_dlc(id, data, dlc))
 }
 
+/// Bases of CAN-ID and data, by the settings at the head of a log of Kvaser: `Format of id field: DEC`.
+pub(super) fn bases(lines: &[&str]) -> [u32; 2] {
+    ["id", "data"].map(|field| {
+        let name = format!("Format of {field} field:");
+        let mut settings = lines.iter().filter_map(|line| line.split_once(&*name));
+        match settings.next() {
+            Some((_, base)) if base.contains("DEC") => 10,
+            _ => 16,
+        }
+    })
+}
+
 fn too_long(dlc: u8) -> String {
     format!("the length {dlc} is more than 8")
 }

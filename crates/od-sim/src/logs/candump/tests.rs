@@ -116,3 +116,32 @@ fn no_text_panics() {
         let _ = parse_line(&line);
     }
 }
+
+fn milliseconds(bytes: &[u8]) -> Vec<u64> {
+    let log = crate::logs::read(bytes).expect("a log");
+    assert_eq!(log.skipped, []);
+    let records = log.records.iter();
+    records.map(|one| one.at.as_micros() / 1000).collect()
+}
+
+#[test]
+fn times_since_the_frame_before_are_added_up() {
+    let deltas = " (000.000000)  can0  701   [1]  00\n (000.100000)  can0  601   [1]  40\n (000.001000)  can0  581   [1]  80\n";
+    assert_eq!(milliseconds(deltas.as_bytes()), [0, 100, 101]);
+    // Two interfaces: one frame was printed late.
+    let from_start = " (000.000000)  can0  701   [1]  00\n (000.100000)  can0  701   [1]  05\n (000.200001)  can0  701   [1]  05\n \
+        (000.200000)  can1  701   [1]  05\n (000.300000)  can0  701   [1]  05\n (000.400000)  can0  701   [1]  05\n";
+    assert_eq!(
+        milliseconds(from_start.as_bytes()),
+        [0, 100, 200, 200, 300, 400]
+    );
+}
+
+#[test]
+fn utf_16_is_read() {
+    let text = "\u{feff}(0.5) can0 701#00\r\n(0.6) can0 701#05\r\n";
+    for to_bytes in [u16::to_le_bytes, u16::to_be_bytes] {
+        let bytes: Vec<u8> = text.encode_utf16().flat_map(to_bytes).collect();
+        assert_eq!(milliseconds(&bytes), [500, 600]);
+    }
+}
