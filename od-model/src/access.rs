@@ -114,6 +114,16 @@ impl Group {
         }
     }
 
+    /// Returns the group's name; `None` for a value that is not saved.
+    pub const fn name(self) -> Option<&'static str> {
+        match self {
+            Self::None => None,
+            Self::Communication => Some("communication"),
+            Self::Application => Some("application"),
+            Self::Manufacturer => Some("manufacturer"),
+        }
+    }
+
     /// Returns whether sub-index `sub` of 1010h or 1011h covers this group.
     pub const fn covered_by(self, sub: u8) -> bool {
         let own = self as u8 + 1;

@@ -1,6 +1,5 @@
 //! `odkit explain`: the meaning of a rule, with an example and its fix.
 
-use od_eds::Severity;
 use od_eds::check::{Fixability, Rule, all, pair, rule};
 use od_eds::tools::tool_of;
 
@@ -31,17 +30,9 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
 
 /// A line of the list.
 fn row(rule: &Rule) -> String {
-    let (code, severity) = (rule.code, word(rule.severity));
+    let (code, severity) = (rule.code, rule.severity.name());
     let fix = rule.fixability.name();
     format!("{code}  {severity:<7}  {fix:<14}  {}\n", rule.title)
-}
-
-const fn word(severity: Severity) -> &'static str {
-    match severity {
-        Severity::Error => "error",
-        Severity::Warning => "warning",
-        Severity::Info => "remark",
-    }
 }
 
 fn unknown(code: &str) -> Failure {
@@ -58,7 +49,7 @@ fn text(rule: &Rule) -> String {
     let mut text = format!(
         "{} ({}): {}\n\n{}\n",
         rule.code,
-        word(rule.severity),
+        rule.severity.name(),
         rule.title,
         wrapped(rule.why, 90)
     );

@@ -116,6 +116,16 @@ pub struct Sentence {
     pub fix: Option<Fix>,
 }
 
+impl Sentence {
+    /// The message, after the object that it is about.
+    pub fn with_object(&self) -> String {
+        match self.address {
+            Some(address) => format!("object {address}: {}", self.message),
+            None => self.message.clone(),
+        }
+    }
+}
+
 /// Returns the finding in these terms.
 pub fn say(finding: &Finding, words: &dyn Vocabulary) -> Sentence {
     let filled = |english| Blanks { finding, words }.fill(words.sentence(english), false);

@@ -27,6 +27,17 @@ pub enum Severity {
     Error,
 }
 
+impl Severity {
+    /// The word in texts for users.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Error => "error",
+            Self::Warning => "warning",
+            Self::Info => "remark",
+        }
+    }
+}
+
 /// Kind of fix that the findings of a rule have.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[cfg_attr(

@@ -1,6 +1,8 @@
 //! CAN-IDs of a node and contents of its PDOs, as the start values of its description set them.
 
+use alloc::format;
 use alloc::vec::Vec;
+use core::fmt;
 
 use crate::description::Description;
 use crate::subject::start_value;
@@ -25,6 +27,22 @@ pub enum Service {
     SdoResponse(u8),
     /// Heartbeat, or responses of node guarding.
     Heartbeat,
+}
+
+impl fmt::Display for Service {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Sync => f.pad("SYNC"),
+            Self::Time => f.pad("TIME"),
+            Self::Emcy => f.pad("EMCY"),
+            Self::Tpdo(number) => f.pad(&format!("TPDO {number}")),
+            Self::Rpdo(number) => f.pad(&format!("RPDO {number}")),
+            Self::SdoRequest(server) | Self::SdoResponse(server) => {
+                f.pad(&format!("SDO server {server}"))
+            }
+            Self::Heartbeat => f.pad("heartbeat"),
+        }
+    }
 }
 
 /// A CAN-ID and the service that uses it.

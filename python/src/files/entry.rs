@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use od_model::{Address, Group};
+use od_model::Address;
 use pyo3::prelude::*;
 
 use crate::files::read::Read;
@@ -120,13 +120,8 @@ impl Entry {
     /// The group in which the device saves it: `communication`, `application`, `manufacturer`, or `None`.
     #[getter]
     fn storage(&self) -> PyResult<Option<&'static str>> {
-        let group = self.read.entry(self.address)?.group_at(self.address);
-        Ok(match group {
-            Group::None => None,
-            Group::Communication => Some("communication"),
-            Group::Application => Some("application"),
-            Group::Manufacturer => Some("manufacturer"),
-        })
+        let entry = self.read.entry(self.address)?;
+        Ok(entry.group_at(self.address).name())
     }
 
     /// Keys of the file that CiA 306 does not have, such as `Unit`, and their texts.

@@ -3,9 +3,9 @@
 use std::fs;
 use std::path::PathBuf;
 
-use od_eds::fix::{Applicability, Held, Why, fix as fixed};
+use od_eds::Document;
+use od_eds::fix::{Applicability, Held, fix as fixed};
 use od_eds::tools::{self, TOOLS, Tool};
-use od_eds::{Document, Eds, say};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyString};
 
@@ -174,16 +174,5 @@ fn held(held: &Held) -> String {
         None => String::new(),
     };
     let code = held.finding.code();
-    let why = match &held.why {
-        Why::Adds(error) => format!(
-            "it would add {}: {}",
-            error.code(),
-            say(error, &Eds).message
-        ),
-        Why::Stays => "the finding would stay, or another fix would undo it".into(),
-        Why::NoCharacter(c, encoding) => {
-            format!("{encoding}, the encoding of the file, lacks `{c}`")
-        }
-    };
-    format!("{line}the fix of {code} is held back: {why}")
+    format!("{line}the fix of {code} is held back: {}", held.why)
 }

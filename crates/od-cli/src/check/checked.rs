@@ -1,8 +1,8 @@
 //! The result of a check, from which every report is made.
 
-use od_eds::fix::{Held, Why};
+use od_eds::fix::Held;
 use od_eds::tools::Tool;
-use od_eds::{Eds, Finding, Sentence, Severity, Span, say};
+use od_eds::{Finding, Severity, Span};
 use serde::Serialize;
 
 use crate::report::Names;
@@ -57,28 +57,6 @@ impl Checked {
     pub(super) fn of_tool(&self, tool: &Tool) -> Vec<Finding> {
         let is_its = |finding: &&Finding| tool.rules.contains(&finding.rule);
         self.findings.iter().filter(is_its).cloned().collect()
-    }
-}
-
-/// The message, after the object that it is about.
-pub(super) fn about(finding: &Sentence) -> String {
-    match finding.address {
-        Some(address) => format!("object {address}: {}", finding.message),
-        None => finding.message.clone(),
-    }
-}
-
-/// Reason why a fix was not applied, as a clause.
-pub(super) fn why(held: &Held) -> String {
-    match &held.why {
-        Why::Adds(error) => {
-            let error = say(error, &Eds);
-            format!("it would add {}: {}", error.code, about(&error))
-        }
-        Why::Stays => "the finding would stay, or another fix would undo it".into(),
-        Why::NoCharacter(c, encoding) => {
-            format!("{encoding}, the encoding of the file, lacks `{c}`")
-        }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use od_eds::{Eds, Finding, Sentence, Severity, say};
 
-use super::checked::{Checked, about, end_column};
+use super::checked::{Checked, end_column};
 use crate::source::Part;
 
 pub(super) fn lines(checked: &Checked, remarks: bool) -> Vec<String> {
@@ -30,7 +30,7 @@ fn line(path: &str, text: &str, finding: &Sentence) -> String {
             span.line, span.line, span.column
         ));
     }
-    let mut message = about(finding);
+    let mut message = finding.with_object();
     if !finding.help.is_empty() {
         message = format!("{message}\nhelp: {}", finding.help);
     }

@@ -5,7 +5,7 @@ use od_eds::tools::verdict;
 use od_eds::{Eds, Finding, Label, Offsets, Severity, Span, say};
 use serde::Serialize;
 
-use super::checked::{Checked, Summary, why};
+use super::checked::{Checked, Summary};
 
 #[derive(Serialize)]
 struct Report<'a> {
@@ -134,7 +134,7 @@ fn held(held: &fix::Held) -> Held {
         code: finding.code(),
         object: finding.object.map(|address| address.to_string()),
         line: finding.span().map(|span| span.line),
-        why: why(held),
+        why: held.why.to_string(),
     }
 }
 

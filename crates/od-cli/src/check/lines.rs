@@ -1,22 +1,13 @@
 //! A line for each finding: `my.eds:14:3: warning[W0445] 2001h "Gain": …`.
 
-use od_eds::{Eds, Finding, Severity, say};
+use od_eds::{Eds, Finding, say};
 
 use super::checked::Checked;
 use crate::report::plural;
 
-/// The severity as the text reports show it.
-const fn word(severity: Severity) -> &'static str {
-    match severity {
-        Severity::Error => "error",
-        Severity::Warning => "warning",
-        Severity::Info => "remark",
-    }
-}
-
 fn line(checked: &Checked, finding: &Finding) -> String {
     let sentence = say(finding, &Eds);
-    let level = word(sentence.severity);
+    let level = sentence.severity.name();
     let object = finding
         .object
         .map(|address| match checked.names.get(&address) {

@@ -13,7 +13,7 @@ use crate::output::{self, Output};
 use crate::report;
 use crate::source::Source;
 use crate::workers::at_once;
-use checked::{Checked, Summary, why};
+use checked::{Checked, Summary};
 
 mod checked;
 mod files;
@@ -287,7 +287,7 @@ fn text(
             let code = held.finding.code();
             format!(
                 "{path}:{line}: the fix of {code} is held back: {}",
-                why(held)
+                held.why
             )
         };
         file.held.iter().map(line).collect::<Vec<_>>()

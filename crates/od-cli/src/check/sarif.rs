@@ -5,7 +5,7 @@ use od_eds::fix::TextEdit;
 use od_eds::{Eds, Finding, Offsets, Severity, Span, say};
 use serde_json::{Value, json};
 
-use super::checked::{Checked, about, end_column};
+use super::checked::{Checked, end_column};
 use crate::source::Part;
 
 const SCHEMA: &str =
@@ -125,7 +125,7 @@ const fn is_start(byte: u8) -> bool {
 fn result(file: &Places<'_>, finding: &Finding) -> Value {
     let finding = say(finding, &Eds);
     let text = file.file.document.text();
-    let mut message = about(&finding);
+    let mut message = finding.with_object();
     if !finding.help.is_empty() {
         message = format!("{message} ({})", finding.help);
     }

@@ -2,7 +2,6 @@
 
 use std::fmt::Write;
 
-use od_eds::identifiers::Service;
 use od_eds::network::{self, BIT_RATES, Frame};
 
 use od_model::Visible;
@@ -50,7 +49,7 @@ pub(super) fn table(
     );
     for frame in &frames {
         let from = Visible(&network.nodes[frame.node].name);
-        let (id, service) = (format!("{:03X}h", frame.id), service(frame.service));
+        let (id, service) = (format!("{:03X}h", frame.id), frame.service);
         let line = format!(
             "{id:>8}  {service:<12} {from:<24} {:>5}  {}",
             frame.bytes,
@@ -74,15 +73,6 @@ pub(super) fn table(
         let _ = writeln!(out, "{rate:>5} kbit/s  {load:>7.2} %{mark}");
     }
     out
-}
-
-fn service(service: Service) -> String {
-    match service {
-        Service::Sync => "SYNC".into(),
-        Service::Tpdo(number) => format!("TPDO {number}"),
-        Service::Heartbeat => "heartbeat".into(),
-        other => format!("{other:?}"),
-    }
 }
 
 fn period(frame: &Frame) -> String {

@@ -14,7 +14,7 @@ use crate::scan::names::List;
 use crate::scan::number::number;
 use crate::span::Spanned;
 use crate::subject::start_value;
-use od_model::{Address, Group, Visible};
+use od_model::{Address, Visible};
 
 /// The name of the format; its number changes with each change that breaks readers.
 const FORMAT: &str = "odkit-dictionary/2";
@@ -177,12 +177,7 @@ fn object(index: u16, object: &ObjectDescription) -> serde_json::Value {
 }
 
 fn entry(address: Address, entry: &EntryDescription) -> serde_json::Value {
-    let group = match entry.group_at(address) {
-        Group::None => None,
-        Group::Communication => Some("communication"),
-        Group::Application => Some("application"),
-        Group::Manufacturer => Some("manufacturer"),
-    };
+    let group = entry.group_at(address).name();
     let data_type = entry.data_type.map(|found| found.value);
     let mappable = *entry.mappable;
     json!({

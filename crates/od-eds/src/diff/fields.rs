@@ -86,13 +86,8 @@ const fn directions(entry: &Entry) -> &'static str {
     }
 }
 
-const fn storage(group: Group) -> &'static str {
-    match group {
-        Group::None => "not saved",
-        Group::Communication => "communication",
-        Group::Application => "application",
-        Group::Manufacturer => "manufacturer",
-    }
+fn storage(group: Group) -> &'static str {
+    group.name().unwrap_or("not saved")
 }
 
 /// In the form of an EDS; empty if missing.

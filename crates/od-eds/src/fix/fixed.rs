@@ -3,6 +3,7 @@
 use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::string::String;
 use alloc::vec::Vec;
+use core::fmt;
 
 use od_model::Address;
 
@@ -53,6 +54,22 @@ pub enum Why {
     Stays,
     /// The encoding of the file lacks this character.
     NoCharacter(char, Encoding),
+}
+
+/// The reason as a clause.
+impl fmt::Display for Why {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Adds(error) => {
+                let error = say(error, &Eds);
+                write!(f, "it would add {}: {}", error.code, error.with_object())
+            }
+            Self::Stays => f.write_str("the finding would stay, or another fix would undo it"),
+            Self::NoCharacter(c, encoding) => {
+                write!(f, "{encoding}, the encoding of the file, lacks `{c}`")
+            }
+        }
+    }
 }
 
 /// Applies the fixes of a document up to `level`; `find` returns its findings.

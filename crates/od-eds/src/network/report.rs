@@ -2,7 +2,7 @@
 
 use alloc::collections::BTreeMap;
 use alloc::format;
-use alloc::string::{String, ToString};
+use alloc::string::String;
 use alloc::vec::Vec;
 
 use super::load::{frames, load};
@@ -107,17 +107,6 @@ fn bits(node: &Node, index: u16) -> u32 {
 
 /// A node and its service, in words.
 fn place(node: &Node, service: Service) -> String {
-    let service = match service {
-        Service::Sync => "SYNC".to_string(),
-        Service::Time => "TIME".to_string(),
-        Service::Emcy => "EMCY".to_string(),
-        Service::Tpdo(number) => format!("TPDO {number}"),
-        Service::Rpdo(number) => format!("RPDO {number}"),
-        Service::SdoRequest(server) | Service::SdoResponse(server) => {
-            format!("SDO server {server}")
-        }
-        Service::Heartbeat => "heartbeat".to_string(),
-    };
     format!("{service} of {}", node.name)
 }
 
