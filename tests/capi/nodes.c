@@ -141,13 +141,14 @@ static void time_of_their_own(void)
 int main(void)
 {
     static const uint32_t missing[] = {3, 4, 255, 256, 0x10000, 0xFFFFFFFFu};
+    size_t at;
     CHECK(ODKIT_LEFT == 0 && ODKIT_RIGHT == 1 && ODKIT_TEXT == 2);
     CHECK(odkit_handle_timeout(ODKIT_RIGHT, 0) == ODKIT_STATE);
     power_on(ODKIT_LEFT, 1);
     CHECK(odkit_handle_timeout(ODKIT_RIGHT, 0) == ODKIT_STATE);
     power_on(ODKIT_RIGHT, 2);
     power_on(ODKIT_TEXT, 3);
-    for (size_t at = 0; at < sizeof missing / sizeof *missing; at++) {
+    for (at = 0; at < sizeof missing / sizeof *missing; at++) {
         without_a_node(missing[at]);
     }
     values_of_their_own();

@@ -24,8 +24,11 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* An address as one number, for `switch (ODKIT_KEY(index, sub))` and `case ODKIT_KEY(OD_TEMPERATURE):`. */
+/* An address as one number, for `switch (ODKIT_KEY(index, sub))` and `case ODKIT_KEY(OD_TEMPERATURE):`. Not in C89 and
+ * C++98, which have no macros with a variable number of arguments; ODKIT_KEY_OF takes index and sub-index there. */
+#if (defined(__STDC_VERSION__) && __STDC_VERSION__ >= 199901L) || (defined(__cplusplus) && __cplusplus >= 201103L)
 #define ODKIT_KEY(...) ODKIT_KEY_OF(__VA_ARGS__)
+#endif
 #define ODKIT_KEY_OF(index, sub) ((uint32_t)(index) << 8 | (uint32_t)(sub))
 
 /*

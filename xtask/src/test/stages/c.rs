@@ -114,6 +114,10 @@ fn checks(
     let (root, console) = (&context.repo.root, context.console);
     let program = programs.join(format!("{file}-{compiler}"));
     let mut build = compile(root, compiler, library, &program);
+    if file == "nodes.c" {
+        // The headers are for C89, too; the last standard counts.
+        build.arg("-std=c89");
+    }
     build.args(WATCHED).arg(root.join("tests/capi").join(file));
     link(&mut build, library);
     console.run(&format!("{file} by {compiler}"), &mut build)?;
