@@ -11,7 +11,7 @@ record! {
     /// A connection of a device to the world beside its bus.
     Pin {
         name: &'static str,
-        /// The world sets it.
+        /// Whether the world sets it; otherwise the device does.
         input: bool,
         value: f64,
     }

@@ -19,7 +19,7 @@ pub(crate) struct Wait {
     pub(crate) seen: Option<usize>,
     /// It ends after all other waits that end at the same moment.
     pub(crate) is_last: bool,
-    /// A wait of Python that takes as long on the clock as on the bus: both at its start.
+    /// The clock and the time of the bus at the start of a wait of Python that takes the same time on both.
     pub(crate) paced: Option<(Clock, Instant)>,
 }
 

@@ -48,7 +48,7 @@ pub(crate) fn processor_time(process: &str) -> Option<Duration> {
     Some(Process::read(process)?.used)
 }
 
-/// Stops a program and what it started, such as the tests that a cargo runs: otherwise they go on without it.
+/// Stops a program and what it started, such as the tests that cargo runs, which would continue without it.
 /// Returns the processor time of all of them. Where the system has no `/proc`, only the program is stopped.
 pub(crate) fn stop(child: &mut Child) -> Duration {
     let all = Process::all();
@@ -56,7 +56,7 @@ pub(crate) fn stop(child: &mut Child) -> Duration {
     let below = below(&all, child.id());
     let used = own.into_iter().chain(&below).map(|process| process.used);
     let used = used.sum();
-    // The program ends first, and starts nothing more.
+    // The program ends first, so that it starts nothing more.
     let _ = child.kill();
     if !below.is_empty() {
         let mut kill = Command::new("kill");
@@ -68,7 +68,7 @@ pub(crate) fn stop(child: &mut Child) -> Duration {
     used
 }
 
-/// The processes that a process started, and those that they started.
+/// The processes that a process started, directly or through others.
 fn below(all: &[Process], id: u32) -> Vec<Process> {
     let mut found: Vec<Process> = Vec::new();
     let mut parents = vec![id];

@@ -13,7 +13,7 @@ pub(crate) const KEPT: usize = 10_000;
 /// Limit of sub-objects without a section of their own in a text.
 pub(crate) const EXPANDED: usize = 50_000;
 
-/// Findings in no order, and the rest of the limits.
+/// Findings in any order, and how much of each limit is left.
 #[derive(Default)]
 pub(crate) struct Log {
     findings: Vec<Finding>,

@@ -19,7 +19,7 @@ pub struct Mirror<const N: usize, const V: usize> {
     dictionary: &'static Dictionary<'static>,
     device: u32,
     sets: Sets<N>,
-    /// Values of the save of which the next steps make a set.
+    /// Values of a save; the next steps make a set of them.
     values: [u8; V],
     job: Option<image::Job>,
     /// Range of the newest set, if it is known.
@@ -138,7 +138,7 @@ impl<const N: usize, const V: usize> Mirror<N, V> {
         self.failed = result.is_err();
         self.kept = match result {
             Ok(()) => number,
-            // The next change is the next attempt.
+            // The next change starts the next attempt.
             Err(_) => self.made,
         };
     }

@@ -1,4 +1,4 @@
-//! Source of odkit's crates for a new crate.
+//! Where a new crate gets odkit's crates from.
 
 use std::path::{Component, Path, PathBuf};
 
@@ -22,11 +22,11 @@ pub(super) enum Origin {
 }
 
 impl Origin {
-    /// The published crates, a checkout for a crate in `folder`, or otherwise copies if this program has
-    /// them.
+    /// The published crates with `registry`, the folder `checkout` if it is given, and otherwise copies if this
+    /// program has them. `folder` is the folder of the new crate.
     ///
     /// # Errors
-    /// The checkout is not one.
+    /// `checkout` is not a checkout of odkit.
     pub(super) fn new(
         registry: bool,
         checkout: Option<&Path>,

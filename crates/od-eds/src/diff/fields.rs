@@ -90,7 +90,7 @@ fn storage(group: Group) -> &'static str {
     group.name().unwrap_or("not saved")
 }
 
-/// In the form of an EDS; empty if missing.
+/// Shows a value as an EDS writes it; empty if it is missing.
 fn show(dictionary: Dictionary<'_>, entry: &Entry, literal: Literal) -> String {
     let digits = entry.data_type.size().unwrap_or(1) * 2;
     match literal {

@@ -1,5 +1,5 @@
-//! Twin of a device: it receives the calls of the device, and may answer them elsewhere, on a
-//! microcontroller for instance.
+//! Twin of a device: it receives the calls of the device, and may carry them out elsewhere, for
+//! instance on a microcontroller.
 
 use std::prelude::v1::*;
 
@@ -15,29 +15,29 @@ use crate::shaft::Shaft;
 /// Call of a device, one of [`Node`](od_runtime::Node).
 #[derive(Clone, Copy, Debug)]
 pub enum Call<'a> {
-    /// Power comes; what the EEPROM is delivered with is in it.
+    /// Power on; the EEPROM already contains its factory values.
     PowerOn,
-    /// Power goes, or is off already.
+    /// Power off; the device may be off already.
     PowerOff,
     /// A frame was received.
     Frame(&'a Frame),
     /// A deadline is due.
     Timeout,
-    /// The CAN controller has news.
+    /// The CAN controller reports a change of its state.
     Bus(BusEvent),
     /// Something outside the bus changed.
     Change,
     /// The initialisation ends at once.
     Boot,
-    /// A value changes from the side of the device.
+    /// The device sets a value.
     Value(Address, &'a [u8]),
-    /// An error comes (`true`) or goes from the side of the device.
+    /// The device reports the start (`true`) or the end of an error.
     Error(Emcy, bool),
-    /// End of the row: nothing happens.
+    /// End of a sequence of calls; the device does nothing.
     End,
 }
 
-/// Device before a call: its node after the previous one, its shaft, switches and faults now.
+/// The device before a call: its node as the previous call left it; shaft, switches and faults as they are now.
 pub struct Before<'d> {
     /// The NMT state.
     pub state: State,
