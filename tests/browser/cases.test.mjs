@@ -62,4 +62,6 @@ check('a fault case in German, narrow', { hash: '#case=no-answer&seed=3&lang=de'
   await cases.locator('li[data-made=true]').waitFor();
   assert.ok(await page.evaluate(() => document.querySelector('dialog[open]').scrollWidth <= document.querySelector('dialog[open]').clientWidth + 1), 'nothing is cut off');
   await flawless(page, 'a case in German', 'dialog[open]');
+  await page.keyboard.press('Escape');
+  await cases.waitFor({ state: 'detached' });
 });

@@ -172,8 +172,7 @@ class FaultCases extends View {
     </section>`;
   }
 
-  private case(opened: OpenedCase): TemplateResult {
-    const { name, seed } = state.faultCase.value!;
+  private case(opened: OpenedCase, { name, seed }: { name: string; seed: number }): TemplateResult {
     const isOver = this.mark !== null;
     const copy = (): void => void copyText(location.href).then((isCopied) => (this.isCopied = isCopied));
     return html`<div class="case-head"><h3>${opened.title}</h3><span class="spacer"></span><span class="num muted">${F.seed(seed)}</span>
@@ -201,7 +200,10 @@ class FaultCases extends View {
   protected override render() {
     void this.follow();
     if (this.list === null) return html`<p class="note" role="alert">${F.failed}</p>`;
-    if (this.opened) return this.case(this.opened);
+    const { value: wanted } = state.faultCase;
+    // The dialog is closed: a lesson or another address was opened.
+    if (wanted === null) return html`${nothing}`;
+    if (this.opened) return this.case(this.opened, wanted);
     const done = solved();
     return html`<p class="note">${F.hint}</p>
       <ol class="lesson-list">${this.list.map((one) => html`<li><button class="card" @click=${() => this.open(one.name)}><strong>${one.title}${done.includes(one.name)
