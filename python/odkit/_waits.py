@@ -267,8 +267,10 @@ class Clock:
         self.moment = bench, micros = _odkit.moment() or (None, 0)
         now = self._real() if bench is None else micros * 1000
         ahead = self._ahead.setdefault(bench, self._last - now)
-        # Without a bench the clock continues from the time of the last one.
-        self._last = max(self._last, now + ahead) if bench is None else now + ahead
+        if bench is None:
+            # Without a bench the clock goes on from the time of the last one, which may be hours ahead.
+            ahead = self._ahead[None] = max(ahead, self._last - now)
+        self._last = now + ahead
         return self._last
 
 

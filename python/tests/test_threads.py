@@ -17,6 +17,7 @@ import canopen
 import pytest
 
 import odkit
+from odkit import _odkit, _waits
 
 EDS = os.path.join(os.path.dirname(__file__), "../../devices/eds/GXMM.eds")
 
@@ -329,3 +330,18 @@ for wait in (threading.Event().wait, lambda: bench.run(1e12), lambda: threading.
 """
     done = subprocess.run([sys.executable, "-c", program], stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=100)
     assert done.returncode == 0, done.stderr
+
+
+def test_a_clock_goes_on_from_the_time_of_the_last_bench(monkeypatch):
+    """Not from where the clock of the computer is: an event loop would stand still for hours."""
+    moment, real = None, 0
+    monkeypatch.setattr(_odkit, "moment", lambda: moment)
+    clock = _waits.Clock(lambda: real)
+    moment = (1, 0)
+    assert clock() == 0
+    moment = (1, 60_000_000)
+    assert clock() == 60 * 10**9
+    moment, real = None, 2_000_000
+    assert clock() == 60 * 10**9
+    real = 3_000_000
+    assert clock() == 60 * 10**9 + 1_000_000
