@@ -62,7 +62,23 @@ impl fmt::Display for Error {
             Self::Abort(code) => write!(f, "SDO abort {}", AbortReason(*code)),
             Self::Silent => f.write_str("no response comes in time"),
             Self::OutOfTurn { expected, got } => {
-                write!(f, "{expected} was expected, but {got:?} came")
+                write!(f, "{expected} was expected, but ")?;
+                match got {
+                    Response::InitiateUpload { address, .. }
+                    | Response::InitiateDownload { address }
+                    | Response::Abort { address, .. }
+                    | Response::InitiateBlockDownload { address, .. }
+                    | Response::InitiateBlockUpload { address, .. } => {
+                        write!(f, "a response for {address} came")
+                    }
+                    Response::UploadSegment(_) if *expected == Expected::UploadSegment => {
+                        f.write_str("one with the wrong toggle bit came")
+                    }
+                    Response::DownloadSegment { .. } if *expected == Expected::DownloadSegment => {
+                        f.write_str("one with the wrong toggle bit came")
+                    }
+                    _ => f.write_str("another SDO response came"),
+                }
             }
             Self::TooLong => f.write_str("the value is longer than the client allows"),
             Self::Length {

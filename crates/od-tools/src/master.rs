@@ -184,13 +184,12 @@ impl<L: Link> Master<L> {
             Ok(done) => return Ok(done),
             Err(od_client::Error::Abort(code)) => return Err(Error::Abort(code)),
             Err(od_client::Error::Silent) => format!(
-                "node {node} does not respond to SDO requests within {} s; check its power, its NMT \
-                 state (not Stopped) and its node ID",
+                "node {node} does not respond to SDO requests within {} s (to that for {address}); check its \
+                 power, its NMT state (not Stopped) and its node ID",
                 self.timeout.as_secs_f32()
             ),
-            Err(od_client::Error::OutOfTurn { expected, .. }) => format!(
-                "node {node}: {address}: {expected} was expected, but another SDO response came; does \
-                 another program read or write this node?"
+            Err(error @ od_client::Error::OutOfTurn { .. }) => format!(
+                "node {node}: {address}: {error}; does another program read or write this node?"
             ),
             Err(od_client::Error::TooLong) => {
                 let limit = OPTIONS.limit;

@@ -83,8 +83,12 @@ impl Names {
         }
         let mut identity = [None; 4];
         for (part, sub) in identity.iter_mut().zip(1..=3) {
-            // A node without 1018h has no names. A silent node is reported at the first read.
-            let read = Error::or_abort(master.upload(Address::new(0x1018, sub)))?;
+            // A node without 1018h has no names. A silent node is reported at the first read; one that responds to that
+            // and not to the others has only its vendor.
+            let read = match Error::or_abort(master.upload(Address::new(0x1018, sub))) {
+                Err(Error::Node(_)) if sub > 1 => break,
+                read => read?,
+            };
             let bytes = read.ok().and_then(|bytes| bytes.as_slice().try_into().ok());
             *part = bytes.map(u32::from_le_bytes);
             if part.is_none() {
@@ -177,5 +181,46 @@ pub(crate) fn fit(dictionary: Dictionary<'_>, identity: [Option<u32>; 4]) -> Opt
         Some(Fit::Revision)
     } else {
         Some(Fit::Product)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use od_runtime::{Frame, Instant};
+    use od_sim::bus::Bus;
+    use od_tools::bench::OnBench;
+    use od_tools::link::Heard;
+
+    /// A node that does not respond to requests for 1018h:02.
+    struct Deaf(OnBench<Bus>);
+
+    impl Link for Deaf {
+        fn now(&self) -> Instant {
+            self.0.now()
+        }
+
+        fn send(&mut self, frame: &Frame) -> Result<(), Error> {
+            if frame.data().starts_with(&[0x40, 0x18, 0x10, 2]) {
+                return Ok(());
+            }
+            self.0.send(frame)
+        }
+
+        fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Error> {
+            self.0.receive(until)
+        }
+    }
+
+    #[test]
+    fn a_node_that_does_not_respond_to_a_part_of_1018h_can_be_read() {
+        let mut bus = Bus::new();
+        let number = bus.add(VirtualDevice::new(&DEVICES[0], NodeId::ONE));
+        bus.start(number);
+        let mut master = Master::new(Deaf(OnBench(bus)), NodeId::ONE);
+        assert!(Names(Vec::new()).of(&mut master).is_ok());
+        let refused = master.upload(Address::new(0x1018, 2));
+        let text = refused.expect_err("no response").to_string();
+        assert!(text.contains("to that for 1018h:02"), "{text}");
     }
 }

@@ -24,9 +24,29 @@ fn every_expected_response_has_a_name_of_its_own() {
         assert_eq!(expected.to_string(), text);
         let got = Response::EndBlockDownload;
         let error = Error::OutOfTurn { expected, got };
-        let whole = format!("{text} was expected, but EndBlockDownload came");
+        let whole = format!("{text} was expected, but another SDO response came");
         assert_eq!(error.to_string(), whole);
     }
+}
+
+#[test]
+fn a_response_out_of_turn_is_named_by_its_object_or_its_toggle_bit() {
+    let shown = |expected, data: [u8; 8]| {
+        let got = Response::parse(&data);
+        Error::OutOfTurn { expected, got }.to_string()
+    };
+    assert_eq!(
+        shown(Expected::Upload, [0x43, 0x01, 0x10, 2, 0, 0, 0, 0]),
+        "an upload answer was expected, but a response for 1001h:02 came"
+    );
+    assert_eq!(
+        shown(Expected::UploadSegment, [0x10, 1, 2, 3, 4, 5, 6, 7]),
+        "an upload segment was expected, but one with the wrong toggle bit came"
+    );
+    assert_eq!(
+        shown(Expected::DownloadSegment, [0x30, 0, 0, 0, 0, 0, 0, 0]),
+        "a download segment answer was expected, but one with the wrong toggle bit came"
+    );
 }
 
 #[test]
