@@ -101,7 +101,8 @@ pub fn load(frames: &[Frame], bit_rate: u32) -> f64 {
     let bits = frames
         .iter()
         .map(|frame| frame.rate.unwrap_or(0.0) * f64::from(frame.bits));
-    bits.sum::<f64>() / f64::from(bit_rate.max(1)) / 10.0
+    // The sum of no numbers is -0.
+    (0.0 + bits.sum::<f64>()) / f64::from(bit_rate.max(1)) / 10.0
 }
 
 #[cfg(test)]
@@ -115,5 +116,10 @@ mod tests {
             assert_eq!(frame_bits(false, bytes), 55 + 10 * u32::from(bytes));
             assert_eq!(frame_bits(true, bytes), 80 + 10 * u32::from(bytes));
         }
+    }
+
+    #[test]
+    fn a_network_without_frames_has_no_load() {
+        assert!(load(&[], 250).is_sign_positive());
     }
 }
