@@ -181,3 +181,12 @@ fn a_closed_pipe_does_not_panic() {
     let err = String::from_utf8_lossy(&output.stderr);
     assert!(!err.contains("panicked"), "{err}");
 }
+
+/// A short circuit takes the controller of the script off the bus; it stays off until it is restarted.
+#[test]
+fn a_script_restarts_its_controller_after_bus_off() {
+    let script = "device gxmm node 5\nwait 1s\nline real\nline short\n605#4000100000000000\nwait 500ms\nline short off\n\
+                  605#4000100000000000\nexpect silence 500ms\nline restart\nsdo read 1000h = 0x20196\n";
+    let run = odkit(&["run", "-"], script);
+    assert_eq!(run.code, 0, "{}", run.err);
+}

@@ -36,6 +36,8 @@ pub enum Wire {
     Plugged(bool),
     /// A property of the cable, or of the current device on it.
     Cable(Property),
+    /// The CAN controller of the outside starts again, as after bus-off.
+    Restarted,
 }
 
 /// An action that waits for nothing.
@@ -203,6 +205,7 @@ impl Deed {
                     Wire::BitRate(kbit) => line.bit_rate = kbit,
                     Wire::Plugged(plugged) => line.set_plugged(station, plugged),
                     Wire::Cable(property) => line.set_property(station, property)?,
+                    Wire::Restarted => line.restart(0),
                 }
             }
         }

@@ -48,7 +48,7 @@ pub(super) const VERBS: [Verb; 23] = [
            usage: "bus active, warning, passive, off, overrun, bitrate 250 (kbit/s) or bitrate any" },
     Verb { name: "line", parse: wire,
            usage: "line real, ideal, terminators 2, bitrate 250 (kbit/s), bitrate any, plug, unplug, \
-                   length 100 (m), sample-point 87.5 (%), sjw 1, clock 0.5 (%), short or short off" },
+                   length 100 (m), sample-point 87.5 (%), sjw 1, clock 0.5 (%), short, short off or restart" },
     Verb { name: "master", parse: |tokens| Ok(Action::Deed(Deed::Master(MasterLine::parse(tokens)?))),
            usage: "`master slave 5`, `master expect 5 1018h:02 = 10`, `master write 5 1017h = 100`, \
                    `master heartbeat 5 300ms`, `master sync 100ms`, `master boot` or `master clear`" },

@@ -237,6 +237,7 @@ pub(super) fn wire(tokens: &mut Tokens<'_>) -> Result<Action, Problem> {
             Wire::Cable(Property::Clock(millionths.round() as i32))
         }
         "short" => Wire::Cable(Property::Shorted(!tokens.take("off"))),
+        "restart" => Wire::Restarted,
         word => return Err(here.wrong(format!("a line cannot `{word}`"))),
     })))
 }

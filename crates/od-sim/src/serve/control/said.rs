@@ -97,6 +97,7 @@ fn line(wire: Wire) -> String {
         Wire::Terminators(count) => format!("the bus line has {count} terminators"),
         Wire::BitRate(Some(kbit)) => format!("masters use {kbit} kbit/s on the bus line"),
         Wire::BitRate(None) => String::from("masters use the bit rate of the first node"),
+        Wire::Restarted => String::from("masters and clients send on the bus line again"),
         Wire::Plugged(_) | Wire::Cable(_) => String::from("done"),
     }
 }
