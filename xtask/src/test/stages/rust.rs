@@ -7,7 +7,7 @@ use std::sync::{Mutex, PoisonError};
 
 use crate::console::cargo;
 use crate::error::{Error, Result};
-use crate::packages::{BENCHES, CLI, NO_STD, PAGE_CORE, PEER, PYTHON};
+use crate::packages::{BENCHES, CLI, NO_STD, PAGE_CORE, PEER};
 use crate::setup::target;
 use crate::size::{self, measure};
 use crate::test::context::Context;
@@ -75,25 +75,15 @@ pub(super) fn odkit(context: &Context<'_>) -> Result<PathBuf> {
     Ok(context.repo.target.join("debug"))
 }
 
-/// Compiles the module of Python. It has features of its own: with all features, defmt would give symbols names that no shared
-/// library can export.
-pub(super) fn module(context: &Context<'_>) -> Result<()> {
-    let mut build = cargo(&context.repo.root, &["build", "--package", PYTHON]);
-    context
-        .console
-        .run("building the module of Python", &mut build)
-}
-
 /// Test targets of [`programs`].
 const PROGRAMS: [&str; 1] = ["all"];
 
-/// Builds what several stages run, before they start: all test programs in one call of cargo, and the module of Python.
+/// Builds all test programs in one call of cargo, which compiles in parallel what several stages run.
 pub(super) fn build(context: &Context<'_>) -> Result<()> {
     odkit(context)?;
     let what = ["--lib", "--bins", "--examples", "--tests"];
     let args = [&["test", "--no-run"], &ALL[..], &what].concat();
-    run(context, "test programs", &args)?;
-    module(context)
+    run(context, "test programs", &args)
 }
 
 /// The tests of all packages except the integration tests and [`programs`]; in a quick run only those inside the
