@@ -51,33 +51,40 @@ pub(crate) fn processor_time(process: &str) -> Option<Duration> {
 /// Stops a program and what it started, such as the tests that cargo runs, which would continue without it.
 /// Returns the processor time of all of them. Where the system has no `/proc`, only the program is stopped.
 pub(crate) fn stop(child: &mut Child) -> Duration {
-    let all = Process::all();
-    let own = all.iter().find(|process| process.id == child.id());
-    let below = below(&all, child.id());
-    let used = own.into_iter().chain(&below).map(|process| process.used);
-    let used = used.sum();
-    // The program ends first, so that it starts nothing more.
-    let _ = child.kill();
-    if !below.is_empty() {
-        let mut kill = Command::new("kill");
-        kill.arg("-KILL");
-        kill.args(below.iter().map(|process| process.id.to_string()));
-        let _ = kill.stdout(Stdio::null()).stderr(Stdio::null()).status();
+    let mut known: Vec<Process> = Vec::new();
+    loop {
+        let all = family(&Process::all(), child.id());
+        let is_known = |one: &Process| known.iter().any(|other| other.id == one.id);
+        if all.iter().all(is_known) {
+            break;
+        }
+        // A process that is held starts nothing more; the next look finds what it started before.
+        signal("-STOP", &all);
+        known = all;
     }
+    signal("-KILL", &known);
+    let _ = child.kill();
     let _ = child.wait();
-    used
+    known.iter().map(|process| process.used).sum()
 }
 
-/// The processes that a process started, directly or through others.
-fn below(all: &[Process], id: u32) -> Vec<Process> {
-    let mut found: Vec<Process> = Vec::new();
-    let mut parents = vec![id];
-    while let Some(parent) = parents.pop() {
+/// Sends a signal to processes; to one that ended nothing happens.
+fn signal(name: &str, processes: &[Process]) {
+    let mut kill = Command::new("kill");
+    kill.arg(name);
+    kill.args(processes.iter().map(|process| process.id.to_string()));
+    let _ = kill.stdout(Stdio::null()).stderr(Stdio::null()).status();
+}
+
+/// A process, and those that it started, directly or through others.
+fn family(all: &[Process], id: u32) -> Vec<Process> {
+    let own = all.iter().filter(|process| process.id == id);
+    let mut found: Vec<Process> = own.cloned().collect();
+    let mut at = 0;
+    while let Some(parent) = found.get(at).map(|process| process.id) {
         let children = all.iter().filter(|process| process.parent == parent);
-        for child in children {
-            parents.push(child.id);
-            found.push(child.clone());
-        }
+        found.extend(children.cloned());
+        at += 1;
     }
     found
 }
@@ -89,7 +96,7 @@ mod tests {
     use std::process::{Command, Stdio};
     use std::time::Duration;
 
-    use super::{Process, below, stop};
+    use super::{Process, family, stop};
 
     #[test]
     fn fields_of_a_process() {
@@ -112,9 +119,9 @@ mod tests {
             parent,
             used: Duration::ZERO,
         });
-        let mut ids: Vec<u32> = below(&all, 2).iter().map(|process| process.id).collect();
+        let mut ids: Vec<u32> = family(&all, 2).iter().map(|process| process.id).collect();
         ids.sort_unstable();
-        assert_eq!(ids, [3, 5, 6]);
+        assert_eq!(ids, [2, 3, 5, 6]);
     }
 
     #[test]
