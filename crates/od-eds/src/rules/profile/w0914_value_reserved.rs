@@ -10,7 +10,7 @@ pub(crate) static W0914: Rule = Rule {
     severity: Warning,
     title: "value of a profile object is reserved",
     why: "A device that follows the profile aborts a download of the value, and a master may give the bits another meaning.",
-    source: "CiA 401, 6421h and 6443h; CiA 402, objects from 6007h to 6502h; CiA 404, 6110h; CiA 406, 6000h, 6503h to 6506h; CiA 303-2, units",
+    source: "CiA 401, 6421h, 6443h; CiA 402, 6007h to 6502h; CiA 404, 6110h; CiA 406, 6000h, 6503h to 6506h; CiA 303-2",
     says: "{object} is {given}, but CiA {profile} reserves {reserved}",
     help: "write a value without {reserved}",
     check: Check::Entry(check),
