@@ -329,7 +329,7 @@ fn word(store: &Store<'_>, index: u16) -> u16 {
     (store.unsigned(index, 1) | store.unsigned(index, 2) << 8) as u16
 }
 
-/// What the change of an analogue input from `last`, the value of its last interrupt, to `now` means
+/// The kind of a change of an analogue input from `last`, the value of its last interrupt, to `now`
 /// (CiA 401, 6421h to 6428h). An exceeded limit causes an interrupt at each change, unless a delta is
 /// selected, too. Limits and deltas have the unit of 6401h.
 fn analogue_change(store: &Store<'_>, sub: u8, last: i16, now: i16) -> ChangeKind {

@@ -63,20 +63,19 @@ impl fmt::Display for Error {
             Self::Silent => f.write_str("no response comes in time"),
             Self::OutOfTurn { expected, got } => {
                 write!(f, "{expected} was expected, but ")?;
-                match got {
-                    Response::InitiateUpload { address, .. }
-                    | Response::InitiateDownload { address }
-                    | Response::Abort { address, .. }
-                    | Response::InitiateBlockDownload { address, .. }
-                    | Response::InitiateBlockUpload { address, .. } => {
-                        write!(f, "a response for {address} came")
-                    }
-                    Response::UploadSegment(_) if *expected == Expected::UploadSegment => {
+                match (expected, got) {
+                    (Expected::UploadSegment, Response::UploadSegment(_))
+                    | (Expected::DownloadSegment, Response::DownloadSegment { .. }) => {
                         f.write_str("one with the wrong toggle bit came")
                     }
-                    Response::DownloadSegment { .. } if *expected == Expected::DownloadSegment => {
-                        f.write_str("one with the wrong toggle bit came")
-                    }
+                    (
+                        _,
+                        Response::InitiateUpload { address, .. }
+                        | Response::InitiateDownload { address }
+                        | Response::Abort { address, .. }
+                        | Response::InitiateBlockDownload { address, .. }
+                        | Response::InitiateBlockUpload { address, .. },
+                    ) => write!(f, "a response for {address} came"),
                     _ => f.write_str("another SDO response came"),
                 }
             }

@@ -306,7 +306,7 @@ impl Pin {
     }
 }
 
-/// What a change of a mapped value means for an event-driven TPDO
+/// Kind of a change of a mapped value, by which an event-driven TPDO is sent or not
 /// ([`Application::change_kind`]).
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum ChangeKind {
@@ -424,10 +424,10 @@ pub trait Application {
         let _ = cx;
     }
 
-    /// Returns whether a change of a mapped value is an event for which an event-driven TPDO is
-    /// sent, by a dead band or a mask for example. `last` are the bits that the TPDO sent last, or
-    /// those of the last [masked](ChangeKind::Masked) change; `now` are the current bits. By
-    /// default each change is an event.
+    /// Returns the kind of a change of a mapped value: for an event, an event-driven TPDO is sent. By
+    /// default each change is an event; a dead band or a mask of edges makes fewer. `last` are the
+    /// bits that the TPDO sent last, or those of the last [masked](ChangeKind::Masked) change; `now`
+    /// are the current bits.
     fn change_kind(&self, store: &Store<'_>, address: Address, last: u64, now: u64) -> ChangeKind {
         let _ = (store, address, last, now);
         ChangeKind::Event

@@ -1,4 +1,4 @@
-//! Where a new crate gets odkit's crates from.
+//! Origin of odkit's crates in a new crate: copies, the registry, or a checkout.
 
 use std::path::{Component, Path, PathBuf};
 

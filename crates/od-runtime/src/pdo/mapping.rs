@@ -133,9 +133,9 @@ impl Mapping {
         self.read(&objects.store, mapped)
     }
 
-    /// Returns whether the application accepts a difference between two frames as an event. A
-    /// value whose change it masks becomes that of the last frame.
-    pub(super) fn is_event<D: Services>(
+    /// Returns whether the application accepts a difference between two frames as an event. If not,
+    /// `last` gets the values whose changes are masked.
+    pub(super) fn compare<D: Services>(
         &self,
         objects: &Objects<'_, D>,
         mapped: &[Mapped],

@@ -295,7 +295,7 @@ impl Tpdo {
         if self.watches_changes() && !self.pending {
             let data = self.mapping.sample(objects, mapped);
             self.pending =
-                data != self.last && self.mapping.is_event(objects, mapped, &mut self.last, data);
+                data != self.last && self.mapping.compare(objects, mapped, &mut self.last, data);
         }
     }
 

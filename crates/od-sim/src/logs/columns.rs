@@ -13,6 +13,7 @@ pub(super) fn is_one(line: &str) -> bool {
     is_printed(line) || is_head(line) || is_memorator(line)
 }
 
+/// Returns whether this line has the names of the columns of Memorator.
 fn is_memorator(line: &str) -> bool {
     let words = ["Time", "Chan", "Identifier", "Flags", "DLC", "Data"];
     line.split_whitespace().take(6).eq(words)
@@ -29,11 +30,11 @@ fn is_head(line: &str) -> bool {
 
 pub(super) fn reader<'t>(lines: &[&'t str]) -> Reader<'t> {
     let bases = bases(lines);
-    let has_head = lines.iter().any(|line| is_memorator(line));
+    let is_from_memorator = lines.iter().any(|line| is_memorator(line));
     let mut is_begun = false;
     Box::new(move |line| {
         let line = line.trim();
-        if has_head {
+        if is_from_memorator {
             let is_row = is_begun;
             is_begun |= is_memorator(line);
             // Lines about the logger come before the names, a line of `=` after them.
@@ -131,18 +132,16 @@ fn memorator(line: &str, [base, data_base]: [u32; 2]) -> Result<Entry, String> {
         _ if line.contains("ErrorFrame") => return Ok(Entry::Record(Record::error(at))),
         _ => {}
     }
-    let digits = words.get(2).copied().unwrap_or_default();
-    // The letter of a long CAN-ID of 29 bits follows it at once.
-    let digits = digits
-        .strip_suffix('x')
-        .map_or((digits, false), |digits| (digits, true));
+    // The letter of a CAN-ID of 29 bits is a word of its own, or follows eight digits without a space.
+    let word = words.get(2).copied().unwrap_or_default();
+    let digits = word.trim_end_matches('x');
+    let is_long = digits != word || words.get(3) == Some(&"x");
+    let id = id(digits, base, is_long)?;
     let mut rest = words
         .iter()
         .copied()
         .skip(3)
         .skip_while(|word| *word == "x");
-    let is_long = digits.1 || words.get(3) == Some(&"x");
-    let id = id(digits.0, base, is_long)?;
     let direction = rest.next().unwrap_or_default();
     let mut length = rest.next().unwrap_or_default();
     let mut flags = "";

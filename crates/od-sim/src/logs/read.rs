@@ -147,8 +147,8 @@ fn finish(mut records: Vec<Record>, skipped: Vec<Unread>) -> Log {
     }
 }
 
-/// Returns whether the times are those since the frame before, as `candump -td` prints them: the first is 0, and one of
-/// four is less than the one before it.
+/// Returns whether the times are those since the frame before, as `candump -td` prints them: the first is 0, and at
+/// least one of four is less than the one before it.
 fn are_deltas(records: &[Record]) -> bool {
     let falls = records.windows(2).filter(|pair| pair[1].at < pair[0].at);
     records

@@ -199,8 +199,8 @@ impl Medium {
         true
     }
 
-    /// Takes a station off the line, or connects it again. The frame on its own wire then begins anew on the line. On both, a
-    /// frame begins only after the last one ended.
+    /// Takes a station off the line, or connects it again. A station that is connected while it sends a frame starts the
+    /// frame again on the line. Neither wire has two frames at the same time.
     pub(crate) fn set_apart(&mut self, station: usize, is_apart: bool) {
         let place = self.place(station);
         let free = self.wires[0].free;
