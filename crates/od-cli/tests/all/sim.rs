@@ -346,7 +346,12 @@ fn wrong_usage_is_reported_in_one_line() {
         (
             &["sim", "gxmm", "--rpm", "inf"],
             2,
-            "does not support this `--position` or `--rpm`",
+            "a number of revolutions per minute",
+        ),
+        (
+            &["sim", "drive,io", "--rpm", "60"],
+            2,
+            "no device has a shaft of its own for `--rpm`",
         ),
     ] {
         let sim = odkit(args, "");

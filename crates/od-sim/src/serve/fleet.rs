@@ -66,6 +66,7 @@ pub(super) fn make(makers: &[Maker<'_>], args: &Options) -> Result<Vec<Place>, E
         return Err(Error::Usage(why.into()));
     }
     let mut places: Vec<Place> = Vec::new();
+    let mut has_shaft = false;
     for (at, (maker, channel)) in nodes.into_iter().enumerate() {
         let wanted = args.node_ids.get(at).copied();
         let wanted = wanted.or_else(|| maker.node_id.filter(|_| channel == 0).map(Some));
@@ -90,13 +91,23 @@ pub(super) fn make(makers: &[Maker<'_>], args: &Options) -> Result<Vec<Place>, E
         }
         let beside = match channel {
             0 => {
-                set_shaft(args, maker.name, at, &mut device)?;
+                has_shaft |= set_shaft(args, at, &mut device);
                 None
             }
             // The shaft of the first channel turns it.
             channel => Some(at - usize::from(channel)),
         };
         places.push(Place { device, beside });
+    }
+    let option = match (args.rpm, args.position) {
+        (Some(_), _) => Some("--rpm"),
+        (None, Some(_)) => Some("--position"),
+        (None, None) => None,
+    };
+    if let Some(option) = option.filter(|_| !has_shaft) {
+        return Err(Error::Usage(format!(
+            "no device has a shaft of its own for `{option}`; remove the option, or add an encoder"
+        )));
     }
     Ok(places)
 }
@@ -197,29 +208,18 @@ fn free(device: &VirtualDevice, others: &[Place]) -> Option<u32> {
     alike.contains(&own[3]).then_some(next)
 }
 
-fn set_shaft(
-    args: &Options,
-    name: &str,
-    at: usize,
-    device: &mut VirtualDevice,
-) -> Result<(), Error> {
+/// Places and turns the shaft of a device as the options say. Returns `false` if the device has no
+/// shaft for one of these options.
+fn set_shaft(args: &Options, at: usize, device: &mut VirtualDevice) -> bool {
     let now = Instant::ZERO;
     if let Some(seed) = args.seed {
-        // A device without a shaft has no start position.
         device.turn_to(anywhere(seed, at), now);
     }
     let placed = args
         .position
         .is_none_or(|raw| device.set_position(raw, now));
-    let turns = args
-        .rpm
-        .is_none_or(|rpm| rpm.is_finite() && device.set_rpm(rpm, now));
-    if placed && turns {
-        return Ok(());
-    }
-    Err(Error::Usage(format!(
-        "{name} does not support this `--position` or `--rpm`; change the value or remove the option"
-    )))
+    let turns = args.rpm.is_none_or(|rpm| device.set_rpm(rpm, now));
+    placed && turns
 }
 
 /// Pseudo-random revolutions, the same for the same numbers (SplitMix64).

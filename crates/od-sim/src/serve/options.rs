@@ -210,15 +210,15 @@ pub const CHOICES: [Choice; 17] = [
     Choice {
         name: "position",
         value: "STEPS",
-        help: "Raw position of the shaft at the start in steps (497042 or 0x79592)",
+        help: "Raw position of each encoder's shaft at the start in steps (497042 or 0x79592)",
         set: |options, text| position(text).map(|value| options.position = Some(value)),
         ..PLAIN
     },
     Choice {
         name: "rpm",
         value: "RPM",
-        help: "Speed of the shaft in revolutions per minute; negative: backwards",
-        set: |options, text| number(text).map(|value| options.rpm = Some(value)),
+        help: "Speed of each encoder's shaft in revolutions per minute; negative: backwards",
+        set: |options, text| speed(text).map(|value| options.rpm = Some(value)),
         ..PLAIN
     },
     Choice {
@@ -303,6 +303,11 @@ pub fn node_id(text: &str) -> Result<NodeId, Refused> {
 fn position(text: &str) -> Result<u64, Refused> {
     let value = values::integer(text).and_then(|value| u64::try_from(value).ok());
     value.ok_or_else(|| "write a number of steps, such as 497042 or 0x79592".into())
+}
+
+fn speed(text: &str) -> Result<f64, Refused> {
+    let value = text.parse().ok().filter(|rpm: &f64| rpm.is_finite());
+    value.ok_or_else(|| "write a number of revolutions per minute, such as 60 or -1.5".into())
 }
 
 fn number<T: std::str::FromStr<Err: std::fmt::Display>>(text: &str) -> Result<T, Refused> {

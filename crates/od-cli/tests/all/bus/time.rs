@@ -199,7 +199,8 @@ fn a_bus_is_recorded_replayed_and_monitored() {
 
 #[test]
 fn values_are_watched_by_tpdo_and_by_polls() {
-    let sim = Sim::start(&["gxmm", "--node-id", "5", "--rpm", "60"]);
+    // The drive has no shaft of an encoder; `--rpm` leaves it as it is.
+    let sim = Sim::start(&["gxmm@5,drive@6", "--rpm", "60"]);
     let link = link(&sim);
     let at = ["--link", &link];
     done(&[&["set", "5", "1800h:05=10"], &at[..]].concat());
