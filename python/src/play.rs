@@ -1,6 +1,5 @@
 //! Plays a script on a bench: the portable form of a snapshot.
 
-use std::cell::{Cell, RefCell};
 use std::time::Instant as Clock;
 
 use od_model::Refused;
@@ -21,9 +20,9 @@ use crate::story::Story;
 struct Player {
     names: Vec<String>,
     /// The last check for signals such as Ctrl-C.
-    looked: Cell<Clock>,
+    looked: Clock,
     /// The exception of a signal's handler, which ends the run.
-    raised: RefCell<Option<PyErr>>,
+    raised: Option<PyErr>,
 }
 
 impl Host for Player {
@@ -42,15 +41,15 @@ impl Host for Player {
         Ok(device.delivered())
     }
 
-    fn stops(&self) -> bool {
-        if self.looked.get().elapsed() >= LOOK {
-            self.looked.set(Clock::now());
+    fn stops(&mut self) -> bool {
+        if self.looked.elapsed() >= LOOK {
+            self.looked = Clock::now();
             let handled = Python::attach(|py| py.check_signals());
             if let Err(error) = handled {
-                self.raised.replace(Some(error));
+                self.raised = Some(error);
             }
         }
-        self.raised.borrow().is_some()
+        self.raised.is_some()
     }
 }
 
@@ -102,12 +101,12 @@ fn played(py: Python<'_>, script: &str, names: Option<Vec<String>>) -> PyResult<
         let mut bench = Bench::new(Bus::new());
         let mut player = Player {
             names: Vec::new(),
-            looked: Cell::new(Clock::now()),
-            raised: RefCell::default(),
+            looked: Clock::now(),
+            raised: None,
         };
         let end = run_on(&lines, &mut bench, &mut player);
         let end = end.map(|_| (bench.bus, player.names));
-        player.raised.into_inner().map_or(Ok(end), Err)
+        player.raised.map_or(Ok(end), Err)
     })?;
     let (bus, own) = played.map_err(|stop| {
         let is_failed = matches!(stop.reason, Reason::Failed { .. });

@@ -90,6 +90,10 @@ impl<'a> Workshop<'a> {
 }
 
 impl Host for Workshop<'_> {
+    fn inner(&mut self) -> Option<&mut dyn Host> {
+        Some(&mut self.terminal)
+    }
+
     fn device(
         &mut self,
         name: Option<&str>,

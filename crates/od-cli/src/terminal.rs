@@ -68,7 +68,7 @@ impl Host for Terminal<'_> {
         source.device(node_id)
     }
 
-    fn seed(&self) -> u64 {
+    fn seed(&mut self) -> u64 {
         self.seed
     }
 

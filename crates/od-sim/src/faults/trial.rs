@@ -14,7 +14,7 @@ use crate::chance::Chance;
 use crate::device::VirtualDevice;
 use crate::grammar::problem::Problem;
 use crate::lesson::Block;
-use crate::script::{Host, Limits, Stop, run_on};
+use crate::script::{Host, Stop, run_on};
 
 /// Time between the fault and the first probe, in microseconds.
 const SETTLE: u64 = 1_500_000;
@@ -345,6 +345,10 @@ struct Seeded<'h> {
 }
 
 impl Host for Seeded<'_> {
+    fn inner(&mut self) -> Option<&mut dyn Host> {
+        Some(self.host)
+    }
+
     fn device(
         &mut self,
         name: Option<&str>,
@@ -353,11 +357,7 @@ impl Host for Seeded<'_> {
         self.host.device(name, node_id)
     }
 
-    fn limits(&self) -> Option<Limits> {
-        self.host.limits()
-    }
-
-    fn seed(&self) -> u64 {
+    fn seed(&mut self) -> u64 {
         self.seed
     }
 }

@@ -3,14 +3,13 @@
 use std::prelude::v1::*;
 
 use od_model::Refused;
-use od_runtime::{Frame, Instant, NodeId};
+use od_runtime::NodeId;
 
 use super::condition::Line;
 use super::quiz::Quiz;
-use crate::bus::Bus;
 use crate::device::VirtualDevice;
 use crate::grammar::problem::Problem;
-use crate::script::{Bench, Host, Limits, Origin, Script, Stop, run_on};
+use crate::script::{Bench, Host, Script, Stop, run_on};
 
 /// Names of the blocks that are not part of the text; a device has a block `eds NAME`.
 pub(super) const BLOCKS: [&str; 5] = ["set-up", "checkpoint", "solution", "answer", "facts"];
@@ -138,6 +137,10 @@ struct OwnDevices<'a> {
 }
 
 impl Host for OwnDevices<'_> {
+    fn inner(&mut self) -> Option<&mut dyn Host> {
+        Some(self.host)
+    }
+
     fn device(
         &mut self,
         name: Option<&str>,
@@ -148,18 +151,6 @@ impl Host for OwnDevices<'_> {
             Some((name, text)) => of_eds(name, text, node_id),
             None => self.host.device(name, node_id),
         }
-    }
-
-    fn limits(&self) -> Option<Limits> {
-        self.host.limits()
-    }
-
-    fn frame(&mut self, at: Instant, origin: Origin, frame: &Frame) {
-        self.host.frame(at, origin, frame);
-    }
-
-    fn look(&mut self, bus: &mut Bus) {
-        self.host.look(bus);
     }
 }
 

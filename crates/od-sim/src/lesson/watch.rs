@@ -8,7 +8,7 @@ use od_runtime::{Frame, Instant, NodeId};
 use super::progress::Progress;
 use crate::bus::Bus;
 use crate::device::VirtualDevice;
-use crate::script::{Host, Limits, Origin};
+use crate::script::{Host, Origin};
 
 /// A host that passes all frames to a lesson, too.
 pub struct Watched<'a> {
@@ -19,6 +19,10 @@ pub struct Watched<'a> {
 }
 
 impl Host for Watched<'_> {
+    fn inner(&mut self) -> Option<&mut dyn Host> {
+        Some(self.host)
+    }
+
     fn device(
         &mut self,
         name: Option<&str>,
@@ -27,12 +31,8 @@ impl Host for Watched<'_> {
         self.host.device(name, node_id)
     }
 
-    fn limits(&self) -> Option<Limits> {
-        self.host.limits()
-    }
-
     /// A learner sees a response before the next step.
-    fn waits_for_responses(&self) -> bool {
+    fn waits_for_responses(&mut self) -> bool {
         true
     }
 

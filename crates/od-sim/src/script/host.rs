@@ -27,7 +27,14 @@ impl Origin {
 }
 
 /// Interface of a script to the program that runs it.
+///
+/// A host that wraps another one returns it from `inner`, and defines only what it changes.
 pub trait Host {
+    /// The host that this one wraps. It gets each call that this one does not define.
+    fn inner(&mut self) -> Option<&mut dyn Host> {
+        None
+    }
+
     /// Makes the device of a `device` line: by the name of a built-in one, or of an EDS file.
     /// Without a name, the default device of scripts.
     ///
@@ -40,33 +47,37 @@ pub trait Host {
     ) -> Result<VirtualDevice, Refused>;
 
     /// The limits of a script; `None`: no limits.
-    fn limits(&self) -> Option<Limits> {
-        None
+    fn limits(&mut self) -> Option<Limits> {
+        self.inner()?.limits()
     }
 
     /// Returns whether a line of a script is done only when the responses to its frames are through.
-    fn waits_for_responses(&self) -> bool {
-        false
+    fn waits_for_responses(&mut self) -> bool {
+        self.inner().is_some_and(Host::waits_for_responses)
     }
 
-    /// The seed of the draws of `random` lines.
-    fn seed(&self) -> u64 {
-        0
+    /// The seed of the draws of `random` lines; without a host that has one: 0.
+    fn seed(&mut self) -> u64 {
+        self.inner().map_or(0, Host::seed)
     }
 
     /// Returns whether the run has to end now, as after Ctrl-C. A run asks often.
-    fn stops(&self) -> bool {
-        false
+    fn stops(&mut self) -> bool {
+        self.inner().is_some_and(Host::stops)
     }
 
     /// Called for each frame on the bus.
     fn frame(&mut self, at: Instant, origin: Origin, frame: &Frame) {
-        let _ = (at, origin, frame);
+        if let Some(host) = self.inner() {
+            host.frame(at, origin, frame);
+        }
     }
 
     /// Called after a frame or a line, with the bench after it.
     fn look(&mut self, bus: &mut Bus) {
-        let _ = bus;
+        if let Some(host) = self.inner() {
+            host.look(bus);
+        }
     }
 }
 
@@ -77,16 +88,16 @@ pub(crate) struct Recorder<'a, F> {
 }
 
 impl<F: FnMut(Instant, Origin, Frame)> Host for Recorder<'_, F> {
+    fn inner(&mut self) -> Option<&mut dyn Host> {
+        Some(self.host)
+    }
+
     fn device(
         &mut self,
         name: Option<&str>,
         node_id: Option<NodeId>,
     ) -> Result<VirtualDevice, Refused> {
         self.host.device(name, node_id)
-    }
-
-    fn limits(&self) -> Option<Limits> {
-        self.host.limits()
     }
 
     fn frame(&mut self, at: Instant, origin: Origin, frame: &Frame) {
@@ -103,6 +114,10 @@ pub struct Limited<'a>(
 );
 
 impl Host for Limited<'_> {
+    fn inner(&mut self) -> Option<&mut dyn Host> {
+        Some(self.0)
+    }
+
     fn device(
         &mut self,
         name: Option<&str>,
@@ -111,7 +126,7 @@ impl Host for Limited<'_> {
         self.0.device(name, node_id)
     }
 
-    fn limits(&self) -> Option<Limits> {
+    fn limits(&mut self) -> Option<Limits> {
         Some(self.1)
     }
 }

@@ -421,7 +421,7 @@ impl Runner<'_> {
     }
 
     /// Returns whether there were more frames than the limit of the script, or the host ends the run.
-    fn must_end(&self) -> bool {
+    fn must_end(&mut self) -> bool {
         let frames = self.place.frames.max(self.place.own);
         self.limits.is_some_and(|limits| frames > limits.frames) || self.host.stops()
     }
@@ -447,11 +447,16 @@ impl Runner<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::script::Bare;
-    use std::cell::Cell;
+    use crate::script::{Bare, Limited};
+
+    const AMPLE: Limits = Limits {
+        micros: u64::MAX,
+        devices: 16,
+        frames: u64::MAX,
+    };
 
     /// A host that ends the run when it is asked for the last time.
-    struct Ending(Cell<u32>);
+    struct Ending(u32);
 
     impl Host for Ending {
         fn device(
@@ -462,9 +467,9 @@ mod tests {
             Bare(od_devices::DEVICES).device(name, node_id)
         }
 
-        fn stops(&self) -> bool {
-            self.0.set(self.0.get().saturating_sub(1));
-            self.0.get() == 0
+        fn stops(&mut self) -> bool {
+            self.0 = self.0.saturating_sub(1);
+            self.0 == 0
         }
     }
 
@@ -498,9 +503,13 @@ mod tests {
             "random 10000 times wait 3153600000s",
         ] {
             let script = Script::parse(line).expect("a line");
-            let stop = run(&script, &mut Ending(Cell::new(1000))).expect_err("it ends");
-            let reason = Reason::Impossible("the run was interrupted".into());
-            assert_eq!(stop.reason, reason, "{line}");
+            let mut ending = Ending(1000);
+            let mut wrapped = Limited(&mut ending, AMPLE);
+            for host in [&mut Ending(1000) as &mut dyn Host, &mut wrapped] {
+                let stop = run(&script, host).expect_err("it ends");
+                let reason = Reason::Impossible("the run was interrupted".into());
+                assert_eq!(stop.reason, reason, "{line}");
+            }
         }
     }
 }
