@@ -149,7 +149,22 @@ impl fmt::Debug for Rule {
 }
 
 impl Rule {
-    /// The defaults of a rule.
+    /// The defaults of a rule with this code: its letter gives the severity. A rule whose severity was
+    /// raised sets `severity`, too.
+    pub(crate) const fn of(code: &'static str) -> Self {
+        let severity = match code.as_bytes() {
+            [b'E', ..] => Severity::Error,
+            [b'W', ..] => Severity::Warning,
+            _ => Severity::Info,
+        };
+        Self {
+            code,
+            severity,
+            ..Self::NEW
+        }
+    }
+
+    /// The defaults of words that several rules share.
     pub(crate) const NEW: Self = Self {
         code: "",
         severity: Severity::Info,

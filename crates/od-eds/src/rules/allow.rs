@@ -1,9 +1,6 @@
 //! 08: findings that a file allows: rules that `allow` reports.
 
-use crate::finding::{
-    Finding, Fixability, Rule,
-    Severity::{Info, Warning},
-};
+use crate::finding::{Finding, Fixability, Rule};
 use crate::fix::Fix;
 use crate::span::Span;
 
@@ -14,14 +11,12 @@ table! {
 }
 
 pub(crate) static W0801: Rule = Rule {
-    code: "W0801",
-    severity: Warning,
     title: "odkit-allow names no rule",
     why: "The finding that the author has judged is still reported. `;odkit-allow=` accepts codes of findings in a file, separated by commas; odkit ignores any other code.",
     source: "odkit",
     says: "`{given}` is not the code of a finding",
     help: "write a code such as `W0311`; `odkit explain --list` lists them all",
-    ..Rule::NEW
+    ..Rule::of("W0801")
 };
 
 /// The finding about a code that does not exist, or that no file can allow.
@@ -30,14 +25,12 @@ pub(crate) fn w0801_allow_without_rule(given: &str, span: Span) -> Finding {
 }
 
 pub(crate) static W0802: Rule = Rule {
-    code: "W0802",
-    severity: Warning,
     title: "odkit-allow gives no reason",
     why: "The next person who reads the file cannot judge whether the finding is still acceptable. odkit allows nothing without a reason.",
     source: "odkit",
     says: "`odkit-allow={codes}` gives no reason",
     help: "write `;odkit-allow={codes} ` and the reason",
-    ..Rule::NEW
+    ..Rule::of("W0802")
 };
 
 /// The finding about codes without a reason.
@@ -46,15 +39,13 @@ pub(crate) fn w0802_allow_without_reason(codes: &str, span: Span) -> Finding {
 }
 
 pub(crate) static I0803: Rule = Rule {
-    code: "I0803",
-    severity: Info,
     title: "odkit-allow matches no finding",
     why: "The finding was corrected, and the comment would hide it if it came back.",
     source: "odkit",
     fixability: Fixability::Unsafe,
     says: "`odkit-allow={code}` matches no finding",
     help: "remove the line{fix}",
-    ..Rule::NEW
+    ..Rule::of("I0803")
 };
 
 /// The finding about a code that allows nothing.

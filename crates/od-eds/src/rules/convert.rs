@@ -4,10 +4,7 @@
 use od_model::{Address, DataType};
 
 use crate::fact::{Fact, Key};
-use crate::finding::{
-    Finding, Form, Rule,
-    Severity::{Info, Warning},
-};
+use crate::finding::{Finding, Form, Rule};
 use crate::span::Span;
 
 table! {
@@ -27,15 +24,13 @@ table! {
 }
 
 pub(crate) static W1101: Rule = Rule {
-    code: "W1101",
-    severity: Warning,
     title: "CANopenNode has no storage for the value",
     why: "OD.c has a variable for each value, and its length does not change. A DOMAIN or OCTET_STRING without a default value has no length, so the node aborts each request for it with 06090011h until the application provides the data.",
     source: "CANopenNode 4, 301/CO_ODinterface.h: OD_stream_t",
     example: "[2100] DataType=0x000F, without a DefaultValue",
     says: "OD.c has no storage for a {type} without a default value",
     help: "provide the data by `OD_extension_init`, or add a DefaultValue",
-    ..Rule::NEW
+    ..Rule::of("W1101")
 };
 
 /// The finding about a value without a length.
@@ -44,15 +39,13 @@ pub(crate) fn w1101_no_storage(address: Address, section: Span, data_type: DataT
 }
 
 pub(crate) static W1102: Rule = Rule {
-    code: "W1102",
-    severity: Warning,
     title: "CANopenNode does not add the node ID to the value",
     why: "CANopenNode adds the node ID to the COB-IDs of the pre-defined connection set: 1014h, 1200h, 1400h to 1403h and 1800h to 1803h. Every other value of OD.c is the same for all node IDs; odkit writes it without the node ID.",
     source: "CANopenNode 4, 301/CO_PDO.c, 301/CO_Emergency.c, 301/CO_SDOserver.c",
     example: "[2100] DefaultValue=$NODEID+0x10",
     says: "{DefaultValue} depends on the node ID, and CANopenNode does not add it here",
     help: "add `--node-id 5` to write the value of one node",
-    ..Rule::NEW
+    ..Rule::of("W1102")
 };
 
 /// The finding about a default with `$NODEID`.
@@ -61,15 +54,13 @@ pub(crate) fn w1102_node_id_not_added(address: Address, value: Span) -> Finding 
 }
 
 pub(crate) static W1103: Rule = Rule {
-    code: "W1103",
-    severity: Warning,
     title: "CANopenNode adds the node ID to a fixed COB-ID",
     why: "CANopenNode takes a COB-ID of the pre-defined connection set without node ID for one that follows the node ID: a node with node ID 5 sends 185h where 1800h:01 is 180h. A master that expects the fixed COB-ID does not hear the node.",
     source: "CANopenNode 4, 301/CO_PDO.c, 301/CO_Emergency.c",
     example: "[1800sub1] DefaultValue=0x180",
     says: "CANopenNode adds the node ID to COB-ID {id:03X}h",
     help: "write `{DefaultValue=$NODEID+0x{id:X}}` if it follows the node ID, or another COB-ID",
-    ..Rule::NEW
+    ..Rule::of("W1103")
 };
 
 /// The finding about a COB-ID that is the pre-defined one without node ID.
@@ -79,8 +70,6 @@ pub(crate) fn w1103_node_id_added(address: Address, value: Span, id: u32) -> Fin
 }
 
 pub(crate) static W1104: Rule = Rule {
-    code: "W1104",
-    severity: Warning,
     title: "CANopenNode cannot serve the PDO",
     why: "CANopenNode takes the PDOs one after the other, from 1400h, 1600h, 1800h and 1A00h on, and each has at most 8 mapping entries. After a gap it serves another PDO than the master configures; a PDO with more entries is not valid.",
     source: "CANopenNode 4, CANopen.c: CO_CANopenInitPDO; 301/CO_PDO.h: CO_PDO_MAX_MAPPED_ENTRIES",
@@ -88,7 +77,7 @@ pub(crate) static W1104: Rule = Rule {
     says: "CANopenNode needs {missing}, since it takes PDOs one after the other",
     help: "add {section}; it may be a PDO that is not valid (bit 31 of its COB-ID)",
     also: &[W1104_MANY],
-    ..Rule::NEW
+    ..Rule::of("W1104")
 };
 
 const W1104_MANY: Form = Form {
@@ -110,14 +99,12 @@ pub(crate) fn w1104_many(address: Address, value: Span, count: i128) -> Finding 
 }
 
 pub(crate) static W1105: Rule = Rule {
-    code: "W1105",
-    severity: Warning,
     title: "CANopenNode has no row for the object",
     why: "The list of objects of OD.c ends at index 0, and an object has at most 255 sub-objects. odkit leaves out the object, or its last sub-object; a node aborts each request for it.",
     source: "CANopenNode 4, 301/CO_ODinterface.h: OD_entry_t",
     example: "[2100], an ARRAY with sub-indices 0 to 255",
     says: "an object dictionary of CANopenNode cannot have this object",
-    ..Rule::NEW
+    ..Rule::of("W1105")
 };
 
 /// The finding about an object, or a sub-object, that is left out.
@@ -126,15 +113,13 @@ pub(crate) fn w1105_object_without_row(address: Address, section: Span) -> Findi
 }
 
 pub(crate) static I1106: Rule = Rule {
-    code: "I1106",
-    severity: Info,
     title: "CANopenNode does not check limits",
     why: "OD.c has no LowLimit and no HighLimit: the node accepts each value that a master writes. The application checks it in the `write` function of an extension.",
     source: "CANopenNode 4, 301/CO_ODinterface.h: OD_extension_t",
     example: "[2100] LowLimit=1",
     says: "the node does not check the limits of {count:value|values}",
     help: "check them in the `write` function of an `OD_extension_t`",
-    ..Rule::NEW
+    ..Rule::of("I1106")
 };
 
 /// The finding about all limits.
@@ -143,15 +128,13 @@ pub(crate) fn i1106_limits_not_checked(count: usize) -> Finding {
 }
 
 pub(crate) static I1107: Rule = Rule {
-    code: "I1107",
-    severity: Info,
     title: "CANopenNode needs an object that is missing",
     why: "OD.c compiles, but CANopen.c does not, or its init functions fail, unless the services of these objects are off in CO_driver_target.h: heartbeat consumer (1016h), SYNC producer (1006h), EMCY (1003h, 1014h).",
     source: "CANopenNode 4, CANopen.c and 301/CO_config.h",
     example: "a file without [1016]",
     says: "CANopenNode needs {objects}, unless CO_driver_target.h switches the service off",
     help: "add the objects, or set CO_CONFIG_EM, CO_CONFIG_HB_CONS or CO_CONFIG_SYNC in CO_driver_target.h",
-    ..Rule::NEW
+    ..Rule::of("I1107")
 };
 
 /// The finding about missing objects.
@@ -161,15 +144,13 @@ pub(crate) fn i1107_needed_object_missing(missing: impl Iterator<Item = u16>) ->
 }
 
 pub(crate) static I1108: Rule = Rule {
-    code: "I1108",
-    severity: Info,
     title: "CANopenNode maps single bits only on request",
     why: "CANopenNode maps whole bytes unless CO_CONFIG_PDO has CO_CONFIG_PDO_BITWISE_MAPPING; without it the PDO is not valid.",
     source: "CANopenNode 4, 301/CO_config.h: CO_CONFIG_PDO_BITWISE_MAPPING",
     example: "[1A00sub1] DefaultValue=0x20000001",
     says: "a mapping entry of {bits:bit|bits} needs CO_CONFIG_PDO_BITWISE_MAPPING",
     help: "add it to CO_CONFIG_PDO",
-    ..Rule::NEW
+    ..Rule::of("I1108")
 };
 
 /// The finding about a mapping entry that is not of whole bytes.
@@ -179,15 +160,13 @@ pub(crate) fn i1108_single_bits_on_request(address: Address, value: Span, bits: 
 }
 
 pub(crate) static W1109: Rule = Rule {
-    code: "W1109",
-    severity: Warning,
     title: "CANopenNode does not start without the object",
     why: "CO_CANopenInit returns CO_ERROR_ILLEGAL_ARGUMENT: EMCY needs 1001h and the NMT slave needs 1017h, whatever CO_driver_target.h says.",
     source: "CANopenNode 4, CANopen.c: CO_CANopenInit; 301/CO_NMT_Heartbeat.c: CO_NMT_init",
     example: "a file without [1017]",
     says: "CANopenNode does not start without {object}",
     help: "add {section}; a 1017h of 0 sends no heartbeat",
-    ..Rule::NEW
+    ..Rule::of("W1109")
 };
 
 /// The finding about a missing object that every node of CANopenNode needs.
@@ -198,14 +177,12 @@ pub(crate) fn w1109_cannot_start(missing: u16) -> Finding {
 }
 
 pub(crate) static W1110: Rule = Rule {
-    code: "W1110",
-    severity: Warning,
     title: "DBC cannot describe a multiplexed PDO",
     why: "The frames of a multiplexed PDO name the object that they carry (CiA 301, MPDO), so it has no signals. odkit leaves the message out.",
     source: "CiA 301, multiplexed PDO",
     example: "[1A00sub0] DefaultValue=255",
     says: "DBC cannot describe a multiplexed PDO",
-    ..Rule::NEW
+    ..Rule::of("W1110")
 };
 
 /// The finding about the number of mapped objects.
@@ -214,15 +191,13 @@ pub(crate) fn w1110_multiplexed_pdo(mapping: Address) -> Finding {
 }
 
 pub(crate) static W1111: Rule = Rule {
-    code: "W1111",
-    severity: Warning,
     title: "mapped object has no room in the message",
     why: "A PDO has 64 bits. odkit leaves out the object that does not fit, and those after it.",
     source: "CiA 301, PDO mapping",
     example: "[1A00sub3] maps 32 bits behind 64",
     says: "{mapped} has no room in the 64 bits of the PDO",
     help: "remove a mapping entry, or map a shorter object",
-    ..Rule::NEW
+    ..Rule::of("W1111")
 };
 
 /// The finding about an object beyond the 64 bits of a PDO.
@@ -232,14 +207,12 @@ pub(crate) fn w1111_no_room_in_message(pdo: Address, mapped: Address) -> Finding
 }
 
 pub(crate) static W1112: Rule = Rule {
-    code: "W1112",
-    severity: Warning,
     title: "DBC has only numbers",
     why: "A signal of a DBC is a number. odkit writes the bits of a string or DOMAIN as an unsigned number, lowest byte first.",
     source: "DBC file format, signals",
     example: "[1A00sub1] maps a VISIBLE_STRING",
     says: "the mapped {type} is written as an unsigned number",
-    ..Rule::NEW
+    ..Rule::of("W1112")
 };
 
 /// The finding about a mapped value that is not a number.
@@ -248,15 +221,13 @@ pub(crate) fn w1112_not_a_number(mapped: Address, data_type: DataType) -> Findin
 }
 
 pub(crate) static W1113: Rule = Rule {
-    code: "W1113",
-    severity: Warning,
     title: "two messages of a node have one CAN-ID",
     why: "A DBC has one message for a CAN-ID. odkit keeps the first one in the order SYNC, TIME, EMCY, TPDO, RPDO, SDO, heartbeat.",
     source: "DBC file format, messages",
     example: "[1801sub1] DefaultValue=$NODEID+0x180",
     says: "another message has CAN-ID {id:03X}h",
     help: "write another COB-ID, or `--node-id` for the node ID of the device",
-    ..Rule::NEW
+    ..Rule::of("W1113")
 };
 
 /// The finding about a COB-ID.

@@ -4,7 +4,7 @@ use alloc::string::ToString;
 use od_model::{DataType, Kind, ObjectCode};
 
 use crate::fact::{Fact, Key};
-use crate::finding::{Finding, Form, Rule, Severity::Error};
+use crate::finding::{Finding, Form, Rule};
 use crate::patch::target::Target;
 use crate::rules::values::shared::{NOT_VALID, WHOLE};
 use crate::span::{Span, Spanned};
@@ -25,8 +25,6 @@ table! {
 }
 
 pub(crate) static E0701: Rule = Rule {
-    code: "E0701",
-    severity: Error,
     title: "edit of a missing object",
     why: "A variant changes and removes only objects that its base has. odkit reports the statement and ignores it.",
     source: "odkit, object_dictionary!",
@@ -34,7 +32,7 @@ pub(crate) static E0701: Rule = Rule {
     says: "{object} does not exist",
     help: "list the objects of a file with `odkit dump`",
     also: &[E0701_NEAR, E0701_FIRST, E0701_MEMBERS],
-    ..Rule::NEW
+    ..Rule::of("E0701")
 };
 
 /// Sentence for an object whose index differs in one digit.
@@ -85,15 +83,13 @@ pub(crate) fn e0701_sub_index(target: &Spanned<Target>, subs: &str) -> Finding {
 }
 
 pub(crate) static E0702: Rule = Rule {
-    code: "E0702",
-    severity: Error,
     title: "added object already exists",
     why: "A variant adds only objects that its base lacks. odkit reports the statement and ignores it.",
     source: "odkit, object_dictionary!",
     example: "add 0x1017 { name = \"Heartbeat\"; type = u16 }   // the EDS has 1017h",
     says: "{object} already exists",
     help: "write `modify {target} {{ … }}` to change it",
-    ..Rule::NEW
+    ..Rule::of("E0702")
 };
 
 /// The finding about an `add` of an object or a sub-object that the description has.
@@ -104,15 +100,13 @@ pub(crate) fn e0702_object_exists(target: &Spanned<Target>) -> Finding {
 }
 
 pub(crate) static E0703: Rule = Rule {
-    code: "E0703",
-    severity: Error,
     title: "added sub-object has no object",
     why: "A sub-object belongs to an object, which has to exist before it. odkit reports the statement and ignores it.",
     source: "odkit, object_dictionary!",
     example: "add 0x2000sub1 { name = \"Order\"; type = u8 }",
     says: "`{target}` needs object {object}, which does not exist",
     help: "write `add 0x{object:04X} {{ code = record; name = \"…\" }}` first",
-    ..Rule::NEW
+    ..Rule::of("E0703")
 };
 
 /// The finding about an `add` of a sub-object without an object.
@@ -123,8 +117,6 @@ pub(crate) fn e0703_sub_object_without_object(target: &Spanned<Target>) -> Findi
 }
 
 pub(crate) static E0704: Rule = Rule {
-    code: "E0704",
-    severity: Error,
     title: "object has no sub-objects",
     why: "Only an ARRAY or a RECORD has sub-objects. odkit reports the statement and ignores it.",
     source: "odkit, object_dictionary!",
@@ -132,7 +124,7 @@ pub(crate) static E0704: Rule = Rule {
     says: "{object} has object code {code} and no sub-objects",
     help: "write `0x{object:04X}` for its value",
     also: &[E0704_ADDED],
-    ..Rule::NEW
+    ..Rule::of("E0704")
 };
 
 /// A sub-object that is added.
@@ -158,15 +150,13 @@ pub(crate) fn e0704_added(target: &Spanned<Target>, code: ObjectCode) -> Finding
 }
 
 pub(crate) static E0705: Rule = Rule {
-    code: "E0705",
-    severity: Error,
     title: "added object has no name",
     why: "The handle in Rust gets its name from the name of the object.",
     source: "odkit, object_dictionary!",
     example: "add 0x2000 { type = u16 }",
     says: "`add {target}` lacks {ParameterName}",
     help: "write `{ParameterName=\"…\"}`",
-    ..Rule::NEW
+    ..Rule::of("E0705")
 };
 
 /// The finding about an `add` without a name.
@@ -175,15 +165,13 @@ pub(crate) fn e0705_name_missing(target: &Spanned<Target>) -> Finding {
 }
 
 pub(crate) static E0706: Rule = Rule {
-    code: "E0706",
-    severity: Error,
     title: "added value has no type",
     why: "The handle in Rust gets its type from the type of the value.",
     source: "odkit, object_dictionary!",
     example: "add 0x2000 { name = \"Gain\" }",
     says: "`add {target}` lacks {DataType}",
     help: "write `{DataType={type}}` ({type}), or another type",
-    ..Rule::NEW
+    ..Rule::of("E0706")
 };
 
 /// The finding about an `add` without a type.
@@ -194,8 +182,6 @@ pub(crate) fn e0706_type_missing(target: &Spanned<Target>) -> Finding {
 }
 
 pub(crate) static E0707: Rule = Rule {
-    code: "E0707",
-    severity: Error,
     title: "value of an edit is not valid for its type",
     why: "A default or a limit is a value of its type. odkit keeps the value of the base.",
     source: "odkit, object_dictionary!",
@@ -203,7 +189,7 @@ pub(crate) static E0707: Rule = Rule {
     says: NOT_VALID,
     help: "write {form}",
     also: &[WHOLE],
-    ..Rule::NEW
+    ..Rule::of("E0707")
 };
 
 /// The finding about a value, as it is given, that is not valid for the type.
@@ -225,15 +211,13 @@ pub(crate) fn e0707_value_not_valid(
 }
 
 pub(crate) static E0708: Rule = Rule {
-    code: "E0708",
-    severity: Error,
     title: "value of the base is not valid for the new type",
     why: "An edit that changes the type also has to change the values that are not valid for it. odkit leaves the value out.",
     source: "odkit, object_dictionary!",
     example: "modify 0x1000 { type = u8 }          // its default is 0x20196",
     says: "{key} `{given}` of the base is not a valid {type}",
     help: "write {key} too: {form}, or `none`",
-    ..Rule::NEW
+    ..Rule::of("E0708")
 };
 
 /// The finding about a value that is not valid for the type that an edit gives.
@@ -253,15 +237,13 @@ pub(crate) fn e0708_value_of_base_not_valid(
 }
 
 pub(crate) static E0709: Rule = Rule {
-    code: "E0709",
-    severity: Error,
     title: "sub-object with an object code",
     why: "Only an object has an object code; a sub-object is always a VAR. odkit ignores the code.",
     source: "odkit, object_dictionary!",
     example: "modify 0x1018sub1 { code = var }",
     says: "`{target}` is a sub-object and has no {ObjectType}",
     help: "write `0x{object:04X} {{ {ObjectType=record} }}`",
-    ..Rule::NEW
+    ..Rule::of("E0709")
 };
 
 /// The finding about an object code at a sub-object.
@@ -272,15 +254,13 @@ pub(crate) fn e0709_sub_object_with_object_code(target: &Spanned<Target>, at: Sp
 }
 
 pub(crate) static E0710: Rule = Rule {
-    code: "E0710",
-    severity: Error,
     title: "value of an object with sub-objects",
     why: "Type, access, default and limits belong to the sub-objects. odkit ignores the value.",
     source: "odkit, object_dictionary!",
     example: "modify 0x1018 { default = 5 }        // a RECORD has no value",
     says: "{object} has sub-objects, and {key} belongs to one of them",
     help: "write the sub-object, such as `0x{object:04X}sub1`",
-    ..Rule::NEW
+    ..Rule::of("E0710")
 };
 
 /// The finding about a field of a value at an object with sub-objects.
@@ -296,8 +276,6 @@ pub(crate) fn e0710_value_of_object_with_sub_objects(
 }
 
 pub(crate) static E0711: Rule = Rule {
-    code: "E0711",
-    severity: Error,
     title: "field does not apply to the type",
     why: "A PDO carries values of fixed length, only strings and DOMAINs have room of a length that is chosen, and only numbers have limits. odkit ignores the field.",
     source: "odkit, object_dictionary!; CiA 301, data types and PDO mapping parameter",
@@ -305,7 +283,7 @@ pub(crate) static E0711: Rule = Rule {
     says: "{type} has a fixed length, and no {key}",
     help: "remove {key}, or write another type, such as `{DataType=OCTET_STRING}`",
     also: &[E0711_MAPPABLE, E0711_LIMIT],
-    ..Rule::NEW
+    ..Rule::of("E0711")
 };
 
 /// A string or DOMAIN that is to be mapped.
@@ -344,8 +322,6 @@ pub(crate) fn e0711_mappable(target: &Spanned<Target>, at: Span, data_type: Data
 }
 
 pub(crate) static E0712: Rule = Rule {
-    code: "E0712",
-    severity: Error,
     title: "added object has an index of the data types",
     why: "Below 1000h CiA 301 has data types (0001h to 001Fh, 0020h to 025Fh) and reserved indices; a mapping entry such as 0005h maps a dummy. odkit ignores the statement.",
     source: "CiA 301, object dictionary structure; odkit, object_dictionary!",
@@ -353,7 +329,7 @@ pub(crate) static E0712: Rule = Rule {
     says: "{object} is below 1000h, where CiA 301 has data types",
     help: "write an index from `0x2000` to `0x5FFF` for an object of your own",
     also: &[E0712_ZERO],
-    ..Rule::NEW
+    ..Rule::of("E0712")
 };
 
 /// Sentence for index 0, which has no meaning.

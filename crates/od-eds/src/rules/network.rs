@@ -1,9 +1,6 @@
 //! 12: nodes of a network that do not fit together: rules that `network::check` and the readers of networks report.
 
-use crate::finding::{
-    Finding, Form, Rule,
-    Severity::{Error, Warning},
-};
+use crate::finding::{Finding, Form, Rule, Severity::Error};
 use crate::scan::forms::near;
 use crate::scan::section::Text;
 
@@ -19,15 +16,13 @@ table! {
 }
 
 pub(crate) static E1201: Rule = Rule {
-    code: "E1201",
-    severity: Error,
     title: "two nodes have one node ID",
     why: "Both nodes answer each SDO request, and send with the same CAN-IDs: the bus reports bit errors, and the master cannot tell them apart.",
     source: "CiA 301, node ID",
     example: "two nodes with node_id: 5",
     says: "{first} and {second} have node ID {id}",
     help: "give each node a node ID of its own, from 1 to 127",
-    ..Rule::NEW
+    ..Rule::of("E1201")
 };
 
 /// The finding about two nodes.
@@ -37,15 +32,13 @@ pub(crate) fn e1201_same_node_id(first: &str, second: &str, id: u8) -> Finding {
 }
 
 pub(crate) static E1202: Rule = Rule {
-    code: "E1202",
-    severity: Error,
     title: "two nodes send one CAN-ID",
     why: "Two frames with one CAN-ID that begin at the same time have a bit error, which no arbitration resolves; and no receiver can tell which node sent a frame.",
     source: "CiA 301, pre-defined connection set; ISO 11898-1",
     example: "TPDO 1 of two nodes has cob_id: 0x181",
     says: "{first} and {second} have CAN-ID {id:03X}h",
     help: "give one of them another COB-ID, or make it not valid",
-    ..Rule::NEW
+    ..Rule::of("E1202")
 };
 
 /// The finding about two senders.
@@ -55,15 +48,13 @@ pub(crate) fn e1202_same_can_id(first: &str, second: &str, id: u32) -> Finding {
 }
 
 pub(crate) static W1203: Rule = Rule {
-    code: "W1203",
-    severity: Warning,
     title: "consumer without a producer",
     why: "A node waits for a message that no node of the network sends: an RPDO keeps its values, a heartbeat consumer reports an error.",
     source: "CiA 301, PDO, SYNC, TIME and heartbeat",
     example: "1016h:01 = 0x000503E8, without node 5",
     says: "{consumer} waits for {what}, which no node sends",
     help: "add the producer, or make the consumer not valid",
-    ..Rule::NEW
+    ..Rule::of("W1203")
 };
 
 /// The finding about a consumer.
@@ -73,15 +64,13 @@ pub(crate) fn w1203_no_producer(consumer: &str, what: &str) -> Finding {
 }
 
 pub(crate) static E1204: Rule = Rule {
-    code: "E1204",
-    severity: Error,
     title: "heartbeat consumer time is too short",
     why: "The consumer time is not longer than the time between two heartbeats, so the consumer reports an error although the producer works.",
     source: "CiA 301, consumer heartbeat time (1016h)",
     example: "1016h:01 = 0x00050064 for a node 5 with 1017h = 100",
     says: "{consumer} waits {time} ms for the heartbeat of {producer}, which comes every {period} ms",
     help: "write at least 1.5 times the producer heartbeat time to 1016h",
-    ..Rule::NEW
+    ..Rule::of("E1204")
 };
 
 /// The finding about a consumer and its producer.
@@ -99,15 +88,13 @@ pub(crate) fn e1204_consumer_time_too_short(
 }
 
 pub(crate) static W1205: Rule = Rule {
-    code: "W1205",
-    severity: Warning,
     title: "bus load is too high",
     why: "The periodic frames, with all stuff bits, take more than 80 % of the time: frames of low priority come late, and from 100 % on some never come.",
     source: "ISO 11898-1, frame format",
     example: "50 TPDOs of 8 bytes every 10 ms at 250 kbit/s",
     says: "periodic frames take up to {percent} % of {rate} kbit/s",
     help: "send them less often, or use a higher bit rate",
-    ..Rule::NEW
+    ..Rule::of("W1205")
 };
 
 /// The finding about the bus load in percent.
@@ -117,15 +104,13 @@ pub(crate) fn w1205_bus_load(load: f64, rate: u32) -> Finding {
 }
 
 pub(crate) static W1206: Rule = Rule {
-    code: "W1206",
-    severity: Warning,
     title: "PDO is shorter than its consumer maps",
     why: "A node does not process a PDO that is shorter than its mapping, and sends EMCY 8210h.",
     source: "CiA 301, PDO length and EMCY error code 8210h",
     example: "TPDO 1 with 2 bytes, received by an RPDO with 4",
     says: "{consumer} maps {mapped:byte|bytes}, but {producer} sends {sent:byte|bytes}",
     help: "map as many bytes as the producer sends, or map more objects in the producer",
-    ..Rule::NEW
+    ..Rule::of("W1206")
 };
 
 /// The finding about a PDO and its consumer.
@@ -144,8 +129,6 @@ pub(crate) fn w1206_pdo_too_short(
 }
 
 pub(crate) static W1207: Rule = Rule {
-    code: "W1207",
-    severity: Warning,
     title: "node list contradicts itself or a DCF",
     why: "A configuration tool leaves the node out, or configures it for another node ID or bit rate than it has.",
     source: "CiA 306-3, Topology; CiA 306-1, DeviceComissioning",
@@ -153,7 +136,7 @@ pub(crate) static W1207: Rule = Rule {
     says: "Nodes is {given}, but {count:node is|nodes are} present",
     help: "write `Nodes=0x{count:02X}`",
     also: &[NODE_ID, PRESENT, OTHER_ID, BIT_RATE],
-    ..Rule::NEW
+    ..Rule::of("W1207")
 };
 
 /// Sentence for the key of a node that cannot exist.
@@ -209,15 +192,13 @@ pub(crate) fn w1207_bit_rate_differs(file: &Text<'_>, own: u32, first: u32) -> F
 }
 
 pub(crate) static W1208: Rule = Rule {
-    code: "W1208",
-    severity: Warning,
     title: "key of a project is probably misspelled",
     why: "dcfgen ignores the key, and the node keeps the value of its EDS.",
     source: "dcf-tools, dcfgen; ros2_canopen",
     example: "heartbeat_produce: 100",
     says: "{node}: `{given}` is not a key of dcfgen",
     help: "write `{right}`",
-    ..Rule::NEW
+    ..Rule::of("W1208")
 };
 
 /// Returns the finding about a key of a node, if it looks like one that dcfgen knows.

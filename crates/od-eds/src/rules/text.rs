@@ -4,10 +4,7 @@ use alloc::format;
 use alloc::string::String;
 
 use crate::fact::Key;
-use crate::finding::{
-    Finding, Fixability, Form, Rule,
-    Severity::{Error, Info, Warning},
-};
+use crate::finding::{Finding, Fixability, Form, Rule, Severity::Error};
 use crate::fix::Fix;
 use crate::scan::encoding::Encoding;
 use crate::scan::lines;
@@ -38,8 +35,6 @@ table! {
 }
 
 pub(crate) static W0101: Rule = Rule {
-    code: "W0101",
-    severity: Warning,
     title: "line is not a section, a key or a comment",
     why: "Most EDS parsers stop at such a line. odkit ignores it.",
     source: "CiA 306-1, file format",
@@ -47,7 +42,7 @@ pub(crate) static W0101: Rule = Rule {
     says: "`{given}` is not a section, a `key=value` line or a comment",
     help: "start the line with `;`{fix}, or remove it",
     also: &[W0101_NO_SIGN],
-    ..Rule::NEW
+    ..Rule::of("W0101")
 };
 
 /// Sentence for a key and a value without an equals sign.
@@ -71,15 +66,13 @@ pub(crate) fn w0101_unknown_line(line: Spanned<&str>) -> Finding {
 }
 
 pub(crate) static W0102: Rule = Rule {
-    code: "W0102",
-    severity: Warning,
     title: "line has no key before the `=`",
     why: "A tool can read a value only by its key. odkit ignores the line.",
     source: "CiA 306-1, file format",
     fixability: Fixability::Safe,
     says: "`{given}` has no key before the `=`",
     help: "start the line with `;`{fix}, or write a key before the `=`",
-    ..Rule::NEW
+    ..Rule::of("W0102")
 };
 
 /// The finding about a line without a key.
@@ -89,7 +82,6 @@ pub(crate) fn w0102_no_key(line: Spanned<&str>) -> Finding {
 }
 
 pub(crate) static W0103: Rule = Rule {
-    code: "W0103",
     severity: Error,
     buildable: true,
     title: "section header has no closing bracket",
@@ -98,7 +90,7 @@ pub(crate) static W0103: Rule = Rule {
     fixability: Fixability::Safe,
     says: "header of section `{given}` has no closing bracket",
     help: "write `[{given}]`{fix}",
-    ..Rule::NEW
+    ..Rule::of("W0103")
 };
 
 /// The finding about a header without a closing bracket.
@@ -108,15 +100,13 @@ pub(crate) fn w0103_no_closing_bracket(line: Span, name: Spanned<&str>) -> Findi
 }
 
 pub(crate) static W0104: Rule = Rule {
-    code: "W0104",
-    severity: Warning,
     title: "text after a section header",
     why: "Most EDS parsers stop at such a line. odkit ignores the text.",
     source: "CiA 306-1, file format",
     fixability: Fixability::Safe,
     says: "`{given}` follows the section header `[{name}]`",
     help: "move the text to a line that starts with `;`{fix}",
-    ..Rule::NEW
+    ..Rule::of("W0104")
 };
 
 /// The finding about text after a header; the fix makes it a comment below the header.
@@ -128,14 +118,12 @@ pub(crate) fn w0104_text_after_header(name: &str, text: Spanned<&str>) -> Findin
 }
 
 pub(crate) static W0105: Rule = Rule {
-    code: "W0105",
-    severity: Warning,
     title: "key before the first section",
     why: "A key belongs to a section. odkit keeps the key and ignores it.",
     source: "CiA 306-1, file format",
     says: "`{name}` is before the first section",
     help: "write a section header such as `[FileInfo]` above it",
-    ..Rule::NEW
+    ..Rule::of("W0105")
 };
 
 /// The finding about a key without a section.
@@ -144,14 +132,12 @@ pub(crate) fn w0105_key_before_section(line: Span, key: &str) -> Finding {
 }
 
 pub(crate) static W0106: Rule = Rule {
-    code: "W0106",
-    severity: Warning,
     title: "duplicate section",
     why: "Tools differ in which of the two they use. odkit uses the first and keeps both.",
     source: "CiA 306-1, file format",
     says: "duplicate section [{name}]",
     help: "move the keys of both into one section",
-    ..Rule::NEW
+    ..Rule::of("W0106")
 };
 
 /// The label at the first of two.
@@ -164,15 +150,13 @@ pub(crate) fn w0106_duplicate_section(second: &TextSection<'_>, first: Span) -> 
 }
 
 pub(crate) static W0107: Rule = Rule {
-    code: "W0107",
-    severity: Warning,
     title: "duplicate key",
     why: "Some tools stop at a second line with the same key. odkit uses the first.",
     source: "CiA 306-1, file format",
     fixability: Fixability::Safe,
     says: "duplicate key `{name}`",
     help: "remove `{name}={given}`{fix}",
-    ..Rule::NEW
+    ..Rule::of("W0107")
 };
 
 /// The finding about a second line of a key with the same value.
@@ -189,15 +173,13 @@ fn repeated(rule: &'static Rule, first: Span, key: &Text<'_>, value: &Text<'_>) 
 }
 
 pub(crate) static W0108: Rule = Rule {
-    code: "W0108",
-    severity: Warning,
     title: "`:` instead of `=`",
     why: "Only some EDS parsers accept it. odkit reads it as `=`.",
     source: "CiA 306-1, file format",
     fixability: Fixability::Safe,
     says: "`{name}` is followed by `:` instead of `=`",
     help: "write `{name}={given}`{fix}",
-    ..Rule::NEW
+    ..Rule::of("W0108")
 };
 
 /// The finding about a colon between key and value.
@@ -207,15 +189,13 @@ pub(crate) fn w0108_colon(colon: Span, key: &str, value: &str) -> Finding {
 }
 
 pub(crate) static W0109: Rule = Rule {
-    code: "W0109",
-    severity: Warning,
     title: "comment after a value",
     why: "A comment needs a line of its own; after a value it is part of the value. odkit ignores it if the value is a number.",
     source: "CiA 306-1, file format",
     fixability: Fixability::Safe,
     says: "`{given}` has a comment after the value",
     help: "write `{key={right}}`, and the comment on the next line{fix}",
-    ..Rule::NEW
+    ..Rule::of("W0109")
 };
 
 /// The finding about a value with a comment after it; the fix gives the comment its own line.
@@ -232,14 +212,12 @@ pub(crate) fn w0109_comment_after_value(key: Key, given: &Text<'_>, value: &str)
 }
 
 pub(crate) static W0110: Rule = Rule {
-    code: "W0110",
-    severity: Warning,
     title: "section header without a name",
     why: "A tool can find a section only by its name. odkit keeps the section and ignores it.",
     source: "CiA 306-1, file format",
     says: "section header has no name",
     help: "write a name between the brackets",
-    ..Rule::NEW
+    ..Rule::of("W0110")
 };
 
 /// The finding about empty brackets.
@@ -248,15 +226,13 @@ pub(crate) fn w0110_header_without_name(header: Span) -> Finding {
 }
 
 pub(crate) static I0111: Rule = Rule {
-    code: "I0111",
-    severity: Info,
     title: "file is not ASCII",
     why: "CiA 306 requires ASCII. odkit also reads UTF-8, UTF-16 and Windows-1252, with or without a byte order mark; many EDS parsers read only one of them.",
     source: "CiA 306-1, file format",
     says: "file is encoded in {encoding}",
     help: "save the file as ASCII if a tool cannot read it",
     also: &[I0111_MARKED],
-    ..Rule::NEW
+    ..Rule::of("I0111")
 };
 
 /// The sentence for a file with a byte order mark.
@@ -276,14 +252,12 @@ pub(crate) fn i0111_not_ascii(first: Span, encoding: Encoding, marked: bool) -> 
 }
 
 pub(crate) static W0112: Rule = Rule {
-    code: "W0112",
-    severity: Warning,
     title: "byte is not valid in the file's encoding",
     why: "The file mixes two encodings, or is incomplete. odkit reads the byte as Windows-1252 in UTF-8 and as U+FFFD in UTF-16; a file that odkit writes keeps it.",
     source: "CiA 306-1, file format",
     says: "invalid {encoding} byte",
     help: "retype the character, or save the file in one encoding",
-    ..Rule::NEW
+    ..Rule::of("W0112")
 };
 
 /// The finding about the first byte that is not valid in the encoding.
@@ -292,14 +266,12 @@ pub(crate) fn w0112_encoding(at: Span, encoding: Encoding) -> Finding {
 }
 
 pub(crate) static E0113: Rule = Rule {
-    code: "E0113",
-    severity: Error,
     title: "XML is not well-formed",
     why: "No tool can read such a file, and odkit reads nothing of it.",
     source: "XML 1.0",
     says: "XML is not well-formed: {error}",
     help: "correct the XML",
-    ..Rule::NEW
+    ..Rule::of("E0113")
 };
 
 /// The finding about the place where the XML breaks, in the words of its parser.
@@ -309,15 +281,13 @@ pub(crate) fn e0113_xml_not_well_formed(at: Span, error: &str) -> Finding {
 }
 
 pub(crate) static E0114: Rule = Rule {
-    code: "E0114",
-    severity: Error,
     title: "object of an XDD has no valid index",
     why: "An index has four hexadecimal digits and a sub-index two, without `0x`. odkit leaves the element out.",
     source: "CiA 311, CANopenObject",
     says: "`{given}` is not a valid {name}",
     help: "write {digits} hexadecimal digits",
     also: &[E0114_MISSING],
-    ..Rule::NEW
+    ..Rule::of("E0114")
 };
 
 /// The sentence for an element without the attribute.
@@ -342,14 +312,12 @@ pub(crate) fn e0114_xdd_index_not_valid(
 }
 
 pub(crate) static E0115: Rule = Rule {
-    code: "E0115",
-    severity: Error,
     title: "object of an XDD refers to a missing parameter",
     why: "The parameter gives type, access and default value of the object. odkit reads only the attributes of the object itself.",
     source: "CiA 311, CANopenObject",
     says: "no parameter has the uniqueID `{given}`",
     help: "add the parameter, or write its attributes at the object",
-    ..Rule::NEW
+    ..Rule::of("E0115")
 };
 
 /// The finding about a reference to a parameter that does not exist.
@@ -359,15 +327,13 @@ pub(crate) fn e0115_xdd_parameter_missing(at: Span, id: &str) -> Finding {
 }
 
 pub(crate) static W0116: Rule = Rule {
-    code: "W0116",
-    severity: Warning,
     title: "too many findings of one rule",
     why: "A file with this many findings of one rule is likely not a device description. odkit reports the first 10,000 findings of each rule and counts the others.",
     source: "odkit, limits of a report",
     example: "a file with 10,001 lines that are neither a section, a key nor a comment",
     says: "{rule} has {more:more finding|more findings} from here on",
     help: "correct the first {kept:finding|findings}, then check the file again",
-    ..Rule::NEW
+    ..Rule::of("W0116")
 };
 
 /// The finding that further findings of a rule are left out.
@@ -382,8 +348,6 @@ pub(crate) fn w0116_too_many_findings(
 }
 
 pub(crate) static E0117: Rule = Rule {
-    code: "E0117",
-    severity: Error,
     buildable: true,
     title: "duplicate key with another value",
     why: "Tools differ in which of the two they use, and some stop. odkit uses the first.",
@@ -391,7 +355,7 @@ pub(crate) static E0117: Rule = Rule {
     fixability: Fixability::Unsafe,
     says: "duplicate key `{name}` with another value",
     help: "remove `{name}={given}`{fix}, or the other line",
-    ..Rule::NEW
+    ..Rule::of("E0117")
 };
 
 /// The finding about a second line of a key; a tool that uses the last one reads another value.
@@ -404,14 +368,12 @@ pub(crate) fn e0117_duplicate_key_differs(
 }
 
 pub(crate) static E0118: Rule = Rule {
-    code: "E0118",
-    severity: Error,
     title: "mark of a merge conflict",
     why: "The file has two versions of the lines around the mark, and most tools stop at it. odkit ignores the mark and reads both versions.",
     source: "CiA 306-1, file format; git, merge conflicts",
     says: "`{given}` is a mark of a merge conflict that is not resolved",
     help: "keep one of the two versions, and remove the lines with `<<<<<<<`, `=======` and `>>>>>>>`",
-    ..Rule::NEW
+    ..Rule::of("E0118")
 };
 
 /// The finding about a line that git writes between two versions.
@@ -420,15 +382,13 @@ pub(crate) fn e0118_merge_conflict(line: Spanned<&str>) -> Finding {
 }
 
 pub(crate) static E0119: Rule = Rule {
-    code: "E0119",
-    severity: Error,
     title: "file is too large to be a device file",
     why: "No device file is that large, and a tool that reads it may run out of memory or never end. odkit ignores a line that is too long, and everything from the line on at which a file has too many; of an XML file it reads nothing.",
     source: "odkit, limits of a file",
     example: "a line of 2 MB, or a file with 200,000 sections",
     says: "the {part} has more than {most} {of}",
     help: "remove what does not describe the device",
-    ..Rule::NEW
+    ..Rule::of("E0119")
 };
 
 /// The finding about a part of a file with more than `most` bytes, lines or sections.
@@ -438,14 +398,12 @@ pub(crate) fn e0119_too_large(at: Span, part: &str, most: usize, of: &str) -> Fi
 }
 
 pub(crate) static W0120: Rule = Rule {
-    code: "W0120",
-    severity: Warning,
     title: "value of an XDD has no objectType",
     why: "The schema requires the attribute, and a tool that checks a file by it rejects the file. odkit assumes 7 (VAR).",
     source: "CiA 311, CANopenObject and CANopenSubObject",
     says: "attribute objectType is missing",
     help: "add `objectType=\"7\"` (VAR), or `objectType=\"2\"` for a DOMAIN",
-    ..Rule::NEW
+    ..Rule::of("W0120")
 };
 
 /// The finding about a value without objectType.

@@ -1,18 +1,16 @@
 use alloc::vec::Vec;
 
 use crate::description::Description;
-use crate::finding::{Check, Finding, Rule, Severity::Error};
+use crate::finding::{Check, Finding, Rule};
 
 pub(crate) static E0210: Rule = Rule {
-    code: "E0210",
-    severity: Error,
     title: "file defines no object",
     why: "The file is empty, or it is not an EDS or a DCF. No device can be built.",
     source: "CiA 306-1",
     says: "the file defines no object",
     help: "add a section for each object, such as [1000]",
     check: Check::Device(check),
-    ..Rule::NEW
+    ..Rule::of("E0210")
 };
 
 fn check(description: &Description, findings: &mut Vec<Finding>) {

@@ -4,7 +4,6 @@ use crate::description::Description;
 use crate::finding::{Check, Finding, Rule, Severity::Warning};
 
 pub(crate) static I0240: Rule = Rule {
-    code: "I0240",
     severity: Warning,
     title: "[FileInfo] or [DeviceInfo] is missing",
     why: "A tool reads there what the file is and which device it describes.",
@@ -12,7 +11,7 @@ pub(crate) static I0240: Rule = Rule {
     says: "section [{section}] is missing",
     help: "add a section [{section}]",
     check: Check::Device(check),
-    ..Rule::NEW
+    ..Rule::of("I0240")
 };
 
 fn check(description: &Description, findings: &mut Vec<Finding>) {

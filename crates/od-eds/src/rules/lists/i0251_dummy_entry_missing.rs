@@ -4,12 +4,10 @@ use alloc::vec::Vec;
 
 use crate::description::Description;
 use crate::fact::Fact;
-use crate::finding::{Check, Finding, Fixability, Rule, Severity::Info};
+use crate::finding::{Check, Finding, Fixability, Rule};
 use crate::fix::Fix;
 
 pub(crate) static I0251: Rule = Rule {
-    code: "I0251",
-    severity: Info,
     title: "[DummyUsage] lacks a dummy entry",
     why: "Some tools require an entry for each of the seven dummies, 0001h to 0007h. odkit assumes 0 for a missing one.",
     source: "CiA 306-1, DummyUsage",
@@ -17,7 +15,7 @@ pub(crate) static I0251: Rule = Rule {
     says: "[DummyUsage] lacks {missing}",
     help: "write 0 for each{fix}, or 1 if RPDOs may map the dummy entry",
     check: Check::Device(check),
-    ..Rule::NEW
+    ..Rule::of("I0251")
 };
 
 fn check(description: &Description, findings: &mut Vec<Finding>) {

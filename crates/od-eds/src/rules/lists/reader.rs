@@ -20,7 +20,6 @@ use crate::span::Spanned;
 use alloc::string::String;
 
 pub(crate) static W0201: Rule = Rule {
-    code: "W0201",
     severity: Error,
     buildable: true,
     title: "listed object has no section",
@@ -29,7 +28,7 @@ pub(crate) static W0201: Rule = Rule {
     fixability: Fixability::Unsafe,
     says: "{object} is listed, but section [{object:04X}] is missing",
     help: "remove the entry{fix}, or add the section",
-    ..Rule::NEW
+    ..Rule::of("W0201")
 };
 
 /// The finding about an entry of a list whose object has no section.
@@ -41,14 +40,12 @@ pub(crate) fn w0201_section_missing(entry: Span, index: u16) -> Finding {
 }
 
 pub(crate) static W0202: Rule = Rule {
-    code: "W0202",
-    severity: Warning,
     title: "object is missing from the lists",
     why: "A tool that follows the lists does not find the object. odkit keeps it.",
     source: "CiA 306-1, object lists",
     says: "{object} is missing from the object lists",
     help: "add `0x{object:04X}` to [{list}]",
-    ..Rule::NEW
+    ..Rule::of("W0202")
 };
 
 /// The finding about an object that no list has.
@@ -60,7 +57,6 @@ pub(crate) fn w0202_object_not_listed(object: Span, index: u16) -> Finding {
 }
 
 pub(crate) static W0203: Rule = Rule {
-    code: "W0203",
     severity: Error,
     buildable: true,
     title: "object lists are missing or empty",
@@ -68,7 +64,7 @@ pub(crate) static W0203: Rule = Rule {
     source: "CiA 306-1, object lists",
     says: "the object lists are missing or empty",
     help: "list the objects in [MandatoryObjects], [OptionalObjects] and [ManufacturerObjects]",
-    ..Rule::NEW
+    ..Rule::of("W0203")
 };
 
 /// The finding about a file whose lists are missing or empty.
@@ -77,8 +73,6 @@ pub(crate) fn w0203_lists_missing() -> Finding {
 }
 
 pub(crate) static W0204: Rule = Rule {
-    code: "W0204",
-    severity: Warning,
     buildable: true,
     title: "SupportedObjects does not match its list",
     why: "Many tools read only as many entries as SupportedObjects says. odkit reads all entries.",
@@ -87,7 +81,7 @@ pub(crate) static W0204: Rule = Rule {
     says: "SupportedObjects is {given}, but the list has {found:entry|entries}",
     help: "write `SupportedObjects={found}`{fix}",
     also: &[W0204_MISSING, W0204_XDD],
-    ..Rule::NEW
+    ..Rule::of("W0204")
 };
 
 /// Sentence for a list without SupportedObjects.
@@ -139,7 +133,6 @@ pub(crate) fn w0204_supported_objects_count(
 }
 
 pub(crate) static W0205: Rule = Rule {
-    code: "W0205",
     severity: Error,
     buildable: true,
     title: "list entry is not valid",
@@ -147,7 +140,7 @@ pub(crate) static W0205: Rule = Rule {
     source: "CiA 306-1, object lists",
     says: "`{entry}` is not a valid list entry",
     help: "write a number and an index, such as `1=0x1000`",
-    ..Rule::NEW
+    ..Rule::of("W0205")
 };
 
 /// The finding about an entry that is not a number and an index.
@@ -158,14 +151,12 @@ pub(crate) fn w0205_list_entry_not_valid(key: &Text<'_>, value: &Text<'_>) -> Fi
 }
 
 pub(crate) static W0206: Rule = Rule {
-    code: "W0206",
-    severity: Warning,
     title: "object is in the wrong list",
     why: "A tool that reads only one list misses the object. 2000h to 5FFFh belong to [ManufacturerObjects], 1000h, 1001h and 1018h to [MandatoryObjects], all others to [OptionalObjects].",
     source: "CiA 306-1, object lists",
     says: "{object} belongs to [{right}], not to [{wrong}]",
     help: "move the entry to [{right}]",
-    ..Rule::NEW
+    ..Rule::of("W0206")
 };
 
 /// The finding about an entry in the wrong list.
@@ -178,15 +169,13 @@ pub(crate) fn w0206_wrong_list(entry: Span, index: u16, list: List) -> Finding {
 }
 
 pub(crate) static W0207: Rule = Rule {
-    code: "W0207",
-    severity: Warning,
     title: "object is listed twice",
     why: "Some tools create two objects. odkit ignores the second entry.",
     source: "CiA 306-1, object lists",
     fixability: Fixability::Safe,
     says: "duplicate entry for {object}",
     help: "remove one of the entries{fix}",
-    ..Rule::NEW
+    ..Rule::of("W0207")
 };
 
 /// The finding about a second entry for an object.
@@ -199,14 +188,12 @@ pub(crate) fn w0207_listed_twice(entry: Span, index: u16, first: Span) -> Findin
 }
 
 pub(crate) static E0208: Rule = Rule {
-    code: "E0208",
-    severity: Error,
     title: "sub-index without its object",
     why: "A tool that reads the object finds neither its name nor its object code. odkit keeps the sub-objects in an object without a name.",
     source: "CiA 306-1, object sections",
     says: "section [{object:04X}] of this sub-object is missing",
     help: "add a section [{object:04X}] with `{ObjectType=0x9}` (RECORD) or `{ObjectType=0x8}` (ARRAY)",
-    ..Rule::NEW
+    ..Rule::of("E0208")
 };
 
 /// The finding about the first section of a sub-object without its object.
@@ -215,14 +202,12 @@ pub(crate) fn e0208_sub_index_without_object(member: Span, index: u16) -> Findin
 }
 
 pub(crate) static W0209: Rule = Rule {
-    code: "W0209",
-    severity: Warning,
     title: "compact section without CompactSubObj",
     why: "A tool ignores the names and values in the section. [xxxxName], [xxxxValue] and [xxxxDenotation] belong to an object with CompactSubObj. odkit keeps the section and ignores it.",
     source: "CiA 306-1, CompactSubObj",
     says: "[{name}] needs an object with {CompactSubObj}",
     help: "write `{CompactSubObj=}` and the number of sub-objects in [{object:04X}], or remove the section",
-    ..Rule::NEW
+    ..Rule::of("W0209")
 };
 
 /// The finding about a compact section of an object without CompactSubObj.
@@ -234,15 +219,13 @@ pub(crate) fn w0209_compact_without_key(section: &TextSection<'_>, index: u16) -
 }
 
 pub(crate) static I0211: Rule = Rule {
-    code: "I0211",
-    severity: Info,
     title: "section is not defined in CiA 306",
     why: "A typo in the name of an object hides the object. odkit keeps the section and ignores it; some tools store notes in sections of their own.",
     source: "CiA 306-1, file format",
     buildable: true,
     says: "[{name}] is not a section of CiA 306",
     help: "write `[2000]` or `[2000sub1]` if an object is meant",
-    ..Rule::NEW
+    ..Rule::of("I0211")
 };
 
 /// The finding about a section that CiA 306 does not define.
@@ -262,7 +245,6 @@ fn is_object(section: &TextSection<'_>) -> bool {
 }
 
 pub(crate) static I0212: Rule = Rule {
-    code: "I0212",
     severity: Warning,
     buildable: true,
     title: "section name is not written as `1018` or `1018sub2`",
@@ -271,7 +253,7 @@ pub(crate) static I0212: Rule = Rule {
     fixability: Fixability::Either,
     says: "odkit reads [{name}] as [{right}]",
     help: "write `[{right}]`{fix}",
-    ..Rule::NEW
+    ..Rule::of("I0212")
 };
 
 /// The finding about a section of an object with another spelling of its name.
@@ -305,8 +287,6 @@ pub(crate) fn i0212_section_name_spelling(section: &TextSection<'_>, right: &str
 }
 
 pub(crate) static W0213: Rule = Rule {
-    code: "W0213",
-    severity: Warning,
     buildable: true,
     title: "section name is probably misspelled",
     why: "A tool ignores the section. odkit keeps it and ignores it.",
@@ -314,7 +294,7 @@ pub(crate) static W0213: Rule = Rule {
     fixability: Fixability::Unsafe,
     says: "[{name}] is not a section of CiA 306",
     help: "write `[{meant}]` if this section is meant{fix}",
-    ..Rule::NEW
+    ..Rule::of("W0213")
 };
 
 /// The finding about a section whose name is probably misspelled.
@@ -328,15 +308,13 @@ pub(crate) fn w0213_section_misspelled(section: &TextSection<'_>, meant: &str) -
 }
 
 pub(crate) static W0214: Rule = Rule {
-    code: "W0214",
-    severity: Warning,
     title: "duplicate number in a list",
     why: "A tool that asks for each number misses one of the two entries. odkit reads both.",
     source: "CiA 306-1, object lists",
     fixability: Fixability::Safe,
     says: "duplicate entry number {number}",
     help: "number the entries 1, 2, 3 and so on{fix}",
-    ..Rule::NEW
+    ..Rule::of("W0214")
 };
 
 /// The finding about a number that another entry of the list has.
@@ -349,15 +327,13 @@ pub(crate) fn w0214_number_twice(renumbered: Fix, key: &Text<'_>, first: Span) -
 }
 
 pub(crate) static W0215: Rule = Rule {
-    code: "W0215",
-    severity: Warning,
     title: "list of a module does not match its sections",
     why: "A configuration tool creates only the objects that the list names. odkit reads every section.",
     source: "CiA 306-1, modular devices",
     says: "{object} is listed, but its section in module {module} is missing",
     help: "add the section, or remove the entry",
     also: &[W0215_UNLISTED],
-    ..Rule::NEW
+    ..Rule::of("W0215")
 };
 
 /// Sentence for a section that the list lacks.
@@ -381,15 +357,13 @@ pub(crate) fn w0215_unlisted(header: Span, index: u16, list: &str) -> Finding {
 }
 
 pub(crate) static W0217: Rule = Rule {
-    code: "W0217",
-    severity: Warning,
     title: "key or section of a DCF in an EDS",
     why: "An EDS describes a type of device, a DCF one configured device. A tool ignores the value in an EDS, or configures every device of the type with it. odkit uses the value.",
     source: "CiA 306-1, DCF",
     says: "`{name}` belongs to a DCF, and this file is an EDS",
     help: "remove the key, or save the file as a DCF (`FileName` and file name ending in `.dcf`)",
     also: &[W0217_SECTION],
-    ..Rule::NEW
+    ..Rule::of("W0217")
 };
 
 /// Sentence for a section.
@@ -409,8 +383,6 @@ pub(crate) fn w0217_dcf_section(header: Span, name: &str) -> Finding {
 }
 
 pub(crate) static W0218: Rule = Rule {
-    code: "W0218",
-    severity: Warning,
     title: "list entry is not written as `1=0x1000`",
     why: "Many tools read another index, or none, or never ask for the entry. odkit reads the entry as it is meant.",
     source: "CiA 306-1, object lists",
@@ -418,7 +390,7 @@ pub(crate) static W0218: Rule = Rule {
     says: "odkit reads list entry `{given}` as {object}",
     help: "write `0x{object:04X}`{fix}",
     also: &[W0218_NUMBER],
-    ..Rule::NEW
+    ..Rule::of("W0218")
 };
 
 /// Sentence for the number of an entry.
@@ -444,7 +416,6 @@ pub(crate) fn w0218_number(key: &Text<'_>, number: i128) -> Finding {
 }
 
 pub(crate) static W0242: Rule = Rule {
-    code: "W0242",
     severity: Error,
     buildable: true,
     title: "list entries are not numbered 1, 2, 3",
@@ -453,7 +424,7 @@ pub(crate) static W0242: Rule = Rule {
     fixability: Fixability::Safe,
     says: "entry {place} of the list has number {number}",
     help: "number the entries 1, 2, 3 and so on{fix}",
-    ..Rule::NEW
+    ..Rule::of("W0242")
 };
 
 /// The finding about the first entry of a list whose number is not its position.
@@ -481,14 +452,12 @@ pub(crate) fn w0242_renumbered(list: &TextSection<'_>) -> Fix {
 }
 
 pub(crate) static W0249: Rule = Rule {
-    code: "W0249",
-    severity: Warning,
     title: "module extends an object that does not exist",
     why: "A configuration tool has no object to add the sub-objects of the module to.",
     source: "CiA 306-1, modular devices",
     says: "module {module} extends {object}, which is missing in the device and in the module",
     help: "add {missing}, or remove the section",
-    ..Rule::NEW
+    ..Rule::of("W0249")
 };
 
 /// The finding about the section of an extension.
@@ -499,15 +468,13 @@ pub(crate) fn w0249_extended_object_missing(header: Span, index: u16, module: u1
 }
 
 pub(crate) static W0252: Rule = Rule {
-    code: "W0252",
-    severity: Warning,
     title: "bit rate is not one of CiA 306",
     why: "A tool ignores the key and does not offer the bit rate. odkit keeps the key and ignores it.",
     source: "CiA 306-1, DeviceInfo; CiA 301, bit rates",
     says: "`{name}` is not a key of [DeviceInfo]",
     help: "write BaudRate_10, 20, 50, 125, 250, 500, 800 or 1000, or remove the line",
     also: &[W0252_XDD],
-    ..Rule::NEW
+    ..Rule::of("W0252")
 };
 
 /// Sentence for a bit rate of an XDD.

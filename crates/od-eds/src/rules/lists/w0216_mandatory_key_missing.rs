@@ -3,18 +3,16 @@ use alloc::vec::Vec;
 
 use crate::description::Description;
 use crate::fact::Fact;
-use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Rule};
 
 pub(crate) static W0216: Rule = Rule {
-    code: "W0216",
-    severity: Warning,
     title: "mandatory key of [FileInfo] or [DeviceInfo] is missing",
     why: "A tool that identifies the file or the device by the key finds nothing, and some tools stop. odkit assumes that the value is empty or 0.",
     source: "CiA 306-1, FileInfo and DeviceInfo",
     says: "[{section}] lacks {missing}",
     help: "add each key with its value, such as `{first}=`",
     check: Check::Device(check),
-    ..Rule::NEW
+    ..Rule::of("W0216")
 };
 
 /// The mandatory keys. ModificationTime, ModificationDate and ModifiedBy belong to files that were changed;

@@ -2,12 +2,10 @@ use alloc::format;
 use alloc::vec::Vec;
 
 use crate::description::Description;
-use crate::finding::{Check, Finding, Form, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Form, Rule};
 use crate::scan::number::number;
 
 pub(crate) static W0219: Rule = Rule {
-    code: "W0219",
-    severity: Warning,
     title: "[Tools] does not match its sections",
     why: "A tool cannot start the program that belongs to the device.",
     source: "CiA 306-1, Tools",
@@ -15,7 +13,7 @@ pub(crate) static W0219: Rule = Rule {
     help: "add a section [Tool{tool}], or lower Items",
     also: &[LACKS],
     check: Check::Device(check),
-    ..Rule::NEW
+    ..Rule::of("W0219")
 };
 
 /// Sentence for a tool without a name or a command.

@@ -2,13 +2,11 @@ use alloc::format;
 use alloc::vec::Vec;
 
 use crate::description::Description;
-use crate::finding::{Check, Finding, Fixability, Form, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Fixability, Form, Rule};
 use crate::fix::Fix;
 use crate::scan::number::number;
 
 pub(crate) static W0241: Rule = Rule {
-    code: "W0241",
-    severity: Warning,
     title: "Lines does not match [Comments]",
     why: "A tool that trusts Lines shows too few comments, or stops at a missing one.",
     source: "CiA 306-1, Comments",
@@ -17,7 +15,7 @@ pub(crate) static W0241: Rule = Rule {
     help: "write `Lines={lines}`{fix}",
     also: &[MISSING],
     check: Check::Device(check),
-    ..Rule::NEW
+    ..Rule::of("W0241")
 };
 
 /// Sentence for comments without Lines.

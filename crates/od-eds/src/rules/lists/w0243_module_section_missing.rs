@@ -7,8 +7,6 @@ use crate::scan::number::number;
 use crate::span::Span;
 
 pub(crate) static W0243: Rule = Rule {
-    code: "W0243",
-    severity: Severity::Warning,
     buildable: true,
     title: "module has no section",
     why: "A configuration tool offers the module but cannot add it. [SupportedModules] counts the modules; [MxModuleInfo] describes module x.",
@@ -17,7 +15,7 @@ pub(crate) static W0243: Rule = Rule {
     help: "add a section [{section}], or lower NrOfEntries",
     also: &[CONNECTED],
     check: Check::Device(check),
-    ..Rule::NEW
+    ..Rule::of("W0243")
 };
 
 /// The help for a module that is connected and not supported.

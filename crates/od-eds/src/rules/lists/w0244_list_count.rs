@@ -2,13 +2,11 @@ use alloc::format;
 use alloc::vec::Vec;
 
 use crate::description::Description;
-use crate::finding::{Check, Finding, Fixability, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Fixability, Rule};
 use crate::fix::Fix;
 use crate::scan::number::number;
 
 pub(crate) static W0244: Rule = Rule {
-    code: "W0244",
-    severity: Warning,
     title: "NrOfEntries does not match its list",
     why: "A configuration tool reads only as many entries as NrOfEntries says.",
     source: "CiA 306-1, SupportedModules",
@@ -16,7 +14,7 @@ pub(crate) static W0244: Rule = Rule {
     says: "NrOfEntries is {given}, but the list has {count:entry|entries}",
     help: "write `NrOfEntries={count}`{fix}",
     check: Check::Device(check),
-    ..Rule::NEW
+    ..Rule::of("W0244")
 };
 
 fn check(description: &Description, findings: &mut Vec<Finding>) {

@@ -2,19 +2,17 @@ use alloc::format;
 use alloc::vec::Vec;
 
 use crate::description::Description;
-use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Rule};
 use crate::scan::number::number;
 
 pub(crate) static W0245: Rule = Rule {
-    code: "W0245",
-    severity: Warning,
     title: "segment of [DynamicChannels] is incomplete",
     why: "A programmable device cannot place its variables: each segment needs a type, a direction, a range and an offset in the process image.",
     source: "CiA 306-1, DynamicChannels",
     says: "{field} of segment {segment} is missing",
     help: "add `{field}=`, or lower NrOfSeg",
     check: Check::Device(check),
-    ..Rule::NEW
+    ..Rule::of("W0245")
 };
 
 fn check(description: &Description, findings: &mut Vec<Finding>) {

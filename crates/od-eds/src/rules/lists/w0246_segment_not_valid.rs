@@ -2,13 +2,11 @@ use alloc::format;
 use alloc::vec::Vec;
 
 use crate::description::Description;
-use crate::finding::{Check, Finding, Form, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Form, Rule};
 use crate::scan::number::number;
 use od_model::{Access, DataType};
 
 pub(crate) static W0246: Rule = Rule {
-    code: "W0246",
-    severity: Warning,
     title: "segment of [DynamicChannels] is not valid",
     why: "A programmable device cannot place its variables. Network variables are at A000h to AFFFh.",
     source: "CiA 306-1, DynamicChannels; CiA 302, network variables",
@@ -16,7 +14,7 @@ pub(crate) static W0246: Rule = Rule {
     help: "write the first and the last index, such as `0xA080-0xA0BF`",
     also: &[TYPE, DIRECTION, MEETS, COUNT, BEYOND],
     check: Check::Device(check),
-    ..Rule::NEW
+    ..Rule::of("W0246")
 };
 
 /// Sentence for a type.

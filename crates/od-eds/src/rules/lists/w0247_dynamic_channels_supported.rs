@@ -1,12 +1,10 @@
 use alloc::vec::Vec;
 
 use crate::description::Description;
-use crate::finding::{Check, Finding, Form, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Form, Rule};
 use crate::scan::number::number;
 
 pub(crate) static W0247: Rule = Rule {
-    code: "W0247",
-    severity: Warning,
     title: "DynamicChannelsSupported does not match [DynamicChannels]",
     why: "A tool for programmable devices places no variables, or looks for a section that does not exist.",
     source: "CiA 306-1, DeviceInfo and DynamicChannels",
@@ -14,7 +12,7 @@ pub(crate) static W0247: Rule = Rule {
     help: "add a section [DynamicChannels], or write 0",
     also: &[DENIED],
     check: Check::Device(check),
-    ..Rule::NEW
+    ..Rule::of("W0247")
 };
 
 /// Sentence for a section that `[DeviceInfo]` denies.

@@ -2,12 +2,10 @@ use alloc::format;
 use alloc::vec::Vec;
 
 use crate::description::Description;
-use crate::finding::{Check, Finding, Form, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Form, Rule};
 use crate::scan::number::number;
 
 pub(crate) static W0248: Rule = Rule {
-    code: "W0248",
-    severity: Warning,
     title: "[MxModuleInfo] is incomplete or belongs to no module",
     why: "A configuration tool does not offer the module, or shows it without a name.",
     source: "CiA 306-1, MxModuleInfo",
@@ -15,7 +13,7 @@ pub(crate) static W0248: Rule = Rule {
     help: "add `{module}=` and the name of the module to [SupportedModules]",
     also: &[LACKS],
     check: Check::Device(check),
-    ..Rule::NEW
+    ..Rule::of("W0248")
 };
 
 /// Sentence for a module without a key.

@@ -1,19 +1,17 @@
 use alloc::vec::Vec;
 
 use crate::description::Description;
-use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Rule};
 use od_model::DataType;
 
 pub(crate) static W0253: Rule = Rule {
-    code: "W0253",
-    severity: Warning,
     title: "[DummyUsage] names a type that cannot be a dummy entry",
     why: "A tool may offer a dummy entry that has no length. Only data types with a fixed length can be mapped.",
     source: "CiA 306-1, DummyUsage; CiA 301, dummy mapping",
     says: "`{name}` does not name a data type with a fixed length",
     help: "remove the line; the dummy entries are `Dummy0001` to `Dummy0007`",
     check: Check::Device(check),
-    ..Rule::NEW
+    ..Rule::of("W0253")
 };
 
 fn check(description: &Description, findings: &mut Vec<Finding>) {

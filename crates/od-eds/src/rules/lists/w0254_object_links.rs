@@ -1,12 +1,10 @@
 use alloc::vec::Vec;
 
 use crate::description::Description;
-use crate::finding::{Check, Finding, Form, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Form, Rule};
 use crate::scan::number::number;
 
 pub(crate) static W0254: Rule = Rule {
-    code: "W0254",
-    severity: Warning,
     title: "[XXXXObjectLinks] does not match its objects",
     why: "A tool that shows linked objects together misses one, or looks for an object that does not exist.",
     source: "CiA 306-1, object links",
@@ -14,7 +12,7 @@ pub(crate) static W0254: Rule = Rule {
     help: "write `ObjectLinks={count}`",
     also: &[TARGET, OWNER],
     check: Check::Device(check),
-    ..Rule::NEW
+    ..Rule::of("W0254")
 };
 
 /// Sentence for a link to nothing.

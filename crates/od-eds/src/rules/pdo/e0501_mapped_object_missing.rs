@@ -1,20 +1,18 @@
 use alloc::vec::Vec;
 
 use crate::fact::Fact;
-use crate::finding::{Check, Finding, Rule, Severity::Error};
+use crate::finding::{Check, Finding, Rule};
 use crate::rules::pdo::shared::mapped;
 use crate::subject::Object;
 
 pub(crate) static E0501: Rule = Rule {
-    code: "E0501",
-    severity: Error,
     title: "PDO maps an object that does not exist",
     why: "A device cannot build the PDO, and a master cannot decode it.",
     source: "CiA 301, PDO mapping parameter",
     says: "mapped object {object} does not exist",
     help: "map an object that exists, or add {object}",
     check: Check::Object(check),
-    ..Rule::NEW
+    ..Rule::of("E0501")
 };
 
 fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {

@@ -1,13 +1,11 @@
 use alloc::vec::Vec;
 
-use crate::finding::{Check, Finding, Fixability, Rule, Severity::Error};
+use crate::finding::{Check, Finding, Fixability, Rule};
 use crate::fix::Fix;
 use crate::rules::pdo::shared::mapped;
 use crate::subject::Object;
 
 pub(crate) static E0502: Rule = Rule {
-    code: "E0502",
-    severity: Error,
     title: "PDO maps an object that is not mappable",
     why: "A device aborts the download of a mapping entry whose object has PDOMapping 0.",
     source: "CiA 301, PDO mapping parameter",
@@ -15,7 +13,7 @@ pub(crate) static E0502: Rule = Rule {
     says: "{object} \"{name}\" is not mappable",
     help: "write `{PDOMapping=1}` for {object}{fix}, or map another object",
     check: Check::Object(check),
-    ..Rule::NEW
+    ..Rule::of("E0502")
 };
 
 fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {

@@ -1,12 +1,10 @@
 use alloc::vec::Vec;
 
-use crate::finding::{Check, Finding, Form, Rule, Severity::Error};
+use crate::finding::{Check, Finding, Form, Rule};
 use crate::rules::pdo::shared::mapped;
 use crate::subject::{Entry, Object};
 
 pub(crate) static E0503: Rule = Rule {
-    code: "E0503",
-    severity: Error,
     title: "PDO maps an object of the wrong direction",
     why: "A TPDO sends values that a master can read (`ro`, `rw`, `rwr`, `const`), an RPDO values that a master can write (`wo`, `rw`, `rww`).",
     source: "CiA 306-1, AccessType",
@@ -14,7 +12,7 @@ pub(crate) static E0503: Rule = Rule {
     help: "map an object with {AccessType} `ro`, `rw`, `rwr` or `const`",
     also: &[RPDO],
     check: Check::Object(check),
-    ..Rule::NEW
+    ..Rule::of("E0503")
 };
 
 /// The sentences for an RPDO.

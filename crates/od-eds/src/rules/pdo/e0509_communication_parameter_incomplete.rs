@@ -2,15 +2,13 @@ use alloc::format;
 use alloc::vec::Vec;
 
 use crate::fact::Fact;
-use crate::finding::{Check, Finding, Fixability, Form, Rule, Severity::Error};
+use crate::finding::{Check, Finding, Fixability, Form, Rule};
 use crate::fix::Fix;
 use crate::rules::pdo::shared::is_communication;
 use crate::subject::Object;
 use od_model::DataType;
 
 pub(crate) static E0509: Rule = Rule {
-    code: "E0509",
-    severity: Error,
     title: "PDO communication parameter lacks COB-ID or transmission type",
     why: "Sub-index 1 is the COB-ID, an UNSIGNED32; sub-index 2 is the transmission type, an UNSIGNED8. A master needs both to configure the PDO.",
     source: "CiA 301, PDO communication parameter",
@@ -19,7 +17,7 @@ pub(crate) static E0509: Rule = Rule {
     help: "add {missing}",
     also: &[TYPE],
     check: Check::Object(check),
-    ..Rule::NEW
+    ..Rule::of("E0509")
 };
 
 /// The sentences for a value of another type.

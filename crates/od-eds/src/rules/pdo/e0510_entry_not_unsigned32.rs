@@ -1,14 +1,12 @@
 use alloc::vec::Vec;
 
-use crate::finding::{Check, Finding, Fixability, Rule, Severity::Error};
+use crate::finding::{Check, Finding, Fixability, Rule};
 use crate::fix::Fix;
 use crate::rules::pdo::shared::counted;
 use crate::subject::Object;
 use od_model::DataType;
 
 pub(crate) static E0510: Rule = Rule {
-    code: "E0510",
-    severity: Error,
     title: "mapping entry is not an UNSIGNED32",
     why: "A mapping entry holds index, sub-index and length in one UNSIGNED32. A master that writes it as four bytes gets an SDO abort.",
     source: "CiA 301, PDO mapping parameter",
@@ -16,7 +14,7 @@ pub(crate) static E0510: Rule = Rule {
     says: "mapping entry is {given} but must be {right}",
     help: "write `{DataType={right}}`{fix}",
     check: Check::Object(check),
-    ..Rule::NEW
+    ..Rule::of("E0510")
 };
 
 fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {

@@ -1,20 +1,18 @@
 use alloc::vec::Vec;
 
 use crate::fact::Fact;
-use crate::finding::{Check, Finding, Rule, Severity::Error};
+use crate::finding::{Check, Finding, Rule};
 use crate::rules::pdo::shared::mapped;
 use crate::subject::Object;
 
 pub(crate) static E0512: Rule = Rule {
-    code: "E0512",
-    severity: Error,
     title: "PDO maps a sub-index that does not exist",
     why: "A device cannot build the PDO, and a master cannot decode it.",
     source: "CiA 301, PDO mapping parameter",
     says: "mapped sub-object {sub} does not exist",
     help: "map a sub-object that exists, or add {sub}",
     check: Check::Object(check),
-    ..Rule::NEW
+    ..Rule::of("E0512")
 };
 
 fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {

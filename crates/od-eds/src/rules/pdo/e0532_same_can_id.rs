@@ -2,12 +2,10 @@ use alloc::vec::Vec;
 
 use crate::description::Description;
 use crate::fact::Fact;
-use crate::finding::{Check, Finding, Form, Rule, Severity::Error};
+use crate::finding::{Check, Finding, Form, Rule};
 use crate::rules::pdo::cob_ids::{CobId, Service, cob_ids};
 
 pub(crate) static E0532: Rule = Rule {
-    code: "E0532",
-    severity: Error,
     title: "two services have the same CAN-ID",
     why: "Two devices send with the same CAN-ID, which ends in bus errors, or a device takes the message of one service for that of the other.",
     source: "CiA 301, COB-ID and predefined connection set",
@@ -15,7 +13,7 @@ pub(crate) static E0532: Rule = Rule {
     help: "write a CAN-ID that no other service has, or set bit 31 (`0x80000000`) if the service is not used",
     also: &[ONE, DEFAULT, DEFAULT_ONE, SHARED],
     check: Check::Device(check),
-    ..Rule::NEW
+    ..Rule::of("E0532")
 };
 
 /// Sentence for the CAN-ID of a service by the predefined connection set.

@@ -1,14 +1,12 @@
 use alloc::format;
 use alloc::vec::Vec;
 
-use crate::finding::{Check, Finding, Fixability, Rule, Severity::Error};
+use crate::finding::{Check, Finding, Fixability, Rule};
 use crate::fix::Fix;
 use crate::rules::pdo::shared::default_sdo;
 use crate::subject::Entry;
 
 pub(crate) static E0533: Rule = Rule {
-    code: "E0533",
-    severity: Error,
     buildable: true,
     title: "COB-ID of the default SDO is not standard",
     why: "A master sends requests to the default SDO with CAN-ID 600h + node ID and expects responses with 580h + node ID.",
@@ -17,7 +15,7 @@ pub(crate) static E0533: Rule = Rule {
     says: "COB-ID of the default SDO must be {base:X}h + node ID",
     help: "write `$NODEID+0x{base:X}`{fix}",
     check: Check::Entry(check),
-    ..Rule::NEW
+    ..Rule::of("E0533")
 };
 
 fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {

@@ -1,13 +1,11 @@
 use alloc::vec::Vec;
 
-use crate::finding::{Check, Finding, Rule, Severity::Error};
+use crate::finding::{Check, Finding, Rule};
 use crate::rules::pdo::shared::transmission_type;
 use crate::subject::{Object, start_number};
 use od_model::Address;
 
 pub(crate) static E0537: Rule = Rule {
-    code: "E0537",
-    severity: Error,
     buildable: true,
     title: "multiplexed PDO is synchronous",
     why: "A multiplexed PDO is event-driven: with a synchronous type the device cannot send what changes, and a receiver takes the values at the wrong time.",
@@ -15,7 +13,7 @@ pub(crate) static E0537: Rule = Rule {
     says: "transmission type {given} is not valid for a multiplexed PDO",
     help: "write 254 or 255",
     check: Check::Object(check),
-    ..Rule::NEW
+    ..Rule::of("E0537")
 };
 
 fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {

@@ -1,13 +1,11 @@
 use alloc::vec::Vec;
 
 use crate::description::Description;
-use crate::finding::{Check, Finding, Form, Rule, Severity::Error};
+use crate::finding::{Check, Finding, Form, Rule};
 use crate::subject::{Object, start_number};
 use od_model::Address;
 
 pub(crate) static E0541: Rule = Rule {
-    code: "E0541",
-    severity: Error,
     buildable: true,
     title: "multiplexed PDO names an object that it cannot carry",
     why: "The device cannot send the value, or no value goes into the object.",
@@ -16,7 +14,7 @@ pub(crate) static E0541: Rule = Rule {
     help: "write an object of this device, or 0 for an entry that is not used",
     also: &[LONG, PRODUCER],
     check: Check::Object(check),
-    ..Rule::NEW
+    ..Rule::of("E0541")
 };
 
 /// Sentence for an object with too many bytes.

@@ -1,20 +1,18 @@
 use alloc::vec::Vec;
 
-use crate::finding::{Check, Finding, Rule, Severity::Info};
+use crate::finding::{Check, Finding, Rule};
 use crate::rules::pdo::shared::mapped;
 use crate::span::Span;
 use crate::subject::Object;
 
 pub(crate) static I0528: Rule = Rule {
-    code: "I0528",
-    severity: Info,
     title: "PDO maps an object twice",
     why: "CiA 301 allows it, but it is rarely intended.",
     source: "CiA 301, PDO mapping parameter",
     says: "this entry maps the same object again",
     help: "remove the entry, unless the PDO needs the value twice",
     check: Check::Object(check),
-    ..Rule::NEW
+    ..Rule::of("I0528")
 };
 
 fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {

@@ -1,19 +1,17 @@
 use alloc::vec::Vec;
 
 use crate::description::Description;
-use crate::finding::{Check, Finding, Rule, Severity::Info};
+use crate::finding::{Check, Finding, Rule};
 use crate::rules::pdo::cob_ids::cob_ids;
 
 pub(crate) static I0531: Rule = Rule {
-    code: "I0531",
-    severity: Info,
     title: "COB-ID does not depend on the node ID",
     why: "Two such devices in one network use the same CAN-ID. The COB-IDs of EMCY and of the first four PDOs usually contain $NODEID.",
     source: "CiA 301, predefined connection set",
     says: "COB-ID {id:03X}h does not depend on the node ID",
     help: "write `$NODEID+0x{base:X}` to give each node its own COB-ID",
     check: Check::Device(check),
-    ..Rule::NEW
+    ..Rule::of("I0531")
 };
 
 fn check(description: &Description, findings: &mut Vec<Finding>) {

@@ -2,15 +2,13 @@ use alloc::format;
 use alloc::vec::Vec;
 
 use crate::fact::Fact;
-use crate::finding::{Check, Finding, Fixability, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Fixability, Rule};
 use crate::fix::Fix;
 use crate::rules::pdo::shared::mapped;
 use crate::scan::number::number;
 use crate::subject::Object;
 
 pub(crate) static W0506: Rule = Rule {
-    code: "W0506",
-    severity: Warning,
     title: "[DummyUsage] does not allow the dummy entry",
     why: "[DummyUsage] lists which of the types 0001h to 0007h an RPDO can map as dummy entries. A device aborts the mapping of another.",
     source: "CiA 306-1, DummyUsage",
@@ -18,7 +16,7 @@ pub(crate) static W0506: Rule = Rule {
     says: "[DummyUsage] does not allow dummy entry {dummy}",
     help: "write `{line}` in [DummyUsage]{fix}",
     check: Check::Object(check),
-    ..Rule::NEW
+    ..Rule::of("W0506")
 };
 
 fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {

@@ -5,7 +5,6 @@ use crate::finding::{Check, Finding, Rule, Severity::Error};
 use crate::subject::Object;
 
 pub(crate) static W0508: Rule = Rule {
-    code: "W0508",
     severity: Error,
     buildable: true,
     title: "PDO has only one of its two objects",
@@ -14,7 +13,7 @@ pub(crate) static W0508: Rule = Rule {
     says: "{object} has no {what} parameter {other}",
     help: "add {missing}",
     check: Check::Object(check),
-    ..Rule::NEW
+    ..Rule::of("W0508")
 };
 
 fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {

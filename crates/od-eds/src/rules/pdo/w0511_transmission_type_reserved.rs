@@ -6,7 +6,6 @@ use crate::subject::Object;
 use od_model::Address;
 
 pub(crate) static W0511: Rule = Rule {
-    code: "W0511",
     severity: Error,
     buildable: true,
     title: "transmission type is reserved",
@@ -16,7 +15,7 @@ pub(crate) static W0511: Rule = Rule {
     help: "write 0 to 240, or 252 to 255",
     also: &[RPDO],
     check: Check::Object(check),
-    ..Rule::NEW
+    ..Rule::of("W0511")
 };
 
 /// The help for an RPDO.

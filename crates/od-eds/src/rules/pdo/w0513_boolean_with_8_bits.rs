@@ -1,12 +1,10 @@
 use alloc::vec::Vec;
 
-use crate::finding::{Check, Finding, Fixability, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Fixability, Rule};
 use crate::rules::pdo::shared::{WRITE_ENTRY, WRONG_LENGTH, mapped};
 use crate::subject::Object;
 
 pub(crate) static W0513: Rule = Rule {
-    code: "W0513",
-    severity: Warning,
     title: "PDO maps a BOOLEAN with 8 bits",
     why: "A BOOLEAN has one bit in a PDO. Some stacks send a byte; a master that uses the type decodes the rest of the PDO wrongly.",
     source: "CiA 301, data types and PDO mapping parameter",
@@ -14,7 +12,7 @@ pub(crate) static W0513: Rule = Rule {
     says: WRONG_LENGTH,
     help: WRITE_ENTRY,
     check: Check::Object(check),
-    ..Rule::NEW
+    ..Rule::of("W0513")
 };
 
 fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {

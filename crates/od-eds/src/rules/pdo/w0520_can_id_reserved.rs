@@ -7,7 +7,6 @@ use crate::subject::start_number;
 use od_model::Address;
 
 pub(crate) static W0520: Rule = Rule {
-    code: "W0520",
     severity: Error,
     title: "CAN-ID is reserved for another service",
     why: "A message with a CAN-ID of NMT, SDO, error control or LSS disturbs that service in all devices of the network.",
@@ -16,7 +15,7 @@ pub(crate) static W0520: Rule = Rule {
     help: "write a CAN-ID that CiA 301 leaves free, such as `0x181` to `0x57F` for PDOs",
     also: &[WITHOUT_NODE_ID, NMT, SDO, SERVICE, SOME],
     check: Check::Device(check),
-    ..Rule::NEW
+    ..Rule::of("W0520")
 };
 
 /// Sentence for the CAN-ID of NMT commands.

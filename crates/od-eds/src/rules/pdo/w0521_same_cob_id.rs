@@ -5,7 +5,6 @@ use crate::finding::{Check, Finding, Form, Rule, Severity};
 use crate::rules::pdo::cob_ids::{CobId, cob_ids};
 
 pub(crate) static W0521: Rule = Rule {
-    code: "W0521",
     severity: Severity::Error,
     title: "two PDOs have the same COB-ID",
     why: "A receiver cannot tell two PDOs with the same COB-ID apart.",
@@ -14,7 +13,7 @@ pub(crate) static W0521: Rule = Rule {
     help: "write another COB-ID, or set bit 31 (`0x80000000`) to make the PDO not valid",
     also: &[ONE],
     check: Check::Device(check),
-    ..Rule::NEW
+    ..Rule::of("W0521")
 };
 
 /// Sentence for a number and a COB-ID with the node ID that are equal for one node ID.

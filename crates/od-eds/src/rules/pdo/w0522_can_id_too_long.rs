@@ -5,7 +5,6 @@ use crate::finding::{Check, Finding, Form, Rule, Severity::Error};
 use crate::rules::pdo::cob_ids::{CobId, cob_ids};
 
 pub(crate) static W0522: Rule = Rule {
-    code: "W0522",
     severity: Error,
     title: "CAN-ID is too long for its COB-ID",
     why: "Bit 29 of a COB-ID marks a CAN-ID of 29 bits; without it, bits 11 to 28 must be 0. Many nodes drop the upper bits: 800h becomes 000h, an NMT command.",
@@ -14,7 +13,7 @@ pub(crate) static W0522: Rule = Rule {
     help: "write a CAN-ID up to `0x7FF`, or set bit 29 (`0x20000000`)",
     also: &[SOME],
     check: Check::Device(check),
-    ..Rule::NEW
+    ..Rule::of("W0522")
 };
 
 /// Sentence for a CAN-ID that is too long with the node ID added.

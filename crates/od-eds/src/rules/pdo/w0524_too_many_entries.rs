@@ -5,7 +5,6 @@ use crate::rules::pdo::shared::{count, maps_rpdo};
 use crate::subject::Object;
 
 pub(crate) static W0524: Rule = Rule {
-    code: "W0524",
     severity: Error,
     buildable: true,
     title: "mapping counts more than 64 objects",
@@ -14,7 +13,7 @@ pub(crate) static W0524: Rule = Rule {
     says: "{count} objects cannot be mapped into 64 bits",
     help: "write a number up to 64, or 254 or 255 for a multiplexed PDO",
     check: Check::Object(check),
-    ..Rule::NEW
+    ..Rule::of("W0524")
 };
 
 fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {

@@ -5,7 +5,6 @@ use crate::rules::pdo::shared::numbers;
 use crate::subject::Object;
 
 pub(crate) static W0525: Rule = Rule {
-    code: "W0525",
     severity: Error,
     buildable: true,
     title: "mapping entry in use is 0",
@@ -14,7 +13,7 @@ pub(crate) static W0525: Rule = Rule {
     says: "mapping entry is 0, but sub-index 0 counts it as mapped",
     help: "write the mapped object, such as `0x60040020`, or lower sub-index 0",
     check: Check::Object(check),
-    ..Rule::NEW
+    ..Rule::of("W0525")
 };
 
 fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {

@@ -1,21 +1,19 @@
 use alloc::vec::Vec;
 
 use crate::description::Description;
-use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Rule};
 use crate::rules::pdo::shared::mapped;
 use crate::scan::number::number;
 use crate::subject::objects;
 
 pub(crate) static W0526: Rule = Rule {
-    code: "W0526",
-    severity: Warning,
     title: "mapping is finer than the granularity",
     why: "Granularity in [DeviceInfo] is the smallest number of bits that the device can map.",
     source: "CiA 306-1, DeviceInfo",
     says: "object is mapped with {bits:bit|bits}, but Granularity is {granularity}",
     help: "map a multiple of the granularity, or correct Granularity in [DeviceInfo]",
     check: Check::Device(check),
-    ..Rule::NEW
+    ..Rule::of("W0526")
 };
 
 /// Only the first such entry is reported: usually most mappings of a device are alike.

@@ -1,14 +1,12 @@
 use alloc::format;
 use alloc::vec::Vec;
 
-use crate::finding::{Check, Finding, Fixability, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Fixability, Rule};
 use crate::fix::Fix;
 use crate::rules::pdo::shared::default_sdo;
 use crate::subject::Entry;
 
 pub(crate) static W0530: Rule = Rule {
-    code: "W0530",
-    severity: Warning,
     title: "COB-ID of the default SDO lacks the node ID",
     why: "A tool that trusts the value finds the SDO of no node. Devices add the node ID themselves, and so do most tools.",
     source: "CiA 301, predefined connection set",
@@ -16,7 +14,7 @@ pub(crate) static W0530: Rule = Rule {
     says: "COB-ID of the default SDO is a number, the same for each node ID",
     help: "write `$NODEID+0x{base:X}`{fix}",
     check: Check::Entry(check),
-    ..Rule::NEW
+    ..Rule::of("W0530")
 };
 
 fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {

@@ -1,20 +1,18 @@
 use alloc::vec::Vec;
 
-use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Rule};
 use crate::rules::pdo::shared::transmission_type;
 use crate::subject::{Object, start_value};
 use od_model::Address;
 
 pub(crate) static W0534: Rule = Rule {
-    code: "W0534",
-    severity: Warning,
     title: "RTR-only TPDO does not allow RTR",
     why: "A master never gets the TPDO: the device sends it only on a remote frame, but bit 30 of its COB-ID forbids remote frames.",
     source: "CiA 301, PDO communication parameter",
     says: "transmission type {given} is RTR-only, but bit 30 of the COB-ID does not allow RTR",
     help: "clear bit 30 of sub-index 1, or write 254 or 255",
     check: Check::Object(check),
-    ..Rule::NEW
+    ..Rule::of("W0534")
 };
 
 fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {

@@ -1,19 +1,17 @@
 use alloc::vec::Vec;
 
-use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Rule};
 use crate::subject::{Object, start_number};
 use od_model::Address;
 
 pub(crate) static W0535: Rule = Rule {
-    code: "W0535",
-    severity: Warning,
     title: "inhibit time is longer than the event timer",
     why: "The device cannot send the TPDO as often as the event timer says.",
     source: "CiA 301, PDO communication parameter",
     says: "event timer is {event} ms, but the inhibit time is {inhibit} × 100 µs",
     help: "write an event timer of at least {least} ms, or a shorter inhibit time",
     check: Check::Object(check),
-    ..Rule::NEW
+    ..Rule::of("W0535")
 };
 
 fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {

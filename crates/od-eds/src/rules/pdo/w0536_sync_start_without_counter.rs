@@ -1,20 +1,18 @@
 use alloc::vec::Vec;
 
 use crate::fact::Fact;
-use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Rule};
 use crate::subject::{Object, start_number};
 use od_model::Address;
 
 pub(crate) static W0536: Rule = Rule {
-    code: "W0536",
-    severity: Warning,
     title: "SYNC start value without a SYNC counter",
     why: "The device ignores the start value: SYNC messages have a counter only if 1019h is not 0.",
     source: "CiA 301, PDO communication parameter and object 1019h",
     says: "SYNC start value is {given}, but object 1019h is missing",
     help: "add {missing}, or write 0",
     check: Check::Object(check),
-    ..Rule::NEW
+    ..Rule::of("W0536")
 };
 
 fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {

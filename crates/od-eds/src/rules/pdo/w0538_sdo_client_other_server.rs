@@ -1,19 +1,17 @@
 use alloc::vec::Vec;
 
-use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Rule};
 use crate::subject::{Object, start_number};
 use od_model::Address;
 
 pub(crate) static W0538: Rule = Rule {
-    code: "W0538",
-    severity: Warning,
     title: "COB-ID of an SDO client is that of another server",
     why: "The client asks the node of the COB-ID, and a tool that reads sub-index 3 takes the response for that of another node.",
     source: "CiA 301, SDO client parameter and predefined connection set",
     says: "CAN-ID {id:03X}h is that of the default SDO of node {node}, but sub-index 3 is {server}",
     help: "write `0x{right:03X}`, or node ID {node} in sub-index 3",
     check: Check::Object(check),
-    ..Rule::NEW
+    ..Rule::of("W0538")
 };
 
 fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {

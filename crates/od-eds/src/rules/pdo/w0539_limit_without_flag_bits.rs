@@ -1,14 +1,12 @@
 use alloc::vec::Vec;
 
 use crate::fact::Key;
-use crate::finding::{Check, Finding, Fixability, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Fixability, Rule};
 use crate::fix::Fix;
 use crate::subject::Entry;
 use od_model::DataType;
 
 pub(crate) static W0539: Rule = Rule {
-    code: "W0539",
-    severity: Warning,
     title: "HighLimit of a COB-ID excludes its upper bits",
     why: "A master sets bit 31 to disable the PDO, SDO or EMCY before it writes another COB-ID or mapping: the device aborts that with 0609 0031h.",
     source: "CiA 301, objects 1012h, 1014h, 1201h to 12FFh, 1400h to 15FFh and 1800h to 19FFh",
@@ -16,7 +14,7 @@ pub(crate) static W0539: Rule = Rule {
     says: "{HighLimit} of {object} excludes bit {bit} of the COB-ID",
     help: "write `{HighLimit=0xFFFFFFFF}`{fix}",
     check: Check::Entry(check),
-    ..Rule::NEW
+    ..Rule::of("W0539")
 };
 
 /// The lowest of the upper bits that a master must be able to set.

@@ -1,19 +1,17 @@
 use alloc::vec::Vec;
 
-use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Rule};
 use crate::subject::{Object, shown, start_value};
 use od_model::Address;
 
 pub(crate) static W0540: Rule = Rule {
-    code: "W0540",
-    severity: Warning,
     title: "SDO has only one valid COB-ID",
     why: "An SDO exists only if both COB-IDs are valid: the device sends no request, or no response.",
     source: "CiA 301, SDO server parameter and SDO client parameter",
     says: "COB-ID {object} is valid, but {other} is not valid (bit 31)",
     help: "write a valid COB-ID to {other}, or set bit 31 of {object} (`0x80000000`)",
     check: Check::Object(check),
-    ..Rule::NEW
+    ..Rule::of("W0540")
 };
 
 fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {

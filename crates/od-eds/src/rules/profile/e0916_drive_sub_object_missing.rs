@@ -1,17 +1,12 @@
 use alloc::vec::Vec;
 
 use crate::fact::Fact;
-use crate::finding::{
-    Check, Finding, Form, Rule,
-    Severity::{Error, Warning},
-};
+use crate::finding::{Check, Finding, Form, Rule, Severity::Warning};
 use crate::rules::profile::shared::device;
 use crate::subject::Object;
 use od_model::Address;
 
 pub(crate) static E0916: Rule = Rule {
-    code: "E0916",
-    severity: Error,
     buildable: true,
     title: "drive object lacks a sub-object",
     why: "A master that knows the object from the profile reads or writes the sub-object and gets an abort.",
@@ -20,7 +15,7 @@ pub(crate) static E0916: Rule = Rule {
     help: "add {missing}",
     also: &[MORE],
     check: Check::Object(check),
-    ..Rule::NEW
+    ..Rule::of("E0916")
 };
 
 /// Sentence for a sub-object that the profile does not have.

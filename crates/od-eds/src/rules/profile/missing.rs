@@ -6,23 +6,18 @@ use od_model::Address;
 
 use crate::description::Description;
 use crate::fact::Fact;
-use crate::finding::{
-    Check, Finding, Rule,
-    Severity::{Error, Warning},
-};
+use crate::finding::{Check, Finding, Rule, Severity::Error};
 use crate::rules::profile::shared::{Encoder, IO_BLOCKS, POSITIONS, device};
 use crate::subject::start_number;
 
 pub(crate) static W0901: Rule = Rule {
-    code: "W0901",
-    severity: Warning,
     title: "I/O module lacks the objects of its channels",
     why: "A master that reads from 1000h which channels exist finds no object for them.",
     source: "CiA 401, object 1000h",
     says: "1000h declares {what}, but object {objects} is missing",
     help: "add {missing}, or clear bit {bit} of 1000h",
     check: Check::Device(check_io),
-    ..Rule::NEW
+    ..Rule::of("W0901")
 };
 
 fn check_io(description: &Description, findings: &mut Vec<Finding>) {
@@ -37,15 +32,13 @@ fn check_io(description: &Description, findings: &mut Vec<Finding>) {
 }
 
 pub(crate) static W0902: Rule = Rule {
-    code: "W0902",
-    severity: Warning,
     title: "drive lacks its supported modes",
     why: "A master that chooses a mode by CiA 402 gets an abort.",
     source: "CiA 402, object overview",
     says: "mandatory object {objects} ({what}) is missing",
     help: "add {missing}, or correct the profile number in bits 0 to 15 of 1000h",
     check: Check::Device(check_modes),
-    ..Rule::NEW
+    ..Rule::of("W0902")
 };
 
 fn check_modes(description: &Description, findings: &mut Vec<Finding>) {
@@ -60,8 +53,6 @@ fn check_modes(description: &Description, findings: &mut Vec<Finding>) {
 }
 
 pub(crate) static E0908: Rule = Rule {
-    code: "E0908",
-    severity: Error,
     buildable: true,
     title: "drive lacks its control or status",
     why: "A master that controls drives by CiA 402 gets an abort.",
@@ -69,7 +60,7 @@ pub(crate) static E0908: Rule = Rule {
     says: "mandatory object {objects} ({what}) is missing",
     help: "add {missing}, or correct the profile number in bits 0 to 15 of 1000h",
     check: Check::Device(check_control),
-    ..Rule::NEW
+    ..Rule::of("E0908")
 };
 
 /// Objects that control a drive, with their names. A device of several axes has them 800h apart.
@@ -84,15 +75,13 @@ fn check_control(description: &Description, findings: &mut Vec<Finding>) {
 }
 
 pub(crate) static W0903: Rule = Rule {
-    code: "W0903",
-    severity: Warning,
     title: "measuring device lacks the objects of its blocks",
     why: "A master that reads from 1000h which function blocks exist finds no process values for them.",
     source: "CiA 404, object 1000h",
     says: "1000h declares {what}, but object {objects} is missing",
     help: "add {missing}, or clear bit {bit} of 1000h",
     check: Check::Device(check_blocks),
-    ..Rule::NEW
+    ..Rule::of("W0903")
 };
 
 /// A bit of 1000h, the process values of the block that it announces, and the name of the block.
@@ -113,7 +102,6 @@ fn check_blocks(description: &Description, findings: &mut Vec<Finding>) {
 }
 
 pub(crate) static W0904: Rule = Rule {
-    code: "W0904",
     severity: Error,
     buildable: true,
     title: "encoder lacks a mandatory object",
@@ -122,7 +110,7 @@ pub(crate) static W0904: Rule = Rule {
     says: "mandatory object {objects} ({what}) is missing",
     help: "add {missing}, or correct the profile number in bits 0 to 15 of 1000h",
     check: Check::Device(check_encoder),
-    ..Rule::NEW
+    ..Rule::of("W0904")
 };
 
 /// Objects that every encoder has, with their names. If an entry has several, one of them is

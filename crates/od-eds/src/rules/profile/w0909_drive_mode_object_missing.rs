@@ -2,21 +2,19 @@ use alloc::vec::Vec;
 
 use crate::description::Description;
 use crate::fact::Fact;
-use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Rule};
 use crate::rules::profile::shared::device;
 use crate::subject::start_number;
 use od_model::Address;
 
 pub(crate) static W0909: Rule = Rule {
-    code: "W0909",
-    severity: Warning,
     title: "drive lacks the object of a supported mode",
     why: "A master that chooses the mode finds no object to command the drive with, or to see what it does.",
     source: "CiA 402, object 6502h and modes of operation",
     says: "6502h declares {mode}, but object {object} ({name}) is missing",
     help: "add {missing}, or clear bit {bit} of 6502h",
     check: Check::Device(check),
-    ..Rule::NEW
+    ..Rule::of("W0909")
 };
 
 /// A bit of 6502h, the mode, and an object that the mode must have.

@@ -1,21 +1,19 @@
 use alloc::vec::Vec;
 
 use crate::description::Description;
-use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Rule};
 use crate::rules::profile::shared::device;
 use crate::subject::{start_number, start_value};
 use od_model::Address;
 
 pub(crate) static W0910: Rule = Rule {
-    code: "W0910",
-    severity: Warning,
     title: "drive starts in a mode that it does not support",
     why: "The drive does not move, or a master that reads 6502h does not expect the mode.",
     source: "CiA 402, objects 6060h and 6502h",
     says: "6060h is {mode}, but bit {bit} of 6502h is 0",
     help: "write a mode that 6502h declares, or set bit {bit} of 6502h",
     check: Check::Device(check),
-    ..Rule::NEW
+    ..Rule::of("W0910")
 };
 
 fn check(description: &Description, findings: &mut Vec<Finding>) {

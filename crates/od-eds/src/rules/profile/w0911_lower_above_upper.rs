@@ -1,22 +1,20 @@
 use alloc::vec::Vec;
 use core::cmp::Ordering;
 
-use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Rule};
 use crate::rules::profile::shared::device;
 use crate::rules::values::limits::order;
 use crate::subject::{Entry, shown, start_value};
 use od_model::Address;
 
 pub(crate) static W0911: Rule = Rule {
-    code: "W0911",
-    severity: Warning,
     title: "lower limit of a device is above the upper one",
     why: "No value is between the limits: a drive rejects every position, and an area or an alarm has no effect.",
     source: "CiA 401, 6424h, 6425h, 6429h, 642Ah; CiA 402, 6046h, 607Bh, 607Dh; CiA 404, 6134h, 6135h; CiA 406, 6401h, 6402h",
     says: "upper limit {object} is {high}, but lower limit {lower} is {low}",
     help: "write the lower limit to {lower} and the upper limit to {object}",
     check: Check::Entry(check),
-    ..Rule::NEW
+    ..Rule::of("W0911")
 };
 
 /// The lower limit that belongs to the upper limit at an address, and the profile that defines both.

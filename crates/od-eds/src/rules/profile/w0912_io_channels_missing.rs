@@ -6,8 +6,6 @@ use crate::rules::profile::shared::device;
 use crate::subject::Object;
 
 pub(crate) static W0912: Rule = Rule {
-    code: "W0912",
-    severity: Severity::Warning,
     title: "parameters of channels that the device lacks",
     why: "A master that sets the parameter of a channel finds no channel for it.",
     source: "CiA 401 and CiA 404, object overview",
@@ -15,7 +13,7 @@ pub(crate) static W0912: Rule = Rule {
     help: "add {missing}, or remove {object}",
     also: &[MORE],
     check: Check::Object(check),
-    ..Rule::NEW
+    ..Rule::of("W0912")
 };
 
 /// Sentence for more parameters than channels.

@@ -2,21 +2,19 @@ use alloc::vec::Vec;
 
 use crate::description::Description;
 use crate::fact::Fact;
-use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Rule};
 use crate::rules::profile::shared::{IO_BLOCKS, device};
 use crate::subject::start_number;
 use od_model::Address;
 
 pub(crate) static W0913: Rule = Rule {
-    code: "W0913",
-    severity: Warning,
     title: "1000h does not declare the channels of an I/O module",
     why: "A master that reads from 1000h which channels exist does not use them.",
     source: "CiA 401, object 1000h",
     says: "bit {bit} of 1000h ({what}) is 0, but object {object} exists",
     help: "set bit {bit} of 1000h",
     check: Check::Device(check),
-    ..Rule::NEW
+    ..Rule::of("W0913")
 };
 
 fn check(description: &Description, findings: &mut Vec<Finding>) {

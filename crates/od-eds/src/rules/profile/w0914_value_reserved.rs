@@ -1,20 +1,18 @@
 use alloc::vec::Vec;
 
-use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Rule};
 use crate::rules::profile::shared::device;
 use crate::subject::{Entry, start_value};
 use od_model::Address;
 
 pub(crate) static W0914: Rule = Rule {
-    code: "W0914",
-    severity: Warning,
     title: "value of a profile object is reserved",
     why: "A device that follows the profile aborts a download of the value, and a master may give the bits another meaning.",
     source: "CiA 401, 6421h, 6443h; CiA 402, 6007h to 6502h; CiA 404, 6110h; CiA 406, 6000h, 6503h to 6506h; CiA 303-2",
     says: "{object} is {given}, but CiA {profile} reserves {reserved}",
     help: "write a value without {reserved}",
     check: Check::Entry(check),
-    ..Rule::NEW
+    ..Rule::of("W0914")
 };
 
 /// The profile of an object, if the number has reserved bits or is in a reserved range, and which.

@@ -1,20 +1,18 @@
 use alloc::vec::Vec;
 
-use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Rule};
 use crate::rules::profile::shared::device;
 use crate::subject::{Entry, start_number};
 use od_model::Address;
 
 pub(crate) static W0915: Rule = Rule {
-    code: "W0915",
-    severity: Warning,
     title: "value that positions are divided by is 0",
     why: "A device that follows the profile aborts a download of 0, and a master that scales positions divides by it.",
     source: "CiA 402, objects 608Fh to 6092h; CiA 406, objects 6001h and 6501h",
     says: "{object} is 0, but positions are divided by it",
     help: "write the number of increments or revolutions, 1 or more",
     check: Check::Entry(check),
-    ..Rule::NEW
+    ..Rule::of("W0915")
 };
 
 fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {

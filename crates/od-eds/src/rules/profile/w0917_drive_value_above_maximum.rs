@@ -1,21 +1,19 @@
 use alloc::vec::Vec;
 
 use crate::fact::Fact;
-use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Rule};
 use crate::rules::profile::shared::device;
 use crate::subject::{Entry, start_number};
 use od_model::Address;
 
 pub(crate) static W0917: Rule = Rule {
-    code: "W0917",
-    severity: Warning,
     title: "value of a drive is above its maximum",
     why: "The drive has less speed or torque than a master that reads the value expects, or aborts its download.",
     source: "CiA 402, objects 6072h, 607Fh, 60C5h and 60C6h",
     says: "{object} is {given}, but its maximum ({limit}) is {most}",
     help: "write {most} or less, or raise {limit}",
     check: Check::Entry(check),
-    ..Rule::NEW
+    ..Rule::of("W0917")
 };
 
 fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {

@@ -1,20 +1,18 @@
 use alloc::vec::Vec;
 
 use crate::fact::Fact;
-use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Rule};
 use crate::rules::profile::shared::device;
 use crate::subject::Object;
 
 pub(crate) static W0918: Rule = Rule {
-    code: "W0918",
-    severity: Warning,
     title: "drive chooses a mode that it does not display",
     why: "A master writes the mode to 6060h and waits until 6061h shows it. Without one of the two it waits forever.",
     source: "CiA 402, objects 6060h and 6061h",
     says: "{object} ({own}) needs object {other} ({name}), which is missing",
     help: "add {missing}, or remove {object}",
     check: Check::Object(check),
-    ..Rule::NEW
+    ..Rule::of("W0918")
 };
 
 const CHOICE: &str = "modes of operation";

@@ -1,15 +1,13 @@
 use alloc::vec::Vec;
 
 use crate::description::{Description, Value};
-use crate::finding::{Check, Finding, Form, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Form, Rule};
 use crate::rules::profile::shared::device;
 use crate::span::Spanned;
 use crate::subject::start_number;
 use od_model::Address;
 
 pub(crate) static W0919: Rule = Rule {
-    code: "W0919",
-    severity: Warning,
     title: "mode of a drive with several modes is fixed",
     why: "A master selects the mode by writing 6060h. The drive refuses it, so its other modes are never used.",
     source: "CiA 402, objects 6060h and 6502h",
@@ -17,7 +15,7 @@ pub(crate) static W0919: Rule = Rule {
     help: "change {AccessType} to `rw`, or declare one mode in 6502h",
     also: &[LIMITED],
     check: Check::Device(check),
-    ..Rule::NEW
+    ..Rule::of("W0919")
 };
 
 /// Sentence for a mode that the limits of 6060h exclude.

@@ -2,14 +2,12 @@ use alloc::format;
 use alloc::vec::Vec;
 
 use crate::description::Description;
-use crate::finding::{Check, Finding, Fixability, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Fixability, Rule};
 use crate::fix::Fix;
 use crate::rules::profile::shared::Encoder;
 use od_model::Address;
 
 pub(crate) static W0952: Rule = Rule {
-    code: "W0952",
-    severity: Warning,
     title: "range does not match the revolutions",
     why: "The position jumps where the encoder starts again. The total measuring range (6002h) is the measuring units per revolution (6001h) times the revolutions, or divides that product.",
     source: "CiA 406, objects 6001h and 6002h",
@@ -17,7 +15,7 @@ pub(crate) static W0952: Rule = Rule {
     says: "6002h is {range}, but 6001h ({units}) times {turns:revolution|revolutions} is {all}",
     help: "write `{DefaultValue={all}}`{fix}, or a number that divides it",
     check: Check::Device(check),
-    ..Rule::NEW
+    ..Rule::of("W0952")
 };
 
 fn check(description: &Description, findings: &mut Vec<Finding>) {

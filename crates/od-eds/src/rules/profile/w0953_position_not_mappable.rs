@@ -1,14 +1,12 @@
 use alloc::vec::Vec;
 
 use crate::fact::Fact;
-use crate::finding::{Check, Finding, Fixability, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Fixability, Rule};
 use crate::fix::Fix;
 use crate::rules::profile::shared::device;
 use crate::subject::Entry;
 
 pub(crate) static W0953: Rule = Rule {
-    code: "W0953",
-    severity: Warning,
     title: "position value cannot be mapped",
     why: "No TPDO can send the position value.",
     source: "CiA 406, object 6004h",
@@ -16,7 +14,7 @@ pub(crate) static W0953: Rule = Rule {
     says: "{object} (position value) cannot be mapped into a PDO",
     help: "write `{PDOMapping=1}`{fix}",
     check: Check::Entry(check),
-    ..Rule::NEW
+    ..Rule::of("W0953")
 };
 
 fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {

@@ -2,14 +2,12 @@ use alloc::format;
 use alloc::vec::Vec;
 
 use crate::description::Description;
-use crate::finding::{Check, Finding, Fixability, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Fixability, Rule};
 use crate::fix::Fix;
 use crate::rules::profile::shared::Encoder;
 use od_model::Address;
 
 pub(crate) static W0954: Rule = Rule {
-    code: "W0954",
-    severity: Warning,
     title: "operating status differs from the operating parameters",
     why: "A master reads a setting that the encoder does not use. 6500h shows bits 0 to 2 of 6000h: code sequence, commissioning diagnosis, scaling.",
     source: "CiA 406, objects 6000h and 6500h",
@@ -17,7 +15,7 @@ pub(crate) static W0954: Rule = Rule {
     says: "6500h is 0x{status:X}, but 6000h is 0x{parameters:X}",
     help: "write `{DefaultValue=0x{right:X}}`{fix}",
     check: Check::Device(check),
-    ..Rule::NEW
+    ..Rule::of("W0954")
 };
 
 /// Code sequence, commissioning diagnosis, scaling.

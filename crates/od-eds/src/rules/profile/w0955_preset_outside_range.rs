@@ -1,20 +1,18 @@
 use alloc::vec::Vec;
 
 use crate::description::Description;
-use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Rule};
 use crate::rules::profile::shared::Encoder;
 use od_model::Address;
 
 pub(crate) static W0955: Rule = Rule {
-    code: "W0955",
-    severity: Warning,
     title: "preset value is outside the range",
     why: "The encoder cannot take the preset value as its position. Positions are 0 to 6002h minus 1.",
     source: "CiA 406, object 6003h",
     says: "preset value {preset} is outside the range 0 to {last}",
     help: "write a position in the range, such as `{DefaultValue=0}`",
     check: Check::Device(check),
-    ..Rule::NEW
+    ..Rule::of("W0955")
 };
 
 fn check(description: &Description, findings: &mut Vec<Finding>) {

@@ -1,20 +1,18 @@
 use alloc::vec::Vec;
 
 use crate::description::Description;
-use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Rule};
 use crate::rules::profile::shared::Encoder;
 use od_model::Address;
 
 pub(crate) static W0956: Rule = Rule {
-    code: "W0956",
-    severity: Warning,
     title: "measuring units exceed the singleturn resolution",
     why: "The encoder cannot deliver steps that are finer than its singleturn resolution.",
     source: "CiA 406, objects 6001h and 6501h",
     says: "6001h is {units}, but the singleturn resolution (6501h) is {physical}",
     help: "write at most {physical}",
     check: Check::Device(check),
-    ..Rule::NEW
+    ..Rule::of("W0956")
 };
 
 fn check(description: &Description, findings: &mut Vec<Finding>) {

@@ -1,13 +1,11 @@
 use alloc::vec::Vec;
 
 use crate::description::Description;
-use crate::finding::{Check, Finding, Form, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Form, Rule};
 use crate::rules::profile::shared::Encoder;
 use od_model::Address;
 
 pub(crate) static W0957: Rule = Rule {
-    code: "W0957",
-    severity: Warning,
     title: "device type and revolutions disagree",
     why: "A master that reads only one of the two objects treats the encoder as the wrong kind.",
     source: "CiA 406, objects 1000h and 6502h",
@@ -15,7 +13,7 @@ pub(crate) static W0957: Rule = Rule {
     help: "correct 6502h, or bits 16 to 31 of 1000h (1: singleturn, 2: multiturn)",
     also: &[SINGLETURN],
     check: Check::Device(check),
-    ..Rule::NEW
+    ..Rule::of("W0957")
 };
 
 /// Sentence for a singleturn encoder.

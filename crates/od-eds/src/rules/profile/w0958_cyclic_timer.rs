@@ -2,15 +2,13 @@ use alloc::format;
 use alloc::vec::Vec;
 
 use crate::description::Description;
-use crate::finding::{Check, Finding, Fixability, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Fixability, Rule};
 use crate::fix::Fix;
 use crate::rules::profile::shared::Encoder;
 use crate::subject::start_number;
 use od_model::Address;
 
 pub(crate) static W0958: Rule = Rule {
-    code: "W0958",
-    severity: Warning,
     title: "cyclic timer differs from the event timer",
     why: "A master that reads one of the two objects gets the wrong period. Both set the same timer.",
     source: "CiA 406, object 6200h",
@@ -18,7 +16,7 @@ pub(crate) static W0958: Rule = Rule {
     says: "6200h is {cycle} ms, but 1800h:05 is {event} ms",
     help: "write the same value in both{fix}",
     check: Check::Device(check),
-    ..Rule::NEW
+    ..Rule::of("W0958")
 };
 
 fn check(description: &Description, findings: &mut Vec<Finding>) {

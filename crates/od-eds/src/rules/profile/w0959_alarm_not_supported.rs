@@ -2,20 +2,18 @@ use alloc::vec::Vec;
 
 use crate::description::Description;
 use crate::fact::Fact;
-use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Rule};
 use crate::rules::profile::shared::Encoder;
 use od_model::Address;
 
 pub(crate) static W0959: Rule = Rule {
-    code: "W0959",
-    severity: Warning,
     title: "active alarm or warning is not supported",
     why: "A master shows an alarm or a warning that the device cannot report. 6503h and 6505h use only the bits of 6504h and 6506h.",
     source: "CiA 406, objects 6503h to 6506h",
     says: "{object} sets bits 0x{more:X}, which {supported} does not support",
     help: "write `{DefaultValue=0}`",
     check: Check::Device(check),
-    ..Rule::NEW
+    ..Rule::of("W0959")
 };
 
 fn check(description: &Description, findings: &mut Vec<Finding>) {

@@ -2,20 +2,18 @@ use alloc::vec::Vec;
 
 use crate::description::Description;
 use crate::fact::Fact;
-use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Rule};
 use crate::rules::profile::shared::device;
 use od_model::Address;
 
 pub(crate) static W0960: Rule = Rule {
-    code: "W0960",
-    severity: Warning,
     title: "cam objects are incomplete",
     why: "A master that configures a cam gets an abort. A cam channel has state, enable, polarity, two limits and a hysteresis.",
     source: "CiA 406, objects 6300h to 6330h",
     says: "{first} defines cams, but {object} (CAM {what}) is missing",
     help: "add {missing}",
     check: Check::Device(check),
-    ..Rule::NEW
+    ..Rule::of("W0960")
 };
 
 /// Objects of a cam channel.

@@ -1,21 +1,19 @@
 use alloc::vec::Vec;
 
 use crate::description::Description;
-use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Rule};
 use crate::rules::profile::shared::Encoder;
 use crate::subject::start_number;
 use od_model::Address;
 
 pub(crate) static W0962: Rule = Rule {
-    code: "W0962",
-    severity: Warning,
     title: "type of the encoder is not defined",
     why: "A master does not know if the encoder counts revolutions, or measures a length.",
     source: "CiA 406, object 1000h",
     says: "1000h declares encoder type {given}, which CiA 406 does not define",
     help: "write 1 (singleturn), 2 (multiturn) or another type of CiA 406 in bits 16 to 31",
     check: Check::Device(check),
-    ..Rule::NEW
+    ..Rule::of("W0962")
 };
 
 fn check(description: &Description, findings: &mut Vec<Finding>) {

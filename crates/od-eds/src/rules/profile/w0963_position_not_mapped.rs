@@ -1,21 +1,19 @@
 use alloc::vec::Vec;
 
 use crate::description::Description;
-use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Rule};
 use crate::rules::profile::shared::{POSITIONS, device};
 use crate::subject::start_number;
 use od_model::Address;
 
 pub(crate) static W0963: Rule = Rule {
-    code: "W0963",
-    severity: Warning,
     title: "no TPDO maps the position value",
     why: "A master receives no position until it maps one.",
     source: "CiA 406, PDO mapping",
     says: "no TPDO maps the position value",
     help: "write `{DefaultValue=0x60040020}` in [1A00sub1] (6004h, 32 bits)",
     check: Check::Device(check),
-    ..Rule::NEW
+    ..Rule::of("W0963")
 };
 
 fn check(description: &Description, findings: &mut Vec<Finding>) {

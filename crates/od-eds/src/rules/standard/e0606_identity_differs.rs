@@ -1,14 +1,12 @@
 use alloc::vec::Vec;
 
 use crate::fact::Fact;
-use crate::finding::{Check, Finding, Fixability, Form, Rule, Severity::Error};
+use crate::finding::{Check, Finding, Fixability, Form, Rule};
 use crate::rules::standard::shared::{code, data_type};
 use crate::subject::Object;
 use od_model::{DataType, ObjectCode};
 
 pub(crate) static E0606: Rule = Rule {
-    code: "E0606",
-    severity: Error,
     title: "object 1018h differs from CiA 301",
     why: "A master that reads the identity gets another length, or an abort. 1018h is a RECORD of UNSIGNED32; sub-index 1, the vendor-ID, is mandatory.",
     source: "CiA 301, object 1018h",
@@ -17,7 +15,7 @@ pub(crate) static E0606: Rule = Rule {
     help: "write `{key={right}}`{fix}",
     also: &[NO_VENDOR],
     check: Check::Object(check),
-    ..Rule::NEW
+    ..Rule::of("E0606")
 };
 
 /// Sentence for an identity without a vendor-ID.

@@ -1,6 +1,6 @@
 use alloc::vec::Vec;
 
-use crate::finding::{Check, Finding, Fixability, Rule, Severity::Error};
+use crate::finding::{Check, Finding, Fixability, Rule};
 use crate::fix::Fix;
 use crate::rules::pdo::shared::maps_rpdo;
 use crate::standards::cia301::of;
@@ -8,8 +8,6 @@ use crate::subject::Entry;
 use od_model::{Access, Address};
 
 pub(crate) static E0643: Rule = Rule {
-    code: "E0643",
-    severity: Error,
     buildable: true,
     title: "access to a standard object is missing",
     why: "A master that reads or writes the object as the standard specifies gets an abort.",
@@ -18,7 +16,7 @@ pub(crate) static E0643: Rule = Rule {
     says: "{AccessType} of {object} ({name}) is `{given}`, but {standard} specifies `{right}`",
     help: "write `{AccessType={right}}`{fix}",
     check: Check::Entry(check),
-    ..Rule::NEW
+    ..Rule::of("E0643")
 };
 
 /// Objects that have an effect only if a master writes them.

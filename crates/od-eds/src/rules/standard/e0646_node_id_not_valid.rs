@@ -1,16 +1,11 @@
 use alloc::vec::Vec;
 
 use crate::description::Description;
-use crate::finding::{
-    Check, Finding, Form, Rule,
-    Severity::{Error, Warning},
-};
+use crate::finding::{Check, Finding, Form, Rule, Severity::Warning};
 use crate::rules::standard::shared::commissioning;
 use crate::scan::number::number;
 
 pub(crate) static E0646: Rule = Rule {
-    code: "E0646",
-    severity: Error,
     buildable: true,
     title: "node ID of a DCF is not valid",
     why: "A master cannot address the device. A node ID is 1 to 127.",
@@ -19,7 +14,7 @@ pub(crate) static E0646: Rule = Rule {
     help: "write 1 to 127, or 255 for a node that gets its node ID by LSS",
     also: &[NO_LSS],
     check: Check::Device(check),
-    ..Rule::NEW
+    ..Rule::of("E0646")
 };
 
 /// Sentence for a node that waits for LSS and does not support it.

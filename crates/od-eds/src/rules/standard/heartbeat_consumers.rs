@@ -3,16 +3,11 @@
 use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
 
-use crate::finding::{
-    Check, Finding, Rule,
-    Severity::{Error, Warning},
-};
+use crate::finding::{Check, Finding, Rule};
 use crate::span::Span;
 use crate::subject::{Entry, Object, start_number};
 
 pub(crate) static E0650: Rule = Rule {
-    code: "E0650",
-    severity: Error,
     buildable: true,
     title: "heartbeat consumer watches a node twice",
     why: "CiA 301 allows one entry for each node. The device aborts the download of the second entry.",
@@ -20,7 +15,7 @@ pub(crate) static E0650: Rule = Rule {
     says: "node {node} has a heartbeat time in an entry before",
     help: "write 0, or the node ID of another node in bits 16 to 23",
     check: Check::Object(check_twice),
-    ..Rule::NEW
+    ..Rule::of("E0650")
 };
 
 fn check_twice(object: &Object<'_>, findings: &mut Vec<Finding>) {
@@ -37,15 +32,13 @@ fn check_twice(object: &Object<'_>, findings: &mut Vec<Finding>) {
 }
 
 pub(crate) static W0651: Rule = Rule {
-    code: "W0651",
-    severity: Warning,
     title: "heartbeat consumer watches a node that cannot exist",
     why: "The device ignores the entry, so it watches no node. Bits 16 to 23 are the node ID, 1 to 127, bits 0 to 15 the time.",
     source: "CiA 301, object 1016h",
     says: "node ID {node} is not valid, but the entry has a heartbeat time",
     help: "write a node ID from 1 to 127 in bits 16 to 23, or 0 for no entry",
     check: Check::Object(check_nobody),
-    ..Rule::NEW
+    ..Rule::of("W0651")
 };
 
 fn check_nobody(object: &Object<'_>, findings: &mut Vec<Finding>) {
@@ -54,15 +47,13 @@ fn check_nobody(object: &Object<'_>, findings: &mut Vec<Finding>) {
 }
 
 pub(crate) static W0652: Rule = Rule {
-    code: "W0652",
-    severity: Warning,
     title: "node monitors its own heartbeat",
     why: "A node does not receive its own heartbeat, so after the first one of a node with the same ID it reports an error.",
     source: "CiA 301, object 1016h",
     says: "the entry monitors node {node}, which is this node",
     help: "write the node ID of another node in bits 16 to 23, or 0 for no entry",
     check: Check::Object(check_itself),
-    ..Rule::NEW
+    ..Rule::of("W0652")
 };
 
 fn check_itself(object: &Object<'_>, findings: &mut Vec<Finding>) {

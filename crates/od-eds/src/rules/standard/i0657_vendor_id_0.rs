@@ -1,18 +1,16 @@
 use alloc::vec::Vec;
 
-use crate::finding::{Check, Finding, Rule, Severity::Info};
+use crate::finding::{Check, Finding, Rule};
 use crate::subject::{Entry, start_number};
 
 pub(crate) static I0657: Rule = Rule {
-    code: "I0657",
-    severity: Info,
     title: "vendor-ID is 0",
     why: "CiA 301 says that 0 is not a valid vendor-ID: a master cannot tell the device from others, and LSS cannot address it.",
     source: "CiA 301, object 1018h",
     says: "vendor-ID is 0, which is not valid",
     help: "write the vendor-ID that CiA assigned",
     check: Check::Entry(check),
-    ..Rule::NEW
+    ..Rule::of("I0657")
 };
 
 fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {

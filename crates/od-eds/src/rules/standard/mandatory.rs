@@ -6,13 +6,11 @@ use od_model::{Address, DataType, ObjectCode};
 
 use crate::description::Description;
 use crate::fact::Fact;
-use crate::finding::{Check, Finding, Fixability, Rule, Severity::Error};
+use crate::finding::{Check, Finding, Fixability, Rule};
 use crate::rules::standard::shared::{code, data_type, value};
 use crate::subject::Object;
 
 pub(crate) static E0601: Rule = Rule {
-    code: "E0601",
-    severity: Error,
     title: "object 1000h is missing",
     why: "A master reads the device type first, and gets an abort.",
     source: "CiA 301, object 1000h",
@@ -21,12 +19,10 @@ pub(crate) static E0601: Rule = Rule {
     check: Check::Device(|description, findings| {
         findings.extend(missing(&E0601, description, 0x1000))
     }),
-    ..Rule::NEW
+    ..Rule::of("E0601")
 };
 
 pub(crate) static E0602: Rule = Rule {
-    code: "E0602",
-    severity: Error,
     title: "object 1001h is missing",
     why: "A master that reads the error register gets an abort. EMCY messages carry its value.",
     source: "CiA 301, object 1001h",
@@ -35,12 +31,10 @@ pub(crate) static E0602: Rule = Rule {
     check: Check::Device(|description, findings| {
         findings.extend(missing(&E0602, description, 0x1001))
     }),
-    ..Rule::NEW
+    ..Rule::of("E0602")
 };
 
 pub(crate) static E0603: Rule = Rule {
-    code: "E0603",
-    severity: Error,
     title: "object 1018h is missing",
     why: "A master cannot identify the device.",
     source: "CiA 301, object 1018h",
@@ -49,12 +43,10 @@ pub(crate) static E0603: Rule = Rule {
     check: Check::Device(|description, findings| {
         findings.extend(missing(&E0603, description, 0x1018))
     }),
-    ..Rule::NEW
+    ..Rule::of("E0603")
 };
 
 pub(crate) static E0604: Rule = Rule {
-    code: "E0604",
-    severity: Error,
     title: "object 1000h differs from CiA 301",
     why: "A master that reads 1000h as an UNSIGNED32 VAR gets another length, or an abort.",
     source: "CiA 301, object 1000h",
@@ -64,12 +56,10 @@ pub(crate) static E0604: Rule = Rule {
     check: Check::Object(|object, findings| {
         differs(&E0604, object, 0x1000, DataType::Unsigned32, findings)
     }),
-    ..Rule::NEW
+    ..Rule::of("E0604")
 };
 
 pub(crate) static E0605: Rule = Rule {
-    code: "E0605",
-    severity: Error,
     title: "object 1001h differs from CiA 301",
     why: "A master that reads 1001h as an UNSIGNED8 VAR gets another length, or an abort.",
     source: "CiA 301, object 1001h",
@@ -79,7 +69,7 @@ pub(crate) static E0605: Rule = Rule {
     check: Check::Object(|object, findings| {
         differs(&E0605, object, 0x1001, DataType::Unsigned8, findings)
     }),
-    ..Rule::NEW
+    ..Rule::of("E0605")
 };
 
 /// The finding about a mandatory object that is missing; none for a file without objects, which

@@ -5,7 +5,7 @@ use alloc::string::String;
 
 use crate::finding::{
     Finding, Fixability, Form, Rule,
-    Severity::{Error, Info, Warning},
+    Severity::{Error, Info},
 };
 use crate::fix::Fix;
 use crate::scan::forms::Form as Wanted;
@@ -13,8 +13,6 @@ use crate::scan::section::Text;
 use crate::span::Span;
 
 pub(crate) static W0609: Rule = Rule {
-    code: "W0609",
-    severity: Warning,
     buildable: true,
     title: "value outside the object sections is not valid",
     why: "A tool cannot use the value. odkit keeps it as text and treats it as missing. A flag is 0 or 1, and each number has a range.",
@@ -23,7 +21,7 @@ pub(crate) static W0609: Rule = Rule {
     says: "{name} `{given}` in [{section}] is not valid",
     help: "write `0` or `1`, or leave the value empty",
     also: &[W0609_NUMBER, W0609_LONG, W0609_HEX, W0609_VERSION],
-    ..Rule::NEW
+    ..Rule::of("W0609")
 };
 
 const W0609_NUMBER: Form = Form {
@@ -101,15 +99,13 @@ fn hexadecimal(text: &str) -> Option<String> {
 }
 
 pub(crate) static I0610: Rule = Rule {
-    code: "I0610",
-    severity: Info,
     title: "date or time is not as CiA 306 specifies",
     why: "Some editors drop the value; odkit keeps it. CiA 306 specifies `MM-DD-YYYY` and `hh:mmAM`.",
     source: "CiA 306-1, FileInfo",
     says: "{name} `{given}` is not as CiA 306 specifies",
     help: "write month, day and year, such as `07-14-2026`",
     also: &[I0610_TIME],
-    ..Rule::NEW
+    ..Rule::of("I0610")
 };
 
 const I0610_TIME: Form = Form {
@@ -127,15 +123,13 @@ pub(crate) fn i0610_date_or_time(key: &str, given: &Text<'_>, wanted: Wanted) ->
 }
 
 pub(crate) static I0611: Rule = Rule {
-    code: "I0611",
-    severity: Info,
     title: "DeviceCommissioning is spelled with two m",
     why: "Many tools know only the spelling of the standard, `DeviceComissioning`. odkit reads both.",
     source: "CiA 306-1, DCF",
     fixability: Fixability::Either,
     says: "CiA 306 spells `DeviceCommissioning` with one m",
     help: "write `[DeviceComissioning]`{fix}",
-    ..Rule::NEW
+    ..Rule::of("I0611")
 };
 
 /// The finding about the header. A tool that now ignores the section may stop at an invalid value
@@ -152,14 +146,12 @@ pub(crate) fn i0611_commissioning_spelling(header: Span, is_valid: bool) -> Find
 }
 
 pub(crate) static W0658: Rule = Rule {
-    code: "W0658",
-    severity: Warning,
     title: "DCF without [DeviceComissioning]",
     why: "A master that configures by the DCF has no node ID and no bit rate for the device.",
     source: "CiA 306-1, DeviceComissioning",
     says: "section [DeviceComissioning] is missing, and this file is a DCF",
     help: "add a section [DeviceComissioning] with `NodeID=` and `Baudrate=`",
-    ..Rule::NEW
+    ..Rule::of("W0658")
 };
 
 /// The finding about a DCF without the section of its node.

@@ -2,15 +2,13 @@ use alloc::format;
 use alloc::vec::Vec;
 
 use crate::description::Description;
-use crate::finding::{Check, Finding, Fixability, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Fixability, Rule};
 use crate::fix::Fix;
 use crate::scan::number::number;
 use crate::subject::start_number;
 use od_model::Address;
 
 pub(crate) static W0607: Rule = Rule {
-    code: "W0607",
-    severity: Warning,
     title: "identity differs from [DeviceInfo]",
     why: "A tool that picks the EDS by vendor, product and revision finds no match. [DeviceInfo] repeats the default values of 1018h.",
     source: "CiA 306-1, DeviceInfo",
@@ -18,7 +16,7 @@ pub(crate) static W0607: Rule = Rule {
     says: "{field} is 0x{given:X}, but {object} is 0x{value:X}",
     help: "write `{field}=0x{value:X}`{fix}, or correct {object}",
     check: Check::Device(check),
-    ..Rule::NEW
+    ..Rule::of("W0607")
 };
 
 fn check(description: &Description, findings: &mut Vec<Finding>) {

@@ -2,13 +2,11 @@ use alloc::format;
 use alloc::vec::Vec;
 
 use crate::description::Description;
-use crate::finding::{Check, Finding, Fixability, Form, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Fixability, Form, Rule};
 use crate::fix::Fix;
 use crate::scan::number::number;
 
 pub(crate) static W0608: Rule = Rule {
-    code: "W0608",
-    severity: Warning,
     title: "number of PDOs differs from [DeviceInfo]",
     why: "A tool that trusts NrOfRxPDO and NrOfTxPDO misses PDOs, or looks for PDOs that do not exist.",
     source: "CiA 306-1, DeviceInfo",
@@ -17,7 +15,7 @@ pub(crate) static W0608: Rule = Rule {
     help: "write `{field}={count}`{fix}",
     also: &[RPDOS],
     check: Check::Device(check),
-    ..Rule::NEW
+    ..Rule::of("W0608")
 };
 
 /// Sentence for RPDOs.

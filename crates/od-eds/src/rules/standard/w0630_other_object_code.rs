@@ -7,7 +7,6 @@ use crate::subject::Object;
 use od_model::ObjectCode;
 
 pub(crate) static W0630: Rule = Rule {
-    code: "W0630",
     severity: Severity::Error,
     buildable: true,
     title: "standard object has another object code",
@@ -16,7 +15,7 @@ pub(crate) static W0630: Rule = Rule {
     says: "{object} ({name}) is {given}, but {standard} specifies {right}",
     help: "write `{ObjectType={right}}`",
     check: Check::Object(check),
-    ..Rule::NEW
+    ..Rule::of("W0630")
 };
 
 fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {

@@ -9,7 +9,6 @@ use crate::subject::Entry;
 use od_model::{Address, DataType};
 
 pub(crate) static W0631: Rule = Rule {
-    code: "W0631",
     severity: Error,
     buildable: true,
     title: "standard object has another data type",
@@ -19,7 +18,7 @@ pub(crate) static W0631: Rule = Rule {
     says: "{object} ({name}) is {given}, but {standard} specifies {right}",
     help: "write `{DataType={right}}`{fix}",
     check: Check::Entry(check),
-    ..Rule::NEW
+    ..Rule::of("W0631")
 };
 
 fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {

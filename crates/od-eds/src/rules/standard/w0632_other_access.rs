@@ -1,14 +1,12 @@
 use alloc::vec::Vec;
 
-use crate::finding::{Check, Finding, Fixability, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Fixability, Rule};
 use crate::fix::Fix;
 use crate::standards::cia301::of;
 use crate::subject::Entry;
 use od_model::{Access, Address};
 
 pub(crate) static W0632: Rule = Rule {
-    code: "W0632",
-    severity: Warning,
     title: "standard object has another access",
     why: "A master can change a value that only the device sets, or cannot reset a value that it resets.",
     source: "CiA 301, chapter 7.5; CiA 302",
@@ -16,7 +14,7 @@ pub(crate) static W0632: Rule = Rule {
     says: "{AccessType} of {object} ({name}) is `{given}`, but {standard} specifies `{right}`",
     help: "write `{AccessType={fixed}}`{fix}",
     check: Check::Entry(check),
-    ..Rule::NEW
+    ..Rule::of("W0632")
 };
 
 fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {

@@ -7,7 +7,6 @@ use crate::subject::Object;
 use od_model::Address;
 
 pub(crate) static W0633: Rule = Rule {
-    code: "W0633",
     severity: Error,
     buildable: true,
     title: "standard object lacks a sub-object",
@@ -16,7 +15,7 @@ pub(crate) static W0633: Rule = Rule {
     says: "{object} ({name}) lacks sub-index {sub}",
     help: "add {missing}",
     check: Check::Object(check),
-    ..Rule::NEW
+    ..Rule::of("W0633")
 };
 
 fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {

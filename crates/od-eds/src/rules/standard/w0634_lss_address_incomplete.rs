@@ -7,7 +7,6 @@ use crate::scan::number::number;
 use od_model::Address;
 
 pub(crate) static W0634: Rule = Rule {
-    code: "W0634",
     severity: Error,
     buildable: true,
     title: "LSS without a complete LSS address",
@@ -16,7 +15,7 @@ pub(crate) static W0634: Rule = Rule {
     says: "the LSS address lacks {missing}",
     help: "add the missing sub-objects, or write `LSS_Supported=0`",
     check: Check::Device(check),
-    ..Rule::NEW
+    ..Rule::of("W0634")
 };
 
 fn check(description: &Description, findings: &mut Vec<Finding>) {

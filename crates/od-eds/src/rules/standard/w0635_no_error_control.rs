@@ -2,18 +2,16 @@ use alloc::vec::Vec;
 
 use crate::description::Description;
 use crate::fact::Fact;
-use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Rule};
 
 pub(crate) static W0635: Rule = Rule {
-    code: "W0635",
-    severity: Warning,
     title: "device has no error control",
     why: "Without a heartbeat or node guarding, no master notices that the node has failed.",
     source: "CiA 301, error control",
     says: "1017h (heartbeat) and 100Ch (node guarding) are both missing",
     help: "add {missing}; every device needs one of the two",
     check: Check::Device(check),
-    ..Rule::NEW
+    ..Rule::of("W0635")
 };
 
 fn check(description: &Description, findings: &mut Vec<Finding>) {

@@ -3,14 +3,12 @@ use alloc::string::String;
 use alloc::vec::Vec;
 
 use crate::description::Description;
-use crate::finding::{Check, Finding, Form, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Form, Rule};
 use crate::rules::standard::shared::commissioning;
 use crate::scan::number::number;
 use crate::span::Spanned;
 
 pub(crate) static W0638: Rule = Rule {
-    code: "W0638",
-    severity: Warning,
     title: "bit rate in use is not valid",
     why: "A configuration tool cannot set the bit rate of a DCF, and the device cannot start with that of an XDD. CiA 301 defines the bit rates, and [DeviceInfo] gives those of the device.",
     source: "CiA 306-1, DeviceComissioning; CiA 311, baudRate",
@@ -18,7 +16,7 @@ pub(crate) static W0638: Rule = Rule {
     help: "write 10, 20, 50, 125, 250, 500, 800 or 1000 (kbit/s)",
     also: &[LACKS, DEFAULT],
     check: Check::Device(check),
-    ..Rule::NEW
+    ..Rule::of("W0638")
 };
 
 /// Sentence for a bit rate that the device does not support.

@@ -1,13 +1,11 @@
 use alloc::vec::Vec;
 
-use crate::finding::{Check, Finding, Fixability, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Fixability, Rule};
 use crate::fix::Fix;
 use crate::subject::Entry;
 use od_model::Address;
 
 pub(crate) static W0639: Rule = Rule {
-    code: "W0639",
-    severity: Warning,
     title: "error history of a new device is not empty",
     why: "A master reads errors that never occurred. Sub-index 0 of 1003h counts the errors in the history, not its size.",
     source: "CiA 301, object 1003h",
@@ -15,7 +13,7 @@ pub(crate) static W0639: Rule = Rule {
     says: "{DefaultValue} is {given}, but the error history of a new device is empty",
     help: "write `{DefaultValue=0}`{fix}",
     check: Check::Entry(check),
-    ..Rule::NEW
+    ..Rule::of("W0639")
 };
 
 fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {

@@ -7,8 +7,6 @@ use crate::subject::{Object, start_number};
 use od_model::Address;
 
 pub(crate) static W0642: Rule = Rule {
-    code: "W0642",
-    severity: Severity::Warning,
     title: "object needs another object that is missing",
     why: "A master that finds one half of a service expects the other half, and cannot use the service.",
     source: "CiA 301, objects 1005h to 1029h; CiA 302-2 and 302-3",
@@ -16,7 +14,7 @@ pub(crate) static W0642: Rule = Rule {
     help: "add {missing}, or remove {object}",
     also: &[MASTER],
     check: Check::Object(check),
-    ..Rule::NEW
+    ..Rule::of("W0642")
 };
 
 /// Sentence for an NMT master without slaves.

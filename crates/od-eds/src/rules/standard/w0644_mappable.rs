@@ -1,13 +1,11 @@
 use alloc::vec::Vec;
 
-use crate::finding::{Check, Finding, Fixability, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Fixability, Rule};
 use crate::fix::Fix;
 use crate::standards::cia301::of;
 use crate::subject::Entry;
 
 pub(crate) static W0644: Rule = Rule {
-    code: "W0644",
-    severity: Warning,
     title: "standard object is mappable",
     why: "A master may map the object, and the device aborts the mapping. CiA 301 allows a mapping of few of its objects, such as 1001h, 1013h and 1026h.",
     source: "CiA 301, chapter 7.5; CiA 302",
@@ -15,7 +13,7 @@ pub(crate) static W0644: Rule = Rule {
     says: "{PDOMapping} of {object} ({name}) is 1, but {standard} does not allow a mapping",
     help: "write `{PDOMapping=0}`{fix}",
     check: Check::Entry(check),
-    ..Rule::NEW
+    ..Rule::of("W0644")
 };
 
 fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {

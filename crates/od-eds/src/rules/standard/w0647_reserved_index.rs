@@ -6,8 +6,6 @@ use crate::standards::cia301::{has_node_ids, of};
 use crate::subject::Object;
 
 pub(crate) static W0647: Rule = Rule {
-    code: "W0647",
-    severity: Severity::Warning,
     buildable: true,
     title: "index or sub-index is reserved by CiA 301",
     why: "A later version of the standard may use it, and a tool for conformance tests rejects it.",
@@ -16,7 +14,7 @@ pub(crate) static W0647: Rule = Rule {
     help: "move the object to 2000h to 5FFFh (manufacturer-specific objects)",
     also: &[SUB],
     check: Check::Object(check),
-    ..Rule::NEW
+    ..Rule::of("W0647")
 };
 
 /// Sentence for a sub-index.

@@ -6,8 +6,6 @@ use crate::subject::{Entry, start_value};
 use od_model::Address;
 
 pub(crate) static W0648: Rule = Rule {
-    code: "W0648",
-    severity: Severity::Warning,
     buildable: true,
     title: "value of a standard object is reserved",
     why: "A device that follows the standard aborts a download of the value, and a master may give the bits another meaning.",
@@ -15,7 +13,7 @@ pub(crate) static W0648: Rule = Rule {
     says: "{object} ({name}) is 0x{given:X}, but {standard} reserves {reserved}",
     help: "write a value without {reserved}",
     check: Check::Entry(check),
-    ..Rule::NEW
+    ..Rule::of("W0648")
 };
 
 /// Returns the part of a number that is reserved: bits or a range.

@@ -2,14 +2,12 @@ use alloc::vec::Vec;
 
 use crate::description::Description;
 use crate::fact::Fact;
-use crate::finding::{Check, Finding, Form, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Form, Rule};
 use crate::span::Spanned;
 use crate::subject::start_number;
 use od_model::Address;
 
 pub(crate) static W0649: Rule = Rule {
-    code: "W0649",
-    severity: Warning,
     title: "objects of the SYNC service contradict each other",
     why: "The device produces no SYNC message, or drops synchronous PDOs that come in time.",
     source: "CiA 301, objects 1005h to 1007h",
@@ -17,7 +15,7 @@ pub(crate) static W0649: Rule = Rule {
     help: "add {missing}, or clear bit 30 of 1005h",
     also: &[WINDOW],
     check: Check::Device(check),
-    ..Rule::NEW
+    ..Rule::of("W0649")
 };
 
 /// Sentence for a window that is longer than the period.

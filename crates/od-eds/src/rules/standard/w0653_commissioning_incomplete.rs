@@ -1,15 +1,13 @@
 use alloc::vec::Vec;
 
 use crate::description::Description;
-use crate::finding::{Check, Finding, Form, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Form, Rule};
 use crate::rules::standard::shared::commissioning;
 use crate::scan::number::number;
 use crate::subject::start_number;
 use od_model::Address;
 
 pub(crate) static W0653: Rule = Rule {
-    code: "W0653",
-    severity: Warning,
     title: "[DeviceComissioning] is incomplete, or contradicts an object",
     why: "A configuration tool does not know which node it configures, or configures another one by LSS.",
     source: "CiA 306-1, DeviceComissioning",
@@ -17,7 +15,7 @@ pub(crate) static W0653: Rule = Rule {
     help: "add `{field}=` and its value",
     also: &[SERIAL, MANAGER],
     check: Check::Device(check),
-    ..Rule::NEW
+    ..Rule::of("W0653")
 };
 
 /// Sentence for a serial number that is not the one of 1018h.

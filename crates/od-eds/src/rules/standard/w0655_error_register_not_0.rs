@@ -1,13 +1,11 @@
 use alloc::vec::Vec;
 
-use crate::finding::{Check, Finding, Fixability, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Fixability, Rule};
 use crate::fix::Fix;
 use crate::subject::Entry;
 use od_model::Address;
 
 pub(crate) static W0655: Rule = Rule {
-    code: "W0655",
-    severity: Warning,
     title: "error register of a new device is not 0",
     why: "A master reads an error that never occurred.",
     source: "CiA 301, object 1001h",
@@ -15,7 +13,7 @@ pub(crate) static W0655: Rule = Rule {
     says: "{DefaultValue} is {given}, but a new device has no error",
     help: "write `{DefaultValue=0}`{fix}",
     check: Check::Entry(check),
-    ..Rule::NEW
+    ..Rule::of("W0655")
 };
 
 fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {

@@ -1,20 +1,18 @@
 use alloc::vec::Vec;
 
 use crate::description::Description;
-use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Rule};
 use crate::subject::start_number;
 use od_model::Address;
 
 pub(crate) static W0656: Rule = Rule {
-    code: "W0656",
-    severity: Warning,
     title: "device starts with node guarding and heartbeat",
     why: "CiA 301 does not allow both at once: the device sends a heartbeat, and a master that guards it gets no answer.",
     source: "CiA 301, chapter 7.2.8.2 and object 1017h",
     says: "100Ch and 100Dh enable life guarding, but 1017h is {time} ms",
     help: "write `{DefaultValue=0}` to 100Ch, or to 1017h",
     check: Check::Device(check),
-    ..Rule::NEW
+    ..Rule::of("W0656")
 };
 
 fn check(description: &Description, findings: &mut Vec<Finding>) {

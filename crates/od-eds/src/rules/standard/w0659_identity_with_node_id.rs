@@ -1,19 +1,17 @@
 use alloc::vec::Vec;
 
 use crate::description::Value;
-use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Rule};
 use crate::subject::{Entry, start_value};
 
 pub(crate) static W0659: Rule = Rule {
-    code: "W0659",
-    severity: Warning,
     title: "identity of a device depends on its node ID",
     why: "A master compares 1000h and 1018h with the values of the file, and LSS addresses the device by 1018h before it has a node ID. A value that changes with the node ID identifies no device. odkit adds the node ID.",
     source: "CiA 301, objects 1000h and 1018h; CiA 305, LSS address",
     says: "{object} identifies the device, but its value depends on the node ID",
     help: "write the number of the device without `$NODEID`",
     check: Check::Entry(check),
-    ..Rule::NEW
+    ..Rule::of("W0659")
 };
 
 fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {

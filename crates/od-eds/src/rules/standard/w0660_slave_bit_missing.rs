@@ -1,13 +1,11 @@
 use alloc::vec::Vec;
 
-use crate::finding::{Check, Finding, Fixability, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Fixability, Rule};
 use crate::fix::Fix;
 use crate::standards::cia301::of;
 use crate::subject::{Entry, start_value};
 
 pub(crate) static W0660: Rule = Rule {
-    code: "W0660",
-    severity: Warning,
     title: "NMT slave assignment lacks its slave bit",
     why: "The master ignores the other bits of a node that is not its slave: it does not boot a mandatory slave, nor miss it.",
     source: "CiA 302-2, object 1F81h",
@@ -15,7 +13,7 @@ pub(crate) static W0660: Rule = Rule {
     says: "{object} ({name}) is 0x{given:X}, but bit 0 (slave of this master) is 0",
     help: "write `0x{meant:X}`{fix}, or 0 for a node that is not a slave",
     check: Check::Entry(check),
-    ..Rule::NEW
+    ..Rule::of("W0660")
 };
 
 /// The bits that say how a slave is booted: 2 to 7.

@@ -1,15 +1,13 @@
 use alloc::vec::Vec;
 
 use crate::description::Description;
-use crate::finding::{Check, Finding, Fixability, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Fixability, Rule};
 use crate::fix::Fix;
 use crate::scan::number::number;
 use crate::subject::start_number;
 use od_model::Address;
 
 pub(crate) static W0661: Rule = Rule {
-    code: "W0661",
-    severity: Warning,
     title: "multiplexed PDO of a device without multiplexed PDOs",
     why: "A configuration tool that trusts GroupMessaging does not offer multiplexed PDOs, or reads the PDO as an ordinary one.",
     source: "CiA 306-1, DeviceInfo; CiA 301, MPDO protocol",
@@ -17,7 +15,7 @@ pub(crate) static W0661: Rule = Rule {
     says: "GroupMessaging is 0, but {object} is the mapping of a multiplexed PDO",
     help: "write `GroupMessaging=1`{fix}, or write the number of mapped objects",
     check: Check::Device(check),
-    ..Rule::NEW
+    ..Rule::of("W0661")
 };
 
 fn check(description: &Description, findings: &mut Vec<Finding>) {

@@ -1,14 +1,12 @@
 use alloc::vec::Vec;
 
-use crate::finding::{Check, Finding, Fixability, Rule, Severity::Error};
+use crate::finding::{Check, Finding, Fixability, Rule};
 use crate::fix::Fix;
 use crate::rules::structure::shared::sub_index_0;
 use crate::subject::Object;
 use od_model::DataType;
 
 pub(crate) static E0309: Rule = Rule {
-    code: "E0309",
-    severity: Error,
     title: "sub-index 0 is not UNSIGNED8",
     why: "A master reads sub-index 0 of every ARRAY and RECORD as one byte, the highest sub-index.",
     source: "CiA 301, object structure",
@@ -16,7 +14,7 @@ pub(crate) static E0309: Rule = Rule {
     says: "sub-index 0 is {given}, not {right}",
     help: "write `{DataType={right}}`{fix}",
     check: Check::Object(check),
-    ..Rule::NEW
+    ..Rule::of("E0309")
 };
 
 fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {

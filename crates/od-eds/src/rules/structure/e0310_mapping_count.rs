@@ -1,12 +1,10 @@
 use alloc::vec::Vec;
 
-use crate::finding::{Check, Finding, Fixability, Rule, Severity::Error};
+use crate::finding::{Check, Finding, Fixability, Rule};
 use crate::rules::structure::shared::Count;
 use crate::subject::Object;
 
 pub(crate) static E0310: Rule = Rule {
-    code: "E0310",
-    severity: Error,
     title: "PDO mapping counts entries that do not exist",
     why: "A node cannot build a PDO from mapping entries that do not exist. In a macro call the rule covers every object. Sub-index 0 of a mapping may be lower than the highest sub-index, never higher.",
     source: "CiA 301, object structure",
@@ -14,7 +12,7 @@ pub(crate) static E0310: Rule = Rule {
     says: "sub-index 0 is {given}, but the highest sub-index is {highest}",
     help: "write `{DefaultValue={highest}}`{fix}",
     check: Check::Object(check),
-    ..Rule::NEW
+    ..Rule::of("E0310")
 };
 
 fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {

@@ -1,19 +1,17 @@
 use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
 
-use crate::finding::{Check, Finding, Rule, Severity::Info};
+use crate::finding::{Check, Finding, Rule};
 use crate::subject::Object;
 
 pub(crate) static I0345: Rule = Rule {
-    code: "I0345",
-    severity: Info,
     title: "two sub-objects have the same name",
     why: "A master that finds values by name finds only one of them.",
     source: "odkit; python-canopen and others look up by name",
     says: "two sub-objects have the name `{name}`",
     help: "write another name",
     check: Check::Object(check),
-    ..Rule::NEW
+    ..Rule::of("I0345")
 };
 
 fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {

@@ -3,19 +3,17 @@ use alloc::vec::Vec;
 
 use crate::description::Description;
 use crate::fact::Fact;
-use crate::finding::{Check, Finding, Rule, Severity::Info};
+use crate::finding::{Check, Finding, Rule};
 use crate::subject::objects;
 
 pub(crate) static I0346: Rule = Rule {
-    code: "I0346",
-    severity: Info,
     title: "two objects have the same name",
     why: "A master that finds objects by name finds only one of them.",
     source: "odkit; python-canopen and others look up by name",
     says: "{first} and {index} have the same name `{name}`",
     help: "write another name for one of them",
     check: Check::Device(check),
-    ..Rule::NEW
+    ..Rule::of("I0346")
 };
 
 fn check(description: &Description, findings: &mut Vec<Finding>) {

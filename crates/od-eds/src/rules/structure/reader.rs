@@ -6,24 +6,19 @@ use alloc::string::{String, ToString};
 use od_model::ObjectCode;
 
 use crate::fact::Key;
-use crate::finding::{
-    Finding, Fixability, Form, Rule,
-    Severity::{Error, Info, Warning},
-};
+use crate::finding::{Finding, Fixability, Form, Rule, Severity::Error};
 use crate::fix::Fix;
 use crate::log::EXPANDED;
 use crate::scan::section::{Text, TextSection};
 use crate::span::{Span, Spanned};
 
 pub(crate) static E0301: Rule = Rule {
-    code: "E0301",
-    severity: Error,
     title: "ObjectType is not an object code",
     why: "A tool cannot tell a VAR from an ARRAY or a RECORD. odkit assumes a RECORD if sub-objects exist, otherwise a VAR.",
     source: "CiA 301, object codes",
     says: "{ObjectType} `{given}` is not an object code",
     help: "write `{ObjectType=0x7}` (VAR), `{ObjectType=0x8}` (ARRAY) or `{ObjectType=0x9}` (RECORD)",
-    ..Rule::NEW
+    ..Rule::of("E0301")
 };
 
 /// The finding about an ObjectType that no object code has.
@@ -32,15 +27,13 @@ pub(crate) fn e0301_object_code_unknown(given: &Text<'_>) -> Finding {
 }
 
 pub(crate) static W0302: Rule = Rule {
-    code: "W0302",
-    severity: Warning,
     title: "object with sub-objects has no ObjectType",
     why: "A tool assumes a VAR and misses the sub-objects. odkit assumes a RECORD.",
     source: "CiA 306-1, object sections",
     fixability: Fixability::Unsafe,
     says: "{ObjectType} is missing, but sub-objects exist",
     help: "write `{ObjectType=0x9}` for a RECORD{fix}, or `{ObjectType=0x8}` for an ARRAY",
-    ..Rule::NEW
+    ..Rule::of("W0302")
 };
 
 /// The finding about an object without ObjectType that has sub-objects.
@@ -51,14 +44,12 @@ pub(crate) fn w0302_object_type_missing(header: Span) -> Finding {
 }
 
 pub(crate) static E0303: Rule = Rule {
-    code: "E0303",
-    severity: Error,
     title: "duplicate object section with different values",
     why: "Tools differ in which of the two sections they use. odkit uses the first, and adds what only the second says.",
     source: "CiA 306-1, object sections",
     says: "duplicate section [{name}] with different values",
     help: "remove one of the sections",
-    ..Rule::NEW
+    ..Rule::of("E0303")
 };
 
 /// The finding about a second section that contradicts the first.
@@ -70,14 +61,12 @@ pub(crate) fn e0303_duplicate_object_differs(
 }
 
 pub(crate) static W0304: Rule = Rule {
-    code: "W0304",
-    severity: Warning,
     title: "duplicate object section",
     why: "Some tools stop at the second section. odkit uses both; they do not contradict each other.",
     source: "CiA 306-1, object sections",
     says: "duplicate section [{name}]",
     help: "remove one of the sections",
-    ..Rule::NEW
+    ..Rule::of("W0304")
 };
 
 /// The finding about a second section that does not contradict the first.
@@ -96,8 +85,6 @@ pub(super) fn twice(
 }
 
 pub(crate) static E0305: Rule = Rule {
-    code: "E0305",
-    severity: Error,
     title: "VAR or DOMAIN has sub-objects",
     why: "A tool that trusts ObjectType misses the sub-objects. odkit assumes a RECORD, and uses the value of the VAR as sub-index 0 if that is missing.",
     source: "CiA 301, object codes",
@@ -105,7 +92,7 @@ pub(crate) static E0305: Rule = Rule {
     says: "{code} cannot have sub-objects",
     help: "write `{ObjectType=0x9}` for a RECORD{fix}, or `{ObjectType=0x8}` for an ARRAY",
     also: &[E0305_COMPACT],
-    ..Rule::NEW
+    ..Rule::of("E0305")
 };
 
 /// Sentence for an object with CompactSubObj.
@@ -135,14 +122,12 @@ pub(crate) fn e0305_var_with_sub_objects(
 }
 
 pub(crate) static W0313: Rule = Rule {
-    code: "W0313",
-    severity: Warning,
     title: "CompactSubObj is not valid",
     why: "A tool creates the wrong number of sub-objects. CompactSubObj counts them without sub-index 0; odkit assumes 254 for a larger number.",
     source: "CiA 306-1, CompactSubObj",
     says: "{CompactSubObj} `{given}` is not a number from 1 to 254",
     help: "write the number of sub-objects without sub-index 0",
-    ..Rule::NEW
+    ..Rule::of("W0313")
 };
 
 /// The finding about a CompactSubObj that is not valid.
@@ -151,14 +136,12 @@ pub(crate) fn w0313_compact_not_valid(given: &Text<'_>) -> Finding {
 }
 
 pub(crate) static W0314: Rule = Rule {
-    code: "W0314",
-    severity: Warning,
     title: "compact section names a missing sub-index",
     why: "A tool cannot apply the entry. odkit ignores it.",
     source: "CiA 306-1, CompactSubObj",
     says: "sub-index `{given}` does not exist",
     help: "write a sub-index from 1 to {count}",
-    ..Rule::NEW
+    ..Rule::of("W0314")
 };
 
 /// The finding about an entry of a compact section for a sub-index that does not exist.
@@ -170,14 +153,12 @@ pub(crate) fn w0314_compact_sub_index_missing(given: &Text<'_>, count: &Spanned<
 }
 
 pub(crate) static W0315: Rule = Rule {
-    code: "W0315",
-    severity: Warning,
     title: "ParameterName is missing",
     why: "A tool shows the object without a name. Every object and every sub-object has one.",
     source: "CiA 306-1, object sections",
     says: "{ParameterName} is missing",
     help: "write `{ParameterName=}` and a name",
-    ..Rule::NEW
+    ..Rule::of("W0315")
 };
 
 /// The finding about a section without ParameterName.
@@ -186,7 +167,6 @@ pub(crate) fn w0315_name_missing(header: Span) -> Finding {
 }
 
 pub(crate) static W0316: Rule = Rule {
-    code: "W0316",
     severity: Error,
     buildable: true,
     title: "SubNumber is not a number",
@@ -194,7 +174,7 @@ pub(crate) static W0316: Rule = Rule {
     source: "CiA 306-1, object sections",
     says: "{SubNumber} `{given}` is not a number",
     help: "write the number of sub-index sections",
-    ..Rule::NEW
+    ..Rule::of("W0316")
 };
 
 /// The finding about a SubNumber that is not a number.
@@ -203,15 +183,13 @@ pub(crate) fn w0316_sub_number_not_a_number(given: &Text<'_>) -> Finding {
 }
 
 pub(crate) static W0317: Rule = Rule {
-    code: "W0317",
-    severity: Warning,
     title: "SubNumber is missing",
     why: "A tool cannot tell how many sub-objects to read. odkit counts the sections.",
     source: "CiA 306-1, object sections",
     fixability: Fixability::Safe,
     says: "{SubNumber} is missing",
     help: "write `{SubNumber={count}}`{fix}",
-    ..Rule::NEW
+    ..Rule::of("W0317")
 };
 
 /// The finding about an object with sub-objects and no SubNumber.
@@ -221,15 +199,13 @@ pub(crate) fn w0317_sub_number_missing(header: Span, count: u32) -> Finding {
 }
 
 pub(crate) static W0318: Rule = Rule {
-    code: "W0318",
-    severity: Warning,
     title: "key is probably misspelled",
     why: "A tool ignores the key. odkit keeps the key and ignores it.",
     source: "CiA 306-1, object sections",
     fixability: Fixability::Unsafe,
     says: "`{name}` is not a key of CiA 306 for this section",
     help: "write `{meant}={given}` if this key is meant{fix}",
-    ..Rule::NEW
+    ..Rule::of("W0318")
 };
 
 /// The finding about a key that is probably misspelled.
@@ -243,14 +219,12 @@ pub(crate) fn w0318_key_misspelled(key: &Text<'_>, value: &str, meant: &str) -> 
 }
 
 pub(crate) static I0319: Rule = Rule {
-    code: "I0319",
-    severity: Info,
     title: "key is not defined in CiA 306",
     why: "A tool ignores the key. odkit keeps the key and ignores it.",
     source: "CiA 306-1, file format",
     says: "`{name}` is not a key of CiA 306 for this section",
     help: "correct the key, or remove the line if no tool needs it",
-    ..Rule::NEW
+    ..Rule::of("I0319")
 };
 
 /// The finding about a key that CiA 306 does not define.
@@ -259,15 +233,13 @@ pub(crate) fn i0319_unknown_key(key: &Text<'_>) -> Finding {
 }
 
 pub(crate) static I0320: Rule = Rule {
-    code: "I0320",
-    severity: Info,
     title: "value is empty",
     why: "Many tools stop at a number, a type or an access without a value. odkit treats the line as missing.",
     source: "CiA 306-1, object sections",
     fixability: Fixability::Safe,
     says: "`{name}` is empty",
     help: "remove the line{fix}, or write a value for `{name}`",
-    ..Rule::NEW
+    ..Rule::of("I0320")
 };
 
 /// The finding about a key without the value that it needs. It has no fix if the same key follows,
@@ -286,8 +258,6 @@ pub(crate) fn i0320_empty_value(key: &Text<'_>, is_single: bool) -> Finding {
 }
 
 pub(crate) static W0321: Rule = Rule {
-    code: "W0321",
-    severity: Warning,
     title: "NrOfEntries does not match its section",
     why: "Many tools read only as many entries as NrOfEntries says. odkit reads all entries.",
     source: "CiA 306-1, CompactSubObj",
@@ -295,7 +265,7 @@ pub(crate) static W0321: Rule = Rule {
     says: "NrOfEntries is {given}, but the section has {found:entry|entries}",
     help: "write `NrOfEntries={found}`{fix}",
     also: &[W0321_MISSING],
-    ..Rule::NEW
+    ..Rule::of("W0321")
 };
 
 /// Sentence for a section without NrOfEntries.
@@ -326,7 +296,6 @@ pub(crate) fn w0321_nr_of_entries(
 }
 
 pub(crate) static W0322: Rule = Rule {
-    code: "W0322",
     severity: Error,
     buildable: true,
     title: "sub-index is not a VAR",
@@ -335,7 +304,7 @@ pub(crate) static W0322: Rule = Rule {
     fixability: Fixability::Unsafe,
     says: "{ObjectType} `{given}` is not valid for a sub-index",
     help: "write `{ObjectType=0x7}`{fix}",
-    ..Rule::NEW
+    ..Rule::of("W0322")
 };
 
 /// The finding about the ObjectType of a sub-index.
@@ -347,15 +316,13 @@ pub(crate) fn w0322_sub_index_not_var(given: &Text<'_>) -> Finding {
 }
 
 pub(crate) static W0323: Rule = Rule {
-    code: "W0323",
-    severity: Warning,
     title: "Count of a module is not valid",
     why: "A configuration tool adds the wrong number of sub-objects. odkit assumes 1. Count is a number, or `0;` and the number of bits in one shared sub-object.",
     source: "CiA 306-1, modular devices",
     says: "Count `{given}` is not valid",
     help: "write the number of sub-objects that a module adds, or `0;` and its bits",
     also: &[W0323_MISSING],
-    ..Rule::NEW
+    ..Rule::of("W0323")
 };
 
 /// Sentence for an extension without Count.
@@ -373,14 +340,12 @@ pub(crate) fn w0323_module_count(header: Span, given: Option<&Spanned<String>>) 
 }
 
 pub(crate) static W0324: Rule = Rule {
-    code: "W0324",
-    severity: Warning,
     title: "CompactSubObj beside sub-index sections",
     why: "Some tools read CompactSubObj, others the sections. odkit reads both; without a DataType it ignores CompactSubObj.",
     source: "CiA 306-1, CompactSubObj",
     says: "{CompactSubObj} replaces the sections of the sub-objects, but this object has such sections",
     help: "remove {CompactSubObj}, or remove {SubNumber} and the sections",
-    ..Rule::NEW
+    ..Rule::of("W0324")
 };
 
 /// The finding about a CompactSubObj of an object that has sections of sub-objects.
@@ -389,14 +354,12 @@ pub(crate) fn w0324_compact_beside_sections(count: Span) -> Finding {
 }
 
 pub(crate) static W0325: Rule = Rule {
-    code: "W0325",
-    severity: Warning,
     title: "ARRAY or RECORD has a key of a value",
     why: "Only sub-objects have a value. A tool may read the object as a VAR. odkit keeps the key and ignores it.",
     source: "CiA 306-1, object sections",
     says: "{key} is not a key of an object that is {code}",
     help: "move the line to the sections of the sub-objects, or remove it",
-    ..Rule::NEW
+    ..Rule::of("W0325")
 };
 
 /// Keys that belong to the sub-objects.
@@ -415,14 +378,12 @@ pub(crate) fn w0325_value_of_array(place: Span, key: Key, code: ObjectCode) -> F
 }
 
 pub(crate) static W0342: Rule = Rule {
-    code: "W0342",
-    severity: Warning,
     title: "ObjFlags has reserved bits",
     why: "A tool may give reserved bits a meaning. Bit 0 excludes the object from downloads by a configuration tool, bit 1 from uploads.",
     source: "CiA 306-1, ObjFlags",
     says: "{ObjFlags} is 0x{flags:X}, but only bits 0 and 1 are defined",
     help: "write a number from 0 to 3",
-    ..Rule::NEW
+    ..Rule::of("W0342")
 };
 
 /// The finding about ObjFlags with bits that have no meaning.
@@ -432,15 +393,13 @@ pub(crate) fn w0342_obj_flags_reserved(given: &Text<'_>, flags: u32) -> Option<F
 }
 
 pub(crate) static E0353: Rule = Rule {
-    code: "E0353",
-    severity: Error,
     title: "too many sub-objects without a section",
     why: "No CANopen device has 50,000 sub-objects, and a tool that creates them runs out of memory. odkit keeps sub-index 0 of the objects that are too many.",
     source: "odkit, limits of a description; CiA 306-1, CompactSubObj",
     example: "400 arrays with `CompactSubObj=254`",
     says: "{CompactSubObj} brings the file to more than {limit} sub-objects without a section",
     help: "remove objects, or write a smaller {CompactSubObj}",
-    ..Rule::NEW
+    ..Rule::of("E0353")
 };
 
 /// The finding about too high a number of sub-objects.

@@ -1,20 +1,18 @@
 use alloc::vec::Vec;
 
 use crate::fact::{Fact, Key};
-use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Rule};
 use crate::subject::Object;
 use od_model::ObjectCode;
 
 pub(crate) static W0306: Rule = Rule {
-    code: "W0306",
-    severity: Warning,
     title: "ARRAY or RECORD has no sub-objects",
     why: "A master finds nothing to read or write. odkit leaves the object out of the dictionary.",
     source: "CiA 306-1, object sections",
     says: "the {code} has no sub-objects",
     help: "add {missing} and its other sub-objects, or remove the object",
     check: Check::Object(check),
-    ..Rule::NEW
+    ..Rule::of("W0306")
 };
 
 fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {

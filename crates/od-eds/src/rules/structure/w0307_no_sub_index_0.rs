@@ -9,7 +9,6 @@ use crate::subject::Object;
 use od_model::DataType;
 
 pub(crate) static W0307: Rule = Rule {
-    code: "W0307",
     severity: Error,
     buildable: true,
     title: "ARRAY or RECORD has no sub-index 0",
@@ -19,7 +18,7 @@ pub(crate) static W0307: Rule = Rule {
     says: "sub-index 0 is missing",
     help: "add {missing} with `{DataType={right}}` and the highest sub-index as {DefaultValue}{fix}",
     check: Check::Object(check),
-    ..Rule::NEW
+    ..Rule::of("W0307")
 };
 
 fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {

@@ -1,14 +1,12 @@
 use alloc::string::ToString;
 use alloc::vec::Vec;
 
-use crate::finding::{Check, Finding, Fixability, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Fixability, Rule};
 use crate::fix::Fix;
 use crate::rules::structure::shared::{counts, has_lost};
 use crate::subject::Object;
 
 pub(crate) static W0308: Rule = Rule {
-    code: "W0308",
-    severity: Warning,
     title: "SubNumber does not match the sub-objects",
     why: "A tool that trusts SubNumber misses sub-objects, or fails where one is missing. SubNumber counts the sub-index sections, sub-index 0 included; odkit counts them itself.",
     source: "CiA 306-1, object sections",
@@ -16,7 +14,7 @@ pub(crate) static W0308: Rule = Rule {
     says: "{SubNumber} is {given}, but the object has {count:sub-index|sub-indices}",
     help: "write `{SubNumber={count}}`{fix}",
     check: Check::Object(check),
-    ..Rule::NEW
+    ..Rule::of("W0308")
 };
 
 fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {

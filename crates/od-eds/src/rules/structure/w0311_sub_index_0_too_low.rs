@@ -6,7 +6,6 @@ use crate::rules::structure::shared::{Count, counts_in_use, decimal};
 use crate::subject::Object;
 
 pub(crate) static W0311: Rule = Rule {
-    code: "W0311",
     severity: Error,
     buildable: true,
     title: "sub-index 0 is lower than the highest sub-index",
@@ -17,7 +16,7 @@ pub(crate) static W0311: Rule = Rule {
     help: "write `{DefaultValue={highest}}`{fix}",
     also: &[DECIMAL],
     check: Check::Object(check),
-    ..Rule::NEW
+    ..Rule::of("W0311")
 };
 
 /// The help if a section is probably named in decimal: sub-index 0 is right then.

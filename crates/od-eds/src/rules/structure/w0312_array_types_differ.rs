@@ -1,6 +1,6 @@
 use alloc::vec::Vec;
 
-use crate::finding::{Check, Finding, Fixability, Form, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Fixability, Form, Rule};
 use crate::fix::Fix;
 use crate::rules::profile::shared::is_profile_array;
 use crate::standards::cia301::is_standard_array;
@@ -8,8 +8,6 @@ use crate::subject::Object;
 use od_model::ObjectCode;
 
 pub(crate) static W0312: Rule = Rule {
-    code: "W0312",
-    severity: Warning,
     title: "sub-objects of an ARRAY differ in type",
     why: "A master that reads all sub-objects of an ARRAY with one type reads some of them wrong. Those of a RECORD may differ.",
     source: "CiA 301, object codes",
@@ -18,7 +16,7 @@ pub(crate) static W0312: Rule = Rule {
     help: "write `{ObjectType=0x9}` (RECORD) if the types are correct{fix}",
     also: &[PRESCRIBED],
     check: Check::Object(check),
-    ..Rule::NEW
+    ..Rule::of("W0312")
 };
 
 /// The help for an object that is an ARRAY by the standard.

@@ -1,21 +1,19 @@
 use alloc::string::String;
 use alloc::vec::Vec;
 
-use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Rule};
 use crate::span::Spanned;
 use crate::subject::Object;
 use crate::subject::Subject;
 
 pub(crate) static W0344: Rule = Rule {
-    code: "W0344",
-    severity: Warning,
     title: "name is longer than 241 characters",
     why: "Some tools cut a name after 241 characters, the limit of CiA 306.",
     source: "CiA 306-1, object sections",
     says: "the name has {length} characters; the limit is {limit}",
     help: "write a shorter name",
     check: Check::Object(check),
-    ..Rule::NEW
+    ..Rule::of("W0344")
 };
 
 /// Longest name, in characters.

@@ -1,14 +1,12 @@
 use alloc::vec::Vec;
 
-use crate::finding::{Check, Finding, Fixability, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Fixability, Rule};
 use crate::fix::Fix;
 use crate::rules::profile::shared::in_profile;
 use crate::rules::structure::shared::counts_in_use;
 use crate::subject::Object;
 
 pub(crate) static W0347: Rule = Rule {
-    code: "W0347",
-    severity: Warning,
     title: "sub-index 0 of a standard object is writable",
     why: "A master that changes the number of sub-objects makes other masters read sub-objects that do not exist. Only 1003h and PDO mappings have a writable sub-index 0.",
     source: "CiA 301, object structure",
@@ -16,7 +14,7 @@ pub(crate) static W0347: Rule = Rule {
     says: "sub-index 0 counts the sub-objects, but its {AccessType} is `{given}`",
     help: "write `{AccessType=const}`{fix}",
     check: Check::Object(check),
-    ..Rule::NEW
+    ..Rule::of("W0347")
 };
 
 fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {

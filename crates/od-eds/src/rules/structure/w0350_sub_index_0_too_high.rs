@@ -5,7 +5,6 @@ use crate::rules::structure::shared::Count;
 use crate::subject::Object;
 
 pub(crate) static W0350: Rule = Rule {
-    code: "W0350",
     severity: Error,
     buildable: true,
     title: "sub-index 0 is higher than the highest sub-index",
@@ -15,7 +14,7 @@ pub(crate) static W0350: Rule = Rule {
     says: "sub-index 0 is {given}, but the highest sub-index is {highest}",
     help: "write `{DefaultValue={highest}}`{fix}",
     check: Check::Object(check),
-    ..Rule::NEW
+    ..Rule::of("W0350")
 };
 
 fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {

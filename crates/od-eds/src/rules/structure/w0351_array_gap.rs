@@ -1,7 +1,7 @@
 use alloc::format;
 use alloc::vec::Vec;
 
-use crate::finding::{Check, Finding, Fixability, Form, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Fixability, Form, Rule};
 use crate::fix::Fix;
 use crate::rules::structure::shared::decimal;
 use crate::standards::cia301::has_node_ids;
@@ -9,8 +9,6 @@ use crate::subject::Object;
 use od_model::ObjectCode;
 
 pub(crate) static W0351: Rule = Rule {
-    code: "W0351",
-    severity: Warning,
     title: "ARRAY has a gap",
     why: "A master that reads sub-indices 1, 2, 3 and so on gets an abort at the gap.",
     source: "CiA 301, object codes",
@@ -19,7 +17,7 @@ pub(crate) static W0351: Rule = Rule {
     fixability: Fixability::Unsafe,
     also: &[DECIMAL],
     check: Check::Object(check),
-    ..Rule::NEW
+    ..Rule::of("W0351")
 };
 
 /// The help for a sub-index that is probably written in decimal.

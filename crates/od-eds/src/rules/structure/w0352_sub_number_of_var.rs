@@ -1,12 +1,10 @@
 use alloc::vec::Vec;
 
-use crate::finding::{Check, Finding, Fixability, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Fixability, Rule};
 use crate::fix::Fix;
 use crate::subject::Object;
 
 pub(crate) static W0352: Rule = Rule {
-    code: "W0352",
-    severity: Warning,
     title: "SubNumber of an object without sub-objects",
     why: "A tool that trusts SubNumber reads sub-objects that do not exist. Only an ARRAY or a RECORD has sub-objects to count.",
     source: "CiA 306-1, object sections",
@@ -14,7 +12,7 @@ pub(crate) static W0352: Rule = Rule {
     says: "{SubNumber} is {given}, but {code} has no sub-objects",
     help: "remove {SubNumber}{fix}",
     check: Check::Object(check),
-    ..Rule::NEW
+    ..Rule::of("W0352")
 };
 
 fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {

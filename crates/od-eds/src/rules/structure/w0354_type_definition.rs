@@ -1,20 +1,18 @@
 use alloc::vec::Vec;
 
 use crate::fact::Fact;
-use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Rule};
 use crate::subject::Object;
 use od_model::ObjectCode;
 
 pub(crate) static W0354: Rule = Rule {
-    code: "W0354",
-    severity: Warning,
     title: "object with the object code of a data type",
     why: "A tool reads the object as the definition of a data type, and offers no value. odkit reads its value as that of a VAR or RECORD.",
     source: "CiA 301, object codes and object dictionary structure",
     says: "{object} is {code}, but the indices of data types are 0001h to 025Fh",
     help: "write `{ObjectType}=0x7` (VAR), 0x8 (ARRAY) or 0x9 (RECORD)",
     check: Check::Object(check),
-    ..Rule::NEW
+    ..Rule::of("W0354")
 };
 
 fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {

@@ -2,22 +2,20 @@ use alloc::vec::Vec;
 
 use crate::description::Description;
 use crate::fact::Key;
-use crate::finding::{Check, Finding, Rule, Severity::Error};
+use crate::finding::{Check, Finding, Rule};
 use crate::rules::profile::shared::profile_type;
 use crate::span::Span;
 use crate::subject::{Entry, is_definition};
 use od_model::{Address, DataType};
 
 pub(crate) static E0401: Rule = Rule {
-    code: "E0401",
-    severity: Error,
     title: "DataType is missing",
     why: "A tool cannot read or write a value without its type. odkit leaves the value out of the dictionary.",
     source: "CiA 306-1, object sections",
     says: "{DataType} is missing",
     help: "add `{DataType={right}}` ({right}), or another type",
     check: Check::Entry(check),
-    ..Rule::NEW
+    ..Rule::of("E0401")
 };
 
 fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {

@@ -2,22 +2,20 @@ use alloc::vec::Vec;
 
 use crate::description::Value;
 use crate::fact::{Fact, Key};
-use crate::finding::{Check, Finding, Rule, Severity::Error};
+use crate::finding::{Check, Finding, Rule};
 use crate::rules::values::shared::{DECLARED, data_type, values};
 use crate::span::{Span, Spanned};
 use crate::subject::Entry;
 use od_model::DataType;
 
 pub(crate) static E0417: Rule = Rule {
-    code: "E0417",
-    severity: Error,
     title: "$NODEID in a type that does not support it",
     why: "Only UNSIGNED8, UNSIGNED16, UNSIGNED24 and UNSIGNED32 can depend on the node ID.",
     source: "CiA 306-1, $NODEID",
     says: "{key} `{given}` uses $NODEID, which {type} does not support",
     help: "write a number, or `{DataType={right}}` ({right})",
     check: Check::Entry(check),
-    ..Rule::NEW
+    ..Rule::of("E0417")
 };
 
 fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {

@@ -1,20 +1,18 @@
 use alloc::vec::Vec;
 
 use crate::description::Value;
-use crate::finding::{Check, Finding, Rule, Severity::Error};
+use crate::finding::{Check, Finding, Rule};
 use crate::rules::values::shared::{DECLARED, data_type, values};
 use crate::subject::Entry;
 
 pub(crate) static E0418: Rule = Rule {
-    code: "E0418",
-    severity: Error,
     title: "$NODEID formula is too large for its DataType",
     why: "The highest node ID is 127, and the sum with it must be valid too.",
     source: "CiA 306-1, $NODEID",
     says: "{key} `{given}` is {sum} for node ID 127, which is not a valid {type}",
     help: "write at most `$NODEID+0x{most:X}`",
     check: Check::Entry(check),
-    ..Rule::NEW
+    ..Rule::of("E0418")
 };
 
 fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {

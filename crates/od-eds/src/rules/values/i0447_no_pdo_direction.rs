@@ -1,20 +1,18 @@
 use alloc::vec::Vec;
 
 use crate::description::Description;
-use crate::finding::{Check, Finding, Rule, Severity::Info};
+use crate::finding::{Check, Finding, Rule};
 use crate::subject::{Entry, objects};
 use od_model::Access;
 
 pub(crate) static I0447: Rule = Rule {
-    code: "I0447",
-    severity: Info,
     title: "AccessType `rw` gives no PDO direction",
     why: "A mappable `rw` object can be mapped into TPDOs and RPDOs; `rwr` or `rww` limits it to one of them. odkit reports the first one and counts the others.",
     source: "CiA 306-1, AccessType",
     says: "{AccessType} `rw` of {count:mappable value|mappable values} gives no PDO direction",
     help: "write `{AccessType=rwr}` for TPDOs only, or `{AccessType=rww}` for RPDOs only",
     check: Check::Device(check),
-    ..Rule::NEW
+    ..Rule::of("I0447")
 };
 
 fn check(description: &Description, findings: &mut Vec<Finding>) {

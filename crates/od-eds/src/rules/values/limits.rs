@@ -6,18 +6,13 @@ use core::cmp::Ordering;
 
 use crate::description::Value;
 use crate::fact::{Key, shown};
-use crate::finding::{
-    Check, Finding, Fixability, Form, Rule,
-    Severity::{Error, Info, Warning},
-};
+use crate::finding::{Check, Finding, Fixability, Form, Rule};
 use crate::fix::Fix;
 use crate::rules::values::shared::values;
 use crate::span::Spanned;
 use crate::subject::Entry;
 
 pub(crate) static E0414: Rule = Rule {
-    code: "E0414",
-    severity: Error,
     title: "configured value is outside its limits",
     why: "A device aborts the download of a value outside its limits, so a master cannot configure it.",
     source: "CiA 306-1, LowLimit and HighLimit",
@@ -25,7 +20,7 @@ pub(crate) static E0414: Rule = Rule {
     help: WITHIN,
     also: &[ABOVE],
     check: Check::Entry(check_configured),
-    ..Rule::NEW
+    ..Rule::of("E0414")
 };
 
 fn check_configured(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
@@ -39,8 +34,6 @@ fn fails(outside: &Outside<'_>) -> bool {
 }
 
 pub(crate) static W0452: Rule = Rule {
-    code: "W0452",
-    severity: Warning,
     title: "default value is outside its limits",
     why: "A device that checks its limits does not accept its own default value. odkit uses the default value as it is.",
     source: "CiA 306-1, LowLimit and HighLimit",
@@ -48,7 +41,7 @@ pub(crate) static W0452: Rule = Rule {
     help: WITHIN,
     also: &[ABOVE],
     check: Check::Entry(check_default),
-    ..Rule::NEW
+    ..Rule::of("W0452")
 };
 
 fn check_default(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
@@ -57,8 +50,6 @@ fn check_default(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
 }
 
 pub(crate) static E0415: Rule = Rule {
-    code: "E0415",
-    severity: Error,
     title: "LowLimit is greater than HighLimit",
     why: "No value lies between the two, so a master cannot write the object.",
     source: "CiA 306-1, LowLimit and HighLimit",
@@ -66,7 +57,7 @@ pub(crate) static E0415: Rule = Rule {
     says: "{LowLimit} `{low}` is greater than {HighLimit} `{high}`",
     help: "swap the two limits{fix}, or remove both",
     check: Check::Entry(check_order),
-    ..Rule::NEW
+    ..Rule::of("E0415")
 };
 
 fn check_order(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
@@ -84,15 +75,13 @@ fn check_order(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
 }
 
 pub(crate) static I0450: Rule = Rule {
-    code: "I0450",
-    severity: Info,
     title: "limits allow only one value",
     why: "A master can write the object, but only to the value that it has. Editors often leave such limits.",
     source: "CiA 306-1, LowLimit and HighLimit",
     says: "{LowLimit} equals {HighLimit}, so this `{access}` object can have only one value",
     help: "write the limits of the device, or remove both",
     check: Check::Entry(check_single),
-    ..Rule::NEW
+    ..Rule::of("I0450")
 };
 
 fn check_single(entry: &Entry<'_>, findings: &mut Vec<Finding>) {

@@ -6,10 +6,7 @@ use od_model::DataType;
 
 use crate::description::Value;
 use crate::fact::Key;
-use crate::finding::{
-    Check, Finding, Fixability, Form, Rule,
-    Severity::{Error, Warning},
-};
+use crate::finding::{Check, Finding, Fixability, Form, Rule};
 use crate::fix::Fix;
 use crate::rules::values::shared::{DECLARED, FORMULA, NOT_VALID, data_type, unfit, values};
 use crate::scan::section::Text;
@@ -17,8 +14,6 @@ use crate::span::Spanned;
 use crate::subject::Entry;
 
 pub(crate) static E0412: Rule = Rule {
-    code: "E0412",
-    severity: Error,
     title: "DefaultValue is not valid for its DataType",
     why: "A tool cannot use a default value that its type does not allow. odkit leaves it out of the dictionary.",
     source: "CiA 306-1, object sections; CiA 301, data types",
@@ -28,12 +23,10 @@ pub(crate) static E0412: Rule = Rule {
     check: Check::Entry(|entry, findings| {
         report_unfit(&E0412, entry, &[Key::DefaultValue], findings)
     }),
-    ..Rule::NEW
+    ..Rule::of("E0412")
 };
 
 pub(crate) static E0413: Rule = Rule {
-    code: "E0413",
-    severity: Error,
     title: "ParameterValue is not valid for its DataType",
     why: "A tool cannot configure a device with a value that its type does not allow. odkit uses the default value.",
     source: "CiA 306-1, DCF; CiA 301, data types",
@@ -43,12 +36,10 @@ pub(crate) static E0413: Rule = Rule {
     check: Check::Entry(|entry, findings| {
         report_unfit(&E0413, entry, &[Key::ParameterValue], findings)
     }),
-    ..Rule::NEW
+    ..Rule::of("E0413")
 };
 
 pub(crate) static W0416: Rule = Rule {
-    code: "W0416",
-    severity: Warning,
     title: "limit is not valid for its DataType",
     why: "The type cannot reach such a limit. odkit leaves the limit out of the dictionary.",
     source: "CiA 306-1, LowLimit and HighLimit",
@@ -57,7 +48,7 @@ pub(crate) static W0416: Rule = Rule {
     help: "write {form}, or `{key=}`{fix}",
     also: &[FORMULA, W0416_NO_LIMITS],
     check: Check::Entry(check_limits),
-    ..Rule::NEW
+    ..Rule::of("W0416")
 };
 
 /// The sentences for a limit whose type has no order.

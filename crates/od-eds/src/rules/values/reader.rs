@@ -6,23 +6,18 @@ use alloc::string::String;
 use od_model::DataType;
 
 use crate::fact::Key;
-use crate::finding::{
-    Finding, Fixability, Form, Rule,
-    Severity::{Error, Info, Warning},
-};
+use crate::finding::{Finding, Fixability, Form, Rule, Severity::Error};
 use crate::fix::Fix;
 use crate::scan::section::Text;
 use crate::span::{Span, Spanned};
 
 pub(crate) static E0402: Rule = Rule {
-    code: "E0402",
-    severity: Error,
     title: "DataType is not a data type",
     why: "DataType is the index of a data type of CiA 301. odkit leaves the value out of the dictionary.",
     source: "CiA 301, data types",
     says: "{DataType} `{given}` is not a data type",
     help: "write `{DataType={right}}` ({right}), or another type",
-    ..Rule::NEW
+    ..Rule::of("E0402")
 };
 
 /// The finding about a DataType of no known type.
@@ -32,7 +27,6 @@ pub(crate) fn e0402_data_type_unknown(given: &Text<'_>) -> Finding {
 }
 
 pub(crate) static W0404: Rule = Rule {
-    code: "W0404",
     severity: Error,
     buildable: true,
     title: "AccessType is missing",
@@ -41,7 +35,7 @@ pub(crate) static W0404: Rule = Rule {
     fixability: Fixability::Unsafe,
     says: "{AccessType} is missing",
     help: "add `{AccessType=ro}`{fix}, or another access type",
-    ..Rule::NEW
+    ..Rule::of("W0404")
 };
 
 /// The finding about a section without AccessType.
@@ -52,14 +46,12 @@ pub(crate) fn w0404_access_type_missing(header: Span) -> Finding {
 }
 
 pub(crate) static E0405: Rule = Rule {
-    code: "E0405",
-    severity: Error,
     title: "AccessType is not valid",
     why: "AccessType gives what a master can read and write. odkit assumes `ro`.",
     source: "CiA 306-1, object sections",
     says: "`{given}` is not a valid {AccessType}",
     help: "write `ro`, `wo`, `rw`, `rwr`, `rww` or `const` (odkit assumes `ro`)",
-    ..Rule::NEW
+    ..Rule::of("E0405")
 };
 
 /// The finding about an unknown AccessType.
@@ -68,8 +60,6 @@ pub(crate) fn e0405_access_type_not_valid(given: &Text<'_>) -> Finding {
 }
 
 pub(crate) static W0406: Rule = Rule {
-    code: "W0406",
-    severity: Warning,
     buildable: true,
     also: &[W0406_XDD],
     title: "PDOMapping is neither 0 nor 1",
@@ -77,7 +67,7 @@ pub(crate) static W0406: Rule = Rule {
     source: "CiA 306-1, object sections",
     says: "{PDOMapping} `{given}` is neither 0 nor 1",
     help: "write `{PDOMapping=1}` if a PDO can map the object, and `{PDOMapping=0}` if not",
-    ..Rule::NEW
+    ..Rule::of("W0406")
 };
 
 /// Sentence for an XDD.
@@ -102,15 +92,13 @@ pub(crate) fn w0406_pdo_mapping_not_valid(given: &Text<'_>) -> Finding {
 }
 
 pub(crate) static W0407: Rule = Rule {
-    code: "W0407",
-    severity: Warning,
     title: "ObjFlags is not a number",
     why: "ObjFlags tells a tool how to handle the object. odkit assumes 0.",
     source: "CiA 306-1, ObjFlags",
     fixability: Fixability::Unsafe,
     says: "`{given}` is not a valid {ObjFlags}",
     help: "write `{ObjFlags=0}`{fix}, or remove the line",
-    ..Rule::NEW
+    ..Rule::of("W0407")
 };
 
 /// The finding about ObjFlags that are not a number.
@@ -122,14 +110,12 @@ pub(crate) fn w0407_obj_flags_not_a_number(given: &Text<'_>) -> Finding {
 }
 
 pub(crate) static I0425: Rule = Rule {
-    code: "I0425",
-    severity: Info,
     title: "data type defined in the file",
     why: "Sub-index 1 of the object with that index gives the basic type. odkit uses this type and its limits; most EDS parsers do not know such types.",
     source: "CanFestival, object dictionary editor",
     says: "`{given}` is a data type that the file defines",
     help: "write `{DataType={right}}`",
-    ..Rule::NEW
+    ..Rule::of("I0425")
 };
 
 /// The finding about a type of the file, with the place of its basic type.
@@ -142,15 +128,13 @@ pub(crate) fn i0425_own_data_type(given: &Text<'_>, stands_for: &Text<'_>) -> Fi
 }
 
 pub(crate) static W0426: Rule = Rule {
-    code: "W0426",
-    severity: Warning,
     title: "DataType of a standard object is missing",
     why: "Many tools leave out a value without a DataType, or stop. odkit assumes the type that the standard specifies for the object.",
     source: "CiA 306-1, object sections; CiA 301, object dictionary",
     fixability: Fixability::Safe,
     says: "{DataType} is missing; the standard specifies {type} here",
     help: "add `{DataType={type}}`{fix}",
-    ..Rule::NEW
+    ..Rule::of("W0426")
 };
 
 /// The finding about a section without a DataType.
@@ -161,15 +145,13 @@ pub(crate) fn w0426_standard_type_missing(header: Span, data_type: DataType) -> 
 }
 
 pub(crate) static E0428: Rule = Rule {
-    code: "E0428",
-    severity: Error,
     title: "$NODEID is misspelled",
     why: "No tool knows the name, and the value has no number. odkit leaves the value out of the dictionary.",
     source: "CiA 306-1, $NODEID",
     fixability: Fixability::Unsafe,
     says: "{key} `{given}` has another name than `$NODEID`",
     help: "write `$NODEID+0x{offset:X}`{fix}",
-    ..Rule::NEW
+    ..Rule::of("E0428")
 };
 
 /// The finding about a formula with this offset and another name for the node ID than that of CiA
@@ -181,8 +163,6 @@ pub(crate) fn e0428_node_id_misspelled(key: Key, given: &Text<'_>, offset: u32) 
 }
 
 pub(crate) static E0429: Rule = Rule {
-    code: "E0429",
-    severity: Error,
     buildable: true,
     title: "accessType has a word of the attribute access",
     why: "CiA 311 has one set of words for accessType of an object, and another for access of a parameter. A tool that validates the file by the schema rejects it. odkit reads the word.",
@@ -190,7 +170,7 @@ pub(crate) static E0429: Rule = Rule {
     fixability: Fixability::Unsafe,
     says: "`{given}` is a word for the attribute access of a parameter, not for accessType",
     help: "write `accessType=\"{right}\"`{fix}",
-    ..Rule::NEW
+    ..Rule::of("E0429")
 };
 
 /// The finding about accessType in an XDD, with the word that an object has for it.
@@ -202,14 +182,12 @@ pub(crate) fn e0429_access_of_parameter(given: &Spanned<String>, right: &'static
 }
 
 pub(crate) static W0456: Rule = Rule {
-    code: "W0456",
-    severity: Warning,
     title: "file of a value that is not a DOMAIN",
     why: "A configuration tool reads or writes files for objects of the type DOMAIN only: the value stays as it is.",
     source: "CiA 306-1, DCF",
     says: "`{file}` is for a DOMAIN, but this value is {data_type}",
     help: "write the value with `ParameterValue=`, or remove the line",
-    ..Rule::NEW
+    ..Rule::of("W0456")
 };
 
 /// The finding about UploadFile or DownloadFile of a value with another type.

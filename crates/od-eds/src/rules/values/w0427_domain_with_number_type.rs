@@ -1,13 +1,11 @@
 use alloc::vec::Vec;
 
-use crate::finding::{Check, Finding, Fixability, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Fixability, Rule};
 use crate::fix::Fix;
 use crate::subject::Object;
 use od_model::{Kind, ObjectCode};
 
 pub(crate) static W0427: Rule = Rule {
-    code: "W0427",
-    severity: Warning,
     title: "DOMAIN has the type of a number",
     why: "One tool transfers the content as a DOMAIN of any length, another as a number. odkit uses the DataType.",
     source: "CiA 301, object codes; CiA 306-1, object sections",
@@ -15,7 +13,7 @@ pub(crate) static W0427: Rule = Rule {
     says: "{ObjectType} is DOMAIN, but {DataType} is {given}",
     help: "write `{DataType=0x000F}` (DOMAIN){fix}, or `{ObjectType=0x7}` (VAR)",
     check: Check::Object(check),
-    ..Rule::NEW
+    ..Rule::of("W0427")
 };
 
 fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {

@@ -1,14 +1,12 @@
 use alloc::vec::Vec;
 
 use crate::fact::Key;
-use crate::finding::{Check, Finding, Fixability, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Fixability, Rule};
 use crate::fix::Fix;
 use crate::subject::Entry;
 use od_model::Access;
 
 pub(crate) static W0445: Rule = Rule {
-    code: "W0445",
-    severity: Warning,
     title: "AccessType `rwr` or `rww`, but not mappable",
     why: "`rwr` and `rww` give the PDO direction of a mappable object. They have no effect on an object that is not mappable.",
     source: "CiA 306-1, AccessType",
@@ -16,7 +14,7 @@ pub(crate) static W0445: Rule = Rule {
     says: "{AccessType} `{access}` gives a PDO direction, but the object is not mappable",
     help: "write `{AccessType=rw}`{fix}, or `{PDOMapping=1}` if the object is mappable",
     check: Check::Entry(check),
-    ..Rule::NEW
+    ..Rule::of("W0445")
 };
 
 fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {

@@ -2,19 +2,17 @@ use alloc::format;
 use alloc::vec::Vec;
 
 use crate::description::Value;
-use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Rule};
 use crate::subject::Entry;
 
 pub(crate) static W0446: Rule = Rule {
-    code: "W0446",
-    severity: Warning,
     title: "text is not ASCII",
     why: "A VISIBLE_STRING has the characters of ISO 646. A master may show other characters wrongly.",
     source: "CiA 301, data types",
     says: "{odd} is not a valid character of a VISIBLE_STRING",
     help: "write only characters of ISO 646 (ASCII), from the blank to `~`",
     check: Check::Entry(check),
-    ..Rule::NEW
+    ..Rule::of("W0446")
 };
 
 fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {

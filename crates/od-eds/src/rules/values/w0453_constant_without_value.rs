@@ -1,21 +1,19 @@
 use alloc::vec::Vec;
 
 use crate::fact::Key;
-use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Rule};
 use crate::span::Spanned;
 use crate::subject::Entry;
 use od_model::{Access, DataType};
 
 pub(crate) static W0453: Rule = Rule {
-    code: "W0453",
-    severity: Warning,
     title: "constant has no value",
     why: "A `const` value never changes, so DefaultValue is its value. odkit assumes 0.",
     source: "CiA 306-1, AccessType",
     says: "`const` object has no {DefaultValue}",
     help: "add {DefaultValue}, or write `{AccessType=ro}` if the value can change",
     check: Check::Entry(check),
-    ..Rule::NEW
+    ..Rule::of("W0453")
 };
 
 fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {

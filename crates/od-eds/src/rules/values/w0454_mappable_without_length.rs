@@ -1,13 +1,11 @@
 use alloc::vec::Vec;
 
-use crate::finding::{Check, Finding, Fixability, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Fixability, Rule};
 use crate::fix::Fix;
 use crate::rules::values::shared::DECLARED;
 use crate::subject::Entry;
 
 pub(crate) static W0454: Rule = Rule {
-    code: "W0454",
-    severity: Warning,
     title: "mappable object has no fixed length",
     why: "A PDO has room only for values of fixed length, not for strings and DOMAINs.",
     source: "CiA 301, data types and PDO mapping parameter",
@@ -15,7 +13,7 @@ pub(crate) static W0454: Rule = Rule {
     says: "{type} has no fixed length and cannot be mapped into a PDO",
     help: "write `{PDOMapping=0}`{fix}",
     check: Check::Entry(check),
-    ..Rule::NEW
+    ..Rule::of("W0454")
 };
 
 fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {

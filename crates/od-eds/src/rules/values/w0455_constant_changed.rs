@@ -1,19 +1,17 @@
 use alloc::vec::Vec;
 
-use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Rule};
 use crate::subject::Entry;
 use od_model::Access;
 
 pub(crate) static W0455: Rule = Rule {
-    code: "W0455",
-    severity: Warning,
     title: "DCF gives a constant another value",
     why: "The device refuses a download of the value, or a master that does not write constants works with a value that the device does not have.",
     source: "CiA 306-1, AccessType and ParameterValue",
     says: "the value of this `const` object differs from its {DefaultValue}",
     help: "remove {ParameterValue}, or write the {AccessType} that the device has",
     check: Check::Entry(check),
-    ..Rule::NEW
+    ..Rule::of("W0455")
 };
 
 fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
