@@ -53,6 +53,20 @@ fn changed(text: &str, change: &str) -> String {
     format!("{}{line}{}", &text[..from], &text[to..])
 }
 
+/// Returns whether a case writes the memory of the device.
+fn is_lasting(case: &str) -> bool {
+    let lasting = [
+        "store",
+        "restore",
+        "object-default",
+        "lss",
+        "heartbeat-saved",
+        "sync-saved",
+        "sdo-clients",
+    ];
+    lasting.iter().any(|start| case.starts_with(start))
+}
+
 /// A device of the table, switched on, and its EDS; read only once, since this takes most of the
 /// time.
 struct Bench {
@@ -85,19 +99,9 @@ impl Bench {
         device.expect("a device")
     }
 
-    /// The device after power-on; a new one if a case writes its memory.
+    /// The device after power-on; a new one before and after a case that writes its memory.
     fn bus(&mut self, case: &str) -> Bus {
-        let is_lasting = [
-            "store",
-            "restore",
-            "object-default",
-            "lss",
-            "heartbeat-saved",
-            "sync-saved",
-            "sdo-clients",
-        ];
-        let keeps = !is_lasting.iter().any(|start| case.starts_with(start));
-        if let Some(mut bus) = self.bus.take().filter(|_| keeps) {
+        if let Some(mut bus) = self.bus.take().filter(|_| !is_lasting(case)) {
             bus.set_power(0, false);
             bus.set_power(0, true);
             let now = bus.now();
@@ -131,7 +135,7 @@ impl Bench {
         let other = other.map(|text| Eds::read(&text));
         let eds = other.as_ref().unwrap_or(&self.eds);
         let record = Session::new(&mut rig, eds, NodeId::ONE, Leave::ALL).run(case);
-        self.bus = Some(rig.into_bus());
+        self.bus = (!is_lasting(id)).then(|| rig.into_bus());
         record
     }
 }

@@ -208,8 +208,8 @@ pub(super) fn reset(dut: &mut Dut<'_>) -> Checked {
         if let Some(heard) = dut.next(80_000, |frame| is_data(frame, id))? {
             let frame = heard.frame;
             return ensure(
-                frame.data().starts_with(&[0, 0]),
-                "EMCY 0000h when the heartbeat comes again",
+                frame.data().starts_with(&[0, 0]) && frame.dlc() == 8,
+                "EMCY 0000h of 8 bytes when the heartbeat comes again",
                 format!("{frame} came"),
             );
         }

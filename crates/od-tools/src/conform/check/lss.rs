@@ -175,14 +175,27 @@ pub(super) fn inquire_node_id(dut: &mut Dut<'_>) -> Checked {
     })
 }
 
+/// Sends the six numbers of identify remote slave; returns the response to the last one.
+fn identified(dut: &mut Dut<'_>, range: [u32; 6]) -> Checked<Option<[u8; 8]>> {
+    for (step, value) in (0..5).zip(range) {
+        dut.drain()?;
+        let request = Request::IdentifyRemote { step, value };
+        dut.send(Frame::standard(MASTER, &request.emit()))?;
+        if let Some(heard) = dut.next(20_000, |frame| is_data(frame, SLAVE))? {
+            return fail(
+                "no LSS response before the sixth number",
+                format!("{} came", heard.frame),
+            );
+        }
+    }
+    let [.., value] = range;
+    ask(dut, Request::IdentifyRemote { step: 5, value })
+}
+
 pub(super) fn identify(dut: &mut Dut<'_>) -> Checked {
     let [vendor, product, revision, serial] = begin(dut)?;
     let right = [vendor, product, revision, revision, serial, serial];
-    let mut answer = None;
-    for (step, value) in (0..).zip(right) {
-        answer = ask(dut, Request::IdentifyRemote { step, value })?;
-    }
-    match answer {
+    match identified(dut, right)? {
         Some([0x4F, 0, 0, 0, 0, 0, 0, 0]) => {}
         Some(other) => {
             return fail(
@@ -196,15 +209,38 @@ pub(super) fn identify(dut: &mut Dut<'_>) -> Checked {
             );
         }
     }
-    let mut wrong = right;
-    wrong[4] = serial.wrapping_add(1);
-    wrong[5] = serial.wrapping_add(2);
-    for (step, value) in (0..).zip(wrong) {
-        stays_silent(
-            dut,
-            Request::IdentifyRemote { step, value }.emit(),
-            "as its serial number is not in the range",
-        )?;
+    // A range that begins above the number, or ends below it.
+    for (place, name, is_high) in [
+        (0, "vendor-ID", false),
+        (1, "product code", false),
+        (2, "revision number", false),
+        (3, "revision number", true),
+        (4, "serial number", false),
+        (5, "serial number", true),
+    ] {
+        let mut wrong = right;
+        if is_high {
+            let Some(below) = wrong[place].checked_sub(1) else {
+                continue;
+            };
+            wrong[place - 1] = 0;
+            wrong[place] = below;
+        } else {
+            wrong[place] = wrong[place].wrapping_add(1);
+            if place == 2 || place == 4 {
+                wrong[place + 1] = u32::MAX;
+            }
+            if wrong[place] == 0 {
+                continue;
+            }
+        }
+        if let Some(answer) = identified(dut, wrong)? {
+            let done = fail(
+                format!("no LSS response to identify remote slave with another {name}"),
+                format!("{} came", values::hex(&answer)),
+            );
+            dut.fault(done)?;
+        }
     }
     Ok(())
 }
@@ -395,6 +431,12 @@ pub(super) fn reserved(dut: &mut Dut<'_>) -> Checked {
         // A missing response fails another case.
         let Some(answer) = answer else {
             continue;
+        };
+        // The specific error is one with the error code 255 only.
+        let first = if first == 3 && answer[1] != 255 {
+            2
+        } else {
+            first
         };
         let done = ensure(
             answer[first..].iter().all(|byte| *byte == 0),

@@ -251,9 +251,18 @@ pub(super) fn all_nodes(dut: &mut Dut<'_>) -> Checked {
         dut.wait(20_000)?;
         dut.is_in(state)?;
     }
+    // The other nodes on the bus are reset, too.
+    let resets: &[u8] = if dut.may_reset { &[0x82, 0x81] } else { &[] };
+    for reset in resets {
+        dut.drain()?;
+        let from = dut.now();
+        dut.send(Frame::standard(0, &[*reset, 0]))?;
+        dut.booted(from)?;
+    }
     Ok(())
 }
 
+/// Every command to another node, in Pre-operational and in Operational.
 pub(super) fn other_node(dut: &mut Dut<'_>) -> Checked {
     dut.follow_state()?;
     let other = if dut.node.raw() == 127 {
@@ -261,18 +270,23 @@ pub(super) fn other_node(dut: &mut Dut<'_>) -> Checked {
     } else {
         dut.node.raw() + 1
     };
-    dut.send(Frame::standard(0, &[1, other]))?;
-    dut.wait(20_000)?;
-    dut.is_in(PRE_OPERATIONAL)?;
-    dut.send(Frame::standard(0, &[0x81, other]))?;
     let id = dut.id(0x700);
-    for heard in dut.all_of(id, QUIET)? {
-        let got = format!("{} came", heard.frame);
-        ensure(
-            heard.frame.data() != [0],
-            "no reset by a command to another node",
-            got,
-        )?;
+    for state in [PRE_OPERATIONAL, OPERATIONAL] {
+        if state == OPERATIONAL {
+            dut.nmt(Command::Start)?;
+        }
+        for command in [1, 2, 0x80, 0x81, 0x82] {
+            dut.drain()?;
+            dut.send(Frame::standard(0, &[command, other]))?;
+            let heard = dut.all_of(id, QUIET)?;
+            if let Some(boot) = heard.iter().find(|heard| heard.frame.data() == [0]) {
+                return fail(
+                    format!("no reset by the command {command:02X}h to node {other}"),
+                    format!("{} came", boot.frame),
+                );
+            }
+            dut.is_in(state)?;
+        }
     }
     Ok(())
 }
@@ -302,15 +316,40 @@ pub(super) fn sdo_in_operational(dut: &mut Dut<'_>) -> Checked {
 }
 
 pub(super) fn no_sdo_in_stopped(dut: &mut Dut<'_>) -> Checked {
+    let mut requests = vec![
+        request(0x40, TYPE, [0; 4]),
+        request(0xA0, TYPE, [127, 0, 0, 0]),
+    ];
+    let before = match another_value(dut)? {
+        Some((address, bytes)) => {
+            requests.push(request(0x2B, address, [bytes[0], bytes[1], 0, 0]));
+            Some((address, dut.keep(address)?))
+        }
+        None => None,
+    };
     dut.nmt(Command::Stop)?;
-    if let Some(answer) = dut.ask_within(request(0x40, TYPE, [0; 4]), QUIET)? {
-        return fail(
-            "no SDO response in Stopped",
-            format!("{} came", values::hex(&answer)),
-        );
+    for request in requests {
+        if let Some(answer) = dut.ask_within(request, QUIET)? {
+            return fail(
+                format!("no SDO response to {} in Stopped", values::hex(&request)),
+                format!("{} came", values::hex(&answer)),
+            );
+        }
     }
     dut.nmt(Command::EnterPreOperational)?;
-    dut.still_serves()
+    dut.still_serves()?;
+    let Some((address, before)) = before else {
+        return Ok(());
+    };
+    let after = dut.read(address)?;
+    ensure(
+        after == before,
+        format!(
+            "{address} unchanged by a download in Stopped, {}",
+            values::hex(&before)
+        ),
+        format!("{} was read", values::hex(&after)),
+    )
 }
 
 /// Values that were not saved are lost after reset communication.

@@ -153,6 +153,14 @@ fn begin_download(dut: &mut Dut<'_>, address: Address, size: usize) -> Checked {
 
 /// Writes the present long value again.
 pub(super) fn download_long(dut: &mut Dut<'_>) -> Checked {
+    match long_writable(dut)? {
+        Some((address, bytes)) => written(dut, address, &bytes, 7, true),
+        None => lacks("no value of more than seven bytes can be written"),
+    }
+}
+
+/// An object with a value of more than seven bytes that can be written.
+fn long_writable(dut: &mut Dut<'_>) -> Checked<Option<(Address, Vec<u8>)>> {
     for entry in dut.eds.writable() {
         if entry.data_type.size().is_some_and(|size| size <= 4) {
             continue;
@@ -160,10 +168,10 @@ pub(super) fn download_long(dut: &mut Dut<'_>) -> Checked {
         if let Ok(bytes) = dut.upload(entry.address)?
             && bytes.len() > 7
         {
-            return written(dut, entry.address, &bytes, 7, true);
+            return Ok(Some((entry.address, bytes)));
         }
     }
-    lacks("no value of more than seven bytes can be written")
+    Ok(None)
 }
 
 pub(super) fn download_toggle(dut: &mut Dut<'_>) -> Checked {
@@ -207,16 +215,23 @@ pub(super) fn download_too_long(dut: &mut Dut<'_>) -> Checked {
     unchanged(dut, address, &before)
 }
 
-/// The client sends the last segment before all announced bytes.
+/// The client sends the last segment before all announced bytes: of a number, and of a value of any length.
 pub(super) fn download_too_short(dut: &mut Dut<'_>) -> Checked {
-    let (address, before) = short_value(dut)?;
-    begin_download(dut, address, before.len())?;
-    let mut segment = [0; 8];
-    segment[0] = (7 - 1) << 1 | 1;
-    segment[1] = before[0] ^ 1;
-    let answer = dut.answer(segment)?;
-    is_abort(&answer, &[Length, TooShort])?;
-    unchanged(dut, address, &before)
+    let mut all = vec![short_value(dut)?];
+    if let Some((address, before)) = long_writable(dut)? {
+        dut.keep(address)?;
+        all.push((address, before));
+    }
+    for (address, before) in all {
+        begin_download(dut, address, before.len())?;
+        let mut segment = [0; 8];
+        segment[0] = (7 - 1) << 1 | 1;
+        segment[1] = before[0] ^ 1;
+        let answer = dut.answer(segment)?;
+        is_abort(&answer, &[Length, TooShort])?;
+        unchanged(dut, address, &before)?;
+    }
+    Ok(())
 }
 
 pub(super) fn no_transfer(dut: &mut Dut<'_>) -> Checked {
