@@ -4,14 +4,15 @@ import { mkdtemp, rm, writeFile } from 'node:fs/promises';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, afterEach, before, test } from 'node:test';
-import { fileURLToPath } from 'node:url';
+import { fileURLToPath, pathToFileURL } from 'node:url';
 import { flawless } from './axe.mjs';
 import { becomes, nmt } from './bench.mjs';
 import { browser } from './check.mjs';
-import { blank, opened, URL_OF_PAGE } from './harness.mjs';
+import { serve } from '../../playground/web/serve.mjs';
+import { blank, opened } from './harness.mjs';
 import { odkit } from './odkit.mjs';
 
-const PAGE = fileURLToPath(new URL('../../playground/web/dist', import.meta.url));
+const PAGE = fileURLToPath(new URL('../../playground/web/dist/', import.meta.url));
 
 /** A lesson of the trainer, in a folder of its own. */
 let folder;
@@ -189,7 +190,9 @@ test("without the trainer's word or without a class the page says what to open",
   await page.goto('about:blank');
   await page.goto(new URL('/trainer.html#0000', address).href);
   await page.getByText('This page needs the trainer’s address').waitFor();
-  const { page: alone } = await visit(new URL('trainer.html', URL_OF_PAGE).href);
+  const server = await serve(pathToFileURL(PAGE), 0);
+  const { page: alone } = await visit(new URL('trainer.html', server.url).href);
   await alone.getByText('Start “odkit class”').waitFor();
+  server.stop();
   for (const one of [page, alone]) await one.context().close();
 });

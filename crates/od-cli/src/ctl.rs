@@ -12,7 +12,7 @@ use crate::output::Output;
 ///
 /// The lines are those that `odkit sim --link -` accepts (SCRIPTS.md): `power cycle 2s`,
 /// `shaft rpm 60`, `fault battery-low on`, `set 1017h = 500`, `emcy 4200h`, `use 2`, frames; and
-/// `stats`. Each line gets its answer when it is done.
+/// `stats`. Each line gets its answer when it is done. A frame is done when the bus line has carried it.
 ///
 /// Exit code 0: every line is done; 1: no bench answers, or it cannot carry out a line; 2: a
 /// line cannot be read. The lines after it are not sent.

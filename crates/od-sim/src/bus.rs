@@ -447,7 +447,7 @@ impl Bus {
     fn attend(&mut self) {}
 
     #[cfg(feature = "serve")]
-    fn take_of_master(&mut self, _: &Frame) -> bool {
+    pub(crate) fn take_of_master(&mut self, _: &Frame) -> bool {
         false
     }
 }

@@ -1,6 +1,6 @@
 //! The requests of a class: files of the page, reports of students, and what the trainer does.
 
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
 
 use serde::Deserialize;
@@ -61,13 +61,13 @@ impl Desk {
             return Ok(self.site.answer(&request.path, request.has_query, known));
         }
         self.trainer(request)?;
-        let room = self.room.lock().unwrap_or_else(PoisonError::into_inner);
+        let room = self.room();
         let rows = json!({ "address": self.address, "rows": room.rows(now) });
         Ok(Answer::json(200, &rows))
     }
 
     fn post(&self, request: &Request, now: Instant) -> Result<Answer, Answer> {
-        let mut room = self.room.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut room = self.room();
         let found = match request.path.as_str() {
             "/class/join" => {
                 let Join { name, key } = read(request)?;
@@ -102,6 +102,11 @@ impl Desk {
         };
         // The row may have been removed in another window of the trainer.
         Ok(Answer::json(200, &json!({ "found": found })))
+    }
+
+    /// The students.
+    pub(super) fn room(&self) -> MutexGuard<'_, Room> {
+        self.room.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     fn word(&self) -> Result<String, Answer> {

@@ -9,7 +9,7 @@ use std::io::{self, Read};
 use std::net::{IpAddr, Ipv4Addr, Shutdown, SocketAddr, TcpListener, TcpStream, UdpSocket};
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, Mutex, mpsc};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -70,6 +70,13 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
             io::ErrorKind::AddrInUse => {
                 format!("another program uses {place}; give another port with --port")
             }
+            io::ErrorKind::AddrNotAvailable => format!(
+                "{} is not an address of this computer; leave out --host to listen at all of its addresses",
+                args.host
+            ),
+            io::ErrorKind::PermissionDenied => {
+                format!("this user may not listen at {place}; give a port above 1023 with --port")
+            }
             _ => format!("cannot listen at {place}: {error}"),
         })
     })?;
@@ -110,7 +117,21 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
          Press Ctrl-C to end the class.",
         desk.token
     ))?;
-    serve(&listener, &Arc::new(desk));
+    let desk = Arc::new(desk);
+    let (stopped, stop) = mpsc::channel();
+    ctrlc::set_handler(move || {
+        let _ = stopped.send(());
+    })
+    .map_err(|error| Failure::Failed(format!("cannot handle Ctrl-C: {error}")))?;
+    let served = Arc::clone(&desk);
+    thread::spawn(move || serve(&listener, &served));
+    // The handler lives as long as this program, so this is its signal.
+    let _ = stop.recv();
+    let count = desk.room().rows(Instant::now()).len();
+    note!(
+        "\nodkit: the class has ended with {}",
+        report::plural(count, "student")
+    );
     Ok(())
 }
 

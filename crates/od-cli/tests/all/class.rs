@@ -4,7 +4,7 @@ use std::fs;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
 use std::path::Path;
-use std::process::{Child, Stdio};
+use std::process::{Child, Command, Stdio};
 
 use crate::support::{command, folder, odkit, read, repository};
 
@@ -44,6 +44,7 @@ impl Class {
             .args(["class", "--host", "127.0.0.1", "--port", "0"])
             .args(args)
             .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
             .spawn()
             .expect("odkit starts");
         let mut lines = BufReader::new(child.stdout.take().expect("a pipe"));
@@ -303,4 +304,26 @@ fn a_class_that_cannot_start_says_why() {
         "{}",
         wrong.err
     );
+    // An address for documentation (RFC 5737).
+    let wrong = odkit(&["class", "--page", &page, "--host", "203.0.113.5"], "");
+    assert_eq!(wrong.code, 1);
+    assert!(wrong.err.contains("leave out --host"), "{}", wrong.err);
+}
+
+#[test]
+fn a_class_ends_at_the_signal() {
+    let page = page("class-end");
+    let mut class = Class::start(&["--page", &page]);
+    class.join("Anna");
+    // A browser that has not sent its request yet does not hold the class.
+    let waiting = TcpStream::connect(("127.0.0.1", class.port)).expect("it listens");
+    let process = class.child.id().to_string();
+    let kill = Command::new("kill").args(["-INT", &process]).status();
+    assert!(kill.expect("kill").success());
+    let mut said = String::new();
+    let mut errors = class.child.stderr.take().expect("a pipe");
+    errors.read_to_string(&mut said).expect("text");
+    assert_eq!(said, "\nodkit: the class has ended with 1 student\n");
+    assert_eq!(class.child.wait().expect("it ends").code(), Some(0));
+    drop(waiting);
 }

@@ -101,6 +101,42 @@ fn lines_act_on_a_running_bench_and_are_answered() {
     assert_eq!(odkit(&["ctl", "tcp:nowhere", "power off"], "").code, 2);
 }
 
+/// CiA 301 leaves CAN to ISO 11898-1: a sender that sees 32 bit errors is bus-off, until its program restarts it.
+#[test]
+fn a_frame_that_the_line_does_not_carry_is_not_sent() {
+    let folder = temporary();
+    let socket = folder.path().join("line");
+    let sim = Sim::start(&["gxmm", "--node-id", "5", "--control", &unix(&socket)]);
+    let mut client = sim.client();
+    say(&mut client, "O\r", "\r");
+    let request = "605#4000100000000000";
+    let short = sim.ctl(&["line real", "line short", request]);
+    assert_eq!(short.code, 1, "{}", short.out);
+    assert!(
+        short.err.contains("is lost") && short.err.contains("`line restart`"),
+        "{}",
+        short.err
+    );
+    // Nobody has received it. A client that closes and opens its channel restarts the controller.
+    say(&mut client, "F\rC\rO\rF\r", "FA4\r\r\rF00\r");
+    let done = sim.ctl(&["line short off", request]);
+    assert_eq!((done.code, done.err.as_str()), (0, ""));
+    assert!(
+        done.out.ends_with("605#4000100000000000 sent\n"),
+        "{}",
+        done.out
+    );
+    say(
+        &mut client,
+        "",
+        "t60584000100000000000\rt58584300100096010200\r",
+    );
+    let alone = sim.ctl(&["line unplug", request]);
+    assert_eq!(alone.code, 1, "{}", alone.out);
+    assert!(alone.err.contains("no node acknowledges"), "{}", alone.err);
+    say(&mut client, "F\r", "F24\r");
+}
+
 #[test]
 fn figures_are_text_and_json() {
     let folder = temporary();

@@ -55,7 +55,7 @@ impl Bus {
     /// Returns whether the master sent this frame, and forgets it. A station sends its frames in order, so earlier
     /// ones are lost.
     #[cfg(feature = "serve")]
-    pub(super) fn take_of_master(&mut self, frame: &Frame) -> bool {
+    pub(crate) fn take_of_master(&mut self, frame: &Frame) -> bool {
         let at = self.of_master.iter().position(|sent| sent == frame);
         self.of_master.drain(..at.map_or(0, |at| at + 1));
         at.is_some()

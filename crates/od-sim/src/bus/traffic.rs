@@ -32,18 +32,6 @@ impl Bus {
             .min()
     }
 
-    /// The next frame of a device or of the master; frames of the outside are dropped. For a host that has passed on
-    /// frames of the outside already.
-    #[cfg(feature = "serve")]
-    pub(crate) fn poll_device(&mut self) -> Option<Sent> {
-        while let Some(sent) = self.poll() {
-            if sent.device.is_some() || self.take_of_master(&sent.frame) {
-                return Some(sent);
-            }
-        }
-        None
-    }
-
     /// Returns whether a frame of this station waits for a real line or is being sent. Station 0 is
     /// the outside.
     pub fn is_sending(&self, station: usize) -> bool {
@@ -83,6 +71,29 @@ impl Bus {
     /// Returns whether this frame of the outside waits for a real line.
     pub(crate) fn is_waiting(&self, frame: &Frame) -> bool {
         self.line.medium.waits(frame)
+    }
+
+    /// What became of a frame that the outside gave to a real line: whether it was sent, or waits its turn.
+    ///
+    /// # Errors
+    /// Reason why it is not on the line, and what to do.
+    #[cfg(feature = "serve")]
+    pub(crate) fn is_sent(&self, frame: &Frame) -> Result<bool, String> {
+        if self.line.medium.carries(frame) {
+            if self.is_stuck(0) {
+                return Err(format!(
+                    "no node acknowledges {frame}; its CAN controller repeats it until a node does"
+                ));
+            }
+            return Ok(false);
+        }
+        match self.line.controller(0).condition() {
+            Condition::BusOff => Err(format!(
+                "{frame} is lost: the CAN controller of the clients is bus-off after too many errors; remove their \
+                 cause, then write `line restart`"
+            )),
+            _ => Ok(true),
+        }
     }
 
     /// Lets time pass until the next event on the line or in a device; `false` if there will be

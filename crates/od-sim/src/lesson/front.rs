@@ -72,17 +72,15 @@ pub(super) fn line(lesson: &mut Lesson, number: u32, text: &str) -> Result<(), P
     Ok(())
 }
 
-/// Reports a required key that is missing.
-pub(super) fn missing(lesson: &Lesson) -> Option<Problem> {
-    let what = if lesson.title.is_empty() {
-        "title"
-    } else if lesson.level == 0 {
-        "level"
-    } else if lesson.minutes == 0 {
-        "minutes"
-    } else {
-        return None;
-    };
+/// The key of a line.
+pub(super) fn key(text: &str) -> &str {
+    text.split_once('=').map_or("", |(key, _)| key.trim())
+}
+
+/// Reports the first required key that is not among those of the front matter. A value that is not valid has a message of
+/// its own.
+pub(super) fn missing(keys: &[&str]) -> Option<Problem> {
+    let what = (["title", "level", "minutes"].into_iter()).find(|key| !keys.contains(key))?;
     let help = "begin the file with a line `+++`, then `title = \"…\"`, `level = 1`, `minutes = 10`, and \
                 a line `+++`";
     Some(Problem::new(1, format!("the lesson has no {what}"), help))

@@ -83,13 +83,14 @@ fn parse(text: &str) -> Result<Lesson, Vec<Problem>> {
         return Err(reader.problems);
     }
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-    let mut front = None;
+    let (mut front, mut keys) = (None, Vec::new());
     for (number, line) in (1..).zip(text.lines()) {
         match front {
             None if line.trim() == "+++" => front = Some(true),
             None if line.trim().is_empty() => {}
             Some(true) if line.trim() == "+++" => front = Some(false),
             Some(true) => {
+                keys.push(front::key(line));
                 if let Err(problem) = front::line(&mut reader.lesson, number, line) {
                     reader.problems.push(problem);
                 }
@@ -101,7 +102,7 @@ fn parse(text: &str) -> Result<Lesson, Vec<Problem>> {
             }
         }
     }
-    reader.end()
+    reader.end(&keys)
 }
 
 impl Reader {
@@ -364,7 +365,7 @@ impl Reader {
         }
     }
 
-    fn end(mut self) -> Result<Lesson, Vec<Problem>> {
+    fn end(mut self, keys: &[&str]) -> Result<Lesson, Vec<Problem>> {
         match self.fence.take() {
             Some(fence) => {
                 let help = "close it with the same number of backticks";
@@ -373,7 +374,7 @@ impl Reader {
             // The unclosed block contains these parts, so do not report them as missing.
             None => self.end_step(),
         }
-        if let Some(problem) = front::missing(&self.lesson) {
+        if let Some(problem) = front::missing(keys) {
             self.problems.push(problem);
         }
         if self.lesson.steps.is_empty() {

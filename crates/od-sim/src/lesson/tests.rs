@@ -87,7 +87,28 @@ fn a_good_lesson_has_no_problems() {
 #[test]
 fn a_mistake_in_the_form_has_a_line_and_a_help() {
     check("title =", "titel =", "1:1: the lesson has no title");
-    check("level = 1", "level = 9", "1:1: the lesson has no level");
+    for (from, to, line) in [
+        (
+            "title = \"Start\"",
+            "title = Start",
+            "2:1: `title` is not a text",
+        ),
+        (
+            "title = \"Start\"",
+            "title = \"\"",
+            "2:1: `title` is not a text",
+        ),
+        ("level = 1", "level = 9", "3:1: the level is not valid"),
+        (
+            "minutes = 5",
+            "minutes = 0",
+            "4:1: the minutes are not valid",
+        ),
+    ] {
+        check(from, to, line);
+        let problems = Lesson::parse(&GOOD.replacen(from, to, 1)).map_err(|all| all.len());
+        assert_eq!(problems.err(), Some(1), "{to}");
+    }
     check("+++\ntitle", "title", "1:1: the lesson has no title");
     check(
         "minutes = 5",

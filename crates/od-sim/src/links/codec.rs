@@ -4,6 +4,8 @@ use std::prelude::v1::*;
 
 use od_runtime::{Frame, Instant};
 
+use crate::wire::Controller;
+
 /// An effect of the bytes of a client.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Step {
@@ -13,6 +15,10 @@ pub enum Step {
     Frame(Frame),
     /// This line goes to the console.
     Line(String),
+    /// The client opens its channel, which restarts the CAN controller that all clients share.
+    Open,
+    /// The client asks for the state of that controller: [`Codec::status`] is the reply.
+    Status,
     /// The client needs time to read the reply before frames follow.
     Pause,
     /// The client has finished, and the connection ends.
@@ -29,6 +35,12 @@ pub trait Codec: Send {
 
     /// Takes bytes of the client, and adds their effects to `steps`.
     fn receive(&mut self, bytes: &[u8], now: Instant, steps: &mut Vec<Step>);
+
+    /// Returns the reply to [`Step::Status`] for this controller.
+    fn status(&mut self, controller: Controller) -> Vec<u8> {
+        let _ = controller;
+        Vec::new()
+    }
 
     /// Takes the end of the input: the last line of a text may lack its line end.
     fn finish(&mut self, steps: &mut Vec<Step>) {

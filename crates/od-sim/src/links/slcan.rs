@@ -6,9 +6,10 @@
 use std::format;
 use std::prelude::v1::*;
 
-use od_runtime::{CanId, Frame, Instant};
+use od_runtime::{BusEvent, CanId, Frame, Instant};
 
 use super::codec::{Codec, Step, reply};
+use crate::wire::Controller;
 
 /// The answer to a valid line.
 const OK: &[u8] = b"\r";
@@ -52,6 +53,18 @@ impl Codec for Channel {
         }
     }
 
+    /// Bit 2 is the error warning limit, bit 5 error passive, bit 7 a bus error that took the controller off the bus. No
+    /// queue of this adapter overflows.
+    fn status(&mut self, controller: Controller) -> Vec<u8> {
+        let flags = match controller.event() {
+            BusEvent::Off => 0xA4,
+            BusEvent::Passive => 0x24,
+            BusEvent::Warning => 0x04,
+            _ => 0x00,
+        };
+        format!("F{flags:02X}\r").into_bytes()
+    }
+
     fn form(&self) -> Option<&'static str> {
         match (self.open, self.time_stamps) {
             (false, _) => None,
@@ -84,12 +97,11 @@ impl Channel {
                 self.open = false;
                 OK
             }
-            [b'O'] => {
-                (self.open, self.listen_only) = (true, false);
-                OK
-            }
-            [b'L'] => {
-                (self.open, self.listen_only) = (true, true);
+            [kind @ (b'O' | b'L')] => {
+                if !self.open {
+                    steps.push(Step::Open);
+                }
+                (self.open, self.listen_only) = (true, *kind == b'L');
                 OK
             }
             // Bit rates, filters, polling, UART rate: accepted without effect.
@@ -105,8 +117,10 @@ impl Channel {
             [b'V'] => b"V1013\r",
             [b'v'] => b"v0100\r",
             [b'N'] => b"NODKT\r",
-            // This bus has no overrun, error passive or bus-off.
-            [b'F'] => b"F00\r",
+            [b'F'] => {
+                steps.push(Step::Status);
+                return None;
+            }
             [kind @ (b't' | b'T' | b'r' | b'R'), rest @ ..] => {
                 let frame = parse_frame(*kind, rest).filter(|_| self.open && !self.listen_only);
                 let answer: &[u8] = match (frame, kind) {
@@ -213,6 +227,8 @@ mod tests {
             match step {
                 Step::Reply(bytes) => answered.extend(bytes),
                 Step::Frame(frame) => seen.push(frame),
+                Step::Open => {}
+                Step::Status => answered.extend(channel.status(Controller::default())),
                 Step::Line(_) | Step::Pause | Step::Leave => unreachable!("slcan has none"),
             }
         }
@@ -229,7 +245,7 @@ mod tests {
 
     #[test]
     fn python_can_opens_like_this() {
-        check("C\rS6\r\rO\rO\r", "\r\r\r\r\r", "");
+        check("C\rS6\r\rO\rO\rF\r", "\r\r\r\r\rF00\r", "");
         check("O\rr7050\r", "\rz\r", "705#R");
     }
 

@@ -17,6 +17,7 @@ use tungstenite::{Error, Message};
 
 use super::codec::{Codec, Step};
 use super::slcan::Channel;
+use crate::wire::Controller;
 
 /// Longest head of a request, in bytes.
 const HEAD: usize = 8 * 1024;
@@ -249,6 +250,11 @@ impl Codec for WebSocket<'_> {
     fn deadline(&self) -> Option<Instant> {
         let waits = self.open.is_none() && !self.is_over;
         waits.then(|| self.until.unwrap_or(Instant::ZERO))
+    }
+
+    fn status(&mut self, controller: Controller) -> Vec<u8> {
+        let reply = self.channel.status(controller);
+        self.pack(reply)
     }
 
     fn wake(&mut self, now: Instant, _: u64, steps: &mut Vec<Step>) {

@@ -1,5 +1,6 @@
 //! The bus in real time: bytes of clients, frames of devices, and the clock.
 
+use std::collections::VecDeque;
 use std::io::{self, ErrorKind};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -47,6 +48,8 @@ pub(super) struct Live {
     stopped: Arc<AtomicBool>,
     /// The client whose bytes are being handled.
     cause: Option<usize>,
+    /// Frames that wait for a real line or are being sent there, with the clients that sent them.
+    sending: VecDeque<(Frame, Option<usize>)>,
     /// Number of links with a client of their own that are still open.
     links: usize,
     /// Reason why the last link was lost.
@@ -80,6 +83,7 @@ impl Live {
             log: None,
             stopped,
             cause: None,
+            sending: VecDeque::new(),
             links: 0,
             lost: None,
         };
@@ -184,10 +188,21 @@ impl Live {
     }
 
     pub(super) fn deliver(&mut self) {
-        while let Some(sent) = self.bench.bus.poll_device() {
-            self.pass_on(&sent.frame, sent.at, None);
+        while let Some(sent) = self.bench.bus.poll() {
+            let is_of_client = sent.device.is_none() && !self.bench.bus.take_of_master(&sent.frame);
+            let from = is_of_client.then(|| self.sender(&sent.frame)).flatten();
+            self.pass_on(&sent.frame, sent.at, from);
+        }
+        if !self.bench.bus.is_sending(0) {
+            self.sending.clear();
         }
         events(&mut self.bench, |_| true);
+    }
+
+    /// The client that sent a frame of a real line. The line keeps the order, so the frames before it are lost.
+    fn sender(&mut self, frame: &Frame) -> Option<usize> {
+        let place = self.sending.iter().position(|(sent, _)| sent == frame)?;
+        self.sending.drain(..=place).next_back()?.1
     }
 
     /// Lets codecs and the console do the work that is due.
@@ -367,6 +382,15 @@ impl Live {
                     self.frame(&frame, Some(number));
                 }
                 Step::Line(text) => self.line(number, &text),
+                Step::Open => self.bench.bus.restart_controller(0),
+                Step::Status => {
+                    self.catch_up();
+                    let controller = self.bench.bus.line.controller(0);
+                    let client = self.clients.get(number);
+                    if let Some(reply) = client.map(|one| one.codec.status(controller)) {
+                        self.clients.answer(number, &reply);
+                    }
+                }
                 Step::Leave => self.clients.dismiss(number),
             }
         }
@@ -405,11 +429,16 @@ impl Live {
         }
     }
 
-    /// Puts a frame from outside on the bus, with its effects.
+    /// Puts a frame from outside on the bus, with its effects. On a real line the others receive it when it was sent.
     pub(super) fn frame(&mut self, frame: &Frame, from: Option<usize>) {
-        self.bench.bus.receive(frame);
-        let now = self.bench.bus.now();
-        self.pass_on(frame, now, from);
+        let bus = &mut self.bench.bus;
+        bus.receive(frame);
+        if !bus.line.is_real() {
+            let now = bus.now();
+            self.pass_on(frame, now, from);
+        } else if bus.is_waiting(frame) {
+            self.sending.push_back((*frame, from));
+        }
         self.deliver();
     }
 }

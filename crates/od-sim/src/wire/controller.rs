@@ -56,8 +56,8 @@ impl Controller {
         }
     }
 
-    /// Event for its device when the state changes.
-    pub(super) const fn event(self) -> BusEvent {
+    /// Event for its device when the state changes to the present one.
+    pub(crate) const fn event(self) -> BusEvent {
         match self.condition() {
             Condition::BusOff => BusEvent::Off,
             Condition::ErrorPassive => BusEvent::Passive,

@@ -265,6 +265,13 @@ impl Medium {
         waiting.any(|one| one.station == 0 && one.frame == *frame)
     }
 
+    /// Returns whether this frame of the outside waits or is being sent.
+    #[cfg(feature = "serve")]
+    pub(crate) fn carries(&self, frame: &Frame) -> bool {
+        let mut flying = self.flights().flat_map(|flight| &flight.ended.senders);
+        self.waits(frame) || flying.any(|one| one.station == 0 && one.frame == *frame)
+    }
+
     /// Time of the next event.
     pub(crate) fn due(&self) -> Option<Instant> {
         let (nanos, _) = self.next()?;

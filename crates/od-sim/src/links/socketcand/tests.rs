@@ -51,7 +51,7 @@ fn shown(steps: Vec<Step>) -> String {
         match step {
             Step::Reply(bytes) => text.push_str(&String::from_utf8_lossy(&bytes)),
             Step::Frame(frame) => text.push_str(&format!("({frame})")),
-            Step::Line(_) => unreachable!("socketcand has no lines"),
+            Step::Line(_) | Step::Open | Step::Status => unreachable!("socketcand has none"),
             Step::Pause => text.push('|'),
             Step::Leave => text.push('!'),
         }

@@ -8,7 +8,9 @@ pub(super) mod place;
 mod said;
 
 use std::collections::VecDeque;
+use std::time::Duration;
 
+use od_model::Refused;
 use od_runtime::{Frame, Instant};
 
 use crate::bench::Bench;
@@ -16,6 +18,8 @@ use crate::script::Console;
 
 /// Limit of waiting lines of one client; a client that sends more is disconnected.
 const MOST: usize = 1000;
+/// The answer to a line that sends a frame waits this long for a real bus line.
+const PATIENCE: Duration = Duration::from_secs(1);
 
 /// Clients of the control socket.
 #[derive(Default)]
@@ -42,6 +46,8 @@ struct Session {
     queue: VecDeque<Entry>,
     /// Answer to the line that is in progress.
     said: Option<String>,
+    /// The frame of this line that a real line has not sent, and the time until which its answer waits for it.
+    sending: Option<(Frame, Instant)>,
     has_left: bool,
 }
 
@@ -77,6 +83,7 @@ impl Control {
     /// Time when the next line is due, as seen at `now`.
     pub(super) fn deadline(&self, now: Instant) -> Option<Instant> {
         let due = |session: &Session| match session.queue.front() {
+            _ if session.sending.is_some() => session.sending.map(|(_, until)| until),
             Some(Entry::Line) | None => session.console.deadline(now),
             Some(_) => Some(now),
         };
@@ -101,6 +108,7 @@ impl Session {
             current: 0,
             queue: VecDeque::new(),
             said: None,
+            sending: None,
             has_left: false,
         }
     }
@@ -139,6 +147,20 @@ impl Session {
             None if self.console.is_idle() => return None,
             None => {}
         }
+        if let Some((frame, until)) = self.sending {
+            let result = match bench.bus.is_sent(&frame) {
+                Ok(false) if bench.bus.now() < until => return None,
+                Ok(false) => Err(format!(
+                    "{frame} still waits; other frames fill the bus line"
+                )),
+                Ok(true) => Ok(()),
+                Err(why) => Err(why),
+            };
+            let result = result.map_err(Refused::from);
+            self.sending = None;
+            self.answer(result);
+            return Some(Turn::Changed);
+        }
         let deed = self.console.front().cloned();
         std::mem::swap(&mut bench.current, &mut self.current);
         let result = self.console.step(bench);
@@ -146,19 +168,34 @@ impl Session {
         std::mem::swap(&mut bench.current, &mut self.current);
         let result = result?;
         self.said = said.or(self.said.take());
-        if result.is_err() || !self.console.goes_on() {
-            let said = self.said.take().unwrap_or_default();
-            let answer = match &result {
-                Ok(_) => format!("ok {said}"),
-                Err(why) => format!("failed {why}"),
-            };
-            if let Some(entry) = self.queue.front_mut() {
-                *entry = Entry::Answer(answer);
-            }
-        }
+        let is_last = result.is_err() || !self.console.goes_on();
         Some(match result {
-            Ok(Some(frame)) => Turn::Frame(frame),
-            _ => Turn::Changed,
+            Ok(Some(frame)) => {
+                if is_last && bench.bus.line.is_real() {
+                    self.sending = Some((frame, bench.bus.now() + PATIENCE));
+                } else if is_last {
+                    self.answer(Ok(()));
+                }
+                Turn::Frame(frame)
+            }
+            result => {
+                if is_last {
+                    self.answer(result.map(|_| ()));
+                }
+                Turn::Changed
+            }
         })
+    }
+
+    /// Answers the line in progress.
+    fn answer(&mut self, result: Result<(), Refused>) {
+        let said = self.said.take().unwrap_or_default();
+        let answer = match result {
+            Ok(()) => format!("ok {said}"),
+            Err(why) => format!("failed {why}"),
+        };
+        if let Some(entry) = self.queue.front_mut() {
+            *entry = Entry::Answer(answer);
+        }
     }
 }
