@@ -274,6 +274,29 @@ check('time pauses and continues by steps', async (page) => {
   await until('time to run', async () => (await clock(page)) > before + 1);
 });
 
+check('while time is paused, nothing is drawn', async (page) => {
+  await stopTime(page);
+  const drawn = () =>
+    page.evaluate(async () => {
+      let base = customElements.get('od-app').prototype;
+      while (!Object.hasOwn(base, 'scheduleUpdate')) base = Object.getPrototypeOf(base);
+      const { scheduleUpdate } = base;
+      let count = 0;
+      base.scheduleUpdate = function () {
+        count += 1;
+        return scheduleUpdate.call(this);
+      };
+      for (let i = 0; i < 20; i++) await new Promise((resolve) => setTimeout(resolve, 10));
+      base.scheduleUpdate = scheduleUpdate;
+      return count;
+    });
+  await until('a page that draws nothing', async () => (await drawn()) === 0);
+  await page.getByRole('button', { name: 'Learn' }).click();
+  await page.getByRole('button', { name: 'Fault cases' }).click();
+  await page.locator('od-fault-cases .card').first().waitFor();
+  await until('a list of cases that draws nothing', async () => (await drawn()) === 0);
+});
+
 check('light and dark', async (page) => {
   const background = () => page.evaluate(() => getComputedStyle(document.body).backgroundColor);
   const light = await background();

@@ -116,8 +116,9 @@ test('a lesson shows its step, its checks and the bus without scrolling, beside 
     if (width < 1024) continue;
     const seen = (selector) => lesson.locator(selector).evaluate((it) => {
       const { top, bottom } = it.getBoundingClientRect();
-      const box = it.closest('.scroll, .panel').getBoundingClientRect();
-      return top >= box.top && bottom <= Math.min(box.bottom, innerHeight) + 1;
+      // A question that moves to another place is drawn again there.
+      const box = it.closest('.scroll, .panel')?.getBoundingClientRect();
+      return box !== undefined && top >= box.top && bottom <= Math.min(box.bottom, innerHeight) + 1;
     });
     for (const selector of ['.lesson-step h3', '.lesson-step > .prose', '.quiz input', '.checks', '.asked > button.small']) await until(`${selector} in sight at ${width}`, () => seen(selector));
   }

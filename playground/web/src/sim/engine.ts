@@ -1,5 +1,5 @@
 // The clock of the simulation. It advances the bench in slices with a time budget,
-// and sends the page one snapshot for each refresh.
+// and sends the page at most one snapshot for each refresh. While time is paused, it does nothing.
 
 import type { Address, Command, Input, Report, Value } from './api';
 import { FRAME_BYTES } from './packed';
@@ -9,8 +9,10 @@ import type { World } from './world';
 
 /** Maximum computing time of a slice, in milliseconds. */
 const BUDGET = 8;
-/** Pause between slices, in milliseconds. */
+/** Pause between slices that take long, and of a real bus, in milliseconds. */
 const REST = 4;
+/** Pause between slices otherwise. While something moves, each refresh of the page asks for a slice before. */
+const CALM = 20;
 /** Maximum wall time that one slice makes up for: a tab that was asleep does not catch up. */
 const LONGEST_GAP = 100;
 /** Maximum number of frames in a batch; the others wait in virtual time. */
@@ -22,7 +24,7 @@ const MOST_UNDRAWN = 2;
 /** Number of frames at the end of a batch that have their texts. */
 const WITH_WORDS = 48;
 /** Milliseconds between two snapshots of an idle bench. */
-const QUIET = 50;
+const QUIET = 100;
 /** Milliseconds between two readings of the watched objects. */
 const WATCH_PERIOD = 200;
 /** Inputs that change the devices on the bus. */
@@ -60,6 +62,9 @@ export class Engine {
   private rateFrom = { wall: performance.now(), virtual: 0 };
   /** A repeated run goes at full speed to this moment. */
   private until: number | null = null;
+  /** The next slice, and when it is due. */
+  private timer = 0;
+  private due = Infinity;
   private isBusy = false;
   private replay: Replay | null = null;
   /** The real bus that is shown instead of the virtual bench. */
@@ -73,7 +78,7 @@ export class Engine {
     readonly report: (report: Report, transfer?: Transferable[]) => void,
   ) {
     this.home = world;
-    this.schedule();
+    this.wake(REST);
   }
 
   /** Shows a real bus, or returns to the virtual bench, which was paused during that time. */
@@ -86,6 +91,7 @@ export class Engine {
     this.report({ op: 'real', what: { tells: live ? 'begun' : 'left' } });
     this.tellDevices();
     this.changed = true;
+    this.wake(REST);
   }
 
   get isLive(): boolean {
@@ -124,6 +130,7 @@ export class Engine {
         this.until = command.until;
         this.tellDevices();
         // The slices continue.
+        this.wake(REST);
         while (command.waits && this.until !== null) await new Promise((resolve) => setTimeout(resolve, REST));
         break;
       case 'run':
@@ -203,9 +210,11 @@ export class Engine {
         return;
       case 'drawn':
         this.undrawn = Math.max(0, this.undrawn - 1);
+        if (this.hasNews()) this.wake(0);
         return;
     }
     this.changed = true;
+    this.wake(REST);
   }
 
   answer(ticket: number, value: unknown): void {
@@ -217,14 +226,20 @@ export class Engine {
     this.watchedAgain = true;
   }
 
-  private schedule(): void {
-    setTimeout(() => {
-      if (!this.isBusy) this.slice();
-      this.schedule();
-    }, REST);
+  /** Plans a slice after this pause, unless an earlier one is planned. */
+  private wake(pause: number): void {
+    const due = performance.now() + pause;
+    if (due >= this.due) return;
+    clearTimeout(this.timer);
+    this.due = due;
+    this.timer = setTimeout(() => {
+      this.due = Infinity;
+      this.wake(this.isBusy ? REST : this.slice());
+    }, pause);
   }
 
-  private slice(): void {
+  /** Returns the pause before the next slice; infinite while time is paused. */
+  private slice(): number {
     const { world } = this;
     const wall = performance.now();
     const gap = Math.min(wall - this.last, LONGEST_GAP);
@@ -232,12 +247,13 @@ export class Engine {
     if (this.live) {
       this.live.follow();
       if (this.isDue(wall)) this.snapshot(wall);
-      return;
+      return REST;
     }
     if (world.bus.deviceCount() === 0 && world.bus.toCome() === 0) {
       if (this.undrawn < MOST_UNDRAWN && this.changed) this.snapshot(wall);
-      return;
+      return this.running ? CALM : Infinity;
     }
+    let isSlow = false;
     if (this.until !== null) {
       this.pass(wall, this.until - world.bus.now());
       if (world.bus.now() >= this.until) {
@@ -249,18 +265,29 @@ export class Engine {
         this.tellDevices();
       }
       this.changed = true;
+      isSlow = true;
     } else if (this.running) {
       this.pass(wall, Math.floor(gap * 1000 * this.factor));
+      isSlow = performance.now() - wall > BUDGET / 4;
     }
     if (this.running) this.measure(wall);
     if (this.isDue(wall)) this.snapshot(wall);
+    if (isSlow) return REST;
+    return this.running ? CALM : Infinity;
   }
 
   /** Returns whether there is something to show. While only time passes, an occasional snapshot is enough. */
   private isDue(wall: number): boolean {
-    if (this.undrawn >= MOST_UNDRAWN) return false;
-    const isRunning = this.running || this.live !== null;
-    return this.changed || (isRunning && (this.isTurning || this.world.bus.pending() > 0 || wall - this.shownAt >= QUIET));
+    return this.undrawn < MOST_UNDRAWN && (this.hasNews() || (this.isRunning && wall - this.shownAt >= QUIET));
+  }
+
+  private get isRunning(): boolean {
+    return this.running || this.live !== null;
+  }
+
+  /** Returns whether more than the clock has changed since the last snapshot. */
+  private hasNews(): boolean {
+    return this.changed || (this.isRunning && (this.isTurning || this.world.bus.pending() > 0));
   }
 
   /** Time beyond the budget is skipped: virtual time is slower, not late. */
@@ -342,7 +369,7 @@ export class Engine {
         op: 'snapshot',
         snapshot: {
           now: bus.now(),
-          running: this.running || this.live !== null,
+          running: this.isRunning,
           replaying: this.until !== null,
           toSend: this.replay?.left ?? 0,
           real: this.live?.link() ?? null,

@@ -52,6 +52,8 @@ class LessonPanel extends View {
   private isShown = false;
   private unfollow: (() => void) | undefined;
   private unwatch: (() => void) | undefined;
+  /** The place of a question depends on the window. */
+  private readonly resized = (): void => this.requestUpdate();
 
   constructor() {
     super();
@@ -65,6 +67,7 @@ class LessonPanel extends View {
 
   override connectedCallback(): void {
     super.connectedCallback();
+    window.addEventListener('resize', this.resized);
     this.unfollow = effect(() => {
       const { name, step } = state.lessonRun.value;
       this.seen = step;
@@ -88,6 +91,7 @@ class LessonPanel extends View {
 
   override disconnectedCallback(): void {
     super.disconnectedCallback();
+    window.removeEventListener('resize', this.resized);
     this.unfollow?.();
     this.unwatch?.();
   }

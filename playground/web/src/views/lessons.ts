@@ -16,7 +16,7 @@ import { T } from '../texts';
 import { icons } from './icons';
 import { languageButton } from './language';
 import { D } from './texts';
-import { View } from './view';
+import { load, View } from './view';
 
 await sheet('dialogs');
 
@@ -148,7 +148,7 @@ class Lessons extends View {
       state.faultCase.value = null;
     };
     if (state.faultCase.value) {
-      void import('../cases/view').then(() => this.requestUpdate());
+      load(() => import('../cases/view'));
       return this.framed(close, F.title, html`<od-fault-cases></od-fault-cases><div><button @click=${() => (state.faultCase.value = null)}>${F.back}</button></div>`);
     }
     if (this.isTest) return this.framed(close, D.lessons.test.title, html`<od-final-test></od-final-test><div><button @click=${() => (this.isTest = false)}>${D.lessons.test.back}</button></div>`);
