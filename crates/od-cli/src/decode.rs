@@ -1,14 +1,14 @@
 //! `odkit decode`: logs in words, CSV or JSON.
 
-use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use od_sim::dbc::Database;
-use od_sim::logs::{self, What};
+use od_sim::logs::{self, Log, What};
 
 use crate::bus::names::Names;
 use crate::bus::words::{CSV, Narrator};
 use crate::failure::{Failure, read_error};
+use crate::files;
 use crate::output::{self, Output, note};
 use crate::report::{plural, plural_of};
 
@@ -50,17 +50,7 @@ enum Format {
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let mut read = Vec::new();
     for path in &args.logs {
-        let shown = path.display();
-        let bytes = if path.as_os_str() == "-" {
-            let mut bytes = Vec::new();
-            std::io::stdin().read_to_end(&mut bytes)?;
-            bytes
-        } else {
-            crate::files::read(path)
-                .map_err(|error| Failure::Failed(format!("{shown}: {}", read_error(&error))))?
-        };
-        let log = logs::read(&bytes).map_err(|why| Failure::Failed(format!("{shown}: {why}")))?;
-        read.push((shown.to_string(), log));
+        read.push((path.display(), read_log(path)?));
     }
     let databases = args
         .dbc
@@ -78,13 +68,6 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         // A transfer does not continue in the next log.
         let narrator = Narrator::new(Names::read(&args.eds)?, &args.filter)?;
         let mut narrator = narrator.with_databases(databases.clone());
-        for problem in &log.skipped {
-            note!("{path}: {problem}");
-        }
-        if log.others > 0 {
-            let entries = plural_of(log.others, "entry", "entries");
-            note!("{path}: not CAN frames (events, other protocols): {entries}");
-        }
         if log.lacks_times {
             note!("{path}: the log has no times; `candump -ta` or `candump -L` writes them");
         }
@@ -126,6 +109,24 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
             plural(count, "line")
         ))),
     }
+}
+
+/// Reads a log, from standard input if the path is `-`, and prints what of it is not a frame.
+///
+/// # Errors
+/// The file cannot be read, or it is not a log.
+pub(crate) fn read_log(path: &Path) -> Result<Log, Failure> {
+    let shown = path.display();
+    let failed = |why: String| Failure::Failed(format!("{shown}: {why}"));
+    let bytes = files::read_or_stdin(path).map_err(|error| failed(read_error(&error)))?;
+    let log = logs::read(&bytes).map_err(|why| failed(why.to_string()))?;
+    let skipped = log.skipped.iter().map(|line| format!("{shown}: {line}"));
+    output::problems(&shown, skipped);
+    if log.others > 0 {
+        let entries = plural_of(log.others, "entry", "entries");
+        note!("{shown}: not CAN frames (events, other protocols): {entries}");
+    }
+    Ok(log)
 }
 
 fn database(path: &Path) -> Result<Database, Failure> {

@@ -1,11 +1,11 @@
 //! `odkit diagnose`: the faults in a log or on a bus, and their likely causes.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use od_model::{Dictionary, Visible};
 use od_runtime::NodeId;
 use od_sim::diagnose::{BusFacts, Incident, diagnose};
-use od_sim::logs::{self, Record, What};
+use od_sim::logs::{Record, What};
 use od_tools::Error;
 use od_tools::interrupt::Interruptible;
 use od_tools::link::Link;
@@ -15,7 +15,8 @@ use serde_json::{Value, json};
 use crate::bus;
 use crate::bus::names::Names;
 use crate::bus::words::Narrator;
-use crate::failure::{Failure, read_error};
+use crate::decode::read_log;
+use crate::failure::Failure;
 use crate::output::{self, note};
 use crate::record::end;
 use crate::report::{plural, plural_of};
@@ -110,20 +111,9 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     Ok(())
 }
 
-fn read(path: &PathBuf) -> Result<Vec<Record>, Failure> {
+fn read(path: &Path) -> Result<Vec<Record>, Failure> {
     let shown = path.display();
-    let bytes = if path.as_os_str() == "-" {
-        let mut bytes = Vec::new();
-        std::io::Read::read_to_end(&mut std::io::stdin(), &mut bytes)?;
-        bytes
-    } else {
-        crate::files::read(path)
-            .map_err(|error| Failure::Failed(format!("{shown}: {}", read_error(&error))))?
-    };
-    let log = logs::read(&bytes).map_err(|why| Failure::Failed(format!("{shown}: {why}")))?;
-    for problem in &log.skipped {
-        note!("{shown}: {problem}");
-    }
+    let log = read_log(path)?;
     if log.lacks_times {
         return Err(Failure::Failed(format!(
             "{shown}: the log has no times, and a diagnosis needs them; record it with `candump -L`"

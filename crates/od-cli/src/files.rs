@@ -1,7 +1,7 @@
 //! The files of this run: an output never replaces a file that the run has read or written.
 
 use std::fs::{self, File};
-use std::io;
+use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -29,6 +29,20 @@ pub(crate) fn read(path: impl AsRef<Path>) -> io::Result<Vec<u8>> {
     let title = format!("the input `{}`", path.display());
     let added = lock(&FILES).read(title, path);
     added.map_err(|refused| io::Error::other(refused.to_string()))?;
+    Ok(bytes)
+}
+
+/// Reads an input, or standard input if the path is `-`.
+///
+/// # Errors
+/// Those of [`read`].
+pub(crate) fn read_or_stdin(path: impl AsRef<Path>) -> io::Result<Vec<u8>> {
+    let path = path.as_ref();
+    if path.as_os_str() != "-" {
+        return read(path);
+    }
+    let mut bytes = Vec::new();
+    io::stdin().lock().read_to_end(&mut bytes)?;
     Ok(bytes)
 }
 

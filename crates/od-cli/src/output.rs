@@ -1,6 +1,7 @@
 //! Output to a terminal, a file, or a pipe that may close.
 
 use std::borrow::Cow;
+use std::fmt::Display;
 use std::io::{self, BufWriter, ErrorKind, IsTerminal, Write};
 use std::path::Path;
 
@@ -123,6 +124,20 @@ macro_rules! note {
     };
 }
 pub(crate) use note;
+
+/// Number of the problems of one file that are shown.
+const PROBLEMS: usize = 10;
+
+/// Prints the first problems of a file on standard error, each on a line, and the number of the others.
+pub(crate) fn problems(path: impl Display, mut lines: impl ExactSizeIterator<Item = String>) {
+    for line in lines.by_ref().take(PROBLEMS) {
+        note!("{line}");
+    }
+    match lines.len() {
+        0 => {}
+        others => note!("{path}: {others} more"),
+    }
+}
 
 /// Prints a text on standard error.
 pub(crate) fn note_text(text: &str) {

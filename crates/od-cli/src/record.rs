@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-use od_sim::logs::{self, Format, Record, What};
+use od_sim::logs::{Format, Record, What};
 use od_sim::serve::files::replaces_log;
 use od_tools::Error;
 use od_tools::link::Link;
@@ -12,7 +12,8 @@ use od_tools::replay;
 use od_wire::{Duration, Instant};
 
 use crate::bus;
-use crate::failure::{Failure, read_error};
+use crate::decode::read_log;
+use crate::failure::Failure;
 use crate::files;
 use crate::output::{self, note};
 use crate::report::plural;
@@ -151,12 +152,7 @@ pub(crate) fn record(args: &Args) -> Result<(), Failure> {
 
 pub(crate) fn replay(args: &Replay) -> Result<(), Failure> {
     let shown = args.file.display();
-    let bytes = files::read(&args.file)
-        .map_err(|error| Failure::Failed(format!("{shown}: {}", read_error(&error))))?;
-    let log = logs::read(&bytes).map_err(|why| Failure::Failed(format!("{shown}: {why}")))?;
-    for problem in &log.skipped {
-        note!("{shown}: {problem}");
-    }
+    let log = read_log(&args.file)?;
     if log.lacks_times {
         note!(
             "{shown}: the log has no times, so all frames are sent at once; `candump -L` writes times"

@@ -1,6 +1,5 @@
 //! `odkit run`: a script on a device in virtual time.
 
-use std::io::{self, Read};
 use std::path::Path;
 
 use od_runtime::NodeId;
@@ -72,9 +71,8 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
 /// The lines of a script; mistakes are printed.
 pub(crate) fn script_of(path: &str, text: &str) -> Result<Script, Failure> {
     Script::parse(text).map_err(|problems| {
-        for problem in &problems {
-            note!("{path}:{problem}");
-        }
+        let lines = problems.iter().map(|problem| format!("{path}:{problem}"));
+        output::problems(path, lines);
         let count = report::plural(problems.len(), "line");
         Failure::Usage(format!("{path}: {count} cannot be read; see SCRIPTS.md"))
     })
@@ -82,13 +80,8 @@ pub(crate) fn script_of(path: &str, text: &str) -> Result<Script, Failure> {
 
 /// The text of a script, or of standard input.
 pub(crate) fn read(path: &str) -> Result<String, Failure> {
-    let mut bytes = Vec::new();
-    let result = match path {
-        "-" => io::stdin().lock().read_to_end(&mut bytes).map(|_| ()),
-        path => files::read(path).map(|read| bytes = read),
-    };
-    match result {
-        Ok(()) => String::from_utf8(bytes)
+    match files::read_or_stdin(path) {
+        Ok(bytes) => String::from_utf8(bytes)
             .map_err(|_| Failure::Usage(format!("{path}: the file is not UTF-8"))),
         Err(error) => Err(Failure::Usage(format!("{path}: {}", read_error(&error)))),
     }

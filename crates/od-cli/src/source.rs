@@ -79,11 +79,14 @@ impl Lost {
 /// Maximum number of errors that are shown when a device is made from a file.
 const SHOWN: usize = 5;
 
-/// Returns the document, unless it is a device file of another fieldbus.
+/// Returns the document, unless it is a device file of another fieldbus or no device file.
 fn canopen(document: Document) -> Result<Document, String> {
     match od_eds::foreign(document.text()) {
         Some(name) => Err(format!(
             "it is {name}, not a device file of CANopen; odkit reads EDS, DCF, XDD and XDC files"
+        )),
+        None if od_eds::lacks_sections(document.text()) => Err(String::from(
+            "it has no section of an EDS, such as [FileInfo]; odkit reads EDS, DCF, XDD and XDC files",
         )),
         None => Ok(document),
     }

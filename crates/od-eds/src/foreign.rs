@@ -1,5 +1,8 @@
 //! Files of other kinds, whose names look like those of CANopen device files.
 
+use crate::scan::forms;
+use crate::scan::names::{Place, intended, place};
+
 /// Names of other files, and how they start.
 const STARTS: [(&str, &str); 7] = [
     ("MDF     ", "an MDF log (MF4)"),
@@ -65,6 +68,32 @@ pub fn foreign(text: &str) -> Option<&'static str> {
     KINDS.iter().find(is_one).map(|(_, name)| *name)
 }
 
+/// Returns whether a text has lines, but neither a section of CiA 306 nor an element of XML: notes, a
+/// script, a log. A file of comments only may become an EDS.
+///
+/// ```
+/// assert!(od_eds::lacks_sections("# Notes\n\nSee [the page](page.md).\n"));
+/// assert!(!od_eds::lacks_sections("; to do\n[1000\nParameterName=Device type\n"));
+/// ```
+pub fn lacks_sections(text: &str) -> bool {
+    let text = text.trim_start_matches('\u{FEFF}').trim_start();
+    let mut lines = text.lines().map(str::trim);
+    let is_text = |line: &str| !line.is_empty() && !line.starts_with(';');
+    !text.starts_with('<') && lines.clone().any(is_text) && !lines.any(is_section)
+}
+
+/// Returns whether a line begins a section that CiA 306 knows, also without its last bracket.
+fn is_section(line: &str) -> bool {
+    let Some(name) = line.strip_prefix('[') else {
+        return false;
+    };
+    let name = name.split(']').next().unwrap_or(name).trim();
+    forms::section(name).is_some()
+        || forms::is_of_objects(name)
+        || place(name) != Place::Other
+        || intended(name, true).is_some()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -89,5 +118,20 @@ mod tests {
         }
         let ours = "; see <html> and %PDF-1.4 of the maker\n[FileInfo]\nFileName=a.eds\n";
         assert_eq!(foreign(ours), None);
+    }
+
+    #[test]
+    fn a_misspelled_section_is_a_section() {
+        for text in [
+            "",
+            "; nothing yet\n",
+            "\u{FEFF}[fileinfo]",
+            "[0x1000]\nParameterName=Device type\n",
+            "[M1Fixed6000]\n",
+            "<odd/>",
+        ] {
+            assert!(!lacks_sections(text), "{text}");
+        }
+        assert!(lacks_sections("[colours]\nred=1\n"));
     }
 }

@@ -65,7 +65,7 @@ pub use document::offsets::Offsets;
 pub use document::{Document, Edit, EditError, is_xml};
 pub use fact::{Fact, Key, shown};
 pub use finding::{Finding, Form, Place, Related, Severity};
-pub use foreign::foreign;
+pub use foreign::{foreign, lacks_sections};
 pub use load::Parsed;
 pub use load::{load, parse};
 pub use overlay::{Origin, Overlaid, base_of, overlay};

@@ -2,11 +2,11 @@
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
-use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use super::builtin::LESSONS;
 use crate::failure::{Failure, read_error};
+use crate::files;
 use crate::output::{self, note};
 use crate::report;
 
@@ -69,13 +69,8 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
 }
 
 fn read(path: &Path) -> Result<String, Failure> {
-    let mut bytes = Vec::new();
-    let result = match path.to_str() {
-        Some("-") => std::io::stdin().lock().read_to_end(&mut bytes).map(|_| ()),
-        _ => std::fs::read(path).map(|read| bytes = read),
-    };
     let failed = |error| Failure::Usage(format!("{}: {}", path.display(), read_error(&error)));
-    result.map_err(failed)?;
+    let bytes = files::read_or_stdin(path).map_err(failed)?;
     Ok(String::from_utf8_lossy(&bytes).into_owned())
 }
 

@@ -168,7 +168,7 @@ fn dump_refuses_what_is_not_a_device() {
     let other = odkit(&["dump", &repository("Cargo.toml")], "");
     assert_eq!(other.code, 1);
     assert!(
-        other.err.contains("does not define any object"),
+        other.err.contains("it has no section of an EDS"),
         "{}",
         other.err
     );

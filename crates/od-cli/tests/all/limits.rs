@@ -51,7 +51,7 @@ fn a_file_that_is_too_large_has_a_finding_and_an_end() {
             format!("{head}[2001]\nParameterName={}\n", "n".repeat(20_000_000)).into_bytes(),
             "E0119",
         ),
-        ("noise.eds", noise, "E0210"),
+        ("noise.eds", noise, "no section of an EDS"),
         (
             "sections.eds",
             lines(300_000, &|n| format!("[{:04X}sub{:X}]", 0x2000 + n / 250, n % 250)).into_bytes(),
