@@ -27,11 +27,12 @@ async function forget(page) {
   await client.detach();
 }
 
-/** Opens the page in the browser of this file. A test that sets more than a size gets a context of its `own`. */
-export async function open({ width = 1280, height = 800, hash, own = false, ...context } = {}) {
+/** Opens the page in the browser of this file. A test that sets more than a size and a colour scheme gets a context of its `own`. */
+export async function open({ width = 1280, height = 800, colorScheme = null, hash, own = false, ...context } = {}) {
   const isOwn = own || Object.keys(context).length > 0;
   const page = (isOwn ? null : idle.pop()) ?? (await blank(browser, { width, height, ...context }));
   await page.setViewportSize({ width, height });
+  await page.emulateMedia({ colorScheme });
   inUse.add(page);
   const faults = await visit(page, hash);
   const close = async () => {
