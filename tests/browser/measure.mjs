@@ -195,6 +195,28 @@ async function typing(browser) {
   row('Longest task while typing in an EDS of 560 kB', longest ? round(longest) : 'under 50', 'ms', 'under 50 ms', !longest);
 }
 
+/** Processor time of all processes of the browser, in percent of one processor: while only the clock changes, and while time is paused. */
+async function rest(browser) {
+  const own = await context(browser);
+  const page = await own.newPage();
+  await page.goto(url);
+  await booted(page);
+  const session = await browser.newBrowserCDPSession();
+  const used = async () => (await session.send('SystemInfo.getProcessInfo')).processInfo.reduce((sum, { cpuTime }) => sum + cpuTime, 0);
+  const share = async () => {
+    await page.waitForTimeout(3000);
+    const [from, before] = [performance.now(), await used()];
+    await page.waitForTimeout(8000);
+    return (((await used()) - before) * 100_000) / (performance.now() - from);
+  };
+  const running = await share();
+  await page.getByRole('button', { name: 'Pause time' }).click();
+  const paused = await share();
+  await own.close();
+  row('Processor time of Chromium while only time passes', running.toFixed(0), '% of a processor', 'at most 15 %', running <= 15);
+  row('Processor time of Chromium while time is paused', paused.toFixed(1), '% of a processor', 'at most 1 %', paused <= 1);
+}
+
 const browser = await launch();
 try {
   firstLoad();
@@ -206,6 +228,7 @@ try {
   await throughput(browser);
   await real(browser);
   await typing(browser);
+  await rest(browser);
 } finally {
   await browser.close();
   await server.stop();
